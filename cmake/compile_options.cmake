@@ -1,0 +1,17 @@
+# Compiler settings shared by every target.
+
+set(gelatin_warnings -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast
+                     -Wcast-qual -Wformat=2 -Wundef -Werror)
+add_compile_options(${gelatin_warnings})
+
+# No contraction behind our back: the same source gives the same bits whatever the compiler may fuse.
+add_compile_options(-ffp-contract=off)
+
+if(GELATIN_SANITIZE)
+    add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+    add_link_options(-fsanitize=address,undefined)
+endif()
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+    set(CMAKE_BUILD_TYPE Release)
+endif()

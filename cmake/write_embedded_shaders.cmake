@@ -1,0 +1,11 @@
+# Run at build time: writes OUTPUT, a C++ file with each of FILES as a raw string under its path below ROOT.
+set(text "// Generated from shaders/.\n#include \"gl/embedded_shaders.h\"\n\nnamespace gelatin::gl {\n\n")
+string(APPEND text "const std::vector<EmbeddedShader>& embedded_shaders() {\n")
+string(APPEND text "    static const std::vector<EmbeddedShader> all = {\n")
+foreach(file IN LISTS FILES)
+    file(RELATIVE_PATH name ${ROOT} ${file})
+    file(READ ${file} content)
+    string(APPEND text "        {\"${name}\", R\"~~(${content})~~\"},\n")
+endforeach()
+string(APPEND text "    };\n    return all;\n}\n\n}  // namespace gelatin::gl\n")
+file(WRITE ${OUTPUT} "${text}")

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace gelatin {
+
+/// Base of every exception that Gelatin throws on purpose; `what()` is one line for the user.
+class Error : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// What is wrong with an input, and where. Empty strings and line 0 mean "does not apply".
+struct InputProblem {
+    std::string file;
+    int line = 0;
+    std::string field;    ///< dotted key, or the part of a mesh file ("vertex 12")
+    std::string value;    ///< as the user wrote it
+    std::string problem;  ///< what is wrong and what is allowed
+};
+
+/// The input or the call is wrong (exit code 2).
+class InvalidInput : public Error {
+public:
+    explicit InvalidInput(InputProblem problem);
+    explicit InvalidInput(const std::string& problem) : InvalidInput(InputProblem{{}, 0, {}, {}, problem}) {}
+
+    const InputProblem& problem() const { return problem_; }
+
+private:
+    InputProblem problem_;
+};
+
+/// The simulation produced numbers that are not finite (exit code 3).
+class Diverged : public Error {
+public:
+    using Error::Error;
+};
+
+/// OpenGL failed; carries the driver's own words (exit code 1).
+class GlError : public Error {
+public:
+    using Error::Error;
+};
+
+/// There is no OpenGL that Gelatin can use (exit code 4).
+class NoOpenGl : public GlError {
+public:
+    using GlError::GlError;
+};
+
+/// The operating system or a helper program failed: disk full, a program missing (exit code 1).
+class SystemError : public Error {
+public:
+    using Error::Error;
+};
+
+}  // namespace gelatin

@@ -1,0 +1,157 @@
+#pragma once
+
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace gelatin {
+
+/// What the user wrote, checked: every value is in range, every name resolves. SI units, +y is up.
+/// See docs/scene-files.md for the same in TOML.
+
+enum class SolverKind { explicit_euler, semi_implicit_euler, midpoint, rk4 };
+
+/// How spring forces reach the nodes: the paper's two kernels, or one gather fused with the integration.
+enum class ForceMethod { divide_and_merge, fused };
+
+struct SimulationSettings {
+    SolverKind solver = SolverKind::semi_implicit_euler;
+    ForceMethod forces = ForceMethod::fused;
+    double frame_rate = 60.0;     ///< frames a second of simulated time [1/s], > 0
+    std::optional<int> substeps;  ///< steps a frame, >= 1; empty: the fewest that are stable
+    glm::dvec3 gravity{0.0, -9.81, 0.0};  ///< [m/s^2]
+    int frames = 600;                     ///< length of a run, >= 0
+
+    double frame_time() const { return 1.0 / frame_rate; }  ///< [s]
+};
+
+struct CollisionSettings {
+    double friction = 0.4;     ///< Coulomb's coefficient, >= 0
+    double restitution = 0.3;  ///< normal speed after over before, in [0, 1]
+};
+
+/// Which springs a material has (paper 2.2). At least one.
+struct SpringKinds {
+    bool structural = true;  ///< the edges of the tets
+    bool shear = false;      ///< the opposite corners of two tets that share a face
+    bool flex = false;       ///< across a surface edge, and two edges apart inside
+};
+
+struct Material {
+    std::string name;
+    double youngs_modulus = 5e4;  ///< [Pa], > 0
+    double density = 1000.0;      ///< [kg/m^3], > 0
+    double poisson_ratio = 0.25;  ///< in (-1, 0.5); springs alone always answer with 1/4
+    double damping = 0.0;         ///< Kelvin-Voigt relaxation time [s], >= 0: a spring's damping is damping * stiffness
+    SpringKinds springs;
+};
+
+struct SphereShape {
+    double radius = 0.5;  ///< [m], > 0
+    int frequency = 10;   ///< pieces an edge of the icosahedron is cut into, >= 1: 20 frequency^2 faces
+};
+struct BoxShape {
+    glm::dvec3 size{1.0};      ///< [m], > 0, centred on the origin
+    glm::ivec3 segments{1};    ///< quads along each edge, >= 1
+};
+struct CapsuleShape {
+    double radius = 0.25;  ///< [m], > 0
+    double length = 0.5;   ///< of the straight part, along y [m], > 0
+    int frequency = 8;     ///< rings over a quarter turn, >= 2
+};
+struct TextShape {
+    std::string text;
+    double depth = 0.2;                       ///< along z [m], > 0
+    double size = 1.0;                        ///< em height [m], > 0
+    std::string font = "DejaVu Sans:bold";    ///< a fontconfig pattern, or a font file
+};
+struct FileShape {
+    std::filesystem::path file;  ///< a surface, or ready tets; relative paths are resolved from the scene file
+};
+using Shape = std::variant<SphereShape, BoxShape, CapsuleShape, TextShape, FileShape>;
+
+enum class MesherKind { automatic, tetgen };
+
+struct MesherSettings {
+    MesherKind kind = MesherKind::automatic;
+    double quality = 2.0;              ///< largest radius-edge ratio of a tet, > 1 (TetGen's -q)
+    std::optional<double> max_volume;  ///< of a tet [m^3], > 0 (TetGen's -a)
+    double time_limit = 120.0;         ///< for the mesher's process [s], > 0
+};
+
+/// Parts of space that choose nodes, in world coordinates at the start.
+struct BoxRegion {
+    glm::dvec3 min, max;  ///< [m]
+};
+struct SphereRegion {
+    glm::dvec3 center;  ///< [m]
+    double radius;      ///< [m]
+};
+struct HalfSpaceRegion {
+    glm::dvec3 normal;  ///< unit; nodes with normal . x <= offset are inside
+    double offset;      ///< [m]
+};
+using Region = std::variant<BoxRegion, SphereRegion, HalfSpaceRegion>;
+
+struct ObjectDescription {
+    std::string name;
+    Shape shape;
+    MesherSettings mesher;
+    std::string material;         ///< a name in Scene::materials
+    glm::dvec3 position{0.0};     ///< [m]
+    glm::dvec3 rotation{0.0};     ///< about x, then y, then z [degrees]
+    double scale = 1.0;           ///< > 0, applied first
+    glm::dvec3 velocity{0.0};     ///< [m/s]
+    std::vector<Region> pins;     ///< nodes in any of these stay where they are
+    std::optional<glm::dvec3> color;  ///< linear RGB in [0, 1]; empty: the renderer's palette
+    int line = 0;                 ///< in the scene file, for later messages
+};
+
+struct PlaneCollider {
+    glm::dvec3 normal{0.0, 1.0, 0.0};  ///< unit, towards the free side
+    double offset = 0.0;               ///< normal . x on the plane [m]
+};
+struct BoxCollider {
+    glm::dvec3 size{1.0};  ///< [m]
+};
+struct SphereCollider {
+    double radius = 0.5;  ///< [m]
+};
+struct CapsuleCollider {
+    double radius = 0.25;  ///< [m]
+    double length = 0.5;   ///< of the straight part, along the collider's y [m]
+};
+
+struct ColliderDescription {
+    std::variant<PlaneCollider, BoxCollider, SphereCollider, CapsuleCollider> shape;
+    glm::dvec3 position{0.0};  ///< [m]; not for planes
+    glm::dvec3 rotation{0.0};  ///< about x, then y, then z [degrees]; not for planes
+    double friction = 0.4;     ///< CollisionSettings' where the file does not say
+    double restitution = 0.3;
+};
+
+struct CameraDescription {
+    glm::dvec3 eye;     ///< [m]
+    glm::dvec3 target;  ///< [m]
+    double field_of_view = 35.0;  ///< vertical [degrees]
+};
+
+struct Scene {
+    std::filesystem::path file;  ///< where it came from; empty if it was made by a program
+    SimulationSettings simulation;
+    CollisionSettings collision;
+    std::vector<Material> materials;
+    std::vector<ObjectDescription> objects;
+    std::vector<ColliderDescription> colliders;
+    std::optional<CameraDescription> camera;  ///< empty: frames the scene by itself
+};
+
+/// Reads and checks a scene file. `overrides` are "section.key=value" with TOML values
+/// (bare words are taken as strings), applied before the check.
+/// @throws InvalidInput naming file, line, key, value and what is allowed.
+Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+}  // namespace gelatin

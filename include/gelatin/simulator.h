@@ -1,0 +1,110 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gelatin/scene.h"
+#include "gelatin/views.h"
+
+namespace gelatin {
+
+struct Model;
+struct ModelObject;
+
+enum class Backend { automatic, gl, cpu };
+
+struct SimulatorOptions {
+    Backend backend = Backend::automatic;  ///< automatic: GL on a GPU, the CPU where OpenGL is a software driver
+    bool use_current_context = false;      ///< draw with and simulate in the host application's context
+    bool need_gl = false;                  ///< make a GL context for drawing even if the CPU simulates
+    bool gl_debug = false;                 ///< a debug context, messages to the log
+    std::optional<int> gl_device;          ///< EGL device index
+    bool time_stages = false;              ///< fill Simulator::stage_times
+};
+
+struct Counts {
+    std::size_t objects = 0, nodes = 0, springs = 0, faces = 0, tets = 0;
+};
+
+/// What is measured of one frame. SI units.
+struct FrameStatistics {
+    int frame = 0;
+    double time = 0.0;              ///< [s]
+    double kinetic_energy = 0.0;    ///< [J]
+    double elastic_energy = 0.0;    ///< [J]
+    double potential_energy = 0.0;  ///< [J], zero at the origin
+    double momentum[3] = {};        ///< [kg m/s], of the nodes that are not pinned
+    std::size_t colliding_faces = 0;   ///< faces of objects that meet
+    std::size_t contacts = 0;          ///< nodes that touch a collider
+    double deepest_penetration = 0.0;  ///< of a node into a collider [m]
+    std::vector<double> volume_ratio;  ///< volume over rest volume, by object
+};
+
+/// Node positions on the host, with the packed faces over them.
+struct HostFrame {
+    int frame = 0;
+    double time = 0.0;                 ///< [s]
+    std::vector<float> positions;      ///< x, y, z of each node [m], shape [nodes][3]
+    std::vector<float> velocities;     ///< x, y, z of each node [m/s], shape [nodes][3]
+};
+
+/// A scene that runs.
+///
+/// Use it from one thread; with the GL backend (or `need_gl`) that thread needs the simulator's context current,
+/// which it is after construction. Move-only.
+class Simulator {
+public:
+    /// Makes tets, springs and buffers of everything in the scene.
+    /// @throws InvalidInput for scenes that cannot be built or a fixed step that is not stable (naming the largest
+    ///   safe one); NoOpenGl if GL is asked for and there is none.
+    explicit Simulator(const Scene& scene, const SimulatorOptions& options = {});
+    Simulator(Simulator&&) noexcept;
+    Simulator& operator=(Simulator&&) noexcept;
+    ~Simulator();
+
+    /// Advances by one frame: `substeps()` steps. Does not wait for a GPU.
+    void advance_frame();
+
+    int frame() const;             ///< frames done; 0 is the start
+    double time() const;           ///< [s]
+    int substeps() const;          ///< steps a frame
+    double step_size() const;      ///< [s]
+    bool uses_gl() const;          ///< true if the GL backend simulates
+    std::string backend() const;   ///< "gl" or "cpu"
+    std::string device() const;    ///< the GPU's, or the CPU path's, own name
+    const Scene& scene() const;
+    const Model& model() const;
+    Counts counts() const;
+
+    /// Starts measuring the present frame; `take_statistics` gives it, in order, a frame late without waiting.
+    void begin_statistics();
+    std::size_t pending_statistics() const;
+    /// @pre pending_statistics() > 0. @throws Diverged if a sum is not finite, naming the frame and the object.
+    FrameStatistics take_statistics();
+
+    /// Durations by stage since the last call [ms]; empty unless `time_stages`.
+    std::vector<std::pair<std::string, std::vector<double>>> take_stage_times();
+
+    /// Positions and velocities on the host; waits for the GPU.
+    HostFrame read_frame() const;
+
+    /// Buffers to draw from, normals up to date. Needs a context (the GL backend or `need_gl`).
+    RenderView render_view();
+
+    /// The whole state, so that a run can go on later: exact, whole or not at all.
+    /// @throws SystemError
+    void save_checkpoint(const std::filesystem::path& file) const;
+    /// @throws InvalidInput if it is not a checkpoint, damaged, or of another scene.
+    void load_checkpoint(const std::filesystem::path& file);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace gelatin

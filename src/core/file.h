@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace gelatin {
+
+/// The whole of a file.
+/// @throws InvalidInput if it is missing, a folder, or cannot be read.
+std::string read_file(const std::filesystem::path& file);
+
+/// Writes `file` whole or not at all: under a temporary name beside it, flushed to disk, then renamed.
+/// @throws SystemError with the system's reason (no such folder, disk full, ...); nothing is left behind.
+void write_file(const std::filesystem::path& file, const std::string& content);
+
+/// A name beside `file` for writing it under, unique to this process: ".NAME.PID.partial.EXT".
+std::filesystem::path partial_name(const std::filesystem::path& file);
+
+/// A private folder (mode 0700) below the system's temporary one; removed with its content by the destructor.
+class TemporaryFolder {
+public:
+    /// @throws SystemError
+    TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    ~TemporaryFolder();
+
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+}  // namespace gelatin

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+namespace gelatin::gl {
+
+/// The untyped owner behind Buffer<T>: one GL buffer object of a fixed size.
+class RawBuffer {
+public:
+    RawBuffer() = default;
+    /// @throws GlError if the driver cannot give `bytes`, or its storage block limit is smaller.
+    RawBuffer(std::size_t bytes, const void* data);
+    RawBuffer(RawBuffer&& other) noexcept : id_(std::exchange(other.id_, 0)), bytes_(std::exchange(other.bytes_, 0)) {}
+    RawBuffer& operator=(RawBuffer&& other) noexcept;
+    ~RawBuffer();
+
+    unsigned id() const { return id_; }
+    std::size_t bytes() const { return bytes_; }
+    void upload(std::size_t offset, std::size_t bytes, const void* data);
+    void download(std::size_t offset, std::size_t bytes, void* out) const;
+    /// Binds to a `layout(std430, binding = index) buffer`. An empty buffer binds nothing.
+    void bind_storage(unsigned index) const;
+
+private:
+    unsigned id_ = 0;
+    std::size_t bytes_ = 0;
+};
+
+/// Owns one GL buffer object holding `size()` elements of `T` (a std430 array).
+///
+/// Move-only; a moved-from buffer is empty. Every call needs the context that created the
+/// buffer to be current on the calling thread.
+template <class T>
+class Buffer {
+    static_assert(std::is_trivially_copyable_v<T>);
+
+public:
+    Buffer() = default;
+
+    /// Allocates `size` elements with undefined contents.
+    /// @throws GlError if the driver cannot give `size * sizeof(T)` bytes, or its block limit is smaller.
+    explicit Buffer(std::size_t size) : raw_(size * sizeof(T), nullptr), size_(size) {}
+
+    /// Allocates and fills.
+    explicit Buffer(std::span<const T> data) : raw_(data.size_bytes(), data.data()), size_(data.size()) {}
+
+    Buffer(Buffer&& other) noexcept : raw_(std::move(other.raw_)), size_(std::exchange(other.size_, 0)) {}
+    Buffer& operator=(Buffer&& other) noexcept {
+        raw_ = std::move(other.raw_);
+        size_ = std::exchange(other.size_, 0);
+        return *this;
+    }
+
+    std::size_t size() const { return size_; }
+    bool empty() const { return size_ == 0; }
+    unsigned id() const { return raw_.id(); }
+
+    /// @pre data.size() == size()
+    void upload(std::span<const T> data) { raw_.upload(0, data.size_bytes(), data.data()); }
+
+    /// Copies the contents to `out`; blocks until the GPU has finished.
+    /// @pre out.size() == size(), and barrier(buffer_update) since the last dispatch
+    void download(std::span<T> out) const { raw_.download(0, out.size_bytes(), out.data()); }
+
+    void bind_storage(unsigned index) const { raw_.bind_storage(index); }
+
+private:
+    RawBuffer raw_;
+    std::size_t size_ = 0;
+};
+
+/// How a shader's samplerBuffer sees a buffer's bytes.
+enum class TexelFormat { r32ui, rg32ui, rgba32ui, r32f, rg32f, rgba32f };
+
+/// A buffer seen through a samplerBuffer or usamplerBuffer: gathers through it are faster than storage reads on
+/// software drivers and no slower elsewhere. Owns the texture, not the buffer, which must outlive it.
+class BufferTexture {
+public:
+    BufferTexture() = default;
+    /// @throws GlError if the buffer has more texels than GL_MAX_TEXTURE_BUFFER_SIZE.
+    template <class T>
+    BufferTexture(const Buffer<T>& buffer, TexelFormat format)
+        : BufferTexture(buffer.id(), buffer.size() * sizeof(T), format) {}
+    BufferTexture(unsigned buffer, std::size_t bytes, TexelFormat format);
+    BufferTexture(BufferTexture&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+    BufferTexture& operator=(BufferTexture&& other) noexcept;
+    ~BufferTexture();
+
+    unsigned id() const { return id_; }
+    void bind(unsigned unit) const;
+
+private:
+    unsigned id_ = 0;
+};
+
+}  // namespace gelatin::gl

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gelatin::gl {
+
+/// "NAME" or "NAME VALUE", inserted as #define after the version line.
+using Defines = std::vector<std::string>;
+
+/// Owns a linked program made of files below shaders/ (shader_source.h). Move-only.
+class Program {
+public:
+    Program() = default;
+    /// @throws GlError with the driver's log, its positions translated to true file names and lines.
+    static Program compute(const std::string& file, const Defines& defines = {});
+    static Program graphics(const std::string& vertex_file, const std::string& fragment_file,
+                            const Defines& defines = {});
+    Program(Program&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+    Program& operator=(Program&& other) noexcept;
+    ~Program();
+
+    unsigned id() const { return id_; }
+    void use() const;
+
+    /// Uniforms keep their value until set again; the program need not be in use. A name that the linker
+    /// optimised away is ignored.
+    void set(const char* name, float value) const;
+    void set(const char* name, int value) const;
+    void set(const char* name, std::uint32_t value) const;
+    void set(const char* name, const glm::vec2& value) const;
+    void set(const char* name, const glm::vec3& value) const;
+    void set(const char* name, const glm::vec4& value) const;
+    void set(const char* name, const glm::mat4& value) const;
+
+    /// Uses the program and runs ceil(invocations / group_size) work groups, folded into two dimensions where
+    /// one is not enough; shaders take their index from include/global_index.glsl. Nothing runs for 0 invocations.
+    void dispatch(std::size_t invocations, std::uint32_t group_size = 64) const;
+
+private:
+    unsigned id_ = 0;
+};
+
+/// What the work after the barrier will do with the data written before it (glMemoryBarrier).
+enum class Barrier : unsigned {
+    storage = 1,         ///< read or write as a storage block
+    texture_fetch = 2,   ///< texelFetch from a samplerBuffer
+    vertex_pull = 4,     ///< element or vertex arrays
+    buffer_update = 8,   ///< copies, mapping, download
+    command = 16,        ///< indirect dispatch or draw
+};
+constexpr Barrier operator|(Barrier a, Barrier b) {
+    return static_cast<Barrier>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
+}
+void barrier(Barrier next_use);
+
+}  // namespace gelatin::gl

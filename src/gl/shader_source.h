@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace gelatin::gl {
+
+/// GLSL text ready for the driver, and the file each `#line` source number stands for.
+struct ShaderSource {
+    std::string text;
+    std::vector<std::string> files;  ///< files[n] is source string number n
+
+    /// Rewrites positions such as "2:14(3): error" (Mesa), "2(14) : error" (NVIDIA) or "ERROR: 2:14" (others)
+    /// in a driver's log so that they name the file.
+    std::string translate_log(const std::string& log) const;
+};
+
+/// Loads `file` (a path below shaders/), from GELATIN_SHADER_DIR if set, else as embedded, puts
+/// "#version 430 core" and the defines before it, and expands `#include "path"` (relative to shaders/, once each).
+/// @throws GlError if a file is missing or includes go round in a circle, naming the including file and line.
+ShaderSource load_shader(const std::string& file, const std::vector<std::string>& defines = {});
+
+}  // namespace gelatin::gl

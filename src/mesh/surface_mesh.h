@@ -1,0 +1,18 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace gelatin {
+
+/// A triangle mesh. Faces wind counter-clockwise seen from outside.
+struct SurfaceMesh {
+    std::vector<glm::dvec3> positions;  ///< [m], shape [vertices]
+    std::vector<glm::uvec3> faces;      ///< vertex indices, shape [faces]
+};
+
+/// One line for each repair that was made on the way in, for the user to read.
+using Notes = std::vector<std::string>;
+
+}  // namespace gelatin

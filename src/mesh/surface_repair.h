@@ -1,0 +1,23 @@
+#pragma once
+
+#include "mesh/surface_mesh.h"
+
+namespace gelatin {
+
+/// Merges vertices that coincide (within 1e-9 of the bounding box' diagonal), drops degenerate and repeated faces and
+/// vertices without faces, makes the winding consistent across shared edges and outward (positive volume) in each
+/// connected component. Adds one line to `notes` for each kind of repair that changed something.
+void repair_surface(SurfaceMesh& mesh, Notes& notes);
+
+/// Edges that do not have exactly two faces.
+struct Openness {
+    std::size_t boundary_edges = 0;      ///< edges of one face
+    std::size_t non_manifold_edges = 0;  ///< edges of three or more
+    bool is_closed() const { return boundary_edges == 0 && non_manifold_edges == 0; }
+};
+Openness measure_openness(const SurfaceMesh& mesh);
+
+/// Enclosed volume by the divergence theorem [m^3]; positive if faces wind outwards.
+double signed_volume(const SurfaceMesh& mesh);
+
+}  // namespace gelatin

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "gelatin/scene.h"
+#include "mesh/surface_mesh.h"
+#include "mesh/tet_mesh.h"
+
+namespace gelatin {
+
+/// Fills a closed surface with tetrahedra: runs TetGen as a process of its own (`-p -q -a`; paper 2.3) in a private
+/// temporary folder, or takes the result from the cache (tet_cache.h).
+/// @param name for messages: the object's or the file's
+/// @throws InvalidInput if the surface is not closed (with the number of open edges), or TetGen fails on it, crashes or
+///   exceeds `settings.time_limit`, with TetGen's message; SystemError if there is no `tetgen` program.
+TetMesh tetrahedralise(const SurfaceMesh& surface, const MesherSettings& settings, const std::string& name);
+
+}  // namespace gelatin

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec4.hpp>
+
+/// The structs that C++ and GLSL share: the files of shaders/layouts/ compiled as C++.
+/// Made of 4-byte scalars and vec4 alone, so that std430 and C++ agree; tests/gpu asks the driver.
+namespace gelatin::layouts {
+
+using uint = std::uint32_t;
+using glm::vec4;
+
+#include "layouts/collider.glsl"
+#include "layouts/face.glsl"
+#include "layouts/half_spring_pair.glsl"
+#include "layouts/node_chunk.glsl"
+#include "layouts/spring.glsl"
+#include "layouts/surface_vertex.glsl"
+
+static_assert(sizeof(Collider) == 64);
+static_assert(sizeof(Face) == 16);
+static_assert(sizeof(HalfSpringPair) == 16);
+static_assert(sizeof(NodeChunk) == 16);
+static_assert(sizeof(NodeSums) == 32);
+static_assert(sizeof(Spring) == 16);
+static_assert(sizeof(SurfaceVertex) == 16);
+
+}  // namespace gelatin::layouts
+
+namespace gelatin {
+using layouts::Collider;
+using layouts::Face;
+using layouts::HalfSpringPair;
+using layouts::NodeChunk;
+using layouts::NodeSums;
+using layouts::Spring;
+using layouts::SurfaceVertex;
+}  // namespace gelatin

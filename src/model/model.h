@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <string>
+#include <vector>
+
+#include "model/layouts.h"
+
+namespace gelatin {
+
+struct Range {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+
+    std::uint32_t end() const { return first + count; }
+};
+
+/// One deformable body: its ranges in the packed arrays, and what never changes about it.
+struct ModelObject {
+    std::string name;
+    Range nodes, springs, faces, tets;
+    double mass = 0.0;         ///< [kg]
+    double rest_volume = 0.0;  ///< [m^3]
+    glm::vec3 color{0.0f};     ///< linear RGB; negative where the scene does not say
+};
+
+/// Spring forces gathered by node, in slices of 64 nodes (sliced ELLPACK, the slice being a work group):
+/// pair p of node 64 s + l is element slice_starts[s] + 64 p + l, so that neighbouring invocations read
+/// neighbouring texels and every lane of a slice runs the same number of times.
+struct HalfSprings {
+    static constexpr std::uint32_t kSlice = 64;
+
+    std::vector<std::uint32_t> slice_starts;   ///< shape [slices + 1]
+    std::vector<HalfSpringPair> pairs;         ///< shape [slice_starts.back()]
+    std::vector<glm::vec2> stiffness;          ///< [N/m], shape [slice_starts.back()]
+};
+
+/// Springs by node for the paper's merge: entries of node n are starts[n] .. starts[n+1]; an entry is
+/// 2 * spring, plus 1 where the node is the spring's second endpoint.
+struct SpringIncidence {
+    std::vector<std::uint32_t> starts;   ///< shape [nodes + 1]
+    std::vector<std::uint32_t> entries;  ///< shape [2 * springs]
+};
+
+/// What is drawn: faces over surface vertices (nodes, split at creases) and the faces round each vertex.
+struct DrawSurface {
+    std::vector<SurfaceVertex> vertices;
+    std::vector<std::uint32_t> vertex_faces;  ///< indices into Model::faces
+    std::vector<glm::uvec3> triangles;        ///< indices into vertices, shape [faces]: face f's corners
+};
+
+/// All objects of a scene, packed (paper 3.2) and immutable; shared by every backend.
+///
+/// An object owns a contiguous range of each array. Nodes are ordered for locality within their object.
+struct Model {
+    std::vector<ModelObject> objects;
+
+    std::vector<glm::vec4> positions;    ///< at the start: xyz [m], inverse mass [1/kg] (0 pins), shape [nodes]
+    std::vector<glm::vec4> velocities;   ///< at the start: xyz [m/s], damping time [s] of the material, shape [nodes]
+    std::vector<float> masses;           ///< [kg], > 0, pinned nodes too, shape [nodes]
+
+    std::vector<Spring> springs;
+    HalfSprings half_springs;
+    SpringIncidence incidence;
+
+    std::vector<glm::uvec4> tets;  ///< shape [tets]
+    std::vector<Face> faces;       ///< boundary triangles, shape [faces]
+    DrawSurface surface;
+
+    std::vector<Collider> colliders;
+    glm::vec3 gravity{0.0f};  ///< [m/s^2]
+
+    std::uint32_t node_count() const { return static_cast<std::uint32_t>(positions.size()); }
+    bool has_damping() const;
+};
+
+}  // namespace gelatin

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <glm/vec4.hpp>
+#include <memory>
+#include <vector>
+
+#include "core/stage_timer.h"
+#include "gelatin/scene.h"
+#include "model/model.h"
+
+namespace gelatin {
+
+/// Positions and velocities of all nodes as the host sees them; the fourth components are the model's.
+struct State {
+    std::vector<glm::vec4> positions;   ///< xyz [m], inverse mass [1/kg], shape [nodes]
+    std::vector<glm::vec4> velocities;  ///< xyz [m/s], damping time [s], shape [nodes]
+};
+
+/// Sums over one object at one moment.
+struct ObjectMeasure {
+    glm::dvec3 momentum{0.0};       ///< [kg m/s], of the nodes that are not pinned
+    double kinetic_energy = 0.0;    ///< [J]
+    double elastic_energy = 0.0;    ///< [J]
+    double potential_energy = 0.0;  ///< [J], zero at the origin, of the nodes that are not pinned
+    double volume = 0.0;            ///< [m^3]
+    double deepest_penetration = 0.0;  ///< of a node into a collider [m]
+    std::uint32_t contacts = 0;        ///< nodes that touch a collider
+};
+
+/// A backend: owns the state where it lives and advances it. The stages are called in the order of
+/// Simulator::step; none of them waits for a device.
+class Solver {
+public:
+    virtual ~Solver() = default;
+
+    /// Forces and integration over one step of `step` seconds, world collisions included.
+    virtual void advance_nodes(double step) = 0;
+
+    /// Starts measuring the present state. At most two measurements may be under way.
+    virtual void begin_measure() = 0;
+
+    /// The oldest measurement under way, one element an object; waits for it if need be.
+    virtual std::vector<ObjectMeasure> end_measure() = 0;
+
+    virtual State read_state() const = 0;
+    virtual void write_state(const State& state) = 0;
+
+    /// Times the stages on the clock of the device they run on.
+    virtual StageTimer& stage_timer() = 0;
+
+    virtual std::string device() const = 0;  ///< for people: "llvmpipe (LLVM 15.0.6, 256 bits)"
+};
+
+}  // namespace gelatin
