@@ -3,6 +3,9 @@
 set(gelatin_warnings -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast
                      -Wcast-qual -Wformat=2 -Wundef -Werror)
 add_compile_options(${gelatin_warnings})
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    add_compile_options(-Wno-restrict)  # false alarms on std::string + (GCC bug 105651)
+endif()
 
 # No contraction behind our back: the same source gives the same bits whatever the compiler may fuse.
 add_compile_options(-ffp-contract=off)

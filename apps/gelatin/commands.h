@@ -6,8 +6,9 @@ class App;
 
 namespace gelatin {
 
-/// Each adds its subcommand, with all its options, to `app`; the subcommand's callback does the work and throws
-/// gelatin::Error. main() turns exceptions into one line on stderr and the exit codes of docs/command-line.md.
+/// Each adds its subcommand, with all its options, to `app`; the subcommand's callback does the work and
+/// throws gelatin::Error. main() turns exceptions into one line on stderr and the exit codes of
+/// docs/command-line.md.
 void add_run_command(CLI::App& app);
 void add_mesh_command(CLI::App& app);
 void add_info_command(CLI::App& app);

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gelatin/scene.h"
@@ -14,7 +14,6 @@
 namespace gelatin {
 
 struct Model;
-struct ModelObject;
 
 enum class Backend { automatic, gl, cpu };
 
@@ -69,6 +68,9 @@ public:
 
     /// Advances by one frame: `substeps()` steps. Does not wait for a GPU.
     void advance_frame();
+
+    /// Advances by one step; `substeps()` of them make a frame.
+    void step();
 
     int frame() const;             ///< frames done; 0 is the start
     double time() const;           ///< [s]

@@ -16,7 +16,7 @@ struct DeviceInfo {
 };
 
 struct ContextOptions {
-    std::optional<int> device_index;  ///< EGL device to use; empty: surfaceless default, then each device in turn
+    std::optional<int> device_index;  ///< EGL device to use; empty: GELATIN_EGL_DEVICE, else see below
     bool debug = false;               ///< a debug context whose messages go to gl::debug (debug.h)
 };
 
@@ -26,8 +26,10 @@ struct ContextOptions {
 /// Move-only; the destructor releases what it made and leaves a host's context alone.
 class Context {
 public:
-    /// Makes a headless context.
-    /// @throws NoOpenGl if there is no EGL, no such device, or no OpenGL 4.3.
+    /// Makes a headless context: on the device asked for, else on the surfaceless default, else on the first EGL device
+    /// that works. Where the default is a software driver, a device that is not goes first.
+    /// @throws NoOpenGl if there is no EGL, no such device, or no OpenGL 4.3; InvalidInput for a
+    ///   GELATIN_EGL_DEVICE that is no index.
     static Context headless(const ContextOptions& options = {});
 
     /// Uses the context that is current on the calling thread.
@@ -37,6 +39,9 @@ public:
     Context(Context&&) noexcept;
     Context& operator=(Context&&) noexcept;
     ~Context();
+
+    /// EGL devices that ContextOptions::device_index may name; 0 where EGL cannot list them.
+    static int device_count();
 
     const DeviceInfo& device() const { return device_; }
     void make_current();

@@ -62,4 +62,7 @@ constexpr Barrier operator|(Barrier a, Barrier b) {
 }
 void barrier(Barrier next_use);
 
+/// Waits until the GPU has done everything it was told.
+void finish();
+
 }  // namespace gelatin::gl

@@ -10,17 +10,17 @@ namespace gelatin::layouts {
 using uint = std::uint32_t;
 using glm::vec4;
 
+#include "layouts/chunk.glsl"
 #include "layouts/collider.glsl"
 #include "layouts/face.glsl"
 #include "layouts/half_spring_pair.glsl"
-#include "layouts/node_chunk.glsl"
 #include "layouts/spring.glsl"
 #include "layouts/surface_vertex.glsl"
 
+static_assert(sizeof(Chunk) == 16);
 static_assert(sizeof(Collider) == 64);
 static_assert(sizeof(Face) == 16);
 static_assert(sizeof(HalfSpringPair) == 16);
-static_assert(sizeof(NodeChunk) == 16);
 static_assert(sizeof(NodeSums) == 32);
 static_assert(sizeof(Spring) == 16);
 static_assert(sizeof(SurfaceVertex) == 16);
@@ -28,10 +28,10 @@ static_assert(sizeof(SurfaceVertex) == 16);
 }  // namespace gelatin::layouts
 
 namespace gelatin {
+using layouts::Chunk;
 using layouts::Collider;
 using layouts::Face;
 using layouts::HalfSpringPair;
-using layouts::NodeChunk;
 using layouts::NodeSums;
 using layouts::Spring;
 using layouts::SurfaceVertex;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <glm/vec4.hpp>
-#include <memory>
+#include <string>
 #include <vector>
 
 #include "core/stage_timer.h"
@@ -15,6 +15,9 @@ struct State {
     std::vector<glm::vec4> positions;   ///< xyz [m], inverse mass [1/kg], shape [nodes]
     std::vector<glm::vec4> velocities;  ///< xyz [m/s], damping time [s], shape [nodes]
 };
+
+/// A node nearer to a collider than this [m] counts as a contact.
+constexpr double kContactDistance = 1e-5;
 
 /// Sums over one object at one moment.
 struct ObjectMeasure {

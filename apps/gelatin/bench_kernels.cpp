@@ -1,0 +1,327 @@
+#include "bench_kernels.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "core/file.h"
+#include "core/log.h"
+#include "cpu/cpu_solver.h"
+#include "gelatin/error.h"
+#include "gl/context.h"
+#include "gpu/gpu_solver.h"
+#include "gpu/update_normals.h"
+#include "mesh/shapes.h"
+#include "mesh/tetrahedralise.h"
+#include "model/build_model.h"
+#include "model/stability.h"
+#include "sim/version.h"
+
+namespace gelatin {
+namespace {
+
+// One stage on one backend at one size.
+struct Row {
+    std::string backend, stage;
+    int scale;
+    double ms;        // median
+    double spread;    // (p90 - p10) / median
+    double bytes;     // read and written at least once
+    double springs;
+};
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+double percentile(std::vector<double> values, double p) {
+    std::sort(values.begin(), values.end());
+    return values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1))];
+}
+
+// 3 x scale spheres of the paper's size in a grid, damped a little so that both terms of the force are at work.
+std::shared_ptr<const Model> make_spheres(const TetMesh& sphere, int scale) {
+    std::vector<Body> bodies;
+    for (int i = 0; i < 3 * scale; ++i) {
+        Body body;
+        body.name = "sphere " + std::to_string(i);
+        body.mesh = sphere;
+        for (glm::dvec3& p : body.mesh.positions) p += glm::dvec3(1.5 * (i % 20), 50.0 + 1.5 * (i / 20), 0.0);
+        body.material.damping = 1e-4;
+        bodies.push_back(std::move(body));
+    }
+    return std::make_shared<const Model>(pack_bodies(bodies, {ColliderDescription{}}, {0.0, -9.81, 0.0}));
+}
+
+constexpr double kNodeBytes = 2 * sizeof(glm::vec4);
+
+// What each stage reads and writes once, gathers counted once a node.
+double fused_bytes(const Model& m) {
+    return static_cast<double>(m.half_springs.pairs.size()) * (sizeof(HalfSpringPair) + sizeof(glm::vec2)) +
+           2 * kNodeBytes * m.node_count();
+}
+double write_bytes(const Model& m) {
+    return static_cast<double>(m.springs.size()) * (sizeof(Spring) + sizeof(glm::vec4)) + kNodeBytes * m.node_count();
+}
+double merge_bytes(const Model& m) {
+    return static_cast<double>(m.springs.size()) * (2 * sizeof(std::uint32_t) + sizeof(glm::vec4)) +
+           (sizeof(std::uint32_t) + sizeof(glm::vec4)) * m.node_count();
+}
+double integrate_bytes(const Model& m) { return (2 * kNodeBytes + sizeof(glm::vec4)) * m.node_count(); }
+double normals_bytes(const Model& m) {
+    return static_cast<double>(m.faces.size()) * (sizeof(Face) + sizeof(glm::vec4) + 3 * sizeof(std::uint32_t)) +
+           static_cast<double>(m.surface.vertices.size()) * (sizeof(SurfaceVertex) + 2 * sizeof(glm::vec4));
+}
+
+// A stage ready to be timed: `run` enqueues it (or does it), `wait` ends when it is done.
+struct Case {
+    std::string backend, stage;
+    double bytes;
+    std::function<void()> run;
+    std::function<void()> wait;
+    int threads = 0;  // 0: all
+};
+
+double time_once(const Case& c, int repeats) {
+    const auto start = std::chrono::steady_clock::now();
+    for (int r = 0; r < repeats; ++r) c.run();
+    c.wait();
+    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+    return elapsed.count() / repeats;
+}
+
+// Samples every case in turn, so that a machine that slows down slows all of them.
+std::vector<Row> time_cases(const std::vector<Case>& cases, int scale, int runs, double springs) {
+    std::vector<int> repeats;
+    for (const Case& c : cases) {
+        time_once(c, 1);  // compiles shaders, faults pages in
+        repeats.push_back(std::clamp(static_cast<int>(20.0 / std::max(time_once(c, 1), 1e-3)), 1, 200));
+    }
+    std::vector<std::vector<double>> samples(cases.size());
+    for (int r = 0; r < runs; ++r) {
+        for (std::size_t c = 0; c < cases.size(); ++c) {
+            std::optional<tbb::global_control> limit;
+            if (cases[c].threads > 0) {
+                limit.emplace(tbb::global_control::max_allowed_parallelism,
+                              static_cast<std::size_t>(cases[c].threads));
+            }
+            samples[c].push_back(time_once(cases[c], repeats[c]));
+        }
+    }
+    std::vector<Row> rows;
+    for (std::size_t c = 0; c < cases.size(); ++c) {
+        const double middle = median(samples[c]);
+        rows.push_back({cases[c].backend, cases[c].stage, scale, middle,
+                        (percentile(samples[c], 0.9) - percentile(samples[c], 0.1)) / middle, cases[c].bytes, springs});
+    }
+    return rows;
+}
+
+// The plain scalar core: the templated kernels in float on one thread, no SIMD, no TBB.
+class PlainCore {
+public:
+    PlainCore(std::shared_ptr<const Model> model, double step)
+        : model_(std::move(model)),
+          step_(step),
+          now_{{model_->positions}, {model_->velocities}},
+          next_(now_),
+          spring_forces_(model_->springs.size()),
+          node_forces_(model_->node_count()) {}
+
+    void fused() {
+        cpu::advance_nodes(pass(), {0, static_cast<std::uint32_t>(model_->half_springs.slice_starts.size() - 1)});
+        std::swap(now_, next_);
+    }
+    void write() { cpu::write_spring_forces<float>(pass(), spring_forces_, {0, size(model_->springs)}); }
+    void merge() {
+        cpu::merge_spring_forces<float>(*model_, spring_forces_, node_forces_, {0, model_->node_count()});
+    }
+    void integrate() {
+        cpu::integrate_nodes<float>(pass(), node_forces_, {0, model_->node_count()});
+        std::swap(now_, next_);
+    }
+
+private:
+    template <class T>
+    static std::uint32_t size(const std::vector<T>& v) {
+        return static_cast<std::uint32_t>(v.size());
+    }
+    cpu::Pass<float> pass() {
+        return cpu::make_pass(*model_, explicit_scheme(SolverKind::semi_implicit_euler), 0, step_, now_, now_, next_,
+                              none_);
+    }
+    std::shared_ptr<const Model> model_;
+    double step_;
+    cpu::Nodes<float> now_, next_, none_;
+    std::vector<glm::vec4> spring_forces_, node_forces_;
+};
+
+void add_plain_cases(std::shared_ptr<const Model> model, double step, std::vector<Case>& cases) {
+    auto core = std::make_shared<PlainCore>(model, step);
+    const auto nothing = [] {};
+    const Model& m = *model;
+    cases.push_back({"plain C++", "advance_nodes (fused)", fused_bytes(m), [core] { core->fused(); }, nothing});
+    cases.push_back({"plain C++", "write_spring_forces", write_bytes(m), [core] { core->write(); }, nothing});
+    cases.push_back({"plain C++", "merge_spring_forces", merge_bytes(m), [core] { core->merge(); }, nothing});
+    cases.push_back({"plain C++", "integrate_nodes", integrate_bytes(m), [core] { core->integrate(); }, nothing});
+    const double all = write_bytes(m) + merge_bytes(m) + integrate_bytes(m);
+    cases.push_back({"plain C++", "divide and merge", all,
+                     [core] {
+                         core->write();
+                         core->merge();
+                         core->integrate();
+                     },
+                     nothing});
+}
+
+void add_cpu_cases(std::shared_ptr<const Model> model, double step, std::vector<Case>& cases) {
+    const auto solver_for = [&](ForceMethod forces) {
+        return std::make_shared<cpu::CpuSolver<float>>(model, SolverKind::semi_implicit_euler, forces);
+    };
+    const auto fused = solver_for(ForceMethod::fused);
+    const auto divided = solver_for(ForceMethod::divide_and_merge);
+    const double divided_bytes = write_bytes(*model) + merge_bytes(*model) + integrate_bytes(*model);
+    std::vector<int> thread_counts{1};
+    if (tbb::info::default_concurrency() > 1) thread_counts.push_back(tbb::info::default_concurrency());
+    for (const int threads : thread_counts) {
+        const std::string name = fmt::format("CPU, {} thread{}", threads, threads == 1 ? "" : "s");
+        const auto nothing = [] {};
+        cases.push_back({name, "advance_nodes (fused)", fused_bytes(*model),
+                         [fused, step] { fused->advance_nodes(step); }, nothing, threads});
+        cases.push_back({name, "divide and merge", divided_bytes,
+                         [divided, step] { divided->advance_nodes(step); }, nothing, threads});
+        cases.push_back({name, "measure", fused_bytes(*model),
+                         [fused] {
+                             fused->begin_measure();
+                             fused->end_measure();
+                         },
+                         nothing, threads});
+    }
+}
+
+void add_gl_cases(std::shared_ptr<const Model> model, double step, std::vector<Case>& cases) {
+    const auto solver_for = [&](ForceMethod forces) {
+        return std::make_shared<gpu::GpuSolver>(model, SolverKind::semi_implicit_euler, forces, "");
+    };
+    const auto fused = solver_for(ForceMethod::fused);
+    const auto divided = solver_for(ForceMethod::divide_and_merge);
+    const auto kernels = std::make_shared<gpu::DivideAndMerge>(*model, explicit_scheme(SolverKind::semi_implicit_euler));
+    const auto normals = std::make_shared<gpu::UpdateNormals>(*model);
+    const auto finish = [] { gl::finish(); };
+    const Model& m = *model;
+    cases.push_back({"GL", "advance_nodes (fused)", fused_bytes(m), [fused, step] { fused->advance_nodes(step); }, finish});
+    cases.push_back({"GL", "write_spring_forces", write_bytes(m),
+                     [kernels, fused] { kernels->write_spring_forces(fused->nodes()); }, finish});
+    cases.push_back({"GL", "merge_spring_forces", merge_bytes(m), [kernels] { kernels->merge_spring_forces(); }, finish});
+    cases.push_back({"GL", "divide and merge", write_bytes(m) + merge_bytes(m) + integrate_bytes(m),
+                     [divided, step] { divided->advance_nodes(step); }, finish});
+    cases.push_back({"GL", "update_normals", normals_bytes(m),
+                     [normals, fused] { normals->run(fused->nodes().position_texels); }, finish});
+    cases.push_back({"GL", "measure", fused_bytes(m),
+                     [fused] {
+                         fused->begin_measure();
+                         fused->end_measure();
+                     },
+                     finish});
+}
+
+const Row& find_row(const std::vector<Row>& rows, const std::string& backend, const std::string& stage, int scale) {
+    return *std::find_if(rows.begin(), rows.end(), [&](const Row& r) {
+        return r.backend == backend && r.stage == stage && r.scale == scale;
+    });
+}
+
+void print_rows(const std::vector<Row>& rows) {
+    fmt::print("{:<16} {:<24} {:>6} {:>10} {:>8} {:>10} {:>8} {:>10}\n", "backend", "stage", "scale", "ms", "spread",
+               "MB", "GB/s", "ns/spring");
+    for (const Row& r : rows) {
+        fmt::print("{:<16} {:<24} {:>5}x {:>10.4f} {:>7.0f}% {:>10.2f} {:>8.2f} {:>10.3f}\n", r.backend, r.stage, r.scale,
+                   r.ms, 100 * r.spread, r.bytes / 1e6, r.bytes / r.ms / 1e6, 1e6 * r.ms / r.springs);
+    }
+}
+
+struct Ratio {
+    std::string what;
+    double value;
+    std::string wanted;
+};
+
+std::vector<Ratio> summarise(const std::vector<Row>& rows, const KernelBenchOptions& options) {
+    const std::string fused = "advance_nodes (fused)", divided = "divide and merge";
+    std::vector<std::string> backends{"plain C++", "CPU, 1 thread"};
+    if (options.use_gl) backends.emplace_back("GL");
+    std::vector<Ratio> ratios;
+    for (const int scale : options.scales) {
+        const auto ms = [&](const std::string& b, const std::string& s) { return find_row(rows, b, s, scale).ms; };
+        for (const std::string& b : backends) {
+            ratios.push_back({fmt::format("{}: divide and merge / fused, {}x", b, scale), ms(b, divided) / ms(b, fused),
+                              b == "GL" ? ">= 2.5" : ""});
+        }
+        if (options.use_gl) {
+            ratios.push_back({fmt::format("GL / plain C++, fused, {}x", scale), ms("GL", fused) / ms("plain C++", fused),
+                              "<= 2 on llvmpipe"});
+        }
+        ratios.push_back({fmt::format("plain C++ / CPU on one thread, fused, {}x", scale),
+                          ms("plain C++", fused) / ms("CPU, 1 thread", fused), ">= 2"});
+    }
+    for (const std::string& b : backends) {
+        const int most = options.scales.back(), least = options.scales.front();
+        const Row& large = find_row(rows, b, fused, most);
+        const Row& small = find_row(rows, b, fused, least);
+        ratios.push_back({fmt::format("{}: cost per spring, {}x / {}x", b, most, least),
+                          large.ms / large.springs / (small.ms / small.springs), "<= 1.5"});
+    }
+    return ratios;
+}
+
+void write_json(const std::filesystem::path& file, const std::string& device, const std::vector<Row>& rows,
+                const std::vector<Ratio>& ratios) {
+    nlohmann::ordered_json json;
+    json["gelatin"] = {{"version", version()}, {"commit", commit()}};
+    json["benchmark"] = "kernels";
+    json["device"] = device;
+    json["cpu"] = cpu::simd_target();
+    for (const Row& r : rows) {
+        json["stages"].push_back({{"backend", r.backend}, {"stage", r.stage}, {"scale", r.scale}, {"ms", r.ms},
+                                  {"spread", r.spread}, {"bytes", r.bytes}, {"springs", r.springs}});
+    }
+    for (const Ratio& r : ratios) json["ratios"].push_back({{"what", r.what}, {"value", r.value}, {"wanted", r.wanted}});
+    write_file(file, json.dump(2) + "\n");
+}
+
+}  // namespace
+
+void bench_kernels(const KernelBenchOptions& options) {
+    std::optional<gl::Context> context;
+    if (options.use_gl) context = gl::Context::headless();
+    const std::string device = context ? context->device().renderer + ", " + context->device().version : "no OpenGL";
+    fmt::print("gelatin {} ({}), {}, {} hardware threads\nGL: {}\n\n", version(), commit(), cpu::simd_target(),
+               tbb::info::default_concurrency(), device);
+
+    const TetMesh sphere = tetrahedralise(make_sphere({0.5, 20}), MesherSettings{}, "sphere");
+    std::vector<Row> rows;
+    for (const int scale : options.scales) {
+        const auto model = make_spheres(sphere, scale);
+        const double step = 0.5 * largest_stable_step(SolverKind::semi_implicit_euler, *model);
+        std::vector<Case> cases;
+        add_plain_cases(model, step, cases);
+        add_cpu_cases(model, step, cases);
+        if (context) add_gl_cases(model, step, cases);
+        const std::vector<Row> timed =
+            time_cases(cases, scale, options.runs, static_cast<double>(model->springs.size()));
+        print_rows(timed);
+        fmt::print("\n");
+        rows.insert(rows.end(), timed.begin(), timed.end());
+    }
+    const std::vector<Ratio> ratios = summarise(rows, options);
+    for (const Ratio& r : ratios) fmt::print("{:<52} {:>6.2f}  {}\n", r.what, r.value, r.wanted);
+    if (!options.json.empty()) write_json(options.json, device, rows, ratios);
+}
+
+}  // namespace gelatin

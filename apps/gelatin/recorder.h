@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "gelatin/simulator.h"
+#include "render/frame_grabber.h"
+#include "render/video_writer.h"
+#include "run_options.h"
+#include "scene_painter.h"
+#include "sim/export.h"
+
+namespace gelatin {
+
+/// Keeps what a run shows: the film, the exported frames, the picture of the last frame.
+///
+/// Needs the simulator's context. Without `finish` there is no film, not half of one.
+class Recorder {
+public:
+    /// @throws InvalidInput for a film whose rate no player can hold; SystemError if ffmpeg cannot be
+    /// started.
+    Recorder(const RunOptions& options, Simulator& simulator);
+
+    /// Records the present frame if its turn has come.
+    void record();
+
+    /// Ends the film and draws the image.
+    void finish();
+
+private:
+    void film(std::optional<render::Image> picture);
+    void write_image();
+
+    const RunOptions& options_;
+    Simulator& simulator_;
+    int interval_;  // frames
+    std::unique_ptr<ScenePainter> painter_;
+    std::unique_ptr<render::FrameGrabber> grabber_;
+    std::unique_ptr<render::VideoWriter> video_;
+    std::unique_ptr<FrameExporter> exporter_;
+};
+
+}  // namespace gelatin

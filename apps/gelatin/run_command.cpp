@@ -1,0 +1,191 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <memory>
+
+#include "commands.h"
+#include "core/file.h"
+#include "gelatin/error.h"
+#include "interrupt.h"
+#include "progress.h"
+#include "recorder.h"
+#include "run_options.h"
+#include "sim/report.h"
+
+namespace gelatin {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Without --stats, how often the state is looked at, so that a simulation that diverged does not run on
+// [frames].
+constexpr int kCheckInterval = 30;
+
+/// One `gelatin run` from its first frame to its last.
+class Run {
+public:
+    Run(const RunOptions& options, Simulator& simulator)
+        : options_(options),
+          simulator_(simulator),
+          report_(describe_run(simulator)),
+          recorder_(options, simulator),
+          frames_(simulator.scene().simulation.frames) {}
+
+    /// @throws Diverged, naming the last good checkpoint, once what was recorded until then is safe.
+    void go();
+
+private:
+    void advance();
+    void introduce() const;
+    void measure();
+    void look();
+    void take_statistics(std::size_t leave);
+    void save_checkpoint();
+    void finish(bool diverged);
+    void print_summary() const;
+
+    const RunOptions& options_;
+    Simulator& simulator_;
+    RunReport report_;
+    Recorder recorder_;
+    int frames_;
+    std::optional<int> seen_frame_;   // the last one whose statistics were begun
+    std::optional<int> saved_frame_;  // of the checkpoint
+    bool interrupted_ = false;
+};
+
+void Run::go() {
+    try {
+        advance();
+    } catch (const Diverged& error) {
+        finish(true);
+        const std::string saved = saved_frame_ ? fmt::format("; the last good checkpoint is {} of frame {}",
+                                                             options_.checkpoint.string(), *saved_frame_)
+                                               : "; no checkpoint was saved";
+        throw Diverged(error.what() + saved);
+    }
+    finish(false);
+    if (interrupted_) {
+        throw Error(fmt::format("interrupted after frame {} of {}; what was recorded until then is written",
+                                simulator_.frame(), frames_));
+    }
+}
+
+void Run::advance() {
+    const Interrupt interrupt;
+    if (!options_.quiet) introduce();
+    Progress progress(simulator_.frame(), frames_, options_.quiet);
+    const Clock::time_point start = Clock::now();
+    Clock::time_point last = start;
+    recorder_.record();
+    measure();
+    while (simulator_.frame() < frames_ && !interrupt.was_asked()) {
+        simulator_.advance_frame();
+        recorder_.record();
+        measure();
+        if (options_.checkpoint_every && simulator_.frame() % *options_.checkpoint_every == 0)
+            save_checkpoint();
+        const Clock::time_point now = Clock::now();
+        report_.frame_ms.push_back(std::chrono::duration<double, std::milli>(now - last).count());
+        last = now;
+        progress.update(simulator_.frame());
+    }
+    interrupted_ = simulator_.frame() < frames_;
+    look();
+    take_statistics(0);  // waits for the device, so that the time is the whole time
+    report_.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    if (!options_.checkpoint.empty() && saved_frame_ != simulator_.frame()) save_checkpoint();
+}
+
+void Run::introduce() const {
+    std::fprintf(stderr, "gelatin: %zu nodes, %zu springs, %zu faces; %d steps of %.4g s a frame; %s on %s\n",
+                 report_.counts.nodes, report_.counts.springs, report_.counts.faces, report_.substeps,
+                 report_.step_size, report_.backend.c_str(), report_.device.c_str());
+}
+
+// The statistics of a frame come while the next one is computed.
+void Run::measure() {
+    if (options_.stats.empty() && simulator_.frame() % kCheckInterval != 0) return;
+    look();
+    take_statistics(1);
+}
+
+void Run::look() {
+    if (seen_frame_ == simulator_.frame()) return;
+    simulator_.begin_statistics();
+    seen_frame_ = simulator_.frame();
+}
+
+void Run::take_statistics(std::size_t leave) {
+    while (simulator_.pending_statistics() > leave) {
+        FrameStatistics statistics = simulator_.take_statistics();
+        if (!options_.stats.empty()) report_.frames.push_back(std::move(statistics));
+    }
+}
+
+// Only a state that was looked at and found finite becomes a checkpoint.
+void Run::save_checkpoint() {
+    look();
+    take_statistics(0);
+    simulator_.save_checkpoint(options_.checkpoint);
+    saved_frame_ = simulator_.frame();
+}
+
+void Run::finish(bool diverged) {
+    recorder_.finish();
+    if (!options_.stats.empty()) {
+        report_.stage_ms = simulator_.take_stage_times();
+        write_file(options_.stats, to_json(report_));
+    }
+    if (!options_.quiet && !diverged) print_summary();
+}
+
+void Run::print_summary() const {
+    const Counts& counts = report_.counts;
+    const std::size_t frames = report_.frame_ms.size();
+    std::printf("%zu frames of %zu objects (%zu nodes, %zu springs) in %.2f s: %.1f frames/s on %s\n", frames,
+                counts.objects, counts.nodes, counts.springs, report_.seconds,
+                report_.seconds > 0.0 ? static_cast<double>(frames) / report_.seconds : 0.0,
+                report_.device.c_str());
+    const auto tell = [](const char* what, const std::filesystem::path& file) {
+        if (!file.empty()) std::printf("%s: %s\n", what, file.c_str());
+    };
+    tell("film", options_.video);
+    tell("picture", options_.image);
+    tell("frames", options_.export_folder);
+    tell("statistics", options_.stats);
+    if (saved_frame_) tell("checkpoint", options_.checkpoint);
+}
+
+void run(const RunOptions& options) {
+    Scene scene = load_scene(options.scene, options.overrides);
+    if (options.frames) scene.simulation.frames = *options.frames;
+    check_outputs(options);
+    Simulator simulator(scene, simulator_options(options));
+    if (!options.resume.empty()) {
+        simulator.load_checkpoint(options.resume);
+        if (simulator.frame() >= scene.simulation.frames) {
+            throw InvalidInput({options.resume.string(),
+                                0,
+                                {},
+                                {},
+                                fmt::format("is of frame {}, the run ends at {}: raise --frames",
+                                            simulator.frame(), scene.simulation.frames)});
+        }
+    }
+    Run(options, simulator).go();
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app) {
+    auto options = std::make_shared<RunOptions>();
+    CLI::App* command = app.add_subcommand("run", "Simulate a scene: film it, measure it, export it");
+    add_run_options(*command, *options);
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace gelatin

@@ -1,0 +1,139 @@
+#include "run_options.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "choice.h"
+#include "output_file.h"
+
+namespace gelatin {
+namespace {
+
+constexpr int kLeastSide = 16, kLargestSide = 8192;  // pixels; OpenGL 4.3 promises 16384
+constexpr double kFilmRate = 60.0;                   // pictures a second
+
+}  // namespace
+
+void add_run_options(CLI::App& command, RunOptions& options) {
+    command.add_option("SCENE", options.scene, "The scene file (TOML)")->required();
+    command
+        .add_option("--frames", options.frames, "Run to this frame instead of the scene's simulation.frames")
+        ->check(CLI::NonNegativeNumber);
+    command
+        .add_option("--set", options.overrides,
+                    "Set a value of the scene: simulation.solver=rk4, object.ball.scale=2")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->take_all();
+
+    const char* computing = "Computing";
+    command.add_option("--backend", options.backend, "auto, gl or cpu; auto is gl on a GPU")
+        ->capture_default_str()
+        ->group(computing);
+    command
+        .add_option("--device", options.device, "Index of the EGL device to use (gelatin info lists them)")
+        ->check(CLI::NonNegativeNumber)
+        ->group(computing);
+    command.add_flag("--gl-debug", options.gl_debug, "Ask the driver for messages and show them")
+        ->group(computing);
+
+    const char* outputs = "Outputs";
+    command.add_option("--stats", options.stats, "Write energies, contacts and times here")
+        ->type_name("FILE.json")
+        ->group(outputs);
+    command.add_option("--image", options.image, "Draw the last frame")
+        ->type_name("FILE.png")
+        ->group(outputs);
+    command.add_option("--video", options.video, "Film the run, in real time unless --every says otherwise")
+        ->type_name("FILE.mp4")
+        ->group(outputs);
+    command.add_option("--size", options.size, "Of the image and the film, in pixels")
+        ->type_name("WIDTHxHEIGHT")
+        ->capture_default_str()
+        ->group(outputs);
+    CLI::Option* folder =
+        command.add_option("--export", options.export_folder, "Write frames as meshes into this folder")
+            ->type_name("DIR")
+            ->group(outputs);
+    command.add_option("--format", options.export_format, "Of the exported frames: vtu, obj or ply")
+        ->capture_default_str()
+        ->needs(folder)
+        ->group(outputs);
+    command.add_option("--every", options.every, "Film and export every K-th frame")
+        ->type_name("K")
+        ->check(CLI::PositiveNumber)
+        ->group(outputs);
+    command.add_flag("--quiet", options.quiet, "No progress and no summary")->group(outputs);
+
+    const char* checkpoints = "Checkpoints";
+    CLI::Option* checkpoint =
+        command.add_option("--checkpoint", options.checkpoint, "Save the state here at the end")
+            ->type_name("FILE")
+            ->group(checkpoints);
+    command.add_option("--checkpoint-every", options.checkpoint_every, "Save it every N frames too")
+        ->type_name("N")
+        ->check(CLI::PositiveNumber)
+        ->needs(checkpoint)
+        ->group(checkpoints);
+    command.add_option("--resume", options.resume, "Go on from this checkpoint")
+        ->type_name("FILE")
+        ->group(checkpoints);
+}
+
+void check_outputs(const RunOptions& options) {
+    if (!options.stats.empty()) check_output_file("--stats", options.stats);
+    if (!options.image.empty()) check_output_file("--image", options.image, {".png"});
+    if (!options.video.empty()) check_output_file("--video", options.video, {".mp4"});
+    if (!options.checkpoint.empty()) check_output_file("--checkpoint", options.checkpoint);
+    export_format(options);
+    picture_size(options);
+    if (!options.export_folder.empty()) prepare_export_folder(options.export_folder);
+}
+
+SimulatorOptions simulator_options(const RunOptions& options) {
+    SimulatorOptions result;
+    result.backend =
+        choose<Backend>("--backend", options.backend,
+                        {{"auto", Backend::automatic}, {"gl", Backend::gl}, {"cpu", Backend::cpu}});
+    result.need_gl = options.draws();
+    result.gl_debug = options.gl_debug;
+    result.gl_device = options.device;
+    result.time_stages = !options.stats.empty();
+    return result;
+}
+
+ExportFormat export_format(const RunOptions& options) {
+    return choose<ExportFormat>(
+        "--format", options.export_format,
+        {{"vtu", ExportFormat::vtu}, {"obj", ExportFormat::obj}, {"ply", ExportFormat::ply}});
+}
+
+PictureSize picture_size(const RunOptions& options) {
+    PictureSize size{0, 0};
+    const char* begin = options.size.data();
+    const char* end = begin + options.size.size();
+    const auto [cross, width_status] = std::from_chars(begin, end, size.width);
+    const bool has_cross = width_status == std::errc() && cross != end && *cross == 'x';
+    if (has_cross && std::from_chars(cross + 1, end, size.height).ptr != end) size.height = 0;
+    const auto [least, largest] = std::minmax(size.width, size.height);
+    if (!has_cross || least < kLeastSide || largest > kLargestSide) {
+        throw InvalidInput(
+            {{},
+             0,
+             "--size",
+             options.size,
+             fmt::format("must be WIDTHxHEIGHT with sides from {} to {}", kLeastSide, kLargestSide)});
+    }
+    return size;
+}
+
+int record_interval(const RunOptions& options, double frame_rate) {
+    if (options.every) return *options.every;
+    return static_cast<int>(std::clamp(std::round(frame_rate / kFilmRate), 1.0, 1e9));
+}
+
+}  // namespace gelatin

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gelatin/simulator.h"
+#include "sim/export.h"
+
+namespace CLI {
+class App;
+}
+
+namespace gelatin {
+
+/// Pixels.
+struct PictureSize {
+    int width = 1280;
+    int height = 720;
+};
+
+/// What the user asked `gelatin run` for; empty paths are not wanted.
+struct RunOptions {
+    std::filesystem::path scene;
+    std::vector<std::string> overrides;  ///< --set
+    std::optional<int> frames;
+
+    std::string backend = "auto";
+    std::optional<int> device;
+    bool gl_debug = false;
+
+    std::filesystem::path stats, image, video, export_folder;
+    std::string export_format = "vtu";
+    std::optional<int> every;  ///< frames from one recorded frame to the next
+    std::string size = "1280x720";
+
+    std::filesystem::path checkpoint, resume;
+    std::optional<int> checkpoint_every;  ///< frames
+
+    bool quiet = false;
+
+    bool draws() const { return !image.empty() || !video.empty(); }
+};
+
+void add_run_options(CLI::App& command, RunOptions& options);
+
+/// Refuses, before anything is simulated, outputs that cannot be written; makes the export folder.
+/// @throws InvalidInput
+void check_outputs(const RunOptions& options);
+
+/// @throws InvalidInput for an unknown backend, as the others for theirs.
+SimulatorOptions simulator_options(const RunOptions& options);
+ExportFormat export_format(const RunOptions& options);
+PictureSize picture_size(const RunOptions& options);
+
+/// Frames from one recorded frame to the next: as asked, or so that a film in real time has about 60 pictures
+/// a second.
+int record_interval(const RunOptions& options, double frame_rate);
+
+}  // namespace gelatin

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "gelatin/simulator.h"
+#include "render/renderer.h"
+#include "run_options.h"
+
+namespace gelatin {
+
+/// Draws a simulator's bodies with its scene's floor, colliders and camera. The highest level plane is the
+/// floor.
+///
+/// Needs the simulator's context, which must outlive it.
+class ScenePainter {
+public:
+    /// Frames the picture for the present state where the scene has no camera.
+    ScenePainter(Simulator& simulator, const PictureSize& size);
+
+    /// Draws the present state.
+    void draw();
+
+    unsigned framebuffer() const { return renderer_.framebuffer(); }
+
+private:
+    Simulator& simulator_;
+    render::Renderer renderer_;
+    render::Camera camera_;
+};
+
+}  // namespace gelatin

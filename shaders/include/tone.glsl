@@ -1,0 +1,21 @@
+// From linear light to what a screen shows.
+
+// Reinhard et al. 2002, eq. 4: linear in the dark, 1 at kWhite.
+const float kWhite = 3.2;
+vec3 compress(vec3 light) { return light * (1.0 + light / (kWhite * kWhite)) / (1.0 + light); }
+
+// sRGB's transfer curve from three square roots, which are cheaper than pow; off by less than 0.0025 above 0.002.
+vec3 encode_srgb(vec3 linear) {
+    vec3 a = sqrt(linear);
+    vec3 b = sqrt(a);
+    vec3 c = sqrt(b);
+    return 0.585122381 * a + 0.783140355 * b - 0.368262736 * c;
+}
+
+vec3 to_display(vec3 light) { return clamp(encode_srgb(compress(max(light, vec3(0.0)))), 0.0, 1.0); }
+
+// Up to half a step of 8 bits, so that slow gradients show no bands (interleaved gradient noise, Jimenez 2014).
+float dither() {
+    float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+    return (noise - 0.5) / 255.0;
+}

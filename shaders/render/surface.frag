@@ -1,0 +1,18 @@
+// Bodies and colliders.
+#include "include/tone.glsl"
+
+layout(location = 0) out vec4 pixel;
+
+#ifdef LIGHT_AT_NODES
+in vec3 light;
+
+void main() { pixel = vec4(to_display(light), 1.0); }
+#else
+#include "include/light.glsl"
+
+in vec3 position;
+in vec3 normal;
+flat in vec3 albedo;
+
+void main() { pixel = vec4(to_display(light_surface(position, normalize(normal), albedo)), 1.0); }
+#endif

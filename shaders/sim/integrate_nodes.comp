@@ -1,0 +1,13 @@
+// The paper's way, third kernel (3.3): each node moves by the forces that were merged for it.
+// CPU twin: gelatin::cpu::integrate_nodes. Parity: tests/gpu/divide_and_merge_test.cpp.
+#include "include/global_index.glsl"
+#include "include/integrate_node.glsl"
+layout(local_size_x = 64) in;
+
+layout(std430, binding = 4) readonly buffer NodeForces { vec4 node_forces[]; };  // [N]
+
+void main() {
+    uint n = global_index();
+    if (n >= node_count) return;
+    integrate_node(n, texelFetch(velocities, int(n)), node_forces[n].xyz);
+}

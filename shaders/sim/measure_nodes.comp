@@ -1,0 +1,73 @@
+// Sums over nodes, one work group a chunk; the host adds the chunks up in double precision.
+// Pinned nodes (inverse mass 0) count for contacts and springs alone. CPU twin: gelatin::cpu::measure.
+// Parity: tests/gpu/measure_test.cpp.
+#include "include/colliders.glsl"
+#include "include/global_index.glsl"
+#include "layouts/chunk.glsl"
+layout(local_size_x = 64) in;
+
+layout(binding = 0) uniform samplerBuffer positions;   // xyz [m], inverse mass [1/kg]
+layout(binding = 1) uniform samplerBuffer velocities;  // xyz [m/s]
+layout(binding = 4) uniform usamplerBuffer half_springs;
+layout(binding = 5) uniform samplerBuffer stiffnesses;
+layout(binding = 6) uniform usamplerBuffer slice_starts;
+layout(std430, binding = 0) readonly buffer Chunks { Chunk chunks[]; };
+layout(std430, binding = 1) writeonly buffer Sums { NodeSums node_sums[]; };
+uniform uint chunk_count;
+uniform vec3 gravity;            // [m/s^2]
+uniform float contact_distance;  // [m]
+
+shared NodeSums parts[64];
+
+float half_energy(vec3 a, uint other, float rest_length, float stiffness) {
+    float stretch = distance(a, texelFetch(positions, int(other)).xyz) - rest_length;
+    return 0.25 * stiffness * stretch * stretch;
+}
+
+float half_spring_energy(uint n, vec3 position) {
+    float energy = 0.0;
+    uint end = texelFetch(slice_starts, int(n / 64u) + 1).x;
+    for (uint p = texelFetch(slice_starts, int(n / 64u)).x + n % 64u; p < end; p += 64u) {
+        uvec4 pair = texelFetch(half_springs, int(p));
+        vec2 stiffness = texelFetch(stiffnesses, int(p)).xy;
+        energy += half_energy(position, pair.x, uintBitsToFloat(pair.y), stiffness.x);
+        energy += half_energy(position, pair.z, uintBitsToFloat(pair.w), stiffness.y);
+    }
+    return energy;
+}
+
+NodeSums measure_node(uint n) {
+    vec4 position = texelFetch(positions, int(n));
+    vec3 velocity = texelFetch(velocities, int(n)).xyz;
+    float mass = position.w > 0.0 ? 1.0 / position.w : 0.0;
+    float deepest = 0.0;
+    bool touches = false;
+    for (uint c = 0u; c < collider_count; ++c) {
+        float outside = surface_distance(colliders[c], position.xyz).w;
+        deepest = max(deepest, -outside);
+        touches = touches || outside < contact_distance;
+    }
+    vec3 momentum = mass * velocity;
+    return NodeSums(momentum.x, momentum.y, momentum.z, 0.5 * dot(momentum, velocity),
+                    half_spring_energy(n, position.xyz), -mass * dot(gravity, position.xyz), deepest, uint(touches));
+}
+
+NodeSums add(NodeSums a, NodeSums b) {
+    return NodeSums(a.momentum_x + b.momentum_x, a.momentum_y + b.momentum_y, a.momentum_z + b.momentum_z,
+                    a.kinetic_energy + b.kinetic_energy, a.elastic_energy + b.elastic_energy,
+                    a.potential_energy + b.potential_energy, max(a.deepest, b.deepest), a.contacts + b.contacts);
+}
+
+void main() {
+    uint group = group_index();
+    if (group >= chunk_count) return;  // the whole group leaves, so no one waits at the barrier
+    Chunk chunk = chunks[group];
+    uint lane = gl_LocalInvocationID.x;
+    NodeSums sums = NodeSums(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0u);
+    for (uint k = lane; k < chunk.count; k += 64u) sums = add(sums, measure_node(chunk.first + k));
+    parts[lane] = sums;
+    barrier();
+    if (lane != 0u) return;
+    for (uint l = 1u; l < 64u; ++l) sums = add(sums, parts[l]);
+    node_sums[group] = sums;
+}

@@ -1,0 +1,147 @@
+// Eight nodes at a time, one a lane; compiled once for each instruction set and chosen at run time by Highway.
+// The lanes are neighbours in a slice of HalfSprings, so springs are read in order and only the other ends are
+// gathered: as rows (one 16-byte load a node) that are turned into columns in registers.
+#include "cpu/advance_nodes.h"
+
+#include "cpu/gather_forces.h"
+#include "cpu/integrate_node.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "cpu/advance_nodes_simd.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace gelatin::cpu::HWY_NAMESPACE {
+#if HWY_TARGET == HWY_SCALAR
+
+// Below SSSE3 there is nothing to gain.
+void advance_slices(const Pass<float>& pass, Range slices) { advance_nodes<float>(pass, slices); }
+
+#else
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Lanes = hn::CappedTag<float, 8>;
+using Vector = hn::Vec<Lanes>;
+constexpr std::size_t kLanes = hn::MaxLanes(Lanes());
+static_assert(kLanes == 4 || kLanes == 8);
+
+struct Columns {
+    Vector x, y, z, w;
+};
+
+// Rows of four floats, one a lane, turned into columns; `row(lane)` points at a row.
+template <class D, class Row>
+HWY_INLINE Columns load_columns(D d, const Row& row) {
+    Vector a, b, c, e;
+    if constexpr (kLanes == 8) {
+        const hn::Half<D> half;
+        a = hn::Combine(d, hn::LoadU(half, row(4)), hn::LoadU(half, row(0)));
+        b = hn::Combine(d, hn::LoadU(half, row(5)), hn::LoadU(half, row(1)));
+        c = hn::Combine(d, hn::LoadU(half, row(6)), hn::LoadU(half, row(2)));
+        e = hn::Combine(d, hn::LoadU(half, row(7)), hn::LoadU(half, row(3)));
+    } else {
+        a = hn::LoadU(d, row(0));
+        b = hn::LoadU(d, row(1));
+        c = hn::LoadU(d, row(2));
+        e = hn::LoadU(d, row(3));
+    }
+    const Vector ac_low = hn::InterleaveLower(d, a, c), be_low = hn::InterleaveLower(d, b, e);
+    const Vector ac_high = hn::InterleaveUpper(d, a, c), be_high = hn::InterleaveUpper(d, b, e);
+    return {hn::InterleaveLower(d, ac_low, be_low), hn::InterleaveUpper(d, ac_low, be_low),
+            hn::InterleaveLower(d, ac_high, be_high), hn::InterleaveUpper(d, ac_high, be_high)};
+}
+
+struct Node {
+    Columns position, velocity;
+};
+
+struct Force {
+    Vector x, y, z;
+};
+
+// cpu::spring_force for a lane each, added to `force`.
+HWY_INLINE void add_spring_force(Lanes d, const Node& a, const Node& b, Vector rest_length, Vector stiffness,
+                                 Force& force) {
+    const Vector dx = hn::Sub(b.position.x, a.position.x);
+    const Vector dy = hn::Sub(b.position.y, a.position.y);
+    const Vector dz = hn::Sub(b.position.z, a.position.z);
+    const Vector squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
+    const Vector length = hn::Sqrt(hn::Max(squared, hn::Set(d, 1e-30f)));
+    const Vector inverse_length = hn::Div(hn::Set(d, 1.0f), length);
+
+    const Vector vx = hn::Sub(b.velocity.x, a.velocity.x);
+    const Vector vy = hn::Sub(b.velocity.y, a.velocity.y);
+    const Vector vz = hn::Sub(b.velocity.z, a.velocity.z);
+    const Vector rate = hn::Mul(hn::MulAdd(dx, vx, hn::MulAdd(dy, vy, hn::Mul(dz, vz))), inverse_length);
+    const Vector damping_time = hn::Mul(hn::Set(d, 0.5f), hn::Add(a.velocity.w, b.velocity.w));
+
+    const Vector stretch = hn::MulAdd(damping_time, rate, hn::Sub(length, rest_length));
+    const Vector scale = hn::Mul(hn::Mul(stiffness, stretch), inverse_length);
+    force.x = hn::MulAdd(scale, dx, force.x);
+    force.y = hn::MulAdd(scale, dy, force.y);
+    force.z = hn::MulAdd(scale, dz, force.z);
+}
+
+// Forces on the nodes first .. first + kLanes.
+HWY_INLINE Force gather_lanes(Lanes d, const Pass<float>& pass, std::uint32_t first) {
+    constexpr std::uint32_t kSlice = HalfSprings::kSlice;
+    const float* positions = &pass.positions[0].x;
+    const float* velocities = &pass.velocities[0].x;
+    const auto load_node = [&](const auto& index) HWY_ATTR {
+        return Node{load_columns(d, [&](std::size_t l) { return positions + 4 * std::size_t(index(l)); }),
+                    load_columns(d, [&](std::size_t l) { return velocities + 4 * std::size_t(index(l)); })};
+    };
+    const Node self = load_node([&](std::size_t l) { return first + l; });
+    const HalfSprings& springs = pass.model.half_springs;
+    Force force{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    const std::uint32_t end = springs.slice_starts[first / kSlice + 1];
+    for (std::uint32_t p = springs.slice_starts[first / kSlice] + first % kSlice; p < end; p += kSlice) {
+        const HalfSpringPair* pairs = &springs.pairs[p];
+        const Columns columns =
+            load_columns(d, [&](std::size_t l) { return reinterpret_cast<const float*>(pairs + l); });
+        Vector stiffness_0, stiffness_1;
+        hn::LoadInterleaved2(d, &springs.stiffness[p].x, stiffness_0, stiffness_1);
+        const Node other_0 = load_node([&](std::size_t l) { return pairs[l].node_0; });
+        add_spring_force(d, self, other_0, columns.y, stiffness_0, force);
+        const Node other_1 = load_node([&](std::size_t l) { return pairs[l].node_1; });
+        add_spring_force(d, self, other_1, columns.w, stiffness_1, force);
+    }
+    return force;
+}
+
+void advance_slices(const Pass<float>& pass, Range slices) {
+    const Lanes d;
+    const std::uint32_t end = std::min(slices.end() * HalfSprings::kSlice, pass.model.node_count());
+    std::uint32_t n = slices.first * HalfSprings::kSlice;
+    for (; n + kLanes <= end; n += kLanes) {
+        const Force force = gather_lanes(d, pass, n);
+        HWY_ALIGN float x[kLanes], y[kLanes], z[kLanes];
+        hn::Store(force.x, d, x);
+        hn::Store(force.y, d, y);
+        hn::Store(force.z, d, z);
+        for (std::uint32_t l = 0; l < kLanes; ++l) integrate_node(pass, n + l, {x[l], y[l], z[l]});
+    }
+    for (; n < end; ++n) integrate_node(pass, n, gather_forces(pass, n));
+}
+
+#endif
+
+const char* target_name() { return hwy::TargetName(HWY_TARGET); }
+
+}  // namespace gelatin::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gelatin::cpu {
+
+HWY_EXPORT(advance_slices);
+HWY_EXPORT(target_name);
+
+void advance_nodes_simd(const Pass<float>& pass, Range slices) { HWY_DYNAMIC_DISPATCH(advance_slices)(pass, slices); }
+
+const char* simd_target() { return HWY_DYNAMIC_DISPATCH(target_name)(); }
+
+}  // namespace gelatin::cpu
+#endif

@@ -1,0 +1,111 @@
+#include "cpu/cpu_solver.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+
+#include <type_traits>
+#include <utility>
+
+#include "cpu/measure.h"
+
+namespace gelatin::cpu {
+namespace {
+
+// Cuts [0, count) into ranges for the threads; what a range computes never depends on the cuts.
+template <class Work>
+void for_ranges(std::uint32_t count, std::uint32_t grain, const Work& work) {
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, grain), [&](const auto& range) {
+        work(Range{range.begin(), range.end() - range.begin()});
+    });
+}
+
+constexpr std::uint32_t kSlicesATask = 8;
+constexpr std::uint32_t kElementsATask = 2048;
+
+template <class Real>
+std::vector<Vec4<Real>> converted(const std::vector<glm::vec4>& values) {
+    return {values.begin(), values.end()};
+}
+
+}  // namespace
+
+template <class Real>
+CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces)
+    : model_(std::move(model)), scheme_(explicit_scheme(solver)), forces_(forces) {
+    current_ = {converted<Real>(model_->positions), converted<Real>(model_->velocities)};
+    previous_ = current_;
+    if (scheme_.pass_count > 1) sums_ = stage_[0] = stage_[1] = current_;
+    if (forces_ == ForceMethod::divide_and_merge) {
+        spring_forces_.resize(model_->springs.size());
+        node_forces_.resize(model_->node_count());
+    }
+}
+
+template <class Real>
+void CpuSolver<Real>::advance_nodes(double step) {
+    const Nodes<Real>* from = &current_;
+    for (int p = 0; p < scheme_.pass_count; ++p) {
+        Nodes<Real>& to = p + 1 == scheme_.pass_count ? previous_ : stage_[p % 2];
+        run_pass(make_pass(*model_, scheme_, p, step, current_, *from, to, sums_));
+        from = &to;
+    }
+    std::swap(current_, previous_);
+}
+
+template <class Real>
+void CpuSolver<Real>::run_pass(const Pass<Real>& pass) {
+    const std::uint32_t nodes = model_->node_count();
+    if (forces_ == ForceMethod::fused) {
+        const auto slices = static_cast<std::uint32_t>(model_->half_springs.slice_starts.size() - 1);
+        for_ranges(slices, kSlicesATask, [&](Range range) {
+            if constexpr (std::is_same_v<Real, float>) {
+                advance_nodes_simd(pass, range);
+            } else {
+                cpu::advance_nodes(pass, range);
+            }
+        });
+        return;
+    }
+    for_ranges(static_cast<std::uint32_t>(model_->springs.size()), kElementsATask,
+               [&](Range range) { write_spring_forces<Real>(pass, spring_forces_, range); });
+    for_ranges(nodes, kElementsATask,
+               [&](Range range) { merge_spring_forces<Real>(*model_, spring_forces_, node_forces_, range); });
+    for_ranges(nodes, kElementsATask, [&](Range range) { integrate_nodes<Real>(pass, node_forces_, range); });
+}
+
+template <class Real>
+void CpuSolver<Real>::begin_measure() {
+    measures_.push_back(measure(*model_, current_));
+}
+
+template <class Real>
+std::vector<ObjectMeasure> CpuSolver<Real>::end_measure() {
+    std::vector<ObjectMeasure> oldest = std::move(measures_.front());
+    measures_.pop_front();
+    return oldest;
+}
+
+template <class Real>
+State CpuSolver<Real>::read_state() const {
+    return {{current_.positions.begin(), current_.positions.end()},
+            {current_.velocities.begin(), current_.velocities.end()}};
+}
+
+template <class Real>
+void CpuSolver<Real>::write_state(const State& state) {
+    current_ = {converted<Real>(state.positions), converted<Real>(state.velocities)};
+    previous_ = current_;
+}
+
+template <class Real>
+std::string CpuSolver<Real>::device() const {
+    return fmt::format("CPU, {} threads, {}", tbb::info::default_concurrency(),
+                       std::is_same_v<Real, float> ? simd_target() : "double");
+}
+
+template class CpuSolver<float>;
+template class CpuSolver<double>;
+
+}  // namespace gelatin::cpu

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+
+#include "cpu/advance_nodes.h"
+#include "cpu/nodes.h"
+#include "model/solver.h"
+
+namespace gelatin::cpu {
+
+/// The solver on the processor. `double` is the oracle that every kernel is held against; `float`, with SIMD and all
+/// cores, is the product's CPU backend. The same bits for any number of threads.
+template <class Real>
+class CpuSolver : public Solver {
+public:
+    CpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces);
+
+    void advance_nodes(double step) override;
+    void begin_measure() override;
+    std::vector<ObjectMeasure> end_measure() override;
+    State read_state() const override;
+    void write_state(const State& state) override;
+    StageTimer& stage_timer() override { return timer_; }
+    std::string device() const override;
+
+    /// The nodes in full precision.
+    const Nodes<Real>& nodes() const { return current_; }
+
+private:
+    void run_pass(const Pass<Real>& pass);
+
+    std::shared_ptr<const Model> model_;
+    ExplicitScheme scheme_;
+    ForceMethod forces_;
+    Nodes<Real> current_, previous_;  // swapped by each step: what was written last is current
+    Nodes<Real> stage_[2];            // between the passes of one step
+    Nodes<Real> sums_;
+    std::vector<Vec4<Real>> spring_forces_, node_forces_;
+    std::deque<std::vector<ObjectMeasure>> measures_;
+    HostStageTimer timer_;
+};
+
+}  // namespace gelatin::cpu

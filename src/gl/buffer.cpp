@@ -1,0 +1,115 @@
+#include "gl/buffer.h"
+
+#include <epoxy/gl.h>
+
+#include <string>
+
+#include "gelatin/error.h"
+#include "gl/debug.h"
+
+namespace gelatin::gl {
+namespace {
+
+struct TexelLayout {
+    GLenum internal_format;
+    std::size_t bytes;
+};
+
+TexelLayout layout_of(TexelFormat format) {
+    switch (format) {
+        case TexelFormat::r32ui:
+            return {GL_R32UI, 4};
+        case TexelFormat::rg32ui:
+            return {GL_RG32UI, 8};
+        case TexelFormat::rgba32ui:
+            return {GL_RGBA32UI, 16};
+        case TexelFormat::r32f:
+            return {GL_R32F, 4};
+        case TexelFormat::rg32f:
+            return {GL_RG32F, 8};
+        case TexelFormat::rgba32f:
+            break;
+    }
+    return {GL_RGBA32F, 16};
+}
+
+}  // namespace
+
+RawBuffer::RawBuffer(std::size_t bytes, const void* data) : bytes_(bytes) {
+    if (bytes == 0) return;
+    GLint64 limit = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
+    if (bytes > static_cast<std::size_t>(limit)) {
+        throw GlError("a buffer of " + std::to_string(bytes) + " bytes is more than this driver's limit of " +
+                      std::to_string(limit) + " bytes a storage block (GL_MAX_SHADER_STORAGE_BLOCK_SIZE)");
+    }
+    check_errors("before a buffer's allocation");
+    glGenBuffers(1, &id_);
+    glBindBuffer(GL_COPY_WRITE_BUFFER, id_);
+    glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_DYNAMIC_COPY);
+    if (glGetError() != GL_NO_ERROR) {
+        glDeleteBuffers(1, &id_);
+        throw GlError("the driver has no memory for a buffer of " + std::to_string(bytes) + " bytes");
+    }
+}
+
+RawBuffer& RawBuffer::operator=(RawBuffer&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(bytes_, other.bytes_);
+    RawBuffer old(std::move(other));  // frees what this one held now, not when `other` ends
+    return *this;
+}
+
+RawBuffer::~RawBuffer() {
+    if (id_ != 0) glDeleteBuffers(1, &id_);
+}
+
+void RawBuffer::upload(std::size_t offset, std::size_t bytes, const void* data) {
+    if (bytes == 0) return;
+    glBindBuffer(GL_COPY_WRITE_BUFFER, id_);
+    glBufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
+                    data);
+}
+
+void RawBuffer::download(std::size_t offset, std::size_t bytes, void* out) const {
+    if (bytes == 0) return;
+    glBindBuffer(GL_COPY_READ_BUFFER, id_);
+    glGetBufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
+                       out);
+}
+
+void RawBuffer::bind_storage(unsigned index) const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, index, id_);
+}
+
+BufferTexture::BufferTexture(unsigned buffer, std::size_t bytes, TexelFormat format) {
+    const TexelLayout layout = layout_of(format);
+    GLint limit = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
+    const std::size_t texels = bytes / layout.bytes;
+    if (texels > static_cast<std::size_t>(limit)) {
+        throw GlError("a buffer of " + std::to_string(texels) +
+                      " texels is more than this driver's limit of " + std::to_string(limit) +
+                      " (GL_MAX_TEXTURE_BUFFER_SIZE)");
+    }
+    glGenTextures(1, &id_);
+    glBindTexture(GL_TEXTURE_BUFFER, id_);
+    glTexBuffer(GL_TEXTURE_BUFFER, layout.internal_format, buffer);
+}
+
+BufferTexture& BufferTexture::operator=(BufferTexture&& other) noexcept {
+    std::swap(id_, other.id_);
+    BufferTexture old(std::move(other));
+    return *this;
+}
+
+BufferTexture::~BufferTexture() {
+    if (id_ != 0) glDeleteTextures(1, &id_);
+}
+
+void BufferTexture::bind(unsigned unit) const {
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(GL_TEXTURE_BUFFER, id_);
+}
+
+}  // namespace gelatin::gl

@@ -1,0 +1,60 @@
+#include "gpu/gpu_solver.h"
+
+#include <utility>
+
+namespace gelatin::gpu {
+
+GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces, std::string device)
+    : model_(std::move(model)),
+      device_(std::move(device)),
+      scheme_(explicit_scheme(solver)),
+      buffers_(*model_),
+      current_(model_->positions, model_->velocities),
+      previous_(model_->positions, model_->velocities),
+      measure_(*model_) {
+    if (scheme_.pass_count > 1) {
+        for (NodeBuffers* nodes : {&stage_[0], &stage_[1], &sums_}) {
+            *nodes = NodeBuffers(model_->positions, model_->velocities);
+        }
+    }
+    if (forces == ForceMethod::fused) {
+        fused_.emplace(scheme_);
+    } else {
+        divide_and_merge_.emplace(*model_, scheme_);
+    }
+}
+
+void GpuSolver::advance_nodes(double step) {
+    const NodeBuffers* from = &current_;
+    for (int p = 0; p < scheme_.pass_count; ++p) {
+        NodeBuffers& to = p + 1 == scheme_.pass_count ? previous_ : stage_[p % 2];
+        const Pass pass{scheme_, p, step, current_, *from, to, sums_};
+        if (fused_) {
+            fused_->run(buffers_, pass);
+        } else {
+            divide_and_merge_->run(buffers_, pass);
+        }
+        from = &to;
+    }
+    std::swap(current_, previous_);
+}
+
+State GpuSolver::read_state() const {
+    gl::barrier(gl::Barrier::buffer_update);
+    State state;
+    state.positions.resize(model_->positions.size());
+    state.velocities.resize(model_->velocities.size());
+    current_.positions.download(state.positions);
+    current_.velocities.download(state.velocities);
+    return state;
+}
+
+void GpuSolver::write_state(const State& state) {
+    gl::barrier(gl::Barrier::buffer_update);
+    for (NodeBuffers* nodes : {&current_, &previous_}) {
+        nodes->positions.upload(state.positions);
+        nodes->velocities.upload(state.velocities);
+    }
+}
+
+}  // namespace gelatin::gpu

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "gl/timer.h"
+#include "gpu/advance_nodes.h"
+#include "gpu/divide_and_merge.h"
+#include "gpu/measure.h"
+#include "gpu/model_buffers.h"
+#include "gpu/node_buffers.h"
+#include "model/solver.h"
+
+namespace gelatin::gpu {
+
+/// The solver in OpenGL compute shaders. Needs the context it was made in to be current.
+class GpuSolver : public Solver {
+public:
+    GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces, std::string device);
+
+    void advance_nodes(double step) override;
+    void begin_measure() override { measure_.begin(buffers_, current_); }
+    std::vector<ObjectMeasure> end_measure() override { return measure_.end(); }
+    State read_state() const override;
+    void write_state(const State& state) override;
+    StageTimer& stage_timer() override { return timer_; }
+    std::string device() const override { return device_; }
+
+    /// Where the nodes are now; another buffer after each step.
+    const NodeBuffers& nodes() const { return current_; }
+
+private:
+    std::shared_ptr<const Model> model_;
+    std::string device_;
+    ExplicitScheme scheme_;
+    ModelBuffers buffers_;
+    NodeBuffers current_, previous_;  // swapped by each step: what was written last is current
+    NodeBuffers stage_[2], sums_;     // between the passes of one step
+    std::optional<AdvanceNodes> fused_;
+    std::optional<DivideAndMerge> divide_and_merge_;
+    Measure measure_;
+    gl::TimestampStageTimer timer_;
+};
+
+}  // namespace gelatin::gpu

@@ -1,0 +1,38 @@
+#include "gpu/integration.h"
+
+#include <glm/geometric.hpp>
+
+namespace gelatin::gpu {
+
+gl::Defines integration_defines(const ExplicitScheme& scheme) {
+    return scheme.pass_count > 1 ? gl::Defines{"MULTI_PASS"} : gl::Defines{};
+}
+
+void bind_integration(const gl::Program& program, const ModelBuffers& model, const Pass& pass) {
+    pass.base.position_texels.bind(0);
+    pass.base.velocity_texels.bind(1);
+    pass.at.position_texels.bind(2);
+    pass.at.velocity_texels.bind(3);
+    pass.out.positions.bind_storage(0);
+    pass.out.velocities.bind_storage(1);
+    model.colliders.bind_storage(7);
+
+    const auto h = static_cast<float>(pass.step);
+    if (pass.scheme.pass_count > 1) {
+        pass.sums.positions.bind_storage(2);
+        pass.sums.velocities.bind_storage(3);
+        const ExplicitScheme::Pass& weights = pass.scheme.passes[static_cast<std::size_t>(pass.index)];
+        program.set("weight", static_cast<float>(weights.weight));
+        program.set("next_step", h * static_cast<float>(weights.next));
+        program.set("is_first", pass.index == 0 ? 1u : 0u);
+        program.set("is_last", pass.is_last() ? 1u : 0u);
+    }
+    program.set("node_count", model.node_count);
+    program.set("collider_count", model.collider_count);
+    program.set("time_step", h);
+    program.set("semi_implicit", pass.scheme.semi_implicit ? 1u : 0u);
+    program.set("gravity", model.gravity);
+    program.set("resting_speed", 2.0f * h * glm::length(model.gravity));
+}
+
+}  // namespace gelatin::gpu

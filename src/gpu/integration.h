@@ -1,0 +1,29 @@
+#pragma once
+
+#include "gl/program.h"
+#include "gpu/model_buffers.h"
+#include "gpu/node_buffers.h"
+#include "model/explicit_scheme.h"
+
+namespace gelatin::gpu {
+
+/// What one pass of an explicit scheme reads and writes on the GPU (cpu::Pass is its twin).
+struct Pass {
+    const ExplicitScheme& scheme;
+    int index;
+    double step;  ///< h [s]
+    const NodeBuffers& base;  ///< at the step's start
+    const NodeBuffers& at;    ///< where forces are evaluated
+    NodeBuffers& out;
+    NodeBuffers& sums;        ///< empty for schemes of one pass
+
+    bool is_last() const { return index + 1 == scheme.pass_count; }
+};
+
+/// Defines for a shader that includes include/integrate_node.glsl.
+gl::Defines integration_defines(const ExplicitScheme& scheme);
+
+/// Binds and sets what include/integrate_node.glsl reads and writes.
+void bind_integration(const gl::Program& program, const ModelBuffers& model, const Pass& pass);
+
+}  // namespace gelatin::gpu

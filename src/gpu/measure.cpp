@@ -1,0 +1,86 @@
+#include "gpu/measure.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace gelatin::gpu {
+namespace {
+
+constexpr std::uint32_t kChunk = 256;
+
+std::vector<Chunk> make_chunks(const Model& model, Range ModelObject::* range) {
+    std::vector<Chunk> chunks;
+    for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
+        const Range all = model.objects[o].*range;
+        for (std::uint32_t first = all.first; first < all.end(); first += kChunk) {
+            chunks.push_back({o, first, std::min(kChunk, all.end() - first), model.objects[o].nodes.first});
+        }
+    }
+    return chunks;
+}
+
+template <class T>
+std::vector<T> read_as(const std::vector<std::byte>& bytes) {
+    std::vector<T> values(bytes.size() / sizeof(T));
+    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+    return values;
+}
+
+}  // namespace
+
+Measure::Measure(const Model& model)
+    : node_program_(gl::Program::compute("sim/measure_nodes.comp")),
+      face_program_(gl::Program::compute("sim/measure_faces.comp")),
+      node_chunks_(make_chunks(model, &ModelObject::nodes)),
+      face_chunks_(make_chunks(model, &ModelObject::faces)),
+      node_chunk_buffer_(std::span<const Chunk>(node_chunks_)),
+      face_chunk_buffer_(std::span<const Chunk>(face_chunks_)),
+      faces_(std::span(model.faces)),
+      node_sums_(node_chunks_.size()),
+      volumes_(face_chunks_.size()),
+      object_count_(model.objects.size()) {}
+
+void Measure::begin(const ModelBuffers& model, const NodeBuffers& nodes) {
+    nodes.position_texels.bind(0);
+    nodes.velocity_texels.bind(1);
+    model.bind_half_springs();
+    model.colliders.bind_storage(7);
+    node_chunk_buffer_.bind_storage(0);
+    node_sums_.bind_storage(1);
+    node_program_.set("chunk_count", static_cast<std::uint32_t>(node_chunks_.size()));
+    node_program_.set("collider_count", model.collider_count);
+    node_program_.set("gravity", model.gravity);
+    node_program_.set("contact_distance", static_cast<float>(kContactDistance));
+    node_program_.dispatch(64 * node_chunks_.size());
+
+    face_chunk_buffer_.bind_storage(0);
+    volumes_.bind_storage(1);
+    faces_.bind_storage(2);
+    face_program_.set("chunk_count", static_cast<std::uint32_t>(face_chunks_.size()));
+    face_program_.dispatch(64 * face_chunks_.size());
+
+    gl::barrier(gl::Barrier::buffer_update);
+    readback_.begin(node_sums_.id(), node_sums_.size() * sizeof(NodeSums));
+    readback_.begin(volumes_.id(), volumes_.size() * sizeof(float));
+}
+
+std::vector<ObjectMeasure> Measure::end() {
+    const auto sums = read_as<NodeSums>(readback_.take());
+    const auto volumes = read_as<float>(readback_.take());
+    std::vector<ObjectMeasure> objects(object_count_);
+    for (std::size_t c = 0; c < sums.size(); ++c) {
+        ObjectMeasure& object = objects[node_chunks_[c].object];
+        object.momentum += glm::dvec3(sums[c].momentum_x, sums[c].momentum_y, sums[c].momentum_z);
+        object.kinetic_energy += static_cast<double>(sums[c].kinetic_energy);
+        object.elastic_energy += static_cast<double>(sums[c].elastic_energy);
+        object.potential_energy += static_cast<double>(sums[c].potential_energy);
+        object.deepest_penetration = std::max(object.deepest_penetration, static_cast<double>(sums[c].deepest));
+        object.contacts += sums[c].contacts;
+    }
+    for (std::size_t c = 0; c < volumes.size(); ++c) {
+        objects[face_chunks_[c].object].volume += static_cast<double>(volumes[c]);
+    }
+    return objects;
+}
+
+}  // namespace gelatin::gpu

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include "gl/buffer.h"
+#include "model/model.h"
+
+namespace gelatin::gpu {
+
+/// The immutable parts of a model that the solver's kernels read, on the GPU.
+struct ModelBuffers {
+    gl::Buffer<HalfSpringPair> half_springs;
+    gl::Buffer<glm::vec2> stiffnesses;         ///< of the pairs [N/m]
+    gl::Buffer<std::uint32_t> slice_starts;
+    gl::BufferTexture half_spring_texels, stiffness_texels, slice_start_texels;
+    gl::Buffer<Collider> colliders;            ///< empty if there are none
+    std::uint32_t node_count = 0;
+    std::uint32_t collider_count = 0;
+    glm::vec3 gravity{0.0f};                   ///< [m/s^2]
+
+    explicit ModelBuffers(const Model& model);
+
+    /// Binds the half springs to texture units 4 to 6, where the kernels look for them.
+    void bind_half_springs() const;
+};
+
+}  // namespace gelatin::gpu

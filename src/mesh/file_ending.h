@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace gelatin {
+
+/// ".obj" of "Bunny.OBJ".
+inline std::string lower_case_ending(const std::filesystem::path& file) {
+    std::string ending = file.extension().string();
+    for (char& c : ending) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return ending;
+}
+
+}  // namespace gelatin

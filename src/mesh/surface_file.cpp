@@ -1,0 +1,171 @@
+#include "mesh/surface_file.h"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <numeric>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "core/file.h"
+#include "gelatin/error.h"
+#include "mesh/file_ending.h"
+#include "mesh/surface_check.h"
+#include "mesh/surface_repair.h"
+
+namespace gelatin {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Assimp takes comments and blank lines between the rows of an OFF file for rows.
+std::string without_comments(const std::string& content) {
+    std::string rows;
+    for (std::size_t begin = 0; begin < content.size();) {
+        const std::size_t end = std::min(content.find('\n', begin), content.size());
+        const std::string_view line = std::string_view(content).substr(begin, end - begin);
+        const std::string_view row = line.substr(0, line.find('#'));
+        if (row.find_first_not_of(" \t\r\v\f") != std::string_view::npos) rows.append(row).append("\n");
+        begin = end + 1;
+    }
+    return rows;
+}
+
+void append_part(const fs::path& file, const aiMesh& part, SurfaceMesh& mesh) {
+    const std::size_t first = mesh.positions.size();
+    for (unsigned int v = 0; v < part.mNumVertices; ++v) {
+        const aiVector3D& p = part.mVertices[v];
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+            throw InvalidInput({file.string(), 0,
+                                fmt::format("vertex {} of part '{}'", v + 1, part.mName.C_Str()),
+                                fmt::format("({}, {}, {})", p.x, p.y, p.z), "coordinates must be finite"});
+        }
+        mesh.positions.emplace_back(p.x, p.y, p.z);
+    }
+    for (unsigned int f = 0; f < part.mNumFaces; ++f) {
+        const aiFace& face = part.mFaces[f];
+        if (face.mNumIndices != 3) continue;  // points and lines
+        glm::uvec3 corners;
+        for (int corner = 0; corner < 3; ++corner) {
+            if (face.mIndices[corner] >= part.mNumVertices) {
+                throw InvalidInput({file.string(),
+                                    0,
+                                    fmt::format("face {}", f + 1),
+                                    {},
+                                    "names a vertex that is not there"});
+            }
+            corners[corner] = static_cast<std::uint32_t>(first + face.mIndices[corner]);
+        }
+        mesh.faces.push_back(corners);
+    }
+}
+
+SurfaceMesh import(const fs::path& file, const std::string& ending, const std::string& content) {
+    Assimp::Importer importer;
+    const aiScene* scene = nullptr;
+    std::string reason;
+    try {
+        // Validation first: triangulation trusts the indices.
+        scene = importer.ReadFileFromMemory(content.data(), content.size(),
+                                            aiProcess_ValidateDataStructure | aiProcess_Triangulate,
+                                            ending.c_str() + 1);
+        reason = importer.GetErrorString();
+    } catch (const std::exception& error) {
+        reason = error.what();
+    }
+    if (scene == nullptr) throw InvalidInput({file.string(), 0, {}, {}, "cannot be read: " + reason});
+    SurfaceMesh mesh;
+    for (unsigned int m = 0; m < scene->mNumMeshes; ++m) append_part(file, *scene->mMeshes[m], mesh);
+    return mesh;
+}
+
+// Merges vertices with the same position. STL repeats each vertex for every face, and so does Assimp with
+// those of OBJ.
+void share_vertices(SurfaceMesh& mesh) {
+    const auto order = [&](std::uint32_t a, std::uint32_t b) {
+        const glm::dvec3 &p = mesh.positions[a], &q = mesh.positions[b];
+        return std::tie(p.x, p.y, p.z, a) < std::tie(q.x, q.y, q.z, b);
+    };
+    std::vector<std::uint32_t> sorted(mesh.positions.size());
+    std::iota(sorted.begin(), sorted.end(), 0u);
+    std::sort(sorted.begin(), sorted.end(), order);
+    std::vector<std::uint32_t> first(sorted.size());  // of those with the same position
+    for (std::size_t k = 0; k < sorted.size(); ++k) {
+        const bool same = k > 0 && mesh.positions[sorted[k]] == mesh.positions[sorted[k - 1]];
+        first[sorted[k]] = same ? first[sorted[k - 1]] : sorted[k];
+    }
+    std::vector<std::uint32_t> new_index(sorted.size());
+    std::uint32_t kept = 0;
+    for (std::uint32_t v = 0; v < new_index.size(); ++v) {
+        if (first[v] == v) {
+            mesh.positions[kept] = mesh.positions[v];
+            new_index[v] = kept++;
+        } else {
+            new_index[v] = new_index[first[v]];
+        }
+    }
+    mesh.positions.resize(kept);
+    for (glm::uvec3& face : mesh.faces) face = {new_index[face[0]], new_index[face[1]], new_index[face[2]]};
+}
+
+SurfaceMesh read_obj(const fs::path& file, const std::string& content, Notes& notes) {
+    const ObjVertices vertices = check_obj(file, content);
+    SurfaceMesh mesh = import(file, ".obj", content);
+    share_vertices(mesh);
+    if (vertices.used > mesh.positions.size()) {
+        notes.push_back(
+            fmt::format("merged vertices with the same position: {}", vertices.used - mesh.positions.size()));
+    }
+    if (vertices.count > vertices.used) {
+        notes.push_back(fmt::format("dropped vertices without faces: {}", vertices.count - vertices.used));
+    }
+    return mesh;
+}
+
+SurfaceMesh read_stl(const fs::path& file, std::string content) {
+    check_stl(file, content);
+    const std::size_t binary_size = binary_stl_size(file, content);
+    if (binary_size > 0) content.resize(binary_size);  // Assimp refuses anything behind it
+    SurfaceMesh mesh = import(file, ".stl", content);
+    share_vertices(mesh);
+    return mesh;
+}
+
+SurfaceMesh read_unrepaired(const fs::path& file, const std::string& ending, const std::string& content,
+                            Notes& notes) {
+    if (ending == ".obj") return read_obj(file, content, notes);
+    if (ending == ".stl") return read_stl(file, content);
+    if (ending == ".ply") {
+        check_ply(file, content);
+        return import(file, ending, content);
+    }
+    check_off(file, content);
+    return import(file, ending, without_comments(content));
+}
+
+}  // namespace
+
+SurfaceMesh read_surface(const fs::path& file, Notes& notes) {
+    const std::string ending = lower_case_ending(file);
+    constexpr std::array kEndings = {".obj", ".stl", ".ply", ".off"};
+    if (std::find(kEndings.begin(), kEndings.end(), ending) == kEndings.end()) {
+        throw InvalidInput({file.string(), 0, {}, {}, "a surface file must end in .obj, .stl, .ply or .off"});
+    }
+    const std::string content = read_file(file);
+    if (content.empty()) throw InvalidInput({file.string(), 0, {}, {}, "is empty"});
+    SurfaceMesh mesh = read_unrepaired(file, ending, content, notes);
+    if (mesh.faces.empty()) throw InvalidInput({file.string(), 0, {}, {}, "has no faces"});
+    repair_surface(mesh, notes);
+    if (mesh.faces.empty()) throw InvalidInput({file.string(), 0, {}, {}, "has no faces with an area"});
+    return mesh;
+}
+
+}  // namespace gelatin

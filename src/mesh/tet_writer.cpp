@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <iterator>
+#include <utility>
+
+#include "mesh/tet_formats.h"
+
+namespace gelatin {
+namespace {
+
+template <class... Arguments>
+void append(std::string& out, fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+    fmt::format_to(std::back_inserter(out), text, std::forward<Arguments>(arguments)...);
+}
+
+// The numbers are the shortest that read back as the same ones.
+void append_positions(std::string& out, const TetMesh& mesh) {
+    for (const glm::dvec3& p : mesh.positions) append(out, "{} {} {}\n", p.x, p.y, p.z);
+}
+
+}  // namespace
+
+std::string format_tetgen_nodes(const TetMesh& mesh) {
+    std::string out = fmt::format("{} 3 0 0\n", mesh.positions.size());
+    for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
+        const glm::dvec3& p = mesh.positions[n];
+        append(out, "{} {} {} {}\n", n, p.x, p.y, p.z);
+    }
+    return out;
+}
+
+std::string format_tetgen_tets(const TetMesh& mesh) {
+    std::string out = fmt::format("{} 4 0\n", mesh.tets.size());
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        const glm::uvec4& tet = mesh.tets[t];
+        append(out, "{} {} {} {} {}\n", t, tet[0], tet[1], tet[2], tet[3]);
+    }
+    return out;
+}
+
+std::string format_tetgen_faces(const TetMesh& mesh) {
+    std::string out = fmt::format("{} 0\n", mesh.faces.size());
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        append(out, "{} {} {} {}\n", f, mesh.faces[f][0], mesh.faces[f][1], mesh.faces[f][2]);
+    }
+    return out;
+}
+
+std::string format_medit(const TetMesh& mesh) {
+    std::string out =
+        fmt::format("MeshVersionFormatted 2\nDimension 3\nVertices\n{}\n", mesh.positions.size());
+    for (const glm::dvec3& p : mesh.positions) append(out, "{} {} {} 0\n", p.x, p.y, p.z);
+    append(out, "Triangles\n{}\n", mesh.faces.size());
+    for (const glm::uvec3& f : mesh.faces) append(out, "{} {} {} 0\n", f[0] + 1, f[1] + 1, f[2] + 1);
+    append(out, "Tetrahedra\n{}\n", mesh.tets.size());
+    for (const glm::uvec4& t : mesh.tets)
+        append(out, "{} {} {} {} 0\n", t[0] + 1, t[1] + 1, t[2] + 1, t[3] + 1);
+    return out + "End\n";
+}
+
+// One block of nodes and one of tets, on the volume entity 1.
+std::string format_gmsh(const TetMesh& mesh) {
+    const std::size_t nodes = mesh.positions.size(), tets = mesh.tets.size();
+    std::string out =
+        fmt::format("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 {0} 1 {0}\n3 1 0 {0}\n", nodes);
+    for (std::size_t n = 1; n <= nodes; ++n) append(out, "{}\n", n);
+    append_positions(out, mesh);
+    append(out, "$EndNodes\n$Elements\n1 {0} 1 {0}\n3 1 4 {0}\n", tets);
+    for (std::size_t t = 0; t < tets; ++t) {
+        const glm::uvec4& tet = mesh.tets[t];
+        append(out, "{} {} {} {} {}\n", t + 1, tet[0] + 1, tet[1] + 1, tet[2] + 1, tet[3] + 1);
+    }
+    return out + "$EndElements\n";
+}
+
+std::string format_vtu(const TetMesh& mesh) {
+    constexpr int kVtkTetra = 10;
+    std::string out = fmt::format(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+        "byte_order=\"LittleEndian\">\n"
+        "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n"
+        "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n",
+        mesh.positions.size(), mesh.tets.size());
+    append_positions(out, mesh);
+    out +=
+        "</DataArray>\n</Points>\n<Cells>\n<DataArray type=\"Int64\" Name=\"connectivity\" "
+        "format=\"ascii\">\n";
+    for (const glm::uvec4& t : mesh.tets) append(out, "{} {} {} {}\n", t[0], t[1], t[2], t[3]);
+    out += "</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n";
+    for (std::size_t t = 1; t <= mesh.tets.size(); ++t) append(out, "{}\n", 4 * t);
+    out += "</DataArray>\n<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">\n";
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) append(out, "{}\n", kVtkTetra);
+    return out + "</DataArray>\n</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+}
+
+}  // namespace gelatin

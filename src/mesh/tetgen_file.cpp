@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <cstdint>
+
+#include "core/file.h"
+#include "mesh/file_ending.h"
+#include "mesh/tet_formats.h"
+#include "mesh/text_scanner.h"
+
+namespace gelatin {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMostAttributes = 1000;
+
+// What the first line may leave out at its end.
+std::uint64_t optional_integer(TextScanner& scanner, const char* field, std::uint64_t otherwise,
+                               std::uint64_t high) {
+    return scanner.at_line_end() ? otherwise : scanner.integer(field, 0, high);
+}
+
+// Numbers begin with that of the first row, 0 or 1, and go up by one.
+struct Nodes {
+    std::vector<glm::dvec3> positions;
+    std::uint64_t first_number = 0;
+};
+
+Nodes read_nodes(const fs::path& file) {
+    const std::string content = read_file(file);
+    TextScanner scanner(file, content);
+    constexpr std::size_t kShortestRow = 8;  // "0 0 0 0\n"
+    const std::size_t count = scanner.count("number of nodes", kShortestRow);
+    scanner.integer("dimension", 3, 3);
+    const std::uint64_t attributes = optional_integer(scanner, "number of attributes", 0, kMostAttributes);
+    const std::uint64_t markers = optional_integer(scanner, "number of boundary markers", 0, 1);
+    Nodes nodes;
+    nodes.positions.reserve(count);
+    for (std::uint64_t row = 1; row <= count; ++row) {
+        if (row == 1) {
+            nodes.first_number = scanner.integer({"number of node", row}, 0, 1);
+        } else {
+            const std::uint64_t number = nodes.first_number + row - 1;
+            scanner.integer({"number of node", row}, number, number);
+        }
+        glm::dvec3 position;
+        for (int axis = 0; axis < 3; ++axis) position[axis] = scanner.coordinate({"node", row});
+        nodes.positions.push_back(position);
+        for (std::uint64_t k = 0; k < attributes + markers; ++k) scanner.number({"attributes of node", row});
+    }
+    if (!scanner.at_end())
+        scanner.fail("node", scanner.word("node"), "there are more rows than the file says");
+    return nodes;
+}
+
+std::vector<glm::uvec4> read_rows_of_tets(const fs::path& file, const Nodes& nodes, Notes& notes) {
+    const std::string content = read_file(file);
+    TextScanner scanner(file, content);
+    constexpr std::size_t kShortestRow = 10;  // "0 0 1 2 3\n"
+    const std::size_t count = scanner.count("number of tets", kShortestRow);
+    const std::uint64_t corners = optional_integer(scanner, "nodes of a tet", 4, 10);
+    if (corners != 4 && corners != 10)
+        scanner.fail("nodes of a tet", fmt::format("{}", corners), "must be 4 or 10");
+    const std::uint64_t attributes = optional_integer(scanner, "number of attributes", 0, kMostAttributes);
+    if (nodes.positions.empty() && count > 0)
+        scanner.fail("number of tets", fmt::format("{}", count), "there are no nodes");
+    const std::uint64_t last_number = nodes.first_number + nodes.positions.size() - 1;
+    std::vector<glm::uvec4> tets;
+    tets.reserve(count);
+    for (std::uint64_t row = 1; row <= count; ++row) {
+        scanner.integer({"number of tet", row});
+        glm::uvec4 tet;
+        for (int corner = 0; corner < 4; ++corner) {
+            const std::uint64_t number = scanner.integer({"tet", row}, nodes.first_number, last_number);
+            tet[corner] = static_cast<std::uint32_t>(number - nodes.first_number);
+        }
+        for (std::uint64_t k = 4; k < corners; ++k)
+            scanner.integer({"tet", row}, nodes.first_number, last_number);
+        for (std::uint64_t k = 0; k < attributes; ++k) scanner.number({"attributes of tet", row});
+        tets.push_back(tet);
+    }
+    if (!scanner.at_end()) scanner.fail("tet", scanner.word("tet"), "there are more rows than the file says");
+    if (corners == 10) notes.push_back(fmt::format("kept the corners only of tets with 10 nodes: {}", count));
+    return tets;
+}
+
+}  // namespace
+
+TetMesh read_tetgen(const fs::path& file, Notes& notes) {
+    const bool named_nodes = lower_case_ending(file) == ".node";
+    const fs::path node_file = named_nodes ? file : fs::path(file).replace_extension(".node");
+    const fs::path tet_file = named_nodes ? fs::path(file).replace_extension(".ele") : file;
+    Nodes nodes = read_nodes(node_file);
+    TetMesh mesh;
+    mesh.tets = read_rows_of_tets(tet_file, nodes, notes);
+    mesh.positions = std::move(nodes.positions);
+    return mesh;
+}
+
+}  // namespace gelatin

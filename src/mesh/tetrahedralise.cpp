@@ -1,0 +1,190 @@
+#include "mesh/tetrahedralise.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <iterator>
+#include <sstream>
+
+#include "core/file.h"
+#include "core/process.h"
+#include "gelatin/error.h"
+#include "mesh/surface_repair.h"
+#include "mesh/tet_cache.h"
+#include "mesh/tet_file.h"
+
+namespace gelatin {
+
+namespace {
+
+constexpr const char* kCacheFormat =
+    "gelatin tets 1";  // to be raised when the same key should give other tets
+constexpr const char* kSurfaceFile = "surface.smesh";
+constexpr const char* kTetFile = "surface.1.ele";  // the name that TetGen derives
+constexpr double kMostTets = 1e8;                  // more would fill the memory long before they are done
+
+/// Runs TetGen. Through stdbuf, because TetGen ends by abort() where it fails, and what it said last would be
+/// lost in its buffer.
+ProcessResult run_tetgen(std::vector<std::string> arguments, const std::filesystem::path& folder,
+                         double time_limit) {
+    constexpr int kNoSuchProgram = 127;  // stdbuf's exit code
+    arguments.insert(arguments.begin(), {"stdbuf", "-oL", "tetgen"});
+    ProcessResult result = run_process(arguments, folder, time_limit);
+    if (result.exit_code == kNoSuchProgram) {
+        throw SystemError("tetgen: no such program; it makes the tetrahedra (on Debian: apt install tetgen)");
+    }
+    return result;
+}
+
+/// Shortest fixed notation with six significant digits at least: TetGen's switches take no exponent.
+std::string switch_number(double value) {
+    const int decimals = std::max(0, 6 - static_cast<int>(std::floor(std::log10(value))));
+    return fmt::format("{:.{}f}", value, decimals);
+}
+
+/// p: fill a surface; q, a: quality and volume; z: count from zero; F: no faces, they follow from the tets.
+std::string make_switches(const MesherSettings& settings) {
+    std::string switches = "-pzFq" + switch_number(settings.quality);
+    if (settings.max_volume) switches += "a" + switch_number(*settings.max_volume);
+    return switches;
+}
+
+/// A hash of everything that the tets depend on. The version stands in what `tetgen -h` prints.
+std::string make_key(const SurfaceMesh& surface, const std::string& switches) {
+    const TemporaryFolder folder;
+    const std::string help = run_tetgen({"-h"}, folder.path(), 10.0).output;
+    const std::string head = fmt::format("{}\n{}\n{}\n{} {}\n", kCacheFormat, help, switches,
+                                         surface.positions.size(), surface.faces.size());
+    XXH3_state_t* state = XXH3_createState();
+    XXH3_128bits_reset(state);
+    XXH3_128bits_update(state, head.data(), head.size());
+    XXH3_128bits_update(state, surface.positions.data(), surface.positions.size() * sizeof(glm::dvec3));
+    XXH3_128bits_update(state, surface.faces.data(), surface.faces.size() * sizeof(glm::uvec3));
+    const XXH128_hash_t hash = XXH3_128bits_digest(state);
+    XXH3_freeState(state);
+    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+/// TetGen's .smesh: the vertices, a facet for each face, no holes, no regions.
+std::string format_smesh(const SurfaceMesh& surface) {
+    fmt::memory_buffer text;
+    const auto out = std::back_inserter(text);
+    fmt::format_to(out, "{} 3 0 0\n", surface.positions.size());
+    for (std::size_t v = 0; v < surface.positions.size(); ++v) {
+        const glm::dvec3& p = surface.positions[v];
+        fmt::format_to(out, "{} {} {} {}\n", v, p.x, p.y, p.z);
+    }
+    fmt::format_to(out, "{} 0\n", surface.faces.size());
+    for (const glm::uvec3& face : surface.faces)
+        fmt::format_to(out, "3 {} {} {}\n", face[0], face[1], face[2]);
+    fmt::format_to(out, "0\n0\n");
+    return fmt::to_string(text);
+}
+
+/// The last lines that TetGen itself wrote, in one.
+std::string last_words(const std::string& output) {
+    constexpr std::size_t kLines = 3;
+    std::vector<std::string> lines;
+    std::istringstream stream(output);
+    for (std::string line; std::getline(stream, line);) {
+        const std::size_t begin = line.find_first_not_of(" \t\r");
+        if (begin == std::string::npos || line.rfind("terminate called", 0) == 0) continue;
+        lines.push_back(line.substr(begin, line.find_last_not_of(" \t\r") + 1 - begin));
+    }
+    if (lines.size() > kLines) lines.erase(lines.begin(), lines.end() - kLines);
+    return lines.empty() ? "nothing" : fmt::format("\"{}\"", fmt::join(lines, " / "));
+}
+
+void check_surface(const SurfaceMesh& surface, const MesherSettings& settings, const std::string& name) {
+    const auto refuse = [&](const std::string& problem) { throw InvalidInput({name, 0, {}, {}, problem}); };
+    if (surface.faces.empty())
+        refuse("the surface has no faces, so there is nothing to fill with tetrahedra");
+    const Openness openness = measure_openness(surface);
+    if (!openness.is_closed()) {
+        std::vector<std::string> wrong;
+        const auto count = [&](std::size_t edges, const char* what) {
+            if (edges > 0)
+                wrong.push_back(fmt::format("{} {} {}", edges, edges == 1 ? "edge has" : "edges have", what));
+        };
+        count(openness.boundary_edges, "one face");
+        count(openness.non_manifold_edges, "more than two faces");
+        refuse(fmt::format("the surface is not closed: {}; tetrahedra can only fill a closed one",
+                           fmt::join(wrong, ", ")));
+    }
+    if (!settings.max_volume) return;
+    const double least_tets = std::abs(signed_volume(surface)) / *settings.max_volume;
+    if (least_tets > kMostTets) {
+        throw InvalidInput({name, 0, "mesher.max_volume", fmt::format("{} m^3", *settings.max_volume),
+                            fmt::format("asks for {:.2g} tetrahedra or more; at most {:.0e} are allowed",
+                                        least_tets, kMostTets)});
+    }
+}
+
+/// What TetGen's own check of the input finds, as the end of a sentence.
+std::string find_crossings(const std::filesystem::path& folder, double time_limit) {
+    const ProcessResult check = run_tetgen({"-dz", kSurfaceFile}, folder, time_limit);
+    std::istringstream lines(check.output);
+    for (std::string line; std::getline(lines, line);) {
+        std::size_t pairs = 0;
+        if (std::sscanf(line.c_str(), "!! Found %zu pairs of faces are intersecting", &pairs) != 1 ||
+            pairs == 0)
+            continue;
+        return fmt::format("the surface crosses itself: {} pairs of faces intersect", pairs);
+    }
+    return "faces that cross or nearly touch are the usual cause";
+}
+
+[[noreturn]] void report_failure(const ProcessResult& result, const std::filesystem::path& folder,
+                                 const MesherSettings& settings, const std::string& name) {
+    if (result.timed_out) {
+        throw InvalidInput(
+            {name, 0, "mesher.time_limit", fmt::format("{} s", settings.time_limit),
+             "TetGen was stopped at this limit, after saying " + last_words(result.output) +
+                 "; raise the limit, or ask for fewer tetrahedra with a larger max_volume or quality"});
+    }
+    const std::string end = result.signal != 0
+                                ? fmt::format("signal {} ({})", result.signal, ::strsignal(result.signal))
+                                : fmt::format("exit code {}", result.exit_code);
+    throw InvalidInput({name,
+                        0,
+                        {},
+                        {},
+                        fmt::format("TetGen failed on this surface with {}, after saying {}: {}", end,
+                                    last_words(result.output), find_crossings(folder, settings.time_limit))});
+}
+
+TetMesh run_mesher(const SurfaceMesh& surface, const MesherSettings& settings, const std::string& switches,
+                   const std::string& name) {
+    const TemporaryFolder folder;
+    write_file(folder.path() / kSurfaceFile, format_smesh(surface));
+    const ProcessResult result = run_tetgen({switches, kSurfaceFile}, folder.path(), settings.time_limit);
+    const std::filesystem::path tets = folder.path() / kTetFile;
+    if (!result.succeeded() || !std::filesystem::exists(tets))
+        report_failure(result, folder.path(), settings, name);
+    Notes notes;
+    try {
+        return read_tets(tets, notes);
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(
+            {name, 0, {}, {}, "what TetGen made of this surface cannot be used: " + error.problem().problem});
+    }
+}
+
+}  // namespace
+
+TetMesh tetrahedralise(const SurfaceMesh& surface, const MesherSettings& settings, const std::string& name) {
+    check_surface(surface, settings, name);
+    const std::string switches = make_switches(settings);
+    const std::string key = make_key(surface, switches);
+    const TetCache cache;
+    if (std::optional<TetMesh> known = cache.find(key)) return std::move(*known);
+    TetMesh mesh = run_mesher(surface, settings, switches, name);
+    cache.store(key, mesh);
+    return mesh;
+}
+
+}  // namespace gelatin

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <string_view>
+
+namespace gelatin {
+
+/// What a value of a mesh file is, for messages: "vertex 12", or just "version".
+struct FieldName {
+    std::string_view name;
+    std::uint64_t number = 0;  ///< 0: none
+
+    FieldName(const char* text, std::uint64_t n = 0) : name(text), number(n) {}
+    std::string text() const;
+};
+
+/// Walks a mesh file word by word, and through bytes between them; every problem is an InvalidInput with file
+/// and line. Keeps references to what it is given.
+class TextScanner {
+public:
+    /// @param comment begins a comment that ends with its line; 0 where the format has none
+    TextScanner(const std::filesystem::path& file, std::string_view text, char comment = '#');
+
+    /// Skips blanks and comments. True if nothing else is left.
+    bool at_end();
+    /// Skips blanks and comments of this line. True if nothing else is left on it.
+    bool at_line_end();
+    void skip_line();
+
+    /// The next word, on whatever line it is. @throws InvalidInput if the file ends before it.
+    std::string_view word(const FieldName& field);
+    /// Takes the next word. @throws InvalidInput if it is another one.
+    void expect(const char* expected);
+    std::uint64_t integer(const FieldName& field, std::uint64_t low = 0,
+                          std::uint64_t high = std::numeric_limits<std::uint64_t>::max());
+    double number(const FieldName& field);
+    /// A number that a float can hold: mesh files with others are refused.
+    double coordinate(const FieldName& field);
+
+    /// Number of things that take at least `bytes_each` each. @throws InvalidInput if the rest of the file is
+    /// too short for them, so that a caller may allocate what the file claims.
+    std::size_t count(const FieldName& field, std::size_t bytes_each);
+    void require_room(const FieldName& field, std::uint64_t count, std::size_t bytes_each) const;
+
+    /// The next `size` bytes as they are. Lines are not known from there on.
+    std::string_view bytes(std::size_t size, const FieldName& field);
+
+    /// Goes on behind `text`. @throws InvalidInput if it does not come.
+    void skip_past(std::string_view text, const FieldName& field);
+
+    [[noreturn]] void fail(const FieldName& field, std::string_view value, const std::string& problem) const;
+    [[noreturn]] void fail_cut_off(const FieldName& field) const;
+    /// @throws InvalidInput unless `value` is finite and a float can hold it.
+    void require_coordinate(double value, const FieldName& field) const;
+
+private:
+    void skip_blanks(bool stop_at_line_end);
+
+    const std::filesystem::path& file_;
+    std::string_view text_;
+    char comment_;
+    std::size_t position_ = 0;
+    int line_ = 1;  // of what was read last
+    bool knows_line_ = true;
+};
+
+}  // namespace gelatin

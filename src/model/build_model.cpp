@@ -1,0 +1,214 @@
+#include "model/build_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "core/log.h"
+#include "gelatin/error.h"
+#include "mesh/topology.h"
+#include "model/draw_surface.h"
+#include "model/object_mesh.h"
+#include "model/spring_packing.h"
+#include "model/springs.h"
+#include "model/transform.h"
+
+namespace gelatin {
+namespace {
+
+// Sorting all of a small object by degree evens out the slices; in a large one that would undo its locality.
+constexpr std::size_t kSmallObject = 8192;
+constexpr std::uint32_t kSortWindow = 256;
+constexpr double kCreaseAngle = 0.7;  // 40 degrees: flatter edges are drawn smooth
+
+struct IsInside {
+    glm::dvec3 point;
+    bool operator()(const BoxRegion& box) const {
+        return glm::all(glm::greaterThanEqual(point, box.min)) && glm::all(glm::lessThanEqual(point, box.max));
+    }
+    bool operator()(const SphereRegion& sphere) const { return glm::distance(point, sphere.center) <= sphere.radius; }
+    bool operator()(const HalfSpaceRegion& half) const { return glm::dot(half.normal, point) <= half.offset; }
+};
+
+bool is_pinned(const std::vector<Region>& pins, const glm::dvec3& point) {
+    return std::any_of(pins.begin(), pins.end(), [&](const Region& r) { return std::visit(IsInside{point}, r); });
+}
+
+// The same mesh with its nodes in an order that keeps neighbours near each other.
+TetMesh reordered(const TetMesh& mesh, const SpringKinds& kinds) {
+    std::vector<glm::uvec2> edges;
+    for (const Spring& spring : make_springs(mesh, kinds, 1.0)) edges.emplace_back(spring.i, spring.j);
+    const Graph graph = make_graph(mesh.positions.size(), edges);
+    const auto count = static_cast<std::uint32_t>(mesh.positions.size());
+    const std::vector<std::uint32_t> order = locality_order(graph, count <= kSmallObject ? count : kSortWindow);
+
+    std::vector<std::uint32_t> new_index(count);
+    for (std::uint32_t n = 0; n < count; ++n) new_index[order[n]] = n;
+    TetMesh result;
+    for (const std::uint32_t old : order) result.positions.push_back(mesh.positions[old]);
+    for (const glm::uvec4& t : mesh.tets) {
+        result.tets.emplace_back(new_index[t.x], new_index[t.y], new_index[t.z], new_index[t.w]);
+    }
+    for (const glm::uvec3& f : mesh.faces) result.faces.emplace_back(new_index[f.x], new_index[f.y], new_index[f.z]);
+    const auto least = [](const auto& e) {
+        std::uint32_t m = e[0];
+        for (int k = 1; k < e.length(); ++k) m = std::min(m, e[k]);
+        return m;
+    };
+    const auto by_least_node = [&](const auto& a, const auto& b) { return least(a) < least(b); };
+    std::stable_sort(result.tets.begin(), result.tets.end(), by_least_node);
+    std::stable_sort(result.faces.begin(), result.faces.end(), by_least_node);
+    return result;
+}
+
+float checked_float(double value, const std::string& object, const char* what) {
+    if (value > 0.0 && value >= std::numeric_limits<float>::min() && value <= std::numeric_limits<float>::max()) {
+        return static_cast<float>(value);
+    }
+    throw InvalidInput({{}, 0, "object '" + object + "'", {},
+                        fmt::format("{} is {:.3g}, beyond what single precision holds; check density, scale and stiffness",
+                                    what, value)});
+}
+
+void append_nodes(Model& model, const Body& body, const TetMesh& mesh) {
+    std::vector<double> masses(mesh.positions.size(), 0.0);
+    for (const glm::uvec4& tet : mesh.tets) {
+        for (int k = 0; k < 4; ++k) masses[tet[k]] += 0.25 * body.material.density * tet_volume(mesh, tet);
+    }
+    for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
+        const float mass = checked_float(masses[n], body.name, "a node's mass [kg]");
+        const bool pinned = is_pinned(body.pins, mesh.positions[n]);
+        model.positions.emplace_back(glm::vec3(mesh.positions[n]), pinned ? 0.0f : 1.0f / mass);
+        model.velocities.emplace_back(pinned ? glm::vec3(0.0f) : glm::vec3(body.velocity),
+                                      static_cast<float>(body.material.damping));
+        model.masses.push_back(mass);
+    }
+}
+
+void append_springs(Model& model, const Body& body, const TetMesh& mesh, std::uint32_t first_node) {
+    for (Spring spring : make_springs(mesh, body.material.springs, body.material.youngs_modulus)) {
+        checked_float(static_cast<double>(spring.stiffness), body.name, "a spring's stiffness [N/m]");
+        spring.i += first_node;
+        spring.j += first_node;
+        model.springs.push_back(spring);
+    }
+}
+
+void append_body(Model& model, const Body& body) {
+    const auto size = [](const auto& array) { return static_cast<std::uint32_t>(array.size()); };
+    const TetMesh mesh = reordered(body.mesh, body.material.springs);
+
+    ModelObject object;
+    object.name = body.name;
+    object.color = body.color;
+    object.nodes = {size(model.positions), size(mesh.positions)};
+    object.tets = {size(model.tets), size(mesh.tets)};
+    object.faces = {size(model.faces), size(mesh.faces)};
+    object.springs.first = size(model.springs);
+    for (const glm::uvec4& tet : mesh.tets) object.rest_volume += tet_volume(mesh, tet);
+    object.mass = object.rest_volume * body.material.density;
+
+    const std::uint32_t first = object.nodes.first;
+    append_nodes(model, body, mesh);
+    append_springs(model, body, mesh, first);
+    object.springs.count = size(model.springs) - object.springs.first;
+    for (const glm::uvec4& t : mesh.tets) model.tets.push_back(t + first);
+    for (const glm::uvec3& f : mesh.faces) {
+        model.faces.push_back({f.x + first, f.y + first, f.z + first, size(model.objects)});
+    }
+    append_draw_surface(model.positions, model.faces, object.faces, kCreaseAngle, model.surface);
+    model.objects.push_back(std::move(object));
+}
+
+struct ColliderPacker {
+    const ColliderDescription& description;
+
+    Collider operator()(const PlaneCollider& plane) const {
+        Collider c = common(0);
+        c.center = glm::vec4(glm::vec3(plane.normal), static_cast<float>(plane.offset));
+        return c;
+    }
+    Collider operator()(const BoxCollider& box) const {
+        Collider c = common(1);
+        const glm::quat q(rotation_from_degrees(description.rotation));
+        c.axis = glm::vec4(glm::vec3(0.5 * box.size), 0.0f);
+        c.orientation = glm::vec4(q.x, q.y, q.z, q.w);
+        return c;
+    }
+    Collider operator()(const SphereCollider& sphere) const {
+        Collider c = common(2);
+        c.center.w = static_cast<float>(sphere.radius);
+        return c;
+    }
+    Collider operator()(const CapsuleCollider& capsule) const {
+        Collider c = common(3);
+        const glm::dvec3 half = rotation_from_degrees(description.rotation) * glm::dvec3(0, 0.5 * capsule.length, 0);
+        c.center.w = static_cast<float>(capsule.radius);
+        c.axis = glm::vec4(glm::vec3(half), 0.0f);
+        return c;
+    }
+
+    Collider common(std::uint32_t kind) const {
+        Collider c{};
+        c.center = glm::vec4(glm::vec3(description.position), 0.0f);
+        c.orientation = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+        c.kind = kind;
+        c.friction = static_cast<float>(description.friction);
+        c.restitution = static_cast<float>(description.restitution);
+        return c;
+    }
+};
+
+const Material& find_material(const Scene& scene, const ObjectDescription& object) {
+    const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                    [&](const Material& m) { return m.name == object.material; });
+    if (found != scene.materials.end()) return *found;
+    throw InvalidInput({scene.file.string(), object.line, "object." + object.name + ".material", object.material,
+                        "no such material"});
+}
+
+Body make_body(const Scene& scene, const ObjectDescription& object) {
+    Body body;
+    body.name = object.name;
+    body.mesh = make_object_mesh(object);
+    body.material = find_material(scene, object);
+    body.velocity = object.velocity;
+    body.pins = object.pins;
+    if (object.color) body.color = glm::vec3(*object.color);
+    const auto pinned = [&](const glm::dvec3& p) { return is_pinned(body.pins, p); };
+    if (!body.pins.empty() && std::none_of(body.mesh.positions.begin(), body.mesh.positions.end(), pinned)) {
+        throw InvalidInput({scene.file.string(), object.line, "object." + object.name + ".pins", {},
+                            "hold no node of the object (regions are in world coordinates)"});
+    }
+    return body;
+}
+
+}  // namespace
+
+Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDescription>& colliders,
+                  const glm::dvec3& gravity) {
+    Model model;
+    for (const Body& body : bodies) append_body(model, body);
+    for (const ColliderDescription& c : colliders) model.colliders.push_back(std::visit(ColliderPacker{c}, c.shape));
+    model.gravity = glm::vec3(gravity);
+    model.half_springs = pack_half_springs(model.node_count(), model.springs);
+    model.incidence = make_incidence(model.node_count(), model.springs);
+    return model;
+}
+
+Model build_model(const Scene& scene) {
+    std::vector<Body> bodies;
+    for (const ObjectDescription& object : scene.objects) bodies.push_back(make_body(scene, object));
+    for (const Material& material : scene.materials) {
+        if (material.poisson_ratio != 0.25) {
+            spdlog::warn("material '{}': poisson_ratio = {} has no effect: springs alone answer with 0.25", material.name,
+                         material.poisson_ratio);
+        }
+    }
+    return pack_bodies(bodies, scene.colliders, scene.simulation.gravity);
+}
+
+}  // namespace gelatin

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "model/model.h"
+
+namespace gelatin {
+
+/// Appends an object's surface to `surface`: each corner of its faces becomes part of a surface vertex, and corners of
+/// one node share a vertex as long as the faces between them meet at less than `crease_angle` in the rest shape.
+/// @param positions of all nodes at rest, xyz [m]
+/// @param faces all faces packed so far; the object's are `range`
+/// @param crease_angle between face normals [rad]
+void append_draw_surface(std::span<const glm::vec4> positions, std::span<const Face> faces, Range range,
+                         double crease_angle, DrawSurface& surface);
+
+}  // namespace gelatin

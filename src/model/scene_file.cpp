@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+
+#include "core/file.h"
+#include "gelatin/scene.h"
+#include "model/scene_file_bodies.h"
+#include "model/scene_file_override.h"
+#include "model/scene_file_reader.h"
+
+namespace gelatin {
+namespace {
+
+constexpr std::string_view kAutomatic = "auto";
+constexpr Limit kSubsteps{"\"auto\" or from 1 to 1000000", [](double v) { return v >= 1.0 && v <= 1e6; }};
+constexpr Limit kPoissonRatio{"greater than -1 and less than 0.5",
+                              [](double v) { return v > -1.0 && v < 0.5; }};
+constexpr Limit kFieldOfView{"greater than 0 and less than 180",
+                             [](double v) { return v > 0.0 && v < 180.0; }};
+
+toml::table parse(const std::filesystem::path& file) {
+    try {
+        return toml::parse(read_file(file), file.string());
+    } catch (const toml::parse_error& error) {
+        const int line = static_cast<int>(error.source().begin.line);
+        throw InvalidInput(
+            {file.string(), line, {}, {}, fmt::format("is not TOML: {}", error.description())});
+    }
+}
+
+SimulationSettings read_simulation(TableReader reader) {
+    SimulationSettings settings;
+    reader.read("solver", settings.solver,
+                {{"explicit_euler", SolverKind::explicit_euler},
+                 {"semi_implicit_euler", SolverKind::semi_implicit_euler},
+                 {"midpoint", SolverKind::midpoint},
+                 {"rk4", SolverKind::rk4}});
+    reader.read("forces", settings.forces,
+                {{"divide_and_merge", ForceMethod::divide_and_merge}, {"fused", ForceMethod::fused}});
+    reader.read("frame_rate", settings.frame_rate, kPositive);
+    if (const toml::node* substeps = reader.find("substeps");
+        substeps && substeps->value_or("") != kAutomatic) {
+        int count = 0;
+        if (!substeps->is_integer()) reader.fail("substeps", fmt::format("must be {}", kSubsteps.allowed));
+        reader.read("substeps", count, kSubsteps);
+        settings.substeps = count;
+    }
+    reader.read("gravity", settings.gravity);
+    reader.read("frames", settings.frames, kNotNegative);
+    reader.finish();
+    return settings;
+}
+
+CollisionSettings read_collision(TableReader reader) {
+    CollisionSettings settings;
+    reader.read("friction", settings.friction, kNotNegative);
+    reader.read("restitution", settings.restitution, kFraction);
+    reader.finish();
+    return settings;
+}
+
+CameraDescription read_camera(TableReader reader) {
+    CameraDescription camera{};
+    reader.require({"eye", "target"});
+    reader.read("eye", camera.eye);
+    reader.read("target", camera.target);
+    reader.read("field_of_view", camera.field_of_view, kFieldOfView);
+    if (camera.eye == camera.target) reader.fail("eye", "must not be the target");
+    reader.finish();
+    return camera;
+}
+
+SpringKinds read_springs(TableReader& reader) {
+    SpringKinds springs;
+    if (!reader.has("springs")) return springs;
+    const auto names = reader.read_names("springs", {"structural", "shear", "flex"});
+    const auto has = [&](const char* name) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    springs.structural = has("structural");
+    springs.shear = has("shear");
+    springs.flex = has("flex");
+    return springs;
+}
+
+Material read_material(TableReader& reader) {
+    Material material;
+    reader.require({"name"});
+    reader.read("name", material.name);
+    reader.set_path("material." + material.name);
+    reader.read("youngs_modulus", material.youngs_modulus, kPositive);
+    reader.read("density", material.density, kPositive);
+    reader.read("poisson_ratio", material.poisson_ratio, kPoissonRatio);
+    reader.read("damping", material.damping, kNotNegative);
+    material.springs = read_springs(reader);
+    reader.finish();
+    return material;
+}
+
+std::vector<Material> read_materials(std::vector<TableReader> tables) {
+    std::vector<Material> materials;
+    std::vector<int> lines;
+    for (TableReader& reader : tables) {
+        Material material = read_material(reader);
+        for (std::size_t i = 0; i < materials.size(); ++i) {
+            if (materials[i].name != material.name) continue;
+            reader.fail("name", fmt::format("is taken by the material on line {}", lines[i]));
+        }
+        materials.push_back(std::move(material));
+        lines.push_back(reader.line());
+    }
+    return materials;
+}
+
+}  // namespace
+
+Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+    toml::table document = parse(file);
+    for (const std::string& text : overrides) apply_override(document, text);
+
+    const std::string name = file.string();
+    TableReader reader(document, "", name);
+    Scene scene;
+    scene.file = file;
+    const auto simulation = reader.table("simulation"), collision = reader.table("collision"),
+               camera = reader.table("camera");
+    auto materials = reader.tables("material"), objects = reader.tables("object"),
+         colliders = reader.tables("collider");
+    reader.finish();  // a misspelt section first: what it should have held is missing elsewhere
+
+    if (simulation) scene.simulation = read_simulation(*simulation);
+    if (collision) scene.collision = read_collision(*collision);
+    if (camera) scene.camera = read_camera(*camera);
+    scene.materials = read_materials(std::move(materials));
+    scene.objects = read_objects(std::move(objects), scene.materials, file.parent_path());
+    scene.colliders = read_colliders(std::move(colliders), scene.collision);
+    if (scene.objects.empty()) throw InvalidInput({name, 0, {}, {}, "has no objects: add an [[object]]"});
+    return scene;
+}
+
+}  // namespace gelatin

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <glm/vec3.hpp>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "gelatin/error.h"
+
+namespace gelatin {
+
+/// The candidate closest to `name` by edit distance, if it is close enough to be a slip of the pen.
+std::optional<std::string> nearest_name(std::string_view name, const std::vector<std::string>& candidates);
+
+/// " (did you mean "x"?)" for the nearest candidate, else "".
+std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
+
+/// "a, b and c".
+std::string join_names(const std::vector<std::string>& names, const char* last = "and");
+
+/// Source path of nodes that an override made begins with this; they have no line.
+inline constexpr std::string_view kOverridePrefix = "--set ";
+
+/// What is wrong at `node`: its file (or override), line and value. `file` stands in where the node knows
+/// none.
+InputProblem problem_at(const toml::node& node, const std::string& file, const std::string& field,
+                        const std::string& problem);
+
+/// What a number may be.
+struct Limit {
+    const char* allowed;  ///< completes "must be ..."
+    bool (*holds)(double value);
+};
+inline constexpr Limit kAnyNumber{"a number", [](double) { return true; }};
+inline constexpr Limit kPositive{"greater than 0", [](double v) { return v > 0.0; }};
+inline constexpr Limit kNotNegative{"0 or more", [](double v) { return v >= 0.0; }};
+inline constexpr Limit kFraction{"from 0 to 1", [](double v) { return v >= 0.0 && v <= 1.0; }};
+
+/// Reads one table of a scene file into values that keep their defaults where the table is silent.
+///
+/// Each getter notes its key as known, checks type and range, and throws InvalidInput naming file, line,
+/// dotted key, value and what is allowed. `finish` then reports keys that nobody asked for. Refers to the
+/// parsed document, which must outlive it.
+class TableReader {
+public:
+    /// @param path dotted, for messages ("object.ball"); empty for the whole file
+    TableReader(const toml::table& table, std::string path, const std::string& file)
+        : table_(&table), path_(std::move(path)), file_(&file) {}
+
+    bool has(std::string_view key) const { return table_->contains(key); }
+    int line() const;
+
+    /// For messages: names the table by what is inside it ("object.ball" instead of "object[0]").
+    void set_path(std::string path) { path_ = std::move(path); }
+
+    void require(std::initializer_list<const char*> keys);
+    /// The one key of `keys` that the table has.
+    std::string require_one_of(const std::vector<std::string>& keys);
+
+    void read(const char* key, double& value, const Limit& limit = kAnyNumber);
+    void read(const char* key, std::optional<double>& value, const Limit& limit = kAnyNumber);
+    void read(const char* key, int& value, const Limit& limit);
+    void read(const char* key, std::string& value);  ///< not empty
+    void read(const char* key, glm::dvec3& value, const Limit& limit = kAnyNumber);
+    void read(const char* key, glm::ivec3& value, const Limit& limit);
+    /// A direction of any length but 0, made unit.
+    void read_direction(const char* key, glm::dvec3& value);
+
+    template <class Enum>
+    void read(const char* key, Enum& value, const std::vector<std::pair<std::string, Enum>>& choices) {
+        std::string name;
+        read(key, name);
+        if (!has(key)) return;
+        std::vector<std::string> names;
+        for (const auto& [choice, meaning] : choices) {
+            if (choice == name) {
+                value = meaning;
+                return;
+            }
+            names.push_back(choice);
+        }
+        fail_choice(key, name, names);
+    }
+
+    /// A list of at least one of `names`, none twice.
+    std::vector<std::string> read_names(const char* key, const std::vector<std::string>& names);
+
+    std::optional<TableReader> table(const char* key);
+    std::vector<TableReader> tables(const char* key);
+
+    /// The value at `key`, or null; for keys of more than one type.
+    const toml::node* find(const char* key);
+
+    [[noreturn]] void fail(std::string_view key, const std::string& problem) const;
+    /// @throws InvalidInput for the first key in the file that no getter asked for.
+    void finish() const;
+
+private:
+    std::string field(std::string_view key) const;
+    [[noreturn]] void fail_choice(const char* key, const std::string& name,
+                                  const std::vector<std::string>& names) const;
+    [[noreturn]] void fail_at(const toml::node& node, std::string_view key, const std::string& problem) const;
+    double number(const toml::node& node, std::string_view key, const Limit& limit) const;
+    int whole_number(const toml::node& node, std::string_view key, const Limit& limit) const;
+    const toml::array& three(const toml::node& node, const char* key) const;
+
+    const toml::table* table_;
+    std::string path_;
+    const std::string* file_;
+    std::vector<std::string> known_;
+};
+
+}  // namespace gelatin

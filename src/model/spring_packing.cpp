@@ -1,0 +1,58 @@
+#include "model/spring_packing.h"
+
+#include <algorithm>
+
+namespace gelatin {
+
+SpringIncidence make_incidence(std::uint32_t node_count, std::span<const Spring> springs) {
+    SpringIncidence incidence;
+    incidence.starts.assign(node_count + 1, 0);
+    for (const Spring& spring : springs) {
+        ++incidence.starts[spring.i + 1];
+        ++incidence.starts[spring.j + 1];
+    }
+    for (std::uint32_t n = 0; n < node_count; ++n) incidence.starts[n + 1] += incidence.starts[n];
+    incidence.entries.resize(2 * springs.size());
+    std::vector<std::uint32_t> next(incidence.starts.begin(), incidence.starts.end() - 1);
+    for (std::uint32_t s = 0; s < springs.size(); ++s) {
+        incidence.entries[next[springs[s].i]++] = 2 * s;
+        incidence.entries[next[springs[s].j]++] = 2 * s + 1;
+    }
+    return incidence;
+}
+
+HalfSprings pack_half_springs(std::uint32_t node_count, std::span<const Spring> springs) {
+    constexpr std::uint32_t kSlice = HalfSprings::kSlice;
+    const SpringIncidence incidence = make_incidence(node_count, springs);
+    HalfSprings packed;
+    packed.slice_starts.push_back(0);
+    for (std::uint32_t first = 0; first < node_count; first += kSlice) {
+        const std::uint32_t end = std::min(first + kSlice, node_count);
+        std::uint32_t most = 0;
+        for (std::uint32_t n = first; n < end; ++n) most = std::max(most, incidence.starts[n + 1] - incidence.starts[n]);
+
+        const std::uint32_t start = packed.slice_starts.back();
+        packed.slice_starts.push_back(start + kSlice * ((most + 1) / 2));
+        packed.stiffness.resize(packed.slice_starts.back(), glm::vec2(0.0f));
+        for (std::uint32_t p = start; p < packed.slice_starts.back(); ++p) {
+            // Lanes behind the last node look at it, so that every index is one that exists.
+            const std::uint32_t self = std::min(first + (p - start) % kSlice, node_count - 1);
+            packed.pairs.push_back({self, 0.0f, self, 0.0f});
+        }
+        for (std::uint32_t n = first; n < end; ++n) {
+            for (std::uint32_t k = 0; k < incidence.starts[n + 1] - incidence.starts[n]; ++k) {
+                const std::uint32_t entry = incidence.entries[incidence.starts[n] + k];
+                const Spring& spring = springs[entry / 2];
+                const std::uint32_t other = entry % 2 == 0 ? spring.j : spring.i;
+                const std::uint32_t at = start + kSlice * (k / 2) + (n - first);
+                HalfSpringPair& pair = packed.pairs[at];
+                (k % 2 == 0 ? pair.node_0 : pair.node_1) = other;
+                (k % 2 == 0 ? pair.rest_length_0 : pair.rest_length_1) = spring.rest_length;
+                packed.stiffness[at][static_cast<int>(k % 2)] = spring.stiffness;
+            }
+        }
+    }
+    return packed;
+}
+
+}  // namespace gelatin

@@ -1,0 +1,133 @@
+#include "model/stability.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "gelatin/error.h"
+#include "model/explicit_scheme.h"
+
+namespace gelatin {
+namespace {
+
+constexpr double kLargestGrowth = 0.01;  // of a mode's amplitude, per second
+constexpr double kSafety = 0.8;          // of the largest stable step that `auto` uses
+constexpr int kMostSubsteps = 100'000;
+
+// Largest eigenvalue, in modulus, of what one step of h does to (x, v) of x'' = -w^2 x - damping w^2 x'.
+double spectral_radius(const ExplicitScheme& scheme, double frequency, double damping, double h) {
+    const double w2 = frequency * frequency;
+    const auto advance = [&](double x0, double v0) {
+        double x = x0, v = v0, sum_x = 0.0, sum_v = 0.0;
+        for (int p = 0; p < scheme.pass_count; ++p) {
+            const double rate_x = v;
+            const double rate_v = -w2 * x - damping * w2 * v;
+            sum_x += scheme.passes[static_cast<std::size_t>(p)].weight * rate_x;
+            sum_v += scheme.passes[static_cast<std::size_t>(p)].weight * rate_v;
+            x = x0 + h * scheme.passes[static_cast<std::size_t>(p)].next * rate_x;
+            v = v0 + h * scheme.passes[static_cast<std::size_t>(p)].next * rate_v;
+        }
+        const double new_v = v0 + h * sum_v;
+        return std::pair(x0 + h * (scheme.semi_implicit ? new_v : sum_x), new_v);
+    };
+    // In the basis (x, v / w) both columns are of one size, which keeps trace and determinant accurate.
+    const auto [a, c] = advance(1.0, 0.0);
+    const auto [b, d] = advance(0.0, frequency);
+    const double half_trace = 0.5 * (a + d / frequency);
+    const double determinant = (a * d - b * c) / frequency;
+    const double discriminant = half_trace * half_trace - determinant;
+    return discriminant < 0.0 ? std::sqrt(determinant) : std::abs(half_trace) + std::sqrt(discriminant);
+}
+
+bool is_stable(const ExplicitScheme& scheme, double frequency, double damping, double h) {
+    constexpr int kSamples = 96;
+    for (int s = 0; s < kSamples; ++s) {  // from the highest mode down six decades
+        const double mode = frequency * std::pow(10.0, -6.0 * s / kSamples);
+        const double rounding = 1e-12;
+        if (std::log(spectral_radius(scheme, mode, damping, h)) > kLargestGrowth * h + rounding) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+double frequency_bound(const Model& model, const ModelObject& object) {
+    std::vector<Eigen::Matrix3d> blocks(object.nodes.count, Eigen::Matrix3d::Zero());
+    const auto inverse_mass = [&](std::uint32_t n) { return static_cast<double>(model.positions[n].w); };
+    const auto add = [&](std::uint32_t node, std::uint32_t other, const Eigen::Matrix3d& kn) {
+        if (inverse_mass(node) == 0.0) return;
+        blocks[node - object.nodes.first] += kn * (inverse_mass(node) + inverse_mass(other));
+    };
+    for (std::uint32_t s = object.springs.first; s < object.springs.end(); ++s) {
+        const Spring& spring = model.springs[s];
+        const glm::dvec3 d = glm::dvec3(model.positions[spring.j]) - glm::dvec3(model.positions[spring.i]);
+        const Eigen::Vector3d n = Eigen::Vector3d(d.x, d.y, d.z).normalized();
+        const Eigen::Matrix3d kn = static_cast<double>(spring.stiffness) * n * n.transpose();
+        add(spring.i, spring.j, kn);
+        add(spring.j, spring.i, kn);
+    }
+    double largest = 0.0;
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+    for (const Eigen::Matrix3d& block : blocks) {
+        solver.compute(block, Eigen::EigenvaluesOnly);
+        largest = std::max(largest, solver.eigenvalues()[2]);
+    }
+    return std::sqrt(largest);
+}
+
+double largest_stable_step(SolverKind solver, double frequency, double damping) {
+    if (frequency <= 0.0) return std::numeric_limits<double>::infinity();
+    const ExplicitScheme& scheme = explicit_scheme(solver);
+    double stable = 0.0;
+    double unstable = 4.0 / frequency;  // beyond what any of the schemes holds
+    for (int i = 0; i < 60; ++i) {
+        const double middle = stable > 0.0 ? 0.5 * (stable + unstable) : unstable / 16.0;
+        if (is_stable(scheme, frequency, damping, middle)) {
+            stable = middle;
+        } else {
+            unstable = middle;
+        }
+    }
+    return stable;
+}
+
+double largest_stable_step(SolverKind solver, const Model& model) {
+    double step = std::numeric_limits<double>::infinity();
+    for (const ModelObject& object : model.objects) {
+        float damping = 0.0f;
+        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
+            damping = std::max(damping, model.velocities[n].w);
+        }
+        step = std::min(step, largest_stable_step(solver, frequency_bound(model, object), damping));
+    }
+    return step;
+}
+
+int choose_substeps(const Scene& scene, const Model& model) {
+    const SimulationSettings& settings = scene.simulation;
+    const double largest = largest_stable_step(settings.solver, model);
+    const double needed = std::ceil(settings.frame_time() / (kSafety * largest));
+    const std::string advice = settings.solver == SolverKind::explicit_euler
+                                   ? "; explicit_euler amplifies motion that is not damped: semi_implicit_euler does not"
+                                   : "";
+    if (settings.substeps) {
+        const double step = settings.frame_time() / *settings.substeps;
+        if (step <= largest) return *settings.substeps;
+        throw InvalidInput({scene.file.string(), 0, "simulation.substeps", std::to_string(*settings.substeps),
+                            fmt::format("a step of {:.3g} s is too long; the largest safe step is {:.3g} s "
+                                        "(substeps = {:.0f}, or \"auto\"){}",
+                                        step, largest, needed, advice)});
+    }
+    if (needed > kMostSubsteps) {
+        throw InvalidInput({scene.file.string(), 0, "simulation.substeps", "\"auto\"",
+                            fmt::format("{} would need steps of {:.3g} s, {:.3g} a frame; at most {} are allowed{}",
+                                        solver_name(settings.solver), kSafety * largest, needed, kMostSubsteps, advice)});
+    }
+    return std::max(1, static_cast<int>(needed));
+}
+
+}  // namespace gelatin

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+
+namespace gelatin::render {
+
+/// A part of space with its sides along the axes [m].
+struct Bounds {
+    glm::vec3 min{0.0f}, max{0.0f};
+
+    glm::vec3 center() const { return 0.5f * (min + max); }
+    glm::vec3 size() const { return max - min; }
+    void add(const glm::vec3& point);
+};
+
+/// The bounds of points, x, y, z of each one after another; a unit cube round the origin for none.
+Bounds bounds_of(std::span<const float> positions);
+
+/// A perspective camera that looks from `eye` at `target`, +y up in the picture.
+struct Camera {
+    glm::vec3 eye{0.0f, 0.0f, 5.0f};  ///< [m]
+    glm::vec3 target{0.0f};           ///< [m], != eye
+    float field_of_view = 35.0f;      ///< vertical [degrees]
+
+    glm::mat4 view() const;
+    /// @param aspect width over height of the picture
+    glm::mat4 projection(float aspect) const;
+};
+
+/// A three-quarter view from the front, somewhat above, as near as it can be while all of `bounds` shows,
+/// with a margin round it.
+Camera frame_bounds(const Bounds& bounds, float aspect, float field_of_view = 35.0f);
+
+}  // namespace gelatin::render

@@ -1,0 +1,30 @@
+#include "render/palette.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace gelatin::render {
+
+glm::vec3 to_srgb(const glm::vec3& linear) {
+    const auto encode = [](float c) {
+        return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
+    };
+    return {encode(linear.r), encode(linear.g), encode(linear.b)};
+}
+
+glm::vec3 from_srgb(const glm::vec3& srgb) {
+    const auto decode = [](float c) {
+        return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+    };
+    return {decode(srgb.r), decode(srgb.g), decode(srgb.b)};
+}
+
+glm::vec3 palette_color(std::size_t index) {
+    constexpr std::array<std::uint32_t, 8> colors = {0xE4572E, 0x1FA187, 0xF2B134, 0x3A7CC8,
+                                                     0xC2649A, 0x6CBCE8, 0xE9DC5C, 0x6B7280};
+    const std::uint32_t color = colors[index % colors.size()];
+    return from_srgb(glm::vec3(color >> 16 & 255u, color >> 8 & 255u, color & 255u) / 255.0f);
+}
+
+}  // namespace gelatin::render

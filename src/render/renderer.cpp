@@ -1,0 +1,179 @@
+#include "render/renderer.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <string>
+
+#include "gelatin/error.h"
+#include "gl/debug.h"
+#include "render/palette.h"
+
+namespace gelatin::render {
+namespace {
+
+const glm::vec3 kToKeyLight = glm::normalize(glm::vec3(-0.55f, 1.0f, 0.42f));
+const glm::vec4 kPropColor(0.34f, 0.37f, 0.42f, 1.0f);
+constexpr float kFloorRadius = 9.0f;  // of the scene's extent
+
+// Puts back the framebuffer and viewport of the application that draws around this one.
+class FramebufferGuard {
+public:
+    FramebufferGuard() {
+        glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer_);
+        glGetIntegerv(GL_VIEWPORT, viewport_);
+    }
+    FramebufferGuard(const FramebufferGuard&) = delete;
+    FramebufferGuard& operator=(const FramebufferGuard&) = delete;
+    ~FramebufferGuard() {
+        glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(framebuffer_));
+        glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
+    }
+
+private:
+    GLint framebuffer_ = 0;
+    GLint viewport_[4] = {};
+};
+
+RendererOptions checked(RendererOptions options) {
+    GLint largest = 0;
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+    for (const auto& [name, size] :
+         {std::pair("width", options.width), std::pair("height", options.height)}) {
+        if (size < 1 || size > largest) {
+            throw InvalidInput({{},
+                                0,
+                                name,
+                                std::to_string(size),
+                                "must be 1 to " + std::to_string(largest) + " pixels on this driver"});
+        }
+    }
+    GLint most_samples = 0;
+    glGetIntegerv(GL_MAX_SAMPLES, &most_samples);
+    options.samples = std::clamp(options.samples, 0, static_cast<int>(most_samples));
+    return options;
+}
+
+gl::Defines defines_of(Shading shading) {
+    return shading == Shading::node ? gl::Defines{"LIGHT_AT_NODES"} : gl::Defines{};
+}
+
+// 1, 2 or 5 times a power of ten, so that some ten lines cross the scene.
+float grid_spacing(float extent) {
+    const float wanted = extent / 10.0f;
+    const float decade = std::pow(10.0f, std::floor(std::log10(wanted)));
+    const float mantissa = wanted / decade;
+    return decade * (mantissa < 1.5f ? 1.0f : mantissa < 3.5f ? 2.0f : mantissa < 7.5f ? 5.0f : 10.0f);
+}
+
+}  // namespace
+
+Renderer::Renderer(const RendererOptions& options)
+    : options_(checked(options)),
+      surface_program_(
+          gl::Program::graphics("render/surface.vert", "render/surface.frag", defines_of(options.shading))),
+      floor_program_(gl::Program::graphics("render/floor.vert", "render/floor.frag")),
+      backdrop_program_(gl::Program::graphics("render/whole_picture.vert", "render/backdrop.frag")),
+      samples_(Target::multisampled(options_.width, options_.height, options_.samples)),
+      picture_(Target::color(options_.width, options_.height, GL_RGBA8)),
+      shadows_(options_.shadow_resolution) {
+    glGenVertexArrays(1, &vertex_array_);
+    gl::check_errors("setting up the renderer");
+}
+
+Renderer::~Renderer() {
+    glDeleteVertexArrays(1, &vertex_array_);
+}
+
+void Renderer::set_surroundings(const Surroundings& surroundings) {
+    surroundings_ = surroundings;
+    props_ = StaticMesh(surroundings.props);
+    const std::vector<glm::vec4> prop_colors(std::max<std::size_t>(surroundings.props.size(), 1), kPropColor);
+    prop_colors_ = gl::Buffer<glm::vec4>(std::span<const glm::vec4>(prop_colors));
+    body_colors_ = {};
+    const Bounds& bounds = surroundings.bounds;
+    shadows_.aim(bounds, surroundings.floor_height.value_or(bounds.min.y), kToKeyLight);
+}
+
+void Renderer::grow_colors(std::uint32_t body_count) {
+    if (body_colors_.size() >= std::max(body_count, 1u)) return;
+    std::vector<glm::vec4> colors;
+    for (std::size_t i = 0; i < std::max(body_count, 1u); ++i) {
+        const bool given = i < surroundings_.colors.size() && surroundings_.colors[i].r >= 0.0f;
+        colors.emplace_back(given ? surroundings_.colors[i] : palette_color(i), 1.0f);
+    }
+    body_colors_ = gl::Buffer<glm::vec4>(std::span<const glm::vec4>(colors));
+}
+
+void Renderer::draw(const RenderView& bodies, const Camera& camera) {
+    const FramebufferGuard guard;
+    gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::vertex_pull);
+    glBindVertexArray(vertex_array_);
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);
+    glDepthFunc(GL_LEQUAL);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+
+    grow_colors(bodies.object_count);
+    const SurfaceDraw body_draw(bodies);
+    const SurfaceDraw prop_draw(props_.view());
+    shadows_.draw({&body_draw, &prop_draw});
+    samples_.bind();
+    draw_scene(body_draw, prop_draw, camera);
+
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, samples_.framebuffer());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, picture_.framebuffer());
+    glBlitFramebuffer(0, 0, width(), height(), 0, 0, width(), height(), GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindSampler(4, 0);
+    glBindVertexArray(0);
+    gl::check_errors("drawing a frame");
+}
+
+void Renderer::set_frame_uniforms(const gl::Program& program, const Camera& camera) const {
+    const float aspect = static_cast<float>(width()) / static_cast<float>(height());
+    program.set("world_to_clip", camera.projection(aspect) * camera.view());
+    program.set("to_key_light", kToKeyLight);
+    program.set("picture_size", glm::vec2(width(), height()));
+    program.set("eye", camera.eye);
+    shadows_.set_uniforms(program);
+    program.use();
+}
+
+// From the nearest to the farthest, so that what is hidden is not lit.
+void Renderer::draw_scene(const SurfaceDraw& bodies, const SurfaceDraw& props, const Camera& camera) const {
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glClear(GL_DEPTH_BUFFER_BIT);  // the backdrop covers every pixel's colour
+    shadows_.bind_textures();
+
+    set_frame_uniforms(surface_program_, camera);
+    surface_program_.set("jelly", 1.0f);
+    const gl::BufferTexture body_colors(body_colors_, gl::TexelFormat::rgba32f);
+    body_colors.bind(3);
+    bodies.draw();
+    surface_program_.set("jelly", 0.0f);
+    const gl::BufferTexture prop_colors(prop_colors_, gl::TexelFormat::rgba32f);
+    prop_colors.bind(3);
+    props.draw();
+
+    if (surroundings_.floor_height) draw_floor(camera);
+    set_frame_uniforms(backdrop_program_, camera);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Renderer::draw_floor(const Camera& camera) const {
+    if (camera.eye.y <= *surroundings_.floor_height) return;
+    set_frame_uniforms(floor_program_, camera);
+    const float extent = std::max(glm::length(surroundings_.bounds.size()), 1e-3f);
+    glm::vec3 center = surroundings_.bounds.center();
+    center.y = *surroundings_.floor_height;
+    floor_program_.set("floor_center", center);
+    floor_program_.set("floor_radius", kFloorRadius * extent);
+    floor_program_.set("grid_spacing", grid_spacing(extent));
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+}  // namespace gelatin::render

@@ -1,0 +1,153 @@
+#include "render/shadows.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/ext/matrix_clip_space.hpp>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+
+namespace gelatin::render {
+namespace {
+
+constexpr int kUndersideResolution = 192;
+constexpr int kFloorLightResolution = 256;
+constexpr float kLightSize = 0.11f;       // tangent of the key light's apparent radius: a large soft box
+constexpr float kPenumbraLeast = 0.006f;  // of the scene's extent
+constexpr float kPenumbraMost = 0.07f;
+constexpr float kSkyRadius = 0.35f;
+
+std::array<glm::vec3, 8> corners(const Bounds& bounds) {
+    std::array<glm::vec3, 8> all;
+    for (int i = 0; i < 8; ++i) {
+        all[static_cast<std::size_t>(i)] = {i & 1 ? bounds.max.x : bounds.min.x,
+                                            i & 2 ? bounds.max.y : bounds.min.y,
+                                            i & 4 ? bounds.max.z : bounds.min.z};
+    }
+    return all;
+}
+
+// Clip coordinates to texture coordinates and depth.
+const glm::mat4 kHalf =
+    glm::translate(glm::mat4(1.0f), glm::vec3(0.5f)) * glm::scale(glm::mat4(1.0f), glm::vec3(0.5f));
+
+}  // namespace
+
+Shadows::Shadows(int resolution)
+    : depth_program_(gl::Program::graphics("render/surface_depth.vert", "render/surface_depth.frag")),
+      floor_program_(gl::Program::graphics("render/whole_picture.vert", "render/floor_light.frag")),
+      shadow_map_(Target::depth(resolution, resolution)),
+      underside_(Target::depth(kUndersideResolution, kUndersideResolution)),
+      floor_light_(Target::color(kFloorLightResolution, kFloorLightResolution, GL_RG8)) {
+    glGenSamplers(1, &compare_sampler_);
+    glSamplerParameteri(compare_sampler_, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    glSamplerParameteri(compare_sampler_, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    glSamplerParameteri(compare_sampler_, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glSamplerParameteri(compare_sampler_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glSamplerParameteri(compare_sampler_, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glSamplerParameteri(compare_sampler_, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+Shadows::~Shadows() {
+    glDeleteSamplers(1, &compare_sampler_);
+}
+
+void Shadows::aim(const Bounds& casters, float floor_height, const glm::vec3& to_light) {
+    floor_height_ = floor_height;
+    extent_ = std::max(glm::length(casters.size()), 1e-3f);
+    const glm::vec3 center = casters.center();
+    const glm::mat4 view = glm::lookAt(center + to_light, center, glm::vec3(0.0f, 0.0f, -1.0f));
+
+    Bounds seen{glm::vec3(view * glm::vec4(center, 1.0f)), glm::vec3(view * glm::vec4(center, 1.0f))};
+    Bounds patch{center, center};
+    for (const glm::vec3& corner : corners(casters)) {
+        seen.add(glm::vec3(view * glm::vec4(corner, 1.0f)));
+        patch.add(corner);
+        patch.add(corner - to_light * ((corner.y - floor_height) / to_light.y));
+    }
+    const glm::vec3 room(0.04f * extent_);
+    seen = {seen.min - room, seen.max + room};
+    light_size_ = seen.size();
+    world_to_light_ =
+        glm::ortho(seen.min.x, seen.max.x, seen.min.y, seen.max.y, -seen.max.z, -seen.min.z) * view;
+
+    const float reach = (kPenumbraMost + 0.5f * kSkyRadius) * extent_;
+    patch_corner_ = glm::vec2(patch.min.x, patch.min.z) - reach;
+    patch_size_ = glm::vec2(patch.max.x, patch.max.z) + reach - patch_corner_;
+    // x and z to the picture, height to depth.
+    world_to_floor_ = glm::mat4(0.0f);
+    world_to_floor_[0][0] = 2.0f / patch_size_.x;
+    world_to_floor_[2][1] = 2.0f / patch_size_.y;
+    world_to_floor_[1][2] = 2.0f / extent_;
+    world_to_floor_[3] = glm::vec4(-2.0f * patch_corner_.x / patch_size_.x - 1.0f,
+                                   -2.0f * patch_corner_.y / patch_size_.y - 1.0f,
+                                   -2.0f * floor_height / extent_ - 1.0f, 1.0f);
+}
+
+void Shadows::draw_depth(const Target& target, const glm::mat4& world_to_clip,
+                         std::initializer_list<const SurfaceDraw*> casters) const {
+    target.bind();
+    glClear(GL_DEPTH_BUFFER_BIT);
+    depth_program_.set("world_to_clip", world_to_clip);
+    depth_program_.use();
+    for (const SurfaceDraw* caster : casters) caster->draw();
+}
+
+void Shadows::draw_floor_light() const {
+    floor_light_.bind();
+    glActiveTexture(GL_TEXTURE4);
+    glBindTexture(GL_TEXTURE_2D, shadow_map_.texture());
+    glBindSampler(4, 0);
+    glActiveTexture(GL_TEXTURE6);
+    glBindTexture(GL_TEXTURE_2D, underside_.texture());
+    glBindSampler(6, 0);
+    const gl::Program& program = floor_program_;
+    program.set("world_to_shadow", kHalf * world_to_light_);
+    program.set("shadow_scale", glm::vec2(1.0f / light_size_.x, 1.0f / light_size_.y));
+    program.set("shadow_range", light_size_.z);
+    program.set("light_size", kLightSize);
+    program.set("penumbra_least", kPenumbraLeast * extent_);
+    program.set("penumbra_most", kPenumbraMost * extent_);
+    program.set("underside_range", extent_);
+    program.set("sky_radius", kSkyRadius * extent_);
+    program.set("patch_corner", patch_corner_);
+    program.set("patch_size", patch_size_);
+    program.set("floor_height", floor_height_);
+    program.use();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Shadows::draw(std::initializer_list<const SurfaceDraw*> casters) const {
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    // What lies before or behind a map still casts into it.
+    glEnable(GL_DEPTH_CLAMP);
+    draw_depth(shadow_map_, world_to_light_, casters);
+    draw_depth(underside_, world_to_floor_, casters);
+    glDisable(GL_DEPTH_CLAMP);
+    glDisable(GL_DEPTH_TEST);
+    draw_floor_light();
+}
+
+void Shadows::set_uniforms(const gl::Program& program) const {
+    program.set("world_to_shadow", kHalf * world_to_light_);
+    const float texel = std::max(light_size_.x, light_size_.y) / static_cast<float>(shadow_map_.width());
+    program.set("shadow_bias", 3.0f * texel);
+    program.set("shadow_blur", 1.5f / static_cast<float>(shadow_map_.width()));
+    program.set("floor_patch", glm::vec4(patch_corner_, 1.0f / patch_size_.x, 1.0f / patch_size_.y));
+    program.set("floor_height", floor_height_);
+    program.set("floor_reach", 0.35f * extent_);
+}
+
+void Shadows::bind_textures() const {
+    glActiveTexture(GL_TEXTURE4);
+    glBindTexture(GL_TEXTURE_2D, shadow_map_.texture());
+    glBindSampler(4, compare_sampler_);
+    glActiveTexture(GL_TEXTURE5);
+    glBindTexture(GL_TEXTURE_2D, floor_light_.texture());
+    glBindSampler(5, 0);
+}
+
+}  // namespace gelatin::render

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <initializer_list>
+
+#include "gl/program.h"
+#include "render/camera.h"
+#include "render/surface_draw.h"
+#include "render/target.h"
+
+namespace gelatin::render {
+
+/// What stands between the lights and the scene: a depth map seen from the key light, and from it and the
+/// bodies' undersides the light that reaches the floor, as a small texture.
+class Shadows {
+public:
+    /// @param resolution of the key light's map [pixels a side]
+    explicit Shadows(int resolution);
+    Shadows(const Shadows&) = delete;
+    Shadows& operator=(const Shadows&) = delete;
+    ~Shadows();
+
+    /// Fits the maps to what casts shadows. @param to_light unit vector
+    void aim(const Bounds& casters, float floor_height, const glm::vec3& to_light);
+
+    /// Draws the casters into the maps. @pre a vertex array object is bound
+    void draw(std::initializer_list<const SurfaceDraw*> casters) const;
+
+    /// For programs that use shaders/include/light.glsl or floor_light.glsl.
+    void set_uniforms(const gl::Program& program) const;
+    void bind_textures() const;
+
+private:
+    void draw_depth(const Target& target, const glm::mat4& world_to_clip,
+                    std::initializer_list<const SurfaceDraw*> casters) const;
+    void draw_floor_light() const;
+
+    gl::Program depth_program_;
+    gl::Program floor_program_;
+    Target shadow_map_;
+    Target underside_;
+    Target floor_light_;
+    unsigned compare_sampler_ = 0;
+
+    glm::mat4 world_to_light_{1.0f};  // clip coordinates of the key light's map
+    glm::mat4 world_to_floor_{1.0f};  // clip coordinates of the undersides' map
+    glm::vec3 light_size_{1.0f};      // what the key light's map covers, across, up and in depth [m]
+    glm::vec2 patch_corner_{0.0f};    // [m]
+    glm::vec2 patch_size_{1.0f};      // [m]
+    float floor_height_ = 0.0f;       // [m]
+    float extent_ = 1.0f;             // of the scene [m]
+};
+
+}  // namespace gelatin::render

@@ -1,0 +1,23 @@
+#include "render/surface_draw.h"
+
+#include <epoxy/gl.h>
+
+namespace gelatin::render {
+
+SurfaceDraw::SurfaceDraw(const RenderView& view)
+    : view_(view),
+      node_positions_(view.node_positions, std::size_t{16} * view.node_count, gl::TexelFormat::rgba32f),
+      surface_vertices_(view.surface_vertices, std::size_t{16} * view.vertex_count,
+                        gl::TexelFormat::rgba32ui),
+      vertex_normals_(view.vertex_normals, std::size_t{16} * view.vertex_count, gl::TexelFormat::rgba32f) {}
+
+void SurfaceDraw::draw() const {
+    if (view_.face_count == 0) return;
+    node_positions_.bind(0);
+    surface_vertices_.bind(1);
+    vertex_normals_.bind(2);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, view_.triangles);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * view_.face_count), GL_UNSIGNED_INT, nullptr);
+}
+
+}  // namespace gelatin::render

@@ -1,0 +1,87 @@
+#include "render/target.h"
+
+#include <epoxy/gl.h>
+
+#include <string>
+
+#include "gelatin/error.h"
+
+namespace gelatin::render {
+
+Target Target::multisampled(int width, int height, int samples) {
+    Target target(width, height);
+    glGenFramebuffers(1, &target.framebuffer_);
+    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer_);
+    glGenRenderbuffers(2, target.renderbuffers_);
+    const GLenum formats[] = {GL_RGBA8, GL_DEPTH_COMPONENT24};
+    const GLenum attachments[] = {GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT};
+    for (int i = 0; i < 2; ++i) {
+        glBindRenderbuffer(GL_RENDERBUFFER, target.renderbuffers_[i]);
+        glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, formats[i], width, height);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, attachments[i], GL_RENDERBUFFER, target.renderbuffers_[i]);
+    }
+    target.check_complete();
+    return target;
+}
+
+Target Target::color(int width, int height, unsigned internal_format) {
+    Target target(width, height);
+    target.attach_texture(internal_format, GL_COLOR_ATTACHMENT0);
+    target.check_complete();
+    return target;
+}
+
+Target Target::depth(int width, int height) {
+    Target target(width, height);
+    target.attach_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT);
+    glDrawBuffer(GL_NONE);
+    glReadBuffer(GL_NONE);
+    target.check_complete();
+    return target;
+}
+
+void Target::attach_texture(unsigned internal_format, unsigned attachment) {
+    glGenTextures(1, &texture_);
+    glBindTexture(GL_TEXTURE_2D, texture_);
+    glTexStorage2D(GL_TEXTURE_2D, 1, internal_format, width_, height_);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glGenFramebuffers(1, &framebuffer_);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture_, 0);
+}
+
+void Target::check_complete() const {
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
+    throw GlError("the driver cannot draw into a picture of " + std::to_string(width_) + " x " +
+                  std::to_string(height_) + " pixels");
+}
+
+Target& Target::operator=(Target&& other) noexcept {
+    Target old(std::move(*this));
+    swap(other);
+    return *this;
+}
+
+void Target::swap(Target& other) noexcept {
+    std::swap(width_, other.width_);
+    std::swap(height_, other.height_);
+    std::swap(framebuffer_, other.framebuffer_);
+    std::swap(texture_, other.texture_);
+    std::swap(renderbuffers_, other.renderbuffers_);
+}
+
+Target::~Target() {
+    if (framebuffer_ != 0) glDeleteFramebuffers(1, &framebuffer_);
+    if (texture_ != 0) glDeleteTextures(1, &texture_);
+    if (renderbuffers_[0] != 0) glDeleteRenderbuffers(2, renderbuffers_);
+}
+
+void Target::bind() const {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+    glViewport(0, 0, width_, height_);
+}
+
+}  // namespace gelatin::render

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <utility>
+
+namespace gelatin::render {
+
+/// Something to draw into: a framebuffer and what is attached to it. Move-only.
+class Target {
+public:
+    Target() = default;
+    /// Colour (RGBA8) and depth with `samples` a pixel, for drawing and resolving alone.
+    /// @throws GlError if the driver cannot make it; the same for the others.
+    static Target multisampled(int width, int height, int samples);
+    /// A colour texture, sampled linearly, clamped at its edge.
+    /// @param internal_format for example GL_RGBA8
+    static Target color(int width, int height, unsigned internal_format);
+    /// A depth texture.
+    static Target depth(int width, int height);
+    Target(Target&& other) noexcept { swap(other); }
+    Target& operator=(Target&& other) noexcept;
+    ~Target();
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    unsigned framebuffer() const { return framebuffer_; }
+    unsigned texture() const { return texture_; }
+
+    /// Draws go here from now on, with the viewport over all of it.
+    void bind() const;
+
+private:
+    Target(int width, int height) : width_(width), height_(height) {}
+    void swap(Target& other) noexcept;
+    void attach_texture(unsigned internal_format, unsigned attachment);
+    void check_complete() const;
+
+    int width_ = 0;
+    int height_ = 0;
+    unsigned framebuffer_ = 0;
+    unsigned texture_ = 0;
+    unsigned renderbuffers_[2] = {0, 0};  // colour, depth
+};
+
+}  // namespace gelatin::render

@@ -1,0 +1,29 @@
+#include "sim/backend.h"
+
+#include "core/log.h"
+#include "gelatin/error.h"
+#include "gl/debug.h"
+
+namespace gelatin {
+
+std::optional<gl::Context> make_context(const SimulatorOptions& options) {
+    if (options.use_current_context) return gl::Context::current();
+    if (options.backend == Backend::cpu && !options.need_gl) return std::nullopt;
+    const bool needed = options.backend == Backend::gl || options.need_gl;
+    try {
+        gl::Context context = gl::Context::headless({options.gl_device, options.gl_debug});
+        if (options.gl_debug) gl::enable_debug_output();
+        return context;
+    } catch (const NoOpenGl& problem) {
+        if (needed) throw;
+        spdlog::info("simulating on the CPU: {}", problem.what());
+        return std::nullopt;
+    }
+}
+
+bool choose_gl(const SimulatorOptions& options, const std::optional<gl::Context>& context) {
+    if (options.backend == Backend::automatic) return context && !context->device().is_software;
+    return options.backend == Backend::gl;
+}
+
+}  // namespace gelatin

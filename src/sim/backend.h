@@ -1,0 +1,19 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "gelatin/simulator.h"
+#include "gl/context.h"
+#include "model/solver.h"
+
+namespace gelatin {
+
+/// The context that the options ask for: the host's, a headless one, or none where nothing needs GL.
+/// @throws NoOpenGl if GL is needed and there is none.
+std::optional<gl::Context> make_context(const SimulatorOptions& options);
+
+/// Whether the GL backend simulates: as asked, or where `automatic` finds a GPU that is not a software driver.
+bool choose_gl(const SimulatorOptions& options, const std::optional<gl::Context>& context);
+
+}  // namespace gelatin

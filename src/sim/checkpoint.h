@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+
+#include "model/model.h"
+#include "model/solver.h"
+
+namespace gelatin {
+
+/// A moment of a run, from which it can go on.
+struct Checkpoint {
+    int frame = 0;
+    double time = 0.0;  ///< [s]
+    State state;
+};
+
+/// Writes the exact bits, with the model's topology and a checksum; whole or not at all. @throws SystemError
+void write_checkpoint(const std::filesystem::path& file, const Model& model, const Checkpoint& checkpoint);
+
+/// @throws InvalidInput if it is not a checkpoint, is damaged, or was made with other objects than `model`'s.
+Checkpoint read_checkpoint(const std::filesystem::path& file, const Model& model);
+
+}  // namespace gelatin

@@ -1,0 +1,77 @@
+#include "sim/export.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <system_error>
+#include <utility>
+
+#include "core/file.h"
+#include "gelatin/error.h"
+
+namespace gelatin {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kPvdHead =
+    "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
+    "byte_order=\"LittleEndian\">\n<Collection>\n";
+constexpr const char* kPvdTail = "</Collection>\n</VTKFile>\n";
+
+const char* ending(ExportFormat format) {
+    switch (format) {
+        case ExportFormat::obj:
+            return "obj";
+        case ExportFormat::ply:
+            return "ply";
+        case ExportFormat::vtu:
+            return "vtu";
+    }
+    return "";
+}
+
+std::string content(ExportFormat format, const ExportTopology& topology, const HostFrame& frame) {
+    switch (format) {
+        case ExportFormat::obj:
+            return obj_text(topology, frame);
+        case ExportFormat::ply:
+            return ply_bytes(topology, frame);
+        case ExportFormat::vtu:
+            return vtu_text(topology, frame);
+    }
+    return "";
+}
+
+}  // namespace
+
+void prepare_export_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw InvalidInput({folder.string(), 0, {}, {}, "cannot be made: " + error.message()});
+    if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+        throw InvalidInput({folder.string(), 0, {}, {}, "cannot be written into"});
+    }
+}
+
+FrameExporter::FrameExporter(fs::path folder, ExportFormat format, const Model& model)
+    : folder_(std::move(folder)), format_(format), topology_(make_export_topology(model)) {}
+
+void FrameExporter::write(const HostFrame& frame) {
+    const std::string name = fmt::format("frame_{:06}.{}", frame.frame, ending(format_));
+    write_file(folder_ / name, content(format_, topology_, frame));
+    if (format_ == ExportFormat::vtu) list_in_pvd(frame, name);
+}
+
+void FrameExporter::list_in_pvd(const HostFrame& frame, const std::string& name) {
+    const fs::path file = folder_ / "scene.pvd";
+    if (!pvd_.is_open()) {
+        pvd_.open(file, std::ios::trunc | std::ios::binary);
+        pvd_ << kPvdHead;
+    } else {
+        pvd_.seekp(-static_cast<std::streamoff>(std::string_view(kPvdTail).size()), std::ios::end);
+    }
+    pvd_ << fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time, name) << kPvdTail;
+    if (!pvd_.flush()) throw SystemError(file.string() + ": cannot be written");
+}
+
+}  // namespace gelatin

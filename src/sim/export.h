@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "sim/export_formats.h"
+
+namespace gelatin {
+
+enum class ExportFormat { obj, ply, vtu };
+
+/// Makes `folder` if need be and tries it, so that a run does not fail after hours.
+/// @throws InvalidInput if it cannot be made, is a file, or cannot be written into.
+void prepare_export_folder(const std::filesystem::path& folder);
+
+/// Writes frames as frame_000000.obj (.ply, .vtu) and so on, each file whole or not at all; .vtu with
+/// scene.pvd, the list of frames and their times that ParaView opens, complete after every frame.
+class FrameExporter {
+public:
+    /// @param folder one that `prepare_export_folder` took
+    FrameExporter(std::filesystem::path folder, ExportFormat format, const Model& model);
+
+    /// @throws SystemError if it cannot be written.
+    void write(const HostFrame& frame);
+
+private:
+    void list_in_pvd(const HostFrame& frame, const std::string& name);
+
+    std::filesystem::path folder_;
+    ExportFormat format_;
+    ExportTopology topology_;
+    std::ofstream pvd_;
+};
+
+}  // namespace gelatin

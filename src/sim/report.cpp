@@ -1,0 +1,122 @@
+#include "sim/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "gelatin/version.h"
+#include "model/model.h"
+
+namespace gelatin {
+namespace {
+
+using Json = nlohmann::ordered_json;  // keys stay in the order of the documentation
+
+Json settings_json(const RunReport& report) {
+    const SimulationSettings& settings = report.settings;
+    return {{"solver", name_of(settings.solver)},
+            {"forces", name_of(settings.forces)},
+            {"frame_rate", settings.frame_rate},
+            {"substeps", report.substeps},
+            {"step_size", report.step_size},
+            {"gravity", {settings.gravity.x, settings.gravity.y, settings.gravity.z}}};
+}
+
+Json counts_json(const Counts& counts) {
+    return {{"objects", counts.objects},
+            {"nodes", counts.nodes},
+            {"springs", counts.springs},
+            {"faces", counts.faces},
+            {"tets", counts.tets}};
+}
+
+Json frame_json(const FrameStatistics& frame, const std::vector<std::string>& objects) {
+    Json volume_ratio = Json::object();
+    for (std::size_t o = 0; o < objects.size() && o < frame.volume_ratio.size(); ++o) {
+        volume_ratio[objects[o]] = frame.volume_ratio[o];
+    }
+    return {{"frame", frame.frame},
+            {"time", frame.time},
+            {"kinetic_energy", frame.kinetic_energy},
+            {"elastic_energy", frame.elastic_energy},
+            {"potential_energy", frame.potential_energy},
+            {"momentum", frame.momentum},
+            {"colliding_faces", frame.colliding_faces},
+            {"contacts", frame.contacts},
+            {"deepest_penetration", frame.deepest_penetration},
+            {"volume_ratio", volume_ratio}};
+}
+
+Json spread_json(const std::vector<double>& milliseconds) {
+    return {{"median", percentile(milliseconds, 0.5)}, {"p95", percentile(milliseconds, 0.95)}};
+}
+
+Json timing_json(const RunReport& report) {
+    Json stages = Json::object();
+    for (const auto& [name, milliseconds] : report.stage_ms) {
+        stages[name] = spread_json(milliseconds);
+        stages[name]["runs"] = milliseconds.size();
+    }
+    const auto frames = static_cast<double>(report.frame_ms.size());
+    return {{"fps", report.seconds > 0.0 ? frames / report.seconds : 0.0},
+            {"frame_ms", spread_json(report.frame_ms)},
+            {"stages", stages}};
+}
+
+}  // namespace
+
+RunReport describe_run(const Simulator& simulator) {
+    RunReport report;
+    report.scene = simulator.scene().file.string();
+    report.backend = simulator.backend();
+    report.device = simulator.device();
+    report.settings = simulator.scene().simulation;
+    report.substeps = simulator.substeps();
+    report.step_size = simulator.step_size();
+    report.counts = simulator.counts();
+    for (const ModelObject& object : simulator.model().objects) report.objects.push_back(object.name);
+    return report;
+}
+
+std::string to_json(const RunReport& report) {
+    Json frames = Json::array();
+    for (const FrameStatistics& frame : report.frames) frames.push_back(frame_json(frame, report.objects));
+    const Json document = {{"gelatin", {{"version", version()}, {"commit", commit()}}},
+                           {"scene", report.scene},
+                           {"backend", report.backend},
+                           {"device", report.device},
+                           {"settings", settings_json(report)},
+                           {"counts", counts_json(report.counts)},
+                           {"frames", std::move(frames)},
+                           {"timing", timing_json(report)}};
+    // Names and paths may hold bytes that are not UTF-8, which JSON cannot.
+    return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+double percentile(std::vector<double> values, double fraction) {
+    if (values.empty()) return 0.0;
+    const auto rank = static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(values.size())));
+    const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
+    std::nth_element(values.begin(), nth, values.end());
+    return *nth;
+}
+
+const char* name_of(SolverKind solver) {
+    switch (solver) {
+        case SolverKind::explicit_euler:
+            return "explicit_euler";
+        case SolverKind::semi_implicit_euler:
+            return "semi_implicit_euler";
+        case SolverKind::midpoint:
+            return "midpoint";
+        case SolverKind::rk4:
+            return "rk4";
+    }
+    return "";
+}
+
+const char* name_of(ForceMethod forces) {
+    return forces == ForceMethod::fused ? "fused" : "divide_and_merge";
+}
+
+}  // namespace gelatin

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gelatin/simulator.h"
+
+namespace gelatin {
+
+/// What `gelatin run --stats` writes about a run.
+struct RunReport {
+    std::string scene;    ///< the file
+    std::string backend;  ///< "gl" or "cpu"
+    std::string device;
+    SimulationSettings settings;
+    int substeps = 1;        ///< steps a frame, as chosen
+    double step_size = 0.0;  ///< [s]
+    Counts counts;
+    std::vector<std::string> objects;  ///< names, in the order of FrameStatistics::volume_ratio
+    std::vector<FrameStatistics> frames;
+    double seconds = 0.0;          ///< wall clock over all timed frames [s]
+    std::vector<double> frame_ms;  ///< wall clock of each frame, what is recorded of it included [ms]
+    std::vector<std::pair<std::string, std::vector<double>>> stage_ms;  ///< of each run of a stage [ms]
+};
+
+/// The part of a report that is known before the first frame.
+RunReport describe_run(const Simulator& simulator);
+
+/// One JSON object, SI units; docs/command-line.md lists its keys.
+std::string to_json(const RunReport& report);
+
+/// The value that `fraction` of the sorted values lie below or at (nearest rank); 0 for no values.
+double percentile(std::vector<double> values, double fraction);
+
+/// The names that scene files use.
+const char* name_of(SolverKind solver);
+const char* name_of(ForceMethod forces);
+
+}  // namespace gelatin

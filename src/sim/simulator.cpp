@@ -1,0 +1,167 @@
+#include "gelatin/simulator.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <deque>
+
+#include "cpu/cpu_solver.h"
+#include "gelatin/error.h"
+#include "gpu/gpu_solver.h"
+#include "model/build_model.h"
+#include "model/stability.h"
+#include "sim/backend.h"
+#include "sim/checkpoint.h"
+#include "sim/draw_source.h"
+
+namespace gelatin {
+
+struct Simulator::Impl {
+    struct Moment {
+        int frame;
+        double time;  // [s]
+    };
+
+    Scene scene;
+    SimulatorOptions options;
+    std::optional<gl::Context> context;  // before everything that owns GL objects
+    std::shared_ptr<const Model> model;
+    int substeps = 1;
+    std::unique_ptr<Solver> solver;
+    const gpu::GpuSolver* gpu_solver = nullptr;  // solver, if it is one
+    std::optional<DrawSource> draw_source;
+
+    Moment start{0, 0.0};  // of this run: where a checkpoint was loaded
+    std::uint64_t steps = 0;  // since then
+    std::deque<Moment> measured;
+
+    double step_size() const { return scene.simulation.frame_time() / substeps; }
+    int frame() const { return start.frame + static_cast<int>(steps / static_cast<std::uint64_t>(substeps)); }
+    double time() const { return start.time + static_cast<double>(steps) * step_size(); }
+
+    template <class Work>
+    void run_stage(const char* name, const Work& work) {
+        if (!options.time_stages) return work();
+        solver->stage_timer().begin(name);
+        work();
+        solver->stage_timer().end();
+    }
+};
+
+Simulator::Simulator(const Scene& scene, const SimulatorOptions& options) : impl_(std::make_unique<Impl>()) {
+    Impl& d = *impl_;
+    d.scene = scene;
+    d.options = options;
+    d.model = std::make_shared<const Model>(build_model(scene));
+    d.substeps = choose_substeps(scene, *d.model);
+    d.context = make_context(options);
+    const SimulationSettings& settings = scene.simulation;
+    if (choose_gl(options, d.context)) {
+        auto solver = std::make_unique<gpu::GpuSolver>(d.model, settings.solver, settings.forces,
+                                                       d.context->device().renderer);
+        d.gpu_solver = solver.get();
+        d.solver = std::move(solver);
+    } else {
+        d.solver = std::make_unique<cpu::CpuSolver<float>>(d.model, settings.solver, settings.forces);
+    }
+}
+
+Simulator::Simulator(Simulator&&) noexcept = default;
+Simulator& Simulator::operator=(Simulator&&) noexcept = default;
+Simulator::~Simulator() = default;
+
+void Simulator::step() {
+    Impl& d = *impl_;
+    d.run_stage("advance_nodes", [&] { d.solver->advance_nodes(d.step_size()); });
+    ++d.steps;
+}
+
+void Simulator::advance_frame() {
+    for (int s = 0; s < impl_->substeps; ++s) step();
+}
+
+int Simulator::frame() const { return impl_->frame(); }
+double Simulator::time() const { return impl_->time(); }
+int Simulator::substeps() const { return impl_->substeps; }
+double Simulator::step_size() const { return impl_->step_size(); }
+bool Simulator::uses_gl() const { return impl_->gpu_solver != nullptr; }
+std::string Simulator::backend() const { return uses_gl() ? "gl" : "cpu"; }
+std::string Simulator::device() const { return impl_->solver->device(); }
+const Scene& Simulator::scene() const { return impl_->scene; }
+const Model& Simulator::model() const { return *impl_->model; }
+
+Counts Simulator::counts() const {
+    const Model& m = model();
+    return {m.objects.size(), m.positions.size(), m.springs.size(), m.faces.size(), m.tets.size()};
+}
+
+void Simulator::begin_statistics() {
+    Impl& d = *impl_;
+    d.run_stage("measure", [&] { d.solver->begin_measure(); });
+    d.measured.push_back({frame(), time()});
+}
+
+std::size_t Simulator::pending_statistics() const { return impl_->measured.size(); }
+
+FrameStatistics Simulator::take_statistics() {
+    Impl& d = *impl_;
+    const std::vector<ObjectMeasure> objects = d.solver->end_measure();
+    FrameStatistics frame;
+    frame.frame = d.measured.front().frame;
+    frame.time = d.measured.front().time;
+    d.measured.pop_front();
+    for (std::size_t o = 0; o < objects.size(); ++o) {
+        const ObjectMeasure& object = objects[o];
+        if (!std::isfinite(object.kinetic_energy + object.elastic_energy + object.potential_energy + object.volume)) {
+            throw Diverged(fmt::format("the simulation diverged: object '{}' has positions or velocities that are not "
+                                       "finite at frame {} ({:.6g} s)",
+                                       d.model->objects[o].name, frame.frame, frame.time));
+        }
+        frame.kinetic_energy += object.kinetic_energy;
+        frame.elastic_energy += object.elastic_energy;
+        frame.potential_energy += object.potential_energy;
+        for (int k = 0; k < 3; ++k) frame.momentum[k] += object.momentum[k];
+        frame.contacts += object.contacts;
+        frame.deepest_penetration = std::max(frame.deepest_penetration, object.deepest_penetration);
+        frame.volume_ratio.push_back(object.volume / d.model->objects[o].rest_volume);
+    }
+    return frame;
+}
+
+std::vector<std::pair<std::string, std::vector<double>>> Simulator::take_stage_times() {
+    const StageTimes times = impl_->solver->stage_timer().take();
+    return {times.begin(), times.end()};
+}
+
+HostFrame Simulator::read_frame() const {
+    const State state = impl_->solver->read_state();
+    HostFrame host;
+    host.frame = frame();
+    host.time = time();
+    for (const glm::vec4& p : state.positions) host.positions.insert(host.positions.end(), {p.x, p.y, p.z});
+    for (const glm::vec4& v : state.velocities) host.velocities.insert(host.velocities.end(), {v.x, v.y, v.z});
+    return host;
+}
+
+RenderView Simulator::render_view() {
+    Impl& d = *impl_;
+    if (!d.context) throw NoOpenGl("drawing needs an OpenGL context: ask for it in SimulatorOptions::need_gl");
+    if (!d.draw_source) d.draw_source.emplace(d.model);
+    RenderView view;
+    if (d.gpu_solver == nullptr) return d.draw_source->update(d.solver->read_state());
+    d.run_stage("update_normals", [&] { view = d.draw_source->update(*d.gpu_solver); });
+    return view;
+}
+
+void Simulator::save_checkpoint(const std::filesystem::path& file) const {
+    write_checkpoint(file, model(), {frame(), time(), impl_->solver->read_state()});
+}
+
+void Simulator::load_checkpoint(const std::filesystem::path& file) {
+    const Checkpoint checkpoint = read_checkpoint(file, model());
+    impl_->solver->write_state(checkpoint.state);
+    impl_->start = {checkpoint.frame, checkpoint.time};
+    impl_->steps = 0;
+}
+
+}  // namespace gelatin

@@ -1,0 +1,114 @@
+#include "gl/buffer.h"
+
+#include <epoxy/gl.h>
+#include <gmock/gmock.h>
+
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "gelatin/error.h"
+#include "gl/program.h"
+#include "support/gl_fixture.h"
+#include "support/shader_folder.h"
+
+namespace gelatin::gl {
+namespace {
+
+using ::testing::HasSubstr;
+
+class BufferTest : public test::GlTest {};
+
+std::vector<float> ramp(std::size_t count) {
+    std::vector<float> values(count);
+    std::iota(values.begin(), values.end(), 0.5f);
+    return values;
+}
+
+std::vector<float> content(const Buffer<float>& buffer) {
+    std::vector<float> out(buffer.size(), std::numeric_limits<float>::quiet_NaN());
+    buffer.download(out);
+    return out;
+}
+
+TEST_F(BufferTest, GivesBackWhatItWasMadeOf) {
+    const std::vector<float> values = ramp(1001);
+    const Buffer<float> buffer{std::span<const float>(values)};
+    EXPECT_EQ(buffer.size(), 1001u);
+    EXPECT_EQ(content(buffer), values);
+}
+
+TEST_F(BufferTest, UploadReplacesTheContent) {
+    Buffer<float> buffer(33);
+    const std::vector<float> values = ramp(33);
+    buffer.upload(values);
+    EXPECT_EQ(content(buffer), values);
+}
+
+TEST_F(BufferTest, EmptyHoldsAndBindsNothing) {
+    Buffer<float> buffer{std::span<const float>()};
+    EXPECT_TRUE(buffer.empty());
+    EXPECT_EQ(buffer.id(), 0u);
+    buffer.upload({});
+    buffer.bind_storage(0);
+    EXPECT_TRUE(content(buffer).empty());
+}
+
+TEST_F(BufferTest, MovedFromIsEmptyAndTheTargetsOldBufferIsFreed) {
+    const std::vector<float> values = ramp(5);
+    Buffer<float> source{std::span<const float>(values)};
+    Buffer<float> target(7);
+    const unsigned old = target.id();
+    target = std::move(source);
+    EXPECT_TRUE(source.empty());  // NOLINT(bugprone-use-after-move): what is tested
+    EXPECT_EQ(source.id(), 0u);
+    EXPECT_EQ(content(target), values);
+    EXPECT_FALSE(glIsBuffer(old));
+}
+
+TEST_F(BufferTest, MoreThanTheBlockLimitNamesBothSizes) {
+    const std::size_t limit = context().device().max_storage_block_bytes;
+    try {
+        const Buffer<std::uint32_t> buffer(limit / 4 + 1);
+        FAIL() << "expected GlError";
+    } catch (const GlError& error) {
+        EXPECT_THAT(error.what(), HasSubstr(std::to_string(limit / 4 * 4 + 4) + " bytes"));
+        EXPECT_THAT(error.what(), HasSubstr("limit of " + std::to_string(limit)));
+    }
+}
+
+TEST_F(BufferTest, TextureShowsTheBuffersTexels) {
+    test::ShaderFolder folder;
+    folder.add("copy.comp", R"(
+        layout(local_size_x = 64) in;
+        layout(binding = 3) uniform samplerBuffer source;
+        layout(std430, binding = 0) buffer Out { vec2 values[]; };
+        void main() { if (gl_GlobalInvocationID.x < 5u) values[gl_GlobalInvocationID.x] =
+                          texelFetch(source, int(gl_GlobalInvocationID.x)).rg; }
+    )");
+    const Program program = Program::compute("copy.comp");
+    const std::vector<float> values = ramp(10);
+    const Buffer<float> source{std::span<const float>(values)};
+    const Buffer<float> copy(10);
+    const BufferTexture texture(source, TexelFormat::rg32f);
+    texture.bind(3);
+    copy.bind_storage(0);
+    program.dispatch(5);
+    barrier(Barrier::buffer_update);
+    EXPECT_EQ(content(copy), values);
+}
+
+TEST_F(BufferTest, TextureOfTooManyTexelsNamesTheLimit) {
+    const std::size_t limit = context().device().max_texture_buffer_texels;
+    const Buffer<float> small(4);
+    try {
+        const BufferTexture texture(small.id(), (limit + 1) * 4, TexelFormat::r32f);
+        FAIL() << "expected GlError";
+    } catch (const GlError& error) {
+        EXPECT_THAT(error.what(), HasSubstr(std::to_string(limit + 1) + " texels"));
+        EXPECT_THAT(error.what(), HasSubstr("limit of " + std::to_string(limit)));
+    }
+}
+
+}  // namespace
+}  // namespace gelatin::gl

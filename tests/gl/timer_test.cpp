@@ -1,0 +1,62 @@
+#include "gl/timer.h"
+
+#include <gmock/gmock.h>
+
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/program.h"
+#include "support/gl_fixture.h"
+#include "support/shader_folder.h"
+
+namespace gelatin::gl {
+namespace {
+
+using ::testing::Each;
+using ::testing::Gt;
+
+class TimerTest : public test::GlTest {};
+
+TEST_F(TimerTest, ComputeTakesTime) {
+    test::ShaderFolder folder;
+    folder.add("work.comp", R"(
+        layout(local_size_x = 64) in;
+        layout(std430, binding = 0) buffer Out { float values[]; };
+        void main() {
+            float x = float(gl_GlobalInvocationID.x);
+            for (int i = 0; i < 1000; ++i) x = sin(x) + 1.0;
+            values[gl_GlobalInvocationID.x] = x;
+        })");
+    const Program program = Program::compute("work.comp");
+    const Buffer<float> buffer(6400);
+    buffer.bind_storage(0);
+
+    TimestampStageTimer timer;
+    for (int i = 0; i < 20; ++i) {
+        timer.begin("work");
+        program.dispatch(6400);
+        timer.end();
+    }
+    timer.begin("other");
+    timer.end();
+    timer.finish();
+    const StageTimes times = timer.take();
+    ASSERT_EQ(times.size(), 2u);
+    ASSERT_EQ(times.at("work").size(), 20u);
+    EXPECT_THAT(times.at("work"), Each(Gt(0.0)));
+    EXPECT_EQ(times.at("other").size(), 1u);
+    EXPECT_TRUE(timer.take().empty()) << "take gives each measurement once";
+}
+
+TEST_F(TimerTest, AnOpenStageIsNotTaken) {
+    TimestampStageTimer timer;
+    timer.begin("open");
+    timer.finish();
+    EXPECT_TRUE(timer.take().empty());
+    timer.end();
+    timer.finish();
+    EXPECT_EQ(timer.take().count("open"), 1u);
+}
+
+}  // namespace
+}  // namespace gelatin::gl

@@ -1,0 +1,246 @@
+#include "mesh/tetrahedralise.h"
+
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <sstream>
+
+#include "core/file.h"
+#include "gelatin/error.h"
+#include "mesh/shapes.h"
+#include "mesh/surface_repair.h"
+#include "mesh/topology.h"
+
+namespace gelatin {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string environment(const char* name) {
+    const char* value = std::getenv(name);
+    return value == nullptr ? "" : value;
+}
+
+// Gives each test an empty cache, and lets it put another `tetgen` in front of the true one.
+class Tetrahedralise : public testing::Test {
+protected:
+    Tetrahedralise() {
+        fs::create_directory(cache_);
+        fs::create_directory(programs_);
+        ::setenv("GELATIN_CACHE_DIR", cache_.c_str(), 1);
+    }
+    ~Tetrahedralise() override {
+        ::setenv("GELATIN_CACHE_DIR", old_cache_.c_str(), 1);
+        ::setenv("PATH", old_path_.c_str(), 1);
+    }
+
+    // `script` is what `tetgen` does with a surface; asked for its version it gives one.
+    void replace_tetgen(const std::string& script) {
+        const fs::path program = programs_ / "tetgen";
+        write_file(program,
+                   "#!/bin/sh\nif [ \"$1\" = -h ]; then echo Version 0; exit 0; fi\n" + script + "\n");
+        fs::permissions(program, fs::perms::owner_all);
+        ::setenv("PATH", (programs_.string() + ":" + old_path_).c_str(), 1);
+    }
+
+    std::size_t cache_entries() const {
+        return static_cast<std::size_t>(std::distance(fs::directory_iterator(cache_), {}));
+    }
+
+    const TemporaryFolder folder_;
+    const fs::path cache_ = folder_.path() / "cache", programs_ = folder_.path() / "programs";
+    const std::string old_cache_ = environment("GELATIN_CACHE_DIR"), old_path_ = environment("PATH");
+};
+
+SurfaceMesh make_cube() {
+    return make_box({});
+}
+
+MesherSettings with_max_volume(double volume) {
+    MesherSettings settings;
+    settings.max_volume = volume;
+    return settings;
+}
+
+std::string message_of(const SurfaceMesh& surface, const MesherSettings& settings = {}) {
+    try {
+        tetrahedralise(surface, settings, "thing");
+    } catch (const InvalidInput& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+double total_volume(const TetMesh& mesh) {
+    return std::accumulate(mesh.tets.begin(), mesh.tets.end(), 0.0,
+                           [&](double sum, const glm::uvec4& tet) { return sum + tet_volume(mesh, tet); });
+}
+
+// The tets are the right way out, fill the surface, use every node, and their boundary is what `faces` says.
+void expect_fills(const TetMesh& mesh, const SurfaceMesh& surface) {
+    std::vector<bool> is_used(mesh.positions.size(), false);
+    for (const glm::uvec4& tet : mesh.tets) {
+        EXPECT_GT(tet_volume(mesh, tet), 0.0);
+        for (int k = 0; k < 4; ++k) is_used.at(tet[k]) = true;
+    }
+    EXPECT_EQ(std::count(is_used.begin(), is_used.end(), false), 0);
+    const double volume = signed_volume(surface);
+    EXPECT_NEAR(total_volume(mesh), volume, 1e-6 * volume);
+    EXPECT_EQ(mesh.faces.size(), boundary_faces(mesh.tets).size());
+    const SurfaceMesh boundary{mesh.positions, mesh.faces};
+    EXPECT_TRUE(measure_openness(boundary).is_closed());
+    EXPECT_NEAR(signed_volume(boundary), volume, 1e-6 * volume);
+}
+
+// Radius of the circumscribed sphere over the shortest edge.
+double radius_edge_ratio(const TetMesh& mesh, const glm::uvec4& tet) {
+    const glm::dvec3 a = mesh.positions[tet[0]];
+    const glm::dvec3 b = mesh.positions[tet[1]] - a, c = mesh.positions[tet[2]] - a,
+                     d = mesh.positions[tet[3]] - a;
+    const glm::dvec3 center = (glm::dot(b, b) * glm::cross(c, d) + glm::dot(c, c) * glm::cross(d, b) +
+                               glm::dot(d, d) * glm::cross(b, c)) /
+                              (12.0 * tet_volume(mesh, tet));
+    const double shortest = std::min({glm::length(b), glm::length(c), glm::length(d), glm::length(c - b),
+                                      glm::length(d - b), glm::length(d - c)});
+    return glm::length(center) / shortest;
+}
+
+TEST_F(Tetrahedralise, SphereHasTheCountsOfThePaper) {
+    const SurfaceMesh sphere = make_sphere({0.5, 20});
+    const TetMesh mesh = tetrahedralise(sphere, {}, "sphere");
+    expect_fills(mesh, sphere);
+    EXPECT_EQ(mesh.faces.size(), 8000u);
+    EXPECT_NEAR(static_cast<double>(mesh.positions.size()), 4580.0, 50.0);
+    EXPECT_NEAR(static_cast<double>(tet_edges(mesh.tets).size()), 22630.0, 250.0);
+}
+
+TEST_F(Tetrahedralise, KeepsQualityAndVolumeLimits) {
+    const SurfaceMesh box = make_box({{1.0, 2.0, 0.5}, {1, 2, 1}});
+    MesherSettings settings = with_max_volume(2e-3);
+    settings.quality = 1.5;
+    const TetMesh mesh = tetrahedralise(box, settings, "box");
+    expect_fills(mesh, box);
+    EXPECT_GT(mesh.tets.size(), 500u);
+    for (const glm::uvec4& tet : mesh.tets) {
+        EXPECT_LE(tet_volume(mesh, tet), 2e-3 * (1.0 + 1e-9));
+        EXPECT_LE(radius_edge_ratio(mesh, tet), 1.5 * (1.0 + 1e-6));
+    }
+}
+
+TEST_F(Tetrahedralise, TakesVerySmallAndVeryLargeThings) {
+    for (const double size : {1e-4, 1e4}) {
+        const SurfaceMesh box = make_box({glm::dvec3(size), glm::ivec3(2)});
+        const TetMesh mesh = tetrahedralise(box, with_max_volume(0.01 * size * size * size), "box");
+        expect_fills(mesh, box);
+        EXPECT_GT(mesh.tets.size(), 100u);
+        EXPECT_LT(mesh.tets.size(), 2000u);
+    }
+}
+
+TEST_F(Tetrahedralise, FillsLetters) {
+    for (const char letter : std::string("ABGELTIN8Si%")) {
+        SCOPED_TRACE(letter);
+        TextShape shape;
+        shape.text = letter;
+        const SurfaceMesh surface = make_text(shape);
+        expect_fills(tetrahedralise(surface, with_max_volume(1e-4), "letter"), surface);
+    }
+}
+
+TEST_F(Tetrahedralise, RunsTetgenOnceForTheSameInput) {
+    const fs::path log = folder_.path() / "log";
+    replace_tetgen("echo \"$@\" >> " + log.string() + "\nPATH=" + old_path_ + " exec tetgen \"$@\"");
+    const auto runs = [&] {
+        const std::string lines = read_file(log);
+        return std::count(lines.begin(), lines.end(), '\n');
+    };
+    const TetMesh first = tetrahedralise(make_cube(), {}, "cube");
+    const TetMesh second = tetrahedralise(make_cube(), {}, "the same by another name");
+    EXPECT_EQ(runs(), 1);
+    EXPECT_EQ(first.positions, second.positions);
+    EXPECT_EQ(first.tets, second.tets);
+    EXPECT_EQ(first.faces, second.faces);
+
+    MesherSettings better;
+    better.quality = 1.4;
+    tetrahedralise(make_cube(), better, "cube");
+    tetrahedralise(make_cube(), with_max_volume(0.01), "cube");
+    SurfaceMesh moved = make_cube();
+    for (glm::dvec3& position : moved.positions) position.x = std::nextafter(position.x, 1.0);
+    tetrahedralise(moved, {}, "cube");
+    EXPECT_EQ(runs(), 4);
+    EXPECT_EQ(cache_entries(), 4u);
+}
+
+TEST_F(Tetrahedralise, CountsTheEdgesOfAnOpenSurface) {
+    SurfaceMesh open = make_cube();
+    open.faces.pop_back();
+    EXPECT_THAT(message_of(open),
+                AllOf(HasSubstr("thing"), HasSubstr("not closed"), HasSubstr("3 edges have one face")));
+    EXPECT_THAT(message_of({}), HasSubstr("no faces"));
+}
+
+TEST_F(Tetrahedralise, TellsThatASurfaceCrossesItself) {
+    SurfaceMesh two = make_cube();
+    const auto first = static_cast<std::uint32_t>(two.positions.size());
+    for (const glm::dvec3& position : make_cube().positions) two.positions.push_back(0.9 * position + 0.31);
+    for (const glm::uvec3& face : make_cube().faces) two.faces.push_back(face + first);
+    EXPECT_THAT(message_of(two), AllOf(HasSubstr("TetGen"), HasSubstr("faces intersect")));
+    EXPECT_EQ(cache_entries(), 0u);
+}
+
+TEST_F(Tetrahedralise, PassesOnTheLastWordsOfACrash) {
+    replace_tetgen("echo Opening.; echo Working hard.; echo \"terminate called\" >&2; kill -ABRT $$");
+    EXPECT_THAT(message_of(make_cube()),
+                AllOf(HasSubstr("thing"), HasSubstr("signal 6"), HasSubstr("Opening. / Working hard.")));
+    replace_tetgen("echo Sorry; exit 3");
+    EXPECT_THAT(message_of(make_cube()), AllOf(HasSubstr("exit code 3"), HasSubstr("Sorry")));
+    replace_tetgen("exit 0");  // success without a result
+    EXPECT_THAT(message_of(make_cube()), HasSubstr("TetGen failed"));
+    EXPECT_EQ(cache_entries(), 0u);
+}
+
+TEST_F(Tetrahedralise, RefusesAResultThatMakesNoSense) {
+    replace_tetgen(
+        "printf '1 4 0\\n0 0 1 2 9\\n' > surface.1.ele; printf '1 3 0 0\\n0 0 0 0\\n' > surface.1.node");
+    EXPECT_THAT(message_of(make_cube()), AllOf(HasSubstr("thing"), HasSubstr("cannot be used")));
+    EXPECT_EQ(cache_entries(), 0u);
+}
+
+TEST_F(Tetrahedralise, StopsAtTheTimeLimitAndNamesIt) {
+    replace_tetgen("echo Still here.; sleep 60");
+    MesherSettings settings;
+    settings.time_limit = 0.3;
+    EXPECT_THAT(message_of(make_cube(), settings),
+                AllOf(HasSubstr("mesher.time_limit = 0.3 s"), HasSubstr("Still here."), HasSubstr("raise")));
+}
+
+TEST_F(Tetrahedralise, RefusesAVolumeThatAsksForTooMany) {
+    EXPECT_THAT(message_of(make_cube(), with_max_volume(1e-12)), HasSubstr("mesher.max_volume"));
+}
+
+TEST_F(Tetrahedralise, SaysThatThereIsNoTetgen) {
+    std::istringstream folders(old_path_);
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        if (fs::exists(fs::path(folder) / "stdbuf")) {
+            fs::create_symlink(fs::path(folder) / "stdbuf", programs_ / "stdbuf");
+            break;
+        }
+    }
+    ::setenv("PATH", programs_.c_str(), 1);
+    try {
+        tetrahedralise(make_cube(), {}, "cube");
+        FAIL() << "no error";
+    } catch (const SystemError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("tetgen: no such program"));
+    }
+}
+
+}  // namespace
+}  // namespace gelatin

@@ -1,0 +1,71 @@
+#include "support/gl_fixture.h"
+
+#include <epoxy/gl.h>
+
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "gelatin/error.h"
+#include "gl/debug.h"
+
+namespace gelatin::test {
+namespace {
+
+struct SharedContext {
+    std::optional<gl::Context> context;
+    std::string why_not;
+};
+
+SharedContext& shared() {
+    static SharedContext instance = [] {
+        SharedContext made;
+        try {
+            made.context = gl::Context::headless({.device_index = {}, .debug = true});
+        } catch (const NoOpenGl& error) {
+            made.why_not = error.what();
+        }
+        return made;
+    }();
+    return instance;
+}
+
+bool gl_is_required() {
+    const char* value = std::getenv("GELATIN_REQUIRE_GL");
+    return value != nullptr && std::string_view(value) == "1";
+}
+
+// Ends the context before the driver's own clean-up at exit.
+class ContextEnd : public ::testing::Environment {
+public:
+    void TearDown() override { shared().context.reset(); }
+};
+[[maybe_unused]] const auto* const context_end = ::testing::AddGlobalTestEnvironment(new ContextEnd);
+
+}  // namespace
+
+gl::Context& GlTest::context() {
+    return *shared().context;
+}
+
+void GlTest::ignore_debug_messages() {
+    gl::take_debug_messages();
+}
+
+void GlTest::SetUp() {
+    if (!shared().context) {
+        if (gl_is_required()) FAIL() << shared().why_not;
+        GTEST_SKIP() << shared().why_not;
+    }
+    context().make_current();
+    gl::take_debug_messages();
+}
+
+void GlTest::TearDown() {
+    if (!shared().context) return;
+    EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
+    for (const std::string& message : gl::take_debug_messages()) ADD_FAILURE() << message;
+}
+
+}  // namespace gelatin::test

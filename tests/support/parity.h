@@ -1,0 +1,43 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "cpu/nodes.h"
+#include "model/explicit_scheme.h"
+#include "model/model.h"
+
+namespace gelatin::test {
+
+/// Elements behind the last node that no kernel may touch.
+constexpr std::size_t kGuard = 70;
+
+/// NaN everywhere, so that an element that is not written cannot pass; `count` and the guard.
+inline std::vector<glm::vec4> poisoned(std::size_t count) {
+    return std::vector<glm::vec4>(count + kGuard, glm::vec4(std::numeric_limits<float>::quiet_NaN()));
+}
+
+/// True if the elements from `count` on are as `poisoned` made them.
+bool guard_is_untouched(const std::vector<glm::vec4>& values, std::size_t count);
+
+/// The double-precision oracle: one step of the plain kernels from the model's start.
+cpu::Nodes<double> oracle_step(const Model& model, SolverKind solver, double step);
+
+/// How far a step in single precision may be from the oracle, to first order: a node's acceleration is off by at most
+///   8 eps (valence + 4) sum_j k (X + t V (1 + X / l)) / m
+/// with X, V the largest coordinate and speed, l the spring's length, t the damping time; its velocity by h times that
+/// and its position by h^2 times that, each plus 16 eps of its own size. Times the number of passes.
+struct StepBounds {
+    std::vector<double> position, velocity;
+};
+StepBounds rounding_bounds(const Model& model, SolverKind solver, double step);
+
+/// The largest error over its bound, over all nodes; infinite where something is not finite. At most 1 is a pass.
+/// The fourth components must be the model's exactly.
+double worst_error(const Model& model, const StepBounds& bounds, const cpu::Nodes<double>& expected,
+                   const std::vector<glm::vec4>& positions, const std::vector<glm::vec4>& velocities);
+
+}  // namespace gelatin::test

@@ -1,0 +1,36 @@
+#include "support/step_on_gpu.h"
+
+#include "gpu/advance_nodes.h"
+#include "gpu/divide_and_merge.h"
+#include "support/parity.h"
+
+namespace gelatin::test {
+
+NodeArrays step_on_gpu(const Model& model, SolverKind solver, ForceMethod forces, double step) {
+    const ExplicitScheme& scheme = explicit_scheme(solver);
+    const std::vector<glm::vec4> poison = poisoned(model.node_count());
+    const gpu::ModelBuffers buffers(model);
+    const gpu::NodeBuffers start(model.positions, model.velocities);
+    gpu::NodeBuffers stage[2] = {{poison, poison}, {poison, poison}}, sums(poison, poison), result(poison, poison);
+
+    const gpu::AdvanceNodes fused(scheme);
+    const gpu::DivideAndMerge divided(model, scheme);
+    const gpu::NodeBuffers* from = &start;
+    for (int p = 0; p < scheme.pass_count; ++p) {
+        gpu::NodeBuffers& to = p + 1 == scheme.pass_count ? result : stage[p % 2];
+        const gpu::Pass pass{scheme, p, step, start, *from, to, sums};
+        if (forces == ForceMethod::fused) {
+            fused.run(buffers, pass);
+        } else {
+            divided.run(buffers, pass);
+        }
+        from = &to;
+    }
+    gl::barrier(gl::Barrier::buffer_update);
+    NodeArrays arrays{poison, poison};
+    result.positions.download(arrays.positions);
+    result.velocities.download(arrays.velocities);
+    return arrays;
+}
+
+}  // namespace gelatin::test

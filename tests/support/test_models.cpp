@@ -1,0 +1,117 @@
+#include "support/test_models.h"
+
+#include <cmath>
+#include <random>
+
+#include "mesh/topology.h"
+#include "model/spring_packing.h"
+
+namespace gelatin::test {
+
+TetMesh make_block(glm::ivec3 cells, glm::dvec3 size, double jitter, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> offset(-jitter, jitter);
+    const glm::dvec3 cell = size / glm::dvec3(cells);
+    TetMesh mesh;
+    for (int z = 0; z <= cells.z; ++z) {
+        for (int y = 0; y <= cells.y; ++y) {
+            for (int x = 0; x <= cells.x; ++x) {
+                const bool inner = x > 0 && y > 0 && z > 0 && x < cells.x && y < cells.y && z < cells.z;
+                const glm::dvec3 move = inner ? glm::dvec3(offset(random), offset(random), offset(random)) : glm::dvec3(0);
+                mesh.positions.push_back((glm::dvec3(x, y, z) + move) * cell);
+            }
+        }
+    }
+    const auto index = [&](int x, int y, int z) {
+        return static_cast<std::uint32_t>((z * (cells.y + 1) + y) * (cells.x + 1) + x);
+    };
+    // Kuhn's subdivision: one tet for each order in which a path from corner to corner takes the three axes.
+    constexpr int kOrders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
+    for (int z = 0; z < cells.z; ++z) {
+        for (int y = 0; y < cells.y; ++y) {
+            for (int x = 0; x < cells.x; ++x) {
+                for (int o = 0; o < 6; ++o) {
+                    glm::ivec3 corner(x, y, z);
+                    glm::uvec4 tet;
+                    tet[0] = index(corner.x, corner.y, corner.z);
+                    for (int k = 0; k < 3; ++k) {
+                        ++corner[kOrders[o][k]];
+                        tet[k + 1] = index(corner.x, corner.y, corner.z);
+                    }
+                    if (o >= 3) std::swap(tet[2], tet[3]);
+                    mesh.tets.push_back(tet);
+                }
+            }
+        }
+    }
+    mesh.faces = boundary_faces(mesh.tets);
+    return mesh;
+}
+
+Body make_body(TetMesh mesh, const Material& material) {
+    Body body;
+    body.name = "body";
+    body.mesh = std::move(mesh);
+    body.material = material;
+    return body;
+}
+
+Model make_model(const Body& body, glm::dvec3 gravity) { return pack_bodies({body}, {}, gravity); }
+
+Model make_lively_model(unsigned seed) {
+    Material material;
+    material.damping = 2e-3;
+    material.springs = {true, true, true};
+    Body body = make_body(make_block({9, 10, 10}, {0.9, 1.0, 1.0}, 0.2, seed), material);
+    for (glm::dvec3& p : body.mesh.positions) p += glm::dvec3(0.4, -0.02, -0.3);
+    body.pins = {HalfSpaceRegion{{-1.0, 0.0, 0.0}, -1.29}};
+    ColliderDescription sphere;
+    sphere.shape = SphereCollider{0.3};
+    sphere.position = {0.3, 0.5, 0.2};
+    Model model = pack_bodies({body}, {ColliderDescription{}, sphere}, {0.0, -9.81, 0.0});
+
+    std::mt19937 random(seed);
+    std::normal_distribution<float> normal;
+    for (std::size_t n = 0; n < model.positions.size(); ++n) {
+        if (model.positions[n].w == 0.0f) continue;
+        for (int k = 0; k < 3; ++k) {
+            model.positions[n][k] += 0.01f * normal(random);
+            model.velocities[n][k] += normal(random);
+        }
+    }
+    return model;
+}
+
+Model make_model(const Net& net) {
+    Model model;
+    for (std::size_t n = 0; n < net.positions.size(); ++n) {
+        const double mass = net.masses[n];
+        model.positions.emplace_back(glm::vec3(net.positions[n]), std::isinf(mass) ? 0.0f : static_cast<float>(1.0 / mass));
+        model.velocities.emplace_back(glm::vec3(net.velocities[n]), static_cast<float>(net.damping_time));
+        model.masses.push_back(static_cast<float>(mass));
+    }
+    model.springs = net.springs;
+    model.colliders = net.colliders;
+    model.gravity = glm::vec3(net.gravity);
+    ModelObject object;
+    object.name = "net";
+    object.nodes = {0, model.node_count()};
+    object.springs = {0, static_cast<std::uint32_t>(model.springs.size())};
+    object.rest_volume = 1.0;
+    model.objects.push_back(object);
+    model.half_springs = pack_half_springs(model.node_count(), model.springs);
+    model.incidence = make_incidence(model.node_count(), model.springs);
+    return model;
+}
+
+Net make_oscillator(double stiffness, double rest_length, double stretch) {
+    Net net;
+    const double half = 0.5 * (rest_length + stretch);
+    net.positions = {{-half, 0.0, 0.0}, {half, 0.0, 0.0}};
+    net.velocities = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+    net.masses = {1.0, 1.0};
+    net.springs = {{0, 1, static_cast<float>(rest_length), static_cast<float>(stiffness)}};
+    return net;
+}
+
+}  // namespace gelatin::test

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+#include "model/build_model.h"
+#include "model/model.h"
+
+namespace gelatin::test {
+
+/// A block [0, size] of cells, six tets a cell; inner nodes moved at random by up to `jitter` of a cell.
+TetMesh make_block(glm::ivec3 cells, glm::dvec3 size, double jitter = 0.0, unsigned seed = 1);
+
+/// A body of that mesh with default material.
+Body make_body(TetMesh mesh, const Material& material = {});
+
+/// A model of one body, without colliders.
+Model make_model(const Body& body, glm::dvec3 gravity = {0.0, 0.0, 0.0});
+
+/// A jittered block at rest off the origin whose nodes then were moved and set in motion at random; 1,234-ish nodes
+/// (no multiple of 64), damping, some pins, shear and flex springs too, a floor and a sphere in the way.
+Model make_lively_model(unsigned seed = 7);
+
+/// Springs between points, as a model without tets or faces: for closed-form cases.
+struct Net {
+    std::vector<glm::dvec3> positions;   ///< [m]
+    std::vector<glm::dvec3> velocities;  ///< [m/s]
+    std::vector<double> masses;          ///< [kg]; infinite pins
+    std::vector<Spring> springs;
+    double damping_time = 0.0;           ///< [s]
+    glm::dvec3 gravity{0.0};             ///< [m/s^2]
+    std::vector<Collider> colliders;
+};
+Model make_model(const Net& net);
+
+/// Two nodes of 1 kg (reduced mass 1/2) at x = -+(rest_length + stretch) / 2, at rest.
+Net make_oscillator(double stiffness, double rest_length, double stretch);
+
+}  // namespace gelatin::test
