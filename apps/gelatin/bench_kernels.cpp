@@ -20,7 +20,7 @@
 #include "mesh/tetrahedralise.h"
 #include "model/build_model.h"
 #include "model/stability.h"
-#include "sim/version.h"
+#include "gelatin/version.h"
 
 namespace gelatin {
 namespace {

@@ -1,13 +1,16 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "commands.h"
 #include "core/log.h"
 #include "gelatin/error.h"
 #include "gelatin/version.h"
+#include "model/scene_file_reader.h"
 
 namespace gelatin {
 namespace {
@@ -17,6 +20,16 @@ enum ExitCode { kDone = 0, kOtherError = 1, kWrongInput = 2, kDiverged = 3, kNoO
 int fail(ExitCode code, const std::string& message) {
     std::fprintf(stderr, "gelatin: error: %s\n", message.c_str());
     return code;
+}
+
+// CLI11 would only say that a command is required.
+void check_command_name(const CLI::App& app, const std::string& name) {
+    if (name.empty() || name.front() == '-') return;
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+    if (std::find(names.begin(), names.end(), name) != names.end()) return;
+    throw InvalidInput("there is no command \"" + name + "\"" + suggestion(name, names) + "; there are " +
+                       join_names(names));
 }
 
 int run(int argc, char** argv) {
@@ -31,12 +44,15 @@ int run(int argc, char** argv) {
     add_mesh_command(app);
     add_info_command(app);
     add_bench_command(app);
+    if (argc > 1) check_command_name(app, argv[1]);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) {
         return app.exit(help);
     } catch (const CLI::ParseError& error) {
-        return fail(kWrongInput, std::string(error.what()) + " (gelatin --help-all shows what there is)");
+        const std::vector<CLI::App*> chosen = app.get_subcommands();
+        const std::string command = chosen.empty() ? "gelatin" : "gelatin " + chosen.front()->get_name();
+        return fail(kWrongInput, std::string(error.what()) + " (see " + command + " --help)");
     }
     return kDone;
 }

@@ -35,9 +35,7 @@ Json extent_json(const std::vector<glm::dvec3>& positions) {
 
 void append_text(std::string& text, const Json& object, const std::string& indent) {
     for (const auto& [key, value] : object.items()) {
-        std::string name = key;
-        std::replace(name.begin(), name.end(), '_', ' ');
-        text += indent + name + ":";
+        text += indent + key + ":";
         if (value.is_object()) {
             text += "\n";
             append_text(text, value, indent + "  ");

@@ -1,42 +1,20 @@
 #include "recorder.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <limits>
 #include <numeric>
 
-#include "gelatin/error.h"
 #include "render/image.h"
 
 namespace gelatin {
 namespace {
 
-struct Rational {
-    int numerator, denominator;
-};
-
-// Pictures a second of a film in real time: frame_rate / interval, which decimals up to 1e-6 give exactly.
-Rational film_rate(double frame_rate, int interval) {
-    std::int64_t scale = 1;
-    while (scale < 1'000'000 &&
-           std::floor(frame_rate * static_cast<double>(scale)) != frame_rate * static_cast<double>(scale)) {
-        scale *= 10;
-    }
-    const double scaled = std::round(frame_rate * static_cast<double>(scale));
-    constexpr double kMost = std::numeric_limits<int>::max();
-    if (scaled >= 1.0 && scaled <= 1e15) {
-        const auto above = static_cast<std::int64_t>(scaled);
-        const std::int64_t below = scale * interval;
-        const std::int64_t common = std::gcd(above, below);
-        if (static_cast<double>(above / common) <= kMost && static_cast<double>(below / common) <= kMost) {
-            return {static_cast<int>(above / common), static_cast<int>(below / common)};
-        }
-    }
-    throw InvalidInput(
-        fmt::format("a film of every {} of {} frames a second has a rate that no player takes: choose "
-                    "another --every",
-                    interval, frame_rate));
+// Pictures a second of a film in real time.
+render::FrameRate film_rate(double frame_rate, int interval) {
+    constexpr double kLargest = 1e6;  // beyond, numerator or denominator leave int
+    const render::FrameRate rounded = render::FrameRate::from(frame_rate / interval);
+    if (frame_rate > kLargest || interval > kLargest) return rounded;
+    const render::FrameRate all = render::FrameRate::from(frame_rate);
+    const int common = std::gcd(all.numerator, interval);
+    return {all.numerator / common, all.denominator * (interval / common)};
 }
 
 }  // namespace
@@ -48,10 +26,10 @@ Recorder::Recorder(const RunOptions& options, Simulator& simulator)
     const PictureSize size = picture_size(options);
     if (options.draws()) painter_ = std::make_unique<ScenePainter>(simulator, size);
     if (!options.video.empty()) {
-        const Rational rate = film_rate(simulator.scene().simulation.frame_rate, interval_);
         grabber_ = std::make_unique<render::FrameGrabber>(size.width, size.height);
-        video_ = std::make_unique<render::VideoWriter>(options.video, size.width, size.height, rate.numerator,
-                                                       rate.denominator);
+        video_ = std::make_unique<render::VideoWriter>(
+            options.video, size.width, size.height,
+            film_rate(simulator.scene().simulation.frame_rate, interval_));
     }
     if (!options.export_folder.empty()) {
         exporter_ =

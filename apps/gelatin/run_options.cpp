@@ -19,7 +19,7 @@ constexpr double kFilmRate = 60.0;                   // pictures a second
 }  // namespace
 
 void add_run_options(CLI::App& command, RunOptions& options) {
-    command.add_option("SCENE", options.scene, "The scene file (TOML)")->required();
+    command.add_option("SCENE", options.scene, "The scene file")->type_name("FILE.toml")->required();
     command
         .add_option("--frames", options.frames, "Run to this frame instead of the scene's simulation.frames")
         ->check(CLI::NonNegativeNumber);

@@ -1,10 +1,9 @@
 // Bodies against colliders. CPU twin: src/cpu/colliders.h.
-#include "layouts/collider.glsl"
+// Colliders come sorted by kind, with a loop for each kind that the scene has (COLLIDER_KINDS, a bit each): software
+// drivers pay for code that never runs.
 
-layout(std430, binding = 7) readonly buffer Colliders { Collider colliders[]; };
-uniform uint collider_count;
-
-const uint kPlane = 0u, kBox = 1u, kSphere = 2u;
+layout(binding = 7) uniform samplerBuffer colliders;  // Collider (layouts/collider.glsl), four texels each
+uniform uvec4 collider_ends;                          // behind the planes, boxes, spheres, capsules
 
 // xyz: the way out (unit); w: how far the point is outside (negative inside) [m].
 vec4 distance_from_center(vec3 from_center, float radius) {
@@ -26,19 +25,31 @@ vec4 distance_to_box(vec3 p, vec3 half_extents) {
 
 vec3 rotate(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
 
-vec4 surface_distance(Collider collider, vec3 p) {
-    vec3 center = collider.center.xyz;
-    float radius = collider.center.w;
-    if (collider.kind == kPlane) return vec4(center, dot(center, p) - radius);
-    if (collider.kind == kSphere) return distance_from_center(p - center, radius);
-    if (collider.kind == kBox) {
-        vec4 inverse_orientation = vec4(-collider.orientation.xyz, collider.orientation.w);
-        vec4 local = distance_to_box(rotate(inverse_orientation, p - center), collider.axis.xyz);
-        return vec4(rotate(collider.orientation, local.xyz), local.w);
-    }
-    vec3 axis = collider.axis.xyz;
-    float along = clamp(dot(p - center, axis) / dot(axis, axis), -1.0, 1.0);
-    return distance_from_center(p - center - along * axis, radius);
+vec4 collider_center(uint c) { return texelFetch(colliders, int(4u * c)); }
+vec3 collider_axis(uint c) { return texelFetch(colliders, int(4u * c + 1u)).xyz; }
+
+vec4 distance_to_plane(uint c, vec3 p) {
+    vec4 plane = collider_center(c);
+    return vec4(plane.xyz, dot(plane.xyz, p) - plane.w);
+}
+
+vec4 distance_to_turned_box(uint c, vec3 p) {
+    vec4 orientation = texelFetch(colliders, int(4u * c + 2u));
+    vec3 local = rotate(vec4(-orientation.xyz, orientation.w), p - collider_center(c).xyz);
+    vec4 surface = distance_to_box(local, collider_axis(c));
+    return vec4(rotate(orientation, surface.xyz), surface.w);
+}
+
+vec4 distance_to_sphere(uint c, vec3 p) {
+    vec4 center = collider_center(c);
+    return distance_from_center(p - center.xyz, center.w);
+}
+
+vec4 distance_to_capsule(uint c, vec3 p) {
+    vec4 center = collider_center(c);
+    vec3 axis = collider_axis(c);
+    float along = clamp(dot(p - center.xyz, axis) / dot(axis, axis), -1.0, 1.0);
+    return distance_from_center(p - center.xyz - along * axis, center.w);
 }
 
 // The velocity after a node has met a surface: the normal part is reversed and scaled by the restitution, the
@@ -54,12 +65,53 @@ vec3 bounce(vec3 velocity, vec3 normal, float friction, float restitution, float
     return kept * tangential + rebound * normal;
 }
 
-// Moves a node that is inside a collider to its surface and lets it bounce.
+// Where a node is inside collider c, by `surface`, it moves to the surface and bounces.
+void resolve_collider(uint c, vec4 surface, float resting_speed, inout vec3 position, inout vec3 velocity) {
+    if (surface.w >= 0.0) return;
+    vec4 properties = texelFetch(colliders, int(4u * c + 3u));  // kind, friction, restitution
+    position -= surface.w * surface.xyz;
+    velocity = bounce(velocity, surface.xyz, properties.y, properties.z, resting_speed);
+}
+
 void resolve_colliders(float resting_speed, inout vec3 position, inout vec3 velocity) {
-    for (uint c = 0u; c < collider_count; ++c) {
-        vec4 surface = surface_distance(colliders[c], position);
-        if (surface.w >= 0.0) continue;
-        position -= surface.w * surface.xyz;
-        velocity = bounce(velocity, surface.xyz, colliders[c].friction, colliders[c].restitution, resting_speed);
+    uint c = 0u;
+#if (COLLIDER_KINDS & 1) != 0
+    for (; c < collider_ends.x; ++c) {
+        resolve_collider(c, distance_to_plane(c, position), resting_speed, position, velocity);
     }
+#endif
+#if (COLLIDER_KINDS & 2) != 0
+    for (; c < collider_ends.y; ++c) {
+        resolve_collider(c, distance_to_turned_box(c, position), resting_speed, position, velocity);
+    }
+#endif
+#if (COLLIDER_KINDS & 4) != 0
+    for (; c < collider_ends.z; ++c) {
+        resolve_collider(c, distance_to_sphere(c, position), resting_speed, position, velocity);
+    }
+#endif
+#if (COLLIDER_KINDS & 8) != 0
+    for (; c < collider_ends.w; ++c) {
+        resolve_collider(c, distance_to_capsule(c, position), resting_speed, position, velocity);
+    }
+#endif
+}
+
+// How far a point is outside the nearest collider (negative inside) [m]; far where there is none.
+float distance_to_colliders(vec3 p) {
+    float nearest = 1e30;
+    uint c = 0u;
+#if (COLLIDER_KINDS & 1) != 0
+    for (; c < collider_ends.x; ++c) nearest = min(nearest, distance_to_plane(c, p).w);
+#endif
+#if (COLLIDER_KINDS & 2) != 0
+    for (; c < collider_ends.y; ++c) nearest = min(nearest, distance_to_turned_box(c, p).w);
+#endif
+#if (COLLIDER_KINDS & 4) != 0
+    for (; c < collider_ends.z; ++c) nearest = min(nearest, distance_to_sphere(c, p).w);
+#endif
+#if (COLLIDER_KINDS & 8) != 0
+    for (; c < collider_ends.w; ++c) nearest = min(nearest, distance_to_capsule(c, p).w);
+#endif
+    return nearest;
 }

@@ -14,11 +14,8 @@ uniform float jelly;           // 1: soft and glossy; 0: matt
 
 float key_visibility(vec3 position, vec3 normal) {
     vec3 at = (world_to_shadow * vec4(position + shadow_bias * normal, 1.0)).xyz;
-    float sum = textureLod(shadow_map, at + vec3(0.4, 1.0, 0.0) * shadow_blur, 0.0);
-    sum += textureLod(shadow_map, at + vec3(-1.0, 0.4, 0.0) * shadow_blur, 0.0);
-    sum += textureLod(shadow_map, at + vec3(-0.4, -1.0, 0.0) * shadow_blur, 0.0);
-    sum += textureLod(shadow_map, at + vec3(1.0, -0.4, 0.0) * shadow_blur, 0.0);
-    return 0.25 * sum;
+    return 0.5 * (textureLod(shadow_map, at + vec3(shadow_blur, 0.5 * shadow_blur, 0.0), 0.0) +
+                  textureLod(shadow_map, at - vec3(shadow_blur, 0.5 * shadow_blur, 0.0), 0.0));
 }
 
 vec3 light_surface(vec3 position, vec3 normal, vec3 albedo) {
@@ -27,14 +24,16 @@ vec3 light_surface(vec3 position, vec3 normal, vec3 albedo) {
     // Where the light grazes, the shadow map's own error would show, and the diffuse term is dark already.
     float lit = mix(1.0, key_visibility(position, normal), smoothstep(0.0, 0.3, facing));
 
-    // Light that enters jelly comes out again beside the edge of the shadow, more strongly coloured.
-    float wrap = 0.4 * jelly;
+    // Light that enters jelly comes out again beside the edge of the shadow and behind it, more strongly coloured.
+    float wrap = 0.35 * jelly;
     float diffuse = max((facing + wrap) / (1.0 + wrap), 0.0);
-    vec3 scattered = mix(albedo * albedo * 1.3, albedo, clamp(diffuse * 1.6, 0.0, 1.0));
-    vec3 key = mix(albedo, scattered, jelly) * (diffuse * diffuse * 0.35 + diffuse * 0.65) * lit;
+    vec3 deep = albedo * sqrt(albedo);
+    vec3 key = mix(deep, albedo, clamp(diffuse * 1.5 + 1.0 - jelly, 0.0, 1.0)) * diffuse * lit;
+    float through = 0.5 - 0.5 * facing;
 
     float nearness = clamp(1.0 - (position.y - floor_height) / floor_reach, 0.0, 1.0);
-    float floor_seen = mix(1.0, floor_visibility(position.xz).y, nearness);
+    vec2 floor_before = position.xz + 0.12 * floor_reach * normal.xz;  // what a wall sees, not what it stands on
+    float floor_seen = mix(1.0, floor_visibility(floor_before).y, nearness);
     vec3 ambient = mix(kFloorLight * floor_seen, kSkyLight, 0.5 + 0.5 * normal.y);
 
     // A broad and a narrow highlight, and the sky in the rim (Schlick's approximation).
@@ -42,11 +41,10 @@ vec3 light_surface(vec3 position, vec3 normal, vec3 albedo) {
     float h4 = highlight * highlight * highlight * highlight;
     float h16 = h4 * h4 * h4 * h4;
     float h64 = h16 * h16 * h16 * h16;
-    float broad = h16 * 0.10;
-    float narrow = h64 * h64 * 0.55;
+    float gloss = (h16 * 0.07 + h64 * h64 * 0.75) * lit * step(0.0, facing);
     float edge = 1.0 - max(dot(normal, to_eye), 0.0);
-    float rim = edge * edge * edge * (0.25 + 0.75 * edge) * mix(0.35, 1.0, 0.5 + 0.5 * normal.y);
+    float rim = edge * edge * edge * clamp(0.35 + 0.65 * normal.y, 0.0, 1.0);
 
-    return albedo * ambient + kKeyLight * (key * 0.8 + vec3(broad + narrow) * lit * step(0.0, facing) * jelly) +
-           kSkyLight * rim * mix(0.15, 0.75, jelly) * floor_seen;
+    return albedo * ambient + kKeyLight * (0.85 * key + jelly * (gloss + 0.12 * through * deep)) +
+           kSkyLight * rim * mix(0.1, 0.6, jelly) * mix(albedo, vec3(1.0), 0.5);
 }

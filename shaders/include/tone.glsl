@@ -1,8 +1,7 @@
 // From linear light to what a screen shows.
 
-// Reinhard et al. 2002, eq. 4: linear in the dark, 1 at kWhite.
-const float kWhite = 3.2;
-vec3 compress(vec3 light) { return light * (1.0 + light / (kWhite * kWhite)) / (1.0 + light); }
+// Film's shoulder: linear in the dark, never quite white.
+vec3 compress(vec3 light) { return 1.0 - exp(-light); }
 
 // sRGB's transfer curve from three square roots, which are cheaper than pow; off by less than 0.0025 above 0.002.
 vec3 encode_srgb(vec3 linear) {
@@ -13,6 +12,11 @@ vec3 encode_srgb(vec3 linear) {
 }
 
 vec3 to_display(vec3 light) { return clamp(encode_srgb(compress(max(light, vec3(0.0)))), 0.0, 1.0); }
+
+// Finished pixels carry in alpha what smooth_edges.frag tells edges by: luma on bodies, which even black ones set off
+// from the 0 of all that surrounds them.
+vec4 body_pixel(vec3 display) { return vec4(display, 0.35 + 0.65 * dot(display, vec3(0.299, 0.587, 0.114))); }
+vec4 surrounding_pixel(vec3 display) { return vec4(display, 0.0); }
 
 // Up to half a step of 8 bits, so that slow gradients show no bands (interleaved gradient noise, Jimenez 2014).
 float dither() {

@@ -4,4 +4,4 @@
 
 layout(location = 0) out vec4 pixel;
 
-void main() { pixel = vec4(to_display(backdrop()) + dither(), 1.0); }
+void main() { pixel = surrounding_pixel(to_display(backdrop()) + dither()); }

@@ -23,6 +23,8 @@ void main() {
     vec2 visible = floor_visibility(xz);
     vec3 light = kKeyLight * to_key_light.y * visible.x + kSkyLight * visible.y;
     vec3 color = kFloorAlbedo * light * (1.0 - 0.10 * grid());
-    float fade = smoothstep(0.12, 0.85, length(xz - floor_center.xz) / floor_radius);
-    pixel = vec4(to_display(mix(color, backdrop(), fade)) + dither(), 1.0);
+    // In one over the distance, which is even in the picture.
+    float nearness = floor_radius / max(length(xz - floor_center.xz), 1e-6);
+    float fade = 1.0 - smoothstep(1.05, 6.5, nearness);
+    pixel = surrounding_pixel(to_display(mix(color, backdrop(), fade)) + dither());
 }

@@ -6,7 +6,7 @@ layout(location = 0) out vec4 pixel;
 #ifdef LIGHT_AT_NODES
 in vec3 light;
 
-void main() { pixel = vec4(to_display(light), 1.0); }
+void main() { pixel = body_pixel(to_display(light)); }
 #else
 #include "include/light.glsl"
 
@@ -14,5 +14,5 @@ in vec3 position;
 in vec3 normal;
 flat in vec3 albedo;
 
-void main() { pixel = vec4(to_display(light_surface(position, normalize(normal), albedo)), 1.0); }
+void main() { pixel = body_pixel(to_display(light_surface(position, normalize(normal), albedo))); }
 #endif

@@ -40,16 +40,11 @@ NodeSums measure_node(uint n) {
     vec4 position = texelFetch(positions, int(n));
     vec3 velocity = texelFetch(velocities, int(n)).xyz;
     float mass = position.w > 0.0 ? 1.0 / position.w : 0.0;
-    float deepest = 0.0;
-    bool touches = false;
-    for (uint c = 0u; c < collider_count; ++c) {
-        float outside = surface_distance(colliders[c], position.xyz).w;
-        deepest = max(deepest, -outside);
-        touches = touches || outside < contact_distance;
-    }
+    float outside = distance_to_colliders(position.xyz);
     vec3 momentum = mass * velocity;
     return NodeSums(momentum.x, momentum.y, momentum.z, 0.5 * dot(momentum, velocity),
-                    half_spring_energy(n, position.xyz), -mass * dot(gravity, position.xyz), deepest, uint(touches));
+                    half_spring_energy(n, position.xyz), -mass * dot(gravity, position.xyz), max(0.0, -outside),
+                    uint(outside < contact_distance));
 }
 
 NodeSums add(NodeSums a, NodeSums b) {

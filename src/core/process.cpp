@@ -19,8 +19,6 @@
 
 #include "gelatin/error.h"
 
-extern char** environ;
-
 namespace gelatin {
 namespace {
 

@@ -38,7 +38,7 @@ void add_node(const Model& model, const Nodes<Real>& nodes, std::uint32_t n, Obj
     const glm::dvec3 position(nodes.positions[n]);
     const glm::dvec3 velocity(nodes.velocities[n]);
     if (nodes.positions[n].w > Real(0)) {
-        const double mass = model.masses[n];
+        const double mass = 1.0 / static_cast<double>(nodes.positions[n].w);  // as the integration has it
         sums.momentum += mass * velocity;
         sums.kinetic_energy += 0.5 * mass * glm::dot(velocity, velocity);
         sums.potential_energy -= mass * glm::dot(glm::dvec3(model.gravity), position);

@@ -129,6 +129,9 @@ void Program::set(const char* name, const glm::vec3& value) const {
 void Program::set(const char* name, const glm::vec4& value) const {
     glProgramUniform4fv(id_, glGetUniformLocation(id_, name), 1, glm::value_ptr(value));
 }
+void Program::set(const char* name, const glm::uvec4& value) const {
+    glProgramUniform4uiv(id_, glGetUniformLocation(id_, name), 1, glm::value_ptr(value));
+}
 void Program::set(const char* name, const glm::mat4& value) const {
     glProgramUniformMatrix4fv(id_, glGetUniformLocation(id_, name), 1, GL_FALSE, glm::value_ptr(value));
 }

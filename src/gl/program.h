@@ -39,6 +39,7 @@ public:
     void set(const char* name, const glm::vec2& value) const;
     void set(const char* name, const glm::vec3& value) const;
     void set(const char* name, const glm::vec4& value) const;
+    void set(const char* name, const glm::uvec4& value) const;
     void set(const char* name, const glm::mat4& value) const;
 
     /// Uses the program and runs ceil(invocations / group_size) work groups, folded into two dimensions where

@@ -7,8 +7,8 @@ namespace gelatin::gpu {
 /// Forces and integration fused: shaders/sim/advance_nodes.comp.
 class AdvanceNodes {
 public:
-    explicit AdvanceNodes(const ExplicitScheme& scheme)
-        : program_(gl::Program::compute("sim/advance_nodes.comp", integration_defines(scheme))) {}
+    AdvanceNodes(const Model& model, const ExplicitScheme& scheme)
+        : program_(gl::Program::compute("sim/advance_nodes.comp", integration_defines(model, scheme))) {}
 
     /// Ends with the barrier that the next pass, and whoever gathers the nodes as textures, needs.
     void run(const ModelBuffers& model, const Pass& pass) const;

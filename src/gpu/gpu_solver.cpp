@@ -18,7 +18,7 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, Forc
         }
     }
     if (forces == ForceMethod::fused) {
-        fused_.emplace(scheme_);
+        fused_.emplace(*model_, scheme_);
     } else {
         divide_and_merge_.emplace(*model_, scheme_);
     }

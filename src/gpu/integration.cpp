@@ -4,8 +4,10 @@
 
 namespace gelatin::gpu {
 
-gl::Defines integration_defines(const ExplicitScheme& scheme) {
-    return scheme.pass_count > 1 ? gl::Defines{"MULTI_PASS"} : gl::Defines{};
+gl::Defines integration_defines(const Model& model, const ExplicitScheme& scheme) {
+    gl::Defines defines = ModelBuffers::collider_defines(model);
+    if (scheme.pass_count > 1) defines.emplace_back("MULTI_PASS");
+    return defines;
 }
 
 void bind_integration(const gl::Program& program, const ModelBuffers& model, const Pass& pass) {
@@ -15,7 +17,7 @@ void bind_integration(const gl::Program& program, const ModelBuffers& model, con
     pass.at.velocity_texels.bind(3);
     pass.out.positions.bind_storage(0);
     pass.out.velocities.bind_storage(1);
-    model.colliders.bind_storage(7);
+    model.bind_colliders(program);
 
     const auto h = static_cast<float>(pass.step);
     if (pass.scheme.pass_count > 1) {
@@ -28,7 +30,6 @@ void bind_integration(const gl::Program& program, const ModelBuffers& model, con
         program.set("is_last", pass.is_last() ? 1u : 0u);
     }
     program.set("node_count", model.node_count);
-    program.set("collider_count", model.collider_count);
     program.set("time_step", h);
     program.set("semi_implicit", pass.scheme.semi_implicit ? 1u : 0u);
     program.set("gravity", model.gravity);

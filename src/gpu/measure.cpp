@@ -29,7 +29,7 @@ std::vector<T> read_as(const std::vector<std::byte>& bytes) {
 }  // namespace
 
 Measure::Measure(const Model& model)
-    : node_program_(gl::Program::compute("sim/measure_nodes.comp")),
+    : node_program_(gl::Program::compute("sim/measure_nodes.comp", ModelBuffers::collider_defines(model))),
       face_program_(gl::Program::compute("sim/measure_faces.comp")),
       node_chunks_(make_chunks(model, &ModelObject::nodes)),
       face_chunks_(make_chunks(model, &ModelObject::faces)),
@@ -44,11 +44,10 @@ void Measure::begin(const ModelBuffers& model, const NodeBuffers& nodes) {
     nodes.position_texels.bind(0);
     nodes.velocity_texels.bind(1);
     model.bind_half_springs();
-    model.colliders.bind_storage(7);
+    model.bind_colliders(node_program_);
     node_chunk_buffer_.bind_storage(0);
     node_sums_.bind_storage(1);
     node_program_.set("chunk_count", static_cast<std::uint32_t>(node_chunks_.size()));
-    node_program_.set("collider_count", model.collider_count);
     node_program_.set("gravity", model.gravity);
     node_program_.set("contact_distance", static_cast<float>(kContactDistance));
     node_program_.dispatch(64 * node_chunks_.size());

@@ -1,6 +1,19 @@
 #include "gpu/model_buffers.h"
 
+#include <string>
+
 namespace gelatin::gpu {
+namespace {
+
+glm::uvec4 count_up_to_kind(const std::vector<Collider>& colliders) {
+    glm::uvec4 ends(0);
+    for (const Collider& collider : colliders) {
+        for (std::uint32_t kind = collider.kind; kind < 4; ++kind) ++ends[static_cast<int>(kind)];
+    }
+    return ends;
+}
+
+}  // namespace
 
 ModelBuffers::ModelBuffers(const Model& model)
     : half_springs(std::span(model.half_springs.pairs)),
@@ -10,14 +23,26 @@ ModelBuffers::ModelBuffers(const Model& model)
       stiffness_texels(stiffnesses, gl::TexelFormat::rg32f),
       slice_start_texels(slice_starts, gl::TexelFormat::r32ui),
       colliders(std::span(model.colliders)),
+      collider_texels(colliders, gl::TexelFormat::rgba32f),
       node_count(model.node_count()),
-      collider_count(static_cast<std::uint32_t>(model.colliders.size())),
+      collider_ends(count_up_to_kind(model.colliders)),
       gravity(model.gravity) {}
+
+gl::Defines ModelBuffers::collider_defines(const Model& model) {
+    unsigned kinds = 0;
+    for (const Collider& collider : model.colliders) kinds |= 1u << collider.kind;
+    return {"COLLIDER_KINDS " + std::to_string(kinds)};
+}
 
 void ModelBuffers::bind_half_springs() const {
     half_spring_texels.bind(4);
     stiffness_texels.bind(5);
     slice_start_texels.bind(6);
+}
+
+void ModelBuffers::bind_colliders(const gl::Program& program) const {
+    collider_texels.bind(7);
+    program.set("collider_ends", collider_ends);
 }
 
 }  // namespace gelatin::gpu

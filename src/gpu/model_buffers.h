@@ -3,6 +3,7 @@
 #include <glm/vec2.hpp>
 
 #include "gl/buffer.h"
+#include "gl/program.h"
 #include "model/model.h"
 
 namespace gelatin::gpu {
@@ -14,14 +15,21 @@ struct ModelBuffers {
     gl::Buffer<std::uint32_t> slice_starts;
     gl::BufferTexture half_spring_texels, stiffness_texels, slice_start_texels;
     gl::Buffer<Collider> colliders;            ///< empty if there are none
+    gl::BufferTexture collider_texels;
     std::uint32_t node_count = 0;
-    std::uint32_t collider_count = 0;
+    glm::uvec4 collider_ends{0};               ///< behind the planes, boxes, spheres, capsules
     glm::vec3 gravity{0.0f};                   ///< [m/s^2]
 
     explicit ModelBuffers(const Model& model);
 
+    /// Defines for a shader that includes include/colliders.glsl.
+    static gl::Defines collider_defines(const Model& model);
+
     /// Binds the half springs to texture units 4 to 6, where the kernels look for them.
     void bind_half_springs() const;
+
+    /// Binds and sets what include/colliders.glsl reads: texture unit 7.
+    void bind_colliders(const gl::Program& program) const;
 };
 
 }  // namespace gelatin::gpu

@@ -115,6 +115,7 @@ public:
         while (!scanner_.at_end()) {
             const std::string section(scanner_.word("section"));
             if (section.front() != '$') scanner_.fail("section", section, "must begin with '$'");
+            if (section == "$Elements" && !has_nodes) scanner_.fail("section", section, "must follow $Nodes");
             const std::string end = "$End" + section.substr(1);
             scanner_.skip_line();
             if (section == "$Nodes") {

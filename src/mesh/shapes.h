@@ -17,9 +17,10 @@ SurfaceMesh make_box(const BoxShape& shape);
 /// Capsule along y, centred on the origin.
 SurfaceMesh make_capsule(const CapsuleShape& shape);
 
-/// Letters of an installed font, extruded along z, centred on the origin; holes are kept. Outlines are flattened to
-/// about 1% of the em. Letters that touch are one closed surface each only if they do not overlap.
-/// @throws InvalidInput if the font is not installed, or the text has no visible outline.
+/// Letters of an installed font, extruded along z, centred on the origin; holes are kept, letters that
+/// overlap are united, lines end with '\n'. Outlines are flattened to half a percent of the em.
+/// @throws InvalidInput if the font is not installed or lacks a letter, or the text is not UTF-8 or has
+/// nothing to see.
 SurfaceMesh make_text(const TextShape& shape);
 
 }  // namespace gelatin

@@ -11,12 +11,10 @@ struct ObjVertices {
     std::size_t count = 0, used = 0;
 };
 
-/// Reads what a surface file claims and holds it against what the file has. Assimp, which reads it
-/// afterwards, believes the header's counts, fills what is cut off with zeros, and does not know which vertex
-/// was not finite.
+/// Holds what a surface file claims against what it has. Assimp, which reads it afterwards, believes the
+/// header's counts, fills what is cut off with zeros, and does not know which vertex was not finite.
 /// @throws InvalidInput naming file, line and field for counts that the file is too short for, a file that is
-/// cut off,
-///   coordinates that are not finite, and vertex indices out of range.
+///   cut off, coordinates that are not finite, and vertex indices out of range.
 ObjVertices check_obj(const std::filesystem::path& file, std::string_view content);
 void check_off(const std::filesystem::path& file, std::string_view content);
 void check_ply(const std::filesystem::path& file, std::string_view content);

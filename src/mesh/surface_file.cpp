@@ -159,7 +159,9 @@ SurfaceMesh read_surface(const fs::path& file, Notes& notes) {
     if (std::find(kEndings.begin(), kEndings.end(), ending) == kEndings.end()) {
         throw InvalidInput({file.string(), 0, {}, {}, "a surface file must end in .obj, .stl, .ply or .off"});
     }
-    const std::string content = read_file(file);
+    std::string content = read_file(file);
+    if (content.starts_with("\xef\xbb\xbf"))
+        content.erase(0, 3);  // a byte order mark, which Assimp takes for a word
     if (content.empty()) throw InvalidInput({file.string(), 0, {}, {}, "is empty"});
     SurfaceMesh mesh = read_unrepaired(file, ending, content, notes);
     if (mesh.faces.empty()) throw InvalidInput({file.string(), 0, {}, {}, "has no faces"});

@@ -6,8 +6,8 @@ namespace gelatin {
 
 /// Merges vertices that coincide (within 1e-9 of the bounding box' diagonal), drops degenerate and repeated
 /// faces and vertices without faces, makes the winding consistent across shared edges and outward (positive
-/// volume) in each connected component. Adds one line to `notes` for each kind of repair that changed
-/// something.
+/// volume) in each connected component; a closed one that lies wholly inside another is a cavity and winds
+/// inward. Adds one line to `notes` for each kind of repair that changed something.
 void repair_surface(SurfaceMesh& mesh, Notes& notes);
 
 /// Edges that do not have exactly two faces.

@@ -107,9 +107,9 @@ fs::path entry_name(const fs::path& folder, const std::string& key) {
 }  // namespace
 
 fs::path TetCache::default_folder() {
-    if (const fs::path own = from_environment("GELATIN_CACHE_DIR"); !own.empty()) return own;
-    if (const fs::path all = from_environment("XDG_CACHE_HOME"); !all.empty()) return all / "gelatin";
-    if (const fs::path home = from_environment("HOME"); !home.empty()) return home / ".cache" / "gelatin";
+    if (fs::path own = from_environment("GELATIN_CACHE_DIR"); !own.empty()) return own;
+    if (fs::path all = from_environment("XDG_CACHE_HOME"); !all.empty()) return all / "gelatin";
+    if (fs::path home = from_environment("HOME"); !home.empty()) return home / ".cache" / "gelatin";
     return {};
 }
 

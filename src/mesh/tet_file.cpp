@@ -135,7 +135,10 @@ TetMesh read_tets(const fs::path& file, Notes& notes) {
     TetMesh mesh = ending == ".mesh"  ? read_medit(file, notes)
                    : ending == ".msh" ? read_gmsh(file, notes)
                                       : read_tetgen(file, notes);
-    if (mesh.tets.empty()) throw InvalidInput({file.string(), 0, {}, {}, "has no tets"});
+    if (mesh.tets.empty()) {
+        const std::string but = notes.empty() ? "" : fmt::format(" ({})", fmt::join(notes, "; "));
+        throw InvalidInput({file.string(), 0, {}, {}, "has no tets" + but});
+    }
     orient_tets(file, mesh, notes);
     drop_repeated_tets(mesh, notes);
     drop_unused_nodes(mesh, notes);

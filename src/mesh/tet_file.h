@@ -14,11 +14,12 @@ bool is_tet_file(const std::filesystem::path& file);
 /// Gmsh's .msh versions 2.2 and 4.1 (ASCII and binary). Other elements are skipped, repeated tets and unused
 /// nodes dropped, and tets turned inside out turned back, each with a note; boundary faces are computed.
 /// @throws InvalidInput naming file, line and field: missing, empty or cut off, an unknown version, indices
-///   out of range, coordinates that are not finite, no tets, flat tets (volume below 1e-12 of the longest edge
-///   cubed), counts that the file is too short for (checked before anything of that size is allocated).
+///   out of range, coordinates that are not finite, no tets, flat tets (volume below 1e-12 of the longest
+///   edge cubed), counts that the file is too short for (checked before anything of that size is allocated).
 TetMesh read_tets(const std::filesystem::path& file, Notes& notes);
 
-/// Writes by the ending: .node (and .ele, .face beside it), .mesh, .msh (4.1 ASCII), .vtu. Whole or not at all.
+/// Writes by the ending: .node (and .ele, .face beside it), .mesh, .msh (4.1 ASCII), .vtu. Whole or not at
+/// all.
 /// @throws InvalidInput for an unknown ending; SystemError if it cannot be written.
 void write_tets(const std::filesystem::path& file, const TetMesh& mesh);
 

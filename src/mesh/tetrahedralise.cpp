@@ -8,21 +8,26 @@
 #include <cstdio>
 #include <cstring>
 #include <iterator>
+#include <optional>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "core/file.h"
 #include "core/process.h"
 #include "gelatin/error.h"
+#include "mesh/flat_tets.h"
 #include "mesh/surface_repair.h"
 #include "mesh/tet_cache.h"
-#include "mesh/tet_file.h"
+#include "mesh/tet_formats.h"
+#include "mesh/topology.h"
 
 namespace gelatin {
 
 namespace {
 
-constexpr const char* kCacheFormat =
-    "gelatin tets 1";  // to be raised when the same key should give other tets
+// Part of the key: to be raised when this file makes something else of TetGen's result.
+constexpr const char* kCacheFormat = "gelatin tets 1";
 constexpr const char* kSurfaceFile = "surface.smesh";
 constexpr const char* kTetFile = "surface.1.ele";  // the name that TetGen derives
 constexpr double kMostTets = 1e8;                  // more would fill the memory long before they are done
@@ -79,21 +84,21 @@ std::string format_smesh(const SurfaceMesh& surface) {
         fmt::format_to(out, "{} {} {} {}\n", v, p.x, p.y, p.z);
     }
     fmt::format_to(out, "{} 0\n", surface.faces.size());
-    for (const glm::uvec3& face : surface.faces)
-        fmt::format_to(out, "3 {} {} {}\n", face[0], face[1], face[2]);
+    for (const glm::uvec3& f : surface.faces) fmt::format_to(out, "3 {} {} {}\n", f[0], f[1], f[2]);
     fmt::format_to(out, "0\n0\n");
     return fmt::to_string(text);
 }
 
 /// The last lines that TetGen itself wrote, in one.
 std::string last_words(const std::string& output) {
-    constexpr std::size_t kLines = 3;
+    constexpr std::size_t kLines = 3, kLength = 160;  // an assertion of TetGen is far longer
     std::vector<std::string> lines;
     std::istringstream stream(output);
     for (std::string line; std::getline(stream, line);) {
         const std::size_t begin = line.find_first_not_of(" \t\r");
         if (begin == std::string::npos || line.rfind("terminate called", 0) == 0) continue;
-        lines.push_back(line.substr(begin, line.find_last_not_of(" \t\r") + 1 - begin));
+        line = line.substr(begin, line.find_last_not_of(" \t\r") + 1 - begin);
+        lines.push_back(line.size() > kLength ? line.substr(0, kLength) + "..." : line);
     }
     if (lines.size() > kLines) lines.erase(lines.begin(), lines.end() - kLines);
     return lines.empty() ? "nothing" : fmt::format("\"{}\"", fmt::join(lines, " / "));
@@ -101,14 +106,13 @@ std::string last_words(const std::string& output) {
 
 void check_surface(const SurfaceMesh& surface, const MesherSettings& settings, const std::string& name) {
     const auto refuse = [&](const std::string& problem) { throw InvalidInput({name, 0, {}, {}, problem}); };
-    if (surface.faces.empty())
-        refuse("the surface has no faces, so there is nothing to fill with tetrahedra");
+    if (surface.faces.empty()) refuse("the surface has no faces, so there is nothing to fill");
     const Openness openness = measure_openness(surface);
     if (!openness.is_closed()) {
         std::vector<std::string> wrong;
         const auto count = [&](std::size_t edges, const char* what) {
-            if (edges > 0)
-                wrong.push_back(fmt::format("{} {} {}", edges, edges == 1 ? "edge has" : "edges have", what));
+            const char* have = edges == 1 ? "edge has" : "edges have";
+            if (edges > 0) wrong.push_back(fmt::format("{} {} {}", edges, have, what));
         };
         count(openness.boundary_edges, "one face");
         count(openness.non_manifold_edges, "more than two faces");
@@ -124,37 +128,53 @@ void check_surface(const SurfaceMesh& surface, const MesherSettings& settings, c
     }
 }
 
-/// What TetGen's own check of the input finds, as the end of a sentence.
-std::string find_crossings(const std::filesystem::path& folder, double time_limit) {
-    const ProcessResult check = run_tetgen({"-dz", kSurfaceFile}, folder, time_limit);
-    std::istringstream lines(check.output);
+/// Pairs of faces that cross, by TetGen's own check of its input; 0 if it finds none.
+std::size_t count_crossings(const std::filesystem::path& folder, double time_limit) {
+    std::istringstream lines(run_tetgen({"-dz", kSurfaceFile}, folder, time_limit).output);
+    constexpr const char* kVerdict = "!! Found %zu pairs of faces are intersecting";
+    std::size_t pairs = 0;
     for (std::string line; std::getline(lines, line);) {
-        std::size_t pairs = 0;
-        if (std::sscanf(line.c_str(), "!! Found %zu pairs of faces are intersecting", &pairs) != 1 ||
-            pairs == 0)
-            continue;
-        return fmt::format("the surface crosses itself: {} pairs of faces intersect", pairs);
+        if (std::sscanf(line.c_str(), kVerdict, &pairs) == 1) return pairs;
     }
-    return "faces that cross or nearly touch are the usual cause";
+    return 0;
 }
 
 [[noreturn]] void report_failure(const ProcessResult& result, const std::filesystem::path& folder,
                                  const MesherSettings& settings, const std::string& name) {
+    const std::string words = last_words(result.output);
     if (result.timed_out) {
         throw InvalidInput(
             {name, 0, "mesher.time_limit", fmt::format("{} s", settings.time_limit),
-             "TetGen was stopped at this limit, after saying " + last_words(result.output) +
-                 "; raise the limit, or ask for fewer tetrahedra with a larger max_volume or quality"});
+             fmt::format("TetGen was stopped at this limit, after saying {}; raise the limit, or ask for "
+                         "fewer tetrahedra with a larger max_volume or quality",
+                         words)});
     }
+    const std::size_t crossings = count_crossings(folder, settings.time_limit);
+    const std::string reason = crossings > 0
+                                   ? fmt::format("it crosses itself ({} pairs of faces intersect)", crossings)
+                                   : "faces that nearly touch are the usual cause";
     const std::string end = result.signal != 0
                                 ? fmt::format("signal {} ({})", result.signal, ::strsignal(result.signal))
                                 : fmt::format("exit code {}", result.exit_code);
-    throw InvalidInput({name,
-                        0,
-                        {},
-                        {},
-                        fmt::format("TetGen failed on this surface with {}, after saying {}: {}", end,
-                                    last_words(result.output), find_crossings(folder, settings.time_limit))});
+    const std::string problem = fmt::format(
+        "TetGen cannot fill this surface: {}; it ended with {} after saying {}", reason, end, words);
+    throw InvalidInput({name, 0, {}, {}, problem});
+}
+
+/// TetGen's tets, the right way out. It writes no nodes without tets.
+TetMesh read_result(const std::filesystem::path& file) {
+    Notes notes;
+    TetMesh mesh = read_tetgen(file, notes);
+    if (mesh.tets.empty()) throw InvalidInput("it has no tets");
+    for (glm::uvec4& tet : mesh.tets) {
+        if (tet_volume(mesh, tet) < 0.0) std::swap(tet[2], tet[3]);
+    }
+    if (const std::size_t flat = drop_flat_skin(mesh); flat > 0) {
+        throw InvalidInput(
+            fmt::format("{} of its tets are flat; another quality or max_volume may avoid them", flat));
+    }
+    mesh.faces = boundary_faces(mesh.tets);
+    return mesh;
 }
 
 TetMesh run_mesher(const SurfaceMesh& surface, const MesherSettings& settings, const std::string& switches,
@@ -163,11 +183,10 @@ TetMesh run_mesher(const SurfaceMesh& surface, const MesherSettings& settings, c
     write_file(folder.path() / kSurfaceFile, format_smesh(surface));
     const ProcessResult result = run_tetgen({switches, kSurfaceFile}, folder.path(), settings.time_limit);
     const std::filesystem::path tets = folder.path() / kTetFile;
-    if (!result.succeeded() || !std::filesystem::exists(tets))
-        report_failure(result, folder.path(), settings, name);
-    Notes notes;
+    const bool has_result = result.succeeded() && std::filesystem::exists(tets);
+    if (!has_result) report_failure(result, folder.path(), settings, name);
     try {
-        return read_tets(tets, notes);
+        return read_result(tets);
     } catch (const InvalidInput& error) {
         throw InvalidInput(
             {name, 0, {}, {}, "what TetGen made of this surface cannot be used: " + error.problem().problem});

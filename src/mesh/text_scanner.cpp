@@ -26,6 +26,9 @@ std::string printable(std::string_view word) {
     return word.size() > kLongest ? text + "..." : text;
 }
 
+// What Windows programs put before a text of UTF-8.
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+
 }  // namespace
 
 std::string FieldName::text() const {
@@ -33,7 +36,9 @@ std::string FieldName::text() const {
 }
 
 TextScanner::TextScanner(const std::filesystem::path& file, std::string_view text, char comment)
-    : file_(file), text_(text), comment_(comment) {}
+    : file_(file), text_(text), comment_(comment) {
+    if (text.starts_with(kByteOrderMark)) position_ = kByteOrderMark.size();
+}
 
 void TextScanner::skip_blanks(bool stop_at_line_end) {
     while (position_ < text_.size()) {

@@ -13,6 +13,8 @@ struct FieldName {
     std::string_view name;
     std::uint64_t number = 0;  ///< 0: none
 
+    // Implicit, so that a call reads scanner.integer("version").
+    // NOLINTNEXTLINE(google-explicit-constructor)
     FieldName(const char* text, std::uint64_t n = 0) : name(text), number(n) {}
     std::string text() const;
 };

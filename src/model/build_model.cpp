@@ -193,6 +193,8 @@ Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDes
     Model model;
     for (const Body& body : bodies) append_body(model, body);
     for (const ColliderDescription& c : colliders) model.colliders.push_back(std::visit(ColliderPacker{c}, c.shape));
+    std::stable_sort(model.colliders.begin(), model.colliders.end(),
+                     [](const Collider& a, const Collider& b) { return a.kind < b.kind; });
     model.gravity = glm::vec3(gravity);
     model.half_springs = pack_half_springs(model.node_count(), model.springs);
     model.incidence = make_incidence(model.node_count(), model.springs);

@@ -70,7 +70,7 @@ struct Model {
     std::vector<Face> faces;       ///< boundary triangles, shape [faces]
     DrawSurface surface;
 
-    std::vector<Collider> colliders;
+    std::vector<Collider> colliders;  ///< in the order of their kinds
     glm::vec3 gravity{0.0f};  ///< [m/s^2]
 
     std::uint32_t node_count() const { return static_cast<std::uint32_t>(positions.size()); }

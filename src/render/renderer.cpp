@@ -9,6 +9,7 @@
 #include <string>
 
 #include "gelatin/error.h"
+#include "gl/context.h"
 #include "gl/debug.h"
 #include "render/palette.h"
 
@@ -17,7 +18,8 @@ namespace {
 
 const glm::vec3 kToKeyLight = glm::normalize(glm::vec3(-0.55f, 1.0f, 0.42f));
 const glm::vec4 kPropColor(0.34f, 0.37f, 0.42f, 1.0f);
-constexpr float kFloorRadius = 9.0f;  // of the scene's extent
+constexpr int kSamples = 4;           // OpenGL promises as many
+constexpr float kFloorRadius = 11.0f;  // of the scene's extent
 
 // Puts back the framebuffer and viewport of the application that draws around this one.
 class FramebufferGuard {
@@ -51,14 +53,21 @@ RendererOptions checked(RendererOptions options) {
                                 "must be 1 to " + std::to_string(largest) + " pixels on this driver"});
         }
     }
-    GLint most_samples = 0;
-    glGetIntegerv(GL_MAX_SAMPLES, &most_samples);
-    options.samples = std::clamp(options.samples, 0, static_cast<int>(most_samples));
+    if (options.smoothing == Smoothing::automatic) {
+        const bool software = gl::Context::current().device().is_software;
+        options.smoothing = software ? Smoothing::filter : Smoothing::samples;
+    }
     return options;
 }
 
 gl::Defines defines_of(Shading shading) {
     return shading == Shading::node ? gl::Defines{"LIGHT_AT_NODES"} : gl::Defines{};
+}
+
+Target make_canvas(const RendererOptions& options) {
+    if (options.smoothing != Smoothing::samples)
+        return Target::color_and_depth(options.width, options.height);
+    return Target::multisampled(options.width, options.height, kSamples);
 }
 
 // 1, 2 or 5 times a power of ten, so that some ten lines cross the scene.
@@ -77,7 +86,8 @@ Renderer::Renderer(const RendererOptions& options)
           gl::Program::graphics("render/surface.vert", "render/surface.frag", defines_of(options.shading))),
       floor_program_(gl::Program::graphics("render/floor.vert", "render/floor.frag")),
       backdrop_program_(gl::Program::graphics("render/whole_picture.vert", "render/backdrop.frag")),
-      samples_(Target::multisampled(options_.width, options_.height, options_.samples)),
+      filter_program_(gl::Program::graphics("render/whole_picture.vert", "render/smooth_edges.frag")),
+      canvas_(make_canvas(options_)),
       picture_(Target::color(options_.width, options_.height, GL_RGBA8)),
       shadows_(options_.shadow_resolution) {
     glGenVertexArrays(1, &vertex_array_);
@@ -113,7 +123,9 @@ void Renderer::draw(const RenderView& bodies, const Camera& camera) {
     gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::vertex_pull);
     glBindVertexArray(vertex_array_);
     glDisable(GL_BLEND);
-    glDisable(GL_CULL_FACE);
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_BACK);
+    glFrontFace(GL_CCW);
     glDepthFunc(GL_LEQUAL);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 
@@ -121,15 +133,30 @@ void Renderer::draw(const RenderView& bodies, const Camera& camera) {
     const SurfaceDraw body_draw(bodies);
     const SurfaceDraw prop_draw(props_.view());
     shadows_.draw({&body_draw, &prop_draw});
-    samples_.bind();
+    canvas_.bind();
     draw_scene(body_draw, prop_draw, camera);
 
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, samples_.framebuffer());
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, picture_.framebuffer());
-    glBlitFramebuffer(0, 0, width(), height(), 0, 0, width(), height(), GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    smooth_edges();
     glBindSampler(4, 0);
     glBindVertexArray(0);
     gl::check_errors("drawing a frame");
+}
+
+void Renderer::smooth_edges() const {
+    if (options_.smoothing == Smoothing::filter) {
+        picture_.bind();
+        glDisable(GL_DEPTH_TEST);
+        glActiveTexture(GL_TEXTURE7);
+        glBindTexture(GL_TEXTURE_2D, canvas_.texture());
+        glBindSampler(7, 0);
+        filter_program_.set("pixel_size", 1.0f / glm::vec2(width(), height()));
+        filter_program_.use();
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+        return;
+    }
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, canvas_.framebuffer());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, picture_.framebuffer());
+    glBlitFramebuffer(0, 0, width(), height(), 0, 0, width(), height(), GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 void Renderer::set_frame_uniforms(const gl::Program& program, const Camera& camera) const {

@@ -13,6 +13,7 @@ namespace gelatin::render {
 namespace {
 
 constexpr int kUndersideResolution = 192;
+constexpr int kFloorSkyResolution = 128;
 constexpr int kFloorLightResolution = 256;
 constexpr float kLightSize = 0.11f;       // tangent of the key light's apparent radius: a large soft box
 constexpr float kPenumbraLeast = 0.006f;  // of the scene's extent
@@ -33,13 +34,23 @@ std::array<glm::vec3, 8> corners(const Bounds& bounds) {
 const glm::mat4 kHalf =
     glm::translate(glm::mat4(1.0f), glm::vec3(0.5f)) * glm::scale(glm::mat4(1.0f), glm::vec3(0.5f));
 
+void bind_texture(unsigned unit, const Target& target) {
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(GL_TEXTURE_2D, target.texture());
+    glBindSampler(unit, 0);
+}
+
 }  // namespace
 
 Shadows::Shadows(int resolution)
     : depth_program_(gl::Program::graphics("render/surface_depth.vert", "render/surface_depth.frag")),
-      floor_program_(gl::Program::graphics("render/whole_picture.vert", "render/floor_light.frag")),
+      sky_program_(gl::Program::graphics("render/whole_picture.vert", "render/floor_sky.frag")),
+      key_program_(gl::Program::graphics("render/whole_picture.vert", "render/floor_key.frag")),
+      blend_program_(gl::Program::graphics("render/whole_picture.vert", "render/floor_blend.frag")),
       shadow_map_(Target::depth(resolution, resolution)),
       underside_(Target::depth(kUndersideResolution, kUndersideResolution)),
+      floor_sky_(Target::color(kFloorSkyResolution, kFloorSkyResolution, GL_R8)),
+      floor_key_(Target::color(kFloorLightResolution, kFloorLightResolution, GL_R8)),
       floor_light_(Target::color(kFloorLightResolution, kFloorLightResolution, GL_RG8)) {
     glGenSamplers(1, &compare_sampler_);
     glSamplerParameteri(compare_sampler_, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
@@ -73,7 +84,7 @@ void Shadows::aim(const Bounds& casters, float floor_height, const glm::vec3& to
     world_to_light_ =
         glm::ortho(seen.min.x, seen.max.x, seen.min.y, seen.max.y, -seen.max.z, -seen.min.z) * view;
 
-    const float reach = (kPenumbraMost + 0.5f * kSkyRadius) * extent_;
+    const float reach = (kPenumbraMost + kSkyRadius) * extent_;
     patch_corner_ = glm::vec2(patch.min.x, patch.min.z) - reach;
     patch_size_ = glm::vec2(patch.max.x, patch.max.z) + reach - patch_corner_;
     // x and z to the picture, height to depth.
@@ -95,27 +106,40 @@ void Shadows::draw_depth(const Target& target, const glm::mat4& world_to_clip,
     for (const SurfaceDraw* caster : casters) caster->draw();
 }
 
-void Shadows::draw_floor_light() const {
-    floor_light_.bind();
-    glActiveTexture(GL_TEXTURE4);
-    glBindTexture(GL_TEXTURE_2D, shadow_map_.texture());
-    glBindSampler(4, 0);
-    glActiveTexture(GL_TEXTURE6);
-    glBindTexture(GL_TEXTURE_2D, underside_.texture());
-    glBindSampler(6, 0);
-    const gl::Program& program = floor_program_;
+void Shadows::draw_floor_sky() const {
+    floor_sky_.bind();
+    bind_texture(6, underside_);
+    sky_program_.set("underside_range", extent_);
+    sky_program_.set("sky_radius", kSkyRadius * extent_);
+    sky_program_.set("patch_size", patch_size_);
+    sky_program_.use();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Shadows::draw_floor_key() const {
+    floor_key_.bind();
+    bind_texture(4, shadow_map_);
+    const gl::Program& program = key_program_;
     program.set("world_to_shadow", kHalf * world_to_light_);
     program.set("shadow_scale", glm::vec2(1.0f / light_size_.x, 1.0f / light_size_.y));
     program.set("shadow_range", light_size_.z);
     program.set("light_size", kLightSize);
     program.set("penumbra_least", kPenumbraLeast * extent_);
     program.set("penumbra_most", kPenumbraMost * extent_);
-    program.set("underside_range", extent_);
-    program.set("sky_radius", kSkyRadius * extent_);
     program.set("patch_corner", patch_corner_);
     program.set("patch_size", patch_size_);
     program.set("floor_height", floor_height_);
     program.use();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Shadows::draw_floor_light() const {
+    floor_light_.bind();
+    bind_texture(4, floor_key_);
+    bind_texture(6, floor_sky_);
+    blend_program_.set("key_pixel", glm::vec2(1.0f / static_cast<float>(floor_key_.width())));
+    blend_program_.set("sky_pixel", glm::vec2(1.0f / static_cast<float>(floor_sky_.width())));
+    blend_program_.use();
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
@@ -128,6 +152,8 @@ void Shadows::draw(std::initializer_list<const SurfaceDraw*> casters) const {
     draw_depth(underside_, world_to_floor_, casters);
     glDisable(GL_DEPTH_CLAMP);
     glDisable(GL_DEPTH_TEST);
+    draw_floor_sky();
+    draw_floor_key();
     draw_floor_light();
 }
 
@@ -142,12 +168,9 @@ void Shadows::set_uniforms(const gl::Program& program) const {
 }
 
 void Shadows::bind_textures() const {
-    glActiveTexture(GL_TEXTURE4);
-    glBindTexture(GL_TEXTURE_2D, shadow_map_.texture());
+    bind_texture(4, shadow_map_);
     glBindSampler(4, compare_sampler_);
-    glActiveTexture(GL_TEXTURE5);
-    glBindTexture(GL_TEXTURE_2D, floor_light_.texture());
-    glBindSampler(5, 0);
+    bind_texture(5, floor_light_);
 }
 
 }  // namespace gelatin::render

@@ -35,12 +35,18 @@ public:
 private:
     void draw_depth(const Target& target, const glm::mat4& world_to_clip,
                     std::initializer_list<const SurfaceDraw*> casters) const;
+    void draw_floor_sky() const;
+    void draw_floor_key() const;
     void draw_floor_light() const;
 
     gl::Program depth_program_;
-    gl::Program floor_program_;
+    gl::Program sky_program_;
+    gl::Program key_program_;
+    gl::Program blend_program_;
     Target shadow_map_;
     Target underside_;
+    Target floor_sky_;
+    Target floor_key_;
     Target floor_light_;
     unsigned compare_sampler_ = 0;
 

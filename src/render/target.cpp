@@ -31,9 +31,21 @@ Target Target::color(int width, int height, unsigned internal_format) {
     return target;
 }
 
+Target Target::color_and_depth(int width, int height) {
+    Target target = color(width, height, GL_RGBA8);
+    glGenRenderbuffers(1, target.renderbuffers_);
+    glBindRenderbuffer(GL_RENDERBUFFER, target.renderbuffers_[0]);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width, height);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target.renderbuffers_[0]);
+    target.check_complete();
+    return target;
+}
+
 Target Target::depth(int width, int height) {
     Target target(width, height);
     target.attach_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glDrawBuffer(GL_NONE);
     glReadBuffer(GL_NONE);
     target.check_complete();

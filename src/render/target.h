@@ -14,7 +14,9 @@ public:
     /// A colour texture, sampled linearly, clamped at its edge.
     /// @param internal_format for example GL_RGBA8
     static Target color(int width, int height, unsigned internal_format);
-    /// A depth texture.
+    /// A colour texture (RGBA8) with depth beside it.
+    static Target color_and_depth(int width, int height);
+    /// A depth texture, its values read unfiltered.
     static Target depth(int width, int height);
     Target(Target&& other) noexcept { swap(other); }
     Target& operator=(Target&& other) noexcept;
@@ -38,7 +40,7 @@ private:
     int height_ = 0;
     unsigned framebuffer_ = 0;
     unsigned texture_ = 0;
-    unsigned renderbuffers_[2] = {0, 0};  // colour, depth
+    unsigned renderbuffers_[2] = {0, 0};
 };
 
 }  // namespace gelatin::render

@@ -19,6 +19,7 @@ Json settings_json(const RunReport& report) {
             {"frame_rate", settings.frame_rate},
             {"substeps", report.substeps},
             {"step_size", report.step_size},
+            {"frames", settings.frames},
             {"gravity", {settings.gravity.x, settings.gravity.y, settings.gravity.z}}};
 }
 

@@ -1,9 +1,9 @@
 #include "mesh/tetrahedralise.h"
 
 #include <gmock/gmock.h>
-#include <sys/stat.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
 #include <numeric>
@@ -29,7 +29,7 @@ std::string environment(const char* name) {
 
 // Gives each test an empty cache, and lets it put another `tetgen` in front of the true one.
 class Tetrahedralise : public testing::Test {
-protected:
+public:
     Tetrahedralise() {
         fs::create_directory(cache_);
         fs::create_directory(programs_);
@@ -40,6 +40,7 @@ protected:
         ::setenv("PATH", old_path_.c_str(), 1);
     }
 
+protected:
     // `script` is what `tetgen` does with a surface; asked for its version it gives one.
     void replace_tetgen(const std::string& script) {
         const fs::path program = programs_ / "tetgen";
@@ -191,7 +192,7 @@ TEST_F(Tetrahedralise, TellsThatASurfaceCrossesItself) {
     const auto first = static_cast<std::uint32_t>(two.positions.size());
     for (const glm::dvec3& position : make_cube().positions) two.positions.push_back(0.9 * position + 0.31);
     for (const glm::uvec3& face : make_cube().faces) two.faces.push_back(face + first);
-    EXPECT_THAT(message_of(two), AllOf(HasSubstr("TetGen"), HasSubstr("faces intersect")));
+    EXPECT_THAT(message_of(two), AllOf(HasSubstr("crosses itself"), HasSubstr("faces intersect")));
     EXPECT_EQ(cache_entries(), 0u);
 }
 
@@ -202,7 +203,7 @@ TEST_F(Tetrahedralise, PassesOnTheLastWordsOfACrash) {
     replace_tetgen("echo Sorry; exit 3");
     EXPECT_THAT(message_of(make_cube()), AllOf(HasSubstr("exit code 3"), HasSubstr("Sorry")));
     replace_tetgen("exit 0");  // success without a result
-    EXPECT_THAT(message_of(make_cube()), HasSubstr("TetGen failed"));
+    EXPECT_THAT(message_of(make_cube()), HasSubstr("TetGen cannot fill"));
     EXPECT_EQ(cache_entries(), 0u);
 }
 
@@ -211,6 +212,20 @@ TEST_F(Tetrahedralise, RefusesAResultThatMakesNoSense) {
         "printf '1 4 0\\n0 0 1 2 9\\n' > surface.1.ele; printf '1 3 0 0\\n0 0 0 0\\n' > surface.1.node");
     EXPECT_THAT(message_of(make_cube()), AllOf(HasSubstr("thing"), HasSubstr("cannot be used")));
     EXPECT_EQ(cache_entries(), 0u);
+}
+
+// Two tets and a flat one below them: the flat one goes, and an inner one is refused.
+TEST_F(Tetrahedralise, DropsFlatTetsFromTheBoundaryOnly) {
+    const std::string nodes =
+        "printf '6 3 0 0\\n0 0 0 0\\n1 1 0 0\\n2 1 1 0\\n3 0 1 0\\n4 .5 .5 1\\n5 .5 .5 -1\\n' > "
+        "surface.1.node;";
+    replace_tetgen(nodes +
+                   "printf '4 4 0\\n0 0 1 2 4\\n1 0 1 2 3\\n2 0 2 3 4\\n3 0 1 5 4\\n' > surface.1.ele");
+    EXPECT_EQ(tetrahedralise(make_cube(), {}, "thing").tets.size(), 3u);
+    replace_tetgen(
+        nodes +
+        "printf '5 4 0\\n0 0 1 2 4\\n1 0 1 2 3\\n2 0 2 3 4\\n3 0 1 3 5\\n4 1 2 3 5\\n' > surface.1.ele");
+    EXPECT_THAT(message_of(make_cube(), with_max_volume(1.0)), HasSubstr("1 of its tets are flat"));
 }
 
 TEST_F(Tetrahedralise, StopsAtTheTimeLimitAndNamesIt) {

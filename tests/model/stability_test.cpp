@@ -57,7 +57,7 @@ TEST(LargestStableStep, SeparatesQuietFromExploding) {
     const double step = largest_stable_step(SolverKind::semi_implicit_euler, model);
     const double start = energy_after(model, step, 0);
     EXPECT_LT(energy_after(model, step, 2000), 2.0 * start);
-    EXPECT_GT(energy_after(model, 1.35 * step, 2000), 100.0 * start);
+    EXPECT_FALSE(energy_after(model, 1.35 * step, 2000) < 100.0 * start) << "or NaN by then";
 }
 
 Scene scene_with(SolverKind solver, std::optional<int> substeps) {

@@ -24,7 +24,7 @@ inline constexpr Mutant kMutants[] = {
     {"last_pair_is_left_out", "sim/advance_nodes.comp", "p < end", "p + 64u < end", kSemiImplicit, kFused},
     {"no_guard_at_the_end", "sim/advance_nodes.comp", "if (n >= node_count) return;", "", kSemiImplicit, kFused},
     {"damping_has_the_wrong_sign", "include/spring_force.glsl", "+ damping_time", "- damping_time", kSemiImplicit, kFused},
-    {"rest_length_is_forgotten", "include/spring_force.glsl", "- rest_length", "", kSemiImplicit, kFused},
+    {"rest_length_is_forgotten", "include/spring_force.glsl", "inverse_length - rest_length", "inverse_length", kSemiImplicit, kFused},
     {"damping_of_one_end_alone", "include/spring_force.glsl", "0.5 * (velocity_a.w + velocity_b.w)",
      "0.5 * velocity_a.w", kSemiImplicit, kFused},
     {"pins_are_ignored", "include/integrate_node.glsl", "base_position.w == 0.0", "false", kSemiImplicit, kFused},

@@ -13,7 +13,7 @@ NodeArrays step_on_gpu(const Model& model, SolverKind solver, ForceMethod forces
     const gpu::NodeBuffers start(model.positions, model.velocities);
     gpu::NodeBuffers stage[2] = {{poison, poison}, {poison, poison}}, sums(poison, poison), result(poison, poison);
 
-    const gpu::AdvanceNodes fused(scheme);
+    const gpu::AdvanceNodes fused(model, scheme);
     const gpu::DivideAndMerge divided(model, scheme);
     const gpu::NodeBuffers* from = &start;
     for (int p = 0; p < scheme.pass_count; ++p) {

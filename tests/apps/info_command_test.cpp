@@ -1,0 +1,79 @@
+#include <gelatin/version.h>
+
+#include "apps/program_test.h"
+
+namespace gelatin::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class InfoCommand : public ProgramTest {};
+
+TEST_F(InfoCommand, TellsAboutTheMachine) {
+    const ProgramResult result = run({"info", "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json info = json::parse(result.out);
+    EXPECT_EQ(info["version"], version());
+    EXPECT_EQ(info["commit"], commit());
+    EXPECT_NE(info["cpu"]["simd"], "");
+    EXPECT_GE(info["cpu"]["threads"], 1);
+    EXPECT_TRUE(info["opengl"]["default"].contains("renderer") ||
+                info["opengl"]["default"].contains("unusable"));
+    EXPECT_THAT(run({"info"}).out, HasSubstr(std::string("version: ") + version() + "\n"));
+}
+
+TEST_F(InfoCommand, WorksWhereThereIsNoOpenGl) {
+    settings_.environment.push_back("__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent");
+    const ProgramResult result = run({"info", "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(json::parse(result.out)["opengl"]["default"].contains("unusable"));
+}
+
+TEST_F(InfoCommand, TellsAboutAScene) {
+    const ProgramResult result = run({"info", "cube.toml", "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json info = json::parse(result.out);
+    EXPECT_EQ(info["kind"], "scene");
+    EXPECT_EQ(info["counts"]["objects"], 1);
+    EXPECT_EQ(info["counts"]["springs"], info["objects"]["cube"]["springs"]);
+    EXPECT_EQ(info["objects"]["cube"]["faces"], 108);  // 6 sides of 3 x 3 squares
+    EXPECT_NEAR(info["objects"]["cube"]["mass"].get<double>(), 1000.0, 1e-6);
+    EXPECT_NEAR(info["objects"]["cube"]["volume"].get<double>(), 1.0, 1e-9);
+    EXPECT_NEAR(info["step_size"].get<double>() * info["substeps"].get<int>(), 0.01, 1e-15);
+}
+
+TEST_F(InfoCommand, TellsAboutASurface) {
+    write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n");
+    const ProgramResult result = run({"info", "open.obj", "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json info = json::parse(result.out);
+    EXPECT_EQ(info["kind"], "surface");
+    EXPECT_EQ(info["vertices"], 4);
+    EXPECT_EQ(info["faces"], 3);
+    EXPECT_EQ(info["closed"], false);
+    EXPECT_EQ(info["boundary_edges"], 3);
+    EXPECT_FALSE(info.contains("volume"));
+    EXPECT_EQ(info["extent"]["max"], (std::vector<double>{1.0, 1.0, 1.0}));
+}
+
+TEST_F(InfoCommand, TellsAboutTets) {
+    write("one.mesh",
+          "MeshVersionFormatted 1\nDimension 3\nVertices 4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+          "Tetrahedra 1\n1 2 4 3 0\nEnd\n");  // inside out
+    const ProgramResult result = run({"info", "one.mesh", "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json info = json::parse(result.out);
+    EXPECT_EQ(info["kind"], "tets");
+    EXPECT_EQ(info["edges"], 6);
+    EXPECT_NEAR(info["volume"].get<double>(), 1.0 / 6.0, 1e-15);
+    EXPECT_EQ(info["notes"].size(), 1u);  // turned back
+}
+
+TEST_F(InfoCommand, RefusesWhatItCannotRead) {
+    expect_error({"info", "missing.obj"}, 2, "missing.obj: no such file");
+    expect_error({"info", "missing.toml"}, 2, "missing.toml: no such file");
+}
+
+}  // namespace
+}  // namespace gelatin::test

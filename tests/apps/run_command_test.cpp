@@ -1,0 +1,363 @@
+#include <cmath>
+#include <csignal>
+
+#include "apps/program_test.h"
+#include "mesh/surface_file.h"
+#include "render/image.h"
+
+namespace gelatin::test {
+namespace {
+
+using nlohmann::json;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+class RunCommand : public ProgramTest {};
+class RunCommandDraws : public DrawingProgramTest {};
+
+TEST_F(RunCommand, WritesTheStatisticsOfEveryFrame) {
+    const ProgramResult result = run({"run", "cube.toml", "--backend", "cpu", "--stats", "s.json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json stats = read_json("s.json");
+    EXPECT_EQ(stats["scene"], "cube.toml");
+    EXPECT_EQ(stats["backend"], "cpu");
+    EXPECT_EQ(stats["counts"]["objects"], 1);
+    EXPECT_EQ(stats["settings"]["frame_rate"], 100.0);
+    const double step = stats["settings"]["step_size"], frame_time = 0.01;
+    EXPECT_DOUBLE_EQ(step * stats["settings"]["substeps"].get<int>(), frame_time);
+    ASSERT_EQ(stats["frames"].size(), 21u);
+    for (int f = 0; f <= 20; ++f) {
+        const json& frame = stats["frames"][static_cast<std::size_t>(f)];
+        EXPECT_EQ(frame["frame"], f);
+        EXPECT_NEAR(frame["time"].get<double>(), f * frame_time, 1e-12);
+        // Free fall of the 1,000 kg cube; rounding of the float state alone.
+        EXPECT_NEAR(frame["momentum"][1].get<double>(), -9.81 * 1000.0 * f * frame_time, 1.0);
+        EXPECT_NEAR(frame["volume_ratio"]["cube"].get<double>(), 1.0, 1e-3);
+    }
+    EXPECT_GT(stats["timing"]["fps"].get<double>(), 0.0);
+    EXPECT_EQ(stats["timing"]["stages"]["advance_nodes"]["runs"].get<int>(),
+              20 * stats["settings"]["substeps"].get<int>());
+}
+
+TEST_F(RunCommand, TakesOverridesAndFrames) {
+    const ProgramResult result = run({"run", "cube.toml", "--frames", "3", "--set", "simulation.solver=rk4",
+                                      "--set", "object.cube.velocity=[2, 0, 0]", "--stats", "s.json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json stats = read_json("s.json");
+    EXPECT_EQ(stats["frames"].size(), 4u);
+    EXPECT_EQ(stats["settings"]["solver"], "rk4");
+    EXPECT_NEAR(stats["frames"][0]["momentum"][0].get<double>(), 2000.0, 0.1);
+}
+
+TEST_F(RunCommand, RunsNoFrames) {
+    const ProgramResult result = run({"run", "cube.toml", "--frames", "0", "--stats", "s.json"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(read_json("s.json")["frames"].size(), 1u);
+}
+
+TEST_F(RunCommand, RefusesAFixedStepThatIsTooLong) {
+    const ProgramResult result =
+        run({"run", "cube.toml", "--set", "simulation.substeps=1", "--set", "simulation.frame_rate=1"});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, HasSubstr("largest"));
+}
+
+// Export
+
+TEST_F(RunCommand, ExportsEveryKthFrameFromTheStart) {
+    const ProgramResult result =
+        run({"run", "cube.toml", "--export", "out", "--format", "obj", "--every", "8", "--quiet"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(exists("out/frame_000000.obj"));
+    EXPECT_TRUE(exists("out/frame_000008.obj"));
+    EXPECT_TRUE(exists("out/frame_000016.obj"));
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("out")), {}), 3);
+    Notes notes;
+    const SurfaceMesh start = read_surface(path("out/frame_000000.obj"), notes);
+    const SurfaceMesh later = read_surface(path("out/frame_000016.obj"), notes);
+    ASSERT_EQ(start.positions.size(), later.positions.size());
+    EXPECT_EQ(start.faces, later.faces);
+    const double fallen = 0.5 * 9.81 * 0.16 * 0.16;
+    for (std::size_t v = 0; v < start.positions.size(); ++v) {
+        // First order in the step, at most a hundredth of a second.
+        EXPECT_NEAR(start.positions[v].y - later.positions[v].y, fallen, 9.81 * 0.16 * 0.01);
+    }
+}
+
+TEST_F(RunCommand, ExportsVtuWithTheListOfFrames) {
+    ASSERT_EQ(run({"run", "cube.toml", "--frames", "2", "--export", "out", "--every", "1"}).exit_code, 0);
+    EXPECT_TRUE(exists("out/frame_000002.vtu"));
+    EXPECT_THAT(read_file(path("out/scene.pvd")),
+                HasSubstr("timestep=\"0.02\" part=\"0\" file=\"frame_000002.vtu\""));
+}
+
+// What is wrong with the outputs is found before anything is simulated.
+
+TEST_F(RunCommand, RefusesOutputsThatCannotBeWritten) {
+    const std::string missing = path("missing").string();
+    expect_error({"run", "cube.toml", "--stats", "missing/s.json"}, 2,
+                 "--stats = missing/s.json: there is no folder missing");
+    expect_error({"run", "cube.toml", "--image", missing + "/a.png"}, 2,
+                 "--image = " + missing + "/a.png: there is no folder " + missing);
+    expect_error({"run", "cube.toml", "--image", "a.jpg"}, 2, "--image = a.jpg: must end in .png");
+    expect_error({"run", "cube.toml", "--video", "a.avi"}, 2, "--video = a.avi: must end in .mp4");
+    expect_error({"run", "cube.toml", "--checkpoint", "missing/c"}, 2,
+                 "--checkpoint = missing/c: there is no folder missing");
+    write("taken", "x");
+    const ProgramResult result = run({"run", "cube.toml", "--export", "taken"});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, StartsWith("gelatin: error: taken: cannot be made: "));
+}
+
+TEST_F(RunCommand, RefusesUnknownChoices) {
+    expect_error({"run", "cube.toml", "--backend", "vulkan"}, 2,
+                 "--backend = vulkan: must be auto, gl or cpu");
+    expect_error({"run", "cube.toml", "--export", "out", "--format", "vtk"}, 2,
+                 "--format = vtk: must be vtu, obj or ply (did you mean \"vtu\"?)");
+    for (const char* size : {"640", "640x", "x480", "640x480x2", "0x0", "99999x480", "-640x480"}) {
+        expect_error({"run", "cube.toml", std::string("--size=") + size}, 2,
+                     std::string("--size = ") + size + ": must be WIDTHxHEIGHT with sides from 16 to 8192");
+    }
+}
+
+TEST_F(RunCommand, FailsCleanlyOnAFullDisk) {
+    settings_.largest_file = 2000;
+    settings_.environment.push_back("GELATIN_CACHE_DIR=");
+    const ProgramResult result = run({"run", "cube.toml", "--export", "out", "--format", "obj", "--quiet"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("frame_000000.obj: cannot be written"));
+    EXPECT_THAT(partial_files(), IsEmpty());
+    EXPECT_FALSE(exists("out/frame_000000.obj"));
+}
+
+// Progress
+
+TEST_F(RunCommand, TellsEveryTenthWhereStderrIsNoTerminal) {
+    const ProgramResult result = run({"run", "cube.toml"});
+    EXPECT_EQ(result.exit_code, 0);
+    for (int percent = 10; percent <= 100; percent += 10) {
+        const std::string line = "gelatin: " + std::string(percent < 100 ? " " : "") +
+                                 std::to_string(percent) + "%  frame " + std::to_string(percent / 5) +
+                                 " of 20, ";
+        EXPECT_THAT(result.err, HasSubstr(line));
+    }
+    EXPECT_THAT(result.err, Not(HasSubstr("\r")));
+    EXPECT_THAT(result.out, HasSubstr("20 frames of 1 objects"));
+}
+
+TEST_F(RunCommand, DrawsABarWhereStderrIsATerminal) {
+    settings_.error_terminal = true;
+    const ProgramResult result = run({"run", "cube.toml"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.err, HasSubstr("\r[##############################] 100%  frame 20 of 20, "));
+    EXPECT_THAT(result.err, EndsWith("\n"));
+}
+
+TEST_F(RunCommand, IsQuietWhenAsked) {
+    const ProgramResult result = run({"run", "cube.toml", "--quiet"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.err, "");
+}
+
+// Ctrl-C. The run would last for hours.
+
+TEST_F(RunCommand, AnInterruptEndsTheRunAndKeepsWhatItHas) {
+    settings_.signal_after = "10%";
+    settings_.signals = {SIGINT};
+    const ProgramResult result = run({"run", "cube.toml", "--frames", "1000000", "--stats", "s.json",
+                                      "--checkpoint", "c", "--set", "simulation.frame_rate=1e5"});
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("gelatin: error: interrupted after frame "));
+    EXPECT_THAT(result.err, HasSubstr(" of 1000000; what was recorded until then is written\n"));
+    const std::size_t frames = read_json("s.json")["frames"].size();
+    EXPECT_GE(frames, 100000u);
+    EXPECT_LT(frames, 1000001u);
+    EXPECT_THAT(result.err, HasSubstr("interrupted after frame " + std::to_string(frames - 1) + " of"));
+    EXPECT_TRUE(exists("c"));
+}
+
+TEST_F(RunCommand, TerminationIsAnInterruptToo) {
+    settings_.signal_after = "steps of";
+    settings_.signals = {SIGTERM};
+    const ProgramResult result = run({"run", "cube.toml", "--frames", "2000000000"});
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("interrupted after frame "));
+}
+
+TEST_F(RunCommand, ASecondInterruptKills) {
+    settings_.signal_after = "steps of";
+    settings_.signals = {SIGINT, SIGINT};
+    // One frame of 5,000 s: the first interrupt waits for its end.
+    const ProgramResult result =
+        run({"run", "cube.toml", "--set", "simulation.frame_rate=2e-4", "--set", "simulation.substeps=auto",
+             "--set", "material.jelly.youngs_modulus=100", "--set",
+             "object.cube.shape={box=[1, 1, 1], segments=[40, 40, 40]}"});
+    EXPECT_EQ(result.signal, SIGINT) << result.exit_code << result.err;
+}
+
+// Divergence
+
+TEST_F(RunCommand, StopsWhenTheSimulationDiverges) {
+    // So soft that steps of 300,000 years are stable; and gravity takes positions beyond what a float holds.
+    const ProgramResult result =
+        run({"run", "cube.toml", "--stats", "s.json", "--checkpoint", "c", "--set",
+             "simulation.frame_rate=1e-13", "--set", "material.jelly.youngs_modulus=1e-14", "--set",
+             "material.jelly.density=1e14", "--set", "simulation.gravity=[0, 1e15, 0]"});
+    EXPECT_EQ(result.exit_code, 3) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("gelatin: error: the simulation diverged: object 'cube'"));
+    EXPECT_THAT(result.err, HasSubstr("; no checkpoint was saved\n"));
+    EXPECT_EQ(read_json("s.json")["frames"].size(), 1u);  // the start
+    EXPECT_FALSE(exists("c"));
+}
+
+// Checkpoints
+
+TEST_F(RunCommand, AResumedRunGivesTheSameNumbersAsAWholeOne) {
+    const std::vector<std::string> fall = {"--set", "object.cube.position=[0, 0.6, 0]", "--backend", "cpu",
+                                           "--quiet"};
+    const auto with = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), fall.begin(), fall.end());
+        return run(arguments);
+    };
+    ASSERT_EQ(with({"run", "cube.toml", "--frames", "40", "--stats", "whole.json"}).exit_code, 0);
+    ASSERT_EQ(with({"run", "cube.toml", "--frames", "25", "--checkpoint", "c"}).exit_code, 0);
+    const ProgramResult resumed =
+        with({"run", "cube.toml", "--frames", "40", "--resume", "c", "--stats", "rest.json"});
+    ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+    const json whole = read_json("whole.json"), rest = read_json("rest.json");
+    ASSERT_EQ(rest["frames"].size(), 16u);
+    for (std::size_t f = 0; f < 16; ++f) {
+        json expected = whole["frames"][25 + f], actual = rest["frames"][f];
+        EXPECT_NEAR(actual["time"].get<double>(), expected["time"].get<double>(), 1e-12);
+        expected.erase("time");
+        actual.erase("time");
+        EXPECT_EQ(actual, expected);
+    }
+    EXPECT_GT(whole["frames"][40]["contacts"].get<int>(), 0);  // it did more than fall
+}
+
+TEST_F(RunCommand, RefusesACheckpointThatCannotBeResumed) {
+    ASSERT_EQ(run({"run", "cube.toml", "--checkpoint", "c", "--quiet"}).exit_code, 0);
+    expect_error({"run", "cube.toml", "--resume", "c"}, 2,
+                 "c: is of frame 20, the run ends at 20: raise --frames");
+    expect_error({"run", "cube.toml", "--resume", "missing"}, 2, "missing: no such file");
+    write("damaged", read_file(path("c")).substr(0, 100));
+    EXPECT_EQ(run({"run", "cube.toml", "--frames", "30", "--resume", "damaged"}).exit_code, 2);
+    EXPECT_EQ(run({"run", "cube.toml", "--frames", "30", "--resume", "c", "--set",
+                   "object.cube.shape={sphere=1, frequency=3}"})
+                  .exit_code,
+              2);
+}
+
+// OpenGL
+
+TEST_F(RunCommand, SaysSoWhereThereIsNoOpenGl) {
+    settings_.environment.push_back("__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent");
+    for (const std::vector<std::string>& wish :
+         {std::vector<std::string>{"--backend", "gl"}, {"--image", "a.png", "--backend", "cpu"}}) {
+        std::vector<std::string> arguments = {"run", "cube.toml"};
+        arguments.insert(arguments.end(), wish.begin(), wish.end());
+        const ProgramResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, 4) << result.err;
+        EXPECT_THAT(result.err, HasSubstr("gelatin: error: "));
+        EXPECT_FALSE(exists("a.png"));
+    }
+    EXPECT_EQ(run({"run", "cube.toml"}).exit_code, 0);  // what does not need it runs
+}
+
+TEST_F(RunCommandDraws, SimulatesOnOpenGl) {
+    const ProgramResult result =
+        run({"run", "cube.toml", "--backend", "gl", "--stats", "s.json", "--gl-debug"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json stats = read_json("s.json");
+    EXPECT_EQ(stats["backend"], "gl");
+    ASSERT_EQ(stats["frames"].size(), 21u);
+    EXPECT_NEAR(stats["frames"][20]["momentum"][1].get<double>(), -9.81 * 1000.0 * 0.2, 1.0);
+}
+
+TEST_F(RunCommandDraws, RefusesADeviceThatIsNotThere) {
+    EXPECT_EQ(run({"run", "cube.toml", "--backend", "gl", "--device", "1000"}).exit_code, 4);
+}
+
+TEST_F(RunCommandDraws, DrawsTheLastFrame) {
+    const ProgramResult result = run({"run", "cube.toml", "--image", "last.png", "--size", "160x90", "--set",
+                                      "object.cube.color=[1, 0, 0]"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const render::Image image = render::read_png(path("last.png"));
+    ASSERT_EQ(image.width, 160);
+    ASSERT_EQ(image.height, 90);
+    int red = 0;
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            const std::uint8_t* p = image.at(x, y);
+            if (p[0] > p[1] + 60 && p[0] > p[2] + 60) ++red;
+        }
+    }
+    EXPECT_GT(red, 30);            // the cube is in the picture
+    EXPECT_LT(red, 160 * 90 / 2);  // and not all of it
+}
+
+class RunCommandFilms : public DrawingProgramTest {
+protected:
+    // "width,height,rate,frames" of a film.
+    std::string probe(const std::string& name) const {
+        const ProgramResult result = run_program(
+            {"ffprobe", "-v", "error", "-count_frames", "-select_streams", "v:0", "-show_entries",
+             "stream=width,height,avg_frame_rate,nb_read_frames", "-of", "csv=p=0", path(name).string()});
+        return result.out;
+    }
+};
+
+TEST_F(RunCommandFilms, FilmsInRealTime) {
+    // 240 frames a second: every fourth is filmed, which plays at 60.
+    const ProgramResult result = run({"run", "cube.toml", "--video", "film.mp4", "--size", "160x90", "--set",
+                                      "simulation.frame_rate=240", "--frames", "40"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(probe("film.mp4"), "160,90,60/1,11\n");
+    EXPECT_THAT(partial_files(), IsEmpty());
+}
+
+TEST_F(RunCommandFilms, FilmsEveryKthFrameAtItsOwnRate) {
+    const ProgramResult result =
+        run({"run", "cube.toml", "--video", "film.mp4", "--size", "160x90", "--every", "3"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(probe("film.mp4"), "160,90,100/3,7\n");
+}
+
+TEST_F(RunCommandFilms, AnInterruptFinishesTheFilm) {
+    settings_.signal_after = "steps of";
+    settings_.signals = {SIGINT};
+    const ProgramResult result =
+        run({"run", "cube.toml", "--video", "film.mp4", "--size", "160x90", "--frames", "1000000"});
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_THAT(probe("film.mp4"), StartsWith("160,90,50/1,"));
+    EXPECT_THAT(partial_files(), IsEmpty());
+}
+
+TEST_F(RunCommandFilms, FailsCleanlyOnAFullDisk) {
+    settings_.largest_file = 20'000;
+    settings_.environment.push_back("GELATIN_CACHE_DIR=");
+    const ProgramResult result =
+        run({"run", "cube.toml", "--video", "film.mp4", "--frames", "200", "--quiet"});
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("gelatin: error: "));
+    EXPECT_THAT(partial_files(), IsEmpty());
+    EXPECT_FALSE(exists("film.mp4"));
+}
+
+TEST_F(RunCommandFilms, SaysSoWhereThereIsNoFfmpeg) {
+    // TetGen's result is in the cache by then, so that nothing needs PATH.
+    ASSERT_EQ(run({"run", "cube.toml", "--quiet"}).exit_code, 0);
+    settings_.environment.push_back("PATH=/nonexistent");
+    const ProgramResult result = run({"run", "cube.toml", "--video", "film.mp4", "--size", "160x90"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("ffmpeg"));
+    EXPECT_THAT(partial_files(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace gelatin::test

@@ -1,0 +1,193 @@
+#include "sim/export.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstring>
+#include <filesystem>
+
+#include "core/file.h"
+#include "gelatin/error.h"
+#include "mesh/surface_file.h"
+
+namespace gelatin {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+// Two tets. The first has a node in no face, so that node and vertex numbers differ from there on.
+Model two_tets() {
+    Model model;
+    model.positions.resize(9);
+    model.tets = {{0, 2, 3, 4}, {5, 6, 7, 8}};
+    for (std::uint32_t object = 0; object < 2; ++object) {
+        const glm::uvec4 t = model.tets[object];
+        for (const glm::uvec3 f : {glm::uvec3(t.x, t.z, t.y), glm::uvec3(t.x, t.y, t.w),
+                                   glm::uvec3(t.y, t.z, t.w), glm::uvec3(t.x, t.w, t.z)}) {
+            model.faces.push_back({f.x, f.y, f.z, object});
+        }
+    }
+    ModelObject first, second;
+    first.name = "left one";
+    first.nodes = {0, 5};
+    first.faces = {0, 4};
+    first.tets = {0, 1};
+    second.name = "right";
+    second.nodes = {5, 4};
+    second.faces = {4, 4};
+    second.tets = {1, 1};
+    model.objects = {first, second};
+    return model;
+}
+
+// Corners of unit tets, 3 m apart; velocities name their node.
+HostFrame frame_of(int number) {
+    HostFrame frame;
+    frame.frame = number;
+    frame.time = 0.125 * number;
+    const std::array<float, 3> corners[9] = {{0, 0, 0}, {.25f, .25f, .25f}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
+                                             {3, 0, 0}, {4, 0, 0},          {3, 1, 0}, {3, 0, 1}};
+    for (int node = 0; node < 9; ++node) {
+        frame.positions.insert(frame.positions.end(), corners[node].begin(), corners[node].end());
+        frame.velocities.insert(frame.velocities.end(), {static_cast<float>(node), 0.5f, -1.0f});
+    }
+    return frame;
+}
+
+std::string decode_base64(const std::string& text) {
+    std::string bytes;
+    unsigned bits = 0;
+    int held = 0;
+    for (const char c : text) {
+        const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+        const auto digit = digits.find(c);
+        if (digit == std::string::npos) break;
+        bits = bits << 6 | static_cast<unsigned>(digit);
+        held += 6;
+        if (held < 8) continue;
+        held -= 8;
+        bytes += static_cast<char>(bits >> held & 255u);
+    }
+    return bytes;
+}
+
+// The values of a VTU's array, its size header checked.
+template <class T>
+std::vector<T> data_array(const std::string& vtu, const std::string& name) {
+    const auto tag = vtu.find("Name=\"" + name + "\"");
+    if (tag == std::string::npos) return {};
+    const auto start = vtu.find('>', tag) + 1;
+    const std::string bytes = decode_base64(vtu.substr(start, vtu.find('<', start) - start));
+    std::uint64_t size = 0;
+    std::memcpy(&size, bytes.data(), sizeof size);
+    EXPECT_EQ(size + sizeof size, bytes.size()) << name;
+    std::vector<T> values((bytes.size() - sizeof size) / sizeof(T));
+    std::memcpy(values.data(), bytes.data() + sizeof size, values.size() * sizeof(T));
+    return values;
+}
+
+TEST(Export, ObjHasOneObjectABodyWithItsSurface) {
+    EXPECT_EQ(obj_text(make_export_topology(two_tets()), frame_of(2)),
+              "# frame 2, 0.25 s\n"
+              "o left one\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
+              "o right\nv 3 0 0\nv 4 0 0\nv 3 1 0\nv 3 0 1\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n");
+}
+
+TEST(Export, PlyReadsBackAsTheSameSurface) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "frame.ply";
+    write_file(file, ply_bytes(make_export_topology(two_tets()), frame_of(0)));
+    Notes notes;
+    const SurfaceMesh mesh = read_surface(file, notes);
+    EXPECT_EQ(mesh.positions.size(), 8u);
+    EXPECT_EQ(mesh.faces.size(), 8u);
+    EXPECT_EQ(mesh.positions.at(5), glm::dvec3(4.0, 0.0, 0.0));
+    EXPECT_EQ(mesh.faces.at(4), glm::uvec3(4, 6, 5));
+}
+
+TEST(Export, PlyHasVelocitiesAndObjects) {
+    const std::string bytes = ply_bytes(make_export_topology(two_tets()), frame_of(0));
+    const std::string end = "end_header\n";
+    const char* data = bytes.data() + bytes.find(end) + end.size();
+    constexpr std::size_t kVertex = 24, kFace = 17;
+    ASSERT_EQ(bytes.data() + bytes.size() - data, static_cast<std::ptrdiff_t>(8 * kVertex + 8 * kFace));
+    float velocity[3];
+    std::memcpy(velocity, data + 1 * kVertex + 12, sizeof velocity);
+    EXPECT_EQ(velocity[0], 2.0f);  // the second vertex is node 2
+    std::uint32_t object[2];
+    std::memcpy(&object[0], data + 8 * kVertex + 3 * kFace + 13, 4);
+    std::memcpy(&object[1], data + 8 * kVertex + 4 * kFace + 13, 4);
+    EXPECT_EQ(object[0], 0u);
+    EXPECT_EQ(object[1], 1u);
+}
+
+TEST(Export, VtuHasEveryNodeAndTet) {
+    const HostFrame frame = frame_of(0);
+    const std::string vtu = vtu_text(make_export_topology(two_tets()), frame);
+    EXPECT_THAT(vtu, HasSubstr("<Piece NumberOfPoints=\"9\" NumberOfCells=\"2\">"));
+    EXPECT_EQ(data_array<float>(vtu, "Points"), frame.positions);
+    EXPECT_EQ(data_array<float>(vtu, "velocity"), frame.velocities);
+    EXPECT_EQ(data_array<std::int64_t>(vtu, "connectivity"),
+              (std::vector<std::int64_t>{0, 2, 3, 4, 5, 6, 7, 8}));
+    EXPECT_EQ(data_array<std::int64_t>(vtu, "offsets"), (std::vector<std::int64_t>{4, 8}));
+    EXPECT_EQ(data_array<std::uint8_t>(vtu, "types"), (std::vector<std::uint8_t>{10, 10}));
+    EXPECT_EQ(data_array<std::int32_t>(vtu, "object"), (std::vector<std::int32_t>{0, 1}));
+}
+
+TEST(Export, FramesAreNumberedAndListedWithTheirTimes) {
+    const TemporaryFolder folder;
+    FrameExporter exporter(folder.path(), ExportFormat::vtu, two_tets());
+    exporter.write(frame_of(0));
+    exporter.write(frame_of(12));
+    EXPECT_TRUE(fs::exists(folder.path() / "frame_000000.vtu"));
+    EXPECT_TRUE(fs::exists(folder.path() / "frame_000012.vtu"));
+    const std::string list = read_file(folder.path() / "scene.pvd");
+    EXPECT_EQ(
+        list,
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+        "<Collection>\n<DataSet timestep=\"0\" part=\"0\" file=\"frame_000000.vtu\"/>\n"
+        "<DataSet timestep=\"1.5\" part=\"0\" file=\"frame_000012.vtu\"/>\n</Collection>\n</VTKFile>\n");
+}
+
+TEST(Export, OtherFormatsHaveNoList) {
+    const TemporaryFolder folder;
+    FrameExporter(folder.path(), ExportFormat::obj, two_tets()).write(frame_of(3));
+    EXPECT_TRUE(fs::exists(folder.path() / "frame_000003.obj"));
+    EXPECT_FALSE(fs::exists(folder.path() / "scene.pvd"));
+}
+
+TEST(Export, MakesTheFolder) {
+    const TemporaryFolder folder;
+    const fs::path deep = folder.path() / "a" / "b";
+    prepare_export_folder(deep);
+    EXPECT_TRUE(fs::is_directory(deep));
+    EXPECT_NO_THROW(prepare_export_folder(deep));
+}
+
+TEST(Export, RefusesAFolderThatIsAFile) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "taken";
+    write_file(file, "x");
+    try {
+        prepare_export_folder(file);
+        FAIL();
+    } catch (const InvalidInput& error) {
+        EXPECT_THAT(error.what(), StartsWith(file.string() + ": cannot be made: "));
+    }
+}
+
+TEST(Export, SaysSoWhenAFrameCannotBeWritten) {
+    TemporaryFolder folder;
+    const fs::path gone = folder.path() / "gone";
+    prepare_export_folder(gone);
+    FrameExporter exporter(gone, ExportFormat::vtu, two_tets());
+    fs::remove(gone);
+    EXPECT_THROW(exporter.write(frame_of(0)), SystemError);
+}
+
+}  // namespace
+}  // namespace gelatin

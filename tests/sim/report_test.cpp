@@ -1,0 +1,110 @@
+#include "sim/report.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "gelatin/version.h"
+
+namespace gelatin {
+namespace {
+
+using Json = nlohmann::json;
+
+RunReport sample_report() {
+    RunReport report;
+    report.scene = "scenes/sample.toml";
+    report.backend = "cpu";
+    report.device = "a processor";
+    report.settings.solver = SolverKind::rk4;
+    report.settings.forces = ForceMethod::divide_and_merge;
+    report.settings.frame_rate = 50.0;
+    report.settings.frames = 2;
+    report.substeps = 4;
+    report.step_size = 0.005;
+    report.counts = {2, 10, 20, 30, 40};
+    report.objects = {"a", "b"};
+    FrameStatistics frame;
+    frame.frame = 1;
+    frame.time = 0.02;
+    frame.kinetic_energy = 1.5;
+    frame.elastic_energy = 2.5;
+    frame.potential_energy = -3.5;
+    frame.momentum[1] = -7.0;
+    frame.colliding_faces = 3;
+    frame.contacts = 5;
+    frame.deepest_penetration = 0.001;
+    frame.volume_ratio = {0.9, 1.1};
+    report.frames = {frame};
+    report.seconds = 0.5;
+    report.frame_ms = {1.0, 2.0, 3.0, 100.0};
+    report.stage_ms = {{"advance_nodes", {0.25, 0.5, 0.75}}};
+    return report;
+}
+
+TEST(Report, HasTheDocumentedKeys) {
+    const Json json = Json::parse(to_json(sample_report()));
+    EXPECT_EQ(json,
+              (Json{{"gelatin", {{"version", version()}, {"commit", commit()}}},
+                    {"scene", "scenes/sample.toml"},
+                    {"backend", "cpu"},
+                    {"device", "a processor"},
+                    {"settings",
+                     {{"solver", "rk4"},
+                      {"forces", "divide_and_merge"},
+                      {"frame_rate", 50.0},
+                      {"substeps", 4},
+                      {"step_size", 0.005},
+                      {"frames", 2},
+                      {"gravity", {0.0, -9.81, 0.0}}}},
+                    {"counts", {{"objects", 2}, {"nodes", 10}, {"springs", 20}, {"faces", 30}, {"tets", 40}}},
+                    {"frames", Json::array({{{"frame", 1},
+                                             {"time", 0.02},
+                                             {"kinetic_energy", 1.5},
+                                             {"elastic_energy", 2.5},
+                                             {"potential_energy", -3.5},
+                                             {"momentum", {0.0, -7.0, 0.0}},
+                                             {"colliding_faces", 3},
+                                             {"contacts", 5},
+                                             {"deepest_penetration", 0.001},
+                                             {"volume_ratio", {{"a", 0.9}, {"b", 1.1}}}}})},
+                    {"timing",
+                     {{"fps", 8.0},
+                      {"frame_ms", {{"median", 2.0}, {"p95", 100.0}}},
+                      {"stages", {{"advance_nodes", {{"median", 0.5}, {"p95", 0.75}, {"runs", 3}}}}}}}}));
+}
+
+TEST(Report, OfNoFramesIsStillWhole) {
+    RunReport report;
+    report.seconds = 0.0;
+    const Json json = Json::parse(to_json(report));
+    EXPECT_EQ(json["frames"], Json::array());
+    EXPECT_EQ(json["timing"]["fps"], 0.0);
+    EXPECT_EQ(json["timing"]["frame_ms"]["median"], 0.0);
+}
+
+TEST(Report, KeepsNamesThatAreNotUtf8FromBreakingIt) {
+    RunReport report;
+    report.scene = "sc\xe8ne.toml";
+    EXPECT_EQ(Json::parse(to_json(report))["scene"], "sc\xef\xbf\xbdne.toml");
+}
+
+TEST(Report, PercentileIsTheNearestRank) {
+    EXPECT_EQ(percentile({}, 0.5), 0.0);
+    EXPECT_EQ(percentile({7.0}, 0.5), 7.0);
+    EXPECT_EQ(percentile({4.0, 1.0, 3.0, 2.0}, 0.5), 2.0);
+    EXPECT_EQ(percentile({4.0, 1.0, 3.0, 2.0}, 0.95), 4.0);
+    EXPECT_EQ(percentile({4.0, 1.0, 3.0, 2.0}, 0.0), 1.0);
+}
+
+TEST(Report, NamesSolversAsSceneFilesDo) {
+    EXPECT_STREQ(name_of(SolverKind::explicit_euler), "explicit_euler");
+    EXPECT_STREQ(name_of(SolverKind::semi_implicit_euler), "semi_implicit_euler");
+    EXPECT_STREQ(name_of(SolverKind::midpoint), "midpoint");
+    EXPECT_STREQ(name_of(SolverKind::rk4), "rk4");
+    EXPECT_STREQ(name_of(ForceMethod::fused), "fused");
+    EXPECT_STREQ(name_of(ForceMethod::divide_and_merge), "divide_and_merge");
+}
+
+}  // namespace
+}  // namespace gelatin

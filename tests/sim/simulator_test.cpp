@@ -1,0 +1,160 @@
+#include "gelatin/simulator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "core/file.h"
+#include "gelatin/error.h"
+#include "model/model.h"
+#include "support/gl_fixture.h"
+
+namespace gelatin {
+namespace {
+
+Scene falling_balls() {
+    Scene scene;
+    scene.simulation.frame_rate = 500.0;
+    scene.materials.push_back({});
+    scene.materials[0].name = "jelly";
+    scene.materials[0].damping = 5e-4;
+    for (int i = 0; i < 2; ++i) {
+        ObjectDescription ball;
+        ball.name = "ball " + std::to_string(i);
+        ball.shape = SphereShape{0.3, 4};
+        ball.material = "jelly";
+        ball.position = {i, 0.4, 0.0};
+        scene.objects.push_back(ball);
+    }
+    scene.colliders.push_back({});
+    return scene;
+}
+
+class SimulatorTest : public test::GlTest {
+protected:
+    // The simulator shares the fixture's context, as a host application's would.
+    static SimulatorOptions on(Backend backend) {
+        SimulatorOptions options;
+        options.backend = backend;
+        options.use_current_context = true;
+        return options;
+    }
+};
+
+TEST_F(SimulatorTest, FramesTimesAndCountsAddUp) {
+    Simulator simulator(falling_balls(), on(Backend::cpu));
+    EXPECT_EQ(simulator.frame(), 0);
+    for (int f = 0; f < 5; ++f) simulator.advance_frame();
+    EXPECT_EQ(simulator.frame(), 5);
+    EXPECT_NEAR(simulator.time(), 0.01, 1e-12);
+    EXPECT_NEAR(simulator.step_size() * simulator.substeps(), 0.002, 1e-12);
+    const Counts counts = simulator.counts();
+    EXPECT_EQ(counts.objects, 2u);
+    EXPECT_GE(counts.faces, 2u * 320u);
+    EXPECT_EQ(counts.nodes, simulator.model().positions.size());
+}
+
+// 100 steps through a fall and a bounce: both backends in float from the same bits. Rounding of 1e-7 a step grows at
+// most linearly in a damped body, so 1e-5 m is generous; a wrong kernel is off by millimetres.
+TEST_F(SimulatorTest, BackendsAgreeAfter100Steps) {
+    Simulator gl(falling_balls(), on(Backend::gl)), cpu(falling_balls(), on(Backend::cpu));
+    EXPECT_EQ(gl.backend(), "gl");
+    EXPECT_EQ(cpu.backend(), "cpu");
+    for (int s = 0; s < 100; ++s) {
+        gl.step();
+        cpu.step();
+    }
+    const HostFrame a = gl.read_frame(), b = cpu.read_frame();
+    ASSERT_EQ(a.positions.size(), b.positions.size());
+    double worst = 0.0;
+    for (std::size_t k = 0; k < a.positions.size(); ++k) {
+        worst = std::max(worst, std::abs(static_cast<double>(a.positions[k]) - static_cast<double>(b.positions[k])));
+    }
+    EXPECT_LT(worst, 1e-5);
+}
+
+TEST_F(SimulatorTest, StatisticsComeInOrderAndConserveEnergyInFlight) {
+    for (const Backend backend : {Backend::cpu, Backend::gl}) {
+        Simulator simulator(falling_balls(), on(backend));
+        simulator.begin_statistics();
+        const double start = simulator.take_statistics().potential_energy;
+        for (int f = 1; f <= 3; ++f) {
+            simulator.advance_frame();
+            simulator.begin_statistics();
+            if (simulator.pending_statistics() < 2) continue;
+            const FrameStatistics s = simulator.take_statistics();
+            EXPECT_EQ(s.frame, f - 1);
+            EXPECT_NEAR(s.time, (f - 1) * 0.002, 1e-12);
+            EXPECT_NEAR((s.potential_energy + s.kinetic_energy) / start, 1.0, 1e-4);
+            ASSERT_EQ(s.volume_ratio.size(), 2u);
+            EXPECT_NEAR(s.volume_ratio[1], 1.0, 1e-4);
+        }
+        EXPECT_EQ(simulator.pending_statistics(), 1u);
+    }
+}
+
+TEST_F(SimulatorTest, StopsWhenNumbersAreNotFinite) {
+    Scene scene = falling_balls();
+    scene.objects[1].velocity = {3e38, 3e38, 0.0};
+    scene.simulation.frame_rate = 0.5;
+    Simulator simulator(scene, on(Backend::cpu));
+    simulator.advance_frame();
+    simulator.begin_statistics();
+    EXPECT_THROW(simulator.take_statistics(), Diverged);
+}
+
+TEST_F(SimulatorTest, GoesOnFromACheckpointBitForBit) {
+    const TemporaryFolder folder;
+    for (const Backend backend : {Backend::cpu, Backend::gl}) {
+        Simulator whole(falling_balls(), on(backend)), again(falling_balls(), on(backend));
+        for (int f = 0; f < 20; ++f) whole.advance_frame();
+        whole.save_checkpoint(folder.path() / "a.ckpt");
+        again.load_checkpoint(folder.path() / "a.ckpt");
+        EXPECT_EQ(again.frame(), 20);
+        for (int f = 0; f < 20; ++f) {
+            whole.advance_frame();
+            again.advance_frame();
+        }
+        EXPECT_EQ(again.frame(), 40);
+        EXPECT_DOUBLE_EQ(again.time(), whole.time());
+        EXPECT_EQ(again.read_frame().positions, whole.read_frame().positions);
+        EXPECT_EQ(again.read_frame().velocities, whole.read_frame().velocities);
+    }
+}
+
+TEST_F(SimulatorTest, DrawsFromEitherBackend) {
+    for (const Backend backend : {Backend::cpu, Backend::gl}) {
+        Simulator simulator(falling_balls(), on(backend));
+        simulator.advance_frame();
+        const RenderView view = simulator.render_view();
+        EXPECT_NE(view.node_positions, 0u);
+        EXPECT_EQ(view.node_count, simulator.counts().nodes);
+        EXPECT_EQ(view.face_count, simulator.counts().faces);
+        EXPECT_EQ(view.object_count, 2u);
+    }
+}
+
+TEST_F(SimulatorTest, StagesAreTimedWhereTheyRun) {
+    for (const Backend backend : {Backend::cpu, Backend::gl}) {
+        SimulatorOptions options = on(backend);
+        options.time_stages = true;
+        Simulator simulator(falling_balls(), options);
+        for (int f = 0; f < 4; ++f) simulator.advance_frame();
+        simulator.read_frame();
+        const auto times = simulator.take_stage_times();
+        ASSERT_EQ(times.size(), 1u);
+        EXPECT_EQ(times[0].first, "advance_nodes");
+        EXPECT_GT(times[0].second.front(), 0.0);
+    }
+}
+
+TEST(Simulator, WithoutAContextItCannotDraw) {
+    SimulatorOptions options;
+    options.backend = Backend::cpu;
+    Simulator simulator(falling_balls(), options);
+    EXPECT_THROW(simulator.render_view(), NoOpenGl);
+}
+
+}  // namespace
+}  // namespace gelatin
