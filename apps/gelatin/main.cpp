@@ -15,9 +15,10 @@
 namespace gelatin {
 namespace {
 
-enum ExitCode { kDone = 0, kOtherError = 1, kWrongInput = 2, kDiverged = 3, kNoOpenGl = 4 };
+// Exit codes; docs/command-line.md.
+constexpr int kDone = 0, kOtherError = 1, kWrongInput = 2, kDiverged = 3, kNoOpenGl = 4;
 
-int fail(ExitCode code, const std::string& message) {
+int fail(int code, const std::string& message) {
     std::fprintf(stderr, "gelatin: error: %s\n", message.c_str());
     return code;
 }
@@ -57,11 +58,7 @@ int run(int argc, char** argv) {
     return kDone;
 }
 
-}  // namespace
-}  // namespace gelatin
-
-int main(int argc, char** argv) {
-    using namespace gelatin;
+int run_program(int argc, char** argv) {
     set_up_log(false);
     try {
         return run(argc, argv);
@@ -76,4 +73,11 @@ int main(int argc, char** argv) {
     } catch (const std::exception& error) {
         return fail(kOtherError, error.what());
     }
+}
+
+}  // namespace
+}  // namespace gelatin
+
+int main(int argc, char** argv) {
+    return gelatin::run_program(argc, argv);
 }

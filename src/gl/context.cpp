@@ -8,8 +8,6 @@
 #include <array>
 #include <charconv>
 #include <cstdlib>
-#include <map>
-#include <mutex>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -23,30 +21,6 @@ namespace {
 constexpr const char* kWhatToInstall =
     "install a driver with OpenGL 4.3 or newer (Debian: libegl1 and libgl1-mesa-dri, or the GPU vendor's "
     "own)";
-
-// EGL hands out one display for one platform and device, and eglTerminate ends it for all of its users.
-class DisplayUsers {
-public:
-    bool add(EGLDisplay display) {
-        const std::lock_guard lock(mutex_);
-        if (users_[display] == 0 && !eglInitialize(display, nullptr, nullptr)) return false;
-        ++users_[display];
-        return true;
-    }
-    void remove(EGLDisplay display) {
-        const std::lock_guard lock(mutex_);
-        if (--users_[display] == 0) eglTerminate(display);
-    }
-
-private:
-    std::mutex mutex_;
-    std::map<EGLDisplay, int> users_;
-};
-
-DisplayUsers& display_users() {
-    static DisplayUsers users;
-    return users;
-}
 
 bool has_extension(const char* list, const char* name) {
     return list != nullptr && epoxy_extension_in_string(list, name);
@@ -137,6 +111,8 @@ std::optional<int> device_index_from_environment() {
 
 }  // namespace
 
+// The display stays initialised until the process ends: EGL hands out one display for one platform and
+// device, and eglTerminate would end it for other contexts of ours and of the host application too.
 struct Context::Handle {
     EGLDisplay display = EGL_NO_DISPLAY;
     EGLContext context = EGL_NO_CONTEXT;
@@ -152,7 +128,6 @@ struct Context::Handle {
 };
 
 Context::Handle::~Handle() {
-    if (display == EGL_NO_DISPLAY) return;
     if (context != EGL_NO_CONTEXT) {
         if (eglGetCurrentContext() == context) {
             eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
@@ -160,12 +135,11 @@ Context::Handle::~Handle() {
         eglDestroyContext(display, context);
     }
     if (surface != EGL_NO_SURFACE) eglDestroySurface(display, surface);
-    display_users().remove(display);
 }
 
 // False if this display has no OpenGL 4.3; what was made until then goes with the handle.
 bool Context::Handle::create(EGLDisplay from, bool debug) {
-    if (from == EGL_NO_DISPLAY || !display_users().add(from)) return false;
+    if (from == EGL_NO_DISPLAY || !eglInitialize(from, nullptr, nullptr)) return false;
     display = from;
     if (!eglBindAPI(EGL_OPENGL_API)) return false;
 
@@ -248,7 +222,9 @@ Context Context::headless(const ContextOptions& options) {
     return std::move(*best);
 }
 
-int Context::device_count() { return epoxy_has_egl() ? static_cast<int>(list_devices().size()) : 0; }
+int Context::device_count() {
+    return epoxy_has_egl() ? static_cast<int>(list_devices().size()) : 0;
+}
 
 Context Context::current() {
     const bool has_context =

@@ -76,7 +76,7 @@ Camera frame_bounds(const Bounds& bounds, float aspect, float field_of_view) {
     const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0.0f, 1.0f, 0.0f), towards));
     const glm::vec3 up = glm::cross(towards, right);
 
-    const glm::vec3 half = glm::max(0.5f * bounds.size(), glm::vec3(1e-3f));
+    const glm::vec3 half = glm::max(0.5f * bounds.size(), glm::vec3(1e-4f));
     const float slope = std::tan(glm::radians(0.5f * field_of_view)) / kMargin;
     Fit across(slope * aspect);
     Fit upward(slope);

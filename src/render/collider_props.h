@@ -12,7 +12,7 @@ namespace gelatin::render {
 /// How colliders look.
 struct ColliderProps {
     std::optional<float> floor_height;  ///< of the highest plane that lies flat and faces up [m]
-    std::vector<SurfaceMesh> props;     ///< boxes, spheres, capsules, and a piece of each plane that is tilted
+    std::vector<SurfaceMesh> props;  ///< boxes, spheres, capsules, and a piece of each plane that is tilted
 };
 
 /// @param bounds where the bodies are: pieces of planes are taken round there

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gelatin/error.h"
+#include "render/target.h"
 
 namespace gelatin::render {
 namespace {
@@ -44,14 +45,12 @@ FrameGrabber::~FrameGrabber() {
 std::optional<Image> FrameGrabber::grab(unsigned framebuffer) {
     const unsigned previous = buffers_[newest_];
     newest_ = 1 - newest_;
-    GLint before = 0;
-    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &before);
+    const FramebufferGuard guard;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
     glBindBuffer(GL_PIXEL_PACK_BUFFER, buffers_[newest_]);
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
     glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
     glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(before));
     if (!std::exchange(under_way_, true)) return {};
     return read(previous);
 }

@@ -18,27 +18,8 @@ namespace {
 
 const glm::vec3 kToKeyLight = glm::normalize(glm::vec3(-0.55f, 1.0f, 0.42f));
 const glm::vec4 kPropColor(0.34f, 0.37f, 0.42f, 1.0f);
-constexpr int kSamples = 4;           // OpenGL promises as many
+constexpr int kSamples = 4;            // OpenGL promises as many
 constexpr float kFloorRadius = 11.0f;  // of the scene's extent
-
-// Puts back the framebuffer and viewport of the application that draws around this one.
-class FramebufferGuard {
-public:
-    FramebufferGuard() {
-        glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer_);
-        glGetIntegerv(GL_VIEWPORT, viewport_);
-    }
-    FramebufferGuard(const FramebufferGuard&) = delete;
-    FramebufferGuard& operator=(const FramebufferGuard&) = delete;
-    ~FramebufferGuard() {
-        glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(framebuffer_));
-        glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
-    }
-
-private:
-    GLint framebuffer_ = 0;
-    GLint viewport_[4] = {};
-};
 
 RendererOptions checked(RendererOptions options) {
     GLint largest = 0;

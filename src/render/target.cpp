@@ -8,7 +8,20 @@
 
 namespace gelatin::render {
 
+FramebufferGuard::FramebufferGuard() {
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw_);
+    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_);
+    glGetIntegerv(GL_VIEWPORT, viewport_);
+}
+
+FramebufferGuard::~FramebufferGuard() {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(draw_));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read_));
+    glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
+}
+
 Target Target::multisampled(int width, int height, int samples) {
+    const FramebufferGuard guard;
     Target target(width, height);
     glGenFramebuffers(1, &target.framebuffer_);
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer_);
@@ -25,6 +38,7 @@ Target Target::multisampled(int width, int height, int samples) {
 }
 
 Target Target::color(int width, int height, unsigned internal_format) {
+    const FramebufferGuard guard;
     Target target(width, height);
     target.attach_texture(internal_format, GL_COLOR_ATTACHMENT0);
     target.check_complete();
@@ -32,7 +46,9 @@ Target Target::color(int width, int height, unsigned internal_format) {
 }
 
 Target Target::color_and_depth(int width, int height) {
+    const FramebufferGuard guard;
     Target target = color(width, height, GL_RGBA8);
+    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer_);
     glGenRenderbuffers(1, target.renderbuffers_);
     glBindRenderbuffer(GL_RENDERBUFFER, target.renderbuffers_[0]);
     glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width, height);
@@ -42,6 +58,7 @@ Target Target::color_and_depth(int width, int height) {
 }
 
 Target Target::depth(int width, int height) {
+    const FramebufferGuard guard;
     Target target(width, height);
     target.attach_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);

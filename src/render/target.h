@@ -4,7 +4,22 @@
 
 namespace gelatin::render {
 
-/// Something to draw into: a framebuffer and what is attached to it. Move-only.
+/// Puts back the framebuffers and the viewport of the application that draws around this library.
+class FramebufferGuard {
+public:
+    FramebufferGuard();
+    FramebufferGuard(const FramebufferGuard&) = delete;
+    FramebufferGuard& operator=(const FramebufferGuard&) = delete;
+    ~FramebufferGuard();
+
+private:
+    int draw_ = 0;
+    int read_ = 0;
+    int viewport_[4] = {};
+};
+
+/// Something to draw into: a framebuffer and what is attached to it. Move-only. Making one leaves the
+/// framebuffers that are bound as they were.
 class Target {
 public:
     Target() = default;

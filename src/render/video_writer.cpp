@@ -14,7 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-int next_even(int n) { return n + n % 2; }
+int next_even(int n) {
+    return n + n % 2;
+}
 
 void check_ending(const fs::path& file) {
     const std::string ending = file.extension().string();
@@ -26,11 +28,40 @@ std::vector<std::string> encoder_command(const fs::path& file, int width, int he
     const std::string size = std::to_string(width) + "x" + std::to_string(height);
     const std::string frames = std::to_string(rate.numerator) + "/" + std::to_string(rate.denominator);
     // -xerror, for ffmpeg would otherwise end well after a write that failed at the film's end.
-    return {"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-xerror", "-y",             //
-            "-f", "rawvideo", "-pixel_format", "rgb24", "-video_size", size, "-framerate", frames,   //
-            "-i", "-", "-an", "-vf", "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p",     //
-            "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",              //
-            "-c:v", "libx264", "-preset", "medium", "-crf", "18", "-movflags", "+faststart",         //
+    return {"ffmpeg",
+            "-nostdin",
+            "-hide_banner",
+            "-loglevel",
+            "error",
+            "-xerror",
+            "-y",  //
+            "-f",
+            "rawvideo",
+            "-pixel_format",
+            "rgb24",
+            "-video_size",
+            size,
+            "-framerate",
+            frames,  //
+            "-i",
+            "-",
+            "-an",
+            "-vf",
+            "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p",  //
+            "-colorspace",
+            "bt709",
+            "-color_primaries",
+            "bt709",
+            "-color_trc",
+            "bt709",  //
+            "-c:v",
+            "libx264",
+            "-preset",
+            "fast",
+            "-crf",
+            "18",
+            "-movflags",
+            "+faststart",  //
             "file:" + file.string()};
 }
 
@@ -42,11 +73,19 @@ std::string last_line(const std::string& text) {
     return text.substr(start, end - start + 1);
 }
 
+std::string describe(const ProcessResult& result) {
+    const std::string words = last_line(result.output);
+    if (!words.empty()) return "ffmpeg: " + words;
+    if (result.signal != 0) return "ffmpeg was ended by signal " + std::to_string(result.signal);
+    return "ffmpeg ended with exit code " + std::to_string(result.exit_code);
+}
+
 }  // namespace
 
 FrameRate FrameRate::from(double rate) {
     if (!(rate >= 0.001 && rate <= 1e6)) {
-        throw InvalidInput({{}, 0, "frame rate", std::to_string(rate), "a film has 0.001 to 1,000,000 frames a second"});
+        throw InvalidInput(
+            {{}, 0, "frame rate", std::to_string(rate), "a film has 0.001 to 1,000,000 frames a second"});
     }
     const int thousandths = static_cast<int>(std::lround(rate * 1000.0));
     const int common = std::gcd(thousandths, 1000);
@@ -54,7 +93,10 @@ FrameRate FrameRate::from(double rate) {
 }
 
 VideoWriter::VideoWriter(fs::path file, int width, int height, FrameRate rate)
-    : file_(std::move(file)), partial_(partial_name(file_)), width_(next_even(width)), height_(next_even(height)) {
+    : file_(std::move(file)),
+      partial_(partial_name(file_)),
+      width_(next_even(width)),
+      height_(next_even(height)) {
     check_ending(file_);
     try {
         encoder_ = std::make_unique<FedProcess>(encoder_command(partial_, width_, height_, rate));
@@ -64,7 +106,9 @@ VideoWriter::VideoWriter(fs::path file, int width, int height, FrameRate rate)
     }
 }
 
-VideoWriter::~VideoWriter() { discard(); }
+VideoWriter::~VideoWriter() {
+    discard();
+}
 
 void VideoWriter::discard() {
     if (!encoder_) return;
@@ -73,13 +117,9 @@ void VideoWriter::discard() {
     fs::remove(partial_, ignored);
 }
 
-void VideoWriter::fail() {
-    const ProcessResult result = encoder_->finish();
+void VideoWriter::fail(const std::string& reason) {
     discard();
-    std::string reason = last_line(result.output);
-    if (reason.empty() && result.signal != 0) reason = "ended by signal " + std::to_string(result.signal);
-    if (reason.empty()) reason = "exit code " + std::to_string(result.exit_code);
-    throw SystemError(file_.string() + ": the film cannot be written: ffmpeg: " + reason);
+    throw SystemError(file_.string() + ": the film cannot be written: " + reason);
 }
 
 void VideoWriter::write(const Image& frame) {
@@ -97,7 +137,7 @@ void VideoWriter::write(const Image& frame) {
         pixels = padded_.data();
     }
     const std::size_t bytes = 3 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-    if (!encoder_->write(pixels, bytes)) fail();
+    if (!encoder_->write(pixels, bytes)) fail(describe(encoder_->finish()));
     ++frames_;
 }
 
@@ -107,17 +147,12 @@ void VideoWriter::finish() {
         throw InvalidInput({file_.string(), 0, {}, {}, "a film needs at least one frame"});
     }
     const ProcessResult result = encoder_->finish();
-    std::error_code error;
     // At this log level ffmpeg only speaks of what went wrong.
-    const bool complete = result.succeeded() && result.output.empty() && fs::file_size(partial_, error) > 0 && !error;
-    if (complete) fs::rename(partial_, file_, error);
-    if (complete && !error) {
-        encoder_.reset();
-        return;
-    }
-    discard();
-    std::string reason = complete ? error.message() : last_line(result.output);
-    throw SystemError(file_.string() + ": the film cannot be written: " + reason);
+    if (!result.succeeded() || !result.output.empty()) fail(describe(result));
+    std::error_code error;
+    fs::rename(partial_, file_, error);
+    if (error) fail(error.message());
+    encoder_.reset();
 }
 
 }  // namespace gelatin::render

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/process.h"
@@ -19,12 +20,13 @@ struct FrameRate {
     static FrameRate from(double rate);
 };
 
-/// Writes a film (H.264, 4:2:0, BT.709) by feeding frames to the program ffmpeg. The film appears under its name when
-/// `finish` has returned; the destructor without it leaves nothing behind.
+/// Writes a film (H.264, 4:2:0, BT.709) by feeding frames to the program ffmpeg. The film appears under its
+/// name when `finish` has returned; the destructor without it leaves nothing behind.
 class VideoWriter {
 public:
     /// @param file ends in .mp4, .mov or .mkv
-    /// @param width, height of all frames [pixels]; the film of an odd one is a pixel larger, the last being repeated
+    /// @param width, height of all frames [pixels]; the film of an odd one is a pixel larger, the last being
+    /// repeated
     /// @throws InvalidInput for another ending; SystemError if there is no ffmpeg.
     VideoWriter(std::filesystem::path file, int width, int height, FrameRate rate);
     VideoWriter(const VideoWriter&) = delete;
@@ -38,12 +40,12 @@ public:
     void finish();
 
 private:
-    [[noreturn]] void fail();
+    [[noreturn]] void fail(const std::string& reason);
     void discard();
 
     std::filesystem::path file_;
     std::filesystem::path partial_;
-    int width_;   // of the film
+    int width_;  // of the film
     int height_;
     std::size_t frames_ = 0;
     std::vector<std::uint8_t> padded_;

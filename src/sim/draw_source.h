@@ -1,9 +1,11 @@
 #pragma once
 
+#include <glm/vec4.hpp>
 #include <memory>
-#include <optional>
+#include <span>
 
 #include "gelatin/views.h"
+#include "gl/readback.h"
 #include "gpu/gpu_solver.h"
 #include "gpu/update_normals.h"
 
@@ -13,16 +15,21 @@ namespace gelatin {
 /// once a frame where the CPU simulates.
 class DrawSource {
 public:
-    explicit DrawSource(std::shared_ptr<const Model> model) : model_(std::move(model)), normals_(*model_) {}
+    explicit DrawSource(std::shared_ptr<const Model> model);
 
     RenderView update(const gpu::GpuSolver& solver);
     RenderView update(const State& state);
 
 private:
+    void fit_box(std::span<const glm::vec4> positions);
+    RenderView view(const gl::Buffer<glm::vec4>& positions) const;
+
     std::shared_ptr<const Model> model_;
     gpu::UpdateNormals normals_;
     gl::Buffer<glm::vec4> uploaded_;  // xyz [m]; empty where the GPU simulates
     gl::BufferTexture uploaded_texels_;
+    gl::Readback readback_;            // of a GPU's positions, so that the box never waits for them
+    glm::vec3 box_min_{0.0f}, box_max_{0.0f};  // [m]
 };
 
 }  // namespace gelatin

@@ -58,16 +58,17 @@ TEST(RepairSurface, MergesVerticesThatCoincide) {
     EXPECT_DOUBLE_EQ(signed_volume(mesh), 0.125);
 }
 
-// The tolerance is 1e-9 of the diagonal, 1.7e-9 here; cells of the search are 8 tolerances wide, so shifting
-// the cube by parts of that puts the pairs across cell boundaries.
+// The tolerance is 1e-9 of the diagonal, and the search goes by cells of 8 tolerances: boxes of any shape put
+// some pairs across the cells' boundaries.
 TEST(RepairSurface, MergesWithinTheToleranceOnly) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> shift(-1.0, 1.0);
     for (int trial = 0; trial < 50; ++trial) {
-        const glm::dvec3 corner(shift(random), shift(random), shift(random));
-        SurfaceMesh near = unshare(cube(corner, 1.0));
-        for (glm::dvec3& p : near.positions)
-            p += 4e-10 * glm::dvec3(shift(random), shift(random), shift(random));
+        SurfaceMesh near = unshare(cube({0.1, 0.2, 0.3}, 1.0));
+        const glm::dvec3 stretch(2.0 + shift(random), 2.0 + shift(random), 2.0 + shift(random));
+        for (glm::dvec3& p : near.positions) {
+            p = stretch * p + 4e-10 * glm::dvec3(shift(random), shift(random), shift(random));
+        }
         repair(near);
         EXPECT_EQ(near.positions.size(), 8u);
     }
@@ -150,7 +151,7 @@ TEST(RepairSurface, TurnsEachPartOutward) {
 
 // An open part far from the origin: its volume must not depend on where it lies.
 TEST(RepairSurface, TurnsAnOpenPartOutward) {
-    SurfaceMesh mesh = cube({0, -100, 0}, 1.0);
+    SurfaceMesh mesh = cube({100, 0, 0}, 1.0);  // without its side at x = 101
     mesh.faces.resize(10);
     const std::vector<glm::uvec3> good = mesh.faces;
     for (glm::uvec3& face : mesh.faces) turn(face);
@@ -175,15 +176,15 @@ TEST(RepairSurface, AlternatesNestedParts) {
     EXPECT_DOUBLE_EQ(signed_volume(mesh), 512.0 - 216.0 + 64.0 + 1.0);
 }
 
-// Corners of the inner cube lie level with vertices and edges of the outer one, where rays go wrong.
+// Corners of the cube lie level with corners and edges of the octahedron around it, where rays go wrong.
 TEST(RepairSurface, FindsCavitiesInAnyPosition) {
-    std::mt19937 random(11);
-    std::uniform_int_distribution<int> eighth(1, 5);
-    for (int trial = 0; trial < 200; ++trial) {
-        SurfaceMesh mesh = cube({0, 0, 0}, 1.0);
-        append(mesh, cube(glm::dvec3(eighth(random), eighth(random), eighth(random)) / 8.0, 0.25));
+    for (int place = 0; place < 27; ++place) {
+        SurfaceMesh mesh;
+        mesh.positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+        mesh.faces = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+        append(mesh, cube(glm::dvec3(place % 3 - 2, place / 3 % 3 - 2, place / 9 - 2) / 8.0, 0.25));
         repair(mesh);
-        EXPECT_DOUBLE_EQ(signed_volume(mesh), 1.0 - 0.015625);
+        EXPECT_NEAR(signed_volume(mesh), 4.0 / 3.0 - 1.0 / 64.0, 1e-12) << place;
     }
 }
 

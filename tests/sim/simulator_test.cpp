@@ -132,6 +132,8 @@ TEST_F(SimulatorTest, DrawsFromEitherBackend) {
         EXPECT_EQ(view.node_count, simulator.counts().nodes);
         EXPECT_EQ(view.face_count, simulator.counts().faces);
         EXPECT_EQ(view.object_count, 2u);
+        EXPECT_NEAR(view.box_min[1], 0.1f, 1e-3f);
+        EXPECT_NEAR(view.box_max[0], 1.3f, 1e-3f);
     }
 }
 

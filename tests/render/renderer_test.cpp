@@ -1,0 +1,300 @@
+#include "render/renderer.h"
+
+#include <epoxy/gl.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "gelatin/error.h"
+#include "mesh/shapes.h"
+#include "render/frame_grabber.h"
+#include "support/gl_fixture.h"
+#include "support/image_compare.h"
+
+namespace gelatin::render {
+namespace {
+
+using test::mean_color;
+using ::testing::HasSubstr;
+
+constexpr int kWidth = 160;
+constexpr int kHeight = 120;
+
+SurfaceMesh sphere_at(const glm::dvec3& center, double radius = 0.5) {
+    SurfaceMesh mesh = make_sphere({radius, 12});
+    for (glm::dvec3& p : mesh.positions) p += center;
+    return mesh;
+}
+
+// A red ball of radius 0.5 over the floor, seen from the front and somewhat above.
+struct Studio {
+    std::vector<SurfaceMesh> bodies = {sphere_at({0.0, 0.6, 0.0})};
+    Surroundings surroundings{.bounds = {{-0.5f, 0.0f, -0.5f}, {0.5f, 1.1f, 0.5f}},
+                              .floor_height = 0.0f,
+                              .props = {},
+                              .colors = {{0.8f, 0.05f, 0.05f}}};
+    Camera camera{{0.0f, 1.2f, 4.0f}, {0.0f, 0.5f, 0.0f}, 35.0f};
+    RendererOptions options{.width = kWidth, .height = kHeight};
+};
+
+class RendererTest : public test::GlTest {
+protected:
+    static Image picture_of(const Studio& studio) {
+        Renderer renderer(studio.options);
+        renderer.set_surroundings(studio.surroundings);
+        const StaticMesh bodies(studio.bodies);
+        renderer.draw(bodies.view(), studio.camera);
+        FrameGrabber grabber(renderer.width(), renderer.height());
+        grabber.grab(renderer.framebuffer());
+        return *grabber.flush();
+    }
+
+    static double brightness(const glm::dvec3& color) { return (color.r + color.g + color.b) / 3.0; }
+
+    static bool is_red(const std::uint8_t* pixel) {
+        return pixel[0] > 2 * pixel[1] && pixel[0] > 2 * pixel[2];
+    }
+
+    static double different_fraction(const Image& a, const Image& b) {
+        int different = 0;
+        for (int y = 0; y < a.height; ++y) {
+            for (int x = 0; x < a.width; ++x) different += std::abs(a.at(x, y)[1] - b.at(x, y)[1]) > 30;
+        }
+        return static_cast<double>(different) / (a.width * a.height);
+    }
+
+    static double red_fraction(const Image& image) {
+        int red = 0;
+        for (int y = 0; y < image.height; ++y) {
+            for (int x = 0; x < image.width; ++x) red += is_red(image.at(x, y));
+        }
+        return static_cast<double>(red) / (image.width * image.height);
+    }
+};
+
+// At distance d the sphere's outline is a cone of half angle asin(r / d): r / sqrt(d^2 - r^2) on the image
+// plane.
+TEST_F(RendererTest, BodyCoversAsMuchOfThePictureAsItShould) {
+    Studio studio;
+    studio.surroundings.floor_height.reset();
+    studio.camera = {{0.0f, 0.6f, 4.0f}, {0.0f, 0.6f, 0.0f}, 35.0f};
+    const double outline = 0.5 / std::sqrt(4.0 * 4.0 - 0.25) / std::tan(std::acos(-1.0) * 35.0 / 360.0);
+    const double expected = std::acos(-1.0) * outline * outline / 4.0 * kHeight / kWidth;
+    Studio empty = studio;
+    empty.bodies.clear();
+    const Image backdrop = picture_of(empty);
+    for (const Shading shading : {Shading::pixel, Shading::node}) {
+        studio.options.shading = shading;
+        EXPECT_NEAR(different_fraction(picture_of(studio), backdrop), expected, 0.03 * expected);
+    }
+}
+
+TEST_F(RendererTest, NothingButFloorAndBackdropWithoutBodies) {
+    Studio studio;
+    studio.bodies.clear();
+    const Image image = picture_of(studio);
+    EXPECT_EQ(red_fraction(image), 0.0);
+    EXPECT_GT(brightness(mean_color(image, 0, 0, kWidth, kHeight)), 100.0);
+}
+
+TEST_F(RendererTest, BackdropIsUntouchedByBodies) {
+    Studio studio;
+    const Image with = picture_of(studio);
+    studio.bodies.clear();
+    const Image without = picture_of(studio);
+    const std::size_t rows = 3 * std::size_t{kWidth} * 20;
+    EXPECT_TRUE(std::equal(with.pixels.begin(), with.pixels.begin() + static_cast<std::ptrdiff_t>(rows),
+                           without.pixels.begin()));
+}
+
+// The key light comes from the upper left and from the front.
+TEST_F(RendererTest, LightFollowsTheNormals) {
+    for (const Shading shading : {Shading::pixel, Shading::node}) {
+        Studio studio;
+        studio.options.shading = shading;
+        studio.camera.target = {0.0f, 0.6f, 0.0f};
+        const Image image = picture_of(studio);
+        const int x = kWidth / 2;
+        const int y = kHeight / 2;
+        const double upper_left = brightness(mean_color(image, x - 14, y - 14, 5, 5));
+        const double lower_right = brightness(mean_color(image, x + 10, y + 10, 5, 5));
+        EXPECT_GT(upper_left, lower_right + 15.0);
+    }
+}
+
+TEST_F(RendererTest, GivenNormalsAreUsed) {
+    // A ball whose normals all point away from the light is dark where it was bright.
+    const Studio studio;
+    const StaticMesh ball(studio.bodies);
+    const std::vector<glm::vec4> away(ball.view().vertex_count, glm::vec4(0.45f, -0.82f, -0.34f, 0.0f));
+    const gl::Buffer<glm::vec4> normals{std::span<const glm::vec4>(away)};
+    RenderView view = ball.view();
+    Renderer renderer(studio.options);
+    renderer.set_surroundings(studio.surroundings);
+    FrameGrabber grabber(kWidth, kHeight);
+    renderer.draw(view, studio.camera);
+    grabber.grab(renderer.framebuffer());
+    view.vertex_normals = normals.id();
+    renderer.draw(view, studio.camera);
+    const Image lit = *grabber.grab(renderer.framebuffer());
+    const Image dark = *grabber.flush();
+    EXPECT_GT(brightness(mean_color(lit, 70, 40, 20, 20)),
+              brightness(mean_color(dark, 70, 40, 20, 20)) + 20.0);
+}
+
+TEST_F(RendererTest, BallShadesTheFloorAndMostWhereItTouches) {
+    Studio studio;
+    studio.camera = {{0.0f, 6.0f, 0.01f}, {0.0f, 0.0f, 0.0f}, 35.0f};
+    const auto floor_beside = [&](double height) {
+        studio.bodies = {sphere_at({0.0, height, 0.0}, 0.25)};
+        const Image image = picture_of(studio);
+        // To the right of the ball and behind it: away from the light. x and -z of one metre are 31 pixels
+        // here.
+        return brightness(mean_color(image, kWidth / 2 + 10, kHeight / 2 - 10, 4, 4));
+    };
+    Studio empty = studio;
+    empty.bodies.clear();
+    const double lit = brightness(mean_color(picture_of(empty), kWidth / 2 + 10, kHeight / 2 - 10, 4, 4));
+    const double shaded = floor_beside(0.6);
+    EXPECT_LT(shaded, lit - 15.0);
+    EXPECT_NEAR(floor_beside(-5.0), lit, 3.0) << "what is under the floor casts nothing";
+}
+
+TEST_F(RendererTest, OneBodyShadesAnother) {
+    Studio studio;
+    studio.surroundings.bounds = {{-1.5f, 0.0f, -1.0f}, {0.5f, 2.5f, 1.0f}};
+    studio.camera.target = {0.0f, 0.6f, 0.0f};
+    const double lit = brightness(mean_color(picture_of(studio), kWidth / 2 - 8, kHeight / 2 - 12, 5, 5));
+    studio.bodies.push_back(sphere_at({-0.88, 2.2, 0.67}, 0.5));  // towards the light
+    studio.surroundings.colors.push_back({0.05f, 0.05f, 0.8f});
+    const Image image = picture_of(studio);
+    EXPECT_LT(brightness(mean_color(image, kWidth / 2 - 8, kHeight / 2 - 12, 5, 5)), lit - 20.0);
+}
+
+TEST_F(RendererTest, ColorsComeFromTheObjectAndThePalette) {
+    Studio studio;
+    studio.bodies = {sphere_at({-0.6, 0.6, 0.0}, 0.4), sphere_at({0.6, 0.6, 0.0}, 0.4)};
+    studio.surroundings.bounds = {{-1.0f, 0.0f, -0.5f}, {1.0f, 1.0f, 0.5f}};
+    studio.surroundings.colors = {{-1.0f, 0.0f, 0.0f}, {0.02f, 0.1f, 0.9f}};
+    const Image image = picture_of(studio);
+    const glm::dvec3 left = mean_color(image, 50, 58, 6, 6);
+    const glm::dvec3 right = mean_color(image, 104, 58, 6, 6);
+    EXPECT_GT(left.r, left.b + 40.0) << "the palette begins with vermilion";
+    EXPECT_GT(right.b, right.r + 40.0);
+}
+
+TEST_F(RendererTest, PropsAreDrawn) {
+    Studio studio;
+    studio.bodies.clear();
+    const Image without = picture_of(studio);
+    studio.surroundings.props = {make_box({glm::dvec3(0.8), glm::ivec3(1)})};
+    const Image with = picture_of(studio);
+    EXPECT_LT(brightness(mean_color(with, 76, 66, 8, 8)),
+              brightness(mean_color(without, 76, 66, 8, 8)) - 20.0);
+}
+
+TEST_F(RendererTest, EverySmoothingGivesTheSamePicture) {
+    Studio studio;
+    studio.options.smoothing = Smoothing::none;
+    const Image rough = picture_of(studio);
+    for (const Smoothing smoothing : {Smoothing::samples, Smoothing::filter}) {
+        studio.options.smoothing = smoothing;
+        const Image smooth = picture_of(studio);
+        EXPECT_LT(test::perceptual_difference(smooth, rough), 1.5);
+        EXPECT_NE(smooth.pixels, rough.pixels);
+    }
+}
+
+// Along the outline a smooth picture has colours between the body's and the floor's; a rough one has none.
+TEST_F(RendererTest, SmoothingBlendsEdges) {
+    const auto blended = [](Smoothing smoothing) {
+        Studio studio;
+        studio.options.smoothing = smoothing;
+        const Image image = picture_of(studio);
+        int count = 0;
+        for (int y = 30; y < 90; ++y) {
+            for (int x = 40; x < kWidth / 2; ++x) {
+                // The ball is deep red, the floor light grey: saturation tells how much of each is in a
+                // pixel.
+                const auto* p = image.at(x, y);
+                const double saturation =
+                    1.0 - static_cast<double>(std::min(p[1], p[2])) / std::max<int>(p[0], 1);
+                count += saturation > 0.12 && saturation < 0.45;
+            }
+        }
+        return count;
+    };
+    const int rough = blended(Smoothing::none);
+    EXPECT_GT(blended(Smoothing::samples), rough + 10);
+    EXPECT_GT(blended(Smoothing::filter), rough + 10);
+}
+
+TEST_F(RendererTest, LooksAsItDid) {
+    Studio studio;
+    studio.options.width = 320;
+    studio.options.height = 180;
+    studio.bodies.push_back(make_box({glm::dvec3(0.5), glm::ivec3(2)}));
+    for (glm::dvec3& p : studio.bodies.back().positions) p += glm::dvec3(1.0, 0.25, 0.0);
+    studio.surroundings.bounds.max.x = 1.3f;
+    studio.camera = frame_bounds(studio.surroundings.bounds, 320.0f / 180.0f);
+    const Image image = picture_of(studio);
+    const std::filesystem::path file = GELATIN_SOURCE_DIR "/tests/render/references/studio.png";
+    if (std::getenv("GELATIN_UPDATE_REFERENCES") != nullptr) write_png(file, image);
+    EXPECT_LT(test::perceptual_difference(image, read_png(file)), 2.0)
+        << "if the new picture is better, set GELATIN_UPDATE_REFERENCES=1 once";
+}
+
+TEST_F(RendererTest, LeavesTheHostsFramebufferAndViewport) {
+    const Target host = Target::color(32, 16, GL_RGBA8);
+    host.bind();
+    picture_of(Studio());
+    GLint framebuffer = 0;
+    std::array<GLint, 4> viewport{};
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
+    glGetIntegerv(GL_VIEWPORT, viewport.data());
+    EXPECT_EQ(static_cast<unsigned>(framebuffer), host.framebuffer());
+    EXPECT_EQ(viewport, (std::array<GLint, 4>{0, 0, 32, 16}));
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+TEST_F(RendererTest, RefusesPicturesThatCannotBe) {
+    try {
+        const Renderer renderer({.width = 0, .height = 100});
+        FAIL() << "expected InvalidInput";
+    } catch (const InvalidInput& error) {
+        EXPECT_THAT(error.what(), HasSubstr("width = 0: must be 1 to "));
+    }
+    EXPECT_THROW(Renderer({.width = 100, .height = 1'000'000}), InvalidInput);
+}
+
+TEST_F(RendererTest, FrameGrabberGivesFramesInOrderAndUpright) {
+    const Target target = Target::color(4, 2, GL_RGBA8);
+    FrameGrabber grabber(4, 2);
+    std::vector<Image> images;
+    for (int i = 0; i < 3; ++i) {
+        target.bind();
+        glClearColor(static_cast<float>(i) / 255.0f, 0.0f, 0.0f, 1.0f);
+        glClear(GL_COLOR_BUFFER_BIT);
+        glEnable(GL_SCISSOR_TEST);
+        glScissor(0, 1, 4, 1);  // the upper row
+        glClearColor(1.0f, 0.0f, 0.0f, 1.0f);
+        glClear(GL_COLOR_BUFFER_BIT);
+        glDisable(GL_SCISSOR_TEST);
+        if (auto image = grabber.grab(target.framebuffer())) images.push_back(*image);
+    }
+    EXPECT_EQ(images.size(), 2u);
+    images.push_back(*grabber.flush());
+    EXPECT_FALSE(grabber.flush());
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(images[static_cast<std::size_t>(i)].at(3, 0)[0], 255);
+        EXPECT_EQ(images[static_cast<std::size_t>(i)].at(3, 1)[0], i);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+}  // namespace
+}  // namespace gelatin::render
