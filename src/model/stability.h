@@ -8,7 +8,6 @@ namespace gelatin {
 /// An upper bound on the highest angular frequency [rad/s] of an object's springs at rest:
 ///   omega^2 <= max over nodes i of eig_max( sum_j k_ij (1 + m_i / m_j) n n^T ) / m_i
 /// (each spring's energy split between its ends by (a - b)^2 <= (1 + t) a^2 + (1 + 1/t) b^2, t = m_i / m_j).
-/// The true value is 0.77 to 1 times this.
 double frequency_bound(const Model& model, const ModelObject& object);
 
 /// The largest step [s] with which `solver` keeps every mode of a spring net quiet that has frequencies up to

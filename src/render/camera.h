@@ -31,6 +31,6 @@ struct Camera {
 
 /// A three-quarter view from the front, somewhat above, as near as it can be while all of `bounds` shows,
 /// with a margin round it.
-Camera frame_bounds(const Bounds& bounds, float aspect, float field_of_view = 35.0f);
+Camera frame_bounds(const Bounds& bounds, float aspect, float field_of_view = 26.0f);
 
 }  // namespace gelatin::render

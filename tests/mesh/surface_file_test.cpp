@@ -264,6 +264,10 @@ TEST_F(SurfaceFileTest, RefusesCountsThatTheFileIsTooShortFor) {
     }
     EXPECT_THAT(refusal_of("a.off", "OFF\n1000000000000 1000000000000 0\n0 0 0\n"),
                 HasSubstr("a.off:2: number of vertices = 1000000000000: the file is too short for so many"));
+    std::string ply = kPly;
+    ply.replace(ply.find("face 4"), 6, "face 1000000000000");
+    EXPECT_THAT(refusal_of("a.ply", ply),
+                HasSubstr("number of elements = 1000000000000: the file is too short for"));
     const std::string stl =
         std::string(80, ' ') + bytes_of(std::uint32_t{4'000'000'000}) + std::string(500, '\1');
     EXPECT_THAT(refusal_of("a.stl", stl), HasSubstr("number of facets = 4000000000: the file is too short"));
