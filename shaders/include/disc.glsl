@@ -1,7 +1,7 @@
 // Sample patterns.
 const float kGoldenAngle = 2.39996323;
 
-// An angle for each pixel, such that the pixels of any 4 x 4 differ (interleaved gradient noise, Jimenez 2014).
+// An angle for each pixel, such that neighbours differ (interleaved gradient noise, Jimenez 2014).
 float pixel_angle() {
     return 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
 }

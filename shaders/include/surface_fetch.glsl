@@ -1,4 +1,4 @@
-// A corner of a drawn surface, pulled by gl_VertexID straight from the simulation's buffers (gelatin::RenderView).
+// A corner of a drawn surface, pulled by gl_VertexID straight from the simulation's buffers (RenderView).
 layout(binding = 0) uniform samplerBuffer node_positions;     // xyz [m]
 layout(binding = 1) uniform usamplerBuffer surface_vertices;  // SurfaceVertex: node, object, ...
 layout(binding = 2) uniform samplerBuffer vertex_normals;     // unit xyz

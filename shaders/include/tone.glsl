@@ -3,7 +3,7 @@
 // Film's shoulder: linear in the dark, never quite white.
 vec3 compress(vec3 light) { return 1.0 - exp(-light); }
 
-// sRGB's transfer curve from three square roots, which are cheaper than pow; off by less than 0.0025 above 0.002.
+// sRGB's transfer curve from three square roots, which are cheaper than pow.
 vec3 encode_srgb(vec3 linear) {
     vec3 a = sqrt(linear);
     vec3 b = sqrt(a);

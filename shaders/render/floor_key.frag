@@ -1,5 +1,5 @@
-// How much of the key light reaches a patch of floor, through a penumbra that grows with the distance of what casts it
-// (Fernando 2005). Each pixel turns the pattern of its samples; floor_blend.frag evens that out.
+// How much of the key light reaches a patch of floor, through a penumbra that grows with the distance of what
+// casts it (Fernando 2005). Each pixel turns the pattern of its samples; floor_blend.frag evens that out.
 #include "include/disc.glsl"
 
 layout(binding = 4) uniform sampler2D shadow_map;
@@ -19,7 +19,7 @@ layout(location = 0) out vec4 visibility;
 const int kSearchTaps = 16;
 const int kShadowTaps = 20;
 
-// 1 where something stands between the light and `at`; an empty map is at depth 1, and the floor may lie behind it.
+// 1 where something stands between the light and `at`. An empty map is at depth 1; the floor may lie behind that.
 float blocks(float depth, float at) { return depth < 1.0 ? step(depth, at) : 0.0; }
 
 void main() {

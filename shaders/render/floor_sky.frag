@@ -1,8 +1,8 @@
-// How much of the sky a patch of floor sees, by the form factor of each piece of the undersides of the bodies above.
+// How much of the sky a patch of floor sees, by the form factor of each piece of the bodies' undersides.
 #include "include/disc.glsl"
 
-layout(binding = 6) uniform sampler2D underside;  // height of the lowest surface over the floor / underside_range
-uniform float underside_range;                    // [m]
+layout(binding = 6) uniform sampler2D underside;  // height of the lowest surface over the floor
+uniform float underside_range;                    // height of 1 [m]
 uniform float sky_radius;                         // how far round a point its sky is looked for [m]
 uniform vec2 patch_size;                          // [m]
 

@@ -1,6 +1,6 @@
-// Smooths the steps of edges in a finished picture, where several samples a pixel cost too much: finds the run of pixels
-// along which an edge stays in its row or column, and blends across it by the place within the run (the idea of
-// Lottes' FXAA and Reshetov's MLAA, 2009).
+// Smooths the steps of edges in a finished picture, where several samples a pixel cost too much: finds the run of
+// pixels along which an edge stays in its row or column, and blends across it by the place within the run (the idea
+// of Reshetov's MLAA and Lottes' FXAA, 2009).
 layout(binding = 7) uniform sampler2D picture;  // alpha: see include/tone.glsl
 uniform vec2 pixel_size;                        // in texture coordinates
 

@@ -17,8 +17,8 @@ inline Vec3<Real> gather_forces(const Pass<Real>& pass, std::uint32_t n) {
                                   stiffness);
     };
     Vec3<Real> force(0);
-    const std::uint32_t end = springs.slice_starts[n / kSlice + 1];
-    for (std::uint32_t p = springs.slice_starts[n / kSlice] + n % kSlice; p < end; p += kSlice) {
+    const std::uint32_t start = springs.slice_starts[n / kSlice], end = springs.slice_starts[n / kSlice + 1];
+    for (std::uint32_t p = start + n % kSlice; p < end; p += kSlice) {
         const HalfSpringPair& pair = springs.pairs[p];
         force += force_of(pair.node_0, pair.rest_length_0, springs.stiffness[p].x);
         force += force_of(pair.node_1, pair.rest_length_1, springs.stiffness[p].y);

@@ -34,9 +34,9 @@ std::string gl_string(GLenum name) {
 bool names_software(std::string renderer) {
     std::transform(renderer.begin(), renderer.end(), renderer.begin(),
                    [](unsigned char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
-    constexpr std::array<std::string_view, 5> names = {"llvmpipe", "softpipe", "swrast", "software",
-                                                       "swiftshader"};
-    return std::any_of(names.begin(), names.end(),
+    constexpr std::array<std::string_view, 5> kNames = {"llvmpipe", "softpipe", "swrast", "software",
+                                                        "swiftshader"};
+    return std::any_of(kNames.begin(), kNames.end(),
                        [&](std::string_view name) { return renderer.find(name) != std::string::npos; });
 }
 

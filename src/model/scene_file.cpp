@@ -24,8 +24,7 @@ toml::table parse(const std::filesystem::path& file) {
         return toml::parse(read_file(file), file.string());
     } catch (const toml::parse_error& error) {
         const int line = static_cast<int>(error.source().begin.line);
-        throw InvalidInput(
-            {file.string(), line, {}, {}, fmt::format("is not TOML: {}", error.description())});
+        throw InvalidInput({file.string(), line, {}, {}, describe(error)});
     }
 }
 

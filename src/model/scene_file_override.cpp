@@ -31,17 +31,17 @@ toml::table parse_override(const std::string& text) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
         fail(text, "must be key=value, as in simulation.frames=100");
-    if (text.find('\n') != std::string::npos) fail(text, "must be one line");
+    if (text.find('\n') != std::string::npos) fail(text.substr(0, text.find('\n')), "must be one line");
     const std::string key = text.substr(0, equals), value = text.substr(equals + 1);
     try {
         return toml::parse(text, source);
     } catch (const toml::parse_error& error) {
-        if (!is_bare_word(value)) fail(text, fmt::format("is not TOML: {}", error.description()));
+        if (!is_bare_word(value)) fail(text, describe(error));
     }
     try {
         return toml::parse(fmt::format("{} = \"{}\"", key, value), source);
     } catch (const toml::parse_error& error) {
-        fail(text, fmt::format("is not TOML: {}", error.description()));
+        fail(text, describe(error));
     }
 }
 

@@ -83,6 +83,13 @@ std::string join_names(const std::vector<std::string>& names, const char* last) 
     return text;
 }
 
+std::string describe(const toml::parse_error& error) {
+    std::string text = fmt::format("is not TOML: {}", error.description());
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+    return text;
+}
+
 InputProblem problem_at(const toml::node& node, const std::string& file, const std::string& field,
                         const std::string& problem) {
     const toml::source_region& source = node.source();

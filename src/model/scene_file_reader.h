@@ -23,6 +23,9 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& ca
 /// "a, b and c".
 std::string join_names(const std::vector<std::string>& names, const char* last = "and");
 
+/// The parser's complaint without line breaks, which it quotes from the file.
+std::string describe(const toml::parse_error& error);
+
 /// Source path of nodes that an override made begins with this; they have no line.
 inline constexpr std::string_view kOverridePrefix = "--set ";
 

@@ -19,7 +19,8 @@ namespace {
 const glm::vec3 kToKeyLight = glm::normalize(glm::vec3(-0.55f, 1.0f, 0.42f));
 const glm::vec4 kPropColor(0.34f, 0.37f, 0.42f, 1.0f);
 constexpr int kSamples = 4;            // OpenGL promises as many
-constexpr float kFloorRadius = 11.0f;  // of the scene's extent
+constexpr float kKeyDistance = 2.0f;   // of the scene\'s extent
+constexpr float kFloorRadius = 11.0f;  // the same
 
 RendererOptions checked(RendererOptions options) {
     GLint largest = 0;
@@ -49,6 +50,10 @@ Target make_canvas(const RendererOptions& options) {
     if (options.smoothing != Smoothing::samples)
         return Target::color_and_depth(options.width, options.height);
     return Target::multisampled(options.width, options.height, kSamples);
+}
+
+float extent_of(const Bounds& bounds) {
+    return std::max(glm::length(bounds.size()), 1e-3f);
 }
 
 // 1, 2 or 5 times a power of ten, so that some ten lines cross the scene.
@@ -146,6 +151,9 @@ void Renderer::set_frame_uniforms(const gl::Program& program, const Camera& came
     program.set("to_key_light", kToKeyLight);
     program.set("picture_size", glm::vec2(width(), height()));
     program.set("eye", camera.eye);
+    const float key_distance = kKeyDistance * extent_of(surroundings_.bounds);
+    program.set("key_distance", key_distance);
+    program.set("key_position", surroundings_.bounds.center() + key_distance * kToKeyLight);
     shadows_.set_uniforms(program);
     program.use();
 }
@@ -175,7 +183,7 @@ void Renderer::draw_scene(const SurfaceDraw& bodies, const SurfaceDraw& props, c
 void Renderer::draw_floor(const Camera& camera) const {
     if (camera.eye.y <= *surroundings_.floor_height) return;
     set_frame_uniforms(floor_program_, camera);
-    const float extent = std::max(glm::length(surroundings_.bounds.size()), 1e-3f);
+    const float extent = extent_of(surroundings_.bounds);
     glm::vec3 center = surroundings_.bounds.center();
     center.y = *surroundings_.floor_height;
     floor_program_.set("floor_center", center);

@@ -60,7 +60,7 @@ TEST_F(ContextTest, MovesAndLeavesTheSourceHarmless) {
 }
 
 TEST_F(ContextTest, UsesAndLeavesTheHostsContext) {
-    const EGLContext host = eglGetCurrentContext();
+    EGLContext host = eglGetCurrentContext();
     {
         Context view = Context::current();
         EXPECT_EQ(view.device().renderer, context().device().renderer);

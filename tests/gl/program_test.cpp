@@ -156,7 +156,8 @@ TEST_F(DispatchTest, MovedFromProgramIsEmptyAndTheTargetsOldOneIsFreed) {
     const unsigned kept = source.id();
     const unsigned old = target.id();
     target = std::move(source);
-    EXPECT_EQ(source.id(), 0u);  // NOLINT(bugprone-use-after-move): what is tested
+    // What is tested: NOLINTNEXTLINE(bugprone-use-after-move,clang-analyzer-cplusplus.Move)
+    EXPECT_EQ(source.id(), 0u);
     EXPECT_EQ(target.id(), kept);
     EXPECT_FALSE(glIsProgram(old));
 }

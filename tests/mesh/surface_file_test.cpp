@@ -145,7 +145,7 @@ TEST_F(SurfaceFileTest, JoinsTheObjectsOfAFileWhateverElseTheyHave) {
 
 TEST_F(SurfaceFileTest, ReadsWhatWindowsWrites) {
     const std::pair<const char*, std::string> samples[] = {
-        {"a.obj", kObj.substr(kObj.find("v"))}, {"a.off", kOff}, {"a.ply", kPly}, {"a.stl", text_stl()}};
+        {"a.obj", kObj.substr(kObj.find('v'))}, {"a.off", kOff}, {"a.ply", kPly}, {"a.stl", text_stl()}};
     for (const auto& [name, content] : samples) {
         std::string windows = "\xef\xbb\xbf";
         for (const char c : content) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);

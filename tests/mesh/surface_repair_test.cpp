@@ -26,7 +26,7 @@ SurfaceMesh unshare(const SurfaceMesh& mesh) {
     for (const glm::uvec3& face : mesh.faces) {
         const auto first = static_cast<std::uint32_t>(soup.positions.size());
         for (int corner = 0; corner < 3; ++corner) soup.positions.push_back(mesh.positions[face[corner]]);
-        soup.faces.push_back({first, first + 1, first + 2});
+        soup.faces.emplace_back(first, first + 1, first + 2);
     }
     return soup;
 }
@@ -89,9 +89,9 @@ TEST(RepairSurface, MergesWhateverTheScale) {
 
 TEST(RepairSurface, DropsFacesWithoutArea) {
     SurfaceMesh mesh = cube({0, 0, 0}, 1.0);
-    mesh.faces.push_back({2, 2, 5});
-    mesh.positions.push_back({0.5, 0, 0});  // on the edge from vertex 0 to vertex 1
-    mesh.faces.push_back({0, 8, 1});
+    mesh.faces.emplace_back(2, 2, 5);
+    mesh.positions.emplace_back(0.5, 0, 0);  // on the edge from vertex 0 to vertex 1
+    mesh.faces.emplace_back(0, 8, 1);
     EXPECT_THAT(repair(mesh),
                 ElementsAre("dropped faces without area: 2", "dropped vertices without faces: 1"));
     EXPECT_EQ(mesh.faces.size(), 12u);
@@ -109,7 +109,7 @@ TEST(RepairSurface, KeepsThinFaces) {
 TEST(RepairSurface, DropsRepeatedFaces) {
     SurfaceMesh mesh = cube({0, 0, 0}, 1.0);
     glm::uvec3 again = mesh.faces[3];
-    mesh.faces.push_back({again[1], again[2], again[0]});
+    mesh.faces.emplace_back(again[1], again[2], again[0]);
     turn(again);
     mesh.faces.push_back(again);
     EXPECT_THAT(repair(mesh), ElementsAre("dropped repeated faces: 2"));
@@ -207,8 +207,8 @@ TEST(RepairSurface, SaysThatASurfaceIsOneSided) {
     for (std::uint32_t k = 0; k < 5; ++k) {
         const std::uint32_t a = 2 * k, b = a + 1;
         const std::uint32_t c = k < 4 ? a + 2 : 1, d = k < 4 ? a + 3 : 0;
-        strip.faces.push_back({a, b, c});
-        strip.faces.push_back({b, d, c});
+        strip.faces.emplace_back(a, b, c);
+        strip.faces.emplace_back(b, d, c);
     }
     EXPECT_THAT(repair(strip), testing::Contains(HasSubstr("one-sided")));
 }
@@ -220,8 +220,8 @@ TEST(MeasureOpenness, CountsEdges) {
     EXPECT_EQ(measure_openness(mesh).boundary_edges, 3u);
     EXPECT_EQ(measure_openness(mesh).non_manifold_edges, 0u);
     mesh = cube({0, 0, 0}, 1.0);
-    mesh.positions.push_back({9, 9, 9});
-    mesh.faces.push_back({0, 1, 8});
+    mesh.positions.emplace_back(9, 9, 9);
+    mesh.faces.emplace_back(0, 1, 8);
     EXPECT_EQ(measure_openness(mesh).boundary_edges, 2u);
     EXPECT_EQ(measure_openness(mesh).non_manifold_edges, 1u);
     EXPECT_FALSE(measure_openness(mesh).is_closed());

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "core/file.h"
 #include "gelatin/error.h"
@@ -23,7 +24,7 @@ constexpr const char* kBall =
 class SceneFile : public testing::Test {
 protected:
     Scene load(const std::string& text, const Overrides& overrides = {}) {
-        write_file(file_, text);
+        std::ofstream(file_, std::ios::binary) << text;
         return load_scene(file_, overrides);
     }
 
@@ -225,6 +226,16 @@ TEST_F(SceneFile, TakesTheScenesOfTheDocumentation) {
     EXPECT_GT(scenes, 0);
 }
 
+// A cut-off file reads or is refused; nothing else comes out of it.
+TEST_F(SceneFile, TakesOrRefusesEveryPrefixOfAFile) {
+    const std::string whole = read_file(std::string(GELATIN_SOURCE_DIR) + "/scenes/bounce.toml");
+    std::size_t refused = 0;
+    for (std::size_t length = 0; length < whole.size(); ++length) {
+        if (error(whole.substr(0, length)) != "no error") ++refused;
+    }
+    EXPECT_GT(refused, whole.size() / 2);
+}
+
 // Files
 
 TEST_F(SceneFile, RefusesAMissingFile) {
@@ -246,6 +257,7 @@ TEST_F(SceneFile, RefusesASceneWithoutObjects) {
 
 TEST_F(SceneFile, RefusesWhatIsNotToml) {
     EXPECT_THAT(error("[simulation]\nframes = = 3\n"), StartsWith("scene.toml:2: is not TOML: "));
+    EXPECT_EQ(error("[simulation]\nframe_rate = n\n").find('\n'), std::string::npos);  // the parser quotes it
     EXPECT_THAT(error("frames = 3\nframes = 4\n"), StartsWith("scene.toml:2: is not TOML: "));
     EXPECT_THAT(error(std::string("\x7f"
                                   "ELF\0\1\2",
@@ -551,6 +563,7 @@ TEST_F(SceneFile, RefusesOverridesThatAreNotTables) {
     EXPECT_THAT(error(kBall, {"simulation.gravity=[0, 1"}),
                 HasSubstr("--set simulation.gravity=[0, 1: is not TOML: "));
     EXPECT_THAT(error(kBall, {"=3"}), HasSubstr("must be key=value"));
+    EXPECT_EQ(error(kBall, {"simulation.frames=3\nx=4"}), "--set simulation.frames=3: must be one line");
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ class ContextEnd : public ::testing::Environment {
 public:
     void TearDown() override { shared().context.reset(); }
 };
-[[maybe_unused]] const auto* const context_end = ::testing::AddGlobalTestEnvironment(new ContextEnd);
+[[maybe_unused]] const auto* const kContextEnd = ::testing::AddGlobalTestEnvironment(new ContextEnd);
 
 }  // namespace
 
