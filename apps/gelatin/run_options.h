@@ -8,7 +8,7 @@
 #include "gelatin/simulator.h"
 #include "sim/export.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): the library's name
 class App;
 }
 

@@ -14,7 +14,8 @@ public:
     RawBuffer() = default;
     /// @throws GlError if the driver cannot give `bytes`, or its storage block limit is smaller.
     RawBuffer(std::size_t bytes, const void* data);
-    RawBuffer(RawBuffer&& other) noexcept : id_(std::exchange(other.id_, 0)), bytes_(std::exchange(other.bytes_, 0)) {}
+    RawBuffer(RawBuffer&& other) noexcept
+        : id_(std::exchange(other.id_, 0)), bytes_(std::exchange(other.bytes_, 0)) {}
     RawBuffer& operator=(RawBuffer&& other) noexcept;
     ~RawBuffer();
 
@@ -76,8 +77,8 @@ private:
 /// How a shader's samplerBuffer sees a buffer's bytes.
 enum class TexelFormat { r32ui, rg32ui, rgba32ui, r32f, rg32f, rgba32f };
 
-/// A buffer seen through a samplerBuffer or usamplerBuffer: gathers through it are faster than storage reads on
-/// software drivers and no slower elsewhere. Owns the texture, not the buffer, which must outlive it.
+/// A buffer seen through a samplerBuffer or usamplerBuffer: gathers through it are faster than storage reads
+/// on software drivers and no slower elsewhere. Owns the texture, not the buffer, which must outlive it.
 class BufferTexture {
 public:
     BufferTexture() = default;

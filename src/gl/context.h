@@ -26,8 +26,8 @@ struct ContextOptions {
 /// Move-only; the destructor releases what it made and leaves a host's context alone.
 class Context {
 public:
-    /// Makes a headless context: on the device asked for, else on the surfaceless default, else on the first EGL device
-    /// that works. Where the default is a software driver, a device that is not goes first.
+    /// Makes a headless context: on the device asked for, else on the surfaceless default, else on the first
+    /// EGL device that works. Where the default is a software driver, a device that is not goes first.
     /// @throws NoOpenGl if there is no EGL, no such device, or no OpenGL 4.3; InvalidInput for a
     ///   GELATIN_EGL_DEVICE that is no index.
     static Context headless(const ContextOptions& options = {});

@@ -43,7 +43,8 @@ public:
     void set(const char* name, const glm::mat4& value) const;
 
     /// Uses the program and runs ceil(invocations / group_size) work groups, folded into two dimensions where
-    /// one is not enough; shaders take their index from include/global_index.glsl. Nothing runs for 0 invocations.
+    /// one is not enough; shaders take their index from include/global_index.glsl. Nothing runs for 0
+    /// invocations.
     void dispatch(std::size_t invocations, std::uint32_t group_size = 64) const;
 
 private:
@@ -52,11 +53,11 @@ private:
 
 /// What the work after the barrier will do with the data written before it (glMemoryBarrier).
 enum class Barrier : unsigned {
-    storage = 1,         ///< read or write as a storage block
-    texture_fetch = 2,   ///< texelFetch from a samplerBuffer
-    vertex_pull = 4,     ///< element or vertex arrays
-    buffer_update = 8,   ///< copies, mapping, download
-    command = 16,        ///< indirect dispatch or draw
+    storage = 1,        ///< read or write as a storage block
+    texture_fetch = 2,  ///< texelFetch from a samplerBuffer
+    vertex_pull = 4,    ///< element or vertex arrays
+    buffer_update = 8,  ///< copies, mapping, download
+    command = 16,       ///< indirect dispatch or draw
 };
 constexpr Barrier operator|(Barrier a, Barrier b) {
     return static_cast<Barrier>(static_cast<unsigned>(a) | static_cast<unsigned>(b));

@@ -6,8 +6,8 @@
 
 namespace gelatin::gl {
 
-/// Brings buffer contents to the host without stalling: a copy to a staging buffer and a fence now, the data later.
-/// A small ring of staging buffers is reused.
+/// Brings buffer contents to the host without stalling: a copy to a staging buffer and a fence now, the data
+/// later. A small ring of staging buffers is reused.
 class Readback {
 public:
     Readback() = default;

@@ -16,7 +16,8 @@ struct ShaderSource {
 };
 
 /// Loads `file` (a path below shaders/), from GELATIN_SHADER_DIR if set, else as embedded, puts
-/// "#version 430 core" and the defines before it, and expands `#include "path"` (relative to shaders/, once each).
+/// "#version 430 core" and the defines before it, and expands `#include "path"` (relative to shaders/, once
+/// each).
 /// @throws GlError if a file is missing or includes go round in a circle, naming the including file and line.
 ShaderSource load_shader(const std::string& file, const std::vector<std::string>& defines = {});
 

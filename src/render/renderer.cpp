@@ -19,7 +19,7 @@ namespace {
 const glm::vec3 kToKeyLight = glm::normalize(glm::vec3(-0.55f, 1.0f, 0.42f));
 const glm::vec4 kPropColor(0.34f, 0.37f, 0.42f, 1.0f);
 constexpr int kSamples = 4;            // OpenGL promises as many
-constexpr float kKeyDistance = 2.0f;   // of the scene\'s extent
+constexpr float kKeyDistance = 2.0f;   // of the scene's extent
 constexpr float kFloorRadius = 11.0f;  // the same
 
 RendererOptions checked(RendererOptions options) {
@@ -28,11 +28,8 @@ RendererOptions checked(RendererOptions options) {
     for (const auto& [name, size] :
          {std::pair("width", options.width), std::pair("height", options.height)}) {
         if (size < 1 || size > largest) {
-            throw InvalidInput({{},
-                                0,
-                                name,
-                                std::to_string(size),
-                                "must be 1 to " + std::to_string(largest) + " pixels on this driver"});
+            const std::string allowed = "1 to " + std::to_string(largest) + " pixels on this driver";
+            throw InvalidInput({{}, 0, name, std::to_string(size), "must be " + allowed});
         }
     }
     if (options.smoothing == Smoothing::automatic) {
@@ -47,9 +44,9 @@ gl::Defines defines_of(Shading shading) {
 }
 
 Target make_canvas(const RendererOptions& options) {
-    if (options.smoothing != Smoothing::samples)
-        return Target::color_and_depth(options.width, options.height);
-    return Target::multisampled(options.width, options.height, kSamples);
+    const bool sampled = options.smoothing == Smoothing::samples;
+    return sampled ? Target::multisampled(options.width, options.height, kSamples)
+                   : Target::color_and_depth(options.width, options.height);
 }
 
 float extent_of(const Bounds& bounds) {

@@ -20,8 +20,8 @@ namespace gelatin::render {
 /// smooth).
 enum class Shading { pixel, node };
 
-/// How edges become smooth: by several samples a pixel, or by a filter over the finished picture, which on
-/// software drivers costs a third of it. automatic: the filter on software drivers, samples on all others.
+/// How edges become smooth: by several samples a pixel, or by a filter over the finished picture, which is
+/// cheaper on software drivers. automatic: the filter on software drivers, samples on all others.
 enum class Smoothing { automatic, samples, filter, none };
 
 struct RendererOptions {
@@ -37,8 +37,8 @@ struct Surroundings {
     Bounds bounds;                      ///< where bodies will be: shadows fall from here [m]
     std::optional<float> floor_height;  ///< [m]; empty: no floor is drawn
     std::vector<SurfaceMesh> props;     ///< what stands about and does not move
-    std::vector<glm::vec3>
-        colors;  ///< of the bodies, linear RGB; where one is negative or missing: the palette's
+    /// Of the bodies, linear RGB; the palette's where one is negative or missing.
+    std::vector<glm::vec3> colors;
 };
 
 /// Draws bodies from their buffers into a picture of its own: floor, backdrop, soft shadows.

@@ -24,7 +24,7 @@ TEST_F(InfoCommand, TellsAboutTheMachine) {
 }
 
 TEST_F(InfoCommand, WorksWhereThereIsNoOpenGl) {
-    settings_.environment.push_back("__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent");
+    settings_.environment.emplace_back("__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent");
     const ProgramResult result = run({"info", "--json"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_TRUE(json::parse(result.out)["opengl"]["default"].contains("unusable"));

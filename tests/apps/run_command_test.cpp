@@ -125,7 +125,7 @@ TEST_F(RunCommand, RefusesUnknownChoices) {
 
 TEST_F(RunCommand, FailsCleanlyOnAFullDisk) {
     settings_.largest_file = 2000;
-    settings_.environment.push_back("GELATIN_CACHE_DIR=");
+    settings_.environment.emplace_back("GELATIN_CACHE_DIR=");
     const ProgramResult result = run({"run", "cube.toml", "--export", "out", "--format", "obj", "--quiet"});
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_THAT(result.err, HasSubstr("frame_000000.obj: cannot be written"));
@@ -256,7 +256,7 @@ TEST_F(RunCommand, RefusesACheckpointThatCannotBeResumed) {
 // OpenGL
 
 TEST_F(RunCommand, SaysSoWhereThereIsNoOpenGl) {
-    settings_.environment.push_back("__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent");
+    settings_.environment.emplace_back("__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent");
     for (const std::vector<std::string>& wish :
          {std::vector<std::string>{"--backend", "gl"}, {"--image", "a.png", "--backend", "cpu"}}) {
         std::vector<std::string> arguments = {"run", "cube.toml"};
@@ -340,7 +340,7 @@ TEST_F(RunCommandFilms, AnInterruptFinishesTheFilm) {
 
 TEST_F(RunCommandFilms, FailsCleanlyOnAFullDisk) {
     settings_.largest_file = 20'000;
-    settings_.environment.push_back("GELATIN_CACHE_DIR=");
+    settings_.environment.emplace_back("GELATIN_CACHE_DIR=");
     const ProgramResult result =
         run({"run", "cube.toml", "--video", "film.mp4", "--frames", "200", "--quiet"});
     EXPECT_EQ(result.exit_code, 1) << result.err;
@@ -354,7 +354,7 @@ TEST_F(RunCommandFilms, SaysSoWhereThereIsNoFfmpeg) {
     write("tet.mesh",
           "MeshVersionFormatted 1\nDimension 3\nVertices 4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
           "Tetrahedra 1\n1 2 3 4 0\nEnd\n");
-    settings_.environment.push_back("PATH=/nonexistent");
+    settings_.environment.emplace_back("PATH=/nonexistent");
     const ProgramResult result = run({"run", "cube.toml", "--video", "film.mp4", "--size", "160x90", "--set",
                                       "object.cube.shape={file='tet.mesh'}"});
     EXPECT_EQ(result.exit_code, 1);

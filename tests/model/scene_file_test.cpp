@@ -1,60 +1,9 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "model/scene_file_fixture.h"
 
-#include <filesystem>
-#include <fstream>
-
-#include "core/file.h"
-#include "gelatin/error.h"
-#include "gelatin/scene.h"
-
-namespace gelatin {
+namespace gelatin::test {
 namespace {
 
-using Overrides = std::vector<std::string>;
-using testing::HasSubstr;
 using testing::StartsWith;
-
-// Three lines that make a whole scene, so that a test's own text starts on line 4.
-constexpr const char* kBall =
-    "material = [{name = 'jelly'}]\n"
-    "object = [{name = 'ball', shape = {sphere = 0.5}}]\n"
-    "\n";
-
-class SceneFile : public testing::Test {
-protected:
-    Scene load(const std::string& text, const Overrides& overrides = {}) {
-        std::ofstream(file_, std::ios::binary) << text;
-        return load_scene(file_, overrides);
-    }
-
-    // The whole message, the folder left out.
-    std::string error(const std::string& text, const Overrides& overrides = {}) {
-        try {
-            load(text, overrides);
-        } catch (const InvalidInput& problem) {
-            std::string message = problem.what();
-            const std::string folder = file_.parent_path().string() + "/";
-            if (const auto at = message.find(folder); at != message.npos) message.erase(at, folder.size());
-            return message;
-        }
-        return "no error";
-    }
-
-    // A scene whose only object is the given lines after `[[object]]` and its name (lines 3 and on).
-    std::string object_error(const std::string& lines) {
-        return error("material = [{name = 'jelly'}]\n[[object]]\nname = 'ball'\n" + lines + "\n");
-    }
-
-    std::string material_error(const std::string& lines) {
-        return error("[[object]]\nname = 'ball'\nshape = {sphere = 1}\n[[material]]\nname = 'jelly'\n" +
-                     lines + "\n");
-    }
-
-private:
-    TemporaryFolder folder_;
-    std::filesystem::path file_ = folder_.path() / "scene.toml";
-};
 
 TEST_F(SceneFile, ReadsEveryKey) {
     const Scene scene = load(R"(
@@ -164,32 +113,6 @@ restitution = 0
     EXPECT_EQ(scene.colliders[1].rotation, glm::dvec3(0.0, 0.0, 45.0));
     EXPECT_EQ(scene.colliders[1].friction, 0.1);
     EXPECT_EQ(scene.colliders[1].restitution, 0.0);
-}
-
-TEST_F(SceneFile, ReadsEveryShape) {
-    const Scene scene = load(R"(
-material = [{ name = "jelly" }]
-object = [
-    { name = "a", shape = { box = [1, 2, 3], segments = [4, 5, 6] } },
-    { name = "b", shape = { capsule = 0.1, length = 0.7, frequency = 4 } },
-    { name = "c", shape = { text = "A", depth = 0.3, size = 2, font = "DejaVu Serif" } },
-    { name = "d", shape = { file = "bunny.obj" } },
-]
-collider = [{ shape = { box = [1, 2, 3] } }, { shape = { sphere = 4 } }]
-)");
-    ASSERT_EQ(scene.objects.size(), 4u);
-    EXPECT_EQ(std::get<BoxShape>(scene.objects[0].shape).size, glm::dvec3(1.0, 2.0, 3.0));
-    EXPECT_EQ(std::get<BoxShape>(scene.objects[0].shape).segments, glm::ivec3(4, 5, 6));
-    EXPECT_EQ(std::get<CapsuleShape>(scene.objects[1].shape).radius, 0.1);
-    EXPECT_EQ(std::get<CapsuleShape>(scene.objects[1].shape).length, 0.7);
-    EXPECT_EQ(std::get<CapsuleShape>(scene.objects[1].shape).frequency, 4);
-    EXPECT_EQ(std::get<TextShape>(scene.objects[2].shape).text, "A");
-    EXPECT_EQ(std::get<TextShape>(scene.objects[2].shape).depth, 0.3);
-    EXPECT_EQ(std::get<TextShape>(scene.objects[2].shape).size, 2.0);
-    EXPECT_EQ(std::get<TextShape>(scene.objects[2].shape).font, "DejaVu Serif");
-    EXPECT_EQ(std::get<FileShape>(scene.objects[3].shape).file, scene.file.parent_path() / "bunny.obj");
-    EXPECT_EQ(std::get<BoxCollider>(scene.colliders.at(0).shape).size, glm::dvec3(1.0, 2.0, 3.0));
-    EXPECT_EQ(std::get<SphereCollider>(scene.colliders.at(1).shape).radius, 4.0);
 }
 
 TEST_F(SceneFile, KeepsTheDefaultsOfSceneHWhereItIsSilent) {
@@ -398,113 +321,6 @@ TEST_F(SceneFile, RefusesSpringsThatAreNoListOfKinds) {
               "scene.toml:6: material.jelly.springs[1] = \"flex\": is there twice");
 }
 
-// Names
-
-TEST_F(SceneFile, RefusesNamesThatAreTaken) {
-    EXPECT_EQ(error("[[material]]\nname = 'jelly'\n[[material]]\nname = 'jelly'"),
-              "scene.toml:4: material.jelly.name = \"jelly\": is taken by the material on line 1");
-    EXPECT_EQ(object_error("shape = {sphere = 1}\n[[object]]\nname = 'ball'\nshape = {sphere = 2}"),
-              "scene.toml:6: object.ball.name = \"ball\": is taken by the object on line 2");
-}
-
-TEST_F(SceneFile, RefusesAnEmptyName) {
-    EXPECT_EQ(error("[[material]]\nname = ''"), "scene.toml:2: material[0].name = \"\": must not be empty");
-}
-
-TEST_F(SceneFile, RefusesANameOfTwoLines) {
-    EXPECT_EQ(
-        error("[[material]]\nname = \"a\\nb\""),
-        "scene.toml:2: material[0].name = \"a\\nb\": must not have line breaks or other control characters");
-}
-
-TEST_F(SceneFile, RefusesAnUnknownMaterial) {
-    EXPECT_EQ(object_error("shape = {sphere = 1}\nmaterial = 'jely'"),
-              "scene.toml:5: object.ball.material = \"jely\": no such material (did you mean \"jelly\"?); "
-              "there is jelly");
-    EXPECT_EQ(error("[[object]]\nname = 'ball'\nshape = {sphere = 1}\nmaterial = 'steel'"),
-              "scene.toml:4: object.ball.material = \"steel\": no such material; the scene has none");
-}
-
-TEST_F(SceneFile, RefusesAnObjectWithoutMaterialUnlessThereIsOne) {
-    EXPECT_EQ(error("[[object]]\nname = 'ball'\nshape = {sphere = 1}"),
-              "scene.toml:1: object.ball: needs a material: the scene has no [[material]]");
-    EXPECT_EQ(
-        error("material = [{name = 'a'}, {name = 'b'}]\n[[object]]\nname = 'ball'\nshape = {sphere = 1}"),
-        "scene.toml:2: object.ball: needs \"material\": one of a or b");
-}
-
-// Shapes, pins, colliders, camera
-
-TEST_F(SceneFile, RefusesShapesOfNoneOrTwoKinds) {
-    EXPECT_EQ(object_error("shape = {frequency = 4}"),
-              "scene.toml:4: object.ball.shape: must have exactly one of sphere, box, capsule, text or file");
-    EXPECT_EQ(object_error("shape = {sphere = 1, box = [1, 1, 1]}"),
-              "scene.toml:4: object.ball.shape: must have exactly one of sphere, box, capsule, text or "
-              "file, has sphere "
-              "and box");
-    EXPECT_EQ(object_error("shape = {spere = 1}"),
-              "scene.toml:4: object.ball.shape.spere = 1: unknown key (did you mean \"sphere\"?)");
-    EXPECT_EQ(object_error("shape = 'sphere'"),
-              "scene.toml:4: object.ball.shape = \"sphere\": must be a table, is a string");
-}
-
-TEST_F(SceneFile, RefusesWrongShapeValues) {
-    EXPECT_EQ(object_error("shape = {sphere = -1}"),
-              "scene.toml:4: object.ball.shape.sphere = -1: must be greater than 0");
-    EXPECT_EQ(object_error("shape = {sphere = 1, frequency = 1000000}"),
-              "scene.toml:4: object.ball.shape.frequency = 1000000: must be from 1 to 500");
-    EXPECT_EQ(object_error("shape = {sphere = 1, segments = [1, 1, 1]}"),
-              "scene.toml:4: object.ball.shape.segments = [1, 1, 1]: unknown key; known here are sphere and "
-              "frequency");
-    EXPECT_EQ(object_error("shape = {box = [1, 0, 1]}"),
-              "scene.toml:4: object.ball.shape.box[1] = 0: must be greater than 0");
-    EXPECT_EQ(object_error("shape = {box = [1, 1, 1], segments = [1, 1, 0]}"),
-              "scene.toml:4: object.ball.shape.segments[2] = 0: must be from 1 to 1000");
-    EXPECT_EQ(object_error("shape = {capsule = 1, frequency = 1}"),
-              "scene.toml:4: object.ball.shape.frequency = 1: must be from 2 to 500");
-    EXPECT_EQ(object_error("shape = {text = ''}"),
-              "scene.toml:4: object.ball.shape.text = \"\": must not be empty");
-    EXPECT_EQ(object_error("shape = {text = 'A', depth = 0}"),
-              "scene.toml:4: object.ball.shape.depth = 0: must be greater than 0");
-}
-
-TEST_F(SceneFile, RefusesWrongPins) {
-    const auto pin = [&](const std::string& value) {
-        return object_error("shape = {sphere = 1}\npins = [" + value + "]");
-    };
-    EXPECT_EQ(pin("{box = [[0, 0, 0], [1, -1, 1]]}"),
-              "scene.toml:5: object.ball.pins[0].box = [[0, 0, 0], [1, -1, 1]]: the first corner must be the "
-              "lower one: "
-              "0 is above -1 along y");
-    EXPECT_EQ(
-        pin("{box = [1, 1, 1]}"),
-        "scene.toml:5: object.ball.pins[0].box = [1, 1, 1]: must be two corners: [[x, y, z], [x, y, z]]");
-    EXPECT_EQ(pin("{box = [[0, 0, 0], [1, inf, 1]]}"),
-              "scene.toml:5: object.ball.pins[0].box = [[0, 0, 0], [1, inf, 1]]: corners must be three "
-              "finite numbers "
-              "each");
-    EXPECT_EQ(pin("{sphere = [0, 0, 0]}"), "scene.toml:5: object.ball.pins[0]: needs \"radius\"");
-    EXPECT_EQ(pin("{plane = [0, 0, 0]}"),
-              "scene.toml:5: object.ball.pins[0].plane = [0, 0, 0]: must not be zero: a direction");
-    EXPECT_EQ(pin("{}"), "scene.toml:5: object.ball.pins[0]: must have exactly one of box, sphere or plane");
-}
-
-TEST_F(SceneFile, RefusesWrongColliders) {
-    const auto collider = [&](const std::string& lines) {
-        return error(std::string(kBall) + "[[collider]]\n" + lines);
-    };
-    EXPECT_EQ(collider("shape = {plane = [0, 0, 0]}"),
-              "scene.toml:5: collider[0].shape.plane = [0, 0, 0]: must not be zero: a direction");
-    EXPECT_EQ(collider("shape = {plane = [0, 1, 0]}\nposition = [0, 1, 0]"),
-              "scene.toml:6: collider[0].position = [0, 1, 0]: a plane has none: its shape's normal and "
-              "offset place it");
-    EXPECT_EQ(collider("shape = {text = 'A'}"),
-              "scene.toml:5: collider[0].shape: must have exactly one of plane, box, sphere or capsule");
-    EXPECT_EQ(collider("shape = {sphere = 1}\nrestitution = 2"),
-              "scene.toml:6: collider[0].restitution = 2: must be from 0 to 1");
-    EXPECT_EQ(collider("friction = 1"), "scene.toml:4: collider[0]: needs \"shape\"");
-}
-
 TEST_F(SceneFile, RefusesACameraInItsTarget) {
     EXPECT_EQ(error(std::string(kBall) + "[camera]\neye = [1, 1, 1]\ntarget = [1, 1, 1]"),
               "scene.toml:5: camera.eye = [1, 1, 1]: must not be the target");
@@ -513,58 +329,5 @@ TEST_F(SceneFile, RefusesACameraInItsTarget) {
         "scene.toml:7: camera.field_of_view = 180: must be greater than 0 and less than 180");
 }
 
-// Overrides
-
-TEST_F(SceneFile, OverridesSetValuesByNameAndIndex) {
-    const Scene scene =
-        load(std::string(kBall) + "collider = [{shape = {sphere = 1}}]\n",
-             {"simulation.solver=rk4", "simulation.frames = 3", "object.ball.velocity=[0, 1, 0]",
-              "material.jelly.youngs_modulus=1e5", "collider.0.friction=0.25",
-              "object.0.shape={box = [1, 2, 3]}", "object.ball.name=crate"});
-    EXPECT_EQ(scene.simulation.solver, SolverKind::rk4);
-    EXPECT_EQ(scene.simulation.frames, 3);
-    EXPECT_EQ(scene.objects.at(0).velocity, glm::dvec3(0.0, 1.0, 0.0));
-    EXPECT_EQ(scene.materials.at(0).youngs_modulus, 1e5);
-    EXPECT_EQ(scene.colliders.at(0).friction, 0.25);
-    EXPECT_EQ(std::get<BoxShape>(scene.objects.at(0).shape).size, glm::dvec3(1.0, 2.0, 3.0));
-    EXPECT_EQ(scene.objects.at(0).name, "crate");
-}
-
-TEST_F(SceneFile, ALaterOverrideWins) {
-    EXPECT_EQ(load(kBall, {"simulation.frames=3", "simulation.frames=4"}).simulation.frames, 4);
-}
-
-TEST_F(SceneFile, ErrorsInOverridesNameThem) {
-    EXPECT_EQ(error(kBall, {"simulation.solver=rk5"}),
-              "--set simulation.solver=rk5: simulation.solver = \"rk5\": must be explicit_euler, "
-              "semi_implicit_euler, midpoint or rk4 (did you mean \"rk4\"?)");
-    EXPECT_EQ(error(kBall, {"material.jelly.density=-1"}),
-              "--set material.jelly.density=-1: material.jelly.density = -1: must be greater than 0");
-    EXPECT_EQ(
-        error(kBall, {"simulation.fps=3"}),
-        "--set simulation.fps=3: simulation.fps = 3: unknown key; known here are solver, forces, frame_rate, "
-        "substeps, gravity and frames");
-}
-
-TEST_F(SceneFile, RefusesOverridesThatLeadNowhere) {
-    EXPECT_EQ(error(kBall, {"object.bal.scale=2"}),
-              "--set object.bal.scale=2: no object is called \"bal\" (did you mean \"ball\"?); there are 1, "
-              "numbered "
-              "from 0");
-    EXPECT_EQ(error(kBall, {"object.1.scale=2"}),
-              "--set object.1.scale=2: no object is called \"1\"; there are 1, numbered from 0");
-    EXPECT_EQ(error(kBall, {"object.ball=2"}), "--set object.ball=2: must name a key of object.ball");
-    EXPECT_EQ(error(kBall, {"object.ball.name.first=2"}),
-              "--set object.ball.name.first=2: object.ball.name is a value, not a table");
-}
-
-TEST_F(SceneFile, RefusesOverridesThatAreNotTables) {
-    EXPECT_EQ(error(kBall, {"frames"}), "--set frames: must be key=value, as in simulation.frames=100");
-    EXPECT_THAT(error(kBall, {"simulation.gravity=[0, 1"}),
-                HasSubstr("--set simulation.gravity=[0, 1: is not TOML: "));
-    EXPECT_THAT(error(kBall, {"=3"}), HasSubstr("must be key=value"));
-    EXPECT_EQ(error(kBall, {"simulation.frames=3\nx=4"}), "--set simulation.frames=3: must be one line");
-}
-
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::test
