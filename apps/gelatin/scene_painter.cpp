@@ -37,14 +37,6 @@ render::Camera choose_camera(const Scene& scene, const render::Surroundings& sur
     return render::frame_bounds(bounds, aspect);
 }
 
-// Bodies fall, bounce and roll: they leave where they start by about the height they fall from.
-render::Bounds widened(render::Bounds bounds) {
-    const float aside = bounds.size().y;
-    bounds.min -= glm::vec3(aside, 0.0f, aside);
-    bounds.max += glm::vec3(aside, 0.0f, aside);
-    return bounds;
-}
-
 render::RendererOptions renderer_options(const PictureSize& size) {
     render::RendererOptions options;
     options.width = size.width;
@@ -56,9 +48,8 @@ render::RendererOptions renderer_options(const PictureSize& size) {
 
 ScenePainter::ScenePainter(Simulator& simulator, const PictureSize& size)
     : simulator_(simulator), renderer_(renderer_options(size)) {
-    render::Surroundings surroundings = describe_surroundings(simulator);
+    const render::Surroundings surroundings = describe_surroundings(simulator);
     camera_ = choose_camera(simulator.scene(), surroundings, size);
-    surroundings.bounds = widened(surroundings.bounds);
     renderer_.set_surroundings(surroundings);
 }
 

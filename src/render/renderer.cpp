@@ -21,6 +21,7 @@ const glm::vec4 kPropColor(0.34f, 0.37f, 0.42f, 1.0f);
 constexpr int kSamples = 4;            // OpenGL promises as many
 constexpr float kKeyDistance = 2.0f;   // of the scene's extent
 constexpr float kFloorRadius = 11.0f;  // the same
+constexpr float kShadowReach = 3.0f;   // the same
 
 RendererOptions checked(RendererOptions options) {
     GLint largest = 0;
@@ -87,8 +88,20 @@ void Renderer::set_surroundings(const Surroundings& surroundings) {
     const std::vector<glm::vec4> prop_colors(std::max<std::size_t>(surroundings.props.size(), 1), kPropColor);
     prop_colors_ = gl::Buffer<glm::vec4>(std::span<const glm::vec4>(prop_colors));
     body_colors_ = {};
-    const Bounds& bounds = surroundings.bounds;
-    shadows_.aim(bounds, surroundings.floor_height.value_or(bounds.min.y), kToKeyLight);
+}
+
+// The maps follow the bodies, with room for what they move in a frame, but not to the end of the world.
+void Renderer::aim_shadows(const RenderView& bodies) {
+    const Bounds& usual = surroundings_.bounds;
+    const float extent = extent_of(usual);
+    const glm::vec3 farthest(kShadowReach * extent), room(0.05f * extent);
+    const auto near_scene = [&](const float* p) {
+        const glm::vec3 point(p[0], p[1], p[2]);
+        return glm::clamp(point, usual.min - farthest, usual.max + farthest);
+    };
+    Bounds casters{near_scene(bodies.box_min) - room, near_scene(bodies.box_max) + room};
+    if (bodies.node_count == 0) casters = usual;
+    shadows_.aim(casters, extent, surroundings_.floor_height.value_or(usual.min.y), kToKeyLight);
 }
 
 void Renderer::grow_colors(std::uint32_t body_count) {
@@ -115,6 +128,7 @@ void Renderer::draw(const RenderView& bodies, const Camera& camera) {
     grow_colors(bodies.object_count);
     const SurfaceDraw body_draw(bodies);
     const SurfaceDraw prop_draw(props_.view());
+    aim_shadows(bodies);
     shadows_.draw({&body_draw, &prop_draw});
     canvas_.bind();
     draw_scene(body_draw, prop_draw, camera);

@@ -34,7 +34,7 @@ struct RendererOptions {
 
 /// What stays the same from frame to frame.
 struct Surroundings {
-    Bounds bounds;                      ///< where bodies will be: shadows fall from here [m]
+    Bounds bounds;                      ///< of the bodies at the start: sets the scale of floor and shadows [m]
     std::optional<float> floor_height;  ///< [m]; empty: no floor is drawn
     std::vector<SurfaceMesh> props;     ///< what stands about and does not move
     /// Of the bodies, linear RGB; the palette's where one is negative or missing.
@@ -70,6 +70,7 @@ private:
     void draw_scene(const SurfaceDraw& bodies, const SurfaceDraw& props, const Camera& camera) const;
     void set_frame_uniforms(const gl::Program& program, const Camera& camera) const;
     void grow_colors(std::uint32_t body_count);
+    void aim_shadows(const RenderView& bodies);
     void smooth_edges() const;
     void draw_floor(const Camera& camera) const;
 

@@ -65,9 +65,9 @@ Shadows::~Shadows() {
     glDeleteSamplers(1, &compare_sampler_);
 }
 
-void Shadows::aim(const Bounds& casters, float floor_height, const glm::vec3& to_light) {
+void Shadows::aim(const Bounds& casters, float extent, float floor_height, const glm::vec3& to_light) {
     floor_height_ = floor_height;
-    extent_ = std::max(glm::length(casters.size()), 1e-3f);
+    extent_ = extent;
     const glm::vec3 center = casters.center();
     const glm::mat4 view = glm::lookAt(center + to_light, center, glm::vec3(0.0f, 0.0f, -1.0f));
 

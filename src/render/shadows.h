@@ -22,8 +22,9 @@ public:
     Shadows& operator=(const Shadows&) = delete;
     ~Shadows();
 
-    /// Fits the maps to what casts shadows. @param to_light unit vector
-    void aim(const Bounds& casters, float floor_height, const glm::vec3& to_light);
+    /// Fits the maps to what casts shadows. @param extent of the scene, which softness goes by [m], > 0
+    /// @param to_light unit vector
+    void aim(const Bounds& casters, float extent, float floor_height, const glm::vec3& to_light);
 
     /// Draws the casters into the maps. @pre a vertex array object is bound
     void draw(std::initializer_list<const SurfaceDraw*> casters) const;

@@ -75,6 +75,8 @@ StaticMesh::StaticMesh(const std::vector<SurfaceMesh>& surfaces)
         for (const Corner& corner : split_at_creases(surface, triangles, static_cast<std::uint32_t>(first))) {
             vertices.emplace_back(positions.size(), object, 0u, 0u);
             positions.emplace_back(glm::vec3(surface.positions[corner.vertex]), 0.0f);
+            if (positions.size() == 1) bounds_ = {glm::vec3(positions[0]), glm::vec3(positions[0])};
+            bounds_.add(glm::vec3(positions.back()));
             normals.emplace_back(glm::vec3(unit_or_zero(corner.normal)), 0.0f);
         }
     }
@@ -92,7 +94,9 @@ RenderView StaticMesh::view() const {
             .node_count = static_cast<std::uint32_t>(positions_.size()),
             .vertex_count = static_cast<std::uint32_t>(vertices_.size()),
             .face_count = static_cast<std::uint32_t>(triangles_.size() / 3),
-            .object_count = object_count_};
+            .object_count = object_count_,
+            .box_min = {bounds_.min.x, bounds_.min.y, bounds_.min.z},
+            .box_max = {bounds_.max.x, bounds_.max.y, bounds_.max.z}};
 }
 
 }  // namespace gelatin::render

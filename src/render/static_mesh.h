@@ -7,6 +7,7 @@
 #include "gelatin/views.h"
 #include "gl/buffer.h"
 #include "mesh/surface_mesh.h"
+#include "render/camera.h"
 
 namespace gelatin::render {
 
@@ -28,6 +29,7 @@ private:
     gl::Buffer<glm::vec4> normals_;
     gl::Buffer<std::uint32_t> triangles_;
     std::uint32_t object_count_ = 0;
+    Bounds bounds_;  // [m]
 };
 
 }  // namespace gelatin::render
