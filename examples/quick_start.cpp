@@ -9,5 +9,6 @@ int main(int argc, char** argv) {
     for (int f = 0; f < 240; ++f) simulator.advance_frame();
     simulator.begin_statistics();
     const gelatin::FrameStatistics now = simulator.take_statistics();
-    std::printf("after %.2f s: %.1f J in motion, %zu nodes touch the floor\n", now.time, now.kinetic_energy, now.contacts);
+    std::printf("after %.2f s: %.1f J in motion, %zu nodes touch the floor\n", now.time, now.kinetic_energy,
+                now.contacts);
 }

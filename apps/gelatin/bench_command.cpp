@@ -11,7 +11,8 @@ void add_bench_command(CLI::App& app) {
     bench->require_subcommand(1);
 
     auto options = std::make_shared<KernelBenchOptions>();
-    CLI::App* kernels = bench->add_subcommand("kernels", "Each stage on each backend: ms, bytes, rate, ratios");
+    CLI::App* kernels =
+        bench->add_subcommand("kernels", "Each stage on each backend: ms, bytes, rate, ratios");
     kernels->add_option("--json", options->json, "Also write the figures to this file");
     kernels->add_option("--runs", options->runs, "Samples of each stage; the median counts")
         ->check(CLI::Range(1, 1000))

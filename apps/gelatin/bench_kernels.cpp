@@ -13,6 +13,7 @@
 #include "core/log.h"
 #include "cpu/cpu_solver.h"
 #include "gelatin/error.h"
+#include "gelatin/version.h"
 #include "gl/context.h"
 #include "gpu/gpu_solver.h"
 #include "gpu/update_normals.h"
@@ -20,7 +21,6 @@
 #include "mesh/tetrahedralise.h"
 #include "model/build_model.h"
 #include "model/stability.h"
-#include "gelatin/version.h"
 
 namespace gelatin {
 namespace {
@@ -29,9 +29,9 @@ namespace {
 struct Row {
     std::string backend, stage;
     int scale;
-    double ms;        // median
-    double spread;    // (p90 - p10) / median
-    double bytes;     // read and written at least once
+    double ms;      // median
+    double spread;  // (p90 - p10) / median
+    double bytes;   // read and written at least once
     double springs;
 };
 
@@ -45,7 +45,8 @@ double percentile(std::vector<double> values, double p) {
     return values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1))];
 }
 
-// 3 x scale spheres of the paper's size in a grid, damped a little so that both terms of the force are at work.
+// 3 x scale spheres of the paper's size in a grid, damped a little so that both terms of the force are at
+// work.
 std::shared_ptr<const Model> make_spheres(const TetMesh& sphere, int scale) {
     std::vector<Body> bodies;
     for (int i = 0; i < 3 * scale; ++i) {
@@ -67,15 +68,19 @@ double fused_bytes(const Model& m) {
            2 * kNodeBytes * m.node_count();
 }
 double write_bytes(const Model& m) {
-    return static_cast<double>(m.springs.size()) * (sizeof(Spring) + sizeof(glm::vec4)) + kNodeBytes * m.node_count();
+    return static_cast<double>(m.springs.size()) * (sizeof(Spring) + sizeof(glm::vec4)) +
+           kNodeBytes * m.node_count();
 }
 double merge_bytes(const Model& m) {
     return static_cast<double>(m.springs.size()) * (2 * sizeof(std::uint32_t) + sizeof(glm::vec4)) +
            (sizeof(std::uint32_t) + sizeof(glm::vec4)) * m.node_count();
 }
-double integrate_bytes(const Model& m) { return (2 * kNodeBytes + sizeof(glm::vec4)) * m.node_count(); }
+double integrate_bytes(const Model& m) {
+    return (2 * kNodeBytes + sizeof(glm::vec4)) * m.node_count();
+}
 double normals_bytes(const Model& m) {
-    return static_cast<double>(m.faces.size()) * (sizeof(Face) + sizeof(glm::vec4) + 3 * sizeof(std::uint32_t)) +
+    return static_cast<double>(m.faces.size()) *
+               (sizeof(Face) + sizeof(glm::vec4) + 3 * sizeof(std::uint32_t)) +
            static_cast<double>(m.surface.vertices.size()) * (sizeof(SurfaceVertex) + 2 * sizeof(glm::vec4));
 }
 
@@ -118,7 +123,8 @@ std::vector<Row> time_cases(const std::vector<Case>& cases, int scale, int runs,
     for (std::size_t c = 0; c < cases.size(); ++c) {
         const double middle = median(samples[c]);
         rows.push_back({cases[c].backend, cases[c].stage, scale, middle,
-                        (percentile(samples[c], 0.9) - percentile(samples[c], 0.1)) / middle, cases[c].bytes, springs});
+                        (percentile(samples[c], 0.9) - percentile(samples[c], 0.1)) / middle, cases[c].bytes,
+                        springs});
     }
     return rows;
 }
@@ -135,7 +141,8 @@ public:
           node_forces_(model_->node_count()) {}
 
     void fused() {
-        cpu::advance_nodes(pass(), {0, static_cast<std::uint32_t>(model_->half_springs.slice_starts.size() - 1)});
+        cpu::advance_nodes(pass(),
+                           {0, static_cast<std::uint32_t>(model_->half_springs.slice_starts.size() - 1)});
         std::swap(now_, next_);
     }
     void write() { cpu::write_spring_forces<float>(pass(), spring_forces_, {0, size(model_->springs)}); }
@@ -153,8 +160,8 @@ private:
         return static_cast<std::uint32_t>(v.size());
     }
     cpu::Pass<float> pass() {
-        return cpu::make_pass(*model_, explicit_scheme(SolverKind::semi_implicit_euler), 0, step_, now_, now_, next_,
-                              none_);
+        return cpu::make_pass(*model_, explicit_scheme(SolverKind::semi_implicit_euler), 0, step_, now_, now_,
+                              next_, none_);
     }
     std::shared_ptr<const Model> model_;
     double step_;
@@ -166,10 +173,12 @@ void add_plain_cases(std::shared_ptr<const Model> model, double step, std::vecto
     auto core = std::make_shared<PlainCore>(model, step);
     const auto nothing = [] {};
     const Model& m = *model;
-    cases.push_back({"plain C++", "advance_nodes (fused)", fused_bytes(m), [core] { core->fused(); }, nothing});
+    cases.push_back(
+        {"plain C++", "advance_nodes (fused)", fused_bytes(m), [core] { core->fused(); }, nothing});
     cases.push_back({"plain C++", "write_spring_forces", write_bytes(m), [core] { core->write(); }, nothing});
     cases.push_back({"plain C++", "merge_spring_forces", merge_bytes(m), [core] { core->merge(); }, nothing});
-    cases.push_back({"plain C++", "integrate_nodes", integrate_bytes(m), [core] { core->integrate(); }, nothing});
+    cases.push_back(
+        {"plain C++", "integrate_nodes", integrate_bytes(m), [core] { core->integrate(); }, nothing});
     const double all = write_bytes(m) + merge_bytes(m) + integrate_bytes(m);
     cases.push_back({"plain C++", "divide and merge", all,
                      [core] {
@@ -211,14 +220,17 @@ void add_gl_cases(std::shared_ptr<const Model> model, double step, std::vector<C
     };
     const auto fused = solver_for(ForceMethod::fused);
     const auto divided = solver_for(ForceMethod::divide_and_merge);
-    const auto kernels = std::make_shared<gpu::DivideAndMerge>(*model, explicit_scheme(SolverKind::semi_implicit_euler));
+    const auto kernels =
+        std::make_shared<gpu::DivideAndMerge>(*model, explicit_scheme(SolverKind::semi_implicit_euler));
     const auto normals = std::make_shared<gpu::UpdateNormals>(*model);
     const auto finish = [] { gl::finish(); };
     const Model& m = *model;
-    cases.push_back({"GL", "advance_nodes (fused)", fused_bytes(m), [fused, step] { fused->advance_nodes(step); }, finish});
+    cases.push_back({"GL", "advance_nodes (fused)", fused_bytes(m),
+                     [fused, step] { fused->advance_nodes(step); }, finish});
     cases.push_back({"GL", "write_spring_forces", write_bytes(m),
                      [kernels, fused] { kernels->write_spring_forces(fused->nodes()); }, finish});
-    cases.push_back({"GL", "merge_spring_forces", merge_bytes(m), [kernels] { kernels->merge_spring_forces(); }, finish});
+    cases.push_back(
+        {"GL", "merge_spring_forces", merge_bytes(m), [kernels] { kernels->merge_spring_forces(); }, finish});
     cases.push_back({"GL", "divide and merge", write_bytes(m) + merge_bytes(m) + integrate_bytes(m),
                      [divided, step] { divided->advance_nodes(step); }, finish});
     cases.push_back({"GL", "update_normals", normals_bytes(m),
@@ -231,18 +243,20 @@ void add_gl_cases(std::shared_ptr<const Model> model, double step, std::vector<C
                      finish});
 }
 
-const Row& find_row(const std::vector<Row>& rows, const std::string& backend, const std::string& stage, int scale) {
+const Row& find_row(const std::vector<Row>& rows, const std::string& backend, const std::string& stage,
+                    int scale) {
     return *std::find_if(rows.begin(), rows.end(), [&](const Row& r) {
         return r.backend == backend && r.stage == stage && r.scale == scale;
     });
 }
 
 void print_rows(const std::vector<Row>& rows) {
-    fmt::print("{:<16} {:<24} {:>6} {:>10} {:>8} {:>10} {:>8} {:>10}\n", "backend", "stage", "scale", "ms", "spread",
-               "MB", "GB/s", "ns/spring");
+    fmt::print("{:<16} {:<24} {:>6} {:>10} {:>8} {:>10} {:>8} {:>10}\n", "backend", "stage", "scale", "ms",
+               "spread", "MB", "GB/s", "ns/spring");
     for (const Row& r : rows) {
-        fmt::print("{:<16} {:<24} {:>5}x {:>10.4f} {:>7.0f}% {:>10.2f} {:>8.2f} {:>10.3f}\n", r.backend, r.stage, r.scale,
-                   r.ms, 100 * r.spread, r.bytes / 1e6, r.bytes / r.ms / 1e6, 1e6 * r.ms / r.springs);
+        fmt::print("{:<16} {:<24} {:>5}x {:>10.4f} {:>7.0f}% {:>10.2f} {:>8.2f} {:>10.3f}\n", r.backend,
+                   r.stage, r.scale, r.ms, 100 * r.spread, r.bytes / 1e6, r.bytes / r.ms / 1e6,
+                   1e6 * r.ms / r.springs);
     }
 }
 
@@ -258,14 +272,16 @@ std::vector<Ratio> summarise(const std::vector<Row>& rows, const KernelBenchOpti
     if (options.use_gl) backends.emplace_back("GL");
     std::vector<Ratio> ratios;
     for (const int scale : options.scales) {
-        const auto ms = [&](const std::string& b, const std::string& s) { return find_row(rows, b, s, scale).ms; };
+        const auto ms = [&](const std::string& b, const std::string& s) {
+            return find_row(rows, b, s, scale).ms;
+        };
         for (const std::string& b : backends) {
-            ratios.push_back({fmt::format("{}: divide and merge / fused, {}x", b, scale), ms(b, divided) / ms(b, fused),
-                              b == "GL" ? ">= 2.5" : ""});
+            ratios.push_back({fmt::format("{}: divide and merge / fused, {}x", b, scale),
+                              ms(b, divided) / ms(b, fused), b == "GL" ? ">= 2.5" : ""});
         }
         if (options.use_gl) {
-            ratios.push_back({fmt::format("GL / plain C++, fused, {}x", scale), ms("GL", fused) / ms("plain C++", fused),
-                              "<= 2 on llvmpipe"});
+            ratios.push_back({fmt::format("GL / plain C++, fused, {}x", scale),
+                              ms("GL", fused) / ms("plain C++", fused), "<= 2 on llvmpipe"});
         }
         ratios.push_back({fmt::format("plain C++ / CPU on one thread, fused, {}x", scale),
                           ms("plain C++", fused) / ms("CPU, 1 thread", fused), ">= 2"});
@@ -288,10 +304,16 @@ void write_json(const std::filesystem::path& file, const std::string& device, co
     json["device"] = device;
     json["cpu"] = cpu::simd_target();
     for (const Row& r : rows) {
-        json["stages"].push_back({{"backend", r.backend}, {"stage", r.stage}, {"scale", r.scale}, {"ms", r.ms},
-                                  {"spread", r.spread}, {"bytes", r.bytes}, {"springs", r.springs}});
+        json["stages"].push_back({{"backend", r.backend},
+                                  {"stage", r.stage},
+                                  {"scale", r.scale},
+                                  {"ms", r.ms},
+                                  {"spread", r.spread},
+                                  {"bytes", r.bytes},
+                                  {"springs", r.springs}});
     }
-    for (const Ratio& r : ratios) json["ratios"].push_back({{"what", r.what}, {"value", r.value}, {"wanted", r.wanted}});
+    for (const Ratio& r : ratios)
+        json["ratios"].push_back({{"what", r.what}, {"value", r.value}, {"wanted", r.wanted}});
     write_file(file, json.dump(2) + "\n");
 }
 
@@ -300,9 +322,10 @@ void write_json(const std::filesystem::path& file, const std::string& device, co
 void bench_kernels(const KernelBenchOptions& options) {
     std::optional<gl::Context> context;
     if (options.use_gl) context = gl::Context::headless();
-    const std::string device = context ? context->device().renderer + ", " + context->device().version : "no OpenGL";
-    fmt::print("gelatin {} ({}), {}, {} hardware threads\nGL: {}\n\n", version(), commit(), cpu::simd_target(),
-               tbb::info::default_concurrency(), device);
+    const std::string device =
+        context ? context->device().renderer + ", " + context->device().version : "no OpenGL";
+    fmt::print("gelatin {} ({}), {}, {} hardware threads\nGL: {}\n\n", version(), commit(),
+               cpu::simd_target(), tbb::info::default_concurrency(), device);
 
     const TetMesh sphere = tetrahedralise(make_sphere({0.5, 20}), MesherSettings{}, "sphere");
     std::vector<Row> rows;

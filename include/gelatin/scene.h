@@ -20,8 +20,8 @@ enum class ForceMethod { divide_and_merge, fused };
 struct SimulationSettings {
     SolverKind solver = SolverKind::semi_implicit_euler;
     ForceMethod forces = ForceMethod::fused;
-    double frame_rate = 60.0;     ///< frames a second of simulated time [1/s], > 0
-    std::optional<int> substeps;  ///< steps a frame, >= 1; empty: the fewest that are stable
+    double frame_rate = 60.0;             ///< frames a second of simulated time [1/s], > 0
+    std::optional<int> substeps;          ///< steps a frame, >= 1; empty: the fewest that are stable
     glm::dvec3 gravity{0.0, -9.81, 0.0};  ///< [m/s^2]
     int frames = 600;                     ///< length of a run, >= 0
 
@@ -45,7 +45,8 @@ struct Material {
     double youngs_modulus = 5e4;  ///< [Pa], > 0
     double density = 1000.0;      ///< [kg/m^3], > 0
     double poisson_ratio = 0.25;  ///< in (-1, 0.5); springs alone always answer with 1/4
-    double damping = 0.0;         ///< Kelvin-Voigt relaxation time [s], >= 0: a spring's damping is damping * stiffness
+    double damping =
+        0.0;  ///< Kelvin-Voigt relaxation time [s], >= 0: a spring's damping is damping * stiffness
     SpringKinds springs;
 };
 
@@ -54,8 +55,8 @@ struct SphereShape {
     int frequency = 10;   ///< pieces an edge of the icosahedron is cut into, >= 1: 20 frequency^2 faces
 };
 struct BoxShape {
-    glm::dvec3 size{1.0};      ///< [m], > 0, centred on the origin
-    glm::ivec3 segments{1};    ///< quads along each edge, >= 1
+    glm::dvec3 size{1.0};    ///< [m], > 0, centred on the origin
+    glm::ivec3 segments{1};  ///< quads along each edge, >= 1
 };
 struct CapsuleShape {
     double radius = 0.25;  ///< [m], > 0
@@ -64,12 +65,13 @@ struct CapsuleShape {
 };
 struct TextShape {
     std::string text;
-    double depth = 0.2;                       ///< along z [m], > 0
-    double size = 1.0;                        ///< em height [m], > 0
-    std::string font = "DejaVu Sans:bold";    ///< a fontconfig pattern, or a font file
+    double depth = 0.2;                     ///< along z [m], > 0
+    double size = 1.0;                      ///< em height [m], > 0
+    std::string font = "DejaVu Sans:bold";  ///< a fontconfig pattern, or a font file
 };
 struct FileShape {
-    std::filesystem::path file;  ///< a surface, or ready tets; relative paths are resolved from the scene file
+    std::filesystem::path
+        file;  ///< a surface, or ready tets; relative paths are resolved from the scene file
 };
 using Shape = std::variant<SphereShape, BoxShape, CapsuleShape, TextShape, FileShape>;
 
@@ -100,14 +102,14 @@ struct ObjectDescription {
     std::string name;
     Shape shape;
     MesherSettings mesher;
-    std::string material;         ///< a name in Scene::materials
-    glm::dvec3 position{0.0};     ///< [m]
-    glm::dvec3 rotation{0.0};     ///< about x, then y, then z [degrees]
-    double scale = 1.0;           ///< > 0, applied first
-    glm::dvec3 velocity{0.0};     ///< [m/s]
-    std::vector<Region> pins;     ///< nodes in any of these stay where they are
+    std::string material;             ///< a name in Scene::materials
+    glm::dvec3 position{0.0};         ///< [m]
+    glm::dvec3 rotation{0.0};         ///< about x, then y, then z [degrees]
+    double scale = 1.0;               ///< > 0, applied first
+    glm::dvec3 velocity{0.0};         ///< [m/s]
+    std::vector<Region> pins;         ///< nodes in any of these stay where they are
     std::optional<glm::dvec3> color;  ///< linear RGB in [0, 1]; empty: the renderer's palette
-    int line = 0;                 ///< in the scene file, for later messages
+    int line = 0;                     ///< in the scene file, for later messages
 };
 
 struct PlaneCollider {
@@ -134,8 +136,8 @@ struct ColliderDescription {
 };
 
 struct CameraDescription {
-    glm::dvec3 eye;     ///< [m]
-    glm::dvec3 target;  ///< [m]
+    glm::dvec3 eye;               ///< [m]
+    glm::dvec3 target;            ///< [m]
     double field_of_view = 35.0;  ///< vertical [degrees]
 };
 

@@ -18,12 +18,13 @@ struct Model;
 enum class Backend { automatic, gl, cpu };
 
 struct SimulatorOptions {
-    Backend backend = Backend::automatic;  ///< automatic: GL on a GPU, the CPU where OpenGL is a software driver
-    bool use_current_context = false;      ///< draw with and simulate in the host application's context
-    bool need_gl = false;                  ///< make a GL context for drawing even if the CPU simulates
-    bool gl_debug = false;                 ///< a debug context, messages to the log
-    std::optional<int> gl_device;          ///< EGL device index
-    bool time_stages = false;              ///< fill Simulator::stage_times
+    Backend backend =
+        Backend::automatic;            ///< automatic: GL on a GPU, the CPU where OpenGL is a software driver
+    bool use_current_context = false;  ///< draw with and simulate in the host application's context
+    bool need_gl = false;              ///< make a GL context for drawing even if the CPU simulates
+    bool gl_debug = false;             ///< a debug context, messages to the log
+    std::optional<int> gl_device;      ///< EGL device index
+    bool time_stages = false;          ///< fill Simulator::stage_times
 };
 
 struct Counts {
@@ -33,11 +34,11 @@ struct Counts {
 /// What is measured of one frame. SI units.
 struct FrameStatistics {
     int frame = 0;
-    double time = 0.0;              ///< [s]
-    double kinetic_energy = 0.0;    ///< [J]
-    double elastic_energy = 0.0;    ///< [J]
-    double potential_energy = 0.0;  ///< [J], zero at the origin
-    double momentum[3] = {};        ///< [kg m/s], of the nodes that are not pinned
+    double time = 0.0;                 ///< [s]
+    double kinetic_energy = 0.0;       ///< [J]
+    double elastic_energy = 0.0;       ///< [J]
+    double potential_energy = 0.0;     ///< [J], zero at the origin
+    double momentum[3] = {};           ///< [kg m/s], of the nodes that are not pinned
     std::size_t colliding_faces = 0;   ///< faces of objects that meet
     std::size_t contacts = 0;          ///< nodes that touch a collider
     double deepest_penetration = 0.0;  ///< of a node into a collider [m]
@@ -47,19 +48,20 @@ struct FrameStatistics {
 /// Node positions on the host, with the packed faces over them.
 struct HostFrame {
     int frame = 0;
-    double time = 0.0;                 ///< [s]
-    std::vector<float> positions;      ///< x, y, z of each node [m], shape [nodes][3]
-    std::vector<float> velocities;     ///< x, y, z of each node [m/s], shape [nodes][3]
+    double time = 0.0;              ///< [s]
+    std::vector<float> positions;   ///< x, y, z of each node [m], shape [nodes][3]
+    std::vector<float> velocities;  ///< x, y, z of each node [m/s], shape [nodes][3]
 };
 
 /// A scene that runs.
 ///
-/// Use it from one thread; with the GL backend (or `need_gl`) that thread needs the simulator's context current,
-/// which it is after construction. Move-only.
+/// Use it from one thread; with the GL backend (or `need_gl`) that thread needs the simulator's context
+/// current, which it is after construction. Move-only.
 class Simulator {
 public:
     /// Makes tets, springs and buffers of everything in the scene.
-    /// @throws InvalidInput for scenes that cannot be built or a fixed step that is not stable (naming the largest
+    /// @throws InvalidInput for scenes that cannot be built or a fixed step that is not stable (naming the
+    /// largest
     ///   safe one); NoOpenGl if GL is asked for and there is none.
     explicit Simulator(const Scene& scene, const SimulatorOptions& options = {});
     Simulator(Simulator&&) noexcept;
@@ -72,21 +74,23 @@ public:
     /// Advances by one step; `substeps()` of them make a frame.
     void step();
 
-    int frame() const;             ///< frames done; 0 is the start
-    double time() const;           ///< [s]
-    int substeps() const;          ///< steps a frame
-    double step_size() const;      ///< [s]
-    bool uses_gl() const;          ///< true if the GL backend simulates
-    std::string backend() const;   ///< "gl" or "cpu"
-    std::string device() const;    ///< the GPU's, or the CPU path's, own name
+    int frame() const;            ///< frames done; 0 is the start
+    double time() const;          ///< [s]
+    int substeps() const;         ///< steps a frame
+    double step_size() const;     ///< [s]
+    bool uses_gl() const;         ///< true if the GL backend simulates
+    std::string backend() const;  ///< "gl" or "cpu"
+    std::string device() const;   ///< the GPU's, or the CPU path's, own name
     const Scene& scene() const;
     const Model& model() const;
     Counts counts() const;
 
-    /// Starts measuring the present frame; `take_statistics` gives it, in order, a frame late without waiting.
+    /// Starts measuring the present frame; `take_statistics` gives it, in order, a frame late without
+    /// waiting.
     void begin_statistics();
     std::size_t pending_statistics() const;
-    /// @pre pending_statistics() > 0. @throws Diverged if a sum is not finite, naming the frame and the object.
+    /// @pre pending_statistics() > 0. @throws Diverged if a sum is not finite, naming the frame and the
+    /// object.
     FrameStatistics take_statistics();
 
     /// Durations by stage since the last call [ms]; empty unless `time_stages`.

@@ -5,7 +5,8 @@ namespace gelatin {
 /// "0.1.0".
 const char* version();
 
-/// The commit this was built from, with "-dirty" where the tree had changes; "unknown" outside a git checkout.
+/// The commit this was built from, with "-dirty" where the tree had changes; "unknown" outside a git
+/// checkout.
 const char* commit();
 
 }  // namespace gelatin

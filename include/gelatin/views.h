@@ -15,7 +15,7 @@ struct RenderView {
     std::uint32_t vertex_count = 0;
     std::uint32_t face_count = 0;
     std::uint32_t object_count = 0;
-    float box_min[3] = {};          ///< what holds all nodes [m]; from a GPU, as of the view before this one
+    float box_min[3] = {};  ///< what holds all nodes [m]; from a GPU, as of the view before this one
     float box_max[3] = {};
 };
 

@@ -23,14 +23,15 @@ std::string read_file(const fs::path& file) {
     std::ostringstream content;
     if (stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
     if (!stream.is_open() || stream.bad() || content.fail()) {
-        throw InvalidInput({file.string(), 0, {}, {}, std::string("cannot be read: ") + std::strerror(errno)});
+        throw InvalidInput(
+            {file.string(), 0, {}, {}, std::string("cannot be read: ") + std::strerror(errno)});
     }
     return std::move(content).str();
 }
 
 fs::path partial_name(const fs::path& file) {
-    const std::string name =
-        "." + file.stem().string() + "." + std::to_string(::getpid()) + ".partial" + file.extension().string();
+    const std::string name = "." + file.stem().string() + "." + std::to_string(::getpid()) + ".partial" +
+                             file.extension().string();
     return file.parent_path() / name;
 }
 

@@ -8,8 +8,8 @@ namespace gelatin {
 
 /// How a child process ended, and what it said on stdout and stderr together (its last 64 KiB).
 struct ProcessResult {
-    int exit_code = 0;     ///< if it exited by itself
-    int signal = 0;        ///< if a signal ended it, else 0
+    int exit_code = 0;  ///< if it exited by itself
+    int signal = 0;     ///< if a signal ended it, else 0
     bool timed_out = false;
     std::string output;
 
@@ -23,9 +23,9 @@ struct ProcessResult {
 ProcessResult run_process(const std::vector<std::string>& command, const std::filesystem::path& folder,
                           double time_limit);
 
-/// A running program that is fed through its stdin (a socket, so that its early end is an error, not SIGPIPE), in a
-/// process group of its own, so that Ctrl-C at the terminal does not reach it. The destructor kills it if `finish`
-/// was not called.
+/// A running program that is fed through its stdin (a socket, so that its early end is an error, not
+/// SIGPIPE), in a process group of its own, so that Ctrl-C at the terminal does not reach it. The destructor
+/// kills it if `finish` was not called.
 class FedProcess {
 public:
     /// @throws SystemError if the program is not there or cannot be started.

@@ -14,6 +14,8 @@ void HostStageTimer::end() {
     times_[stage_].push_back(elapsed.count());
 }
 
-StageTimes HostStageTimer::take() { return std::exchange(times_, {}); }
+StageTimes HostStageTimer::take() {
+    return std::exchange(times_, {});
+}
 
 }  // namespace gelatin

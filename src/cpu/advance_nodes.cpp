@@ -36,7 +36,8 @@ template <class Real>
 void advance_nodes(const Pass<Real>& pass, Range slices) {
     constexpr std::uint32_t kSlice = HalfSprings::kSlice;
     const std::uint32_t end = std::min(slices.end() * kSlice, pass.model.node_count());
-    for (std::uint32_t n = slices.first * kSlice; n < end; ++n) integrate_node(pass, n, gather_forces(pass, n));
+    for (std::uint32_t n = slices.first * kSlice; n < end; ++n)
+        integrate_node(pass, n, gather_forces(pass, n));
 }
 
 template <class Real>
@@ -67,16 +68,17 @@ void merge_spring_forces(const Model& model, std::span<const Vec4<Real>> spring_
 
 template <class Real>
 void integrate_nodes(const Pass<Real>& pass, std::span<const Vec4<Real>> node_forces, Range nodes) {
-    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) integrate_node(pass, n, Vec3<Real>(node_forces[n]));
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+        integrate_node(pass, n, Vec3<Real>(node_forces[n]));
 }
 
-#define GELATIN_INSTANTIATE(Real)                                                                               \
-    template Pass<Real> make_pass<Real>(const Model&, const ExplicitScheme&, int, double, const Nodes<Real>&,   \
-                                        const Nodes<Real>&, Nodes<Real>&, Nodes<Real>&);                        \
-    template void advance_nodes<Real>(const Pass<Real>&, Range);                                                \
-    template void write_spring_forces<Real>(const Pass<Real>&, std::span<Vec4<Real>>, Range);                   \
-    template void merge_spring_forces<Real>(const Model&, std::span<const Vec4<Real>>, std::span<Vec4<Real>>,   \
-                                            Range);                                                             \
+#define GELATIN_INSTANTIATE(Real)                                                                            \
+    template Pass<Real> make_pass<Real>(const Model&, const ExplicitScheme&, int, double,                    \
+                                        const Nodes<Real>&, const Nodes<Real>&, Nodes<Real>&, Nodes<Real>&); \
+    template void advance_nodes<Real>(const Pass<Real>&, Range);                                             \
+    template void write_spring_forces<Real>(const Pass<Real>&, std::span<Vec4<Real>>, Range);                \
+    template void merge_spring_forces<Real>(const Model&, std::span<const Vec4<Real>>,                       \
+                                            std::span<Vec4<Real>>, Range);                                   \
     template void integrate_nodes<Real>(const Pass<Real>&, std::span<const Vec4<Real>>, Range);
 GELATIN_INSTANTIATE(float)
 GELATIN_INSTANTIATE(double)

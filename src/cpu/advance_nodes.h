@@ -27,13 +27,14 @@ struct Pass {
     Vec4<Real>*out_positions, *out_velocities;
 };
 
-/// Pass `index` of a step of `step` seconds from `base`, with forces at `at`; `sums` may be empty for schemes of one
-/// pass. The arrays must outlive the pass.
+/// Pass `index` of a step of `step` seconds from `base`, with forces at `at`; `sums` may be empty for schemes
+/// of one pass. The arrays must outlive the pass.
 template <class Real>
 Pass<Real> make_pass(const Model& model, const ExplicitScheme& scheme, int index, double step,
                      const Nodes<Real>& base, const Nodes<Real>& at, Nodes<Real>& out, Nodes<Real>& sums);
 
-/// Forces and integration fused: each node gathers its springs' forces and moves. Writes the nodes of `slices` only.
+/// Forces and integration fused: each node gathers its springs' forces and moves. Writes the nodes of
+/// `slices` only.
 template <class Real>
 void advance_nodes(const Pass<Real>& pass, Range slices);
 

@@ -1,8 +1,9 @@
-// Eight nodes at a time, one a lane; compiled once for each instruction set and chosen at run time by Highway.
-// The lanes are neighbours in a slice of HalfSprings, so springs are read in order and only the other ends are
-// gathered: as rows (one 16-byte load a node) that are turned into columns in registers. What large models wait for is
-// memory: strides within slices and gathers defeat the hardware's prefetching, so it is done by hand, a slice and a
-// small object ahead (with it, a step of 10 times as many springs takes 10 times as long, without it 20 times).
+// Eight nodes at a time, one a lane; compiled once for each instruction set and chosen at run time by
+// Highway. The lanes are neighbours in a slice of HalfSprings, so springs are read in order and only the
+// other ends are gathered: as rows (one 16-byte load a node) that are turned into columns in registers. What
+// large models wait for is memory: strides within slices and gathers defeat the hardware's prefetching, so it
+// is done by hand, a slice and a small object ahead (with it, a step of 10 times as many springs takes 10
+// times as long, without it 20 times).
 #include "cpu/advance_nodes.h"
 
 #include "cpu/gather_forces.h"
@@ -18,7 +19,9 @@ namespace gelatin::cpu::HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR
 
 // Below SSSE3 there is nothing to gain.
-void advance_slices(const Pass<float>& pass, Range slices) { advance_nodes<float>(pass, slices); }
+void advance_slices(const Pass<float>& pass, Range slices) {
+    advance_nodes<float>(pass, slices);
+}
 
 #else
 
@@ -147,7 +150,9 @@ void advance_slices(const Pass<float>& pass, Range slices) {
 
 #endif
 
-const char* target_name() { return hwy::TargetName(HWY_TARGET); }
+const char* target_name() {
+    return hwy::TargetName(HWY_TARGET);
+}
 
 }  // namespace gelatin::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -158,9 +163,13 @@ namespace gelatin::cpu {
 HWY_EXPORT(advance_slices);
 HWY_EXPORT(target_name);
 
-void advance_nodes_simd(const Pass<float>& pass, Range slices) { HWY_DYNAMIC_DISPATCH(advance_slices)(pass, slices); }
+void advance_nodes_simd(const Pass<float>& pass, Range slices) {
+    HWY_DYNAMIC_DISPATCH(advance_slices)(pass, slices);
+}
 
-const char* simd_target() { return HWY_DYNAMIC_DISPATCH(target_name)(); }
+const char* simd_target() {
+    return HWY_DYNAMIC_DISPATCH(target_name)();
+}
 
 }  // namespace gelatin::cpu
 #endif

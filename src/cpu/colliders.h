@@ -49,8 +49,9 @@ SurfaceDistance<Real> surface_distance(const Collider& collider, const Vec3<Real
         const Real along = glm::clamp(glm::dot(p - center, axis) / glm::dot(axis, axis), Real(-1), Real(1));
         return distance_from_center(p - center - along * axis, radius);
     }
-    const glm::qua<Real> q(static_cast<Real>(collider.orientation.w), static_cast<Real>(collider.orientation.x),
-                           static_cast<Real>(collider.orientation.y), static_cast<Real>(collider.orientation.z));
+    const glm::qua<Real> q(
+        static_cast<Real>(collider.orientation.w), static_cast<Real>(collider.orientation.x),
+        static_cast<Real>(collider.orientation.y), static_cast<Real>(collider.orientation.z));
     const SurfaceDistance<Real> local = distance_to_box(glm::inverse(q) * (p - center), axis);
     return {local.distance, q * local.normal};
 }
@@ -71,8 +72,8 @@ Vec3<Real> bounce(const Vec3<Real>& velocity, const Vec3<Real>& normal, Real fri
     return kept * tangential + rebound * normal;
 }
 
-/// Moves a node that is inside a collider to its surface and lets it bounce; the fourth components stay as they are.
-/// GLSL twin: include/colliders.glsl.
+/// Moves a node that is inside a collider to its surface and lets it bounce; the fourth components stay as
+/// they are. GLSL twin: include/colliders.glsl.
 template <class Real>
 void resolve_colliders(std::span<const Collider> colliders, Real resting_speed, Vec4<Real>& position,
                        Vec4<Real>& velocity) {
@@ -80,9 +81,10 @@ void resolve_colliders(std::span<const Collider> colliders, Real resting_speed, 
         const SurfaceDistance<Real> surface = surface_distance(collider, Vec3<Real>(position));
         if (surface.distance >= Real(0)) continue;
         position -= Vec4<Real>(surface.distance * surface.normal, 0);
-        velocity = Vec4<Real>(bounce(Vec3<Real>(velocity), surface.normal, static_cast<Real>(collider.friction),
-                                     static_cast<Real>(collider.restitution), resting_speed),
-                              velocity.w);
+        velocity =
+            Vec4<Real>(bounce(Vec3<Real>(velocity), surface.normal, static_cast<Real>(collider.friction),
+                              static_cast<Real>(collider.restitution), resting_speed),
+                       velocity.w);
     }
 }
 

@@ -9,8 +9,8 @@
 
 namespace gelatin::cpu {
 
-/// The solver on the processor. `double` is the oracle that every kernel is held against; `float`, with SIMD and all
-/// cores, is the product's CPU backend. The same bits for any number of threads.
+/// The solver on the processor. `double` is the oracle that every kernel is held against; `float`, with SIMD
+/// and all cores, is the product's CPU backend. The same bits for any number of threads.
 template <class Real>
 class CpuSolver : public Solver {
 public:

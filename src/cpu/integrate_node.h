@@ -38,7 +38,8 @@ inline void integrate_node(const Pass<Real>& pass, std::uint32_t n, const Vec3<R
     V4 velocity = base_velocity + pass.step * sum_acceleration;
     if (pass.semi_implicit) sum_rate = V4(velocity.x, velocity.y, velocity.z, 0);
     V4 position = base_position + pass.step * sum_rate;
-    if (!pass.model.colliders.empty()) resolve_colliders<Real>(pass.model.colliders, pass.resting_speed, position, velocity);
+    if (!pass.model.colliders.empty())
+        resolve_colliders<Real>(pass.model.colliders, pass.resting_speed, position, velocity);
     pass.out_positions[n] = position;
     pass.out_velocities[n] = velocity;
 }

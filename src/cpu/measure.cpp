@@ -23,11 +23,13 @@ std::vector<Chunk> make_chunks(const Model& model) {
     for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
         const ModelObject& object = model.objects[o];
         const auto part = [](const Range& range, std::uint32_t offset) {
-            return offset < range.count ? Range{range.first + offset, std::min(kChunk, range.count - offset)} : Range{};
+            return offset < range.count ? Range{range.first + offset, std::min(kChunk, range.count - offset)}
+                                        : Range{};
         };
         const std::uint32_t most = std::max({object.nodes.count, object.springs.count, object.faces.count});
         for (std::uint32_t offset = 0; offset < most; offset += kChunk) {
-            chunks.push_back({o, part(object.nodes, offset), part(object.springs, offset), part(object.faces, offset)});
+            chunks.push_back(
+                {o, part(object.nodes, offset), part(object.springs, offset), part(object.faces, offset)});
         }
     }
     return chunks;
@@ -66,7 +68,8 @@ ObjectMeasure sum_chunk(const Model& model, const Nodes<Real>& nodes, const Chun
     const glm::dvec3 origin = position(model.objects[chunk.object].nodes.first);
     for (std::uint32_t f = chunk.faces.first; f < chunk.faces.end(); ++f) {
         const Face& face = model.faces[f];
-        const glm::dvec3 a = position(face.a) - origin, b = position(face.b) - origin, c = position(face.c) - origin;
+        const glm::dvec3 a = position(face.a) - origin, b = position(face.b) - origin,
+                         c = position(face.c) - origin;
         sums.volume += glm::dot(a, glm::cross(b, c)) / 6.0;
     }
     return sums;

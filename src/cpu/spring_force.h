@@ -7,9 +7,9 @@
 
 namespace gelatin::cpu {
 
-/// Force on endpoint a of the spring a-b [N]: k (l - rest_length + t l') towards b, with the damping time t [s] and l'
-/// the rate at which the spring gets longer (damping along the spring: Nealen et al. 2006, eq. 5, with k_d = k t).
-/// Coincident endpoints give zero, not NaN. GLSL twin: shaders/include/spring_force.glsl.
+/// Force on endpoint a of the spring a-b [N]: k (l - rest_length + t l') towards b, with the damping time t
+/// [s] and l' the rate at which the spring gets longer (damping along the spring: Nealen et al. 2006, eq. 5,
+/// with k_d = k t). Coincident endpoints give zero, not NaN. GLSL twin: shaders/include/spring_force.glsl.
 template <class Real>
 Vec3<Real> spring_force(const Vec3<Real>& a, const Vec3<Real>& b, const Vec3<Real>& velocity_a,
                         const Vec3<Real>& velocity_b, Real rest_length, Real stiffness, Real damping_time) {
@@ -25,8 +25,8 @@ Vec3<Real> spring_force(const Vec3<Real>& a, const Vec3<Real>& b, const Vec3<Rea
 template <class Real>
 Vec3<Real> spring_force(const Vec4<Real>& a, const Vec4<Real>& b, const Vec4<Real>& velocity_a,
                         const Vec4<Real>& velocity_b, Real rest_length, Real stiffness) {
-    return spring_force(Vec3<Real>(a), Vec3<Real>(b), Vec3<Real>(velocity_a), Vec3<Real>(velocity_b), rest_length,
-                        stiffness, Real(0.5) * (velocity_a.w + velocity_b.w));
+    return spring_force(Vec3<Real>(a), Vec3<Real>(b), Vec3<Real>(velocity_a), Vec3<Real>(velocity_b),
+                        rest_length, stiffness, Real(0.5) * (velocity_a.w + velocity_b.w));
 }
 
 }  // namespace gelatin::cpu

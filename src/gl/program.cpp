@@ -166,6 +166,8 @@ void barrier(Barrier next_use) {
     glMemoryBarrier(bits);
 }
 
-void finish() { glFinish(); }
+void finish() {
+    glFinish();
+}
 
 }  // namespace gelatin::gl

@@ -5,7 +5,8 @@
 namespace gelatin::gpu {
 
 /// The paper's way (3.3): springs write forces, nodes add them up, nodes move; three kernels, shaders/sim/
-/// write_spring_forces.comp, merge_spring_forces.comp, integrate_nodes.comp, all on storage buffers as in the paper.
+/// write_spring_forces.comp, merge_spring_forces.comp, integrate_nodes.comp, all on storage buffers as in the
+/// paper.
 class DivideAndMerge {
 public:
     DivideAndMerge(const Model& model, const ExplicitScheme& scheme);

@@ -4,7 +4,8 @@
 
 namespace gelatin::gpu {
 
-GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces, std::string device)
+GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces,
+                     std::string device)
     : model_(std::move(model)),
       device_(std::move(device)),
       scheme_(explicit_scheme(solver)),

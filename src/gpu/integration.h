@@ -11,11 +11,11 @@ namespace gelatin::gpu {
 struct Pass {
     const ExplicitScheme& scheme;
     int index;
-    double step;  ///< h [s]
+    double step;              ///< h [s]
     const NodeBuffers& base;  ///< at the step's start
     const NodeBuffers& at;    ///< where forces are evaluated
     NodeBuffers& out;
-    NodeBuffers& sums;        ///< empty for schemes of one pass
+    NodeBuffers& sums;  ///< empty for schemes of one pass
 
     bool is_last() const { return index + 1 == scheme.pass_count; }
 };

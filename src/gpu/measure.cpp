@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint32_t kChunk = 256;
 
-std::vector<Chunk> make_chunks(const Model& model, Range ModelObject::* range) {
+std::vector<Chunk> make_chunks(const Model& model, Range ModelObject::*range) {
     std::vector<Chunk> chunks;
     for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
         const Range all = model.objects[o].*range;
@@ -73,7 +73,8 @@ std::vector<ObjectMeasure> Measure::end() {
         object.kinetic_energy += static_cast<double>(sums[c].kinetic_energy);
         object.elastic_energy += static_cast<double>(sums[c].elastic_energy);
         object.potential_energy += static_cast<double>(sums[c].potential_energy);
-        object.deepest_penetration = std::max(object.deepest_penetration, static_cast<double>(sums[c].deepest));
+        object.deepest_penetration =
+            std::max(object.deepest_penetration, static_cast<double>(sums[c].deepest));
         object.contacts += sums[c].contacts;
     }
     for (std::size_t c = 0; c < volumes.size(); ++c) {

@@ -10,8 +10,8 @@
 
 namespace gelatin::gpu {
 
-/// Sums over each object without stalling the GPU: shaders/sim/measure_nodes.comp and measure_faces.comp make partial
-/// sums that come back through a fence; the host adds them up in double precision.
+/// Sums over each object without stalling the GPU: shaders/sim/measure_nodes.comp and measure_faces.comp make
+/// partial sums that come back through a fence; the host adds them up in double precision.
 class Measure {
 public:
     explicit Measure(const Model& model);

@@ -11,14 +11,14 @@ namespace gelatin::gpu {
 /// The immutable parts of a model that the solver's kernels read, on the GPU.
 struct ModelBuffers {
     gl::Buffer<HalfSpringPair> half_springs;
-    gl::Buffer<glm::vec2> stiffnesses;         ///< of the pairs [N/m]
+    gl::Buffer<glm::vec2> stiffnesses;  ///< of the pairs [N/m]
     gl::Buffer<std::uint32_t> slice_starts;
     gl::BufferTexture half_spring_texels, stiffness_texels, slice_start_texels;
-    gl::Buffer<Collider> colliders;            ///< empty if there are none
+    gl::Buffer<Collider> colliders;  ///< empty if there are none
     gl::BufferTexture collider_texels;
     std::uint32_t node_count = 0;
-    glm::uvec4 collider_ends{0};               ///< behind the planes, boxes, spheres, capsules
-    glm::vec3 gravity{0.0f};                   ///< [m/s^2]
+    glm::uvec4 collider_ends{0};  ///< behind the planes, boxes, spheres, capsules
+    glm::vec3 gravity{0.0f};      ///< [m/s^2]
 
     explicit ModelBuffers(const Model& model);
 

@@ -8,8 +8,8 @@
 
 namespace gelatin::gpu {
 
-/// The drawn surface on the GPU and the stage that keeps its normals (paper 3.1): shaders/sim/update_face_normals.comp
-/// and update_vertex_normals.comp.
+/// The drawn surface on the GPU and the stage that keeps its normals (paper 3.1):
+/// shaders/sim/update_face_normals.comp and update_vertex_normals.comp.
 class UpdateNormals {
 public:
     explicit UpdateNormals(const Model& model);

@@ -8,8 +8,9 @@
 
 namespace gelatin {
 
-/// Tet meshes kept on disk by a key of everything they depend on. Several processes may share it: entries appear by
-/// rename, whole or not at all; a damaged entry is a miss. A folder that cannot be written is a warning, not an error.
+/// Tet meshes kept on disk by a key of everything they depend on. Several processes may share it: entries
+/// appear by rename, whole or not at all; a damaged entry is a miss. A folder that cannot be written is a
+/// warning, not an error.
 class TetCache {
 public:
     /// GELATIN_CACHE_DIR, else XDG_CACHE_HOME/gelatin, else ~/.cache/gelatin.

@@ -49,8 +49,8 @@ struct SurfaceEdge {
 /// Edges of exactly two faces.
 std::vector<SurfaceEdge> surface_edges(std::span<const glm::uvec3> faces);
 
-/// Order of nodes for locality: reverse Cuthill-McKee from a node far out in each component, then a stable sort by
-/// degree within windows of `window` nodes. order[new] = old.
+/// Order of nodes for locality: reverse Cuthill-McKee from a node far out in each component, then a stable
+/// sort by degree within windows of `window` nodes. order[new] = old.
 std::vector<std::uint32_t> locality_order(const Graph& graph, std::uint32_t window);
 
 }  // namespace gelatin

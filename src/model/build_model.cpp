@@ -27,14 +27,18 @@ constexpr double kCreaseAngle = 0.7;  // 40 degrees: flatter edges are drawn smo
 struct IsInside {
     glm::dvec3 point;
     bool operator()(const BoxRegion& box) const {
-        return glm::all(glm::greaterThanEqual(point, box.min)) && glm::all(glm::lessThanEqual(point, box.max));
+        return glm::all(glm::greaterThanEqual(point, box.min)) &&
+               glm::all(glm::lessThanEqual(point, box.max));
     }
-    bool operator()(const SphereRegion& sphere) const { return glm::distance(point, sphere.center) <= sphere.radius; }
+    bool operator()(const SphereRegion& sphere) const {
+        return glm::distance(point, sphere.center) <= sphere.radius;
+    }
     bool operator()(const HalfSpaceRegion& half) const { return glm::dot(half.normal, point) <= half.offset; }
 };
 
 bool is_pinned(const std::vector<Region>& pins, const glm::dvec3& point) {
-    return std::any_of(pins.begin(), pins.end(), [&](const Region& r) { return std::visit(IsInside{point}, r); });
+    return std::any_of(pins.begin(), pins.end(),
+                       [&](const Region& r) { return std::visit(IsInside{point}, r); });
 }
 
 // The same mesh with its nodes in an order that keeps neighbours near each other.
@@ -43,7 +47,8 @@ TetMesh reordered(const TetMesh& mesh, const SpringKinds& kinds) {
     for (const Spring& spring : make_springs(mesh, kinds, 1.0)) edges.emplace_back(spring.i, spring.j);
     const Graph graph = make_graph(mesh.positions.size(), edges);
     const auto count = static_cast<std::uint32_t>(mesh.positions.size());
-    const std::vector<std::uint32_t> order = locality_order(graph, count <= kSmallObject ? count : kSortWindow);
+    const std::vector<std::uint32_t> order =
+        locality_order(graph, count <= kSmallObject ? count : kSortWindow);
 
     std::vector<std::uint32_t> new_index(count);
     for (std::uint32_t n = 0; n < count; ++n) new_index[order[n]] = n;
@@ -52,7 +57,8 @@ TetMesh reordered(const TetMesh& mesh, const SpringKinds& kinds) {
     for (const glm::uvec4& t : mesh.tets) {
         result.tets.emplace_back(new_index[t.x], new_index[t.y], new_index[t.z], new_index[t.w]);
     }
-    for (const glm::uvec3& f : mesh.faces) result.faces.emplace_back(new_index[f.x], new_index[f.y], new_index[f.z]);
+    for (const glm::uvec3& f : mesh.faces)
+        result.faces.emplace_back(new_index[f.x], new_index[f.y], new_index[f.z]);
     const auto least = [](const auto& e) {
         std::uint32_t m = e[0];
         for (int k = 1; k < e.length(); ++k) m = std::min(m, e[k]);
@@ -65,12 +71,17 @@ TetMesh reordered(const TetMesh& mesh, const SpringKinds& kinds) {
 }
 
 float checked_float(double value, const std::string& object, const char* what) {
-    if (value > 0.0 && value >= std::numeric_limits<float>::min() && value <= std::numeric_limits<float>::max()) {
+    if (value > 0.0 && value >= std::numeric_limits<float>::min() &&
+        value <= std::numeric_limits<float>::max()) {
         return static_cast<float>(value);
     }
-    throw InvalidInput({{}, 0, "object '" + object + "'", {},
-                        fmt::format("{} is {:.3g}, beyond what single precision holds; check density, scale and stiffness",
-                                    what, value)});
+    throw InvalidInput(
+        {{},
+         0,
+         "object '" + object + "'",
+         {},
+         fmt::format("{} is {:.3g}, beyond what single precision holds; check density, scale and stiffness",
+                     what, value)});
 }
 
 void append_nodes(Model& model, const Body& body, const TetMesh& mesh) {
@@ -145,7 +156,8 @@ struct ColliderPacker {
     }
     Collider operator()(const CapsuleCollider& capsule) const {
         Collider c = common(3);
-        const glm::dvec3 half = rotation_from_degrees(description.rotation) * glm::dvec3(0, 0.5 * capsule.length, 0);
+        const glm::dvec3 half =
+            rotation_from_degrees(description.rotation) * glm::dvec3(0, 0.5 * capsule.length, 0);
         c.center.w = static_cast<float>(capsule.radius);
         c.axis = glm::vec4(glm::vec3(half), 0.0f);
         return c;
@@ -166,8 +178,8 @@ const Material& find_material(const Scene& scene, const ObjectDescription& objec
     const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
                                     [&](const Material& m) { return m.name == object.material; });
     if (found != scene.materials.end()) return *found;
-    throw InvalidInput({scene.file.string(), object.line, "object." + object.name + ".material", object.material,
-                        "no such material"});
+    throw InvalidInput({scene.file.string(), object.line, "object." + object.name + ".material",
+                        object.material, "no such material"});
 }
 
 Body make_body(const Scene& scene, const ObjectDescription& object) {
@@ -180,7 +192,10 @@ Body make_body(const Scene& scene, const ObjectDescription& object) {
     if (object.color) body.color = glm::vec3(*object.color);
     const auto pinned = [&](const glm::dvec3& p) { return is_pinned(body.pins, p); };
     if (!body.pins.empty() && std::none_of(body.mesh.positions.begin(), body.mesh.positions.end(), pinned)) {
-        throw InvalidInput({scene.file.string(), object.line, "object." + object.name + ".pins", {},
+        throw InvalidInput({scene.file.string(),
+                            object.line,
+                            "object." + object.name + ".pins",
+                            {},
                             "hold no node of the object (regions are in world coordinates)"});
     }
     return body;
@@ -192,7 +207,8 @@ Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDes
                   const glm::dvec3& gravity) {
     Model model;
     for (const Body& body : bodies) append_body(model, body);
-    for (const ColliderDescription& c : colliders) model.colliders.push_back(std::visit(ColliderPacker{c}, c.shape));
+    for (const ColliderDescription& c : colliders)
+        model.colliders.push_back(std::visit(ColliderPacker{c}, c.shape));
     std::stable_sort(model.colliders.begin(), model.colliders.end(),
                      [](const Collider& a, const Collider& b) { return a.kind < b.kind; });
     model.gravity = glm::vec3(gravity);
@@ -206,8 +222,8 @@ Model build_model(const Scene& scene) {
     for (const ObjectDescription& object : scene.objects) bodies.push_back(make_body(scene, object));
     for (const Material& material : scene.materials) {
         if (material.poisson_ratio != 0.25) {
-            spdlog::warn("material '{}': poisson_ratio = {} has no effect: springs alone answer with 0.25", material.name,
-                         material.poisson_ratio);
+            spdlog::warn("material '{}': poisson_ratio = {} has no effect: springs alone answer with 0.25",
+                         material.name, material.poisson_ratio);
         }
     }
     return pack_bodies(bodies, scene.colliders, scene.simulation.gravity);

@@ -13,17 +13,19 @@ struct Body {
     Material material;
     glm::dvec3 velocity{0.0};  ///< [m/s]
     std::vector<Region> pins;
-    glm::vec3 color{-1.0f};    ///< linear RGB; negative: the renderer's palette
+    glm::vec3 color{-1.0f};  ///< linear RGB; negative: the renderer's palette
 };
 
-/// Packs bodies into the arrays of a model: nodes in an order that keeps neighbours near, lumped masses (a quarter of
-/// each tet's), springs, what is drawn.
-/// @throws InvalidInput if a number does not fit into float (stiffness, mass), or the model exceeds 2^31 elements.
+/// Packs bodies into the arrays of a model: nodes in an order that keeps neighbours near, lumped masses (a
+/// quarter of each tet's), springs, what is drawn.
+/// @throws InvalidInput if a number does not fit into float (stiffness, mass), or the model exceeds 2^31
+/// elements.
 Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDescription>& colliders,
                   const glm::dvec3& gravity);
 
 /// Makes the mesh of each of the scene's objects and packs them.
-/// @throws InvalidInput as pack_bodies and make_object_mesh (object_mesh.h); also for an object whose pins hold no node.
+/// @throws InvalidInput as pack_bodies and make_object_mesh (object_mesh.h); also for an object whose pins
+/// hold no node.
 Model build_model(const Scene& scene);
 
 }  // namespace gelatin

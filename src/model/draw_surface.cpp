@@ -13,7 +13,9 @@ namespace {
 // Union-find over corners; corner 3 f + k is vertex k of face f.
 class CornerGroups {
 public:
-    explicit CornerGroups(std::size_t faces) : parent_(3 * faces) { std::iota(parent_.begin(), parent_.end(), 0u); }
+    explicit CornerGroups(std::size_t faces) : parent_(3 * faces) {
+        std::iota(parent_.begin(), parent_.end(), 0u);
+    }
 
     std::uint32_t find(std::uint32_t corner) {
         while (parent_[corner] != corner) corner = parent_[corner] = parent_[parent_[corner]];
@@ -50,7 +52,8 @@ CornerGroups group_smooth_corners(std::span<const glm::vec4> positions, const st
     const double smooth_cosine = std::cos(crease_angle);
     for (const SurfaceEdge& edge : surface_edges(faces)) {
         const auto [f, g] = edge.faces;
-        if (glm::dot(unit_normal(positions, faces[f]), unit_normal(positions, faces[g])) < smooth_cosine) continue;
+        if (glm::dot(unit_normal(positions, faces[f]), unit_normal(positions, faces[g])) < smooth_cosine)
+            continue;
         for (const std::uint32_t node : {edge.nodes.x, edge.nodes.y}) {
             groups.merge(corner_of(faces[f], f, node), corner_of(faces[g], g, node));
         }
@@ -71,7 +74,9 @@ void append_draw_surface(std::span<const glm::vec4> positions, std::span<const F
     // Number the groups by their nodes, so that drawing walks through memory as the simulation does.
     std::vector<std::uint32_t> corners(3 * faces.size());
     std::iota(corners.begin(), corners.end(), 0u);
-    const auto node_of = [&](std::uint32_t corner) { return faces[corner / 3][static_cast<int>(corner % 3)]; };
+    const auto node_of = [&](std::uint32_t corner) {
+        return faces[corner / 3][static_cast<int>(corner % 3)];
+    };
     std::vector<std::uint32_t> root(corners.size());
     for (const std::uint32_t c : corners) root[c] = groups.find(c);
     std::sort(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {

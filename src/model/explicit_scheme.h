@@ -6,7 +6,8 @@
 
 namespace gelatin {
 
-/// An explicit integrator as passes over the nodes; one table drives the CPU, the GPU and the stability bound.
+/// An explicit integrator as passes over the nodes; one table drives the CPU, the GPU and the stability
+/// bound.
 ///
 /// With y = (x, v), f(y) = (v, a(x, v)) and base y0, each pass evaluates f at its point y_p (y_0 first) and
 ///   sum += weight f(y_p),   y_{p+1} = y0 + h next f(y_p);

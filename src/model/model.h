@@ -33,9 +33,9 @@ struct ModelObject {
 struct HalfSprings {
     static constexpr std::uint32_t kSlice = 64;
 
-    std::vector<std::uint32_t> slice_starts;   ///< shape [slices + 1]
-    std::vector<HalfSpringPair> pairs;         ///< shape [slice_starts.back()]
-    std::vector<glm::vec2> stiffness;          ///< [N/m], shape [slice_starts.back()]
+    std::vector<std::uint32_t> slice_starts;  ///< shape [slices + 1]
+    std::vector<HalfSpringPair> pairs;        ///< shape [slice_starts.back()]
+    std::vector<glm::vec2> stiffness;         ///< [N/m], shape [slice_starts.back()]
 };
 
 /// Springs by node for the paper's merge: entries of node n are starts[n] .. starts[n+1]; an entry is
@@ -58,9 +58,10 @@ struct DrawSurface {
 struct Model {
     std::vector<ModelObject> objects;
 
-    std::vector<glm::vec4> positions;    ///< at the start: xyz [m], inverse mass [1/kg] (0 pins), shape [nodes]
-    std::vector<glm::vec4> velocities;   ///< at the start: xyz [m/s], damping time [s] of the material, shape [nodes]
-    std::vector<float> masses;           ///< [kg], > 0, pinned nodes too, shape [nodes]
+    std::vector<glm::vec4> positions;  ///< at the start: xyz [m], inverse mass [1/kg] (0 pins), shape [nodes]
+    std::vector<glm::vec4>
+        velocities;             ///< at the start: xyz [m/s], damping time [s] of the material, shape [nodes]
+    std::vector<float> masses;  ///< [kg], > 0, pinned nodes too, shape [nodes]
 
     std::vector<Spring> springs;
     HalfSprings half_springs;
@@ -71,7 +72,7 @@ struct Model {
     DrawSurface surface;
 
     std::vector<Collider> colliders;  ///< in the order of their kinds
-    glm::vec3 gravity{0.0f};  ///< [m/s^2]
+    glm::vec3 gravity{0.0f};          ///< [m/s^2]
 
     std::uint32_t node_count() const { return static_cast<std::uint32_t>(positions.size()); }
     bool has_damping() const;

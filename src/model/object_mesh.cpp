@@ -23,7 +23,8 @@ TetMesh make_local_mesh(const ObjectDescription& object, Notes& notes) {
     const auto* file = std::get_if<FileShape>(&object.shape);
     if (file != nullptr && is_tet_file(file->file)) return read_tets(file->file, notes);
     const SurfaceMesh surface = std::visit(SurfaceMaker{notes}, object.shape);
-    return tetrahedralise(surface, object.mesher, file != nullptr ? file->file.string() : "object '" + object.name + "'");
+    return tetrahedralise(surface, object.mesher,
+                          file != nullptr ? file->file.string() : "object '" + object.name + "'");
 }
 
 }  // namespace

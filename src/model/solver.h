@@ -21,11 +21,11 @@ constexpr double kContactDistance = 1e-5;
 
 /// Sums over one object at one moment.
 struct ObjectMeasure {
-    glm::dvec3 momentum{0.0};       ///< [kg m/s], of the nodes that are not pinned
-    double kinetic_energy = 0.0;    ///< [J]
-    double elastic_energy = 0.0;    ///< [J]
-    double potential_energy = 0.0;  ///< [J], zero at the origin, of the nodes that are not pinned
-    double volume = 0.0;            ///< [m^3]
+    glm::dvec3 momentum{0.0};          ///< [kg m/s], of the nodes that are not pinned
+    double kinetic_energy = 0.0;       ///< [J]
+    double elastic_energy = 0.0;       ///< [J]
+    double potential_energy = 0.0;     ///< [J], zero at the origin, of the nodes that are not pinned
+    double volume = 0.0;               ///< [m^3]
     double deepest_penetration = 0.0;  ///< of a node into a collider [m]
     std::uint32_t contacts = 0;        ///< nodes that touch a collider
 };

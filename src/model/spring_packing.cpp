@@ -29,7 +29,8 @@ HalfSprings pack_half_springs(std::uint32_t node_count, std::span<const Spring> 
     for (std::uint32_t first = 0; first < node_count; first += kSlice) {
         const std::uint32_t end = std::min(first + kSlice, node_count);
         std::uint32_t most = 0;
-        for (std::uint32_t n = first; n < end; ++n) most = std::max(most, incidence.starts[n + 1] - incidence.starts[n]);
+        for (std::uint32_t n = first; n < end; ++n)
+            most = std::max(most, incidence.starts[n + 1] - incidence.starts[n]);
 
         const std::uint32_t start = packed.slice_starts.back();
         packed.slice_starts.push_back(start + kSlice * ((most + 1) / 2));

@@ -11,8 +11,8 @@
 namespace gelatin {
 namespace {
 
-// Shares of the continuum's stiffness before they are scaled to the kinds that a material has; 3 : 2 between edges
-// and links is what keeps irregular nets closest to isotropy.
+// Shares of the continuum's stiffness before they are scaled to the kinds that a material has; 3 : 2 between
+// edges and links is what keeps irregular nets closest to isotropy.
 constexpr double kStructuralShare = 3.0;
 constexpr double kShearShare = 2.0;
 constexpr double kFlexShare = 1.0;
@@ -28,9 +28,13 @@ struct Link {
 bool by_nodes(const Link& a, const Link& b) {
     return a.nodes.x != b.nodes.x ? a.nodes.x < b.nodes.x : a.nodes.y < b.nodes.y;
 }
-bool same_nodes(const Link& a, const Link& b) { return a.nodes == b.nodes; }
+bool same_nodes(const Link& a, const Link& b) {
+    return a.nodes == b.nodes;
+}
 
-Link make_link(std::uint32_t a, std::uint32_t b, double volume) { return {{std::min(a, b), std::max(a, b)}, volume}; }
+Link make_link(std::uint32_t a, std::uint32_t b, double volume) {
+    return {{std::min(a, b), std::max(a, b)}, volume};
+}
 
 // Adds up the volumes of equal pairs.
 std::vector<Link> merged(std::vector<Link> links) {
@@ -52,7 +56,8 @@ std::vector<Link> structural_links(const TetMesh& mesh, const std::vector<double
     links.reserve(mesh.tets.size() * 6);
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
         for (int a = 0; a < 4; ++a) {
-            for (int b = a + 1; b < 4; ++b) links.push_back(make_link(mesh.tets[t][a], mesh.tets[t][b], volumes[t]));
+            for (int b = a + 1; b < 4; ++b)
+                links.push_back(make_link(mesh.tets[t][a], mesh.tets[t][b], volumes[t]));
         }
     }
     return merged(std::move(links));
@@ -61,12 +66,14 @@ std::vector<Link> structural_links(const TetMesh& mesh, const std::vector<double
 std::vector<Link> shear_links(const TetMesh& mesh, const std::vector<double>& volumes) {
     std::vector<Link> links;
     for (const InnerFace& face : inner_faces(mesh.tets)) {
-        links.push_back(make_link(face.corners[0], face.corners[1], volumes[face.tets[0]] + volumes[face.tets[1]]));
+        links.push_back(
+            make_link(face.corners[0], face.corners[1], volumes[face.tets[0]] + volumes[face.tets[1]]));
     }
     return merged(std::move(links));
 }
 
-// From `node` over `middle`: the neighbour of `middle` that goes on the straightest, or `node` if none is straight.
+// From `node` over `middle`: the neighbour of `middle` that goes on the straightest, or `node` if none is
+// straight.
 std::uint32_t straight_continuation(const TetMesh& mesh, const Graph& graph, std::uint32_t node,
                                     std::uint32_t middle) {
     const glm::dvec3 along = glm::normalize(mesh.positions[middle] - mesh.positions[node]);
@@ -108,18 +115,22 @@ std::vector<Link> flex_links(const TetMesh& mesh, const Graph& graph, double mea
 
 std::vector<Link> without(const std::vector<Link>& links, const std::vector<Link>& taken) {
     std::vector<Link> rest;
-    std::set_difference(links.begin(), links.end(), taken.begin(), taken.end(), std::back_inserter(rest), by_nodes);
+    std::set_difference(links.begin(), links.end(), taken.begin(), taken.end(), std::back_inserter(rest),
+                        by_nodes);
     return rest;
 }
 
-// k = c V_s / l^2 with c such that sum(k l^2) over the kind is `sum_k_l2` [N m]; then sum(k l^2) = c sum(V_s).
-void append_springs(const TetMesh& mesh, const std::vector<Link>& links, double sum_k_l2, std::vector<Spring>& springs) {
+// k = c V_s / l^2 with c such that sum(k l^2) over the kind is `sum_k_l2` [N m]; then sum(k l^2) = c
+// sum(V_s).
+void append_springs(const TetMesh& mesh, const std::vector<Link>& links, double sum_k_l2,
+                    std::vector<Spring>& springs) {
     double total_volume = 0.0;
     for (const Link& link : links) total_volume += link.volume;
     for (const Link& link : links) {
         const double length = glm::distance(mesh.positions[link.nodes.x], mesh.positions[link.nodes.y]);
         const double stiffness = sum_k_l2 * link.volume / (total_volume * length * length);
-        springs.push_back({link.nodes.x, link.nodes.y, static_cast<float>(length), static_cast<float>(stiffness)});
+        springs.push_back(
+            {link.nodes.x, link.nodes.y, static_cast<float>(length), static_cast<float>(stiffness)});
     }
 }
 

@@ -111,9 +111,10 @@ int choose_substeps(const Scene& scene, const Model& model) {
     const SimulationSettings& settings = scene.simulation;
     const double largest = largest_stable_step(settings.solver, model);
     const double needed = std::ceil(settings.frame_time() / (kSafety * largest));
-    const std::string advice = settings.solver == SolverKind::explicit_euler
-                                   ? "; explicit_euler amplifies motion that is not damped: semi_implicit_euler does not"
-                                   : "";
+    const std::string advice =
+        settings.solver == SolverKind::explicit_euler
+            ? "; explicit_euler amplifies motion that is not damped: semi_implicit_euler does not"
+            : "";
     if (settings.substeps) {
         const double step = settings.frame_time() / *settings.substeps;
         if (step <= largest) return *settings.substeps;
@@ -123,9 +124,10 @@ int choose_substeps(const Scene& scene, const Model& model) {
                                         step, largest, needed, advice)});
     }
     if (needed > kMostSubsteps) {
-        throw InvalidInput({scene.file.string(), 0, "simulation.substeps", "\"auto\"",
-                            fmt::format("{} would need steps of {:.3g} s, {:.3g} a frame; at most {} are allowed{}",
-                                        solver_name(settings.solver), kSafety * largest, needed, kMostSubsteps, advice)});
+        throw InvalidInput(
+            {scene.file.string(), 0, "simulation.substeps", "\"auto\"",
+             fmt::format("{} would need steps of {:.3g} s, {:.3g} a frame; at most {} are allowed{}",
+                         solver_name(settings.solver), kSafety * largest, needed, kMostSubsteps, advice)});
     }
     return std::max(1, static_cast<int>(needed));
 }

@@ -12,15 +12,17 @@ double frequency_bound(const Model& model, const ModelObject& object);
 
 /// The largest step [s] with which `solver` keeps every mode of a spring net quiet that has frequencies up to
 /// `frequency` [rad/s] and Kelvin-Voigt damping time `damping` [s]: no mode grows by more than 1% a second.
-/// (Explicit Euler and the midpoint rule amplify undamped motion at any step; this says how small is small enough.)
+/// (Explicit Euler and the midpoint rule amplify undamped motion at any step; this says how small is small
+/// enough.)
 double largest_stable_step(SolverKind solver, double frequency, double damping);
 
 /// The least of the objects' largest stable steps [s]; infinite without springs.
 double largest_stable_step(SolverKind solver, const Model& model);
 
-/// Steps a frame: what the scene asks for, or the fewest whose size is at most 0.8 of the largest stable step (the
-/// rest is for springs that stiffen as the body deforms).
-/// @throws InvalidInput if the scene's own number makes steps larger than the largest stable one, naming it, or if
+/// Steps a frame: what the scene asks for, or the fewest whose size is at most 0.8 of the largest stable step
+/// (the rest is for springs that stiffen as the body deforms).
+/// @throws InvalidInput if the scene's own number makes steps larger than the largest stable one, naming it,
+/// or if
 ///   more than 100,000 steps a frame were needed.
 int choose_substeps(const Scene& scene, const Model& model);
 

@@ -34,7 +34,7 @@ struct RendererOptions {
 
 /// What stays the same from frame to frame.
 struct Surroundings {
-    Bounds bounds;                      ///< of the bodies at the start: sets the scale of floor and shadows [m]
+    Bounds bounds;  ///< of the bodies at the start: sets the scale of floor and shadows [m]
     std::optional<float> floor_height;  ///< [m]; empty: no floor is drawn
     std::vector<SurfaceMesh> props;     ///< what stands about and does not move
     /// Of the bodies, linear RGB; the palette's where one is negative or missing.

@@ -13,7 +13,8 @@ namespace gelatin {
 /// @throws NoOpenGl if GL is needed and there is none.
 std::optional<gl::Context> make_context(const SimulatorOptions& options);
 
-/// Whether the GL backend simulates: as asked, or where `automatic` finds a GPU that is not a software driver.
+/// Whether the GL backend simulates: as asked, or where `automatic` finds a GPU that is not a software
+/// driver.
 bool choose_gl(const SimulatorOptions& options, const std::optional<gl::Context>& context);
 
 }  // namespace gelatin

@@ -31,7 +31,9 @@ std::uint64_t hash(const std::vector<T>& values, std::uint64_t seed) {
     return XXH3_64bits_withSeed(values.data(), values.size() * sizeof(T), seed);
 }
 
-std::uint64_t topology_hash(const Model& model) { return hash(model.tets, hash(model.faces, model.positions.size())); }
+std::uint64_t topology_hash(const Model& model) {
+    return hash(model.tets, hash(model.faces, model.positions.size()));
+}
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const char* problem) {
     throw InvalidInput({file.string(), 0, {}, {}, problem});

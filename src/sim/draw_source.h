@@ -11,8 +11,8 @@
 
 namespace gelatin {
 
-/// Gives a renderer the nodes with normals up to date: from the GPU solver's own buffers, or uploaded from the host
-/// once a frame where the CPU simulates.
+/// Gives a renderer the nodes with normals up to date: from the GPU solver's own buffers, or uploaded from
+/// the host once a frame where the CPU simulates.
 class DrawSource {
 public:
     explicit DrawSource(std::shared_ptr<const Model> model);
@@ -28,7 +28,7 @@ private:
     gpu::UpdateNormals normals_;
     gl::Buffer<glm::vec4> uploaded_;  // xyz [m]; empty where the GPU simulates
     gl::BufferTexture uploaded_texels_;
-    gl::Readback readback_;            // of a GPU's positions, so that the box never waits for them
+    gl::Readback readback_;                    // of a GPU's positions, so that the box never waits for them
     glm::vec3 box_min_{0.0f}, box_max_{0.0f};  // [m]
 };
 

@@ -31,7 +31,7 @@ struct Simulator::Impl {
     const gpu::GpuSolver* gpu_solver = nullptr;  // solver, if it is one
     std::optional<DrawSource> draw_source;
 
-    Moment start{0, 0.0};  // of this run: where a checkpoint was loaded
+    Moment start{0, 0.0};     // of this run: where a checkpoint was loaded
     std::uint64_t steps = 0;  // since then
     std::deque<Moment> measured;
 
@@ -80,15 +80,33 @@ void Simulator::advance_frame() {
     for (int s = 0; s < impl_->substeps; ++s) step();
 }
 
-int Simulator::frame() const { return impl_->frame(); }
-double Simulator::time() const { return impl_->time(); }
-int Simulator::substeps() const { return impl_->substeps; }
-double Simulator::step_size() const { return impl_->step_size(); }
-bool Simulator::uses_gl() const { return impl_->gpu_solver != nullptr; }
-std::string Simulator::backend() const { return uses_gl() ? "gl" : "cpu"; }
-std::string Simulator::device() const { return impl_->solver->device(); }
-const Scene& Simulator::scene() const { return impl_->scene; }
-const Model& Simulator::model() const { return *impl_->model; }
+int Simulator::frame() const {
+    return impl_->frame();
+}
+double Simulator::time() const {
+    return impl_->time();
+}
+int Simulator::substeps() const {
+    return impl_->substeps;
+}
+double Simulator::step_size() const {
+    return impl_->step_size();
+}
+bool Simulator::uses_gl() const {
+    return impl_->gpu_solver != nullptr;
+}
+std::string Simulator::backend() const {
+    return uses_gl() ? "gl" : "cpu";
+}
+std::string Simulator::device() const {
+    return impl_->solver->device();
+}
+const Scene& Simulator::scene() const {
+    return impl_->scene;
+}
+const Model& Simulator::model() const {
+    return *impl_->model;
+}
 
 Counts Simulator::counts() const {
     const Model& m = model();
@@ -101,7 +119,9 @@ void Simulator::begin_statistics() {
     d.measured.push_back({frame(), time()});
 }
 
-std::size_t Simulator::pending_statistics() const { return impl_->measured.size(); }
+std::size_t Simulator::pending_statistics() const {
+    return impl_->measured.size();
+}
 
 FrameStatistics Simulator::take_statistics() {
     Impl& d = *impl_;
@@ -112,10 +132,12 @@ FrameStatistics Simulator::take_statistics() {
     d.measured.pop_front();
     for (std::size_t o = 0; o < objects.size(); ++o) {
         const ObjectMeasure& object = objects[o];
-        if (!std::isfinite(object.kinetic_energy + object.elastic_energy + object.potential_energy + object.volume)) {
-            throw Diverged(fmt::format("the simulation diverged: object '{}' has positions or velocities that are not "
-                                       "finite at frame {} ({:.6g} s)",
-                                       d.model->objects[o].name, frame.frame, frame.time));
+        if (!std::isfinite(object.kinetic_energy + object.elastic_energy + object.potential_energy +
+                           object.volume)) {
+            throw Diverged(
+                fmt::format("the simulation diverged: object '{}' has positions or velocities that are not "
+                            "finite at frame {} ({:.6g} s)",
+                            d.model->objects[o].name, frame.frame, frame.time));
         }
         frame.kinetic_energy += object.kinetic_energy;
         frame.elastic_energy += object.elastic_energy;
@@ -139,13 +161,15 @@ HostFrame Simulator::read_frame() const {
     host.frame = frame();
     host.time = time();
     for (const glm::vec4& p : state.positions) host.positions.insert(host.positions.end(), {p.x, p.y, p.z});
-    for (const glm::vec4& v : state.velocities) host.velocities.insert(host.velocities.end(), {v.x, v.y, v.z});
+    for (const glm::vec4& v : state.velocities)
+        host.velocities.insert(host.velocities.end(), {v.x, v.y, v.z});
     return host;
 }
 
 RenderView Simulator::render_view() {
     Impl& d = *impl_;
-    if (!d.context) throw NoOpenGl("drawing needs an OpenGL context: ask for it in SimulatorOptions::need_gl");
+    if (!d.context)
+        throw NoOpenGl("drawing needs an OpenGL context: ask for it in SimulatorOptions::need_gl");
     if (!d.draw_source) d.draw_source.emplace(d.model);
     RenderView view;
     if (d.gpu_solver == nullptr) return d.draw_source->update(d.solver->read_state());

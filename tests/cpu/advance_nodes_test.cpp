@@ -29,9 +29,10 @@ TEST_P(AdvanceNodesTest, FloatWithSimdMatchesTheOracle) {
     cpu::CpuSolver<float> solver(std::make_shared<const Model>(model), GetParam(), ForceMethod::fused);
     solver.advance_nodes(kStep);
     const State state = solver.read_state();
-    EXPECT_LE(test::worst_error(model, test::rounding_bounds(model, GetParam(), kStep),
-                                test::oracle_step(model, GetParam(), kStep), state.positions, state.velocities),
-              1.0);
+    EXPECT_LE(
+        test::worst_error(model, test::rounding_bounds(model, GetParam(), kStep),
+                          test::oracle_step(model, GetParam(), kStep), state.positions, state.velocities),
+        1.0);
 }
 
 // In double the two ways differ by the order of summation alone.
@@ -84,8 +85,8 @@ TEST(AdvanceNodes, WritesItsNodesAndNothingElse) {
     const cpu::Nodes<float> from{model.positions, model.velocities};
     cpu::Nodes<float> to{test::poisoned(model.node_count()), test::poisoned(model.node_count())}, none;
     const auto slices = static_cast<std::uint32_t>(model.half_springs.slice_starts.size() - 1);
-    cpu::advance_nodes_simd(cpu::make_pass(model, explicit_scheme(SolverKind::semi_implicit_euler), 0, kStep, from, from,
-                                           to, none),
+    cpu::advance_nodes_simd(cpu::make_pass(model, explicit_scheme(SolverKind::semi_implicit_euler), 0, kStep,
+                                           from, from, to, none),
                             {1, slices - 1});
     EXPECT_TRUE(test::guard_is_untouched(to.positions, model.node_count()));
     EXPECT_TRUE(std::isnan(to.positions[63].x)) << "a slice that was not asked for";
@@ -101,8 +102,11 @@ TEST(SpringForce, IsTheGradientOfItsEnergy) {
     for (int i = 0; i < 50; ++i) {
         const glm::dvec3 a = point(), b = point();
         const double rest = 0.7, stiffness = 40.0, d = 1e-6;
-        const auto energy = [&](const glm::dvec3& p) { return 0.5 * stiffness * std::pow(glm::distance(p, b) - rest, 2); };
-        const glm::dvec3 force = cpu::spring_force<double>(a, b, glm::dvec3(0), glm::dvec3(0), rest, stiffness, 0.0);
+        const auto energy = [&](const glm::dvec3& p) {
+            return 0.5 * stiffness * std::pow(glm::distance(p, b) - rest, 2);
+        };
+        const glm::dvec3 force =
+            cpu::spring_force<double>(a, b, glm::dvec3(0), glm::dvec3(0), rest, stiffness, 0.0);
         for (int k = 0; k < 3; ++k) {
             glm::dvec3 step(0.0);
             step[k] = d;
@@ -123,7 +127,8 @@ TEST(SpringForce, DampsAlongTheSpringAlone) {
 
 TEST(SpringForce, CoincidentEndsGiveZero) {
     const glm::dvec3 a(0.3);
-    EXPECT_EQ(cpu::spring_force<double>(a, a, glm::dvec3(0), glm::dvec3(1), 1.0, 100.0, 0.1), glm::dvec3(0.0));
+    EXPECT_EQ(cpu::spring_force<double>(a, a, glm::dvec3(0), glm::dvec3(1), 1.0, 100.0, 0.1),
+              glm::dvec3(0.0));
 }
 
 }  // namespace

@@ -16,7 +16,9 @@ Collider pack(const ColliderDescription& description) {
     return pack_bodies({}, {description}, {}).colliders.at(0);
 }
 
-double distance(const Collider& collider, glm::dvec3 p) { return cpu::surface_distance(collider, p).distance; }
+double distance(const Collider& collider, glm::dvec3 p) {
+    return cpu::surface_distance(collider, p).distance;
+}
 
 TEST(SurfaceDistance, Plane) {
     ColliderDescription d;
@@ -31,7 +33,8 @@ TEST(SurfaceDistance, Sphere) {
     d.position = {1.0, 2.0, 3.0};
     EXPECT_NEAR(distance(pack(d), {1.0, 4.0, 3.0}), 1.5, 1e-12);
     EXPECT_NEAR(distance(pack(d), {1.0, 2.0, 3.25}), -0.25, 1e-12);
-    EXPECT_NEAR(glm::length(cpu::surface_distance(pack(d), glm::dvec3(1, 2, 3)).normal), 1.0, 1e-12) << "at the centre";
+    EXPECT_NEAR(glm::length(cpu::surface_distance(pack(d), glm::dvec3(1, 2, 3)).normal), 1.0, 1e-12)
+        << "at the centre";
 }
 
 TEST(SurfaceDistance, CapsuleAlongItsTurnedAxis) {

@@ -10,7 +10,8 @@ namespace {
 
 template <class Real>
 cpu::Nodes<Real> start_of(const Model& model) {
-    return {{model.positions.begin(), model.positions.end()}, {model.velocities.begin(), model.velocities.end()}};
+    return {{model.positions.begin(), model.positions.end()},
+            {model.velocities.begin(), model.velocities.end()}};
 }
 
 TEST(Measure, AgreesWithClosedFormsForABlockInFlight) {
@@ -25,7 +26,8 @@ TEST(Measure, AgreesWithClosedFormsForABlockInFlight) {
     EXPECT_NEAR(sums.momentum.z, -4000.0, 1e-2);
     EXPECT_NEAR(sums.kinetic_energy, 0.5 * 1000.0 * 25.0, 1e-1);
     EXPECT_NEAR(sums.elastic_energy, 0.0, 1e-6);
-    EXPECT_NEAR(sums.potential_energy, 1000.0 * 10.0 * 0.5, 1e1) << "the centre is at a height of 1/2, up to jitter";
+    EXPECT_NEAR(sums.potential_energy, 1000.0 * 10.0 * 0.5, 1e1)
+        << "the centre is at a height of 1/2, up to jitter";
     EXPECT_EQ(sums.contacts, 0u);
 }
 

@@ -19,22 +19,24 @@ struct Case {
 };
 
 class AdvanceNodesOnGpuTest : public test::GlTest, public ::testing::WithParamInterface<Case> {};
-INSTANTIATE_TEST_SUITE_P(
-    All, AdvanceNodesOnGpuTest,
-    ::testing::Values(Case{SolverKind::explicit_euler, ForceMethod::fused},
-                      Case{SolverKind::semi_implicit_euler, ForceMethod::fused},
-                      Case{SolverKind::midpoint, ForceMethod::fused}, Case{SolverKind::rk4, ForceMethod::fused},
-                      Case{SolverKind::explicit_euler, ForceMethod::divide_and_merge},
-                      Case{SolverKind::semi_implicit_euler, ForceMethod::divide_and_merge},
-                      Case{SolverKind::midpoint, ForceMethod::divide_and_merge},
-                      Case{SolverKind::rk4, ForceMethod::divide_and_merge}),
-    [](const auto& test) {
-        return std::string(solver_name(test.param.solver)) +
-               (test.param.forces == ForceMethod::fused ? "_fused" : "_divide_and_merge");
-    });
+INSTANTIATE_TEST_SUITE_P(All, AdvanceNodesOnGpuTest,
+                         ::testing::Values(Case{SolverKind::explicit_euler, ForceMethod::fused},
+                                           Case{SolverKind::semi_implicit_euler, ForceMethod::fused},
+                                           Case{SolverKind::midpoint, ForceMethod::fused},
+                                           Case{SolverKind::rk4, ForceMethod::fused},
+                                           Case{SolverKind::explicit_euler, ForceMethod::divide_and_merge},
+                                           Case{SolverKind::semi_implicit_euler,
+                                                ForceMethod::divide_and_merge},
+                                           Case{SolverKind::midpoint, ForceMethod::divide_and_merge},
+                                           Case{SolverKind::rk4, ForceMethod::divide_and_merge}),
+                         [](const auto& test) {
+                             return std::string(solver_name(test.param.solver)) +
+                                    (test.param.forces == ForceMethod::fused ? "_fused"
+                                                                             : "_divide_and_merge");
+                         });
 
-// An irregular net with damping, pins, a floor and a sphere in the way, no multiple of 64 nodes: one step reproduces
-// the double-precision reference within rounding, writes every node and nothing behind the last.
+// An irregular net with damping, pins, a floor and a sphere in the way, no multiple of 64 nodes: one step
+// reproduces the double-precision reference within rounding, writes every node and nothing behind the last.
 TEST_P(AdvanceNodesOnGpuTest, MatchesTheCpuReference) {
     const Model model = test::make_lively_model();
     ASSERT_NE(model.node_count() % 64, 0u);

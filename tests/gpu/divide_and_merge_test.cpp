@@ -14,8 +14,8 @@ namespace {
 
 class DivideAndMergeTest : public test::GlTest {};
 
-// The merged force of each node against the double reference: |error| <= 8 eps (valence + 4) sum k (X + ...) as in
-// test::rounding_bounds, without the mass.
+// The merged force of each node against the double reference: |error| <= 8 eps (valence + 4) sum k (X + ...)
+// as in test::rounding_bounds, without the mass.
 TEST_F(DivideAndMergeTest, MergedForcesMatchTheCpuReference) {
     const Model model = test::make_lively_model();
     const ExplicitScheme& scheme = explicit_scheme(SolverKind::semi_implicit_euler);
@@ -32,7 +32,8 @@ TEST_F(DivideAndMergeTest, MergedForcesMatchTheCpuReference) {
     cpu::Nodes<double> out = nodes, none;
     std::vector<glm::dvec4> spring_forces(model.springs.size()), expected(model.node_count());
     const auto pass = cpu::make_pass(model, scheme, 0, 1.0, nodes, nodes, out, none);
-    cpu::write_spring_forces<double>(pass, spring_forces, {0, static_cast<std::uint32_t>(model.springs.size())});
+    cpu::write_spring_forces<double>(pass, spring_forces,
+                                     {0, static_cast<std::uint32_t>(model.springs.size())});
     cpu::merge_spring_forces<double>(model, spring_forces, expected, {0, model.node_count()});
 
     const test::StepBounds bounds = test::rounding_bounds(model, SolverKind::semi_implicit_euler, 1.0);

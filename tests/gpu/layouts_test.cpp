@@ -19,23 +19,29 @@ protected:
     void check(const std::string& file, const std::string& type, std::size_t size,
                const std::vector<std::pair<std::string, std::size_t>>& fields) {
         test::ShaderFolder folder;
-        folder.add("layouts/" + file, read_file(std::string(GELATIN_SOURCE_DIR) + "/shaders/layouts/" + file));
+        folder.add("layouts/" + file,
+                   read_file(std::string(GELATIN_SOURCE_DIR) + "/shaders/layouts/" + file));
         std::string sum;
         for (const auto& [field, offset] : fields) sum += " + vec4(items[1]." + field + ")";
-        folder.add("probe.comp", "#include \"layouts/" + file + "\"\nlayout(local_size_x = 1) in;\nlayout(std430, binding = 0) buffer Items { " +
-                                     type + " items[]; };\nlayout(std430, binding = 1) buffer Out { vec4 result; };\n" +
-                                     "void main() { result = vec4(0.0)" + sum + "; }\n");
+        folder.add("probe.comp",
+                   "#include \"layouts/" + file +
+                       "\"\nlayout(local_size_x = 1) in;\nlayout(std430, binding = 0) buffer Items { " +
+                       type + " items[]; };\nlayout(std430, binding = 1) buffer Out { vec4 result; };\n" +
+                       "void main() { result = vec4(0.0)" + sum + "; }\n");
         const gl::Program program = gl::Program::compute("probe.comp");
         for (const auto& [field, offset] : fields) {
-            EXPECT_EQ(query(program, "items[0]." + field, GL_OFFSET), static_cast<int>(offset)) << type << "." << field;
-            EXPECT_EQ(query(program, "items[0]." + field, GL_TOP_LEVEL_ARRAY_STRIDE), static_cast<int>(size)) << type;
+            EXPECT_EQ(query(program, "items[0]." + field, GL_OFFSET), static_cast<int>(offset))
+                << type << "." << field;
+            EXPECT_EQ(query(program, "items[0]." + field, GL_TOP_LEVEL_ARRAY_STRIDE), static_cast<int>(size))
+                << type;
         }
     }
 
 private:
     static int query(const gl::Program& program, const std::string& name, GLenum property) {
         unsigned index = glGetProgramResourceIndex(program.id(), GL_BUFFER_VARIABLE, name.c_str());
-        if (index == GL_INVALID_INDEX) index = glGetProgramResourceIndex(program.id(), GL_BUFFER_VARIABLE, ("Items." + name).c_str());
+        if (index == GL_INVALID_INDEX)
+            index = glGetProgramResourceIndex(program.id(), GL_BUFFER_VARIABLE, ("Items." + name).c_str());
         if (index == GL_INVALID_INDEX) return -1;
         int value = -1;
         glGetProgramResourceiv(program.id(), GL_BUFFER_VARIABLE, index, 1, &property, 1, nullptr, &value);
@@ -43,7 +49,8 @@ private:
     }
 };
 
-#define FIELD(Type, name) {#name, offsetof(Type, name)}
+#define FIELD(Type, name) \
+    { #name, offsetof(Type, name) }
 
 TEST_F(LayoutsTest, Spring) {
     check("spring.glsl", "Spring", sizeof(Spring),
@@ -55,7 +62,8 @@ TEST_F(LayoutsTest, HalfSpringPair) {
            FIELD(HalfSpringPair, rest_length_1)});
 }
 TEST_F(LayoutsTest, Face) {
-    check("face.glsl", "Face", sizeof(Face), {FIELD(Face, a), FIELD(Face, b), FIELD(Face, c), FIELD(Face, object)});
+    check("face.glsl", "Face", sizeof(Face),
+          {FIELD(Face, a), FIELD(Face, b), FIELD(Face, c), FIELD(Face, object)});
 }
 TEST_F(LayoutsTest, SurfaceVertex) {
     check("surface_vertex.glsl", "SurfaceVertex", sizeof(SurfaceVertex),
@@ -63,9 +71,10 @@ TEST_F(LayoutsTest, SurfaceVertex) {
            FIELD(SurfaceVertex, face_count)});
 }
 TEST_F(LayoutsTest, Collider) {
-    check("collider.glsl", "Collider", sizeof(Collider),
-          {FIELD(Collider, center), FIELD(Collider, axis), FIELD(Collider, orientation), FIELD(Collider, kind),
-           FIELD(Collider, friction), FIELD(Collider, restitution), FIELD(Collider, unused)});
+    check(
+        "collider.glsl", "Collider", sizeof(Collider),
+        {FIELD(Collider, center), FIELD(Collider, axis), FIELD(Collider, orientation), FIELD(Collider, kind),
+         FIELD(Collider, friction), FIELD(Collider, restitution), FIELD(Collider, unused)});
 }
 TEST_F(LayoutsTest, Chunk) {
     check("chunk.glsl", "Chunk", sizeof(Chunk),
@@ -74,8 +83,8 @@ TEST_F(LayoutsTest, Chunk) {
 TEST_F(LayoutsTest, NodeSums) {
     check("chunk.glsl", "NodeSums", sizeof(NodeSums),
           {FIELD(NodeSums, momentum_x), FIELD(NodeSums, momentum_y), FIELD(NodeSums, momentum_z),
-           FIELD(NodeSums, kinetic_energy), FIELD(NodeSums, elastic_energy), FIELD(NodeSums, potential_energy),
-           FIELD(NodeSums, deepest), FIELD(NodeSums, contacts)});
+           FIELD(NodeSums, kinetic_energy), FIELD(NodeSums, elastic_energy),
+           FIELD(NodeSums, potential_energy), FIELD(NodeSums, deepest), FIELD(NodeSums, contacts)});
 }
 
 }  // namespace

@@ -11,7 +11,8 @@ namespace {
 
 class MeasureOnGpuTest : public test::GlTest {};
 
-// Sums of n terms in float, in chunks of 256 over 64 lanes: relative error below (4 + 64) eps of the absolute sum.
+// Sums of n terms in float, in chunks of 256 over 64 lanes: relative error below (4 + 64) eps of the absolute
+// sum.
 constexpr double kRelative = 70.0 * 1.2e-7;
 
 TEST_F(MeasureOnGpuTest, MatchesTheDoubleReference) {
@@ -28,8 +29,9 @@ TEST_F(MeasureOnGpuTest, MatchesTheDoubleReference) {
     const gpu::NodeBuffers nodes(model.positions, model.velocities);
     stage.begin(buffers, nodes);
     const std::vector<ObjectMeasure> actual = stage.end();
-    const std::vector<ObjectMeasure> expected = cpu::measure<double>(
-        model, {{model.positions.begin(), model.positions.end()}, {model.velocities.begin(), model.velocities.end()}});
+    const std::vector<ObjectMeasure> expected =
+        cpu::measure<double>(model, {{model.positions.begin(), model.positions.end()},
+                                     {model.velocities.begin(), model.velocities.end()}});
     ASSERT_EQ(actual.size(), 2u);
     for (std::size_t o = 0; o < 2; ++o) {
         const double speed_scale = model.objects[o].mass * 3.0;
@@ -37,7 +39,8 @@ TEST_F(MeasureOnGpuTest, MatchesTheDoubleReference) {
             EXPECT_NEAR(actual[o].momentum[k], expected[o].momentum[k], kRelative * speed_scale);
         }
         EXPECT_NEAR(actual[o].kinetic_energy / expected[o].kinetic_energy, 1.0, kRelative);
-        EXPECT_NEAR(actual[o].potential_energy, expected[o].potential_energy, kRelative * model.objects[o].mass * 10.0);
+        EXPECT_NEAR(actual[o].potential_energy, expected[o].potential_energy,
+                    kRelative * model.objects[o].mass * 10.0);
         // A stretch of 2% is the difference of lengths that carry rounding at coordinates of a few metres.
         EXPECT_NEAR(actual[o].elastic_energy / expected[o].elastic_energy, 1.0, 1e-3);
         EXPECT_GT(expected[o].elastic_energy, 0.0);

@@ -1,5 +1,5 @@
-// Deliberately broken kernels must be caught: each mutant of tests/mutants/mutants.h is run in place of the true shader,
-// and the parity test's own measure must say so.
+// Deliberately broken kernels must be caught: each mutant of tests/mutants/mutants.h is run in place of the
+// true shader, and the parity test's own measure must say so.
 #include "mutants/mutants.h"
 
 #include <gtest/gtest.h>
@@ -44,8 +44,8 @@ TEST_P(MutantsTest, IsCaught) {
     const Model model = test::make_lively_model();
     const test::NodeArrays actual = test::step_on_gpu(model, GetParam().solver, GetParam().forces, kStep);
     const double error = test::worst_error(model, test::rounding_bounds(model, GetParam().solver, kStep),
-                                           test::oracle_step(model, GetParam().solver, kStep), actual.positions,
-                                           actual.velocities);
+                                           test::oracle_step(model, GetParam().solver, kStep),
+                                           actual.positions, actual.velocities);
     const bool guarded = test::guard_is_untouched(actual.positions, model.node_count()) &&
                          test::guard_is_untouched(actual.velocities, model.node_count());
     EXPECT_TRUE(error > 1.0 || !guarded) << "the broken kernel passes: error / bound = " << error;

@@ -23,7 +23,8 @@ std::vector<glm::vec4> normals_of(const Model& model, const std::vector<glm::vec
     return normals;
 }
 
-glm::dvec3 reference_normal(const Model& model, const std::vector<glm::vec4>& positions, const SurfaceVertex& vertex) {
+glm::dvec3 reference_normal(const Model& model, const std::vector<glm::vec4>& positions,
+                            const SurfaceVertex& vertex) {
     glm::dvec3 sum(0.0);
     for (std::uint32_t k = 0; k < vertex.face_count; ++k) {
         const Face& f = model.faces[model.surface.vertex_faces[vertex.first_face + k]];
@@ -53,7 +54,8 @@ TEST_F(UpdateNormalsTest, BoxSidesAreFlatUpToTheirEdges) {
 
 TEST_F(UpdateNormalsTest, ACollapsedBodyHasFiniteNormals) {
     const Model model = test::make_model(test::make_body(test::make_block({2, 2, 2}, {1, 1, 1})));
-    for (const glm::vec4& n : normals_of(model, std::vector<glm::vec4>(model.node_count(), glm::vec4(1.0f)))) {
+    for (const glm::vec4& n :
+         normals_of(model, std::vector<glm::vec4>(model.node_count(), glm::vec4(1.0f)))) {
         EXPECT_EQ(glm::vec3(n), glm::vec3(0, 1, 0));
     }
 }

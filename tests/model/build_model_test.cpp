@@ -11,16 +11,20 @@
 namespace gelatin {
 namespace {
 
-double sum(const std::vector<float>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+double sum(const std::vector<float>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
 
 TEST(BuildModel, LumpsTheWholeMass) {
     Material material;
     material.density = 900.0;
-    const Model model = test::make_model(test::make_body(test::make_block({4, 3, 5}, {2.0, 0.5, 1.0}, 0.2), material));
+    const Model model =
+        test::make_model(test::make_body(test::make_block({4, 3, 5}, {2.0, 0.5, 1.0}, 0.2), material));
     EXPECT_NEAR(sum(model.masses), 900.0, 900.0 * 1e-6);
     EXPECT_NEAR(model.objects[0].mass, 900.0, 1e-9);
     EXPECT_NEAR(model.objects[0].rest_volume, 1.0, 1e-12);
-    for (std::size_t n = 0; n < model.masses.size(); ++n) EXPECT_FLOAT_EQ(model.positions[n].w, 1.0f / model.masses[n]);
+    for (std::size_t n = 0; n < model.masses.size(); ++n)
+        EXPECT_FLOAT_EQ(model.positions[n].w, 1.0f / model.masses[n]);
 }
 
 TEST(BuildModel, ObjectsOwnContiguousRanges) {
@@ -41,7 +45,8 @@ TEST(BuildModel, ObjectsOwnContiguousRanges) {
             EXPECT_TRUE(owns(model.faces[f].a) && owns(model.faces[f].b) && owns(model.faces[f].c));
             EXPECT_EQ(model.faces[f].object, o);
         }
-        for (std::uint32_t t = object.tets.first; t < object.tets.end(); ++t) EXPECT_TRUE(owns(model.tets[t].w));
+        for (std::uint32_t t = object.tets.first; t < object.tets.end(); ++t)
+            EXPECT_TRUE(owns(model.tets[t].w));
     }
 }
 
@@ -52,7 +57,8 @@ TEST(BuildModel, PinsNodesInTheirRegions) {
     const Model model = test::make_model(body);
     int pinned = 0;
     for (std::size_t n = 0; n < model.positions.size(); ++n) {
-        const bool inside = model.positions[n].x < 0.1f || glm::vec3(model.positions[n]) == glm::vec3(4, 0, 0);
+        const bool inside =
+            model.positions[n].x < 0.1f || glm::vec3(model.positions[n]) == glm::vec3(4, 0, 0);
         EXPECT_EQ(model.positions[n].w == 0.0f, inside);
         EXPECT_EQ(model.velocities[n].x, inside ? 0.0f : 1.0f);
         EXPECT_GT(model.masses[n], 0.0f);

@@ -20,7 +20,8 @@ double volume_of(const TetMesh& mesh) {
 
 double sum_k_l2(const std::vector<Spring>& springs) {
     double sum = 0.0;
-    for (const Spring& s : springs) sum += static_cast<double>(s.stiffness) * std::pow(static_cast<double>(s.rest_length), 2);
+    for (const Spring& s : springs)
+        sum += static_cast<double>(s.stiffness) * std::pow(static_cast<double>(s.rest_length), 2);
     return sum;
 }
 
@@ -83,8 +84,8 @@ TEST(Springs, FlexJoinsCornersAcrossSurfaceEdgesAndGoesStraightInside) {
     EXPECT_GT(straight, 0u);
 }
 
-// Uniform dilation by e: the springs' 1/2 sum k (e l)^2 is the continuum's 9/2 K e^2 V at Poisson's ratio 1/4, that is
-// sum k l^2 = 6 E V, whatever the kinds and the mesh.
+// Uniform dilation by e: the springs' 1/2 sum k (e l)^2 is the continuum's 9/2 K e^2 V at Poisson's ratio
+// 1/4, that is sum k l^2 = 6 E V, whatever the kinds and the mesh.
 class SpringKindsTest : public ::testing::TestWithParam<SpringKinds> {};
 TEST_P(SpringKindsTest, KeepTheEnergyOfDilation) {
     const TetMesh mesh = test::make_block({5, 3, 4}, {1.0, 0.7, 0.9}, 0.25);
@@ -95,7 +96,8 @@ TEST_P(SpringKindsTest, KeepTheEnergyOfDilation) {
     for (const Spring& s : springs) {
         EXPECT_LT(s.i, s.j);
         EXPECT_GT(s.stiffness, 0.0f);
-        EXPECT_FLOAT_EQ(s.rest_length, static_cast<float>(glm::distance(mesh.positions[s.i], mesh.positions[s.j])));
+        EXPECT_FLOAT_EQ(s.rest_length,
+                        static_cast<float>(glm::distance(mesh.positions[s.i], mesh.positions[s.j])));
     }
 }
 INSTANTIATE_TEST_SUITE_P(All, SpringKindsTest,

@@ -47,8 +47,8 @@ double energy_after(const Model& model, double step, int steps) {
     return sums.kinetic_energy + sums.elastic_energy;
 }
 
-// The bound is safe on a real net and not needlessly small: with it the energy stays, at 1.35 times the step it grows
-// without limit.
+// The bound is safe on a real net and not needlessly small: with it the energy stays, at 1.35 times the step
+// it grows without limit.
 TEST(LargestStableStep, SeparatesQuietFromExploding) {
     Model model = test::make_model(test::make_body(test::make_block({6, 5, 4}, {1.2, 1.0, 0.8}, 0.3)));
     for (std::size_t n = 0; n < model.velocities.size(); ++n) {
@@ -82,9 +82,10 @@ TEST(ChooseSubsteps, NamesTheLargestSafeStepWhereAFixedOneIsTooLong) {
         choose_substeps(scene_with(SolverKind::semi_implicit_euler, 9), model);
         FAIL() << "accepted a step of 2.2 ms where 2 ms is the limit";
     } catch (const InvalidInput& error) {
-        EXPECT_STREQ(error.what(),
-                     "a.toml: simulation.substeps = 9: a step of 0.00222 s is too long; the largest safe step is "
-                     "0.002 s (substeps = 13, or \"auto\")");
+        EXPECT_STREQ(
+            error.what(),
+            "a.toml: simulation.substeps = 9: a step of 0.00222 s is too long; the largest safe step is "
+            "0.002 s (substeps = 13, or \"auto\")");
     }
 }
 

@@ -49,8 +49,9 @@ TEST_F(CheckpointTest, RefusesWhatIsCutOffDamagedOrSomethingElse) {
     const std::string whole = read_file(file());
     for (const std::size_t size : {std::size_t{0}, std::size_t{20}, whole.size() / 2, whole.size() - 1}) {
         write_file(file(), whole.substr(0, size));
-        EXPECT_THAT(message_of_reading(model_), ::testing::AnyOf(::testing::HasSubstr("not a Gelatin checkpoint"),
-                                                                 ::testing::HasSubstr("damaged")));
+        EXPECT_THAT(message_of_reading(model_),
+                    ::testing::AnyOf(::testing::HasSubstr("not a Gelatin checkpoint"),
+                                     ::testing::HasSubstr("damaged")));
     }
     std::string flipped = whole;
     flipped[whole.size() - 9] = static_cast<char>(flipped[whole.size() - 9] ^ 1);

@@ -58,13 +58,14 @@ TEST_F(SimulatorTest, FramesTimesAndCountsAddUp) {
 double largest_difference(const HostFrame& a, const HostFrame& b) {
     double largest = 0.0;
     for (std::size_t k = 0; k < a.positions.size(); ++k) {
-        largest = std::max(largest, std::abs(static_cast<double>(a.positions[k]) - static_cast<double>(b.positions[k])));
+        largest = std::max(
+            largest, std::abs(static_cast<double>(a.positions[k]) - static_cast<double>(b.positions[k])));
     }
     return largest;
 }
 
-// Both backends in float from the same bits: they differ by rounding, 1e-7 of coordinates of a metre a step, that adds
-// up at most linearly as long as nothing amplifies it. A wrong kernel is off by millimetres.
+// Both backends in float from the same bits: they differ by rounding, 1e-7 of coordinates of a metre a step,
+// that adds up at most linearly as long as nothing amplifies it. A wrong kernel is off by millimetres.
 TEST_F(SimulatorTest, BackendsAgreeOnFreeFallAfter100Steps) {
     const Scene scene = load_scene(GELATIN_SOURCE_DIR "/scenes/free_fall.toml");
     Simulator gl(scene, on(Backend::gl)), cpu(scene, on(Backend::cpu));

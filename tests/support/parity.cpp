@@ -18,10 +18,11 @@ double largest(const std::vector<glm::vec4>& values) {
 }  // namespace
 
 bool guard_is_untouched(const std::vector<glm::vec4>& values, std::size_t count) {
-    return values.size() == count + kGuard &&
-           std::all_of(values.begin() + static_cast<std::ptrdiff_t>(count), values.end(), [](const glm::vec4& v) {
-               return std::isnan(v.x) && std::isnan(v.y) && std::isnan(v.z) && std::isnan(v.w);
-           });
+    return values.size() == count + kGuard && std::all_of(values.begin() + static_cast<std::ptrdiff_t>(count),
+                                                          values.end(), [](const glm::vec4& v) {
+                                                              return std::isnan(v.x) && std::isnan(v.y) &&
+                                                                     std::isnan(v.z) && std::isnan(v.w);
+                                                          });
 }
 
 cpu::Nodes<double> oracle_step(const Model& model, SolverKind solver, double step) {
@@ -36,8 +37,10 @@ StepBounds rounding_bounds(const Model& model, SolverKind solver, double step) {
     std::vector<double> force(model.node_count(), 0.0);
     std::vector<int> valence(model.node_count(), 0);
     for (const Spring& s : model.springs) {
-        const double length = static_cast<double>(glm::distance(glm::vec3(model.positions[s.i]), glm::vec3(model.positions[s.j])));
-        const double damping = std::max(static_cast<double>(model.velocities[s.i].w), static_cast<double>(model.velocities[s.j].w));
+        const double length = static_cast<double>(
+            glm::distance(glm::vec3(model.positions[s.i]), glm::vec3(model.positions[s.j])));
+        const double damping = std::max(static_cast<double>(model.velocities[s.i].w),
+                                        static_cast<double>(model.velocities[s.j].w));
         const double part = static_cast<double>(s.stiffness) * (x + damping * v * (1.0 + x / length));
         for (const std::uint32_t n : {s.i, s.j}) {
             force[n] += part;
@@ -47,7 +50,8 @@ StepBounds rounding_bounds(const Model& model, SolverKind solver, double step) {
     const int passes = explicit_scheme(solver).pass_count;
     StepBounds bounds;
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
-        const double acceleration = 8.0 * kEps * (valence[n] + 4) * force[n] * static_cast<double>(model.positions[n].w);
+        const double acceleration =
+            8.0 * kEps * (valence[n] + 4) * force[n] * static_cast<double>(model.positions[n].w);
         bounds.velocity.push_back(passes * (step * acceleration + 16.0 * kEps * v));
         bounds.position.push_back(passes * (step * step * acceleration + 16.0 * kEps * (x + step * v)));
     }
@@ -58,9 +62,12 @@ double worst_error(const Model& model, const StepBounds& bounds, const cpu::Node
                    const std::vector<glm::vec4>& positions, const std::vector<glm::vec4>& velocities) {
     double worst = 0.0;
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
-        const double p = glm::distance(glm::dvec3(positions[n]), glm::dvec3(expected.positions[n])) / bounds.position[n];
-        const double v = glm::distance(glm::dvec3(velocities[n]), glm::dvec3(expected.velocities[n])) / bounds.velocity[n];
-        const bool same_constants = positions[n].w == model.positions[n].w && velocities[n].w == model.velocities[n].w;
+        const double p =
+            glm::distance(glm::dvec3(positions[n]), glm::dvec3(expected.positions[n])) / bounds.position[n];
+        const double v =
+            glm::distance(glm::dvec3(velocities[n]), glm::dvec3(expected.velocities[n])) / bounds.velocity[n];
+        const bool same_constants =
+            positions[n].w == model.positions[n].w && velocities[n].w == model.velocities[n].w;
         if (!std::isfinite(p + v) || !same_constants) return std::numeric_limits<double>::infinity();
         worst = std::max({worst, p, v});
     }

@@ -26,17 +26,19 @@ bool guard_is_untouched(const std::vector<glm::vec4>& values, std::size_t count)
 /// The double-precision oracle: one step of the plain kernels from the model's start.
 cpu::Nodes<double> oracle_step(const Model& model, SolverKind solver, double step);
 
-/// How far a step in single precision may be from the oracle, to first order: a node's acceleration is off by at most
+/// How far a step in single precision may be from the oracle, to first order: a node's acceleration is off by
+/// at most
 ///   8 eps (valence + 4) sum_j k (X + t V (1 + X / l)) / m
-/// with X, V the largest coordinate and speed, l the spring's length, t the damping time; its velocity by h times that
-/// and its position by h^2 times that, each plus 16 eps of its own size. Times the number of passes.
+/// with X, V the largest coordinate and speed, l the spring's length, t the damping time; its velocity by h
+/// times that and its position by h^2 times that, each plus 16 eps of its own size. Times the number of
+/// passes.
 struct StepBounds {
     std::vector<double> position, velocity;
 };
 StepBounds rounding_bounds(const Model& model, SolverKind solver, double step);
 
-/// The largest error over its bound, over all nodes; infinite where something is not finite. At most 1 is a pass.
-/// The fourth components must be the model's exactly.
+/// The largest error over its bound, over all nodes; infinite where something is not finite. At most 1 is a
+/// pass. The fourth components must be the model's exactly.
 double worst_error(const Model& model, const StepBounds& bounds, const cpu::Nodes<double>& expected,
                    const std::vector<glm::vec4>& positions, const std::vector<glm::vec4>& velocities);
 

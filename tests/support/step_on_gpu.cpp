@@ -11,7 +11,8 @@ NodeArrays step_on_gpu(const Model& model, SolverKind solver, ForceMethod forces
     const std::vector<glm::vec4> poison = poisoned(model.node_count());
     const gpu::ModelBuffers buffers(model);
     const gpu::NodeBuffers start(model.positions, model.velocities);
-    gpu::NodeBuffers stage[2] = {{poison, poison}, {poison, poison}}, sums(poison, poison), result(poison, poison);
+    gpu::NodeBuffers stage[2] = {{poison, poison}, {poison, poison}}, sums(poison, poison),
+                     result(poison, poison);
 
     const gpu::AdvanceNodes fused(model, scheme);
     const gpu::DivideAndMerge divided(model, scheme);

@@ -3,8 +3,8 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
-#include "model/model.h"
 #include "gelatin/scene.h"
+#include "model/model.h"
 
 namespace gelatin::test {
 
@@ -12,7 +12,8 @@ struct NodeArrays {
     std::vector<glm::vec4> positions, velocities;  ///< with kGuard elements behind the nodes
 };
 
-/// One step on the GPU from the model's start, every buffer that is written poisoned first and guarded behind its end.
+/// One step on the GPU from the model's start, every buffer that is written poisoned first and guarded behind
+/// its end.
 NodeArrays step_on_gpu(const Model& model, SolverKind solver, ForceMethod forces, double step);
 
 }  // namespace gelatin::test

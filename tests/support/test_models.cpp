@@ -17,7 +17,8 @@ TetMesh make_block(glm::ivec3 cells, glm::dvec3 size, double jitter, unsigned se
         for (int y = 0; y <= cells.y; ++y) {
             for (int x = 0; x <= cells.x; ++x) {
                 const bool inner = x > 0 && y > 0 && z > 0 && x < cells.x && y < cells.y && z < cells.z;
-                const glm::dvec3 move = inner ? glm::dvec3(offset(random), offset(random), offset(random)) : glm::dvec3(0);
+                const glm::dvec3 move =
+                    inner ? glm::dvec3(offset(random), offset(random), offset(random)) : glm::dvec3(0);
                 mesh.positions.push_back((glm::dvec3(x, y, z) + move) * cell);
             }
         }
@@ -56,7 +57,9 @@ Body make_body(TetMesh mesh, const Material& material) {
     return body;
 }
 
-Model make_model(const Body& body, glm::dvec3 gravity) { return pack_bodies({body}, {}, gravity); }
+Model make_model(const Body& body, glm::dvec3 gravity) {
+    return pack_bodies({body}, {}, gravity);
+}
 
 Model make_lively_model(unsigned seed) {
     Material material;
@@ -86,7 +89,8 @@ Model make_model(const Net& net) {
     Model model;
     for (std::size_t n = 0; n < net.positions.size(); ++n) {
         const double mass = net.masses[n];
-        model.positions.emplace_back(glm::vec3(net.positions[n]), std::isinf(mass) ? 0.0f : static_cast<float>(1.0 / mass));
+        model.positions.emplace_back(glm::vec3(net.positions[n]),
+                                     std::isinf(mass) ? 0.0f : static_cast<float>(1.0 / mass));
         model.velocities.emplace_back(glm::vec3(net.velocities[n]), static_cast<float>(net.damping_time));
         model.masses.push_back(static_cast<float>(mass));
     }

@@ -19,8 +19,9 @@ Body make_body(TetMesh mesh, const Material& material = {});
 /// A model of one body, without colliders.
 Model make_model(const Body& body, glm::dvec3 gravity = {0.0, 0.0, 0.0});
 
-/// A jittered block at rest off the origin whose nodes then were moved and set in motion at random; 1,234-ish nodes
-/// (no multiple of 64), damping, some pins, shear and flex springs too, a floor and a sphere in the way.
+/// A jittered block at rest off the origin whose nodes then were moved and set in motion at random; 1,234-ish
+/// nodes (no multiple of 64), damping, some pins, shear and flex springs too, a floor and a sphere in the
+/// way.
 Model make_lively_model(unsigned seed = 7);
 
 /// Springs between points, as a model without tets or faces: for closed-form cases.
@@ -29,8 +30,8 @@ struct Net {
     std::vector<glm::dvec3> velocities;  ///< [m/s]
     std::vector<double> masses;          ///< [kg]; infinite pins
     std::vector<Spring> springs;
-    double damping_time = 0.0;           ///< [s]
-    glm::dvec3 gravity{0.0};             ///< [m/s^2]
+    double damping_time = 0.0;  ///< [s]
+    glm::dvec3 gravity{0.0};    ///< [m/s^2]
     std::vector<Collider> colliders;
 };
 Model make_model(const Net& net);

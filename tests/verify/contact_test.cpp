@@ -34,9 +34,11 @@ std::vector<std::unique_ptr<Solver>> solvers_for(const Model& model, bool with_g
     const auto shared = std::make_shared<const Model>(model);
     std::vector<std::unique_ptr<Solver>> solvers;
     for (const ForceMethod forces : {ForceMethod::fused, ForceMethod::divide_and_merge}) {
-        solvers.push_back(std::make_unique<cpu::CpuSolver<float>>(shared, SolverKind::semi_implicit_euler, forces));
+        solvers.push_back(
+            std::make_unique<cpu::CpuSolver<float>>(shared, SolverKind::semi_implicit_euler, forces));
         if (with_gl) {
-            solvers.push_back(std::make_unique<gpu::GpuSolver>(shared, SolverKind::semi_implicit_euler, forces, ""));
+            solvers.push_back(
+                std::make_unique<gpu::GpuSolver>(shared, SolverKind::semi_implicit_euler, forces, ""));
         }
     }
     return solvers;
@@ -44,11 +46,13 @@ std::vector<std::unique_ptr<Solver>> solvers_for(const Model& model, bool with_g
 
 class ContactTest : public test::GlTest {};
 
-// Dropped from h it rebounds to e^2 h; the step makes the speeds at impact and the height off by g h_step each.
+// Dropped from h it rebounds to e^2 h; the step makes the speeds at impact and the height off by g h_step
+// each.
 TEST_F(ContactTest, ReboundsToTheSquareOfTheRestitution) {
     constexpr double kStep = 1e-3, kHeight = 1.0;
     for (const double restitution : {0.3, 0.8, 1.0}) {
-        for (const auto& solver : solvers_for(node_at({0, kHeight, 0}, {}, plane(0.0, 0.4, restitution)), true)) {
+        for (const auto& solver :
+             solvers_for(node_at({0, kHeight, 0}, {}, plane(0.0, 0.4, restitution)), true)) {
             double highest = 0.0;
             bool rising = false;
             for (int s = 0; s < 1200; ++s) {
@@ -68,7 +72,8 @@ TEST_F(ContactTest, ReboundsToTheSquareOfTheRestitution) {
 TEST_F(ContactTest, SlidesAsFarAsFrictionAllows) {
     constexpr double kStep = 1e-3, kSpeed = 2.0;
     for (const double friction : {0.25, 0.5}) {
-        for (const auto& solver : solvers_for(node_at({0, 0, 0}, {kSpeed, 0, 0}, plane(0.0, friction, 0.5)), true)) {
+        for (const auto& solver :
+             solvers_for(node_at({0, 0, 0}, {kSpeed, 0, 0}, plane(0.0, friction, 0.5)), true)) {
             for (int s = 0; s < 1000; ++s) solver->advance_nodes(kStep);
             const State state = solver->read_state();
             EXPECT_NEAR(state.positions[0].x, kSpeed * kSpeed / (2.0 * friction * 9.81), kSpeed * kStep);

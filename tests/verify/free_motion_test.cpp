@@ -25,8 +25,8 @@ ObjectMeasure measure(Solver& solver) {
     return solver.end_measure()[0];
 }
 
-// y(t) = y0 + v t - g t^2 / 2. Forward Euler lags by g t h / 2, the semi-implicit rule leads by as much; the midpoint
-// rule and RK4 are exact for a parabola.
+// y(t) = y0 + v t - g t^2 / 2. Forward Euler lags by g t h / 2, the semi-implicit rule leads by as much; the
+// midpoint rule and RK4 are exact for a parabola.
 TEST(FreeFlight, IsExactToTheSchemesOrder) {
     const auto model = std::make_shared<const Model>(thrown_block());
     const double step = 1e-3, time = 0.5;
@@ -39,22 +39,26 @@ TEST(FreeFlight, IsExactToTheSchemesOrder) {
     for (const auto& [kind, lead] : cases) {
         cpu::CpuSolver<double> solver(model, kind, ForceMethod::fused);
         for (int s = 0; s < 500; ++s) solver.advance_nodes(step);
-        const double expected = static_cast<double>(model->positions[7].y) + v * time - 0.5 * g * time * time + lead;
-        // Rest lengths are rounded to float, so the body is strained by 1e-7 and trembles by that much, more and more
-        // with explicit Euler; the lead is 2.5 mm.
+        const double expected =
+            static_cast<double>(model->positions[7].y) + v * time - 0.5 * g * time * time + lead;
+        // Rest lengths are rounded to float, so the body is strained by 1e-7 and trembles by that much, more
+        // and more with explicit Euler; the lead is 2.5 mm.
         EXPECT_NEAR(solver.nodes().positions[7].y, expected, 5e-6) << solver_name(kind);
     }
 }
 
-// Internal forces come in opposite pairs: in double, momentum keeps to rounding while the body shakes. Each of n nodes
-// adds an error of eps times its force impulse a step.
+// Internal forces come in opposite pairs: in double, momentum keeps to rounding while the body shakes. Each
+// of n nodes adds an error of eps times its force impulse a step.
 TEST(Momentum, OfAFreeObjectIsKept) {
     Model model = thrown_block();
     model.gravity = glm::vec3(0.0f);
-    for (std::size_t n = 0; n < model.velocities.size(); ++n) model.velocities[n].z += (n % 3 == 0) ? 2.0f : -1.0f;
+    for (std::size_t n = 0; n < model.velocities.size(); ++n)
+        model.velocities[n].z += (n % 3 == 0) ? 2.0f : -1.0f;
     for (const ForceMethod forces : {ForceMethod::fused, ForceMethod::divide_and_merge}) {
-        cpu::CpuSolver<double> oracle(std::make_shared<const Model>(model), SolverKind::semi_implicit_euler, forces);
-        cpu::CpuSolver<float> product(std::make_shared<const Model>(model), SolverKind::semi_implicit_euler, forces);
+        cpu::CpuSolver<double> oracle(std::make_shared<const Model>(model), SolverKind::semi_implicit_euler,
+                                      forces);
+        cpu::CpuSolver<float> product(std::make_shared<const Model>(model), SolverKind::semi_implicit_euler,
+                                      forces);
         const glm::dvec3 start = measure(oracle).momentum;
         const double size = model.objects[0].mass * 5.0;  // mass times a typical speed
         const double step = 0.5 * largest_stable_step(SolverKind::semi_implicit_euler, model);
@@ -71,16 +75,18 @@ class MomentumOnGpuTest : public test::GlTest {};
 TEST_F(MomentumOnGpuTest, OfAFreeObjectIsKept) {
     Model model = thrown_block();
     model.gravity = glm::vec3(0.0f);
-    for (std::size_t n = 0; n < model.velocities.size(); ++n) model.velocities[n].z += (n % 3 == 0) ? 2.0f : -1.0f;
-    gpu::GpuSolver solver(std::make_shared<const Model>(model), SolverKind::semi_implicit_euler, ForceMethod::fused, "");
+    for (std::size_t n = 0; n < model.velocities.size(); ++n)
+        model.velocities[n].z += (n % 3 == 0) ? 2.0f : -1.0f;
+    gpu::GpuSolver solver(std::make_shared<const Model>(model), SolverKind::semi_implicit_euler,
+                          ForceMethod::fused, "");
     const glm::dvec3 start = measure(solver).momentum;
     const double step = 0.5 * largest_stable_step(SolverKind::semi_implicit_euler, model);
     for (int s = 0; s < 500; ++s) solver.advance_nodes(step);
     EXPECT_LT(glm::distance(measure(solver).momentum, start) / (model.objects[0].mass * 5.0), 1e-5);
 }
 
-// Semi-implicit Euler conserves a modified energy: over 10,000 steps the true one stays within a band that does not
-// drift, where explicit Euler's grows without limit.
+// Semi-implicit Euler conserves a modified energy: over 10,000 steps the true one stays within a band that
+// does not drift, where explicit Euler's grows without limit.
 TEST(Energy, OfSemiImplicitEulerIsBoundedOver10000Steps) {
     Model model = test::make_model(test::make_body(test::make_block({3, 3, 3}, {0.3, 0.3, 0.3}, 0.2)));
     for (glm::vec4& p : model.positions) p.x *= 1.05f;

@@ -1,6 +1,7 @@
-// A bar that hangs under its own weight gets longer by rho g L^2 / (2 E) (Hooke's law with a stress that grows linearly
-// from the free end). Springs answer softer than that, for nodes inside leave the affine positions (docs/physics.md,
-// "What is not"); how much softer is recorded here, so that nobody changes it unaware.
+// A bar that hangs under its own weight gets longer by rho g L^2 / (2 E) (Hooke's law with a stress that
+// grows linearly from the free end). Springs answer softer than that, for nodes inside leave the affine
+// positions (docs/physics.md, "What is not"); how much softer is recorded here, so that nobody changes it
+// unaware.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +39,8 @@ double answered_modulus(int edges_across, const SpringKinds& springs) {
 
     cpu::CpuSolver<float> solver(model, SolverKind::semi_implicit_euler, ForceMethod::fused);
     const double step = 0.8 * largest_stable_step(SolverKind::semi_implicit_euler, *model);
-    for (double time = 0.0; time < 1.5; time += step) solver.advance_nodes(step);  // twelve periods, ten time constants
+    for (double time = 0.0; time < 1.5; time += step)
+        solver.advance_nodes(step);  // twelve periods, ten time constants
     double sag = 0.0;
     int count = 0;
     for (std::uint32_t n = 0; n < model->node_count(); ++n) {

@@ -1,5 +1,5 @@
-// Two nodes of mass m on a spring k swing about their centre with w = sqrt(k / mu), mu = m / 2 the reduced mass:
-// x(t) = rest_length + A cos(w t). docs/physics.md, "Integration".
+// Two nodes of mass m on a spring k swing about their centre with w = sqrt(k / mu), mu = m / 2 the reduced
+// mass: x(t) = rest_length + A cos(w t). docs/physics.md, "Integration".
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,14 +17,18 @@ constexpr double kStiffness = 50.0;  // [N/m], so that w = 10 rad/s
 constexpr double kFrequency = 10.0;
 constexpr double kAmplitude = 0.1;  // [m]
 
-Model oscillator() { return test::make_model(test::make_oscillator(kStiffness, 1.0, kAmplitude)); }
+Model oscillator() {
+    return test::make_model(test::make_oscillator(kStiffness, 1.0, kAmplitude));
+}
 
 double stretch_of(const Model& model, const auto& positions) {
     return static_cast<double>(positions[1].x) - static_cast<double>(positions[0].x) -
            static_cast<double>(model.springs[0].rest_length);
 }
 
-double start_amplitude(const Model& model) { return stretch_of(model, model.positions); }
+double start_amplitude(const Model& model) {
+    return stretch_of(model, model.positions);
+}
 
 // Error at t = 0.5 s, five radians on, with `steps` steps.
 double error_after(SolverKind solver, int steps) {
@@ -32,7 +36,8 @@ double error_after(SolverKind solver, int steps) {
     cpu::CpuSolver<double> oracle(model, solver, ForceMethod::fused);
     const double time = 0.5;
     for (int s = 0; s < steps; ++s) oracle.advance_nodes(time / steps);
-    return std::abs(stretch_of(*model, oracle.nodes().positions) - start_amplitude(*model) * std::cos(kFrequency * time));
+    return std::abs(stretch_of(*model, oracle.nodes().positions) -
+                    start_amplitude(*model) * std::cos(kFrequency * time));
 }
 
 struct Order {
@@ -41,14 +46,16 @@ struct Order {
 };
 class ConvergenceTest : public ::testing::TestWithParam<Order> {};
 INSTANTIATE_TEST_SUITE_P(Solvers, ConvergenceTest,
-                         ::testing::Values(Order{SolverKind::explicit_euler, 1}, Order{SolverKind::semi_implicit_euler, 1},
+                         ::testing::Values(Order{SolverKind::explicit_euler, 1},
+                                           Order{SolverKind::semi_implicit_euler, 1},
                                            Order{SolverKind::midpoint, 2}, Order{SolverKind::rk4, 4}),
                          [](const auto& test) { return solver_name(test.param.solver); });
 
 // Halving the step divides the error by 2^order.
 TEST_P(ConvergenceTest, HasTheOrderOfItsScheme) {
     for (const int steps : {400, 800}) {
-        const double ratio = error_after(GetParam().solver, steps) / error_after(GetParam().solver, 2 * steps);
+        const double ratio =
+            error_after(GetParam().solver, steps) / error_after(GetParam().solver, 2 * steps);
         EXPECT_NEAR(std::log2(ratio), GetParam().order, 0.1) << steps << " steps";
     }
 }
@@ -83,7 +90,8 @@ TEST_F(OscillatorOnGpuTest, Period) {
     const auto model = std::make_shared<const Model>(oscillator());
     for (const ForceMethod forces : {ForceMethod::fused, ForceMethod::divide_and_merge}) {
         gpu::GpuSolver solver(model, SolverKind::rk4, forces, "");
-        EXPECT_NEAR(measured_period(*model, solver, 5e-3, 2) / (2.0 * std::numbers::pi / kFrequency), 1.0, 1e-4);
+        EXPECT_NEAR(measured_period(*model, solver, 5e-3, 2) / (2.0 * std::numbers::pi / kFrequency), 1.0,
+                    1e-4);
     }
 }
 
@@ -97,7 +105,8 @@ TEST(OscillatorTest, DampingDecaysAtItsRate) {
     const double w = std::sqrt(kFrequency * kFrequency - decay * decay);
     const double time = 4.0 * std::numbers::pi / w;  // two periods
     for (int s = 0; s < 4000; ++s) solver.advance_nodes(time / 4000);
-    EXPECT_NEAR(stretch_of(*model, solver.nodes().positions) / start_amplitude(*model), std::exp(-decay * time), 1e-5);
+    EXPECT_NEAR(stretch_of(*model, solver.nodes().positions) / start_amplitude(*model),
+                std::exp(-decay * time), 1e-5);
 }
 
 }  // namespace
