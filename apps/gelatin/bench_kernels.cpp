@@ -149,8 +149,11 @@ public:
     void merge() {
         cpu::merge_spring_forces<float>(*model_, spring_forces_, node_forces_, {0, model_->node_count()});
     }
-    void integrate() {
-        cpu::integrate_nodes<float>(pass(), node_forces_, {0, model_->node_count()});
+    void integrate() { cpu::integrate_nodes<float>(pass(), node_forces_, {0, model_->node_count()}); }
+    void divide_and_merge() {
+        write();
+        merge();
+        integrate();
         std::swap(now_, next_);
     }
 
@@ -170,23 +173,18 @@ private:
 };
 
 void add_plain_cases(std::shared_ptr<const Model> model, double step, std::vector<Case>& cases) {
-    auto core = std::make_shared<PlainCore>(model, step);
-    const auto nothing = [] {};
+    const auto fused = std::make_shared<PlainCore>(model, step),
+               divided = std::make_shared<PlainCore>(model, step);
+    const auto add = [&](const char* stage, double bytes, std::function<void()> run) {
+        cases.push_back({"plain C++", stage, bytes, std::move(run), [] {}});
+    };
     const Model& m = *model;
-    cases.push_back(
-        {"plain C++", "advance_nodes (fused)", fused_bytes(m), [core] { core->fused(); }, nothing});
-    cases.push_back({"plain C++", "write_spring_forces", write_bytes(m), [core] { core->write(); }, nothing});
-    cases.push_back({"plain C++", "merge_spring_forces", merge_bytes(m), [core] { core->merge(); }, nothing});
-    cases.push_back(
-        {"plain C++", "integrate_nodes", integrate_bytes(m), [core] { core->integrate(); }, nothing});
-    const double all = write_bytes(m) + merge_bytes(m) + integrate_bytes(m);
-    cases.push_back({"plain C++", "divide and merge", all,
-                     [core] {
-                         core->write();
-                         core->merge();
-                         core->integrate();
-                     },
-                     nothing});
+    add("advance_nodes (fused)", fused_bytes(m), [fused] { fused->fused(); });
+    add("write_spring_forces", write_bytes(m), [divided] { divided->write(); });
+    add("merge_spring_forces", merge_bytes(m), [divided] { divided->merge(); });
+    add("integrate_nodes", integrate_bytes(m), [divided] { divided->integrate(); });
+    add("divide and merge", write_bytes(m) + merge_bytes(m) + integrate_bytes(m),
+        [divided] { divided->divide_and_merge(); });
 }
 
 void add_cpu_cases(std::shared_ptr<const Model> model, double step, std::vector<Case>& cases) {

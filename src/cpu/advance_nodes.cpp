@@ -7,6 +7,26 @@
 #include "cpu/integrate_node.h"
 
 namespace gelatin::cpu {
+namespace {
+
+template <class T>
+void prefetch(const T* first, std::size_t count) {
+    constexpr std::size_t kLine = 64;  // bytes
+    for (std::size_t offset = 0; offset < count * sizeof(T); offset += kLine) {
+        __builtin_prefetch(reinterpret_cast<const char*>(first) + offset);
+    }
+}
+
+// Nodes walk through their slice in strides, and gather all over their object: the hardware's prefetching
+// follows neither.
+void prefetch_springs(const HalfSprings& springs, std::uint32_t slice) {
+    if (slice + 1 >= springs.slice_starts.size()) return;
+    const std::uint32_t start = springs.slice_starts[slice], count = springs.slice_starts[slice + 1] - start;
+    prefetch(springs.pairs.data() + start, count);
+    prefetch(springs.stiffness.data() + start, count);
+}
+
+}  // namespace
 
 template <class Real>
 Pass<Real> make_pass(const Model& model, const ExplicitScheme& scheme, int index, double step,
@@ -34,10 +54,14 @@ Pass<Real> make_pass(const Model& model, const ExplicitScheme& scheme, int index
 
 template <class Real>
 void advance_nodes(const Pass<Real>& pass, Range slices) {
-    constexpr std::uint32_t kSlice = HalfSprings::kSlice;
-    const std::uint32_t end = std::min(slices.end() * kSlice, pass.model.node_count());
-    for (std::uint32_t n = slices.first * kSlice; n < end; ++n)
-        integrate_node(pass, n, gather_forces(pass, n));
+    for (std::uint32_t slice = slices.first; slice < slices.end(); ++slice) {
+        prefetch_springs(pass.model.half_springs, slice + 1);
+        const std::uint32_t first = slice * HalfSprings::kSlice;
+        prefetch(pass.positions + first + kNodesAhead, HalfSprings::kSlice);
+        prefetch(pass.velocities + first + kNodesAhead, HalfSprings::kSlice);
+        const std::uint32_t end = std::min(first + HalfSprings::kSlice, pass.model.node_count());
+        for (std::uint32_t n = first; n < end; ++n) integrate_node(pass, n, gather_forces(pass, n));
+    }
 }
 
 template <class Real>

@@ -32,9 +32,6 @@ using Vector = hn::Vec<Lanes>;
 constexpr std::size_t kLanes = hn::MaxLanes(Lanes());
 static_assert(kLanes == 4 || kLanes == 8);
 
-// Nodes of a small object are gathered from all over it; of a large one from a narrower band.
-constexpr std::uint32_t kNodesAhead = 4096;
-
 // Highway's own Prefetch compiles to nothing in Debian's 1.0.3. Beyond an array's end it is harmless.
 template <class T>
 HWY_INLINE void prefetch_lanes(const T* first) {

@@ -5,6 +5,10 @@
 
 namespace gelatin::cpu {
 
+/// How far ahead of a node others are fetched into the cache: nodes of a small object are gathered from all
+/// over it, of a large one from a narrower band.
+constexpr std::uint32_t kNodesAhead = 4096;
+
 /// The force of all springs of node n [N], in the order of its half springs.
 template <class Real>
 inline Vec3<Real> gather_forces(const Pass<Real>& pass, std::uint32_t n) {

@@ -16,7 +16,7 @@ Vec3<Real> spring_force(const Vec3<Real>& a, const Vec3<Real>& b, const Vec3<Rea
     const Vec3<Real> d = b - a;
     const Real length_squared = std::max(glm::dot(d, d), Real(1e-30));
     const Real length = std::sqrt(length_squared);
-    const Vec3<Real> n = d / length;
+    const Vec3<Real> n = d * (Real(1) / length);  // one division, not three
     const Real rate = glm::dot(velocity_b - velocity_a, n);
     return n * (stiffness * (length - rest_length + damping_time * rate));
 }
