@@ -53,7 +53,8 @@ std::shared_ptr<const Model> make_spheres(const TetMesh& sphere, int scale) {
         Body body;
         body.name = "sphere " + std::to_string(i);
         body.mesh = sphere;
-        for (glm::dvec3& p : body.mesh.positions) p += glm::dvec3(1.5 * (i % 20), 50.0 + 1.5 * (i / 20), 0.0);
+        const int row = i / 20, column = i % 20;
+        for (glm::dvec3& p : body.mesh.positions) p += glm::dvec3(1.5 * column, 50.0 + 1.5 * row, 0.0);
         body.material.damping = 1e-4;
         bodies.push_back(std::move(body));
     }
@@ -172,7 +173,7 @@ private:
     std::vector<glm::vec4> spring_forces_, node_forces_;
 };
 
-void add_plain_cases(std::shared_ptr<const Model> model, double step, std::vector<Case>& cases) {
+void add_plain_cases(const std::shared_ptr<const Model>& model, double step, std::vector<Case>& cases) {
     const auto fused = std::make_shared<PlainCore>(model, step),
                divided = std::make_shared<PlainCore>(model, step);
     const auto add = [&](const char* stage, double bytes, std::function<void()> run) {
@@ -187,7 +188,7 @@ void add_plain_cases(std::shared_ptr<const Model> model, double step, std::vecto
         [divided] { divided->divide_and_merge(); });
 }
 
-void add_cpu_cases(std::shared_ptr<const Model> model, double step, std::vector<Case>& cases) {
+void add_cpu_cases(const std::shared_ptr<const Model>& model, double step, std::vector<Case>& cases) {
     const auto solver_for = [&](ForceMethod forces) {
         return std::make_shared<cpu::CpuSolver<float>>(model, SolverKind::semi_implicit_euler, forces);
     };
@@ -212,7 +213,7 @@ void add_cpu_cases(std::shared_ptr<const Model> model, double step, std::vector<
     }
 }
 
-void add_gl_cases(std::shared_ptr<const Model> model, double step, std::vector<Case>& cases) {
+void add_gl_cases(const std::shared_ptr<const Model>& model, double step, std::vector<Case>& cases) {
     const auto solver_for = [&](ForceMethod forces) {
         return std::make_shared<gpu::GpuSolver>(model, SolverKind::semi_implicit_euler, forces, "");
     };

@@ -71,5 +71,17 @@ TEST_P(HangingBarTest, IsSofterThanAskedByAKnownAmount) {
     EXPECT_NEAR(answered_modulus(GetParam().edges_across, GetParam().springs), GetParam().recorded, 0.02);
 }
 
+class HangingBarLong : public HangingBarTest {};
+INSTANTIATE_TEST_SUITE_P(Recorded, HangingBarLong,
+                         ::testing::Values(Case{"structural_6", {true, false, false}, 6, 0.843},
+                                           Case{"with_shear_6", {true, true, false}, 6, 0.906},
+                                           Case{"with_shear_and_flex_4", {true, true, true}, 4, 0.858},
+                                           Case{"with_shear_and_flex_6", {true, true, true}, 6, 0.918}),
+                         [](const auto& test) { return test.param.name; });
+
+TEST_P(HangingBarLong, IsSofterThanAskedByAKnownAmount) {
+    EXPECT_NEAR(answered_modulus(GetParam().edges_across, GetParam().springs), GetParam().recorded, 0.02);
+}
+
 }  // namespace
 }  // namespace gelatin
