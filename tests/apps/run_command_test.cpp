@@ -124,8 +124,8 @@ TEST_F(RunCommand, RefusesUnknownChoices) {
 }
 
 TEST_F(RunCommand, FailsCleanlyOnAFullDisk) {
-    ASSERT_EQ(run({"run", "cube.toml", "--frames", "0", "--quiet"}).exit_code,
-              0);  // the tets are in the cache
+    // Puts the tets into the cache, whose own writing must not meet the limit first.
+    ASSERT_EQ(run({"run", "cube.toml", "--frames", "0", "--quiet"}).exit_code, 0);
     settings_.largest_file = 2000;
     const ProgramResult result = run({"run", "cube.toml", "--export", "out", "--format", "obj", "--quiet"});
     EXPECT_EQ(result.exit_code, 1);
@@ -340,7 +340,8 @@ TEST_F(RunCommandFilms, AnInterruptFinishesTheFilm) {
 }
 
 TEST_F(RunCommandFilms, FailsCleanlyOnAFullDisk) {
-    ASSERT_EQ(run({"run", "cube.toml", "--frames", "0", "--quiet"}).exit_code, 0);  // the tets are in the cache
+    // Puts the tets into the cache, whose own writing must not meet the limit first.
+    ASSERT_EQ(run({"run", "cube.toml", "--frames", "0", "--quiet"}).exit_code, 0);
     settings_.largest_file = 20'000;
     const ProgramResult result =
         run({"run", "cube.toml", "--video", "film.mp4", "--frames", "200", "--quiet"});
