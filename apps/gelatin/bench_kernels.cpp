@@ -215,7 +215,7 @@ void add_cpu_cases(const std::shared_ptr<const Model>& model, double step, std::
 
 void add_gl_cases(const std::shared_ptr<const Model>& model, double step, std::vector<Case>& cases) {
     const auto solver_for = [&](ForceMethod forces) {
-        return std::make_shared<gpu::GpuSolver>(model, SolverKind::semi_implicit_euler, forces, "");
+        return std::make_shared<gpu::GpuSolver>(model, SolverKind::semi_implicit_euler, forces);
     };
     const auto fused = solver_for(ForceMethod::fused);
     const auto divided = solver_for(ForceMethod::divide_and_merge);

@@ -28,7 +28,20 @@ struct SimulationSettings {
     double frame_time() const { return 1.0 / frame_rate; }  ///< [s]
 };
 
+/// How faces that cannot touch are left out before face is tested against face (docs/physics.md).
+enum class BroadPhase {
+    none,     ///< not at all: every face of every object against every face of every other
+    boxes,    ///< the paper's: objects whose bounding boxes meet, every face against every face
+    clipped,  ///< of those objects, the faces that reach into the other's box
+};
+
+/// What happens to objects whose faces meet: `restore` is the paper's (2.4), nodes return to where they were
+/// and their velocities respond.
+enum class CollisionResponse { restore };
+
 struct CollisionSettings {
+    BroadPhase broad_phase = BroadPhase::clipped;
+    CollisionResponse response = CollisionResponse::restore;
     double friction = 0.4;     ///< Coulomb's coefficient, >= 0
     double restitution = 0.3;  ///< normal speed after over before, in [0, 1]
 };

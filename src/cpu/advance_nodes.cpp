@@ -5,6 +5,7 @@
 
 #include "cpu/gather_forces.h"
 #include "cpu/integrate_node.h"
+#include "model/solver.h"
 
 namespace gelatin::cpu {
 namespace {
@@ -35,7 +36,7 @@ Pass<Real> make_pass(const Model& model, const ExplicitScheme& scheme, int index
     const Vec3<Real> gravity(model.gravity);
     return {.model = model,
             .gravity = gravity,
-            .resting_speed = static_cast<Real>(2.0 * step) * glm::length(gravity),
+            .resting_speed = static_cast<Real>(resting_speed(model.gravity, step)),
             .step = static_cast<Real>(step),
             .weight = static_cast<Real>(weights.weight),
             .next_step = static_cast<Real>(step * weights.next),

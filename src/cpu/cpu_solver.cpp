@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cpu/measure.h"
+#include "cpu/respond.h"
 
 namespace gelatin::cpu {
 namespace {
@@ -32,8 +33,13 @@ std::vector<Vec4<Real>> converted(const std::vector<glm::vec4>& values) {
 }  // namespace
 
 template <class Real>
-CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces)
-    : model_(std::move(model)), scheme_(explicit_scheme(solver)), forces_(forces) {
+CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces,
+                           const CollisionSettings& collision)
+    : model_(std::move(model)),
+      scheme_(explicit_scheme(solver)),
+      forces_(forces),
+      collision_(model_, collision.broad_phase),
+      contact_{collision.friction, collision.restitution} {
     current_ = {converted<Real>(model_->positions), converted<Real>(model_->velocities)};
     previous_ = current_;
     if (scheme_.pass_count > 1) sums_ = stage_[0] = stage_[1] = current_;
@@ -76,8 +82,17 @@ void CpuSolver<Real>::run_pass(const Pass<Real>& pass) {
 }
 
 template <class Real>
+void CpuSolver<Real>::respond(double step) {
+    // advance_nodes has swapped: previous_ is where this step started.
+    cpu::respond(*model_, collision_, contact_, static_cast<Real>(step), previous_, current_);
+}
+
+template <class Real>
 void CpuSolver<Real>::begin_measure() {
     measures_.push_back(measure(*model_, current_));
+    for (std::size_t o = 0; o < model_->objects.size(); ++o) {
+        measures_.back()[o].colliding_faces = collision_.count_colliding(static_cast<std::uint32_t>(o));
+    }
 }
 
 template <class Real>

@@ -4,6 +4,8 @@
 #include <memory>
 
 #include "cpu/advance_nodes.h"
+#include "cpu/collision.h"
+#include "cpu/contact.h"
 #include "cpu/nodes.h"
 #include "model/solver.h"
 
@@ -14,11 +16,17 @@ namespace gelatin::cpu {
 template <class Real>
 class CpuSolver : public Solver {
 public:
-    CpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces);
+    CpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces,
+              const CollisionSettings& collision = {});
 
     void advance_nodes(double step) override;
+    void update_boxes() override { collision_.update_boxes(current_.positions); }
+    void find_object_pairs() override { collision_.find_object_pairs(); }
+    void find_face_collisions() override { collision_.find_face_collisions(current_.positions); }
+    void respond(double step) override;
     void begin_measure() override;
     std::vector<ObjectMeasure> end_measure() override;
+    std::uint32_t lost_pairs() const override { return 0; }
     State read_state() const override;
     void write_state(const State& state) override;
     StageTimer& stage_timer() override { return timer_; }
@@ -26,6 +34,7 @@ public:
 
     /// The nodes in full precision.
     const Nodes<Real>& nodes() const { return current_; }
+    const Collision<Real>& collision() const { return collision_; }
 
 private:
     void run_pass(const Pass<Real>& pass);
@@ -37,6 +46,8 @@ private:
     Nodes<Real> stage_[2];            // between the passes of one step
     Nodes<Real> sums_;
     std::vector<Vec4<Real>> spring_forces_, node_forces_;
+    Collision<Real> collision_;
+    ContactProperties contact_;
     std::deque<std::vector<ObjectMeasure>> measures_;
     HostStageTimer timer_;
 };

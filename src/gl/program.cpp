@@ -153,6 +153,13 @@ void Program::dispatch(std::size_t invocations, std::uint32_t group_size) const 
     check_errors("glDispatchCompute");
 }
 
+void Program::dispatch_indirect(unsigned arguments, std::size_t offset) const {
+    glUseProgram(id_);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, arguments);
+    glDispatchComputeIndirect(static_cast<GLintptr>(offset));
+    check_errors("glDispatchComputeIndirect");
+}
+
 void barrier(Barrier next_use) {
     const auto asks = [next_use](Barrier use) {
         return (static_cast<unsigned>(next_use) & static_cast<unsigned>(use)) != 0;

@@ -47,6 +47,10 @@ public:
     /// invocations.
     void dispatch(std::size_t invocations, std::uint32_t group_size = 64) const;
 
+    /// Uses the program and runs as many work groups as three uints at `offset` [bytes] in GL buffer
+    /// `arguments` say, each at most 65,535. Needs barrier(command) since they were written.
+    void dispatch_indirect(unsigned arguments, std::size_t offset) const;
+
 private:
     unsigned id_ = 0;
 };

@@ -2,12 +2,14 @@
 
 #include <utility>
 
+#include "gl/context.h"
+
 namespace gelatin::gpu {
 
 GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces,
-                     std::string device)
+                     const CollisionSettings& collision)
     : model_(std::move(model)),
-      device_(std::move(device)),
+      device_(gl::Context::current().device().renderer),
       scheme_(explicit_scheme(solver)),
       buffers_(*model_),
       current_(model_->positions, model_->velocities),
@@ -18,6 +20,7 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, Forc
             *nodes = NodeBuffers(model_->positions, model_->velocities);
         }
     }
+    if (model_->objects.size() > 1) collision_.emplace(*model_, collision);
     if (forces == ForceMethod::fused) {
         fused_.emplace(*model_, scheme_);
     } else {
@@ -38,6 +41,27 @@ void GpuSolver::advance_nodes(double step) {
         from = &to;
     }
     std::swap(current_, previous_);
+}
+
+void GpuSolver::update_boxes() {
+    collision_->update_boxes.run(buffers_, collision_->buffers, current_);
+}
+
+void GpuSolver::find_object_pairs() {
+    collision_->find_object_pairs.run(buffers_, collision_->buffers);
+}
+
+void GpuSolver::find_face_collisions() {
+    collision_->find_face_collisions.run(buffers_, collision_->buffers, current_);
+}
+
+void GpuSolver::respond(double step) {
+    // advance_nodes has swapped: previous_ is where this step started.
+    collision_->respond.run(buffers_, collision_->buffers, previous_, current_, step);
+}
+
+void GpuSolver::begin_measure() {
+    measure_.begin(buffers_, current_, collision_ ? &collision_->buffers : nullptr);
 }
 
 State GpuSolver::read_state() const {

@@ -5,6 +5,7 @@
 
 #include "gl/timer.h"
 #include "gpu/advance_nodes.h"
+#include "gpu/collision.h"
 #include "gpu/divide_and_merge.h"
 #include "gpu/measure.h"
 #include "gpu/model_buffers.h"
@@ -16,10 +17,16 @@ namespace gelatin::gpu {
 /// The solver in OpenGL compute shaders. Needs the context it was made in to be current.
 class GpuSolver : public Solver {
 public:
-    GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces, std::string device);
+    GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces,
+              const CollisionSettings& collision = {});
 
     void advance_nodes(double step) override;
-    void begin_measure() override { measure_.begin(buffers_, current_); }
+    void update_boxes() override;
+    void find_object_pairs() override;
+    void find_face_collisions() override;
+    void respond(double step) override;
+    void begin_measure() override;
+    std::uint32_t lost_pairs() const override { return measure_.lost_pairs(); }
     std::vector<ObjectMeasure> end_measure() override { return measure_.end(); }
     State read_state() const override;
     void write_state(const State& state) override;
@@ -28,6 +35,8 @@ public:
 
     /// Where the nodes are now; another buffer after each step.
     const NodeBuffers& nodes() const { return current_; }
+    /// @pre the model has at least two objects
+    const Collision& collision() const { return *collision_; }
 
 private:
     std::shared_ptr<const Model> model_;
@@ -38,6 +47,7 @@ private:
     NodeBuffers stage_[2], sums_;     // between the passes of one step
     std::optional<AdvanceNodes> fused_;
     std::optional<DivideAndMerge> divide_and_merge_;
+    std::optional<Collision> collision_;  // of at least two objects
     Measure measure_;
     gl::TimestampStageTimer timer_;
 };

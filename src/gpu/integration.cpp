@@ -1,6 +1,6 @@
 #include "gpu/integration.h"
 
-#include <glm/geometric.hpp>
+#include "model/solver.h"
 
 namespace gelatin::gpu {
 
@@ -33,7 +33,7 @@ void bind_integration(const gl::Program& program, const ModelBuffers& model, con
     program.set("time_step", h);
     program.set("semi_implicit", pass.scheme.semi_implicit ? 1u : 0u);
     program.set("gravity", model.gravity);
-    program.set("resting_speed", 2.0f * h * glm::length(model.gravity));
+    program.set("resting_speed", static_cast<float>(resting_speed(model.gravity, pass.step)));
 }
 
 }  // namespace gelatin::gpu

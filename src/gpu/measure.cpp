@@ -3,21 +3,10 @@
 #include <algorithm>
 #include <cstring>
 
+#include "gpu/chunks.h"
+
 namespace gelatin::gpu {
 namespace {
-
-constexpr std::uint32_t kChunk = 256;
-
-std::vector<Chunk> make_chunks(const Model& model, Range ModelObject::*range) {
-    std::vector<Chunk> chunks;
-    for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
-        const Range all = model.objects[o].*range;
-        for (std::uint32_t first = all.first; first < all.end(); first += kChunk) {
-            chunks.push_back({o, first, std::min(kChunk, all.end() - first), model.objects[o].nodes.first});
-        }
-    }
-    return chunks;
-}
 
 template <class T>
 std::vector<T> read_as(const std::vector<std::byte>& bytes) {
@@ -31,16 +20,17 @@ std::vector<T> read_as(const std::vector<std::byte>& bytes) {
 Measure::Measure(const Model& model)
     : node_program_(gl::Program::compute("sim/measure_nodes.comp", ModelBuffers::collider_defines(model))),
       face_program_(gl::Program::compute("sim/measure_faces.comp")),
+      colliding_program_(gl::Program::compute("sim/count_colliding_faces.comp")),
       node_chunks_(make_chunks(model, &ModelObject::nodes)),
       face_chunks_(make_chunks(model, &ModelObject::faces)),
       node_chunk_buffer_(std::span<const Chunk>(node_chunks_)),
       face_chunk_buffer_(std::span<const Chunk>(face_chunks_)),
-      faces_(std::span(model.faces)),
       node_sums_(node_chunks_.size()),
       volumes_(face_chunks_.size()),
+      colliding_(std::span<const std::uint32_t>(std::vector<std::uint32_t>(face_chunks_.size() + 1))),
       object_count_(model.objects.size()) {}
 
-void Measure::begin(const ModelBuffers& model, const NodeBuffers& nodes) {
+void Measure::begin(const ModelBuffers& model, const NodeBuffers& nodes, const CollisionBuffers* collision) {
     nodes.position_texels.bind(0);
     nodes.velocity_texels.bind(1);
     model.bind_half_springs();
@@ -54,18 +44,32 @@ void Measure::begin(const ModelBuffers& model, const NodeBuffers& nodes) {
 
     face_chunk_buffer_.bind_storage(0);
     volumes_.bind_storage(1);
-    faces_.bind_storage(2);
+    model.faces.bind_storage(2);
     face_program_.set("chunk_count", static_cast<std::uint32_t>(face_chunks_.size()));
     face_program_.dispatch(64 * face_chunks_.size());
 
+    if (collision != nullptr) count_colliding_faces(*collision);
     gl::barrier(gl::Barrier::buffer_update);
     readback_.begin(node_sums_.id(), node_sums_.size() * sizeof(NodeSums));
     readback_.begin(volumes_.id(), volumes_.size() * sizeof(float));
+    readback_.begin(colliding_.id(), colliding_.size() * sizeof(std::uint32_t));
+}
+
+// One element a chunk, and the pairs that were lost.
+void Measure::count_colliding_faces(const CollisionBuffers& collision) {
+    collision.bind_pairs();
+    collision.face_collisions.bind_storage(4);
+    face_chunk_buffer_.bind_storage(3);
+    colliding_.bind_storage(5);
+    colliding_program_.set("chunk_count", static_cast<std::uint32_t>(face_chunks_.size()));
+    colliding_program_.dispatch(64 * face_chunks_.size());
 }
 
 std::vector<ObjectMeasure> Measure::end() {
     const auto sums = read_as<NodeSums>(readback_.take());
     const auto volumes = read_as<float>(readback_.take());
+    const auto colliding = read_as<std::uint32_t>(readback_.take());
+    lost_pairs_ = colliding.back();
     std::vector<ObjectMeasure> objects(object_count_);
     for (std::size_t c = 0; c < sums.size(); ++c) {
         ObjectMeasure& object = objects[node_chunks_[c].object];
@@ -79,6 +83,7 @@ std::vector<ObjectMeasure> Measure::end() {
     }
     for (std::size_t c = 0; c < volumes.size(); ++c) {
         objects[face_chunks_[c].object].volume += static_cast<double>(volumes[c]);
+        objects[face_chunks_[c].object].colliding_faces += colliding[c];
     }
     return objects;
 }

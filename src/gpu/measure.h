@@ -4,6 +4,7 @@
 
 #include "gl/program.h"
 #include "gl/readback.h"
+#include "gpu/collision_buffers.h"
 #include "gpu/model_buffers.h"
 #include "gpu/node_buffers.h"
 #include "model/solver.h"
@@ -16,18 +17,25 @@ class Measure {
 public:
     explicit Measure(const Model& model);
 
-    void begin(const ModelBuffers& model, const NodeBuffers& nodes);
+    /// @param collision null for scenes of one object
+    void begin(const ModelBuffers& model, const NodeBuffers& nodes,
+               const CollisionBuffers* collision = nullptr);
     /// The oldest that is under way; waits for it if need be.
     std::vector<ObjectMeasure> end();
+    /// As of the last `end`.
+    std::uint32_t lost_pairs() const { return lost_pairs_; }
 
 private:
-    gl::Program node_program_, face_program_;
+    void count_colliding_faces(const CollisionBuffers& collision);
+
+    gl::Program node_program_, face_program_, colliding_program_;
     std::vector<Chunk> node_chunks_, face_chunks_;
     gl::Buffer<Chunk> node_chunk_buffer_, face_chunk_buffer_;
-    gl::Buffer<Face> faces_;
     gl::Buffer<NodeSums> node_sums_;
     gl::Buffer<float> volumes_;
+    gl::Buffer<std::uint32_t> colliding_;
     gl::Readback readback_;
+    std::uint32_t lost_pairs_ = 0;
     std::size_t object_count_;
 };
 

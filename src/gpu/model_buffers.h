@@ -14,6 +14,8 @@ struct ModelBuffers {
     gl::Buffer<glm::vec2> stiffnesses;  ///< of the pairs [N/m]
     gl::Buffer<std::uint32_t> slice_starts;
     gl::BufferTexture half_spring_texels, stiffness_texels, slice_start_texels;
+    gl::Buffer<Face> faces;
+    gl::BufferTexture face_texels;
     gl::Buffer<Collider> colliders;  ///< empty if there are none
     gl::BufferTexture collider_texels;
     std::uint32_t node_count = 0;

@@ -11,6 +11,7 @@
 #include "gelatin/error.h"
 #include "mesh/topology.h"
 #include "model/draw_surface.h"
+#include "model/node_faces.h"
 #include "model/object_mesh.h"
 #include "model/spring_packing.h"
 #include "model/springs.h"
@@ -214,6 +215,7 @@ Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDes
     model.gravity = glm::vec3(gravity);
     model.half_springs = pack_half_springs(model.node_count(), model.springs);
     model.incidence = make_incidence(model.node_count(), model.springs);
+    model.node_faces = make_node_faces(model.node_count(), model.faces);
     return model;
 }
 

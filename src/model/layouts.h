@@ -10,29 +10,51 @@ namespace gelatin::layouts {
 using uint = std::uint32_t;
 using glm::vec4;
 
+#include "layouts/box.glsl"
 #include "layouts/chunk.glsl"
 #include "layouts/collider.glsl"
+#include "layouts/contact.glsl"
+#include "layouts/dispatch.glsl"
 #include "layouts/face.glsl"
 #include "layouts/half_spring_pair.glsl"
+#include "layouts/object_pair.glsl"
 #include "layouts/spring.glsl"
 #include "layouts/surface_vertex.glsl"
 
+static_assert(sizeof(ApproachSums) == 32);
+static_assert(sizeof(BoundingBox) == 48);
+static_assert(sizeof(Box) == 32);
 static_assert(sizeof(Chunk) == 16);
 static_assert(sizeof(Collider) == 64);
+static_assert(sizeof(ContactPatch) == 32);
+static_assert(sizeof(ContactResponse) == 48);
+static_assert(sizeof(Dispatch) == 16);
 static_assert(sizeof(Face) == 16);
+static_assert(sizeof(FacePair) == 16);
 static_assert(sizeof(HalfSpringPair) == 16);
 static_assert(sizeof(NodeSums) == 32);
+static_assert(sizeof(ObjectPair) == 32);
+static_assert(sizeof(PairRow) == 16);
 static_assert(sizeof(Spring) == 16);
 static_assert(sizeof(SurfaceVertex) == 16);
 
 }  // namespace gelatin::layouts
 
 namespace gelatin {
+using layouts::ApproachSums;
+using layouts::BoundingBox;
+using layouts::Box;
 using layouts::Chunk;
 using layouts::Collider;
+using layouts::ContactPatch;
+using layouts::ContactResponse;
+using layouts::Dispatch;
 using layouts::Face;
+using layouts::FacePair;
 using layouts::HalfSpringPair;
 using layouts::NodeSums;
+using layouts::ObjectPair;
+using layouts::PairRow;
 using layouts::Spring;
 using layouts::SurfaceVertex;
 }  // namespace gelatin

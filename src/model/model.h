@@ -45,6 +45,12 @@ struct SpringIncidence {
     std::vector<std::uint32_t> entries;  ///< shape [2 * springs]
 };
 
+/// Faces by node: those of node n are faces[starts[n]] .. faces[starts[n + 1]], ascending; none inside.
+struct NodeFaces {
+    std::vector<std::uint32_t> starts;  ///< shape [nodes + 1]
+    std::vector<std::uint32_t> faces;   ///< indices into Model::faces, shape [3 * faces]
+};
+
 /// What is drawn: faces over surface vertices (nodes, split at creases) and the faces round each vertex.
 struct DrawSurface {
     std::vector<SurfaceVertex> vertices;
@@ -69,6 +75,7 @@ struct Model {
 
     std::vector<glm::uvec4> tets;  ///< shape [tets]
     std::vector<Face> faces;       ///< boundary triangles, shape [faces]
+    NodeFaces node_faces;
     DrawSurface surface;
 
     std::vector<Collider> colliders;  ///< in the order of their kinds

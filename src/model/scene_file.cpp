@@ -53,6 +53,9 @@ SimulationSettings read_simulation(TableReader reader) {
 
 CollisionSettings read_collision(TableReader reader) {
     CollisionSettings settings;
+    reader.read("broad_phase", settings.broad_phase,
+                {{"none", BroadPhase::none}, {"boxes", BroadPhase::boxes}, {"clipped", BroadPhase::clipped}});
+    reader.read("response", settings.response, {{"restore", CollisionResponse::restore}});
     reader.read("friction", settings.friction, kNotNegative);
     reader.read("restitution", settings.restitution, kFraction);
     reader.finish();

@@ -19,15 +19,19 @@ struct State {
 /// A node nearer to a collider than this [m] counts as a contact.
 constexpr double kContactDistance = 1e-5;
 
+/// Slower than this [m/s], what gravity adds in two steps, nodes that meet something do not bounce.
+double resting_speed(const glm::vec3& gravity, double step);
+
 /// Sums over one object at one moment.
 struct ObjectMeasure {
-    glm::dvec3 momentum{0.0};          ///< [kg m/s], of the nodes that are not pinned
-    double kinetic_energy = 0.0;       ///< [J]
-    double elastic_energy = 0.0;       ///< [J]
-    double potential_energy = 0.0;     ///< [J], zero at the origin, of the nodes that are not pinned
-    double volume = 0.0;               ///< [m^3]
-    double deepest_penetration = 0.0;  ///< of a node into a collider [m]
-    std::uint32_t contacts = 0;        ///< nodes that touch a collider
+    glm::dvec3 momentum{0.0};           ///< [kg m/s], of the nodes that are not pinned
+    double kinetic_energy = 0.0;        ///< [J]
+    double elastic_energy = 0.0;        ///< [J]
+    double potential_energy = 0.0;      ///< [J], zero at the origin, of the nodes that are not pinned
+    double volume = 0.0;                ///< [m^3]
+    double deepest_penetration = 0.0;   ///< of a node into a collider [m]
+    std::uint32_t contacts = 0;         ///< nodes that touch a collider
+    std::uint32_t colliding_faces = 0;  ///< that touch another object
 };
 
 /// A backend: owns the state where it lives and advances it. The stages are called in the order of
@@ -39,11 +43,22 @@ public:
     /// Forces and integration over one step of `step` seconds, world collisions included.
     virtual void advance_nodes(double step) = 0;
 
+    /// The stages of collision, for scenes of at least two objects: each object's box; the pairs of objects
+    /// that may touch; the faces that do; and the response to them, over the same step of `step` seconds.
+    virtual void update_boxes() = 0;
+    virtual void find_object_pairs() = 0;
+    virtual void find_face_collisions() = 0;
+    virtual void respond(double step) = 0;
+
     /// Starts measuring the present state. At most two measurements may be under way.
     virtual void begin_measure() = 0;
 
     /// The oldest measurement under way, one element an object; waits for it if need be.
     virtual std::vector<ObjectMeasure> end_measure() = 0;
+
+    /// Pairs of objects or faces that were not tested because they did not fit into a device's buffers: since
+    /// the start, as of the last measurement that ended.
+    virtual std::uint32_t lost_pairs() const = 0;
 
     virtual State read_state() const = 0;
     virtual void write_state(const State& state) = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 
+#include "core/log.h"
 #include "cpu/cpu_solver.h"
 #include "gelatin/error.h"
 #include "gpu/gpu_solver.h"
@@ -34,10 +35,20 @@ struct Simulator::Impl {
     Moment start{0, 0.0};     // of this run: where a checkpoint was loaded
     std::uint64_t steps = 0;  // since then
     std::deque<Moment> measured;
+    std::uint32_t reported_losses = 0;
 
     double step_size() const { return scene.simulation.frame_time() / substeps; }
     int frame() const { return start.frame + static_cast<int>(steps / static_cast<std::uint64_t>(substeps)); }
     double time() const { return start.time + static_cast<double>(steps) * step_size(); }
+
+    void warn_of_lost_pairs() {
+        const std::uint32_t lost = solver->lost_pairs();
+        if (lost == reported_losses) return;
+        spdlog::warn(
+            "{} pairs of objects or faces were not tested for collision: too many for the GPU's buffers",
+            lost - reported_losses);
+        reported_losses = lost;
+    }
 
     template <class Work>
     void run_stage(const char* name, const Work& work) {
@@ -57,12 +68,13 @@ Simulator::Simulator(const Scene& scene, const SimulatorOptions& options) : impl
     d.context = make_context(options);
     const SimulationSettings& settings = scene.simulation;
     if (choose_gl(options, d.context)) {
-        auto solver = std::make_unique<gpu::GpuSolver>(d.model, settings.solver, settings.forces,
-                                                       d.context->device().renderer);
+        auto solver =
+            std::make_unique<gpu::GpuSolver>(d.model, settings.solver, settings.forces, scene.collision);
         d.gpu_solver = solver.get();
         d.solver = std::move(solver);
     } else {
-        d.solver = std::make_unique<cpu::CpuSolver<float>>(d.model, settings.solver, settings.forces);
+        d.solver = std::make_unique<cpu::CpuSolver<float>>(d.model, settings.solver, settings.forces,
+                                                           scene.collision);
     }
 }
 
@@ -73,6 +85,12 @@ Simulator::~Simulator() = default;
 void Simulator::step() {
     Impl& d = *impl_;
     d.run_stage("advance_nodes", [&] { d.solver->advance_nodes(d.step_size()); });
+    if (d.model->objects.size() > 1) {
+        d.run_stage("update_boxes", [&] { d.solver->update_boxes(); });
+        d.run_stage("find_object_pairs", [&] { d.solver->find_object_pairs(); });
+        d.run_stage("find_face_collisions", [&] { d.solver->find_face_collisions(); });
+        d.run_stage("respond", [&] { d.solver->respond(d.step_size()); });
+    }
     ++d.steps;
 }
 
@@ -130,6 +148,7 @@ FrameStatistics Simulator::take_statistics() {
     frame.frame = d.measured.front().frame;
     frame.time = d.measured.front().time;
     d.measured.pop_front();
+    d.warn_of_lost_pairs();
     for (std::size_t o = 0; o < objects.size(); ++o) {
         const ObjectMeasure& object = objects[o];
         if (!std::isfinite(object.kinetic_energy + object.elastic_energy + object.potential_energy +
@@ -144,6 +163,7 @@ FrameStatistics Simulator::take_statistics() {
         frame.potential_energy += object.potential_energy;
         for (int k = 0; k < 3; ++k) frame.momentum[k] += object.momentum[k];
         frame.contacts += object.contacts;
+        frame.colliding_faces += object.colliding_faces;
         frame.deepest_penetration = std::max(frame.deepest_penetration, object.deepest_penetration);
         frame.volume_ratio.push_back(object.volume / d.model->objects[o].rest_volume);
     }

@@ -38,7 +38,7 @@ std::vector<std::unique_ptr<Solver>> solvers_for(const Model& model, bool with_g
             std::make_unique<cpu::CpuSolver<float>>(shared, SolverKind::semi_implicit_euler, forces));
         if (with_gl) {
             solvers.push_back(
-                std::make_unique<gpu::GpuSolver>(shared, SolverKind::semi_implicit_euler, forces, ""));
+                std::make_unique<gpu::GpuSolver>(shared, SolverKind::semi_implicit_euler, forces));
         }
     }
     return solvers;

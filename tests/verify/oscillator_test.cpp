@@ -89,7 +89,7 @@ class OscillatorOnGpuTest : public test::GlTest {};
 TEST_F(OscillatorOnGpuTest, Period) {
     const auto model = std::make_shared<const Model>(oscillator());
     for (const ForceMethod forces : {ForceMethod::fused, ForceMethod::divide_and_merge}) {
-        gpu::GpuSolver solver(model, SolverKind::rk4, forces, "");
+        gpu::GpuSolver solver(model, SolverKind::rk4, forces);
         EXPECT_NEAR(measured_period(*model, solver, 5e-3, 2) / (2.0 * std::numbers::pi / kFrequency), 1.0,
                     1e-4);
     }

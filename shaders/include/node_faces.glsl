@@ -1,0 +1,19 @@
+// The colliding ones among the faces round a node.
+layout(binding = 2) uniform usamplerBuffer node_face_starts;
+layout(binding = 3) uniform usamplerBuffer node_faces;
+
+uint count_colliding(uint node, ObjectPair pair) {
+    uint end = texelFetch(node_face_starts, int(node) + 1).x;
+    uint count = 0u;
+    for (uint k = texelFetch(node_face_starts, int(node)).x; k < end; ++k) {
+        count += uint(collides(pair, texelFetch(node_faces, int(k)).x));
+    }
+    return count;
+}
+
+// Over all objects that the node's own meets.
+uint count_colliding(uint node, PairRow row) {
+    uint count = 0u;
+    for (uint p = 0u; p < row.pair_count; ++p) count += count_colliding(node, object_pairs[row.first_pair + p]);
+    return count;
+}

@@ -1,0 +1,34 @@
+// Faces of each chunk that touch another object, one work group a chunk, and behind them the pairs that were lost.
+// Parity: tests/gpu/collision_test.cpp.
+#include "include/pairs.glsl"
+#include "include/face_collisions.glsl"
+#include "layouts/chunk.glsl"
+layout(local_size_x = 64) in;
+
+layout(std430, binding = 3) readonly buffer Chunks { Chunk chunks[]; };
+layout(std430, binding = 5) writeonly buffer Colliding { uint colliding[]; };  // of each chunk, and the losses
+uniform uint chunk_count;
+
+shared uint count;
+
+bool collides(uint face, PairRow row) {
+    bool any = false;
+    for (uint k = 0u; k < row.pair_count; ++k) any = any || collides(object_pairs[row.first_pair + k], face);
+    return any;
+}
+
+void main() {
+    uint group = group_index();
+    if (group >= chunk_count) return;  // the whole group leaves, so no one waits at the barrier
+    if (gl_LocalInvocationID.x == 0u) count = 0u;
+    barrier();
+    Chunk chunk = chunks[group];
+    PairRow row = pair_rows[chunk.object];
+    for (uint k = gl_LocalInvocationID.x; k < chunk.count; k += 64u) {
+        atomicAdd(count, uint(collides(chunk.first + k, row)));
+    }
+    barrier();
+    if (gl_LocalInvocationID.x != 0u) return;
+    colliding[group] = count;
+    if (group == 0u) colliding[chunk_count] = dispatches[kLosses].count;
+}

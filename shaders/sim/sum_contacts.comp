@@ -1,0 +1,84 @@
+// Sums over the corners of the colliding faces of each pair: one work group a pair, a fixed order of summation.
+// Without APPROACHING the ContactPatch; with it the ApproachSums of the corners that move towards the other object.
+// CPU twin: gelatin::cpu::respond. Parity: tests/gpu/respond_test.cpp.
+#include "include/pairs.glsl"
+#include "include/face_collisions.glsl"
+#include "include/node_faces.glsl"
+#include "include/contact_plane.glsl"
+#include "layouts/face.glsl"
+layout(local_size_x = 64) in;
+
+layout(binding = 0) uniform samplerBuffer positions;   // xyz [m], inverse mass [1/kg]
+layout(binding = 1) uniform samplerBuffer velocities;  // xyz [m/s]
+layout(std430, binding = 3) readonly buffer Faces { Face faces[]; };
+#ifdef APPROACHING
+layout(std430, binding = 7) writeonly buffer Approaches { ApproachSums approaches[]; };
+#endif
+
+shared vec4 parts[2][64];
+
+// Adds what corner `node` of a colliding face contributes; `share` is its mass [kg], 0 where it is pinned.
+#ifdef APPROACHING
+void add_corner(uint node, float share, ContactPlane plane, inout vec4 a, inout vec4 b) {
+    vec3 velocity = texelFetch(velocities, int(node)).xyz;
+    float approach = dot(velocity - plane.velocity, plane.normal);
+    if (approach <= 0.0) return;
+    a += share * vec4(velocity, 1.0);
+    b.x += share * approach;
+}
+#else
+void add_corner(uint node, float share, ContactPlane plane, inout vec4 a, inout vec4 b) {
+    a.w += share;
+    b += vec4(share * texelFetch(velocities, int(node)).xyz, share == 0.0 ? 1.0 : 0.0);
+}
+#endif
+
+void add_face(uint f, PairRow row, ContactPlane plane, inout vec4 a, inout vec4 b) {
+    Face face = faces[f];
+    uvec3 nodes = uvec3(face.a, face.b, face.c);
+    vec4 corners[3];
+    for (int k = 0; k < 3; ++k) {
+        corners[k] = texelFetch(positions, int(nodes[k]));
+        float shares = float(count_colliding(nodes[k], row));
+        add_corner(nodes[k], corners[k].w > 0.0 ? 1.0 / (corners[k].w * shares) : 0.0, plane, a, b);
+    }
+#ifndef APPROACHING
+    a.xyz += 0.5 * cross(corners[1].xyz - corners[0].xyz, corners[2].xyz - corners[0].xyz);
+#endif
+}
+
+void main() {
+    uint p = group_index();
+    if (p >= dispatches[kPairGroups].count) return;  // the whole group leaves, so no one waits at the barrier
+    ObjectPair pair = object_pairs[p];
+    PairRow row = pair_rows[pair.object];
+    ContactPlane plane;
+#ifdef APPROACHING
+    plane = contact_plane(p, find_pair(pair.other, pair.object));
+#endif
+    vec4 a = vec4(0.0);
+    vec4 b = vec4(0.0);
+    uint first_face = bounding_boxes[pair.object].first_face;
+    uint words = word_count(pair.object);
+    uint lane = gl_LocalInvocationID.x;
+    for (uint w = lane; w < words; w += 64u) {
+        uint bits = face_collisions[pair.first_word + w];
+        while (bits != 0u) {
+            add_face(first_face + 32u * w + uint(findLSB(bits)), row, plane, a, b);
+            bits &= bits - 1u;
+        }
+    }
+    parts[0][lane] = a;
+    parts[1][lane] = b;
+    barrier();
+    if (lane != 0u) return;
+    for (uint l = 1u; l < 64u; ++l) {
+        a += parts[0][l];
+        b += parts[1][l];
+    }
+#ifdef APPROACHING
+    approaches[p] = ApproachSums(a, b.x, 0.0, 0.0, 0.0);
+#else
+    contact_patches[p] = ContactPatch(a, b);
+#endif
+}

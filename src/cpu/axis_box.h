@@ -1,0 +1,35 @@
+#pragma once
+
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+#include <limits>
+
+#include "cpu/nodes.h"
+
+namespace gelatin::cpu {
+
+/// An axis-aligned box; empty, and meeting nothing, until something is added.
+template <class Real>
+struct AxisBox {
+    Vec3<Real> min{std::numeric_limits<Real>::infinity()};   ///< [m]
+    Vec3<Real> max{-std::numeric_limits<Real>::infinity()};  ///< [m]
+
+    void add(const Vec3<Real>& point) {
+        min = glm::min(min, point);
+        max = glm::max(max, point);
+    }
+    void add(const AxisBox& box) {
+        min = glm::min(min, box.min);
+        max = glm::max(max, box.max);
+    }
+    Vec3<Real> center() const { return Real(0.5) * (min + max); }
+};
+
+/// True if they share a point: boxes are closed. Without branches, for loops over many.
+template <class Real>
+bool meet(const AxisBox<Real>& a, const AxisBox<Real>& b) {
+    return static_cast<bool>((a.min.x <= b.max.x) & (b.min.x <= a.max.x) & (a.min.y <= b.max.y) &
+                             (b.min.y <= a.max.y) & (a.min.z <= b.max.z) & (b.min.z <= a.max.z));
+}
+
+}  // namespace gelatin::cpu

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cpu/axis_box.h"
+#include "gelatin/scene.h"
+#include "model/model.h"
+
+namespace gelatin::cpu {
+
+/// Objects that may touch, as one of the two sees it; each pair is there twice, once in either object's row.
+struct ObjectPair {
+    std::uint32_t object, other;
+    std::uint32_t mirror;      ///< index of the same pair as the other sees it
+    std::uint32_t first_word;  ///< of its bits in the Face Collision Result
+};
+
+/// Finds which faces of which objects touch (paper 2.4 and 3.1), stage by stage. The same result for any
+/// number of threads. GPU twins: gpu::UpdateBoxes, gpu::FindObjectPairs, gpu::FindFaceCollisions.
+template <class Real>
+class Collision {
+public:
+    Collision(std::shared_ptr<const Model> model, BroadPhase broad_phase);
+
+    /// The box of each face, and of each object.
+    void update_boxes(std::span<const Vec4<Real>> positions);
+
+    /// The pairs of objects that may touch, row by row, in the order of the others' indices.
+    void find_object_pairs();
+
+    /// Face against face in these pairs.
+    void find_face_collisions(std::span<const Vec4<Real>> positions);
+
+    const std::vector<AxisBox<Real>>& bounding_boxes() const { return bounding_boxes_; }
+    const std::vector<ObjectPair>& pairs() const { return pairs_; }
+    /// An object's pairs.
+    Range row(std::uint32_t object) const;
+
+    /// True if a face of the pair's object touches the other object.
+    bool collides(const ObjectPair& pair, std::uint32_t face) const;
+    /// True if it touches any other object.
+    bool collides(std::uint32_t face) const;
+    /// Faces of an object that do.
+    std::uint32_t count_colliding(std::uint32_t object) const;
+    /// True if the objects of the pair touch at all.
+    bool collide(const ObjectPair& pair) const;
+
+private:
+    std::vector<std::uint32_t> find_candidates(const ObjectPair& pair) const;
+    void test_candidates(std::span<const Vec4<Real>> positions, std::size_t index);
+    void set_colliding(const ObjectPair& pair, std::uint32_t face);
+
+    std::shared_ptr<const Model> model_;
+    BroadPhase broad_phase_;
+    std::vector<AxisBox<Real>> face_boxes_;      // shape [faces]
+    std::vector<AxisBox<Real>> bounding_boxes_;  // shape [objects]
+    std::vector<ObjectPair> pairs_;
+    std::vector<std::uint32_t> row_starts_;               // shape [objects + 1]
+    std::vector<std::vector<std::uint32_t>> candidates_;  // faces of each pair's object that may touch
+    std::vector<std::uint32_t> face_collisions_;          // a bit a face of its object, by pair
+};
+
+}  // namespace gelatin::cpu

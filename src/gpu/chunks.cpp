@@ -1,0 +1,19 @@
+#include "gpu/chunks.h"
+
+#include <algorithm>
+
+namespace gelatin::gpu {
+
+std::vector<Chunk> make_chunks(const Model& model, Range ModelObject::*range) {
+    constexpr std::uint32_t kChunk = 256;
+    std::vector<Chunk> chunks;
+    for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
+        const Range all = model.objects[o].*range;
+        for (std::uint32_t first = all.first; first < all.end(); first += kChunk) {
+            chunks.push_back({o, first, std::min(kChunk, all.end() - first), model.objects[o].nodes.first});
+        }
+    }
+    return chunks;
+}
+
+}  // namespace gelatin::gpu

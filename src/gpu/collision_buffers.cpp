@@ -1,0 +1,104 @@
+#include "gpu/collision_buffers.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "gelatin/error.h"
+#include "gpu/chunks.h"
+
+namespace gelatin::gpu {
+namespace {
+
+constexpr std::uint64_t kMostPairs = 1u << 20;       // 32 MB
+constexpr std::uint64_t kMostCandidates = 1u << 22;  // 16 MB, or eight a face
+constexpr std::uint64_t kMostWords = 1u << 23;       // 32 MB
+constexpr std::uint64_t kLeastFacePairs = 1u << 16;  // 1 MB
+constexpr std::uint64_t kFacePairsAFace = 64;
+constexpr std::uint64_t kMostFacePairs = 1u << 21;  // 32 MB
+
+// Sums over all pairs of objects.
+struct AllPairs {
+    std::uint64_t pairs = 0, words = 0, entries = 0;
+
+    explicit AllPairs(const Model& model) {
+        const std::uint64_t others = model.objects.size() - 1;
+        for (const ModelObject& object : model.objects) {
+            pairs += others;
+            words += others * ((object.faces.count + 31) / 32);
+            entries += others * object.faces.count;
+            if (others * object.faces.count > std::numeric_limits<std::uint32_t>::max()) {
+                throw InvalidInput("object '" + object.name + "' has too many faces for a scene of " +
+                                   std::to_string(model.objects.size()) + " objects");
+            }
+        }
+    }
+};
+
+std::vector<BoundingBox> describe_objects(const Model& model) {
+    std::vector<BoundingBox> boxes;
+    for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
+        const ModelObject& object = model.objects[o];
+        boxes.push_back({glm::vec4(0.0f), glm::vec4(0.0f), o, object.nodes.count, object.faces.count,
+                         object.faces.first});
+    }
+    return boxes;
+}
+
+// Where each object's chunks start, and the end.
+std::vector<std::uint32_t> chunk_starts_of(const std::vector<Chunk>& chunks, std::size_t objects) {
+    std::vector<std::uint32_t> starts;
+    for (std::uint32_t o = 0; o <= objects; ++o) {
+        const auto first =
+            std::lower_bound(chunks.begin(), chunks.end(), o,
+                             [](const Chunk& c, std::uint32_t object) { return c.object < object; });
+        starts.push_back(static_cast<std::uint32_t>(first - chunks.begin()));
+    }
+    return starts;
+}
+
+}  // namespace
+
+CollisionBuffers::CollisionBuffers(const Model& model)
+    : face_boxes(model.faces.size()),
+      pair_rows(model.objects.size()),
+      node_face_starts(std::span(model.node_faces.starts)),
+      node_faces(std::span(model.node_faces.faces)),
+      node_face_start_texels(node_face_starts, gl::TexelFormat::r32ui),
+      node_face_texels(node_faces, gl::TexelFormat::r32ui),
+      object_count(static_cast<std::uint32_t>(model.objects.size())) {
+    const std::vector<Chunk> face_chunks = make_chunks(model, &ModelObject::faces);
+    chunks = gl::Buffer<Chunk>(std::span(face_chunks));
+    chunk_boxes = gl::Buffer<Box>(face_chunks.size());
+    const std::vector<std::uint32_t> starts = chunk_starts_of(face_chunks, model.objects.size());
+    chunk_starts = gl::Buffer<std::uint32_t>(std::span(starts));
+    const std::vector<BoundingBox> boxes = describe_objects(model);
+    bounding_boxes = gl::Buffer<BoundingBox>(std::span(boxes));
+
+    const AllPairs all(model);
+    const std::uint64_t faces = model.faces.size();
+    object_pairs = gl::Buffer<ObjectPair>(std::min(all.pairs, kMostPairs));
+    face_collisions = gl::Buffer<std::uint32_t>(std::min(all.words, kMostWords));
+    candidates = gl::Buffer<std::uint32_t>(std::min(all.entries, std::max(kMostCandidates, 8 * faces)));
+    face_pairs = gl::Buffer<FacePair>(std::clamp(kFacePairsAFace * faces, kLeastFacePairs, kMostFacePairs));
+    const std::vector<Dispatch> nothing(static_cast<std::size_t>(Work::count), Dispatch{0, 1, 1, 0});
+    dispatches = gl::Buffer<Dispatch>(std::span(nothing));
+}
+
+void CollisionBuffers::bind_pairs() const {
+    bounding_boxes.bind_storage(0);
+    pair_rows.bind_storage(1);
+    object_pairs.bind_storage(2);
+    dispatches.bind_storage(6);
+}
+
+void CollisionBuffers::bind_node_faces() const {
+    node_face_start_texels.bind(2);
+    node_face_texels.bind(3);
+}
+
+void CollisionBuffers::run(const gl::Program& program, Work work) const {
+    program.dispatch_indirect(dispatches.id(), static_cast<std::size_t>(work) * sizeof(Dispatch));
+}
+
+}  // namespace gelatin::gpu

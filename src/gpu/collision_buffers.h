@@ -1,0 +1,46 @@
+#pragma once
+
+#include <glm/vec4.hpp>
+
+#include "gl/buffer.h"
+#include "gl/program.h"
+#include "gpu/model_buffers.h"
+#include "model/model.h"
+
+namespace gelatin::gpu {
+
+/// What the stages of collision hand to one another, for scenes of at least two objects. Sizes are for what
+/// may happen, up to limits of memory; what does not fit is counted, never forgotten in silence.
+struct CollisionBuffers {
+    gl::Buffer<Chunk> chunks;                ///< of faces, whose boxes are merged first
+    gl::Buffer<std::uint32_t> chunk_starts;  ///< of each object, and the end; shape [objects + 1]
+    gl::Buffer<Box> face_boxes;              ///< shape [faces]
+    gl::Buffer<Box> chunk_boxes;
+    gl::Buffer<BoundingBox> bounding_boxes;  ///< shape [objects]
+
+    gl::Buffer<PairRow> pair_rows;  ///< shape [objects]
+    gl::Buffer<ObjectPair> object_pairs;
+    gl::Buffer<std::uint32_t> candidates;       ///< faces
+    gl::Buffer<FacePair> face_pairs;            ///< whose boxes meet
+    gl::Buffer<std::uint32_t> face_collisions;  ///< a bit a face, by pair
+    gl::Buffer<Dispatch> dispatches;            ///< see shaders/include/pairs.glsl
+
+    gl::Buffer<std::uint32_t> node_face_starts, node_faces;
+    gl::BufferTexture node_face_start_texels, node_face_texels;
+    std::uint32_t object_count = 0;
+
+    /// @throws InvalidInput for more objects and faces than their entries can be counted for.
+    explicit CollisionBuffers(const Model& model);
+
+    /// Binds what include/pairs.glsl reads and writes: storage 0, 1, 2 and 6.
+    void bind_pairs() const;
+    /// Binds what include/node_faces.glsl reads: texture units 2 and 3.
+    void bind_node_faces() const;
+
+    /// The dispatches of include/pairs.glsl.
+    enum class Work : unsigned { entries, tests, face_pairs, pairs, pair_groups, nodes, scan, losses, count };
+    /// Runs `program` over what the GPU itself has counted.
+    void run(const gl::Program& program, Work work) const;
+};
+
+}  // namespace gelatin::gpu

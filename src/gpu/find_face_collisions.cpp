@@ -1,0 +1,38 @@
+#include "gpu/find_face_collisions.h"
+
+namespace gelatin::gpu {
+
+FindFaceCollisions::FindFaceCollisions()
+    : list_program_(gl::Program::compute("sim/list_candidates.comp")),
+      scan_program_(gl::Program::compute("sim/scan_tests.comp")),
+      cull_program_(gl::Program::compute("sim/cull_face_pairs.comp")),
+      test_program_(gl::Program::compute("sim/test_face_pairs.comp")) {}
+
+void FindFaceCollisions::run(const ModelBuffers& model, const CollisionBuffers& collision,
+                             const NodeBuffers& nodes) const {
+    using Work = CollisionBuffers::Work;
+    const auto capacity = static_cast<std::uint32_t>(collision.face_pairs.size());
+    collision.bind_pairs();
+    collision.face_boxes.bind_storage(3);
+    collision.face_collisions.bind_storage(4);
+    collision.candidates.bind_storage(5);
+    collision.face_pairs.bind_storage(7);
+    list_program_.set("object_count", collision.object_count);
+    collision.run(list_program_, Work::entries);
+    gl::barrier(gl::Barrier::storage);
+
+    collision.run(scan_program_, Work::scan);
+    gl::barrier(gl::Barrier::storage | gl::Barrier::command);
+
+    cull_program_.set("face_pair_capacity", capacity);
+    collision.run(cull_program_, Work::tests);
+    gl::barrier(gl::Barrier::storage | gl::Barrier::command);
+
+    nodes.position_texels.bind(0);
+    model.faces.bind_storage(3);
+    test_program_.set("face_pair_capacity", capacity);
+    collision.run(test_program_, Work::face_pairs);
+    gl::barrier(gl::Barrier::storage);
+}
+
+}  // namespace gelatin::gpu

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "gpu/collision_buffers.h"
+#include "gpu/node_buffers.h"
+
+namespace gelatin::gpu {
+
+/// Face against face in the pairs of objects: shaders/sim/list_candidates.comp, scan_tests.comp,
+/// cull_face_pairs.comp, test_face_pairs.comp. All dispatches are indirect: nothing runs where nothing is
+/// near.
+class FindFaceCollisions {
+public:
+    FindFaceCollisions();
+    /// Ends with the barrier that the next stage needs.
+    void run(const ModelBuffers& model, const CollisionBuffers& collision, const NodeBuffers& nodes) const;
+
+private:
+    gl::Program list_program_, scan_program_, cull_program_, test_program_;
+};
+
+}  // namespace gelatin::gpu

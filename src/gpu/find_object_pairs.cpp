@@ -1,0 +1,43 @@
+#include "gpu/find_object_pairs.h"
+
+namespace gelatin::gpu {
+namespace {
+
+constexpr std::uint32_t kScanLanes = 256;
+
+template <class T>
+std::uint32_t capacity(const gl::Buffer<T>& buffer) {
+    return static_cast<std::uint32_t>(buffer.size());
+}
+
+}  // namespace
+
+FindObjectPairs::FindObjectPairs(BroadPhase broad_phase)
+    : broad_phase_(broad_phase),
+      count_program_(gl::Program::compute("sim/count_object_pairs.comp")),
+      scan_program_(gl::Program::compute("sim/scan_pair_rows.comp")),
+      list_program_(gl::Program::compute("sim/list_object_pairs.comp")) {}
+
+void FindObjectPairs::run(const ModelBuffers& model, const CollisionBuffers& collision) const {
+    collision.bind_pairs();
+    for (const gl::Program* program : {&count_program_, &list_program_}) {
+        program->set("object_count", collision.object_count);
+        program->set("ignore_boxes", broad_phase_ == BroadPhase::none ? 1u : 0u);
+    }
+    count_program_.dispatch(collision.object_count);
+    gl::barrier(gl::Barrier::storage);
+
+    scan_program_.set("object_count", collision.object_count);
+    scan_program_.set("node_count", model.node_count);
+    scan_program_.set("pair_capacity", capacity(collision.object_pairs));
+    scan_program_.set("word_capacity", capacity(collision.face_collisions));
+    scan_program_.dispatch(kScanLanes, kScanLanes);
+    gl::barrier(gl::Barrier::storage);
+
+    list_program_.set("all_faces", broad_phase_ == BroadPhase::clipped ? 0u : 1u);
+    list_program_.set("candidate_capacity", capacity(collision.candidates));
+    list_program_.dispatch(collision.object_count);
+    gl::barrier(gl::Barrier::storage | gl::Barrier::command);
+}
+
+}  // namespace gelatin::gpu

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "gelatin/scene.h"
+#include "gpu/collision_buffers.h"
+
+namespace gelatin::gpu {
+
+/// The pairs of objects that may touch, each object's in a row: shaders/sim/count_object_pairs.comp,
+/// scan_pair_rows.comp, list_object_pairs.comp.
+class FindObjectPairs {
+public:
+    explicit FindObjectPairs(BroadPhase broad_phase);
+    /// Ends with the barriers that the next stage needs.
+    void run(const ModelBuffers& model, const CollisionBuffers& collision) const;
+
+private:
+    BroadPhase broad_phase_;
+    gl::Program count_program_, scan_program_, list_program_;
+};
+
+}  // namespace gelatin::gpu

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "gelatin/scene.h"
+#include "gpu/collision_buffers.h"
+#include "gpu/node_buffers.h"
+
+namespace gelatin::gpu {
+
+/// The paper's response (2.4): shaders/sim/sum_contacts.comp, plan_responses.comp, respond.comp.
+class Respond {
+public:
+    Respond(const CollisionBuffers& collision, const CollisionSettings& settings);
+
+    /// Writes `current`. Ends with the barriers that the next step, and whoever gathers the nodes as
+    /// textures, needs. @param resting_speed slower than this [m/s], nothing bounces
+    void run(const ModelBuffers& model, const CollisionBuffers& collision, const NodeBuffers& previous,
+             const NodeBuffers& current, double step) const;
+
+private:
+    gl::Program patch_program_, approach_program_, plan_program_, respond_program_;
+    gl::Buffer<ContactPatch> patches_;
+    gl::Buffer<ApproachSums> approaches_;
+    gl::Buffer<ContactResponse> responses_;
+};
+
+}  // namespace gelatin::gpu
