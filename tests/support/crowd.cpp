@@ -1,0 +1,181 @@
+#include "support/crowd.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <memory>
+#include <random>
+
+#include "cpu/respond.h"
+#include "cpu/triangle_overlap.h"
+#include "gpu/collision.h"
+#include "support/parity.h"
+#include "support/test_models.h"
+
+namespace gelatin::test {
+namespace {
+
+template <class T>
+void poison(gl::Buffer<T>& buffer) {
+    const std::vector<std::uint32_t> words(buffer.size() * sizeof(T) / 4, 0xDEADBEEFu);
+    buffer.upload({reinterpret_cast<const T*>(words.data()), buffer.size()});
+}
+
+template <class T>
+std::vector<T> contents(const gl::Buffer<T>& buffer) {
+    std::vector<T> values(buffer.size());
+    buffer.download(values);
+    return values;
+}
+
+void run_detection(gpu::Collision& collision, const gpu::ModelBuffers& model, const gpu::NodeBuffers& nodes) {
+    gpu::CollisionBuffers& buffers = collision.buffers;
+    poison(buffers.face_boxes);
+    poison(buffers.chunk_boxes);
+    poison(buffers.pair_rows);
+    poison(buffers.object_pairs);
+    poison(buffers.candidates);
+    poison(buffers.face_pairs);
+    poison(buffers.face_collisions);
+    collision.update_boxes.run(model, buffers, nodes);
+    collision.find_object_pairs.run(model, buffers);
+    collision.find_face_collisions.run(model, buffers, nodes);
+}
+
+cpu::Triangle<double> triangle(const Model& model, const Face& face) {
+    const auto at = [&](std::uint32_t n) { return glm::dvec3(model.positions[n]); };
+    return {at(face.a), at(face.b), at(face.c)};
+}
+
+}  // namespace
+
+Model make_crowd(int count, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    const auto vector = [&] { return glm::dvec3(unit(random), unit(random), unit(random)); };
+    const double reach = 0.15 + 0.3 * (std::cbrt(count) - 1.0);
+    std::vector<Body> bodies;
+    for (int i = 0; i < count; ++i) {
+        const glm::ivec3 cells(1 + i % 3, 1 + i % 4, 2 + i % 2);
+        Body body =
+            make_body(make_block(cells, 0.3 * glm::dvec3(cells), 0.2, seed + static_cast<unsigned>(i)));
+        body.name = "block " + std::to_string(i);
+        const glm::dquat turn =
+            glm::normalize(glm::dquat(unit(random), unit(random), unit(random), unit(random)));
+        const glm::dvec3 place = reach * vector();
+        for (glm::dvec3& p : body.mesh.positions) p = turn * (p - 0.15 * glm::dvec3(cells)) + place;
+        body.velocity = 2.0 * vector();
+        if (i == 0) body.pins = {HalfSpaceRegion{{1.0, 0.0, 0.0}, place.x}};
+        bodies.push_back(std::move(body));
+    }
+    Model model = pack_bodies(bodies, {}, {0.0, -9.81, 0.0});
+    for (glm::vec4& v : model.velocities) v += glm::vec4(0.5 * vector(), 0.0);
+    for (std::size_t n = 0; n < model.positions.size(); ++n) {
+        if (model.positions[n].w == 0.0f)
+            model.velocities[n] = glm::vec4(0.0f, 0.0f, 0.0f, model.velocities[n].w);
+    }
+    return model;
+}
+
+FaceCollisions find_collisions_by_brute_force(const Model& model) {
+    FaceCollisions found;
+    for (std::uint32_t f = 0; f < model.faces.size(); ++f) {
+        for (std::uint32_t g = 0; g < model.faces.size(); ++g) {
+            const std::uint32_t other = model.faces[g].object;
+            if (other == model.faces[f].object) continue;
+            if (!found.empty() && found.back() == std::pair(f, other)) continue;
+            if (cpu::triangles_overlap(triangle(model, model.faces[f]), triangle(model, model.faces[g])))
+                found.emplace_back(f, other);
+        }
+    }
+    return found;
+}
+
+template <class Real>
+FaceCollisions find_collisions_on_cpu(const Model& model, BroadPhase broad_phase) {
+    const std::vector<cpu::Vec4<Real>> positions(model.positions.begin(), model.positions.end());
+    cpu::Collision<Real> collision(std::make_shared<const Model>(model), broad_phase);
+    collision.update_boxes(positions);
+    collision.find_object_pairs();
+    collision.find_face_collisions(positions);
+    FaceCollisions found;
+    for (const cpu::ObjectPair& pair : collision.pairs()) {
+        const Range& faces = model.objects[pair.object].faces;
+        for (std::uint32_t f = faces.first; f < faces.end(); ++f) {
+            if (collision.collides(pair, f)) found.emplace_back(f, pair.other);
+        }
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+template FaceCollisions find_collisions_on_cpu<float>(const Model&, BroadPhase);
+template FaceCollisions find_collisions_on_cpu<double>(const Model&, BroadPhase);
+
+FaceCollisions find_collisions_on_gpu(const Model& model, BroadPhase broad_phase) {
+    CollisionSettings settings;
+    settings.broad_phase = broad_phase;
+    const gpu::ModelBuffers model_buffers(model);
+    const gpu::NodeBuffers nodes(model.positions, model.velocities);
+    gpu::Collision collision(model, settings);
+    run_detection(collision, model_buffers, nodes);
+    gl::barrier(gl::Barrier::buffer_update);
+
+    const gpu::CollisionBuffers& buffers = collision.buffers;
+    const std::vector<ObjectPair> pairs = contents(buffers.object_pairs);
+    const std::vector<std::uint32_t> words = contents(buffers.face_collisions);
+    FaceCollisions found;
+    for (const PairRow& row : contents(buffers.pair_rows)) {
+        for (std::uint32_t p = row.first_pair; p < row.first_pair + row.pair_count; ++p) {
+            const Range& faces = model.objects[pairs[p].object].faces;
+            for (std::uint32_t k = 0; k < faces.count; ++k) {
+                if ((words[pairs[p].first_word + k / 32] >> (k % 32) & 1u) != 0)
+                    found.emplace_back(faces.first + k, pairs[p].other);
+            }
+        }
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+std::vector<glm::vec4> positions_before(const Model& model, double step) {
+    std::vector<glm::vec4> positions = model.positions;
+    for (std::size_t n = 0; n < positions.size(); ++n)
+        positions[n] -= static_cast<float>(step) * glm::vec4(glm::vec3(model.velocities[n]), 0.0f);
+    return positions;
+}
+
+template <class Real>
+cpu::Nodes<Real> respond_on_cpu(const Model& model, const CollisionSettings& settings, double step) {
+    const auto converted = [](const std::vector<glm::vec4>& values) {
+        return std::vector<cpu::Vec4<Real>>(values.begin(), values.end());
+    };
+    cpu::Nodes<Real> nodes{converted(model.positions), converted(model.velocities)};
+    cpu::Collision<Real> collision(std::make_shared<const Model>(model), settings.broad_phase);
+    collision.update_boxes(nodes.positions);
+    collision.find_object_pairs();
+    collision.find_face_collisions(nodes.positions);
+    const cpu::Nodes<Real> previous{converted(positions_before(model, step)), nodes.velocities};
+    cpu::respond(model, collision, {settings.friction, settings.restitution}, static_cast<Real>(step),
+                 previous, nodes);
+    return nodes;
+}
+template cpu::Nodes<float> respond_on_cpu(const Model&, const CollisionSettings&, double);
+template cpu::Nodes<double> respond_on_cpu(const Model&, const CollisionSettings&, double);
+
+NodeArrays respond_on_gpu(const Model& model, const CollisionSettings& settings, double step) {
+    NodeArrays arrays{poisoned(model.node_count()), poisoned(model.node_count())};
+    std::copy(model.positions.begin(), model.positions.end(), arrays.positions.begin());
+    std::copy(model.velocities.begin(), model.velocities.end(), arrays.velocities.begin());
+    const gpu::ModelBuffers model_buffers(model);
+    const gpu::NodeBuffers current(arrays.positions, arrays.velocities);
+    const gpu::NodeBuffers previous(positions_before(model, step), model.velocities);
+    gpu::Collision collision(model, settings);
+    run_detection(collision, model_buffers, current);
+    collision.respond.run(model_buffers, collision.buffers, previous, current, step);
+    gl::barrier(gl::Barrier::buffer_update);
+    current.positions.download(arrays.positions);
+    current.velocities.download(arrays.velocities);
+    return arrays;
+}
+
+}  // namespace gelatin::test

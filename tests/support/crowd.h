@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "cpu/collision.h"
+#include "cpu/nodes.h"
+#include "model/model.h"
+#include "support/step_on_gpu.h"
+
+namespace gelatin::test {
+
+/// `count` blocks of different sizes and turns, thrown so close together that many overlap, each in motion;
+/// some nodes of the first are pinned.
+Model make_crowd(int count, unsigned seed = 1);
+
+/// Faces and the objects that they touch, in ascending order.
+using FaceCollisions = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+/// What brute force in double precision, over all faces and without boxes, finds in the model's start.
+FaceCollisions find_collisions_by_brute_force(const Model& model);
+
+/// What the CPU's stages find.
+template <class Real>
+FaceCollisions find_collisions_on_cpu(const Model& model, BroadPhase broad_phase);
+
+/// What the GPU's stages find, every buffer that they write poisoned first.
+FaceCollisions find_collisions_on_gpu(const Model& model, BroadPhase broad_phase);
+
+/// Where the model's nodes were a step before its start [m], [s].
+std::vector<glm::vec4> positions_before(const Model& model, double step);
+
+/// The model's start after the response to what collides in it, in the precision of `Real`.
+template <class Real>
+cpu::Nodes<Real> respond_on_cpu(const Model& model, const CollisionSettings& settings, double step);
+
+/// The same on the GPU, every buffer between the stages poisoned first, kGuard elements behind the nodes.
+NodeArrays respond_on_gpu(const Model& model, const CollisionSettings& settings, double step);
+
+}  // namespace gelatin::test
