@@ -20,6 +20,8 @@ Json settings_json(const RunReport& report) {
             {"substeps", report.substeps},
             {"step_size", report.step_size},
             {"frames", settings.frames},
+            {"broad_phase", name_of(report.collision.broad_phase)},
+            {"response", name_of(report.collision.response)},
             {"gravity", {settings.gravity.x, settings.gravity.y, settings.gravity.z}}};
 }
 
@@ -72,6 +74,7 @@ RunReport describe_run(const Simulator& simulator) {
     report.backend = simulator.backend();
     report.device = simulator.device();
     report.settings = simulator.scene().simulation;
+    report.collision = simulator.scene().collision;
     report.substeps = simulator.substeps();
     report.step_size = simulator.step_size();
     report.counts = simulator.counts();
@@ -118,6 +121,22 @@ const char* name_of(SolverKind solver) {
 
 const char* name_of(ForceMethod forces) {
     return forces == ForceMethod::fused ? "fused" : "divide_and_merge";
+}
+
+const char* name_of(BroadPhase broad_phase) {
+    switch (broad_phase) {
+        case BroadPhase::none:
+            return "none";
+        case BroadPhase::boxes:
+            return "boxes";
+        case BroadPhase::clipped:
+            return "clipped";
+    }
+    return "";
+}
+
+const char* name_of(CollisionResponse /*response*/) {
+    return "restore";
 }
 
 }  // namespace gelatin

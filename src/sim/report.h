@@ -14,6 +14,7 @@ struct RunReport {
     std::string backend;  ///< "gl" or "cpu"
     std::string device;
     SimulationSettings settings;
+    CollisionSettings collision;
     int substeps = 1;        ///< steps a frame, as chosen
     double step_size = 0.0;  ///< [s]
     Counts counts;
@@ -36,5 +37,7 @@ double percentile(std::vector<double> values, double fraction);
 /// The names that scene files use.
 const char* name_of(SolverKind solver);
 const char* name_of(ForceMethod forces);
+const char* name_of(BroadPhase broad_phase);
+const char* name_of(CollisionResponse response);
 
 }  // namespace gelatin

@@ -87,5 +87,37 @@ TEST_F(LayoutsTest, NodeSums) {
            FIELD(NodeSums, potential_energy), FIELD(NodeSums, deepest), FIELD(NodeSums, contacts)});
 }
 
+TEST_F(LayoutsTest, Boxes) {
+    check("box.glsl", "Box", sizeof(Box), {FIELD(Box, min), FIELD(Box, max)});
+    check("box.glsl", "BoundingBox", sizeof(BoundingBox),
+          {FIELD(BoundingBox, min), FIELD(BoundingBox, max), FIELD(BoundingBox, object),
+           FIELD(BoundingBox, node_count), FIELD(BoundingBox, face_count), FIELD(BoundingBox, first_face)});
+}
+TEST_F(LayoutsTest, Pairs) {
+    check("object_pair.glsl", "ObjectPair", sizeof(ObjectPair),
+          {FIELD(ObjectPair, object), FIELD(ObjectPair, other), FIELD(ObjectPair, first_word),
+           FIELD(ObjectPair, first_candidate), FIELD(ObjectPair, candidate_count),
+           FIELD(ObjectPair, first_test)});
+    check("object_pair.glsl", "PairRow", sizeof(PairRow),
+          {FIELD(PairRow, first_pair), FIELD(PairRow, pair_count), FIELD(PairRow, first_word),
+           FIELD(PairRow, first_entry)});
+    check("object_pair.glsl", "FacePair", sizeof(FacePair),
+          {FIELD(FacePair, pair), FIELD(FacePair, face), FIELD(FacePair, other_face)});
+}
+TEST_F(LayoutsTest, Contacts) {
+    check("contact.glsl", "ContactPatch", sizeof(ContactPatch),
+          {FIELD(ContactPatch, area_normal), FIELD(ContactPatch, momentum)});
+    check("contact.glsl", "ApproachSums", sizeof(ApproachSums),
+          {FIELD(ApproachSums, momentum), FIELD(ApproachSums, impulse)});
+    check(
+        "contact.glsl", "ContactResponse", sizeof(ContactResponse),
+        {FIELD(ContactResponse, normal), FIELD(ContactResponse, velocity), FIELD(ContactResponse, slowing)});
+}
+TEST_F(LayoutsTest, Dispatch) {
+    check("dispatch.glsl", "Dispatch", sizeof(Dispatch),
+          {FIELD(Dispatch, groups_x), FIELD(Dispatch, groups_y), FIELD(Dispatch, groups_z),
+           FIELD(Dispatch, count)});
+}
+
 }  // namespace
 }  // namespace gelatin

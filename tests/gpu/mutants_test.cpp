@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "support/crowd.h"
 #include "support/gl_fixture.h"
 #include "support/parity.h"
 #include "support/shader_folder.h"
@@ -19,11 +20,8 @@ namespace fs = std::filesystem;
 
 constexpr double kStep = 2e-4;  // [s]
 
-class MutantsTest : public test::GlTest, public ::testing::WithParamInterface<test::Mutant> {};
-INSTANTIATE_TEST_SUITE_P(All, MutantsTest, ::testing::ValuesIn(test::kMutants),
-                         [](const auto& test) { return std::string(test.param.name); });
-
-void copy_shaders(const test::Mutant& mutant, test::ShaderFolder& folder) {
+// All shaders in a folder, one of them broken.
+void break_shaders(const test::Break& mutant, test::ShaderFolder& folder) {
     const fs::path root = fs::path(GELATIN_SOURCE_DIR) / "shaders";
     for (const auto& entry : fs::recursive_directory_iterator(root)) {
         if (!entry.is_regular_file()) continue;
@@ -38,9 +36,14 @@ void copy_shaders(const test::Mutant& mutant, test::ShaderFolder& folder) {
     }
 }
 
-TEST_P(MutantsTest, IsCaught) {
+const auto name_of_mutant = [](const auto& test) { return std::string(test.param.name); };
+
+class StepMutantsTest : public test::GlTest, public ::testing::WithParamInterface<test::StepMutant> {};
+INSTANTIATE_TEST_SUITE_P(All, StepMutantsTest, ::testing::ValuesIn(test::kStepMutants), name_of_mutant);
+
+TEST_P(StepMutantsTest, IsCaught) {
     test::ShaderFolder folder;
-    copy_shaders(GetParam(), folder);
+    break_shaders(GetParam(), folder);
     const Model model = test::make_lively_model();
     const test::NodeArrays actual = test::step_on_gpu(model, GetParam().solver, GetParam().forces, kStep);
     const double error = test::worst_error(model, test::rounding_bounds(model, GetParam().solver, kStep),
@@ -49,6 +52,27 @@ TEST_P(MutantsTest, IsCaught) {
     const bool guarded = test::guard_is_untouched(actual.positions, model.node_count()) &&
                          test::guard_is_untouched(actual.velocities, model.node_count());
     EXPECT_TRUE(error > 1.0 || !guarded) << "the broken kernel passes: error / bound = " << error;
+}
+
+class CollisionMutantsTest : public test::GlTest, public ::testing::WithParamInterface<test::Break> {};
+INSTANTIATE_TEST_SUITE_P(All, CollisionMutantsTest, ::testing::ValuesIn(test::kCollisionMutants),
+                         name_of_mutant);
+
+TEST_P(CollisionMutantsTest, IsCaught) {
+    test::ShaderFolder folder;
+    break_shaders(GetParam(), folder);
+    bool caught = false;
+    for (const int objects : {7, 30}) {
+        const Model model = test::make_crowd(objects, 1);
+        for (const BroadPhase broad_phase : {BroadPhase::boxes, BroadPhase::clipped}) {
+            caught = caught || test::find_collisions_on_gpu(model, broad_phase) !=
+                                   test::find_collisions_on_cpu<float>(model, broad_phase);
+        }
+        const CollisionSettings settings{.friction = 0.4, .restitution = 0.7};
+        caught = caught || test::worst_response_error(model, settings, kStep,
+                                                      test::respond_on_gpu(model, settings, kStep)) > 1.0;
+    }
+    EXPECT_TRUE(caught) << "the broken kernel passes";
 }
 
 }  // namespace

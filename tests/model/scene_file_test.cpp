@@ -16,6 +16,8 @@ gravity = [0, -1.62, 0]
 frames = 12
 
 [collision]
+broad_phase = "boxes"
+response = "restore"
 friction = 0.1
 restitution = 0.9
 
@@ -60,6 +62,8 @@ restitution = 0
     EXPECT_EQ(scene.simulation.substeps, 7);
     EXPECT_EQ(scene.simulation.gravity, glm::dvec3(0.0, -1.62, 0.0));
     EXPECT_EQ(scene.simulation.frames, 12);
+    EXPECT_EQ(scene.collision.broad_phase, BroadPhase::boxes);
+    EXPECT_EQ(scene.collision.response, CollisionResponse::restore);
     EXPECT_EQ(scene.collision.friction, 0.1);
     EXPECT_EQ(scene.collision.restitution, 0.9);
     ASSERT_TRUE(scene.camera);
@@ -93,7 +97,7 @@ restitution = 0
     EXPECT_EQ(ball.scale, 2.0);
     EXPECT_EQ(ball.velocity, glm::dvec3(1.0, 0.0, 0.0));
     EXPECT_EQ(ball.color, glm::dvec3(0.1, 0.2, 0.3));
-    EXPECT_EQ(ball.line, 27);
+    EXPECT_EQ(ball.line, 29);
     ASSERT_EQ(ball.pins.size(), 3u);
     EXPECT_EQ(std::get<BoxRegion>(ball.pins[0]).min, glm::dvec3(-1.0));
     EXPECT_EQ(std::get<BoxRegion>(ball.pins[0]).max, glm::dvec3(0.0, 1.0, 1.0));
@@ -194,7 +198,9 @@ TEST_F(SceneFile, RefusesAnUnknownKeyAndNamesTheNearest) {
     EXPECT_EQ(error(std::string(kBall) + "[simulation]\nframes = 3\nsolvr = 'rk4'"),
               "scene.toml:6: simulation.solvr = \"rk4\": unknown key (did you mean \"solver\"?)");
     EXPECT_EQ(error(std::string(kBall) + "[collision]\nwobbliness = 3"),
-              "scene.toml:5: collision.wobbliness = 3: unknown key; known here are friction and restitution");
+              "scene.toml:5: collision.wobbliness = 3: unknown key; known here are broad_phase, response, "
+              "friction and "
+              "restitution");
 }
 
 TEST_F(SceneFile, RefusesAnUnknownSection) {

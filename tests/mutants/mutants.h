@@ -5,11 +5,15 @@
 namespace gelatin::test {
 
 /// A way to break a shader: `from` in `file` (below shaders/) becomes `to`.
-struct Mutant {
+struct Break {
     const char* name;
     const char* file;
     const char* from;
     const char* to;
+};
+
+/// A broken step of an explicit solver.
+struct StepMutant : Break {
     SolverKind solver;
     ForceMethod forces;
 };
@@ -18,38 +22,92 @@ inline constexpr SolverKind kSemiImplicit = SolverKind::semi_implicit_euler;
 inline constexpr ForceMethod kFused = ForceMethod::fused;
 inline constexpr ForceMethod kDivided = ForceMethod::divide_and_merge;
 
-inline constexpr Mutant kMutants[] = {
-    {"second_spring_of_a_pair_is_left_out", "sim/advance_nodes.comp", "stiffness.y", "0.0", kSemiImplicit,
+inline constexpr StepMutant kStepMutants[] = {
+    {{"second_spring_of_a_pair_is_left_out", "sim/advance_nodes.comp", "stiffness.y", "0.0"},
+     kSemiImplicit,
      kFused},
-    {"lane_of_a_slice_is_shifted", "sim/advance_nodes.comp", "+ n % 64u", "+ (n + 1u) % 64u", kSemiImplicit,
+    {{"lane_of_a_slice_is_shifted", "sim/advance_nodes.comp", "+ n % 64u", "+ (n + 1u) % 64u"},
+     kSemiImplicit,
      kFused},
-    {"last_pair_is_left_out", "sim/advance_nodes.comp", "p < end", "p + 64u < end", kSemiImplicit, kFused},
-    {"no_guard_at_the_end", "sim/advance_nodes.comp", "if (n >= node_count) return;", "", kSemiImplicit,
+    {{"last_pair_is_left_out", "sim/advance_nodes.comp", "p < end", "p + 64u < end"}, kSemiImplicit, kFused},
+    {{"no_guard_at_the_end", "sim/advance_nodes.comp", "if (n >= node_count) return;", ""},
+     kSemiImplicit,
      kFused},
-    {"damping_has_the_wrong_sign", "include/spring_force.glsl", "+ damping_time", "- damping_time",
-     kSemiImplicit, kFused},
-    {"rest_length_is_forgotten", "include/spring_force.glsl", "inverse_length - rest_length",
-     "inverse_length", kSemiImplicit, kFused},
-    {"damping_of_one_end_alone", "include/spring_force.glsl", "0.5 * (velocity_a.w + velocity_b.w)",
-     "0.5 * velocity_a.w", kSemiImplicit, kFused},
-    {"pins_are_ignored", "include/integrate_node.glsl", "base_position.w == 0.0", "false", kSemiImplicit,
+    {{"damping_has_the_wrong_sign", "include/spring_force.glsl", "+ damping_time", "- damping_time"},
+     kSemiImplicit,
      kFused},
-    {"positions_move_with_the_old_velocity", "include/integrate_node.glsl", "semi_implicit != 0u", "false",
-     kSemiImplicit, kFused},
-    {"gravity_is_forgotten", "include/integrate_node.glsl", "gravity + ", "", kSemiImplicit, kFused},
-    {"sums_start_over", "include/integrate_node.glsl", "is_first == 0u", "false", SolverKind::rk4, kFused},
-    {"stages_ignore_their_weight", "include/integrate_node.glsl", "rate *= weight;", "", SolverKind::rk4,
+    {{"rest_length_is_forgotten", "include/spring_force.glsl", "inverse_length - rest_length",
+      "inverse_length"},
+     kSemiImplicit,
      kFused},
-    {"colliders_do_nothing", "include/colliders.glsl", "surface.w >= 0.0", "true", kSemiImplicit, kFused},
-    {"friction_is_forgotten", "include/colliders.glsl",
-     "float kept = speed > slowing ? 1.0 - slowing / speed : 0.0;", "float kept = 1.0;", kSemiImplicit,
+    {{"damping_of_one_end_alone", "include/spring_force.glsl", "0.5 * (velocity_a.w + velocity_b.w)",
+      "0.5 * velocity_a.w"},
+     kSemiImplicit,
      kFused},
-    {"second_ends_are_pulled_the_wrong_way", "sim/merge_spring_forces.comp", "-on_first", "on_first",
-     kSemiImplicit, kDivided},
-    {"first_spring_is_skipped", "sim/merge_spring_forces.comp", "uint e = starts[n]",
-     "uint e = starts[n] + 1u", kSemiImplicit, kDivided},
-    {"the_last_springs_are_not_written", "sim/write_spring_forces.comp", "s >= spring_count",
-     "s + 64u >= spring_count", kSemiImplicit, kDivided},
+    {{"pins_are_ignored", "include/integrate_node.glsl", "base_position.w == 0.0", "false"},
+     kSemiImplicit,
+     kFused},
+    {{"positions_move_with_the_old_velocity", "include/integrate_node.glsl", "semi_implicit != 0u", "false"},
+     kSemiImplicit,
+     kFused},
+    {{"gravity_is_forgotten", "include/integrate_node.glsl", "gravity + ", ""}, kSemiImplicit, kFused},
+    {{"sums_start_over", "include/integrate_node.glsl", "is_first == 0u", "false"}, SolverKind::rk4, kFused},
+    {{"stages_ignore_their_weight", "include/integrate_node.glsl", "rate *= weight;", ""},
+     SolverKind::rk4,
+     kFused},
+    {{"colliders_do_nothing", "include/colliders.glsl", "surface.w >= 0.0", "true"}, kSemiImplicit, kFused},
+    {{"friction_is_forgotten", "include/colliders.glsl",
+      "float kept = speed > slowing ? 1.0 - slowing / speed : 0.0;", "float kept = 1.0;"},
+     kSemiImplicit,
+     kFused},
+    {{"second_ends_are_pulled_the_wrong_way", "sim/merge_spring_forces.comp", "-on_first", "on_first"},
+     kSemiImplicit,
+     kDivided},
+    {{"first_spring_is_skipped", "sim/merge_spring_forces.comp", "uint e = starts[n]",
+      "uint e = starts[n] + 1u"},
+     kSemiImplicit,
+     kDivided},
+    {{"the_last_springs_are_not_written", "sim/write_spring_forces.comp", "s >= spring_count",
+      "s + 64u >= spring_count"},
+     kSemiImplicit,
+     kDivided},
+};
+
+/// A broken collision level.
+inline constexpr Break kCollisionMutants[] = {
+    {"the_last_faces_of_a_chunk_have_no_box", "sim/update_boxes.comp", "k < chunk.count",
+     "k + 64u < chunk.count"},
+    {"a_box_forgets_a_corner", "sim/update_boxes.comp", "max(a, max(b, c))", "max(a, b)"},
+    {"boxes_of_lanes_are_not_merged", "include/box_reduction.glsl", "l < 64u", "l < 32u"},
+    {"boxes_meet_along_two_axes", "include/pairs.glsl", "all(lessThanEqual(min_b, max_a))",
+     "min_b.x <= max_a.x"},
+    {"a_pair_is_seen_from_one_side", "include/object_may_touch.glsl", "a != b", "a < b"},
+    {"rows_overlap", "sim/scan_pair_rows.comp", "PairRow(at.x,", "PairRow(max(at.x, 1u) - 1u,"},
+    {"entries_of_the_last_object_are_left_out", "sim/scan_pair_rows.comp",
+     "dispatch_invocations(kept_entries)", "dispatch_invocations(kept_entries - 40u)"},
+    {"bits_are_not_cleared", "sim/list_candidates.comp", "if (index % 32u == 0u)", "if (false)"},
+    {"candidates_reach_the_lower_corner", "sim/list_candidates.comp", "other.min.xyz, other.max.xyz",
+     "other.min.xyz, other.min.xyz"},
+    {"tests_of_the_first_pair_again", "sim/scan_tests.comp", "object_pairs[p].first_test = at;",
+     "object_pairs[p].first_test = 0u;"},
+    {"the_last_block_is_left_out", "include/face_tests.glsl", "(other_count + size - 1u) / size",
+     "max(other_count / size, 1u) - 1u"},
+    {"half_a_word_of_tests", "sim/cull_face_pairs.comp", "k < 32u", "k < 16u"},
+    {"too_few_groups_of_face_pairs", "sim/cull_face_pairs.comp", "slot % 64u == 0u", "slot % 128u == 0u"},
+    {"one_side_alone_collides", "sim/test_face_pairs.comp",
+     "set_colliding(find_pair(b.object, a.object), face_pair.other_face);", ""},
+    {"faces_with_boxes_that_meet_collide", "sim/test_face_pairs.comp", "if (!triangles_overlap",
+     "if (false && !triangles_overlap"},
+    {"normals_of_the_other_side_add_up", "include/contact_plane.glsl", "patch_.area_normal.xyz - other",
+     "patch_.area_normal.xyz + other"},
+    {"shares_are_not_divided", "sim/sum_contacts.comp", "(corners[k].w * shares)", "corners[k].w"},
+    {"what_parts_responds", "sim/respond.comp", "count == 0u || approach <= 0.0", "count == 0u"},
+    {"nothing_bounces", "sim/plan_responses.comp", "> resting_speed ? restitution", "> resting_speed ? 0.0"},
+    {"friction_pushes", "sim/plan_responses.comp", "sliding * (-braking", "sliding * (braking"},
+    {"the_lighter_side_takes_all", "sim/plan_responses.comp", "min(approach.impulse, other.impulse)",
+     "approach.impulse"},
+    {"nodes_stay_where_they_went", "sim/respond.comp", "position.xyz - way_back", "position.xyz"},
+    {"the_contact_stands_still", "sim/respond.comp", " - time_step * response.velocity.xyz", ""},
 };
 
 }  // namespace gelatin::test

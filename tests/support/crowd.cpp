@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
 #include <memory>
 #include <random>
 
@@ -176,6 +178,24 @@ NodeArrays respond_on_gpu(const Model& model, const CollisionSettings& settings,
     current.positions.download(arrays.positions);
     current.velocities.download(arrays.velocities);
     return arrays;
+}
+
+double worst_response_error(const Model& model, const CollisionSettings& settings, double step,
+                            const NodeArrays& actual) {
+    constexpr double kEps = 6e-8, kSpeed = 5.0, kReach = 4.0;  // [m/s], [m]
+    const double velocity_bound = 128 * kEps * kSpeed,
+                 position_bound = step * velocity_bound + 4 * kEps * kReach;
+    const cpu::Nodes<double> expected = respond_on_cpu<double>(model, settings, step);
+    double worst = 0.0;
+    for (std::uint32_t n = 0; n < model.node_count(); ++n) {
+        const double position =
+                         glm::distance(glm::dvec3(actual.positions[n]), glm::dvec3(expected.positions[n])),
+                     velocity =
+                         glm::distance(glm::dvec3(actual.velocities[n]), glm::dvec3(expected.velocities[n]));
+        if (!std::isfinite(position + velocity)) return std::numeric_limits<double>::infinity();
+        worst = std::max({worst, position / position_bound, velocity / velocity_bound});
+    }
+    return worst;
 }
 
 }  // namespace gelatin::test

@@ -78,7 +78,7 @@ TEST_F(MomentumOnGpuTest, OfAFreeObjectIsKept) {
     for (std::size_t n = 0; n < model.velocities.size(); ++n)
         model.velocities[n].z += (n % 3 == 0) ? 2.0f : -1.0f;
     gpu::GpuSolver solver(std::make_shared<const Model>(model), SolverKind::semi_implicit_euler,
-                          ForceMethod::fused, "");
+                          ForceMethod::fused);
     const glm::dvec3 start = measure(solver).momentum;
     const double step = 0.5 * largest_stable_step(SolverKind::semi_implicit_euler, model);
     for (int s = 0; s < 500; ++s) solver.advance_nodes(step);
