@@ -76,7 +76,8 @@ TEST_F(SimulatorTest, BackendsAgreeOnFreeFallAfter100Steps) {
         cpu.step();
     }
     ASSERT_EQ(gl.read_frame().positions.size(), cpu.read_frame().positions.size());
-    EXPECT_LT(largest_difference(gl.read_frame(), cpu.read_frame()), 1e-5);
+    EXPECT_LT(largest_difference(gl.read_frame(), cpu.read_frame()), 100 * 1e-6)
+        << "half a unit in the last place a step, of coordinates up to 26 m";
 }
 
 // The same through an impact on the floor.
@@ -164,9 +165,13 @@ TEST_F(SimulatorTest, StagesAreTimedWhereTheyRun) {
         for (int f = 0; f < 4; ++f) simulator.advance_frame();
         simulator.read_frame();
         const auto times = simulator.take_stage_times();
-        ASSERT_EQ(times.size(), 1u);
-        EXPECT_EQ(times[0].first, "advance_nodes");
-        EXPECT_GT(times[0].second.front(), 0.0);
+        std::vector<std::string> stages;
+        for (const auto& [stage, milliseconds] : times) {
+            stages.push_back(stage);
+            EXPECT_GT(milliseconds.front(), 0.0);
+        }
+        EXPECT_EQ(stages, (std::vector<std::string>{"advance_nodes", "find_face_collisions",
+                                                    "find_object_pairs", "respond", "update_boxes"}));
     }
 }
 
