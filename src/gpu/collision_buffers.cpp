@@ -61,7 +61,6 @@ std::vector<std::uint32_t> chunk_starts_of(const std::vector<Chunk>& chunks, std
 
 CollisionBuffers::CollisionBuffers(const Model& model)
     : face_boxes(model.faces.size()),
-      pair_rows(model.objects.size()),
       node_face_starts(std::span(model.node_faces.starts)),
       node_faces(std::span(model.node_faces.faces)),
       node_face_start_texels(node_face_starts, gl::TexelFormat::r32ui),
@@ -75,6 +74,8 @@ CollisionBuffers::CollisionBuffers(const Model& model)
     const std::vector<BoundingBox> boxes = describe_objects(model);
     bounding_boxes = gl::Buffer<BoundingBox>(std::span(boxes));
 
+    const std::vector<PairRow> no_pairs(model.objects.size(), PairRow{0, 0, 0, 0});  // until they are sought
+    pair_rows = gl::Buffer<PairRow>(std::span(no_pairs));
     const AllPairs all(model);
     const std::uint64_t faces = model.faces.size();
     object_pairs = gl::Buffer<ObjectPair>(std::min(all.pairs, kMostPairs));
