@@ -30,9 +30,9 @@ struct SimulationSettings {
 
 /// How faces that cannot touch are left out before face is tested against face (docs/physics.md).
 enum class BroadPhase {
-    none,     ///< not at all: every face of every object against every face of every other
-    boxes,    ///< the paper's: objects whose bounding boxes meet, every face against every face
-    clipped,  ///< of those objects, the faces that reach into the other's box
+    none,       ///< not at all: every face of every object against every face of every other
+    boxes,      ///< the paper's: objects whose bounding boxes meet, every face against every face
+    hierarchy,  ///< of those objects, the faces that trees of boxes lead to
 };
 
 /// What happens to objects whose faces meet: `restore` is the paper's (2.4), nodes return to where they were
@@ -40,7 +40,7 @@ enum class BroadPhase {
 enum class CollisionResponse { restore };
 
 struct CollisionSettings {
-    BroadPhase broad_phase = BroadPhase::clipped;
+    BroadPhase broad_phase = BroadPhase::hierarchy;
     CollisionResponse response = CollisionResponse::restore;
     double friction = 0.4;     ///< Coulomb's coefficient, >= 0
     double restitution = 0.3;  ///< normal speed after over before, in [0, 1]

@@ -10,8 +10,8 @@ layout(std430, binding = 2) buffer ObjectPairs { ObjectPair object_pairs[]; };
 layout(std430, binding = 6) buffer Dispatches { Dispatch dispatches[]; };
 
 // Indices into dispatches. Losses are no dispatch: its count grows by what did not fit into a buffer.
-const uint kEntries = 0u;    // an invocation a face of a pair
-const uint kTests = 1u;      // an invocation a face and a block of the other object's candidates
+const uint kEntries = 0u;    // an invocation four faces of a pair
+const uint kTests = 1u;      // an invocation a candidate, and a block of the other object's faces
 const uint kFacePairs = 2u;  // an invocation a pair of faces
 const uint kPairs = 3u;      // an invocation a pair of objects
 const uint kPairGroups = 4u; // a work group a pair of objects
@@ -34,6 +34,15 @@ bool meet(vec3 min_a, vec3 max_a, vec3 min_b, vec3 max_b) {
 }
 
 uint word_count(uint object) { return (bounding_boxes[object].face_count + 31u) / 32u; }
+
+uint leaf_count(uint object) { return (bounding_boxes[object].face_count + 3u) / 4u; }
+
+// A pair is tested once, from the object with fewer faces.
+bool starts_tests(ObjectPair pair) {
+    uint ours = bounding_boxes[pair.object].face_count;
+    uint theirs = bounding_boxes[pair.other].face_count;
+    return ours < theirs || (ours == theirs && pair.object < pair.other);
+}
 
 // The pair as `object` sees it, or kNone.
 uint find_pair(uint object, uint other) {

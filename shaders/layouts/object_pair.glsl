@@ -15,7 +15,7 @@ struct PairRow {         // 16 bytes
     uint  first_pair;
     uint  pair_count;
     uint  first_word;    // its pairs have as many words each as its faces need
-    uint  first_entry;   // an entry is a face of a pair: pair_count * face_count of them
+    uint  first_entry;   // an entry is four faces, a leaf, of a pair
 };
 // Two faces whose boxes meet.
 struct FacePair {        // 16 bytes

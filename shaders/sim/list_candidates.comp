@@ -1,5 +1,5 @@
-// The faces of each pair's object that reach into the other's box, in no particular order; and a Face Collision Result
-// without collisions. One invocation an entry: a face of a pair. CPU twin: gelatin::cpu::Collision.
+// The faces of each pair's object that reach into the other's box, in no particular order, where its tests start; and a
+// Face Collision Result without collisions. One invocation an entry: four faces of a pair. CPU twin: gelatin::cpu::Collision.
 // Parity: tests/gpu/collision_test.cpp.
 #include "include/pairs.glsl"
 #include "include/face_collisions.glsl"
@@ -29,16 +29,19 @@ void main() {
     if (entry >= dispatches[kEntries].count) return;
     uint object = object_of_entry(entry);
     PairRow row = pair_rows[object];
-    uint face_count = bounding_boxes[object].face_count;
-    uint p = row.first_pair + (entry - row.first_entry) / face_count;
-    uint index = (entry - row.first_entry) % face_count;
+    BoundingBox own = bounding_boxes[object];
+    uint leaves = leaf_count(object);
+    uint p = row.first_pair + (entry - row.first_entry) / leaves;
+    uint leaf = (entry - row.first_entry) % leaves;
     ObjectPair pair = object_pairs[p];
 
-    if (index % 32u == 0u) face_collisions[pair.first_word + index / 32u] = 0u;
-    if (pair.first_candidate == kAllFaces) return;
-    uint face = bounding_boxes[object].first_face + index;
-    Box box = face_boxes[face];
+    if (leaf % 8u == 0u) face_collisions[pair.first_word + leaf / 8u] = 0u;
+    if (pair.first_candidate == kAllFaces || !starts_tests(pair)) return;
     BoundingBox other = bounding_boxes[pair.other];
-    if (!meet(box.min.xyz, box.max.xyz, other.min.xyz, other.max.xyz)) return;
-    candidates[pair.first_candidate + atomicAdd(object_pairs[p].candidate_count, 1u)] = face;
+    uint end = own.first_face + min(4u * leaf + 4u, own.face_count);
+    for (uint face = own.first_face + 4u * leaf; face < end; ++face) {
+        Box box = face_boxes[face];
+        if (!meet(box.min.xyz, box.max.xyz, other.min.xyz, other.max.xyz)) continue;
+        candidates[pair.first_candidate + atomicAdd(object_pairs[p].candidate_count, 1u)] = face;
+    }
 }

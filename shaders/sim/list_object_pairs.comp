@@ -12,13 +12,14 @@ void main() {
     PairRow row = pair_rows[a];
     uint words = word_count(a);
     uint faces = bounding_boxes[a].face_count;
+    uint leaves = leaf_count(a);
     // Where their candidates do not fit, all faces are.
-    bool all = all_faces != 0u || row.first_entry + row.pair_count * faces > candidate_capacity;
+    bool all = all_faces != 0u || 4u * (row.first_entry + row.pair_count * leaves) > candidate_capacity;
     uint k = 0u;
     for (uint b = 0u; b < object_count && k < row.pair_count; ++b) {
         if (!may_touch(a, b)) continue;
         object_pairs[row.first_pair + k] = ObjectPair(a, b, row.first_word + k * words,
-                                                      all ? kAllFaces : row.first_entry + k * faces,
+                                                      all ? kAllFaces : 4u * (row.first_entry + k * leaves),
                                                       all ? faces : 0u, 0u, 0u, 0u);
         ++k;
     }

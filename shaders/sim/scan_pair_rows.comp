@@ -14,7 +14,7 @@ shared uint kept_pairs, kept_entries;
 // Pairs, words and entries of a row. Sums stop at the largest number, which no buffer holds.
 uvec3 size_of_row(uint object) {
     uint pairs = pair_rows[object].pair_count;
-    return pairs * uvec3(1u, word_count(object), bounding_boxes[object].face_count);
+    return pairs * uvec3(1u, word_count(object), leaf_count(object));
 }
 uvec3 add(uvec3 a, uvec3 b) { return a + min(b, ~a); }
 

@@ -5,14 +5,6 @@ layout(local_size_x = 256) in;
 
 shared uint parts[256];
 
-// Each pair is tested once, from the object with the smaller index.
-uint count_tests(uint p) {
-    ObjectPair pair = object_pairs[p];
-    if (pair.object > pair.other) return 0u;
-    uint mirror = find_pair(pair.other, pair.object);
-    if (mirror == kNone) return 0u;
-    return pair.candidate_count * block_count(pair, object_pairs[mirror].candidate_count);
-}
 uint add(uint a, uint b) { return a + min(b, ~a); }
 
 void main() {
@@ -22,7 +14,7 @@ void main() {
     uint first = min(lane * share, pair_count);
     uint last = min(first + share, pair_count);
     uint sum = 0u;
-    for (uint p = first; p < last; ++p) sum = add(sum, count_tests(p));
+    for (uint p = first; p < last; ++p) sum = add(sum, count_tests(object_pairs[p]));
     parts[lane] = sum;
     barrier();
 
@@ -30,7 +22,7 @@ void main() {
     for (uint l = 0u; l < lane; ++l) at = add(at, parts[l]);
     for (uint p = first; p < last; ++p) {
         object_pairs[p].first_test = at;
-        at = add(at, count_tests(p));
+        at = add(at, count_tests(object_pairs[p]));
     }
     if (lane != 255u) return;
     if (at == 0xFFFFFFFFu) atomicAdd(dispatches[kLosses].count, 1u);

@@ -1,31 +1,54 @@
-// The box of each face, and of each chunk of faces: one work group a chunk. CPU twin: gelatin::cpu::Collision.
-// Parity: tests/gpu/collision_test.cpp.
-#include "include/box_reduction.glsl"
+// Boxes of the faces and nodes of the trees, one level a dispatch, leaves first; a root's is its object's bounding box.
+// CPU twin: gelatin::cpu::Collision. Parity: tests/gpu/collision_test.cpp.
 #include "include/global_index.glsl"
-#include "layouts/chunk.glsl"
+#include "layouts/box.glsl"
 #include "layouts/face.glsl"
+#include "layouts/tree_node.glsl"
+layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer positions;  // xyz [m]
-layout(std430, binding = 0) readonly buffer Chunks { Chunk chunks[]; };
+layout(binding = 0) uniform samplerBuffer positions;   // xyz [m]
+layout(binding = 1) uniform usamplerBuffer tree_nodes;  // TreeNode
+layout(std430, binding = 0) writeonly buffer BoundingBoxes { BoundingBox bounding_boxes[]; };
 layout(std430, binding = 1) readonly buffer Faces { Face faces[]; };
 layout(std430, binding = 2) writeonly buffer FaceBoxes { Box face_boxes[]; };
-layout(std430, binding = 3) writeonly buffer ChunkBoxes { Box chunk_boxes[]; };
-uniform uint chunk_count;
+layout(std430, binding = 3) buffer TreeBoxes { Box tree_boxes[]; };
+layout(std430, binding = 4) readonly buffer LevelNodes { uint level_nodes[]; };
+uniform uint first_node;  // of this level in level_nodes
+uniform uint node_count;
+
+Box join(Box a, Box b) { return Box(min(a.min, b.min), max(a.max, b.max)); }
+
+#ifdef LEAVES
+Box box_of_face(uint f) {
+    Face face = faces[f];
+    vec3 a = texelFetch(positions, int(face.a)).xyz;
+    vec3 b = texelFetch(positions, int(face.b)).xyz;
+    vec3 c = texelFetch(positions, int(face.c)).xyz;
+    return Box(vec4(min(a, min(b, c)), 0.0), vec4(max(a, max(b, c)), 0.0));
+}
+#endif
 
 void main() {
-    uint group = group_index();
-    if (group >= chunk_count) return;  // the whole group leaves, so no one waits at the barrier
-    Chunk chunk = chunks[group];
-    Box box = empty_box();
-    for (uint k = gl_LocalInvocationID.x; k < chunk.count; k += 64u) {
-        Face face = faces[chunk.first + k];
-        vec3 a = texelFetch(positions, int(face.a)).xyz;
-        vec3 b = texelFetch(positions, int(face.b)).xyz;
-        vec3 c = texelFetch(positions, int(face.c)).xyz;
-        Box face_box = Box(vec4(min(a, min(b, c)), 0.0), vec4(max(a, max(b, c)), 0.0));
-        face_boxes[chunk.first + k] = face_box;
+    uint k = global_index();
+    if (k >= node_count) return;
+    uint n = level_nodes[first_node + k];
+    uvec4 node = texelFetch(tree_nodes, int(n));  // skip, first face, number of faces, object
+    Box box = Box(vec4(3.4e38), vec4(-3.4e38));
+#ifdef LEAVES
+    for (uint f = node.y; f < node.y + node.z; ++f) {
+        Box face_box = box_of_face(f);
+        face_boxes[f] = face_box;
         box = join(box, face_box);
     }
-    box = reduce_box(box);
-    if (gl_LocalInvocationID.x == 0u) chunk_boxes[group] = box;
+#else
+    uint child = n + 1u;
+    while (child < node.x) {
+        box = join(box, tree_boxes[child]);
+        child = texelFetch(tree_nodes, int(child)).x;
+    }
+#endif
+    tree_boxes[n] = box;
+    if (node.w == 0xFFFFFFFFu) return;
+    bounding_boxes[node.w].min = box.min;
+    bounding_boxes[node.w].max = box.max;
 }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <numeric>
 #include <utility>
 
 #include "cpu/triangle_overlap.h"
@@ -15,6 +14,7 @@ namespace {
 
 constexpr std::uint32_t kFacesATask = 2048;
 constexpr std::uint32_t kTestsATask = 65536;
+constexpr std::size_t kWalksATask = 64;
 
 std::uint32_t word_count(const ModelObject& object) {
     return (object.faces.count + 31) / 32;
@@ -32,6 +32,7 @@ Collision<Real>::Collision(std::shared_ptr<const Model> model, BroadPhase broad_
     : model_(std::move(model)),
       broad_phase_(broad_phase),
       face_boxes_(model_->faces.size()),
+      tree_boxes_(model_->face_tree.nodes.size()),
       bounding_boxes_(model_->objects.size()),
       row_starts_(model_->objects.size() + 1) {}
 
@@ -46,12 +47,25 @@ void Collision<Real>::update_boxes(std::span<const Vec4<Real>> positions) {
             face_boxes_[f] = box;
         }
     });
-    tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
-        const Range& range = model_->objects[o].faces;
+    const auto objects = static_cast<std::uint32_t>(model_->objects.size());
+    tbb::parallel_for(std::uint32_t(0), objects, [&](std::uint32_t o) { update_tree(o); });
+}
+
+// From the last node to the first: children come behind their parents.
+template <class Real>
+void Collision<Real>::update_tree(std::uint32_t object) {
+    const FaceTree& tree = model_->face_tree;
+    const std::uint32_t root = tree.roots[object];
+    for (std::uint32_t n = tree.nodes[root].skip; n-- > root;) {
+        const TreeNode& node = tree.nodes[n];
         AxisBox<Real> box;
-        for (std::uint32_t f = range.first; f < range.end(); ++f) box.add(face_boxes_[f]);
-        bounding_boxes_[o] = box;
-    });
+        for (std::uint32_t f = node.first_face; f < node.first_face + node.face_count; ++f)
+            box.add(face_boxes_[f]);
+        for (std::uint32_t child = n + 1; child < node.skip; child = tree.nodes[child].skip)
+            box.add(tree_boxes_[child]);
+        tree_boxes_[n] = box;
+    }
+    bounding_boxes_[object] = tree_boxes_[root];
 }
 
 template <class Real>
@@ -79,50 +93,68 @@ void Collision<Real>::find_object_pairs() {
 
 template <class Real>
 void Collision<Real>::find_face_collisions(std::span<const Vec4<Real>> positions) {
-    candidates_.resize(pairs_.size());
-    tbb::parallel_for(std::size_t(0), pairs_.size(),
-                      [&](std::size_t p) { candidates_[p] = find_candidates(pairs_[p]); });
     tbb::parallel_for(std::size_t(0), pairs_.size(), [&](std::size_t p) {
-        if (pairs_[p].object < pairs_[p].other) test_candidates(positions, p);
+        if (starts_tests(pairs_[p])) test_candidates(positions, pairs_[p]);
     });
+}
+
+// A pair is tested once, from the object with fewer faces.
+template <class Real>
+bool Collision<Real>::starts_tests(const ObjectPair& pair) const {
+    const std::uint32_t ours = model_->objects[pair.object].faces.count,
+                        theirs = model_->objects[pair.other].faces.count;
+    return ours < theirs || (ours == theirs && pair.object < pair.other);
 }
 
 template <class Real>
 std::vector<std::uint32_t> Collision<Real>::find_candidates(const ObjectPair& pair) const {
     const Range& faces = model_->objects[pair.object].faces;
     std::vector<std::uint32_t> candidates;
-    if (broad_phase_ != BroadPhase::clipped) {
-        candidates.resize(faces.count);
-        std::iota(candidates.begin(), candidates.end(), faces.first);
-        return candidates;
-    }
-    const AxisBox<Real>& other = bounding_boxes_[pair.other];
     for (std::uint32_t f = faces.first; f < faces.end(); ++f) {
-        if (meet(face_boxes_[f], other)) candidates.push_back(f);
+        if (broad_phase_ != BroadPhase::hierarchy || meet(face_boxes_[f], bounding_boxes_[pair.other]))
+            candidates.push_back(f);
     }
     return candidates;
 }
 
+// found(other face) for each face of the other object whose box meets that of `face`.
 template <class Real>
-void Collision<Real>::test_candidates(std::span<const Vec4<Real>> positions, std::size_t index) {
-    const ObjectPair& pair = pairs_[index];
-    const ObjectPair& mirror = pairs_[pair.mirror];
-    const std::vector<std::uint32_t>& ours = candidates_[index];
-    const std::vector<std::uint32_t>& theirs = candidates_[pair.mirror];
-    std::vector<AxisBox<Real>> boxes;  // side by side: the inner loop reads nothing else
-    for (const std::uint32_t face : theirs) boxes.push_back(face_boxes_[face]);
+template <class Found>
+void Collision<Real>::for_faces_near(const ObjectPair& pair, std::uint32_t face, const Found& found) const {
+    const AxisBox<Real> box = face_boxes_[face];
+    const auto test_faces = [&](std::uint32_t first, std::uint32_t count) {
+        for (std::uint32_t f = first; f < first + count; ++f) {
+            if (meet(box, face_boxes_[f])) found(f);
+        }
+    };
+    if (broad_phase_ != BroadPhase::hierarchy) {
+        const Range& all = model_->objects[pair.other].faces;
+        return test_faces(all.first, all.count);
+    }
+    const std::vector<TreeNode>& nodes = model_->face_tree.nodes;
+    const std::uint32_t root = model_->face_tree.roots[pair.other];
+    const std::uint32_t end = nodes[root].skip;
+    for (std::uint32_t n = root; n < end;) {
+        const bool near = meet(box, tree_boxes_[n]);
+        if (near) test_faces(nodes[n].first_face, nodes[n].face_count);
+        n = near ? n + 1 : nodes[n].skip;
+    }
+}
 
-    const std::size_t grain = 1 + kTestsATask / (1 + theirs.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ours.size(), grain), [&](const auto& range) {
+template <class Real>
+void Collision<Real>::test_candidates(std::span<const Vec4<Real>> positions, const ObjectPair& pair) {
+    const std::vector<std::uint32_t> candidates = find_candidates(pair);
+    const bool brute_force = broad_phase_ != BroadPhase::hierarchy;
+    const std::size_t grain =
+        brute_force ? 1 + kTestsATask / model_->objects[pair.other].faces.count : kWalksATask;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), grain), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            const AxisBox<Real> box = face_boxes_[ours[i]];
-            const Triangle<Real> face = triangle(positions, model_->faces[ours[i]]);
-            for (std::size_t j = 0; j < boxes.size(); ++j) {
-                if (!meet(box, boxes[j])) continue;
-                if (!triangles_overlap(face, triangle(positions, model_->faces[theirs[j]]))) continue;
-                set_colliding(pair, ours[i]);
-                set_colliding(mirror, theirs[j]);
-            }
+            const Triangle<Real> face = triangle(positions, model_->faces[candidates[i]]);
+            for_faces_near(pair, candidates[i], [&](std::uint32_t other) {
+                if (!triangles_overlap(face, triangle(positions, model_->faces[other]))) return;
+                set_colliding(pair, candidates[i]);
+                set_colliding(pairs_[pair.mirror], other);
+            });
         }
     });
 }

@@ -48,18 +48,22 @@ public:
     bool collide(const ObjectPair& pair) const;
 
 private:
+    void update_tree(std::uint32_t object);
+    bool starts_tests(const ObjectPair& pair) const;
     std::vector<std::uint32_t> find_candidates(const ObjectPair& pair) const;
-    void test_candidates(std::span<const Vec4<Real>> positions, std::size_t index);
+    template <class Found>
+    void for_faces_near(const ObjectPair& pair, std::uint32_t face, const Found& found) const;
+    void test_candidates(std::span<const Vec4<Real>> positions, const ObjectPair& pair);
     void set_colliding(const ObjectPair& pair, std::uint32_t face);
 
     std::shared_ptr<const Model> model_;
     BroadPhase broad_phase_;
     std::vector<AxisBox<Real>> face_boxes_;      // shape [faces]
+    std::vector<AxisBox<Real>> tree_boxes_;      // of Model::face_tree; shape [nodes]
     std::vector<AxisBox<Real>> bounding_boxes_;  // shape [objects]
     std::vector<ObjectPair> pairs_;
-    std::vector<std::uint32_t> row_starts_;               // shape [objects + 1]
-    std::vector<std::vector<std::uint32_t>> candidates_;  // faces of each pair's object that may touch
-    std::vector<std::uint32_t> face_collisions_;          // a bit a face of its object, by pair
+    std::vector<std::uint32_t> row_starts_;       // shape [objects + 1]
+    std::vector<std::uint32_t> face_collisions_;  // a bit a face of its object, by pair
 };
 
 }  // namespace gelatin::cpu

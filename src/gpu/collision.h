@@ -18,7 +18,10 @@ struct Collision {
 
     /// @pre the model has at least two objects
     Collision(const Model& model, const CollisionSettings& settings)
-        : buffers(model), find_object_pairs(settings.broad_phase), respond(buffers, settings) {}
+        : buffers(model),
+          find_object_pairs(settings.broad_phase),
+          find_face_collisions(settings.broad_phase),
+          respond(buffers, settings) {}
 };
 
 }  // namespace gelatin::gpu

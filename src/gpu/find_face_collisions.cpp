@@ -2,10 +2,11 @@
 
 namespace gelatin::gpu {
 
-FindFaceCollisions::FindFaceCollisions()
-    : list_program_(gl::Program::compute("sim/list_candidates.comp")),
+FindFaceCollisions::FindFaceCollisions(BroadPhase broad_phase)
+    : walks_(broad_phase == BroadPhase::hierarchy),
+      list_program_(gl::Program::compute("sim/list_candidates.comp")),
       scan_program_(gl::Program::compute("sim/scan_tests.comp")),
-      cull_program_(gl::Program::compute("sim/cull_face_pairs.comp")),
+      cull_program_(gl::Program::compute(walks_ ? "sim/walk_trees.comp" : "sim/cull_face_pairs.comp")),
       test_program_(gl::Program::compute("sim/test_face_pairs.comp")) {}
 
 void FindFaceCollisions::run(const ModelBuffers& model, const CollisionBuffers& collision,
@@ -21,9 +22,13 @@ void FindFaceCollisions::run(const ModelBuffers& model, const CollisionBuffers& 
     collision.run(list_program_, Work::entries);
     gl::barrier(gl::Barrier::storage);
 
+    scan_program_.set("walk_trees", walks_ ? 1u : 0u);
     collision.run(scan_program_, Work::scan);
     gl::barrier(gl::Barrier::storage | gl::Barrier::command);
 
+    collision.tree_node_texels.bind(1);
+    collision.tree_box_texels.bind(2);
+    collision.root_texels.bind(3);
     cull_program_.set("face_pair_capacity", capacity);
     collision.run(cull_program_, Work::tests);
     gl::barrier(gl::Barrier::storage | gl::Barrier::command);

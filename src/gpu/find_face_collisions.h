@@ -1,20 +1,22 @@
 #pragma once
 
+#include "gelatin/scene.h"
 #include "gpu/collision_buffers.h"
 #include "gpu/node_buffers.h"
 
 namespace gelatin::gpu {
 
 /// Face against face in the pairs of objects: shaders/sim/list_candidates.comp, scan_tests.comp,
-/// cull_face_pairs.comp, test_face_pairs.comp. All dispatches are indirect: nothing runs where nothing is
-/// near.
+/// walk_trees.comp or cull_face_pairs.comp, test_face_pairs.comp. All dispatches are indirect: nothing runs
+/// where nothing is near.
 class FindFaceCollisions {
 public:
-    FindFaceCollisions();
+    explicit FindFaceCollisions(BroadPhase broad_phase);
     /// Ends with the barrier that the next stage needs.
     void run(const ModelBuffers& model, const CollisionBuffers& collision, const NodeBuffers& nodes) const;
 
 private:
+    bool walks_;  // through trees
     gl::Program list_program_, scan_program_, cull_program_, test_program_;
 };
 

@@ -34,7 +34,7 @@ void FindObjectPairs::run(const ModelBuffers& model, const CollisionBuffers& col
     scan_program_.dispatch(kScanLanes, kScanLanes);
     gl::barrier(gl::Barrier::storage);
 
-    list_program_.set("all_faces", broad_phase_ == BroadPhase::clipped ? 0u : 1u);
+    list_program_.set("all_faces", broad_phase_ == BroadPhase::hierarchy ? 0u : 1u);
     list_program_.set("candidate_capacity", capacity(collision.candidates));
     list_program_.dispatch(collision.object_count);
     gl::barrier(gl::Barrier::storage | gl::Barrier::command);

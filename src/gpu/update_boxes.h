@@ -5,7 +5,8 @@
 
 namespace gelatin::gpu {
 
-/// The box of each face and of each object: shaders/sim/update_boxes.comp, merge_boxes.comp.
+/// The box of each face and of each object: shaders/sim/update_boxes.comp, a dispatch for each
+/// level of the trees.
 class UpdateBoxes {
 public:
     UpdateBoxes();
@@ -13,7 +14,7 @@ public:
     void run(const ModelBuffers& model, const CollisionBuffers& collision, const NodeBuffers& nodes) const;
 
 private:
-    gl::Program update_program_, merge_program_;
+    gl::Program leaf_program_, node_program_;
 };
 
 }  // namespace gelatin::gpu

@@ -11,6 +11,7 @@
 #include "gelatin/error.h"
 #include "mesh/topology.h"
 #include "model/draw_surface.h"
+#include "model/face_tree.h"
 #include "model/node_faces.h"
 #include "model/object_mesh.h"
 #include "model/spring_packing.h"
@@ -67,7 +68,7 @@ TetMesh reordered(const TetMesh& mesh, const SpringKinds& kinds) {
     };
     const auto by_least_node = [&](const auto& a, const auto& b) { return least(a) < least(b); };
     std::stable_sort(result.tets.begin(), result.tets.end(), by_least_node);
-    std::stable_sort(result.faces.begin(), result.faces.end(), by_least_node);
+    arrange_faces(result.positions, result.faces);
     return result;
 }
 
@@ -131,6 +132,7 @@ void append_body(Model& model, const Body& body) {
     for (const glm::uvec3& f : mesh.faces) {
         model.faces.push_back({f.x + first, f.y + first, f.z + first, size(model.objects)});
     }
+    append_face_tree(object.faces, model.face_tree);
     append_draw_surface(model.positions, model.faces, object.faces, kCreaseAngle, model.surface);
     model.objects.push_back(std::move(object));
 }

@@ -20,6 +20,7 @@ using glm::vec4;
 #include "layouts/object_pair.glsl"
 #include "layouts/spring.glsl"
 #include "layouts/surface_vertex.glsl"
+#include "layouts/tree_node.glsl"
 
 static_assert(sizeof(ApproachSums) == 32);
 static_assert(sizeof(BoundingBox) == 48);
@@ -37,6 +38,7 @@ static_assert(sizeof(ObjectPair) == 32);
 static_assert(sizeof(PairRow) == 16);
 static_assert(sizeof(Spring) == 16);
 static_assert(sizeof(SurfaceVertex) == 16);
+static_assert(sizeof(TreeNode) == 16);
 
 }  // namespace gelatin::layouts
 
@@ -57,4 +59,5 @@ using layouts::ObjectPair;
 using layouts::PairRow;
 using layouts::Spring;
 using layouts::SurfaceVertex;
+using layouts::TreeNode;
 }  // namespace gelatin

@@ -51,6 +51,17 @@ struct NodeFaces {
     std::vector<std::uint32_t> faces;   ///< indices into Model::faces, shape [3 * faces]
 };
 
+/// A tree of boxes over the faces of each object, whose topology never changes: up to four children a node,
+/// up to four faces a leaf. Nodes come before their children, so a walk goes to the next node, or to `skip`
+/// where it does not care for what is below.
+struct FaceTree {
+    static constexpr std::uint32_t kLeafFaces = 4;
+
+    std::vector<TreeNode> nodes;                     ///< of all objects
+    std::vector<std::uint32_t> roots;                ///< shape [objects]
+    std::vector<std::vector<std::uint32_t>> levels;  ///< nodes by height; leaves first
+};
+
 /// What is drawn: faces over surface vertices (nodes, split at creases) and the faces round each vertex.
 struct DrawSurface {
     std::vector<SurfaceVertex> vertices;
@@ -76,6 +87,7 @@ struct Model {
     std::vector<glm::uvec4> tets;  ///< shape [tets]
     std::vector<Face> faces;       ///< boundary triangles, shape [faces]
     NodeFaces node_faces;
+    FaceTree face_tree;
     DrawSurface surface;
 
     std::vector<Collider> colliders;  ///< in the order of their kinds

@@ -129,8 +129,8 @@ const char* name_of(BroadPhase broad_phase) {
             return "none";
         case BroadPhase::boxes:
             return "boxes";
-        case BroadPhase::clipped:
-            return "clipped";
+        case BroadPhase::hierarchy:
+            return "hierarchy";
     }
     return "";
 }

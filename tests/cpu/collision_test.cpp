@@ -9,7 +9,7 @@
 namespace gelatin {
 namespace {
 
-constexpr BroadPhase kBroadPhases[] = {BroadPhase::none, BroadPhase::boxes, BroadPhase::clipped};
+constexpr BroadPhase kBroadPhases[] = {BroadPhase::none, BroadPhase::boxes, BroadPhase::hierarchy};
 
 class CrowdTest : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Objects, CrowdTest, ::testing::Values(2, 3, 7, 30));
@@ -26,9 +26,9 @@ TEST_P(CrowdTest, CollidesAsBruteForceSays) {
 
 TEST(Collision, IsTheSameForAnyNumberOfThreads) {
     const Model model = test::make_crowd(60, 4);
-    const test::FaceCollisions parallel = test::find_collisions_on_cpu<float>(model, BroadPhase::clipped);
+    const test::FaceCollisions parallel = test::find_collisions_on_cpu<float>(model, BroadPhase::hierarchy);
     const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-    EXPECT_EQ(test::find_collisions_on_cpu<float>(model, BroadPhase::clipped), parallel);
+    EXPECT_EQ(test::find_collisions_on_cpu<float>(model, BroadPhase::hierarchy), parallel);
 }
 
 // Two blocks of one cell, the second moved by `offset`.

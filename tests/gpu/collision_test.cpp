@@ -45,7 +45,7 @@ TEST_P(CrowdOnGpuTest, CollidesAsOnTheCpu) {
     const Model model = test::make_crowd(GetParam(), static_cast<unsigned>(GetParam()));
     const test::FaceCollisions expected = test::find_collisions_on_cpu<float>(model, BroadPhase::none);
     EXPECT_FALSE(expected.empty()) << "the crowd is not dense enough to test anything";
-    for (const BroadPhase broad_phase : {BroadPhase::none, BroadPhase::boxes, BroadPhase::clipped}) {
+    for (const BroadPhase broad_phase : {BroadPhase::none, BroadPhase::boxes, BroadPhase::hierarchy}) {
         EXPECT_EQ(test::find_collisions_on_gpu(model, broad_phase), expected);
     }
 }
@@ -61,14 +61,14 @@ TEST_F(CollisionOnGpuTest, ObjectsOfDifferentSizesCollideAsOnTheCpu) {
     const Model model = pack_bodies(bodies, {}, {0.0, 0.0, 0.0});
     const test::FaceCollisions expected = test::find_collisions_on_cpu<float>(model, BroadPhase::none);
     EXPECT_GT(expected.size(), 50u);
-    for (const BroadPhase broad_phase : {BroadPhase::none, BroadPhase::boxes, BroadPhase::clipped}) {
+    for (const BroadPhase broad_phase : {BroadPhase::none, BroadPhase::boxes, BroadPhase::hierarchy}) {
         EXPECT_EQ(test::find_collisions_on_gpu(model, broad_phase), expected);
     }
 }
 
 TEST_F(CollisionOnGpuTest, CountsCollidingFaces) {
     const auto model = std::make_shared<const Model>(test::make_crowd(20));
-    const auto expected = test::find_collisions_on_cpu<float>(*model, BroadPhase::clipped);
+    const auto expected = test::find_collisions_on_cpu<float>(*model, BroadPhase::hierarchy);
     std::vector<std::uint32_t> counts(model->objects.size());
     for (std::size_t k = 0; k < expected.size(); ++k) {
         if (k == 0 || expected[k].first != expected[k - 1].first)

@@ -64,7 +64,7 @@ TEST_P(CollisionMutantsTest, IsCaught) {
     bool caught = false;
     for (const int objects : {7, 30}) {
         const Model model = test::make_crowd(objects, 1);
-        for (const BroadPhase broad_phase : {BroadPhase::boxes, BroadPhase::clipped}) {
+        for (const BroadPhase broad_phase : {BroadPhase::boxes, BroadPhase::hierarchy}) {
             caught = caught || test::find_collisions_on_gpu(model, broad_phase) !=
                                    test::find_collisions_on_cpu<float>(model, broad_phase);
         }

@@ -56,7 +56,7 @@ TEST(Report, HasTheDocumentedKeys) {
                       {"substeps", 4},
                       {"step_size", 0.005},
                       {"frames", 2},
-                      {"broad_phase", "clipped"},
+                      {"broad_phase", "hierarchy"},
                       {"response", "restore"},
                       {"gravity", {0.0, -9.81, 0.0}}}},
                     {"counts", {{"objects", 2}, {"nodes", 10}, {"springs", 20}, {"faces", 30}, {"tets", 40}}},

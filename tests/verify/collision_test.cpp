@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kSpeed = 3.0;  // of each ball [m/s]
 
-Scene make_meeting(BroadPhase broad_phase = BroadPhase::clipped, ForceMethod forces = ForceMethod::fused) {
+Scene make_meeting(BroadPhase broad_phase = BroadPhase::hierarchy, ForceMethod forces = ForceMethod::fused) {
     Scene scene;
     scene.simulation.frame_rate = 500.0;
     scene.simulation.gravity = {0.0, 0.0, 0.0};
@@ -103,7 +103,7 @@ TEST_F(BallsTest, PartAgainWithTheirMomentumAndNoMoreEnergy) {
 TEST_F(BallsTest, DoTheSameByEveryPath) {
     const HostFrame reference = simulate(make_meeting(), Backend::cpu, kFrames).read_frame();
     for (const Backend backend : {Backend::cpu, Backend::gl}) {
-        for (const BroadPhase broad_phase : {BroadPhase::none, BroadPhase::boxes, BroadPhase::clipped}) {
+        for (const BroadPhase broad_phase : {BroadPhase::none, BroadPhase::boxes, BroadPhase::hierarchy}) {
             for (const ForceMethod forces : {ForceMethod::fused, ForceMethod::divide_and_merge}) {
                 const HostFrame other =
                     simulate(make_meeting(broad_phase, forces), backend, kFrames).read_frame();
