@@ -1,4 +1,4 @@
-// How many objects each object may touch: those whose boxes meet, or all. CPU twin: gelatin::cpu::Collision.
+// How many objects each object may touch: those whose boxes meet, or all. OBJECT_TREE: sought in a tree. CPU twin: gelatin::cpu::Collision.
 // Parity: tests/gpu/collision_test.cpp.
 #include "include/object_may_touch.glsl"
 layout(local_size_x = 64) in;
@@ -7,6 +7,7 @@ void main() {
     uint a = global_index();
     if (a >= object_count) return;
     uint count = 0u;
-    for (uint b = 0u; b < object_count; ++b) count += uint(may_touch(a, b));
+    Search search = start_search(a);
+    while (next_partner(search) != kNone) ++count;
     pair_rows[a].pair_count = count;
 }

@@ -15,12 +15,20 @@ void main() {
     uint leaves = leaf_count(a);
     // Where their candidates do not fit, all faces are.
     bool all = all_faces != 0u || 4u * (row.first_entry + row.pair_count * leaves) > candidate_capacity;
-    uint k = 0u;
-    for (uint b = 0u; b < object_count && k < row.pair_count; ++b) {
-        if (!may_touch(a, b)) continue;
-        object_pairs[row.first_pair + k] = ObjectPair(a, b, row.first_word + k * words,
-                                                      all ? kAllFaces : 4u * (row.first_entry + k * leaves),
-                                                      all ? faces : 0u, 0u, 0u, 0u);
-        ++k;
+    Search search = start_search(a);
+    for (uint k = 0u; k < row.pair_count; ++k) {
+        uint other = next_partner(search);
+        // Into its place among those that were found before.
+        uint place = row.first_pair + k;
+        while (place > row.first_pair && object_pairs[place - 1u].other > other) {
+            object_pairs[place].other = object_pairs[place - 1u].other;
+            --place;
+        }
+        object_pairs[place].other = other;
+    }
+    for (uint k = 0u; k < row.pair_count; ++k) {
+        uint p = row.first_pair + k;
+        object_pairs[p] = ObjectPair(a, object_pairs[p].other, row.first_word + k * words,
+                                     all ? kAllFaces : 4u * (row.first_entry + k * leaves), all ? faces : 0u, 0u, 0u, 0u);
     }
 }

@@ -1,4 +1,5 @@
-// Boxes of the faces and nodes of the trees, one level a dispatch, leaves first; a root's is its object's bounding box.
+// Boxes of the nodes of trees, one level a dispatch, leaves first. LEAVES: those over faces, whose boxes they make too.
+// OBJECTS: those over objects. Neither: inner nodes. The box of a face tree's root is its object's bounding box.
 // CPU twin: gelatin::cpu::Collision. Parity: tests/gpu/collision_test.cpp.
 #include "include/global_index.glsl"
 #include "layouts/box.glsl"
@@ -8,7 +9,8 @@ layout(local_size_x = 64) in;
 
 layout(binding = 0) uniform samplerBuffer positions;   // xyz [m]
 layout(binding = 1) uniform usamplerBuffer tree_nodes;  // TreeNode
-layout(std430, binding = 0) writeonly buffer BoundingBoxes { BoundingBox bounding_boxes[]; };
+layout(binding = 2) uniform usamplerBuffer object_order;
+layout(std430, binding = 0) buffer BoundingBoxes { BoundingBox bounding_boxes[]; };
 layout(std430, binding = 1) readonly buffer Faces { Face faces[]; };
 layout(std430, binding = 2) writeonly buffer FaceBoxes { Box face_boxes[]; };
 layout(std430, binding = 3) buffer TreeBoxes { Box tree_boxes[]; };
@@ -29,9 +31,9 @@ Box box_of_face(uint f) {
 #endif
 
 void main() {
-    uint k = global_index();
-    if (k >= node_count) return;
-    uint n = level_nodes[first_node + k];
+    uint index = global_index();
+    if (index >= node_count) return;
+    uint n = level_nodes[first_node + index];
     uvec4 node = texelFetch(tree_nodes, int(n));  // skip, first face, number of faces, object
     Box box = Box(vec4(3.4e38), vec4(-3.4e38));
 #ifdef LEAVES
@@ -39,6 +41,11 @@ void main() {
         Box face_box = box_of_face(f);
         face_boxes[f] = face_box;
         box = join(box, face_box);
+    }
+#elif defined(OBJECTS)
+    for (uint k = node.y; k < node.y + node.z; ++k) {
+        BoundingBox object = bounding_boxes[texelFetch(object_order, int(k)).x];
+        box = join(box, Box(object.min, object.max));
     }
 #else
     uint child = n + 1u;

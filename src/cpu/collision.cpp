@@ -32,8 +32,10 @@ Collision<Real>::Collision(std::shared_ptr<const Model> model, BroadPhase broad_
     : model_(std::move(model)),
       broad_phase_(broad_phase),
       face_boxes_(model_->faces.size()),
-      tree_boxes_(model_->face_tree.nodes.size()),
+      tree_boxes_(model_->face_trees.nodes.size()),
       bounding_boxes_(model_->objects.size()),
+      object_tree_(static_cast<std::uint32_t>(model_->objects.size())),
+      partners_(model_->objects.size()),
       row_starts_(model_->objects.size() + 1) {}
 
 template <class Real>
@@ -54,12 +56,12 @@ void Collision<Real>::update_boxes(std::span<const Vec4<Real>> positions) {
 // From the last node to the first: children come behind their parents.
 template <class Real>
 void Collision<Real>::update_tree(std::uint32_t object) {
-    const FaceTree& tree = model_->face_tree;
+    const BoxTree& tree = model_->face_trees;
     const std::uint32_t root = tree.roots[object];
     for (std::uint32_t n = tree.nodes[root].skip; n-- > root;) {
         const TreeNode& node = tree.nodes[n];
         AxisBox<Real> box;
-        for (std::uint32_t f = node.first_face; f < node.first_face + node.face_count; ++f)
+        for (std::uint32_t f = node.first_item; f < node.first_item + node.item_count; ++f)
             box.add(face_boxes_[f]);
         for (std::uint32_t child = n + 1; child < node.skip; child = tree.nodes[child].skip)
             box.add(tree_boxes_[child]);
@@ -71,15 +73,16 @@ void Collision<Real>::update_tree(std::uint32_t object) {
 template <class Real>
 void Collision<Real>::find_object_pairs() {
     const auto count = static_cast<std::uint32_t>(model_->objects.size());
+    if (broad_phase_ == BroadPhase::hierarchy) object_tree_.update(bounding_boxes_);
+    tbb::parallel_for(std::uint32_t(0), count, [&](std::uint32_t o) { find_partners(o); });
+
     pairs_.clear();
     std::uint32_t words = 0;
-    for (std::uint32_t a = 0; a < count; ++a) {
-        row_starts_[a] = static_cast<std::uint32_t>(pairs_.size());
-        for (std::uint32_t b = 0; b < count; ++b) {
-            if (a == b) continue;
-            if (broad_phase_ != BroadPhase::none && !meet(bounding_boxes_[a], bounding_boxes_[b])) continue;
-            pairs_.push_back({a, b, 0, words});
-            words += word_count(model_->objects[a]);
+    for (std::uint32_t o = 0; o < count; ++o) {
+        row_starts_[o] = static_cast<std::uint32_t>(pairs_.size());
+        for (const std::uint32_t partner : partners_[o]) {
+            pairs_.push_back({o, partner, 0, words});
+            words += word_count(model_->objects[o]);
         }
     }
     row_starts_[count] = static_cast<std::uint32_t>(pairs_.size());
@@ -89,6 +92,24 @@ void Collision<Real>::find_object_pairs() {
     std::vector<std::uint32_t> next(row_starts_.begin(), row_starts_.end() - 1);
     for (ObjectPair& pair : pairs_) pair.mirror = next[pair.other]++;
     face_collisions_.assign(words, 0);
+}
+
+template <class Real>
+void Collision<Real>::find_partners(std::uint32_t object) {
+    std::vector<std::uint32_t>& partners = partners_[object];
+    partners.clear();
+    const auto add = [&](std::uint32_t other) {
+        if (other != object) partners.push_back(other);
+    };
+    if (broad_phase_ == BroadPhase::hierarchy) {
+        object_tree_.for_objects_near(bounding_boxes_[object], add);
+        std::sort(partners.begin(), partners.end());
+        return;
+    }
+    for (std::uint32_t other = 0; other < bounding_boxes_.size(); ++other) {
+        if (broad_phase_ == BroadPhase::none || meet(bounding_boxes_[object], bounding_boxes_[other]))
+            add(other);
+    }
 }
 
 template <class Real>
@@ -131,12 +152,12 @@ void Collision<Real>::for_faces_near(const ObjectPair& pair, std::uint32_t face,
         const Range& all = model_->objects[pair.other].faces;
         return test_faces(all.first, all.count);
     }
-    const std::vector<TreeNode>& nodes = model_->face_tree.nodes;
-    const std::uint32_t root = model_->face_tree.roots[pair.other];
+    const std::vector<TreeNode>& nodes = model_->face_trees.nodes;
+    const std::uint32_t root = model_->face_trees.roots[pair.other];
     const std::uint32_t end = nodes[root].skip;
     for (std::uint32_t n = root; n < end;) {
         const bool near = meet(box, tree_boxes_[n]);
-        if (near) test_faces(nodes[n].first_face, nodes[n].face_count);
+        if (near) test_faces(nodes[n].first_item, nodes[n].item_count);
         n = near ? n + 1 : nodes[n].skip;
     }
 }

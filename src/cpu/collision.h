@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cpu/axis_box.h"
+#include "cpu/object_tree.h"
 #include "gelatin/scene.h"
 #include "model/model.h"
 
@@ -49,6 +50,7 @@ public:
 
 private:
     void update_tree(std::uint32_t object);
+    void find_partners(std::uint32_t object);
     bool starts_tests(const ObjectPair& pair) const;
     std::vector<std::uint32_t> find_candidates(const ObjectPair& pair) const;
     template <class Found>
@@ -59,8 +61,10 @@ private:
     std::shared_ptr<const Model> model_;
     BroadPhase broad_phase_;
     std::vector<AxisBox<Real>> face_boxes_;      // shape [faces]
-    std::vector<AxisBox<Real>> tree_boxes_;      // of Model::face_tree; shape [nodes]
+    std::vector<AxisBox<Real>> tree_boxes_;      // of Model::face_trees; shape [nodes]
     std::vector<AxisBox<Real>> bounding_boxes_;  // shape [objects]
+    ObjectTree<Real> object_tree_;
+    std::vector<std::vector<std::uint32_t>> partners_;  // of each object, ascending
     std::vector<ObjectPair> pairs_;
     std::vector<std::uint32_t> row_starts_;       // shape [objects + 1]
     std::vector<std::uint32_t> face_collisions_;  // a bit a face of its object, by pair

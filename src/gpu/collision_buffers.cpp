@@ -44,32 +44,16 @@ std::vector<BoundingBox> describe_objects(const Model& model) {
     return boxes;
 }
 
-std::vector<std::uint32_t> joined(const std::vector<std::vector<std::uint32_t>>& levels) {
-    std::vector<std::uint32_t> all;
-    for (const std::vector<std::uint32_t>& level : levels) all.insert(all.end(), level.begin(), level.end());
-    return all;
-}
-
 }  // namespace
 
 CollisionBuffers::CollisionBuffers(const Model& model)
-    : tree_nodes(std::span(model.face_tree.nodes)),
-      roots(std::span(model.face_tree.roots)),
+    : face_trees(model.face_trees),
       face_boxes(model.faces.size()),
-      tree_boxes(model.face_tree.nodes.size()),
-      tree_node_texels(tree_nodes, gl::TexelFormat::rgba32ui),
-      tree_box_texels(tree_boxes, gl::TexelFormat::rgba32f),
-      root_texels(roots, gl::TexelFormat::r32ui),
       node_face_starts(std::span(model.node_faces.starts)),
       node_faces(std::span(model.node_faces.faces)),
       node_face_start_texels(node_face_starts, gl::TexelFormat::r32ui),
       node_face_texels(node_faces, gl::TexelFormat::r32ui),
       object_count(static_cast<std::uint32_t>(model.objects.size())) {
-    const std::vector<std::uint32_t> level_order = joined(model.face_tree.levels);
-    level_nodes = gl::Buffer<std::uint32_t>(std::span(level_order));
-    level_starts = {0};
-    for (const std::vector<std::uint32_t>& level : model.face_tree.levels)
-        level_starts.push_back(level_starts.back() + static_cast<std::uint32_t>(level.size()));
     const std::vector<BoundingBox> boxes = describe_objects(model);
     bounding_boxes = gl::Buffer<BoundingBox>(std::span(boxes));
 

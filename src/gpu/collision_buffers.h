@@ -1,11 +1,11 @@
 #pragma once
 
 #include <glm/vec4.hpp>
-#include <vector>
 
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "gpu/model_buffers.h"
+#include "gpu/tree_buffers.h"
 #include "model/model.h"
 
 namespace gelatin::gpu {
@@ -13,14 +13,9 @@ namespace gelatin::gpu {
 /// What the stages of collision hand to one another, for scenes of at least two objects. Sizes are for what
 /// may happen, up to limits of memory; what does not fit is counted, never forgotten in silence.
 struct CollisionBuffers {
-    gl::Buffer<TreeNode> tree_nodes;          ///< Model::face_tree's
-    gl::Buffer<std::uint32_t> roots;          ///< the same; shape [objects]
-    gl::Buffer<std::uint32_t> level_nodes;    ///< nodes by height, leaves first
-    std::vector<std::uint32_t> level_starts;  ///< in level_nodes, and the end
-    gl::Buffer<Box> face_boxes;               ///< shape [faces]
-    gl::Buffer<Box> tree_boxes;               ///< shape [nodes of the trees]
-    gl::Buffer<BoundingBox> bounding_boxes;   ///< shape [objects]
-    gl::BufferTexture tree_node_texels, tree_box_texels, root_texels;
+    TreeBuffers face_trees;                  ///< one an object
+    gl::Buffer<Box> face_boxes;              ///< shape [faces]
+    gl::Buffer<BoundingBox> bounding_boxes;  ///< shape [objects]
 
     gl::Buffer<PairRow> pair_rows;  ///< shape [objects]
     gl::Buffer<ObjectPair> object_pairs;

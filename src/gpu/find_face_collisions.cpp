@@ -26,9 +26,9 @@ void FindFaceCollisions::run(const ModelBuffers& model, const CollisionBuffers& 
     collision.run(scan_program_, Work::scan);
     gl::barrier(gl::Barrier::storage | gl::Barrier::command);
 
-    collision.tree_node_texels.bind(1);
-    collision.tree_box_texels.bind(2);
-    collision.root_texels.bind(3);
+    collision.face_trees.node_texels.bind(1);
+    collision.face_trees.box_texels.bind(2);
+    collision.face_trees.root_texels.bind(3);
     cull_program_.set("face_pair_capacity", capacity);
     collision.run(cull_program_, Work::tests);
     gl::barrier(gl::Barrier::storage | gl::Barrier::command);

@@ -10,15 +10,25 @@ std::uint32_t capacity(const gl::Buffer<T>& buffer) {
     return static_cast<std::uint32_t>(buffer.size());
 }
 
+gl::Defines search_defines(BroadPhase broad_phase) {
+    return broad_phase == BroadPhase::hierarchy ? gl::Defines{"OBJECT_TREE"} : gl::Defines{};
+}
+
 }  // namespace
 
-FindObjectPairs::FindObjectPairs(BroadPhase broad_phase)
+FindObjectPairs::FindObjectPairs(BroadPhase broad_phase, std::uint32_t object_count)
     : broad_phase_(broad_phase),
-      count_program_(gl::Program::compute("sim/count_object_pairs.comp")),
+      count_program_(gl::Program::compute("sim/count_object_pairs.comp", search_defines(broad_phase))),
       scan_program_(gl::Program::compute("sim/scan_pair_rows.comp")),
-      list_program_(gl::Program::compute("sim/list_object_pairs.comp")) {}
+      list_program_(gl::Program::compute("sim/list_object_pairs.comp", search_defines(broad_phase))) {
+    if (broad_phase == BroadPhase::hierarchy) tree_.emplace(object_count);
+}
 
-void FindObjectPairs::run(const ModelBuffers& model, const CollisionBuffers& collision) const {
+void FindObjectPairs::run(const ModelBuffers& model, const CollisionBuffers& collision) {
+    if (tree_) {
+        tree_->update(collision);
+        tree_->bind();
+    }
     collision.bind_pairs();
     for (const gl::Program* program : {&count_program_, &list_program_}) {
         program->set("object_count", collision.object_count);

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
+
 #include "gelatin/scene.h"
 #include "gpu/collision_buffers.h"
+#include "gpu/object_tree.h"
 
 namespace gelatin::gpu {
 
@@ -9,12 +12,13 @@ namespace gelatin::gpu {
 /// scan_pair_rows.comp, list_object_pairs.comp.
 class FindObjectPairs {
 public:
-    explicit FindObjectPairs(BroadPhase broad_phase);
+    FindObjectPairs(BroadPhase broad_phase, std::uint32_t object_count);
     /// Ends with the barriers that the next stage needs.
-    void run(const ModelBuffers& model, const CollisionBuffers& collision) const;
+    void run(const ModelBuffers& model, const CollisionBuffers& collision);
 
 private:
     BroadPhase broad_phase_;
+    std::optional<ObjectTree> tree_;  // with hierarchy
     gl::Program count_program_, scan_program_, list_program_;
 };
 

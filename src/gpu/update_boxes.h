@@ -5,6 +5,9 @@
 
 namespace gelatin::gpu {
 
+/// Runs shaders/sim/update_boxes.comp over a level of trees whose buffers are bound.
+void update_level(const gl::Program& program, const TreeBuffers& trees, std::size_t level);
+
 /// The box of each face and of each object: shaders/sim/update_boxes.comp, a dispatch for each
 /// level of the trees.
 class UpdateBoxes {

@@ -10,8 +10,8 @@
 #include "core/log.h"
 #include "gelatin/error.h"
 #include "mesh/topology.h"
+#include "model/box_tree.h"
 #include "model/draw_surface.h"
-#include "model/face_tree.h"
 #include "model/node_faces.h"
 #include "model/object_mesh.h"
 #include "model/spring_packing.h"
@@ -43,6 +43,16 @@ bool is_pinned(const std::vector<Region>& pins, const glm::dvec3& point) {
                        [&](const Region& r) { return std::visit(IsInside{point}, r); });
 }
 
+// Faces in the order of the tree that is built over them.
+void arrange_faces(TetMesh& mesh) {
+    std::vector<glm::dvec3> centers;
+    for (const glm::uvec3& f : mesh.faces)
+        centers.push_back((mesh.positions[f.x] + mesh.positions[f.y] + mesh.positions[f.z]) / 3.0);
+    const std::vector<glm::uvec3> faces = mesh.faces;
+    std::size_t place = 0;
+    for (const std::uint32_t face : box_tree_order(centers)) mesh.faces[place++] = faces[face];
+}
+
 // The same mesh with its nodes in an order that keeps neighbours near each other.
 TetMesh reordered(const TetMesh& mesh, const SpringKinds& kinds) {
     std::vector<glm::uvec2> edges;
@@ -68,7 +78,7 @@ TetMesh reordered(const TetMesh& mesh, const SpringKinds& kinds) {
     };
     const auto by_least_node = [&](const auto& a, const auto& b) { return least(a) < least(b); };
     std::stable_sort(result.tets.begin(), result.tets.end(), by_least_node);
-    arrange_faces(result.positions, result.faces);
+    arrange_faces(result);
     return result;
 }
 
@@ -132,7 +142,7 @@ void append_body(Model& model, const Body& body) {
     for (const glm::uvec3& f : mesh.faces) {
         model.faces.push_back({f.x + first, f.y + first, f.z + first, size(model.objects)});
     }
-    append_face_tree(object.faces, model.face_tree);
+    append_box_tree(object.faces, model.face_trees);
     append_draw_surface(model.positions, model.faces, object.faces, kCreaseAngle, model.surface);
     model.objects.push_back(std::move(object));
 }

@@ -51,14 +51,14 @@ struct NodeFaces {
     std::vector<std::uint32_t> faces;   ///< indices into Model::faces, shape [3 * faces]
 };
 
-/// A tree of boxes over the faces of each object, whose topology never changes: up to four children a node,
-/// up to four faces a leaf. Nodes come before their children, so a walk goes to the next node, or to `skip`
-/// where it does not care for what is below.
-struct FaceTree {
-    static constexpr std::uint32_t kLeafFaces = 4;
+/// The topology of trees of boxes, which never changes: up to four children a node, up to four items a leaf.
+/// Nodes come before their children, so a walk goes on to the next node, or to `skip` where it does not care
+/// for what is below.
+struct BoxTree {
+    static constexpr std::uint32_t kLeafItems = 4;
 
-    std::vector<TreeNode> nodes;                     ///< of all objects
-    std::vector<std::uint32_t> roots;                ///< shape [objects]
+    std::vector<TreeNode> nodes;
+    std::vector<std::uint32_t> roots;                ///< of each tree
     std::vector<std::vector<std::uint32_t>> levels;  ///< nodes by height; leaves first
 };
 
@@ -87,7 +87,7 @@ struct Model {
     std::vector<glm::uvec4> tets;  ///< shape [tets]
     std::vector<Face> faces;       ///< boundary triangles, shape [faces]
     NodeFaces node_faces;
-    FaceTree face_tree;
+    BoxTree face_trees;  ///< one an object
     DrawSurface surface;
 
     std::vector<Collider> colliders;  ///< in the order of their kinds

@@ -33,7 +33,7 @@ std::vector<T> contents(const gl::Buffer<T>& buffer) {
 void run_detection(gpu::Collision& collision, const gpu::ModelBuffers& model, const gpu::NodeBuffers& nodes) {
     gpu::CollisionBuffers& buffers = collision.buffers;
     poison(buffers.face_boxes);
-    poison(buffers.tree_boxes);
+    poison(buffers.face_trees.boxes);
     poison(buffers.pair_rows);
     poison(buffers.object_pairs);
     poison(buffers.candidates);

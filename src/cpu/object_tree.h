@@ -1,0 +1,46 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cpu/axis_box.h"
+#include "model/model.h"
+
+namespace gelatin::cpu {
+
+/// Finds the boxes that meet a box, among the bounding boxes of all objects. The tree over them keeps its
+/// topology; which object stands where is decided anew from time to time, for objects move about. GPU twin:
+/// gpu::ObjectTree.
+template <class Real>
+class ObjectTree {
+public:
+    explicit ObjectTree(std::uint32_t object_count);
+
+    /// Takes the objects' boxes, which must live as long as they are sought in.
+    void update(std::span<const AxisBox<Real>> boxes);
+
+    /// found(object) for each whose box meets `box`, in no particular order.
+    template <class Found>
+    void for_objects_near(const AxisBox<Real>& box, const Found& found) const {
+        const auto end = static_cast<std::uint32_t>(tree_.nodes.size());
+        for (std::uint32_t n = 0; n < end;) {
+            const TreeNode& node = tree_.nodes[n];
+            const bool near = meet(box, node_boxes_[n]);
+            for (std::uint32_t k = node.first_item; near && k < node.first_item + node.item_count; ++k) {
+                if (meet(box, boxes_[order_[k]])) found(order_[k]);
+            }
+            n = near ? n + 1 : node.skip;
+        }
+    }
+
+private:
+    void renew_order();
+
+    BoxTree tree_;
+    std::vector<std::uint32_t> order_;       // of the objects in the tree
+    std::vector<AxisBox<Real>> node_boxes_;  // shape [nodes of the tree]
+    std::span<const AxisBox<Real>> boxes_;
+    int age_ = 0;  // of the order, in updates
+};
+
+}  // namespace gelatin::cpu

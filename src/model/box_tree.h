@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "model/model.h"
+
+namespace gelatin {
+
+/// An order of items in which those near one another are neighbours: recursively in up to four parts of
+/// nearly equal size, by medians of the items' centres, down to four items. order[place] = item.
+std::vector<std::uint32_t> box_tree_order(std::span<const glm::dvec3> centers);
+
+/// For how many steps an order of moving items is kept before it is made anew.
+constexpr int kOrderLifetime = 64;
+
+/// Appends a tree over items in that order, which have the numbers `items`.
+void append_box_tree(const Range& items, BoxTree& trees);
+
+}  // namespace gelatin
