@@ -19,7 +19,7 @@ struct Collision {
     /// @pre the model has at least two objects
     Collision(const Model& model, const CollisionSettings& settings)
         : buffers(model),
-          find_object_pairs(settings.broad_phase, buffers.object_count),
+          find_object_pairs(model, settings.broad_phase),
           find_face_collisions(settings.broad_phase),
           respond(buffers, settings) {}
 };

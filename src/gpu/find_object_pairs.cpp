@@ -16,12 +16,12 @@ gl::Defines search_defines(BroadPhase broad_phase) {
 
 }  // namespace
 
-FindObjectPairs::FindObjectPairs(BroadPhase broad_phase, std::uint32_t object_count)
+FindObjectPairs::FindObjectPairs(const Model& model, BroadPhase broad_phase)
     : broad_phase_(broad_phase),
       count_program_(gl::Program::compute("sim/count_object_pairs.comp", search_defines(broad_phase))),
       scan_program_(gl::Program::compute("sim/scan_pair_rows.comp")),
       list_program_(gl::Program::compute("sim/list_object_pairs.comp", search_defines(broad_phase))) {
-    if (broad_phase == BroadPhase::hierarchy) tree_.emplace(object_count);
+    if (broad_phase == BroadPhase::hierarchy) tree_.emplace(model);
 }
 
 void FindObjectPairs::run(const ModelBuffers& model, const CollisionBuffers& collision) {

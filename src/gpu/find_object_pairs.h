@@ -12,7 +12,7 @@ namespace gelatin::gpu {
 /// scan_pair_rows.comp, list_object_pairs.comp.
 class FindObjectPairs {
 public:
-    FindObjectPairs(BroadPhase broad_phase, std::uint32_t object_count);
+    FindObjectPairs(const Model& model, BroadPhase broad_phase);
     /// Ends with the barriers that the next stage needs.
     void run(const ModelBuffers& model, const CollisionBuffers& collision);
 

@@ -1,7 +1,6 @@
 #include "gpu/object_tree.h"
 
 #include <cstring>
-#include <numeric>
 
 #include "gpu/update_boxes.h"
 #include "model/box_tree.h"
@@ -16,19 +15,24 @@ BoxTree make_tree(std::uint32_t items) {
     return tree;
 }
 
-std::vector<std::uint32_t> as_they_come(std::uint32_t count) {
-    std::vector<std::uint32_t> order(count);
-    std::iota(order.begin(), order.end(), 0);
-    return order;
+std::vector<std::uint32_t> order_at_start(const Model& model) {
+    std::vector<glm::dvec3> centers;
+    for (const ModelObject& object : model.objects) {
+        glm::dvec3 sum(0.0);
+        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n)
+            sum += glm::dvec3(model.positions[n]);
+        centers.push_back(sum / static_cast<double>(object.nodes.count));
+    }
+    return box_tree_order(centers);
 }
 
 }  // namespace
 
-ObjectTree::ObjectTree(std::uint32_t object_count)
-    : tree_(make_tree(object_count)),
+ObjectTree::ObjectTree(const Model& model)
+    : tree_(make_tree(static_cast<std::uint32_t>(model.objects.size()))),
       leaf_program_(gl::Program::compute("sim/update_boxes.comp", {"OBJECTS"})),
       node_program_(gl::Program::compute("sim/update_boxes.comp")),
-      order_(std::span<const std::uint32_t>(as_they_come(object_count))),
+      order_(std::span<const std::uint32_t>(order_at_start(model))),
       order_texels_(order_, gl::TexelFormat::r32ui) {}
 
 void ObjectTree::update(const CollisionBuffers& collision) {

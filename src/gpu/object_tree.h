@@ -13,7 +13,7 @@ namespace gelatin::gpu {
 /// without a wait. That changes how fast objects are found, not which. CPU twin: cpu::ObjectTree.
 class ObjectTree {
 public:
-    explicit ObjectTree(std::uint32_t object_count);
+    explicit ObjectTree(const Model& model);
 
     /// Ends with the barriers that a walk through the tree needs.
     void update(const CollisionBuffers& collision);

@@ -75,8 +75,8 @@ inline constexpr StepMutant kStepMutants[] = {
 
 /// A broken collision level.
 inline constexpr Break kCollisionMutants[] = {
-    {"the_last_nodes_of_a_level_have_no_box", "sim/update_boxes.comp", "k >= node_count",
-     "k + 1u >= node_count"},
+    {"the_last_nodes_of_a_level_have_no_box", "sim/update_boxes.comp", "index >= node_count",
+     "index + 1u >= node_count"},
     {"a_box_forgets_a_corner", "sim/update_boxes.comp", "max(a, max(b, c))", "max(a, b)"},
     {"a_walk_skips_too_far", "sim/walk_trees.comp", "near ? n + 1u : node.x", "node.x"},
     {"boxes_meet_along_two_axes", "include/pairs.glsl", "all(lessThanEqual(min_b, max_a))",
