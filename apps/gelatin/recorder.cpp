@@ -24,7 +24,9 @@ Recorder::Recorder(const RunOptions& options, Simulator& simulator)
       simulator_(simulator),
       interval_(record_interval(options, simulator.scene().simulation.frame_rate)) {
     const PictureSize size = picture_size(options);
-    if (options.draws()) painter_ = std::make_unique<ScenePainter>(simulator, size);
+    if (options.draws()) {
+        painter_ = std::make_unique<ScenePainter>(simulator, size, picture_quality(options));
+    }
     if (!options.video.empty()) {
         grabber_ = std::make_unique<render::FrameGrabber>(size.width, size.height);
         video_ = std::make_unique<render::VideoWriter>(

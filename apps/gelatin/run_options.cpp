@@ -55,6 +55,9 @@ void add_run_options(CLI::App& command, RunOptions& options) {
         ->type_name("WIDTHxHEIGHT")
         ->capture_default_str()
         ->group(outputs);
+    command.add_option("--quality", options.quality, "Of the same: auto, high or fast; auto is high")
+        ->capture_default_str()
+        ->group(outputs);
     CLI::Option* folder =
         command.add_option("--export", options.export_folder, "Write frames as meshes into this folder")
             ->type_name("DIR")
@@ -91,6 +94,7 @@ void check_outputs(const RunOptions& options) {
     if (!options.checkpoint.empty()) check_output_file("--checkpoint", options.checkpoint);
     export_format(options);
     picture_size(options);
+    picture_quality(options);
     if (!options.export_folder.empty()) prepare_export_folder(options.export_folder);
 }
 
@@ -129,6 +133,12 @@ PictureSize picture_size(const RunOptions& options) {
              fmt::format("must be WIDTHxHEIGHT with sides from {} to {}", kLeastSide, kLargestSide)});
     }
     return size;
+}
+
+render::Quality picture_quality(const RunOptions& options) {
+    using render::Quality;
+    return choose<Quality>("--quality", options.quality,
+                           {{"auto", Quality::automatic}, {"high", Quality::high}, {"fast", Quality::fast}});
 }
 
 int record_interval(const RunOptions& options, double frame_rate) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gelatin/simulator.h"
+#include "render/renderer.h"
 #include "sim/export.h"
 
 namespace CLI {  // NOLINT(readability-identifier-naming): the library's name
@@ -34,6 +35,7 @@ struct RunOptions {
     std::string export_format = "vtu";
     std::optional<int> every;  ///< frames from one recorded frame to the next
     std::string size = "1280x720";
+    std::string quality = "auto";
 
     std::filesystem::path checkpoint, resume;
     std::optional<int> checkpoint_every;  ///< frames
@@ -53,6 +55,7 @@ void check_outputs(const RunOptions& options);
 SimulatorOptions simulator_options(const RunOptions& options);
 ExportFormat export_format(const RunOptions& options);
 PictureSize picture_size(const RunOptions& options);
+render::Quality picture_quality(const RunOptions& options);
 
 /// Frames from one recorded frame to the next: as asked, or so that a film in real time has about 60 pictures
 /// a second.

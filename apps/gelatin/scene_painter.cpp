@@ -37,17 +37,18 @@ render::Camera choose_camera(const Scene& scene, const render::Surroundings& sur
     return render::frame_bounds(bounds, aspect);
 }
 
-render::RendererOptions renderer_options(const PictureSize& size) {
+render::RendererOptions renderer_options(const PictureSize& size, render::Quality quality) {
     render::RendererOptions options;
     options.width = size.width;
     options.height = size.height;
+    options.quality = quality;
     return options;
 }
 
 }  // namespace
 
-ScenePainter::ScenePainter(Simulator& simulator, const PictureSize& size)
-    : simulator_(simulator), renderer_(renderer_options(size)) {
+ScenePainter::ScenePainter(Simulator& simulator, const PictureSize& size, render::Quality quality)
+    : simulator_(simulator), renderer_(renderer_options(size, quality)) {
     const render::Surroundings surroundings = describe_surroundings(simulator);
     camera_ = choose_camera(simulator.scene(), surroundings, size);
     renderer_.set_surroundings(surroundings);

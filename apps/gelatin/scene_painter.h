@@ -13,7 +13,7 @@ namespace gelatin {
 class ScenePainter {
 public:
     /// Frames the picture for the present state where the scene has no camera.
-    ScenePainter(Simulator& simulator, const PictureSize& size);
+    ScenePainter(Simulator& simulator, const PictureSize& size, render::Quality quality);
 
     /// Draws the present state.
     void draw();

@@ -1,16 +1,16 @@
-// A corner of a drawn surface, pulled by gl_VertexID straight from the simulation's buffers (RenderView).
+// A drawn surface, pulled straight from the simulation's buffers (RenderView).
 layout(binding = 0) uniform samplerBuffer node_positions;     // xyz [m]
 layout(binding = 1) uniform usamplerBuffer surface_vertices;  // SurfaceVertex: node, object, ...
 layout(binding = 2) uniform samplerBuffer vertex_normals;     // unit xyz
 
-struct SurfaceCorner {
+struct SurfacePoint {
     vec3 position;  // [m]
     uint object;
 };
 
-SurfaceCorner fetch_corner() {
-    uvec4 vertex = texelFetch(surface_vertices, gl_VertexID);
-    return SurfaceCorner(texelFetch(node_positions, int(vertex.x)).xyz, vertex.y);
+SurfacePoint fetch_point(int vertex) {
+    uvec4 found = texelFetch(surface_vertices, vertex);
+    return SurfacePoint(texelFetch(node_positions, int(found.x)).xyz, found.y);
 }
 
-vec3 fetch_normal() { return texelFetch(vertex_normals, gl_VertexID).xyz; }
+vec3 fetch_normal(int vertex) { return texelFetch(vertex_normals, vertex).xyz; }

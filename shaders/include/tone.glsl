@@ -17,9 +17,3 @@ vec3 to_display(vec3 light) { return clamp(encode_srgb(compress(max(light, vec3(
 // from the 0 of all that surrounds them.
 vec4 body_pixel(vec3 display) { return vec4(display, 0.35 + 0.65 * dot(display, vec3(0.299, 0.587, 0.114))); }
 vec4 surrounding_pixel(vec3 display) { return vec4(display, 0.0); }
-
-// Up to half a step of 8 bits, so that slow gradients show no bands (interleaved gradient noise, Jimenez 2014).
-float dither() {
-    float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
-    return (noise - 0.5) / 255.0;
-}

@@ -1,10 +1,10 @@
 // A calm floor with a faint grid, which goes over into the backdrop before its end.
-#include "include/floor_light.glsl"
 #include "include/backdrop.glsl"
+#include "include/dither.glsl"
+#include "include/floor_color.glsl"
+#include "include/floor_light.glsl"
 #include "include/tone.glsl"
 
-uniform vec3 floor_center;   // [m]
-uniform float floor_radius;  // [m]
 uniform float grid_spacing;  // [m]
 
 in vec2 xz;
@@ -20,11 +20,6 @@ float grid() {
 }
 
 void main() {
-    vec2 visible = floor_visibility(xz);
-    vec3 light = kKeyLight * to_key_light.y * visible.x + kSkyLight * visible.y;
-    vec3 color = kFloorAlbedo * light * (1.0 - 0.10 * grid());
-    // In one over the distance, which is even in the picture.
-    float nearness = floor_radius / max(length(xz - floor_center.xz), 1e-6);
-    float fade = 1.0 - smoothstep(1.05, 6.5, nearness);
-    pixel = surrounding_pixel(to_display(mix(color, backdrop(), fade)) + dither());
+    vec3 color = floor_color(floor_visibility(xz)) * (1.0 - 0.10 * grid());
+    pixel = surrounding_pixel(to_display(mix(color, backdrop(), floor_fade(xz))) + dither());
 }

@@ -16,8 +16,11 @@ uniform float floor_height;     // [m]
 in vec2 uv;
 layout(location = 0) out vec4 visibility;
 
-const int kSearchTaps = 16;
-const int kShadowTaps = 20;
+#ifdef FEW_TAPS
+const int kSearchTaps = 8, kShadowTaps = 12;
+#else
+const int kSearchTaps = 16, kShadowTaps = 20;
+#endif
 
 // 1 where something stands between the light and `at`. An empty map is at depth 1; the floor may lie behind that.
 float blocks(float depth, float at) { return depth < 1.0 ? step(depth, at) : 0.0; }

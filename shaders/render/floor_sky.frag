@@ -9,7 +9,11 @@ uniform vec2 patch_size;                          // [m]
 in vec2 uv;
 layout(location = 0) out vec4 visibility;
 
+#ifdef FEW_TAPS
+const int kTaps = 16;
+#else
 const int kTaps = 32;
+#endif
 const float kLetThrough = 0.15;  // what jelly does not hold back
 
 // The part of the cosine-weighted hemisphere that undersides at height h and distance r cover: the sum of

@@ -3,4 +3,4 @@
 
 uniform mat4 world_to_clip;
 
-void main() { gl_Position = world_to_clip * vec4(fetch_corner().position, 1.0); }
+void main() { gl_Position = world_to_clip * vec4(fetch_point(gl_VertexID).position, 1.0); }

@@ -21,6 +21,8 @@ TexelLayout layout_of(TexelFormat format) {
             return {GL_R32UI, 4};
         case TexelFormat::rg32ui:
             return {GL_RG32UI, 8};
+        case TexelFormat::rgb32ui:
+            return {GL_RGB32UI, 12};
         case TexelFormat::rgba32ui:
             return {GL_RGBA32UI, 16};
         case TexelFormat::r32f:
@@ -76,6 +78,12 @@ void RawBuffer::download(std::size_t offset, std::size_t bytes, void* out) const
     glBindBuffer(GL_COPY_READ_BUFFER, id_);
     glGetBufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
                        out);
+}
+
+void RawBuffer::fill(std::uint32_t value) {
+    if (bytes_ == 0) return;
+    glBindBuffer(GL_COPY_WRITE_BUFFER, id_);
+    glClearBufferData(GL_COPY_WRITE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &value);
 }
 
 void RawBuffer::bind_storage(unsigned index) const {

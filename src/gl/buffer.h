@@ -23,6 +23,7 @@ public:
     std::size_t bytes() const { return bytes_; }
     void upload(std::size_t offset, std::size_t bytes, const void* data);
     void download(std::size_t offset, std::size_t bytes, void* out) const;
+    void fill(std::uint32_t value);
     /// Binds to a `layout(std430, binding = index) buffer`. An empty buffer binds nothing.
     void bind_storage(unsigned index) const;
 
@@ -67,6 +68,9 @@ public:
     /// @pre out.size() == size(), and barrier(buffer_update) since the last dispatch
     void download(std::span<T> out) const { raw_.download(0, out.size_bytes(), out.data()); }
 
+    /// Sets every element, without a copy from the host. @pre barrier(buffer_update) since the last dispatch
+    void fill(std::uint32_t value) requires std::is_same_v<T, std::uint32_t> { raw_.fill(value); }
+
     void bind_storage(unsigned index) const { raw_.bind_storage(index); }
 
 private:
@@ -75,7 +79,7 @@ private:
 };
 
 /// How a shader's samplerBuffer sees a buffer's bytes.
-enum class TexelFormat { r32ui, rg32ui, rgba32ui, r32f, rg32f, rgba32f };
+enum class TexelFormat { r32ui, rg32ui, rgb32ui, rgba32ui, r32f, rg32f, rgba32f };
 
 /// A buffer seen through a samplerBuffer or usamplerBuffer: gathers through it are faster than storage reads
 /// on software drivers and no slower elsewhere. Owns the texture, not the buffer, which must outlive it.

@@ -120,6 +120,9 @@ void Program::set(const char* name, int value) const {
 void Program::set(const char* name, std::uint32_t value) const {
     glProgramUniform1ui(id_, glGetUniformLocation(id_, name), value);
 }
+void Program::set(const char* name, const glm::ivec2& value) const {
+    glProgramUniform2iv(id_, glGetUniformLocation(id_, name), 1, glm::value_ptr(value));
+}
 void Program::set(const char* name, const glm::vec2& value) const {
     glProgramUniform2fv(id_, glGetUniformLocation(id_, name), 1, glm::value_ptr(value));
 }
@@ -170,6 +173,7 @@ void barrier(Barrier next_use) {
     if (asks(Barrier::vertex_pull)) bits |= GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT;
     if (asks(Barrier::buffer_update)) bits |= GL_BUFFER_UPDATE_BARRIER_BIT;
     if (asks(Barrier::command)) bits |= GL_COMMAND_BARRIER_BIT;
+    if (asks(Barrier::pixel_unpack)) bits |= GL_PIXEL_BUFFER_BARRIER_BIT;
     glMemoryBarrier(bits);
 }
 

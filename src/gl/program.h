@@ -36,6 +36,7 @@ public:
     void set(const char* name, float value) const;
     void set(const char* name, int value) const;
     void set(const char* name, std::uint32_t value) const;
+    void set(const char* name, const glm::ivec2& value) const;
     void set(const char* name, const glm::vec2& value) const;
     void set(const char* name, const glm::vec3& value) const;
     void set(const char* name, const glm::vec4& value) const;
@@ -62,6 +63,7 @@ enum class Barrier : unsigned {
     vertex_pull = 4,    ///< element or vertex arrays
     buffer_update = 8,  ///< copies, mapping, download
     command = 16,       ///< indirect dispatch or draw
+    pixel_unpack = 32,  ///< upload to a texture
 };
 constexpr Barrier operator|(Barrier a, Barrier b) {
     return static_cast<Barrier>(static_cast<unsigned>(a) | static_cast<unsigned>(b));

@@ -13,6 +13,7 @@ struct Bounds {
     glm::vec3 center() const { return 0.5f * (min + max); }
     glm::vec3 size() const { return max - min; }
     void add(const glm::vec3& point);
+    bool operator==(const Bounds&) const = default;
 };
 
 /// The bounds of points, x, y, z of each one after another; a unit cube round the origin for none.
@@ -27,6 +28,7 @@ struct Camera {
     glm::mat4 view() const;
     /// @param aspect width over height of the picture
     glm::mat4 projection(float aspect) const;
+    bool operator==(const Camera&) const = default;
 };
 
 /// A three-quarter view from the front, somewhat above, as near as it can be while all of `bounds` shows,

@@ -2,34 +2,29 @@
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "gelatin/views.h"
 #include "gl/buffer.h"
-#include "gl/program.h"
 #include "mesh/surface_mesh.h"
 #include "render/camera.h"
+#include "render/high_pipeline.h"
 #include "render/shadows.h"
 #include "render/static_mesh.h"
-#include "render/target.h"
 
 namespace gelatin::render {
 
-/// Where the light of bodies is worked out: at each pixel, or at each node as in the paper (faster, less
-/// smooth).
-enum class Shading { pixel, node };
-
-/// How edges become smooth: by several samples a pixel, or by a filter over the finished picture, which is
-/// cheaper on software drivers. automatic: the filter on software drivers, samples on all others.
-enum class Smoothing { automatic, samples, filter, none };
+/// high: light at each pixel, smooth edges. fast: light at each vertex as in the paper, small shadow maps,
+/// edges as they come; about an eighth of the time on software drivers. automatic: high.
+enum class Quality { automatic, high, fast };
 
 struct RendererOptions {
     int width = 1280;  ///< [pixels], >= 1
     int height = 720;  ///< [pixels], >= 1
-    Shading shading = Shading::pixel;
-    Smoothing smoothing = Smoothing::automatic;
-    int shadow_resolution = 1024;  ///< of the key light's map [pixels a side]
+    Quality quality = Quality::automatic;
+    Smoothing smoothing = Smoothing::automatic;  ///< not of Quality::fast
 };
 
 /// What stays the same from frame to frame.
@@ -64,23 +59,14 @@ public:
 
     /// The finished picture: RGBA8, sRGB values; rows from the bottom. For FrameGrabber, or to copy to a
     /// window.
-    unsigned framebuffer() const { return picture_.framebuffer(); }
+    unsigned framebuffer() const { return pipeline_->picture().framebuffer(); }
 
 private:
-    void draw_scene(const SurfaceDraw& bodies, const SurfaceDraw& props, const Camera& camera) const;
-    void set_frame_uniforms(const gl::Program& program, const Camera& camera) const;
     void grow_colors(std::uint32_t body_count);
-    void aim_shadows(const RenderView& bodies);
-    void smooth_edges() const;
-    void draw_floor(const Camera& camera) const;
+    void aim_shadows(const RenderView& bodies, const View& view);
 
     RendererOptions options_;
-    gl::Program surface_program_;
-    gl::Program floor_program_;
-    gl::Program backdrop_program_;
-    gl::Program filter_program_;
-    Target canvas_;   // what is drawn into, edges not smoothed yet
-    Target picture_;  // what comes out
+    std::unique_ptr<Pipeline> pipeline_;
     Shadows shadows_;
     unsigned vertex_array_ = 0;
 

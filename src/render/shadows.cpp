@@ -12,9 +12,6 @@
 namespace gelatin::render {
 namespace {
 
-constexpr int kUndersideResolution = 192;
-constexpr int kFloorSkyResolution = 128;
-constexpr int kFloorLightResolution = 256;
 constexpr float kLightSize = 0.11f;       // tangent of the key light's apparent radius: a large soft box
 constexpr float kPenumbraLeast = 0.006f;  // of the scene's extent
 constexpr float kPenumbraMost = 0.07f;
@@ -34,24 +31,41 @@ std::array<glm::vec3, 8> corners(const Bounds& bounds) {
 const glm::mat4 kHalf =
     glm::translate(glm::mat4(1.0f), glm::vec3(0.5f)) * glm::scale(glm::mat4(1.0f), glm::vec3(0.5f));
 
+// A patch that no point is inside of.
+const glm::vec4 kNowhere(0.0f);
+
 void bind_texture(unsigned unit, const Target& target) {
     glActiveTexture(GL_TEXTURE0 + unit);
     glBindTexture(GL_TEXTURE_2D, target.texture());
     glBindSampler(unit, 0);
 }
 
+Target make_depth_map(int resolution, bool splat) {
+    // Splats are uploaded as integers of 32 bits, which need no conversion then.
+    return Target::depth(resolution, resolution, splat ? GL_DEPTH_COMPONENT32 : GL_DEPTH_COMPONENT24);
+}
+
+gl::Defines taps(const ShadowDetail& detail) {
+    return detail.few_taps ? gl::Defines{"FEW_TAPS"} : gl::Defines{};
+}
+
+Target make_light_map(int resolution, unsigned internal_format) {
+    return Target::color(resolution, resolution, internal_format);
+}
+
 }  // namespace
 
-Shadows::Shadows(int resolution)
+Shadows::Shadows(const ShadowDetail& detail)
     : depth_program_(gl::Program::graphics("render/surface_depth.vert", "render/surface_depth.frag")),
-      sky_program_(gl::Program::graphics("render/whole_picture.vert", "render/floor_sky.frag")),
-      key_program_(gl::Program::graphics("render/whole_picture.vert", "render/floor_key.frag")),
+      sky_program_(gl::Program::graphics("render/whole_picture.vert", "render/floor_sky.frag", taps(detail))),
+      key_program_(gl::Program::graphics("render/whole_picture.vert", "render/floor_key.frag", taps(detail))),
       blend_program_(gl::Program::graphics("render/whole_picture.vert", "render/floor_blend.frag")),
-      shadow_map_(Target::depth(resolution, resolution)),
-      underside_(Target::depth(kUndersideResolution, kUndersideResolution)),
-      floor_sky_(Target::color(kFloorSkyResolution, kFloorSkyResolution, GL_R8)),
-      floor_key_(Target::color(kFloorLightResolution, kFloorLightResolution, GL_R8)),
-      floor_light_(Target::color(kFloorLightResolution, kFloorLightResolution, GL_RG8)) {
+      shadow_map_(make_depth_map(detail.key_map, detail.splat)),
+      underside_(make_depth_map(detail.undersides, detail.splat)),
+      floor_sky_(make_light_map(detail.floor_sky, GL_R8)),
+      floor_key_(make_light_map(detail.floor_key, GL_R8)),
+      floor_light_(make_light_map(detail.floor_key, GL_RG8)) {
+    if (detail.splat) splats_.emplace();
     glGenSamplers(1, &compare_sampler_);
     glSamplerParameteri(compare_sampler_, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
     glSamplerParameteri(compare_sampler_, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
@@ -98,12 +112,17 @@ void Shadows::aim(const Bounds& casters, float extent, float floor_height, const
 }
 
 void Shadows::draw_depth(const Target& target, const glm::mat4& world_to_clip,
-                         std::initializer_list<const SurfaceDraw*> casters) const {
+                         std::initializer_list<const SurfaceDraw*> casters) {
+    if (splats_) return splats_->draw(target, world_to_clip, casters);
     target.bind();
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glEnable(GL_DEPTH_CLAMP);  // what lies before or behind a map still casts into it
     glClear(GL_DEPTH_BUFFER_BIT);
     depth_program_.set("world_to_clip", world_to_clip);
     depth_program_.use();
     for (const SurfaceDraw* caster : casters) caster->draw();
+    glDisable(GL_DEPTH_CLAMP);
 }
 
 void Shadows::draw_floor_sky() const {
@@ -143,14 +162,11 @@ void Shadows::draw_floor_light() const {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Shadows::draw(std::initializer_list<const SurfaceDraw*> casters) const {
-    glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
-    // What lies before or behind a map still casts into it.
-    glEnable(GL_DEPTH_CLAMP);
+void Shadows::draw(std::initializer_list<const SurfaceDraw*> casters, bool lights_floor) {
+    lights_floor_ = lights_floor;
     draw_depth(shadow_map_, world_to_light_, casters);
+    if (!lights_floor) return;
     draw_depth(underside_, world_to_floor_, casters);
-    glDisable(GL_DEPTH_CLAMP);
     glDisable(GL_DEPTH_TEST);
     draw_floor_sky();
     draw_floor_key();
@@ -162,7 +178,8 @@ void Shadows::set_uniforms(const gl::Program& program) const {
     const float texel = std::max(light_size_.x, light_size_.y) / static_cast<float>(shadow_map_.width());
     program.set("shadow_bias", 3.0f * texel);
     program.set("shadow_blur", 1.5f / static_cast<float>(shadow_map_.width()));
-    program.set("floor_patch", glm::vec4(patch_corner_, 1.0f / patch_size_.x, 1.0f / patch_size_.y));
+    const glm::vec4 patch(patch_corner_, 1.0f / patch_size_.x, 1.0f / patch_size_.y);
+    program.set("floor_patch", lights_floor_ ? patch : kNowhere);
     program.set("floor_height", floor_height_);
     program.set("floor_reach", 0.35f * extent_);
 }

@@ -4,20 +4,29 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <initializer_list>
+#include <optional>
 
 #include "gl/program.h"
 #include "render/camera.h"
+#include "render/depth_splats.h"
 #include "render/surface_draw.h"
 #include "render/target.h"
 
 namespace gelatin::render {
 
+/// The maps' resolutions [pixels a side].
+struct ShadowDetail {
+    int key_map, undersides;   ///< what stands before the key light, and over the floor
+    int floor_key, floor_sky;  ///< the light that reaches the floor
+    bool few_taps;             ///< half the samples of the maps
+    bool splat;                ///< casters drawn by DepthSplats, which is for small maps
+};
+
 /// What stands between the lights and the scene: a depth map seen from the key light, and from it and the
 /// bodies' undersides the light that reaches the floor, as a small texture.
 class Shadows {
 public:
-    /// @param resolution of the key light's map [pixels a side]
-    explicit Shadows(int resolution);
+    explicit Shadows(const ShadowDetail& detail);
     Shadows(const Shadows&) = delete;
     Shadows& operator=(const Shadows&) = delete;
     ~Shadows();
@@ -27,7 +36,9 @@ public:
     void aim(const Bounds& casters, float extent, float floor_height, const glm::vec3& to_light);
 
     /// Draws the casters into the maps. @pre a vertex array object is bound
-    void draw(std::initializer_list<const SurfaceDraw*> casters) const;
+    /// @param lights_floor false: where no floor shows, nothing of its light is worked out and all of it is
+    /// lit
+    void draw(std::initializer_list<const SurfaceDraw*> casters, bool lights_floor);
 
     /// For programs that use shaders/include/light.glsl or floor_light.glsl.
     void set_uniforms(const gl::Program& program) const;
@@ -35,7 +46,7 @@ public:
 
 private:
     void draw_depth(const Target& target, const glm::mat4& world_to_clip,
-                    std::initializer_list<const SurfaceDraw*> casters) const;
+                    std::initializer_list<const SurfaceDraw*> casters);
     void draw_floor_sky() const;
     void draw_floor_key() const;
     void draw_floor_light() const;
@@ -44,6 +55,7 @@ private:
     gl::Program sky_program_;
     gl::Program key_program_;
     gl::Program blend_program_;
+    std::optional<DepthSplats> splats_;
     Target shadow_map_;
     Target underside_;
     Target floor_sky_;
@@ -57,7 +69,8 @@ private:
     glm::vec2 patch_corner_{0.0f};    // [m]
     glm::vec2 patch_size_{1.0f};      // [m]
     float floor_height_ = 0.0f;       // [m]
-    float extent_ = 1.0f;             // of the scene [m]
+    bool lights_floor_ = true;
+    float extent_ = 1.0f;  // of the scene [m]
 };
 
 }  // namespace gelatin::render

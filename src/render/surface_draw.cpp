@@ -9,13 +9,23 @@ SurfaceDraw::SurfaceDraw(const RenderView& view)
       node_positions_(view.node_positions, std::size_t{16} * view.node_count, gl::TexelFormat::rgba32f),
       surface_vertices_(view.surface_vertices, std::size_t{16} * view.vertex_count,
                         gl::TexelFormat::rgba32ui),
-      vertex_normals_(view.vertex_normals, std::size_t{16} * view.vertex_count, gl::TexelFormat::rgba32f) {}
+      vertex_normals_(view.vertex_normals, std::size_t{16} * view.vertex_count, gl::TexelFormat::rgba32f),
+      triangles_(view.triangles, std::size_t{12} * view.face_count, gl::TexelFormat::rgb32ui) {}
 
-void SurfaceDraw::draw() const {
-    if (view_.face_count == 0) return;
+void SurfaceDraw::bind_textures() const {
     node_positions_.bind(0);
     surface_vertices_.bind(1);
     vertex_normals_.bind(2);
+}
+
+void SurfaceDraw::draw() const {
+    if (view_.face_count == 0) return;
+    bind_textures();
+    draw_triangles();
+}
+
+void SurfaceDraw::draw_triangles() const {
+    if (view_.face_count == 0) return;
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, view_.triangles);
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * view_.face_count), GL_UNSIGNED_INT, nullptr);
 }

@@ -57,10 +57,10 @@ Target Target::color_and_depth(int width, int height) {
     return target;
 }
 
-Target Target::depth(int width, int height) {
+Target Target::depth(int width, int height, unsigned internal_format) {
     const FramebufferGuard guard;
     Target target(width, height);
-    target.attach_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT);
+    target.attach_texture(internal_format, GL_DEPTH_ATTACHMENT);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glDrawBuffer(GL_NONE);
@@ -111,6 +111,20 @@ Target::~Target() {
 void Target::bind() const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
     glViewport(0, 0, width_, height_);
+}
+
+void Target::copy_color_to(const Target& target) const {
+    copy_to(target, GL_COLOR_BUFFER_BIT);
+}
+
+void Target::copy_color_and_depth_to(const Target& target) const {
+    copy_to(target, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+void Target::copy_to(const Target& target, unsigned what) const {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.framebuffer_);
+    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, what, GL_NEAREST);
 }
 
 }  // namespace gelatin::render

@@ -32,7 +32,7 @@ public:
     /// A colour texture (RGBA8) with depth beside it.
     static Target color_and_depth(int width, int height);
     /// A depth texture, its values read unfiltered.
-    static Target depth(int width, int height);
+    static Target depth(int width, int height, unsigned internal_format);
     Target(Target&& other) noexcept { swap(other); }
     Target& operator=(Target&& other) noexcept;
     ~Target();
@@ -45,11 +45,17 @@ public:
     /// Draws go here from now on, with the viewport over all of it.
     void bind() const;
 
+    /// Copies to a target of the same size, several samples a pixel becoming one. Draws go there from now on.
+    void copy_color_to(const Target& target) const;
+    /// The same of colour and depth. @pre both are color_and_depth
+    void copy_color_and_depth_to(const Target& target) const;
+
 private:
     Target(int width, int height) : width_(width), height_(height) {}
     void swap(Target& other) noexcept;
     void attach_texture(unsigned internal_format, unsigned attachment);
     void check_complete() const;
+    void copy_to(const Target& target, unsigned what) const;
 
     int width_ = 0;
     int height_ = 0;

@@ -4,6 +4,7 @@
 #include "apps/program_test.h"
 #include "mesh/surface_file.h"
 #include "render/image.h"
+#include "support/image_compare.h"
 
 namespace gelatin::test {
 namespace {
@@ -117,6 +118,8 @@ TEST_F(RunCommand, RefusesUnknownChoices) {
                  "--backend = vulkan: must be auto, gl or cpu");
     expect_error({"run", "cube.toml", "--export", "out", "--format", "vtk"}, 2,
                  "--format = vtk: must be vtu, obj or ply (did you mean \"vtu\"?)");
+    expect_error({"run", "cube.toml", "--quality", "fats"}, 2,
+                 "--quality = fats: must be auto, high or fast (did you mean \"fast\"?)");
     for (const char* size : {"640", "640x", "x480", "640x480x2", "0x0", "99999x480", "-640x480"}) {
         expect_error({"run", "cube.toml", std::string("--size=") + size}, 2,
                      std::string("--size = ") + size + ": must be WIDTHxHEIGHT with sides from 16 to 8192");
@@ -300,6 +303,19 @@ TEST_F(RunCommandDraws, DrawsTheLastFrame) {
     }
     EXPECT_GT(red, 30);            // the cube is in the picture
     EXPECT_LT(red, 160 * 90 / 2);  // and not all of it
+}
+
+TEST_F(RunCommandDraws, DrawsInTheQualityAskedFor) {
+    const auto picture = [&](const char* quality) {
+        const ProgramResult result = run({"run", "cube.toml", "--image", "a.png", "--size", "320x180",
+                                          "--quality", quality, "--gl-debug"});
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return render::read_png(path("a.png"));
+    };
+    const render::Image high = picture("high"), fast = picture("fast");
+    EXPECT_EQ(picture("auto").pixels, high.pixels);
+    EXPECT_NE(fast.pixels, high.pixels);
+    EXPECT_LT(perceptual_difference(fast, high), 1.0);
 }
 
 class RunCommandFilms : public DrawingProgramTest {

@@ -45,6 +45,15 @@ TEST_F(BufferTest, UploadReplacesTheContent) {
     EXPECT_EQ(content(buffer), values);
 }
 
+TEST_F(BufferTest, FillSetsEveryElement) {
+    Buffer<std::uint32_t> buffer(1001);
+    buffer.fill(0xfedcba98u);
+    std::vector<std::uint32_t> out(1001);
+    buffer.download(out);
+    EXPECT_EQ(out, std::vector<std::uint32_t>(1001, 0xfedcba98u));
+    Buffer<std::uint32_t>().fill(1);
+}
+
 TEST_F(BufferTest, EmptyHoldsAndBindsNothing) {
     Buffer<float> buffer{std::span<const float>()};
     EXPECT_TRUE(buffer.empty());

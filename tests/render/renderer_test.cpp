@@ -54,6 +54,20 @@ protected:
         return *grabber.flush();
     }
 
+    static Studio ball_and_box() {
+        Studio studio;
+        studio.options.width = 320;
+        studio.options.height = 180;
+        studio.bodies.push_back(make_box({glm::dvec3(0.5), glm::ivec3(2)}));
+        for (glm::dvec3& p : studio.bodies.back().positions) p += glm::dvec3(1.0, 0.25, 0.0);
+        studio.surroundings.bounds.max.x = 1.3f;
+        studio.camera = frame_bounds(studio.surroundings.bounds, 320.0f / 180.0f);
+        return studio;
+    }
+
+    static void expect_ball_shades_floor(Quality quality);
+    static void expect_body_shades_body(Quality quality);
+
     static double brightness(const glm::dvec3& color) { return (color.r + color.g + color.b) / 3.0; }
 
     // Where a point in space is in the picture.
@@ -100,8 +114,8 @@ TEST_F(RendererTest, BodyCoversAsMuchOfThePictureAsItShould) {
     Studio empty = studio;
     empty.bodies.clear();
     const Image backdrop = picture_of(empty);
-    for (const Shading shading : {Shading::pixel, Shading::node}) {
-        studio.options.shading = shading;
+    for (const Quality quality : {Quality::high, Quality::fast}) {
+        studio.options.quality = quality;
         EXPECT_NEAR(different_fraction(picture_of(studio), backdrop), expected, 0.03 * expected);
     }
 }
@@ -127,9 +141,9 @@ TEST_F(RendererTest, BackdropIsUntouchedByBodies) {
 // The key light comes from the upper left and from the front; the ambient light is the same on the left and
 // right.
 TEST_F(RendererTest, LightFollowsTheNormals) {
-    for (const Shading shading : {Shading::pixel, Shading::node}) {
+    for (const Quality quality : {Quality::high, Quality::fast}) {
         Studio studio;
-        studio.options.shading = shading;
+        studio.options.quality = quality;
         const Image image = picture_of(studio);
         const glm::ivec2 left = pixel_of(studio.camera, {-0.35f, 0.6f, 0.35f});
         const glm::ivec2 right = pixel_of(studio.camera, {0.35f, 0.6f, 0.35f});
@@ -160,14 +174,22 @@ TEST_F(RendererTest, GivenNormalsAreUsed) {
 // Seen from behind: the floor where the key light's shadow falls, beside the ball where only sky is hidden,
 // and afar.
 TEST_F(RendererTest, BallShadesTheFloor) {
+    for (const Quality quality : {Quality::high, Quality::fast}) expect_ball_shades_floor(quality);
+}
+
+void RendererTest::expect_ball_shades_floor(Quality quality) {
     Studio studio;
-    studio.camera = {{2.0f, 5.0f, -2.0f}, {0.0f, 0.0f, 0.0f}, 35.0f};
+    studio.options.quality = quality;
+    studio.camera = {{-3.0f, 3.0f, -3.0f}, {0.0f, 0.0f, 0.0f}, 35.0f};
     const glm::ivec2 shadow = pixel_of(studio.camera, {0.5f, 0.0f, -0.45f});
-    const glm::ivec2 beside = pixel_of(studio.camera, {-0.4f, 0.0f, -0.6f});
+    const glm::ivec2 beside = pixel_of(studio.camera, {-0.31f, 0.0f, -0.01f});
     const glm::ivec2 afar = pixel_of(studio.camera, {-1.2f, 0.0f, -1.2f});
     const Image with = picture_of(studio);
-    studio.bodies = {sphere_at({0.0, -5.0, 0.0})};
-    const Image without = picture_of(studio);  // what is under the floor casts nothing
+    studio.bodies = {sphere_at({0.0, -5.0, 0.0})};  // under the floor: hidden, and no shadow
+    const Image under = picture_of(studio);
+    studio.bodies.clear();
+    const Image without = picture_of(studio);
+    EXPECT_LT(test::perceptual_difference(under, without), 1.0);
     EXPECT_LT(brightness_at(with, shadow), brightness_at(without, shadow) - 30.0);
     EXPECT_LT(brightness_at(with, beside), brightness_at(without, beside) - 0.5);
     EXPECT_GT(brightness_at(with, beside), brightness_at(with, shadow) + 20.0);
@@ -176,7 +198,12 @@ TEST_F(RendererTest, BallShadesTheFloor) {
 }
 
 TEST_F(RendererTest, OneBodyShadesAnother) {
+    for (const Quality quality : {Quality::high, Quality::fast}) expect_body_shades_body(quality);
+}
+
+void RendererTest::expect_body_shades_body(Quality quality) {
     Studio studio;
+    studio.options.quality = quality;
     studio.surroundings.bounds = {{-1.5f, 0.0f, -1.0f}, {0.5f, 2.5f, 1.0f}};
     studio.camera.target = {0.0f, 0.6f, 0.0f};
     const double lit = brightness(mean_color(picture_of(studio), kWidth / 2 - 8, kHeight / 2 - 12, 5, 5));
@@ -245,18 +272,77 @@ TEST_F(RendererTest, SmoothingBlendsEdges) {
 }
 
 TEST_F(RendererTest, LooksAsItDid) {
+    for (const auto& [quality, name] :
+         {std::pair(Quality::high, "studio.png"), std::pair(Quality::fast, "studio_fast.png")}) {
+        Studio studio = ball_and_box();
+        studio.options.quality = quality;
+        const Image image = picture_of(studio);
+        const auto file = std::filesystem::path(GELATIN_SOURCE_DIR "/tests/render/references") / name;
+        if (std::getenv("GELATIN_UPDATE_REFERENCES") != nullptr) write_png(file, image);
+        EXPECT_LT(test::perceptual_difference(image, read_png(file)), 1.0)
+            << "if the new picture is better, set GELATIN_UPDATE_REFERENCES=1 once";
+    }
+}
+
+TEST_F(RendererTest, FastLooksLikeHigh) {
+    Studio studio = ball_and_box();
+    studio.surroundings.props = {make_box({glm::dvec3(0.4), glm::ivec3(1)})};
+    const Image high = picture_of(studio);
+    studio.options.quality = Quality::fast;
+    const Image fast = picture_of(studio);
+    EXPECT_LT(test::perceptual_difference(fast, high), 1.0);
+    EXPECT_NE(fast.pixels, high.pixels);
+}
+
+// From the middle of the shadow to where there is none, in steps of less than a pixel.
+TEST_F(RendererTest, FastShadowFadesLikeHighs) {
     Studio studio;
-    studio.options.width = 320;
-    studio.options.height = 180;
-    studio.bodies.push_back(make_box({glm::dvec3(0.5), glm::ivec3(2)}));
-    for (glm::dvec3& p : studio.bodies.back().positions) p += glm::dvec3(1.0, 0.25, 0.0);
-    studio.surroundings.bounds.max.x = 1.3f;
-    studio.camera = frame_bounds(studio.surroundings.bounds, 320.0f / 180.0f);
-    const Image image = picture_of(studio);
-    const std::filesystem::path file = GELATIN_SOURCE_DIR "/tests/render/references/studio.png";
-    if (std::getenv("GELATIN_UPDATE_REFERENCES") != nullptr) write_png(file, image);
-    EXPECT_LT(test::perceptual_difference(image, read_png(file)), 1.0)
-        << "if the new picture is better, set GELATIN_UPDATE_REFERENCES=1 once";
+    studio.camera = {{2.0f, 5.0f, -2.0f}, {0.0f, 0.0f, 0.0f}, 35.0f};
+    const Image high = picture_of(studio);
+    studio.options.quality = Quality::fast;
+    const Image fast = picture_of(studio);
+    for (int i = 0; i <= 100; ++i) {
+        const float distance = 0.01f * static_cast<float>(i);
+        const glm::ivec2 pixel =
+            pixel_of(studio.camera, {0.5f + 0.8f * distance, 0.0f, -0.45f - 0.6f * distance});
+        EXPECT_NEAR(brightness_at(fast, pixel), brightness_at(high, pixel), 12.0) << distance;
+    }
+}
+
+// The floor and the backdrop of the fast quality are kept from frame to frame.
+TEST_F(RendererTest, FastFollowsCameraAndSurroundings) {
+    Studio studio;
+    studio.options.quality = Quality::fast;
+    const StaticMesh bodies(studio.bodies);
+    Renderer renderer(studio.options);
+    const auto next_picture = [&] {
+        renderer.set_surroundings(studio.surroundings);
+        renderer.draw(bodies.view(), studio.camera);
+        FrameGrabber grabber(kWidth, kHeight);
+        grabber.grab(renderer.framebuffer());
+        return *grabber.flush();
+    };
+    next_picture();
+    studio.camera.eye.x += 1.0f;
+    EXPECT_EQ(next_picture().pixels, picture_of(studio).pixels);
+    studio.surroundings.floor_height = -0.5f;
+    EXPECT_EQ(next_picture().pixels, picture_of(studio).pixels);
+    studio.surroundings.floor_height.reset();
+    EXPECT_EQ(next_picture().pixels, picture_of(studio).pixels);
+}
+
+TEST_F(RendererTest, FastKeepsNoTraceOfTheFrameBefore) {
+    Studio studio;
+    studio.options.quality = Quality::fast;
+    Renderer renderer(studio.options);
+    renderer.set_surroundings(studio.surroundings);
+    const StaticMesh elsewhere({sphere_at({0.6, 0.9, 0.3}), sphere_at({-0.4, 0.5, 0.0})});
+    renderer.draw(elsewhere.view(), studio.camera);
+    const StaticMesh bodies(studio.bodies);
+    renderer.draw(bodies.view(), studio.camera);
+    FrameGrabber grabber(kWidth, kHeight);
+    grabber.grab(renderer.framebuffer());
+    EXPECT_EQ(grabber.flush()->pixels, picture_of(studio).pixels);
 }
 
 TEST_F(RendererTest, LeavesTheHostsFramebufferAndViewport) {

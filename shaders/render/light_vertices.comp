@@ -1,0 +1,23 @@
+// The paper's light (3.1): one invocation lights one surface vertex and carries it into the picture, so that drawing
+// fetches a place and a finished colour and works out nothing. Test: tests/render/vertex_light_test.cpp.
+#include "include/global_index.glsl"
+#include "include/light.glsl"
+#include "include/surface_fetch.glsl"
+#include "include/tone.glsl"
+layout(local_size_x = 64) in;
+
+layout(binding = 3) uniform samplerBuffer object_colors;  // linear RGB
+layout(std430, binding = 0) writeonly buffer ClipPositions { vec4 clip_positions[]; };
+layout(std430, binding = 1) writeonly buffer DisplayColors { uint display_colors[]; };  // RGBA8, sRGB values
+uniform mat4 world_to_clip;
+uniform uint vertex_count;
+
+void main() {
+    uint v = global_index();
+    if (v >= vertex_count) return;
+    SurfacePoint point = fetch_point(int(v));
+    vec3 albedo = texelFetch(object_colors, int(point.object)).rgb;
+    vec3 light = light_surface(point.position, fetch_normal(int(v)), albedo);
+    clip_positions[v] = world_to_clip * vec4(point.position, 1.0);
+    display_colors[v] = packUnorm4x8(vec4(to_display(light), 1.0));
+}

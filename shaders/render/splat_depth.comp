@@ -1,0 +1,41 @@
+// A small depth map of a surface seen from a light: one invocation fills in one face. Faces are hardly larger than the
+// map's texels, where a rasteriser spends all its time on setting triangles up, on one thread in software drivers.
+// Minima do not depend on the order, so the map has the same bits each time.
+#include "include/global_index.glsl"
+#include "include/surface_fetch.glsl"
+layout(local_size_x = 64) in;
+
+layout(binding = 3) uniform usamplerBuffer triangles;                // surface vertices of each face
+layout(std430, binding = 0) buffer DepthMap { uint depth_map[]; };  // 2^32 - 1 is the far plane, [row][column]
+uniform mat4 world_to_map;  // texels, and depth in [0, 1]; no perspective
+uniform ivec2 map_size;     // [texels]
+uniform uint face_count;
+
+const float kFarthest = 4294967040.0;  // the largest float that is a uint
+
+vec3 corner(uint vertex) { return (world_to_map * vec4(fetch_point(int(vertex)).position, 1.0)).xyz; }
+
+float cross_2d(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
+
+void main() {
+    uint f = global_index();
+    if (f >= face_count) return;
+    uvec3 face = texelFetch(triangles, int(f)).xyz;
+    vec3 a = corner(face.x), b = corner(face.y), c = corner(face.z);
+    float area = cross_2d(b.xy - a.xy, c.xy - a.xy);  // twice; > 0 for faces that look at the light
+    // The texels whose centres lie in the face's bounding rectangle; a loop of no turns is left sooner than a branch.
+    ivec2 first = ivec2(clamp(ceil(min(a.xy, min(b.xy, c.xy)) - 0.5), vec2(0.0), vec2(map_size)));
+    ivec2 end = ivec2(clamp(ceil(max(a.xy, max(b.xy, c.xy)) - 0.5), vec2(0.0), vec2(map_size)));
+    end.y = area > 0.0 ? end.y : first.y;
+    for (int y = first.y; y < end.y; ++y) {
+        for (int x = first.x; x < end.x; ++x) {
+            vec2 at = vec2(x, y) + 0.5;
+            // Barycentric coordinates.
+            vec3 weight = vec3(cross_2d(c.xy - b.xy, at - b.xy), cross_2d(a.xy - c.xy, at - c.xy),
+                               cross_2d(b.xy - a.xy, at - a.xy)) / area;
+            if (min(weight.x, min(weight.y, weight.z)) < 0.0) continue;
+            float depth = clamp(dot(weight, vec3(a.z, b.z, c.z)), 0.0, 1.0);
+            atomicMin(depth_map[y * map_size.x + x], uint(depth * kFarthest));
+        }
+    }
+}

@@ -1,0 +1,71 @@
+#include "render/fast_pipeline.h"
+
+#include <epoxy/gl.h>
+
+namespace gelatin::render {
+namespace {
+
+constexpr int kTiles = 16;                    // a side, as in shaders/render/floor_shadow.vert
+constexpr int kShadeResolution = 6 * kTiles;  // [texels a side]
+
+}  // namespace
+
+FastPipeline::FastPipeline(int width, int height)
+    : shade_program_(gl::Program::graphics("render/whole_picture.vert", "render/floor_shade.frag")),
+      shadow_program_(gl::Program::graphics("render/floor_shadow.vert", "render/floor_shadow.frag")),
+      plate_(Target::color_and_depth(width, height)),
+      floor_shade_(Target::color(kShadeResolution, kShadeResolution, GL_RGBA8)),
+      picture_(Target::color_and_depth(width, height)) {}
+
+void FastPipeline::draw(const Frame& frame) {
+    if (plate_view_ != frame.view) draw_plate(frame.view);
+    frame.shadows.bind_textures();
+    const bool has_shadows = frame.view.shows_floor();
+    if (has_shadows) draw_floor_shade(frame);
+    body_light_.light(frame, frame.bodies);
+
+    plate_.copy_color_and_depth_to(picture_);
+    picture_.bind();
+    glEnable(GL_DEPTH_TEST);
+    body_light_.draw(frame.bodies);
+    prop_light_.draw(frame, {&frame.props});
+    if (has_shadows) draw_floor_shadow(frame);
+}
+
+void FastPipeline::draw_plate(const View& view) {
+    plate_.bind();
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    scenery_.draw(view, nullptr);
+    plate_view_ = view;
+}
+
+void FastPipeline::draw_floor_shade(const Frame& frame) const {
+    floor_shade_.bind();
+    glDisable(GL_DEPTH_TEST);
+    frame.view.set_uniforms(shade_program_);
+    frame.shadows.set_uniforms(shade_program_);
+    Scenery::set_floor_uniforms(shade_program_, frame.view);
+    shade_program_.use();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+// After all that hides the floor.
+void FastPipeline::draw_floor_shadow(const Frame& frame) const {
+    glActiveTexture(GL_TEXTURE5);
+    glBindTexture(GL_TEXTURE_2D, floor_shade_.texture());
+    frame.view.set_uniforms(shadow_program_);
+    frame.shadows.set_uniforms(shadow_program_);
+    shadow_program_.use();
+    glEnable(GL_POLYGON_OFFSET_FILL);  // over the floor, which is of other triangles
+    glPolygonOffset(-1.0f, -4.0f);
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE);
+    glDrawArrays(GL_TRIANGLES, 0, 6 * kTiles * kTiles);
+    glDisable(GL_BLEND);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+}
+
+}  // namespace gelatin::render

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+
+#include "render/pipeline.h"
+#include "render/pixel_light.h"
+#include "render/scenery.h"
+#include "render/vertex_light.h"
+
+namespace gelatin::render {
+
+/// Bodies lit at each vertex, for software drivers, which pay for every pixel that is worked out.
+///
+/// The floor and the backdrop are drawn once and copied from then on, until the camera moves; shadows darken
+/// that copy where there are any. Edges are not smoothed.
+class FastPipeline : public Pipeline {
+public:
+    FastPipeline(int width, int height);
+
+    void draw(const Frame& frame) override;
+    const Target& picture() const override { return picture_; }
+
+private:
+    void draw_plate(const View& view);
+    void draw_floor_shade(const Frame& frame) const;
+    void draw_floor_shadow(const Frame& frame) const;
+
+    Scenery scenery_;
+    VertexLight body_light_;
+    PixelLight prop_light_;  // props have few vertices, too far from one another for shadows
+    gl::Program shade_program_;
+    gl::Program shadow_program_;
+    Target plate_;                    // floor and backdrop, without shadows
+    std::optional<View> plate_view_;  // of the plate
+    Target floor_shade_;              // by how much shadows darken the floor
+    Target picture_;
+};
+
+}  // namespace gelatin::render

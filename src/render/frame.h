@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+
+#include "gl/buffer.h"
+#include "gl/program.h"
+#include "render/camera.h"
+#include "render/shadows.h"
+#include "render/surface_draw.h"
+
+namespace gelatin::render {
+
+/// From where the studio is seen, and what of it stays the same while bodies move.
+struct View {
+    Camera camera;
+    int width = 1, height = 1;          ///< [pixels]
+    Bounds bounds;                      ///< what the scale of floor and light goes by [m]
+    std::optional<float> floor_height;  ///< [m]; empty: no floor
+
+    bool operator==(const View&) const = default;
+
+    /// How large the scene is [m], > 0.
+    float extent() const;
+    bool shows_floor() const { return floor_height && camera.eye.y > *floor_height; }
+
+    /// The camera and the key light, for programs of the folder shaders/render.
+    void set_uniforms(const gl::Program& program) const;
+};
+
+/// Unit vector to the key light.
+glm::vec3 to_key_light();
+
+/// Surfaces of one kind.
+struct Layer {
+    const SurfaceDraw& surfaces;
+    const gl::BufferTexture& colors;  ///< linear RGB by object
+    float jelly;                      ///< 1: soft and glossy; 0: matt
+};
+
+/// What is drawn now. @pre the shadows are those of bodies and props
+struct Frame {
+    const View& view;
+    Layer bodies, props;
+    const Shadows& shadows;
+};
+
+}  // namespace gelatin::render

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "render/pipeline.h"
+#include "render/pixel_light.h"
+#include "render/scenery.h"
+
+namespace gelatin::render {
+
+/// How edges become smooth: by several samples a pixel, or by a filter over the finished picture, which is
+/// cheaper on software drivers. automatic: the filter on software drivers, samples on all others.
+enum class Smoothing { automatic, samples, filter, none };
+
+/// Light at each pixel, smooth edges.
+class HighPipeline : public Pipeline {
+public:
+    HighPipeline(int width, int height, Smoothing smoothing);
+
+    void draw(const Frame& frame) override;
+    const Target& picture() const override { return picture_; }
+
+private:
+    void smooth_edges() const;
+
+    Smoothing smoothing_;
+    Scenery scenery_;
+    PixelLight light_;
+    gl::Program filter_program_;
+    Target canvas_;   // what is drawn into, edges not smoothed yet
+    Target picture_;  // what comes out
+};
+
+}  // namespace gelatin::render

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "gl/program.h"
+#include "render/frame.h"
+
+namespace gelatin::render {
+
+/// The floor and the backdrop round the bodies.
+class Scenery {
+public:
+    Scenery();
+
+    /// Draws the floor, if the view shows one, and the backdrop behind all that has been drawn.
+    /// @param shadows null: on a floor without any @pre a vertex array object and the shadows' textures are
+    /// bound
+    void draw(const View& view, const Shadows* shadows) const;
+
+    /// The place of the floor, for shaders/include/floor_color.glsl.
+    static void set_floor_uniforms(const gl::Program& program, const View& view);
+
+private:
+    gl::Program floor_program_;
+    gl::Program backdrop_program_;
+};
+
+}  // namespace gelatin::render

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec4.hpp>
+
+#include "gl/buffer.h"
+#include "gl/program.h"
+#include "render/frame.h"
+
+namespace gelatin::render {
+
+/// Draws surfaces with their light worked out at each vertex by a compute shader (the paper's light, 3.1),
+/// which carries the vertices into the picture too. Drawing is left with fetching: on software drivers
+/// compute shaders run on all threads, vertex shaders on one.
+class VertexLight {
+public:
+    VertexLight();
+
+    /// Lights the vertices of a layer. @pre the shadows' textures are bound
+    void light(const Frame& frame, const Layer& layer);
+
+    /// Draws the layer that was lit last. @pre a vertex array object is bound
+    void draw(const Layer& layer) const;
+
+    /// By surface vertex: clip coordinates; RGBA8, sRGB values.
+    const gl::Buffer<glm::vec4>& clip_positions() const { return clip_positions_; }
+    const gl::Buffer<std::uint32_t>& display_colors() const { return display_colors_; }
+
+private:
+    gl::Program light_program_;
+    gl::Program draw_program_;
+    gl::Buffer<glm::vec4> clip_positions_;
+    gl::Buffer<std::uint32_t> display_colors_;
+};
+
+}  // namespace gelatin::render
