@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -164,6 +165,11 @@ void run(const RunOptions& options) {
     Scene scene = load_scene(options.scene, options.overrides);
     if (options.frames) scene.simulation.frames = *options.frames;
     check_outputs(options);
+    std::optional<tbb::global_control> thread_limit;
+    if (options.threads) {
+        thread_limit.emplace(tbb::global_control::max_allowed_parallelism,
+                             static_cast<std::size_t>(*options.threads));
+    }
     Simulator simulator(scene, simulator_options(options));
     if (!options.resume.empty()) {
         simulator.load_checkpoint(options.resume);

@@ -38,6 +38,10 @@ void add_run_options(CLI::App& command, RunOptions& options) {
         .add_option("--device", options.device, "Index of the EGL device to use (gelatin info lists them)")
         ->check(CLI::NonNegativeNumber)
         ->group(computing);
+    command.add_option("--threads", options.threads, "Let the CPU backend use no more than N")
+        ->type_name("N")
+        ->check(CLI::PositiveNumber)
+        ->group(computing);
     command.add_flag("--gl-debug", options.gl_debug, "Ask the driver for messages and show them")
         ->group(computing);
 

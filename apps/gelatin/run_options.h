@@ -29,6 +29,7 @@ struct RunOptions {
 
     std::string backend = "auto";
     std::optional<int> device;
+    std::optional<int> threads;  ///< of the CPU backend; empty: as many as the machine runs at a time
     bool gl_debug = false;
 
     std::filesystem::path stats, image, video, export_folder;

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
-#include <tbb/info.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
 #include <type_traits>
@@ -116,7 +116,9 @@ void CpuSolver<Real>::write_state(const State& state) {
 
 template <class Real>
 std::string CpuSolver<Real>::device() const {
-    return fmt::format("CPU, {} threads, {}", tbb::info::default_concurrency(),
+    const std::size_t threads =
+        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    return fmt::format("CPU, {} thread{}, {}", threads, threads == 1 ? "" : "s",
                        std::is_same_v<Real, float> ? simd_target() : "double");
 }
 

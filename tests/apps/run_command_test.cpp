@@ -220,6 +220,13 @@ TEST_F(RunCommand, StopsWhenTheSimulationDiverges) {
 
 // Checkpoints
 
+TEST_F(RunCommand, UsesNoMoreThreadsThanAllowed) {
+    const ProgramResult one = run({"run", "cube.toml", "--frames", "1", "--threads", "1"});
+    EXPECT_EQ(one.exit_code, 0) << one.err;
+    EXPECT_THAT(one.err, ::testing::HasSubstr("CPU, 1 thread,"));
+    EXPECT_EQ(run({"run", "cube.toml", "--threads", "0"}).exit_code, 2);
+}
+
 TEST_F(RunCommand, AResumedRunGivesTheSameNumbersAsAWholeOne) {
     const std::vector<std::string> fall = {"--set", "object.cube.position=[0, 0.6, 0]", "--backend", "cpu",
                                            "--quiet"};
