@@ -2,17 +2,16 @@
 #include <memory>
 
 #include "bench_kernels.h"
+#include "bench_paper.h"
 #include "commands.h"
 
 namespace gelatin {
+namespace {
 
-void add_bench_command(CLI::App& app) {
-    CLI::App* bench = app.add_subcommand("bench", "Measure speed on this machine");
-    bench->require_subcommand(1);
-
+void add_kernels(CLI::App& bench) {
     auto options = std::make_shared<KernelBenchOptions>();
     CLI::App* kernels =
-        bench->add_subcommand("kernels", "Each stage on each backend: ms, bytes, rate, ratios");
+        bench.add_subcommand("kernels", "Each stage on each backend: ms, bytes, rate, ratios");
     kernels->add_option("--json", options->json, "Also write the figures to this file");
     kernels->add_option("--runs", options->runs, "Samples of each stage; the median counts")
         ->check(CLI::Range(1, 1000))
@@ -23,6 +22,51 @@ void add_bench_command(CLI::App& app) {
         ->capture_default_str();
     kernels->add_flag("!--no-gl", options->use_gl, "Leave OpenGL out");
     kernels->callback([options] { bench_kernels(*options); });
+}
+
+void add_paper(CLI::App& bench) {
+    auto options = std::make_shared<PaperBenchOptions>();
+    CLI::App* paper =
+        bench.add_subcommand("paper", "Frames a second of the paper's two simulations, beside the paper's");
+    paper->add_option("--json", options->json, "Also write the figures to this file")->type_name("FILE.json");
+    paper->add_option("--report", options->report, "Also write a report, and a chart beside it (.svg)")
+        ->type_name("FILE.md");
+    paper->add_option("--runs", options->runs, "Runs of each system; the mean counts")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    paper
+        ->add_option("--only", options->only,
+                     "Measure what has this in its name: \"free fall\", \"paper, GPU\", \", drawn\"")
+        ->type_name("PART");
+    paper
+        ->add_option("--scenes", options->scenes,
+                     "Folder of free_fall.toml and collision.toml; default: scenes here, or of the sources")
+        ->type_name("DIR");
+    paper
+        ->add_option("--frames", options->frames, "Length of a run, instead of the scene's simulation.frames")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1'000'000));
+    paper
+        ->add_option("--whole-limit", options->whole_limit,
+                     "Seconds that a whole run may take; longer ones are sampled")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    paper->add_option("--windows", options->windows, "Of a sampled run, spread evenly")
+        ->check(CLI::Range(1, 10'000))
+        ->capture_default_str();
+    paper->add_option("--window-frames", options->window_frames, "Frames timed in each window")
+        ->check(CLI::Range(1, 10'000))
+        ->capture_default_str();
+    paper->callback([options] { bench_paper(*options); });
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app) {
+    CLI::App* bench = app.add_subcommand("bench", "Measure speed on this machine");
+    bench->require_subcommand(1);
+    add_paper(*bench);
+    add_kernels(*bench);
 }
 
 }  // namespace gelatin

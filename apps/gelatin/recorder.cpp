@@ -22,7 +22,8 @@ render::FrameRate film_rate(double frame_rate, int interval) {
 Recorder::Recorder(const RunOptions& options, Simulator& simulator)
     : options_(options),
       simulator_(simulator),
-      interval_(record_interval(options, simulator.scene().simulation.frame_rate)) {
+      interval_(record_interval(options, simulator.scene().simulation.frame_rate)),
+      pipeline_(simulator) {
     const PictureSize size = picture_size(options);
     if (options.draws()) {
         painter_ = std::make_unique<ScenePainter>(simulator, size, picture_quality(options));
@@ -39,25 +40,39 @@ Recorder::Recorder(const RunOptions& options, Simulator& simulator)
     }
 }
 
+bool Recorder::is_due() const {
+    return simulator_.frame() % interval_ == 0;
+}
+
 void Recorder::record() {
-    if (simulator_.frame() % interval_ != 0) return;
-    if (video_) {
-        painter_->draw();
-        film(grabber_->grab(painter_->framebuffer()));
-    }
+    if (!is_due()) return;
+    if (video_) film(simulator_.render_view());
     if (exporter_) exporter_->write(simulator_.read_frame());
+}
+
+void Recorder::record_and_advance() {
+    if (!is_due()) return simulator_.advance_frame();
+    if (exporter_) exporter_->write(simulator_.read_frame());
+    if (!video_) return simulator_.advance_frame();
+    const RenderView bodies = simulator_.render_view();
+    pipeline_.advance_beside([&] { film(bodies); });
 }
 
 void Recorder::finish() {
     if (video_) {
-        film(grabber_->flush());
+        write(grabber_->flush());
         video_->finish();
         video_.reset();
     }
     if (!options_.image.empty()) write_image();
 }
 
-void Recorder::film(std::optional<render::Image> picture) {
+void Recorder::film(const RenderView& bodies) {
+    painter_->draw(bodies);
+    write(grabber_->grab(painter_->framebuffer()));
+}
+
+void Recorder::write(std::optional<render::Image> picture) {
     if (picture) video_->write(*picture);
 }
 

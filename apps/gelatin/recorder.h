@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "frame_pipeline.h"
 #include "gelatin/simulator.h"
 #include "render/frame_grabber.h"
 #include "render/video_writer.h"
@@ -24,11 +25,16 @@ public:
     /// Records the present frame if its turn has come.
     void record();
 
+    /// The same, and advances the simulator by a frame: beside the drawing where that is possible.
+    void record_and_advance();
+
     /// Ends the film and draws the image.
     void finish();
 
 private:
-    void film(std::optional<render::Image> picture);
+    bool is_due() const;
+    void film(const RenderView& bodies);
+    void write(std::optional<render::Image> picture);
     void write_image();
 
     const RunOptions& options_;
@@ -38,6 +44,7 @@ private:
     std::unique_ptr<render::FrameGrabber> grabber_;
     std::unique_ptr<render::VideoWriter> video_;
     std::unique_ptr<FrameExporter> exporter_;
+    FramePipeline pipeline_;
 };
 
 }  // namespace gelatin

@@ -81,11 +81,9 @@ void Run::advance() {
     Progress progress(simulator_.frame(), frames_, options_.quiet);
     const Clock::time_point start = Clock::now();
     Clock::time_point last = start;
-    recorder_.record();
     measure();
     while (simulator_.frame() < frames_ && !interrupt.was_asked()) {
-        simulator_.advance_frame();
-        recorder_.record();
+        recorder_.record_and_advance();
         measure();
         if (options_.checkpoint_every && simulator_.frame() % *options_.checkpoint_every == 0)
             save_checkpoint();
@@ -95,6 +93,7 @@ void Run::advance() {
         progress.update(simulator_.frame());
     }
     interrupted_ = simulator_.frame() < frames_;
+    recorder_.record();  // the last frame, after which none comes
     look();
     take_statistics(0);  // waits for the device, so that the time is the whole time
     report_.seconds = std::chrono::duration<double>(Clock::now() - start).count();

@@ -54,8 +54,4 @@ ScenePainter::ScenePainter(Simulator& simulator, const PictureSize& size, render
     renderer_.set_surroundings(surroundings);
 }
 
-void ScenePainter::draw() {
-    renderer_.draw(simulator_.render_view(), camera_);
-}
-
 }  // namespace gelatin

@@ -16,7 +16,10 @@ public:
     ScenePainter(Simulator& simulator, const PictureSize& size, render::Quality quality);
 
     /// Draws the present state.
-    void draw();
+    void draw() { draw(simulator_.render_view()); }
+
+    /// Draws what Simulator::render_view gave, without a look at the simulator.
+    void draw(const RenderView& bodies) { renderer_.draw(bodies, camera_); }
 
     unsigned framebuffer() const { return renderer_.framebuffer(); }
 

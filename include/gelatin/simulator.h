@@ -56,7 +56,8 @@ struct HostFrame {
 /// A scene that runs.
 ///
 /// Use it from one thread; with the GL backend (or `need_gl`) that thread needs the simulator's context
-/// current, which it is after construction. Move-only.
+/// current, which it is after construction. With the CPU backend, `advance_frame` and `step` make no GL call:
+/// another thread may run them while this one draws a RenderView taken before. Move-only.
 class Simulator {
 public:
     /// Makes tets, springs and buffers of everything in the scene.

@@ -5,7 +5,8 @@
 namespace gelatin {
 
 /// What a renderer needs to draw the deformable bodies straight from the simulation's buffers: names of GL
-/// buffer objects (std430) in the simulator's context, and counts. Valid until the simulator's next frame.
+/// buffer objects (std430) in the simulator's context, and counts. Valid until the simulator's next frame;
+/// with the CPU backend, which simulates elsewhere, until the next view.
 struct RenderView {
     unsigned node_positions = 0;    ///< vec4: xyz [m], inverse mass; shape [nodes]
     unsigned surface_vertices = 0;  ///< SurfaceVertex (node, object, ...); shape [vertices]

@@ -4,27 +4,15 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "gelatin/error.h"
 #include "gl/debug.h"
 
 namespace gelatin::gl {
-namespace {
-
-constexpr GLuint64 kNanosecondsPerSecond = 1'000'000'000;
-
-// Flushes, for a fence that is still in the client's queue would never be signalled.
-GLenum poll(void* fence, GLuint64 timeout) {
-    return glClientWaitSync(static_cast<GLsync>(fence), GL_SYNC_FLUSH_COMMANDS_BIT, timeout);
-}
-
-}  // namespace
 
 Readback::~Readback() {
-    for (const Copy& copy : pending_) {
-        glDeleteSync(static_cast<GLsync>(copy.fence));
-        glDeleteBuffers(1, &copy.staging);
-    }
+    for (const Copy& copy : pending_) glDeleteBuffers(1, &copy.staging);
     for (const Staging& staging : free_) glDeleteBuffers(1, &staging.id);
 }
 
@@ -46,25 +34,18 @@ void Readback::begin(unsigned source, std::size_t bytes) {
         glBindBuffer(GL_COPY_WRITE_BUFFER, staging.id);
         glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0, static_cast<GLsizeiptr>(bytes));
     }
-    pending_.push_back({staging.id, bytes, glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)});
+    pending_.push_back({staging.id, bytes, Fence::insert()});
     check_errors("a copy to the host");
 }
 
 bool Readback::ready() const {
-    if (pending_.empty()) return false;
-    const GLenum state = poll(pending_.front().fence, 0);
-    return state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED;
+    return !pending_.empty() && pending_.front().fence.is_passed();
 }
 
 std::vector<std::byte> Readback::take() {
-    GLenum state = GL_TIMEOUT_EXPIRED;
-    while (state == GL_TIMEOUT_EXPIRED) state = poll(pending_.front().fence, kNanosecondsPerSecond);
-    if (state == GL_WAIT_FAILED)
-        throw GlError("waiting for a copy to the host failed: the OpenGL context is lost");
-
-    const Copy copy = pending_.front();
+    pending_.front().fence.wait();
+    const Copy copy = std::move(pending_.front());
     pending_.pop_front();
-    glDeleteSync(static_cast<GLsync>(copy.fence));
     free_.push_back({copy.staging, copy.bytes});
     std::vector<std::byte> data(copy.bytes);
     if (data.empty()) return data;

@@ -4,6 +4,8 @@
 #include <deque>
 #include <vector>
 
+#include "gl/fence.h"
+
 namespace gelatin::gl {
 
 /// Brings buffer contents to the host without stalling: a copy to a staging buffer and a fence now, the data
@@ -29,7 +31,7 @@ private:
     struct Copy {
         unsigned staging;
         std::size_t bytes;
-        void* fence;  // GLsync
+        Fence fence;
     };
     struct Staging {
         unsigned id;

@@ -352,6 +352,21 @@ TEST_F(RunCommandFilms, FilmsEveryKthFrameAtItsOwnRate) {
     EXPECT_EQ(probe("film.mp4"), "160,90,100/3,7\n");
 }
 
+// Frames are drawn while the CPU simulates the next one, which must not show in what is simulated.
+TEST_F(RunCommandFilms, FilmingChangesNoNumber) {
+    const std::vector<std::string> plain{"run", "cube.toml", "--backend", "cpu", "--quiet"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), plain.begin(), plain.end());
+        EXPECT_EQ(run(more).exit_code, 0);
+    };
+    with({"--stats", "a.json", "--checkpoint", "a"});
+    with({"--stats", "b.json", "--checkpoint", "b", "--checkpoint-every", "3", "--video", "film.mp4",
+          "--every", "1", "--size", "160x90", "--export", "out", "--format", "obj"});
+    EXPECT_EQ(read_json("a.json")["frames"], read_json("b.json")["frames"]);
+    EXPECT_EQ(read_file(path("a")), read_file(path("b")));
+    EXPECT_TRUE(exists("out/frame_000020.obj"));
+}
+
 TEST_F(RunCommandFilms, AnInterruptFinishesTheFilm) {
     settings_.signal_after = "steps of";
     settings_.signals = {SIGINT};
