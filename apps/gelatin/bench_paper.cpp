@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of a sample's windows, every so many foretell how long a whole run takes.
-constexpr std::size_t kProbeStride = 8;
+// As many of a sample's windows, evenly spread, foretell how long a whole run takes.
+constexpr std::size_t kProbes = 10;
 
 // A measurement under way.
 struct Entry {
@@ -129,7 +129,8 @@ void PaperBenchRun::add_entry(std::size_t scene, const BenchSystem& system, bool
     entry.windows = windows.sample(system.part);
 
     std::vector<BenchWindow> probe;
-    for (std::size_t w = 0; w < entry.windows.size(); w += kProbeStride) probe.push_back(entry.windows[w]);
+    const std::size_t stride = std::max<std::size_t>(entry.windows.size() / kProbes, 1);
+    for (std::size_t w = 0; w < entry.windows.size(); w += stride) probe.push_back(entry.windows[w]);
     player.time_window(probe.front(), drawn);  // compiles shaders, faults pages in
     const double frame_time = mean_frame_time(entry, probe);
     result.sampled = frame_time * windows.frames(system.part) > bench_.options.whole_limit;
