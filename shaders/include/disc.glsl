@@ -1,13 +1,11 @@
-// Sample patterns.
-const float kGoldenAngle = 2.39996323;
+// Points spread evenly over a disc: each direction is the last one turned by the golden angle (Vogel 1979).
+const mat2 kGoldenTurn = mat2(-0.737368878, 0.675490294, -0.675490294, -0.737368878);
 
-// An angle for each pixel, such that neighbours differ (interleaved gradient noise, Jimenez 2014).
-float pixel_angle() {
-    return 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+// A direction for each pixel, such that neighbours differ (interleaved gradient noise, Jimenez 2014).
+vec2 pixel_direction() {
+    float angle = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+    return vec2(cos(angle), sin(angle));
 }
 
-// Point i of n, spread evenly over the unit disc (Vogel 1979), turned by `turn`.
-vec2 disc_point(int i, int n, float turn) {
-    float angle = float(i) * kGoldenAngle + turn;
-    return sqrt((float(i) + 0.5) / float(n)) * vec2(cos(angle), sin(angle));
-}
+// How far from the middle of the unit disc point i of n lies.
+float disc_radius(int i, int n) { return sqrt((float(i) + 0.5) / float(n)); }

@@ -1,31 +1,32 @@
-// A small depth map of a surface seen from a light: one invocation fills in one face. Faces are hardly larger than the
-// map's texels, where a rasteriser spends all its time on setting triangles up, on one thread in software drivers.
-// Minima do not depend on the order, so the map has the same bits each time.
+// Small depth maps of a surface, each seen from a light of its own: one invocation fills one face into all of them.
+// Faces are hardly larger than the maps' texels, where a rasteriser spends all its time on setting triangles up, on one
+// thread in software drivers. Minima do not depend on the order, so the maps have the same bits each time.
 #include "include/global_index.glsl"
 #include "include/surface_fetch.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 3) uniform usamplerBuffer triangles;                // surface vertices of each face
-layout(std430, binding = 0) buffer DepthMap { uint depth_map[]; };  // 2^32 - 1 is the far plane, [row][column]
-uniform mat4 world_to_map;  // texels, and depth in [0, 1]; no perspective
-uniform ivec2 map_size;     // [texels]
+const int kMostMaps = 2;
+
+layout(binding = 3) uniform usamplerBuffer triangles;  // surface vertices of each face
+layout(std430, binding = 0) buffer DepthMaps { uint depths[]; };  // 2^32 - 1 is the far plane, [map][row][column]
+uniform mat4 world_to_map[kMostMaps];  // texels, and depth in [0, 1]; no perspective
+uniform ivec2 map_size[kMostMaps];     // [texels]
+uniform int map_start[kMostMaps];      // of each map in depths
+uniform int map_count;
 uniform uint face_count;
 
 const float kFarthest = 4294967040.0;  // the largest float that is a uint
 
-vec3 corner(uint vertex) { return (world_to_map * vec4(fetch_point(int(vertex)).position, 1.0)).xyz; }
+vec3 corner(uint vertex) { return fetch_point(int(vertex)).position; }
 
 float cross_2d(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
-void main() {
-    uint f = global_index();
-    if (f >= face_count) return;
-    uvec3 face = texelFetch(triangles, int(f)).xyz;
-    vec3 a = corner(face.x), b = corner(face.y), c = corner(face.z);
+// The texels whose centres lie in the face; corners in texels.
+void fill_face(vec3 a, vec3 b, vec3 c, ivec2 size, int start) {
     float area = cross_2d(b.xy - a.xy, c.xy - a.xy);  // twice; > 0 for faces that look at the light
-    // The texels whose centres lie in the face's bounding rectangle; a loop of no turns is left sooner than a branch.
-    ivec2 first = ivec2(clamp(ceil(min(a.xy, min(b.xy, c.xy)) - 0.5), vec2(0.0), vec2(map_size)));
-    ivec2 end = ivec2(clamp(ceil(max(a.xy, max(b.xy, c.xy)) - 0.5), vec2(0.0), vec2(map_size)));
+    // Those in the face's bounding rectangle; a loop of no turns is left sooner than a branch.
+    ivec2 first = ivec2(clamp(ceil(min(a.xy, min(b.xy, c.xy)) - 0.5), vec2(0.0), vec2(size)));
+    ivec2 end = ivec2(clamp(ceil(max(a.xy, max(b.xy, c.xy)) - 0.5), vec2(0.0), vec2(size)));
     end.y = area > 0.0 ? end.y : first.y;
     for (int y = first.y; y < end.y; ++y) {
         for (int x = first.x; x < end.x; ++x) {
@@ -35,7 +36,18 @@ void main() {
                                cross_2d(b.xy - a.xy, at - a.xy)) / area;
             if (min(weight.x, min(weight.y, weight.z)) < 0.0) continue;
             float depth = clamp(dot(weight, vec3(a.z, b.z, c.z)), 0.0, 1.0);
-            atomicMin(depth_map[y * map_size.x + x], uint(depth * kFarthest));
+            atomicMin(depths[start + y * size.x + x], uint(depth * kFarthest));
         }
+    }
+}
+
+void main() {
+    uint f = global_index();
+    if (f >= face_count) return;
+    uvec3 face = texelFetch(triangles, int(f)).xyz;
+    vec4 a = vec4(corner(face.x), 1.0), b = vec4(corner(face.y), 1.0), c = vec4(corner(face.z), 1.0);
+    for (int m = 0; m < map_count; ++m) {
+        mat4 to_map = world_to_map[m];
+        fill_face((to_map * a).xyz, (to_map * b).xyz, (to_map * c).xyz, map_size[m], map_start[m]);
     }
 }

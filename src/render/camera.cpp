@@ -49,6 +49,15 @@ void Bounds::add(const glm::vec3& point) {
     max = glm::max(max, point);
 }
 
+std::array<glm::vec3, 8> Bounds::corners() const {
+    std::array<glm::vec3, 8> all;
+    for (int i = 0; i < 8; ++i) {
+        all[static_cast<std::size_t>(i)] = {i & 1 ? max.x : min.x, i & 2 ? max.y : min.y,
+                                            i & 4 ? max.z : min.z};
+    }
+    return all;
+}
+
 Bounds bounds_of(std::span<const float> positions) {
     if (positions.size() < 3) return {glm::vec3(-0.5f), glm::vec3(0.5f)};
     const glm::vec3 first(positions[0], positions[1], positions[2]);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <span>
@@ -13,6 +14,7 @@ struct Bounds {
     glm::vec3 center() const { return 0.5f * (min + max); }
     glm::vec3 size() const { return max - min; }
     void add(const glm::vec3& point);
+    std::array<glm::vec3, 8> corners() const;
     bool operator==(const Bounds&) const = default;
 };
 

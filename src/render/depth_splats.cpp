@@ -2,23 +2,41 @@
 
 #include <epoxy/gl.h>
 
+#include <cassert>
 #include <glm/ext/matrix_transform.hpp>
+#include <string>
 
 namespace gelatin::render {
+namespace {
+
+std::size_t texel_count(const DepthMap& map) {
+    return static_cast<std::size_t>(map.target.width()) * static_cast<std::size_t>(map.target.height());
+}
+
+glm::mat4 world_to_texels(const DepthMap& map) {
+    const glm::vec3 size(map.target.width(), map.target.height(), 1.0f);
+    const glm::mat4 clip_to_map = glm::scale(glm::mat4(1.0f), 0.5f * size);
+    return glm::translate(clip_to_map, glm::vec3(1.0f)) * map.world_to_clip;
+}
+
+}  // namespace
 
 DepthSplats::DepthSplats() : program_(gl::Program::compute("render/splat_depth.comp")) {}
 
-void DepthSplats::draw(const Target& map, const glm::mat4& world_to_clip,
-                       std::initializer_list<const SurfaceDraw*> surfaces) {
-    const glm::ivec2 size(map.width(), map.height());
-    const auto texels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+void DepthSplats::draw(std::span<const DepthMap> maps, std::initializer_list<const SurfaceDraw*> surfaces) {
+    assert(maps.size() <= kMostMaps);
+    std::size_t texels = 0;
+    for (std::size_t m = 0; m < maps.size(); ++m) {
+        const std::string place = "[" + std::to_string(m) + "]";
+        const Target& target = maps[m].target;
+        program_.set(("world_to_map" + place).c_str(), world_to_texels(maps[m]));
+        program_.set(("map_size" + place).c_str(), glm::ivec2(target.width(), target.height()));
+        program_.set(("map_start" + place).c_str(), static_cast<int>(texels));
+        texels += texel_count(maps[m]);
+    }
+    program_.set("map_count", static_cast<int>(maps.size()));
     if (depths_.size() < texels) depths_ = gl::Buffer<std::uint32_t>(texels);
     depths_.fill(0xffffffffu);
-
-    glm::mat4 clip_to_map = glm::scale(glm::mat4(1.0f), 0.5f * glm::vec3(size, 1.0f));
-    clip_to_map = glm::translate(clip_to_map, glm::vec3(1.0f));
-    program_.set("world_to_map", clip_to_map * world_to_clip);
-    program_.set("map_size", size);
     depths_.bind_storage(0);
     for (const SurfaceDraw* surface : surfaces) {
         surface->bind_textures();
@@ -26,12 +44,17 @@ void DepthSplats::draw(const Target& map, const glm::mat4& world_to_clip,
         program_.set("face_count", surface->face_count());
         program_.dispatch(surface->face_count());
     }
-    // Into the texture now, and filled anew for the next map.
+    // Into the textures now, and filled anew for the next frame.
     gl::barrier(gl::Barrier::pixel_unpack | gl::Barrier::buffer_update);
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, depths_.id());
     glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, map.texture());
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.x, size.y, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, nullptr);
+    std::size_t start = 0;
+    for (const DepthMap& map : maps) {
+        glBindTexture(GL_TEXTURE_2D, map.target.texture());
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, map.target.width(), map.target.height(), GL_DEPTH_COMPONENT,
+                        GL_UNSIGNED_INT, reinterpret_cast<const void*>(start * sizeof(std::uint32_t)));
+        start += texel_count(map);
+    }
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <initializer_list>
+#include <span>
 
 #include "gl/buffer.h"
 #include "gl/program.h"
@@ -11,22 +12,28 @@
 
 namespace gelatin::render {
 
+/// A depth texture, and how the world is seen in it.
+struct DepthMap {
+    const Target& target;
+    glm::mat4 world_to_clip;  ///< without perspective
+};
+
 /// Makes small depth maps with a compute shader instead of the rasteriser: several times cheaper on software
 /// drivers for surfaces of many small faces (shaders/render/splat_depth.comp).
 class DepthSplats {
 public:
+    static constexpr std::size_t kMostMaps = 2;  ///< as in the shader
+
     DepthSplats();
 
-    /// Fills `map`, a depth texture, with the faces that look at the light, and what lies before or behind it
-    /// clamped.
-    /// @param world_to_clip without perspective
-    void draw(const Target& map, const glm::mat4& world_to_clip,
-              std::initializer_list<const SurfaceDraw*> surfaces);
+    /// Fills the maps with the faces that look at the light, and what lies before or behind a map clamped.
+    /// @pre maps.size() <= kMostMaps
+    void draw(std::span<const DepthMap> maps, std::initializer_list<const SurfaceDraw*> surfaces);
 
 private:
     gl::Program program_;
     gl::Buffer<std::uint32_t>
-        depths_;  // 2^32 - 1 is the far plane, shape [rows][columns] of the map, and unused ones
+        depths_;  // 2^32 - 1 is the far plane, shape [map][row][column], and unused ones
 };
 
 }  // namespace gelatin::render

@@ -24,7 +24,7 @@ void FastPipeline::draw(const Frame& frame) {
     if (has_shadows) draw_floor_shade(frame);
     body_light_.light(frame, frame.bodies);
 
-    plate_.copy_color_and_depth_to(picture_);
+    restore_picture(frame);
     picture_.bind();
     glEnable(GL_DEPTH_TEST);
     body_light_.draw(frame.bodies);
@@ -39,6 +39,15 @@ void FastPipeline::draw_plate(const View& view) {
     glClear(GL_DEPTH_BUFFER_BIT);
     scenery_.draw(view, nullptr);
     plate_view_ = view;
+    drawn_ = drawn_depth_ = plate_.pixels();
+}
+
+// Only what the frame before has changed.
+void FastPipeline::restore_picture(const Frame& frame) {
+    plate_.copy_color_to(picture_, drawn_);
+    plate_.copy_depth_to(picture_, drawn_depth_);
+    drawn_depth_ = frame.bounds ? frame.view.pixels_of(*frame.bounds) : plate_.pixels();
+    drawn_ = drawn_depth_.joined(frame.view.pixels_of(frame.shadows.floor_patch()));
 }
 
 void FastPipeline::draw_floor_shade(const Frame& frame) const {
@@ -63,7 +72,9 @@ void FastPipeline::draw_floor_shadow(const Frame& frame) const {
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE);
+    glDepthMask(GL_FALSE);
     glDrawArrays(GL_TRIANGLES, 0, 6 * kTiles * kTiles);
+    glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
     glDisable(GL_POLYGON_OFFSET_FILL);
 }

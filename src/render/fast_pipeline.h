@@ -22,6 +22,7 @@ public:
 
 private:
     void draw_plate(const View& view);
+    void restore_picture(const Frame& frame);
     void draw_floor_shade(const Frame& frame) const;
     void draw_floor_shadow(const Frame& frame) const;
 
@@ -34,6 +35,7 @@ private:
     std::optional<View> plate_view_;  // of the plate
     Target floor_shade_;              // by how much shadows darken the floor
     Target picture_;
+    PixelRect drawn_, drawn_depth_;  // what of the picture may differ from the plate
 };
 
 }  // namespace gelatin::render

@@ -7,6 +7,7 @@
 #include "render/camera.h"
 #include "render/shadows.h"
 #include "render/surface_draw.h"
+#include "render/target.h"
 
 namespace gelatin::render {
 
@@ -18,6 +19,9 @@ struct View {
     std::optional<float> floor_height;  ///< [m]; empty: no floor
 
     bool operator==(const View&) const = default;
+
+    /// The pixels in which anything inside of `box` shows; all where some of it lies behind the eye.
+    PixelRect pixels_of(const Bounds& box) const;
 
     /// How large the scene is [m], > 0.
     float extent() const;
@@ -41,6 +45,7 @@ struct Layer {
 struct Frame {
     const View& view;
     Layer bodies, props;
+    std::optional<Bounds> bounds;  ///< of bodies and props; empty: not known
     const Shadows& shadows;
 };
 

@@ -17,14 +17,10 @@ namespace {
 const glm::vec4 kPropColor(0.34f, 0.37f, 0.42f, 1.0f);
 constexpr float kShadowReach = 3.0f;  // of the scene's extent
 
-constexpr ShadowDetail kHighShadows{.key_map = 1024,
-                                    .undersides = 192,
-                                    .floor_key = 256,
-                                    .floor_sky = 128,
-                                    .few_taps = false,
-                                    .splat = false};
+constexpr ShadowDetail kHighShadows{
+    .key_map = 1024, .undersides = 192, .floor_light = 192, .few_taps = false, .splat = false};
 constexpr ShadowDetail kFastShadows{
-    .key_map = 256, .undersides = 96, .floor_key = 96, .floor_sky = 64, .few_taps = true, .splat = true};
+    .key_map = 256, .undersides = 96, .floor_light = 80, .few_taps = true, .splat = true};
 
 RendererOptions checked(RendererOptions options) {
     GLint largest = 0;
@@ -38,6 +34,18 @@ RendererOptions checked(RendererOptions options) {
     }
     if (options.quality == Quality::automatic) options.quality = Quality::high;
     return options;
+}
+
+// Empty where the bodies' box is of another time.
+std::optional<Bounds> exact_bounds(const RenderView& bodies, const RenderView& props) {
+    if (bodies.box_is_late) return {};
+    const auto point = [](const float* p) { return glm::vec3(p[0], p[1], p[2]); };
+    Bounds bounds{point(bodies.box_min), point(bodies.box_max)};
+    if (props.face_count > 0) {
+        bounds.add(point(props.box_min));
+        bounds.add(point(props.box_max));
+    }
+    return bounds;
 }
 
 std::unique_ptr<Pipeline> make_pipeline(const RendererOptions& options) {
@@ -113,6 +121,7 @@ void Renderer::draw(const RenderView& bodies, const Camera& camera) {
     pipeline_->draw({.view = view,
                      .bodies = {.surfaces = body_draw, .colors = body_colors, .jelly = 1.0f},
                      .props = {.surfaces = prop_draw, .colors = prop_colors, .jelly = 0.0f},
+                     .bounds = exact_bounds(bodies, props_.view()),
                      .shadows = shadows_});
     glBindSampler(4, 0);
     glBindVertexArray(0);

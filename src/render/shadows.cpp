@@ -17,16 +17,6 @@ constexpr float kPenumbraLeast = 0.006f;  // of the scene's extent
 constexpr float kPenumbraMost = 0.07f;
 constexpr float kSkyRadius = 0.35f;
 
-std::array<glm::vec3, 8> corners(const Bounds& bounds) {
-    std::array<glm::vec3, 8> all;
-    for (int i = 0; i < 8; ++i) {
-        all[static_cast<std::size_t>(i)] = {i & 1 ? bounds.max.x : bounds.min.x,
-                                            i & 2 ? bounds.max.y : bounds.min.y,
-                                            i & 4 ? bounds.max.z : bounds.min.z};
-    }
-    return all;
-}
-
 // Clip coordinates to texture coordinates and depth.
 const glm::mat4 kHalf =
     glm::translate(glm::mat4(1.0f), glm::vec3(0.5f)) * glm::scale(glm::mat4(1.0f), glm::vec3(0.5f));
@@ -49,22 +39,17 @@ gl::Defines taps(const ShadowDetail& detail) {
     return detail.few_taps ? gl::Defines{"FEW_TAPS"} : gl::Defines{};
 }
 
-Target make_light_map(int resolution, unsigned internal_format) {
-    return Target::color(resolution, resolution, internal_format);
-}
-
 }  // namespace
 
 Shadows::Shadows(const ShadowDetail& detail)
     : depth_program_(gl::Program::graphics("render/surface_depth.vert", "render/surface_depth.frag")),
-      sky_program_(gl::Program::graphics("render/whole_picture.vert", "render/floor_sky.frag", taps(detail))),
-      key_program_(gl::Program::graphics("render/whole_picture.vert", "render/floor_key.frag", taps(detail))),
+      floor_program_(
+          gl::Program::graphics("render/whole_picture.vert", "render/floor_visibility.frag", taps(detail))),
       blend_program_(gl::Program::graphics("render/whole_picture.vert", "render/floor_blend.frag")),
       shadow_map_(make_depth_map(detail.key_map, detail.splat)),
       underside_(make_depth_map(detail.undersides, detail.splat)),
-      floor_sky_(make_light_map(detail.floor_sky, GL_R8)),
-      floor_key_(make_light_map(detail.floor_key, GL_R8)),
-      floor_light_(make_light_map(detail.floor_key, GL_RG8)) {
+      floor_visibility_(Target::color(detail.floor_light, detail.floor_light, GL_RG8)),
+      floor_light_(Target::color(detail.floor_light, detail.floor_light, GL_RG8)) {
     if (detail.splat) splats_.emplace();
     glGenSamplers(1, &compare_sampler_);
     glSamplerParameteri(compare_sampler_, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
@@ -87,7 +72,7 @@ void Shadows::aim(const Bounds& casters, float extent, float floor_height, const
 
     Bounds seen{glm::vec3(view * glm::vec4(center, 1.0f)), glm::vec3(view * glm::vec4(center, 1.0f))};
     Bounds patch{center, center};
-    for (const glm::vec3& corner : corners(casters)) {
+    for (const glm::vec3& corner : casters.corners()) {
         seen.add(glm::vec3(view * glm::vec4(corner, 1.0f)));
         patch.add(corner);
         patch.add(corner - to_light * ((corner.y - floor_height) / to_light.y));
@@ -111,40 +96,34 @@ void Shadows::aim(const Bounds& casters, float extent, float floor_height, const
                                    -2.0f * floor_height / extent_ - 1.0f, 1.0f);
 }
 
-void Shadows::draw_depth(const Target& target, const glm::mat4& world_to_clip,
-                         std::initializer_list<const SurfaceDraw*> casters) {
-    if (splats_) return splats_->draw(target, world_to_clip, casters);
-    target.bind();
+void Shadows::draw_depths(std::span<const DepthMap> maps, std::initializer_list<const SurfaceDraw*> casters) {
+    if (splats_) return splats_->draw(maps, casters);
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glEnable(GL_DEPTH_CLAMP);  // what lies before or behind a map still casts into it
-    glClear(GL_DEPTH_BUFFER_BIT);
-    depth_program_.set("world_to_clip", world_to_clip);
     depth_program_.use();
-    for (const SurfaceDraw* caster : casters) caster->draw();
+    for (const DepthMap& map : maps) {
+        map.target.bind();
+        glClear(GL_DEPTH_BUFFER_BIT);
+        depth_program_.set("world_to_clip", map.world_to_clip);
+        for (const SurfaceDraw* caster : casters) caster->draw();
+    }
     glDisable(GL_DEPTH_CLAMP);
 }
 
-void Shadows::draw_floor_sky() const {
-    floor_sky_.bind();
-    bind_texture(6, underside_);
-    sky_program_.set("underside_range", extent_);
-    sky_program_.set("sky_radius", kSkyRadius * extent_);
-    sky_program_.set("patch_size", patch_size_);
-    sky_program_.use();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-}
-
-void Shadows::draw_floor_key() const {
-    floor_key_.bind();
+void Shadows::draw_floor_visibility() const {
+    floor_visibility_.bind();
     bind_texture(4, shadow_map_);
-    const gl::Program& program = key_program_;
+    bind_texture(6, underside_);
+    const gl::Program& program = floor_program_;
     program.set("world_to_shadow", kHalf * world_to_light_);
     program.set("shadow_scale", glm::vec2(1.0f / light_size_.x, 1.0f / light_size_.y));
     program.set("shadow_range", light_size_.z);
     program.set("light_size", kLightSize);
     program.set("penumbra_least", kPenumbraLeast * extent_);
     program.set("penumbra_most", kPenumbraMost * extent_);
+    program.set("underside_range", extent_);
+    program.set("sky_radius", kSkyRadius * extent_);
     program.set("patch_corner", patch_corner_);
     program.set("patch_size", patch_size_);
     program.set("floor_height", floor_height_);
@@ -154,22 +133,19 @@ void Shadows::draw_floor_key() const {
 
 void Shadows::draw_floor_light() const {
     floor_light_.bind();
-    bind_texture(4, floor_key_);
-    bind_texture(6, floor_sky_);
-    blend_program_.set("key_pixel", glm::vec2(1.0f / static_cast<float>(floor_key_.width())));
-    blend_program_.set("sky_pixel", glm::vec2(1.0f / static_cast<float>(floor_sky_.width())));
+    bind_texture(6, floor_visibility_);
+    blend_program_.set("pixel_size", glm::vec2(1.0f / static_cast<float>(floor_visibility_.width())));
     blend_program_.use();
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 void Shadows::draw(std::initializer_list<const SurfaceDraw*> casters, bool lights_floor) {
     lights_floor_ = lights_floor;
-    draw_depth(shadow_map_, world_to_light_, casters);
+    const DepthMap maps[] = {{shadow_map_, world_to_light_}, {underside_, world_to_floor_}};
+    draw_depths(std::span(maps).first(lights_floor ? 2 : 1), casters);
     if (!lights_floor) return;
-    draw_depth(underside_, world_to_floor_, casters);
     glDisable(GL_DEPTH_TEST);
-    draw_floor_sky();
-    draw_floor_key();
+    draw_floor_visibility();
     draw_floor_light();
 }
 
@@ -182,6 +158,11 @@ void Shadows::set_uniforms(const gl::Program& program) const {
     program.set("floor_patch", lights_floor_ ? patch : kNowhere);
     program.set("floor_height", floor_height_);
     program.set("floor_reach", 0.35f * extent_);
+}
+
+Bounds Shadows::floor_patch() const {
+    const glm::vec2 far_corner = patch_corner_ + patch_size_;
+    return {{patch_corner_.x, floor_height_, patch_corner_.y}, {far_corner.x, floor_height_, far_corner.y}};
 }
 
 void Shadows::bind_textures() const {

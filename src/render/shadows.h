@@ -5,6 +5,7 @@
 #include <glm/vec4.hpp>
 #include <initializer_list>
 #include <optional>
+#include <span>
 
 #include "gl/program.h"
 #include "render/camera.h"
@@ -16,10 +17,10 @@ namespace gelatin::render {
 
 /// The maps' resolutions [pixels a side].
 struct ShadowDetail {
-    int key_map, undersides;   ///< what stands before the key light, and over the floor
-    int floor_key, floor_sky;  ///< the light that reaches the floor
-    bool few_taps;             ///< half the samples of the maps
-    bool splat;                ///< casters drawn by DepthSplats, which is for small maps
+    int key_map, undersides;  ///< what stands before the key light, and over the floor
+    int floor_light;          ///< the light that reaches the floor
+    bool few_taps;            ///< half the samples of the maps
+    bool splat;               ///< casters drawn by DepthSplats, which is for small maps
 };
 
 /// What stands between the lights and the scene: a depth map seen from the key light, and from it and the
@@ -40,26 +41,25 @@ public:
     /// lit
     void draw(std::initializer_list<const SurfaceDraw*> casters, bool lights_floor);
 
+    /// The part of the floor that may be darkened.
+    Bounds floor_patch() const;
+
     /// For programs that use shaders/include/light.glsl or floor_light.glsl.
     void set_uniforms(const gl::Program& program) const;
     void bind_textures() const;
 
 private:
-    void draw_depth(const Target& target, const glm::mat4& world_to_clip,
-                    std::initializer_list<const SurfaceDraw*> casters);
-    void draw_floor_sky() const;
-    void draw_floor_key() const;
+    void draw_depths(std::span<const DepthMap> maps, std::initializer_list<const SurfaceDraw*> casters);
+    void draw_floor_visibility() const;
     void draw_floor_light() const;
 
     gl::Program depth_program_;
-    gl::Program sky_program_;
-    gl::Program key_program_;
+    gl::Program floor_program_;
     gl::Program blend_program_;
     std::optional<DepthSplats> splats_;
     Target shadow_map_;
     Target underside_;
-    Target floor_sky_;
-    Target floor_key_;
+    Target floor_visibility_;
     Target floor_light_;
     unsigned compare_sampler_ = 0;
 

@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <string>
 
 #include "gelatin/error.h"
@@ -18,6 +19,13 @@ FramebufferGuard::~FramebufferGuard() {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(draw_));
     glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read_));
     glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
+}
+
+PixelRect PixelRect::joined(const PixelRect& other) const {
+    if (is_empty()) return other;
+    if (other.is_empty()) return *this;
+    return {std::min(left, other.left), std::min(bottom, other.bottom), std::max(right, other.right),
+            std::max(top, other.top)};
 }
 
 Target Target::multisampled(int width, int height, int samples) {
@@ -114,17 +122,23 @@ void Target::bind() const {
 }
 
 void Target::copy_color_to(const Target& target) const {
-    copy_to(target, GL_COLOR_BUFFER_BIT);
+    copy_to(target, pixels(), GL_COLOR_BUFFER_BIT);
 }
 
-void Target::copy_color_and_depth_to(const Target& target) const {
-    copy_to(target, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+void Target::copy_color_to(const Target& target, const PixelRect& pixels) const {
+    copy_to(target, pixels, GL_COLOR_BUFFER_BIT);
 }
 
-void Target::copy_to(const Target& target, unsigned what) const {
+void Target::copy_depth_to(const Target& target, const PixelRect& pixels) const {
+    copy_to(target, pixels, GL_DEPTH_BUFFER_BIT);
+}
+
+void Target::copy_to(const Target& target, const PixelRect& pixels, unsigned what) const {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.framebuffer_);
-    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, what, GL_NEAREST);
+    const auto [left, bottom, right, top] = pixels;
+    if (!pixels.is_empty())
+        glBlitFramebuffer(left, bottom, right, top, left, bottom, right, top, what, GL_NEAREST);
 }
 
 }  // namespace gelatin::render

@@ -18,6 +18,16 @@ private:
     int viewport_[4] = {};
 };
 
+/// Pixels of a picture: columns [left, right), rows [bottom, top).
+struct PixelRect {
+    int left = 0, bottom = 0, right = 0, top = 0;
+
+    bool is_empty() const { return right <= left || top <= bottom; }
+    /// What holds both.
+    PixelRect joined(const PixelRect& other) const;
+    bool operator==(const PixelRect&) const = default;
+};
+
 /// Something to draw into: a framebuffer and what is attached to it. Move-only. Making one leaves the
 /// framebuffers that are bound as they were.
 class Target {
@@ -47,15 +57,18 @@ public:
 
     /// Copies to a target of the same size, several samples a pixel becoming one. Draws go there from now on.
     void copy_color_to(const Target& target) const;
-    /// The same of colour and depth. @pre both are color_and_depth
-    void copy_color_and_depth_to(const Target& target) const;
+    /// Copies pixels to the same place of another target. @pre both are color_and_depth
+    void copy_color_to(const Target& target, const PixelRect& pixels) const;
+    void copy_depth_to(const Target& target, const PixelRect& pixels) const;
+    /// All pixels.
+    PixelRect pixels() const { return {0, 0, width_, height_}; }
 
 private:
     Target(int width, int height) : width_(width), height_(height) {}
     void swap(Target& other) noexcept;
     void attach_texture(unsigned internal_format, unsigned attachment);
     void check_complete() const;
-    void copy_to(const Target& target, unsigned what) const;
+    void copy_to(const Target& target, const PixelRect& pixels, unsigned what) const;
 
     int width_ = 0;
     int height_ = 0;

@@ -20,7 +20,9 @@ RenderView DrawSource::update(const gpu::GpuSolver& solver) {
         std::memcpy(positions.data(), bytes.data(), bytes.size());
         fit_box(positions);
     }
-    return view(nodes.positions);
+    RenderView late = view(nodes.positions);
+    late.box_is_late = true;
+    return late;
 }
 
 RenderView DrawSource::update(const State& state) {

@@ -75,7 +75,10 @@ protected:
         const Target map = Target::depth(kWidth, kHeight, GL_DEPTH_COMPONENT32);
         const StaticMesh all(surfaces), none;
         const SurfaceDraw draw(all.view()), nothing(none.view());
-        splats.draw(map, world_to_clip, {&draw, &nothing});
+        // The second of two maps, the first of another size and view.
+        const Target other = Target::depth(kHeight, kWidth, GL_DEPTH_COMPONENT32);
+        const DepthMap maps[] = {{other, from_above(1.0f, 2.0f)}, {map, world_to_clip}};
+        splats.draw(maps, {&draw, &nothing});
         std::vector<float> depths(static_cast<std::size_t>(kWidth) * kHeight, NAN);
         glBindTexture(GL_TEXTURE_2D, map.texture());
         glGetTexImage(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());

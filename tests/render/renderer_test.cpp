@@ -331,18 +331,42 @@ TEST_F(RendererTest, FastFollowsCameraAndSurroundings) {
     EXPECT_EQ(next_picture().pixels, picture_of(studio).pixels);
 }
 
+// Of each frame it restores no more than the next one needs.
 TEST_F(RendererTest, FastKeepsNoTraceOfTheFrameBefore) {
     Studio studio;
     studio.options.quality = Quality::fast;
     Renderer renderer(studio.options);
+    const auto draw = [&](const RenderView& view) { renderer.draw(view, studio.camera); };
+    const auto expect_picture_of = [&](const std::vector<SurfaceMesh>& bodies) {
+        studio.bodies = bodies;
+        draw(StaticMesh(bodies).view());
+        FrameGrabber grabber(kWidth, kHeight);
+        grabber.grab(renderer.framebuffer());
+        EXPECT_EQ(grabber.flush()->pixels, picture_of(studio).pixels);
+    };
+    // As from a GPU, with a box that the body has left.
+    const auto draw_with_late_box = [&] {
+        const StaticMesh body({sphere_at({0.5, 0.4, 0.0}, 0.2)});
+        RenderView view = body.view();
+        view.box_is_late = true;
+        view.box_min[0] = view.box_max[0] = -0.5f;
+        draw(view);
+    };
+    for (int props = 0; props < 2; ++props) {
+        SCOPED_TRACE(props);
+        if (props == 1) studio.surroundings.props = {make_box({glm::dvec3(0.3), glm::ivec3(1)})};
+        renderer.set_surroundings(studio.surroundings);
+        expect_picture_of({sphere_at({0.6, 0.9, 0.3}), sphere_at({-0.4, 0.5, 0.0})});
+        expect_picture_of({sphere_at({0.0, 0.6, 0.0})});
+        expect_picture_of({sphere_at({-3.0, 1.5, 0.0}, 0.2)});                     // out of the picture
+        expect_picture_of({sphere_at({0.3, 1.2, 4.0}, 0.4), sphere_at({}, 0.2)});  // the eye inside
+        expect_picture_of({sphere_at({-0.7, 0.3, 0.0}, 0.2)});
+        draw_with_late_box();
+        expect_picture_of({sphere_at({0.0, 0.6, 0.0})});
+        studio.surroundings.props.clear();  // the next ones come where none were
+    }
     renderer.set_surroundings(studio.surroundings);
-    const StaticMesh elsewhere({sphere_at({0.6, 0.9, 0.3}), sphere_at({-0.4, 0.5, 0.0})});
-    renderer.draw(elsewhere.view(), studio.camera);
-    const StaticMesh bodies(studio.bodies);
-    renderer.draw(bodies.view(), studio.camera);
-    FrameGrabber grabber(kWidth, kHeight);
-    grabber.grab(renderer.framebuffer());
-    EXPECT_EQ(grabber.flush()->pixels, picture_of(studio).pixels);
+    expect_picture_of({sphere_at({0.9, 1.0, 0.0}, 0.2)});
 }
 
 TEST_F(RendererTest, LeavesTheHostsFramebufferAndViewport) {

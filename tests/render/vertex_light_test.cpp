@@ -94,19 +94,16 @@ protected:
                                     .object_count = 1});
         const gl::Buffer<glm::vec4> color{std::span(&kColor, 1)};
         const gl::BufferTexture colors(color, gl::TexelFormat::rgba32f);
-        Shadows shadows({.key_map = 64,
-                         .undersides = 16,
-                         .floor_key = 16,
-                         .floor_sky = 16,
-                         .few_taps = true,
-                         .splat = true});
+        Shadows shadows(
+            {.key_map = 64, .undersides = 16, .floor_light = 16, .few_taps = true, .splat = true});
         shadows.aim(view_.bounds, view_.extent(), -0.5f, to_key_light());
         shadows.draw({}, false);
         shadows.bind_textures();
 
         const Layer layer{.surfaces = surfaces, .colors = colors, .jelly = static_cast<float>(jelly)};
         VertexLight vertex_light;
-        vertex_light.light({.view = view_, .bodies = layer, .props = layer, .shadows = shadows}, layer);
+        vertex_light.light({.view = view_, .bodies = layer, .props = layer, .bounds = {}, .shadows = shadows},
+                           layer);
         gl::barrier(gl::Barrier::buffer_update);
         clip_positions_.resize(vertex_light.clip_positions().size(), glm::vec4(NAN));
         vertex_light.clip_positions().download(clip_positions_);
