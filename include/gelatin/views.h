@@ -16,7 +16,7 @@ struct RenderView {
     std::uint32_t vertex_count = 0;
     std::uint32_t face_count = 0;
     std::uint32_t object_count = 0;
-    float box_min[3] = {};     ///< what holds all nodes [m]
+    float box_min[3] = {};  ///< what holds all nodes [m]
     float box_max[3] = {};
     bool box_is_late = false;  ///< the box is that of a view before: from a GPU it comes without a wait
 };
