@@ -42,6 +42,7 @@ enum class CollisionResponse { restore };
 struct CollisionSettings {
     BroadPhase broad_phase = BroadPhase::hierarchy;
     CollisionResponse response = CollisionResponse::restore;
+    bool self_collision = false;  ///< faces of one object against one another too
     double friction = 0.4;     ///< Coulomb's coefficient, >= 0
     double restitution = 0.3;  ///< normal speed after over before, in [0, 1]
 };

@@ -10,7 +10,7 @@
 
 namespace gelatin::gpu {
 
-/// What the stages of collision hand to one another, for scenes of at least two objects. Sizes are for what
+/// What the stages of collision hand to one another, for any number of objects. Sizes are for what
 /// may happen, up to limits of memory; what does not fit is counted, never forgotten in silence.
 struct CollisionBuffers {
     TreeBuffers face_trees;                  ///< one an object
@@ -37,7 +37,21 @@ struct CollisionBuffers {
     void bind_node_faces() const;
 
     /// The dispatches of include/pairs.glsl.
-    enum class Work : unsigned { entries, tests, face_pairs, pairs, pair_groups, nodes, scan, losses, count };
+    enum class Work : unsigned {
+        entries,
+        tests,
+        face_pairs,
+        pairs,
+        pair_groups,
+        nodes,
+        scan,
+        losses,
+        restless,
+        self_pairs,
+        self_faces,
+        self_nodes,
+        count
+    };
     /// Runs `program` over what the GPU itself has counted.
     void run(const gl::Program& program, Work work) const;
 };

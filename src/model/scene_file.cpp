@@ -57,6 +57,7 @@ CollisionSettings read_collision(TableReader reader) {
         "broad_phase", settings.broad_phase,
         {{"none", BroadPhase::none}, {"boxes", BroadPhase::boxes}, {"hierarchy", BroadPhase::hierarchy}});
     reader.read("response", settings.response, {{"restore", CollisionResponse::restore}});
+    reader.read("self_collision", settings.self_collision);
     reader.read("friction", settings.friction, kNotNegative);
     reader.read("restitution", settings.restitution, kFraction);
     reader.finish();
