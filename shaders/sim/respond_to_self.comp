@@ -2,11 +2,11 @@
 // to those that it touches, one invocation a face that touches any; with it: a node takes the mean of its faces' answers.
 // Sums go in the order of the tree and of the node's faces: the same bits each time.
 // CPU twins: gelatin::cpu::RespondToSelf, src/cpu/self_contact.h. Parity: tests/gpu/self_collision_test.cpp.
+#include "include/dispatches.glsl"
 #include "include/global_index.glsl"
 layout(local_size_x = 64) in;
 
 #ifdef NODES
-#include "include/dispatches.glsl"
 layout(binding = 2) uniform usamplerBuffer node_face_starts;
 layout(binding = 3) uniform usamplerBuffer node_faces;
 layout(std430, binding = 1) readonly buffer ContactCounts { uint contact_counts[]; };

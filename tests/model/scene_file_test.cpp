@@ -99,7 +99,7 @@ restitution = 0
     EXPECT_EQ(ball.scale, 2.0);
     EXPECT_EQ(ball.velocity, glm::dvec3(1.0, 0.0, 0.0));
     EXPECT_EQ(ball.color, glm::dvec3(0.1, 0.2, 0.3));
-    EXPECT_EQ(ball.line, 29);
+    EXPECT_EQ(ball.line, 30);
     ASSERT_EQ(ball.pins.size(), 3u);
     EXPECT_EQ(std::get<BoxRegion>(ball.pins[0]).min, glm::dvec3(-1.0));
     EXPECT_EQ(std::get<BoxRegion>(ball.pins[0]).max, glm::dvec3(0.0, 1.0, 1.0));
