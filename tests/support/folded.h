@@ -16,14 +16,16 @@ enum class Deformation {
     affine,   ///< stretched and sheared too
     rolled,   ///< rolled up until the ends go through one another
     crushed,  ///< to a tenth of their height, and shaken
+    poked,    ///< not at all, but for three nodes pushed deep into the body
     tangled,  ///< every node moved at random by about two cells
     flat,     ///< into a plane
 };
-inline constexpr Deformation kDeformations[] = {Deformation::rigid,   Deformation::affine,
-                                                Deformation::rolled,  Deformation::crushed,
-                                                Deformation::tangled, Deformation::flat};
+inline constexpr Deformation kDeformations[] = {
+    Deformation::rigid, Deformation::affine,  Deformation::rolled, Deformation::crushed,
+    Deformation::poked, Deformation::tangled, Deformation::flat};
 
-/// Three bars of different sizes, each in motion, a few nodes of the first pinned.
+/// Three bars of different sizes, the first of more than one chunk of nodes, each in motion, a few nodes of
+/// the first pinned.
 Model make_folded(Deformation deformation, unsigned seed = 1);
 
 /// By face, how many faces of its own object each touches, those that share a corner left out.
