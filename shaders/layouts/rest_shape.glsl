@@ -3,7 +3,7 @@
 // all nodes at X from the middle.
 struct RestShape {       // 48 bytes
     vec4  inverse_moment_x;  // [1/m^2]; w: length of the object [m]
-    vec4  inverse_moment_y;
+    vec4  inverse_moment_y;  // w: least clearance of its faces [m]
     vec4  inverse_moment_z;
 };
 // Sums over a chunk's nodes, of positions x from the chunk's origin: x X^T by columns; w: x itself.

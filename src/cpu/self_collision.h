@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "cpu/affine_fit.h"
 #include "cpu/collision.h"
 #include "cpu/triangle_overlap.h"
 #include "model/model.h"
@@ -43,6 +44,8 @@ public:
 
 private:
     void find_restless(std::span<const Vec4<Real>> positions);
+    bool is_calm_all_over(const AffineFit<Real>& fit, std::uint32_t object,
+                          std::span<const Vec4<Real>> positions) const;
     bool share_corner(std::uint32_t face, std::uint32_t other) const;
     bool touch(std::span<const Vec4<Real>> positions, std::uint32_t face, std::uint32_t other) const;
 

@@ -150,6 +150,11 @@ RestShapes make_rest_shapes(const Model& model) {
     constexpr float kRoundedDown = 1.0f - 1e-5f;
     for (std::uint32_t f = 0; f < model.faces.size(); ++f)
         shapes.clearances.push_back(kRoundedDown * static_cast<float>(clearances.of(f)));
+    for (std::size_t o = 0; o < model.objects.size(); ++o) {
+        const auto first = shapes.clearances.begin() + model.objects[o].faces.first;
+        const auto least = std::min_element(first, first + model.objects[o].faces.count);
+        if (model.objects[o].faces.count > 0) shapes.objects[o].inverse_moment_y.w = *least;
+    }
     return shapes;
 }
 
