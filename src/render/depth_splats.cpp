@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include <bit>
 #include <cassert>
 #include <glm/ext/matrix_transform.hpp>
 #include <string>
@@ -48,12 +49,12 @@ void DepthSplats::draw(std::span<const DepthMap> maps, std::initializer_list<con
     gl::barrier(gl::Barrier::pixel_unpack | gl::Barrier::buffer_update);
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, depths_.id());
     glActiveTexture(GL_TEXTURE0);
-    const std::uint32_t* first = nullptr;  // an offset in the buffer is told as a pointer
+    std::size_t start = 0;
     for (const DepthMap& map : maps) {
         glBindTexture(GL_TEXTURE_2D, map.target.texture());
         glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, map.target.width(), map.target.height(), GL_DEPTH_COMPONENT,
-                        GL_UNSIGNED_INT, first);
-        first += texel_count(map);
+                        GL_UNSIGNED_INT, std::bit_cast<const void*>(start * sizeof(std::uint32_t)));
+        start += texel_count(map);
     }
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
 }
