@@ -5,3 +5,10 @@ bool collides(ObjectPair pair, uint face) {
     uint index = face - bounding_boxes[pair.object].first_face;
     return (face_collisions[pair.first_word + index / 32u] >> (index % 32u) & 1u) != 0u;
 }
+
+// In any pair of its object's row.
+bool collides_with_any(PairRow row, uint face) {
+    bool any = false;
+    for (uint k = 0u; k < row.pair_count; ++k) any = any || collides(object_pairs[row.first_pair + k], face);
+    return any;
+}

@@ -11,12 +11,6 @@ uniform uint chunk_count;
 
 shared uint count;
 
-bool collides(uint face, PairRow row) {
-    bool any = false;
-    for (uint k = 0u; k < row.pair_count; ++k) any = any || collides(object_pairs[row.first_pair + k], face);
-    return any;
-}
-
 void main() {
     uint group = group_index();
     if (group >= chunk_count) return;  // the whole group leaves, so no one waits at the barrier
@@ -25,7 +19,7 @@ void main() {
     Chunk chunk = chunks[group];
     PairRow row = pair_rows[chunk.object];
     for (uint k = gl_LocalInvocationID.x; k < chunk.count; k += 64u) {
-        atomicAdd(count, uint(collides(chunk.first + k, row)));
+        atomicAdd(count, uint(collides_with_any(row, chunk.first + k)));
     }
     barrier();
     if (gl_LocalInvocationID.x != 0u) return;

@@ -35,6 +35,8 @@ public:
     void find_face_collisions(std::span<const Vec4<Real>> positions);
 
     const std::vector<AxisBox<Real>>& bounding_boxes() const { return bounding_boxes_; }
+    /// Of the nodes of Model::face_trees.
+    const std::vector<AxisBox<Real>>& tree_boxes() const { return tree_boxes_; }
     const std::vector<ObjectPair>& pairs() const { return pairs_; }
     /// An object's pairs.
     Range row(std::uint32_t object) const;

@@ -35,19 +35,21 @@ public:
 
     /// Where the nodes are now; another buffer after each step.
     const NodeBuffers& nodes() const { return current_; }
-    /// @pre the model has at least two objects
+    const ModelBuffers& model_buffers() const { return buffers_; }
+    /// @pre the model has at least two objects, or update_boxes was called
     const Collision& collision() const { return *collision_; }
 
 private:
     std::shared_ptr<const Model> model_;
     std::string device_;
     ExplicitScheme scheme_;
+    CollisionSettings collision_settings_;
     ModelBuffers buffers_;
     NodeBuffers current_, previous_;  // swapped by each step: what was written last is current
     NodeBuffers stage_[2], sums_;     // between the passes of one step
     std::optional<AdvanceNodes> fused_;
     std::optional<DivideAndMerge> divide_and_merge_;
-    std::optional<Collision> collision_;  // of at least two objects
+    std::optional<Collision> collision_;  // of at least two objects, or one whose boxes somebody asked for
     Measure measure_;
     gl::TimestampStageTimer timer_;
 };

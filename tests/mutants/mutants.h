@@ -116,4 +116,13 @@ inline constexpr Break kCollisionMutants[] = {
     {"the_contact_stands_still", "sim/respond.comp", " - time_step * response.velocity.xyz", ""},
 };
 
+/// A broken marking of faces that touch.
+inline constexpr Break kMarkMutants[] = {
+    {"the_first_pair_alone_counts", "include/face_collisions.glsl", "k < row.pair_count",
+     "k < min(row.pair_count, 1u)"},
+    {"no_guard_behind_the_marks", "sim/mark_faces.comp", "if (f >= face_count) return;", ""},
+    {"faces_without_a_touch_stay_as_they_were", "sim/mark_faces.comp", "marks[f] = uint(",
+     "if (collides_with_any(pair_rows[faces[f].object], f)) marks[f] = uint("},
+};
+
 }  // namespace gelatin::test
