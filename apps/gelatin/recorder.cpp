@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "overlay_option.h"
 #include "render/image.h"
 
 namespace gelatin {
@@ -26,7 +27,8 @@ Recorder::Recorder(const RunOptions& options, Simulator& simulator)
       pipeline_(simulator) {
     const PictureSize size = picture_size(options);
     if (options.draws()) {
-        painter_ = std::make_unique<ScenePainter>(simulator, size, picture_quality(options));
+        painter_ = std::make_unique<ScenePainter>(simulator, size, picture_quality(options),
+                                                  parse_overlays(options.overlays));
     }
     if (!options.video.empty()) {
         grabber_ = std::make_unique<render::FrameGrabber>(size.width, size.height);
@@ -46,7 +48,7 @@ bool Recorder::is_due() const {
 
 void Recorder::record() {
     if (!is_due()) return;
-    if (video_) film(simulator_.render_view());
+    if (video_) film(painter_->view());
     if (exporter_) exporter_->write(simulator_.read_frame());
 }
 
@@ -54,7 +56,7 @@ void Recorder::record_and_advance() {
     if (!is_due()) return simulator_.advance_frame();
     if (exporter_) exporter_->write(simulator_.read_frame());
     if (!video_) return simulator_.advance_frame();
-    const RenderView bodies = simulator_.render_view();
+    const RenderView bodies = painter_->view();
     pipeline_.advance_beside([&] { film(bodies); });
 }
 

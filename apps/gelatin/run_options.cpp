@@ -9,6 +9,7 @@
 
 #include "choice.h"
 #include "output_file.h"
+#include "overlay_option.h"
 
 namespace gelatin {
 namespace {
@@ -62,6 +63,16 @@ void add_run_options(CLI::App& command, RunOptions& options) {
     command.add_option("--quality", options.quality, "Of the same: auto, high or fast; auto is high")
         ->capture_default_str()
         ->group(outputs);
+    command
+        .add_option(
+            "--overlay", options.overlays,
+            "Show in the same: boxes (boxes:3 with three levels of the trees below), faces that touch, "
+            "springs by strain (springs:0.02 colours fully at 2%)")
+        ->type_name("boxes|faces|springs")
+        ->delimiter(',')
+        ->expected(1)
+        ->take_all()
+        ->group(outputs);
     CLI::Option* folder =
         command.add_option("--export", options.export_folder, "Write frames as meshes into this folder")
             ->type_name("DIR")
@@ -99,6 +110,7 @@ void check_outputs(const RunOptions& options) {
     export_format(options);
     picture_size(options);
     picture_quality(options);
+    parse_overlays(options.overlays);
     if (!options.export_folder.empty()) prepare_export_folder(options.export_folder);
 }
 

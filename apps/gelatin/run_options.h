@@ -37,6 +37,7 @@ struct RunOptions {
     std::optional<int> every;  ///< frames from one recorded frame to the next
     std::string size = "1280x720";
     std::string quality = "auto";
+    std::vector<std::string> overlays;  ///< see overlay_option.h
 
     std::filesystem::path checkpoint, resume;
     std::optional<int> checkpoint_every;  ///< frames

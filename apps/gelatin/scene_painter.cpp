@@ -47,8 +47,9 @@ render::RendererOptions renderer_options(const PictureSize& size, render::Qualit
 
 }  // namespace
 
-ScenePainter::ScenePainter(Simulator& simulator, const PictureSize& size, render::Quality quality)
-    : simulator_(simulator), renderer_(renderer_options(size, quality)) {
+ScenePainter::ScenePainter(Simulator& simulator, const PictureSize& size, render::Quality quality,
+                           const Overlays& overlays)
+    : simulator_(simulator), overlays_(overlays), renderer_(renderer_options(size, quality)) {
     const render::Surroundings surroundings = describe_surroundings(simulator);
     camera_ = choose_camera(simulator.scene(), surroundings, size);
     renderer_.set_surroundings(surroundings);

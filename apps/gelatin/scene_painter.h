@@ -13,18 +13,23 @@ namespace gelatin {
 class ScenePainter {
 public:
     /// Frames the picture for the present state where the scene has no camera.
-    ScenePainter(Simulator& simulator, const PictureSize& size, render::Quality quality);
+    ScenePainter(Simulator& simulator, const PictureSize& size, render::Quality quality,
+                 const Overlays& overlays = {});
+
+    /// The present state with the overlays.
+    RenderView view() { return simulator_.render_view(overlays_); }
 
     /// Draws the present state.
-    void draw() { draw(simulator_.render_view()); }
+    void draw() { draw(view()); }
 
-    /// Draws what Simulator::render_view gave, without a look at the simulator.
+    /// Draws what `view` gave, without a look at the simulator.
     void draw(const RenderView& bodies) { renderer_.draw(bodies, camera_); }
 
     unsigned framebuffer() const { return renderer_.framebuffer(); }
 
 private:
     Simulator& simulator_;
+    Overlays overlays_;
     render::Renderer renderer_;
     render::Camera camera_;
 };

@@ -67,25 +67,30 @@ struct Material {
 struct SphereShape {
     double radius = 0.5;  ///< [m], > 0
     int frequency = 10;   ///< pieces an edge of the icosahedron is cut into, >= 1: 20 frequency^2 faces
+    bool operator==(const SphereShape&) const = default;
 };
 struct BoxShape {
     glm::dvec3 size{1.0};    ///< [m], > 0, centred on the origin
     glm::ivec3 segments{1};  ///< quads along each edge, >= 1
+    bool operator==(const BoxShape&) const = default;
 };
 struct CapsuleShape {
     double radius = 0.25;  ///< [m], > 0
     double length = 0.5;   ///< of the straight part, along y [m], > 0
     int frequency = 8;     ///< rings over a quarter turn, >= 2
+    bool operator==(const CapsuleShape&) const = default;
 };
 struct TextShape {
     std::string text;
     double depth = 0.2;                     ///< along z [m], > 0
     double size = 1.0;                      ///< em height [m], > 0
     std::string font = "DejaVu Sans:bold";  ///< a fontconfig pattern, or a font file
+    bool operator==(const TextShape&) const = default;
 };
 struct FileShape {
     std::filesystem::path
         file;  ///< a surface, or ready tets; relative paths are resolved from the scene file
+    bool operator==(const FileShape&) const = default;
 };
 using Shape = std::variant<SphereShape, BoxShape, CapsuleShape, TextShape, FileShape>;
 
@@ -96,6 +101,7 @@ struct MesherSettings {
     double quality = 2.0;              ///< largest radius-edge ratio of a tet, > 1 (TetGen's -q)
     std::optional<double> max_volume;  ///< of a tet [m^3], > 0 (TetGen's -a)
     double time_limit = 120.0;         ///< for the mesher's process [s], > 0
+    bool operator==(const MesherSettings&) const = default;
 };
 
 /// Parts of space that choose nodes, in world coordinates at the start.

@@ -100,8 +100,8 @@ public:
     /// Positions and velocities on the host; waits for the GPU.
     HostFrame read_frame() const;
 
-    /// Buffers to draw from, normals up to date. Needs a context (the GL backend or `need_gl`).
-    RenderView render_view();
+    /// Buffers to draw from, normals and overlays up to date. Needs a context (the GL backend or `need_gl`).
+    RenderView render_view(const Overlays& overlays = {});
 
     /// The whole state, so that a run can go on later: exact, whole or not at all.
     /// @throws SystemError

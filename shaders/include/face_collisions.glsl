@@ -5,3 +5,17 @@ bool collides(ObjectPair pair, uint face) {
     uint index = face - bounding_boxes[pair.object].first_face;
     return (face_collisions[pair.first_word + index / 32u] >> (index % 32u) & 1u) != 0u;
 }
+
+// In any pair of its object's row, or with SELF_COLLISION with its own object.
+#ifdef SELF_COLLISION
+layout(std430, binding = 7) readonly buffer ContactCounts { uint contact_counts[]; };
+#endif
+bool collides_with_any(PairRow row, uint face) {
+#ifdef SELF_COLLISION
+    bool any = contact_counts[face] > 0u;
+#else
+    bool any = false;
+#endif
+    for (uint k = 0u; k < row.pair_count; ++k) any = any || collides(object_pairs[row.first_pair + k], face);
+    return any;
+}

@@ -1,4 +1,5 @@
-// Faces of each chunk that touch another object, or with SELF_COLLISION their own, one work group a chunk, and behind them the pairs that were lost.
+// Faces of each chunk that touch another object, or with SELF_COLLISION their own, one work group a chunk, and behind
+// them the pairs that were lost.
 // Parity: tests/gpu/collision_test.cpp.
 #include "include/pairs.glsl"
 #include "include/face_collisions.glsl"
@@ -7,22 +8,9 @@ layout(local_size_x = 64) in;
 
 layout(std430, binding = 3) readonly buffer Chunks { Chunk chunks[]; };
 layout(std430, binding = 5) writeonly buffer Colliding { uint colliding[]; };  // of each chunk, and the losses
-#ifdef SELF_COLLISION
-layout(std430, binding = 7) readonly buffer ContactCounts { uint contact_counts[]; };
-#endif
 uniform uint chunk_count;
 
 shared uint count;
-
-bool collides(uint face, PairRow row) {
-#ifdef SELF_COLLISION
-    bool any = contact_counts[face] > 0u;
-#else
-    bool any = false;
-#endif
-    for (uint k = 0u; k < row.pair_count; ++k) any = any || collides(object_pairs[row.first_pair + k], face);
-    return any;
-}
 
 void main() {
     uint group = group_index();
@@ -32,7 +20,7 @@ void main() {
     Chunk chunk = chunks[group];
     PairRow row = pair_rows[chunk.object];
     for (uint k = gl_LocalInvocationID.x; k < chunk.count; k += 64u) {
-        atomicAdd(count, uint(collides(chunk.first + k, row)));
+        atomicAdd(count, uint(collides_with_any(row, chunk.first + k)));
     }
     barrier();
     if (gl_LocalInvocationID.x != 0u) return;

@@ -38,12 +38,13 @@ public:
     /// The nodes in full precision.
     const Nodes<Real>& nodes() const { return current_; }
     const Collision<Real>& collision() const { return collision_; }
+    /// True if a face touches another object, or another part of its own.
+    bool collides(std::uint32_t face) const;
     /// Null where objects do not collide with themselves.
     const SelfCollision<Real>* self_collision() const { return self_ ? &self_->collision : nullptr; }
 
 private:
     void run_pass(const Pass<Real>& pass);
-    bool collides(std::uint32_t face) const;
 
     std::shared_ptr<const Model> model_;
     ExplicitScheme scheme_;

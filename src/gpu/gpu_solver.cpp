@@ -11,6 +11,7 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, Forc
     : model_(std::move(model)),
       device_(gl::Context::current().device().renderer),
       scheme_(explicit_scheme(solver)),
+      collision_settings_(collision),
       buffers_(*model_),
       current_(model_->positions, model_->velocities),
       previous_(model_->positions, model_->velocities),
@@ -44,6 +45,7 @@ void GpuSolver::advance_nodes(double step) {
 }
 
 void GpuSolver::update_boxes() {
+    if (!collision_) collision_.emplace(*model_, collision_settings_);
     collision_->update_boxes.run(buffers_, collision_->buffers, current_);
 }
 

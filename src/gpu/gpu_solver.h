@@ -36,19 +36,22 @@ public:
 
     /// Where the nodes are now; another buffer after each step.
     const NodeBuffers& nodes() const { return current_; }
-    /// @pre the scene has collisions: at least two objects, or self-collision
+    const ModelBuffers& model_buffers() const { return buffers_; }
+    /// @pre the scene has collisions, of two objects or of one with itself, or update_boxes was called
     const Collision& collision() const { return *collision_; }
+    bool has_collision() const { return collision_.has_value(); }
 
 private:
     std::shared_ptr<const Model> model_;
     std::string device_;
     ExplicitScheme scheme_;
+    CollisionSettings collision_settings_;
     ModelBuffers buffers_;
     NodeBuffers current_, previous_;  // swapped by each step: what was written last is current
     NodeBuffers stage_[2], sums_;     // between the passes of one step
     std::optional<AdvanceNodes> fused_;
     std::optional<DivideAndMerge> divide_and_merge_;
-    std::optional<Collision> collision_;  // empty where nothing can collide
+    std::optional<Collision> collision_;  // where something can collide, or somebody asked for boxes
     Measure measure_;
     gl::TimestampStageTimer timer_;
 };

@@ -15,16 +15,13 @@ std::vector<T> read_as(const std::vector<std::byte>& bytes) {
     return values;
 }
 
-gl::Defines self_defines(const Model& model) {
-    return model.rest_shapes.objects.empty() ? gl::Defines{} : gl::Defines{"SELF_COLLISION"};
-}
-
 }  // namespace
 
 Measure::Measure(const Model& model)
     : node_program_(gl::Program::compute("sim/measure_nodes.comp", ModelBuffers::collider_defines(model))),
       face_program_(gl::Program::compute("sim/measure_faces.comp")),
-      colliding_program_(gl::Program::compute("sim/count_colliding_faces.comp", self_defines(model))),
+      colliding_program_(
+          gl::Program::compute("sim/count_colliding_faces.comp", self_collision_defines(model))),
       node_chunks_(make_chunks(model, &ModelObject::nodes)),
       face_chunks_(make_chunks(model, &ModelObject::faces)),
       node_chunk_buffer_(std::span<const Chunk>(node_chunks_)),

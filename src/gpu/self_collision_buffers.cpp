@@ -21,4 +21,8 @@ SelfCollisionBuffers::SelfCollisionBuffers(const Model& model)
       colliding(model.faces.size()),
       face_count(static_cast<std::uint32_t>(model.faces.size())) {}
 
+gl::Defines self_collision_defines(const Model& model) {
+    return model.rest_shapes.objects.empty() ? gl::Defines{} : gl::Defines{"SELF_COLLISION"};
+}
+
 }  // namespace gelatin::gpu

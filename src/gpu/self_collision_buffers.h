@@ -3,6 +3,7 @@
 #include <glm/vec4.hpp>
 
 #include "gl/buffer.h"
+#include "gl/program.h"
 #include "model/model.h"
 
 namespace gelatin::gpu {
@@ -22,5 +23,8 @@ struct SelfCollisionBuffers {
     /// @pre the model has rest shapes
     explicit SelfCollisionBuffers(const Model& model);
 };
+
+/// For shaders that look at the faces' contacts with their own object where there can be any.
+gl::Defines self_collision_defines(const Model& model);
 
 }  // namespace gelatin::gpu

@@ -195,10 +195,10 @@ const Material& find_material(const Scene& scene, const ObjectDescription& objec
                         object.material, "no such material"});
 }
 
-Body make_body(const Scene& scene, const ObjectDescription& object) {
+Body make_body(const Scene& scene, const ObjectDescription& object, ObjectMesher& mesher) {
     Body body;
     body.name = object.name;
-    body.mesh = make_object_mesh(object);
+    body.mesh = mesher.make(object);
     body.material = find_material(scene, object);
     body.velocity = object.velocity;
     body.pins = object.pins;
@@ -233,7 +233,8 @@ Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDes
 
 Model build_model(const Scene& scene) {
     std::vector<Body> bodies;
-    for (const ObjectDescription& object : scene.objects) bodies.push_back(make_body(scene, object));
+    ObjectMesher mesher;
+    for (const ObjectDescription& object : scene.objects) bodies.push_back(make_body(scene, object, mesher));
     for (const Material& material : scene.materials) {
         if (material.poisson_ratio != 0.25) {
             spdlog::warn("material '{}': poisson_ratio = {} has no effect: springs alone answer with 0.25",

@@ -24,7 +24,7 @@ Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDes
                   const glm::dvec3& gravity);
 
 /// Makes the mesh of each of the scene's objects and packs them.
-/// @throws InvalidInput as pack_bodies and make_object_mesh (object_mesh.h); also for an object whose pins
+/// @throws InvalidInput as pack_bodies and ObjectMesher::make; also for an object whose pins
 /// hold no node.
 Model build_model(const Scene& scene);
 

@@ -1,5 +1,8 @@
 #include "model/object_mesh.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "core/log.h"
 #include "mesh/shapes.h"
 #include "mesh/surface_file.h"
@@ -29,14 +32,23 @@ TetMesh make_local_mesh(const ObjectDescription& object, Notes& notes) {
 
 }  // namespace
 
-TetMesh make_object_mesh(const ObjectDescription& object) {
-    Notes notes;
-    TetMesh mesh = make_local_mesh(object, notes);
-    for (const std::string& note : notes) spdlog::warn("object '{}': {}", object.name, note);
-
+TetMesh ObjectMesher::make(const ObjectDescription& object) {
+    TetMesh mesh = local_mesh(object);
     const glm::dquat rotation = rotation_from_degrees(object.rotation);
     for (glm::dvec3& p : mesh.positions) p = rotation * (object.scale * p) + object.position;
     return mesh;
+}
+
+// Searched from the last one on: copies follow one another.
+const TetMesh& ObjectMesher::local_mesh(const ObjectDescription& object) {
+    const auto same = std::find_if(known_.rbegin(), known_.rend(), [&](const Known& known) {
+        return known.shape == object.shape && known.mesher == object.mesher;
+    });
+    if (same != known_.rend()) return same->mesh;
+    Notes notes;
+    TetMesh mesh = make_local_mesh(object, notes);
+    for (const std::string& note : notes) spdlog::warn("object '{}': {}", object.name, note);
+    return known_.emplace_back(Known{object.shape, object.mesher, std::move(mesh)}).mesh;
 }
 
 }  // namespace gelatin

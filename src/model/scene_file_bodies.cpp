@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
+
+#include "model/scene_file_copies.h"
 
 namespace gelatin {
 namespace {
@@ -121,8 +124,9 @@ std::string read_material_name(TableReader& reader, const std::vector<Material>&
                             names.empty() ? "the scene has none" : "there is " + join_names(names)));
 }
 
-ObjectDescription read_object(TableReader& reader, const std::vector<Material>& materials,
-                              const std::filesystem::path& folder) {
+// The object, or its copies.
+std::vector<ObjectDescription> read_object(TableReader& reader, const std::vector<Material>& materials,
+                                           const std::filesystem::path& folder) {
     ObjectDescription object;
     object.line = reader.line();
     reader.require({"name", "shape"});
@@ -141,8 +145,10 @@ ObjectDescription read_object(TableReader& reader, const std::vector<Material>& 
         reader.read("color", color, kFraction);
         object.color = color;
     }
+    const auto copies = reader.table("copies");
     reader.finish();
-    return object;
+    if (copies) return read_copies(*copies, object);
+    return {object};
 }
 
 ColliderDescription read_collider(TableReader& reader, const CollisionSettings& collision) {
@@ -189,13 +195,16 @@ std::vector<ObjectDescription> read_objects(std::vector<TableReader> tables,
                                             const std::vector<Material>& materials,
                                             const std::filesystem::path& folder) {
     std::vector<ObjectDescription> objects;
+    std::unordered_map<std::string, int> lines;  // by name
     for (TableReader& reader : tables) {
-        ObjectDescription object = read_object(reader, materials, folder);
-        for (const ObjectDescription& other : objects) {
-            if (other.name != object.name) continue;
-            reader.fail("name", fmt::format("is taken by the object on line {}", other.line));
+        for (ObjectDescription& object : read_object(reader, materials, folder)) {
+            const auto [taken, is_new] = lines.emplace(object.name, object.line);
+            if (!is_new) {
+                const std::string what = reader.has("copies") ? fmt::format("\"{}\" ", object.name) : "";
+                reader.fail("name", fmt::format("{}is taken by the object on line {}", what, taken->second));
+            }
+            objects.push_back(std::move(object));
         }
-        objects.push_back(std::move(object));
     }
     return objects;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <map>
 
 #include "gelatin/error.h"
 #include "model/explicit_scheme.h"
@@ -96,14 +97,19 @@ double largest_stable_step(SolverKind solver, double frequency, double damping) 
 }
 
 double largest_stable_step(SolverKind solver, const Model& model) {
-    double step = std::numeric_limits<double>::infinity();
+    // Of bodies with the same damping the one with the highest frequency decides.
+    std::map<float, double> frequencies;
     for (const ModelObject& object : model.objects) {
         float damping = 0.0f;
         for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
             damping = std::max(damping, model.velocities[n].w);
         }
-        step = std::min(step, largest_stable_step(solver, frequency_bound(model, object), damping));
+        double& highest = frequencies[damping];
+        highest = std::max(highest, frequency_bound(model, object));
     }
+    double step = std::numeric_limits<double>::infinity();
+    for (const auto& [damping, frequency] : frequencies)
+        step = std::min(step, largest_stable_step(solver, frequency, static_cast<double>(damping)));
     return step;
 }
 

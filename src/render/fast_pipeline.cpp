@@ -2,6 +2,8 @@
 
 #include <epoxy/gl.h>
 
+#include "render/overlay.h"
+
 namespace gelatin::render {
 namespace {
 
@@ -22,14 +24,16 @@ void FastPipeline::draw(const Frame& frame) {
     frame.shadows.bind_textures();
     const bool has_shadows = frame.view.shows_floor();
     if (has_shadows) draw_floor_shade(frame);
-    body_light_.light(frame, frame.bodies);
+    const bool has_bodies = !frame.overlay.replaces_bodies();
+    if (has_bodies) body_light_.light(frame, frame.bodies);
 
     restore_picture(frame);
     picture_.bind();
     glEnable(GL_DEPTH_TEST);
-    body_light_.draw(frame.bodies);
+    if (has_bodies) body_light_.draw(frame.bodies);
     prop_light_.draw(frame, {&frame.props});
     if (has_shadows) draw_floor_shadow(frame);
+    frame.overlay.draw(frame);
 }
 
 void FastPipeline::draw_plate(const View& view) {
@@ -48,6 +52,7 @@ void FastPipeline::restore_picture(const Frame& frame) {
     plate_.copy_depth_to(picture_, drawn_depth_);
     drawn_depth_ = frame.bounds ? frame.view.pixels_of(*frame.bounds) : plate_.pixels();
     drawn_ = drawn_depth_.joined(frame.view.pixels_of(frame.shadows.floor_patch()));
+    if (!frame.overlay.is_empty()) drawn_ = drawn_depth_ = plate_.pixels();  // lines reach beyond bodies
 }
 
 void FastPipeline::draw_floor_shade(const Frame& frame) const {

@@ -41,12 +41,15 @@ struct Layer {
     float jelly;                      ///< 1: soft and glossy; 0: matt
 };
 
+class Overlay;
+
 /// What is drawn now. @pre the shadows are those of bodies and props
 struct Frame {
     const View& view;
     Layer bodies, props;
     std::optional<Bounds> bounds;  ///< of bodies and props; empty: not known
     const Shadows& shadows;
+    const Overlay& overlay;
 };
 
 }  // namespace gelatin::render

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 
 #include "gl/context.h"
+#include "render/overlay.h"
 
 namespace gelatin::render {
 namespace {
@@ -32,8 +33,10 @@ void HighPipeline::draw(const Frame& frame) {
     glDepthMask(GL_TRUE);
     glClear(GL_DEPTH_BUFFER_BIT);  // the backdrop covers every pixel's colour
     frame.shadows.bind_textures();
-    light_.draw(frame, {&frame.bodies, &frame.props});
+    if (!frame.overlay.replaces_bodies()) light_.draw(frame, {&frame.bodies});
+    light_.draw(frame, {&frame.props});
     scenery_.draw(frame.view, &frame.shadows);
+    frame.overlay.draw(frame);
     smooth_edges();
 }
 

@@ -117,12 +117,14 @@ void Renderer::draw(const RenderView& bodies, const Camera& camera) {
     const gl::BufferTexture prop_colors(prop_colors_, gl::TexelFormat::rgba32f);
     const View view{camera, width(), height(), surroundings_.bounds, surroundings_.floor_height};
     aim_shadows(bodies, view);
+    overlay_.show(bodies);
     shadows_.draw({&body_draw, &prop_draw}, options_.quality == Quality::high || view.shows_floor());
     pipeline_->draw({.view = view,
                      .bodies = {.surfaces = body_draw, .colors = body_colors, .jelly = 1.0f},
                      .props = {.surfaces = prop_draw, .colors = prop_colors, .jelly = 0.0f},
                      .bounds = exact_bounds(bodies, props_.view()),
-                     .shadows = shadows_});
+                     .shadows = shadows_,
+                     .overlay = overlay_});
     glBindSampler(4, 0);
     glBindVertexArray(0);
     gl::check_errors("drawing a frame");

@@ -11,6 +11,7 @@
 #include "mesh/surface_mesh.h"
 #include "render/camera.h"
 #include "render/high_pipeline.h"
+#include "render/overlay.h"
 #include "render/shadows.h"
 #include "render/static_mesh.h"
 
@@ -51,7 +52,8 @@ public:
 
     void set_surroundings(const Surroundings& surroundings);
 
-    /// Draws one frame. Orders itself after the dispatches that wrote the buffers; does not wait for them.
+    /// Draws one frame and what its overlay shows. Orders itself after the dispatches that wrote the buffers;
+    /// does not wait for them.
     void draw(const RenderView& bodies, const Camera& camera);
 
     int width() const { return options_.width; }
@@ -68,6 +70,7 @@ private:
     RendererOptions options_;
     std::unique_ptr<Pipeline> pipeline_;
     Shadows shadows_;
+    Overlay overlay_;
     unsigned vertex_array_ = 0;
 
     Surroundings surroundings_;

@@ -14,6 +14,7 @@
 #include "sim/backend.h"
 #include "sim/checkpoint.h"
 #include "sim/draw_source.h"
+#include "sim/overlay_source.h"
 
 namespace gelatin {
 
@@ -29,8 +30,10 @@ struct Simulator::Impl {
     std::shared_ptr<const Model> model;
     int substeps = 1;
     std::unique_ptr<Solver> solver;
-    const gpu::GpuSolver* gpu_solver = nullptr;  // solver, if it is one
+    gpu::GpuSolver* gpu_solver = nullptr;         // solver, if it is one
+    cpu::CpuSolver<float>* cpu_solver = nullptr;  // the same
     std::optional<DrawSource> draw_source;
+    std::optional<OverlaySource> overlay_source;
 
     Moment start{0, 0.0};     // of this run: where a checkpoint was loaded
     std::uint64_t steps = 0;  // since then
@@ -73,8 +76,10 @@ Simulator::Simulator(const Scene& scene, const SimulatorOptions& options) : impl
         d.gpu_solver = solver.get();
         d.solver = std::move(solver);
     } else {
-        d.solver = std::make_unique<cpu::CpuSolver<float>>(d.model, settings.solver, settings.forces,
-                                                           scene.collision);
+        auto solver = std::make_unique<cpu::CpuSolver<float>>(d.model, settings.solver, settings.forces,
+                                                              scene.collision);
+        d.cpu_solver = solver.get();
+        d.solver = std::move(solver);
     }
 }
 
@@ -188,14 +193,23 @@ HostFrame Simulator::read_frame() const {
     return host;
 }
 
-RenderView Simulator::render_view() {
+RenderView Simulator::render_view(const Overlays& overlays) {
     Impl& d = *impl_;
     if (!d.context)
         throw NoOpenGl("drawing needs an OpenGL context: ask for it in SimulatorOptions::need_gl");
     if (!d.draw_source) d.draw_source.emplace(d.model);
     RenderView view;
-    if (d.gpu_solver == nullptr) return d.draw_source->update(d.solver->read_state());
-    d.run_stage("update_normals", [&] { view = d.draw_source->update(*d.gpu_solver); });
+    if (d.gpu_solver != nullptr) {
+        d.run_stage("update_normals", [&] { view = d.draw_source->update(*d.gpu_solver); });
+    } else {
+        view = d.draw_source->update(d.solver->read_state());
+    }
+    if (!overlays.any()) return view;
+    if (!d.overlay_source) d.overlay_source.emplace(d.model);
+    d.run_stage("update_overlays", [&] {
+        view.overlay = d.gpu_solver != nullptr ? d.overlay_source->update(overlays, *d.gpu_solver)
+                                               : d.overlay_source->update(overlays, *d.cpu_solver);
+    });
     return view;
 }
 

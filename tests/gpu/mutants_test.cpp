@@ -55,6 +55,18 @@ TEST_P(StepMutantsTest, IsCaught) {
     EXPECT_TRUE(error > 1.0 || !guarded) << "the broken kernel passes: error / bound = " << error;
 }
 
+class MarkMutantsTest : public test::GlTest, public ::testing::WithParamInterface<test::Break> {};
+INSTANTIATE_TEST_SUITE_P(All, MarkMutantsTest, ::testing::ValuesIn(test::kMarkMutants), name_of_mutant);
+
+TEST_P(MarkMutantsTest, IsCaught) {
+    const Model model = test::make_crowd(30);
+    const std::vector<std::uint32_t> right =
+        test::mark_faces_on_gpu(model);  // held against the CPU by another test
+    test::ShaderFolder folder;
+    break_shaders(GetParam(), folder);
+    EXPECT_NE(test::mark_faces_on_gpu(model), right) << "the broken kernel passes";
+}
+
 class CollisionMutantsTest : public test::GlTest, public ::testing::WithParamInterface<test::Break> {};
 INSTANTIATE_TEST_SUITE_P(All, CollisionMutantsTest, ::testing::ValuesIn(test::kCollisionMutants),
                          name_of_mutant);

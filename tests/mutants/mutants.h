@@ -146,4 +146,13 @@ inline constexpr Break kSelfCollisionMutants[] = {
     {"pinned_nodes_move", "sim/respond_to_self.comp", "|| positions[n].w == 0.0", ""},
 };
 
+/// A broken marking of faces that touch.
+inline constexpr Break kMarkMutants[] = {
+    {"the_first_pair_alone_counts", "include/face_collisions.glsl", "k < row.pair_count",
+     "k < min(row.pair_count, 1u)"},
+    {"no_guard_behind_the_marks", "sim/mark_faces.comp", "if (f >= face_count) return;", ""},
+    {"faces_without_a_touch_stay_as_they_were", "sim/mark_faces.comp", "marks[f] = uint(",
+     "if (collides_with_any(pair_rows[faces[f].object], f)) marks[f] = uint("},
+};
+
 }  // namespace gelatin::test

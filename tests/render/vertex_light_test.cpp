@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mesh/shapes.h"
+#include "render/overlay.h"
 #include "support/gl_fixture.h"
 
 namespace gelatin::render {
@@ -102,7 +103,12 @@ protected:
 
         const Layer layer{.surfaces = surfaces, .colors = colors, .jelly = static_cast<float>(jelly)};
         VertexLight vertex_light;
-        vertex_light.light({.view = view_, .bodies = layer, .props = layer, .bounds = {}, .shadows = shadows},
+        vertex_light.light({.view = view_,
+                            .bodies = layer,
+                            .props = layer,
+                            .bounds = {},
+                            .shadows = shadows,
+                            .overlay = Overlay()},
                            layer);
         gl::barrier(gl::Barrier::buffer_update);
         clip_positions_.resize(vertex_light.clip_positions().size(), glm::vec4(NAN));

@@ -11,6 +11,7 @@
 #include "cpu/respond.h"
 #include "cpu/triangle_overlap.h"
 #include "gpu/collision.h"
+#include "gpu/mark_faces.h"
 #include "support/parity.h"
 #include "support/test_models.h"
 
@@ -137,6 +138,23 @@ FaceCollisions find_collisions_on_gpu(const Model& model, BroadPhase broad_phase
     }
     std::sort(found.begin(), found.end());
     return found;
+}
+
+std::vector<std::uint32_t> mark_faces_on_gpu(const Model& model) {
+    constexpr std::uint32_t kPoison = 0xDEADBEEF;
+    const gpu::ModelBuffers model_buffers(model);
+    const gpu::NodeBuffers nodes(model.positions, model.velocities);
+    gpu::Collision collision(model, {});
+    run_detection(collision, model_buffers, nodes);
+    std::vector<std::uint32_t> marks(model.faces.size() + kGuard, kPoison);
+    const gl::Buffer<std::uint32_t> buffer{std::span<const std::uint32_t>(marks)};
+    gpu::MarkFaces(model).run(model_buffers, collision.buffers, nullptr, buffer);
+    gl::barrier(gl::Barrier::buffer_update);
+    buffer.download(marks);
+    const auto end = marks.begin() + static_cast<std::ptrdiff_t>(model.faces.size());
+    if (std::any_of(end, marks.end(), [](std::uint32_t mark) { return mark != kPoison; })) return {};
+    marks.erase(end, marks.end());
+    return marks;
 }
 
 std::vector<glm::vec4> positions_before(const Model& model, double step) {

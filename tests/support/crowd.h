@@ -28,6 +28,10 @@ FaceCollisions find_collisions_on_cpu(const Model& model, BroadPhase broad_phase
 /// What the GPU's stages find, every buffer that they write poisoned first.
 FaceCollisions find_collisions_on_gpu(const Model& model, BroadPhase broad_phase);
 
+/// The marks of the faces that the GPU's stages find, poisoned first; empty if anything behind them was
+/// written.
+std::vector<std::uint32_t> mark_faces_on_gpu(const Model& model);
+
 /// Where the model's nodes were a step before its start [m], [s].
 std::vector<glm::vec4> positions_before(const Model& model, double step);
 
