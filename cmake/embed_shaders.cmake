@@ -4,7 +4,8 @@
 # GELATIN_SHADER_DIR reads them from disk instead (src/gl/shader_source.h).
 function(gelatin_embed_shaders target)
     set(root ${CMAKE_SOURCE_DIR}/shaders)
-    file(GLOB_RECURSE files CONFIGURE_DEPENDS ${root}/*.glsl ${root}/*.comp ${root}/*.vert ${root}/*.frag)
+    file(GLOB_RECURSE files CONFIGURE_DEPENDS ${root}/*.glsl ${root}/*.comp ${root}/*.vert
+         ${root}/*.geom ${root}/*.frag)
     set(output ${CMAKE_BINARY_DIR}/generated/embedded_shaders.cpp)
     add_custom_command(
         OUTPUT ${output}

@@ -14,6 +14,8 @@ constexpr const char* kCpuName = "paper, CPU single core";
 constexpr const char* kGpuName = "paper, GPU";
 constexpr const char* kWithoutBoxesName = "paper, GPU, no boxes, until contact";
 constexpr const char* kWithBoxesName = "paper, GPU, boxes, until contact";
+constexpr const char* kHierarchyName = "paper, GPU, hierarchy, until contact";  // its chapter 5
+constexpr const char* kDepthName = "paper, GPU, depth, until contact";
 constexpr const char* kFastName = "fast";
 
 std::array<double, kBenchScenes> ratio(const std::array<double, kBenchScenes>& fast,
@@ -42,6 +44,8 @@ std::vector<BenchSystem> bench_systems(bool software_gl) {
         {kGpuName, Backend::gl, kPaperForces, BroadPhase::boxes, 0, whole_run, kPaperGpu},
         {kWithoutBoxesName, Backend::gl, kPaperForces, BroadPhase::none, 0, until_contact, kWithoutBoxes},
         {kWithBoxesName, Backend::gl, kPaperForces, BroadPhase::boxes, 0, until_contact, kWithBoxes},
+        {kHierarchyName, Backend::gl, kPaperForces, BroadPhase::hierarchy, 0, until_contact, kWithBoxes},
+        {kDepthName, Backend::gl, kPaperForces, BroadPhase::depth, 0, until_contact, kWithBoxes},
         {kFastName, Backend::automatic, kFastForces, kFastPhase, 0, whole_run, kPaperGpu},
     };
     if (software_gl) {

@@ -28,7 +28,7 @@ struct BenchSystem {
     BroadPhase broad_phase;
     int threads;  ///< of the simulation; 0: all
     BenchPart part;
-    std::array<double, kBenchScenes> paper_fps;  ///< as published; of the paper's GPU for our own ways
+    std::array<double, kBenchScenes> paper_fps;  ///< as published; of the paper's nearest for our own ways
 
     /// `scene` as this system simulates it.
     Scene configure(Scene scene) const;

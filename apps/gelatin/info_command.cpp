@@ -47,7 +47,9 @@ Json describe_machine() {
 Json describe_scene(const std::filesystem::path& file) {
     SimulatorOptions options;
     options.backend = Backend::cpu;
-    const Simulator simulator(load_scene(file), options);
+    Scene scene = load_scene(file);
+    scene.collision = {};  // some ways need OpenGL; what is described does not depend on them
+    const Simulator simulator(scene, options);
     const SimulationSettings& settings = simulator.scene().simulation;
     const Counts counts = simulator.counts();
     Json description = {{"kind", "scene"},

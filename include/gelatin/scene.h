@@ -33,6 +33,7 @@ enum class BroadPhase {
     none,       ///< not at all: every face of every object against every face of every other
     boxes,      ///< the paper's: objects whose bounding boxes meet, every face against every face
     hierarchy,  ///< of those objects, the faces that trees of boxes lead to
+    depth,      ///< of those objects, the faces that are hidden from all sides by others; needs OpenGL
 };
 
 /// What happens to objects whose faces meet: `restore` is the paper's (2.4), nodes return to where they were

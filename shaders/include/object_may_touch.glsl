@@ -1,4 +1,5 @@
 // The paper's first test (2.4): bounding box against bounding box; and a search for all objects that pass it.
+#include "include/hidden.glsl"
 #include "include/pairs.glsl"
 uniform uint object_count;
 uniform uint ignore_boxes;  // 1: every object may touch every other
@@ -7,7 +8,7 @@ bool may_touch(uint a, uint b) {
     BoundingBox box_a = bounding_boxes[a];
     BoundingBox box_b = bounding_boxes[b];
     bool near = meet(box_a.min.xyz, box_a.max.xyz, box_b.min.xyz, box_b.max.xyz);
-    return a != b && (near || ignore_boxes != 0u);
+    return a != b && (near || ignore_boxes != 0u) && object_may_collide(b);
 }
 
 #ifdef OBJECT_TREE
@@ -54,5 +55,5 @@ uint next_partner(inout Search search) {
     while (search.other < object_count && !may_touch(search.object, search.other)) ++search.other;
     return search.other < object_count ? search.other++ : kNone;
 }
-Search start_search(uint object) { return Search(object, 0u); }
+Search start_search(uint object) { return Search(object, object_may_collide(object) ? 0u : object_count); }
 #endif

@@ -1,8 +1,10 @@
-// The faces of each pair's object that reach into the other's box, in no particular order, where its tests start; and a
+// The faces of each pair's object that reach into the other's box, in no particular order, where its tests start; with
+// VIEW_COUNT those of them that may collide at all; and a
 // Face Collision Result without collisions. One invocation an entry: four faces of a pair. CPU twin: gelatin::cpu::Collision.
 // Parity: tests/gpu/collision_test.cpp.
 #include "include/pairs.glsl"
 #include "include/face_collisions.glsl"
+#include "include/hidden.glsl"
 layout(local_size_x = 64) in;
 
 layout(std430, binding = 3) readonly buffer FaceBoxes { Box face_boxes[]; };
@@ -41,7 +43,7 @@ void main() {
     uint end = own.first_face + min(4u * leaf + 4u, own.face_count);
     for (uint face = own.first_face + 4u * leaf; face < end; ++face) {
         Box box = face_boxes[face];
-        if (!meet(box.min.xyz, box.max.xyz, other.min.xyz, other.max.xyz)) continue;
+        if (!meet(box.min.xyz, box.max.xyz, other.min.xyz, other.max.xyz) || !face_may_collide(face)) continue;
         candidates[pair.first_candidate + atomicAdd(object_pairs[p].candidate_count, 1u)] = face;
     }
 }

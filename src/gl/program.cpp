@@ -97,6 +97,17 @@ Program Program::graphics(const std::string& vertex_file, const std::string& fra
     return program;
 }
 
+Program Program::graphics_with_geometry(const std::string& vertex_file, const std::string& geometry_file,
+                                        const std::string& fragment_file, const Defines& defines) {
+    const Shader vertex(GL_VERTEX_SHADER, vertex_file, defines);
+    const Shader geometry(GL_GEOMETRY_SHADER, geometry_file, defines);
+    const Shader fragment(GL_FRAGMENT_SHADER, fragment_file, defines);
+    Program program;
+    program.id_ =
+        link({&vertex, &geometry, &fragment}, vertex_file + ", " + geometry_file + " and " + fragment_file);
+    return program;
+}
+
 Program& Program::operator=(Program&& other) noexcept {
     std::swap(id_, other.id_);
     Program old(std::move(other));  // frees what this one held now, not when `other` ends

@@ -24,6 +24,8 @@ public:
     static Program compute(const std::string& file, const Defines& defines = {});
     static Program graphics(const std::string& vertex_file, const std::string& fragment_file,
                             const Defines& defines = {});
+    static Program graphics_with_geometry(const std::string& vertex_file, const std::string& geometry_file,
+                                          const std::string& fragment_file, const Defines& defines = {});
     Program(Program&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
     Program& operator=(Program&& other) noexcept;
     ~Program();

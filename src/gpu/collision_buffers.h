@@ -2,6 +2,7 @@
 
 #include <glm/vec4.hpp>
 
+#include "gelatin/scene.h"
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "gpu/model_buffers.h"
@@ -9,6 +10,11 @@
 #include "model/model.h"
 
 namespace gelatin::gpu {
+
+/// True where faces are sought in trees, else by brute force.
+constexpr bool walks_trees(BroadPhase broad_phase) {
+    return broad_phase == BroadPhase::hierarchy || broad_phase == BroadPhase::depth;
+}
 
 /// What the stages of collision hand to one another, for any number of objects. Sizes are for what
 /// may happen, up to limits of memory; what does not fit is counted, never forgotten in silence.
@@ -24,6 +30,9 @@ struct CollisionBuffers {
     gl::Buffer<std::uint32_t> face_collisions;  ///< a bit a face, by pair
     gl::Buffer<Dispatch> dispatches;            ///< see shaders/include/pairs.glsl
 
+    gl::Buffer<std::uint32_t> face_views, object_views;  ///< see shaders/include/hidden.glsl
+    gl::BufferTexture face_view_texels, object_view_texels;
+
     gl::Buffer<std::uint32_t> node_face_starts, node_faces;
     gl::BufferTexture node_face_start_texels, node_face_texels;
     std::uint32_t object_count = 0;
@@ -35,6 +44,9 @@ struct CollisionBuffers {
     void bind_pairs() const;
     /// Binds what include/node_faces.glsl reads: texture units 2 and 3.
     void bind_node_faces() const;
+
+    /// Binds what include/hidden.glsl reads: texture units 4 and 5.
+    void bind_hidden() const;
 
     /// The dispatches of include/pairs.glsl.
     enum class Work : unsigned {

@@ -1,10 +1,19 @@
 #include "gpu/find_face_collisions.h"
 
+#include "gpu/cull_by_depth.h"
+
 namespace gelatin::gpu {
+namespace {
+
+gl::Defines list_defines(BroadPhase broad_phase) {
+    return broad_phase == BroadPhase::depth ? CullByDepth::defines() : gl::Defines{};
+}
+
+}  // namespace
 
 FindFaceCollisions::FindFaceCollisions(BroadPhase broad_phase)
-    : walks_(broad_phase == BroadPhase::hierarchy),
-      list_program_(gl::Program::compute("sim/list_candidates.comp")),
+    : walks_(walks_trees(broad_phase)),
+      list_program_(gl::Program::compute("sim/list_candidates.comp", list_defines(broad_phase))),
       scan_program_(gl::Program::compute("sim/scan_tests.comp")),
       cull_program_(gl::Program::compute(walks_ ? "sim/walk_trees.comp" : "sim/cull_face_pairs.comp")),
       test_program_(gl::Program::compute("sim/test_face_pairs.comp")) {}
@@ -14,6 +23,7 @@ void FindFaceCollisions::run(const ModelBuffers& model, const CollisionBuffers& 
     using Work = CollisionBuffers::Work;
     const auto capacity = static_cast<std::uint32_t>(collision.face_pairs.size());
     collision.bind_pairs();
+    collision.bind_hidden();
     collision.face_boxes.bind_storage(3);
     collision.face_collisions.bind_storage(4);
     collision.candidates.bind_storage(5);

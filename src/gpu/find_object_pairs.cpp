@@ -11,7 +11,9 @@ std::uint32_t capacity(const gl::Buffer<T>& buffer) {
 }
 
 gl::Defines search_defines(BroadPhase broad_phase) {
-    return broad_phase == BroadPhase::hierarchy ? gl::Defines{"OBJECT_TREE"} : gl::Defines{};
+    if (broad_phase == BroadPhase::hierarchy) return {"OBJECT_TREE"};
+    if (broad_phase == BroadPhase::depth) return CullByDepth::defines();
+    return {};
 }
 
 }  // namespace
@@ -22,14 +24,18 @@ FindObjectPairs::FindObjectPairs(const Model& model, BroadPhase broad_phase)
       scan_program_(gl::Program::compute("sim/scan_pair_rows.comp")),
       list_program_(gl::Program::compute("sim/list_object_pairs.comp", search_defines(broad_phase))) {
     if (broad_phase == BroadPhase::hierarchy) tree_.emplace(model);
+    if (broad_phase == BroadPhase::depth) cull_by_depth_.emplace(model);
 }
 
-void FindObjectPairs::run(const ModelBuffers& model, const CollisionBuffers& collision) {
+void FindObjectPairs::run(const ModelBuffers& model, const CollisionBuffers& collision,
+                          const NodeBuffers& nodes) {
+    if (cull_by_depth_) cull_by_depth_->run(model, collision, nodes);
     if (tree_) {
         tree_->update(collision);
         tree_->bind();
     }
     collision.bind_pairs();
+    collision.bind_hidden();
     for (const gl::Program* program : {&count_program_, &list_program_}) {
         program->set("object_count", collision.object_count);
         program->set("ignore_boxes", broad_phase_ == BroadPhase::none ? 1u : 0u);
@@ -44,7 +50,7 @@ void FindObjectPairs::run(const ModelBuffers& model, const CollisionBuffers& col
     scan_program_.dispatch(kScanLanes, kScanLanes);
     gl::barrier(gl::Barrier::storage);
 
-    list_program_.set("all_faces", broad_phase_ == BroadPhase::hierarchy ? 0u : 1u);
+    list_program_.set("all_faces", walks_trees(broad_phase_) ? 0u : 1u);
     list_program_.set("candidate_capacity", capacity(collision.candidates));
     list_program_.dispatch(collision.object_count);
     gl::barrier(gl::Barrier::storage | gl::Barrier::command);

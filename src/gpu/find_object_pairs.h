@@ -4,6 +4,7 @@
 
 #include "gelatin/scene.h"
 #include "gpu/collision_buffers.h"
+#include "gpu/cull_by_depth.h"
 #include "gpu/object_tree.h"
 
 namespace gelatin::gpu {
@@ -14,11 +15,12 @@ class FindObjectPairs {
 public:
     FindObjectPairs(const Model& model, BroadPhase broad_phase);
     /// Ends with the barriers that the next stage needs.
-    void run(const ModelBuffers& model, const CollisionBuffers& collision);
+    void run(const ModelBuffers& model, const CollisionBuffers& collision, const NodeBuffers& nodes);
 
 private:
     BroadPhase broad_phase_;
-    std::optional<ObjectTree> tree_;  // with hierarchy
+    std::optional<ObjectTree> tree_;            // with hierarchy
+    std::optional<CullByDepth> cull_by_depth_;  // with depth
     gl::Program count_program_, scan_program_, list_program_;
 };
 

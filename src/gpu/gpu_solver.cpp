@@ -50,7 +50,7 @@ void GpuSolver::update_boxes() {
 }
 
 void GpuSolver::find_object_pairs() {
-    collision_->find_object_pairs.run(buffers_, collision_->buffers);
+    collision_->find_object_pairs.run(buffers_, collision_->buffers, current_);
 }
 
 void GpuSolver::find_face_collisions() {

@@ -15,6 +15,7 @@ using glm::vec4;
 #include "layouts/collider.glsl"
 #include "layouts/contact.glsl"
 #include "layouts/dispatch.glsl"
+#include "layouts/draw.glsl"
 #include "layouts/face.glsl"
 #include "layouts/half_spring_pair.glsl"
 #include "layouts/object_pair.glsl"
@@ -32,6 +33,7 @@ static_assert(sizeof(Collider) == 64);
 static_assert(sizeof(ContactPatch) == 32);
 static_assert(sizeof(ContactResponse) == 48);
 static_assert(sizeof(Dispatch) == 16);
+static_assert(sizeof(Draw) == 16);
 static_assert(sizeof(Face) == 16);
 static_assert(sizeof(FacePair) == 16);
 static_assert(sizeof(FitSums) == 48);
@@ -56,6 +58,7 @@ using layouts::Collider;
 using layouts::ContactPatch;
 using layouts::ContactResponse;
 using layouts::Dispatch;
+using layouts::Draw;
 using layouts::Face;
 using layouts::FacePair;
 using layouts::FitSums;

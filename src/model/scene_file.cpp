@@ -53,9 +53,11 @@ SimulationSettings read_simulation(TableReader reader) {
 
 CollisionSettings read_collision(TableReader reader) {
     CollisionSettings settings;
-    reader.read(
-        "broad_phase", settings.broad_phase,
-        {{"none", BroadPhase::none}, {"boxes", BroadPhase::boxes}, {"hierarchy", BroadPhase::hierarchy}});
+    reader.read("broad_phase", settings.broad_phase,
+                {{"none", BroadPhase::none},
+                 {"boxes", BroadPhase::boxes},
+                 {"hierarchy", BroadPhase::hierarchy},
+                 {"depth", BroadPhase::depth}});
     reader.read("response", settings.response, {{"restore", CollisionResponse::restore}});
     reader.read("self_collision", settings.self_collision);
     reader.read("friction", settings.friction, kNotNegative);

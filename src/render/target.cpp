@@ -9,18 +9,6 @@
 
 namespace gelatin::render {
 
-FramebufferGuard::FramebufferGuard() {
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw_);
-    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_);
-    glGetIntegerv(GL_VIEWPORT, viewport_);
-}
-
-FramebufferGuard::~FramebufferGuard() {
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(draw_));
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read_));
-    glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
-}
-
 PixelRect PixelRect::joined(const PixelRect& other) const {
     if (is_empty()) return other;
     if (other.is_empty()) return *this;

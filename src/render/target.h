@@ -2,21 +2,11 @@
 
 #include <utility>
 
+#include "gl/draw_state.h"
+
 namespace gelatin::render {
 
-/// Puts back the framebuffers and the viewport of the application that draws around this library.
-class FramebufferGuard {
-public:
-    FramebufferGuard();
-    FramebufferGuard(const FramebufferGuard&) = delete;
-    FramebufferGuard& operator=(const FramebufferGuard&) = delete;
-    ~FramebufferGuard();
-
-private:
-    int draw_ = 0;
-    int read_ = 0;
-    int viewport_[4] = {};
-};
+using gl::FramebufferGuard;
 
 /// Pixels of a picture: columns [left, right), rows [bottom, top).
 struct PixelRect {

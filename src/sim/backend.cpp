@@ -6,6 +6,16 @@
 
 namespace gelatin {
 
+SimulatorOptions with_needed_backend(SimulatorOptions options, const Scene& scene) {
+    if (scene.collision.broad_phase != BroadPhase::depth) return options;
+    if (options.backend == Backend::cpu) {
+        throw InvalidInput({scene.file.string(), 0, "collision.broad_phase", "\"depth\"",
+                            "needs OpenGL; with --backend cpu it must be none, boxes or hierarchy"});
+    }
+    options.backend = Backend::gl;
+    return options;
+}
+
 std::optional<gl::Context> make_context(const SimulatorOptions& options) {
     if (options.use_current_context) return gl::Context::current();
     if (options.backend == Backend::cpu && !options.need_gl) return std::nullopt;

@@ -9,6 +9,10 @@
 
 namespace gelatin {
 
+/// The options with the backend that the scene needs in place of `automatic`, if it needs one.
+/// @throws InvalidInput if another one is asked for.
+SimulatorOptions with_needed_backend(SimulatorOptions options, const Scene& scene);
+
 /// The context that the options ask for: the host's, a headless one, or none where nothing needs GL.
 /// @throws NoOpenGl if GL is needed and there is none.
 std::optional<gl::Context> make_context(const SimulatorOptions& options);

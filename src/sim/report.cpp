@@ -132,6 +132,8 @@ const char* name_of(BroadPhase broad_phase) {
             return "boxes";
         case BroadPhase::hierarchy:
             return "hierarchy";
+        case BroadPhase::depth:
+            return "depth";
     }
     return "";
 }

@@ -65,12 +65,12 @@ struct Simulator::Impl {
 Simulator::Simulator(const Scene& scene, const SimulatorOptions& options) : impl_(std::make_unique<Impl>()) {
     Impl& d = *impl_;
     d.scene = scene;
-    d.options = options;
+    d.options = with_needed_backend(options, scene);
     d.model = std::make_shared<const Model>(build_model(scene));
     d.substeps = choose_substeps(scene, *d.model);
-    d.context = make_context(options);
+    d.context = make_context(d.options);
     const SimulationSettings& settings = scene.simulation;
-    if (choose_gl(options, d.context)) {
+    if (choose_gl(d.options, d.context)) {
         auto solver =
             std::make_unique<gpu::GpuSolver>(d.model, settings.solver, settings.forces, scene.collision);
         d.gpu_solver = solver.get();

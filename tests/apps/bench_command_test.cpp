@@ -95,7 +95,8 @@ TEST_F(BenchPaper, MeasuresEverySystemDrawnAndUndrawn) {
         EXPECT_EQ(row["window_frames"], until_contact ? contact_free[row["scene"]] : kFrames);
     }
     for (const char* system : {"paper, CPU single core", "paper, GPU", "paper, GPU, no boxes, until contact",
-                               "paper, GPU, boxes, until contact", "fast"}) {
+                               "paper, GPU, boxes, until contact", "paper, GPU, hierarchy, until contact",
+                               "paper, GPU, depth, until contact", "fast"}) {
         EXPECT_EQ(rows[system], 4) << system;  // two scenes, drawn and undrawn
         EXPECT_THAT(result.out, HasSubstr(std::string("| ") + system));
     }

@@ -43,6 +43,13 @@ TEST_F(InfoCommand, TellsAboutAScene) {
     EXPECT_NEAR(info["step_size"].get<double>() * info["substeps"].get<int>(), 0.01, 1e-15);
 }
 
+TEST_F(InfoCommand, NeedsNoOpenGlForASceneThatDoes) {
+    write("depth.toml", read_file(path("cube.toml")) + "\n[collision]\nbroad_phase = 'depth'\n");
+    const ProgramResult result = run({"info", "depth.toml", "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(json::parse(result.out)["counts"]["objects"], 1);
+}
+
 TEST_F(InfoCommand, TellsAboutASurface) {
     write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n");
     const ProgramResult result = run({"info", "open.obj", "--json"});

@@ -64,6 +64,24 @@ TEST_F(ProgramTest, LinkErrorNamesBothFiles) {
     ignore_debug_messages();
 }
 
+TEST_F(ProgramTest, LinksAGeometryShaderBetweenTheOthers) {
+    folder_.add("a.vert", "out float a; void main() { a = 1.0; gl_Position = vec4(0.0); }\n");
+    folder_.add("a.geom",
+                "layout(points) in; layout(points, max_vertices = 1) out; in float a[]; out float b;\n"
+                "void main() { b = a[0]; EmitVertex(); }\n");
+    folder_.add("b.geom", "layout(points) in;\nvoid main() { nonsense }\n");
+    folder_.add("a.frag", "in float b; out vec4 o; void main() { o = vec4(b); }\n");
+    EXPECT_NE(Program::graphics_with_geometry("a.vert", "a.geom", "a.frag").id(), 0u);
+    try {
+        Program::graphics_with_geometry("a.vert", "b.geom", "a.frag");
+        FAIL() << "expected GlError";
+    } catch (const GlError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("b.geom does not compile"));
+        EXPECT_THAT(error.what(), HasSubstr("b.geom:2"));
+    }
+    ignore_debug_messages();
+}
+
 TEST_F(ProgramTest, SetsUniformsOfEveryType) {
     folder_.add("uniforms.comp", R"(
         layout(local_size_x = 1) in;

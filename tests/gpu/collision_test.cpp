@@ -13,6 +13,9 @@
 namespace gelatin {
 namespace {
 
+constexpr BroadPhase kBroadPhases[] = {BroadPhase::none, BroadPhase::boxes, BroadPhase::hierarchy,
+                                       BroadPhase::depth};
+
 class CollisionOnGpuTest : public test::GlTest {};
 
 TEST_F(CollisionOnGpuTest, BoxesAreThoseOfTheCpu) {
@@ -45,7 +48,7 @@ TEST_P(CrowdOnGpuTest, CollidesAsOnTheCpu) {
     const Model model = test::make_crowd(GetParam(), static_cast<unsigned>(GetParam()));
     const test::FaceCollisions expected = test::find_collisions_on_cpu<float>(model, BroadPhase::none);
     EXPECT_FALSE(expected.empty()) << "the crowd is not dense enough to test anything";
-    for (const BroadPhase broad_phase : {BroadPhase::none, BroadPhase::boxes, BroadPhase::hierarchy}) {
+    for (const BroadPhase broad_phase : kBroadPhases) {
         EXPECT_EQ(test::find_collisions_on_gpu(model, broad_phase), expected);
     }
 }
@@ -61,7 +64,7 @@ TEST_F(CollisionOnGpuTest, ObjectsOfDifferentSizesCollideAsOnTheCpu) {
     const Model model = pack_bodies(bodies, {}, {0.0, 0.0, 0.0});
     const test::FaceCollisions expected = test::find_collisions_on_cpu<float>(model, BroadPhase::none);
     EXPECT_GT(expected.size(), 50u);
-    for (const BroadPhase broad_phase : {BroadPhase::none, BroadPhase::boxes, BroadPhase::hierarchy}) {
+    for (const BroadPhase broad_phase : kBroadPhases) {
         EXPECT_EQ(test::find_collisions_on_gpu(model, broad_phase), expected);
     }
 }

@@ -61,6 +61,10 @@ TEST_F(LayoutsTest, HalfSpringPair) {
           {FIELD(HalfSpringPair, node_0), FIELD(HalfSpringPair, rest_length_0), FIELD(HalfSpringPair, node_1),
            FIELD(HalfSpringPair, rest_length_1)});
 }
+TEST_F(LayoutsTest, Draw) {
+    check("draw.glsl", "Draw", sizeof(Draw),
+          {FIELD(Draw, count), FIELD(Draw, instance_count), FIELD(Draw, first), FIELD(Draw, first_instance)});
+}
 TEST_F(LayoutsTest, Face) {
     check("face.glsl", "Face", sizeof(Face),
           {FIELD(Face, a), FIELD(Face, b), FIELD(Face, c), FIELD(Face, object)});

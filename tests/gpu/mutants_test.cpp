@@ -67,6 +67,11 @@ TEST_P(MarkMutantsTest, IsCaught) {
     EXPECT_NE(test::mark_faces_on_gpu(model), right) << "the broken kernel passes";
 }
 
+bool is_wrong_by_depth(const Model& model) {
+    return test::find_collisions_on_gpu(model, BroadPhase::depth) !=
+           test::find_collisions_on_cpu<float>(model, BroadPhase::hierarchy);
+}
+
 class CollisionMutantsTest : public test::GlTest, public ::testing::WithParamInterface<test::Break> {};
 INSTANTIATE_TEST_SUITE_P(All, CollisionMutantsTest, ::testing::ValuesIn(test::kCollisionMutants),
                          name_of_mutant);
@@ -81,10 +86,13 @@ TEST_P(CollisionMutantsTest, IsCaught) {
             caught = caught || test::find_collisions_on_gpu(model, broad_phase) !=
                                    test::find_collisions_on_cpu<float>(model, broad_phase);
         }
+        caught = caught || is_wrong_by_depth(model);
         const CollisionSettings settings{.friction = 0.4, .restitution = 0.7};
         caught = caught || test::worst_response_error(model, settings, kStep,
                                                       test::respond_on_gpu(model, settings, kStep)) > 1.0;
     }
+    for (const double extent : {2.0, 4.0, 100.0})
+        caught = caught || is_wrong_by_depth(test::make_far_pairs(100, extent));
     EXPECT_TRUE(caught) << "the broken kernel passes";
 }
 

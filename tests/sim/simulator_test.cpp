@@ -94,6 +94,22 @@ TEST_F(SimulatorTest, BackendsAgreeThroughAnImpact) {
     EXPECT_LT(largest_difference(gl.read_frame(), cpu.read_frame()), 1e-4);
 }
 
+TEST_F(SimulatorTest, DepthNeedsGl) {
+    Scene scene = falling_balls();
+    scene.file = "balls.toml";
+    scene.collision.broad_phase = BroadPhase::depth;
+    EXPECT_TRUE(Simulator(scene, on(Backend::automatic)).uses_gl());
+    try {
+        Simulator(scene, on(Backend::cpu));
+        ADD_FAILURE() << "not refused";
+    } catch (const InvalidInput& error) {
+        EXPECT_STREQ(error.what(),
+                     "balls.toml: collision.broad_phase = \"depth\": needs OpenGL; with --backend cpu it "
+                     "must be none, "
+                     "boxes or hierarchy");
+    }
+}
+
 TEST_F(SimulatorTest, StatisticsComeInOrderAndConserveEnergyInFlight) {
     for (const Backend backend : {Backend::cpu, Backend::gl}) {
         Simulator simulator(falling_balls(), on(backend));

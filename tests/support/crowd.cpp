@@ -35,13 +35,15 @@ void run_detection(gpu::Collision& collision, const gpu::ModelBuffers& model, co
     gpu::CollisionBuffers& buffers = collision.buffers;
     poison(buffers.face_boxes);
     poison(buffers.face_trees.boxes);
+    poison(buffers.face_views);
+    poison(buffers.object_views);
     poison(buffers.pair_rows);
     poison(buffers.object_pairs);
     poison(buffers.candidates);
     poison(buffers.face_pairs);
     poison(buffers.face_collisions);
     collision.update_boxes.run(model, buffers, nodes);
-    collision.find_object_pairs.run(model, buffers);
+    collision.find_object_pairs.run(model, buffers, nodes);
     collision.find_face_collisions.run(model, buffers, nodes);
 }
 
@@ -78,6 +80,26 @@ Model make_crowd(int count, unsigned seed) {
             model.velocities[n] = glm::vec4(0.0f, 0.0f, 0.0f, model.velocities[n].w);
     }
     return model;
+}
+
+Model make_far_pairs(int count, double extent, unsigned seed) {
+    constexpr double kSide = 0.05, kDistance = 0.99 * kSide;  // of the centres: their inner spheres overlap
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    const auto vector = [&] { return glm::dvec3(unit(random), unit(random), unit(random)); };
+    std::vector<Body> bodies;
+    for (int i = 0; i < count; ++i) {
+        const glm::dvec3 place = 0.5 * extent * vector(), apart = kDistance * glm::normalize(vector());
+        for (const glm::dvec3& center : {place, place + apart}) {
+            Body cube = make_body(make_block({1, 1, 1}, glm::dvec3(kSide)));
+            cube.name = "cube " + std::to_string(bodies.size());
+            const glm::dquat turn =
+                glm::normalize(glm::dquat(unit(random), unit(random), unit(random), unit(random)));
+            for (glm::dvec3& p : cube.mesh.positions) p = center + turn * (p - 0.5 * kSide);
+            bodies.push_back(std::move(cube));
+        }
+    }
+    return pack_bodies(bodies, {}, {0.0, 0.0, 0.0});
 }
 
 FaceCollisions find_collisions_by_brute_force(const Model& model) {

@@ -15,6 +15,10 @@ namespace gelatin::test {
 /// some nodes of the first are pinned.
 Model make_crowd(int count, unsigned seed = 1);
 
+/// `count` pairs of cubes of 5 cm that overlap a little, turned at random and strewn over a cube of side
+/// `extent` [m].
+Model make_far_pairs(int count, double extent, unsigned seed = 1);
+
 /// Faces and the objects that they touch, in ascending order.
 using FaceCollisions = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
