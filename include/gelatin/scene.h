@@ -35,12 +35,19 @@ enum class BroadPhase {
     hierarchy,  ///< of those objects, the faces that trees of boxes lead to
 };
 
+/// When faces are looked at: as they lie at the end of a step, or all the way there.
+enum class CollisionDetection {
+    discrete,    ///< the paper's: faces that overlap at the end of the step
+    continuous,  ///< and those that touch on the way, each node moving straight
+};
+
 /// What happens to objects whose faces meet: `restore` is the paper's (2.4), nodes return to where they were
 /// and their velocities respond.
 enum class CollisionResponse { restore };
 
 struct CollisionSettings {
     BroadPhase broad_phase = BroadPhase::hierarchy;
+    CollisionDetection detection = CollisionDetection::discrete;
     CollisionResponse response = CollisionResponse::restore;
     double friction = 0.4;     ///< Coulomb's coefficient, >= 0
     double restitution = 0.3;  ///< normal speed after over before, in [0, 1]

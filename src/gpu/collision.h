@@ -19,8 +19,9 @@ struct Collision {
     /// @pre the model has at least two objects
     Collision(const Model& model, const CollisionSettings& settings)
         : buffers(model),
+          update_boxes(settings.detection),
           find_object_pairs(model, settings.broad_phase),
-          find_face_collisions(settings.broad_phase),
+          find_face_collisions(settings),
           respond(buffers, settings) {}
 };
 

@@ -44,7 +44,7 @@ void GpuSolver::advance_nodes(double step) {
 }
 
 void GpuSolver::update_boxes() {
-    collision_->update_boxes.run(buffers_, collision_->buffers, current_);
+    collision_->update_boxes.run(buffers_, collision_->buffers, previous_, current_);
 }
 
 void GpuSolver::find_object_pairs() {
@@ -52,11 +52,10 @@ void GpuSolver::find_object_pairs() {
 }
 
 void GpuSolver::find_face_collisions() {
-    collision_->find_face_collisions.run(buffers_, collision_->buffers, current_);
+    collision_->find_face_collisions.run(buffers_, collision_->buffers, previous_, current_);
 }
 
 void GpuSolver::respond(double step) {
-    // advance_nodes has swapped: previous_ is where this step started.
     collision_->respond.run(buffers_, collision_->buffers, previous_, current_, step);
 }
 

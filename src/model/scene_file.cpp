@@ -56,6 +56,8 @@ CollisionSettings read_collision(TableReader reader) {
     reader.read(
         "broad_phase", settings.broad_phase,
         {{"none", BroadPhase::none}, {"boxes", BroadPhase::boxes}, {"hierarchy", BroadPhase::hierarchy}});
+    reader.read("detection", settings.detection,
+                {{"discrete", CollisionDetection::discrete}, {"continuous", CollisionDetection::continuous}});
     reader.read("response", settings.response, {{"restore", CollisionResponse::restore}});
     reader.read("friction", settings.friction, kNotNegative);
     reader.read("restitution", settings.restitution, kFraction);

@@ -64,9 +64,12 @@ TEST_P(CollisionMutantsTest, IsCaught) {
     bool caught = false;
     for (const int objects : {7, 30}) {
         const Model model = test::make_crowd(objects, 1);
-        for (const BroadPhase broad_phase : {BroadPhase::boxes, BroadPhase::hierarchy}) {
-            caught = caught || test::find_collisions_on_gpu(model, broad_phase) !=
-                                   test::find_collisions_on_cpu<float>(model, broad_phase);
+        for (const CollisionSettings& detection :
+             {CollisionSettings{.broad_phase = BroadPhase::boxes}, CollisionSettings{},
+              CollisionSettings{.detection = CollisionDetection::continuous}}) {
+            constexpr double kLongStep = 0.1;  // on its way a block meets others [s]
+            caught = caught || test::find_collisions_on_gpu(model, detection, kLongStep) !=
+                                   test::find_collisions_on_cpu<float>(model, detection, kLongStep);
         }
         const CollisionSettings settings{.friction = 0.4, .restitution = 0.7};
         caught = caught || test::worst_response_error(model, settings, kStep,
