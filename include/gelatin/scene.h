@@ -36,12 +36,19 @@ enum class BroadPhase {
     depth,      ///< of those objects, the faces that are hidden from all sides by others; needs OpenGL
 };
 
+/// When faces are looked at: as they lie at the end of a step, or all the way there.
+enum class CollisionDetection {
+    discrete,    ///< the paper's: faces that overlap at the end of the step
+    continuous,  ///< and those that touch on the way, each node moving straight
+};
+
 /// What happens to objects whose faces meet: `restore` is the paper's (2.4), nodes return to where they were
 /// and their velocities respond.
 enum class CollisionResponse { restore };
 
 struct CollisionSettings {
     BroadPhase broad_phase = BroadPhase::hierarchy;
+    CollisionDetection detection = CollisionDetection::discrete;
     CollisionResponse response = CollisionResponse::restore;
     bool self_collision = false;  ///< faces of one object against one another too
     double friction = 0.4;        ///< Coulomb's coefficient, >= 0

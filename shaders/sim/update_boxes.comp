@@ -1,5 +1,5 @@
 // Boxes of the nodes of trees, one level a dispatch, leaves first. LEAVES: those over faces, whose boxes they make too.
-// OBJECTS: those over objects. Neither: inner nodes. The box of a face tree's root is its object's bounding box.
+// CONTINUOUS: their boxes over the whole step. OBJECTS: those over objects. Neither: inner nodes. The box of a face tree's root is its object's bounding box.
 // CPU twin: gelatin::cpu::Collision. Parity: tests/gpu/collision_test.cpp.
 #include "include/global_index.glsl"
 #include "layouts/box.glsl"
@@ -10,6 +10,7 @@ layout(local_size_x = 64) in;
 layout(binding = 0) uniform samplerBuffer positions;   // xyz [m]
 layout(binding = 1) uniform usamplerBuffer tree_nodes;  // TreeNode
 layout(binding = 2) uniform usamplerBuffer object_order;
+layout(binding = 3) uniform samplerBuffer previous_positions;  // at the start of the step, xyz [m]
 layout(std430, binding = 0) buffer BoundingBoxes { BoundingBox bounding_boxes[]; };
 layout(std430, binding = 1) readonly buffer Faces { Face faces[]; };
 layout(std430, binding = 2) writeonly buffer FaceBoxes { Box face_boxes[]; };
@@ -21,12 +22,19 @@ uniform uint node_count;
 Box join(Box a, Box b) { return Box(min(a.min, b.min), max(a.max, b.max)); }
 
 #ifdef LEAVES
-Box box_of_face(uint f) {
-    Face face = faces[f];
-    vec3 a = texelFetch(positions, int(face.a)).xyz;
-    vec3 b = texelFetch(positions, int(face.b)).xyz;
-    vec3 c = texelFetch(positions, int(face.c)).xyz;
+Box box_of_corners(Face face, samplerBuffer at) {
+    vec3 a = texelFetch(at, int(face.a)).xyz;
+    vec3 b = texelFetch(at, int(face.b)).xyz;
+    vec3 c = texelFetch(at, int(face.c)).xyz;
     return Box(vec4(min(a, min(b, c)), 0.0), vec4(max(a, max(b, c)), 0.0));
+}
+
+Box box_of_face(uint f) {
+    Box box = box_of_corners(faces[f], positions);
+#ifdef CONTINUOUS
+    box = join(box, box_of_corners(faces[f], previous_positions));
+#endif
+    return box;
 }
 #endif
 

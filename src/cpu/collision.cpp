@@ -7,6 +7,7 @@
 #include <atomic>
 #include <utility>
 
+#include "cpu/time_of_impact.h"
 #include "cpu/triangle_overlap.h"
 
 namespace gelatin::cpu {
@@ -28,9 +29,11 @@ Triangle<Real> triangle(std::span<const Vec4<Real>> positions, const Face& face)
 }  // namespace
 
 template <class Real>
-Collision<Real>::Collision(std::shared_ptr<const Model> model, BroadPhase broad_phase)
+Collision<Real>::Collision(std::shared_ptr<const Model> model, BroadPhase broad_phase,
+                           CollisionDetection detection)
     : model_(std::move(model)),
       broad_phase_(broad_phase),
+      detection_(detection),
       face_boxes_(model_->faces.size()),
       tree_boxes_(model_->face_trees.nodes.size()),
       bounding_boxes_(model_->objects.size()),
@@ -39,13 +42,18 @@ Collision<Real>::Collision(std::shared_ptr<const Model> model, BroadPhase broad_
       row_starts_(model_->objects.size() + 1) {}
 
 template <class Real>
-void Collision<Real>::update_boxes(std::span<const Vec4<Real>> positions) {
+void Collision<Real>::update_boxes(std::span<const Vec4<Real>> positions,
+                                   std::span<const Vec4<Real>> previous) {
+    const bool continuous = detection_ == CollisionDetection::continuous;
     const auto faces = static_cast<std::uint32_t>(model_->faces.size());
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, faces, kFacesATask), [&](const auto& range) {
         for (std::uint32_t f = range.begin(); f < range.end(); ++f) {
             const Face& face = model_->faces[f];
             AxisBox<Real> box;
-            for (const std::uint32_t n : {face.a, face.b, face.c}) box.add(Vec3<Real>(positions[n]));
+            for (const std::uint32_t n : {face.a, face.b, face.c}) {
+                box.add(Vec3<Real>(positions[n]));
+                if (continuous) box.add(Vec3<Real>(previous[n]));
+            }
             face_boxes_[f] = box;
         }
     });
@@ -113,9 +121,23 @@ void Collision<Real>::find_partners(std::uint32_t object) {
 }
 
 template <class Real>
-void Collision<Real>::find_face_collisions(std::span<const Vec4<Real>> positions) {
+void Collision<Real>::find_face_collisions(std::span<const Vec4<Real>> positions,
+                                           std::span<const Vec4<Real>> previous) {
+    const auto overlap = [&](const Face& a, const Face& b) {
+        return triangles_overlap(triangle(positions, a), triangle(positions, b));
+    };
+    const auto touch_on_the_way = [&](const Face& a, const Face& b) {
+        return time_of_impact<Real, 3, 3>({triangle(previous, a), triangle(positions, a)},
+                                          {triangle(previous, b), triangle(positions, b)})
+            .has_value();
+    };
     tbb::parallel_for(std::size_t(0), pairs_.size(), [&](std::size_t p) {
-        if (starts_tests(pairs_[p])) test_candidates(positions, pairs_[p]);
+        if (!starts_tests(pairs_[p])) return;
+        if (detection_ == CollisionDetection::continuous) {
+            test_candidates(pairs_[p], touch_on_the_way);
+        } else {
+            test_candidates(pairs_[p], overlap);
+        }
     });
 }
 
@@ -163,16 +185,17 @@ void Collision<Real>::for_faces_near(const ObjectPair& pair, std::uint32_t face,
 }
 
 template <class Real>
-void Collision<Real>::test_candidates(std::span<const Vec4<Real>> positions, const ObjectPair& pair) {
+template <class Touch>
+void Collision<Real>::test_candidates(const ObjectPair& pair, const Touch& touch) {
     const std::vector<std::uint32_t> candidates = find_candidates(pair);
     const bool brute_force = broad_phase_ != BroadPhase::hierarchy;
     const std::size_t grain =
         brute_force ? 1 + kTestsATask / model_->objects[pair.other].faces.count : kWalksATask;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), grain), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            const Triangle<Real> face = triangle(positions, model_->faces[candidates[i]]);
+            const Face& face = model_->faces[candidates[i]];
             for_faces_near(pair, candidates[i], [&](std::uint32_t other) {
-                if (!triangles_overlap(face, triangle(positions, model_->faces[other]))) return;
+                if (!touch(face, model_->faces[other])) return;
                 set_colliding(pair, candidates[i]);
                 set_colliding(pairs_[pair.mirror], other);
             });

@@ -23,16 +23,19 @@ struct ObjectPair {
 template <class Real>
 class Collision {
 public:
-    Collision(std::shared_ptr<const Model> model, BroadPhase broad_phase);
+    explicit Collision(std::shared_ptr<const Model> model, BroadPhase broad_phase = BroadPhase::hierarchy,
+                       CollisionDetection detection = CollisionDetection::discrete);
 
-    /// The box of each face, and of each object.
-    void update_boxes(std::span<const Vec4<Real>> positions);
+    /// The box of each face, and of each object; with continuous detection over the whole step.
+    /// @param previous the positions at its start, which discrete detection does not read
+    void update_boxes(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> previous = {});
 
     /// The pairs of objects that may touch, row by row, in the order of the others' indices.
     void find_object_pairs();
 
     /// Face against face in these pairs.
-    void find_face_collisions(std::span<const Vec4<Real>> positions);
+    void find_face_collisions(std::span<const Vec4<Real>> positions,
+                              std::span<const Vec4<Real>> previous = {});
 
     const std::vector<AxisBox<Real>>& bounding_boxes() const { return bounding_boxes_; }
     const std::vector<AxisBox<Real>>& face_boxes() const { return face_boxes_; }
@@ -56,11 +59,13 @@ private:
     std::vector<std::uint32_t> find_candidates(const ObjectPair& pair) const;
     template <class Found>
     void for_faces_near(const ObjectPair& pair, std::uint32_t face, const Found& found) const;
-    void test_candidates(std::span<const Vec4<Real>> positions, const ObjectPair& pair);
+    template <class Touch>
+    void test_candidates(const ObjectPair& pair, const Touch& touch);
     void set_colliding(const ObjectPair& pair, std::uint32_t face);
 
     std::shared_ptr<const Model> model_;
     BroadPhase broad_phase_;
+    CollisionDetection detection_;
     std::vector<AxisBox<Real>> face_boxes_;      // shape [faces]
     std::vector<AxisBox<Real>> tree_boxes_;      // of Model::face_trees; shape [nodes]
     std::vector<AxisBox<Real>> bounding_boxes_;  // shape [objects]

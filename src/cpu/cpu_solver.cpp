@@ -38,7 +38,7 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
     : model_(std::move(model)),
       scheme_(explicit_scheme(solver)),
       forces_(forces),
-      collision_(model_, collision.broad_phase),
+      collision_(model_, collision.broad_phase, collision.detection),
       contact_{collision.friction, collision.restitution} {
     current_ = {converted<Real>(model_->positions), converted<Real>(model_->velocities)};
     previous_ = current_;
@@ -86,7 +86,6 @@ void CpuSolver<Real>::run_pass(const Pass<Real>& pass) {
 
 template <class Real>
 void CpuSolver<Real>::respond(double step) {
-    // advance_nodes has swapped: previous_ is where this step started.
     // An object's own contacts first: they are sought for anew, where they were found.
     if (self_) self_->response.run(self_->collision, static_cast<Real>(step), previous_, current_);
     cpu::respond(*model_, collision_, contact_, static_cast<Real>(step), previous_, current_);

@@ -22,9 +22,11 @@ public:
               const CollisionSettings& collision = {});
 
     void advance_nodes(double step) override;
-    void update_boxes() override { collision_.update_boxes(current_.positions); }
+    void update_boxes() override { collision_.update_boxes(current_.positions, previous_.positions); }
     void find_object_pairs() override { collision_.find_object_pairs(); }
-    void find_face_collisions() override { collision_.find_face_collisions(current_.positions); }
+    void find_face_collisions() override {
+        collision_.find_face_collisions(current_.positions, previous_.positions);
+    }
     void find_self_collisions() override { self_->collision.find(current_.positions); }
     void respond(double step) override;
     void begin_measure() override;
@@ -49,7 +51,7 @@ private:
     std::shared_ptr<const Model> model_;
     ExplicitScheme scheme_;
     ForceMethod forces_;
-    Nodes<Real> current_, previous_;  // swapped by each step: what was written last is current
+    Nodes<Real> current_, previous_;  // swapped by each step: where it ended, and where it started
     Nodes<Real> stage_[2];            // between the passes of one step
     Nodes<Real> sums_;
     std::vector<Vec4<Real>> spring_forces_, node_forces_;

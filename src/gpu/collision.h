@@ -30,8 +30,9 @@ struct Collision {
 
     Collision(const Model& model, const CollisionSettings& settings)
         : buffers(model),
+          update_boxes(settings.detection),
           find_object_pairs(model, settings.broad_phase),
-          find_face_collisions(settings.broad_phase),
+          find_face_collisions(settings),
           respond(buffers, settings) {
         if (settings.self_collision) {
             self.emplace(

@@ -9,17 +9,21 @@ gl::Defines list_defines(BroadPhase broad_phase) {
     return broad_phase == BroadPhase::depth ? CullByDepth::defines() : gl::Defines{};
 }
 
+gl::Defines test_defines(CollisionDetection detection) {
+    return detection == CollisionDetection::continuous ? gl::Defines{"CONTINUOUS"} : gl::Defines{};
+}
+
 }  // namespace
 
-FindFaceCollisions::FindFaceCollisions(BroadPhase broad_phase)
-    : walks_(walks_trees(broad_phase)),
-      list_program_(gl::Program::compute("sim/list_candidates.comp", list_defines(broad_phase))),
+FindFaceCollisions::FindFaceCollisions(const CollisionSettings& settings)
+    : walks_(walks_trees(settings.broad_phase)),
+      list_program_(gl::Program::compute("sim/list_candidates.comp", list_defines(settings.broad_phase))),
       scan_program_(gl::Program::compute("sim/scan_tests.comp")),
       cull_program_(gl::Program::compute(walks_ ? "sim/walk_trees.comp" : "sim/cull_face_pairs.comp")),
-      test_program_(gl::Program::compute("sim/test_face_pairs.comp")) {}
+      test_program_(gl::Program::compute("sim/test_face_pairs.comp", test_defines(settings.detection))) {}
 
 void FindFaceCollisions::run(const ModelBuffers& model, const CollisionBuffers& collision,
-                             const NodeBuffers& nodes) const {
+                             const NodeBuffers& previous, const NodeBuffers& nodes) const {
     using Work = CollisionBuffers::Work;
     const auto capacity = static_cast<std::uint32_t>(collision.face_pairs.size());
     collision.bind_pairs();
@@ -44,6 +48,7 @@ void FindFaceCollisions::run(const ModelBuffers& model, const CollisionBuffers& 
     gl::barrier(gl::Barrier::storage | gl::Barrier::command);
 
     nodes.position_texels.bind(0);
+    previous.position_texels.bind(1);
     model.faces.bind_storage(3);
     test_program_.set("face_pair_capacity", capacity);
     collision.run(test_program_, Work::face_pairs);

@@ -11,9 +11,11 @@ namespace gelatin::gpu {
 /// where nothing is near.
 class FindFaceCollisions {
 public:
-    explicit FindFaceCollisions(BroadPhase broad_phase);
+    explicit FindFaceCollisions(const CollisionSettings& settings);
     /// Ends with the barrier that the next stage needs.
-    void run(const ModelBuffers& model, const CollisionBuffers& collision, const NodeBuffers& nodes) const;
+    /// @param previous the nodes at the start of the step, which discrete detection does not read
+    void run(const ModelBuffers& model, const CollisionBuffers& collision, const NodeBuffers& previous,
+             const NodeBuffers& nodes) const;
 
 private:
     bool walks_;  // through trees

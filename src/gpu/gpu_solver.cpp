@@ -46,7 +46,7 @@ void GpuSolver::advance_nodes(double step) {
 
 void GpuSolver::update_boxes() {
     if (!collision_) collision_.emplace(*model_, collision_settings_);
-    collision_->update_boxes.run(buffers_, collision_->buffers, current_);
+    collision_->update_boxes.run(buffers_, collision_->buffers, previous_, current_);
 }
 
 void GpuSolver::find_object_pairs() {
@@ -54,7 +54,7 @@ void GpuSolver::find_object_pairs() {
 }
 
 void GpuSolver::find_face_collisions() {
-    collision_->find_face_collisions.run(buffers_, collision_->buffers, current_);
+    collision_->find_face_collisions.run(buffers_, collision_->buffers, previous_, current_);
 }
 
 void GpuSolver::find_self_collisions() {
@@ -62,7 +62,6 @@ void GpuSolver::find_self_collisions() {
 }
 
 void GpuSolver::respond(double step) {
-    // advance_nodes has swapped: previous_ is where this step started.
     // An object's own contacts first: they are sought for anew, where they were found.
     if (collision_->self) {
         collision_->self->respond.run(buffers_, collision_->buffers, collision_->self->buffers, previous_,

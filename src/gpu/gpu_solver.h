@@ -47,7 +47,7 @@ private:
     ExplicitScheme scheme_;
     CollisionSettings collision_settings_;
     ModelBuffers buffers_;
-    NodeBuffers current_, previous_;  // swapped by each step: what was written last is current
+    NodeBuffers current_, previous_;  // swapped by each step: where it ended, and where it started
     NodeBuffers stage_[2], sums_;     // between the passes of one step
     std::optional<AdvanceNodes> fused_;
     std::optional<DivideAndMerge> divide_and_merge_;

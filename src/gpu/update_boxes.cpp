@@ -2,8 +2,10 @@
 
 namespace gelatin::gpu {
 
-UpdateBoxes::UpdateBoxes()
-    : leaf_program_(gl::Program::compute("sim/update_boxes.comp", {"LEAVES"})),
+UpdateBoxes::UpdateBoxes(CollisionDetection detection)
+    : leaf_program_(gl::Program::compute("sim/update_boxes.comp", detection == CollisionDetection::continuous
+                                                                      ? gl::Defines{"LEAVES", "CONTINUOUS"}
+                                                                      : gl::Defines{"LEAVES"})),
       node_program_(gl::Program::compute("sim/update_boxes.comp")) {}
 
 void update_level(const gl::Program& program, const TreeBuffers& trees, std::size_t level) {
@@ -15,10 +17,11 @@ void update_level(const gl::Program& program, const TreeBuffers& trees, std::siz
 }
 
 void UpdateBoxes::run(const ModelBuffers& model, const CollisionBuffers& collision,
-                      const NodeBuffers& nodes) const {
+                      const NodeBuffers& previous, const NodeBuffers& nodes) const {
     const TreeBuffers& trees = collision.face_trees;
     nodes.position_texels.bind(0);
     trees.node_texels.bind(1);
+    previous.position_texels.bind(3);
     collision.bounding_boxes.bind_storage(0);
     model.faces.bind_storage(1);
     collision.face_boxes.bind_storage(2);

@@ -58,6 +58,10 @@ CollisionSettings read_collision(TableReader reader) {
                  {"boxes", BroadPhase::boxes},
                  {"hierarchy", BroadPhase::hierarchy},
                  {"depth", BroadPhase::depth}});
+    reader.read("detection", settings.detection,
+                {{"discrete", CollisionDetection::discrete}, {"continuous", CollisionDetection::continuous}});
+    if (settings.broad_phase == BroadPhase::depth && settings.detection == CollisionDetection::continuous)
+        reader.fail("detection", "must be \"discrete\" with broad_phase = \"depth\", which sees one moment");
     reader.read("response", settings.response, {{"restore", CollisionResponse::restore}});
     reader.read("self_collision", settings.self_collision);
     reader.read("friction", settings.friction, kNotNegative);

@@ -21,6 +21,7 @@ Json settings_json(const RunReport& report) {
             {"step_size", report.step_size},
             {"frames", settings.frames},
             {"broad_phase", name_of(report.collision.broad_phase)},
+            {"detection", name_of(report.collision.detection)},
             {"response", name_of(report.collision.response)},
             {"self_collision", report.collision.self_collision},
             {"gravity", {settings.gravity.x, settings.gravity.y, settings.gravity.z}}};
@@ -136,6 +137,10 @@ const char* name_of(BroadPhase broad_phase) {
             return "depth";
     }
     return "";
+}
+
+const char* name_of(CollisionDetection detection) {
+    return detection == CollisionDetection::continuous ? "continuous" : "discrete";
 }
 
 const char* name_of(CollisionResponse /*response*/) {

@@ -38,6 +38,7 @@ double percentile(std::vector<double> values, double fraction);
 const char* name_of(SolverKind solver);
 const char* name_of(ForceMethod forces);
 const char* name_of(BroadPhase broad_phase);
+const char* name_of(CollisionDetection detection);
 const char* name_of(CollisionResponse response);
 
 }  // namespace gelatin

@@ -18,19 +18,19 @@ constexpr BroadPhase kBroadPhases[] = {BroadPhase::none, BroadPhase::boxes, Broa
 
 class CollisionOnGpuTest : public test::GlTest {};
 
-TEST_F(CollisionOnGpuTest, BoxesAreThoseOfTheCpu) {
-    const Model model = test::make_crowd(70);  // more objects than lanes
+void expect_boxes_of_the_cpu(const Model& model, CollisionDetection detection) {
     const gpu::ModelBuffers model_buffers(model);
-    const gpu::NodeBuffers nodes(model.positions, model.velocities);
+    const std::vector<glm::vec4> before = test::positions_before(model, 0.1);
+    const gpu::NodeBuffers nodes(model.positions, model.velocities), previous(before, model.velocities);
     const gpu::CollisionBuffers buffers(model);
-    const gpu::UpdateBoxes stage;
-    stage.run(model_buffers, buffers, nodes);
+    const gpu::UpdateBoxes stage(detection);
+    stage.run(model_buffers, buffers, previous, nodes);
     gl::barrier(gl::Barrier::buffer_update);
     std::vector<BoundingBox> boxes(model.objects.size());
     buffers.bounding_boxes.download(boxes);
 
-    cpu::Collision<float> expected(std::make_shared<const Model>(model), BroadPhase::boxes);
-    expected.update_boxes(model.positions);
+    cpu::Collision<float> expected(std::make_shared<const Model>(model), BroadPhase::boxes, detection);
+    expected.update_boxes(model.positions, before);
     for (std::size_t o = 0; o < boxes.size(); ++o) {
         EXPECT_EQ(glm::vec3(boxes[o].min), expected.bounding_boxes()[o].min);
         EXPECT_EQ(glm::vec3(boxes[o].max), expected.bounding_boxes()[o].max);
@@ -41,15 +41,34 @@ TEST_F(CollisionOnGpuTest, BoxesAreThoseOfTheCpu) {
     }
 }
 
+TEST_F(CollisionOnGpuTest, BoxesAreThoseOfTheCpu) {
+    const Model model = test::make_crowd(70);  // more objects than lanes
+    for (const auto detection : {CollisionDetection::discrete, CollisionDetection::continuous})
+        expect_boxes_of_the_cpu(model, detection);
+}
+
 class CrowdOnGpuTest : public test::GlTest, public ::testing::WithParamInterface<int> {};
 INSTANTIATE_TEST_SUITE_P(Objects, CrowdOnGpuTest, ::testing::Values(2, 3, 7, 30, 200));
 
 TEST_P(CrowdOnGpuTest, CollidesAsOnTheCpu) {
     const Model model = test::make_crowd(GetParam(), static_cast<unsigned>(GetParam()));
-    const test::FaceCollisions expected = test::find_collisions_on_cpu<float>(model, BroadPhase::none);
+    const test::FaceCollisions expected =
+        test::find_collisions_on_cpu<float>(model, {.broad_phase = BroadPhase::none});
     EXPECT_FALSE(expected.empty()) << "the crowd is not dense enough to test anything";
     for (const BroadPhase broad_phase : kBroadPhases) {
-        EXPECT_EQ(test::find_collisions_on_gpu(model, broad_phase), expected);
+        EXPECT_EQ(test::find_collisions_on_gpu(model, {.broad_phase = broad_phase}), expected);
+    }
+}
+
+TEST_P(CrowdOnGpuTest, CollidesOnTheWayAsOnTheCpu) {
+    constexpr double kStep = 0.1;  // [s]
+    const Model model = test::make_crowd(GetParam(), static_cast<unsigned>(GetParam()));
+    CollisionSettings settings{.detection = CollisionDetection::continuous};
+    const test::FaceCollisions expected = test::find_collisions_on_cpu<double>(model, settings, kStep);
+    EXPECT_GT(expected.size(), test::find_collisions_on_cpu<float>(model, {}).size());
+    for (const BroadPhase broad_phase : {BroadPhase::none, BroadPhase::boxes, BroadPhase::hierarchy}) {
+        settings.broad_phase = broad_phase;
+        EXPECT_EQ(test::find_collisions_on_gpu(model, settings, kStep), expected);
     }
 }
 
@@ -62,16 +81,17 @@ TEST_F(CollisionOnGpuTest, ObjectsOfDifferentSizesCollideAsOnTheCpu) {
         bodies.push_back(small);
     }
     const Model model = pack_bodies(bodies, {}, {0.0, 0.0, 0.0});
-    const test::FaceCollisions expected = test::find_collisions_on_cpu<float>(model, BroadPhase::none);
+    const test::FaceCollisions expected =
+        test::find_collisions_on_cpu<float>(model, {.broad_phase = BroadPhase::none});
     EXPECT_GT(expected.size(), 50u);
     for (const BroadPhase broad_phase : kBroadPhases) {
-        EXPECT_EQ(test::find_collisions_on_gpu(model, broad_phase), expected);
+        EXPECT_EQ(test::find_collisions_on_gpu(model, {.broad_phase = broad_phase}), expected);
     }
 }
 
 TEST_F(CollisionOnGpuTest, CountsCollidingFaces) {
     const auto model = std::make_shared<const Model>(test::make_crowd(20));
-    const auto expected = test::find_collisions_on_cpu<float>(*model, BroadPhase::hierarchy);
+    const auto expected = test::find_collisions_on_cpu<float>(*model, {});
     std::vector<std::uint32_t> counts(model->objects.size());
     for (std::size_t k = 0; k < expected.size(); ++k) {
         if (k == 0 || expected[k].first != expected[k - 1].first)

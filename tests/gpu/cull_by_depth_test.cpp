@@ -42,9 +42,9 @@ Left find_left(const Model& model, BroadPhase broad_phase = BroadPhase::depth) {
     const gpu::ModelBuffers model_buffers(model);
     const gpu::NodeBuffers nodes(model.positions, model.velocities);
     const gpu::CollisionBuffers buffers(model);
-    const gpu::UpdateBoxes update_boxes;
+    const gpu::UpdateBoxes update_boxes(CollisionDetection::discrete);
     gpu::FindObjectPairs stage(model, broad_phase);
-    update_boxes.run(model_buffers, buffers, nodes);
+    update_boxes.run(model_buffers, buffers, nodes, nodes);
     stage.run(model_buffers, buffers, nodes);
     gl::barrier(gl::Barrier::buffer_update);
     const auto hidden_in_all = [](const gl::Buffer<std::uint32_t>& views) {
@@ -65,9 +65,9 @@ class CullByDepthTest : public test::GlTest {
 protected:
     static void expect_nothing_lost(const Model& model, std::size_t least = 1) {
         const test::FaceCollisions expected =
-            test::find_collisions_on_cpu<float>(model, BroadPhase::hierarchy);
+            test::find_collisions_on_cpu<float>(model, {});
         EXPECT_GE(expected.size(), least) << "too few collisions to test anything";
-        EXPECT_EQ(test::find_collisions_on_gpu(model, BroadPhase::depth), expected);
+        EXPECT_EQ(test::find_collisions_on_gpu(model, {.broad_phase = BroadPhase::depth}), expected);
     }
 };
 
@@ -167,7 +167,7 @@ TEST_F(CullByDepthTest, LeavesTheFacesNearAContactAlone) {
     const Left left = find_left(model);
     EXPECT_EQ(left.objects.size(), 2u);
     EXPECT_LT(left.faces.size(), model.faces.size() / 10);
-    for (const auto& [face, other] : test::find_collisions_on_cpu<float>(model, BroadPhase::hierarchy))
+    for (const auto& [face, other] : test::find_collisions_on_cpu<float>(model, {}))
         EXPECT_TRUE(std::binary_search(left.faces.begin(), left.faces.end(), face)) << face;
 }
 
@@ -247,10 +247,10 @@ TEST_F(CullByDepthTest, ForgetsTheStepBefore) {
     const gpu::ModelBuffers model_buffers(model);
     gpu::NodeBuffers nodes(model.positions, model.velocities);
     const gpu::CollisionBuffers buffers(model);
-    const gpu::UpdateBoxes update_boxes;
+    const gpu::UpdateBoxes update_boxes(CollisionDetection::discrete);
     const gpu::CullByDepth stage(model);
     const auto count_left = [&] {
-        update_boxes.run(model_buffers, buffers, nodes);
+        update_boxes.run(model_buffers, buffers, nodes, nodes);
         stage.run(model_buffers, buffers, nodes);
         gl::barrier(gl::Barrier::buffer_update);
         std::vector<std::uint32_t> views(buffers.object_views.size());

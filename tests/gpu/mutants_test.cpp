@@ -68,8 +68,8 @@ TEST_P(MarkMutantsTest, IsCaught) {
 }
 
 bool is_wrong_by_depth(const Model& model) {
-    return test::find_collisions_on_gpu(model, BroadPhase::depth) !=
-           test::find_collisions_on_cpu<float>(model, BroadPhase::hierarchy);
+    return test::find_collisions_on_gpu(model, {.broad_phase = BroadPhase::depth}) !=
+           test::find_collisions_on_cpu<float>(model, {});
 }
 
 class CollisionMutantsTest : public test::GlTest, public ::testing::WithParamInterface<test::Break> {};
@@ -82,9 +82,12 @@ TEST_P(CollisionMutantsTest, IsCaught) {
     bool caught = false;
     for (const int objects : {7, 30}) {
         const Model model = test::make_crowd(objects, 1);
-        for (const BroadPhase broad_phase : {BroadPhase::boxes, BroadPhase::hierarchy}) {
-            caught = caught || test::find_collisions_on_gpu(model, broad_phase) !=
-                                   test::find_collisions_on_cpu<float>(model, broad_phase);
+        for (const CollisionSettings& detection :
+             {CollisionSettings{.broad_phase = BroadPhase::boxes}, CollisionSettings{},
+              CollisionSettings{.detection = CollisionDetection::continuous}}) {
+            constexpr double kLongStep = 0.1;  // on its way a block meets others [s]
+            caught = caught || test::find_collisions_on_gpu(model, detection, kLongStep) !=
+                                   test::find_collisions_on_cpu<float>(model, detection, kLongStep);
         }
         caught = caught || is_wrong_by_depth(model);
         const CollisionSettings settings{.friction = 0.4, .restitution = 0.7};

@@ -17,6 +17,7 @@ frames = 12
 
 [collision]
 broad_phase = "boxes"
+detection = "continuous"
 response = "restore"
 self_collision = true
 friction = 0.1
@@ -65,6 +66,7 @@ restitution = 0
     EXPECT_EQ(scene.simulation.frames, 12);
     EXPECT_EQ(scene.collision.broad_phase, BroadPhase::boxes);
     EXPECT_TRUE(scene.collision.self_collision);
+    EXPECT_EQ(scene.collision.detection, CollisionDetection::continuous);
     EXPECT_EQ(scene.collision.response, CollisionResponse::restore);
     EXPECT_EQ(scene.collision.friction, 0.1);
     EXPECT_EQ(scene.collision.restitution, 0.9);
@@ -99,7 +101,7 @@ restitution = 0
     EXPECT_EQ(ball.scale, 2.0);
     EXPECT_EQ(ball.velocity, glm::dvec3(1.0, 0.0, 0.0));
     EXPECT_EQ(ball.color, glm::dvec3(0.1, 0.2, 0.3));
-    EXPECT_EQ(ball.line, 30);
+    EXPECT_EQ(ball.line, 31);
     ASSERT_EQ(ball.pins.size(), 3u);
     EXPECT_EQ(std::get<BoxRegion>(ball.pins[0]).min, glm::dvec3(-1.0));
     EXPECT_EQ(std::get<BoxRegion>(ball.pins[0]).max, glm::dvec3(0.0, 1.0, 1.0));
@@ -200,8 +202,8 @@ TEST_F(SceneFile, RefusesAnUnknownKeyAndNamesTheNearest) {
     EXPECT_EQ(error(std::string(kBall) + "[simulation]\nframes = 3\nsolvr = 'rk4'"),
               "scene.toml:6: simulation.solvr = \"rk4\": unknown key (did you mean \"solver\"?)");
     EXPECT_EQ(error(std::string(kBall) + "[collision]\nwobbliness = 3"),
-              "scene.toml:5: collision.wobbliness = 3: unknown key; known here are broad_phase, response, "
-              "self_collision, friction and "
+              "scene.toml:5: collision.wobbliness = 3: unknown key; known here are broad_phase, detection, "
+              "response, self_collision, friction and "
               "restitution");
 }
 
@@ -303,6 +305,12 @@ TEST_F(SceneFile, RefusesValuesOutOfRange) {
 }
 
 TEST_F(SceneFile, RefusesUnknownChoices) {
+    EXPECT_EQ(
+        error(std::string(kBall) + "[collision]\ndetection = 'continous'"),
+        "scene.toml:5: collision.detection = \"continous\": must be discrete or continuous (did you mean "
+        "\"continuous\"?)");
+    EXPECT_EQ(error(std::string(kBall) + "[collision]\ndetection = true"),
+              "scene.toml:5: collision.detection = true: must be a string, is true or false");
     EXPECT_EQ(error(std::string(kBall) + "[simulation]\nsolver = 'rk5'"),
               "scene.toml:5: simulation.solver = \"rk5\": must be explicit_euler, "
               "semi_implicit_euler, midpoint "

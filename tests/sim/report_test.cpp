@@ -57,6 +57,7 @@ TEST(Report, HasTheDocumentedKeys) {
                       {"step_size", 0.005},
                       {"frames", 2},
                       {"broad_phase", "hierarchy"},
+                      {"detection", "discrete"},
                       {"response", "restore"},
                       {"gravity", {0.0, -9.81, 0.0}}}},
                     {"counts", {{"objects", 2}, {"nodes", 10}, {"springs", 20}, {"faces", 30}, {"tets", 40}}},

@@ -31,7 +31,8 @@ std::vector<T> contents(const gl::Buffer<T>& buffer) {
     return values;
 }
 
-void run_detection(gpu::Collision& collision, const gpu::ModelBuffers& model, const gpu::NodeBuffers& nodes) {
+void run_detection(gpu::Collision& collision, const gpu::ModelBuffers& model,
+                   const gpu::NodeBuffers& previous, const gpu::NodeBuffers& nodes) {
     gpu::CollisionBuffers& buffers = collision.buffers;
     poison(buffers.face_boxes);
     poison(buffers.face_trees.boxes);
@@ -42,14 +43,31 @@ void run_detection(gpu::Collision& collision, const gpu::ModelBuffers& model, co
     poison(buffers.candidates);
     poison(buffers.face_pairs);
     poison(buffers.face_collisions);
-    collision.update_boxes.run(model, buffers, nodes);
+    collision.update_boxes.run(model, buffers, previous, nodes);
     collision.find_object_pairs.run(model, buffers, nodes);
-    collision.find_face_collisions.run(model, buffers, nodes);
+    collision.find_face_collisions.run(model, buffers, previous, nodes);
 }
 
 cpu::Triangle<double> triangle(const Model& model, const Face& face) {
     const auto at = [&](std::uint32_t n) { return glm::dvec3(model.positions[n]); };
     return {at(face.a), at(face.b), at(face.c)};
+}
+
+template <class Real>
+std::vector<cpu::Vec4<Real>> converted(const std::vector<glm::vec4>& values) {
+    return {values.begin(), values.end()};
+}
+
+template <class Real>
+cpu::Collision<Real> detect_on_cpu(const Model& model, const CollisionSettings& settings,
+                                   const std::vector<cpu::Vec4<Real>>& previous,
+                                   const std::vector<cpu::Vec4<Real>>& positions) {
+    cpu::Collision<Real> collision(std::make_shared<const Model>(model), settings.broad_phase,
+                                   settings.detection);
+    collision.update_boxes(positions, previous);
+    collision.find_object_pairs();
+    collision.find_face_collisions(positions, previous);
+    return collision;
 }
 
 }  // namespace
@@ -117,12 +135,9 @@ FaceCollisions find_collisions_by_brute_force(const Model& model) {
 }
 
 template <class Real>
-FaceCollisions find_collisions_on_cpu(const Model& model, BroadPhase broad_phase) {
-    const std::vector<cpu::Vec4<Real>> positions(model.positions.begin(), model.positions.end());
-    cpu::Collision<Real> collision(std::make_shared<const Model>(model), broad_phase);
-    collision.update_boxes(positions);
-    collision.find_object_pairs();
-    collision.find_face_collisions(positions);
+FaceCollisions find_collisions_on_cpu(const Model& model, const CollisionSettings& settings, double step) {
+    const cpu::Collision<Real> collision = detect_on_cpu<Real>(
+        model, settings, converted<Real>(positions_before(model, step)), converted<Real>(model.positions));
     FaceCollisions found;
     for (const cpu::ObjectPair& pair : collision.pairs()) {
         const Range& faces = model.objects[pair.object].faces;
@@ -133,16 +148,15 @@ FaceCollisions find_collisions_on_cpu(const Model& model, BroadPhase broad_phase
     std::sort(found.begin(), found.end());
     return found;
 }
-template FaceCollisions find_collisions_on_cpu<float>(const Model&, BroadPhase);
-template FaceCollisions find_collisions_on_cpu<double>(const Model&, BroadPhase);
+template FaceCollisions find_collisions_on_cpu<float>(const Model&, const CollisionSettings&, double);
+template FaceCollisions find_collisions_on_cpu<double>(const Model&, const CollisionSettings&, double);
 
-FaceCollisions find_collisions_on_gpu(const Model& model, BroadPhase broad_phase) {
-    CollisionSettings settings;
-    settings.broad_phase = broad_phase;
+FaceCollisions find_collisions_on_gpu(const Model& model, const CollisionSettings& settings, double step) {
     const gpu::ModelBuffers model_buffers(model);
     const gpu::NodeBuffers nodes(model.positions, model.velocities);
+    const gpu::NodeBuffers previous(positions_before(model, step), model.velocities);
     gpu::Collision collision(model, settings);
-    run_detection(collision, model_buffers, nodes);
+    run_detection(collision, model_buffers, previous, nodes);
     gl::barrier(gl::Barrier::buffer_update);
 
     const gpu::CollisionBuffers& buffers = collision.buffers;
@@ -167,7 +181,7 @@ std::vector<std::uint32_t> mark_faces_on_gpu(const Model& model) {
     const gpu::ModelBuffers model_buffers(model);
     const gpu::NodeBuffers nodes(model.positions, model.velocities);
     gpu::Collision collision(model, {});
-    run_detection(collision, model_buffers, nodes);
+    run_detection(collision, model_buffers, nodes, nodes);
     std::vector<std::uint32_t> marks(model.faces.size() + kGuard, kPoison);
     const gl::Buffer<std::uint32_t> buffer{std::span<const std::uint32_t>(marks)};
     gpu::MarkFaces(model).run(model_buffers, collision.buffers, nullptr, buffer);
@@ -188,15 +202,10 @@ std::vector<glm::vec4> positions_before(const Model& model, double step) {
 
 template <class Real>
 cpu::Nodes<Real> respond_on_cpu(const Model& model, const CollisionSettings& settings, double step) {
-    const auto converted = [](const std::vector<glm::vec4>& values) {
-        return std::vector<cpu::Vec4<Real>>(values.begin(), values.end());
-    };
-    cpu::Nodes<Real> nodes{converted(model.positions), converted(model.velocities)};
-    cpu::Collision<Real> collision(std::make_shared<const Model>(model), settings.broad_phase);
-    collision.update_boxes(nodes.positions);
-    collision.find_object_pairs();
-    collision.find_face_collisions(nodes.positions);
-    const cpu::Nodes<Real> previous{converted(positions_before(model, step)), nodes.velocities};
+    cpu::Nodes<Real> nodes{converted<Real>(model.positions), converted<Real>(model.velocities)};
+    const cpu::Nodes<Real> previous{converted<Real>(positions_before(model, step)), nodes.velocities};
+    const cpu::Collision<Real> collision =
+        detect_on_cpu<Real>(model, settings, previous.positions, nodes.positions);
     cpu::respond(model, collision, {settings.friction, settings.restitution}, static_cast<Real>(step),
                  previous, nodes);
     return nodes;
@@ -212,7 +221,7 @@ NodeArrays respond_on_gpu(const Model& model, const CollisionSettings& settings,
     const gpu::NodeBuffers current(arrays.positions, arrays.velocities);
     const gpu::NodeBuffers previous(positions_before(model, step), model.velocities);
     gpu::Collision collision(model, settings);
-    run_detection(collision, model_buffers, current);
+    run_detection(collision, model_buffers, previous, current);
     collision.respond.run(model_buffers, collision.buffers, previous, current, step);
     gl::barrier(gl::Barrier::buffer_update);
     current.positions.download(arrays.positions);

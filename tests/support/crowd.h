@@ -25,12 +25,12 @@ using FaceCollisions = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 /// What brute force in double precision, over all faces and without boxes, finds in the model's start.
 FaceCollisions find_collisions_by_brute_force(const Model& model);
 
-/// What the CPU's stages find.
+/// What the CPU's stages find in the model's start, by continuous detection in the step [s] before it.
 template <class Real>
-FaceCollisions find_collisions_on_cpu(const Model& model, BroadPhase broad_phase);
+FaceCollisions find_collisions_on_cpu(const Model& model, const CollisionSettings& settings, double step = 0);
 
 /// What the GPU's stages find, every buffer that they write poisoned first.
-FaceCollisions find_collisions_on_gpu(const Model& model, BroadPhase broad_phase);
+FaceCollisions find_collisions_on_gpu(const Model& model, const CollisionSettings& settings, double step = 0);
 
 /// The marks of the faces that the GPU's stages find, poisoned first; empty if anything behind them was
 /// written.

@@ -64,7 +64,7 @@ void run_self_detection(gpu::Collision& collision, const gpu::ModelBuffers& mode
     poison(buffers.is_calm);
     poison(buffers.contact_counts);
     poison(buffers.colliding);
-    collision.update_boxes.run(model, collision.buffers, nodes);
+    collision.update_boxes.run(model, collision.buffers, nodes, nodes);
     collision.self->find.run(model, collision.buffers, buffers, nodes);
     collision.self->find.run(model, collision.buffers, buffers, nodes);  // nothing is left of the step before
 }
@@ -148,7 +148,7 @@ SelfContacts find_self_contacts_on_cpu(const Model& model, std::size_t* restless
     const auto shared = std::make_shared<const Model>(model);
     cpu::Collision<Real> boxes(shared, BroadPhase::hierarchy);
     cpu::SelfCollision<Real> collision(shared, boxes);
-    boxes.update_boxes(positions);
+    boxes.update_boxes(positions, positions);
     collision.find(positions);
     if (restless != nullptr) *restless = collision.restless_count();
     SelfContacts counts;
@@ -181,7 +181,7 @@ cpu::Nodes<Real> respond_to_self_on_cpu(const Model& model, const CollisionSetti
     const auto shared = std::make_shared<const Model>(model);
     cpu::Collision<Real> boxes(shared, BroadPhase::hierarchy);
     cpu::SelfCollision<Real> collision(shared, boxes);
-    boxes.update_boxes(nodes.positions);
+    boxes.update_boxes(nodes.positions, nodes.positions);
     collision.find(nodes.positions);
     cpu::RespondToSelf<Real> response(shared, {settings.friction, settings.restitution});
     response.run(collision, static_cast<Real>(step), previous, nodes);
