@@ -43,8 +43,9 @@ enum class CollisionResponse { restore };
 struct CollisionSettings {
     BroadPhase broad_phase = BroadPhase::hierarchy;
     CollisionResponse response = CollisionResponse::restore;
-    double friction = 0.4;     ///< Coulomb's coefficient, >= 0
-    double restitution = 0.3;  ///< normal speed after over before, in [0, 1]
+    bool self_collision = false;  ///< faces of one object against one another too
+    double friction = 0.4;        ///< Coulomb's coefficient, >= 0
+    double restitution = 0.3;     ///< normal speed after over before, in [0, 1]
 };
 
 /// Which springs a material has (paper 2.2). At least one.

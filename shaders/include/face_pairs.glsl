@@ -25,13 +25,8 @@ uint candidate(ObjectPair pair, uint k) {
 }
 
 void add_face_pair(FacePair face_pair) {
-    uint slot = atomicAdd(dispatches[kFacePairs].count, 1u);
-    if (slot >= face_pair_capacity) {
-        atomicAdd(dispatches[kLosses].count, 1u);
-        return;
-    }
-    face_pairs[slot] = face_pair;
-    if (slot % 64u == 0u) atomicAdd(dispatches[kFacePairs].groups_x, 1u);
+    uint slot = take_slot(kFacePairs, face_pair_capacity);
+    if (slot != kNone) face_pairs[slot] = face_pair;
 }
 
 bool meets_face(Box box, uint face) {

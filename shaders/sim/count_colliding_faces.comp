@@ -1,4 +1,4 @@
-// Faces of each chunk that touch another object, one work group a chunk, and behind them the pairs that were lost.
+// Faces of each chunk that touch another object, or with SELF_COLLISION their own, one work group a chunk, and behind them the pairs that were lost.
 // Parity: tests/gpu/collision_test.cpp.
 #include "include/pairs.glsl"
 #include "include/face_collisions.glsl"
@@ -7,12 +7,19 @@ layout(local_size_x = 64) in;
 
 layout(std430, binding = 3) readonly buffer Chunks { Chunk chunks[]; };
 layout(std430, binding = 5) writeonly buffer Colliding { uint colliding[]; };  // of each chunk, and the losses
+#ifdef SELF_COLLISION
+layout(std430, binding = 7) readonly buffer ContactCounts { uint contact_counts[]; };
+#endif
 uniform uint chunk_count;
 
 shared uint count;
 
 bool collides(uint face, PairRow row) {
+#ifdef SELF_COLLISION
+    bool any = contact_counts[face] > 0u;
+#else
     bool any = false;
+#endif
     for (uint k = 0u; k < row.pair_count; ++k) any = any || collides(object_pairs[row.first_pair + k], face);
     return any;
 }

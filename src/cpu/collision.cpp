@@ -209,15 +209,6 @@ bool Collision<Real>::collides(std::uint32_t face) const {
 }
 
 template <class Real>
-std::uint32_t Collision<Real>::count_colliding(std::uint32_t object) const {
-    const Range& faces = model_->objects[object].faces;
-    if (row(object).count == 0) return 0;
-    std::uint32_t count = 0;
-    for (std::uint32_t f = faces.first; f < faces.end(); ++f) count += collides(f) ? 1 : 0;
-    return count;
-}
-
-template <class Real>
 bool Collision<Real>::collide(const ObjectPair& pair) const {
     const auto first = face_collisions_.begin() + pair.first_word;
     return std::any_of(first, first + word_count(model_->objects[pair.object]),

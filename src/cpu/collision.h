@@ -35,6 +35,9 @@ public:
     void find_face_collisions(std::span<const Vec4<Real>> positions);
 
     const std::vector<AxisBox<Real>>& bounding_boxes() const { return bounding_boxes_; }
+    const std::vector<AxisBox<Real>>& face_boxes() const { return face_boxes_; }
+    /// Of the nodes of Model::face_trees.
+    const std::vector<AxisBox<Real>>& tree_boxes() const { return tree_boxes_; }
     const std::vector<ObjectPair>& pairs() const { return pairs_; }
     /// An object's pairs.
     Range row(std::uint32_t object) const;
@@ -43,8 +46,6 @@ public:
     bool collides(const ObjectPair& pair, std::uint32_t face) const;
     /// True if it touches any other object.
     bool collides(std::uint32_t face) const;
-    /// Faces of an object that do.
-    std::uint32_t count_colliding(std::uint32_t object) const;
     /// True if the objects of the pair touch at all.
     bool collide(const ObjectPair& pair) const;
 

@@ -43,6 +43,9 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
     current_ = {converted<Real>(model_->positions), converted<Real>(model_->velocities)};
     previous_ = current_;
     if (scheme_.pass_count > 1) sums_ = stage_[0] = stage_[1] = current_;
+    if (collision.self_collision) {
+        self_ = std::make_unique<SelfStages>(SelfStages{{model_, collision_}, {model_, contact_}});
+    }
     if (forces_ == ForceMethod::divide_and_merge) {
         spring_forces_.resize(model_->springs.size());
         node_forces_.resize(model_->node_count());
@@ -84,6 +87,8 @@ void CpuSolver<Real>::run_pass(const Pass<Real>& pass) {
 template <class Real>
 void CpuSolver<Real>::respond(double step) {
     // advance_nodes has swapped: previous_ is where this step started.
+    // An object's own contacts first: they are sought for anew, where they were found.
+    if (self_) self_->response.run(self_->collision, static_cast<Real>(step), previous_, current_);
     cpu::respond(*model_, collision_, contact_, static_cast<Real>(step), previous_, current_);
 }
 
@@ -91,8 +96,15 @@ template <class Real>
 void CpuSolver<Real>::begin_measure() {
     measures_.push_back(measure(*model_, current_));
     for (std::size_t o = 0; o < model_->objects.size(); ++o) {
-        measures_.back()[o].colliding_faces = collision_.count_colliding(static_cast<std::uint32_t>(o));
+        const Range& faces = model_->objects[o].faces;
+        std::uint32_t& count = measures_.back()[o].colliding_faces;
+        for (std::uint32_t f = faces.first; f < faces.end(); ++f) count += collides(f) ? 1 : 0;
     }
+}
+
+template <class Real>
+bool CpuSolver<Real>::collides(std::uint32_t face) const {
+    return collision_.collides(face) || (self_ && self_->collision.collides(face));
 }
 
 template <class Real>

@@ -7,6 +7,8 @@
 #include "cpu/collision.h"
 #include "cpu/contact.h"
 #include "cpu/nodes.h"
+#include "cpu/respond_to_self.h"
+#include "cpu/self_collision.h"
 #include "model/solver.h"
 
 namespace gelatin::cpu {
@@ -23,6 +25,7 @@ public:
     void update_boxes() override { collision_.update_boxes(current_.positions); }
     void find_object_pairs() override { collision_.find_object_pairs(); }
     void find_face_collisions() override { collision_.find_face_collisions(current_.positions); }
+    void find_self_collisions() override { self_->collision.find(current_.positions); }
     void respond(double step) override;
     void begin_measure() override;
     std::vector<ObjectMeasure> end_measure() override;
@@ -35,9 +38,12 @@ public:
     /// The nodes in full precision.
     const Nodes<Real>& nodes() const { return current_; }
     const Collision<Real>& collision() const { return collision_; }
+    /// Null where objects do not collide with themselves.
+    const SelfCollision<Real>* self_collision() const { return self_ ? &self_->collision : nullptr; }
 
 private:
     void run_pass(const Pass<Real>& pass);
+    bool collides(std::uint32_t face) const;
 
     std::shared_ptr<const Model> model_;
     ExplicitScheme scheme_;
@@ -48,6 +54,11 @@ private:
     std::vector<Vec4<Real>> spring_forces_, node_forces_;
     Collision<Real> collision_;
     ContactProperties contact_;
+    struct SelfStages {
+        SelfCollision<Real> collision;
+        RespondToSelf<Real> response;
+    };
+    std::unique_ptr<SelfStages> self_;
     std::deque<std::vector<ObjectMeasure>> measures_;
     HostStageTimer timer_;
 };

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <optional>
+
 #include "gpu/find_face_collisions.h"
 #include "gpu/find_object_pairs.h"
+#include "gpu/find_self_collisions.h"
 #include "gpu/respond.h"
+#include "gpu/respond_to_self.h"
 #include "gpu/update_boxes.h"
 
 namespace gelatin::gpu {
@@ -16,12 +20,24 @@ struct Collision {
     FindFaceCollisions find_face_collisions;
     Respond respond;
 
-    /// @pre the model has at least two objects
+    /// The same for faces of one object.
+    struct Self {
+        SelfCollisionBuffers buffers;
+        FindSelfCollisions find;
+        RespondToSelf respond;
+    };
+    std::optional<Self> self;
+
     Collision(const Model& model, const CollisionSettings& settings)
         : buffers(model),
           find_object_pairs(model, settings.broad_phase),
           find_face_collisions(settings.broad_phase),
-          respond(buffers, settings) {}
+          respond(buffers, settings) {
+        if (settings.self_collision) {
+            self.emplace(
+                Self{SelfCollisionBuffers(model), FindSelfCollisions(model), RespondToSelf(model, settings)});
+        }
+    }
 };
 
 }  // namespace gelatin::gpu

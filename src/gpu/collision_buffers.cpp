@@ -9,6 +9,7 @@
 namespace gelatin::gpu {
 namespace {
 
+constexpr std::uint64_t kOne = 1;                    // no buffer is empty
 constexpr std::uint64_t kMostPairs = 1u << 20;       // 32 MB
 constexpr std::uint64_t kMostCandidates = 1u << 22;  // 16 MB, or eight a face
 constexpr std::uint64_t kMostWords = 1u << 23;       // 32 MB
@@ -65,9 +66,10 @@ CollisionBuffers::CollisionBuffers(const Model& model)
     pair_rows = gl::Buffer<PairRow>(std::span(no_pairs));
     const AllPairs all(model);
     const std::uint64_t faces = model.faces.size();
-    object_pairs = gl::Buffer<ObjectPair>(std::min(all.pairs, kMostPairs));
-    face_collisions = gl::Buffer<std::uint32_t>(std::min(all.words, kMostWords));
-    candidates = gl::Buffer<std::uint32_t>(std::min(all.entries, std::max(kMostCandidates, 8 * faces)));
+    object_pairs = gl::Buffer<ObjectPair>(std::clamp(all.pairs, kOne, kMostPairs));
+    face_collisions = gl::Buffer<std::uint32_t>(std::clamp(all.words, kOne, kMostWords));
+    candidates =
+        gl::Buffer<std::uint32_t>(std::clamp(all.entries, kOne, std::max(kMostCandidates, 8 * faces)));
     face_pairs = gl::Buffer<FacePair>(std::clamp(kFacePairsAFace * faces, kLeastFacePairs, kMostFacePairs));
     const std::vector<Dispatch> nothing(static_cast<std::size_t>(Work::count), Dispatch{0, 1, 1, 0});
     dispatches = gl::Buffer<Dispatch>(std::span(nothing));

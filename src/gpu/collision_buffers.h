@@ -16,7 +16,7 @@ constexpr bool walks_trees(BroadPhase broad_phase) {
     return broad_phase == BroadPhase::hierarchy || broad_phase == BroadPhase::depth;
 }
 
-/// What the stages of collision hand to one another, for scenes of at least two objects. Sizes are for what
+/// What the stages of collision hand to one another, for any number of objects. Sizes are for what
 /// may happen, up to limits of memory; what does not fit is counted, never forgotten in silence.
 struct CollisionBuffers {
     TreeBuffers face_trees;                  ///< one an object
@@ -49,7 +49,21 @@ struct CollisionBuffers {
     void bind_hidden() const;
 
     /// The dispatches of include/pairs.glsl.
-    enum class Work : unsigned { entries, tests, face_pairs, pairs, pair_groups, nodes, scan, losses, count };
+    enum class Work : unsigned {
+        entries,
+        tests,
+        face_pairs,
+        pairs,
+        pair_groups,
+        nodes,
+        scan,
+        losses,
+        restless,
+        self_pairs,
+        self_faces,
+        self_nodes,
+        count
+    };
     /// Runs `program` over what the GPU itself has counted.
     void run(const gl::Program& program, Work work) const;
 };

@@ -20,7 +20,7 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, Forc
             *nodes = NodeBuffers(model_->positions, model_->velocities);
         }
     }
-    if (model_->objects.size() > 1) collision_.emplace(*model_, collision);
+    if (model_->objects.size() > 1 || collision.self_collision) collision_.emplace(*model_, collision);
     if (forces == ForceMethod::fused) {
         fused_.emplace(*model_, scheme_);
     } else {
@@ -55,13 +55,24 @@ void GpuSolver::find_face_collisions() {
     collision_->find_face_collisions.run(buffers_, collision_->buffers, current_);
 }
 
+void GpuSolver::find_self_collisions() {
+    collision_->self->find.run(buffers_, collision_->buffers, collision_->self->buffers, current_);
+}
+
 void GpuSolver::respond(double step) {
     // advance_nodes has swapped: previous_ is where this step started.
+    // An object's own contacts first: they are sought for anew, where they were found.
+    if (collision_->self) {
+        collision_->self->respond.run(buffers_, collision_->buffers, collision_->self->buffers, previous_,
+                                      current_, step);
+    }
     collision_->respond.run(buffers_, collision_->buffers, previous_, current_, step);
 }
 
 void GpuSolver::begin_measure() {
-    measure_.begin(buffers_, current_, collision_ ? &collision_->buffers : nullptr);
+    const bool meets_itself = collision_ && collision_->self;
+    measure_.begin(buffers_, current_, collision_ ? &collision_->buffers : nullptr,
+                   meets_itself ? &collision_->self->buffers : nullptr);
 }
 
 State GpuSolver::read_state() const {

@@ -24,6 +24,7 @@ public:
     void update_boxes() override;
     void find_object_pairs() override;
     void find_face_collisions() override;
+    void find_self_collisions() override;
     void respond(double step) override;
     void begin_measure() override;
     std::uint32_t lost_pairs() const override { return measure_.lost_pairs(); }
@@ -35,7 +36,7 @@ public:
 
     /// Where the nodes are now; another buffer after each step.
     const NodeBuffers& nodes() const { return current_; }
-    /// @pre the model has at least two objects
+    /// @pre the scene has collisions: at least two objects, or self-collision
     const Collision& collision() const { return *collision_; }
 
 private:
@@ -47,7 +48,7 @@ private:
     NodeBuffers stage_[2], sums_;     // between the passes of one step
     std::optional<AdvanceNodes> fused_;
     std::optional<DivideAndMerge> divide_and_merge_;
-    std::optional<Collision> collision_;  // of at least two objects
+    std::optional<Collision> collision_;  // empty where nothing can collide
     Measure measure_;
     gl::TimestampStageTimer timer_;
 };

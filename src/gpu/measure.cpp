@@ -15,12 +15,16 @@ std::vector<T> read_as(const std::vector<std::byte>& bytes) {
     return values;
 }
 
+gl::Defines self_defines(const Model& model) {
+    return model.rest_shapes.objects.empty() ? gl::Defines{} : gl::Defines{"SELF_COLLISION"};
+}
+
 }  // namespace
 
 Measure::Measure(const Model& model)
     : node_program_(gl::Program::compute("sim/measure_nodes.comp", ModelBuffers::collider_defines(model))),
       face_program_(gl::Program::compute("sim/measure_faces.comp")),
-      colliding_program_(gl::Program::compute("sim/count_colliding_faces.comp")),
+      colliding_program_(gl::Program::compute("sim/count_colliding_faces.comp", self_defines(model))),
       node_chunks_(make_chunks(model, &ModelObject::nodes)),
       face_chunks_(make_chunks(model, &ModelObject::faces)),
       node_chunk_buffer_(std::span<const Chunk>(node_chunks_)),
@@ -30,7 +34,8 @@ Measure::Measure(const Model& model)
       colliding_(std::span<const std::uint32_t>(std::vector<std::uint32_t>(face_chunks_.size() + 1))),
       object_count_(model.objects.size()) {}
 
-void Measure::begin(const ModelBuffers& model, const NodeBuffers& nodes, const CollisionBuffers* collision) {
+void Measure::begin(const ModelBuffers& model, const NodeBuffers& nodes, const CollisionBuffers* collision,
+                    const SelfCollisionBuffers* self) {
     nodes.position_texels.bind(0);
     nodes.velocity_texels.bind(1);
     model.bind_half_springs();
@@ -48,7 +53,7 @@ void Measure::begin(const ModelBuffers& model, const NodeBuffers& nodes, const C
     face_program_.set("chunk_count", static_cast<std::uint32_t>(face_chunks_.size()));
     face_program_.dispatch(64 * face_chunks_.size());
 
-    if (collision != nullptr) count_colliding_faces(*collision);
+    if (collision != nullptr) count_colliding_faces(*collision, self);
     gl::barrier(gl::Barrier::buffer_update);
     readback_.begin(node_sums_.id(), node_sums_.size() * sizeof(NodeSums));
     readback_.begin(volumes_.id(), volumes_.size() * sizeof(float));
@@ -56,11 +61,12 @@ void Measure::begin(const ModelBuffers& model, const NodeBuffers& nodes, const C
 }
 
 // One element a chunk, and the pairs that were lost.
-void Measure::count_colliding_faces(const CollisionBuffers& collision) {
+void Measure::count_colliding_faces(const CollisionBuffers& collision, const SelfCollisionBuffers* self) {
     collision.bind_pairs();
     collision.face_collisions.bind_storage(4);
     face_chunk_buffer_.bind_storage(3);
     colliding_.bind_storage(5);
+    if (self != nullptr) self->contact_counts.bind_storage(7);
     colliding_program_.set("chunk_count", static_cast<std::uint32_t>(face_chunks_.size()));
     colliding_program_.dispatch(64 * face_chunks_.size());
 }

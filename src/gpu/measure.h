@@ -7,6 +7,7 @@
 #include "gpu/collision_buffers.h"
 #include "gpu/model_buffers.h"
 #include "gpu/node_buffers.h"
+#include "gpu/self_collision_buffers.h"
 #include "model/solver.h"
 
 namespace gelatin::gpu {
@@ -17,16 +18,17 @@ class Measure {
 public:
     explicit Measure(const Model& model);
 
-    /// @param collision null for scenes of one object
+    /// @param collision null where nothing can collide
+    /// @param self null where nothing collides with itself
     void begin(const ModelBuffers& model, const NodeBuffers& nodes,
-               const CollisionBuffers* collision = nullptr);
+               const CollisionBuffers* collision = nullptr, const SelfCollisionBuffers* self = nullptr);
     /// The oldest that is under way; waits for it if need be.
     std::vector<ObjectMeasure> end();
     /// As of the last `end`.
     std::uint32_t lost_pairs() const { return lost_pairs_; }
 
 private:
-    void count_colliding_faces(const CollisionBuffers& collision);
+    void count_colliding_faces(const CollisionBuffers& collision, const SelfCollisionBuffers* self);
 
     gl::Program node_program_, face_program_, colliding_program_;
     std::vector<Chunk> node_chunks_, face_chunks_;

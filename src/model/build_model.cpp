@@ -240,7 +240,9 @@ Model build_model(const Scene& scene) {
                          material.name, material.poisson_ratio);
         }
     }
-    return pack_bodies(bodies, scene.colliders, scene.simulation.gravity);
+    Model model = pack_bodies(bodies, scene.colliders, scene.simulation.gravity);
+    if (scene.collision.self_collision) model.rest_shapes = make_rest_shapes(model);
+    return model;
 }
 
 }  // namespace gelatin

@@ -19,10 +19,12 @@ using glm::vec4;
 #include "layouts/face.glsl"
 #include "layouts/half_spring_pair.glsl"
 #include "layouts/object_pair.glsl"
+#include "layouts/rest_shape.glsl"
 #include "layouts/spring.glsl"
 #include "layouts/surface_vertex.glsl"
 #include "layouts/tree_node.glsl"
 
+static_assert(sizeof(AffineFit) == 64);
 static_assert(sizeof(ApproachSums) == 32);
 static_assert(sizeof(BoundingBox) == 48);
 static_assert(sizeof(Box) == 32);
@@ -34,10 +36,12 @@ static_assert(sizeof(Dispatch) == 16);
 static_assert(sizeof(Draw) == 16);
 static_assert(sizeof(Face) == 16);
 static_assert(sizeof(FacePair) == 16);
+static_assert(sizeof(FitSums) == 48);
 static_assert(sizeof(HalfSpringPair) == 16);
 static_assert(sizeof(NodeSums) == 32);
 static_assert(sizeof(ObjectPair) == 32);
 static_assert(sizeof(PairRow) == 16);
+static_assert(sizeof(RestShape) == 48);
 static_assert(sizeof(Spring) == 16);
 static_assert(sizeof(SurfaceVertex) == 16);
 static_assert(sizeof(TreeNode) == 16);
@@ -45,6 +49,7 @@ static_assert(sizeof(TreeNode) == 16);
 }  // namespace gelatin::layouts
 
 namespace gelatin {
+using layouts::AffineFit;
 using layouts::ApproachSums;
 using layouts::BoundingBox;
 using layouts::Box;
@@ -56,10 +61,12 @@ using layouts::Dispatch;
 using layouts::Draw;
 using layouts::Face;
 using layouts::FacePair;
+using layouts::FitSums;
 using layouts::HalfSpringPair;
 using layouts::NodeSums;
 using layouts::ObjectPair;
 using layouts::PairRow;
+using layouts::RestShape;
 using layouts::Spring;
 using layouts::SurfaceVertex;
 using layouts::TreeNode;

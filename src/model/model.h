@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/layouts.h"
+#include "model/rest_shape.h"
 
 namespace gelatin {
 
@@ -88,6 +89,7 @@ struct Model {
     std::vector<Face> faces;       ///< boundary triangles, shape [faces]
     NodeFaces node_faces;
     BoxTree face_trees;  ///< one an object
+    RestShapes rest_shapes;  ///< empty where objects do not collide with themselves
     DrawSurface surface;
 
     std::vector<Collider> colliders;  ///< in the order of their kinds

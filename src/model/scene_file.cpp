@@ -59,6 +59,7 @@ CollisionSettings read_collision(TableReader reader) {
                  {"hierarchy", BroadPhase::hierarchy},
                  {"depth", BroadPhase::depth}});
     reader.read("response", settings.response, {{"restore", CollisionResponse::restore}});
+    reader.read("self_collision", settings.self_collision);
     reader.read("friction", settings.friction, kNotNegative);
     reader.read("restitution", settings.restitution, kFraction);
     reader.finish();

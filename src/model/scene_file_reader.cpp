@@ -198,6 +198,13 @@ void TableReader::read(const char* key, int& value, const Limit& limit) {
     if (const toml::node* node = find(key)) value = whole_number(*node, key, limit);
 }
 
+void TableReader::read(const char* key, bool& value) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return;
+    if (!node->is_boolean()) fail(key, fmt::format("must be true or false, is {}", kind_of(*node)));
+    value = node->as_boolean()->get();
+}
+
 void TableReader::read(const char* key, std::string& value) {
     const toml::node* node = find(key);
     if (node == nullptr) return;

@@ -68,6 +68,7 @@ public:
     void read(const char* key, double& value, const Limit& limit = kAnyNumber);
     void read(const char* key, std::optional<double>& value, const Limit& limit = kAnyNumber);
     void read(const char* key, int& value, const Limit& limit);
+    void read(const char* key, bool& value);
     void read(const char* key, std::string& value);  ///< not empty
     void read(const char* key, glm::dvec3& value, const Limit& limit = kAnyNumber);
     void read(const char* key, glm::ivec3& value, const Limit& limit);

@@ -31,7 +31,7 @@ struct ObjectMeasure {
     double volume = 0.0;                ///< [m^3]
     double deepest_penetration = 0.0;   ///< of a node into a collider [m]
     std::uint32_t contacts = 0;         ///< nodes that touch a collider
-    std::uint32_t colliding_faces = 0;  ///< that touch another object
+    std::uint32_t colliding_faces = 0;  ///< that touch another object, or another part of their own
 };
 
 /// A backend: owns the state where it lives and advances it. The stages are called in the order of
@@ -43,11 +43,13 @@ public:
     /// Forces and integration over one step of `step` seconds, world collisions included.
     virtual void advance_nodes(double step) = 0;
 
-    /// The stages of collision, for scenes of at least two objects: each object's box; the pairs of objects
-    /// that may touch; the faces that do; and the response to them, over the same step of `step` seconds.
+    /// The stages of collision: each object's box; for scenes of at least two objects the pairs that may touch,
+    /// and the faces that do; and the response to them, over the same step of `step` seconds.
     virtual void update_boxes() = 0;
     virtual void find_object_pairs() = 0;
     virtual void find_face_collisions() = 0;
+    /// For scenes whose objects collide with themselves: the faces that touch others of their own object.
+    virtual void find_self_collisions() = 0;
     virtual void respond(double step) = 0;
 
     /// Starts measuring the present state. At most two measurements may be under way.

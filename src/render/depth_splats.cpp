@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include <bit>
 #include <cassert>
 #include <glm/ext/matrix_transform.hpp>
 #include <string>
@@ -52,7 +53,7 @@ void DepthSplats::draw(std::span<const DepthMap> maps, std::initializer_list<con
     for (const DepthMap& map : maps) {
         glBindTexture(GL_TEXTURE_2D, map.target.texture());
         glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, map.target.width(), map.target.height(), GL_DEPTH_COMPONENT,
-                        GL_UNSIGNED_INT, reinterpret_cast<const void*>(start * sizeof(std::uint32_t)));
+                        GL_UNSIGNED_INT, std::bit_cast<const void*>(start * sizeof(std::uint32_t)));
         start += texel_count(map);
     }
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);

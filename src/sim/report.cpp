@@ -22,6 +22,7 @@ Json settings_json(const RunReport& report) {
             {"frames", settings.frames},
             {"broad_phase", name_of(report.collision.broad_phase)},
             {"response", name_of(report.collision.response)},
+            {"self_collision", report.collision.self_collision},
             {"gravity", {settings.gravity.x, settings.gravity.y, settings.gravity.z}}};
 }
 

@@ -85,12 +85,14 @@ Simulator::~Simulator() = default;
 void Simulator::step() {
     Impl& d = *impl_;
     d.run_stage("advance_nodes", [&] { d.solver->advance_nodes(d.step_size()); });
-    if (d.model->objects.size() > 1) {
-        d.run_stage("update_boxes", [&] { d.solver->update_boxes(); });
+    const bool meets_others = d.model->objects.size() > 1, meets_itself = d.scene.collision.self_collision;
+    if (meets_others || meets_itself) d.run_stage("update_boxes", [&] { d.solver->update_boxes(); });
+    if (meets_others) {
         d.run_stage("find_object_pairs", [&] { d.solver->find_object_pairs(); });
         d.run_stage("find_face_collisions", [&] { d.solver->find_face_collisions(); });
-        d.run_stage("respond", [&] { d.solver->respond(d.step_size()); });
     }
+    if (meets_itself) d.run_stage("find_self_collisions", [&] { d.solver->find_self_collisions(); });
+    if (meets_others || meets_itself) d.run_stage("respond", [&] { d.solver->respond(d.step_size()); });
     ++d.steps;
 }
 

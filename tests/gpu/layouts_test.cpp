@@ -117,6 +117,16 @@ TEST_F(LayoutsTest, Contacts) {
         "contact.glsl", "ContactResponse", sizeof(ContactResponse),
         {FIELD(ContactResponse, normal), FIELD(ContactResponse, velocity), FIELD(ContactResponse, slowing)});
 }
+TEST_F(LayoutsTest, RestShapes) {
+    check("rest_shape.glsl", "RestShape", sizeof(RestShape),
+          {FIELD(RestShape, inverse_moment_x), FIELD(RestShape, inverse_moment_y),
+           FIELD(RestShape, inverse_moment_z)});
+    check("rest_shape.glsl", "FitSums", sizeof(FitSums),
+          {FIELD(FitSums, column_x), FIELD(FitSums, column_y), FIELD(FitSums, column_z)});
+    check("rest_shape.glsl", "AffineFit", sizeof(AffineFit),
+          {FIELD(AffineFit, column_x), FIELD(AffineFit, column_y), FIELD(AffineFit, column_z),
+           FIELD(AffineFit, center)});
+}
 TEST_F(LayoutsTest, Dispatch) {
     check("dispatch.glsl", "Dispatch", sizeof(Dispatch),
           {FIELD(Dispatch, groups_x), FIELD(Dispatch, groups_y), FIELD(Dispatch, groups_z),

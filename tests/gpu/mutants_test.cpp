@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "support/crowd.h"
+#include "support/folded.h"
 #include "support/gl_fixture.h"
 #include "support/parity.h"
 #include "support/shader_folder.h"
@@ -80,6 +81,31 @@ TEST_P(CollisionMutantsTest, IsCaught) {
     }
     for (const double extent : {2.0, 4.0, 100.0})
         caught = caught || is_wrong_by_depth(test::make_far_pairs(100, extent));
+    EXPECT_TRUE(caught) << "the broken kernel passes";
+}
+
+class SelfCollisionMutantsTest : public test::GlTest, public ::testing::WithParamInterface<test::Break> {};
+INSTANTIATE_TEST_SUITE_P(All, SelfCollisionMutantsTest, ::testing::ValuesIn(test::kSelfCollisionMutants),
+                         name_of_mutant);
+
+TEST_P(SelfCollisionMutantsTest, IsCaught) {
+    test::ShaderFolder folder;
+    break_shaders(GetParam(), folder);
+    bool caught = false;
+    for (const test::Deformation deformation : test::kDeformations) {
+        const Model model = test::make_folded(deformation);
+        std::uint32_t restless = 0;
+        std::size_t expected_restless = 0;
+        caught = caught || test::find_self_contacts_on_gpu(model, &restless) !=
+                               test::find_self_contacts_on_cpu<float>(model, &expected_restless);
+        // Calm enough, too: what is needless costs.
+        caught = caught || restless > expected_restless + expected_restless / 10 + 3;
+    }
+    const Model rolled = test::make_folded(test::Deformation::rolled);
+    const CollisionSettings settings{.friction = 0.4, .restitution = 0.7};
+    caught =
+        caught || test::worst_self_response_error(
+                      rolled, settings, kStep, test::respond_to_self_on_gpu(rolled, settings, kStep)) > 1.0;
     EXPECT_TRUE(caught) << "the broken kernel passes";
 }
 

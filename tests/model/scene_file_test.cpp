@@ -18,6 +18,7 @@ frames = 12
 [collision]
 broad_phase = "boxes"
 response = "restore"
+self_collision = true
 friction = 0.1
 restitution = 0.9
 
@@ -63,6 +64,7 @@ restitution = 0
     EXPECT_EQ(scene.simulation.gravity, glm::dvec3(0.0, -1.62, 0.0));
     EXPECT_EQ(scene.simulation.frames, 12);
     EXPECT_EQ(scene.collision.broad_phase, BroadPhase::boxes);
+    EXPECT_TRUE(scene.collision.self_collision);
     EXPECT_EQ(scene.collision.response, CollisionResponse::restore);
     EXPECT_EQ(scene.collision.friction, 0.1);
     EXPECT_EQ(scene.collision.restitution, 0.9);
@@ -97,7 +99,7 @@ restitution = 0
     EXPECT_EQ(ball.scale, 2.0);
     EXPECT_EQ(ball.velocity, glm::dvec3(1.0, 0.0, 0.0));
     EXPECT_EQ(ball.color, glm::dvec3(0.1, 0.2, 0.3));
-    EXPECT_EQ(ball.line, 29);
+    EXPECT_EQ(ball.line, 30);
     ASSERT_EQ(ball.pins.size(), 3u);
     EXPECT_EQ(std::get<BoxRegion>(ball.pins[0]).min, glm::dvec3(-1.0));
     EXPECT_EQ(std::get<BoxRegion>(ball.pins[0]).max, glm::dvec3(0.0, 1.0, 1.0));
@@ -199,7 +201,7 @@ TEST_F(SceneFile, RefusesAnUnknownKeyAndNamesTheNearest) {
               "scene.toml:6: simulation.solvr = \"rk4\": unknown key (did you mean \"solver\"?)");
     EXPECT_EQ(error(std::string(kBall) + "[collision]\nwobbliness = 3"),
               "scene.toml:5: collision.wobbliness = 3: unknown key; known here are broad_phase, response, "
-              "friction and "
+              "self_collision, friction and "
               "restitution");
 }
 

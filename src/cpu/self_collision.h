@@ -1,0 +1,77 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cpu/affine_fit.h"
+#include "cpu/collision.h"
+#include "cpu/triangle_overlap.h"
+#include "model/model.h"
+
+namespace gelatin::cpu {
+
+/// Finds which faces of an object touch others of the same object; those that share a corner are left out.
+///
+/// Two faces cannot touch while both are calm: nearer to where the best affine map of the rest shape puts
+/// them than half of what that map leaves of their clearance at rest (docs/physics.md). Only faces that are
+/// not walk through their object's tree. GPU twin: gpu::FindSelfCollisions.
+template <class Real>
+class SelfCollision {
+public:
+    /// @pre the model has rest shapes @param boxes must outlive this
+    SelfCollision(std::shared_ptr<const Model> model, const Collision<Real>& boxes);
+
+    /// @pre the boxes are those of `positions`
+    void find(std::span<const Vec4<Real>> positions);
+
+    /// How many faces of its own object a face touches.
+    std::uint32_t contact_count(std::uint32_t face) const { return contact_counts_[face]; }
+    bool collides(std::uint32_t face) const { return contact_counts_[face] > 0; }
+    /// True if any face does.
+    bool any() const { return any_; }
+    /// Faces that were not calm.
+    std::size_t restless_count() const { return restless_.size(); }
+
+    /// found(other) for each of the faces that `face` touches, in a fixed order. @pre as they were found
+    template <class Found>
+    void for_contacts(std::span<const Vec4<Real>> positions, std::uint32_t face, const Found& found) const {
+        if (!collides(face)) return;
+        for_faces_near(face, [&](std::uint32_t other) {
+            if (collides(other) && touch(positions, face, other)) found(other);
+        });
+    }
+
+private:
+    void find_restless(std::span<const Vec4<Real>> positions);
+    bool is_calm_all_over(const AffineFit<Real>& fit, std::uint32_t object,
+                          std::span<const Vec4<Real>> positions) const;
+    bool share_corner(std::uint32_t face, std::uint32_t other) const;
+    bool touch(std::span<const Vec4<Real>> positions, std::uint32_t face, std::uint32_t other) const;
+
+    // found(other) for each face of the same object whose box meets that of `face`, and that is no neighbour.
+    template <class Found>
+    void for_faces_near(std::uint32_t face, const Found& found) const {
+        const AxisBox<Real> box = boxes_.face_boxes()[face];
+        const std::vector<TreeNode>& nodes = model_->face_trees.nodes;
+        const std::uint32_t root = model_->face_trees.roots[model_->faces[face].object];
+        const std::uint32_t end = nodes[root].skip;
+        for (std::uint32_t n = root; n < end;) {
+            const bool near = meet(box, boxes_.tree_boxes()[n]);
+            for (std::uint32_t k = 0; near && k < nodes[n].item_count; ++k) {
+                const std::uint32_t other = nodes[n].first_item + k;
+                if (meet(box, boxes_.face_boxes()[other]) && !share_corner(face, other)) found(other);
+            }
+            n = near ? n + 1 : nodes[n].skip;
+        }
+    }
+
+    std::shared_ptr<const Model> model_;
+    const Collision<Real>& boxes_;
+    std::vector<std::uint8_t> is_calm_;          // shape [faces]
+    std::vector<std::uint32_t> restless_;        // faces, ascending
+    std::vector<std::uint32_t> contact_counts_;  // shape [faces]
+    bool any_ = false;
+};
+
+}  // namespace gelatin::cpu

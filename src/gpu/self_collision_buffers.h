@@ -1,0 +1,26 @@
+#pragma once
+
+#include <glm/vec4.hpp>
+
+#include "gl/buffer.h"
+#include "model/model.h"
+
+namespace gelatin::gpu {
+
+/// What the stages of self-collision hand to one another, beside CollisionBuffers.
+struct SelfCollisionBuffers {
+    gl::Buffer<glm::vec4> rest_offsets;  ///< RestShapes::offsets
+    gl::Buffer<float> clearances;        ///< RestShapes::clearances
+    gl::BufferTexture rest_offset_texels, clearance_texels;
+    gl::Buffer<AffineFit> fits;                ///< shape [objects]
+    gl::Buffer<std::uint32_t> restless;        ///< faces that are not calm
+    gl::Buffer<std::uint32_t> is_calm;         ///< 0 or 1, shape [faces]
+    gl::Buffer<std::uint32_t> contact_counts;  ///< faces of its own object that each touches, shape [faces]
+    gl::Buffer<std::uint32_t> colliding;       ///< faces that touch any
+    std::uint32_t face_count = 0;
+
+    /// @pre the model has rest shapes
+    explicit SelfCollisionBuffers(const Model& model);
+};
+
+}  // namespace gelatin::gpu
