@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <string>
 
@@ -102,8 +103,7 @@ void CullByDepth::draw_faces(const gl::Program& program, unsigned view) const {
     program.set("from_behind", view / 3);
     program.set("resolution", static_cast<float>(kResolution));
     program.use();
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): an offset, as OpenGL asks for it
-    glDrawArraysIndirect(GL_POINTS, reinterpret_cast<const void*>(view * sizeof(Draw)));
+    glDrawArraysIndirect(GL_POINTS, std::bit_cast<const void*>(view * sizeof(Draw)));
 }
 
 }  // namespace gelatin::gpu
