@@ -59,6 +59,7 @@ TEST(Report, HasTheDocumentedKeys) {
                       {"broad_phase", "hierarchy"},
                       {"detection", "discrete"},
                       {"response", "restore"},
+                      {"self_collision", false},
                       {"gravity", {0.0, -9.81, 0.0}}}},
                     {"counts", {{"objects", 2}, {"nodes", 10}, {"springs", 20}, {"faces", 30}, {"tets", 40}}},
                     {"frames", Json::array({{{"frame", 1},
