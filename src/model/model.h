@@ -88,7 +88,7 @@ struct Model {
     std::vector<glm::uvec4> tets;  ///< shape [tets]
     std::vector<Face> faces;       ///< boundary triangles, shape [faces]
     NodeFaces node_faces;
-    BoxTree face_trees;  ///< one an object
+    BoxTree face_trees;      ///< one an object
     RestShapes rest_shapes;  ///< empty where objects do not collide with themselves
     DrawSurface surface;
 

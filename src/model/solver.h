@@ -43,8 +43,8 @@ public:
     /// Forces and integration over one step of `step` seconds, world collisions included.
     virtual void advance_nodes(double step) = 0;
 
-    /// The stages of collision: each object's box; for scenes of at least two objects the pairs that may touch,
-    /// and the faces that do; and the response to them, over the same step of `step` seconds.
+    /// The stages of collision: each object's box; for scenes of at least two objects the pairs that may
+    /// touch, and the faces that do; and the response to them, over the same step of `step` seconds.
     virtual void update_boxes() = 0;
     virtual void find_object_pairs() = 0;
     virtual void find_face_collisions() = 0;

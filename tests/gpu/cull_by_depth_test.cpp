@@ -64,8 +64,7 @@ Left find_left(const Model& model, BroadPhase broad_phase = BroadPhase::depth) {
 class CullByDepthTest : public test::GlTest {
 protected:
     static void expect_nothing_lost(const Model& model, std::size_t least = 1) {
-        const test::FaceCollisions expected =
-            test::find_collisions_on_cpu<float>(model, {});
+        const test::FaceCollisions expected = test::find_collisions_on_cpu<float>(model, {});
         EXPECT_GE(expected.size(), least) << "too few collisions to test anything";
         EXPECT_EQ(test::find_collisions_on_gpu(model, {.broad_phase = BroadPhase::depth}), expected);
     }
