@@ -6,6 +6,7 @@
 
 #include "cpu/collision.h"
 #include "cpu/nodes.h"
+#include "gl/buffer.h"
 #include "model/model.h"
 #include "support/step_on_gpu.h"
 
@@ -45,6 +46,17 @@ cpu::Nodes<Real> respond_on_cpu(const Model& model, const CollisionSettings& set
 
 /// The same on the GPU, every buffer between the stages poisoned first, kGuard elements behind the nodes.
 NodeArrays respond_on_gpu(const Model& model, const CollisionSettings& settings, double step);
+
+/// Fills a buffer, so that an element that is not written cannot pass.
+template <class T>
+void poison(gl::Buffer<T>& buffer) {
+    const std::vector<std::uint32_t> words(buffer.size() * sizeof(T) / 4, 0xDEADBEEFu);
+    buffer.upload({reinterpret_cast<const T*>(words.data()), buffer.size()});
+}
+
+/// The largest error of the nodes over its bound [m], [m/s]; infinite where something is not finite.
+double worst_node_error(const cpu::Nodes<double>& expected, const NodeArrays& actual, double position_bound,
+                        double velocity_bound);
 
 /// The largest error of a response against the double reference, over its bound; infinite where something is
 /// not finite. At most 1 is a pass. A response is a quotient of sums over a patch: some 500 corners of speeds

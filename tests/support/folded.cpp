@@ -49,12 +49,6 @@ private:
     std::uniform_real_distribution<double> unit_{-1.0, 1.0};
 };
 
-template <class T>
-void poison(gl::Buffer<T>& buffer) {
-    const std::vector<std::uint32_t> words(buffer.size() * sizeof(T) / 4, 0xDEADBEEFu);
-    buffer.upload({reinterpret_cast<const T*>(words.data()), buffer.size()});
-}
-
 void run_self_detection(gpu::Collision& collision, const gpu::ModelBuffers& model,
                         const gpu::NodeBuffers& nodes) {
     gpu::SelfCollisionBuffers& buffers = collision.self->buffers;
@@ -213,16 +207,7 @@ double worst_self_response_error(const Model& model, const CollisionSettings& se
     const double velocity_bound = 256 * kEps * kSpeed,
                  position_bound = step * velocity_bound + 4 * kEps * kReach;
     const cpu::Nodes<double> expected = respond_to_self_on_cpu<double>(model, settings, step);
-    double worst = 0.0;
-    for (std::uint32_t n = 0; n < model.node_count(); ++n) {
-        const double position =
-                         glm::distance(glm::dvec3(actual.positions[n]), glm::dvec3(expected.positions[n])),
-                     velocity =
-                         glm::distance(glm::dvec3(actual.velocities[n]), glm::dvec3(expected.velocities[n]));
-        if (!std::isfinite(position + velocity)) return std::numeric_limits<double>::infinity();
-        worst = std::max({worst, position / position_bound, velocity / velocity_bound});
-    }
-    return worst;
+    return worst_node_error(expected, actual, position_bound, velocity_bound);
 }
 
 }  // namespace gelatin::test
