@@ -152,20 +152,45 @@ SelfContacts find_self_contacts_on_cpu(const Model& model, std::size_t* restless
 template SelfContacts find_self_contacts_on_cpu<float>(const Model&, std::size_t*);
 template SelfContacts find_self_contacts_on_cpu<double>(const Model&, std::size_t*);
 
+namespace {
+
+std::uint32_t count_of(const gpu::Collision& collision, gpu::CollisionBuffers::Work work) {
+    gl::barrier(gl::Barrier::buffer_update);
+    std::vector<Dispatch> dispatches(collision.buffers.dispatches.size());
+    collision.buffers.dispatches.download(dispatches);
+    return dispatches[static_cast<std::size_t>(work)].count;
+}
+
+SelfContacts download_contacts(const gpu::Collision& collision) {
+    gl::barrier(gl::Barrier::buffer_update);
+    SelfContacts counts(collision.self->buffers.contact_counts.size());
+    collision.self->buffers.contact_counts.download(counts);
+    return counts;
+}
+
+}  // namespace
+
 SelfContacts find_self_contacts_on_gpu(const Model& model, std::uint32_t* restless) {
     const gpu::ModelBuffers model_buffers(model);
     const gpu::NodeBuffers nodes(model.positions, model.velocities);
     gpu::Collision collision(model, with_self({}));
     run_self_detection(collision, model_buffers, nodes);
-    gl::barrier(gl::Barrier::buffer_update);
-    if (restless != nullptr) {
-        std::vector<Dispatch> dispatches(collision.buffers.dispatches.size());
-        collision.buffers.dispatches.download(dispatches);
-        *restless = dispatches[static_cast<std::size_t>(gpu::CollisionBuffers::Work::restless)].count;
+    if (restless != nullptr) *restless = count_of(collision, gpu::CollisionBuffers::Work::restless);
+    return download_contacts(collision);
+}
+
+SelfContacts find_self_contacts_on_gpu_after(const Model& before, const Model& model, std::uint32_t* fitted) {
+    const gpu::ModelBuffers model_buffers(model);
+    const gpu::NodeBuffers nodes_before(before.positions, before.velocities),
+        nodes(model.positions, model.velocities);
+    gpu::Collision collision(model, with_self({}));
+    run_self_detection(collision, model_buffers, nodes_before);
+    for (const gpu::NodeBuffers* now : {&nodes_before, &nodes}) {
+        collision.update_boxes.run(model_buffers, collision.buffers, *now, *now);
+        collision.self->find.run(model_buffers, collision.buffers, collision.self->buffers, *now);
     }
-    SelfContacts counts(model.faces.size());
-    collision.self->buffers.contact_counts.download(counts);
-    return counts;
+    if (fitted != nullptr) *fitted = count_of(collision, gpu::CollisionBuffers::Work::fits);
+    return download_contacts(collision);
 }
 
 template <class Real>
