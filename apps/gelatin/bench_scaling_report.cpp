@@ -127,8 +127,7 @@ PartReport report_of(ScalingPart part) {
 }
 
 BarChart chart_of(const ScalingBench& bench) {
-    BarChart chart{"What collision costs by size, less is better", {}, {}};
-    for (const StageSystem& system : stage_systems(true)) chart.series.push_back(system.name);
+    BarChart chart{"What collision costs by size, less is better", bench.systems(), {}};
     for (const ScalingPart part : kParts) {
         BarChart::Panel panel{report_of(part).chart_title, {}};
         for (const ScalingResult* result : results_of(bench, part)) {

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "sim/report.h"
-
 namespace gelatin {
 namespace {
 
@@ -79,17 +77,21 @@ BenchSummary ScalingResult::step() const {
     return time(stages);
 }
 
-std::vector<BenchRatio> ScalingBench::ratios() const {
+std::vector<std::string> ScalingBench::systems() const {
     std::vector<std::string> systems;
     for (const ScalingResult& result : results)
         if (std::find(systems.begin(), systems.end(), result.system) == systems.end())
             systems.push_back(result.system);
+    return systems;
+}
+
+std::vector<BenchRatio> ScalingBench::ratios() const {
     std::vector<BenchRatio> ratios;
-    for (const std::string& system : systems)
+    for (const std::string& system : systems())
         compare_ways(select(*this, ScalingPart::two_bodies, system), ratios);
-    for (const std::string& system : systems)
+    for (const std::string& system : systems())
         compare_faces(select(*this, ScalingPart::faces, system), ratios);
-    for (const std::string& system : systems)
+    for (const std::string& system : systems())
         compare_objects(select(*this, ScalingPart::objects, system), ratios);
     return ratios;
 }

@@ -38,6 +38,7 @@ struct ScalingBench {
     BenchMachine machine;
     std::vector<ScalingResult> results;
 
+    std::vector<std::string> systems() const;  ///< that were measured
     std::vector<BenchRatio> ratios() const;
 };
 
