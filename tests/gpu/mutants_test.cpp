@@ -19,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kStep = 2e-4;  // [s]
+constexpr double kStep = 2e-4;     // [s]
+constexpr double kLongStep = 0.1;  // on its way a block meets others [s]
 
 // All shaders in a folder, one of them broken.
 void break_shaders(const test::Break& mutant, test::ShaderFolder& folder) {
@@ -85,14 +86,16 @@ TEST_P(CollisionMutantsTest, IsCaught) {
         for (const CollisionSettings& detection :
              {CollisionSettings{.broad_phase = BroadPhase::boxes}, CollisionSettings{},
               CollisionSettings{.detection = CollisionDetection::continuous}}) {
-            constexpr double kLongStep = 0.1;  // on its way a block meets others [s]
             caught = caught || test::find_collisions_on_gpu(model, detection, kLongStep) !=
                                    test::find_collisions_on_cpu<float>(model, detection, kLongStep);
         }
         caught = caught || is_wrong_by_depth(model);
-        const CollisionSettings settings{.friction = 0.4, .restitution = 0.7};
+        CollisionSettings settings{.friction = 0.4, .restitution = 0.7};
         caught = caught || test::worst_response_error(model, settings, kStep,
                                                       test::respond_on_gpu(model, settings, kStep)) > 1.0;
+        settings.detection = CollisionDetection::continuous;
+        caught = caught || test::worst_response_error(model, settings, kLongStep,
+                                                      test::respond_on_gpu(model, settings, kLongStep)) > 1.0;
     }
     for (const double extent : {2.0, 4.0, 100.0})
         caught = caught || is_wrong_by_depth(test::make_far_pairs(100, extent));
