@@ -5,7 +5,7 @@
 #include "include/affine_fit.glsl"
 #include "include/dispatches.glsl"
 #include "include/global_index.glsl"
-layout(local_size_x = 64) in;
+layout(local_size_x = 32) in;  // what every lane reads of the object outweighs a node: few lanes, longer loops
 
 layout(binding = 3) uniform usamplerBuffer chunks;  // Chunk, of nodes
 layout(std430, binding = 3) writeonly buffer LastRestless { uint last_restless[]; };  // step, by object
@@ -24,7 +24,7 @@ void main() {
     AffineFit fit = fetch_fit(chunk.x);
     vec3 center = fit.center.xyz + (position(chunk.w) - fit.origin.xyz);
     bool calm = true;  // what is not a number is not
-    for (uint k = lane; k < chunk.z; k += 64u) {
+    for (uint k = lane; k < chunk.z; k += 32u) {
         vec3 x = position(chunk.y + k);
         float rounding = 32.0 * kEpsilon * (abs(x.x) + abs(x.y) + abs(x.z) + fit.center.w);
         calm = calm && deviation(fit, chunk.y + k, x - center) + rounding < fit.column_z.w;

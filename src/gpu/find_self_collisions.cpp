@@ -8,6 +8,7 @@
 namespace gelatin::gpu {
 namespace {
 
+constexpr std::uint32_t kObjectLanes = 32;  // of find_restless_objects.comp
 constexpr std::size_t kMostGroups = 65535;
 constexpr std::size_t kMostFaces =
     kMostGroups * 64;  // of a list that is gone through by one row of work groups
@@ -76,7 +77,7 @@ void FindSelfCollisions::find_restless_objects(const CollisionBuffers& collision
     self.last_restless.bind_storage(3);
     object_program_.set("chunk_count", node_chunk_count_);
     object_program_.set("step_number", step_number_);
-    object_program_.dispatch(64 * static_cast<std::size_t>(node_chunk_count_));
+    object_program_.dispatch(kObjectLanes * static_cast<std::size_t>(node_chunk_count_), kObjectLanes);
     gl::barrier(gl::Barrier::storage);
 
     node_chunks_.bind_storage(4);
