@@ -16,6 +16,9 @@ const uint kRestless = 8u;   // an invocation a face that walks through its obje
 const uint kSelfPairs = 9u;  // an invocation a pair of faces of one object
 const uint kSelfFaces = 10u; // an invocation a face that touches another of its object
 const uint kSelfNodes = 11u; // an invocation a node
+const uint kFitSums = 12u;   // a work group a chunk of nodes of an object that may have restless faces
+const uint kFits = 13u;      // an invocation such an object
+const uint kRestlessChunks = 14u;  // a work group a chunk of its faces
 
 // Work groups of 64 for `count` invocations, folded into two dimensions where one is not enough.
 Dispatch make_dispatch(uint count, uint groups) {

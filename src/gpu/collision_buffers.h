@@ -62,6 +62,9 @@ struct CollisionBuffers {
         self_pairs,
         self_faces,
         self_nodes,
+        fit_sums,
+        fits,
+        restless_chunks,
         count
     };
     /// Runs `program` over what the GPU itself has counted.

@@ -119,6 +119,17 @@ TEST_P(SelfCollisionMutantsTest, IsCaught) {
         // Calm enough, too: what is needless costs.
         caught = caught || restless > expected_restless + expected_restless / 10 + 3;
     }
+    const Model rigid = test::make_folded(test::Deformation::rigid);
+    Model moved = rigid;
+    for (glm::vec4& p : moved.positions) p.x += 1.0f;
+    std::uint32_t fitted = 0;
+    test::find_self_contacts_on_gpu_after(rigid, moved, &fitted);
+    caught = caught || fitted > 0;  // which costs
+    const Model poked = test::make_folded(test::Deformation::poked);
+    caught = caught || test::find_self_contacts_on_gpu_after(rigid, poked) !=
+                           test::find_self_contacts_on_cpu<float>(poked);
+    caught = caught || test::find_self_contacts_on_gpu_after(poked, rigid) !=
+                           test::find_self_contacts_on_cpu<float>(rigid);
     const Model rolled = test::make_folded(test::Deformation::rolled);
     const CollisionSettings settings{.friction = 0.4, .restitution = 0.7};
     caught =
