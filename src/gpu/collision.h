@@ -33,7 +33,7 @@ struct Collision {
           update_boxes(settings.detection),
           find_object_pairs(model, settings.broad_phase),
           find_face_collisions(settings),
-          respond(buffers, settings) {
+          respond(model, buffers, settings) {
         if (settings.self_collision) {
             self.emplace(
                 Self{SelfCollisionBuffers(model), FindSelfCollisions(model), RespondToSelf(model, settings)});

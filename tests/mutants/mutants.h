@@ -127,6 +127,8 @@ inline constexpr Break kCollisionMutants[] = {
     {"normals_of_the_other_side_add_up", "include/contact_plane.glsl", "patch_.area_normal.xyz - other",
      "patch_.area_normal.xyz + other"},
     {"shares_are_not_divided", "sim/sum_contacts.comp", "(corners[k].w * shares)", "corners[k].w"},
+    {"shares_forget_an_object", "sim/count_shares.comp", "row.first_pair + row.pair_count",
+     "row.first_pair + max(row.pair_count, 1u) - 1u"},
     {"what_parts_responds", "sim/respond.comp", "count == 0u || approach <= 0.0", "count == 0u"},
     {"nothing_bounces", "sim/plan_responses.comp", "> resting_speed ? restitution", "> resting_speed ? 0.0"},
     {"friction_pushes", "sim/plan_responses.comp", "sliding * (-braking", "sliding * (braking"},
