@@ -130,6 +130,40 @@ TEST_F(SimulatorTest, StatisticsComeInOrderAndConserveEnergyInFlight) {
     }
 }
 
+// Two balls of radius 0.3 m at rest, 1 m apart.
+TEST_F(SimulatorTest, MeasuresWhatIsNear) {
+    for (const Backend backend : {Backend::cpu, Backend::gl}) {
+        Scene scene = falling_balls();
+        scene.collision.proximity_radius = 0.41;
+        SimulatorOptions options = on(backend);
+        options.time_stages = true;
+        Simulator simulator(scene, options);
+        simulator.begin_statistics();
+        EXPECT_EQ(simulator.take_statistics().proximities->node_face, 0u) << "nothing was sought yet";
+        simulator.step();
+        simulator.begin_statistics();
+        const auto near = simulator.take_statistics().proximities;
+        ASSERT_TRUE(near.has_value());
+        EXPECT_GT(near->node_face, 0u);
+        EXPECT_GT(near->edge_edge, 0u);
+        EXPECT_EQ(near->edge_edge % 2, 0u);
+        EXPECT_EQ(near->lost, 0u);
+        EXPECT_GE(near->nearest_gap, 0.4 - 1e-6);
+        EXPECT_LT(near->nearest_gap, 0.41);
+        bool is_timed = false;
+        for (const auto& [stage, times] : simulator.take_stage_times())
+            is_timed |= stage == "find_proximities";
+        EXPECT_TRUE(is_timed);
+    }
+}
+
+TEST_F(SimulatorTest, RefusesARadiusByDepth) {
+    Scene scene = falling_balls();
+    scene.collision.proximity_radius = 0.1;
+    scene.collision.broad_phase = BroadPhase::depth;
+    EXPECT_THROW(Simulator(scene, on(Backend::gl)), InvalidInput);
+}
+
 TEST_F(SimulatorTest, StopsWhenNumbersAreNotFinite) {
     Scene scene = falling_balls();
     scene.objects[1].velocity = {3e38, 3e38, 0.0};
