@@ -79,34 +79,46 @@ void FindProximities<Real>::search(std::uint32_t leaf, std::span<const Vec4<Real
     const std::vector<glm::uvec2>& face_starts = model_->surface_parts.face_starts;
     const glm::uvec2 first = face_starts[faces.first_item],
                      end = face_starts[faces.first_item + faces.item_count];
-    found.near.clear();
-    if (first != end) find_near_leaves(leaf, found.near);
-    if (found.near.empty()) return;
+    if (first == end) return;
+    find_near(leaf, found);
     for (std::uint32_t place = first.x; place < end.x; ++place) test_node(place, positions, found);
     for (std::uint32_t edge = first.y; edge < end.y; ++edge) test_edge(edge, positions, found);
 }
 
 // Objects in ascending order, the own one at its place among them: so leaves, and what is in them, ascend.
 template <class Real>
-void FindProximities<Real>::find_near_leaves(std::uint32_t leaf, std::vector<std::uint32_t>& near) const {
-    const BoxTree& trees = model_->face_trees;
-    const std::uint32_t object = model_->faces[trees.nodes[leaf].first_item].object;
-    const AxisBox<Real>& box = collision_.tree_boxes()[leaf];
-    const auto walk = [&](std::uint32_t other) {
-        for_leaves_near<Real>(trees, collision_.tree_boxes(), trees.roots[other], box,
-                              [&](std::uint32_t found) { near.push_back(found); });
-    };
+void FindProximities<Real>::find_near(std::uint32_t leaf, Found& found) const {
+    const std::uint32_t object = model_->faces[model_->face_trees.nodes[leaf].first_item].object;
+    found.faces.clear();
+    found.edges.clear();
     bool own_is_due = own_;
     const Range row = collision_.row(object);
     for (std::uint32_t p = row.first; p < row.end(); ++p) {
         const std::uint32_t other = collision_.pairs()[p].other;
         if (own_is_due && other > object) {
-            walk(object);
+            walk(leaf, object, found);
             own_is_due = false;
         }
-        walk(other);
+        walk(leaf, other, found);
     }
-    if (own_is_due) walk(object);
+    if (own_is_due) walk(leaf, object, found);
+}
+
+template <class Real>
+void FindProximities<Real>::walk(std::uint32_t leaf, std::uint32_t object, Found& found) const {
+    const BoxTree& trees = model_->face_trees;
+    const std::vector<glm::uvec2>& face_starts = model_->surface_parts.face_starts;
+    const AxisBox<Real>& box = collision_.tree_boxes()[leaf];
+    const auto keep = [&](std::uint32_t index, const AxisBox<Real>& other, std::vector<Near>& near) {
+        if (meet(box, other)) near.push_back({index, other});
+    };
+    for_leaves_near<Real>(trees, collision_.tree_boxes(), trees.roots[object], box, [&](std::uint32_t other) {
+        const std::uint32_t first = trees.nodes[other].first_item,
+                            end = first + trees.nodes[other].item_count;
+        for (std::uint32_t f = first; f < end; ++f) keep(f, collision_.face_boxes()[f], found.faces);
+        for (std::uint32_t e = face_starts[first].y; e < face_starts[end].y; ++e)
+            keep(e, edge_boxes_[e], found.edges);
+    });
 }
 
 template <class Real>
@@ -116,20 +128,16 @@ void FindProximities<Real>::test_node(std::uint32_t place, std::span<const Vec4<
     const Vec3<Real> p(positions[node]);
     AxisBox<Real> box;
     box.add(p, margin_);
-    for (const std::uint32_t leaf : found.near) {
-        if (!meet(box, collision_.tree_boxes()[leaf])) continue;
-        const TreeNode& faces = model_->face_trees.nodes[leaf];
-        for (std::uint32_t f = faces.first_item; f < faces.first_item + faces.item_count; ++f) {
-            const Face& face = model_->faces[f];
-            if (!meet(box, collision_.face_boxes()[f]) || has_node(face, node)) continue;
-            const NodeToFace<Real> nearest =
-                nearest_points<Real>(p, {Vec3<Real>(positions[face.a]), Vec3<Real>(positions[face.b]),
-                                         Vec3<Real>(positions[face.c])});
-            if (!(nearest.squared_distance < squared_radius_)) continue;
-            found.node_face.push_back({node, f, std::sqrt(nearest.squared_distance), nearest.apart,
-                                       Vec4<Real>(nearest.weights, 0)});
-            ++starts_[place];
-        }
+    for (const Near& near : found.faces) {
+        if (!meet(box, near.box)) continue;
+        const Face& face = model_->faces[near.index];
+        if (has_node(face, node)) continue;
+        const NodeToFace<Real> nearest = nearest_points<Real>(
+            p, {Vec3<Real>(positions[face.a]), Vec3<Real>(positions[face.b]), Vec3<Real>(positions[face.c])});
+        if (!(nearest.squared_distance < squared_radius_)) continue;
+        found.node_face.push_back({node, near.index, std::sqrt(nearest.squared_distance), nearest.apart,
+                                   Vec4<Real>(nearest.weights, 0)});
+        ++starts_[place];
     }
 }
 
@@ -141,20 +149,15 @@ void FindProximities<Real>::test_edge(std::uint32_t edge, std::span<const Vec4<R
     const auto ends = [&](std::uint32_t e) {
         return std::array{Vec3<Real>(positions[parts.edges[e].a]), Vec3<Real>(positions[parts.edges[e].b])};
     };
-    for (const std::uint32_t leaf : found.near) {
-        if (!meet(box, collision_.tree_boxes()[leaf])) continue;
-        const TreeNode& faces = model_->face_trees.nodes[leaf];
-        const std::uint32_t end = parts.face_starts[faces.first_item + faces.item_count].y;
-        for (std::uint32_t other = parts.face_starts[faces.first_item].y; other < end; ++other) {
-            if (!meet(box, edge_boxes_[other]) || share_node(parts.edges[edge], parts.edges[other])) continue;
-            // In one order, so that both edges are told the same.
-            const auto [first, second] = std::minmax(edge, other);
-            const EdgeToEdge<Real> nearest = nearest_points<Real>(ends(first), ends(second));
-            if (!(nearest.squared_distance < squared_radius_)) continue;
-            const Proximity<Real> proximity = make_proximity(first, second, nearest);
-            found.edge_edge.push_back(edge == first ? proximity : mirrored(proximity));
-            ++starts_[parts.nodes.size() + edge];
-        }
+    for (const Near& near : found.edges) {
+        if (!meet(box, near.box) || share_node(parts.edges[edge], parts.edges[near.index])) continue;
+        // In one order, so that both edges are told the same.
+        const auto [first, second] = std::minmax(edge, near.index);
+        const EdgeToEdge<Real> nearest = nearest_points<Real>(ends(first), ends(second));
+        if (!(nearest.squared_distance < squared_radius_)) continue;
+        const Proximity<Real> proximity = make_proximity(first, second, nearest);
+        found.edge_edge.push_back(edge == first ? proximity : mirrored(proximity));
+        ++starts_[parts.nodes.size() + edge];
     }
 }
 

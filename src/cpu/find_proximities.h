@@ -32,13 +32,19 @@ public:
     ProximityMeasure measure() const;
 
 private:
+    // A face or an edge, and its box.
+    struct Near {
+        std::uint32_t index;
+        AxisBox<Real> box;
+    };
     // What the nodes and edges of a few leaves have found.
     struct Found {
-        std::vector<std::uint32_t> near;  // leaves near the present one
+        std::vector<Near> faces, edges;  // near the present leaf, ascending
         std::vector<Proximity<Real>> node_face, edge_edge;
     };
     void search(std::uint32_t leaf, std::span<const Vec4<Real>> positions, Found& found);
-    void find_near_leaves(std::uint32_t leaf, std::vector<std::uint32_t>& near) const;
+    void find_near(std::uint32_t leaf, Found& found) const;
+    void walk(std::uint32_t leaf, std::uint32_t object, Found& found) const;
     void test_node(std::uint32_t place, std::span<const Vec4<Real>> positions, Found& found);
     void test_edge(std::uint32_t edge, std::span<const Vec4<Real>> positions, Found& found);
     void collect();
