@@ -11,6 +11,9 @@ layout(std430, binding = 7) buffer Starts { uint starts[]; };  // counts of the 
 uniform uint query_count;
 uniform uint node_count;  // queries that are nodes
 
+const uint kLaneQueries = 16u;
+const uint kGroupQueries = 256u * kLaneQueries;
+
 shared uint parts[256];
 
 // The sum of the lanes' values before this one.
@@ -30,7 +33,7 @@ uint sum_before(uint value) {
 void main() {
 #if defined(GROUPS)
     uint lane = gl_LocalInvocationID.x;
-    uint group_count = (query_count + 255u) / 256u;
+    uint group_count = (query_count + kGroupQueries - 1u) / kGroupQueries;
     uint share = (group_count + 255u) / 256u;
     uint first = min(lane * share, group_count);
     uint last = min(first + share, group_count);
@@ -47,16 +50,22 @@ void main() {
     uint query = global_index();
     if (query > query_count) return;
     uint at = starts[query];
-    if (query < query_count) at += group_sums[query / 256u];
+    if (query < query_count) at += group_sums[query / kGroupQueries];
     starts[query] = at;
     if (query == node_count) found.node_face = at;
     if (query == query_count) found.all = at;
 #else
-    if (256u * group_index() >= query_count) return;  // the whole group leaves, so no one waits at the barrier
-    uint query = global_index();
-    uint value = query < query_count ? starts[query] : 0u;
-    uint at = sum_before(value);
-    if (query < query_count) starts[query] = at;
-    if (gl_LocalInvocationID.x == 255u) group_sums[group_index()] = at + value;
+    if (kGroupQueries * group_index() >= query_count) return;  // the whole group leaves, so no one waits at the barrier
+    uint first = min(kLaneQueries * global_index(), query_count);
+    uint last = min(first + kLaneQueries, query_count);
+    uint sum = 0u;
+    for (uint query = first; query < last; ++query) sum += starts[query];
+    uint at = sum_before(sum);
+    if (gl_LocalInvocationID.x == 255u) group_sums[group_index()] = at + sum;
+    for (uint query = first; query < last; ++query) {
+        uint next = at + starts[query];
+        starts[query] = at;
+        at = next;
+    }
 #endif
 }

@@ -7,7 +7,7 @@ namespace {
 
 using Work = CollisionBuffers::Work;
 
-constexpr std::uint32_t kSumLanes = 256;
+constexpr std::uint32_t kSumLanes = 256, kLaneQueries = 16;  // of shaders/sim/sum_proximities.comp
 constexpr auto kNext = gl::Barrier::storage | gl::Barrier::texture_fetch | gl::Barrier::command;
 
 template <class T>
@@ -116,7 +116,7 @@ void FindProximities::sum_up(const ProximityBuffers& buffers) const {
         program->set("query_count", buffers.query_count);
         program->set("node_count", buffers.node_count);
     }
-    sum_program_.dispatch(buffers.query_count, kSumLanes);
+    sum_program_.dispatch(buffers.query_count, kLaneQueries * kSumLanes);
     gl::barrier(gl::Barrier::storage);
     sum_groups_program_.dispatch(kSumLanes, kSumLanes);
     gl::barrier(gl::Barrier::storage);

@@ -16,7 +16,7 @@ constexpr Capacity kNearObjects{8, 1u << 16, kMostInvocations};  // a leaf; 1 to
 constexpr Capacity kNearLeaves{64, 1u << 20, 1u << 24};          // a leaf; 4 to 64 MB
 constexpr Capacity kTasks{8, 1u << 18, kMostInvocations};        // a node or edge; 5 to 84 MB
 constexpr Capacity kProximities{8, 1u << 17, 1u << 20};          // a node or edge; 6 to 50 MB
-constexpr std::size_t kGroup = 256;                              // of shaders/sim/sum_proximities.comp
+constexpr std::size_t kGroup = 4096;                             // of shaders/sim/sum_proximities.comp
 
 constexpr ProximityCounts kNothing{0, 0, 0x7F800000, 0};  // nearest at infinity, until it is sought
 

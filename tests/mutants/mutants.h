@@ -189,7 +189,7 @@ inline constexpr Break kProximityMutants[] = {
      "texelFetch(face_edges, int(min(edge, other))), f = texelFetch(face_edges, int(max(edge, other)))",
      "texelFetch(face_edges, int(edge)), f = texelFetch(face_edges, int(other))"},
     {"a_group_forgets_lanes", "sim/sum_proximities.comp", "reach < 256u", "reach < 128u"},
-    {"groups_start_anew", "sim/sum_proximities.comp", "at += group_sums[query / 256u];", ""},
+    {"groups_start_anew", "sim/sum_proximities.comp", "at += group_sums[query / kGroupQueries];", ""},
     {"tasks_write_over_one_another", "sim/write_proximities.comp", "place += count_hits(before);", ";"},
     {"the_mirror_keeps_its_way", "sim/write_proximities.comp", "vec4(-apart, 0.0)", "vec4(apart, 0.0)"},
     {"the_mirror_keeps_its_weights", "sim/write_proximities.comp", "vec4(1.0 - t, t, 1.0 - s, s)",

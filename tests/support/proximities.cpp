@@ -301,7 +301,8 @@ const std::vector<ProximityScene> kProximityScenes{
          return moved(make_crowd(9, 6), {300.0f, -2000.0f, 50.0f});
      },
      0.05},
-    {"far_pairs", [] { return make_far_pairs(41, 4.0); }, 0.01},
+    // More queries than a work group sums up.
+    {"far_pairs", [] { return make_far_pairs(81, 5.0); }, 0.01},
     {"stack", make_stack, 0.01},
     {"collapsed", make_collapsed, 0.04},
     {"rolled", [] { return make_folded(Deformation::rolled, 1); }, 0.1},
