@@ -157,6 +157,28 @@ TEST_F(SimulatorTest, MeasuresWhatIsNear) {
     }
 }
 
+// Of one object its own parts, where it collides with itself; else nothing is sought.
+TEST_F(SimulatorTest, MeasuresWhatIsNearWithinOneObject) {
+    Scene scene = falling_balls();
+    scene.objects.resize(1);
+    scene.collision.proximity_radius = 0.2;
+    for (const bool own : {false, true}) {
+        scene.collision.self_collision = own;
+        std::vector<double> counts;
+        for (const Backend backend : {Backend::cpu, Backend::gl}) {
+            Simulator simulator(scene, on(backend));
+            simulator.step();
+            simulator.begin_statistics();
+            const auto near = simulator.take_statistics().proximities;
+            ASSERT_EQ(near.has_value(), own);
+            if (own) counts.push_back(static_cast<double>(near->node_face + near->edge_edge));
+        }
+        if (!own) continue;
+        EXPECT_GT(counts[0], 1000.0);
+        EXPECT_NEAR(counts[1] / counts[0], 1.0, 0.001) << "but for rounding";
+    }
+}
+
 TEST_F(SimulatorTest, RefusesARadiusByDepth) {
     Scene scene = falling_balls();
     scene.collision.proximity_radius = 0.1;
