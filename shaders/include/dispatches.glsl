@@ -16,10 +16,13 @@ const uint kRestless = 8u;   // an invocation a face that walks through its obje
 const uint kSelfPairs = 9u;  // an invocation a pair of faces of one object
 const uint kSelfFaces = 10u; // an invocation a face that touches another of its object
 const uint kSelfNodes = 11u; // an invocation a node
-const uint kNearObjects = 12u; // an invocation a leaf's walk through the tree of an object
-const uint kNearLeaves = 13u;  // no dispatch: how many leaves they have found
-const uint kNodeTasks = 14u;   // an invocation a node and up to eight of them
-const uint kEdgeTasks = 15u;   // an invocation an edge and up to eight of them
+const uint kFitSums = 12u;   // a work group a chunk of nodes of an object that may have restless faces
+const uint kFits = 13u;      // an invocation such an object
+const uint kRestlessChunks = 14u;  // a work group a chunk of its faces
+const uint kNearObjects = 15u; // an invocation a leaf's walk through the tree of an object
+const uint kNearLeaves = 16u;  // no dispatch: how many leaves they have found
+const uint kNodeTasks = 17u;   // an invocation a node and up to eight of them
+const uint kEdgeTasks = 18u;   // an invocation an edge and up to eight of them
 
 // Work groups of 64 for `count` invocations, folded into two dimensions where one is not enough.
 Dispatch make_dispatch(uint count, uint groups) {

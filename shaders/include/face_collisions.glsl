@@ -1,9 +1,12 @@
-// The paper's Face Collision Result: for each pair of objects a bit a face of the pair's object.
+// The paper's Face Collision Result: for each pair of objects two bits a face of the pair's object, how it touches the
+// other (src/cpu/touch.h).
+const uint kTouches = 1u;
+const uint kEnters = 3u;
 layout(std430, binding = 4) buffer FaceCollisions { uint face_collisions[]; };
 
 bool collides(ObjectPair pair, uint face) {
     uint index = face - bounding_boxes[pair.object].first_face;
-    return (face_collisions[pair.first_word + index / 32u] >> (index % 32u) & 1u) != 0u;
+    return (face_collisions[pair.first_word + index / kFacesAWord] >> (2u * (index % kFacesAWord)) & kTouches) != 0u;
 }
 
 // In any pair of its object's row, or with SELF_COLLISION with its own object.

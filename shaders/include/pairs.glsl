@@ -10,7 +10,9 @@ layout(std430, binding = 2) buffer ObjectPairs { ObjectPair object_pairs[]; };
 
 const uint kAllFaces = 0xFFFFFFFFu;  // ObjectPair::first_candidate
 
-uint word_count(uint object) { return (bounding_boxes[object].face_count + 31u) / 32u; }
+const uint kFacesAWord = 16u;        // of the Face Collision Result
+
+uint word_count(uint object) { return (bounding_boxes[object].face_count + kFacesAWord - 1u) / kFacesAWord; }
 
 uint leaf_count(uint object) { return (bounding_boxes[object].face_count + 3u) / 4u; }
 

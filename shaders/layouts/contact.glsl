@@ -2,7 +2,7 @@
 // One side of two objects that touch. A colliding face gives each of its corners a share of the node's mass, so that a
 // node's shares over all its colliding faces add up to its mass.
 struct ContactPatch {    // 32 bytes
-    vec4  area_normal;   // sum of the colliding faces' area normals [m^2]; w: mass of the corners [kg]
+    vec4  area_normal;   // weighted sum of the colliding faces' area normals [m^2]; w: mass of the corners [kg]
     vec4  momentum;      // of the corners [kg m/s]; w: number of corners that are pinned
 };
 // The corners of a patch that move towards the other object.

@@ -3,7 +3,7 @@
 struct ObjectPair {      // 32 bytes
     uint  object;
     uint  other;
-    uint  first_word;       // of the object's Face Collision Result for this pair: a bit a face in face_collisions
+    uint  first_word;       // of the object's Face Collision Result for this pair: two bits a face in face_collisions
     uint  first_candidate;  // of its candidates; kAllFaces: every face is one
     uint  candidate_count;
     uint  first_test;       // tests of the pairs before this one

@@ -37,7 +37,7 @@ void main() {
     uint leaf = (entry - row.first_entry) % leaves;
     ObjectPair pair = object_pairs[p];
 
-    if (leaf % 8u == 0u) face_collisions[pair.first_word + leaf / 8u] = 0u;
+    if (leaf % 4u == 0u) face_collisions[pair.first_word + leaf / 4u] = 0u;
     if (pair.first_candidate == kAllFaces || !starts_tests(pair)) return;
     BoundingBox other = bounding_boxes[pair.other];
     uint end = own.first_face + min(4u * leaf + 4u, own.face_count);

@@ -15,6 +15,8 @@ layout(std430, binding = 3) readonly buffer Faces { Face faces[]; };
 layout(std430, binding = 7) writeonly buffer Approaches { ApproachSums approaches[]; };
 #endif
 
+const float kWeightOfOthers = 1e-3;  // see src/cpu/contact.h
+
 shared vec4 parts[2][64];
 
 // Adds what corner `node` of a colliding face contributes; `share` is its mass [kg], 0 where it is pinned.
@@ -33,7 +35,8 @@ void add_corner(uint node, float share, ContactPlane plane, inout vec4 a, inout 
 }
 #endif
 
-void add_face(uint f, PairRow row, ContactPlane plane, inout vec4 a, inout vec4 b) {
+// `touch`: its bits of the Face Collision Result.
+void add_face(uint f, uint touch, PairRow row, ContactPlane plane, inout vec4 a, inout vec4 b) {
     Face face = faces[f];
     uvec3 nodes = uvec3(face.a, face.b, face.c);
     vec4 corners[3];
@@ -43,7 +46,8 @@ void add_face(uint f, PairRow row, ContactPlane plane, inout vec4 a, inout vec4 
         add_corner(nodes[k], corners[k].w > 0.0 ? 1.0 / (corners[k].w * shares) : 0.0, plane, a, b);
     }
 #ifndef APPROACHING
-    a.xyz += 0.5 * cross(corners[1].xyz - corners[0].xyz, corners[2].xyz - corners[0].xyz);
+    float weight = touch == kEnters ? 0.5 : 0.5 * kWeightOfOthers;
+    a.xyz += weight * cross(corners[1].xyz - corners[0].xyz, corners[2].xyz - corners[0].xyz);
 #endif
 }
 
@@ -64,8 +68,9 @@ void main() {
     for (uint w = lane; w < words; w += 64u) {
         uint bits = face_collisions[pair.first_word + w];
         while (bits != 0u) {
-            add_face(first_face + 32u * w + uint(findLSB(bits)), row, plane, a, b);
-            bits &= bits - 1u;
+            uint place = uint(findLSB(bits)) & ~1u;
+            add_face(first_face + kFacesAWord * w + place / 2u, bits >> place & 3u, row, plane, a, b);
+            bits &= ~(3u << place);
         }
     }
     parts[0][lane] = a;

@@ -1,10 +1,10 @@
-// Face against face (paper 2.4): sets the bits of both faces in the Face Collision Result where they touch; with CONTINUOUS
-// at any time of the step, each node moving straight.
+// Face against face (paper 2.4): notes in the Face Collision Result how both faces touch; with CONTINUOUS at any time of
+// the step, each node moving straight.
 // CPU twin: gelatin::cpu::Collision. Parity: tests/gpu/collision_test.cpp.
 #include "include/pairs.glsl"
 #include "include/face_collisions.glsl"
 #ifdef CONTINUOUS
-#include "include/time_of_impact.glsl"
+#include "include/touch.glsl"
 #else
 #include "include/triangle_overlap.glsl"
 #endif
@@ -21,20 +21,22 @@ mat3 corners(Face face, samplerBuffer at) {
     return mat3(texelFetch(at, int(face.a)).xyz, texelFetch(at, int(face.b)).xyz, texelFetch(at, int(face.c)).xyz);
 }
 
-bool touch(Face a, Face b) {
+// How each touches the other; 0 where they do not.
+uvec2 test(Face a, Face b) {
 #ifdef CONTINUOUS
-    return time_of_impact(MovingFace(corners(a, previous_positions), corners(a, positions)),
-                          MovingFace(corners(b, previous_positions), corners(b, positions))) != kNever;
+    MovingFace face = MovingFace(corners(a, previous_positions), corners(a, positions));
+    MovingFace other = MovingFace(corners(b, previous_positions), corners(b, positions));
+    return time_of_impact(face, other) != kNever ? touches_on_the_way(face, other) : uvec2(0u);
 #else
     mat3 s = corners(a, positions), t = corners(b, positions);
-    return triangles_overlap(s[0], s[1], s[2], t[0], t[1], t[2]);
+    return triangles_overlap(s[0], s[1], s[2], t[0], t[1], t[2]) ? uvec2(kEnters) : uvec2(0u);
 #endif
 }
 
-void set_colliding(uint p, uint face) {
+void set_touch(uint p, uint face, uint touch) {
     ObjectPair pair = object_pairs[p];
     uint index = face - bounding_boxes[pair.object].first_face;
-    atomicOr(face_collisions[pair.first_word + index / 32u], 1u << (index % 32u));
+    atomicOr(face_collisions[pair.first_word + index / kFacesAWord], touch << (2u * (index % kFacesAWord)));
 }
 
 void main() {
@@ -43,7 +45,8 @@ void main() {
     FacePair face_pair = face_pairs[k];
     Face a = faces[face_pair.face];
     Face b = faces[face_pair.other_face];
-    if (!touch(a, b)) return;
-    set_colliding(face_pair.pair, face_pair.face);
-    set_colliding(find_pair(b.object, a.object), face_pair.other_face);
+    uvec2 touches = test(a, b);
+    if (touches.x == 0u) return;
+    set_touch(face_pair.pair, face_pair.face, touches.x);
+    set_touch(find_pair(b.object, a.object), face_pair.other_face, touches.y);
 }

@@ -17,9 +17,10 @@ namespace {
 constexpr std::uint32_t kFacesATask = 2048;
 constexpr std::uint32_t kTestsATask = 65536;
 constexpr std::size_t kWalksATask = 64;
+constexpr std::uint32_t kFacesAWord = 16;  // of the Face Collision Result
 
 std::uint32_t word_count(const ModelObject& object) {
-    return (object.faces.count + 31) / 32;
+    return (object.faces.count + kFacesAWord - 1) / kFacesAWord;
 }
 
 template <class Real>
@@ -126,12 +127,13 @@ template <class Real>
 void Collision<Real>::find_face_collisions(std::span<const Vec4<Real>> positions,
                                            std::span<const Vec4<Real>> previous) {
     const auto overlap = [&](const Face& a, const Face& b) {
-        return triangles_overlap(triangle(positions, a), triangle(positions, b));
+        const bool touch = triangles_overlap(triangle(positions, a), triangle(positions, b));
+        return touch ? Touches{Touch::enters, Touch::enters} : Touches{};
     };
     const auto touch_on_the_way = [&](const Face& a, const Face& b) {
-        return time_of_impact<Real, 3, 3>({triangle(previous, a), triangle(positions, a)},
-                                          {triangle(previous, b), triangle(positions, b)})
-            .has_value();
+        const Moving<Real, 3> face{triangle(previous, a), triangle(positions, a)},
+            other{triangle(previous, b), triangle(positions, b)};
+        return time_of_impact(face, other) ? touches_on_the_way(face, other) : Touches{};
     };
     tbb::parallel_for(std::size_t(0), pairs_.size(), [&](std::size_t p) {
         if (!starts_tests(pairs_[p])) return;
@@ -179,8 +181,8 @@ void Collision<Real>::for_faces_near(const ObjectPair& pair, std::uint32_t face,
 }
 
 template <class Real>
-template <class Touch>
-void Collision<Real>::test_candidates(const ObjectPair& pair, const Touch& touch) {
+template <class Test>
+void Collision<Real>::test_candidates(const ObjectPair& pair, const Test& test) {
     const std::vector<std::uint32_t> candidates = find_candidates(pair);
     const bool brute_force = broad_phase_ != BroadPhase::hierarchy;
     const std::size_t grain =
@@ -189,9 +191,10 @@ void Collision<Real>::test_candidates(const ObjectPair& pair, const Touch& touch
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
             const Face& face = model_->faces[candidates[i]];
             for_faces_near(pair, candidates[i], [&](std::uint32_t other) {
-                if (!touch(face, model_->faces[other])) return;
-                set_colliding(pair, candidates[i]);
-                set_colliding(pairs_[pair.mirror], other);
+                const Touches touches = test(face, model_->faces[other]);
+                if (touches.ours == Touch::none) return;
+                set_touch(pair, candidates[i], touches.ours);
+                set_touch(pairs_[pair.mirror], other, touches.theirs);
             });
         }
     });
@@ -199,21 +202,22 @@ void Collision<Real>::test_candidates(const ObjectPair& pair, const Touch& touch
 
 // Bits of one word belong to faces that several threads may find.
 template <class Real>
-void Collision<Real>::set_colliding(const ObjectPair& pair, std::uint32_t face) {
+void Collision<Real>::set_touch(const ObjectPair& pair, std::uint32_t face, Touch touch) {
     const std::uint32_t index = face - model_->objects[pair.object].faces.first;
-    std::atomic_ref(face_collisions_[pair.first_word + index / 32])
-        .fetch_or(1u << (index % 32), std::memory_order_relaxed);
+    std::atomic_ref(face_collisions_[pair.first_word + index / kFacesAWord])
+        .fetch_or(static_cast<std::uint32_t>(touch) << (2 * (index % kFacesAWord)),
+                  std::memory_order_relaxed);
+}
+
+template <class Real>
+Touch Collision<Real>::touch(const ObjectPair& pair, std::uint32_t face) const {
+    const std::uint32_t index = face - model_->objects[pair.object].faces.first;
+    return Touch(face_collisions_[pair.first_word + index / kFacesAWord] >> (2 * (index % kFacesAWord)) & 3u);
 }
 
 template <class Real>
 Range Collision<Real>::row(std::uint32_t object) const {
     return {row_starts_[object], row_starts_[object + 1] - row_starts_[object]};
-}
-
-template <class Real>
-bool Collision<Real>::collides(const ObjectPair& pair, std::uint32_t face) const {
-    const std::uint32_t index = face - model_->objects[pair.object].faces.first;
-    return (face_collisions_[pair.first_word + index / 32] >> (index % 32) & 1u) != 0;
 }
 
 template <class Real>

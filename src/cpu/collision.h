@@ -6,6 +6,7 @@
 
 #include "cpu/axis_box.h"
 #include "cpu/object_tree.h"
+#include "cpu/touch.h"
 #include "gelatin/scene.h"
 #include "model/model.h"
 
@@ -47,8 +48,11 @@ public:
     /// An object's pairs.
     Range row(std::uint32_t object) const;
 
-    /// True if a face of the pair's object touches the other object.
-    bool collides(const ObjectPair& pair, std::uint32_t face) const;
+    /// How a face of the pair's object touches the other object.
+    Touch touch(const ObjectPair& pair, std::uint32_t face) const;
+    bool collides(const ObjectPair& pair, std::uint32_t face) const {
+        return touch(pair, face) != Touch::none;
+    }
     /// True if it touches any other object.
     bool collides(std::uint32_t face) const;
     /// True if the objects of the pair touch at all.
@@ -61,9 +65,9 @@ private:
     std::vector<std::uint32_t> find_candidates(const ObjectPair& pair) const;
     template <class Found>
     void for_faces_near(const ObjectPair& pair, std::uint32_t face, const Found& found) const;
-    template <class Touch>
-    void test_candidates(const ObjectPair& pair, const Touch& touch);
-    void set_colliding(const ObjectPair& pair, std::uint32_t face);
+    template <class Test>
+    void test_candidates(const ObjectPair& pair, const Test& test);
+    void set_touch(const ObjectPair& pair, std::uint32_t face, Touch touch);
 
     std::shared_ptr<const Model> model_;
     BroadPhase broad_phase_;
@@ -76,7 +80,7 @@ private:
     std::vector<std::vector<std::uint32_t>> partners_;  // of each object, ascending
     std::vector<ObjectPair> pairs_;
     std::vector<std::uint32_t> row_starts_;       // shape [objects + 1]
-    std::vector<std::uint32_t> face_collisions_;  // a bit a face of its object, by pair
+    std::vector<std::uint32_t> face_collisions_;  // two bits a face of its object, by pair: a Touch
 };
 
 }  // namespace gelatin::cpu

@@ -12,11 +12,15 @@ namespace gelatin::cpu {
 /// mass.
 template <class Real>
 struct ContactPatch {
-    Vec3<Real> area_normal{0};  ///< sum of the colliding faces' area normals [m^2]
+    Vec3<Real> area_normal{0};  ///< sum of the colliding faces' weighted area normals [m^2]
     Real mass = 0;              ///< of the corners that are not pinned [kg]
     Vec3<Real> momentum{0};     ///< of the same [kg m/s]
     std::uint32_t pinned = 0;   ///< corners that are
 };
+
+/// The weight in a patch's normal of faces that do not enter the other object (src/cpu/touch.h): they count
+/// where none does.
+constexpr double kWeightOfOthers = 1e-3;
 
 /// The corners of a patch that move towards the other object.
 template <class Real>

@@ -11,7 +11,6 @@ namespace gelatin::cpu {
 namespace {
 
 constexpr std::uint32_t kNodesATask = 1024;
-
 // What all stages of a response read.
 template <class Real>
 struct Contacts {
@@ -64,8 +63,10 @@ ContactPatch<Real> sum_patch(const Contacts<Real>& contacts, const ObjectPair& p
     ContactPatch<Real> patch;
     const Range& faces = contacts.model.objects[pair.object].faces;
     for (std::uint32_t f = faces.first; f < faces.end(); ++f) {
-        if (contacts.collision.collides(pair, f))
-            patch.area_normal += contacts.area_normal(contacts.model.faces[f]);
+        if (!contacts.collision.collides(pair, f)) continue;
+        const Real weight =
+            contacts.collision.touch(pair, f) == Touch::enters ? Real(1) : static_cast<Real>(kWeightOfOthers);
+        patch.area_normal += weight * contacts.area_normal(contacts.model.faces[f]);
     }
     contacts.for_corners(pair, [&](std::uint32_t n, Real mass) {
         patch.pinned += mass == Real(0) ? 1 : 0;

@@ -14,9 +14,10 @@ namespace gelatin::cpu {
 
 /// Finds which faces of an object touch others of the same object; those that share a corner are left out.
 ///
-/// Two faces cannot touch while both are calm: nearer to where the best affine map of the rest shape puts
-/// them than half of what that map leaves of their clearance at rest (docs/physics.md). Only faces that are
-/// not walk through their object's tree. GPU twin: gpu::FindSelfCollisions.
+/// Two faces cannot touch while both are calm: nearer to where an affine map of the rest shape puts them than
+/// half of what that map leaves of their clearance at rest (docs/physics.md). Only faces that are not walk
+/// through their object's tree, and only objects that their last map does not explain are looked at by face.
+/// GPU twin: gpu::FindSelfCollisions.
 template <class Real>
 class SelfCollision {
 public:
@@ -45,8 +46,9 @@ public:
 
 private:
     void find_restless(std::span<const Vec4<Real>> positions);
-    bool is_calm_all_over(const AffineFit<Real>& fit, std::uint32_t object,
-                          std::span<const Vec4<Real>> positions) const;
+    bool renew_fit(std::uint32_t object, std::span<const Vec4<Real>> positions);
+    bool is_calm_all_over(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
+    bool is_face_calm(std::uint32_t index, std::span<const Vec4<Real>> positions) const;
     bool share_corner(std::uint32_t face, std::uint32_t other) const;
     bool touch(std::span<const Vec4<Real>> positions, std::uint32_t face, std::uint32_t other) const;
 
@@ -62,7 +64,9 @@ private:
 
     std::shared_ptr<const Model> model_;
     const Collision<Real>& boxes_;
-    std::vector<std::uint8_t> is_calm_;          // shape [faces]
+    std::vector<AffineFit<Real>> fits_;          // shape [objects]
+    std::vector<std::uint8_t> is_object_calm_;   // all over, shape [objects]
+    std::vector<std::uint8_t> is_calm_;          // of objects that are not, shape [faces]
     std::vector<std::uint32_t> restless_;        // faces, ascending
     std::vector<std::uint32_t> contact_counts_;  // shape [faces]
     bool any_ = false;

@@ -27,7 +27,7 @@ struct CollisionBuffers {
     gl::Buffer<ObjectPair> object_pairs;
     gl::Buffer<std::uint32_t> candidates;       ///< faces
     gl::Buffer<FacePair> face_pairs;            ///< whose boxes meet
-    gl::Buffer<std::uint32_t> face_collisions;  ///< a bit a face, by pair
+    gl::Buffer<std::uint32_t> face_collisions;  ///< two bits a face, by pair: a Touch
     gl::Buffer<Dispatch> dispatches;            ///< see shaders/include/pairs.glsl
 
     gl::Buffer<std::uint32_t> face_views, object_views;  ///< see shaders/include/hidden.glsl
@@ -62,6 +62,9 @@ struct CollisionBuffers {
         self_pairs,
         self_faces,
         self_nodes,
+        fit_sums,
+        fits,
+        restless_chunks,
         near_objects,
         near_leaves,
         node_tasks,

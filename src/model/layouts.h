@@ -25,7 +25,7 @@ using glm::vec4;
 #include "layouts/surface_vertex.glsl"
 #include "layouts/tree_node.glsl"
 
-static_assert(sizeof(AffineFit) == 64);
+static_assert(sizeof(AffineFit) == 80);
 static_assert(sizeof(ApproachSums) == 32);
 static_assert(sizeof(BoundingBox) == 48);
 static_assert(sizeof(Box) == 32);

@@ -77,9 +77,13 @@ TEST(Collision, ContinuousDetectionFindsWhatComesNear) {
         for (std::uint32_t g = 0; g < model.faces.size(); ++g) {
             const std::uint32_t other = model.faces[g].object;
             if (other == model.faces[f].object) continue;
-            if (!expected.empty() && expected.back() == std::pair(f, other)) continue;
-            const test::MovingPair<float> pair{moving(model.faces[f]), moving(model.faces[g])};
-            if (test::comes_near(pair, 1e-9)) expected.emplace_back(f, other);
+            const auto face = moving(model.faces[f]), other_face = moving(model.faces[g]);
+            if (!test::comes_near(test::MovingPair<float>{face, other_face}, 1e-9)) continue;
+            const bool is_new =
+                expected.empty() || expected.back().face != f || expected.back().other != other;
+            if (is_new) expected.push_back({f, other, cpu::Touch::touches});
+            if (cpu::touches_on_the_way(face, other_face).ours == cpu::Touch::enters)
+                expected.back().touch = cpu::Touch::enters;
         }
     }
     EXPECT_EQ(test::find_collisions_on_cpu<float>(model, continuous(), kStep), expected);

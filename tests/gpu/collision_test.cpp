@@ -94,8 +94,8 @@ TEST_F(CollisionOnGpuTest, CountsCollidingFaces) {
     const auto expected = test::find_collisions_on_cpu<float>(*model, {});
     std::vector<std::uint32_t> counts(model->objects.size());
     for (std::size_t k = 0; k < expected.size(); ++k) {
-        if (k == 0 || expected[k].first != expected[k - 1].first)
-            ++counts[model->faces[expected[k].first].object];
+        if (k == 0 || expected[k].face != expected[k - 1].face)
+            ++counts[model->faces[expected[k].face].object];
     }
     gpu::GpuSolver solver(model, SolverKind::semi_implicit_euler, ForceMethod::fused);
     solver.update_boxes();

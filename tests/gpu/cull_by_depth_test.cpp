@@ -166,7 +166,7 @@ TEST_F(CullByDepthTest, LeavesTheFacesNearAContactAlone) {
     const Left left = find_left(model);
     EXPECT_EQ(left.objects.size(), 2u);
     EXPECT_LT(left.faces.size(), model.faces.size() / 10);
-    for (const auto& [face, other] : test::find_collisions_on_cpu<float>(model, {}))
+    for (const auto& [face, other, touch] : test::find_collisions_on_cpu<float>(model, {}))
         EXPECT_TRUE(std::binary_search(left.faces.begin(), left.faces.end(), face)) << face;
 }
 

@@ -125,7 +125,7 @@ TEST_F(LayoutsTest, RestShapes) {
           {FIELD(FitSums, column_x), FIELD(FitSums, column_y), FIELD(FitSums, column_z)});
     check("rest_shape.glsl", "AffineFit", sizeof(AffineFit),
           {FIELD(AffineFit, column_x), FIELD(AffineFit, column_y), FIELD(AffineFit, column_z),
-           FIELD(AffineFit, center)});
+           FIELD(AffineFit, center), FIELD(AffineFit, origin)});
 }
 TEST_F(LayoutsTest, Proximities) {
     check("proximity.glsl", "FaceEdge", sizeof(FaceEdge),

@@ -16,7 +16,8 @@ TEST_F(MarkFacesTest, MarksThoseThatTheCpuFinds) {
     const Model model = test::make_crowd(30);
     ASSERT_NE(model.faces.size() % 64, 0u);
     std::vector<std::uint32_t> expected(model.faces.size(), 0);
-    for (const auto& [face, other] : test::find_collisions_on_cpu<float>(model, {})) expected[face] = 1;
+    for (const auto& [face, other, touch] : test::find_collisions_on_cpu<float>(model, {}))
+        expected[face] = 1;
     const auto marked = static_cast<std::size_t>(std::count(expected.begin(), expected.end(), 1u));
     EXPECT_GT(marked, 50u);
     EXPECT_LT(marked, expected.size() - 50);

@@ -20,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kStep = 2e-4;  // [s]
+constexpr double kStep = 2e-4;     // [s]
+constexpr double kLongStep = 0.1;  // on its way a block meets others [s]
 
 // All shaders in a folder, one of them broken.
 void break_shaders(const test::Break& mutant, test::ShaderFolder& folder) {
@@ -86,14 +87,16 @@ TEST_P(CollisionMutantsTest, IsCaught) {
         for (const CollisionSettings& detection :
              {CollisionSettings{.broad_phase = BroadPhase::boxes}, CollisionSettings{},
               CollisionSettings{.detection = CollisionDetection::continuous}}) {
-            constexpr double kLongStep = 0.1;  // on its way a block meets others [s]
             caught = caught || test::find_collisions_on_gpu(model, detection, kLongStep) !=
                                    test::find_collisions_on_cpu<float>(model, detection, kLongStep);
         }
         caught = caught || is_wrong_by_depth(model);
-        const CollisionSettings settings{.friction = 0.4, .restitution = 0.7};
+        CollisionSettings settings{.friction = 0.4, .restitution = 0.7};
         caught = caught || test::worst_response_error(model, settings, kStep,
                                                       test::respond_on_gpu(model, settings, kStep)) > 1.0;
+        settings.detection = CollisionDetection::continuous;
+        caught = caught || test::worst_response_error(model, settings, kLongStep,
+                                                      test::respond_on_gpu(model, settings, kLongStep)) > 1.0;
     }
     for (const double extent : {2.0, 4.0, 100.0})
         caught = caught || is_wrong_by_depth(test::make_far_pairs(100, extent));
@@ -117,6 +120,17 @@ TEST_P(SelfCollisionMutantsTest, IsCaught) {
         // Calm enough, too: what is needless costs.
         caught = caught || restless > expected_restless + expected_restless / 10 + 3;
     }
+    const Model rigid = test::make_folded(test::Deformation::rigid);
+    Model moved = rigid;
+    for (glm::vec4& p : moved.positions) p.x += 1.0f;
+    std::uint32_t fitted = 0;
+    test::find_self_contacts_on_gpu_after(rigid, moved, &fitted);
+    caught = caught || fitted > 0;  // which costs
+    const Model poked = test::make_folded(test::Deformation::poked);
+    caught = caught || test::find_self_contacts_on_gpu_after(rigid, poked) !=
+                           test::find_self_contacts_on_cpu<float>(poked);
+    caught = caught || test::find_self_contacts_on_gpu_after(poked, rigid) !=
+                           test::find_self_contacts_on_cpu<float>(rigid);
     const Model rolled = test::make_folded(test::Deformation::rolled);
     const CollisionSettings settings{.friction = 0.4, .restitution = 0.7};
     caught =

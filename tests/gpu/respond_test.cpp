@@ -9,7 +9,8 @@
 namespace gelatin {
 namespace {
 
-constexpr double kStep = 1e-3;  // [s]
+constexpr double kStep = 1e-3;     // [s]
+constexpr double kLongStep = 0.1;  // on its way a block meets others [s]
 
 class RespondOnGpuTest : public test::GlTest, public ::testing::WithParamInterface<int> {};
 INSTANTIATE_TEST_SUITE_P(Objects, RespondOnGpuTest, ::testing::Values(2, 7, 30, 90));
@@ -30,6 +31,13 @@ TEST_P(RespondOnGpuTest, MatchesTheDoubleReference) {
         EXPECT_TRUE(test::guard_is_untouched(actual.positions, model.node_count()));
         EXPECT_TRUE(test::guard_is_untouched(actual.velocities, model.node_count()));
     }
+}
+
+TEST_P(RespondOnGpuTest, MatchesTheDoubleReferenceOnTheWay) {
+    const Model model = test::make_crowd(GetParam(), static_cast<unsigned>(GetParam()));
+    const CollisionSettings settings{.detection = CollisionDetection::continuous};
+    const test::NodeArrays actual = test::respond_on_gpu(model, settings, kLongStep);
+    EXPECT_LE(test::worst_response_error(model, settings, kLongStep, actual), 1.0);
 }
 
 TEST_P(RespondOnGpuTest, RepeatsBitForBit) {

@@ -120,9 +120,9 @@ FaceCollisions find_collisions_by_brute_force(const Model& model) {
         for (std::uint32_t g = 0; g < model.faces.size(); ++g) {
             const std::uint32_t other = model.faces[g].object;
             if (other == model.faces[f].object) continue;
-            if (!found.empty() && found.back() == std::pair(f, other)) continue;
+            if (!found.empty() && found.back().face == f && found.back().other == other) continue;
             if (cpu::triangles_overlap(triangle(model, model.faces[f]), triangle(model, model.faces[g])))
-                found.emplace_back(f, other);
+                found.push_back({f, other, cpu::Touch::enters});
         }
     }
     return found;
@@ -136,7 +136,7 @@ FaceCollisions find_collisions_on_cpu(const Model& model, const CollisionSetting
     for (const cpu::ObjectPair& pair : collision.pairs()) {
         const Range& faces = model.objects[pair.object].faces;
         for (std::uint32_t f = faces.first; f < faces.end(); ++f) {
-            if (collision.collides(pair, f)) found.emplace_back(f, pair.other);
+            if (collision.collides(pair, f)) found.push_back({f, pair.other, collision.touch(pair, f)});
         }
     }
     std::sort(found.begin(), found.end());
@@ -161,8 +161,8 @@ FaceCollisions find_collisions_on_gpu(const Model& model, const CollisionSetting
         for (std::uint32_t p = row.first_pair; p < row.first_pair + row.pair_count; ++p) {
             const Range& faces = model.objects[pairs[p].object].faces;
             for (std::uint32_t k = 0; k < faces.count; ++k) {
-                if ((words[pairs[p].first_word + k / 32] >> (k % 32) & 1u) != 0)
-                    found.emplace_back(faces.first + k, pairs[p].other);
+                const auto touch = cpu::Touch(words[pairs[p].first_word + k / 16] >> (2 * (k % 16)) & 3u);
+                if (touch != cpu::Touch::none) found.push_back({faces.first + k, pairs[p].other, touch});
             }
         }
     }

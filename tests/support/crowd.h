@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "cpu/collision.h"
@@ -20,8 +20,17 @@ Model make_crowd(int count, unsigned seed = 1);
 /// `extent` [m].
 Model make_far_pairs(int count, double extent, unsigned seed = 1);
 
-/// Faces and the objects that they touch, in ascending order.
-using FaceCollisions = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+/// A face, the object that it touches, and how.
+struct FaceCollision {
+    std::uint32_t face, other;
+    cpu::Touch touch;
+
+    bool operator==(const FaceCollision&) const = default;
+    bool operator<(const FaceCollision& o) const { return std::tie(face, other) < std::tie(o.face, o.other); }
+};
+
+/// In ascending order.
+using FaceCollisions = std::vector<FaceCollision>;
 
 /// What brute force in double precision, over all faces and without boxes, finds in the model's start.
 FaceCollisions find_collisions_by_brute_force(const Model& model);
