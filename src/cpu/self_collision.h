@@ -7,6 +7,7 @@
 #include "cpu/affine_fit.h"
 #include "cpu/collision.h"
 #include "cpu/triangle_overlap.h"
+#include "cpu/walk_tree.h"
 #include "model/model.h"
 
 namespace gelatin::cpu {
@@ -55,17 +56,10 @@ private:
     template <class Found>
     void for_faces_near(std::uint32_t face, const Found& found) const {
         const AxisBox<Real> box = boxes_.face_boxes()[face];
-        const std::vector<TreeNode>& nodes = model_->face_trees.nodes;
         const std::uint32_t root = model_->face_trees.roots[model_->faces[face].object];
-        const std::uint32_t end = nodes[root].skip;
-        for (std::uint32_t n = root; n < end;) {
-            const bool near = meet(box, boxes_.tree_boxes()[n]);
-            for (std::uint32_t k = 0; near && k < nodes[n].item_count; ++k) {
-                const std::uint32_t other = nodes[n].first_item + k;
-                if (meet(box, boxes_.face_boxes()[other]) && !share_corner(face, other)) found(other);
-            }
-            n = near ? n + 1 : nodes[n].skip;
-        }
+        for_items_near<Real>(model_->face_trees, boxes_.tree_boxes(), root, box, [&](std::uint32_t other) {
+            if (meet(box, boxes_.face_boxes()[other]) && !share_corner(face, other)) found(other);
+        });
     }
 
     std::shared_ptr<const Model> model_;

@@ -65,6 +65,10 @@ struct CollisionBuffers {
         fit_sums,
         fits,
         restless_chunks,
+        near_objects,
+        near_leaves,
+        node_tasks,
+        edge_tasks,
         count
     };
     /// Runs `program` over what the GPU itself has counted.

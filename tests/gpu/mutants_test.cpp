@@ -10,6 +10,7 @@
 #include "support/folded.h"
 #include "support/gl_fixture.h"
 #include "support/parity.h"
+#include "support/proximities.h"
 #include "support/shader_folder.h"
 #include "support/step_on_gpu.h"
 #include "support/test_models.h"
@@ -135,6 +136,27 @@ TEST_P(SelfCollisionMutantsTest, IsCaught) {
     caught =
         caught || test::worst_self_response_error(
                       rolled, settings, kStep, test::respond_to_self_on_gpu(rolled, settings, kStep)) > 1.0;
+    EXPECT_TRUE(caught) << "the broken kernel passes";
+}
+
+class ProximityMutantsTest : public test::GlTest, public ::testing::WithParamInterface<test::Break> {};
+INSTANTIATE_TEST_SUITE_P(All, ProximityMutantsTest, ::testing::ValuesIn(test::kProximityMutants),
+                         name_of_mutant);
+
+TEST_P(ProximityMutantsTest, IsCaught) {
+    test::ShaderFolder folder;
+    break_shaders(GetParam(), folder);
+    bool caught = false;
+    for (const test::ProximityScene& scene : test::kProximityScenes) {
+        if (caught) break;
+        const Model model = scene.make();
+        const CollisionSettings settings{.self_collision = true, .proximity_radius = scene.radius};
+        const test::FoundOnGpu found = test::find_proximities_on_gpu(model, settings);
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const auto& proximity : found.proximities) nearest = std::min(nearest, proximity.distance);
+        caught = !found.is_guarded || found.lost_pairs > 0 || found.measure.nearest != nearest ||
+                 !test::check_proximities<float>(model, settings, found).are_none();
+    }
     EXPECT_TRUE(caught) << "the broken kernel passes";
 }
 

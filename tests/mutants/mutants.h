@@ -176,6 +176,42 @@ inline constexpr Break kSelfCollisionMutants[] = {
     {"pinned_nodes_move", "sim/respond_to_self.comp", "|| positions[n].w == 0.0", ""},
 };
 
+/// A broken search for what is near.
+inline constexpr Break kProximityMutants[] = {
+    {"the_margin_is_forgotten", "include/box_margin.glsl", "return box_margin.x +", "return"},
+    {"a_box_has_one_end", "include/proximities.glsl", "min(a - margin_at(a), b - margin_at(b))",
+     "a - margin_at(a)"},
+    {"counts_are_not_cleared", "sim/begin_proximities.comp", "counts[index] = 0u;", ";"},
+    {"the_last_leaf_does_not_search", "sim/list_near_objects.comp", "leaf >= search_count",
+     "leaf + 1u >= search_count"},
+    {"the_own_object_is_forgotten", "sim/list_near_objects.comp", "++last;", ""},
+    {"the_own_object_comes_first", "sim/list_near_objects.comp", ".other < own) ++", ".other < 0u) ++"},
+    {"a_walk_ends_early", "sim/walk_near_objects.comp", "while (n < end)", "while (n + 1u < end)"},
+    {"leaves_are_listed_in_one_place", "sim/walk_near_objects.comp", "near_object.first_near + count",
+     "near_object.first_near"},
+    {"walks_share_a_list", "sim/list_proximity_tasks.comp", "next += near_objects[k].near_count;", ""},
+    {"the_last_leaves_have_no_task", "sim/list_proximity_tasks.comp", "(count + kLeavesATask - 1u)",
+     "max(count, kLeavesATask)"},
+    {"a_task_forgets_its_last_leaf", "sim/test_proximities.comp", "k < task.near_count &&",
+     "k + 1u < task.near_count &&"},
+    {"edges_are_near_their_neighbours", "sim/test_proximities.comp", "!share && ", ""},
+    {"nodes_are_near_their_faces", "sim/test_proximities.comp", "!is_corner && ", ""},
+    {"two_leaves_have_the_same_bits", "sim/test_proximities.comp", "16u * (k % 2u)", "0u"},
+    {"the_radius_is_larger", "sim/test_proximities.comp", "< squared_radius", "< 1.01 * squared_radius"},
+    {"a_bit_is_taken_twice", "include/proximity_task.glsl", "word & (word - 1u)", "word & (word << 1u)"},
+    {"edges_are_told_different_things", "include/proximity_task.glsl",
+     "texelFetch(face_edges, int(min(edge, other))), f = texelFetch(face_edges, int(max(edge, other)))",
+     "texelFetch(face_edges, int(edge)), f = texelFetch(face_edges, int(other))"},
+    {"a_group_forgets_lanes", "sim/sum_proximities.comp", "reach < 256u", "reach < 128u"},
+    {"groups_start_anew", "sim/sum_proximities.comp", "at += group_sums[query / kGroupQueries];", ""},
+    {"tasks_write_over_one_another", "sim/write_proximities.comp", "place += count_hits(before);", ";"},
+    {"the_mirror_keeps_its_way", "sim/write_proximities.comp", "vec4(-apart, 0.0)", "vec4(apart, 0.0)"},
+    {"the_mirror_keeps_its_weights", "sim/write_proximities.comp", "vec4(1.0 - t, t, 1.0 - s, s)",
+     "vec4(1.0 - s, s, 1.0 - t, t)"},
+    {"the_nearest_is_the_last", "sim/write_proximities.comp", "min(least, proximity.distance)",
+     "proximity.distance"},
+};
+
 /// A broken marking of faces that touch.
 inline constexpr Break kMarkMutants[] = {
     {"the_first_pair_alone_counts", "include/face_collisions.glsl", "k < row.pair_count",
