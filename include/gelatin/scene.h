@@ -12,7 +12,8 @@ namespace gelatin {
 /// What the user wrote, checked: every value is in range, every name resolves. SI units, +y is up.
 /// See docs/scene-files.md for the same in TOML.
 
-enum class SolverKind { explicit_euler, semi_implicit_euler, midpoint, rk4 };
+/// Four explicit schemes, and vertex block descent on implicit Euler's objective, stable at any step.
+enum class SolverKind { explicit_euler, semi_implicit_euler, midpoint, rk4, vbd };
 
 /// How spring forces reach the nodes: the paper's two kernels, or one gather fused with the integration.
 enum class ForceMethod { divide_and_merge, fused };
@@ -22,6 +23,7 @@ struct SimulationSettings {
     ForceMethod forces = ForceMethod::fused;
     double frame_rate = 60.0;             ///< frames a second of simulated time [1/s], > 0
     std::optional<int> substeps;          ///< steps a frame, >= 1; empty: the fewest that are stable
+    int iterations = 10;                  ///< of vbd, a step, >= 1
     glm::dvec3 gravity{0.0, -9.81, 0.0};  ///< [m/s^2]
     int frames = 600;                     ///< length of a run, >= 0
 

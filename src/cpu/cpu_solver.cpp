@@ -40,7 +40,7 @@ BoxMargin<Real> margin_for(const CollisionSettings& settings) {
 
 template <class Real>
 CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces,
-                           const CollisionSettings& collision)
+                           const CollisionSettings& collision, int iterations)
     : model_(std::move(model)),
       scheme_(explicit_scheme(solver)),
       forces_(forces),
@@ -48,6 +48,7 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
       contact_{collision.friction, collision.restitution} {
     current_ = {converted<Real>(model_->positions), converted<Real>(model_->velocities)};
     previous_ = current_;
+    if (solver == SolverKind::vbd) block_descent_.emplace(model_, iterations);
     if (scheme_.pass_count > 1) sums_ = stage_[0] = stage_[1] = current_;
     if (collision.self_collision) {
         self_ = std::make_unique<SelfStages>(SelfStages{{model_, collision_}, {model_, contact_}});
@@ -62,6 +63,10 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
 
 template <class Real>
 void CpuSolver<Real>::advance_nodes(double step) {
+    if (block_descent_) {
+        std::swap(current_, previous_);
+        return block_descent_->run(static_cast<Real>(step), previous_, current_);
+    }
     const Nodes<Real>* from = &current_;
     for (int p = 0; p < scheme_.pass_count; ++p) {
         Nodes<Real>& to = p + 1 == scheme_.pass_count ? previous_ : stage_[p % 2];

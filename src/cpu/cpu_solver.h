@@ -3,8 +3,10 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <optional>
 
 #include "cpu/advance_nodes.h"
+#include "cpu/block_descent.h"
 #include "cpu/collision.h"
 #include "cpu/contact.h"
 #include "cpu/find_proximities.h"
@@ -21,7 +23,7 @@ template <class Real>
 class CpuSolver : public Solver {
 public:
     CpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces,
-              const CollisionSettings& collision = {});
+              const CollisionSettings& collision = {}, int iterations = 10);
 
     void advance_nodes(double step) override;
     void update_boxes() override { collision_.update_boxes(current_.positions, previous_.positions); }
@@ -56,6 +58,7 @@ private:
 
     std::shared_ptr<const Model> model_;
     ExplicitScheme scheme_;
+    std::optional<BlockDescent<Real>> block_descent_;  // instead of the scheme
     ForceMethod forces_;
     Nodes<Real> current_, previous_;  // swapped by each step: where it ended, and where it started
     Nodes<Real> stage_[2];            // between the passes of one step

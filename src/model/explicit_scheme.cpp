@@ -16,6 +16,7 @@ const ExplicitScheme& explicit_scheme(SolverKind solver) {
         case SolverKind::rk4:
             return kRungeKutta4;
         case SolverKind::semi_implicit_euler:
+        case SolverKind::vbd:  // has none
             break;
     }
     return kSemiImplicitEuler;
@@ -29,6 +30,8 @@ const char* solver_name(SolverKind solver) {
             return "midpoint";
         case SolverKind::rk4:
             return "rk4";
+        case SolverKind::vbd:
+            return "vbd";
         case SolverKind::semi_implicit_euler:
             break;
     }

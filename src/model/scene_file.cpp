@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::string_view kAutomatic = "auto";
 constexpr Limit kSubsteps{"\"auto\" or from 1 to 1000000", [](double v) { return v >= 1.0 && v <= 1e6; }};
+constexpr Limit kIterations{"from 1 to 1000", [](double v) { return v >= 1.0 && v <= 1e3; }};
 constexpr Limit kPoissonRatio{"greater than -1 and less than 0.5",
                               [](double v) { return v > -1.0 && v < 0.5; }};
 constexpr Limit kFieldOfView{"greater than 0 and less than 180",
@@ -34,7 +35,8 @@ SimulationSettings read_simulation(TableReader reader) {
                 {{"explicit_euler", SolverKind::explicit_euler},
                  {"semi_implicit_euler", SolverKind::semi_implicit_euler},
                  {"midpoint", SolverKind::midpoint},
-                 {"rk4", SolverKind::rk4}});
+                 {"rk4", SolverKind::rk4},
+                 {"vbd", SolverKind::vbd}});
     reader.read("forces", settings.forces,
                 {{"divide_and_merge", ForceMethod::divide_and_merge}, {"fused", ForceMethod::fused}});
     reader.read("frame_rate", settings.frame_rate, kPositive);
@@ -45,6 +47,7 @@ SimulationSettings read_simulation(TableReader reader) {
         reader.read("substeps", count, kSubsteps);
         settings.substeps = count;
     }
+    reader.read("iterations", settings.iterations, kIterations);
     reader.read("gravity", settings.gravity);
     reader.read("frames", settings.frames, kNotNegative);
     reader.finish();

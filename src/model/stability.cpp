@@ -81,7 +81,7 @@ double frequency_bound(const Model& model, const ModelObject& object) {
 }
 
 double largest_stable_step(SolverKind solver, double frequency, double damping) {
-    if (frequency <= 0.0) return std::numeric_limits<double>::infinity();
+    if (frequency <= 0.0 || solver == SolverKind::vbd) return std::numeric_limits<double>::infinity();
     const ExplicitScheme& scheme = explicit_scheme(solver);
     double stable = 0.0;
     double unstable = 4.0 / frequency;  // beyond what any of the schemes holds

@@ -130,6 +130,8 @@ const char* name_of(SolverKind solver) {
             return "midpoint";
         case SolverKind::rk4:
             return "rk4";
+        case SolverKind::vbd:
+            return "vbd";
     }
     return "";
 }

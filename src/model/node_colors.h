@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/topology.h"
+
+namespace gelatin {
+
+/// Nodes in classes, their colours, of which no two are neighbours: those of one colour may move at once.
+struct NodeColors {
+    std::vector<std::uint32_t> nodes;   ///< by colour, ascending in each, shape [nodes]
+    std::vector<std::uint32_t> starts;  ///< of colour c in nodes, and the end, shape [colours + 1]
+
+    std::uint32_t count() const { return static_cast<std::uint32_t>(starts.size() - 1); }
+    std::span<const std::uint32_t> of(std::uint32_t color) const {
+        return {nodes.data() + starts[color], nodes.data() + starts[color + 1]};
+    }
+};
+
+/// Greedy colours, nodes of the highest degree first, then balanced: nodes of colours that are larger than
+/// the mean move into the smallest that their neighbours allow. At most the highest degree and one; the same
+/// for the same graph.
+NodeColors color_nodes(const Graph& graph);
+
+}  // namespace gelatin
