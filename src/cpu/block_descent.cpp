@@ -53,6 +53,16 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, int iterati
       iterations_(iterations),
       colors_(color_springs(*model_)),
       touches_(model_->node_count(), 0) {
+    hack_starts_.assign(model_->node_count() + 1, 0);
+    for (auto& t : model_->tets) for (int k = 0; k < 4; ++k) ++hack_starts_[t[k] + 1];
+    for (std::size_t n = 0; n < model_->node_count(); ++n) hack_starts_[n + 1] += hack_starts_[n];
+    hack_tets_.resize(4 * model_->tets.size());
+    auto next = hack_starts_;
+    for (std::uint32_t t = 0; t < model_->tets.size(); ++t) for (std::uint32_t k = 0; k < 4; ++k) hack_tets_[next[model_->tets[t][k]]++] = 4 * t + k;
+    for (auto& t : model_->tets) { auto x = [&](int i) { return glm::dvec3(hack_rest()[t[i]]); }; hack_volumes_.push_back(glm::dot(glm::cross(x(1) - x(0), x(2) - x(0)), x(3) - x(0)) / 6); }
+    double kl2 = 0; for (auto& s : model_->springs) kl2 += double(s.stiffness) * double(s.rest_length) * double(s.rest_length);
+    double vol = 0; for (auto v : hack_volumes_) vol += v;
+    hack_e_ = kl2 / (6 * vol);
     for (const ModelObject& object : model_->objects) {
         const auto first = model_->positions.begin() + object.nodes.first;
         is_free_.push_back(std::none_of(first, first + object.nodes.count,
@@ -101,6 +111,20 @@ void BlockDescent<Real>::sweep(const Step& step, std::vector<Vec4<Real>>& positi
             add_spring(position, other_position, way, other_position - step.start(other),
                        any_direction<Real>(n, other), static_cast<Real>(spring.rest_length),
                        static_cast<Real>(spring.stiffness), damping_time / step.size, terms);
+        }
+        static const double kC = getenv("VC") ? atof(getenv("VC")) : 1.0, kJ0 = getenv("VJ") ? atof(getenv("VJ")) : 0.3;
+        for (std::uint32_t e = hack_starts_[n]; e < hack_starts_[n + 1]; ++e) {
+            const std::uint32_t t = hack_tets_[e] / 4, c = hack_tets_[e] % 4;
+            static constexpr int kOther[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+            const glm::uvec4& tet = model.tets[t];
+            const Vec3<Real> a(positions[tet[kOther[c][0]]]), b(positions[tet[kOther[c][1]]]), d(positions[tet[kOther[c][2]]]);
+            const Real v0 = static_cast<Real>(hack_volumes_[t]);
+            const Vec3<Real> grad = glm::cross(b - a, d - a) / (Real(6) * v0);
+            const Real j = glm::dot(position - a, grad);
+            if (j >= Real(kJ0)) continue;
+            const Real kv = Real(kC) * static_cast<Real>(hack_e_) * v0;
+            terms.force += kv * (Real(kJ0) - j) * grad;
+            terms.hessian += kv * glm::outerProduct(grad, grad);
         }
         Vec3<Real> moved = position + solve(terms);
         for (const Collider& collider : model.colliders) {

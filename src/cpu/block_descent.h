@@ -32,6 +32,12 @@ private:
     void move_rigidly(const Step& step, std::uint32_t object, std::vector<Vec4<Real>>& positions) const;
     void finish(const Step& step, Nodes<Real>& current) const;
 
+    std::vector<std::uint32_t> hack_starts_, hack_tets_;
+    std::vector<double> hack_volumes_;
+    double hack_e_ = 0;
+public:
+    static std::vector<glm::vec4>& hack_rest() { static std::vector<glm::vec4> r; return r; }
+private:
     std::shared_ptr<const Model> model_;
     int iterations_;
     NodeColors colors_;

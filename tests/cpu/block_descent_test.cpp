@@ -17,14 +17,15 @@ TEST(BlockDescentTry, Prints) {
         body.material.youngs_modulus = E;
         body.velocity = {1, 2, 0};
         auto model = std::make_shared<Model>(pack_bodies({body}, {}, {0, -9.81, 0}));
-        const Model rest = *model;
+        cpu::BlockDescent<float>::hack_rest() = model->positions;
+        cpu::BlockDescent<double>::hack_rest() = model->positions;
         std::mt19937 random(1);
         std::uniform_real_distribution<float> unit(-0.3f, 0.3f);
         for (auto& p : model->positions) p += glm::vec4(unit(random), unit(random), unit(random), 0);
         cpu::CpuSolver<float> solver(model, SolverKind::vbd, ForceMethod::fused, {}, 20);
         for (int k = 0; k < 300; ++k) {
             solver.advance_nodes(1.0 / 60);
-            if (k % 20 == 19 || k < 3) {
+            if (k % 100 == 99 || k == 20) {
                 double worst = 0, mass = 0; glm::dvec3 p(0);
                 for (const Spring& s : model->springs) {
                     const double l = glm::distance(glm::dvec3(solver.nodes().positions[s.i]), glm::dvec3(solver.nodes().positions[s.j]));
