@@ -4,45 +4,47 @@
 #include <vector>
 
 #include "cpu/nodes.h"
-#include "cpu/spring_hessian.h"
 #include "model/model.h"
 #include "model/node_colors.h"
+#include "model/node_tets.h"
 
 namespace gelatin::cpu {
 
 /// Vertex block descent (Chen et al. 2024): a step of implicit Euler as the minimum of
 ///   G(x) = sum_i m_i / (2 h^2) |x_i - y_i|^2 + E(x),   y = x_t + h v_t + h^2 g,
 /// found node by node, each by one Newton step on its own three coordinates, all nodes of one colour at once.
-/// Between the sweeps and after the last one, bodies that nothing holds move as rigid ones to where G is
-/// least: that keeps their momentum, which sweeps alone lose (docs/physics.md). The same bits for any number
-/// of threads. GPU twin: gpu::BlockDescent.
+/// Between sweeps and after the last one, bodies that nothing holds move as rigid ones to where G is least:
+/// that keeps their momentum, which sweeps alone lose (docs/physics.md). Stable for any step and start. The
+/// same bits for any number of threads.
 template <class Real>
 class BlockDescent {
 public:
+    /// @param iterations sweeps over all nodes in a step
     BlockDescent(std::shared_ptr<const Model> model, int iterations);
 
-    /// A step of `step` seconds from `previous` to `current`; of this only positions are read, where the
-    /// fourth components are.
+    /// A step of `step` seconds from `previous`; writes `current`.
     void run(Real step, const Nodes<Real>& previous, Nodes<Real>& current);
 
-private:
-    struct Step;
-    void guess(const Step& step, Nodes<Real>& current);
-    void sweep(const Step& step, std::vector<Vec4<Real>>& positions);
-    void move_rigidly(const Step& step, std::uint32_t object, std::vector<Vec4<Real>>& positions) const;
-    void finish(const Step& step, Nodes<Real>& current) const;
+    const NodeColors& colors() const { return colors_; }
 
-    std::vector<std::uint32_t> hack_starts_, hack_tets_;
-    std::vector<double> hack_volumes_;
-    double hack_e_ = 0;
-public:
-    static std::vector<glm::vec4>& hack_rest() { static std::vector<glm::vec4> r; return r; }
 private:
+    void start(Real step, const Nodes<Real>& previous, std::vector<Vec4<Real>>& positions);
+    void mark_nodes_of_flat_tets(const std::vector<Vec4<Real>>& positions);
+    void sweep(Real step, const Nodes<Real>& previous, std::vector<Vec4<Real>>& positions);
+    void move_node(std::uint32_t node, Real step, const Nodes<Real>& previous,
+                   std::vector<Vec4<Real>>& positions);
+    Vec3<Real> outside_colliders(std::uint32_t node, const Vec3<Real>& start, Vec3<Real> position);
+    void move_bodies(std::vector<Vec4<Real>>& positions) const;
+    void finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current) const;
+
     std::shared_ptr<const Model> model_;
     int iterations_;
     NodeColors colors_;
-    std::vector<bool> is_free_;  // objects without pins
-    std::vector<std::uint8_t> touches_;  // nodes that met a collider in this step
+    NodeTets node_tets_;
+    std::vector<bool> is_pinned_;          // by object: somewhere
+    std::vector<Vec3<Real>> targets_;      // y [m], shape [nodes]
+    std::vector<std::uint8_t> near_flat_;  // nodes of tets that resist
+    std::vector<std::uint8_t> touches_;    // nodes that met a collider in this step
 };
 
 }  // namespace gelatin::cpu

@@ -7,7 +7,7 @@
 namespace gelatin::gpu {
 
 GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces,
-                     const CollisionSettings& collision)
+                     const CollisionSettings& collision, int iterations)
     : model_(std::move(model)),
       device_(gl::Context::current().device().renderer),
       scheme_(explicit_scheme(solver)),
@@ -22,7 +22,9 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, Forc
         }
     }
     if (model_->objects.size() > 1 || collision.self_collision) collision_.emplace(*model_, collision);
-    if (forces == ForceMethod::fused) {
+    if (solver == SolverKind::vbd) {
+        block_descent_.emplace(*model_, iterations);
+    } else if (forces == ForceMethod::fused) {
         fused_.emplace(*model_, scheme_);
     } else {
         divide_and_merge_.emplace(*model_, scheme_);
@@ -30,6 +32,10 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, Forc
 }
 
 void GpuSolver::advance_nodes(double step) {
+    if (block_descent_) {
+        std::swap(current_, previous_);
+        return block_descent_->run(buffers_, previous_, current_, step);
+    }
     const NodeBuffers* from = &current_;
     for (int p = 0; p < scheme_.pass_count; ++p) {
         NodeBuffers& to = p + 1 == scheme_.pass_count ? previous_ : stage_[p % 2];

@@ -5,6 +5,7 @@
 
 #include "gl/timer.h"
 #include "gpu/advance_nodes.h"
+#include "gpu/block_descent.h"
 #include "gpu/collision.h"
 #include "gpu/divide_and_merge.h"
 #include "gpu/measure.h"
@@ -18,7 +19,7 @@ namespace gelatin::gpu {
 class GpuSolver : public Solver {
 public:
     GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces,
-              const CollisionSettings& collision = {});
+              const CollisionSettings& collision = {}, int iterations = 10);
 
     void advance_nodes(double step) override;
     void update_boxes() override;
@@ -51,6 +52,7 @@ private:
     ModelBuffers buffers_;
     NodeBuffers current_, previous_;  // swapped by each step: where it ended, and where it started
     NodeBuffers stage_[2], sums_;     // between the passes of one step
+    std::optional<BlockDescent> block_descent_;  // instead of the scheme
     std::optional<AdvanceNodes> fused_;
     std::optional<DivideAndMerge> divide_and_merge_;
     std::optional<Collision> collision_;  // where something can collide, or somebody asked for boxes

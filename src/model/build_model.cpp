@@ -139,7 +139,11 @@ void append_body(Model& model, const Body& body) {
     append_nodes(model, body, mesh);
     append_springs(model, body, mesh, first);
     object.springs.count = size(model.springs) - object.springs.first;
-    for (const glm::uvec4& t : mesh.tets) model.tets.push_back(t + first);
+    for (const glm::uvec4& t : mesh.tets) {
+        model.tets.push_back(t + first);
+        model.tet_rests.push_back({checked_float(tet_volume(mesh, t), body.name, "a tet's volume [m^3]"),
+                                   static_cast<float>(body.material.youngs_modulus)});
+    }
     for (const glm::uvec3& f : mesh.faces) {
         model.faces.push_back({f.x + first, f.y + first, f.z + first, size(model.objects)});
     }

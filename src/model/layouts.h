@@ -14,6 +14,7 @@ using glm::vec4;
 #include "layouts/chunk.glsl"
 #include "layouts/collider.glsl"
 #include "layouts/contact.glsl"
+#include "layouts/descent.glsl"
 #include "layouts/dispatch.glsl"
 #include "layouts/draw.glsl"
 #include "layouts/face.glsl"
@@ -48,8 +49,11 @@ static_assert(sizeof(PairRow) == 16);
 static_assert(sizeof(Proximity) == 48);
 static_assert(sizeof(ProximityCounts) == 16);
 static_assert(sizeof(RestShape) == 48);
+static_assert(sizeof(RigidMotion) == 80);
+static_assert(sizeof(RigidSums) == 80);
 static_assert(sizeof(Spring) == 16);
 static_assert(sizeof(SurfaceVertex) == 16);
+static_assert(sizeof(TetCorner) == 16);
 static_assert(sizeof(TreeNode) == 16);
 
 }  // namespace gelatin::layouts
@@ -78,7 +82,10 @@ using layouts::PairRow;
 using layouts::Proximity;
 using layouts::ProximityCounts;
 using layouts::RestShape;
+using layouts::RigidMotion;
+using layouts::RigidSums;
 using layouts::Spring;
 using layouts::SurfaceVertex;
+using layouts::TetCorner;
 using layouts::TreeNode;
 }  // namespace gelatin

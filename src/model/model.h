@@ -46,6 +46,12 @@ struct SpringIncidence {
     std::vector<std::uint32_t> entries;  ///< shape [2 * springs]
 };
 
+/// What a tet is at rest.
+struct TetRest {
+    float volume;   ///< [m^3], > 0
+    float modulus;  ///< of its resistance to being flat [Pa]: Young's
+};
+
 /// Faces by node: those of node n are faces[starts[n]] .. faces[starts[n + 1]], ascending; none inside.
 struct NodeFaces {
     std::vector<std::uint32_t> starts;  ///< shape [nodes + 1]
@@ -94,7 +100,8 @@ struct Model {
     HalfSprings half_springs;
     SpringIncidence incidence;
 
-    std::vector<glm::uvec4> tets;  ///< shape [tets]
+    std::vector<glm::uvec4> tets;    ///< shape [tets]
+    std::vector<TetRest> tet_rests;  ///< shape [tets]
     std::vector<Face> faces;       ///< boundary triangles, shape [faces]
     NodeFaces node_faces;
     SurfaceParts surface_parts;

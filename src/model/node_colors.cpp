@@ -88,4 +88,16 @@ NodeColors color_nodes(const Graph& graph) {
     return result;
 }
 
+NodeColors color_nodes(const Model& model) {
+    std::vector<glm::uvec2> edges = tet_edges(model.tets);
+    edges.reserve(edges.size() + model.springs.size());
+    for (const Spring& spring : model.springs) {
+        edges.emplace_back(std::min(spring.i, spring.j), std::max(spring.i, spring.j));
+    }
+    std::sort(edges.begin(), edges.end(),
+              [](const auto& a, const auto& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return color_nodes(make_graph(model.node_count(), edges));
+}
+
 }  // namespace gelatin

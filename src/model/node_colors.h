@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh/topology.h"
+#include "model/model.h"
 
 namespace gelatin {
 
@@ -23,5 +24,8 @@ struct NodeColors {
 /// the mean move into the smallest that their neighbours allow. At most the highest degree and one; the same
 /// for the same graph.
 NodeColors color_nodes(const Graph& graph);
+
+/// Neighbours are the ends of a spring, and the corners of a tet.
+NodeColors color_nodes(const Model& model);
 
 }  // namespace gelatin

@@ -20,6 +20,7 @@ Json settings_json(const RunReport& report) {
             {"forces", name_of(settings.forces)},
             {"frame_rate", settings.frame_rate},
             {"substeps", report.substeps},
+            {"iterations", settings.iterations},
             {"step_size", report.step_size},
             {"frames", settings.frames},
             {"broad_phase", name_of(report.collision.broad_phase)},

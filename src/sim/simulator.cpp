@@ -90,12 +90,12 @@ Simulator::Simulator(const Scene& scene, const SimulatorOptions& options) : impl
     const SimulationSettings& settings = scene.simulation;
     if (choose_gl(d.options, d.context)) {
         auto solver =
-            std::make_unique<gpu::GpuSolver>(d.model, settings.solver, settings.forces, scene.collision);
+            std::make_unique<gpu::GpuSolver>(d.model, settings.solver, settings.forces, scene.collision, settings.iterations);
         d.gpu_solver = solver.get();
         d.solver = std::move(solver);
     } else {
         auto solver = std::make_unique<cpu::CpuSolver<float>>(d.model, settings.solver, settings.forces,
-                                                              scene.collision);
+                                                              scene.collision, settings.iterations);
         d.cpu_solver = solver.get();
         d.solver = std::move(solver);
     }

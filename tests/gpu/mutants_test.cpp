@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "support/crowd.h"
+#include "support/descend_on_gpu.h"
 #include "support/folded.h"
 #include "support/gl_fixture.h"
 #include "support/parity.h"
@@ -100,6 +101,23 @@ TEST_P(CollisionMutantsTest, IsCaught) {
     }
     for (const double extent : {2.0, 4.0, 100.0})
         caught = caught || is_wrong_by_depth(test::make_far_pairs(100, extent));
+    EXPECT_TRUE(caught) << "the broken kernel passes";
+}
+
+class DescentMutantsTest : public test::GlTest, public ::testing::WithParamInterface<test::Break> {};
+INSTANTIATE_TEST_SUITE_P(All, DescentMutantsTest, ::testing::ValuesIn(test::kDescentMutants), name_of_mutant);
+
+TEST_P(DescentMutantsTest, IsCaught) {
+    test::ShaderFolder folder;
+    break_shaders(GetParam(), folder);
+    bool caught = false;
+    for (const double damping : {0.0, 0.01}) {
+        const Model model = test::make_bodies_to_descend(damping);
+        constexpr double kFrame = 1.0 / 60.0;
+        constexpr int kIterations = 4;
+        caught = caught || test::worst_descent_error(model, kFrame, kIterations,
+                                                     test::descend_on_gpu(model, kFrame, kIterations)) > 1.0;
+    }
     EXPECT_TRUE(caught) << "the broken kernel passes";
 }
 

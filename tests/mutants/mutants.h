@@ -212,6 +212,34 @@ inline constexpr Break kProximityMutants[] = {
      "proximity.distance"},
 };
 
+// Of vertex block descent.
+inline constexpr Break kDescentMutants[] = {
+    {"the_last_rows_stay", "sim/descend.comp", "index >= row_count", "index + 20u >= row_count"},
+    {"inertia_is_forgotten", "sim/descend.comp", "inertia * (target_of(n) - position.xyz)", "vec3(0.0)"},
+    {"damping_has_no_stiffness", "include/node_terms.glsl", "stiffness * (1.0 + damping) - across",
+     "stiffness - across"},
+    {"damping_pushes", "sim/descend.comp", "- start_of(other) - way", "- start_of(other)"},
+    {"short_springs_push_across", "include/node_terms.glsl", "length_ > rest_length ?", "length_ > 0.0 ?"},
+    {"a_spring_of_two_is_lost", "sim/descend.comp", "uintBitsToFloat(pair.w), stiffness.y",
+     "uintBitsToFloat(pair.w), 0.0"},
+    {"flat_tets_do_not_resist", "sim/mark_flat_tets.comp", "near_flat[tet[k]] = 1u", "near_flat[tet[k]] = 0u"},
+    {"marks_are_cleared_early", "sim/descend.comp", "if (clear_marks != 0u)", "if (true)"},
+    {"marks_stay", "sim/descend.comp", "if (clear_marks != 0u)", "if (false)"},
+    {"the_last_tets_are_not_looked_at", "sim/mark_flat_tets.comp", "t >= tet_count", "t + 64u >= tet_count"},
+    {"tets_push_inwards", "include/node_terms.glsl", "cross(b - a, c - a)", "cross(c - a, b - a)"},
+    {"nothing_slides_to_rest", "sim/descend.comp", "-friction * surface.w", "0.0"},
+    {"pinned_nodes_move", "sim/start_descent.comp", "start.w > 0.0 ?", "true ?"},
+    {"bodies_do_not_move", "sim/sum_rigid_motions.comp", "vec4(origin + center, 1.0)",
+     "vec4(origin + center, 0.0)"},
+    {"bodies_turn_the_other_way", "sim/sum_rigid_motions.comp", "cayley_turn(solve(turn))",
+     "cayley_turn(-solve(turn))"},
+    {"pinned_bodies_move", "sim/sum_rigid_motions.comp", "texelFetch(is_pinned, int(object)).x != 0u || ", ""},
+    {"bodies_on_the_floor_move", "sim/sum_rigid_motions.comp", " || object_touches[object] != 0u", ""},
+    {"half_a_chunk_is_summed_up", "sim/sum_rigid_motions.comp", "k += 64u", "k += 128u"},
+    {"a_chunk_is_not_moved", "sim/move_bodies.comp", "c >= element_count", "c + 1u >= element_count"},
+    {"velocities_are_the_ways", "sim/move_bodies.comp", "way / time_step", "way"},
+};
+
 /// A broken marking of faces that touch.
 inline constexpr Break kMarkMutants[] = {
     {"the_first_pair_alone_counts", "include/face_collisions.glsl", "k < row.pair_count",

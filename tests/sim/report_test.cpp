@@ -67,6 +67,7 @@ TEST(Report, HasTheDocumentedKeys) {
                       {"forces", "divide_and_merge"},
                       {"frame_rate", 50.0},
                       {"substeps", 4},
+                      {"iterations", 10},
                       {"step_size", 0.005},
                       {"frames", 2},
                       {"broad_phase", "hierarchy"},

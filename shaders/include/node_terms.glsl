@@ -1,0 +1,62 @@
+// What one element of a body adds to a node's part of the objective of a step: a force and a positive semi-definite
+// second derivative. CPU twin: src/cpu/node_terms.h.
+
+struct NodeTerms {
+    vec3 force;     // [N]
+    vec3 diagonal;  // xx, yy, zz of the Hessian [N/m]
+    vec3 beside;    // yz, zx, xy
+};
+
+void add_outer(float factor, vec3 v, inout NodeTerms terms) {
+    terms.diagonal += factor * v * v;
+    terms.beside += factor * v.yzx * v.zxy;
+}
+
+// The way out for a node that is where a neighbour is.
+vec3 any_direction(uint node) {
+    uint bits = (node + 1u) * 0x9E3779B9u;
+    vec3 v;
+    for (int k = 0; k < 3; ++k) {
+        bits ^= bits << 13;
+        bits ^= bits >> 17;
+        bits ^= bits << 5;
+        v[k] = float(int(bits & 0xFFFFu) - 0x8000) + 0.5;
+    }
+    return v / length(v);
+}
+
+// The spring to a node `apart` from this one, which has gone `ahead` of it along the step so far [m].
+void add_spring(vec3 apart, vec3 ahead, vec3 if_coincident, float rest_length, float stiffness, float damping,
+                inout NodeTerms terms) {
+    float length_ = length(apart);
+    vec3 n = length_ > 0.0 ? apart / length_ : -if_coincident;
+    terms.force += stiffness * (length_ - rest_length + damping * dot(ahead, n)) * n;
+    float across = length_ > rest_length ? stiffness * (1.0 - rest_length / length_) : 0.0;
+    add_outer(stiffness * (1.0 + damping) - across, n, terms);
+    terms.diagonal += across;
+}
+
+const float kFlattest = 0.3;
+
+// A tet flatter than that, as the corner at `position` sees it.
+void add_flat_tet(vec3 position, vec3 a, vec3 b, vec3 c, float rest_volume, float modulus, inout NodeTerms terms) {
+    vec3 slope = cross(b - a, c - a) / (6.0 * rest_volume);
+    float lack = max(kFlattest - dot(position - a, slope), 0.0);
+    terms.force += rest_volume * modulus * lack * slope;
+    add_outer(lack > 0.0 ? rest_volume * modulus : 0.0, slope, terms);
+}
+
+float inverse_or_zero(float d) { return d > 0.0 ? 1.0 / d : 0.0; }
+
+// hessian^-1 force by the square-root-free Cholesky decomposition; zero along what has no stiffness.
+vec3 solve(NodeTerms terms) {
+    vec3 d = terms.diagonal, b = terms.beside, f = terms.force;
+    float i0 = inverse_or_zero(d.x);
+    float l10 = b.z * i0, l20 = b.y * i0;
+    float i1 = inverse_or_zero(d.y - l10 * b.z);
+    float rest = b.x - l20 * b.z, l21 = rest * i1;
+    float i2 = inverse_or_zero(d.z - l20 * b.y - l21 * rest);
+    float y1 = f.y - l10 * f.x, y2 = f.z - l20 * f.x - l21 * y1;
+    float z = y2 * i2, y = y1 * i1 - l21 * z;
+    return vec3(f.x * i0 - l10 * y - l20 * z, y, z);
+}

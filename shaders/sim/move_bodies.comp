@@ -1,0 +1,34 @@
+// Moves bodies as rigid ones. LAST: the velocity is the way over the step.
+// CPU twin: gelatin::cpu::BlockDescent. Parity: tests/gpu/block_descent_test.cpp.
+#include "include/global_index.glsl"
+#include "include/descent_step.glsl"
+#include "layouts/chunk.glsl"
+#include "layouts/descent.glsl"
+layout(local_size_x = 64) in;
+
+layout(std430, binding = 0) buffer Positions { vec4 positions[]; };  // an invocation reads and writes its own nodes
+layout(std430, binding = 1) writeonly buffer Velocities { vec4 velocities[]; };
+layout(std430, binding = 3) readonly buffer Chunks { Chunk chunks[]; };
+layout(std430, binding = 5) readonly buffer Motions { RigidMotion motions[]; };
+uniform uint element_count;
+
+void main() {
+    uint c = group_index();
+    if (c >= element_count) return;
+    Chunk chunk = chunks[c];
+    RigidMotion motion = motions[chunk.object];
+    mat3 turn = mat3(motion.turn_x.xyz, motion.turn_y.xyz, motion.turn_z.xyz);
+    for (uint k = gl_LocalInvocationID.x; k < chunk.count; k += 64u) {
+        uint n = chunk.first + k;
+        vec4 position = positions[n];
+        if (motion.center.w != 0.0) {
+            position.xyz = motion.center.xyz + motion.shift.xyz + turn * (position.xyz - motion.center.xyz);
+            positions[n] = position;
+        }
+#ifdef LAST
+        vec4 before = texelFetch(start_velocities, int(n));
+        vec3 way = position.xyz - texelFetch(start_positions, int(n)).xyz;
+        velocities[n] = position.w > 0.0 ? vec4(way / time_step, before.w) : before;
+#endif
+    }
+}

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+
+#include "cpu/nodes.h"
+
+namespace gelatin::cpu {
+
+/// A symmetric matrix [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]].
+template <class Real>
+struct SymmetricMatrix {
+    Vec3<Real> diagonal{0};  ///< xx, yy, zz
+    Vec3<Real> beside{0};    ///< yz, zx, xy
+
+    void add_identity(Real factor) { diagonal += factor; }
+    /// factor v v^T
+    void add_outer(Real factor, const Vec3<Real>& v) {
+        diagonal += factor * v * v;
+        beside += factor * Vec3<Real>(v.y * v.z, v.z * v.x, v.x * v.y);
+    }
+};
+
+/// What elements of a body add to a node's part of the objective of a step: minus its gradient, which is a
+/// force [N], and a positive semi-definite second derivative [N/m]. GLSL twin: shaders/include/node_terms.glsl.
+template <class Real>
+struct NodeTerms {
+    Vec3<Real> force{0};
+    SymmetricMatrix<Real> hessian;
+};
+
+/// The way out for a node that is where a neighbour is; not the same for all nodes.
+template <class Real>
+Vec3<Real> any_direction(std::uint32_t node) {
+    std::uint32_t bits = (node + 1) * 0x9E3779B9u;
+    Vec3<Real> v;
+    for (int k = 0; k < 3; ++k) {
+        bits ^= bits << 13;
+        bits ^= bits >> 17;
+        bits ^= bits << 5;
+        v[k] = static_cast<Real>(static_cast<std::int32_t>(bits & 0xFFFFu) - 0x8000) + Real(0.5);
+    }
+    return v / glm::length(v);
+}
+
+/// The spring to a node `apart` from this one, which has gone `ahead` of it along the step so far [m]. With l
+/// the length of the one, n its direction, L the rest length, k the stiffness, t the damping time, h the step:
+///   force   k (l - L + (t / h) ahead . n) n
+///   hessian k ((1 + t / h) n n^T + max(0, 1 - L / l) (1 - n n^T)).
+/// The second term of the energy's own Hessian is negative where the spring is shorter than at rest, and is
+/// left out there. @param damping t / h @param if_coincident minus n where l is zero
+template <class Real>
+void add_spring(const Vec3<Real>& apart, const Vec3<Real>& ahead, const Vec3<Real>& if_coincident,
+                Real rest_length, Real stiffness, Real damping, NodeTerms<Real>& terms) {
+    const Real length = glm::length(apart);
+    const Vec3<Real> n = length > Real(0) ? apart / length : -if_coincident;
+    terms.force += stiffness * (length - rest_length + damping * glm::dot(ahead, n)) * n;
+    const Real across = length > rest_length ? stiffness * (Real(1) - rest_length / length) : Real(0);
+    terms.hessian.add_outer(stiffness * (Real(1) + damping) - across, n);
+    terms.hessian.add_identity(across);
+}
+
+/// Flatter than this, over its volume at rest, a tet resists.
+constexpr double kFlattest = 0.3;
+
+/// A tet as one of its corners sees it, with v its volume, V that at rest, J = v / V, J_0 = kFlattest and K its
+/// modulus: W = V K / 2 (J_0 - J)^2 where J < J_0, and nothing else. v is linear in one corner, so
+///   force   V K (J_0 - J) dJ/dx,   hessian V K dJ/dx dJ/dx^T.
+/// It takes springs out of the mirrored and tangled shapes in which they would rest as well.
+/// @param face the other corners, counter-clockwise as the corner at `position` sees them
+template <class Real>
+void add_flat_tet(const Vec3<Real>& position, const std::array<Vec3<Real>, 3>& face, Real rest_volume,
+                  Real modulus, NodeTerms<Real>& terms) {
+    const Vec3<Real> slope = glm::cross(face[1] - face[0], face[2] - face[0]) / (Real(6) * rest_volume);
+    const Real lack = static_cast<Real>(kFlattest) - glm::dot(position - face[0], slope);
+    if (!(lack > Real(0))) return;
+    terms.force += rest_volume * modulus * lack * slope;
+    terms.hessian.add_outer(rest_volume * modulus, slope);
+}
+
+/// hessian^-1 force by the square-root-free Cholesky decomposition; zero along what has no stiffness.
+template <class Real>
+Vec3<Real> solve(const NodeTerms<Real>& terms) {
+    const auto inverse = [](Real d) { return d > Real(0) ? Real(1) / d : Real(0); };
+    const Vec3<Real>&d = terms.hessian.diagonal, &b = terms.hessian.beside, &f = terms.force;
+    const Real i0 = inverse(d.x);
+    const Real l10 = b.z * i0, l20 = b.y * i0;
+    const Real i1 = inverse(d.y - l10 * b.z);
+    const Real rest = b.x - l20 * b.z, l21 = rest * i1;
+    const Real i2 = inverse(d.z - l20 * b.y - l21 * rest);
+    const Real y1 = f.y - l10 * f.x, y2 = f.z - l20 * f.x - l21 * y1;
+    const Real z = y2 * i2, y = y1 * i1 - l21 * z;
+    return {f.x * i0 - l10 * y - l20 * z, y, z};
+}
+
+}  // namespace gelatin::cpu

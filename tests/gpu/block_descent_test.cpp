@@ -1,0 +1,54 @@
+#include "gpu/block_descent.h"
+
+#include <gtest/gtest.h>
+
+#include "support/descend_on_gpu.h"
+#include "support/gl_fixture.h"
+#include "support/parity.h"
+#include "support/test_models.h"
+
+namespace gelatin {
+namespace {
+
+class BlockDescentOnGpuTest : public test::GlTest {};
+
+TEST_F(BlockDescentOnGpuTest, MatchesTheDoubleReference) {
+    for (const double damping : {0.0, 0.01}) {
+        const Model model = test::make_bodies_to_descend(damping);
+        ASSERT_NE(model.node_count() % 64, 0u);
+        for (const double step : {1e-3, 1.0 / 60.0}) {
+            for (const int iterations : {1, 2, 3, 10}) {
+                const test::NodeArrays actual = test::descend_on_gpu(model, step, iterations);
+                EXPECT_LE(test::worst_descent_error(model, step, iterations, actual), 1.0)
+                    << damping << " s, " << step << " s, " << iterations << " sweeps";
+                EXPECT_TRUE(test::guard_is_untouched(actual.positions, model.node_count()));
+                EXPECT_TRUE(test::guard_is_untouched(actual.velocities, model.node_count()));
+            }
+        }
+    }
+}
+
+TEST_F(BlockDescentOnGpuTest, RepeatsBitForBit) {
+    const Model model = test::make_bodies_to_descend(0.0);
+    const test::NodeArrays one = test::descend_on_gpu(model, 1.0 / 60.0, 10),
+                           two = test::descend_on_gpu(model, 1.0 / 60.0, 10);
+    for (std::uint32_t n = 0; n < model.node_count(); ++n) {
+        EXPECT_EQ(one.positions[n], two.positions[n]);
+        EXPECT_EQ(one.velocities[n], two.velocities[n]);
+    }
+}
+
+// Nodes in one place, and a node without springs.
+TEST_F(BlockDescentOnGpuTest, SurvivesDegenerateSprings) {
+    test::Net net;
+    net.positions = {{0, 1, 0}, {0, 1, 0}, {1, 1, 0}, {5, 5, 5}};
+    net.velocities = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
+    net.masses = {1.0, 2.0, 3.0, 4.0};
+    net.springs = {{0, 1, 0.5f, 100.0f}, {1, 2, 0.5f, 100.0f}};
+    net.gravity = {0.0, -9.81, 0.0};
+    const Model model = test::make_model(net);
+    EXPECT_LE(test::worst_descent_error(model, 0.01, 5, test::descend_on_gpu(model, 0.01, 5)), 1.0);
+}
+
+}  // namespace
+}  // namespace gelatin

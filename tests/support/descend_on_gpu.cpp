@@ -1,0 +1,71 @@
+#include "support/descend_on_gpu.h"
+
+#include <algorithm>
+#include <random>
+
+#include "cpu/block_descent.h"
+#include "gpu/block_descent.h"
+#include "support/crowd.h"
+#include "support/parity.h"
+#include "support/test_models.h"
+
+namespace gelatin::test {
+
+NodeArrays descend_on_gpu(const Model& model, double step, int iterations) {
+    NodeArrays arrays{poisoned(model.node_count()), poisoned(model.node_count())};
+    const gpu::ModelBuffers buffers(model);
+    const gpu::NodeBuffers previous(model.positions, model.velocities), current(arrays.positions, arrays.velocities);
+    gpu::BlockDescent(model, iterations).run(buffers, previous, current, step);
+    gl::barrier(gl::Barrier::buffer_update);
+    current.positions.download(arrays.positions);
+    current.velocities.download(arrays.velocities);
+    return arrays;
+}
+
+double worst_descent_error(const Model& model, double step, int iterations, const NodeArrays& actual) {
+    const cpu::Nodes<double> start{{model.positions.begin(), model.positions.end()},
+                                   {model.velocities.begin(), model.velocities.end()}};
+    cpu::Nodes<double> expected = start;
+    cpu::BlockDescent<double>(std::make_shared<const Model>(model), iterations).run(step, start, expected);
+    StepBounds bounds = rounding_bounds(model, SolverKind::semi_implicit_euler, step);
+    for (std::uint32_t n = 0; n < model.node_count(); ++n) {
+        bounds.position[n] *= iterations;
+        bounds.velocity[n] += bounds.position[n] / step;
+    }
+    return worst_error(model, bounds, expected, actual.positions, actual.velocities);
+}
+
+Model make_bodies_to_descend(double damping_time, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
+    Material jelly;
+    jelly.youngs_modulus = 2e4;
+    jelly.damping = damping_time;
+    std::vector<Body> bodies;
+    const auto add = [&](glm::ivec3 cells, glm::dvec3 place) -> Body& {
+        Body body = make_body(make_block(cells, 0.1 * glm::dvec3(cells), 0.2, seed), jelly);
+        for (glm::dvec3& p : body.mesh.positions) p += place;
+        body.velocity = {unit(random), unit(random), unit(random)};
+        return bodies.emplace_back(std::move(body));
+    };
+    add({5, 6, 7}, {0.0, 1.0, 0.0});
+    add({3, 2, 2}, {1.0, 1.0, 0.0});
+    add({4, 2, 2}, {0.0, 1.0, 1.0}).pins = {HalfSpaceRegion{{1.0, 0.0, 0.0}, 0.05}};
+    add({3, 3, 3}, {-1.0, -0.01, 0.0}).velocity = {2.0, -1.0, 0.5};
+    ColliderDescription floor, ball;
+    floor.shape = PlaneCollider{};
+    floor.friction = 0.2;
+    ball.shape = SphereCollider{0.3};
+    ball.position = {-0.85, 0.4, 0.0};
+    Model model = pack_bodies(bodies, {floor, ball}, {0.0, -9.81, 0.0});
+    for (const std::size_t shaken : {0, 1}) {
+        const Range& nodes = model.objects[shaken].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            const float x = unit(random), y = unit(random), z = unit(random);
+            model.positions[n] += 0.06f * glm::vec4(x, y, z, 0.0f);
+        }
+    }
+    return model;
+}
+
+}  // namespace gelatin::test

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "support/step_on_gpu.h"
+
+namespace gelatin::test {
+
+/// A step of vertex block descent on the GPU from the model's start, positions and velocities poisoned first
+/// and guarded behind their end.
+NodeArrays descend_on_gpu(const Model& model, double step, int iterations);
+
+/// The largest error of its nodes against the double reference, over a bound; infinite where something is not
+/// finite. A sweep solves H d = f with f off by as much as rounding_bounds says of a step's forces, and H at
+/// least m / h^2: h^2 times the acceleration's bound, and that once a sweep, for sweeps contract.
+double worst_descent_error(const Model& model, double step, int iterations, const NodeArrays& actual);
+
+/// Bodies in all states that block descent tells apart: free ones in motion, shaken so much that tets are
+/// inside out, one of them of two chunks of nodes; one with pins; one on a floor and against a sphere; with
+/// damping or without.
+Model make_bodies_to_descend(double damping_time, unsigned seed = 1);
+
+}  // namespace gelatin::test
