@@ -38,8 +38,8 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, int iterati
       touches_(model_->node_count()) {
     for (const ModelObject& object : model_->objects) {
         const auto first = model_->positions.begin() + object.nodes.first;
-        is_pinned_.push_back(std::any_of(first, first + object.nodes.count,
-                                         [](const glm::vec4& p) { return p.w == 0.0f; }));
+        is_pinned_.push_back(
+            std::any_of(first, first + object.nodes.count, [](const glm::vec4& p) { return p.w == 0.0f; }));
     }
 }
 
@@ -77,7 +77,8 @@ void BlockDescent<Real>::mark_nodes_of_flat_tets(const std::vector<Vec4<Real>>& 
         const Vec3<Real> a(positions[tet.x]);
         const Vec3<Real> u = Vec3<Real>(positions[tet.y]) - a, v = Vec3<Real>(positions[tet.z]) - a,
                          w = Vec3<Real>(positions[tet.w]) - a;
-        const Real least = static_cast<Real>(kFlattest) * Real(6) * static_cast<Real>(model_->tet_rests[t].volume);
+        const Real least =
+            static_cast<Real>(kFlattest) * Real(6) * static_cast<Real>(model_->tet_rests[t].volume);
         if (glm::dot(glm::cross(u, v), w) >= least) return;
         for (int k = 0; k < 4; ++k) std::atomic_ref(near_flat_[tet[k]]).store(1, std::memory_order_relaxed);
     });
@@ -154,9 +155,11 @@ void BlockDescent<Real>::move_bodies(std::vector<Vec4<Real>>& positions) const {
     tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
         const Range& nodes = model_->objects[o].nodes;
         const std::span touches(touches_.data() + nodes.first, nodes.count);
-        if (is_pinned_[o] || std::any_of(touches.begin(), touches.end(), [](auto t) { return t != 0; })) return;
+        if (is_pinned_[o] || std::any_of(touches.begin(), touches.end(), [](auto t) { return t != 0; }))
+            return;
         const std::span body(positions.data() + nodes.first, nodes.count);
-        const RigidMotion motion = nearest_rigid_motion<Real>(body, {targets_.data() + nodes.first, nodes.count});
+        const RigidMotion motion =
+            nearest_rigid_motion<Real>(body, {targets_.data() + nodes.first, nodes.count});
         for (Vec4<Real>& p : body) p = Vec4<Real>(Vec3<Real>(motion.move(glm::dvec3(p))), p.w);
     });
 }

@@ -3,7 +3,6 @@
 #include <deque>
 #include <memory>
 #include <optional>
-#include <optional>
 
 #include "cpu/advance_nodes.h"
 #include "cpu/block_descent.h"

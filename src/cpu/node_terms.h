@@ -24,7 +24,8 @@ struct SymmetricMatrix {
 };
 
 /// What elements of a body add to a node's part of the objective of a step: minus its gradient, which is a
-/// force [N], and a positive semi-definite second derivative [N/m]. GLSL twin: shaders/include/node_terms.glsl.
+/// force [N], and a positive semi-definite second derivative [N/m]. GLSL twin:
+/// shaders/include/node_terms.glsl.
 template <class Real>
 struct NodeTerms {
     Vec3<Real> force{0};
@@ -46,7 +47,8 @@ Vec3<Real> any_direction(std::uint32_t node) {
 }
 
 /// The spring to a node `apart` from this one, which has gone `ahead` of it along the step so far [m]. With l
-/// the length of the one, n its direction, L the rest length, k the stiffness, t the damping time, h the step:
+/// the length of the one, n its direction, L the rest length, k the stiffness, t the damping time, h the
+/// step:
 ///   force   k (l - L + (t / h) ahead . n) n
 ///   hessian k ((1 + t / h) n n^T + max(0, 1 - L / l) (1 - n n^T)).
 /// The second term of the energy's own Hessian is negative where the spring is shorter than at rest, and is
@@ -65,8 +67,8 @@ void add_spring(const Vec3<Real>& apart, const Vec3<Real>& ahead, const Vec3<Rea
 /// Flatter than this, over its volume at rest, a tet resists.
 constexpr double kFlattest = 0.3;
 
-/// A tet as one of its corners sees it, with v its volume, V that at rest, J = v / V, J_0 = kFlattest and K its
-/// modulus: W = V K / 2 (J_0 - J)^2 where J < J_0, and nothing else. v is linear in one corner, so
+/// A tet as one of its corners sees it, with v its volume, V that at rest, J = v / V, J_0 = kFlattest and K
+/// its modulus: W = V K / 2 (J_0 - J)^2 where J < J_0, and nothing else. v is linear in one corner, so
 ///   force   V K (J_0 - J) dJ/dx,   hessian V K dJ/dx dJ/dx^T.
 /// It takes springs out of the mirrored and tangled shapes in which they would rest as well.
 /// @param face the other corners, counter-clockwise as the corner at `position` sees them

@@ -19,7 +19,8 @@ struct RigidMotion {
 /// The turn about w by 2 atan(|w| / 2), which is |w| to third order: Cayley's 1 + 4 / (4 + w^2) (W + W^2 / 2)
 /// with W x = w x x. Less than half a turn for any w.
 inline glm::dmat3 cayley_turn(const glm::dvec3& w) {
-    const glm::dmat3 cross(glm::dvec3(0.0, w.z, -w.y), glm::dvec3(-w.z, 0.0, w.x), glm::dvec3(w.y, -w.x, 0.0));
+    const glm::dmat3 cross(glm::dvec3(0.0, w.z, -w.y), glm::dvec3(-w.z, 0.0, w.x),
+                           glm::dvec3(w.y, -w.x, 0.0));
     return glm::dmat3(1.0) + 4.0 / (4.0 + glm::dot(w, w)) * (cross + 0.5 * cross * cross);
 }
 

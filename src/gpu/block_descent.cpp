@@ -36,7 +36,8 @@ std::vector<std::uint32_t> find_pinned_objects(const Model& model) {
     std::vector<std::uint32_t> pinned;
     for (const ModelObject& object : model.objects) {
         const auto first = model.positions.begin() + object.nodes.first;
-        pinned.push_back(std::any_of(first, first + object.nodes.count, [](const glm::vec4& p) { return p.w == 0.0f; }));
+        pinned.push_back(
+            std::any_of(first, first + object.nodes.count, [](const glm::vec4& p) { return p.w == 0.0f; }));
     }
     return pinned;
 }
@@ -77,7 +78,8 @@ BlockDescent::BlockDescent(const Model& model, int iterations)
         colors_.push_back({first, static_cast<std::uint32_t>(rows.size()) - first});
     }
     const HalfSprings springs = pack_half_springs(rows, model.springs);
-    const TetCorners corners = pack_tet_corners(rows, make_node_tets(model.node_count(), model.tets), model.tets);
+    const TetCorners corners =
+        pack_tet_corners(rows, make_node_tets(model.node_count(), model.tets), model.tets);
     const std::vector<Chunk> chunks = make_chunks(model, &ModelObject::nodes);
     std::vector<std::uint32_t> chunk_starts(model.objects.size() + 1, 0);
     for (const Chunk& chunk : chunks) ++chunk_starts[chunk.object + 1];

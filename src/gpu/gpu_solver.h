@@ -50,8 +50,8 @@ private:
     ExplicitScheme scheme_;
     CollisionSettings collision_settings_;
     ModelBuffers buffers_;
-    NodeBuffers current_, previous_;  // swapped by each step: where it ended, and where it started
-    NodeBuffers stage_[2], sums_;     // between the passes of one step
+    NodeBuffers current_, previous_;             // swapped by each step: where it ended, and where it started
+    NodeBuffers stage_[2], sums_;                // between the passes of one step
     std::optional<BlockDescent> block_descent_;  // instead of the scheme
     std::optional<AdvanceNodes> fused_;
     std::optional<DivideAndMerge> divide_and_merge_;

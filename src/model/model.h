@@ -102,7 +102,7 @@ struct Model {
 
     std::vector<glm::uvec4> tets;    ///< shape [tets]
     std::vector<TetRest> tet_rests;  ///< shape [tets]
-    std::vector<Face> faces;       ///< boundary triangles, shape [faces]
+    std::vector<Face> faces;         ///< boundary triangles, shape [faces]
     NodeFaces node_faces;
     SurfaceParts surface_parts;
     BoxTree face_trees;      ///< one an object

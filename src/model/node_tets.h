@@ -9,8 +9,8 @@
 
 namespace gelatin {
 
-/// Tets by node: those of node n are entries[starts[n]] .. entries[starts[n + 1]], in the tets' order; an entry
-/// is 4 * tet, plus the node's place among the tet's corners.
+/// Tets by node: those of node n are entries[starts[n]] .. entries[starts[n + 1]], in the tets' order; an
+/// entry is 4 * tet, plus the node's place among the tet's corners.
 struct NodeTets {
     std::vector<std::uint32_t> starts;   ///< shape [nodes + 1]
     std::vector<std::uint32_t> entries;  ///< shape [4 * tets]

@@ -37,7 +37,8 @@ Model make_model(const BlockOf& block) {
 
 template <class Real>
 cpu::Nodes<Real> nodes_of(const Model& model) {
-    return {{model.positions.begin(), model.positions.end()}, {model.velocities.begin(), model.velocities.end()}};
+    return {{model.positions.begin(), model.positions.end()},
+            {model.velocities.begin(), model.velocities.end()}};
 }
 
 template <class Real>
@@ -83,7 +84,8 @@ template <class Real>
 double worst_strain(const Model& model, const cpu::Nodes<Real>& nodes) {
     double worst = 0.0;
     for (const Spring& s : model.springs) {
-        const double length = glm::distance(glm::dvec3(nodes.positions[s.i]), glm::dvec3(nodes.positions[s.j]));
+        const double length =
+            glm::distance(glm::dvec3(nodes.positions[s.i]), glm::dvec3(nodes.positions[s.j]));
         worst = std::max(worst, std::abs(length / static_cast<double>(s.rest_length) - 1.0));
     }
     return worst;
@@ -104,9 +106,9 @@ std::vector<glm::dvec3> gradient(const Model& model, double step, const cpu::Nod
         const glm::dvec3 target = glm::dvec3(model.positions[n]) +
                                   step * (glm::dvec3(model.velocities[n]) + step * glm::dvec3(model.gravity));
         const double inverse_mass = static_cast<double>(model.positions[n].w);
-        const glm::dvec3 inertia = inverse_mass > 0.0
-                                       ? (glm::dvec3(nodes.positions[n]) - target) / (inverse_mass * step * step)
-                                       : terms[n].force;
+        const glm::dvec3 inertia =
+            inverse_mass > 0.0 ? (glm::dvec3(nodes.positions[n]) - target) / (inverse_mass * step * step)
+                               : terms[n].force;
         result.push_back(inertia - terms[n].force);
     }
     return result;
@@ -127,8 +129,9 @@ TEST(BlockDescent, FreeFallIsExact) {
             const glm::dvec3 fallen = glm::dvec3(model.positions[n]) + 10 * step * glm::dvec3(1, 2, 3) +
                                       55 * step * step * kGravity;
             EXPECT_LT(glm::distance(glm::dvec3(nodes.positions[n]), fallen), 1e-6);
-            EXPECT_LT(glm::distance(glm::dvec3(nodes.velocities[n]), glm::dvec3(1, 2, 3) + 10 * step * kGravity),
-                      1e-6 + 1e-8 / step);
+            EXPECT_LT(
+                glm::distance(glm::dvec3(nodes.velocities[n]), glm::dvec3(1, 2, 3) + 10 * step * kGravity),
+                1e-6 + 1e-8 / step);
         }
     }
 }
@@ -137,11 +140,11 @@ TEST(BlockDescent, ConvergesToImplicitEuler) {
     for (const double modulus : {1e4, 1e6}) {
         Model model = make_model({.youngs_modulus = modulus, .pins = {HalfSpaceRegion{{1, 0, 0}, 1e-6}}});
         for (glm::vec4& v : model.velocities) v.y += 0.3f;
-        const double start = norm(gradient(model, kFrame, run_steps<double>(model, 1e-9, 1, 1)));
+        const double start = norm(gradient(model, kFrame, run_steps<double>(model, kFrame, 1, 1)));
         double last = start;
         for (const int iterations : {10, 100, 1000, 10000}) {
             const double now = norm(gradient(model, kFrame, run_steps<double>(model, kFrame, 1, iterations)));
-            EXPECT_LT(now, last);
+            EXPECT_LT(now, std::max(last, 1e-12 * start)) << modulus << " Pa, " << iterations << " sweeps";
             last = now;
         }
         EXPECT_LT(last, 1e-9 * start) << modulus;
@@ -150,7 +153,8 @@ TEST(BlockDescent, ConvergesToImplicitEuler) {
 
 TEST(BlockDescent, AFreeBodyKeepsItsMomentum) {
     for (const double modulus : {1e3, 1e5, 1e7}) {
-        Model model = make_model({.youngs_modulus = modulus, .velocity = {1.0, 2.0, 0.0}, .gravity = {0, 0, 0}});
+        Model model =
+            make_model({.youngs_modulus = modulus, .velocity = {1.0, 2.0, 0.0}, .gravity = {0, 0, 0}});
         shake(model, 0.01f);
         for (std::uint32_t n = 0; n < model.node_count(); ++n)
             model.velocities[n] += 2.0f * glm::vec4(-model.positions[n].y, model.positions[n].x, 0.0f, 0.0f);
@@ -209,7 +213,8 @@ TEST(BlockDescent, FrictionIsCoulombs) {
     floor.shape = PlaneCollider{{0.0, 1.0, 0.0}, 0.0};
     floor.friction = 0.3;
     const double speed = 1.0;
-    const Model model = make_model({.youngs_modulus = 1e6, .damping = 0.01, .velocity = {speed, 0.0, 0.0}, .colliders = {floor}});
+    const Model model = make_model(
+        {.youngs_modulus = 1e6, .damping = 0.01, .velocity = {speed, 0.0, 0.0}, .colliders = {floor}});
     const cpu::Nodes<double> nodes = run_steps<double>(model, kFrame, 120, 30);
     glm::dvec3 way(0.0);
     double mass = 0.0;

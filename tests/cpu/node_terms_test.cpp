@@ -24,7 +24,8 @@ private:
 };
 
 M full(const cpu::SymmetricMatrix<double>& s) {
-    return {s.diagonal.x, s.beside.z, s.beside.y, s.beside.z, s.diagonal.y, s.beside.x, s.beside.y, s.beside.x, s.diagonal.z};
+    return {s.diagonal.x, s.beside.z, s.beside.y, s.beside.z,  s.diagonal.y,
+            s.beside.x,   s.beside.y, s.beside.x, s.diagonal.z};
 }
 
 Eigen::Matrix3d to_eigen(const cpu::SymmetricMatrix<double>& s);
@@ -36,10 +37,13 @@ Eigen::Matrix3d to_eigen(const M& m) {
     return result;
 }
 
-Eigen::Matrix3d to_eigen(const cpu::SymmetricMatrix<double>& s) { return to_eigen(full(s)); }
+Eigen::Matrix3d to_eigen(const cpu::SymmetricMatrix<double>& s) {
+    return to_eigen(full(s));
+}
 
 // The force is minus the energy's gradient, by central differences: exact to h^2 of its third derivative.
-void expect_force_of(const std::function<double(const V&)>& energy, const V& x, const V& force, double bound) {
+void expect_force_of(const std::function<double(const V&)>& energy, const V& x, const V& force,
+                     double bound) {
     const double h = 1e-5;
     for (int k = 0; k < 3; ++k) {
         V e(0);
@@ -81,7 +85,8 @@ TEST(NodeTerms, ASpringsForceAndHessianAreThoseOfItsEnergy) {
         };
         expect_force_of(energy, x, terms.force, 1e-6);
         const M exact = derivative_of([&](const V& p) { return spring_terms(p, other).force; }, x);
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> given(to_eigen(terms.hessian)), wanted(to_eigen(exact));
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> given(to_eigen(terms.hessian)),
+            wanted(to_eigen(exact));
         if (glm::distance(x, other) > kRest) {
             ++stretched;
             EXPECT_LT((to_eigen(terms.hessian) - to_eigen(exact)).norm(), 1e-6);
@@ -98,7 +103,8 @@ TEST(NodeTerms, ASpringsForceAndHessianAreThoseOfItsEnergy) {
 TEST(NodeTerms, DampingActsAlongTheSpring) {
     const V start(0, 0, 0), other(kRest, 0, 0), moved(0.1, 0.2, 0);
     const double damping = 2.0;  // t / h
-    const V with = spring_terms(moved, other, damping, start).force, without = spring_terms(moved, other).force;
+    const V with = spring_terms(moved, other, damping, start).force,
+            without = spring_terms(moved, other).force;
     const V n = glm::normalize(other - moved);
     EXPECT_LT(glm::distance(with - without, -kStiffness * damping * glm::dot(moved - start, n) * n), 1e-12);
 }

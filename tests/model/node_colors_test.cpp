@@ -14,10 +14,12 @@ Graph make_random_graph(std::uint32_t nodes, std::size_t edges, unsigned seed) {
     std::mt19937 random(seed);
     std::vector<glm::uvec2> pairs;
     while (pairs.size() < edges) {
-        const auto a = static_cast<std::uint32_t>(random() % nodes), b = static_cast<std::uint32_t>(random() % nodes);
+        const auto a = static_cast<std::uint32_t>(random() % nodes),
+                   b = static_cast<std::uint32_t>(random() % nodes);
         if (a != b) pairs.emplace_back(std::min(a, b), std::max(a, b));
     }
-    std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+    std::sort(pairs.begin(), pairs.end(),
+              [](const auto& a, const auto& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return make_graph(nodes, pairs);
 }

@@ -14,7 +14,8 @@ namespace gelatin::test {
 NodeArrays descend_on_gpu(const Model& model, double step, int iterations) {
     NodeArrays arrays{poisoned(model.node_count()), poisoned(model.node_count())};
     const gpu::ModelBuffers buffers(model);
-    const gpu::NodeBuffers previous(model.positions, model.velocities), current(arrays.positions, arrays.velocities);
+    const gpu::NodeBuffers previous(model.positions, model.velocities),
+        current(arrays.positions, arrays.velocities);
     gpu::BlockDescent(model, iterations).run(buffers, previous, current, step);
     gl::barrier(gl::Barrier::buffer_update);
     current.positions.download(arrays.positions);
