@@ -7,7 +7,7 @@ namespace {
 
 using Work = CollisionBuffers::Work;
 
-constexpr std::uint32_t kSumLanes = 256, kLaneQueries = 16;  // of shaders/sim/sum_proximities.comp
+constexpr std::uint32_t kSumLanes = 256, kGroupQueries = 16 * kSumLanes;  // of sim/sum_proximities.comp
 constexpr auto kNext = gl::Barrier::storage | gl::Barrier::texture_fetch | gl::Barrier::command;
 
 template <class T>
@@ -116,7 +116,8 @@ void FindProximities::sum_up(const ProximityBuffers& buffers) const {
         program->set("query_count", buffers.query_count);
         program->set("node_count", buffers.node_count);
     }
-    sum_program_.dispatch(buffers.query_count, kLaneQueries * kSumLanes);
+    const std::size_t groups = (buffers.query_count + kGroupQueries - 1) / kGroupQueries;
+    sum_program_.dispatch(groups * kSumLanes, kSumLanes);
     gl::barrier(gl::Barrier::storage);
     sum_groups_program_.dispatch(kSumLanes, kSumLanes);
     gl::barrier(gl::Barrier::storage);
