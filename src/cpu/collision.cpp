@@ -10,6 +10,7 @@
 #include "cpu/time_of_impact.h"
 #include "cpu/triangle_overlap.h"
 #include "cpu/walk_tree.h"
+#include "model/face_collision_words.h"
 
 namespace gelatin::cpu {
 namespace {
@@ -17,10 +18,9 @@ namespace {
 constexpr std::uint32_t kFacesATask = 2048;
 constexpr std::uint32_t kTestsATask = 65536;
 constexpr std::size_t kWalksATask = 64;
-constexpr std::uint32_t kFacesAWord = 16;  // of the Face Collision Result
 
 std::uint32_t word_count(const ModelObject& object) {
-    return (object.faces.count + kFacesAWord - 1) / kFacesAWord;
+    return face_collision_words(object.faces.count);
 }
 
 template <class Real>

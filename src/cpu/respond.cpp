@@ -11,6 +11,7 @@ namespace gelatin::cpu {
 namespace {
 
 constexpr std::uint32_t kNodesATask = 1024;
+
 // What all stages of a response read.
 template <class Real>
 struct Contacts {

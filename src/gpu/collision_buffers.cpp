@@ -5,6 +5,7 @@
 #include <string>
 
 #include "gelatin/error.h"
+#include "model/face_collision_words.h"
 
 namespace gelatin::gpu {
 namespace {
@@ -13,7 +14,6 @@ constexpr std::uint64_t kOne = 1;                    // no buffer is empty
 constexpr std::uint64_t kMostPairs = 1u << 20;       // 32 MB
 constexpr std::uint64_t kMostCandidates = 1u << 22;  // 16 MB, or eight a face
 constexpr std::uint64_t kMostWords = 1u << 23;       // 32 MB
-constexpr std::uint64_t kFacesAWord = 16;            // of the Face Collision Result, as in include/pairs.glsl
 constexpr std::uint64_t kLeastFacePairs = 1u << 16;  // 1 MB
 constexpr std::uint64_t kFacePairsAFace = 64;
 constexpr std::uint64_t kMostFacePairs = 1u << 21;  // 32 MB
@@ -26,7 +26,7 @@ struct AllPairs {
         const std::uint64_t others = model.objects.size() - 1;
         for (const ModelObject& object : model.objects) {
             pairs += others;
-            words += others * ((object.faces.count + kFacesAWord - 1) / kFacesAWord);
+            words += others * face_collision_words(object.faces.count);
             entries += others * object.faces.count;
             if (others * object.faces.count > std::numeric_limits<std::uint32_t>::max()) {
                 throw InvalidInput("object '" + object.name + "' has too many faces for a scene of " +

@@ -7,12 +7,27 @@ namespace {
 
 using Work = CollisionBuffers::Work;
 
-constexpr std::uint32_t kSumLanes = 256, kLaneQueries = 16;  // of shaders/sim/sum_proximities.comp
+constexpr std::uint32_t kSumLanes = 256, kGroupQueries = 16 * kSumLanes;  // of sim/sum_proximities.comp
 constexpr auto kNext = gl::Barrier::storage | gl::Barrier::texture_fetch | gl::Barrier::command;
 
 template <class T>
 std::uint32_t capacity(const gl::Buffer<T>& buffer) {
     return static_cast<std::uint32_t>(buffer.size());
+}
+
+// The tasks of nodes, then those of edges, whose queries come behind the nodes'.
+void run_tasks(const gl::Program& of_nodes, const gl::Program& of_edges, const CollisionBuffers& collision,
+               const ProximityBuffers& buffers) {
+    const auto run = [&](const gl::Program& program, const ProximityBuffers::Tasks& tasks, Work work,
+                         std::uint32_t first_query) {
+        tasks.hits.bind_storage(4);
+        tasks.leaves.bind_storage(5);
+        program.set("task_capacity", capacity(tasks.leaves));
+        program.set("first_query", first_query);
+        collision.run(program, work);
+    };
+    run(of_nodes, buffers.node_tasks, Work::node_tasks, 0);
+    run(of_edges, buffers.edge_tasks, Work::edge_tasks, buffers.node_count);
 }
 
 }  // namespace
@@ -94,18 +109,9 @@ void FindProximities::find_near_leaves(const CollisionBuffers& collision,
 }
 
 void FindProximities::test(const CollisionBuffers& collision, const ProximityBuffers& buffers) const {
-    const auto run = [&](const gl::Program& program, const ProximityBuffers::Tasks& tasks, Work work,
-                         std::uint32_t first_query) {
-        tasks.hits.bind_storage(4);
-        tasks.leaves.bind_storage(5);
-        program.set("task_capacity", capacity(tasks.leaves));
-        program.set("first_query", first_query);
-        collision.run(program, work);
-    };
     buffers.near_leaf_texels.bind(9);
     buffers.starts.bind_storage(7);
-    run(test_nodes_program_, buffers.node_tasks, Work::node_tasks, 0);
-    run(test_edges_program_, buffers.edge_tasks, Work::edge_tasks, buffers.node_count);
+    run_tasks(test_nodes_program_, test_edges_program_, collision, buffers);
     gl::barrier(gl::Barrier::storage);
 }
 
@@ -116,7 +122,8 @@ void FindProximities::sum_up(const ProximityBuffers& buffers) const {
         program->set("query_count", buffers.query_count);
         program->set("node_count", buffers.node_count);
     }
-    sum_program_.dispatch(buffers.query_count, kLaneQueries * kSumLanes);
+    const std::size_t groups = (buffers.query_count + kGroupQueries - 1) / kGroupQueries;
+    sum_program_.dispatch(groups * kSumLanes, kSumLanes);
     gl::barrier(gl::Barrier::storage);
     sum_groups_program_.dispatch(kSumLanes, kSumLanes);
     gl::barrier(gl::Barrier::storage);
@@ -125,18 +132,10 @@ void FindProximities::sum_up(const ProximityBuffers& buffers) const {
 }
 
 void FindProximities::write(const CollisionBuffers& collision, const ProximityBuffers& buffers) const {
-    const auto run = [&](const gl::Program& program, const ProximityBuffers::Tasks& tasks, Work work,
-                         std::uint32_t first_query) {
-        tasks.hits.bind_storage(4);
-        tasks.leaves.bind_storage(5);
-        program.set("task_capacity", capacity(tasks.leaves));
-        program.set("first_query", first_query);
-        program.set("proximity_capacity", capacity(buffers.proximities));
-        collision.run(program, work);
-    };
     buffers.proximities.bind_storage(0);
-    run(write_nodes_program_, buffers.node_tasks, Work::node_tasks, 0);
-    run(write_edges_program_, buffers.edge_tasks, Work::edge_tasks, buffers.node_count);
+    for (const gl::Program* program : {&write_nodes_program_, &write_edges_program_})
+        program->set("proximity_capacity", capacity(buffers.proximities));
+    run_tasks(write_nodes_program_, write_edges_program_, collision, buffers);
     gl::barrier(gl::Barrier::storage);
 }
 

@@ -12,14 +12,6 @@
 namespace gelatin {
 namespace {
 
-void expect_none(const test::ProximityErrors& errors) {
-    EXPECT_TRUE(errors.are_none()) << errors.missing << " missing of " << errors.expected << ", "
-                                   << errors.wrong << " wrong, " << errors.disordered << " disordered, "
-                                   << errors.not_mirrored << " not mirrored; errors over bounds: distance "
-                                   << errors.distance << ", points " << errors.points << ", weights "
-                                   << errors.weights;
-}
-
 class FindProximitiesTest : public ::testing::TestWithParam<test::ProximityScene> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, FindProximitiesTest, ::testing::ValuesIn(test::kProximityScenes),
                          [](const auto& test) { return std::string(test.param.name); });
@@ -30,13 +22,13 @@ TEST_P(FindProximitiesTest, FindsWhatBruteForceFinds) {
         const CollisionSettings settings{.self_collision = own, .proximity_radius = GetParam().radius};
         const auto errors = test::check_proximities<float>(
             model, settings, test::find_proximities_on_cpu<float>(model, settings));
-        expect_none(errors);
+        test::expect_none(errors);
         EXPECT_GT(errors.compared, 10'000u);
         if (own) {
             EXPECT_GT(errors.expected, 50u);
         }
-        expect_none(test::check_proximities<double>(model, settings,
-                                                    test::find_proximities_on_cpu<double>(model, settings)));
+        test::expect_none(test::check_proximities<double>(
+            model, settings, test::find_proximities_on_cpu<double>(model, settings)));
     }
 }
 
@@ -112,7 +104,7 @@ TEST_P(FindProximitiesHeavy, FindsWhatBruteForceFinds) {
         const CollisionSettings settings{.self_collision = true, .proximity_radius = radius};
         const auto errors = test::check_proximities<float>(
             model, settings, test::find_proximities_on_cpu<float>(model, settings));
-        expect_none(errors);
+        test::expect_none(errors);
         EXPECT_GT(errors.compared, 10'000'000u);
     }
 }

@@ -13,14 +13,6 @@
 namespace gelatin {
 namespace {
 
-void expect_none(const test::ProximityErrors& errors) {
-    EXPECT_TRUE(errors.are_none()) << errors.missing << " missing of " << errors.expected << ", "
-                                   << errors.wrong << " wrong, " << errors.disordered << " disordered, "
-                                   << errors.not_mirrored << " not mirrored; errors over bounds: distance "
-                                   << errors.distance << ", points " << errors.points << ", weights "
-                                   << errors.weights;
-}
-
 class FindProximitiesOnGpuTest : public test::GlTest,
                                  public ::testing::WithParamInterface<test::ProximityScene> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, FindProximitiesOnGpuTest, ::testing::ValuesIn(test::kProximityScenes),
@@ -32,7 +24,7 @@ TEST_P(FindProximitiesOnGpuTest, FindsWhatBruteForceFinds) {
         const CollisionSettings settings{.self_collision = own, .proximity_radius = GetParam().radius};
         const test::FoundOnGpu found = test::find_proximities_on_gpu(model, settings);
         ASSERT_EQ(found.lost_pairs + found.measure.lost, 0u);
-        expect_none(test::check_proximities<float>(model, settings, found));
+        test::expect_none(test::check_proximities<float>(model, settings, found));
         const std::uint32_t node_face = found.starts[model.surface_parts.nodes.size()];
         EXPECT_TRUE(found.is_guarded);
         EXPECT_EQ(found.measure.node_face, node_face);
@@ -128,7 +120,7 @@ TEST_P(FindProximitiesOnGpuHeavy, FindsWhatBruteForceFinds) {
         const test::FoundOnGpu found = test::find_proximities_on_gpu(model, settings, 1u << 20);
         ASSERT_EQ(found.lost_pairs + found.measure.lost, 0u);
         const auto errors = test::check_proximities<float>(model, settings, found);
-        expect_none(errors);
+        test::expect_none(errors);
         EXPECT_GT(errors.compared, 10'000'000u);
     }
 }

@@ -12,6 +12,7 @@
 #include "cpu/triangle_overlap.h"
 #include "gpu/collision.h"
 #include "gpu/mark_faces.h"
+#include "model/face_collision_words.h"
 #include "support/parity.h"
 #include "support/test_models.h"
 
@@ -161,7 +162,8 @@ FaceCollisions find_collisions_on_gpu(const Model& model, const CollisionSetting
         for (std::uint32_t p = row.first_pair; p < row.first_pair + row.pair_count; ++p) {
             const Range& faces = model.objects[pairs[p].object].faces;
             for (std::uint32_t k = 0; k < faces.count; ++k) {
-                const auto touch = cpu::Touch(words[pairs[p].first_word + k / 16] >> (2 * (k % 16)) & 3u);
+                const auto touch =
+                    cpu::Touch(words[pairs[p].first_word + k / kFacesAWord] >> (2 * (k % kFacesAWord)) & 3u);
                 if (touch != cpu::Touch::none) found.push_back({faces.first + k, pairs[p].other, touch});
             }
         }

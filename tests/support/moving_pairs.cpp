@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/type_precision.hpp>
-#include <random>
 
 #include "cpu/triangle_overlap.h"
+#include "support/random_maker.h"
 
 namespace gelatin::test {
 namespace {
@@ -14,25 +14,14 @@ using cpu::Moving;
 using Point = glm::dvec3;
 using LongPoint = glm::vec<3, long double>;
 
-class Maker {
+class Maker : public RandomMaker {
 public:
-    explicit Maker(unsigned seed) : random_(seed) {}
+    using RandomMaker::RandomMaker;
 
-    double uniform(double low, double high) {
-        return std::uniform_real_distribution<double>(low, high)(random_);
-    }
-    double magnitude(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
-    int integer(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
-    Point point(double extent = 1.0) {
-        return {uniform(-extent, extent), uniform(-extent, extent), uniform(-extent, extent)};
-    }
     // Of whole numbers.
     Point coarse_point(int extent) {
         return {integer(-extent, extent), integer(-extent, extent), integer(-extent, extent)};
     }
-
-private:
-    std::mt19937 random_;
 };
 
 // Corners that `what` leaves of the first and the second thing.

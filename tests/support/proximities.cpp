@@ -1,5 +1,7 @@
 #include "support/proximities.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -391,5 +393,13 @@ template ProximityErrors check_proximities<float>(const Model&, const CollisionS
                                                   const FoundProximities&);
 template ProximityErrors check_proximities<double>(const Model&, const CollisionSettings&,
                                                    const FoundProximities&);
+
+void expect_none(const ProximityErrors& errors) {
+    EXPECT_TRUE(errors.are_none()) << errors.missing << " missing of " << errors.expected << ", "
+                                   << errors.wrong << " wrong, " << errors.disordered << " disordered, "
+                                   << errors.not_mirrored << " not mirrored; errors over bounds: distance "
+                                   << errors.distance << ", points " << errors.points << ", weights "
+                                   << errors.weights;
+}
 
 }  // namespace gelatin::test

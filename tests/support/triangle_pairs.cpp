@@ -3,7 +3,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
-#include <random>
+
+#include "support/random_maker.h"
 
 namespace gelatin::test {
 namespace {
@@ -11,18 +12,10 @@ namespace {
 using cpu::Triangle;
 using Point = glm::dvec3;
 
-class PairMaker {
+class PairMaker : public RandomMaker {
 public:
-    explicit PairMaker(unsigned seed) : random_(seed) {}
+    using RandomMaker::RandomMaker;
 
-    double uniform(double low, double high) {
-        return std::uniform_real_distribution<double>(low, high)(random_);
-    }
-    double magnitude(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
-    int integer(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
-    Point point(double extent = 1.0) {
-        return {uniform(-extent, extent), uniform(-extent, extent), uniform(-extent, extent)};
-    }
     Point grid_point() { return {integer(0, 3), integer(0, 3), integer(0, 3)}; }
     Triangle<double> triangle() { return {point(), point(), point()}; }
 
@@ -148,8 +141,6 @@ private:
                 s[2] = s[0];
         }
     }
-
-    std::mt19937 random_;
 };
 
 template <class Real>
