@@ -48,10 +48,11 @@ std::vector<Link> links_beside(const TetMesh& mesh, const std::vector<double>& v
                                const std::vector<Link>& edges) {
     const std::vector<Link> inner = without(face_links(mesh, volumes), edges);
     if (inner.empty()) return {};
-    const std::vector<Link> across = surface_links(mesh, 0.5 * median_volume(inner));
+    std::vector<Link> across = surface_links(mesh, 0.5 * median_volume(inner));
+    sort_and_drop_doubles(across);
     const std::vector<Link> outer = without(without(across, edges), inner);
     std::vector<Link> links;
-    std::merge(inner.begin(), inner.end(), outer.begin(), outer.end(), std::back_inserter(links), by_nodes);
+    std::merge(inner.begin(), inner.end(), outer.begin(), outer.end(), std::back_inserter(links), ByNodes{});
     drop_short_links(mesh, links);
     return links;
 }
@@ -83,7 +84,7 @@ Springs start_of_fit(const TetMesh& mesh, const std::vector<double>& volumes, do
     std::vector<std::size_t> order(both.links.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return by_nodes(both.links[a], both.links[b]); });
+              [&](std::size_t a, std::size_t b) { return ByNodes{}(both.links[a], both.links[b]); });
     Springs sorted;
     for (const std::size_t s : order) {
         sorted.links.push_back(both.links[s]);

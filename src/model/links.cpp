@@ -19,7 +19,7 @@ Link make_link(std::uint32_t a, std::uint32_t b, double volume) {
 
 // Adds up the volumes of equal pairs.
 std::vector<Link> merged(std::vector<Link> links) {
-    std::sort(links.begin(), links.end(), by_nodes);
+    std::sort(links.begin(), links.end(), ByNodes{});
     std::size_t kept = 0;
     for (const Link& link : links) {
         if (kept > 0 && same_nodes(links[kept - 1], link)) {
@@ -33,10 +33,6 @@ std::vector<Link> merged(std::vector<Link> links) {
 }
 
 }  // namespace
-
-bool by_nodes(const Link& a, const Link& b) {
-    return a.nodes.x != b.nodes.x ? a.nodes.x < b.nodes.x : a.nodes.y < b.nodes.y;
-}
 
 std::vector<double> tet_volumes(const TetMesh& mesh) {
     std::vector<double> volumes;
@@ -73,19 +69,18 @@ std::vector<Link> surface_links(const TetMesh& mesh, double volume) {
             links.push_back(make_link(edge.corners[0], edge.corners[1], volume));
         }
     }
-    sort_and_drop_doubles(links);
     return links;
 }
 
 void sort_and_drop_doubles(std::vector<Link>& links) {
-    std::sort(links.begin(), links.end(), by_nodes);
+    std::sort(links.begin(), links.end(), ByNodes{});
     links.erase(std::unique(links.begin(), links.end(), same_nodes), links.end());
 }
 
 std::vector<Link> without(const std::vector<Link>& links, const std::vector<Link>& taken) {
     std::vector<Link> rest;
     std::set_difference(links.begin(), links.end(), taken.begin(), taken.end(), std::back_inserter(rest),
-                        by_nodes);
+                        ByNodes{});
     return rest;
 }
 

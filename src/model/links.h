@@ -14,7 +14,11 @@ struct Link {
 };
 
 /// The order that lists of links are kept in.
-bool by_nodes(const Link& a, const Link& b);
+struct ByNodes {
+    bool operator()(const Link& a, const Link& b) const {
+        return a.nodes.x != b.nodes.x ? a.nodes.x < b.nodes.x : a.nodes.y < b.nodes.y;
+    }
+};
 
 /// The volume of each tet [m^3].
 std::vector<double> tet_volumes(const TetMesh& mesh);
@@ -25,7 +29,7 @@ std::vector<Link> edge_links(const TetMesh& mesh, const std::vector<double>& vol
 /// The opposite corners of two tets that share a face, each pair once, with the volume of such tets.
 std::vector<Link> face_links(const TetMesh& mesh, const std::vector<double>& volumes);
 
-/// The opposite corners of two boundary faces that share an edge, each pair once, all with `volume`.
+/// The opposite corners of two boundary faces that share an edge, in no order, all with `volume`.
 std::vector<Link> surface_links(const TetMesh& mesh, double volume);
 
 /// Sorts, and leaves the first of links that join the same nodes.

@@ -118,9 +118,9 @@ private:
 
     // What the springs of node n lack or have too much of, times the squares of the rows' weights.
     Moments weighted_miss(std::size_t n, const Eigen::VectorXd& s, double target_share) const {
-        static const Fourth kIsotropic = isotropic_fourth();
+        static const Fourth isotropic = isotropic_fourth();
         Moments sum{-target_share * isotropic_third(targets_.boundary_areas[n]),
-                    -target_share * targets_.node_volumes[n] * kIsotropic};
+                    -target_share * targets_.node_volumes[n] * isotropic};
         for (std::uint32_t e = net_.ends.starts[n]; e < net_.ends.starts[n + 1]; ++e) {
             const std::uint32_t spring = net_.ends.entries[e] / 2;
             const double outwards = net_.ends.entries[e] % 2 == 0 ? 1.0 : -1.0;

@@ -80,7 +80,7 @@ std::vector<Spring> make_springs(const TetMesh& mesh, const SpringKinds& kinds, 
         shares.emplace_back(without(links, taken), share);
         std::vector<Link> both;
         std::merge(taken.begin(), taken.end(), shares.back().first.begin(), shares.back().first.end(),
-                   std::back_inserter(both), by_nodes);
+                   std::back_inserter(both), ByNodes{});
         taken = std::move(both);
     };
     if (kinds.structural) add_kind(edge_links(mesh, volumes), kStructuralShare);
