@@ -10,8 +10,7 @@ namespace {
 
 constexpr double kLeastFactor = 0.05;
 constexpr double kStayNearOne = 0.01;  // of a spring's k l^2
-constexpr int kSteps = 30;
-constexpr int kPowerSteps = 12;
+constexpr int kSteps = 40;
 
 // Symmetric tensors of third and of fourth order, one entry for each set of equal ones, times the root of
 // their number: the scalar product of two such vectors is that of the tensors. That of n n n with m m m is (n
@@ -72,11 +71,11 @@ public:
           missed_(net.node_count()),
           force_(net.spring_count()),
           energy_(net.spring_count()),
-          diagonal_(static_cast<Eigen::Index>(net.spring_count())),
           pull_(static_cast<Eigen::Index>(net.spring_count())) {
         for (std::size_t s = 0; s < net.spring_count(); ++s) {
             force_[s] = stiffness[s] * net.lengths[s];
             energy_[s] = 0.5 * force_[s] * net.lengths[s];
+            pull_[static_cast<Eigen::Index>(s)] = kStayNearOne * 2.0 * energy_[s];
             for (int end = 0; end < 2; ++end) force_weights_[net.nodes[s][end]] += stiffness[s];
         }
         for (std::size_t n = 0; n < net.node_count(); ++n) {
@@ -84,27 +83,11 @@ public:
             force_weights_[n] = 1.0 / force_weights_[n];
             energy_weights_[n] = 1.0 / (3.0 * targets.node_volumes[n]);
         }
-        for (std::size_t s = 0; s < net.spring_count(); ++s) {
-            const auto at = static_cast<Eigen::Index>(s);
-            const glm::uvec2 nodes = net.nodes[s];
-            pull_[at] = kStayNearOne * 2.0 * energy_[s];
-            diagonal_[at] = force_[s] * force_[s] * (force_weights_[nodes.x] + force_weights_[nodes.y]) +
-                            energy_[s] * energy_[s] * (energy_weights_[nodes.x] + energy_weights_[nodes.y]) +
-                            pull_[at];
-        }
     }
 
-    const Eigen::VectorXd& diagonal() const { return diagonal_; }
-
-    // A^T (A s - b) + pull (s - 1)
-    void gradient(const Eigen::VectorXd& s, Eigen::VectorXd& result) { apply(s, 1.0, result); }
-    // A^T A s + pull s
-    void hessian(const Eigen::VectorXd& s, Eigen::VectorXd& result) { apply(s, 0.0, result); }
-
-private:
-    void apply(const Eigen::VectorXd& s, double target_share, Eigen::VectorXd& result) {
-        for_each_index(net_.node_count(),
-                       [&](std::size_t n) { missed_[n] = weighted_miss(n, s, target_share); });
+    // A^T (A s - b) + kStayNearOne k l^2 (s - 1)
+    void gradient(const Eigen::VectorXd& s, Eigen::VectorXd& result) {
+        for_each_index(net_.node_count(), [&](std::size_t n) { missed_[n] = weighted_miss(n, s); });
         for_each_index(net_.spring_count(), [&](std::size_t k) {
             const auto at = static_cast<Eigen::Index>(k);
             const Moments& first = missed_[net_.nodes[k].x];
@@ -112,15 +95,46 @@ private:
             const Eigen::Vector3d& n = net_.directions[k];
             result[at] = force_[k] * third_power(n).dot(second.force - first.force) +
                          energy_[k] * fourth_power(n).dot(first.energy + second.energy) +
-                         pull_[at] * (s[at] - target_share);
+                         pull_[at] * (s[at] - 1.0);
         });
     }
 
+    // A diagonal matrix C such that C - A^T A - pull is positive semi-definite: steps of its inverse never
+    // overshoot. With H_st what springs s and t have to do with each other in a node's equations, and d_s =
+    // H_ss, |H_st x_s x_t| <= |H_st| (x_s^2 (d_s / d_t)^1/2 + x_t^2 (d_t / d_s)^1/2) / 2.
+    Eigen::VectorXd curvature_bound() const {
+        Eigen::VectorXd bound = pull_;
+        for_each_index(net_.spring_count(), [&](std::size_t s) {
+            for (int end = 0; end < 2; ++end) bound[static_cast<Eigen::Index>(s)] += curvature_at(s, end);
+        });
+        return bound;
+    }
+
+private:
+    // sum over t of |H_st| (d_s / d_t)^1/2, in the equations of one of the ends of spring s.
+    double curvature_at(std::size_t s, int end) const {
+        const std::uint32_t node = net_.nodes[s][end];
+        const Eigen::Vector3d out = (end == 0 ? 1.0 : -1.0) * net_.directions[s];
+        double sum = 0.0;
+        for (std::uint32_t e = net_.ends.starts[node]; e < net_.ends.starts[node + 1]; ++e) {
+            const std::uint32_t t = net_.ends.entries[e] / 2;
+            const double cosine = (net_.ends.entries[e] % 2 == 0 ? 1.0 : -1.0) * out.dot(net_.directions[t]);
+            const double product = force_weights_[node] * force_[s] * force_[t] +
+                                   energy_weights_[node] * energy_[s] * energy_[t] * cosine;
+            sum += std::abs(product * cosine * cosine * cosine) / std::sqrt(column_square(t, node));
+        }
+        return sum * std::sqrt(column_square(s, node));
+    }
+
+    // H_ss in the equations of a node.
+    double column_square(std::size_t s, std::uint32_t node) const {
+        return force_weights_[node] * force_[s] * force_[s] + energy_weights_[node] * energy_[s] * energy_[s];
+    }
+
     // What the springs of node n lack or have too much of, times the squares of the rows' weights.
-    Moments weighted_miss(std::size_t n, const Eigen::VectorXd& s, double target_share) const {
+    Moments weighted_miss(std::size_t n, const Eigen::VectorXd& s) const {
         static const Fourth isotropic = isotropic_fourth();
-        Moments sum{-target_share * isotropic_third(targets_.boundary_areas[n]),
-                    -target_share * targets_.node_volumes[n] * isotropic};
+        Moments sum{-isotropic_third(targets_.boundary_areas[n]), -targets_.node_volumes[n] * isotropic};
         for (std::uint32_t e = net_.ends.starts[n]; e < net_.ends.starts[n + 1]; ++e) {
             const std::uint32_t spring = net_.ends.entries[e] / 2;
             const double outwards = net_.ends.entries[e] % 2 == 0 ? 1.0 : -1.0;
@@ -139,33 +153,17 @@ private:
     std::vector<double> force_weights_, energy_weights_;  // squares of the rows' weights [1/m, 1/m^3]
     std::vector<Moments> missed_;
     std::vector<double> force_, energy_;  // k l and k l^2 / 2 of each spring
-    Eigen::VectorXd diagonal_, pull_;
+    Eigen::VectorXd pull_;                // kStayNearOne k l^2
 };
-
-// The largest eigenvalue of the Hessian scaled by its diagonal, with a tenth to spare for the iteration's
-// error.
-double curvature_bound(Problem& problem) {
-    const Eigen::VectorXd scale = problem.diagonal().cwiseSqrt().cwiseInverse();
-    Eigen::VectorXd v = Eigen::VectorXd::Ones(scale.size()), scaled, image(scale.size());
-    double largest = 1.0;
-    for (int k = 0; k < kPowerSteps; ++k) {
-        scaled = scale.cwiseProduct(v);
-        problem.hessian(scaled, image);
-        image = image.cwiseProduct(scale);
-        largest = image.norm() / v.norm();
-        v = image / image.norm();
-    }
-    return 1.1 * largest;
-}
 
 }  // namespace
 
 // Accelerated projected gradient (Beck, Teboulle, "A fast iterative shrinkage-thresholding algorithm for
-// linear inverse problems", SIAM J. Imaging Sciences 2(1), 2009), scaled by the diagonal.
+// linear inverse problems", SIAM J. Imaging Sciences 2(1), 2009), each spring with a step of its own.
 std::vector<double> fit_to_moments(const RestNet& net, const std::vector<double>& stiffness,
                                    const MomentTargets& targets) {
     Problem problem(net, stiffness, targets);
-    const Eigen::VectorXd step = (curvature_bound(problem) * problem.diagonal()).cwiseInverse();
+    const Eigen::VectorXd step = problem.curvature_bound().cwiseInverse();
     Eigen::VectorXd s = Eigen::VectorXd::Ones(step.size()), ahead = s, next, gradient(step.size());
     double momentum = 1.0;
     for (int k = 0; k < kSteps; ++k) {
