@@ -3,6 +3,7 @@
 
 #include "bench_kernels.h"
 #include "bench_paper.h"
+#include "bench_scaling.h"
 #include "commands.h"
 
 namespace gelatin {
@@ -60,6 +61,37 @@ void add_paper(CLI::App& bench) {
     paper->callback([options] { bench_paper(*options); });
 }
 
+void add_scaling(CLI::App& bench) {
+    auto options = std::make_shared<ScalingBenchOptions>();
+    CLI::App* scaling = bench.add_subcommand(
+        "scaling", "What collision costs by number of faces and objects, by trees and by brute force");
+    scaling->add_option("--json", options->json, "Also write the figures to this file")
+        ->type_name("FILE.json");
+    scaling->add_option("--report", options->report, "Also write a report, and a chart beside it (.svg)")
+        ->type_name("FILE.md");
+    scaling->add_option("--runs", options->runs, "Samples of each measurement; the median counts")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    scaling
+        ->add_option("--only", options->only,
+                     "Measure what has this in its name: \"two bodies, deep\", \"1000 apart\", \"OpenGL\"")
+        ->type_name("PART");
+    scaling->add_option("--faces", options->faces, "Sizes of the two bodies that touch, about")
+        ->delimiter(',')
+        ->check(CLI::Range(40, 4'000'000))
+        ->capture_default_str();
+    scaling->add_option("--objects", options->objects, "Numbers of objects")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 100'000))
+        ->capture_default_str();
+    scaling
+        ->add_option("--scenes", options->scenes,
+                     "Folder of free_fall.toml and rain.toml; default: scenes here, or of the sources")
+        ->type_name("DIR");
+    scaling->add_flag("!--no-gl", options->use_gl, "Leave OpenGL out");
+    scaling->callback([options] { bench_scaling(*options); });
+}
+
 }  // namespace
 
 void add_bench_command(CLI::App& app) {
@@ -67,6 +99,7 @@ void add_bench_command(CLI::App& app) {
     bench->require_subcommand(1);
     add_paper(*bench);
     add_kernels(*bench);
+    add_scaling(*bench);
 }
 
 }  // namespace gelatin

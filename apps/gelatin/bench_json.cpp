@@ -9,12 +9,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;  // keys stay in the order of the documentation
 
-Json machine_json(const BenchMachine& machine) {
-    return {{"cpu", machine.cpu},       {"threads", machine.threads},   {"simd", machine.simd},
-            {"opengl", machine.opengl}, {"compiler", machine.compiler}, {"build_type", machine.build_type},
-            {"flags", machine.flags}};
-}
-
 Json settings_json(const PaperBench& bench) {
     return {{"runs", bench.options.runs},
             {"whole_limit", bench.options.whole_limit},

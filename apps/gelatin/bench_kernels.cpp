@@ -1,7 +1,6 @@
 #include "bench_kernels.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 #include <tbb/info.h>
 
 #include <algorithm>
@@ -9,6 +8,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "bench_samples.h"
+#include "bench_threads.h"
 #include "core/file.h"
 #include "core/log.h"
 #include "cpu/cpu_solver.h"
@@ -30,20 +31,10 @@ struct Row {
     std::string backend, stage;
     int scale;
     double ms;      // median
-    double spread;  // (p90 - p10) / median
+    double spread;  // (90th - 10th percentile) / median
     double bytes;   // read and written at least once
     double springs;
 };
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
-
-double percentile(std::vector<double> values, double p) {
-    std::sort(values.begin(), values.end());
-    return values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1))];
-}
 
 // 3 x scale spheres of the paper's size in a grid, damped a little so that both terms of the force are at
 // work.
@@ -113,20 +104,15 @@ std::vector<Row> time_cases(const std::vector<Case>& cases, int scale, int runs,
     std::vector<std::vector<double>> samples(cases.size());
     for (int r = 0; r < runs; ++r) {
         for (std::size_t c = 0; c < cases.size(); ++c) {
-            std::optional<tbb::global_control> limit;
-            if (cases[c].threads > 0) {
-                limit.emplace(tbb::global_control::max_allowed_parallelism,
-                              static_cast<std::size_t>(cases[c].threads));
-            }
+            const ThreadLimit limit(cases[c].threads);
             samples[c].push_back(time_once(cases[c], repeats[c]));
         }
     }
     std::vector<Row> rows;
     for (std::size_t c = 0; c < cases.size(); ++c) {
-        const double middle = median(samples[c]);
-        rows.push_back({cases[c].backend, cases[c].stage, scale, middle,
-                        (percentile(samples[c], 0.9) - percentile(samples[c], 0.1)) / middle, cases[c].bytes,
-                        springs});
+        const BenchSummary summary = summarise(samples[c]);
+        rows.push_back({cases[c].backend, cases[c].stage, scale, summary.median, summary.spread(),
+                        cases[c].bytes, springs});
     }
     return rows;
 }
@@ -196,10 +182,8 @@ void add_cpu_cases(const std::shared_ptr<const Model>& model, double step, std::
     const auto fused = solver_for(ForceMethod::fused);
     const auto divided = solver_for(ForceMethod::divide_and_merge);
     const double divided_bytes = write_bytes(*model) + merge_bytes(*model) + integrate_bytes(*model);
-    std::vector<int> thread_counts{1};
-    if (tbb::info::default_concurrency() > 1) thread_counts.push_back(tbb::info::default_concurrency());
-    for (const int threads : thread_counts) {
-        const std::string name = fmt::format("CPU, {} thread{}", threads, threads == 1 ? "" : "s");
+    for (const int threads : measured_thread_counts()) {
+        const std::string name = describe_cpu(threads);
         const auto nothing = [] {};
         cases.push_back({name, "advance_nodes (fused)", fused_bytes(*model),
                          [fused, step] { fused->advance_nodes(step); }, nothing, threads});
@@ -260,17 +244,11 @@ void print_rows(const std::vector<Row>& rows) {
     }
 }
 
-struct Ratio {
-    std::string what;
-    double value;
-    std::string wanted;
-};
-
-std::vector<Ratio> summarise(const std::vector<Row>& rows, const KernelBenchOptions& options) {
+std::vector<BenchRatio> summarise(const std::vector<Row>& rows, const KernelBenchOptions& options) {
     const std::string fused = "advance_nodes (fused)", divided = "divide and merge";
     std::vector<std::string> backends{"plain C++", "CPU, 1 thread"};
     if (options.use_gl) backends.emplace_back("GL");
-    std::vector<Ratio> ratios;
+    std::vector<BenchRatio> ratios;
     for (const int scale : options.scales) {
         const auto ms = [&](const std::string& b, const std::string& s) {
             return find_row(rows, b, s, scale).ms;
@@ -297,7 +275,7 @@ std::vector<Ratio> summarise(const std::vector<Row>& rows, const KernelBenchOpti
 }
 
 void write_json(const std::filesystem::path& file, const std::string& device, const std::vector<Row>& rows,
-                const std::vector<Ratio>& ratios) {
+                const std::vector<BenchRatio>& ratios) {
     nlohmann::ordered_json json;
     json["gelatin"] = {{"version", version()}, {"commit", commit()}};
     json["benchmark"] = "kernels";
@@ -312,7 +290,7 @@ void write_json(const std::filesystem::path& file, const std::string& device, co
                                   {"bytes", r.bytes},
                                   {"springs", r.springs}});
     }
-    for (const Ratio& r : ratios)
+    for (const BenchRatio& r : ratios)
         json["ratios"].push_back({{"what", r.what}, {"value", r.value}, {"wanted", r.wanted}});
     write_file(file, json.dump(2) + "\n");
 }
@@ -342,8 +320,8 @@ void bench_kernels(const KernelBenchOptions& options) {
         fmt::print("\n");
         rows.insert(rows.end(), timed.begin(), timed.end());
     }
-    const std::vector<Ratio> ratios = summarise(rows, options);
-    for (const Ratio& r : ratios) fmt::print("{:<52} {:>6.2f}  {}\n", r.what, r.value, r.wanted);
+    const std::vector<BenchRatio> ratios = summarise(rows, options);
+    for (const BenchRatio& r : ratios) fmt::print("{:<52} {:>6.2f}  {}\n", r.what, r.value, r.wanted);
     if (!options.json.empty()) write_json(options.json, device, rows, ratios);
 }
 

@@ -1,10 +1,14 @@
 #include "bench_machine.h"
 
+#include <fmt/format.h>
 #include <tbb/info.h>
 
+#include <cstdlib>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "cpu/advance_nodes.h"
+#include "gelatin/version.h"
 
 namespace gelatin {
 namespace {
@@ -18,16 +22,37 @@ std::string cpu_name() {
     return "unknown";
 }
 
+std::string describe_opengl(const gl::DeviceInfo* device) {
+    if (device == nullptr) return "none";
+    std::string text = device->renderer + ", OpenGL " + device->version;
+    const char* threads = std::getenv("LP_NUM_THREADS");  // llvmpipe's; it takes all where nothing is set
+    if (device->is_software && threads != nullptr) text += std::string(", LP_NUM_THREADS=") + threads;
+    return text;
+}
+
 }  // namespace
 
-BenchMachine describe_bench_machine(const gl::DeviceInfo& device) {
+BenchMachine describe_bench_machine(const gl::DeviceInfo* device) {
     return {cpu_name(),
             tbb::info::default_concurrency(),
             cpu::simd_target(),
-            device.renderer + ", OpenGL " + device.version,
+            describe_opengl(device),
             GELATIN_COMPILER,
             GELATIN_BUILD_TYPE,
             GELATIN_COMPILER_FLAGS};
+}
+
+void add_machine_rows(const BenchMachine& machine, MarkdownTable& table) {
+    table.add({"gelatin", fmt::format("{} ({})", version(), commit())});
+    table.add({"OpenGL", machine.opengl});
+    table.add({"CPU", fmt::format("{}, {} threads, {}", machine.cpu, machine.threads, machine.simd)});
+    table.add({"build", fmt::format("{}, {}: `{}`", machine.compiler, machine.build_type, machine.flags)});
+}
+
+nlohmann::ordered_json machine_json(const BenchMachine& machine) {
+    return {{"cpu", machine.cpu},       {"threads", machine.threads},   {"simd", machine.simd},
+            {"opengl", machine.opengl}, {"compiler", machine.compiler}, {"build_type", machine.build_type},
+            {"flags", machine.flags}};
 }
 
 }  // namespace gelatin

@@ -9,6 +9,7 @@
 #include "bench_player.h"
 #include "bench_report.h"
 #include "bench_result.h"
+#include "bench_scene_file.h"
 #include "bench_windows.h"
 #include "core/file.h"
 #include "gelatin/error.h"
@@ -17,8 +18,6 @@
 
 namespace gelatin {
 namespace {
-
-namespace fs = std::filesystem;
 
 // As many of a sample's windows, evenly spread, foretell how long a whole run takes.
 constexpr std::size_t kProbes = 10;
@@ -33,12 +32,6 @@ struct Entry {
 void check_outputs(const PaperBenchOptions& options) {
     if (!options.json.empty()) check_output_file("--json", options.json);
     if (!options.report.empty()) check_output_file("--report", options.report, {".md"});
-}
-
-fs::path scene_file(const PaperBenchOptions& options, const BenchScene& scene) {
-    if (!options.scenes.empty()) return options.scenes / scene.file;
-    const fs::path near = fs::path("scenes") / scene.file;
-    return fs::exists(near) ? near : fs::path(GELATIN_SCENES) / scene.file;
 }
 
 double mean_frame_time(const Entry& entry, const std::vector<BenchWindow>& windows) {
@@ -73,7 +66,7 @@ private:
 PaperBenchRun::PaperBenchRun(const PaperBenchOptions& options)
     : context_(gl::Context::headless()), systems_(bench_systems(context_.device().is_software)) {
     bench_.options = options;
-    bench_.machine = describe_bench_machine(context_.device());
+    bench_.machine = describe_bench_machine(&context_.device());
     bench_.picture = describe_bench_picture();
 }
 
@@ -94,7 +87,7 @@ void PaperBenchRun::prepare_scene(std::size_t scene_index) {
     };
     if (std::none_of(systems_.begin(), systems_.end(), is_wanted)) return;
 
-    const Scene scene = load_scene(scene_file(options, bench_scenes()[scene_index]));
+    const Scene scene = load_scene(find_bench_scene(options.scenes, bench_scenes()[scene_index].file));
     const int frames = options.frames.value_or(scene.simulation.frames);
     if (frames == 0)
         throw InvalidInput({scene.file.string(), 0, "simulation.frames", "0", "nothing to time"});

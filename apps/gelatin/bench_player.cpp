@@ -1,11 +1,10 @@
 #include "bench_player.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <chrono>
-#include <optional>
 
+#include "bench_threads.h"
 #include "gl/fence.h"
 #include "gl/program.h"
 
@@ -36,9 +35,7 @@ BenchPlayer::BenchPlayer(const Scene& scene, const BenchSystem& system)
       pipeline_(simulator_) {}
 
 double BenchPlayer::time_window(const BenchWindow& window, bool drawn) {
-    std::optional<tbb::global_control> limit;
-    if (threads_ > 0)
-        limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_));
+    const ThreadLimit limit(threads_);
     simulator_.load_checkpoint(window.start);
     gl::finish();
     const auto start = std::chrono::steady_clock::now();

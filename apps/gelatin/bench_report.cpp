@@ -4,7 +4,6 @@
 
 #include "bar_chart.h"
 #include "core/file.h"
-#include "gelatin/version.h"
 #include "markdown_table.h"
 
 namespace gelatin {
@@ -61,12 +60,8 @@ std::string ratio_table(const PaperBench& bench) {
 }
 
 std::string machine_table(const PaperBench& bench) {
-    const BenchMachine& machine = bench.machine;
     MarkdownTable table({"", ""}, {});
-    table.add({"gelatin", fmt::format("{} ({})", version(), commit())});
-    table.add({"OpenGL", machine.opengl});
-    table.add({"CPU", fmt::format("{}, {} threads, {}", machine.cpu, machine.threads, machine.simd)});
-    table.add({"build", fmt::format("{}, {}: `{}`", machine.compiler, machine.build_type, machine.flags)});
+    add_machine_rows(bench.machine, table);
     table.add({"picture", bench.picture});
     table.add({"settings",
                fmt::format("`--runs {} --whole-limit {} --windows {} --window-frames {}`", bench.options.runs,

@@ -51,8 +51,10 @@ struct CollisionSettings {
     CollisionDetection detection = CollisionDetection::discrete;
     CollisionResponse response = CollisionResponse::restore;
     bool self_collision = false;  ///< faces of one object against one another too
-    double friction = 0.4;        ///< Coulomb's coefficient, >= 0
-    double restitution = 0.3;     ///< normal speed after over before, in [0, 1]
+    /// Nodes and faces, and edges, nearer than this are found [m], > 0; empty: none are sought.
+    std::optional<double> proximity_radius = std::nullopt;
+    double friction = 0.4;     ///< Coulomb's coefficient, >= 0
+    double restitution = 0.3;  ///< normal speed after over before, in [0, 1]
 };
 
 /// Which of the paper's springs a material has (2.2). At least one.

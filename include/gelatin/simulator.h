@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,18 +32,27 @@ struct Counts {
     std::size_t objects = 0, nodes = 0, springs = 0, faces = 0, tets = 0;
 };
 
+/// What was near in a step, before its response.
+struct ProximityStatistics {
+    std::size_t node_face = 0;  ///< nodes and faces nearer than CollisionSettings::proximity_radius
+    std::size_t edge_edge = 0;  ///< the same of two edges, each pair seen from both
+    std::size_t lost = 0;       ///< of these, found but not kept: too many for the GPU's buffers
+    double nearest_gap = std::numeric_limits<double>::infinity();  ///< least distance of all [m]
+};
+
 /// What is measured of one frame. SI units.
 struct FrameStatistics {
     int frame = 0;
-    double time = 0.0;                 ///< [s]
-    double kinetic_energy = 0.0;       ///< [J]
-    double elastic_energy = 0.0;       ///< [J]
-    double potential_energy = 0.0;     ///< [J], zero at the origin
-    double momentum[3] = {};           ///< [kg m/s], of the nodes that are not pinned
-    std::size_t colliding_faces = 0;   ///< faces of objects that meet
-    std::size_t contacts = 0;          ///< nodes that touch a collider
-    double deepest_penetration = 0.0;  ///< of a node into a collider [m]
-    std::vector<double> volume_ratio;  ///< volume over rest volume, by object
+    double time = 0.0;                               ///< [s]
+    double kinetic_energy = 0.0;                     ///< [J]
+    double elastic_energy = 0.0;                     ///< [J]
+    double potential_energy = 0.0;                   ///< [J], zero at the origin
+    double momentum[3] = {};                         ///< [kg m/s], of the nodes that are not pinned
+    std::size_t colliding_faces = 0;                 ///< faces of objects that meet
+    std::size_t contacts = 0;                        ///< nodes that touch a collider
+    double deepest_penetration = 0.0;                ///< of a node into a collider [m]
+    std::vector<double> volume_ratio;                ///< volume over rest volume, by object
+    std::optional<ProximityStatistics> proximities;  ///< of the last step; empty where none are sought
 };
 
 /// Node positions on the host, with the packed faces over them.

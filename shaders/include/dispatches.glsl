@@ -16,6 +16,13 @@ const uint kRestless = 8u;   // an invocation a face that walks through its obje
 const uint kSelfPairs = 9u;  // an invocation a pair of faces of one object
 const uint kSelfFaces = 10u; // an invocation a face that touches another of its object
 const uint kSelfNodes = 11u; // an invocation a node
+const uint kFitSums = 12u;   // a work group a chunk of nodes of an object that may have restless faces
+const uint kFits = 13u;      // an invocation such an object
+const uint kRestlessChunks = 14u;  // a work group a chunk of its faces
+const uint kNearObjects = 15u; // an invocation a leaf's walk through the tree of an object
+const uint kNearLeaves = 16u;  // no dispatch: how many leaves they have found
+const uint kNodeTasks = 17u;   // an invocation a node and up to eight of them
+const uint kEdgeTasks = 18u;   // an invocation an edge and up to eight of them
 
 // Work groups of 64 for `count` invocations, folded into two dimensions where one is not enough.
 Dispatch make_dispatch(uint count, uint groups) {
@@ -35,6 +42,22 @@ uint take_slot(uint work, uint capacity) {
     }
     if (slot % 64u == 0u) atomicAdd(dispatches[work].groups_x, 1u);
     return slot;
+}
+
+// The first of `count` more places in a list, or kNone where they do not fit: losses. Places that are left over then, the
+// last `left_over` ones, are for the caller to mark as empty.
+uint take_slots(uint work, uint count, uint capacity, out uint left_over) {
+    left_over = 0u;
+    if (count == 0u) return kNone;
+    // A list that is full is not added to, so that its count does not run over.
+    uint first = max(dispatches[work].count, count) > capacity ? kNone : atomicAdd(dispatches[work].count, count);
+    if (first > capacity - min(count, capacity)) {
+        atomicAdd(dispatches[kLosses].count, count);
+        left_over = capacity - min(first, capacity);
+        return kNone;
+    }
+    atomicMax(dispatches[work].groups_x, (first + count + 63u) / 64u);
+    return first;
 }
 
 bool meet(vec3 min_a, vec3 max_a, vec3 min_b, vec3 max_b) {

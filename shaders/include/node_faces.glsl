@@ -10,10 +10,3 @@ uint count_colliding(uint node, ObjectPair pair) {
     }
     return count;
 }
-
-// Over all objects that the node's own meets.
-uint count_colliding(uint node, PairRow row) {
-    uint count = 0u;
-    for (uint p = 0u; p < row.pair_count; ++p) count += count_colliding(node, object_pairs[row.first_pair + p]);
-    return count;
-}

@@ -13,9 +13,10 @@ struct FitSums {         // 48 bytes
     vec4  column_z;
 };
 // The affine map of the rest shape that comes nearest to an object, x = center + map X.
-struct AffineFit {       // 64 bytes
+struct AffineFit {       // 80 bytes
     vec4  column_x;      // of the map; w: half of the least that it stretches anything
     vec4  column_y;      // w: error that rounding may make of a distance [m]
-    vec4  column_z;
-    vec4  center;        // [m]
+    vec4  column_z;      // w: no face is restless while all nodes are nearer to where the map puts them than this [m]
+    vec4  center;        // [m]; w: sizes of the object, at rest and then, that rounding grows with [m]
+    vec4  origin;        // where the object's first node was [m]
 };

@@ -1,5 +1,5 @@
-// The affine map of each object's rest shape that comes nearest to where its nodes are. Without OBJECTS: sums over a
-// chunk's nodes, one work group a chunk; with it: the map, one invocation an object.
+// The affine map of each restless object's rest shape that comes nearest to where its nodes are. Without OBJECTS: sums
+// over a chunk's nodes, one work group a chunk; with it: the map, one invocation an object.
 // CPU twin: gelatin::cpu::AffineFit. Parity: tests/gpu/self_collision_test.cpp.
 #include "include/dispatches.glsl"
 #include "include/global_index.glsl"
@@ -11,12 +11,12 @@ layout(local_size_x = 64) in;
 layout(binding = 0) uniform samplerBuffer positions;     // xyz [m]
 layout(binding = 1) uniform samplerBuffer rest_offsets;  // xyz [m]
 layout(std430, binding = 0) readonly buffer BoundingBoxes { BoundingBox bounding_boxes[]; };
+layout(std430, binding = 1) readonly buffer Restless { uint restless[]; };  // chunks or objects
 layout(std430, binding = 3) readonly buffer Chunks { Chunk chunks[]; };
 layout(std430, binding = 4) buffer Sums { FitSums fit_sums[]; };
 layout(std430, binding = 5) readonly buffer RestShapes { RestShape rest_shapes[]; };
 layout(std430, binding = 7) writeonly buffer Fits { AffineFit fits[]; };
 layout(binding = 2) uniform usamplerBuffer chunk_starts;  // of each object, and the end
-uniform uint element_count;                               // chunks or objects
 
 FitSums add(FitSums a, FitSums b) {
     return FitSums(a.column_x + b.column_x, a.column_y + b.column_y, a.column_z + b.column_z);
@@ -28,11 +28,9 @@ const FitSums kNothing = FitSums(vec4(0.0), vec4(0.0), vec4(0.0));
 const float kEpsilon = 1.1920929e-7;
 
 void main() {
-    uint object = global_index();
-    if (object == 0u) {
-        for (uint work = kRestless; work <= kSelfNodes; ++work) dispatches[work] = Dispatch(0u, 1u, 1u, 0u);
-    }
-    if (object >= element_count) return;
+    uint k = global_index();
+    if (k >= dispatches[kFits].count) return;
+    uint object = restless[k];
     uint first = texelFetch(chunk_starts, int(object)).x, end = texelFetch(chunk_starts, int(object) + 1).x;
     FitSums sums = kNothing;
     for (uint c = first; c < end; ++c) sums = add(sums, fit_sums[c]);
@@ -49,15 +47,18 @@ void main() {
     float half_stretch = square > 0.0 ? abs(determinant(map)) / square : 0.0;
     vec3 farthest = max(abs(box.min.xyz), abs(box.max.xyz));
     float rounding = 32.0 * kEpsilon * (farthest.x + farthest.y + farthest.z + rest.inverse_moment_x.w);
-    fits[object] = AffineFit(vec4(map[0], half_stretch), vec4(map[1], rounding), vec4(map[2], 0.0), vec4(center, 0.0));
+    vec3 extent = box.max.xyz - box.min.xyz;
+    float sizes = extent.x + extent.y + extent.z + rest.inverse_moment_x.w;
+    fits[object] = AffineFit(vec4(map[0], half_stretch), vec4(map[1], rounding),
+                             vec4(map[2], half_stretch * rest.inverse_moment_y.w), vec4(center, sizes),
+                             vec4(origin, 0.0));
 }
 #else
 shared FitSums parts[64];
 
 void main() {
-    uint group = group_index();
-    if (group >= element_count) return;  // the whole group leaves, so no one waits at the barrier
-    Chunk chunk = chunks[group];
+    uint c = restless[gl_WorkGroupID.x];
+    Chunk chunk = chunks[c];
     vec3 origin = texelFetch(positions, int(chunk.origin)).xyz;
     uint lane = gl_LocalInvocationID.x;
     FitSums sums = kNothing;
@@ -71,6 +72,6 @@ void main() {
     barrier();
     if (lane != 0u) return;
     for (uint l = 1u; l < 64u; ++l) sums = add(sums, parts[l]);
-    fit_sums[group] = sums;
+    fit_sums[c] = sums;
 }
 #endif

@@ -10,6 +10,7 @@ layout(local_size_x = 64) in;
 
 layout(binding = 0) uniform samplerBuffer previous_positions;  // xyz [m], inverse mass [1/kg]
 layout(binding = 4) uniform usamplerBuffer faces;              // Face
+layout(binding = 5) uniform usamplerBuffer node_shares;
 layout(std430, binding = 3) readonly buffer Responses { ContactResponse responses[]; };
 layout(std430, binding = 5) buffer Positions { vec4 positions[]; };    // an invocation reads and writes its own node
 layout(std430, binding = 7) buffer Velocities { vec4 velocities[]; };  // alone
@@ -18,16 +19,14 @@ uniform float time_step;  // [s]
 void main() {
     uint n = global_index();
     if (n >= dispatches[kNodes].count) return;
-    uint first = texelFetch(node_face_starts, int(n)).x;
-    if (first == texelFetch(node_face_starts, int(n) + 1).x) return;  // inside
-    PairRow row = pair_rows[texelFetch(faces, int(texelFetch(node_faces, int(first)).x)).w];
+    uint shares = texelFetch(node_shares, int(n)).x;
     vec4 previous = texelFetch(previous_positions, int(n));
-    if (row.pair_count == 0u || previous.w == 0.0) return;
+    if (shares == 0u || previous.w == 0.0) return;
+    uint first = texelFetch(node_face_starts, int(n)).x;
+    PairRow row = pair_rows[texelFetch(faces, int(texelFetch(node_faces, int(first)).x)).w];
 
     vec4 position = positions[n];
     vec4 velocity = velocities[n];
-    uint shares = count_colliding(n, row);
-    if (shares == 0u) return;
     vec3 change = vec3(0.0);
     vec3 way_back = vec3(0.0);
     for (uint p = row.first_pair; p < row.first_pair + row.pair_count; ++p) {

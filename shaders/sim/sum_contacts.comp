@@ -3,13 +3,13 @@
 // CPU twin: gelatin::cpu::respond. Parity: tests/gpu/respond_test.cpp.
 #include "include/pairs.glsl"
 #include "include/face_collisions.glsl"
-#include "include/node_faces.glsl"
 #include "include/contact_plane.glsl"
 #include "layouts/face.glsl"
 layout(local_size_x = 64) in;
 
 layout(binding = 0) uniform samplerBuffer positions;   // xyz [m], inverse mass [1/kg]
 layout(binding = 1) uniform samplerBuffer velocities;  // xyz [m/s]
+layout(binding = 5) uniform usamplerBuffer node_shares;
 layout(std430, binding = 3) readonly buffer Faces { Face faces[]; };
 #ifdef APPROACHING
 layout(std430, binding = 7) writeonly buffer Approaches { ApproachSums approaches[]; };
@@ -36,13 +36,13 @@ void add_corner(uint node, float share, ContactPlane plane, inout vec4 a, inout 
 #endif
 
 // `touch`: its bits of the Face Collision Result.
-void add_face(uint f, uint touch, PairRow row, ContactPlane plane, inout vec4 a, inout vec4 b) {
+void add_face(uint f, uint touch, ContactPlane plane, inout vec4 a, inout vec4 b) {
     Face face = faces[f];
     uvec3 nodes = uvec3(face.a, face.b, face.c);
     vec4 corners[3];
     for (int k = 0; k < 3; ++k) {
         corners[k] = texelFetch(positions, int(nodes[k]));
-        float shares = float(count_colliding(nodes[k], row));
+        float shares = float(texelFetch(node_shares, int(nodes[k])).x);
         add_corner(nodes[k], corners[k].w > 0.0 ? 1.0 / (corners[k].w * shares) : 0.0, plane, a, b);
     }
 #ifndef APPROACHING
@@ -55,7 +55,6 @@ void main() {
     uint p = group_index();
     if (p >= dispatches[kPairGroups].count) return;  // the whole group leaves, so no one waits at the barrier
     ObjectPair pair = object_pairs[p];
-    PairRow row = pair_rows[pair.object];
     ContactPlane plane;
 #ifdef APPROACHING
     plane = contact_plane(p, find_pair(pair.other, pair.object));
@@ -69,7 +68,7 @@ void main() {
         uint bits = face_collisions[pair.first_word + w];
         while (bits != 0u) {
             uint place = uint(findLSB(bits)) & ~1u;
-            add_face(first_face + kFacesAWord * w + place / 2u, bits >> place & 3u, row, plane, a, b);
+            add_face(first_face + kFacesAWord * w + place / 2u, bits >> place & 3u, plane, a, b);
             bits &= ~(3u << place);
         }
     }

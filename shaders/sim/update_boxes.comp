@@ -1,5 +1,5 @@
 // Boxes of the nodes of trees, one level a dispatch, leaves first. LEAVES: those over faces, whose boxes they make too.
-// CONTINUOUS: their boxes over the whole step. OBJECTS: those over objects. Neither: inner nodes. The box of a face tree's root is its object's bounding box.
+// CONTINUOUS: their boxes over the whole step; MARGIN: larger than the faces. OBJECTS: those over objects. Neither: inner nodes. The box of a face tree's root is its object's bounding box.
 // CPU twin: gelatin::cpu::Collision. Parity: tests/gpu/collision_test.cpp.
 #include "include/global_index.glsl"
 #include "layouts/box.glsl"
@@ -22,11 +22,21 @@ uniform uint node_count;
 Box join(Box a, Box b) { return Box(min(a.min, b.min), max(a.max, b.max)); }
 
 #ifdef LEAVES
+#ifdef MARGIN
+#include "include/box_margin.glsl"
+#endif
+
 Box box_of_corners(Face face, samplerBuffer at) {
     vec3 a = texelFetch(at, int(face.a)).xyz;
     vec3 b = texelFetch(at, int(face.b)).xyz;
     vec3 c = texelFetch(at, int(face.c)).xyz;
+#ifdef MARGIN
+    vec3 low = min(a - margin_at(a), min(b - margin_at(b), c - margin_at(c)));
+    vec3 high = max(a + margin_at(a), max(b + margin_at(b), c + margin_at(c)));
+    return Box(vec4(low, 0.0), vec4(high, 0.0));
+#else
     return Box(vec4(min(a, min(b, c)), 0.0), vec4(max(a, max(b, c)), 0.0));
+#endif
 }
 
 Box box_of_face(uint f) {

@@ -13,12 +13,12 @@
 
 namespace gelatin::cpu {
 
-/// The affine map of an object's rest shape that comes nearest to where its nodes are, in the sense of least
-/// squares: x = center + map X. GPU twin: shaders/sim/fit_rest_shapes.comp.
+/// An affine map of an object's rest shape, x = center + map X. GPU twin: shaders/include/affine_fit.glsl.
 template <class Real>
 struct AffineFit {
     glm::mat<3, 3, Real> map{0};
     Vec3<Real> center{0};   ///< [m]
+    Vec3<Real> origin{0};   ///< where the object's first node is [m]
     Real half_stretch = 0;  ///< half of a lower bound of the least that the map stretches anything
     Real rounding = 0;      ///< of a distance [m]
 
@@ -26,8 +26,21 @@ struct AffineFit {
     Real deviation(const Vec3<Real>& position, const Vec3<Real>& rest_offset) const {
         return glm::distance(position - center, map * rest_offset) + rounding;
     }
+
+    /// The same map of the object when its first node has moved to `now`. @param box of the object
+    AffineFit moved(const Vec3<Real>& now, const RestShape& rest, const AxisBox<Real>& box) const {
+        AffineFit fit = *this;
+        fit.center += now - origin;
+        fit.origin = now;
+        const Vec3<Real> farthest = glm::max(glm::abs(box.min), glm::abs(box.max));
+        fit.rounding = Real(32) * std::numeric_limits<Real>::epsilon() *
+                       (farthest.x + farthest.y + farthest.z + static_cast<Real>(rest.inverse_moment_x.w));
+        return fit;
+    }
 };
 
+/// The one that comes nearest to where the nodes are, in the sense of least squares. GPU twin:
+/// shaders/sim/fit_rest_shapes.comp.
 /// @param box of the object
 template <class Real>
 AffineFit<Real> fit_rest_shape(const Model& model, std::uint32_t object,
@@ -51,10 +64,8 @@ AffineFit<Real> fit_rest_shape(const Model& model, std::uint32_t object,
     const Real square = glm::dot(fit.map[0], fit.map[0]) + glm::dot(fit.map[1], fit.map[1]) +
                         glm::dot(fit.map[2], fit.map[2]);
     fit.half_stretch = square > Real(0) ? std::abs(glm::determinant(fit.map)) / square : Real(0);
-    const Vec3<Real> farthest = glm::max(glm::abs(box.min), glm::abs(box.max));
-    fit.rounding = Real(32) * std::numeric_limits<Real>::epsilon() *
-                   (farthest.x + farthest.y + farthest.z + static_cast<Real>(rest.inverse_moment_x.w));
-    return fit;
+    fit.origin = origin;
+    return fit.moved(origin, rest, box);
 }
 
 }  // namespace gelatin::cpu

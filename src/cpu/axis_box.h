@@ -8,6 +8,24 @@
 
 namespace gelatin::cpu {
 
+/// By how much boxes are larger than what they hold, so that those of things nearer than a distance meet:
+/// half of it on every side, and more than rounding takes away. `slack` is a power of two, which rounds
+/// nothing.
+template <class Real>
+struct BoxMargin {
+    Real width = 0;  ///< [m]
+    Real slack = 0;  ///< of the coordinate
+
+    static BoxMargin for_distance(double distance) {
+        return {static_cast<Real>(0.5 * distance) * (1 + 8 * std::numeric_limits<Real>::epsilon()),
+                2 * std::numeric_limits<Real>::epsilon()};
+    }
+    Vec3<Real> at(const Vec3<Real>& point) const {
+        return slack > Real(0) ? width + slack * glm::abs(point)
+                               : Vec3<Real>(width);  // 0 inf is not a number
+    }
+};
+
 /// An axis-aligned box; empty, and meeting nothing, until something is added.
 template <class Real>
 struct AxisBox {
@@ -17,6 +35,10 @@ struct AxisBox {
     void add(const Vec3<Real>& point) {
         min = glm::min(min, point);
         max = glm::max(max, point);
+    }
+    void add(const Vec3<Real>& point, const BoxMargin<Real>& margin) {
+        min = glm::min(min, point - margin.at(point));
+        max = glm::max(max, point + margin.at(point));
     }
     void add(const AxisBox& box) {
         min = glm::min(min, box.min);

@@ -9,6 +9,7 @@
 
 #include "cpu/time_of_impact.h"
 #include "cpu/triangle_overlap.h"
+#include "cpu/walk_tree.h"
 
 namespace gelatin::cpu {
 namespace {
@@ -31,10 +32,11 @@ Triangle<Real> triangle(std::span<const Vec4<Real>> positions, const Face& face)
 
 template <class Real>
 Collision<Real>::Collision(std::shared_ptr<const Model> model, BroadPhase broad_phase,
-                           CollisionDetection detection)
+                           CollisionDetection detection, const BoxMargin<Real>& margin)
     : model_(std::move(model)),
       broad_phase_(broad_phase),
       detection_(detection),
+      margin_(margin),
       face_boxes_(model_->faces.size()),
       tree_boxes_(model_->face_trees.nodes.size()),
       bounding_boxes_(model_->objects.size()),
@@ -52,8 +54,8 @@ void Collision<Real>::update_boxes(std::span<const Vec4<Real>> positions,
             const Face& face = model_->faces[f];
             AxisBox<Real> box;
             for (const std::uint32_t n : {face.a, face.b, face.c}) {
-                box.add(Vec3<Real>(positions[n]));
-                if (continuous) box.add(Vec3<Real>(previous[n]));
+                box.add(Vec3<Real>(positions[n]), margin_);
+                if (continuous) box.add(Vec3<Real>(previous[n]), margin_);
             }
             face_boxes_[f] = box;
         }
@@ -167,23 +169,15 @@ template <class Real>
 template <class Found>
 void Collision<Real>::for_faces_near(const ObjectPair& pair, std::uint32_t face, const Found& found) const {
     const AxisBox<Real> box = face_boxes_[face];
-    const auto test_faces = [&](std::uint32_t first, std::uint32_t count) {
-        for (std::uint32_t f = first; f < first + count; ++f) {
-            if (meet(box, face_boxes_[f])) found(f);
-        }
+    const auto test_face = [&](std::uint32_t f) {
+        if (meet(box, face_boxes_[f])) found(f);
     };
-    if (broad_phase_ != BroadPhase::hierarchy) {
-        const Range& all = model_->objects[pair.other].faces;
-        return test_faces(all.first, all.count);
+    if (broad_phase_ == BroadPhase::hierarchy) {
+        const BoxTree& trees = model_->face_trees;
+        return for_items_near<Real>(trees, tree_boxes_, trees.roots[pair.other], box, test_face);
     }
-    const std::vector<TreeNode>& nodes = model_->face_trees.nodes;
-    const std::uint32_t root = model_->face_trees.roots[pair.other];
-    const std::uint32_t end = nodes[root].skip;
-    for (std::uint32_t n = root; n < end;) {
-        const bool near = meet(box, tree_boxes_[n]);
-        if (near) test_faces(nodes[n].first_item, nodes[n].item_count);
-        n = near ? n + 1 : nodes[n].skip;
-    }
+    const Range& all = model_->objects[pair.other].faces;
+    for (std::uint32_t f = all.first; f < all.end(); ++f) test_face(f);
 }
 
 template <class Real>

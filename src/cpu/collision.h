@@ -24,8 +24,10 @@ struct ObjectPair {
 template <class Real>
 class Collision {
 public:
+    /// @param margin of the boxes; it changes what is tested, not which faces touch
     explicit Collision(std::shared_ptr<const Model> model, BroadPhase broad_phase = BroadPhase::hierarchy,
-                       CollisionDetection detection = CollisionDetection::discrete);
+                       CollisionDetection detection = CollisionDetection::discrete,
+                       const BoxMargin<Real>& margin = {});
 
     /// The box of each face, and of each object; with continuous detection over the whole step.
     /// @param previous the positions at its start, which discrete detection does not read
@@ -70,6 +72,7 @@ private:
     std::shared_ptr<const Model> model_;
     BroadPhase broad_phase_;
     CollisionDetection detection_;
+    BoxMargin<Real> margin_;
     std::vector<AxisBox<Real>> face_boxes_;      // shape [faces]
     std::vector<AxisBox<Real>> tree_boxes_;      // of Model::face_trees; shape [nodes]
     std::vector<AxisBox<Real>> bounding_boxes_;  // shape [objects]

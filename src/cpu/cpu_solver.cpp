@@ -30,6 +30,12 @@ std::vector<Vec4<Real>> converted(const std::vector<glm::vec4>& values) {
     return {values.begin(), values.end()};
 }
 
+template <class Real>
+BoxMargin<Real> margin_for(const CollisionSettings& settings) {
+    if (!settings.proximity_radius) return {};
+    return BoxMargin<Real>::for_distance(*settings.proximity_radius);
+}
+
 }  // namespace
 
 template <class Real>
@@ -38,7 +44,7 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
     : model_(std::move(model)),
       scheme_(explicit_scheme(solver)),
       forces_(forces),
-      collision_(model_, collision.broad_phase, collision.detection),
+      collision_(model_, collision.broad_phase, collision.detection, margin_for<Real>(collision)),
       contact_{collision.friction, collision.restitution} {
     current_ = {converted<Real>(model_->positions), converted<Real>(model_->velocities)};
     previous_ = current_;
@@ -46,6 +52,8 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
     if (collision.self_collision) {
         self_ = std::make_unique<SelfStages>(SelfStages{{model_, collision_}, {model_, contact_}});
     }
+    if (collision.proximity_radius)
+        proximities_.emplace(model_, collision_, *collision.proximity_radius, collision.self_collision);
     if (forces_ == ForceMethod::divide_and_merge) {
         spring_forces_.resize(model_->springs.size());
         node_forces_.resize(model_->node_count());
@@ -93,12 +101,13 @@ void CpuSolver<Real>::respond(double step) {
 
 template <class Real>
 void CpuSolver<Real>::begin_measure() {
-    measures_.push_back(measure(*model_, current_));
+    Measured& measured = measures_.emplace_back(Measured{measure(*model_, current_), {}});
     for (std::size_t o = 0; o < model_->objects.size(); ++o) {
         const Range& faces = model_->objects[o].faces;
-        std::uint32_t& count = measures_.back()[o].colliding_faces;
+        std::uint32_t& count = measured.objects[o].colliding_faces;
         for (std::uint32_t f = faces.first; f < faces.end(); ++f) count += collides(f) ? 1 : 0;
     }
+    if (proximities_) measured.proximities = proximities_->measure();
 }
 
 template <class Real>
@@ -108,9 +117,10 @@ bool CpuSolver<Real>::collides(std::uint32_t face) const {
 
 template <class Real>
 std::vector<ObjectMeasure> CpuSolver<Real>::end_measure() {
-    std::vector<ObjectMeasure> oldest = std::move(measures_.front());
+    const Measured oldest = std::move(measures_.front());
     measures_.pop_front();
-    return oldest;
+    measured_proximities_ = oldest.proximities;
+    return oldest.objects;
 }
 
 template <class Real>

@@ -2,10 +2,12 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 
 #include "cpu/advance_nodes.h"
 #include "cpu/collision.h"
 #include "cpu/contact.h"
+#include "cpu/find_proximities.h"
 #include "cpu/nodes.h"
 #include "cpu/respond_to_self.h"
 #include "cpu/self_collision.h"
@@ -28,10 +30,12 @@ public:
         collision_.find_face_collisions(current_.positions, previous_.positions);
     }
     void find_self_collisions() override { self_->collision.find(current_.positions); }
+    void find_proximities() override { proximities_->run(current_.positions); }
     void respond(double step) override;
     void begin_measure() override;
     std::vector<ObjectMeasure> end_measure() override;
     std::uint32_t lost_pairs() const override { return 0; }
+    ProximityMeasure proximities() const override { return measured_proximities_; }
     State read_state() const override;
     void write_state(const State& state) override;
     StageTimer& stage_timer() override { return timer_; }
@@ -44,6 +48,8 @@ public:
     bool collides(std::uint32_t face) const;
     /// Null where objects do not collide with themselves.
     const SelfCollision<Real>* self_collision() const { return self_ ? &self_->collision : nullptr; }
+    /// Null where the scene has no proximity radius.
+    const FindProximities<Real>* found_proximities() const { return proximities_ ? &*proximities_ : nullptr; }
 
 private:
     void run_pass(const Pass<Real>& pass);
@@ -62,7 +68,13 @@ private:
         RespondToSelf<Real> response;
     };
     std::unique_ptr<SelfStages> self_;
-    std::deque<std::vector<ObjectMeasure>> measures_;
+    std::optional<FindProximities<Real>> proximities_;
+    struct Measured {
+        std::vector<ObjectMeasure> objects;
+        ProximityMeasure proximities;
+    };
+    std::deque<Measured> measures_;
+    ProximityMeasure measured_proximities_;
     HostStageTimer timer_;
 };
 

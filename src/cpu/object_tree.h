@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cpu/axis_box.h"
+#include "cpu/walk_tree.h"
 #include "model/model.h"
 
 namespace gelatin::cpu {
@@ -22,15 +23,9 @@ public:
     /// found(object) for each whose box meets `box`, in no particular order.
     template <class Found>
     void for_objects_near(const AxisBox<Real>& box, const Found& found) const {
-        const auto end = static_cast<std::uint32_t>(tree_.nodes.size());
-        for (std::uint32_t n = 0; n < end;) {
-            const TreeNode& node = tree_.nodes[n];
-            const bool near = meet(box, node_boxes_[n]);
-            for (std::uint32_t k = node.first_item; near && k < node.first_item + node.item_count; ++k) {
-                if (meet(box, boxes_[order_[k]])) found(order_[k]);
-            }
-            n = near ? n + 1 : node.skip;
-        }
+        for_items_near<Real>(tree_, node_boxes_, 0, box, [&](std::uint32_t place) {
+            if (meet(box, boxes_[order_[place]])) found(order_[place]);
+        });
     }
 
 private:

@@ -17,6 +17,30 @@ struct Contacts {
     const Model& model;
     const Collision<Real>& collision;
     const Nodes<Real>& nodes;
+    std::vector<std::uint32_t> shares{};  // colliding faces of each node, over all objects that it touches
+
+    void count_shares() {
+        shares.assign(model.node_count(), 0);
+        for_nodes_in_pairs([this](std::uint32_t n, const Range& row) {
+            for (std::uint32_t p = row.first; p < row.end(); ++p)
+                shares[n] += colliding_faces(n, collision.pairs()[p]);
+        });
+    }
+
+    // work(node, its object's row of pairs)
+    template <class Work>
+    void for_nodes_in_pairs(const Work& work) const {
+        const auto objects = static_cast<std::uint32_t>(model.objects.size());
+        tbb::parallel_for(std::uint32_t(0), objects, [&](std::uint32_t o) {
+            const Range row = collision.row(o);
+            if (row.count == 0) return;
+            const Range& range = model.objects[o].nodes;
+            tbb::parallel_for(tbb::blocked_range<std::uint32_t>(range.first, range.end(), kNodesATask),
+                              [&](const auto& part) {
+                                  for (std::uint32_t n = part.begin(); n < part.end(); ++n) work(n, row);
+                              });
+        });
+    }
 
     std::uint32_t colliding_faces(std::uint32_t node, const ObjectPair& pair) const {
         const NodeFaces& around = model.node_faces;
@@ -27,26 +51,17 @@ struct Contacts {
         return count;
     }
 
-    // Over all objects that the node's own touches.
-    std::uint32_t colliding_faces(std::uint32_t node, const Range& row) const {
-        std::uint32_t count = 0;
-        for (std::uint32_t p = row.first; p < row.end(); ++p)
-            count += colliding_faces(node, collision.pairs()[p]);
-        return count;
-    }
-
     // work(node, share of its mass [kg]; 0 where it is pinned) for each corner of the pair's colliding faces.
     template <class Work>
     void for_corners(const ObjectPair& pair, const Work& work) const {
         const Range& faces = model.objects[pair.object].faces;
-        const Range row = collision.row(pair.object);
         for (std::uint32_t f = faces.first; f < faces.end(); ++f) {
             if (!collision.collides(pair, f)) continue;
             const Face& face = model.faces[f];
             for (const std::uint32_t n : {face.a, face.b, face.c}) {
                 const Real inverse_mass = nodes.positions[n].w;
-                const Real shares = static_cast<Real>(colliding_faces(n, row));
-                work(n, inverse_mass > Real(0) ? Real(1) / (inverse_mass * shares) : Real(0));
+                work(n, inverse_mass > Real(0) ? Real(1) / (inverse_mass * static_cast<Real>(shares[n]))
+                                               : Real(0));
             }
         }
     }
@@ -124,7 +139,7 @@ template <class Real>
 void respond_at_node(const Contacts<Real>& contacts, const std::vector<ContactResponse<Real>>& responses,
                      std::uint32_t node, const Range& row, Real step, const Vec4<Real>& previous_position,
                      Nodes<Real>& current) {
-    const std::uint32_t shares = contacts.colliding_faces(node, row);
+    const std::uint32_t shares = contacts.shares[node];
     if (shares == 0 || current.positions[node].w == Real(0)) return;
     const Vec3<Real> velocity(current.velocities[node]);
     const Vec3<Real> way(current.positions[node] - previous_position);
@@ -148,24 +163,18 @@ void respond_at_node(const Contacts<Real>& contacts, const std::vector<ContactRe
 template <class Real>
 void respond(const Model& model, const Collision<Real>& collision, const ContactProperties& properties,
              Real step, const Nodes<Real>& previous, Nodes<Real>& current) {
-    const Contacts<Real> contacts{model, collision, current};
     const std::vector<ObjectPair>& pairs = collision.pairs();
     if (std::none_of(pairs.begin(), pairs.end(),
                      [&](const ObjectPair& pair) { return collision.collide(pair); })) {
         return;
     }
+    Contacts<Real> contacts{model, collision, current};
+    contacts.count_shares();
     const auto responses = plan_responses(
         contacts, properties, static_cast<Real>(resting_speed(model.gravity, static_cast<double>(step))));
-    for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
-        const Range row = collision.row(o);
-        if (row.count == 0) continue;
-        const Range& nodes = model.objects[o].nodes;
-        tbb::parallel_for(
-            tbb::blocked_range<std::uint32_t>(nodes.first, nodes.end(), kNodesATask), [&](const auto& range) {
-                for (std::uint32_t n = range.begin(); n < range.end(); ++n)
-                    respond_at_node(contacts, responses, n, row, step, previous.positions[n], current);
-            });
-    }
+    contacts.for_nodes_in_pairs([&](std::uint32_t n, const Range& row) {
+        respond_at_node(contacts, responses, n, row, step, previous.positions[n], current);
+    });
 }
 
 template void respond<float>(const Model&, const Collision<float>&, const ContactProperties&, float,

@@ -19,6 +19,8 @@ template <class Real>
 SelfCollision<Real>::SelfCollision(std::shared_ptr<const Model> model, const Collision<Real>& boxes)
     : model_(std::move(model)),
       boxes_(boxes),
+      fits_(model_->objects.size()),
+      is_object_calm_(model_->objects.size()),
       is_calm_(model_->faces.size()),
       contact_counts_(model_->faces.size()) {}
 
@@ -46,42 +48,61 @@ void SelfCollision<Real>::find(std::span<const Vec4<Real>> positions) {
 
 template <class Real>
 void SelfCollision<Real>::find_restless(std::span<const Vec4<Real>> positions) {
-    const RestShapes& rest = model_->rest_shapes;
     const auto objects = static_cast<std::uint32_t>(model_->objects.size());
     tbb::parallel_for(std::uint32_t(0), objects, [&](std::uint32_t o) {
-        const AffineFit<Real> fit = fit_rest_shape(*model_, o, positions, boxes_.bounding_boxes()[o]);
+        is_object_calm_[o] = renew_fit(o, positions);
+        if (is_object_calm_[o]) return;
         const Range& faces = model_->objects[o].faces;
-        if (is_calm_all_over(fit, o, positions)) {
-            std::fill_n(is_calm_.begin() + faces.first, faces.count, std::uint8_t{1});
-            return;
-        }
-        const auto check = [&](const auto& range) {
-            for (std::uint32_t f = range.begin(); f < range.end(); ++f) {
-                const Face& face = model_->faces[f];
-                const Real limit = fit.half_stretch * static_cast<Real>(rest.clearances[f]);
-                bool is_calm = true;  // what is not a number is not
-                for (const std::uint32_t n : {face.a, face.b, face.c})
-                    is_calm &= fit.deviation(Vec3<Real>(positions[n]), Vec3<Real>(rest.offsets[n])) < limit;
-                is_calm_[f] = is_calm;
-            }
-        };
-        tbb::parallel_for(tbb::blocked_range<std::uint32_t>(faces.first, faces.end(), kFacesATask), check);
+        tbb::parallel_for(tbb::blocked_range<std::uint32_t>(faces.first, faces.end(), kFacesATask),
+                          [&](const auto& range) {
+                              for (std::uint32_t f = range.begin(); f < range.end(); ++f)
+                                  is_calm_[f] = is_face_calm(f, positions);
+                          });
     });
     restless_.clear();
-    for (std::uint32_t f = 0; f < is_calm_.size(); ++f)
-        if (!is_calm_[f]) restless_.push_back(f);
+    for (std::uint32_t o = 0; o < objects; ++o) {
+        const Range& faces = model_->objects[o].faces;
+        for (std::uint32_t f = faces.first; f < faces.end() && !is_object_calm_[o]; ++f)
+            if (!is_calm_[f]) restless_.push_back(f);
+    }
+}
+
+// Any map will do. So the last one does, moved along with the object, until it no longer explains where its
+// nodes are.
+template <class Real>
+bool SelfCollision<Real>::renew_fit(std::uint32_t object, std::span<const Vec4<Real>> positions) {
+    AffineFit<Real>& fit = fits_[object];
+    const AxisBox<Real>& box = boxes_.bounding_boxes()[object];
+    const Vec3<Real> first(positions[model_->objects[object].nodes.first]);
+    fit = fit.moved(first, model_->rest_shapes.objects[object], box);
+    if (is_calm_all_over(object, positions)) return true;
+    fit = fit_rest_shape(*model_, object, positions, box);
+    return is_calm_all_over(object, positions);
 }
 
 // Sooner told than face by face.
 template <class Real>
-bool SelfCollision<Real>::is_calm_all_over(const AffineFit<Real>& fit, std::uint32_t object,
+bool SelfCollision<Real>::is_calm_all_over(std::uint32_t object,
                                            std::span<const Vec4<Real>> positions) const {
     const RestShapes& rest = model_->rest_shapes;
+    const AffineFit<Real>& fit = fits_[object];
     const Real limit = fit.half_stretch * static_cast<Real>(rest.objects[object].inverse_moment_y.w);
     const Range& nodes = model_->objects[object].nodes;
     bool is_calm = true;  // what is not a number is not
     for (std::uint32_t n = nodes.first; n < nodes.end() && is_calm; ++n)
         is_calm = fit.deviation(Vec3<Real>(positions[n]), Vec3<Real>(rest.offsets[n])) < limit;
+    return is_calm;
+}
+
+template <class Real>
+bool SelfCollision<Real>::is_face_calm(std::uint32_t index, std::span<const Vec4<Real>> positions) const {
+    const RestShapes& rest = model_->rest_shapes;
+    const Face& face = model_->faces[index];
+    const AffineFit<Real>& fit = fits_[face.object];
+    const Real limit = fit.half_stretch * static_cast<Real>(rest.clearances[index]);
+    bool is_calm = true;  // what is not a number is not
+    for (const std::uint32_t n : {face.a, face.b, face.c})
+        is_calm &= fit.deviation(Vec3<Real>(positions[n]), Vec3<Real>(rest.offsets[n])) < limit;
     return is_calm;
 }
 

@@ -7,15 +7,17 @@
 #include "cpu/affine_fit.h"
 #include "cpu/collision.h"
 #include "cpu/triangle_overlap.h"
+#include "cpu/walk_tree.h"
 #include "model/model.h"
 
 namespace gelatin::cpu {
 
 /// Finds which faces of an object touch others of the same object; those that share a corner are left out.
 ///
-/// Two faces cannot touch while both are calm: nearer to where the best affine map of the rest shape puts
-/// them than half of what that map leaves of their clearance at rest (docs/physics.md). Only faces that are
-/// not walk through their object's tree. GPU twin: gpu::FindSelfCollisions.
+/// Two faces cannot touch while both are calm: nearer to where an affine map of the rest shape puts them than
+/// half of what that map leaves of their clearance at rest (docs/physics.md). Only faces that are not walk
+/// through their object's tree, and only objects that their last map does not explain are looked at by face.
+/// GPU twin: gpu::FindSelfCollisions.
 template <class Real>
 class SelfCollision {
 public:
@@ -44,8 +46,9 @@ public:
 
 private:
     void find_restless(std::span<const Vec4<Real>> positions);
-    bool is_calm_all_over(const AffineFit<Real>& fit, std::uint32_t object,
-                          std::span<const Vec4<Real>> positions) const;
+    bool renew_fit(std::uint32_t object, std::span<const Vec4<Real>> positions);
+    bool is_calm_all_over(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
+    bool is_face_calm(std::uint32_t index, std::span<const Vec4<Real>> positions) const;
     bool share_corner(std::uint32_t face, std::uint32_t other) const;
     bool touch(std::span<const Vec4<Real>> positions, std::uint32_t face, std::uint32_t other) const;
 
@@ -53,22 +56,17 @@ private:
     template <class Found>
     void for_faces_near(std::uint32_t face, const Found& found) const {
         const AxisBox<Real> box = boxes_.face_boxes()[face];
-        const std::vector<TreeNode>& nodes = model_->face_trees.nodes;
         const std::uint32_t root = model_->face_trees.roots[model_->faces[face].object];
-        const std::uint32_t end = nodes[root].skip;
-        for (std::uint32_t n = root; n < end;) {
-            const bool near = meet(box, boxes_.tree_boxes()[n]);
-            for (std::uint32_t k = 0; near && k < nodes[n].item_count; ++k) {
-                const std::uint32_t other = nodes[n].first_item + k;
-                if (meet(box, boxes_.face_boxes()[other]) && !share_corner(face, other)) found(other);
-            }
-            n = near ? n + 1 : nodes[n].skip;
-        }
+        for_items_near<Real>(model_->face_trees, boxes_.tree_boxes(), root, box, [&](std::uint32_t other) {
+            if (meet(box, boxes_.face_boxes()[other]) && !share_corner(face, other)) found(other);
+        });
     }
 
     std::shared_ptr<const Model> model_;
     const Collision<Real>& boxes_;
-    std::vector<std::uint8_t> is_calm_;          // shape [faces]
+    std::vector<AffineFit<Real>> fits_;          // shape [objects]
+    std::vector<std::uint8_t> is_object_calm_;   // all over, shape [objects]
+    std::vector<std::uint8_t> is_calm_;          // of objects that are not, shape [faces]
     std::vector<std::uint32_t> restless_;        // faces, ascending
     std::vector<std::uint32_t> contact_counts_;  // shape [faces]
     bool any_ = false;

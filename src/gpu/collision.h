@@ -4,6 +4,7 @@
 
 #include "gpu/find_face_collisions.h"
 #include "gpu/find_object_pairs.h"
+#include "gpu/find_proximities.h"
 #include "gpu/find_self_collisions.h"
 #include "gpu/respond.h"
 #include "gpu/respond_to_self.h"
@@ -28,15 +29,26 @@ struct Collision {
     };
     std::optional<Self> self;
 
+    /// What is near.
+    struct Near {
+        ProximityBuffers buffers;
+        FindProximities find;
+    };
+    std::optional<Near> near;
+
     Collision(const Model& model, const CollisionSettings& settings)
         : buffers(model),
-          update_boxes(settings.detection),
+          update_boxes(settings.detection, settings.proximity_radius.value_or(0.0)),
           find_object_pairs(model, settings.broad_phase),
           find_face_collisions(settings),
-          respond(buffers, settings) {
+          respond(model, buffers, settings) {
         if (settings.self_collision) {
             self.emplace(
                 Self{SelfCollisionBuffers(model), FindSelfCollisions(model), RespondToSelf(model, settings)});
+        }
+        if (settings.proximity_radius) {
+            near.emplace(Near{ProximityBuffers(model, buffers),
+                              FindProximities(*settings.proximity_radius, settings.self_collision)});
         }
     }
 };

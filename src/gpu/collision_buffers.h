@@ -62,6 +62,13 @@ struct CollisionBuffers {
         self_pairs,
         self_faces,
         self_nodes,
+        fit_sums,
+        fits,
+        restless_chunks,
+        near_objects,
+        near_leaves,
+        node_tasks,
+        edge_tasks,
         count
     };
     /// Runs `program` over what the GPU itself has counted.

@@ -61,6 +61,10 @@ void GpuSolver::find_self_collisions() {
     collision_->self->find.run(buffers_, collision_->buffers, collision_->self->buffers, current_);
 }
 
+void GpuSolver::find_proximities() {
+    collision_->near->find.run(buffers_, collision_->buffers, collision_->near->buffers, current_);
+}
+
 void GpuSolver::respond(double step) {
     // An object's own contacts first: they are sought for anew, where they were found.
     if (collision_->self) {
@@ -73,7 +77,8 @@ void GpuSolver::respond(double step) {
 void GpuSolver::begin_measure() {
     const bool meets_itself = collision_ && collision_->self;
     measure_.begin(buffers_, current_, collision_ ? &collision_->buffers : nullptr,
-                   meets_itself ? &collision_->self->buffers : nullptr);
+                   meets_itself ? &collision_->self->buffers : nullptr,
+                   collision_ && collision_->near ? &collision_->near->buffers : nullptr);
 }
 
 State GpuSolver::read_state() const {

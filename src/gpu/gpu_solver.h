@@ -25,9 +25,11 @@ public:
     void find_object_pairs() override;
     void find_face_collisions() override;
     void find_self_collisions() override;
+    void find_proximities() override;
     void respond(double step) override;
     void begin_measure() override;
     std::uint32_t lost_pairs() const override { return measure_.lost_pairs(); }
+    ProximityMeasure proximities() const override { return measure_.proximities(); }
     std::vector<ObjectMeasure> end_measure() override { return measure_.end(); }
     State read_state() const override;
     void write_state(const State& state) override;

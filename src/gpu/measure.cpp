@@ -1,6 +1,7 @@
 #include "gpu/measure.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "gpu/chunks.h"
@@ -32,7 +33,7 @@ Measure::Measure(const Model& model)
       object_count_(model.objects.size()) {}
 
 void Measure::begin(const ModelBuffers& model, const NodeBuffers& nodes, const CollisionBuffers* collision,
-                    const SelfCollisionBuffers* self) {
+                    const SelfCollisionBuffers* self, const ProximityBuffers* near) {
     nodes.position_texels.bind(0);
     nodes.velocity_texels.bind(1);
     model.bind_half_springs();
@@ -55,6 +56,9 @@ void Measure::begin(const ModelBuffers& model, const NodeBuffers& nodes, const C
     readback_.begin(node_sums_.id(), node_sums_.size() * sizeof(NodeSums));
     readback_.begin(volumes_.id(), volumes_.size() * sizeof(float));
     readback_.begin(colliding_.id(), colliding_.size() * sizeof(std::uint32_t));
+    if (near != nullptr) readback_.begin(near->found.id(), sizeof(ProximityCounts));
+    proximity_capacities_.push_back(near != nullptr ? static_cast<std::uint32_t>(near->proximities.size())
+                                                    : 0);
 }
 
 // One element a chunk, and the pairs that were lost.
@@ -73,6 +77,13 @@ std::vector<ObjectMeasure> Measure::end() {
     const auto volumes = read_as<float>(readback_.take());
     const auto colliding = read_as<std::uint32_t>(readback_.take());
     lost_pairs_ = colliding.back();
+    if (proximity_capacities_.front() > 0) {
+        const auto found = read_as<ProximityCounts>(readback_.take()).front();
+        proximities_ = {found.node_face, found.all - found.node_face,
+                        found.all - std::min(found.all, proximity_capacities_.front()),
+                        static_cast<double>(std::bit_cast<float>(found.nearest))};
+    }
+    proximity_capacities_.pop_front();
     std::vector<ObjectMeasure> objects(object_count_);
     for (std::size_t c = 0; c < sums.size(); ++c) {
         ObjectMeasure& object = objects[node_chunks_[c].object];

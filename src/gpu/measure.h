@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <vector>
 
 #include "gl/program.h"
@@ -7,6 +8,7 @@
 #include "gpu/collision_buffers.h"
 #include "gpu/model_buffers.h"
 #include "gpu/node_buffers.h"
+#include "gpu/proximity_buffers.h"
 #include "gpu/self_collision_buffers.h"
 #include "model/solver.h"
 
@@ -20,12 +22,15 @@ public:
 
     /// @param collision null where nothing can collide
     /// @param self null where nothing collides with itself
+    /// @param near null where nothing near is sought
     void begin(const ModelBuffers& model, const NodeBuffers& nodes,
-               const CollisionBuffers* collision = nullptr, const SelfCollisionBuffers* self = nullptr);
+               const CollisionBuffers* collision = nullptr, const SelfCollisionBuffers* self = nullptr,
+               const ProximityBuffers* near = nullptr);
     /// The oldest that is under way; waits for it if need be.
     std::vector<ObjectMeasure> end();
     /// As of the last `end`.
     std::uint32_t lost_pairs() const { return lost_pairs_; }
+    ProximityMeasure proximities() const { return proximities_; }
 
 private:
     void count_colliding_faces(const CollisionBuffers& collision, const SelfCollisionBuffers* self);
@@ -38,6 +43,8 @@ private:
     gl::Buffer<std::uint32_t> colliding_;
     gl::Readback readback_;
     std::uint32_t lost_pairs_ = 0;
+    ProximityMeasure proximities_;
+    std::deque<std::uint32_t> proximity_capacities_;  // of the measurements under way; 0: none are sought
     std::size_t object_count_;
 };
 

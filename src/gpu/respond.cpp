@@ -4,11 +4,14 @@
 
 namespace gelatin::gpu {
 
-Respond::Respond(const CollisionBuffers& collision, const CollisionSettings& settings)
-    : patch_program_(gl::Program::compute("sim/sum_contacts.comp")),
+Respond::Respond(const Model& model, const CollisionBuffers& collision, const CollisionSettings& settings)
+    : share_program_(gl::Program::compute("sim/count_shares.comp")),
+      patch_program_(gl::Program::compute("sim/sum_contacts.comp")),
       approach_program_(gl::Program::compute("sim/sum_contacts.comp", {"APPROACHING"})),
       plan_program_(gl::Program::compute("sim/plan_responses.comp")),
       respond_program_(gl::Program::compute("sim/respond.comp")),
+      node_shares_(model.positions.size()),
+      node_share_texels_(node_shares_, gl::TexelFormat::r32ui),
       patches_(collision.object_pairs.size()),
       approaches_(collision.object_pairs.size()),
       responses_(collision.object_pairs.size()) {
@@ -22,6 +25,12 @@ void Respond::run(const ModelBuffers& model, const CollisionBuffers& collision, 
     collision.bind_pairs();
     collision.bind_node_faces();
     collision.face_collisions.bind_storage(4);
+    model.face_texels.bind(4);
+    node_shares_.bind_storage(3);
+    collision.run(share_program_, Work::nodes);
+    gl::barrier(gl::Barrier::texture_fetch);
+
+    node_share_texels_.bind(5);
     current.position_texels.bind(0);
     current.velocity_texels.bind(1);
     model.faces.bind_storage(3);
@@ -39,7 +48,6 @@ void Respond::run(const ModelBuffers& model, const CollisionBuffers& collision, 
     gl::barrier(gl::Barrier::storage);
 
     previous.position_texels.bind(0);
-    model.face_texels.bind(4);
     current.positions.bind_storage(5);
     current.velocities.bind_storage(7);
     respond_program_.set("time_step", static_cast<float>(step));

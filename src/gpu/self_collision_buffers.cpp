@@ -3,8 +3,10 @@
 namespace gelatin::gpu {
 namespace {
 
-std::vector<std::uint32_t> no_contacts(const Model& model) {
-    return std::vector<std::uint32_t>(model.faces.size(), 0);
+gl::Buffer<std::uint32_t> zeros(std::size_t size) {
+    gl::Buffer<std::uint32_t> buffer(size);
+    buffer.fill(0);
+    return buffer;
 }
 
 }  // namespace
@@ -15,9 +17,11 @@ SelfCollisionBuffers::SelfCollisionBuffers(const Model& model)
       rest_offset_texels(rest_offsets, gl::TexelFormat::rgba32f),
       clearance_texels(clearances, gl::TexelFormat::r32f),
       fits(model.objects.size()),
+      fit_texels(fits, gl::TexelFormat::rgba32f),
+      last_restless(zeros(model.objects.size())),
       restless(model.faces.size()),
       is_calm(model.faces.size()),
-      contact_counts(std::span<const std::uint32_t>(no_contacts(model))),
+      contact_counts(zeros(model.faces.size())),
       colliding(model.faces.size()),
       face_count(static_cast<std::uint32_t>(model.faces.size())) {}
 

@@ -13,9 +13,11 @@ struct SelfCollisionBuffers {
     gl::Buffer<glm::vec4> rest_offsets;  ///< RestShapes::offsets
     gl::Buffer<float> clearances;        ///< RestShapes::clearances
     gl::BufferTexture rest_offset_texels, clearance_texels;
-    gl::Buffer<AffineFit> fits;                ///< shape [objects]
+    gl::Buffer<AffineFit> fits;  ///< the last one that was made, shape [objects]
+    gl::BufferTexture fit_texels;
+    gl::Buffer<std::uint32_t> last_restless;   ///< number of the step, shape [objects]
     gl::Buffer<std::uint32_t> restless;        ///< faces that are not calm
-    gl::Buffer<std::uint32_t> is_calm;         ///< 0 or 1, shape [faces]
+    gl::Buffer<std::uint32_t> is_calm;         ///< 0 or 1 where the object is restless, shape [faces]
     gl::Buffer<std::uint32_t> contact_counts;  ///< faces of its own object that each touches, shape [faces]
     gl::Buffer<std::uint32_t> colliding;       ///< faces that touch any
     std::uint32_t face_count = 0;

@@ -1,12 +1,30 @@
 #include "gpu/update_boxes.h"
 
+#include <limits>
+
 namespace gelatin::gpu {
 
-UpdateBoxes::UpdateBoxes(CollisionDetection detection)
-    : leaf_program_(gl::Program::compute("sim/update_boxes.comp", detection == CollisionDetection::continuous
-                                                                      ? gl::Defines{"LEAVES", "CONTINUOUS"}
-                                                                      : gl::Defines{"LEAVES"})),
-      node_program_(gl::Program::compute("sim/update_boxes.comp")) {}
+namespace {
+
+gl::Defines leaf_defines(CollisionDetection detection, double reach) {
+    gl::Defines defines{"LEAVES"};
+    if (detection == CollisionDetection::continuous) defines.emplace_back("CONTINUOUS");
+    if (reach > 0.0) defines.emplace_back("MARGIN");
+    return defines;
+}
+
+}  // namespace
+
+UpdateBoxes::UpdateBoxes(CollisionDetection detection, double reach)
+    : leaf_program_(gl::Program::compute("sim/update_boxes.comp", leaf_defines(detection, reach))),
+      node_program_(gl::Program::compute("sim/update_boxes.comp")) {
+    set_margin(leaf_program_, reach);
+}
+
+void set_margin(const gl::Program& program, double reach) {
+    constexpr float kEps = std::numeric_limits<float>::epsilon();
+    program.set("box_margin", glm::vec2(static_cast<float>(0.5 * reach) * (1.0f + 8.0f * kEps), 2.0f * kEps));
+}
 
 void update_level(const gl::Program& program, const TreeBuffers& trees, std::size_t level) {
     const std::uint32_t first = trees.level_starts[level], count = trees.level_starts[level + 1] - first;

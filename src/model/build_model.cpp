@@ -17,6 +17,7 @@
 #include "model/object_mesh.h"
 #include "model/spring_packing.h"
 #include "model/springs.h"
+#include "model/surface_parts.h"
 #include "model/transform.h"
 
 namespace gelatin {
@@ -274,6 +275,7 @@ Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDes
     model.half_springs = pack_half_springs(model.node_count(), model.springs);
     model.incidence = make_incidence(model.node_count(), model.springs);
     model.node_faces = make_node_faces(model.node_count(), model.faces);
+    model.surface_parts = make_surface_parts(model.faces, model.node_faces);
     return model;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numeric>
 
 #include "mesh/topology.h"
@@ -65,11 +66,15 @@ CornerGroups group_smooth_corners(std::span<const glm::vec4> positions, const st
 
 void append_draw_surface(std::span<const glm::vec4> positions, std::span<const Face> all_faces, Range range,
                          double crease_angle, DrawSurface& surface) {
+    // Nodes are counted from the object's first, or a thousand objects would each look through the nodes of
+    // all.
+    const std::span<const Face> own_faces = all_faces.subspan(range.first, range.count);
+    std::uint32_t first_node = std::numeric_limits<std::uint32_t>::max();
+    for (const Face& face : own_faces) first_node = std::min({first_node, face.a, face.b, face.c});
     std::vector<glm::uvec3> faces;
-    for (std::uint32_t f = range.first; f < range.end(); ++f) {
-        faces.emplace_back(all_faces[f].a, all_faces[f].b, all_faces[f].c);
-    }
-    CornerGroups groups = group_smooth_corners(positions, faces, crease_angle);
+    for (const Face& face : own_faces) faces.push_back(glm::uvec3(face.a, face.b, face.c) - first_node);
+    CornerGroups groups =
+        group_smooth_corners(positions.subspan(range.count > 0 ? first_node : 0), faces, crease_angle);
 
     // Number the groups by their nodes, so that drawing walks through memory as the simulation does.
     std::vector<std::uint32_t> corners(3 * faces.size());
@@ -89,7 +94,7 @@ void append_draw_surface(std::span<const glm::vec4> positions, std::span<const F
     for (std::size_t n = 0; n < corners.size(); ++n) {
         const std::uint32_t corner = corners[n];
         if (n == 0 || root[corner] != root[corners[n - 1]]) {
-            surface.vertices.push_back({node_of(corner), all_faces[range.first].object,
+            surface.vertices.push_back({first_node + node_of(corner), all_faces[range.first].object,
                                         static_cast<std::uint32_t>(surface.vertex_faces.size()), 0});
         }
         SurfaceVertex& vertex = surface.vertices.back();

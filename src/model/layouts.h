@@ -19,12 +19,13 @@ using glm::vec4;
 #include "layouts/face.glsl"
 #include "layouts/half_spring_pair.glsl"
 #include "layouts/object_pair.glsl"
+#include "layouts/proximity.glsl"
 #include "layouts/rest_shape.glsl"
 #include "layouts/spring.glsl"
 #include "layouts/surface_vertex.glsl"
 #include "layouts/tree_node.glsl"
 
-static_assert(sizeof(AffineFit) == 64);
+static_assert(sizeof(AffineFit) == 80);
 static_assert(sizeof(ApproachSums) == 32);
 static_assert(sizeof(BoundingBox) == 48);
 static_assert(sizeof(Box) == 32);
@@ -35,12 +36,17 @@ static_assert(sizeof(ContactResponse) == 48);
 static_assert(sizeof(Dispatch) == 16);
 static_assert(sizeof(Draw) == 16);
 static_assert(sizeof(Face) == 16);
+static_assert(sizeof(FaceEdge) == 16);
 static_assert(sizeof(FacePair) == 16);
 static_assert(sizeof(FitSums) == 48);
 static_assert(sizeof(HalfSpringPair) == 16);
+static_assert(sizeof(LeafSearch) == 32);
+static_assert(sizeof(NearObject) == 16);
 static_assert(sizeof(NodeSums) == 32);
 static_assert(sizeof(ObjectPair) == 32);
 static_assert(sizeof(PairRow) == 16);
+static_assert(sizeof(Proximity) == 48);
+static_assert(sizeof(ProximityCounts) == 16);
 static_assert(sizeof(RestShape) == 48);
 static_assert(sizeof(Spring) == 16);
 static_assert(sizeof(SurfaceVertex) == 16);
@@ -60,12 +66,17 @@ using layouts::ContactResponse;
 using layouts::Dispatch;
 using layouts::Draw;
 using layouts::Face;
+using layouts::FaceEdge;
 using layouts::FacePair;
 using layouts::FitSums;
 using layouts::HalfSpringPair;
+using layouts::LeafSearch;
+using layouts::NearObject;
 using layouts::NodeSums;
 using layouts::ObjectPair;
 using layouts::PairRow;
+using layouts::Proximity;
+using layouts::ProximityCounts;
 using layouts::RestShape;
 using layouts::Spring;
 using layouts::SurfaceVertex;

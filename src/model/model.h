@@ -52,6 +52,15 @@ struct NodeFaces {
     std::vector<std::uint32_t> faces;   ///< indices into Model::faces, shape [3 * faces]
 };
 
+/// The surface's nodes and edges, each once, in the order of the faces that own them, the first ones that
+/// have them: so those of a leaf of a tree, of contiguous faces, are contiguous too. An edge may have one
+/// face, two, or more.
+struct SurfaceParts {
+    std::vector<std::uint32_t> nodes;
+    std::vector<FaceEdge> edges;
+    std::vector<glm::uvec2> face_starts;  ///< of each face in nodes and in edges, and the ends: [faces + 1]
+};
+
 /// The topology of trees of boxes, which never changes: up to four children a node, up to four items a leaf.
 /// Nodes come before their children, so a walk goes on to the next node, or to `skip` where it does not care
 /// for what is below.
@@ -88,6 +97,7 @@ struct Model {
     std::vector<glm::uvec4> tets;  ///< shape [tets]
     std::vector<Face> faces;       ///< boundary triangles, shape [faces]
     NodeFaces node_faces;
+    SurfaceParts surface_parts;
     BoxTree face_trees;      ///< one an object
     RestShapes rest_shapes;  ///< empty where objects do not collide with themselves
     DrawSurface surface;

@@ -64,6 +64,12 @@ CollisionSettings read_collision(TableReader reader) {
         reader.fail("detection", "must be \"discrete\" with broad_phase = \"depth\", which sees one moment");
     reader.read("response", settings.response, {{"restore", CollisionResponse::restore}});
     reader.read("self_collision", settings.self_collision);
+    reader.read("proximity_radius", settings.proximity_radius, kPositive);
+    if (settings.proximity_radius && settings.broad_phase == BroadPhase::depth) {
+        reader.fail(
+            "proximity_radius",
+            "must not be given with broad_phase = \"depth\", which tells what touches, not what is near");
+    }
     reader.read("friction", settings.friction, kNotNegative);
     reader.read("restitution", settings.restitution, kFraction);
     reader.finish();

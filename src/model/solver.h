@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec4.hpp>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,14 @@ struct ObjectMeasure {
     std::uint32_t colliding_faces = 0;  ///< that touch another object, or another part of their own
 };
 
+/// What was near at one moment.
+struct ProximityMeasure {
+    std::uint32_t node_face = 0;  ///< nodes and faces
+    std::uint32_t edge_edge = 0;  ///< two edges, each pair seen from both
+    std::uint32_t lost = 0;       ///< of these, did not fit into a device's buffers
+    double nearest = std::numeric_limits<double>::infinity();  ///< least distance of all [m]
+};
+
 /// A backend: owns the state where it lives and advances it. The stages are called in the order of
 /// Simulator::step; none of them waits for a device.
 class Solver {
@@ -50,6 +59,8 @@ public:
     virtual void find_face_collisions() = 0;
     /// For scenes whose objects collide with themselves: the faces that touch others of their own object.
     virtual void find_self_collisions() = 0;
+    /// For scenes with a proximity radius: the nodes and faces, and the edges, nearer than it.
+    virtual void find_proximities() = 0;
     virtual void respond(double step) = 0;
 
     /// Starts measuring the present state. At most two measurements may be under way.
@@ -61,6 +72,9 @@ public:
     /// Pairs of objects or faces that were not tested because they did not fit into a device's buffers: since
     /// the start, as of the last measurement that ended.
     virtual std::uint32_t lost_pairs() const = 0;
+
+    /// What find_proximities had found last when the last measurement that ended began.
+    virtual ProximityMeasure proximities() const = 0;
 
     virtual State read_state() const = 0;
     virtual void write_state(const State& state) = 0;

@@ -8,6 +8,14 @@ namespace gelatin {
 
 SimulatorOptions with_needed_backend(SimulatorOptions options, const Scene& scene) {
     if (scene.collision.broad_phase != BroadPhase::depth) return options;
+    if (scene.collision.proximity_radius) {
+        throw InvalidInput({scene.file.string(),
+                            0,
+                            "collision.proximity_radius",
+                            {},
+                            "must not be given with broad_phase = \"depth\", which tells what touches, not "
+                            "what is near"});
+    }
     if (options.backend == Backend::cpu) {
         throw InvalidInput({scene.file.string(), 0, "collision.broad_phase", "\"depth\"",
                             "needs OpenGL; with --backend cpu it must be none, boxes or hierarchy"});

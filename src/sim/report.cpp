@@ -14,6 +14,8 @@ using Json = nlohmann::ordered_json;  // keys stay in the order of the documenta
 
 Json settings_json(const RunReport& report) {
     const SimulationSettings& settings = report.settings;
+    const std::optional<double>& proximity_radius = report.collision.proximity_radius;
+    const Json radius = proximity_radius ? Json(*proximity_radius) : Json();
     return {{"solver", name_of(settings.solver)},
             {"forces", name_of(settings.forces)},
             {"frame_rate", settings.frame_rate},
@@ -24,6 +26,7 @@ Json settings_json(const RunReport& report) {
             {"detection", name_of(report.collision.detection)},
             {"response", name_of(report.collision.response)},
             {"self_collision", report.collision.self_collision},
+            {"proximity_radius", radius},
             {"gravity", {settings.gravity.x, settings.gravity.y, settings.gravity.z}}};
 }
 
@@ -35,21 +38,31 @@ Json counts_json(const Counts& counts) {
             {"tets", counts.tets}};
 }
 
+// Infinity, where nothing is near, becomes null.
+void add_proximities(const ProximityStatistics& proximities, Json& frame) {
+    frame["proximities"] = {{"node_face", proximities.node_face},
+                            {"edge_edge", proximities.edge_edge},
+                            {"lost", proximities.lost}};
+    frame["nearest_gap"] = proximities.nearest_gap;
+}
+
 Json frame_json(const FrameStatistics& frame, const std::vector<std::string>& objects) {
     Json volume_ratio = Json::object();
     for (std::size_t o = 0; o < objects.size() && o < frame.volume_ratio.size(); ++o) {
         volume_ratio[objects[o]] = frame.volume_ratio[o];
     }
-    return {{"frame", frame.frame},
-            {"time", frame.time},
-            {"kinetic_energy", frame.kinetic_energy},
-            {"elastic_energy", frame.elastic_energy},
-            {"potential_energy", frame.potential_energy},
-            {"momentum", frame.momentum},
-            {"colliding_faces", frame.colliding_faces},
-            {"contacts", frame.contacts},
-            {"deepest_penetration", frame.deepest_penetration},
-            {"volume_ratio", volume_ratio}};
+    Json json = {{"frame", frame.frame},
+                 {"time", frame.time},
+                 {"kinetic_energy", frame.kinetic_energy},
+                 {"elastic_energy", frame.elastic_energy},
+                 {"potential_energy", frame.potential_energy},
+                 {"momentum", frame.momentum},
+                 {"colliding_faces", frame.colliding_faces},
+                 {"contacts", frame.contacts},
+                 {"deepest_penetration", frame.deepest_penetration},
+                 {"volume_ratio", volume_ratio}};
+    if (frame.proximities) add_proximities(*frame.proximities, json);
+    return json;
 }
 
 Json spread_json(const std::vector<double>& milliseconds) {

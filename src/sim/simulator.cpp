@@ -39,10 +39,28 @@ struct Simulator::Impl {
     std::uint64_t steps = 0;  // since then
     std::deque<Moment> measured;
     std::uint32_t reported_losses = 0;
+    bool lost_proximities = false;  // and told so
 
     double step_size() const { return scene.simulation.frame_time() / substeps; }
     int frame() const { return start.frame + static_cast<int>(steps / static_cast<std::uint64_t>(substeps)); }
     double time() const { return start.time + static_cast<double>(steps) * step_size(); }
+
+    bool seeks_proximities() const {
+        return scene.collision.proximity_radius &&
+               (model->objects.size() > 1 || scene.collision.self_collision);
+    }
+
+    ProximityStatistics take_proximities() {
+        const ProximityMeasure measure = solver->proximities();
+        if (measure.lost > 0 && !lost_proximities) {
+            spdlog::warn(
+                "{} proximities are not kept: too many for the GPU's buffers; choose a smaller "
+                "proximity_radius",
+                measure.lost);
+            lost_proximities = true;
+        }
+        return {measure.node_face, measure.edge_edge, measure.lost, measure.nearest};
+    }
 
     void warn_of_lost_pairs() {
         const std::uint32_t lost = solver->lost_pairs();
@@ -97,6 +115,7 @@ void Simulator::step() {
         d.run_stage("find_face_collisions", [&] { d.solver->find_face_collisions(); });
     }
     if (meets_itself) d.run_stage("find_self_collisions", [&] { d.solver->find_self_collisions(); });
+    if (d.seeks_proximities()) d.run_stage("find_proximities", [&] { d.solver->find_proximities(); });
     if (meets_others || meets_itself) d.run_stage("respond", [&] { d.solver->respond(d.step_size()); });
     ++d.steps;
 }
@@ -156,6 +175,7 @@ FrameStatistics Simulator::take_statistics() {
     frame.time = d.measured.front().time;
     d.measured.pop_front();
     d.warn_of_lost_pairs();
+    if (d.seeks_proximities()) frame.proximities = d.take_proximities();
     for (std::size_t o = 0; o < objects.size(); ++o) {
         const ObjectMeasure& object = objects[o];
         if (!std::isfinite(object.kinetic_energy + object.elastic_energy + object.potential_energy +

@@ -87,13 +87,29 @@ void compare_with_reference(PairOf what, const std::vector<test::MovingPair<Real
     EXPECT_LT(worst_point, 64.0 * loss);
 }
 
-TYPED_TEST(NearestPoints, AreThoseOfTheReference) {
+template <class Real>
+void compare_with_reference(std::size_t count, unsigned seed) {
     for (const PairOf what : {PairOf::node_and_face, PairOf::edges}) {
-        compare_with_reference(what, test::random_moving_pairs<TypeParam>(what, 20'000, 1));
-        auto touching = test::touching_pairs<TypeParam>(what, 20'000, 2);
-        std::erase_if(touching, [](const auto& pair) { return test::extent(pair) == 0.0; });
-        compare_with_reference(what, touching);
+        compare_with_reference(what, test::random_moving_pairs<Real>(what, count, seed));
+        for (auto pairs : {test::touching_pairs<Real>(what, count, seed + 1),
+                           test::nearly_touching_pairs<Real>(what, count, seed + 2)}) {
+            std::erase_if(pairs, [](const auto& pair) { return test::extent(pair) == 0.0; });
+            compare_with_reference(what, pairs);
+        }
     }
+}
+
+TYPED_TEST(NearestPoints, AreThoseOfTheReference) {
+    compare_with_reference<TypeParam>(20'000, 1);
+}
+
+template <class Real>
+class NearestPointsHeavy : public ::testing::Test {};
+TYPED_TEST_SUITE(NearestPointsHeavy, Precisions);
+
+// A million of either kind and more.
+TYPED_TEST(NearestPointsHeavy, AreThoseOfTheReference) {
+    for (unsigned seed = 10; seed < 14; ++seed) compare_with_reference<TypeParam>(100'000, 10 * seed);
 }
 
 }  // namespace

@@ -35,6 +35,17 @@ TEST_P(SelfCollisionTest, FindsWhatBruteForceFinds) {
     }
 }
 
+// Maps of a shape that was, and contacts of another, change nothing.
+TEST_P(SelfCollisionTest, FindsTheSameWhateverWasBefore) {
+    const Model model = test::make_folded(GetParam());
+    const test::SelfContacts expected = test::find_self_contacts_by_brute_force(model);
+    for (const Deformation deformation : {Deformation::rigid, Deformation::poked, Deformation::rolled}) {
+        const Model before = test::make_folded(deformation);
+        EXPECT_EQ(test::find_self_contacts_on_cpu_after<float>(before, model), expected);
+        EXPECT_EQ(test::find_self_contacts_on_cpu_after<double>(before, model), expected);
+    }
+}
+
 // No face of a body that is not deformed, or evenly, is looked at, wherever it is.
 TEST(SelfCollision, LetsUndeformedBodiesBe) {
     for (const Deformation deformation : {Deformation::rigid, Deformation::affine}) {

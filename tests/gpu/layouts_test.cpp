@@ -125,7 +125,23 @@ TEST_F(LayoutsTest, RestShapes) {
           {FIELD(FitSums, column_x), FIELD(FitSums, column_y), FIELD(FitSums, column_z)});
     check("rest_shape.glsl", "AffineFit", sizeof(AffineFit),
           {FIELD(AffineFit, column_x), FIELD(AffineFit, column_y), FIELD(AffineFit, column_z),
-           FIELD(AffineFit, center)});
+           FIELD(AffineFit, center), FIELD(AffineFit, origin)});
+}
+TEST_F(LayoutsTest, Proximities) {
+    check("proximity.glsl", "FaceEdge", sizeof(FaceEdge),
+          {FIELD(FaceEdge, a), FIELD(FaceEdge, b), FIELD(FaceEdge, object), FIELD(FaceEdge, face)});
+    check("proximity.glsl", "Proximity", sizeof(Proximity),
+          {FIELD(Proximity, first), FIELD(Proximity, second), FIELD(Proximity, distance),
+           FIELD(Proximity, apart), FIELD(Proximity, weights)});
+    check("proximity.glsl", "ProximityCounts", sizeof(ProximityCounts),
+          {FIELD(ProximityCounts, node_face), FIELD(ProximityCounts, all), FIELD(ProximityCounts, nearest)});
+    check("proximity.glsl", "LeafSearch", sizeof(LeafSearch),
+          {FIELD(LeafSearch, first_object), FIELD(LeafSearch, object_count), FIELD(LeafSearch, first_near),
+           FIELD(LeafSearch, near_count), FIELD(LeafSearch, first_node_task),
+           FIELD(LeafSearch, first_edge_task)});
+    check("proximity.glsl", "NearObject", sizeof(NearObject),
+          {FIELD(NearObject, leaf), FIELD(NearObject, object), FIELD(NearObject, first_near),
+           FIELD(NearObject, near_count)});
 }
 TEST_F(LayoutsTest, Dispatch) {
     check("dispatch.glsl", "Dispatch", sizeof(Dispatch),

@@ -10,6 +10,7 @@
 #include "support/folded.h"
 #include "support/gl_fixture.h"
 #include "support/parity.h"
+#include "support/proximities.h"
 #include "support/shader_folder.h"
 #include "support/step_on_gpu.h"
 #include "support/test_models.h"
@@ -119,11 +120,43 @@ TEST_P(SelfCollisionMutantsTest, IsCaught) {
         // Calm enough, too: what is needless costs.
         caught = caught || restless > expected_restless + expected_restless / 10 + 3;
     }
+    const Model rigid = test::make_folded(test::Deformation::rigid);
+    Model moved = rigid;
+    for (glm::vec4& p : moved.positions) p.x += 1.0f;
+    std::uint32_t fitted = 0;
+    test::find_self_contacts_on_gpu_after(rigid, moved, &fitted);
+    caught = caught || fitted > 0;  // which costs
+    const Model poked = test::make_folded(test::Deformation::poked);
+    caught = caught || test::find_self_contacts_on_gpu_after(rigid, poked) !=
+                           test::find_self_contacts_on_cpu<float>(poked);
+    caught = caught || test::find_self_contacts_on_gpu_after(poked, rigid) !=
+                           test::find_self_contacts_on_cpu<float>(rigid);
     const Model rolled = test::make_folded(test::Deformation::rolled);
     const CollisionSettings settings{.friction = 0.4, .restitution = 0.7};
     caught =
         caught || test::worst_self_response_error(
                       rolled, settings, kStep, test::respond_to_self_on_gpu(rolled, settings, kStep)) > 1.0;
+    EXPECT_TRUE(caught) << "the broken kernel passes";
+}
+
+class ProximityMutantsTest : public test::GlTest, public ::testing::WithParamInterface<test::Break> {};
+INSTANTIATE_TEST_SUITE_P(All, ProximityMutantsTest, ::testing::ValuesIn(test::kProximityMutants),
+                         name_of_mutant);
+
+TEST_P(ProximityMutantsTest, IsCaught) {
+    test::ShaderFolder folder;
+    break_shaders(GetParam(), folder);
+    bool caught = false;
+    for (const test::ProximityScene& scene : test::kProximityScenes) {
+        if (caught) break;
+        const Model model = scene.make();
+        const CollisionSettings settings{.self_collision = true, .proximity_radius = scene.radius};
+        const test::FoundOnGpu found = test::find_proximities_on_gpu(model, settings);
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const auto& proximity : found.proximities) nearest = std::min(nearest, proximity.distance);
+        caught = !found.is_guarded || found.lost_pairs > 0 || found.measure.nearest != nearest ||
+                 !test::check_proximities<float>(model, settings, found).are_none();
+    }
     EXPECT_TRUE(caught) << "the broken kernel passes";
 }
 

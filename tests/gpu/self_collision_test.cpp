@@ -23,6 +23,14 @@ TEST_P(SelfCollisionOnGpuTest, FindsWhatTheCpuFinds) {
     }
 }
 
+// Maps of a shape that was, and contacts of another, change nothing.
+TEST_P(SelfCollisionOnGpuTest, FindsTheSameWhateverWasBefore) {
+    const Model model = test::make_folded(GetParam());
+    const test::SelfContacts expected = test::find_self_contacts_on_cpu<float>(model);
+    for (const Deformation before : {Deformation::rigid, Deformation::poked, Deformation::rolled})
+        EXPECT_EQ(test::find_self_contacts_on_gpu_after(test::make_folded(before), model), expected);
+}
+
 TEST_P(SelfCollisionOnGpuTest, RespondsLikeTheDoubleReference) {
     const Model model = test::make_folded(GetParam());
     for (const CollisionSettings& settings : {CollisionSettings{.friction = 0.0, .restitution = 0.0},
@@ -58,6 +66,18 @@ TEST_F(SelfCollisionOnGpu, LetsUndeformedBodiesBe) {
         test::find_self_contacts_on_gpu(test::make_folded(deformation), &restless);
         EXPECT_EQ(restless, 0u);
     }
+}
+
+// A map is good for as long as it explains where the nodes are: far away, too, and after a small turn.
+TEST_F(SelfCollisionOnGpu, KeepsTheMapsOfBodiesThatMoveAsOne) {
+    const Model start = test::make_folded(Deformation::rigid);
+    Model moved = start;
+    for (glm::vec4& p : moved.positions) p += glm::vec4(20.0f - 1e-3f * p.y, 1e-3f * p.x, -7.0f, 0.0f);
+    std::uint32_t fitted = 1;
+    test::find_self_contacts_on_gpu_after(start, moved, &fitted);
+    EXPECT_EQ(fitted, 0u);
+    test::find_self_contacts_on_gpu_after(start, test::make_folded(Deformation::affine), &fitted);
+    EXPECT_EQ(fitted, start.objects.size());
 }
 
 }  // namespace

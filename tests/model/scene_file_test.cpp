@@ -20,6 +20,7 @@ broad_phase = "boxes"
 detection = "continuous"
 response = "restore"
 self_collision = true
+proximity_radius = 0.005
 friction = 0.1
 restitution = 0.9
 
@@ -66,6 +67,7 @@ restitution = 0
     EXPECT_EQ(scene.simulation.frames, 12);
     EXPECT_EQ(scene.collision.broad_phase, BroadPhase::boxes);
     EXPECT_TRUE(scene.collision.self_collision);
+    EXPECT_EQ(scene.collision.proximity_radius, 0.005);
     EXPECT_EQ(scene.collision.detection, CollisionDetection::continuous);
     EXPECT_EQ(scene.collision.response, CollisionResponse::restore);
     EXPECT_EQ(scene.collision.friction, 0.1);
@@ -102,7 +104,7 @@ restitution = 0
     EXPECT_EQ(ball.scale, 2.0);
     EXPECT_EQ(ball.velocity, glm::dvec3(1.0, 0.0, 0.0));
     EXPECT_EQ(ball.color, glm::dvec3(0.1, 0.2, 0.3));
-    EXPECT_EQ(ball.line, 31);
+    EXPECT_EQ(ball.line, 32);
     ASSERT_EQ(ball.pins.size(), 3u);
     EXPECT_EQ(std::get<BoxRegion>(ball.pins[0]).min, glm::dvec3(-1.0));
     EXPECT_EQ(std::get<BoxRegion>(ball.pins[0]).max, glm::dvec3(0.0, 1.0, 1.0));
@@ -205,7 +207,7 @@ TEST_F(SceneFile, RefusesAnUnknownKeyAndNamesTheNearest) {
               "scene.toml:6: simulation.solvr = \"rk4\": unknown key (did you mean \"solver\"?)");
     EXPECT_EQ(error(std::string(kBall) + "[collision]\nwobbliness = 3"),
               "scene.toml:5: collision.wobbliness = 3: unknown key; known here are broad_phase, detection, "
-              "response, self_collision, friction and "
+              "response, self_collision, proximity_radius, friction and "
               "restitution");
 }
 
@@ -294,6 +296,14 @@ TEST_F(SceneFile, RefusesValuesOutOfRange) {
               "scene.toml:5: collision.restitution = 1.5: must be from 0 to 1");
     EXPECT_EQ(error(std::string(kBall) + "[collision]\nfriction = -0.5"),
               "scene.toml:5: collision.friction = -0.5: must be 0 or more");
+    EXPECT_EQ(error(std::string(kBall) + "[collision]\nproximity_radius = 0"),
+              "scene.toml:5: collision.proximity_radius = 0: must be greater than 0");
+    EXPECT_EQ(error(std::string(kBall) + "[collision]\nproximity_radius = 'far'"),
+              "scene.toml:5: collision.proximity_radius = \"far\": must be a number, is a string");
+    EXPECT_EQ(
+        error(std::string(kBall) + "[collision]\nproximity_radius = 0.1\nbroad_phase = 'depth'"),
+        "scene.toml:5: collision.proximity_radius = 0.1: must not be given with broad_phase = \"depth\", "
+        "which tells what touches, not what is near");
     EXPECT_EQ(object_error("shape = {sphere = 1}\nscale = 0"),
               "scene.toml:5: object.ball.scale = 0: must be greater than 0");
     EXPECT_EQ(object_error("shape = {sphere = 1}\ncolor = [0, 255, 0]"),

@@ -42,6 +42,19 @@ RunReport sample_report() {
     return report;
 }
 
+TEST(Report, TellsWhatWasNear) {
+    RunReport report = sample_report();
+    report.collision.proximity_radius = 0.005;
+    report.frames.push_back(report.frames[0]);
+    report.frames[0].proximities = {7, 4, 1, 0.002};
+    report.frames[1].proximities = ProximityStatistics{};
+    const Json json = Json::parse(to_json(report));
+    EXPECT_EQ(json["settings"]["proximity_radius"], 0.005);
+    EXPECT_EQ(json["frames"][0]["proximities"], (Json{{"node_face", 7}, {"edge_edge", 4}, {"lost", 1}}));
+    EXPECT_EQ(json["frames"][0]["nearest_gap"], 0.002);
+    EXPECT_TRUE(json["frames"][1]["nearest_gap"].is_null()) << "nothing is near";
+}
+
 TEST(Report, HasTheDocumentedKeys) {
     const Json json = Json::parse(to_json(sample_report()));
     EXPECT_EQ(json,
@@ -60,6 +73,7 @@ TEST(Report, HasTheDocumentedKeys) {
                       {"detection", "discrete"},
                       {"response", "restore"},
                       {"self_collision", false},
+                      {"proximity_radius", nullptr},
                       {"gravity", {0.0, -9.81, 0.0}}}},
                     {"counts", {{"objects", 2}, {"nodes", 10}, {"springs", 20}, {"faces", 30}, {"tets", 40}}},
                     {"frames", Json::array({{{"frame", 1},

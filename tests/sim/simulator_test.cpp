@@ -130,6 +130,62 @@ TEST_F(SimulatorTest, StatisticsComeInOrderAndConserveEnergyInFlight) {
     }
 }
 
+// Two balls of radius 0.3 m at rest, 1 m apart.
+TEST_F(SimulatorTest, MeasuresWhatIsNear) {
+    for (const Backend backend : {Backend::cpu, Backend::gl}) {
+        Scene scene = falling_balls();
+        scene.collision.proximity_radius = 0.41;
+        SimulatorOptions options = on(backend);
+        options.time_stages = true;
+        Simulator simulator(scene, options);
+        simulator.begin_statistics();
+        EXPECT_EQ(simulator.take_statistics().proximities->node_face, 0u) << "nothing was sought yet";
+        simulator.step();
+        simulator.begin_statistics();
+        const auto near = simulator.take_statistics().proximities;
+        ASSERT_TRUE(near.has_value());
+        EXPECT_GT(near->node_face, 0u);
+        EXPECT_GT(near->edge_edge, 0u);
+        EXPECT_EQ(near->edge_edge % 2, 0u);
+        EXPECT_EQ(near->lost, 0u);
+        EXPECT_GE(near->nearest_gap, 0.4 - 1e-6);
+        EXPECT_LT(near->nearest_gap, 0.41);
+        bool is_timed = false;
+        for (const auto& [stage, times] : simulator.take_stage_times())
+            is_timed |= stage == "find_proximities";
+        EXPECT_TRUE(is_timed);
+    }
+}
+
+// Of one object its own parts, where it collides with itself; else nothing is sought.
+TEST_F(SimulatorTest, MeasuresWhatIsNearWithinOneObject) {
+    Scene scene = falling_balls();
+    scene.objects.resize(1);
+    scene.collision.proximity_radius = 0.2;
+    for (const bool own : {false, true}) {
+        scene.collision.self_collision = own;
+        std::vector<double> counts;
+        for (const Backend backend : {Backend::cpu, Backend::gl}) {
+            Simulator simulator(scene, on(backend));
+            simulator.step();
+            simulator.begin_statistics();
+            const auto near = simulator.take_statistics().proximities;
+            ASSERT_EQ(near.has_value(), own);
+            if (own) counts.push_back(static_cast<double>(near->node_face + near->edge_edge));
+        }
+        if (!own) continue;
+        EXPECT_GT(counts[0], 1000.0);
+        EXPECT_NEAR(counts[1] / counts[0], 1.0, 0.001) << "but for rounding";
+    }
+}
+
+TEST_F(SimulatorTest, RefusesARadiusByDepth) {
+    Scene scene = falling_balls();
+    scene.collision.proximity_radius = 0.1;
+    scene.collision.broad_phase = BroadPhase::depth;
+    EXPECT_THROW(Simulator(scene, on(Backend::gl)), InvalidInput);
+}
+
 TEST_F(SimulatorTest, StopsWhenNumbersAreNotFinite) {
     Scene scene = falling_balls();
     scene.objects[1].velocity = {3e38, 3e38, 0.0};

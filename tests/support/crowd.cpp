@@ -170,15 +170,17 @@ FaceCollisions find_collisions_on_gpu(const Model& model, const CollisionSetting
     return found;
 }
 
-std::vector<std::uint32_t> mark_faces_on_gpu(const Model& model) {
+std::vector<std::uint32_t> mark_faces_on_gpu(const Model& model, const CollisionSettings& settings) {
     constexpr std::uint32_t kPoison = 0xDEADBEEF;
     const gpu::ModelBuffers model_buffers(model);
     const gpu::NodeBuffers nodes(model.positions, model.velocities);
-    gpu::Collision collision(model, {});
+    gpu::Collision collision(model, settings);
     run_detection(collision, model_buffers, nodes, nodes);
+    gpu::Collision::Self* self = collision.self ? &*collision.self : nullptr;
+    if (self) self->find.run(model_buffers, collision.buffers, self->buffers, nodes);
     std::vector<std::uint32_t> marks(model.faces.size() + kGuard, kPoison);
     const gl::Buffer<std::uint32_t> buffer{std::span<const std::uint32_t>(marks)};
-    gpu::MarkFaces(model).run(model_buffers, collision.buffers, nullptr, buffer);
+    gpu::MarkFaces(model).run(model_buffers, collision.buffers, self ? &self->buffers : nullptr, buffer);
     gl::barrier(gl::Barrier::buffer_update);
     buffer.download(marks);
     const auto end = marks.begin() + static_cast<std::ptrdiff_t>(model.faces.size());

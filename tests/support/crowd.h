@@ -44,7 +44,7 @@ FaceCollisions find_collisions_on_gpu(const Model& model, const CollisionSetting
 
 /// The marks of the faces that the GPU's stages find, poisoned first; empty if anything behind them was
 /// written.
-std::vector<std::uint32_t> mark_faces_on_gpu(const Model& model);
+std::vector<std::uint32_t> mark_faces_on_gpu(const Model& model, const CollisionSettings& settings = {});
 
 /// Where the model's nodes were a step before its start [m], [s].
 std::vector<glm::vec4> positions_before(const Model& model, double step);

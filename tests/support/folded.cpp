@@ -136,36 +136,93 @@ SelfContacts find_self_contacts_by_brute_force(const Model& model) {
     return counts;
 }
 
+namespace {
+
+template <class Real>
+class SelfSearch {
+public:
+    explicit SelfSearch(const Model& model)
+        : model_(std::make_shared<const Model>(model)),
+          boxes_(model_, BroadPhase::hierarchy),
+          collision_(model_, boxes_) {}
+
+    SelfContacts find(const Model& now) {
+        const auto positions = converted<Real>(now.positions);
+        boxes_.update_boxes(positions, positions);
+        collision_.find(positions);
+        SelfContacts counts;
+        for (std::uint32_t f = 0; f < model_->faces.size(); ++f)
+            counts.push_back(collision_.contact_count(f));
+        return counts;
+    }
+    std::size_t restless_count() const { return collision_.restless_count(); }
+
+private:
+    std::shared_ptr<const Model> model_;
+    cpu::Collision<Real> boxes_;
+    cpu::SelfCollision<Real> collision_;
+};
+
+}  // namespace
+
 template <class Real>
 SelfContacts find_self_contacts_on_cpu(const Model& model, std::size_t* restless) {
-    const auto positions = converted<Real>(model.positions);
-    const auto shared = std::make_shared<const Model>(model);
-    cpu::Collision<Real> boxes(shared, BroadPhase::hierarchy);
-    cpu::SelfCollision<Real> collision(shared, boxes);
-    boxes.update_boxes(positions, positions);
-    collision.find(positions);
-    if (restless != nullptr) *restless = collision.restless_count();
-    SelfContacts counts;
-    for (std::uint32_t f = 0; f < model.faces.size(); ++f) counts.push_back(collision.contact_count(f));
-    return counts;
+    SelfSearch<Real> search(model);
+    const SelfContacts contacts = search.find(model);
+    if (restless != nullptr) *restless = search.restless_count();
+    return contacts;
 }
 template SelfContacts find_self_contacts_on_cpu<float>(const Model&, std::size_t*);
 template SelfContacts find_self_contacts_on_cpu<double>(const Model&, std::size_t*);
+
+template <class Real>
+SelfContacts find_self_contacts_on_cpu_after(const Model& before, const Model& model) {
+    SelfSearch<Real> search(model);
+    search.find(before);
+    return search.find(model);
+}
+template SelfContacts find_self_contacts_on_cpu_after<float>(const Model&, const Model&);
+template SelfContacts find_self_contacts_on_cpu_after<double>(const Model&, const Model&);
+
+namespace {
+
+std::uint32_t count_of(const gpu::Collision& collision, gpu::CollisionBuffers::Work work) {
+    gl::barrier(gl::Barrier::buffer_update);
+    std::vector<Dispatch> dispatches(collision.buffers.dispatches.size());
+    collision.buffers.dispatches.download(dispatches);
+    return dispatches[static_cast<std::size_t>(work)].count;
+}
+
+SelfContacts download_contacts(const gpu::Collision& collision) {
+    gl::barrier(gl::Barrier::buffer_update);
+    SelfContacts counts(collision.self->buffers.contact_counts.size());
+    collision.self->buffers.contact_counts.download(counts);
+    return counts;
+}
+
+}  // namespace
 
 SelfContacts find_self_contacts_on_gpu(const Model& model, std::uint32_t* restless) {
     const gpu::ModelBuffers model_buffers(model);
     const gpu::NodeBuffers nodes(model.positions, model.velocities);
     gpu::Collision collision(model, with_self({}));
     run_self_detection(collision, model_buffers, nodes);
-    gl::barrier(gl::Barrier::buffer_update);
-    if (restless != nullptr) {
-        std::vector<Dispatch> dispatches(collision.buffers.dispatches.size());
-        collision.buffers.dispatches.download(dispatches);
-        *restless = dispatches[static_cast<std::size_t>(gpu::CollisionBuffers::Work::restless)].count;
+    if (restless != nullptr) *restless = count_of(collision, gpu::CollisionBuffers::Work::restless);
+    return download_contacts(collision);
+}
+
+SelfContacts find_self_contacts_on_gpu_after(const Model& before, const Model& model, std::uint32_t* fitted) {
+    const gpu::ModelBuffers model_buffers(model);
+    const gpu::NodeBuffers nodes_before(before.positions, before.velocities),
+        nodes(model.positions, model.velocities);
+    gpu::Collision collision(model, with_self({}));
+    run_self_detection(collision, model_buffers, nodes_before);
+    for (const gpu::NodeBuffers* now : {&nodes_before, &nodes}) {
+        collision.update_boxes.run(model_buffers, collision.buffers, *now, *now);
+        collision.self->find.run(model_buffers, collision.buffers, collision.self->buffers, *now);
     }
-    SelfContacts counts(model.faces.size());
-    collision.self->buffers.contact_counts.download(counts);
-    return counts;
+    if (fitted != nullptr) *fitted = count_of(collision, gpu::CollisionBuffers::Work::fits);
+    return download_contacts(collision);
 }
 
 template <class Real>

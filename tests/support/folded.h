@@ -38,8 +38,17 @@ SelfContacts find_self_contacts_by_brute_force(const Model& model);
 template <class Real>
 SelfContacts find_self_contacts_on_cpu(const Model& model, std::size_t* restless = nullptr);
 
+/// The same in the step after one that found the nodes where they are in `before`.
+template <class Real>
+SelfContacts find_self_contacts_on_cpu_after(const Model& before, const Model& model);
+
 /// What the GPU's stages find, every buffer that they write poisoned first.
 SelfContacts find_self_contacts_on_gpu(const Model& model, std::uint32_t* restless = nullptr);
+
+/// The same in the step after some that found the nodes where they are in `before`.
+/// @param fitted if not null: how many objects got a new affine map in this step
+SelfContacts find_self_contacts_on_gpu_after(const Model& before, const Model& model,
+                                             std::uint32_t* fitted = nullptr);
 
 /// The model's start after the response to what collides with itself, in the precision of `Real`.
 template <class Real>

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <span>
+
+#include "model/model.h"
+
+namespace gelatin {
+
+/// @param around the same faces by node
+SurfaceParts make_surface_parts(std::span<const Face> faces, const NodeFaces& around);
+
+}  // namespace gelatin
