@@ -109,8 +109,8 @@ double dilation_energy(const RestNet& net, const std::vector<double>& stiffness)
 }
 
 // What to multiply stiffnesses by, so that 1 / E has the right mean over the three axes. Over all directions
-// it would be too much for bars, which are mostly stretched along an axis: on coarse meshes the skin is softer
-// in shear than in tension, which shows in between.
+// it would be too much for bars, which are mostly stretched along an axis: on coarse meshes the skin is
+// softer in shear than in tension, which shows in between.
 double missing_factor(const ElasticResponse& response) {
     double sum = 0.0;
     for (int axis = 0; axis < 3; ++axis) sum += response.compliance(axis, axis);
