@@ -46,6 +46,7 @@ std::shared_ptr<const Model> make_copies(const TetMesh& mesh, const std::vector<
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         bodies[b].name = "body " + std::to_string(b);
         bodies[b].mesh = mesh;
+        bodies[b].material.springs = SpringKinds{};  // the paper's: what collides does not care
         for (glm::dvec3& p : bodies[b].mesh.positions) p += places[b];
     }
     return std::make_shared<const Model>(pack_bodies(bodies, {}, glm::dvec3(0.0)));

@@ -47,6 +47,7 @@ std::shared_ptr<const Model> make_spheres(const TetMesh& sphere, int scale) {
         const int row = i / 20, column = i % 20;
         for (glm::dvec3& p : body.mesh.positions) p += glm::dvec3(1.5 * column, 50.0 + 1.5 * row, 0.0);
         body.material.damping = 1e-4;
+        body.material.springs = SpringKinds{};  // the paper's
         bodies.push_back(std::move(body));
     }
     return std::make_shared<const Model>(pack_bodies(bodies, {ColliderDescription{}}, {0.0, -9.81, 0.0}));

@@ -59,7 +59,7 @@ struct CollisionSettings {
     double restitution = 0.3;  ///< normal speed after over before, in [0, 1]
 };
 
-/// Which springs a material has (paper 2.2). At least one.
+/// Which of the paper's springs a material has (2.2). At least one.
 struct SpringKinds {
     bool structural = true;  ///< the edges of the tets
     bool shear = false;      ///< the opposite corners of two tets that share a face
@@ -73,7 +73,9 @@ struct Material {
     double poisson_ratio = 0.25;  ///< in (-1, 0.5); springs alone always answer with 1/4
     double damping =
         0.0;  ///< Kelvin-Voigt relaxation time [s], >= 0: a spring's damping is damping * stiffness
-    SpringKinds springs;
+    /// Empty: springs whose stiffnesses are fitted to each mesh, so that the body answers with
+    /// youngs_modulus. With kinds: the paper's, not fitted, which answer softer.
+    std::optional<SpringKinds> springs;
 };
 
 struct SphereShape {

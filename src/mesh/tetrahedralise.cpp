@@ -1,7 +1,6 @@
 #include "mesh/tetrahedralise.h"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/content_hash.h"
 #include "core/file.h"
 #include "core/process.h"
 #include "gelatin/error.h"
@@ -64,14 +64,11 @@ std::string make_key(const SurfaceMesh& surface, const std::string& switches) {
     const std::string help = run_tetgen({"-h"}, folder.path(), 10.0).output;
     const std::string head = fmt::format("{}\n{}\n{}\n{} {}\n", kCacheFormat, help, switches,
                                          surface.positions.size(), surface.faces.size());
-    XXH3_state_t* state = XXH3_createState();
-    XXH3_128bits_reset(state);
-    XXH3_128bits_update(state, head.data(), head.size());
-    XXH3_128bits_update(state, surface.positions.data(), surface.positions.size() * sizeof(glm::dvec3));
-    XXH3_128bits_update(state, surface.faces.data(), surface.faces.size() * sizeof(glm::uvec3));
-    const XXH128_hash_t hash = XXH3_128bits_digest(state);
-    XXH3_freeState(state);
-    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+    ContentHash hash;
+    hash.add(head);
+    hash.add(surface.positions);
+    hash.add(surface.faces);
+    return hash.hex();
 }
 
 /// TetGen's .smesh: the vertices, a facet for each face, no holes, no regions.

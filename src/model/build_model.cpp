@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "core/log.h"
 #include "gelatin/error.h"
@@ -54,10 +55,13 @@ void arrange_faces(TetMesh& mesh) {
     for (const std::uint32_t face : box_tree_order(centers)) mesh.faces[place++] = faces[face];
 }
 
-// The same mesh with its nodes in an order that keeps neighbours near each other.
-TetMesh reordered(const TetMesh& mesh, const SpringKinds& kinds) {
-    std::vector<glm::uvec2> edges;
-    for (const Spring& spring : make_springs(mesh, kinds, 1.0)) edges.emplace_back(spring.i, spring.j);
+// A body's mesh with its nodes in an order that keeps neighbours near each other.
+struct Arranged {
+    TetMesh mesh;
+    std::vector<std::uint32_t> new_index;  // by the index that a node had
+};
+
+Arranged arranged(const TetMesh& mesh, const std::vector<glm::uvec2>& edges) {
     const Graph graph = make_graph(mesh.positions.size(), edges);
     const auto count = static_cast<std::uint32_t>(mesh.positions.size());
     const std::vector<std::uint32_t> order =
@@ -80,7 +84,7 @@ TetMesh reordered(const TetMesh& mesh, const SpringKinds& kinds) {
     const auto by_least_node = [&](const auto& a, const auto& b) { return least(a) < least(b); };
     std::stable_sort(result.tets.begin(), result.tets.end(), by_least_node);
     arrange_faces(result);
-    return result;
+    return {std::move(result), std::move(new_index)};
 }
 
 float checked_float(double value, const std::string& object, const char* what) {
@@ -112,18 +116,55 @@ void append_nodes(Model& model, const Body& body, const TetMesh& mesh) {
     }
 }
 
-void append_springs(Model& model, const Body& body, const TetMesh& mesh, std::uint32_t first_node) {
-    for (Spring spring : make_springs(mesh, body.material.springs, body.material.youngs_modulus)) {
-        checked_float(static_cast<double>(spring.stiffness), body.name, "a spring's stiffness [N/m]");
+// Pairs of nodes that springs join, as the body's mesh counts them.
+std::vector<glm::uvec2> spring_nodes(const Body& body, const FittedSprings* fitted) {
+    std::vector<glm::uvec2> nodes;
+    if (fitted != nullptr) {
+        for (const UnitSpring& spring : fitted->springs) nodes.push_back(spring.nodes);
+    } else {
+        for (const Spring& spring : make_springs(body.mesh, *body.material.springs, 1.0))
+            nodes.emplace_back(spring.i, spring.j);
+    }
+    return nodes;
+}
+
+// Fitted springs for the body's material and size, in ascending order of nodes.
+std::vector<Spring> scaled_springs(const Body& body, const Arranged& arranged, const FittedSprings& fitted) {
+    const double shear_modulus = kShearOverYoungs * body.material.youngs_modulus;
+    std::vector<Spring> springs;
+    for (const UnitSpring& unit : fitted.springs) {
+        const std::uint32_t a = arranged.new_index[unit.nodes.x], b = arranged.new_index[unit.nodes.y];
+        const double length = glm::distance(arranged.mesh.positions[a], arranged.mesh.positions[b]);
+        const double stiffness = shear_modulus * body.scale * unit.stiffness;
+        springs.push_back(
+            {std::min(a, b), std::max(a, b), static_cast<float>(length), static_cast<float>(stiffness)});
+    }
+    std::sort(springs.begin(), springs.end(),
+              [](const Spring& a, const Spring& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
+    return springs;
+}
+
+void append_springs(Model& model, const std::vector<Spring>& springs, const std::string& object,
+                    std::uint32_t first_node) {
+    for (Spring spring : springs) {
+        checked_float(static_cast<double>(spring.stiffness), object, "a spring's stiffness [N/m]");
         spring.i += first_node;
         spring.j += first_node;
         model.springs.push_back(spring);
     }
 }
 
+// Null where the material names the paper's springs.
+std::shared_ptr<const FittedSprings> fitted_springs(const Body& body) {
+    if (body.material.springs) return nullptr;
+    return body.fitted ? body.fitted : std::make_shared<const FittedSprings>(fit_springs(body.mesh));
+}
+
 void append_body(Model& model, const Body& body) {
     const auto size = [](const auto& array) { return static_cast<std::uint32_t>(array.size()); };
-    const TetMesh mesh = reordered(body.mesh, body.material.springs);
+    const std::shared_ptr<const FittedSprings> fitted = fitted_springs(body);
+    const Arranged order = arranged(body.mesh, spring_nodes(body, fitted.get()));
+    const TetMesh& mesh = order.mesh;
 
     ModelObject object;
     object.name = body.name;
@@ -137,7 +178,10 @@ void append_body(Model& model, const Body& body) {
 
     const std::uint32_t first = object.nodes.first;
     append_nodes(model, body, mesh);
-    append_springs(model, body, mesh, first);
+    append_springs(model,
+                   fitted ? scaled_springs(body, order, *fitted)
+                          : make_springs(mesh, *body.material.springs, body.material.youngs_modulus),
+                   body.name, first);
     object.springs.count = size(model.springs) - object.springs.first;
     for (const glm::uvec4& t : mesh.tets) {
         model.tets.push_back(t + first);
@@ -207,6 +251,8 @@ Body make_body(const Scene& scene, const ObjectDescription& object, ObjectMesher
     body.material = find_material(scene, object);
     body.velocity = object.velocity;
     body.pins = object.pins;
+    if (!body.material.springs) body.fitted = mesher.fit(object);
+    body.scale = object.scale;
     if (object.color) body.color = glm::vec3(*object.color);
     const auto pinned = [&](const glm::dvec3& p) { return is_pinned(body.pins, p); };
     if (!body.pins.empty() && std::none_of(body.mesh.positions.begin(), body.mesh.positions.end(), pinned)) {

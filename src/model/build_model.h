@@ -1,7 +1,10 @@
 #pragma once
 
+#include <memory>
+
 #include "gelatin/scene.h"
 #include "mesh/tet_mesh.h"
+#include "model/fit_springs.h"
 #include "model/model.h"
 
 namespace gelatin {
@@ -14,6 +17,11 @@ struct Body {
     glm::dvec3 velocity{0.0};  ///< [m/s]
     std::vector<Region> pins;
     glm::vec3 color{-1.0f};  ///< linear RGB; negative: the renderer's palette
+
+    /// Of a material without kinds of springs: those fitted to the mesh before it was scaled; empty:
+    /// pack_bodies fits.
+    std::shared_ptr<const FittedSprings> fitted;
+    double scale = 1.0;  ///< of the mesh, since `fitted`
 };
 
 /// Packs bodies into the arrays of a model: nodes in an order that keeps neighbours near, lumped masses (a

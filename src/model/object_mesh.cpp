@@ -8,6 +8,7 @@
 #include "mesh/surface_file.h"
 #include "mesh/tet_file.h"
 #include "mesh/tetrahedralise.h"
+#include "model/spring_cache.h"
 #include "model/transform.h"
 
 namespace gelatin {
@@ -30,25 +31,43 @@ TetMesh make_local_mesh(const ObjectDescription& object, Notes& notes) {
                           file != nullptr ? file->file.string() : "object '" + object.name + "'");
 }
 
+void warn_of_a_poor_fit(const FittedSprings& springs, const std::string& name) {
+    constexpr double kMuch = 0.2;
+    if (springs.softest > 1.0 - kMuch && springs.stiffest < 1.0 + kMuch) return;
+    spdlog::warn(
+        "object '{}': its mesh lets springs answer with {:.2f} to {:.2f} of youngs_modulus, by direction; "
+        "more nodes across it, or tets of more even shape (mesher.max_volume, mesher.quality), help",
+        name, springs.softest, springs.stiffest);
+}
+
 }  // namespace
 
 TetMesh ObjectMesher::make(const ObjectDescription& object) {
-    TetMesh mesh = local_mesh(object);
+    TetMesh mesh = local(object).mesh;
     const glm::dquat rotation = rotation_from_degrees(object.rotation);
     for (glm::dvec3& p : mesh.positions) p = rotation * (object.scale * p) + object.position;
     return mesh;
 }
 
+std::shared_ptr<const FittedSprings> ObjectMesher::fit(const ObjectDescription& object) {
+    Known& known = local(object);
+    if (!known.springs) {
+        known.springs = std::make_shared<const FittedSprings>(SpringCache().fit(known.mesh));
+        warn_of_a_poor_fit(*known.springs, object.name);
+    }
+    return known.springs;
+}
+
 // Searched from the last one on: copies follow one another.
-const TetMesh& ObjectMesher::local_mesh(const ObjectDescription& object) {
+ObjectMesher::Known& ObjectMesher::local(const ObjectDescription& object) {
     const auto same = std::find_if(known_.rbegin(), known_.rend(), [&](const Known& known) {
         return known.shape == object.shape && known.mesher == object.mesher;
     });
-    if (same != known_.rend()) return same->mesh;
+    if (same != known_.rend()) return *same;
     Notes notes;
     TetMesh mesh = make_local_mesh(object, notes);
     for (const std::string& note : notes) spdlog::warn("object '{}': {}", object.name, note);
-    return known_.emplace_back(Known{object.shape, object.mesher, std::move(mesh)}).mesh;
+    return known_.emplace_back(Known{object.shape, object.mesher, std::move(mesh), nullptr});
 }
 
 }  // namespace gelatin

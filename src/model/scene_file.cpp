@@ -90,17 +90,13 @@ CameraDescription read_camera(TableReader reader) {
     return camera;
 }
 
-SpringKinds read_springs(TableReader& reader) {
-    SpringKinds springs;
-    if (!reader.has("springs")) return springs;
+std::optional<SpringKinds> read_springs(TableReader& reader) {
+    if (!reader.has("springs")) return std::nullopt;
     const auto names = reader.read_names("springs", {"structural", "shear", "flex"});
     const auto has = [&](const char* name) {
         return std::find(names.begin(), names.end(), name) != names.end();
     };
-    springs.structural = has("structural");
-    springs.shear = has("shear");
-    springs.flex = has("flex");
-    return springs;
+    return SpringKinds{has("structural"), has("shear"), has("flex")};
 }
 
 Material read_material(TableReader& reader) {

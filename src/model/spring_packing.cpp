@@ -5,21 +5,36 @@
 
 namespace gelatin {
 
-SpringIncidence make_incidence(std::uint32_t node_count, std::span<const Spring> springs) {
+namespace {
+
+// @param nodes nodes(s) gives the two nodes of spring s
+template <class Nodes>
+SpringIncidence incidence_of(std::uint32_t node_count, std::size_t spring_count, const Nodes& nodes) {
     SpringIncidence incidence;
     incidence.starts.assign(node_count + 1, 0);
-    for (const Spring& spring : springs) {
-        ++incidence.starts[spring.i + 1];
-        ++incidence.starts[spring.j + 1];
+    for (std::uint32_t s = 0; s < spring_count; ++s) {
+        ++incidence.starts[nodes(s).x + 1];
+        ++incidence.starts[nodes(s).y + 1];
     }
     for (std::uint32_t n = 0; n < node_count; ++n) incidence.starts[n + 1] += incidence.starts[n];
-    incidence.entries.resize(2 * springs.size());
+    incidence.entries.resize(2 * spring_count);
     std::vector<std::uint32_t> next(incidence.starts.begin(), incidence.starts.end() - 1);
-    for (std::uint32_t s = 0; s < springs.size(); ++s) {
-        incidence.entries[next[springs[s].i]++] = 2 * s;
-        incidence.entries[next[springs[s].j]++] = 2 * s + 1;
+    for (std::uint32_t s = 0; s < spring_count; ++s) {
+        incidence.entries[next[nodes(s).x]++] = 2 * s;
+        incidence.entries[next[nodes(s).y]++] = 2 * s + 1;
     }
     return incidence;
+}
+
+}  // namespace
+
+SpringIncidence make_incidence(std::uint32_t node_count, std::span<const Spring> springs) {
+    return incidence_of(node_count, springs.size(),
+                        [&](std::uint32_t s) { return glm::uvec2(springs[s].i, springs[s].j); });
+}
+
+SpringIncidence make_incidence(std::uint32_t node_count, std::span<const glm::uvec2> spring_nodes) {
+    return incidence_of(node_count, spring_nodes.size(), [&](std::uint32_t s) { return spring_nodes[s]; });
 }
 
 HalfSprings pack_half_springs(std::span<const std::uint32_t> rows, std::span<const Spring> springs) {

@@ -19,5 +19,6 @@ HalfSprings pack_half_springs(std::uint32_t node_count, std::span<const Spring> 
 
 /// The springs' ends by node, in the springs' order.
 SpringIncidence make_incidence(std::uint32_t node_count, std::span<const Spring> springs);
+SpringIncidence make_incidence(std::uint32_t node_count, std::span<const glm::uvec2> spring_nodes);
 
 }  // namespace gelatin

@@ -84,9 +84,10 @@ restitution = 0
     EXPECT_EQ(material.density, 900.0);
     EXPECT_EQ(material.poisson_ratio, 0.3);
     EXPECT_EQ(material.damping, 0.02);
-    EXPECT_FALSE(material.springs.structural);
-    EXPECT_TRUE(material.springs.shear);
-    EXPECT_TRUE(material.springs.flex);
+    ASSERT_TRUE(material.springs);
+    EXPECT_FALSE(material.springs->structural);
+    EXPECT_TRUE(material.springs->shear);
+    EXPECT_TRUE(material.springs->flex);
 
     ASSERT_EQ(scene.objects.size(), 1u);
     const ObjectDescription& ball = scene.objects[0];
@@ -131,6 +132,7 @@ TEST_F(SceneFile, KeepsTheDefaultsOfSceneHWhereItIsSilent) {
     EXPECT_EQ(scene.simulation.frames, SimulationSettings{}.frames);
     EXPECT_FALSE(scene.simulation.substeps);
     EXPECT_EQ(scene.materials.at(0).density, Material{}.density);
+    EXPECT_FALSE(scene.materials.at(0).springs);
     EXPECT_EQ(scene.objects.at(0).material, "jelly");  // the only one
     EXPECT_EQ(scene.objects.at(0).scale, 1.0);
     EXPECT_FALSE(scene.objects.at(0).color);

@@ -49,6 +49,12 @@ TetMesh make_block(glm::ivec3 cells, glm::dvec3 size, double jitter, unsigned se
     return mesh;
 }
 
+Material structural_material() {
+    Material material;
+    material.springs = SpringKinds{};
+    return material;
+}
+
 Body make_body(TetMesh mesh, const Material& material) {
     Body body;
     body.name = "body";
@@ -64,7 +70,7 @@ Model make_model(const Body& body, glm::dvec3 gravity) {
 Model make_lively_model(unsigned seed) {
     Material material;
     material.damping = 2e-3;
-    material.springs = {true, true, true};
+    material.springs = SpringKinds{true, true, true};
     Body body = make_body(make_block({9, 10, 10}, {0.9, 1.0, 1.0}, 0.2, seed), material);
     for (glm::dvec3& p : body.mesh.positions) p += glm::dvec3(0.4, -0.02, -0.3);
     body.pins = {HalfSpaceRegion{{-1.0, 0.0, 0.0}, -1.29}};

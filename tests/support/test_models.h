@@ -13,8 +13,11 @@ namespace gelatin::test {
 /// A block [0, size] of cells, six tets a cell; inner nodes moved at random by up to `jitter` of a cell.
 TetMesh make_block(glm::ivec3 cells, glm::dvec3 size, double jitter = 0.0, unsigned seed = 1);
 
-/// A body of that mesh with default material.
-Body make_body(TetMesh mesh, const Material& material = {});
+/// The default material with the paper's structural springs: for tests that do not care how stiff a body is.
+Material structural_material();
+
+/// A body of that mesh.
+Body make_body(TetMesh mesh, const Material& material = structural_material());
 
 /// A model of one body, without colliders.
 Model make_model(const Body& body, glm::dvec3 gravity = {0.0, 0.0, 0.0});

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <cstddef>
+
+namespace gelatin {
+
+/// Calls visit(k) for each k below `count`, on several threads where that pays.
+template <class Visit>
+void for_each_index(std::size_t count, const Visit& visit) {
+    constexpr std::size_t kGrain = 512;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain), [&](const auto& range) {
+        for (std::size_t k = range.begin(); k != range.end(); ++k) visit(k);
+    });
+}
+
+}  // namespace gelatin

@@ -1,0 +1,93 @@
+#include "support/statics.h"
+
+#include <Eigen/Geometry>
+#include <stdexcept>
+
+namespace gelatin::test {
+namespace {
+
+Eigen::Vector3d rest(const Model& model, std::uint32_t node) {
+    const glm::dvec3 p(model.positions[node]);
+    return {p.x, p.y, p.z};
+}
+
+Eigen::Index at(std::uint32_t node) {
+    return 3 * static_cast<Eigen::Index>(node);
+}
+
+}  // namespace
+
+Statics::Statics(const Model& model)
+    : model_(model),
+      forces_(Eigen::VectorXd::Zero(at(model.node_count()))),
+      displacements_(forces_),
+      free_(Eigen::VectorXd::Ones(forces_.size())) {}
+
+void Statics::hold(std::uint32_t node, int axis, double value) {
+    displacements_[at(node) + axis] = value;
+    free_[at(node) + axis] = 0.0;
+}
+
+void Statics::pull(std::uint32_t node, const Eigen::Vector3d& force) {
+    forces_.segment<3>(at(node)) += force;
+}
+
+void Statics::solve() {
+    Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(forces_.size());
+    for (const Spring& s : model_.springs) {
+        const Eigen::Vector3d n = (rest(model_, s.j) - rest(model_, s.i)).normalized();
+        for (const std::uint32_t end : {s.i, s.j})
+            diagonal.segment<3>(at(end)) += static_cast<double>(s.stiffness) * n.cwiseAbs2();
+    }
+    Eigen::VectorXd residual = (forces_ - stiffness_times(displacements_)).cwiseProduct(free_);
+    Eigen::VectorXd z = residual.cwiseQuotient(diagonal), search = z, image;
+    double left = residual.dot(z);
+    const double enough = 1e-16 * left;
+    for (int k = 0; left > enough; ++k) {
+        if (k > 20'000) throw std::runtime_error("the static solution does not converge");
+        image = stiffness_times(search).cwiseProduct(free_);
+        const double step = left / search.dot(image);
+        displacements_ += step * search;
+        residual -= step * image;
+        z = residual.cwiseQuotient(diagonal);
+        const double now = residual.dot(z);
+        search = z + now / left * search;
+        left = now;
+    }
+}
+
+Eigen::Vector3d Statics::displacement(std::uint32_t node) const {
+    return displacements_.segment<3>(at(node));
+}
+
+Eigen::Vector3d Statics::spring_force(std::uint32_t node) const {
+    return -stiffness_times(displacements_).segment<3>(at(node));
+}
+
+Eigen::Matrix3d Statics::mean_strain() const {
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    double volume = 0.0;
+    for (const ModelObject& object : model_.objects) volume += object.rest_volume;
+    for (const Face& face : model_.faces) {
+        const Eigen::Vector3d a = rest(model_, face.a), b = rest(model_, face.b), c = rest(model_, face.c);
+        const Eigen::Vector3d area = 0.5 * (b - a).cross(c - a);
+        const Eigen::Vector3d mean =
+            (displacement(face.a) + displacement(face.b) + displacement(face.c)) / 3.0;
+        sum += 0.5 * (mean * area.transpose() + area * mean.transpose());
+    }
+    return sum / volume;
+}
+
+Eigen::VectorXd Statics::stiffness_times(const Eigen::VectorXd& u) const {
+    Eigen::VectorXd result = Eigen::VectorXd::Zero(u.size());
+    for (const Spring& s : model_.springs) {
+        const Eigen::Vector3d n = (rest(model_, s.j) - rest(model_, s.i)).normalized();
+        const Eigen::Vector3d f =
+            static_cast<double>(s.stiffness) * n.dot(u.segment<3>(at(s.i)) - u.segment<3>(at(s.j))) * n;
+        result.segment<3>(at(s.i)) += f;
+        result.segment<3>(at(s.j)) -= f;
+    }
+    return result;
+}
+
+}  // namespace gelatin::test
