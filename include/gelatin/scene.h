@@ -136,6 +136,12 @@ struct HalfSpaceRegion {
 };
 using Region = std::variant<BoxRegion, SphereRegion, HalfSpaceRegion>;
 
+/// How an object is out of shape when it starts; pinned nodes are not.
+struct StartDescription {
+    glm::dvec3 scale{1.0};  ///< along the world's axes, about the centre of mass, >= 0: 0 squashes it flat
+    double scatter = 0.0;   ///< then each coordinate of a node moves by up to this, at random [m], >= 0
+};
+
 struct ObjectDescription {
     std::string name;
     Shape shape;
@@ -145,6 +151,7 @@ struct ObjectDescription {
     glm::dvec3 rotation{0.0};         ///< about x, then y, then z [degrees]
     double scale = 1.0;               ///< > 0, applied first
     glm::dvec3 velocity{0.0};         ///< [m/s]
+    StartDescription start;
     std::vector<Region> pins;         ///< nodes in any of these stay where they are
     std::optional<glm::dvec3> color;  ///< linear RGB in [0, 1]; empty: the renderer's palette
     int line = 0;                     ///< in the scene file, for later messages

@@ -11,6 +11,7 @@
 #include "gpu/gpu_solver.h"
 #include "model/build_model.h"
 #include "model/stability.h"
+#include "model/start_state.h"
 #include "sim/backend.h"
 #include "sim/checkpoint.h"
 #include "sim/draw_source.h"
@@ -100,6 +101,7 @@ Simulator::Simulator(const Scene& scene, const SimulatorOptions& options) : impl
         d.cpu_solver = solver.get();
         d.solver = std::move(solver);
     }
+    if (const std::optional<State> start = deformed_start(scene, *d.model)) d.solver->write_state(*start);
 }
 
 Simulator::Simulator(Simulator&&) noexcept = default;
