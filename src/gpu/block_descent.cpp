@@ -11,6 +11,7 @@ namespace gelatin::gpu {
 namespace {
 
 constexpr int kSweepsAMotion = 2;
+constexpr std::size_t kRigidSums = 12;  // dvec4s in RigidSums, include/rigid_sums.glsl
 
 gl::Defines volume_defines(const Model& model) {
     if (model.volume_term.is_empty()) return {};
@@ -24,9 +25,8 @@ gl::Defines sweep_defines(const Model& model) {
     return defines;
 }
 
-gl::Defines last_move_defines(const Model& model) {
-    gl::Defines defines = ModelBuffers::collider_defines(model);
-    defines.emplace_back("LAST");
+gl::Defines with(gl::Defines defines, const char* another) {
+    defines.emplace_back(another);
     return defines;
 }
 
@@ -45,16 +45,6 @@ std::vector<glm::vec4> rests_of(const Model& model) {
         rests.emplace_back(rest.volume, rest.modulus, stiffnesses.empty() ? 0.0f : stiffnesses[t], 0.0f);
     }
     return rests;
-}
-
-std::vector<std::uint32_t> find_pinned_objects(const Model& model) {
-    std::vector<std::uint32_t> pinned;
-    for (const ModelObject& object : model.objects) {
-        const auto first = model.positions.begin() + object.nodes.first;
-        pinned.push_back(
-            std::any_of(first, first + object.nodes.count, [](const glm::vec4& p) { return p.w == 0.0f; }));
-    }
-    return pinned;
 }
 
 std::vector<glm::uvec2> with_objects(const Model& model, const std::vector<std::uint32_t>& rows) {
@@ -91,10 +81,12 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
       accelerate_program_(gl::Program::compute("sim/accelerate_descent.comp")),
       mark_program_(gl::Program::compute("sim/mark_flat_tets.comp", volume_defines(model))),
       sweep_program_(gl::Program::compute("sim/descend.comp", sweep_defines(model))),
-      sum_program_(gl::Program::compute("sim/sum_rigid_motions.comp")),
-      motion_program_(gl::Program::compute("sim/sum_rigid_motions.comp", {"OBJECTS"})),
+      sum_program_(gl::Program::compute("sim/sum_rigid_motions.comp", ModelBuffers::collider_defines(model))),
+      motion_program_(gl::Program::compute("sim/sum_rigid_motions.comp",
+                                           with(ModelBuffers::collider_defines(model), "OBJECTS"))),
       move_program_(gl::Program::compute("sim/move_bodies.comp")),
-      last_move_program_(gl::Program::compute("sim/move_bodies.comp", last_move_defines(model))),
+      last_move_program_(
+          gl::Program::compute("sim/move_bodies.comp", with(ModelBuffers::collider_defines(model), "LAST"))),
       settings_(settings),
       node_count_(model.node_count()),
       tet_count_(static_cast<std::uint32_t>(model.tets.size())),
@@ -123,8 +115,8 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
     tet_rests_ = make_buffer(rests_of(model), glm::vec4(1.0f));
     chunks_ = make_buffer(chunks, Chunk{});
     chunk_starts_ = make_buffer(chunk_starts, 0u);
-    is_pinned_ = make_buffer(find_pinned_objects(model), 0u);
-    rigid_sums_ = gl::Buffer<RigidSums>(chunks.size());
+    rigid_sums_ = gl::Buffer<glm::dvec4>(kRigidSums * chunks.size());
+    if (!model.colliders.empty()) touches_ = gl::Buffer<Touch>(model.positions.size());
 
     row_texels_ = {rows_, gl::TexelFormat::rg32ui};
     half_spring_texels_ = {half_springs_, gl::TexelFormat::rgba32ui};
@@ -135,7 +127,6 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
     tet_texels_ = {tets_, gl::TexelFormat::rgba32ui};
     tet_rest_texels_ = {tet_rests_, gl::TexelFormat::rgba32f};
     chunk_start_texels_ = {chunk_starts_, gl::TexelFormat::r32ui};
-    is_pinned_texels_ = {is_pinned_, gl::TexelFormat::r32ui};
 }
 
 void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, const NodeBuffers& current,
@@ -213,6 +204,7 @@ void BlockDescent::sweep(const ModelBuffers& model) const {
     corner_start_texels_.bind(9);
     tet_rest_texels_.bind(10);
     if (pressures_) pressures_->offset_texels.bind(11);
+    if (touches_.size() > 0) touches_.bind_storage(3);
     for (const Range& color : colors_) {
         sweep_program_.set("first_row", color.first);
         sweep_program_.set("row_count", color.count);
@@ -223,16 +215,17 @@ void BlockDescent::sweep(const ModelBuffers& model) const {
 
 void BlockDescent::move_bodies(const ModelBuffers& model, const NodeBuffers& current, bool is_last) const {
     chunk_start_texels_.bind(3);
-    is_pinned_texels_.bind(4);
     chunks_.bind_storage(3);
     rigid_sums_.bind_storage(4);
     motions_.bind_storage(5);
+    if (touches_.size() > 0) touches_.bind_storage(6);
     const auto chunks = static_cast<std::uint32_t>(chunks_.size());
     sum_program_.set("element_count", chunks);
     sum_program_.dispatch(64 * chunks_.size());
     gl::barrier(gl::Barrier::storage);
 
     motion_program_.set("element_count", object_count_);
+    motion_program_.set("is_last", is_last ? 1u : 0u);
     motion_program_.dispatch(object_count_);
     gl::barrier(gl::Barrier::storage);
 

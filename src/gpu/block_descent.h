@@ -58,12 +58,12 @@ private:
     gl::Buffer<glm::uvec4> tets_;
     gl::Buffer<glm::vec4> tet_rests_;  // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
     gl::Buffer<Chunk> chunks_;
-    gl::Buffer<std::uint32_t> chunk_starts_, is_pinned_;  // by object
+    gl::Buffer<std::uint32_t> chunk_starts_;  // by object
     gl::BufferTexture row_texels_, half_spring_texels_, stiffness_texels_, spring_start_texels_,
-        tet_corner_texels_, corner_start_texels_, tet_texels_, tet_rest_texels_, chunk_start_texels_,
-        is_pinned_texels_;
+        tet_corner_texels_, corner_start_texels_, tet_texels_, tet_rest_texels_, chunk_start_texels_;
     gl::Buffer<std::uint32_t> near_flat_, object_touches_;
-    gl::Buffer<RigidSums> rigid_sums_;
+    gl::Buffer<Touch> touches_;  // of nodes in the last sweep; empty without colliders
+    gl::Buffer<glm::dvec4> rigid_sums_;
     gl::Buffer<RigidMotion> motions_;
 };
 
