@@ -67,6 +67,7 @@ dvec3 solve(dmat3 m, dvec3 f) {
 }
 
 const double kLeastInertia = 1e-6lf;
+const double kLargestTurn = 1.0;  // [radians]
 
 // [A B; B^T C] (shift, turn) = (force, moment) by elimination of the shift.
 void solve_rigid_step(RigidSums sums, out dvec3 shift, out dvec3 turn) {
@@ -79,5 +80,6 @@ void solve_rigid_step(RigidSums sums, out dvec3 shift, out dvec3 turn) {
               symmetric(sums.square.xyz, sums.product.xyz) + symmetric(sums.turns.xyz, sums.turn_pairs.xyz);
     dmat3 a_inverse = inverse(a);
     turn = solve(c - transpose(b) * a_inverse * b, sums.moment.xyz - transpose(b) * (a_inverse * sums.force.xyz));
+    turn *= min(1.0, kLargestTurn / max(length(turn), 1e-300lf));
     shift = a_inverse * (sums.force.xyz - b * turn);
 }
