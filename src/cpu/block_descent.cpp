@@ -49,7 +49,7 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
 template <class Real>
 void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current) {
     start(step, has_earlier, previous, current);
-    take_back_tangled(previous, current);
+    take_back_tangled(current.positions);
     for (int i = 0; i < settings_.iterations; ++i) {
         if (settings_.chebyshev > 0.0) accelerate(i, current.positions);
         if (i % kSweepsAMotion == 0) tets_.look(current.positions);
@@ -61,7 +61,8 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
 }
 
 // As the last step went on: with as much of gravity as was felt in it, from none, where a body rests, to all,
-// where it falls (Chen et al. 2024, 3.7). Without a last step as in free fall.
+// where it falls (Chen et al. 2024, 3.7). Without a last step as in free fall. Nodes that are inside a
+// collider are put outside first, which is no motion and gives them no speed.
 template <class Real>
 void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& previous,
                                Nodes<Real>& current) {
@@ -69,12 +70,16 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
     const Real squared = glm::dot(gravity, gravity);
     std::fill(touches_.begin(), touches_.end(), std::uint8_t(0));
     for_each(model_->node_count(), [&](std::uint32_t n) {
-        const Vec4<Real>& from = previous.positions[n];
         const Vec3<Real> velocity(previous.velocities[n]);
         const Vec3<Real> gained = velocity - Vec3<Real>(current.velocities[n]);
-        current.positions[n] = from;
+        Vec4<Real> from = previous.positions[n];
+        if (from.w > Real(0)) {
+            Vec4<Real> none(0);
+            resolve_colliders<Real>(model_->colliders, Real(0), from, none);
+        }
         starts_[n] = Vec4<Real>(Vec3<Real>(from), previous.velocities[n].w);
         targets_[n] = Vec3<Real>(from);
+        current.positions[n] = from;
         if (from.w == Real(0)) return;
         targets_[n] += step * (velocity + step * gravity);
         const Real felt = has_earlier && squared > Real(0)
@@ -88,12 +93,12 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
 // A guess that tangles a body can hold any energy, which few sweeps would not take out again. From where the
 // body was they do not come to more than it had.
 template <class Real>
-void BlockDescent<Real>::take_back_tangled(const Nodes<Real>& previous, Nodes<Real>& current) const {
+void BlockDescent<Real>::take_back_tangled(std::vector<Vec4<Real>>& positions) const {
     tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
         const ModelObject& object = model_->objects[o];
-        if (!tets_.is_tangled(object, current.positions)) return;
-        std::copy_n(previous.positions.begin() + object.nodes.first, object.nodes.count,
-                    current.positions.begin() + object.nodes.first);
+        if (!tets_.is_tangled(object, positions)) return;
+        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n)
+            positions[n] = Vec4<Real>(Vec3<Real>(starts_[n]), positions[n].w);
     });
 }
 
@@ -228,7 +233,7 @@ void BlockDescent<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Re
         const Vec4<Real> old = previous.velocities[n];
         current.velocities[n] = old;
         if (current.positions[n].w == Real(0)) return;
-        const Vec3<Real> position(current.positions[n]), start(previous.positions[n]);
+        const Vec3<Real> position(current.positions[n]), start(starts_[n]);
         Vec3<Real> velocity = (position - start) / step;
         if (touches_[object_of_[n]] != 0)
             rebound<Real>(model_->colliders, position, (targets_[n] - start) / step, least, velocity);
