@@ -192,7 +192,9 @@ Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, const Symme
         const Real most = static_cast<Real>(collider.friction) * pressing;
         position -= std::min(needed, most) * giving;
         touch.force -= std::min(needed, most) * t;
-        if (needed <= most) touch.across = stiffness;
+        // It falls to nothing where all of the way is taken back.
+        const Real left = length - std::min(needed, most) * sliding_compliance;
+        touch.across = most < stiffness * left ? most / left : stiffness;
     }
     node_touches_[node] = touch;
     return position;
