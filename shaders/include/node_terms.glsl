@@ -36,7 +36,7 @@ void add_spring(vec3 apart, vec3 ahead, vec3 if_coincident, float rest_length, f
     terms.diagonal += across;
 }
 
-const float kFlattest = 0.3;
+const float kFlattest = 0.5;
 
 // A tet flatter than that, as the corner at `position` sees it.
 void add_flat_tet(vec3 position, vec3 a, vec3 b, vec3 c, float rest_volume, float modulus, inout NodeTerms terms) {

@@ -67,7 +67,7 @@ void add_spring(const Vec3<Real>& apart, const Vec3<Real>& ahead, const Vec3<Rea
 }
 
 /// Flatter than this, over its volume at rest, a tet resists.
-constexpr double kFlattest = 0.3;
+constexpr double kFlattest = 0.5;
 
 /// A tet as one of its corners sees it, with v its volume, V that at rest, J = v / V, J_0 = kFlattest and K
 /// its modulus: W = V K / 2 (J_0 - J)^2 where J < J_0, and nothing else. v is linear in one corner, so
