@@ -1,4 +1,5 @@
-// Where block descent starts: the nodes where they would be without forces, nothing marked.
+// Where block descent starts: the nodes where they would be without springs, held ones where their handle is; nothing
+// marked.
 // CPU twin: gelatin::cpu::BlockDescent. Parity: tests/gpu/block_descent_test.cpp.
 #include "include/global_index.glsl"
 #include "include/descent_step.glsl"
@@ -14,7 +15,8 @@ void main() {
     uint n = global_index();
     if (n >= node_count) return;
     vec4 start = texelFetch(start_positions, int(n));
-    positions[n] = vec4(start.w > 0.0 ? target_of(n) : start.xyz, start.w);
+    vec3 held = start.xyz + time_step * texelFetch(start_velocities, int(n)).xyz;
+    positions[n] = vec4(start.w > 0.0 ? target_of(n) : held, start.w);
     near_flat[n] = 0u;
     if (n < object_count) object_touches[n] = 0u;
 }

@@ -10,7 +10,6 @@ layout(local_size_x = 64) in;
 
 layout(binding = 0) uniform samplerBuffer positions;      // xyz [m], inverse mass [1/kg]
 layout(binding = 3) uniform usamplerBuffer chunk_starts;  // of each object, and the end
-layout(binding = 4) uniform usamplerBuffer is_pinned;     // by object
 layout(std430, binding = 2) readonly buffer Touches { uint object_touches[]; };
 layout(std430, binding = 3) readonly buffer Chunks { Chunk chunks[]; };
 layout(std430, binding = 4) buffer Sums { RigidSums rigid_sums[]; };
@@ -34,13 +33,13 @@ mat3 cayley_turn(vec3 w) {
 void main() {
     uint object = global_index();
     if (object >= element_count) return;
-    if (texelFetch(is_pinned, int(object)).x != 0u || object_touches[object] != 0u) {
-        motions[object].center.w = 0.0;
-        return;
-    }
     uint first = texelFetch(chunk_starts, int(object)).x, end = texelFetch(chunk_starts, int(object) + 1).x;
     RigidSums sums = kNothing;
     for (uint c = first; c < end; ++c) sums = add(sums, rigid_sums[c]);
+    if (sums.way.w > 0.0 || object_touches[object] != 0u) {
+        motions[object].center.w = 0.0;
+        return;
+    }
 
     float mass = sums.arm.w;
     vec3 center = sums.arm.xyz / mass;  // from the origin
@@ -70,7 +69,10 @@ void main() {
     for (uint k = lane; k < chunk.count; k += 64u) {
         uint n = chunk.first + k;
         vec4 position = texelFetch(positions, int(n));
-        if (position.w == 0.0) continue;
+        if (position.w == 0.0) {
+            sums.way.w += 1.0;
+            continue;
+        }
         vec3 r = position.xyz - origin, d = target_of(n) - position.xyz;
         float m = 1.0 / position.w;
         sums = add(sums, RigidSums(vec4(m * r, m), vec4(m * d, 0.0), vec4(m * cross(r, d), 0.0), vec4(m * r * r, 0.0),

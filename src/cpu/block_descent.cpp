@@ -35,17 +35,12 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, int iterati
       node_tets_(make_node_tets(model_->node_count(), model_->tets)),
       targets_(model_->node_count()),
       near_flat_(model_->node_count()),
-      touches_(model_->node_count()) {
-    for (const ModelObject& object : model_->objects) {
-        const auto first = model_->positions.begin() + object.nodes.first;
-        is_pinned_.push_back(
-            std::any_of(first, first + object.nodes.count, [](const glm::vec4& p) { return p.w == 0.0f; }));
-    }
-}
+      touches_(model_->node_count()) {}
 
 template <class Real>
-void BlockDescent<Real>::run(Real step, const Nodes<Real>& previous, Nodes<Real>& current) {
-    start(step, previous, current.positions);
+void BlockDescent<Real>::run(Real step, const Nodes<Real>& previous, Nodes<Real>& current,
+                             std::span<const Vec4<Real>> load_forces) {
+    start(step, previous, load_forces, current.positions);
     for (int i = 0; i < iterations_; ++i) {
         if (i % kSweepsAMotion == 0) mark_nodes_of_flat_tets(current.positions);
         sweep(step, previous, current.positions);
@@ -55,15 +50,17 @@ void BlockDescent<Real>::run(Real step, const Nodes<Real>& previous, Nodes<Real>
     finish(step, previous, current);
 }
 
-// Where the nodes would be without forces, which is exact in free fall.
+// Where the nodes would be without springs, which is exact in free fall; held ones, where their handle is.
 template <class Real>
-void BlockDescent<Real>::start(Real step, const Nodes<Real>& previous, std::vector<Vec4<Real>>& positions) {
+void BlockDescent<Real>::start(Real step, const Nodes<Real>& previous,
+                               std::span<const Vec4<Real>> load_forces, std::vector<Vec4<Real>>& positions) {
     const Vec3<Real> gravity(model_->gravity);
     for_each(model_->node_count(), [&](std::uint32_t n) {
         const Vec4<Real>& from = previous.positions[n];
         const Vec3<Real> velocity(previous.velocities[n]);
-        targets_[n] = Vec3<Real>(from);
-        if (from.w > Real(0)) targets_[n] += step * (velocity + step * gravity);
+        Vec3<Real> acceleration = from.w > Real(0) ? gravity : Vec3<Real>(0);
+        if (!load_forces.empty()) acceleration += from.w * Vec3<Real>(load_forces[n]);
+        targets_[n] = Vec3<Real>(from) + step * (velocity + step * acceleration);
         positions[n] = Vec4<Real>(targets_[n], from.w);
         touches_[n] = 0;
     });
@@ -155,9 +152,10 @@ void BlockDescent<Real>::move_bodies(std::vector<Vec4<Real>>& positions) const {
     tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
         const Range& nodes = model_->objects[o].nodes;
         const std::span touches(touches_.data() + nodes.first, nodes.count);
-        if (is_pinned_[o] || std::any_of(touches.begin(), touches.end(), [](auto t) { return t != 0; }))
-            return;
         const std::span body(positions.data() + nodes.first, nodes.count);
+        const bool is_held =
+            std::any_of(body.begin(), body.end(), [](const auto& p) { return p.w == Real(0); });
+        if (is_held || std::any_of(touches.begin(), touches.end(), [](auto t) { return t != 0; })) return;
         const RigidMotion motion =
             nearest_rigid_motion<Real>(body, {targets_.data() + nodes.first, nodes.count});
         for (Vec4<Real>& p : body) p = Vec4<Real>(Vec3<Real>(motion.move(glm::dvec3(p))), p.w);

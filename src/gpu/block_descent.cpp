@@ -13,8 +13,14 @@ namespace {
 
 constexpr int kSweepsAMotion = 2;
 
+// For programs that include include/descent_step.glsl.
+gl::Defines step_defines(const Model& model, gl::Defines defines = {}) {
+    if (!model.loads.empty()) defines.emplace_back("LOADED");
+    return defines;
+}
+
 gl::Defines sweep_defines(const Model& model) {
-    gl::Defines defines = ModelBuffers::collider_defines(model);
+    gl::Defines defines = step_defines(model, ModelBuffers::collider_defines(model));
     if (model.has_damping()) defines.emplace_back("DAMPED");
     return defines;
 }
@@ -32,16 +38,6 @@ std::vector<glm::vec2> rests_of(const Model& model) {
     return rests;
 }
 
-std::vector<std::uint32_t> find_pinned_objects(const Model& model) {
-    std::vector<std::uint32_t> pinned;
-    for (const ModelObject& object : model.objects) {
-        const auto first = model.positions.begin() + object.nodes.first;
-        pinned.push_back(
-            std::any_of(first, first + object.nodes.count, [](const glm::vec4& p) { return p.w == 0.0f; }));
-    }
-    return pinned;
-}
-
 std::vector<glm::uvec2> with_objects(const Model& model, const std::vector<std::uint32_t>& rows) {
     std::vector<std::uint32_t> objects(model.node_count(), 0);
     for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
@@ -56,10 +52,10 @@ std::vector<glm::uvec2> with_objects(const Model& model, const std::vector<std::
 }  // namespace
 
 BlockDescent::BlockDescent(const Model& model, int iterations)
-    : start_program_(gl::Program::compute("sim/start_descent.comp")),
+    : start_program_(gl::Program::compute("sim/start_descent.comp", step_defines(model))),
       mark_program_(gl::Program::compute("sim/mark_flat_tets.comp")),
       sweep_program_(gl::Program::compute("sim/descend.comp", sweep_defines(model))),
-      sum_program_(gl::Program::compute("sim/sum_rigid_motions.comp")),
+      sum_program_(gl::Program::compute("sim/sum_rigid_motions.comp", step_defines(model))),
       motion_program_(gl::Program::compute("sim/sum_rigid_motions.comp", {"OBJECTS"})),
       move_program_(gl::Program::compute("sim/move_bodies.comp")),
       last_move_program_(gl::Program::compute("sim/move_bodies.comp", {"LAST"})),
@@ -95,7 +91,6 @@ BlockDescent::BlockDescent(const Model& model, int iterations)
     tet_rests_ = make_buffer(rests_of(model), glm::vec2(1.0f));
     chunks_ = make_buffer(chunks, Chunk{});
     chunk_starts_ = make_buffer(chunk_starts, 0u);
-    is_pinned_ = make_buffer(find_pinned_objects(model), 0u);
     rigid_sums_ = gl::Buffer<RigidSums>(chunks.size());
 
     row_texels_ = {rows_, gl::TexelFormat::rg32ui};
@@ -107,7 +102,6 @@ BlockDescent::BlockDescent(const Model& model, int iterations)
     tet_texels_ = {tets_, gl::TexelFormat::rgba32ui};
     tet_rest_texels_ = {tet_rests_, gl::TexelFormat::rg32f};
     chunk_start_texels_ = {chunk_starts_, gl::TexelFormat::r32ui};
-    is_pinned_texels_ = {is_pinned_, gl::TexelFormat::r32ui};
 }
 
 void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, const NodeBuffers& current,
@@ -165,7 +159,6 @@ void BlockDescent::sweep(const ModelBuffers& model) const {
 
 void BlockDescent::move_bodies(const NodeBuffers& current, bool is_last) const {
     chunk_start_texels_.bind(3);
-    is_pinned_texels_.bind(4);
     chunks_.bind_storage(3);
     rigid_sums_.bind_storage(4);
     motions_.bind_storage(5);

@@ -18,6 +18,7 @@ public:
 
     /// A step of `step` seconds from `previous`; writes `current`. Ends with the barrier that whoever gathers
     /// the nodes as textures or storage needs.
+    /// @pre where the model has loads, SumLoads::run
     void run(const ModelBuffers& model, const NodeBuffers& previous, const NodeBuffers& current,
              double step) const;
 
@@ -44,10 +45,9 @@ private:
     gl::Buffer<glm::uvec4> tets_;
     gl::Buffer<glm::vec2> tet_rests_;  // volume [m^3], modulus [Pa]
     gl::Buffer<Chunk> chunks_;
-    gl::Buffer<std::uint32_t> chunk_starts_, is_pinned_;  // by object
+    gl::Buffer<std::uint32_t> chunk_starts_;  // by object
     gl::BufferTexture row_texels_, half_spring_texels_, stiffness_texels_, spring_start_texels_,
-        tet_corner_texels_, corner_start_texels_, tet_texels_, tet_rest_texels_, chunk_start_texels_,
-        is_pinned_texels_;
+        tet_corner_texels_, corner_start_texels_, tet_texels_, tet_rest_texels_, chunk_start_texels_;
     gl::Buffer<std::uint32_t> near_flat_, object_touches_;
     gl::Buffer<RigidSums> rigid_sums_;
     gl::Buffer<RigidMotion> motions_;

@@ -29,6 +29,15 @@ TEST_F(BlockDescentOnGpuTest, MatchesTheDoubleReference) {
     }
 }
 
+TEST_F(BlockDescentOnGpuTest, MatchesTheDoubleReferenceWithLoadsAndHandles) {
+    const Model model = test::make_bodies_to_descend(0.01, 1, true);
+    ASSERT_FALSE(model.loads.empty() || model.handles.empty());
+    for (const double step : {1e-3, 1.0 / 60.0}) {
+        const test::NodeArrays actual = test::descend_on_gpu(model, step, 3);
+        EXPECT_LE(test::worst_descent_error(model, step, 3, actual), 1.0) << step << " s";
+    }
+}
+
 TEST_F(BlockDescentOnGpuTest, RepeatsBitForBit) {
     const Model model = test::make_bodies_to_descend(0.0);
     const test::NodeArrays one = test::descend_on_gpu(model, 1.0 / 60.0, 10),

@@ -1,10 +1,13 @@
 #include "support/descend_on_gpu.h"
 
 #include <algorithm>
+#include <optional>
 #include <random>
 
 #include "cpu/block_descent.h"
+#include "cpu/sum_loads.h"
 #include "gpu/block_descent.h"
+#include "gpu/sum_loads.h"
 #include "support/crowd.h"
 #include "support/parity.h"
 #include "support/test_models.h"
@@ -16,7 +19,10 @@ NodeArrays descend_on_gpu(const Model& model, double step, int iterations) {
     const gpu::ModelBuffers buffers(model);
     const gpu::NodeBuffers previous(model.positions, model.velocities),
         current(arrays.positions, arrays.velocities);
-    gpu::BlockDescent(model, iterations).run(buffers, previous, current, step);
+    const gpu::BlockDescent descent(model, iterations);
+    std::optional<gpu::SumLoads> loads;
+    if (!model.loads.empty()) loads.emplace(model).run(previous);
+    descent.run(buffers, previous, current, step);
     gl::barrier(gl::Barrier::buffer_update);
     current.positions.download(arrays.positions);
     current.velocities.download(arrays.velocities);
@@ -27,7 +33,13 @@ double worst_descent_error(const Model& model, double step, int iterations, cons
     const cpu::Nodes<double> start{{model.positions.begin(), model.positions.end()},
                                    {model.velocities.begin(), model.velocities.end()}};
     cpu::Nodes<double> expected = start;
-    cpu::BlockDescent<double>(std::make_shared<const Model>(model), iterations).run(step, start, expected);
+    std::vector<glm::dvec4> loads(model.loads.empty() ? 0 : model.node_count(), glm::dvec4(0.0));
+    if (!loads.empty()) {
+        const std::vector<float> factors(model.loads.spans.size(), 1.0f);
+        cpu::sum_loads<double>(model.loads, factors, start.positions, loads);
+    }
+    cpu::BlockDescent<double>(std::make_shared<const Model>(model), iterations)
+        .run(step, start, expected, loads);
     StepBounds bounds = rounding_bounds(model, SolverKind::semi_implicit_euler, step);
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
         bounds.position[n] *= iterations;
@@ -36,7 +48,7 @@ double worst_descent_error(const Model& model, double step, int iterations, cons
     return worst_error(model, bounds, expected, actual.positions, actual.velocities);
 }
 
-Model make_bodies_to_descend(double damping_time, unsigned seed) {
+Model make_bodies_to_descend(double damping_time, unsigned seed, bool driven) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
     Material jelly;
@@ -49,8 +61,15 @@ Model make_bodies_to_descend(double damping_time, unsigned seed) {
         body.velocity = {unit(random), unit(random), unit(random)};
         return bodies.emplace_back(std::move(body));
     };
-    add({5, 6, 7}, {0.0, 1.0, 0.0});
-    add({3, 2, 2}, {1.0, 1.0, 0.0});
+    Body& large = add({5, 6, 7}, {0.0, 1.0, 0.0});
+    if (driven) {
+        large.loads = {{HalfSpaceRegion{{0.0, 1.0, 0.0}, 1.2}, ForceLoad{{500.0, 2000.0, 0.0}}},
+                       {HalfSpaceRegion{{1.0, 0.0, 0.0}, 0.01}, PressureLoad{2e3}}};
+    }
+    HandleDescription handle;
+    handle.region = HalfSpaceRegion{{1.0, 0.0, 0.0}, 1.05};
+    Body& small = add({3, 2, 2}, {1.0, 1.0, 0.0});
+    if (driven) small.handles = {handle};
     add({4, 2, 2}, {0.0, 1.0, 1.0}).pins = {HalfSpaceRegion{{1.0, 0.0, 0.0}, 0.05}};
     add({3, 3, 3}, {-1.0, -0.01, 0.0}).velocity = {2.0, -1.0, 0.5};
     ColliderDescription floor, ball;
@@ -66,6 +85,8 @@ Model make_bodies_to_descend(double damping_time, unsigned seed) {
             model.positions[n] += 0.06f * glm::vec4(x, y, z, 0.0f);
         }
     }
+    for (const HandleNode& held : model.handle_nodes)
+        model.velocities[held.node] += glm::vec4(0.5f, -1.0f, 0.7f, 0.0f);
     return model;
 }
 
