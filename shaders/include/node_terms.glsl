@@ -46,6 +46,21 @@ void add_flat_tet(vec3 position, vec3 a, vec3 b, vec3 c, float rest_volume, floa
     add_outer(lack > 0.0 ? rest_volume * modulus : 0.0, slope, terms);
 }
 
+// kappa phi'(J - 1) of the volume term [Pa].
+float volume_stress(float ratio, float kappa) {
+    float u = ratio - 1.0;
+    float left = max(1.0 - 4.0 * u * u, 0.0);
+    return kappa >= 0.0 ? kappa * u : kappa * u * left * left;
+}
+
+// A tet's part of the volume term, as the corner at `position` sees it.
+void add_tet_volume(vec3 position, vec3 a, vec3 b, vec3 c, float rest_volume, float offset, float modulus,
+                    inout NodeTerms terms) {
+    vec3 slope = cross(b - a, c - a) / (6.0 * rest_volume);
+    terms.force -= rest_volume * (offset + modulus * dot(position - a, slope)) * slope;
+    add_outer(rest_volume * modulus, slope, terms);
+}
+
 float inverse_or_zero(float d) { return d > 0.0 ? 1.0 / d : 0.0; }
 
 // hessian^-1 force by the square-root-free Cholesky decomposition; zero along what has no stiffness.

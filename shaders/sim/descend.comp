@@ -15,7 +15,10 @@ layout(binding = 5) uniform samplerBuffer stiffnesses;    // of the pair [N/m]
 layout(binding = 6) uniform usamplerBuffer slice_starts;
 layout(binding = 8) uniform usamplerBuffer tet_corners;   // TetCorner
 layout(binding = 9) uniform usamplerBuffer corner_starts;
-layout(binding = 10) uniform samplerBuffer tet_rests;     // volume [m^3], modulus [Pa]
+layout(binding = 10) uniform samplerBuffer tet_rests;     // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
+#ifdef VOLUME
+layout(binding = 11) uniform samplerBuffer offsets;       // q [Pa], of each tet
+#endif
 layout(std430, binding = 0) writeonly buffer OutPositions { vec4 out_positions[]; };
 layout(std430, binding = 1) buffer NearFlat { uint near_flat[]; };  // an invocation reads and clears its own node's
 layout(std430, binding = 2) writeonly buffer Touches { uint object_touches[]; };
@@ -94,15 +97,23 @@ void main() {
         add_half_spring(position, way, damping_time, if_coincident, pair.x, uintBitsToFloat(pair.y), stiffness.x, terms);
         add_half_spring(position, way, damping_time, if_coincident, pair.z, uintBitsToFloat(pair.w), stiffness.y, terms);
     }
-    if (near_flat[n] != 0u) {
-        if (clear_marks != 0u) near_flat[n] = 0u;
+    bool is_near_flat = near_flat[n] != 0u;
+    if (is_near_flat && clear_marks != 0u) near_flat[n] = 0u;
+#ifndef VOLUME
+    if (is_near_flat)
+#endif
+    {
         end = texelFetch(corner_starts, slice + 1).x;
         for (uint k = texelFetch(corner_starts, slice).x + row % 64u; k < end; k += 64u) {
             uvec4 corner = texelFetch(tet_corners, int(k));
             if (corner.w == 0xFFFFFFFFu) break;
-            vec2 rest = texelFetch(tet_rests, int(corner.w)).xy;
-            add_flat_tet(position.xyz, position_of(corner.x), position_of(corner.y), position_of(corner.z), rest.x,
-                         rest.y, terms);
+            vec3 a = position_of(corner.x), b = position_of(corner.y), c = position_of(corner.z);
+            vec3 rest = texelFetch(tet_rests, int(corner.w)).xyz;
+            if (is_near_flat) add_flat_tet(position.xyz, a, b, c, rest.x, rest.y, terms);
+#ifdef VOLUME
+            float offset = texelFetch(offsets, int(corner.w)).x;
+            add_tet_volume(position.xyz, a, b, c, rest.x, offset, rest.z, terms);
+#endif
         }
     }
     vec3 moved = position.xyz + solve(terms);

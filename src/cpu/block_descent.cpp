@@ -4,12 +4,15 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <type_traits>
 #include <utility>
 
 #include "cpu/colliders.h"
 #include "cpu/node_terms.h"
 #include "cpu/rigid_motion.h"
+#include "cpu/spring_terms.h"
 #include "model/solver.h"
 
 namespace gelatin::cpu {
@@ -28,120 +31,126 @@ void for_each(std::uint32_t count, const Work& work) {
 }  // namespace
 
 template <class Real>
-BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, int iterations)
+BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const DescentSettings& settings)
     : model_(std::move(model)),
-      iterations_(iterations),
-      colors_(color_nodes(*model_)),
-      node_tets_(make_node_tets(model_->node_count(), model_->tets)),
+      settings_(settings),
+      rows_(make_descent_rows(*model_)),
+      tets_(model_),
+      starts_(model_->node_count()),
       targets_(model_->node_count()),
-      near_flat_(model_->node_count()),
-      touches_(model_->node_count()) {}
+      touches_(model_->objects.size()) {
+    for (std::uint32_t o = 0; o < model_->objects.size(); ++o)
+        object_of_.insert(object_of_.end(), model_->objects[o].nodes.count, o);
+    if (settings_.chebyshev > 0.0) last_ = before_last_ = targets_;
+}
 
 template <class Real>
-void BlockDescent<Real>::run(Real step, const Nodes<Real>& previous, Nodes<Real>& current,
+void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current,
                              std::span<const Vec4<Real>> load_forces) {
-    start(step, previous, load_forces, current.positions);
-    for (int i = 0; i < iterations_; ++i) {
-        if (i % kSweepsAMotion == 0) mark_nodes_of_flat_tets(current.positions);
-        sweep(step, previous, current.positions);
-        const bool is_last = i + 1 == iterations_;
+    start(step, has_earlier, previous, load_forces, current);
+    for (int i = 0; i < settings_.iterations; ++i) {
+        if (settings_.chebyshev > 0.0) accelerate(i, current.positions);
+        if (i % kSweepsAMotion == 0) tets_.look(current.positions);
+        sweep(step, current.positions);
+        const bool is_last = i + 1 == settings_.iterations;
         if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(current.positions);
     }
     finish(step, previous, current);
 }
 
-// Where the nodes would be without springs, which is exact in free fall; held ones, where their handle is.
+// As the last step went on: with as much of gravity as was felt in it, from none, where a body rests, to all,
+// where it falls (Chen et al. 2024, 3.7). Without a last step as in free fall. Held nodes are where their
+// handle takes them.
 template <class Real>
-void BlockDescent<Real>::start(Real step, const Nodes<Real>& previous,
-                               std::span<const Vec4<Real>> load_forces, std::vector<Vec4<Real>>& positions) {
+void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& previous,
+                               std::span<const Vec4<Real>> load_forces, Nodes<Real>& current) {
     const Vec3<Real> gravity(model_->gravity);
+    const Real squared = glm::dot(gravity, gravity);
+    std::fill(touches_.begin(), touches_.end(), std::uint8_t(0));
     for_each(model_->node_count(), [&](std::uint32_t n) {
         const Vec4<Real>& from = previous.positions[n];
         const Vec3<Real> velocity(previous.velocities[n]);
-        Vec3<Real> acceleration = from.w > Real(0) ? gravity : Vec3<Real>(0);
+        const Vec3<Real> gained = velocity - Vec3<Real>(current.velocities[n]);
+        starts_[n] = Vec4<Real>(Vec3<Real>(from), previous.velocities[n].w);
+        if (from.w == Real(0)) {
+            targets_[n] = Vec3<Real>(from) + step * velocity;
+            current.positions[n] = Vec4<Real>(targets_[n], Real(0));
+            return;
+        }
+        Vec3<Real> acceleration = gravity;
         if (!load_forces.empty()) acceleration += from.w * Vec3<Real>(load_forces[n]);
         targets_[n] = Vec3<Real>(from) + step * (velocity + step * acceleration);
-        positions[n] = Vec4<Real>(targets_[n], from.w);
-        touches_[n] = 0;
+        const Real felt = has_earlier && squared > Real(0)
+                              ? glm::clamp(glm::dot(gained, gravity) / (step * squared), Real(0), Real(1))
+                              : Real(1);
+        const Vec3<Real> guess = Vec3<Real>(from) + step * (velocity + step * felt * gravity);
+        current.positions[n] = Vec4<Real>(guess, from.w);
+    });
+}
+
+// Chebyshev's semi-iterative method (Golub, Varga 1961; for nonlinear sweeps Wang 2015): sweep k starts at
+//   x_k = w_k (x - x_(k-2)) + x_(k-2),  w_1 = 1,  w_2 = 2 / (2 - rho^2),  w_k = 4 / (4 - rho^2 w_(k-1)),
+// with x what the last one has found, so that what comes last is a sweep, which colliders have seen.
+template <class Real>
+void BlockDescent<Real>::accelerate(int sweep, std::vector<Vec4<Real>>& positions) {
+    const auto weight = static_cast<Real>(chebyshev_weight(settings_.chebyshev, sweep));
+    for_each(model_->node_count(), [&](std::uint32_t n) {
+        Vec3<Real> x(positions[n]);
+        if (sweep > 1) x = weight * (x - before_last_[n]) + before_last_[n];
+        before_last_[n] = last_[n];
+        last_[n] = x;
+        positions[n] = Vec4<Real>(x, positions[n].w);
     });
 }
 
 template <class Real>
-void BlockDescent<Real>::mark_nodes_of_flat_tets(const std::vector<Vec4<Real>>& positions) {
-    std::fill(near_flat_.begin(), near_flat_.end(), std::uint8_t(0));
-    for_each(static_cast<std::uint32_t>(model_->tets.size()), [&](std::uint32_t t) {
-        const glm::uvec4& tet = model_->tets[t];
-        const Vec3<Real> a(positions[tet.x]);
-        const Vec3<Real> u = Vec3<Real>(positions[tet.y]) - a, v = Vec3<Real>(positions[tet.z]) - a,
-                         w = Vec3<Real>(positions[tet.w]) - a;
-        const Real least =
-            static_cast<Real>(kFlattest) * Real(6) * static_cast<Real>(model_->tet_rests[t].volume);
-        if (glm::dot(glm::cross(u, v), w) >= least) return;
-        for (int k = 0; k < 4; ++k) std::atomic_ref(near_flat_[tet[k]]).store(1, std::memory_order_relaxed);
-    });
-}
-
-template <class Real>
-void BlockDescent<Real>::sweep(Real step, const Nodes<Real>& previous, std::vector<Vec4<Real>>& positions) {
-    for (std::uint32_t c = 0; c < colors_.count(); ++c) {
-        const std::span<const std::uint32_t> nodes = colors_.of(c);
-        for_each(static_cast<std::uint32_t>(nodes.size()),
-                 [&](std::uint32_t k) { move_node(nodes[k], step, previous, positions); });
+void BlockDescent<Real>::sweep(Real step, std::vector<Vec4<Real>>& positions) {
+    constexpr std::uint32_t kSlice = HalfSprings::kSlice;
+    const SpringRows<Real> springs{rows_, positions.data(), starts_.data(), Real(1) / step};
+    for (const Range& color : rows_.colors) {
+        tbb::parallel_for(color.first / kSlice, color.end() / kSlice, [&](std::uint32_t slice) {
+            std::array<NodeTerms<Real>, kSlice> terms;
+            if constexpr (std::is_same_v<Real, float>) {
+                gather_spring_terms_simd(springs, slice, terms.data());
+            } else {
+                gather_spring_terms(springs, slice, terms.data());
+            }
+            for (std::uint32_t row = 0; row < kSlice; ++row) {
+                const std::uint32_t node = rows_.nodes[slice * kSlice + row];
+                if (node != kNoNode) move_node(node, step, terms[row], positions);
+            }
+        });
     }
 }
 
+// @param terms of its springs
 template <class Real>
-void BlockDescent<Real>::move_node(std::uint32_t node, Real step, const Nodes<Real>& previous,
+void BlockDescent<Real>::move_node(std::uint32_t node, Real step, NodeTerms<Real> terms,
                                    std::vector<Vec4<Real>>& positions) {
     const Real inverse_mass = positions[node].w;
     if (inverse_mass == Real(0)) return;
-    const Model& model = *model_;
-    const auto way = [&](std::uint32_t n) {
-        return Vec3<Real>(positions[n]) - Vec3<Real>(previous.positions[n]);
-    };
     const Vec3<Real> position(positions[node]);
     const Real inertia = Real(1) / (inverse_mass * step * step);  // [N/m]
-    NodeTerms<Real> terms{inertia * (targets_[node] - position), {}};
+    terms.force += inertia * (targets_[node] - position);
     terms.hessian.add_identity(inertia);
-    const Vec3<Real> if_coincident = any_direction<Real>(node);
-
-    for (std::uint32_t e = model.incidence.starts[node]; e < model.incidence.starts[node + 1]; ++e) {
-        const std::uint32_t entry = model.incidence.entries[e];
-        const Spring& spring = model.springs[entry / 2];
-        const std::uint32_t other = entry % 2 == 0 ? spring.j : spring.i;
-        const Real damping_time = Real(0.5) * (previous.velocities[node].w + previous.velocities[other].w);
-        add_spring(Vec3<Real>(positions[other]) - position, way(other) - way(node), if_coincident,
-                   static_cast<Real>(spring.rest_length), static_cast<Real>(spring.stiffness),
-                   damping_time / step, terms);
-    }
-    const std::uint32_t end = near_flat_[node] != 0 ? node_tets_.starts[node + 1] : 0;
-    for (std::uint32_t e = node_tets_.starts[node]; e < end; ++e) {
-        const std::uint32_t tet = node_tets_.entries[e] / 4, corner = node_tets_.entries[e] % 4;
-        std::array<Vec3<Real>, 3> face;
-        for (std::size_t k = 0; k < 3; ++k) face[k] = positions[model.tets[tet][kOppositeCorners[corner][k]]];
-        add_flat_tet(position, face, static_cast<Real>(model.tet_rests[tet].volume),
-                     static_cast<Real>(model.tet_rests[tet].modulus), terms);
-    }
-    const Vec3<Real> moved =
-        outside_colliders(node, Vec3<Real>(previous.positions[node]), position + solve(terms));
-    positions[node] = Vec4<Real>(moved, inverse_mass);
+    tets_.add(node, positions, terms);
+    positions[node] = Vec4<Real>(outside_colliders(node, position + solve(terms)), inverse_mass);
 }
 
 // Pushed out of colliders it slides by Coulomb's law: what it is pushed by is the normal force over the
 // node's own stiffness, and so is the way that friction takes back.
 template <class Real>
-Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, const Vec3<Real>& start,
-                                                 Vec3<Real> position) {
+Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, Vec3<Real> position) {
     for (const Collider& collider : model_->colliders) {
         const SurfaceDistance<Real> surface = surface_distance(collider, position);
         if (surface.distance >= Real(0)) continue;
         position -= surface.distance * surface.normal;
-        const Vec3<Real> way = position - start;
+        const Vec3<Real> way = position - Vec3<Real>(starts_[node]);
         const Vec3<Real> slid = way - glm::dot(way, surface.normal) * surface.normal;
         const Real length = glm::length(slid);
         const Real held = -static_cast<Real>(collider.friction) * surface.distance;
         if (length > Real(0)) position -= std::min(Real(1), held / length) * slid;
-        touches_[node] = 1;
+        std::atomic_ref(touches_[object_of_[node]]).store(1, std::memory_order_relaxed);
     }
     return position;
 }
@@ -150,25 +159,31 @@ Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, const Vec3<
 template <class Real>
 void BlockDescent<Real>::move_bodies(std::vector<Vec4<Real>>& positions) const {
     tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
+        if (touches_[o] != 0) return;
         const Range& nodes = model_->objects[o].nodes;
-        const std::span touches(touches_.data() + nodes.first, nodes.count);
         const std::span body(positions.data() + nodes.first, nodes.count);
         const bool is_held =
             std::any_of(body.begin(), body.end(), [](const auto& p) { return p.w == Real(0); });
-        if (is_held || std::any_of(touches.begin(), touches.end(), [](auto t) { return t != 0; })) return;
+        if (is_held) return;
         const RigidMotion motion =
             nearest_rigid_motion<Real>(body, {targets_.data() + nodes.first, nodes.count});
         for (Vec4<Real>& p : body) p = Vec4<Real>(Vec3<Real>(motion.move(glm::dvec3(p))), p.w);
     });
 }
 
+// Nodes that a collider has stopped go back with restitution times the speed they would have had without it.
 template <class Real>
 void BlockDescent<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current) const {
+    const auto least = static_cast<Real>(resting_speed(model_->gravity, static_cast<double>(step)));
     for_each(model_->node_count(), [&](std::uint32_t n) {
-        current.velocities[n] = previous.velocities[n];
+        const Vec4<Real> old = previous.velocities[n];
+        current.velocities[n] = old;
         if (current.positions[n].w == Real(0)) return;
-        const Vec3<Real> way = Vec3<Real>(current.positions[n]) - Vec3<Real>(previous.positions[n]);
-        current.velocities[n] = Vec4<Real>(way / step, previous.velocities[n].w);
+        const Vec3<Real> position(current.positions[n]), start(previous.positions[n]);
+        Vec3<Real> velocity = (position - start) / step;
+        if (touches_[object_of_[n]] != 0)
+            rebound<Real>(model_->colliders, position, (targets_[n] - start) / step, least, velocity);
+        current.velocities[n] = Vec4<Real>(velocity, old.w);
     });
 }
 

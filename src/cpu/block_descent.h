@@ -5,50 +5,50 @@
 #include <vector>
 
 #include "cpu/nodes.h"
+#include "cpu/tet_resistance.h"
+#include "model/descent_rows.h"
 #include "model/model.h"
-#include "model/node_colors.h"
-#include "model/node_tets.h"
+#include "model/solver.h"
 
 namespace gelatin::cpu {
 
 /// Vertex block descent (Chen et al. 2024): a step of implicit Euler as the minimum of
 ///   G(x) = sum_i m_i / (2 h^2) |x_i - y_i|^2 + E(x),   y = x_t + h v_t + h^2 (g + f / m),
-/// with f the force of loads,
-/// found node by node, each by one Newton step on its own three coordinates, all nodes of one colour at once.
+/// with f the force of loads, found node by node, each by one Newton step on its own three coordinates, all
+/// nodes of one colour at once.
 /// Between sweeps and after the last one, bodies that nothing holds move as rigid ones to where G is least:
 /// that keeps their momentum, which sweeps alone lose (docs/physics.md). Stable for any step and start. The
 /// same bits for any number of threads.
 template <class Real>
 class BlockDescent {
 public:
-    /// @param iterations sweeps over all nodes in a step
-    BlockDescent(std::shared_ptr<const Model> model, int iterations);
+    BlockDescent(std::shared_ptr<const Model> model, const DescentSettings& settings);
 
     /// A step of `step` seconds from `previous`; writes `current`.
+    /// @param current's velocities are those one step before `previous` if `has_earlier`, else not looked at
     /// @param load_forces [N], shape [nodes], or empty
-    void run(Real step, const Nodes<Real>& previous, Nodes<Real>& current,
+    void run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current,
              std::span<const Vec4<Real>> load_forces = {});
 
-    const NodeColors& colors() const { return colors_; }
-
 private:
-    void start(Real step, const Nodes<Real>& previous, std::span<const Vec4<Real>> load_forces,
-               std::vector<Vec4<Real>>& positions);
-    void mark_nodes_of_flat_tets(const std::vector<Vec4<Real>>& positions);
-    void sweep(Real step, const Nodes<Real>& previous, std::vector<Vec4<Real>>& positions);
-    void move_node(std::uint32_t node, Real step, const Nodes<Real>& previous,
-                   std::vector<Vec4<Real>>& positions);
-    Vec3<Real> outside_colliders(std::uint32_t node, const Vec3<Real>& start, Vec3<Real> position);
+    void start(Real step, bool has_earlier, const Nodes<Real>& previous,
+               std::span<const Vec4<Real>> load_forces, Nodes<Real>& current);
+    void accelerate(int sweep, std::vector<Vec4<Real>>& positions);
+    void sweep(Real step, std::vector<Vec4<Real>>& positions);
+    void move_node(std::uint32_t node, Real step, NodeTerms<Real> terms, std::vector<Vec4<Real>>& positions);
+    Vec3<Real> outside_colliders(std::uint32_t node, Vec3<Real> position);
     void move_bodies(std::vector<Vec4<Real>>& positions) const;
     void finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current) const;
 
     std::shared_ptr<const Model> model_;
-    int iterations_;
-    NodeColors colors_;
-    NodeTets node_tets_;
-    std::vector<Vec3<Real>> targets_;      // y [m], shape [nodes]
-    std::vector<std::uint8_t> near_flat_;  // nodes of tets that resist
-    std::vector<std::uint8_t> touches_;    // nodes that met a collider in this step
+    DescentSettings settings_;
+    DescentRows rows_;
+    TetResistance<Real> tets_;
+    std::vector<Vec4<Real>> starts_;              // xyz [m], damping time [s]
+    std::vector<Vec3<Real>> targets_;             // y [m], shape [nodes]
+    std::vector<std::uint32_t> object_of_;        // by node
+    std::vector<std::uint8_t> touches_;           // objects that met a collider in this step
+    std::vector<Vec3<Real>> last_, before_last_;  // from where the last two sweeps went [m], for acceleration
 };
 
 }  // namespace gelatin::cpu

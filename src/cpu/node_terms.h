@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -79,6 +80,31 @@ void add_flat_tet(const Vec3<Real>& position, const std::array<Vec3<Real>, 3>& f
     const Real lack = static_cast<Real>(kFlattest) - glm::dot(position - face[0], slope);
     if (!(lack > Real(0))) return;
     terms.force += rest_volume * modulus * lack * slope;
+    terms.hessian.add_outer(rest_volume * modulus, slope);
+}
+
+/// kappa phi'(J - 1) of the volume term [Pa], J being the volume round a node over that at rest: phi(u) = u^2
+/// / 2 where kappa > 0. Where it is negative, the term takes energy out of a body that grows, and must end
+/// somewhere: phi'(u) = u (1 - (u / a)^2)^2 up to |u| = a = 1/2, and nothing beyond.
+template <class Real>
+Real volume_stress(Real ratio, Real kappa) {
+    const Real u = ratio - Real(1);
+    if (kappa >= Real(0)) return kappa * u;
+    const Real left = std::max(Real(1) - Real(4) * u * u, Real(0));
+    return kappa * u * left * left;
+}
+
+/// A tet's part of the volume term as one of its corners sees it. With p the mean of volume_stress at its
+/// corners and J_0 its own J, both at the last look, and k the mean |kappa| of its corners, the term is at
+/// most
+///   W = V (p (J - J_0) + k / 2 (J - J_0)^2) and what it was then.
+/// @param face as in add_flat_tet @param offset p - k J_0 [Pa] @param modulus k [Pa]
+template <class Real>
+void add_tet_volume(const Vec3<Real>& position, const std::array<Vec3<Real>, 3>& face, Real rest_volume,
+                    Real offset, Real modulus, NodeTerms<Real>& terms) {
+    const Vec3<Real> slope = glm::cross(face[1] - face[0], face[2] - face[0]) / (Real(6) * rest_volume);
+    const Real ratio = glm::dot(position - face[0], slope);
+    terms.force -= rest_volume * (offset + modulus * ratio) * slope;
     terms.hessian.add_outer(rest_volume * modulus, slope);
 }
 

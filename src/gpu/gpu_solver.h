@@ -21,7 +21,7 @@ namespace gelatin::gpu {
 class GpuSolver : public Solver {
 public:
     GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces,
-              const CollisionSettings& collision = {}, int iterations = 10);
+              const CollisionSettings& collision = {}, const DescentSettings& descent = {});
 
     void apply_kinematics(std::span<const HandleMotion> motions) override;
     void set_load_factors(std::span<const float> factors) override { sum_loads_->set_factors(factors); }
@@ -57,6 +57,7 @@ private:
     NodeBuffers current_, previous_;             // swapped by each step: where it ended, and where it started
     NodeBuffers stage_[2], sums_;                // between the passes of one step
     std::optional<BlockDescent> block_descent_;  // instead of the scheme
+    bool has_earlier_ = false;                   // previous_ is one step earlier: vbd looks back
     std::optional<ApplyKinematics> apply_kinematics_;  // where the scene has handles
     std::optional<SumLoads> sum_loads_;                // where it has loads
     std::optional<AdvanceNodes> fused_;

@@ -10,7 +10,6 @@
 #include <span>
 #include <utility>
 
-#include "core/log.h"
 #include "gelatin/error.h"
 #include "mesh/topology.h"
 #include "model/box_tree.h"
@@ -23,6 +22,7 @@
 #include "model/springs.h"
 #include "model/surface_parts.h"
 #include "model/transform.h"
+#include "model/volume_term.h"
 
 namespace gelatin {
 namespace {
@@ -125,12 +125,12 @@ std::vector<glm::uvec2> spring_nodes(const Body& body, const FittedSprings* fitt
 
 // Fitted springs for the body's material and size, in ascending order of nodes.
 std::vector<Spring> scaled_springs(const Body& body, const Arranged& arranged, const FittedSprings& fitted) {
-    const double shear_modulus = kShearOverYoungs * body.material.youngs_modulus;
+    const double mu = shear_modulus(body.material);
     std::vector<Spring> springs;
     for (const UnitSpring& unit : fitted.springs) {
         const std::uint32_t a = arranged.new_index[unit.nodes.x], b = arranged.new_index[unit.nodes.y];
         const double length = glm::distance(arranged.mesh.positions[a], arranged.mesh.positions[b]);
-        const double stiffness = shear_modulus * body.scale * unit.stiffness;
+        const double stiffness = mu * body.scale * unit.stiffness;
         springs.push_back(
             {std::min(a, b), std::max(a, b), static_cast<float>(length), static_cast<float>(stiffness)});
     }
@@ -177,15 +177,17 @@ void append_body(Model& model, const Body& body) {
     for (const HandleDescription& handle : body.handles) append_handle(handle, mesh.positions, first, model);
     object.handle_nodes.count = size(model.handle_nodes) - object.handle_nodes.first;
     append_loads(body.loads, mesh, std::span(model.masses).subspan(first), first, model.loads);
-    append_springs(model,
-                   fitted ? scaled_springs(body, order, *fitted)
-                          : make_springs(mesh, *body.material.springs, body.material.youngs_modulus),
-                   body.name, first);
+    append_springs(
+        model,
+        fitted ? scaled_springs(body, order, *fitted)
+               : make_springs(mesh, *body.material.springs, shear_modulus(body.material) / kShearOverYoungs),
+        body.name, first);
     object.springs.count = size(model.springs) - object.springs.first;
     for (const glm::uvec4& t : mesh.tets) {
         model.tets.push_back(t + first);
         model.tet_rests.push_back({checked_float(tet_volume(mesh, t), body.name, "a tet's volume [m^3]"),
-                                   static_cast<float>(body.material.youngs_modulus)});
+                                   static_cast<float>(body.material.youngs_modulus),
+                                   static_cast<float>(lacking_modulus(body.material))});
     }
     for (const glm::uvec3& f : mesh.faces) {
         model.faces.push_back({f.x + first, f.y + first, f.z + first, size(model.objects)});
@@ -275,6 +277,8 @@ Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDes
     model.incidence = make_incidence(model.node_count(), model.springs);
     model.node_faces = make_node_faces(model.node_count(), model.faces);
     model.surface_parts = make_surface_parts(model.faces, model.node_faces);
+    model.volume_term =
+        make_volume_term(model.tets, model.tet_rests, make_node_tets(model.node_count(), model.tets));
     return model;
 }
 
@@ -282,12 +286,6 @@ Model build_model(const Scene& scene) {
     std::vector<Body> bodies;
     ObjectMesher mesher;
     for (const ObjectDescription& object : scene.objects) bodies.push_back(make_body(scene, object, mesher));
-    for (const Material& material : scene.materials) {
-        if (material.poisson_ratio != 0.25) {
-            spdlog::warn("material '{}': poisson_ratio = {} has no effect: springs alone answer with 0.25",
-                         material.name, material.poisson_ratio);
-        }
-    }
     Model model = pack_bodies(bodies, scene.colliders, scene.simulation.gravity);
     if (scene.collision.self_collision) model.rest_shapes = make_rest_shapes(model);
     return model;

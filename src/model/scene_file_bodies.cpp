@@ -63,6 +63,14 @@ MesherSettings read_mesher(TableReader reader) {
     return mesher;
 }
 
+StartDescription read_start(TableReader reader) {
+    StartDescription start;
+    reader.read("scale", start.scale, kNotNegative);
+    reader.read("scatter", start.scatter, kNotNegative);
+    reader.finish();
+    return start;
+}
+
 // An object that names no material has the scene's only one.
 std::string read_material_name(TableReader& reader, const std::vector<Material>& materials) {
     std::vector<std::string> names;
@@ -96,6 +104,7 @@ std::vector<ObjectDescription> read_object(TableReader& reader, const std::vecto
     reader.read("scale", object.scale, kPositive);
     reader.read("velocity", object.velocity);
     reader.read("spin", object.spin);
+    if (const auto start = reader.table("start")) object.start = read_start(*start);
     for (TableReader& pin : reader.tables("pins")) object.pins.push_back(read_region(pin));
     for (TableReader& handle : reader.tables("handle")) object.handles.push_back(read_handle(handle));
     for (TableReader& load : reader.tables("load")) object.loads.push_back(read_load(load));

@@ -127,10 +127,10 @@ TEST_P(DriveMutantsTest, IsCaught) {
                                              test::oracle_step(model, solver, kStep), actual.positions,
                                              actual.velocities) > 1.0;
     }
-    const Model bodies = test::make_bodies_to_descend(0.01, 1, true);
-    constexpr double kFrame = 1.0 / 60.0;
+    const Model bodies = test::make_bodies_to_descend(0.01, 0.25, 1, true);
+    const test::Descent descent{1.0 / 60.0, {3}};
     caught =
-        caught || test::worst_descent_error(bodies, kFrame, 3, test::descend_on_gpu(bodies, kFrame, 3)) > 1.0;
+        caught || test::worst_descent_error(bodies, descent, test::descend_on_gpu(bodies, descent)) > 1.0;
     EXPECT_TRUE(caught) << "the broken kernel passes";
 }
 
@@ -141,13 +141,17 @@ TEST_P(DescentMutantsTest, IsCaught) {
     test::ShaderFolder folder;
     break_shaders(GetParam(), folder);
     bool caught = false;
-    for (const double damping : {0.0, 0.01}) {
-        const Model model = test::make_bodies_to_descend(damping);
-        constexpr double kFrame = 1.0 / 60.0;
-        constexpr int kIterations = 4;
-        caught = caught || test::worst_descent_error(model, kFrame, kIterations,
-                                                     test::descend_on_gpu(model, kFrame, kIterations)) > 1.0;
-    }
+    const auto look = [&](const Model& model, const test::Descent& descent) {
+        caught =
+            caught || test::worst_descent_error(model, descent, test::descend_on_gpu(model, descent)) > 1.0;
+    };
+    constexpr double kFrame = 1.0 / 60.0;
+    for (const double damping : {0.0, 0.01}) look(test::make_bodies_to_descend(damping), {kFrame, {4}});
+    for (const double poisson_ratio : {0.1, 0.4})
+        look(test::make_bodies_to_descend(0.0, poisson_ratio), {kFrame, {4}});
+    const Model model = test::make_bodies_to_descend(0.0);
+    look(model, {kFrame, {5, 0.8}});
+    look(model, {kFrame, {1}, model.velocities});
     EXPECT_TRUE(caught) << "the broken kernel passes";
 }
 

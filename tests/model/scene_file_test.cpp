@@ -290,7 +290,7 @@ TEST_F(SceneFile, RefusesValuesOutOfRange) {
     EXPECT_EQ(material_error("youngs_modulus = 0"),
               "scene.toml:6: material.jelly.youngs_modulus = 0: must be greater than 0");
     EXPECT_EQ(material_error("poisson_ratio = 0.5"),
-              "scene.toml:6: material.jelly.poisson_ratio = 0.5: must be greater than -1 and less than 0.5");
+              "scene.toml:6: material.jelly.poisson_ratio = 0.5: must be from 0 to 0.49");
     EXPECT_EQ(material_error("damping = -1"), "scene.toml:6: material.jelly.damping = -1: must be 0 or more");
     EXPECT_EQ(error(std::string(kBall) + "[collision]\nrestitution = 1.5"),
               "scene.toml:5: collision.restitution = 1.5: must be from 0 to 1");

@@ -231,8 +231,8 @@ inline constexpr Break kDriveMutants[] = {
     {"pressure_pulls", "sim/sum_loads.comp", "- load.force.w", "+ load.force.w"},
     {"loads_always_act", "sim/sum_loads.comp", "factors[load.load] *", "1.0 *"},
     {"descent_forgets_loads", "include/descent_step.glsl", "acceleration += start.w * load_force(node);", ""},
-    {"held_nodes_do_not_descend", "sim/start_descent.comp",
-     "+ time_step * texelFetch(start_velocities, int(n)).xyz", ""},
+    {"held_nodes_do_not_descend", "sim/start_descent.comp", "held = start.xyz + time_step * velocity;",
+     "held = start.xyz;"},
 };
 
 // Of vertex block descent.
@@ -261,7 +261,22 @@ inline constexpr Break kDescentMutants[] = {
     {"bodies_on_the_floor_move", "sim/sum_rigid_motions.comp", " || object_touches[object] != 0u", ""},
     {"half_a_chunk_is_summed_up", "sim/sum_rigid_motions.comp", "k += 64u", "k += 128u"},
     {"a_chunk_is_not_moved", "sim/move_bodies.comp", "c >= element_count", "c + 1u >= element_count"},
-    {"velocities_are_the_ways", "sim/move_bodies.comp", "way / time_step", "way"},
+    {"velocities_are_the_ways", "sim/move_bodies.comp", "(position.xyz - start) / time_step;",
+     "(position.xyz - start);"},
+    {"nothing_bounces", "include/colliders.glsl", "restitution * approach - dot", "-dot"},
+    {"all_that_is_low_bounces", "include/colliders.glsl", "surface.w > contact_distance ||", ""},
+    {"the_last_step_is_forgotten", "sim/start_descent.comp", "has_earlier != 0u", "false"},
+    {"nothing_falls_but_by_the_last_step", "sim/start_descent.comp", "has_earlier != 0u", "true"},
+    {"sweeps_are_not_accelerated", "sim/accelerate_descent.comp", "sweep > 1u", "false"},
+    {"acceleration_looks_one_sweep_back", "sim/accelerate_descent.comp", "sweep_starts[node_count + n].xyz",
+     "sweep_starts[n].xyz"},
+    {"volumes_count_whole", "sim/find_pressures.comp", "volume += 0.25 *", "volume +="},
+    {"pressure_lasts_for_ever", "include/node_terms.glsl", "kappa * u * left * left", "kappa * u"},
+    {"pressures_of_tets_are_sums", "sim/find_pressures.comp", "0.25 * sum", "sum"},
+    {"tets_do_not_answer_for_themselves", "sim/find_pressures.comp",
+     "- texelFetch(tet_rests, int(t)).z * ratios[t]", ""},
+    {"volumes_have_no_stiffness", "include/node_terms.glsl",
+     "add_outer(rest_volume * modulus, slope, terms);\n}\n\nfloat", "}\n\nfloat"},
 };
 
 /// A broken marking of faces that touch.

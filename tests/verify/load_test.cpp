@@ -85,7 +85,7 @@ TEST(LoadHeavy, ABarGetsLongerByHookesLaw) {
         bar.pins = {HalfSpaceRegion{{1.0, 0.0, 0.0}, -0.4999 * kLength}};
         bar.loads = {load};
         const auto model = std::make_shared<const Model>(test::make_model(bar));
-        cpu::CpuSolver<float> solver(model, SolverKind::vbd, ForceMethod::fused, {}, 40);
+        cpu::CpuSolver<float> solver(model, SolverKind::vbd, ForceMethod::fused, {}, {40});
         for (int s = 0; s < 800; ++s) solver.advance_nodes(2e-3);
         double longer = 0.0, mass = 0.0, speed = 0.0;
         for (const LoadedNode& loaded : model->loads.nodes) {
@@ -109,7 +109,7 @@ TEST(Load, APressureCompressesABall) {
     Body ball = test::make_body(tetrahedralise(make_sphere({0.2, 5}), mesher, "ball"), rubber);
     ball.loads = {{kEverywhere, PressureLoad{pressure}}};
     const auto model = std::make_shared<const Model>(test::make_model(ball));
-    cpu::CpuSolver<float> solver(model, SolverKind::vbd, ForceMethod::fused, {}, 20);
+    cpu::CpuSolver<float> solver(model, SolverKind::vbd, ForceMethod::fused, {}, {20});
     for (int s = 0; s < 120; ++s) solver.advance_nodes(1.0 / 60.0);
     solver.begin_measure();
     const ObjectMeasure sums = solver.end_measure()[0];

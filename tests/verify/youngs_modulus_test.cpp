@@ -33,9 +33,10 @@ TetMesh box_of_tets(const glm::dvec3& size, double edge) {
     return tetrahedralise(make_box(box), mesher, "box");
 }
 
-Model model_of(const TetMesh& mesh, const std::optional<SpringKinds>& springs) {
+Model model_of(const TetMesh& mesh, const std::optional<SpringKinds>& springs, double poisson_ratio = 0.25) {
     Material material;
     material.youngs_modulus = kYoungsModulus;
+    material.poisson_ratio = poisson_ratio;
     material.springs = springs;
     return test::make_model(test::make_body(mesh, material));
 }
@@ -59,7 +60,7 @@ Answer pull_apart(const Model& model, const glm::dvec3& size, int axis) {
     }
     statics.solve();
     double force = 0.0;
-    for (const std::uint32_t n : far_end) force -= statics.spring_force(n)[axis];
+    for (const std::uint32_t n : far_end) force -= statics.elastic_force(n)[axis];
     const double area = size.x * size.y * size.z / size[axis];
     const Eigen::Matrix3d strain = statics.mean_strain();
     const double sideways = 0.5 * (strain.trace() - strain(axis, axis));
@@ -102,6 +103,20 @@ TEST_P(PulledBar, AnswersWithTheModulusAskedFor) {
 }
 TEST_P(PulledBarLong, AnswersWithTheModulusAskedFor) {
     measure();
+}
+
+// With the volume term, which is averaged over nodes.
+TEST(PoissonsRatio, IsWhatWasAskedFor) {
+    const glm::dvec3 size(0.25, 1.0, 0.25);
+    for (const int edges_across : {4, 6}) {
+        const TetMesh mesh = box_of_tets(size, size.x / edges_across);
+        for (const double poisson_ratio : {0.0, 0.1, 0.4, 0.45, 0.49}) {
+            SCOPED_TRACE(testing::Message() << edges_across << " edges across, " << poisson_ratio);
+            const Answer answer = pull_apart(model_of(mesh, std::nullopt, poisson_ratio), size, 1);
+            EXPECT_NEAR(answer.modulus, 1.0, 0.03);
+            EXPECT_NEAR(answer.poisson_ratio, poisson_ratio, 0.02);
+        }
+    }
 }
 
 TEST(YoungsModulus, IsTheSameInThreeDirections) {
