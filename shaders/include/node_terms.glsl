@@ -63,15 +63,15 @@ void add_tet_volume(vec3 position, vec3 a, vec3 b, vec3 c, float rest_volume, fl
 
 float inverse_or_zero(float d) { return d > 0.0 ? 1.0 / d : 0.0; }
 
-// hessian^-1 force by the square-root-free Cholesky decomposition; zero along what has no stiffness.
-vec3 solve(NodeTerms terms) {
-    vec3 d = terms.diagonal, b = terms.beside, f = terms.force;
+// hessian^-1 v by the square-root-free Cholesky decomposition; zero along what has no stiffness.
+vec3 solve(NodeTerms terms, vec3 v) {
+    vec3 d = terms.diagonal, b = terms.beside;
     float i0 = inverse_or_zero(d.x);
     float l10 = b.z * i0, l20 = b.y * i0;
     float i1 = inverse_or_zero(d.y - l10 * b.z);
     float rest = b.x - l20 * b.z, l21 = rest * i1;
     float i2 = inverse_or_zero(d.z - l20 * b.y - l21 * rest);
-    float y1 = f.y - l10 * f.x, y2 = f.z - l20 * f.x - l21 * y1;
+    float y1 = v.y - l10 * v.x, y2 = v.z - l20 * v.x - l21 * y1;
     float z = y2 * i2, y = y1 * i1 - l21 * z;
-    return vec3(f.x * i0 - l10 * y - l20 * z, y, z);
+    return vec3(v.x * i0 - l10 * y - l20 * z, y, z);
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -41,6 +42,7 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
       touches_(model_->objects.size()) {
     for (std::uint32_t o = 0; o < model_->objects.size(); ++o)
         object_of_.insert(object_of_.end(), model_->objects[o].nodes.count, o);
+    if (!model_->colliders.empty()) node_touches_.resize(model_->node_count());
     if (settings_.chebyshev > 0.0) last_ = before_last_ = targets_;
 }
 
@@ -53,7 +55,7 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
         if (i % kSweepsAMotion == 0) tets_.look(current.positions);
         sweep(step, current.positions);
         const bool is_last = i + 1 == settings_.iterations;
-        if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(current.positions);
+        if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(step, is_last, current.positions);
     }
     finish(step, previous, current);
 }
@@ -134,40 +136,73 @@ void BlockDescent<Real>::move_node(std::uint32_t node, Real step, NodeTerms<Real
     terms.force += inertia * (targets_[node] - position);
     terms.hessian.add_identity(inertia);
     tets_.add(node, positions, terms);
-    positions[node] = Vec4<Real>(outside_colliders(node, position + solve(terms)), inverse_mass);
+    const Vec3<Real> moved = outside_colliders(node, terms.hessian, position + solve(terms));
+    positions[node] = Vec4<Real>(moved, inverse_mass);
 }
 
-// Pushed out of colliders it slides by Coulomb's law: what it is pushed by is the normal force over the
-// node's own stiffness, and so is the way that friction takes back.
+// Where the node's own objective, to second order, is least outside the collider's tangent plane, behind
+// which all of it lies: the normal force is what that takes. Friction then takes back what the node has slid
+// along the plane, with as much force as Coulomb's law allows.
 template <class Real>
-Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, Vec3<Real> position) {
+Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, const SymmetricMatrix<Real>& hessian,
+                                                 Vec3<Real> position) {
+    if (node_touches_.empty()) return position;
+    Touch touch;
     for (const Collider& collider : model_->colliders) {
         const SurfaceDistance<Real> surface = surface_distance(collider, position);
         if (surface.distance >= Real(0)) continue;
-        position -= surface.distance * surface.normal;
-        const Vec3<Real> way = position - Vec3<Real>(starts_[node]);
-        const Vec3<Real> slid = way - glm::dot(way, surface.normal) * surface.normal;
-        const Real length = glm::length(slid);
-        const Real held = -static_cast<Real>(collider.friction) * surface.distance;
-        if (length > Real(0)) position -= std::min(Real(1), held / length) * slid;
+        const Vec3<Real>& n = surface.normal;
+        const Vec3<Real> yielding = solve(hessian, n);  // to a force along n
+        const Real stiffness = Real(1) / glm::dot(n, yielding);
+        const Real pressing = -surface.distance * stiffness;
+        position += pressing * yielding;
+        touch.force += pressing * n;
+        touch.normal = n;
+        touch.along = stiffness;
+        touch.across = Real(0);
         std::atomic_ref(touches_[object_of_[node]]).store(1, std::memory_order_relaxed);
+
+        const Vec3<Real> way = position - Vec3<Real>(starts_[node]);
+        const Vec3<Real> slid = way - glm::dot(way, n) * n;
+        const Real length = glm::length(slid);
+        if (length == Real(0)) continue;
+        const Vec3<Real> t = slid / length;
+        Vec3<Real> giving = solve(hessian, t);
+        giving -= stiffness * glm::dot(n, giving) * yielding;  // within the plane
+        const Real needed = length / glm::dot(t, giving);
+        const Real most = static_cast<Real>(collider.friction) * pressing;
+        position -= std::min(needed, most) * giving;
+        touch.force -= std::min(needed, most) * t;
+        if (needed <= most) touch.across = stiffness;
     }
+    node_touches_[node] = touch;
     return position;
 }
 
-// Internal forces do no work on a rigid motion: of G only the first term changes.
+// The last sweep has left nodes outside colliders: bodies that touch one do not move after it.
 template <class Real>
-void BlockDescent<Real>::move_bodies(std::vector<Vec4<Real>>& positions) const {
+void BlockDescent<Real>::move_bodies(Real step, bool is_last, std::vector<Vec4<Real>>& positions) const {
+    const double inertia = 1.0 / (static_cast<double>(step) * static_cast<double>(step));
     tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
-        if (touches_[o] != 0) return;
         const Range& nodes = model_->objects[o].nodes;
-        const std::span body(positions.data() + nodes.first, nodes.count);
-        const bool is_held =
-            std::any_of(body.begin(), body.end(), [](const auto& p) { return p.w == Real(0); });
-        if (is_held) return;
-        const RigidMotion motion =
-            nearest_rigid_motion<Real>(body, {targets_.data() + nodes.first, nodes.count});
-        for (Vec4<Real>& p : body) p = Vec4<Real>(Vec3<Real>(motion.move(glm::dvec3(p))), p.w);
+        const std::span body_nodes(positions.data() + nodes.first, nodes.count);
+        const bool is_held = std::any_of(body_nodes.begin(), body_nodes.end(),
+                                         [](const Vec4<Real>& p) { return p.w == Real(0); });
+        if (is_held || (is_last && touches_[o] != 0)) return;
+        const glm::dvec3 origin(positions[nodes.first]);
+        RigidStep body;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            const glm::dvec3 position(positions[n]), r = position - origin;
+            const double stiffness = inertia / static_cast<double>(positions[n].w);
+            body.add(r, stiffness, stiffness * (glm::dvec3(targets_[n]) - position));
+            if (touches_[o] == 0 || node_touches_[n].along == Real(0)) continue;
+            const Touch& touch = node_touches_[n];
+            body.add(r, static_cast<double>(touch.across), glm::dvec3(touch.force));
+            body.add_along(r, glm::dvec3(touch.normal), static_cast<double>(touch.along - touch.across));
+        }
+        const RigidMotion motion = body.solve(origin);
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+            positions[n] = Vec4<Real>(Vec3<Real>(motion.move(glm::dvec3(positions[n]))), positions[n].w);
     });
 }
 

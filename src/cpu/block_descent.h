@@ -36,18 +36,24 @@ private:
     void accelerate(int sweep, std::vector<Vec4<Real>>& positions);
     void sweep(Real step, std::vector<Vec4<Real>>& positions);
     void move_node(std::uint32_t node, Real step, NodeTerms<Real> terms, std::vector<Vec4<Real>>& positions);
-    Vec3<Real> outside_colliders(std::uint32_t node, Vec3<Real> position);
-    void move_bodies(std::vector<Vec4<Real>>& positions) const;
+    Vec3<Real> outside_colliders(std::uint32_t node, const SymmetricMatrix<Real>& hessian,
+                                 Vec3<Real> position);
+    void move_bodies(Real step, bool is_last, std::vector<Vec4<Real>>& positions) const;
     void finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current) const;
 
     std::shared_ptr<const Model> model_;
     DescentSettings settings_;
     DescentRows rows_;
     TetResistance<Real> tets_;
-    std::vector<Vec4<Real>> starts_;              // xyz [m], damping time [s]
-    std::vector<Vec3<Real>> targets_;             // y [m], shape [nodes]
-    std::vector<std::uint32_t> object_of_;        // by node
-    std::vector<std::uint8_t> touches_;           // objects that met a collider in this step
+    std::vector<Vec4<Real>> starts_;        // xyz [m], damping time [s]
+    std::vector<Vec3<Real>> targets_;       // y [m], shape [nodes]
+    std::vector<std::uint32_t> object_of_;  // by node
+    std::vector<std::uint8_t> touches_;     // objects that met a collider in this step
+    struct Touch {
+        Vec3<Real> force{0}, normal{0};  // [N], unit
+        Real along = 0, across = 0;      // how the force changes with the body's way [N/m]
+    };
+    std::vector<Touch> node_touches_;             // of the last sweep; empty without colliders
     std::vector<Vec3<Real>> last_, before_last_;  // from where the last two sweeps went [m], for acceleration
 };
 

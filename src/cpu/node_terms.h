@@ -108,19 +108,25 @@ void add_tet_volume(const Vec3<Real>& position, const std::array<Vec3<Real>, 3>&
     terms.hessian.add_outer(rest_volume * modulus, slope);
 }
 
-/// hessian^-1 force by the square-root-free Cholesky decomposition; zero along what has no stiffness.
+/// matrix^-1 v by the square-root-free Cholesky decomposition; zero along what has no stiffness.
 template <class Real>
-Vec3<Real> solve(const NodeTerms<Real>& terms) {
+Vec3<Real> solve(const SymmetricMatrix<Real>& matrix, const Vec3<Real>& v) {
     const auto inverse = [](Real d) { return d > Real(0) ? Real(1) / d : Real(0); };
-    const Vec3<Real>&d = terms.hessian.diagonal, &b = terms.hessian.beside, &f = terms.force;
+    const Vec3<Real>&d = matrix.diagonal, &b = matrix.beside;
     const Real i0 = inverse(d.x);
     const Real l10 = b.z * i0, l20 = b.y * i0;
     const Real i1 = inverse(d.y - l10 * b.z);
     const Real rest = b.x - l20 * b.z, l21 = rest * i1;
     const Real i2 = inverse(d.z - l20 * b.y - l21 * rest);
-    const Real y1 = f.y - l10 * f.x, y2 = f.z - l20 * f.x - l21 * y1;
+    const Real y1 = v.y - l10 * v.x, y2 = v.z - l20 * v.x - l21 * y1;
     const Real z = y2 * i2, y = y1 * i1 - l21 * z;
-    return {f.x * i0 - l10 * y - l20 * z, y, z};
+    return {v.x * i0 - l10 * y - l20 * z, y, z};
+}
+
+/// A node's Newton step [m].
+template <class Real>
+Vec3<Real> solve(const NodeTerms<Real>& terms) {
+    return solve(terms.hessian, terms.force);
 }
 
 }  // namespace gelatin::cpu

@@ -11,9 +11,11 @@ namespace gelatin::gpu {
 namespace {
 
 constexpr int kSweepsAMotion = 2;
+constexpr std::size_t kRigidSums = 12;  // dvec4s in RigidSums, include/rigid_sums.glsl
 
-// For programs that include include/descent_step.glsl.
-gl::Defines step_defines(const Model& model, gl::Defines defines = {}) {
+// For programs that include include/descent_step.glsl, colliders and loads.
+gl::Defines step_defines(const Model& model) {
+    gl::Defines defines = ModelBuffers::collider_defines(model);
     if (!model.loads.empty()) defines.emplace_back("LOADED");
     return defines;
 }
@@ -24,15 +26,14 @@ gl::Defines volume_defines(const Model& model) {
 }
 
 gl::Defines sweep_defines(const Model& model) {
-    gl::Defines defines = step_defines(model, ModelBuffers::collider_defines(model));
+    gl::Defines defines = step_defines(model);
     if (model.has_damping()) defines.emplace_back("DAMPED");
     for (const std::string& define : volume_defines(model)) defines.push_back(define);
     return defines;
 }
 
-gl::Defines last_move_defines(const Model& model) {
-    gl::Defines defines = step_defines(model, ModelBuffers::collider_defines(model));
-    defines.emplace_back("LAST");
+gl::Defines with(gl::Defines defines, const char* another) {
+    defines.emplace_back(another);
     return defines;
 }
 
@@ -88,9 +89,10 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
       mark_program_(gl::Program::compute("sim/mark_flat_tets.comp", volume_defines(model))),
       sweep_program_(gl::Program::compute("sim/descend.comp", sweep_defines(model))),
       sum_program_(gl::Program::compute("sim/sum_rigid_motions.comp", step_defines(model))),
-      motion_program_(gl::Program::compute("sim/sum_rigid_motions.comp", {"OBJECTS"})),
+      motion_program_(gl::Program::compute("sim/sum_rigid_motions.comp",
+                                           with(ModelBuffers::collider_defines(model), "OBJECTS"))),
       move_program_(gl::Program::compute("sim/move_bodies.comp")),
-      last_move_program_(gl::Program::compute("sim/move_bodies.comp", last_move_defines(model))),
+      last_move_program_(gl::Program::compute("sim/move_bodies.comp", with(step_defines(model), "LAST"))),
       settings_(settings),
       node_count_(model.node_count()),
       tet_count_(static_cast<std::uint32_t>(model.tets.size())),
@@ -119,7 +121,8 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
     tet_rests_ = make_buffer(rests_of(model), glm::vec4(1.0f));
     chunks_ = make_buffer(chunks, Chunk{});
     chunk_starts_ = make_buffer(chunk_starts, 0u);
-    rigid_sums_ = gl::Buffer<RigidSums>(chunks.size());
+    rigid_sums_ = gl::Buffer<glm::dvec4>(kRigidSums * chunks.size());
+    if (!model.colliders.empty()) touches_ = gl::Buffer<Touch>(model.positions.size());
 
     row_texels_ = {rows_, gl::TexelFormat::rg32ui};
     half_spring_texels_ = {half_springs_, gl::TexelFormat::rgba32ui};
@@ -207,6 +210,7 @@ void BlockDescent::sweep(const ModelBuffers& model) const {
     corner_start_texels_.bind(9);
     tet_rest_texels_.bind(10);
     if (pressures_) pressures_->offset_texels.bind(11);
+    if (touches_.size() > 0) touches_.bind_storage(3);
     for (const Range& color : colors_) {
         sweep_program_.set("first_row", color.first);
         sweep_program_.set("row_count", color.count);
@@ -220,12 +224,14 @@ void BlockDescent::move_bodies(const ModelBuffers& model, const NodeBuffers& cur
     chunks_.bind_storage(3);
     rigid_sums_.bind_storage(4);
     motions_.bind_storage(5);
+    if (touches_.size() > 0) touches_.bind_storage(6);
     const auto chunks = static_cast<std::uint32_t>(chunks_.size());
     sum_program_.set("element_count", chunks);
     sum_program_.dispatch(64 * chunks_.size());
     gl::barrier(gl::Barrier::storage);
 
     motion_program_.set("element_count", object_count_);
+    motion_program_.set("is_last", is_last ? 1u : 0u);
     motion_program_.dispatch(object_count_);
     gl::barrier(gl::Barrier::storage);
 

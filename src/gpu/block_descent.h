@@ -63,7 +63,8 @@ private:
     gl::BufferTexture row_texels_, half_spring_texels_, stiffness_texels_, spring_start_texels_,
         tet_corner_texels_, corner_start_texels_, tet_texels_, tet_rest_texels_, chunk_start_texels_;
     gl::Buffer<std::uint32_t> near_flat_, object_touches_;
-    gl::Buffer<RigidSums> rigid_sums_;
+    gl::Buffer<Touch> touches_;  // of nodes in the last sweep; empty without colliders
+    gl::Buffer<glm::dvec4> rigid_sums_;
     gl::Buffer<RigidMotion> motions_;
 };
 

@@ -150,6 +150,7 @@ TEST_P(DescentMutantsTest, IsCaught) {
     for (const double poisson_ratio : {0.1, 0.4})
         look(test::make_bodies_to_descend(0.0, poisson_ratio), {kFrame, {4}});
     const Model model = test::make_bodies_to_descend(0.0);
+    look(model, {kFrame, {3}});
     look(model, {kFrame, {5, 0.8}});
     look(model, {kFrame, {1}, model.velocities});
     EXPECT_TRUE(caught) << "the broken kernel passes";

@@ -325,8 +325,8 @@ TEST_F(SceneFile, RefusesUnknownChoices) {
               "scene.toml:5: collision.detection = true: must be a string, is true or false");
     EXPECT_EQ(error(std::string(kBall) + "[simulation]\nsolver = 'rk5'"),
               "scene.toml:5: simulation.solver = \"rk5\": must be explicit_euler, "
-              "semi_implicit_euler, midpoint "
-              "or rk4 (did you mean \"rk4\"?)");
+              "semi_implicit_euler, midpoint, "
+              "rk4 or vbd (did you mean \"rk4\"?)");
     EXPECT_EQ(error(std::string(kBall) + "[simulation]\nforces = 'quick'"),
               "scene.toml:5: simulation.forces = \"quick\": must be divide_and_merge or fused");
     EXPECT_EQ(object_error("shape = {sphere = 1}\nmesher = {kind = 'netgen'}"),

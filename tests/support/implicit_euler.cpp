@@ -4,6 +4,7 @@
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "model/node_tets.h"
@@ -17,6 +18,17 @@ Eigen::Vector3d to_eigen(const glm::vec4& v) {
 
 Eigen::Index at(std::uint32_t node) {
     return 3 * static_cast<Eigen::Index>(node);
+}
+
+// phi of the volume term, and its slope, over kappa.
+double potential(double ratio, double kappa) {
+    const double u = ratio - 1.0;
+    if (kappa >= 0.0) return 0.5 * u * u;
+    return (1.0 - std::pow(std::max(1.0 - 4.0 * u * u, 0.0), 3)) / 24.0;
+}
+double slope_of_potential(double ratio, double kappa) {
+    const double u = ratio - 1.0;
+    return kappa >= 0.0 ? u : u * std::pow(std::max(1.0 - 4.0 * u * u, 0.0), 2);
 }
 
 }  // namespace
@@ -75,7 +87,7 @@ double ImplicitEuler::value(const Eigen::VectorXd& x) const {
     const Volumes now = volumes(x);
     for (std::size_t n = 0; n < now.nodes.size(); ++n) {
         const glm::dvec2 rest(model_.volume_term.nodes[n]);
-        sum += 0.5 * rest.x * rest.y * (now.nodes[n] - 1.0) * (now.nodes[n] - 1.0);
+        sum += rest.x * rest.y * potential(now.nodes[n], rest.y);
     }
     return sum;
 }
@@ -95,9 +107,10 @@ Eigen::VectorXd ImplicitEuler::gradient(const Eigen::VectorXd& x) const {
         for (std::size_t t = 0; t < model_.tets.size(); ++t) {
             const glm::uvec4& tet = model_.tets[t];
             double pressure = 0.0;
-            for (int k = 0; k < 4; ++k)
-                pressure += 0.25 * static_cast<double>(model_.volume_term.nodes[tet[k]].y) *
-                            (now.nodes[tet[k]] - 1.0);
+            for (int k = 0; k < 4; ++k) {
+                const auto kappa = static_cast<double>(model_.volume_term.nodes[tet[k]].y);
+                pressure += 0.25 * kappa * slope_of_potential(now.nodes[tet[k]], kappa);
+            }
             for (int k = 0; k < 4; ++k) result.segment<3>(at(tet[k])) += pressure * now.slopes[t].col(k);
         }
     }

@@ -44,9 +44,9 @@ Fuzzed make_scene(unsigned seed) {
     for (int b = 0; b < count; ++b) {
         const double size = random.decades(1e-3, 1e2);
         const glm::ivec3 cells(random.number(1, 5), random.number(1, 5), random.number(1, 5));
-        Body body = test::make_body(test::make_block(cells, size * glm::dvec3(cells), 0.2, seed));
-        for (glm::dvec3& p : body.mesh.positions)
-            p += 2.0 * size * static_cast<double>(b) * random.direction();
+        Body body = test::make_body(test::make_block(cells, size * glm::dvec3(cells), 0.1, seed));
+        const glm::dvec3 place = 2.0 * size * static_cast<double>(b) * random.direction();
+        for (glm::dvec3& p : body.mesh.positions) p += place;
         body.material.youngs_modulus = random.decades(1e3, 1e10);
         body.material.density = random.decades(10.0, 2e4);
         body.material.poisson_ratio = random.number(0, 1) == 0 ? 0.25 : random.between(0.0, 0.49);
