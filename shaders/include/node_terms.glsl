@@ -61,16 +61,20 @@ void add_tet_volume(vec3 position, vec3 a, vec3 b, vec3 c, float rest_volume, fl
     add_outer(rest_volume * modulus, slope, terms);
 }
 
-float inverse_or_zero(float d) { return d > 0.0 ? 1.0 / d : 0.0; }
+// Of a pivot; one that drowns in the rounding of what it is left over from counts as that.
+float inverse_or_zero(float pivot, float diagonal) {
+    float d = max(pivot, 9.5367431640625e-7 * diagonal);  // 8 epsilon
+    return d > 0.0 ? 1.0 / d : 0.0;
+}
 
 // hessian^-1 v by the square-root-free Cholesky decomposition; zero along what has no stiffness.
 vec3 solve(NodeTerms terms, vec3 v) {
     vec3 d = terms.diagonal, b = terms.beside;
-    float i0 = inverse_or_zero(d.x);
+    float i0 = inverse_or_zero(d.x, d.x);
     float l10 = b.z * i0, l20 = b.y * i0;
-    float i1 = inverse_or_zero(d.y - l10 * b.z);
+    float i1 = inverse_or_zero(d.y - l10 * b.z, d.y);
     float rest = b.x - l20 * b.z, l21 = rest * i1;
-    float i2 = inverse_or_zero(d.z - l20 * b.y - l21 * rest);
+    float i2 = inverse_or_zero(d.z - l20 * b.y - l21 * rest, d.z);
     float y1 = v.y - l10 * v.x, y2 = v.z - l20 * v.x - l21 * y1;
     float z = y2 * i2, y = y1 * i1 - l21 * z;
     return vec3(v.x * i0 - l10 * y - l20 * z, y, z);

@@ -49,21 +49,25 @@ dmat3 symmetric(dvec3 diagonal, dvec3 pairs) {
 
 dmat3 cross_matrix(dvec3 v) { return dmat3(0.0, v.z, -v.y, -v.z, 0.0, v.x, v.y, -v.x, 0.0); }
 
-double inverse_or_zero(double d) { return d > 0.0 ? 1.0 / d : 0.0; }
+double inverse_or_zero(double pivot, double diagonal) {
+    double d = max(pivot, 1.7763568394002505e-15lf * diagonal);  // 8 epsilon
+    return d > 0.0 ? 1.0 / d : 0.0;
+}
 
 // m^-1 f by the square-root-free Cholesky decomposition; zero along what has no stiffness.
 dvec3 solve(dmat3 m, dvec3 f) {
-    double i0 = inverse_or_zero(m[0][0]);
+    double i0 = inverse_or_zero(m[0][0], m[0][0]);
     double l10 = m[0][1] * i0, l20 = m[0][2] * i0;
-    double i1 = inverse_or_zero(m[1][1] - l10 * m[0][1]);
+    double i1 = inverse_or_zero(m[1][1] - l10 * m[0][1], m[1][1]);
     double rest = m[1][2] - l20 * m[0][1], l21 = rest * i1;
-    double i2 = inverse_or_zero(m[2][2] - l20 * m[0][2] - l21 * rest);
+    double i2 = inverse_or_zero(m[2][2] - l20 * m[0][2] - l21 * rest, m[2][2]);
     double y1 = f.y - l10 * f.x, y2 = f.z - l20 * f.x - l21 * y1;
     double z = y2 * i2, y = y1 * i1 - l21 * z;
     return dvec3(f.x * i0 - l10 * y - l20 * z, y, z);
 }
 
-const double kLeastInertia = 1e-6;
+const double kLeastInertia = 1e-6lf;
+const double kLargestTurn = 1.0;  // [radians]
 
 // [A B; B^T C] (shift, turn) = (force, moment) by elimination of the shift.
 void solve_rigid_step(RigidSums sums, out dvec3 shift, out dvec3 turn) {
@@ -76,5 +80,6 @@ void solve_rigid_step(RigidSums sums, out dvec3 shift, out dvec3 turn) {
               symmetric(sums.square.xyz, sums.product.xyz) + symmetric(sums.turns.xyz, sums.turn_pairs.xyz);
     dmat3 a_inverse = inverse(a);
     turn = solve(c - transpose(b) * a_inverse * b, sums.moment.xyz - transpose(b) * (a_inverse * sums.force.xyz));
+    turn *= min(1.0, kLargestTurn / max(length(turn), 1e-300lf));
     shift = a_inverse * (sums.force.xyz - b * turn);
 }

@@ -53,7 +53,12 @@ void push_out(uint c, vec4 surface, vec3 start, NodeTerms terms, inout vec3 posi
     if (surface.w >= 0.0) return;
     vec3 n = surface.xyz;
     vec3 yielding = solve(terms, n);  // to a force along n
-    float stiffness = 1.0 / dot(n, yielding);
+    float compliance = dot(n, yielding);
+    if (!(compliance > 0.0)) {  // lost in rounding
+        position -= surface.w * n;
+        return;
+    }
+    float stiffness = 1.0 / compliance;
     float pressing = -surface.w * stiffness;
     position += pressing * yielding;
     touch.force = vec4(touch.force.xyz + pressing * n, stiffness);
@@ -66,7 +71,9 @@ void push_out(uint c, vec4 surface, vec3 start, NodeTerms terms, inout vec3 posi
     vec3 t = slid / length_;
     vec3 giving = solve(terms, t);
     giving -= stiffness * dot(n, giving) * yielding;  // within the plane
-    float needed = length_ / dot(t, giving);
+    float sliding_compliance = dot(t, giving);
+    if (!(sliding_compliance > 0.0)) return;
+    float needed = length_ / sliding_compliance;
     float most = texelFetch(colliders, int(4u * c + 3u)).y * pressing;
     position -= min(needed, most) * giving;
     touch.force.xyz -= min(needed, most) * t;

@@ -153,7 +153,12 @@ Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, const Symme
         if (surface.distance >= Real(0)) continue;
         const Vec3<Real>& n = surface.normal;
         const Vec3<Real> yielding = solve(hessian, n);  // to a force along n
-        const Real stiffness = Real(1) / glm::dot(n, yielding);
+        const Real compliance = glm::dot(n, yielding);
+        if (!(compliance > Real(0))) {  // lost in rounding
+            position -= surface.distance * n;
+            continue;
+        }
+        const Real stiffness = Real(1) / compliance;
         const Real pressing = -surface.distance * stiffness;
         position += pressing * yielding;
         touch.force += pressing * n;
@@ -169,7 +174,9 @@ Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, const Symme
         const Vec3<Real> t = slid / length;
         Vec3<Real> giving = solve(hessian, t);
         giving -= stiffness * glm::dot(n, giving) * yielding;  // within the plane
-        const Real needed = length / glm::dot(t, giving);
+        const Real sliding_compliance = glm::dot(t, giving);
+        if (!(sliding_compliance > Real(0))) continue;
+        const Real needed = length / sliding_compliance;
         const Real most = static_cast<Real>(collider.friction) * pressing;
         position -= std::min(needed, most) * giving;
         touch.force -= std::min(needed, most) * t;

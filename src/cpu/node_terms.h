@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "cpu/nodes.h"
 
@@ -108,16 +109,21 @@ void add_tet_volume(const Vec3<Real>& position, const std::array<Vec3<Real>, 3>&
     terms.hessian.add_outer(rest_volume * modulus, slope);
 }
 
-/// matrix^-1 v by the square-root-free Cholesky decomposition; zero along what has no stiffness.
+/// matrix^-1 v by the square-root-free Cholesky decomposition; zero along what has no stiffness. Pivots that
+/// drown in the rounding of what they are left over from count as that: the way may come out too short then,
+/// never too long.
 template <class Real>
 Vec3<Real> solve(const SymmetricMatrix<Real>& matrix, const Vec3<Real>& v) {
-    const auto inverse = [](Real d) { return d > Real(0) ? Real(1) / d : Real(0); };
+    const auto inverse = [](Real pivot, Real diagonal) {
+        const Real d = std::max(pivot, Real(8) * std::numeric_limits<Real>::epsilon() * diagonal);
+        return d > Real(0) ? Real(1) / d : Real(0);
+    };
     const Vec3<Real>&d = matrix.diagonal, &b = matrix.beside;
-    const Real i0 = inverse(d.x);
+    const Real i0 = inverse(d.x, d.x);
     const Real l10 = b.z * i0, l20 = b.y * i0;
-    const Real i1 = inverse(d.y - l10 * b.z);
+    const Real i1 = inverse(d.y - l10 * b.z, d.y);
     const Real rest = b.x - l20 * b.z, l21 = rest * i1;
-    const Real i2 = inverse(d.z - l20 * b.y - l21 * rest);
+    const Real i2 = inverse(d.z - l20 * b.y - l21 * rest, d.z);
     const Real y1 = v.y - l10 * v.x, y2 = v.z - l20 * v.x - l21 * y1;
     const Real z = y2 * i2, y = y1 * i1 - l21 * z;
     return {v.x * i0 - l10 * y - l20 * z, y, z};

@@ -1,5 +1,6 @@
 #include "cpu/rigid_motion.h"
 
+#include <algorithm>
 #include <glm/matrix.hpp>
 
 namespace gelatin::cpu {
@@ -12,6 +13,10 @@ glm::dmat3 full(const SymmetricMatrix<double>& m) {
     return {m.diagonal.x, m.beside.z, m.beside.y, m.beside.z,  m.diagonal.y,
             m.beside.x,   m.beside.y, m.beside.x, m.diagonal.z};
 }
+
+// [radians] Beyond that w x r is no turn any more, and the shift that goes with it on a surface leads
+// anywhere.
+constexpr double kLargestTurn = 1.0;
 
 // cross(v) x = v x x
 glm::dmat3 cross(const glm::dvec3& v) {
@@ -51,7 +56,9 @@ RigidMotion RigidStep::solve(const glm::dvec3& origin) const {
     SymmetricMatrix<double> inertia;
     inertia.diagonal = {rest[0][0], rest[1][1], rest[2][2]};
     inertia.beside = {rest[1][2], rest[2][0], rest[0][1]};
-    const glm::dvec3 w = cpu::solve(inertia, left), s = a_inverse * (force_ - b * w);
+    glm::dvec3 w = cpu::solve(inertia, left);
+    w *= std::min(1.0, kLargestTurn / glm::length(w));
+    const glm::dvec3 s = a_inverse * (force_ - b * w);
     // A turn about the centre of mass does not move it, however large.
     const glm::dvec3 center = arm_ / stiffness_;
     return {origin + center, s + glm::cross(w, center), cayley_turn(w)};

@@ -262,9 +262,8 @@ inline constexpr Break kDescentMutants[] = {
      "false && object"},
     {"floors_do_not_hold", "sim/sum_rigid_motions.comp", "dvec3(touch.force.xyz), sums", "dvec3(0.0), sums"},
     {"floors_give_way", "include/rigid_sums.glsl", "sums.shifts.xyz += stiffness * normal * normal;", ""},
-    {"friction_has_no_stiffness", "sim/descend.comp", "if (needed <= most) touch.normal.w = stiffness;", ""},
-    {"surfaces_do_not_turn", "include/rigid_sums.glsl",
-     "dmat3(sums.mixed_x.xyz, sums.mixed_y.xyz, sums.mixed_z.xyz) -", "-"},
+    {"surfaces_do_not_turn", "include/rigid_sums.glsl", "sums.turns.xyz += stiffness * turned * turned;",
+     "sums.turns.xyz -= stiffness * turned * turned;"},
     {"half_a_chunk_is_summed_up", "sim/sum_rigid_motions.comp", "k += 64u", "k += 128u"},
     {"a_chunk_is_not_moved", "sim/move_bodies.comp", "c >= element_count", "c + 1u >= element_count"},
     {"velocities_are_the_ways", "sim/move_bodies.comp", "(position.xyz - start) / time_step;",
@@ -282,7 +281,7 @@ inline constexpr Break kDescentMutants[] = {
     {"tets_do_not_answer_for_themselves", "sim/find_pressures.comp",
      "- texelFetch(tet_rests, int(t)).z * ratios[t]", ""},
     {"volumes_have_no_stiffness", "include/node_terms.glsl",
-     "add_outer(rest_volume * modulus, slope, terms);\n}\n\nfloat", "}\n\nfloat"},
+     "add_outer(rest_volume * modulus, slope, terms);\n}\n\n//", "}\n\n//"},
 };
 
 /// A broken marking of faces that touch.
