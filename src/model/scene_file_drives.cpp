@@ -18,9 +18,9 @@ Keyframe read_keyframe(TableReader reader) {
     return keyframe;
 }
 
-std::vector<Keyframe> read_keyframes(std::vector<TableReader> tables) {
+std::vector<Keyframe> read_keyframes(const std::vector<TableReader>& tables) {
     std::vector<Keyframe> keyframes;
-    for (TableReader& reader : tables) {
+    for (const TableReader& reader : tables) {
         const Keyframe keyframe = read_keyframe(reader);
         const bool rests =
             keyframe.move == glm::dvec3(0.0) && keyframe.turn == glm::dvec3(0.0) && keyframe.scale == 1.0;
