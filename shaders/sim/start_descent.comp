@@ -10,6 +10,7 @@ layout(std430, binding = 0) writeonly buffer Positions { vec4 positions[]; };
 layout(std430, binding = 1) writeonly buffer NearFlat { uint near_flat[]; };
 layout(std430, binding = 2) writeonly buffer Touches { uint object_touches[]; };
 layout(std430, binding = 3) readonly buffer EarlierVelocities { vec4 earlier_velocities[]; };
+layout(std430, binding = 4) writeonly buffer Tangled { uint is_tangled[]; };  // by object
 uniform uint node_count;
 uniform uint object_count;  // never more
 uniform uint has_earlier;
@@ -27,5 +28,8 @@ void main() {
     vec3 held = start.xyz + time_step * velocity;
     positions[n] = vec4(start.w > 0.0 ? guess : held, start.w);
     near_flat[n] = 0u;
-    if (n < object_count) object_touches[n] = 0u;
+    if (n < object_count) {
+        object_touches[n] = 0u;
+        is_tangled[n] = 0u;
+    }
 }

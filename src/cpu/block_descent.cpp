@@ -50,6 +50,7 @@ template <class Real>
 void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current,
                              std::span<const Vec4<Real>> load_forces) {
     start(step, has_earlier, previous, load_forces, current);
+    take_back_tangled(previous, current);
     for (int i = 0; i < settings_.iterations; ++i) {
         if (settings_.chebyshev > 0.0) accelerate(i, current.positions);
         if (i % kSweepsAMotion == 0) tets_.look(current.positions);
@@ -87,6 +88,20 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
                               : Real(1);
         const Vec3<Real> guess = Vec3<Real>(from) + step * (velocity + step * felt * gravity);
         current.positions[n] = Vec4<Real>(guess, from.w);
+    });
+}
+
+// A guess that tangles a body can hold any energy, which few sweeps would not take out again. From where the
+// body was they do not come to more than it had.
+template <class Real>
+void BlockDescent<Real>::take_back_tangled(const Nodes<Real>& previous, Nodes<Real>& current) const {
+    tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
+        const ModelObject& object = model_->objects[o];
+        if (!tets_.is_tangled(object, current.positions)) return;
+        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
+            const Vec4<Real>& from = previous.positions[n];
+            if (from.w > Real(0)) current.positions[n] = from;  // held ones are where their handle takes them
+        }
     });
 }
 

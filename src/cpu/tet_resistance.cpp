@@ -34,15 +34,31 @@ TetResistance<Real>::TetResistance(std::shared_ptr<const Model> model)
 }
 
 template <class Real>
+Real TetResistance<Real>::ratio_of(std::uint32_t tet, const std::vector<Vec4<Real>>& positions) const {
+    const glm::uvec4& corners = model_->tets[tet];
+    const Vec3<Real> a(positions[corners.x]);
+    const Vec3<Real> u = Vec3<Real>(positions[corners.y]) - a, v = Vec3<Real>(positions[corners.z]) - a,
+                     w = Vec3<Real>(positions[corners.w]) - a;
+    return glm::dot(glm::cross(u, v), w) / (Real(6) * static_cast<Real>(model_->tet_rests[tet].volume));
+}
+
+template <class Real>
+bool TetResistance<Real>::is_tangled(const ModelObject& object,
+                                     const std::vector<Vec4<Real>>& positions) const {
+    for (std::uint32_t t = object.tets.first; t < object.tets.end(); ++t) {
+        const Real ratio = ratio_of(t, positions);
+        if (!(ratio > static_cast<Real>(kLeastSound) && ratio < static_cast<Real>(kMostSound))) return true;
+    }
+    return false;
+}
+
+template <class Real>
 void TetResistance<Real>::look(const std::vector<Vec4<Real>>& positions) {
     const Model& model = *model_;
     std::fill(is_near_flat_.begin(), is_near_flat_.end(), std::uint8_t(0));
     for_each(model.tets.size(), [&](std::uint32_t t) {
         const glm::uvec4& tet = model.tets[t];
-        const Vec3<Real> a(positions[tet.x]);
-        const Vec3<Real> u = Vec3<Real>(positions[tet.y]) - a, v = Vec3<Real>(positions[tet.z]) - a,
-                         w = Vec3<Real>(positions[tet.w]) - a;
-        ratios_[t] = glm::dot(glm::cross(u, v), w) / (Real(6) * static_cast<Real>(model.tet_rests[t].volume));
+        ratios_[t] = ratio_of(t, positions);
         if (ratios_[t] >= static_cast<Real>(kFlattest)) return;
         for (int k = 0; k < 4; ++k)
             std::atomic_ref(is_near_flat_[tet[k]]).store(1, std::memory_order_relaxed);

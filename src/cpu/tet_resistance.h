@@ -10,12 +10,18 @@
 
 namespace gelatin::cpu {
 
+/// Volumes over those at rest between which a first guess is taken for sound.
+constexpr double kLeastSound = -0.5, kMostSound = 4.0;
+
 /// What tets add to the springs of vertex block descent: they resist being flat, and, where the material asks
 /// for another Poisson's ratio than springs have, changes of the volume round each node (docs/physics.md).
 template <class Real>
 class TetResistance {
 public:
     explicit TetResistance(std::shared_ptr<const Model> model);
+
+    /// True if a tet of the object is far from its volume at rest (kLeastSound, kMostSound).
+    bool is_tangled(const ModelObject& object, const std::vector<Vec4<Real>>& positions) const;
 
     /// Looks which tets are flat and how far the volumes are from those at rest.
     void look(const std::vector<Vec4<Real>>& positions);
@@ -25,6 +31,8 @@ public:
     void add(std::uint32_t node, const std::vector<Vec4<Real>>& positions, NodeTerms<Real>& terms) const;
 
 private:
+    Real ratio_of(std::uint32_t tet, const std::vector<Vec4<Real>>& positions) const;
+
     std::shared_ptr<const Model> model_;
     NodeTets node_tets_;
     std::vector<Real> ratios_;                // J, by tet

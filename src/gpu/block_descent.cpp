@@ -54,12 +54,17 @@ std::vector<glm::vec4> rests_of(const Model& model) {
     return rests;
 }
 
-std::vector<glm::uvec2> with_objects(const Model& model, const std::vector<std::uint32_t>& rows) {
+std::vector<std::uint32_t> objects_of_nodes(const Model& model) {
     std::vector<std::uint32_t> objects(model.node_count(), 0);
     for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
         const Range& nodes = model.objects[o].nodes;
         std::fill_n(objects.begin() + nodes.first, nodes.count, o);
     }
+    return objects;
+}
+
+std::vector<glm::uvec2> with_objects(const std::vector<std::uint32_t>& rows,
+                                     const std::vector<std::uint32_t>& objects) {
     std::vector<glm::uvec2> result;
     for (const std::uint32_t n : rows) result.emplace_back(n, n == kNoNode ? 0 : objects[n]);
     return result;
@@ -85,6 +90,8 @@ BlockDescent::Pressures::Pressures(const Model& model)
 
 BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
     : start_program_(gl::Program::compute("sim/start_descent.comp")),
+      find_tangled_program_(gl::Program::compute("sim/take_back_tangled.comp", {"TETS"})),
+      take_back_program_(gl::Program::compute("sim/take_back_tangled.comp")),
       accelerate_program_(gl::Program::compute("sim/accelerate_descent.comp")),
       mark_program_(gl::Program::compute("sim/mark_flat_tets.comp", volume_defines(model))),
       sweep_program_(gl::Program::compute("sim/descend.comp", sweep_defines(model))),
@@ -99,11 +106,13 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
       object_count_(static_cast<std::uint32_t>(model.objects.size())),
       near_flat_(model.positions.size()),
       object_touches_(model.objects.size()),
+      is_tangled_(model.objects.size()),
       motions_(model.objects.size()) {
     if (!model.volume_term.is_empty()) pressures_.emplace(model);
     if (settings_.chebyshev > 0.0) sweep_starts_ = gl::Buffer<glm::vec4>(2 * model.positions.size());
     const DescentRows rows = make_descent_rows(model);
     colors_ = rows.colors;
+    const std::vector<std::uint32_t> objects = objects_of_nodes(model);
     const TetCorners corners =
         pack_tet_corners(rows.nodes, make_node_tets(model.node_count(), model.tets), model.tets);
     const std::vector<Chunk> chunks = make_chunks(model, &ModelObject::nodes);
@@ -111,7 +120,7 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
     for (const Chunk& chunk : chunks) ++chunk_starts[chunk.object + 1];
     std::partial_sum(chunk_starts.begin(), chunk_starts.end(), chunk_starts.begin());
 
-    rows_ = make_buffer(with_objects(model, rows.nodes), glm::uvec2(kNoNode, 0));
+    rows_ = make_buffer(with_objects(rows.nodes, objects), glm::uvec2(kNoNode, 0));
     half_springs_ = make_buffer(rows.springs.pairs, HalfSpringPair{});
     stiffnesses_ = make_buffer(rows.springs.stiffness, glm::vec2(0.0f));
     spring_starts_ = make_buffer(rows.springs.slice_starts, 0u);
@@ -121,6 +130,8 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
     tet_rests_ = make_buffer(rests_of(model), glm::vec4(1.0f));
     chunks_ = make_buffer(chunks, Chunk{});
     chunk_starts_ = make_buffer(chunk_starts, 0u);
+    node_objects_ = make_buffer(objects, 0u);
+    node_object_texels_ = {node_objects_, gl::TexelFormat::r32ui};
     rigid_sums_ = gl::Buffer<glm::dvec4>(kRigidSums * chunks.size());
     if (!model.colliders.empty()) touches_ = gl::Buffer<Touch>(model.positions.size());
 
@@ -150,6 +161,7 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
     near_flat_.bind_storage(1);
     object_touches_.bind_storage(2);
     current.velocities.bind_storage(3);
+    is_tangled_.bind_storage(4);
     start_program_.set("node_count", node_count_);
     start_program_.set("object_count", object_count_);
     start_program_.set("has_earlier", has_earlier ? 1u : 0u);
@@ -157,6 +169,7 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 
     current.position_texels.bind(0);
+    take_back_tangled(current);
     for (int i = 0; i < settings_.iterations; ++i) {
         if (settings_.chebyshev > 0.0) accelerate(i);
         if (i % kSweepsAMotion == 0) look_at_tets();
@@ -165,6 +178,21 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
         const bool is_last = i + 1 == settings_.iterations;
         if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(model, current, is_last);
     }
+}
+
+void BlockDescent::take_back_tangled(const NodeBuffers& current) const {
+    tet_texels_.bind(9);
+    tet_rest_texels_.bind(10);
+    node_object_texels_.bind(12);
+    is_tangled_.bind_storage(4);
+    find_tangled_program_.set("element_count", tet_count_);
+    find_tangled_program_.dispatch(tet_count_);
+    gl::barrier(gl::Barrier::storage);
+
+    current.positions.bind_storage(0);
+    take_back_program_.set("element_count", node_count_);
+    take_back_program_.dispatch(node_count_);
+    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 }
 
 void BlockDescent::accelerate(int sweep) const {

@@ -12,7 +12,8 @@
 
 namespace gelatin::gpu {
 
-/// Vertex block descent: shaders/sim/start_descent.comp, accelerate_descent.comp, mark_flat_tets.comp,
+/// Vertex block descent: shaders/sim/start_descent.comp, take_back_tangled.comp,
+/// accelerate_descent.comp, mark_flat_tets.comp,
 /// find_pressures.comp, descend.comp, sum_rigid_motions.comp, move_bodies.comp. CPU twin: cpu::BlockDescent.
 class BlockDescent {
 public:
@@ -38,13 +39,14 @@ private:
         gl::BufferTexture offset_texels;
     };
 
+    void take_back_tangled(const NodeBuffers& current) const;
     void accelerate(int sweep) const;
     void look_at_tets() const;
     void sweep(const ModelBuffers& model) const;
     void move_bodies(const ModelBuffers& model, const NodeBuffers& current, bool is_last) const;
 
-    gl::Program start_program_, accelerate_program_, mark_program_, sweep_program_, sum_program_,
-        motion_program_, move_program_, last_move_program_;
+    gl::Program start_program_, find_tangled_program_, take_back_program_, accelerate_program_, mark_program_,
+        sweep_program_, sum_program_, motion_program_, move_program_, last_move_program_;
     DescentSettings settings_;
     std::uint32_t node_count_, tet_count_, object_count_;
     std::optional<Pressures> pressures_;
@@ -60,9 +62,11 @@ private:
     gl::Buffer<glm::vec4> tet_rests_;  // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
     gl::Buffer<Chunk> chunks_;
     gl::Buffer<std::uint32_t> chunk_starts_;  // by object
+    gl::Buffer<std::uint32_t> node_objects_;
+    gl::BufferTexture node_object_texels_;
     gl::BufferTexture row_texels_, half_spring_texels_, stiffness_texels_, spring_start_texels_,
         tet_corner_texels_, corner_start_texels_, tet_texels_, tet_rest_texels_, chunk_start_texels_;
-    gl::Buffer<std::uint32_t> near_flat_, object_touches_;
+    gl::Buffer<std::uint32_t> near_flat_, object_touches_, is_tangled_;
     gl::Buffer<Touch> touches_;  // of nodes in the last sweep; empty without colliders
     gl::Buffer<glm::dvec4> rigid_sums_;
     gl::Buffer<RigidMotion> motions_;

@@ -233,6 +233,7 @@ inline constexpr Break kDriveMutants[] = {
     {"descent_forgets_loads", "include/descent_step.glsl", "acceleration += start.w * load_force(node);", ""},
     {"held_nodes_do_not_descend", "sim/start_descent.comp", "held = start.xyz + time_step * velocity;",
      "held = start.xyz;"},
+    {"held_nodes_are_taken_back", "sim/take_back_tangled.comp", "if (start.w > 0.0) positions", "positions"},
 };
 
 // Of vertex block descent.
@@ -272,6 +273,10 @@ inline constexpr Break kDescentMutants[] = {
     {"all_that_is_low_bounces", "include/colliders.glsl", "surface.w > contact_distance ||", ""},
     {"the_last_step_is_forgotten", "sim/start_descent.comp", "has_earlier != 0u", "false"},
     {"nothing_falls_but_by_the_last_step", "sim/start_descent.comp", "has_earlier != 0u", "true"},
+    {"tangled_guesses_are_taken", "sim/take_back_tangled.comp", "ratio > kLeastSound && ratio < kMostSound",
+     "true"},
+    {"all_guesses_are_taken_back", "sim/take_back_tangled.comp", "ratio > kLeastSound && ratio < kMostSound",
+     "false"},
     {"sweeps_are_not_accelerated", "sim/accelerate_descent.comp", "sweep > 1u", "false"},
     {"acceleration_looks_one_sweep_back", "sim/accelerate_descent.comp", "sweep_starts[node_count + n].xyz",
      "sweep_starts[n].xyz"},
