@@ -77,7 +77,9 @@ void push_out(uint c, vec4 surface, vec3 start, NodeTerms terms, inout vec3 posi
     float most = texelFetch(colliders, int(4u * c + 3u)).y * pressing;
     position -= min(needed, most) * giving;
     touch.force.xyz -= min(needed, most) * t;
-    if (needed <= most) touch.normal.w = stiffness;
+    // It falls to nothing where all of the way is taken back.
+    float left = length_ - min(needed, most) * sliding_compliance;
+    touch.normal.w = most < stiffness * left ? most / left : stiffness;
 }
 
 Touch push_outside_colliders(vec3 start, NodeTerms terms, inout vec3 position) {

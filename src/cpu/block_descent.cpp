@@ -50,7 +50,7 @@ template <class Real>
 void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current,
                              std::span<const Vec4<Real>> load_forces) {
     start(step, has_earlier, previous, load_forces, current);
-    take_back_tangled(previous, current);
+    take_back_tangled(current.positions);
     for (int i = 0; i < settings_.iterations; ++i) {
         if (settings_.chebyshev > 0.0) accelerate(i, current.positions);
         if (i % kSweepsAMotion == 0) tets_.look(current.positions);
@@ -62,7 +62,8 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
 }
 
 // As the last step went on: with as much of gravity as was felt in it, from none, where a body rests, to all,
-// where it falls (Chen et al. 2024, 3.7). Without a last step as in free fall. Held nodes are where their
+// where it falls (Chen et al. 2024, 3.7). Without a last step as in free fall. Nodes that are inside a
+// collider are put outside first, which is no motion and gives them no speed. Held nodes are where their
 // handle takes them.
 template <class Real>
 void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& previous,
@@ -71,9 +72,13 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
     const Real squared = glm::dot(gravity, gravity);
     std::fill(touches_.begin(), touches_.end(), std::uint8_t(0));
     for_each(model_->node_count(), [&](std::uint32_t n) {
-        const Vec4<Real>& from = previous.positions[n];
         const Vec3<Real> velocity(previous.velocities[n]);
         const Vec3<Real> gained = velocity - Vec3<Real>(current.velocities[n]);
+        Vec4<Real> from = previous.positions[n];
+        if (from.w > Real(0)) {
+            Vec4<Real> none(0);
+            resolve_colliders<Real>(model_->colliders, Real(0), from, none);
+        }
         starts_[n] = Vec4<Real>(Vec3<Real>(from), previous.velocities[n].w);
         if (from.w == Real(0)) {
             targets_[n] = Vec3<Real>(from) + step * velocity;
@@ -94,13 +99,13 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
 // A guess that tangles a body can hold any energy, which few sweeps would not take out again. From where the
 // body was they do not come to more than it had.
 template <class Real>
-void BlockDescent<Real>::take_back_tangled(const Nodes<Real>& previous, Nodes<Real>& current) const {
+void BlockDescent<Real>::take_back_tangled(std::vector<Vec4<Real>>& positions) const {
     tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
         const ModelObject& object = model_->objects[o];
-        if (!tets_.is_tangled(object, current.positions)) return;
+        if (!tets_.is_tangled(object, positions)) return;
         for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
-            const Vec4<Real>& from = previous.positions[n];
-            if (from.w > Real(0)) current.positions[n] = from;  // held ones are where their handle takes them
+            if (positions[n].w == Real(0)) continue;  // held ones are where their handle takes them
+            positions[n] = Vec4<Real>(Vec3<Real>(starts_[n]), positions[n].w);
         }
     });
 }
@@ -195,7 +200,9 @@ Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, const Symme
         const Real most = static_cast<Real>(collider.friction) * pressing;
         position -= std::min(needed, most) * giving;
         touch.force -= std::min(needed, most) * t;
-        if (needed <= most) touch.across = stiffness;
+        // It falls to nothing where all of the way is taken back.
+        const Real left = length - std::min(needed, most) * sliding_compliance;
+        touch.across = most < stiffness * left ? most / left : stiffness;
     }
     node_touches_[node] = touch;
     return position;
@@ -236,7 +243,7 @@ void BlockDescent<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Re
         const Vec4<Real> old = previous.velocities[n];
         current.velocities[n] = old;
         if (current.positions[n].w == Real(0)) return;
-        const Vec3<Real> position(current.positions[n]), start(previous.positions[n]);
+        const Vec3<Real> position(current.positions[n]), start(starts_[n]);
         Vec3<Real> velocity = (position - start) / step;
         if (touches_[object_of_[n]] != 0)
             rebound<Real>(model_->colliders, position, (targets_[n] - start) / step, least, velocity);

@@ -33,7 +33,7 @@ public:
 private:
     void start(Real step, bool has_earlier, const Nodes<Real>& previous,
                std::span<const Vec4<Real>> load_forces, Nodes<Real>& current);
-    void take_back_tangled(const Nodes<Real>& previous, Nodes<Real>& current) const;
+    void take_back_tangled(std::vector<Vec4<Real>>& positions) const;
     void accelerate(int sweep, std::vector<Vec4<Real>>& positions);
     void sweep(Real step, std::vector<Vec4<Real>>& positions);
     void move_node(std::uint32_t node, Real step, NodeTerms<Real> terms, std::vector<Vec4<Real>>& positions);

@@ -89,7 +89,7 @@ BlockDescent::Pressures::Pressures(const Model& model)
 }
 
 BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
-    : start_program_(gl::Program::compute("sim/start_descent.comp")),
+    : start_program_(gl::Program::compute("sim/start_descent.comp", ModelBuffers::collider_defines(model))),
       find_tangled_program_(gl::Program::compute("sim/take_back_tangled.comp", {"TETS"})),
       take_back_program_(gl::Program::compute("sim/take_back_tangled.comp")),
       accelerate_program_(gl::Program::compute("sim/accelerate_descent.comp")),
@@ -130,6 +130,8 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
     tet_rests_ = make_buffer(rests_of(model), glm::vec4(1.0f));
     chunks_ = make_buffer(chunks, Chunk{});
     chunk_starts_ = make_buffer(chunk_starts, 0u);
+    starts_ = gl::Buffer<glm::vec4>(model.positions.size());
+    start_texels_ = {starts_, gl::TexelFormat::rgba32f};
     node_objects_ = make_buffer(objects, 0u);
     node_object_texels_ = {node_objects_, gl::TexelFormat::r32ui};
     rigid_sums_ = gl::Buffer<glm::dvec4>(kRigidSums * chunks.size());
@@ -162,6 +164,8 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
     object_touches_.bind_storage(2);
     current.velocities.bind_storage(3);
     is_tangled_.bind_storage(4);
+    starts_.bind_storage(5);
+    model.bind_colliders(start_program_);
     start_program_.set("node_count", node_count_);
     start_program_.set("object_count", object_count_);
     start_program_.set("has_earlier", has_earlier ? 1u : 0u);
@@ -169,6 +173,7 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 
     current.position_texels.bind(0);
+    start_texels_.bind(1);
     take_back_tangled(current);
     for (int i = 0; i < settings_.iterations; ++i) {
         if (settings_.chebyshev > 0.0) accelerate(i);

@@ -63,6 +63,8 @@ private:
     gl::Buffer<Chunk> chunks_;
     gl::Buffer<std::uint32_t> chunk_starts_;  // by object
     gl::Buffer<std::uint32_t> node_objects_;
+    gl::Buffer<glm::vec4> starts_;  // xyz, outside colliders [m], inverse mass [1/kg]
+    gl::BufferTexture start_texels_;
     gl::BufferTexture node_object_texels_;
     gl::BufferTexture row_texels_, half_spring_texels_, stiffness_texels_, spring_start_texels_,
         tet_corner_texels_, corner_start_texels_, tet_texels_, tet_rest_texels_, chunk_start_texels_;

@@ -61,10 +61,17 @@ Fuzzed make_scene(unsigned seed) {
         if (random.number(0, 2) == 0) start.scatter = size * random.decades(1e-3, 1e1);
         scene.objects.emplace_back().start = start;
     }
+    // Bodies start outside colliders, not far from them.
+    double lowest = 0.0;
+    for (const Body& body : bodies) {
+        for (const glm::dvec3& p : body.mesh.positions) lowest = std::min(lowest, p.y);
+    }
     ColliderDescription floor, ball;
-    floor.shape = PlaneCollider{{0, 1, 0}, random.between(-1, 1)};
+    floor.shape = PlaneCollider{{0, 1, 0}, lowest - random.decades(1e-3, 1.0)};
     floor.restitution = random.between(0, 1);
-    ball.shape = SphereCollider{random.decades(1e-2, 10.0)};
+    const double radius = random.decades(1e-2, 10.0);
+    ball.shape = SphereCollider{radius};
+    ball.position = {0.0, lowest - radius - random.decades(1e-3, 1.0), 0.0};
     fuzzed.model =
         std::make_shared<const Model>(pack_bodies(bodies, {floor, ball}, 10.0 * random.direction()));
     const std::optional<State> start = deformed_start(scene, *fuzzed.model);
@@ -91,7 +98,7 @@ void expect_finite(unsigned first, unsigned end) {
 }
 
 TEST(Fuzz, NothingIsEverNotFinite) {
-    expect_finite(0, 50);
+    expect_finite(getenv("DBG") ? 10 : 0, 50);
 }
 TEST(FuzzLong, NothingIsEverNotFinite) {
     expect_finite(50, 1050);
