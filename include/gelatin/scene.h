@@ -136,6 +136,46 @@ struct HalfSpaceRegion {
 };
 using Region = std::variant<BoxRegion, SphereRegion, HalfSpaceRegion>;
 
+/// Where a handle is at a time, relative to where it starts.
+struct Keyframe {
+    double time = 0.0;     ///< [s], >= 0
+    glm::dvec3 move{0.0};  ///< of the pivot [m]
+    glm::dvec3 turn{0.0};  ///< about x, then y, then z [degrees]; 720 is two turns
+    double scale = 1.0;    ///< away from the pivot, > 0
+};
+
+/// How a handle goes from one keyframe to the next: evenly, or slowly at both ends.
+enum class Interpolation { linear, smooth };
+
+/// Nodes that follow keyframes, and rest before the first and after the last.
+struct HandleDescription {
+    Region region;
+    std::optional<glm::dvec3> pivot;  ///< about which it turns and scales [m]; empty: its nodes' centre
+    Interpolation interpolation = Interpolation::linear;
+    std::optional<double> release;    ///< from then on the nodes are free [s], > 0
+    std::vector<Keyframe> keyframes;  ///< times ascend; the first is where the nodes start; none: they rest
+    int line = 0;                     ///< in the scene file, for later messages
+};
+
+/// What a load pulls or presses with.
+struct ForceLoad {
+    glm::dvec3 sum{0.0};  ///< [N], shared among the region's nodes by mass
+};
+struct TractionLoad {
+    glm::dvec3 stress{0.0};  ///< [Pa], on the faces at rest whose three nodes are in the region
+};
+struct PressureLoad {
+    double pressure = 0.0;  ///< [Pa], inwards across the same faces as they lie now
+};
+
+struct LoadDescription {
+    Region region;
+    std::variant<ForceLoad, TractionLoad, PressureLoad> kind;
+    std::optional<double> from = std::nullopt,
+                          until = std::nullopt;  ///< when it acts [s], >= 0, from < until
+    int line = 0;                                ///< in the scene file, for later messages
+};
+
 /// How an object is out of shape when it starts; pinned nodes are not.
 struct StartDescription {
     glm::dvec3 scale{1.0};  ///< along the world's axes, about the centre of mass, >= 0: 0 squashes it flat
@@ -146,13 +186,16 @@ struct ObjectDescription {
     std::string name;
     Shape shape;
     MesherSettings mesher;
-    std::string material;             ///< a name in Scene::materials
-    glm::dvec3 position{0.0};         ///< [m]
-    glm::dvec3 rotation{0.0};         ///< about x, then y, then z [degrees]
-    double scale = 1.0;               ///< > 0, applied first
-    glm::dvec3 velocity{0.0};         ///< [m/s]
+    std::string material;      ///< a name in Scene::materials
+    glm::dvec3 position{0.0};  ///< [m]
+    glm::dvec3 rotation{0.0};  ///< about x, then y, then z [degrees]
+    double scale = 1.0;        ///< > 0, applied first
+    glm::dvec3 velocity{0.0};  ///< [m/s]
+    glm::dvec3 spin{0.0};      ///< angular velocity about the centre of mass [degrees/s]
     StartDescription start;
-    std::vector<Region> pins;         ///< nodes in any of these stay where they are
+    std::vector<Region> pins;                ///< nodes in any of these stay where they are
+    std::vector<HandleDescription> handles;  ///< which share no node with each other or a pin
+    std::vector<LoadDescription> loads;
     std::optional<glm::dvec3> color;  ///< linear RGB in [0, 1]; empty: the renderer's palette
     int line = 0;                     ///< in the scene file, for later messages
 };

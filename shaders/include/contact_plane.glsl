@@ -1,5 +1,5 @@
-// The plane in which two objects meet: it moves with the common velocity of their patches, or not at all where a corner
-// is pinned. CPU twin: src/cpu/contact.h.
+// The plane in which two objects meet: it moves with the common velocity of their patches, or with the mean one of the
+// corners that are pinned. CPU twin: src/cpu/contact.h.
 #include "layouts/contact.glsl"
 layout(std430, binding = 5) buffer ContactPatches { ContactPatch contact_patches[]; };
 
@@ -25,9 +25,14 @@ ContactPlane contact_plane(uint p, uint mirror) {
 
     ContactPlane plane;
     plane.normal = direction(patch_.area_normal.xyz - other.area_normal.xyz, middle);
-    plane.pinned = patch_.momentum.w + other.momentum.w > 0.0;
+    float pinned = patch_.momentum.w + other.momentum.w;
     float mass = patch_.area_normal.w + other.area_normal.w;
-    plane.velocity =
-        plane.pinned || mass <= 0.0 ? vec3(0.0) : (patch_.momentum.xyz + other.momentum.xyz) / mass;
+    plane.pinned = pinned > 0.0;
+    plane.velocity = vec3(0.0);
+    if (plane.pinned) {
+        plane.velocity = (patch_.held.xyz + other.held.xyz) / pinned;
+    } else if (mass > 0.0) {
+        plane.velocity = (patch_.momentum.xyz + other.momentum.xyz) / mass;
+    }
     return plane;
 }

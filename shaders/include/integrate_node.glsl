@@ -1,6 +1,8 @@
 // One node's part of a pass of an explicit scheme (src/model/explicit_scheme.h), given the force of its springs [N].
+// A node without inverse mass moves with the velocity that it has.
 // MULTI_PASS: the scheme has several passes, whose weighted rates add up in sum_*. CPU twin: src/cpu/integrate_node.h.
 #include "include/colliders.glsl"
+#include "include/load_force.glsl"
 
 layout(binding = 0) uniform samplerBuffer base_positions;   // xyz [m], inverse mass [1/kg]: at the step's start
 layout(binding = 1) uniform samplerBuffer base_velocities;  // xyz [m/s], damping time [s]
@@ -27,10 +29,18 @@ void integrate_node(uint n, vec4 velocity, vec3 force) {
     vec4 base_position = texelFetch(base_positions, int(n));
     vec4 base_velocity = texelFetch(base_velocities, int(n));
     if (base_position.w == 0.0) {
-        out_positions[n] = base_position;
+#ifdef MULTI_PASS
+        float way_time = is_last != 0u ? time_step : next_step;
+#else
+        float way_time = time_step;
+#endif
+        out_positions[n] = vec4(base_position.xyz + way_time * base_velocity.xyz, 0.0);
         out_velocities[n] = base_velocity;
         return;
     }
+#ifdef LOADED
+    force += load_force(n);
+#endif
     vec3 rate = velocity.xyz;
     vec3 acceleration = gravity + base_position.w * force;
 #ifdef MULTI_PASS

@@ -76,6 +76,12 @@ Lump make_lump(uint f, uvec3 corners) {
     if (lump.mass > 0.0) {
         lump.velocity /= lump.mass;
         lump.way /= lump.mass;
+    } else {
+        for (int k = 0; k < 3; ++k) {
+            int n = int(corners[k]);
+            lump.velocity += texelFetch(velocities, n).xyz / 3.0;
+            lump.way += (texelFetch(positions, n).xyz - texelFetch(previous_positions, n).xyz) / 3.0;
+        }
     }
     lump.mass /= float(max(contact_counts[f], 1u));
     vec3 a = position(corners.x);

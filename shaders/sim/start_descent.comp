@@ -1,6 +1,7 @@
 // Where block descent starts: as the last step went on, with as much of gravity as was felt in it, from none, where a
 // body rests, to all, where it falls (Chen et al. 2024, 3.7). Without a last step as in free fall. Nodes that are inside a
-// collider are put outside first, which is no motion and gives them no speed.
+// collider are put outside first, which is no motion and gives them no speed. Held nodes are where
+// their handle takes them.
 // CPU twin: gelatin::cpu::BlockDescent. Parity: tests/gpu/block_descent_test.cpp.
 #include "include/global_index.glsl"
 #include "include/colliders.glsl"
@@ -33,7 +34,8 @@ void main() {
         felt = clamp(dot(velocity - earlier_velocities[n].xyz, gravity) / (time_step * squared), 0.0, 1.0);
     }
     vec3 guess = start.xyz + time_step * (velocity + time_step * felt * gravity);
-    positions[n] = vec4(start.w > 0.0 ? guess : start.xyz, start.w);
+    vec3 held = start.xyz + time_step * velocity;
+    positions[n] = vec4(start.w > 0.0 ? guess : held, start.w);
     near_flat[n] = 0u;
     if (n < object_count) {
         object_touches[n] = 0u;

@@ -35,6 +35,7 @@ layout(std430, binding = 4) readonly buffer Tangled { uint is_tangled[]; };  // 
 void main() {
     uint n = global_index();
     if (n >= element_count || is_tangled[texelFetch(node_objects, int(n)).x] == 0u) return;
-    positions[n] = texelFetch(start_positions, int(n));
+    vec4 start = texelFetch(start_positions, int(n));
+    if (start.w > 0.0) positions[n] = start;  // held ones are where their handle takes them
 }
 #endif

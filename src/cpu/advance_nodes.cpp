@@ -43,6 +43,7 @@ Pass<Real> make_pass(const Model& model, const ExplicitScheme& scheme, int index
             .first = index == 0,
             .last = index + 1 == scheme.pass_count,
             .semi_implicit = scheme.semi_implicit,
+            .load_forces = nullptr,
             .base_positions = base.positions.data(),
             .base_velocities = base.velocities.data(),
             .positions = at.positions.data(),

@@ -21,6 +21,7 @@ struct Pass {
     bool last;           ///< writes the step's result
     bool semi_implicit;
 
+    const Vec4<Real>* load_forces;                      ///< of loads [N]; null where there are none
     const Vec4<Real>*base_positions, *base_velocities;  ///< at the step's start
     const Vec4<Real>*positions, *velocities;            ///< where forces are evaluated
     Vec4<Real>*sum_positions, *sum_velocities;          ///< null for schemes of one pass
@@ -28,7 +29,7 @@ struct Pass {
 };
 
 /// Pass `index` of a step of `step` seconds from `base`, with forces at `at`; `sums` may be empty for schemes
-/// of one pass. The arrays must outlive the pass.
+/// of one pass. Without loads; the arrays must outlive the pass.
 template <class Real>
 Pass<Real> make_pass(const Model& model, const ExplicitScheme& scheme, int index, double step,
                      const Nodes<Real>& base, const Nodes<Real>& at, Nodes<Real>& out, Nodes<Real>& sums);

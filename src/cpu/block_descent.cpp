@@ -47,8 +47,9 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
 }
 
 template <class Real>
-void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current) {
-    start(step, has_earlier, previous, current);
+void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current,
+                             std::span<const Vec4<Real>> load_forces) {
+    start(step, has_earlier, previous, load_forces, current);
     take_back_tangled(current.positions);
     for (int i = 0; i < settings_.iterations; ++i) {
         if (settings_.chebyshev > 0.0) accelerate(i, current.positions);
@@ -62,10 +63,11 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
 
 // As the last step went on: with as much of gravity as was felt in it, from none, where a body rests, to all,
 // where it falls (Chen et al. 2024, 3.7). Without a last step as in free fall. Nodes that are inside a
-// collider are put outside first, which is no motion and gives them no speed.
+// collider are put outside first, which is no motion and gives them no speed. Held nodes are where their
+// handle takes them.
 template <class Real>
 void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& previous,
-                               Nodes<Real>& current) {
+                               std::span<const Vec4<Real>> load_forces, Nodes<Real>& current) {
     const Vec3<Real> gravity(model_->gravity);
     const Real squared = glm::dot(gravity, gravity);
     std::fill(touches_.begin(), touches_.end(), std::uint8_t(0));
@@ -78,10 +80,14 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
             resolve_colliders<Real>(model_->colliders, Real(0), from, none);
         }
         starts_[n] = Vec4<Real>(Vec3<Real>(from), previous.velocities[n].w);
-        targets_[n] = Vec3<Real>(from);
-        current.positions[n] = from;
-        if (from.w == Real(0)) return;
-        targets_[n] += step * (velocity + step * gravity);
+        if (from.w == Real(0)) {
+            targets_[n] = Vec3<Real>(from) + step * velocity;
+            current.positions[n] = Vec4<Real>(targets_[n], Real(0));
+            return;
+        }
+        Vec3<Real> acceleration = gravity;
+        if (!load_forces.empty()) acceleration += from.w * Vec3<Real>(load_forces[n]);
+        targets_[n] = Vec3<Real>(from) + step * (velocity + step * acceleration);
         const Real felt = has_earlier && squared > Real(0)
                               ? glm::clamp(glm::dot(gained, gravity) / (step * squared), Real(0), Real(1))
                               : Real(1);
@@ -97,8 +103,10 @@ void BlockDescent<Real>::take_back_tangled(std::vector<Vec4<Real>>& positions) c
     tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
         const ModelObject& object = model_->objects[o];
         if (!tets_.is_tangled(object, positions)) return;
-        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n)
+        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
+            if (positions[n].w == Real(0)) continue;  // held ones are where their handle takes them
             positions[n] = Vec4<Real>(Vec3<Real>(starts_[n]), positions[n].w);
+        }
     });
 }
 

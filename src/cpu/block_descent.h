@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "cpu/nodes.h"
@@ -12,8 +13,9 @@
 namespace gelatin::cpu {
 
 /// Vertex block descent (Chen et al. 2024): a step of implicit Euler as the minimum of
-///   G(x) = sum_i m_i / (2 h^2) |x_i - y_i|^2 + E(x),   y = x_t + h v_t + h^2 g,
-/// found node by node, each by one Newton step on its own three coordinates, all nodes of one colour at once.
+///   G(x) = sum_i m_i / (2 h^2) |x_i - y_i|^2 + E(x),   y = x_t + h v_t + h^2 (g + f / m),
+/// with f the force of loads, found node by node, each by one Newton step on its own three coordinates, all
+/// nodes of one colour at once.
 /// Between sweeps and after the last one, bodies that nothing holds move as rigid ones to where G is least:
 /// that keeps their momentum, which sweeps alone lose (docs/physics.md). Stable for any step and start. The
 /// same bits for any number of threads.
@@ -24,10 +26,13 @@ public:
 
     /// A step of `step` seconds from `previous`; writes `current`.
     /// @param current's velocities are those one step before `previous` if `has_earlier`, else not looked at
-    void run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current);
+    /// @param load_forces [N], shape [nodes], or empty
+    void run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current,
+             std::span<const Vec4<Real>> load_forces = {});
 
 private:
-    void start(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current);
+    void start(Real step, bool has_earlier, const Nodes<Real>& previous,
+               std::span<const Vec4<Real>> load_forces, Nodes<Real>& current);
     void take_back_tangled(std::vector<Vec4<Real>>& positions) const;
     void accelerate(int sweep, std::vector<Vec4<Real>>& positions);
     void sweep(Real step, std::vector<Vec4<Real>>& positions);

@@ -16,6 +16,7 @@ struct ContactPatch {
     Real mass = 0;              ///< of the corners that are not pinned [kg]
     Vec3<Real> momentum{0};     ///< of the same [kg m/s]
     std::uint32_t pinned = 0;   ///< corners that are
+    Vec3<Real> held{0};         ///< sum of these' velocities [m/s]
 };
 
 /// The weight in a patch's normal of faces that do not enter the other object (src/cpu/touch.h): they count
@@ -35,10 +36,11 @@ template <class Real>
 struct ContactPlane {
     Vec3<Real> normal;    ///< unit, from the first patch's object to the second's
     Vec3<Real> velocity;  ///< [m/s]
-    bool pinned;          ///< it stays where it is, and takes any impulse
+    bool pinned;          ///< it moves as it does, and takes any impulse
 };
 
-/// It moves with the patches' common velocity, or not at all where a corner is pinned.
+/// It moves with the patches' common velocity, or with the mean one of the corners that are pinned, which
+/// handles move.
 /// @param between from the first object's middle to the second's: the normal where the faces' cancel out [m]
 template <class Real>
 ContactPlane<Real> contact_plane(const ContactPatch<Real>& patch, const ContactPatch<Real>& other,
@@ -48,10 +50,15 @@ ContactPlane<Real> contact_plane(const ContactPatch<Real>& patch, const ContactP
         return length > Real(0) ? v / length : otherwise;
     };
     const Vec3<Real> middle = direction(between, Vec3<Real>(0, 1, 0));
-    const bool moves = patch.pinned + other.pinned == 0;
+    const std::uint32_t pinned = patch.pinned + other.pinned;
     const Real mass = patch.mass + other.mass;
-    return {direction(patch.area_normal - other.area_normal, middle),
-            moves && mass > Real(0) ? (patch.momentum + other.momentum) / mass : Vec3<Real>(0), !moves};
+    Vec3<Real> velocity(0);
+    if (pinned > 0) {
+        velocity = (patch.held + other.held) / static_cast<Real>(pinned);
+    } else if (mass > Real(0)) {
+        velocity = (patch.momentum + other.momentum) / mass;
+    }
+    return {direction(patch.area_normal - other.area_normal, middle), velocity, pinned > 0};
 }
 
 /// What a corner's velocity v changes by: -factor u normal + slowing, where u = (v - velocity) . normal > 0.

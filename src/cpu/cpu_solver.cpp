@@ -8,8 +8,10 @@
 #include <type_traits>
 #include <utility>
 
+#include "cpu/apply_kinematics.h"
 #include "cpu/measure.h"
 #include "cpu/respond.h"
+#include "cpu/sum_loads.h"
 
 namespace gelatin::cpu {
 namespace {
@@ -59,22 +61,45 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
         spring_forces_.resize(model_->springs.size());
         node_forces_.resize(model_->node_count());
     }
+    load_factors_.assign(model_->loads.spans.size(), 1.0f);
+    if (!model_->loads.empty()) load_forces_.assign(model_->node_count(), Vec4<Real>(0));
+}
+
+template <class Real>
+void CpuSolver<Real>::apply_kinematics(std::span<const HandleMotion> motions) {
+    cpu::apply_kinematics(*model_, motions, current_);
+}
+
+template <class Real>
+void CpuSolver<Real>::set_load_factors(std::span<const float> factors) {
+    load_factors_.assign(factors.begin(), factors.end());
 }
 
 template <class Real>
 void CpuSolver<Real>::advance_nodes(double step) {
     if (block_descent_) {
         std::swap(current_, previous_);
-        block_descent_->run(static_cast<Real>(step), std::exchange(has_earlier_, true), previous_, current_);
+        sum_loads(previous_);
+        block_descent_->run(static_cast<Real>(step), std::exchange(has_earlier_, true), previous_, current_,
+                            load_forces_);
         return;
     }
     const Nodes<Real>* from = &current_;
     for (int p = 0; p < scheme_.pass_count; ++p) {
         Nodes<Real>& to = p + 1 == scheme_.pass_count ? previous_ : stage_[p % 2];
-        run_pass(make_pass(*model_, scheme_, p, step, current_, *from, to, sums_));
+        sum_loads(*from);
+        Pass<Real> pass = make_pass(*model_, scheme_, p, step, current_, *from, to, sums_);
+        if (!load_forces_.empty()) pass.load_forces = load_forces_.data();
+        run_pass(pass);
         from = &to;
     }
     std::swap(current_, previous_);
+}
+
+template <class Real>
+void CpuSolver<Real>::sum_loads(const Nodes<Real>& nodes) {
+    if (!load_forces_.empty())
+        cpu::sum_loads<Real>(model_->loads, load_factors_, nodes.positions, load_forces_);
 }
 
 template <class Real>

@@ -24,6 +24,8 @@ public:
     CpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces,
               const CollisionSettings& collision = {}, const DescentSettings& descent = {});
 
+    void apply_kinematics(std::span<const HandleMotion> motions) override;
+    void set_load_factors(std::span<const float> factors) override;
     void advance_nodes(double step) override;
     void update_boxes() override { collision_.update_boxes(current_.positions, previous_.positions); }
     void find_object_pairs() override { collision_.find_object_pairs(); }
@@ -53,6 +55,7 @@ public:
     const FindProximities<Real>* found_proximities() const { return proximities_ ? &*proximities_ : nullptr; }
 
 private:
+    void sum_loads(const Nodes<Real>& nodes);
     void run_pass(const Pass<Real>& pass);
 
     std::shared_ptr<const Model> model_;
@@ -64,6 +67,8 @@ private:
     Nodes<Real> stage_[2];            // between the passes of one step
     Nodes<Real> sums_;
     std::vector<Vec4<Real>> spring_forces_, node_forces_;
+    std::vector<float> load_factors_;
+    std::vector<Vec4<Real>> load_forces_;  // [N], shape [nodes]; empty where there are no loads
     Collision<Real> collision_;
     ContactProperties contact_;
     struct SelfStages {

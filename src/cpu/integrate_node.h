@@ -5,7 +5,8 @@
 
 namespace gelatin::cpu {
 
-/// One node's part of a pass, given the force of its springs [N]. GLSL twin: include/integrate_node.glsl.
+/// One node's part of a pass, given the force of its springs [N]. A node without inverse mass moves with the
+/// velocity that it has. GLSL twin: include/integrate_node.glsl.
 /// Written on four components, the last one carried along, so that compilers make one vector of them.
 template <class Real>
 inline void integrate_node(const Pass<Real>& pass, std::uint32_t n, const Vec3<Real>& force) {
@@ -14,13 +15,17 @@ inline void integrate_node(const Pass<Real>& pass, std::uint32_t n, const Vec3<R
     const V4 base_velocity = pass.base_velocities[n];
     const Real inverse_mass = base_position.w;
     if (inverse_mass == Real(0)) {
-        pass.out_positions[n] = base_position;
+        const Real step = pass.last ? pass.step : pass.next_step;
+        pass.out_positions[n] =
+            base_position + step * V4(base_velocity.x, base_velocity.y, base_velocity.z, 0);
         pass.out_velocities[n] = base_velocity;
         return;
     }
     V4 rate = pass.velocities[n];
     rate.w = Real(0);
-    const V4 acceleration = V4(pass.gravity, 0) + inverse_mass * V4(force, 0);
+    V4 total(force, 0);
+    if (pass.load_forces != nullptr) total += pass.load_forces[n];
+    const V4 acceleration = V4(pass.gravity, 0) + inverse_mass * total;
 
     V4 sum_rate = pass.weight * rate;
     V4 sum_acceleration = pass.weight * acceleration;

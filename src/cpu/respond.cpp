@@ -85,9 +85,13 @@ ContactPatch<Real> sum_patch(const Contacts<Real>& contacts, const ObjectPair& p
         patch.area_normal += weight * contacts.area_normal(contacts.model.faces[f]);
     }
     contacts.for_corners(pair, [&](std::uint32_t n, Real mass) {
-        patch.pinned += mass == Real(0) ? 1 : 0;
+        const Vec3<Real> velocity(contacts.nodes.velocities[n]);
+        if (mass == Real(0)) {
+            ++patch.pinned;
+            patch.held += velocity;
+        }
         patch.mass += mass;
-        patch.momentum += mass * Vec3<Real>(contacts.nodes.velocities[n]);
+        patch.momentum += mass * velocity;
     });
     return patch;
 }

@@ -47,6 +47,11 @@ FaceLump<Real> make_lump(const Model& model, const SelfCollision<Real>& collisio
     if (lump.mass > Real(0)) {
         lump.velocity /= lump.mass;
         lump.way /= lump.mass;
+    } else {
+        for (const std::uint32_t n : {face.a, face.b, face.c}) {
+            lump.velocity += Vec3<Real>(current.velocities[n]) / Real(3);
+            lump.way += Vec3<Real>(current.positions[n] - previous.positions[n]) / Real(3);
+        }
     }
     lump.mass /= static_cast<Real>(collision.contact_count(f));
     const Vec3<Real> a(current.positions[face.a]);

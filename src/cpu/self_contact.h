@@ -10,7 +10,7 @@ namespace gelatin::cpu {
 template <class Real>
 struct FaceLump {
     Real mass = 0;           ///< of the corners that are not pinned [kg]
-    Vec3<Real> velocity{0};  ///< of the same [m/s]
+    Vec3<Real> velocity{0};  ///< of the same; of all where all are pinned [m/s]
     Vec3<Real> way{0};       ///< that they went in this step [m]
     Vec3<Real> center{0};    ///< of all corners [m]
     Vec3<Real> normal{0};    ///< outward, unit; 0 of a flat face

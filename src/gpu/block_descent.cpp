@@ -13,13 +13,20 @@ namespace {
 constexpr int kSweepsAMotion = 2;
 constexpr std::size_t kRigidSums = 12;  // dvec4s in RigidSums, include/rigid_sums.glsl
 
+// For programs that include include/descent_step.glsl, colliders and loads.
+gl::Defines step_defines(const Model& model) {
+    gl::Defines defines = ModelBuffers::collider_defines(model);
+    if (!model.loads.empty()) defines.emplace_back("LOADED");
+    return defines;
+}
+
 gl::Defines volume_defines(const Model& model) {
     if (model.volume_term.is_empty()) return {};
     return {"VOLUME"};
 }
 
 gl::Defines sweep_defines(const Model& model) {
-    gl::Defines defines = ModelBuffers::collider_defines(model);
+    gl::Defines defines = step_defines(model);
     if (model.has_damping()) defines.emplace_back("DAMPED");
     for (const std::string& define : volume_defines(model)) defines.push_back(define);
     return defines;
@@ -88,12 +95,11 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
       accelerate_program_(gl::Program::compute("sim/accelerate_descent.comp")),
       mark_program_(gl::Program::compute("sim/mark_flat_tets.comp", volume_defines(model))),
       sweep_program_(gl::Program::compute("sim/descend.comp", sweep_defines(model))),
-      sum_program_(gl::Program::compute("sim/sum_rigid_motions.comp", ModelBuffers::collider_defines(model))),
+      sum_program_(gl::Program::compute("sim/sum_rigid_motions.comp", step_defines(model))),
       motion_program_(gl::Program::compute("sim/sum_rigid_motions.comp",
                                            with(ModelBuffers::collider_defines(model), "OBJECTS"))),
       move_program_(gl::Program::compute("sim/move_bodies.comp")),
-      last_move_program_(
-          gl::Program::compute("sim/move_bodies.comp", with(ModelBuffers::collider_defines(model), "LAST"))),
+      last_move_program_(gl::Program::compute("sim/move_bodies.comp", with(step_defines(model), "LAST"))),
       settings_(settings),
       node_count_(model.node_count()),
       tet_count_(static_cast<std::uint32_t>(model.tets.size())),

@@ -21,6 +21,7 @@ public:
 
     /// A step of `step` seconds from `previous`; writes `current`. Ends with the barrier that whoever gathers
     /// the nodes as textures or storage needs.
+    /// @pre where the model has loads, SumLoads::run
     /// @param current's velocities are those one step before `previous` if `has_earlier`, else not looked at
     void run(const ModelBuffers& model, const NodeBuffers& previous, const NodeBuffers& current, double step,
              bool has_earlier) const;

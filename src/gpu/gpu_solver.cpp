@@ -22,6 +22,8 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, Forc
         }
     }
     if (model_->objects.size() > 1 || collision.self_collision) collision_.emplace(*model_, collision);
+    if (!model_->handles.empty()) apply_kinematics_.emplace(*model_);
+    if (!model_->loads.empty()) sum_loads_.emplace(*model_);
     if (solver == SolverKind::vbd) {
         block_descent_.emplace(*model_, descent);
     } else if (forces == ForceMethod::fused) {
@@ -31,15 +33,21 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, Forc
     }
 }
 
+void GpuSolver::apply_kinematics(std::span<const HandleMotion> motions) {
+    apply_kinematics_->run(motions, current_);
+}
+
 void GpuSolver::advance_nodes(double step) {
     if (block_descent_) {
         std::swap(current_, previous_);
+        if (sum_loads_) sum_loads_->run(previous_);
         block_descent_->run(buffers_, previous_, current_, step, std::exchange(has_earlier_, true));
         return;
     }
     const NodeBuffers* from = &current_;
     for (int p = 0; p < scheme_.pass_count; ++p) {
         NodeBuffers& to = p + 1 == scheme_.pass_count ? previous_ : stage_[p % 2];
+        if (sum_loads_) sum_loads_->run(*from);
         const Pass pass{scheme_, p, step, current_, *from, to, sums_};
         if (fused_) {
             fused_->run(buffers_, pass);

@@ -5,12 +5,14 @@
 
 #include "gl/timer.h"
 #include "gpu/advance_nodes.h"
+#include "gpu/apply_kinematics.h"
 #include "gpu/block_descent.h"
 #include "gpu/collision.h"
 #include "gpu/divide_and_merge.h"
 #include "gpu/measure.h"
 #include "gpu/model_buffers.h"
 #include "gpu/node_buffers.h"
+#include "gpu/sum_loads.h"
 #include "model/solver.h"
 
 namespace gelatin::gpu {
@@ -21,6 +23,8 @@ public:
     GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces,
               const CollisionSettings& collision = {}, const DescentSettings& descent = {});
 
+    void apply_kinematics(std::span<const HandleMotion> motions) override;
+    void set_load_factors(std::span<const float> factors) override { sum_loads_->set_factors(factors); }
     void advance_nodes(double step) override;
     void update_boxes() override;
     void find_object_pairs() override;
@@ -54,6 +58,8 @@ private:
     NodeBuffers stage_[2], sums_;                // between the passes of one step
     std::optional<BlockDescent> block_descent_;  // instead of the scheme
     bool has_earlier_ = false;                   // previous_ is one step earlier: vbd looks back
+    std::optional<ApplyKinematics> apply_kinematics_;  // where the scene has handles
+    std::optional<SumLoads> sum_loads_;                // where it has loads
     std::optional<AdvanceNodes> fused_;
     std::optional<DivideAndMerge> divide_and_merge_;
     std::optional<Collision> collision_;  // where something can collide, or somebody asked for boxes

@@ -7,6 +7,7 @@ namespace gelatin::gpu {
 gl::Defines integration_defines(const Model& model, const ExplicitScheme& scheme) {
     gl::Defines defines = ModelBuffers::collider_defines(model);
     if (scheme.pass_count > 1) defines.emplace_back("MULTI_PASS");
+    if (!model.loads.empty()) defines.emplace_back("LOADED");
     return defines;
 }
 

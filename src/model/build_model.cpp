@@ -5,15 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "gelatin/error.h"
 #include "mesh/topology.h"
 #include "model/box_tree.h"
+#include "model/check_regions.h"
 #include "model/draw_surface.h"
 #include "model/node_faces.h"
 #include "model/object_mesh.h"
+#include "model/region.h"
 #include "model/spring_packing.h"
 #include "model/springs.h"
 #include "model/surface_parts.h"
@@ -27,23 +31,6 @@ namespace {
 constexpr std::size_t kSmallObject = 8192;
 constexpr std::uint32_t kSortWindow = 256;
 constexpr double kCreaseAngle = 0.7;  // 40 degrees: flatter edges are drawn smooth
-
-struct IsInside {
-    glm::dvec3 point;
-    bool operator()(const BoxRegion& box) const {
-        return glm::all(glm::greaterThanEqual(point, box.min)) &&
-               glm::all(glm::lessThanEqual(point, box.max));
-    }
-    bool operator()(const SphereRegion& sphere) const {
-        return glm::distance(point, sphere.center) <= sphere.radius;
-    }
-    bool operator()(const HalfSpaceRegion& half) const { return glm::dot(half.normal, point) <= half.offset; }
-};
-
-bool is_pinned(const std::vector<Region>& pins, const glm::dvec3& point) {
-    return std::any_of(pins.begin(), pins.end(),
-                       [&](const Region& r) { return std::visit(IsInside{point}, r); });
-}
 
 // Faces in the order of the tree that is built over them.
 void arrange_faces(TetMesh& mesh) {
@@ -106,11 +93,19 @@ void append_nodes(Model& model, const Body& body, const TetMesh& mesh) {
     for (const glm::uvec4& tet : mesh.tets) {
         for (int k = 0; k < 4; ++k) masses[tet[k]] += 0.25 * body.material.density * tet_volume(mesh, tet);
     }
+    glm::dvec3 center(0.0);  // of mass
+    double sum = 0.0;
+    for (std::size_t n = 0; n < masses.size(); ++n) {
+        center += masses[n] * mesh.positions[n];
+        sum += masses[n];
+    }
+    center /= sum;
     for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
         const float mass = checked_float(masses[n], body.name, "a node's mass [kg]");
-        const bool pinned = is_pinned(body.pins, mesh.positions[n]);
+        const bool pinned = any_holds(body.pins, mesh.positions[n]);
+        const glm::dvec3 velocity = body.velocity + glm::cross(body.spin, mesh.positions[n] - center);
         model.positions.emplace_back(glm::vec3(mesh.positions[n]), pinned ? 0.0f : 1.0f / mass);
-        model.velocities.emplace_back(pinned ? glm::vec3(0.0f) : glm::vec3(body.velocity),
+        model.velocities.emplace_back(pinned ? glm::vec3(0.0f) : glm::vec3(velocity),
                                       static_cast<float>(body.material.damping));
         model.masses.push_back(mass);
     }
@@ -178,6 +173,10 @@ void append_body(Model& model, const Body& body) {
 
     const std::uint32_t first = object.nodes.first;
     append_nodes(model, body, mesh);
+    object.handle_nodes.first = size(model.handle_nodes);
+    for (const HandleDescription& handle : body.handles) append_handle(handle, mesh.positions, first, model);
+    object.handle_nodes.count = size(model.handle_nodes) - object.handle_nodes.first;
+    append_loads(body.loads, mesh, std::span(model.masses).subspan(first), first, model.loads);
     append_springs(
         model,
         fitted ? scaled_springs(body, order, *fitted)
@@ -252,18 +251,14 @@ Body make_body(const Scene& scene, const ObjectDescription& object, ObjectMesher
     body.mesh = mesher.make(object);
     body.material = find_material(scene, object);
     body.velocity = object.velocity;
+    body.spin = glm::radians(object.spin);
     body.pins = object.pins;
+    body.handles = object.handles;
+    body.loads = object.loads;
     if (!body.material.springs) body.fitted = mesher.fit(object);
     body.scale = object.scale;
     if (object.color) body.color = glm::vec3(*object.color);
-    const auto pinned = [&](const glm::dvec3& p) { return is_pinned(body.pins, p); };
-    if (!body.pins.empty() && std::none_of(body.mesh.positions.begin(), body.mesh.positions.end(), pinned)) {
-        throw InvalidInput({scene.file.string(),
-                            object.line,
-                            "object." + object.name + ".pins",
-                            {},
-                            "hold no node of the object (regions are in world coordinates)"});
-    }
+    check_regions(scene.file, object, body.mesh);
     return body;
 }
 

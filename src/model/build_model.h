@@ -15,7 +15,10 @@ struct Body {
     TetMesh mesh;
     Material material;
     glm::dvec3 velocity{0.0};  ///< [m/s]
+    glm::dvec3 spin{0.0};      ///< about the centre of mass [rad/s]
     std::vector<Region> pins;
+    std::vector<HandleDescription> handles;
+    std::vector<LoadDescription> loads;
     glm::vec3 color{-1.0f};  ///< linear RGB; negative: the renderer's palette
 
     /// Of a material without kinds of springs: those fitted to the mesh before it was scaled; empty:
@@ -32,8 +35,7 @@ Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDes
                   const glm::dvec3& gravity);
 
 /// Makes the mesh of each of the scene's objects and packs them.
-/// @throws InvalidInput as pack_bodies and ObjectMesher::make; also for an object whose pins
-/// hold no node.
+/// @throws InvalidInput as pack_bodies, ObjectMesher::make and check_regions.
 Model build_model(const Scene& scene);
 
 }  // namespace gelatin

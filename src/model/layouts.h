@@ -19,6 +19,8 @@ using glm::vec4;
 #include "layouts/draw.glsl"
 #include "layouts/face.glsl"
 #include "layouts/half_spring_pair.glsl"
+#include "layouts/handle.glsl"
+#include "layouts/load.glsl"
 #include "layouts/object_pair.glsl"
 #include "layouts/proximity.glsl"
 #include "layouts/rest_shape.glsl"
@@ -32,7 +34,7 @@ static_assert(sizeof(BoundingBox) == 48);
 static_assert(sizeof(Box) == 32);
 static_assert(sizeof(Chunk) == 16);
 static_assert(sizeof(Collider) == 64);
-static_assert(sizeof(ContactPatch) == 32);
+static_assert(sizeof(ContactPatch) == 48);
 static_assert(sizeof(ContactResponse) == 48);
 static_assert(sizeof(Dispatch) == 16);
 static_assert(sizeof(Draw) == 16);
@@ -41,8 +43,12 @@ static_assert(sizeof(FaceEdge) == 16);
 static_assert(sizeof(FacePair) == 16);
 static_assert(sizeof(FitSums) == 48);
 static_assert(sizeof(HalfSpringPair) == 16);
+static_assert(sizeof(HandleMotion) == 128);
+static_assert(sizeof(HandleNode) == 32);
 static_assert(sizeof(LeafSearch) == 32);
+static_assert(sizeof(LoadedNode) == 16);
 static_assert(sizeof(NearObject) == 16);
+static_assert(sizeof(NodeLoad) == 32);
 static_assert(sizeof(NodeSums) == 32);
 static_assert(sizeof(ObjectPair) == 32);
 static_assert(sizeof(PairRow) == 16);
@@ -74,8 +80,12 @@ using layouts::FaceEdge;
 using layouts::FacePair;
 using layouts::FitSums;
 using layouts::HalfSpringPair;
+using layouts::HandleMotion;
+using layouts::HandleNode;
 using layouts::LeafSearch;
+using layouts::LoadedNode;
 using layouts::NearObject;
+using layouts::NodeLoad;
 using layouts::NodeSums;
 using layouts::ObjectPair;
 using layouts::PairRow;

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "model/handles.h"
 #include "model/layouts.h"
+#include "model/loads.h"
 #include "model/rest_shape.h"
 #include "model/volume_term.h"
 
@@ -23,7 +25,7 @@ struct Range {
 /// One deformable body: its ranges in the packed arrays, and what never changes about it.
 struct ModelObject {
     std::string name;
-    Range nodes, springs, faces, tets;
+    Range nodes, springs, faces, tets, handle_nodes;
     double mass = 0.0;         ///< [kg]
     double rest_volume = 0.0;  ///< [m^3]
     glm::vec3 color{0.0f};     ///< linear RGB; negative where the scene does not say
@@ -111,6 +113,10 @@ struct Model {
     BoxTree face_trees;      ///< one an object
     RestShapes rest_shapes;  ///< empty where objects do not collide with themselves
     DrawSurface surface;
+
+    std::vector<Handle> handles;
+    std::vector<HandleNode> handle_nodes;  ///< object by object
+    Loads loads;
 
     std::vector<Collider> colliders;  ///< in the order of their kinds
     glm::vec3 gravity{0.0f};          ///< [m/s^2]

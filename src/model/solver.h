@@ -2,6 +2,7 @@
 
 #include <glm/vec4.hpp>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,12 @@ struct ProximityMeasure {
 class Solver {
 public:
     virtual ~Solver() = default;
+
+    /// For scenes with handles, before the step whose motions these are: moves what they hold.
+    virtual void apply_kinematics(std::span<const HandleMotion> motions) = 0;
+
+    /// For scenes with loads: how much of the next steps each of them acts, 1 until somebody says otherwise.
+    virtual void set_load_factors(std::span<const float> factors) = 0;
 
     /// Forces and integration over one step of `step` seconds, world collisions included.
     virtual void advance_nodes(double step) = 0;

@@ -58,7 +58,16 @@ bool is_stable(const ExplicitScheme& scheme, double frequency, double damping, d
 
 double frequency_bound(const Model& model, const ModelObject& object) {
     std::vector<Eigen::Matrix3d> blocks(object.nodes.count, Eigen::Matrix3d::Zero());
-    const auto inverse_mass = [&](std::uint32_t n) { return static_cast<double>(model.positions[n].w); };
+    std::vector<double> inverse_masses;
+    for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n)
+        inverse_masses.push_back(static_cast<double>(model.positions[n].w));
+    // What a handle releases will be free; until then, held, it makes no frequency higher.
+    for (std::uint32_t h = object.handle_nodes.first; h < object.handle_nodes.end(); ++h) {
+        const HandleNode& held = model.handle_nodes[h];
+        if (std::isfinite(model.handles[held.handle].release))
+            inverse_masses[held.node - object.nodes.first] = static_cast<double>(held.arm.w);
+    }
+    const auto inverse_mass = [&](std::uint32_t n) { return inverse_masses[n - object.nodes.first]; };
     const auto add = [&](std::uint32_t node, std::uint32_t other, const Eigen::Matrix3d& kn) {
         if (inverse_mass(node) == 0.0) return;
         blocks[node - object.nodes.first] += kn * (inverse_mass(node) + inverse_mass(other));

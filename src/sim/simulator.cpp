@@ -42,6 +42,20 @@ struct Simulator::Impl {
     std::uint32_t reported_losses = 0;
     bool lost_proximities = false;  // and told so
 
+    // From the start on where a checkpoint was saved there too: so that a run that goes on has the very times
+    // of a run in one go.
+    void go_on_from(const Moment& moment) {
+        start = moment;
+        steps = 0;
+        const auto whole = static_cast<std::uint64_t>(std::llround(moment.time / step_size()));
+        const bool same_steps =
+            moment.frame == static_cast<int>(whole / static_cast<std::uint64_t>(substeps)) &&
+            std::abs(static_cast<double>(whole) * step_size() - moment.time) <= 1e-6 * step_size();
+        if (!same_steps) return;
+        start = {0, 0.0};
+        steps = whole;
+    }
+
     double step_size() const { return scene.simulation.frame_time() / substeps; }
     int frame() const { return start.frame + static_cast<int>(steps / static_cast<std::uint64_t>(substeps)); }
     double time() const { return start.time + static_cast<double>(steps) * step_size(); }
@@ -110,6 +124,12 @@ Simulator::~Simulator() = default;
 
 void Simulator::step() {
     Impl& d = *impl_;
+    if (!d.model->handles.empty()) {
+        const auto motions = handle_motions(d.model->handles, d.time(), d.step_size());
+        d.run_stage("apply_kinematics", [&] { d.solver->apply_kinematics(motions); });
+    }
+    if (!d.model->loads.empty())
+        d.solver->set_load_factors(load_factors(d.model->loads, d.time(), d.step_size()));
     d.run_stage("advance_nodes", [&] { d.solver->advance_nodes(d.step_size()); });
     const bool meets_others = d.model->objects.size() > 1, meets_itself = d.scene.collision.self_collision;
     if (meets_others || meets_itself) d.run_stage("update_boxes", [&] { d.solver->update_boxes(); });
@@ -243,8 +263,7 @@ void Simulator::save_checkpoint(const std::filesystem::path& file) const {
 void Simulator::load_checkpoint(const std::filesystem::path& file) {
     const Checkpoint checkpoint = read_checkpoint(file, model());
     impl_->solver->write_state(checkpoint.state);
-    impl_->start = {checkpoint.frame, checkpoint.time};
-    impl_->steps = 0;
+    impl_->go_on_from({checkpoint.frame, checkpoint.time});
 }
 
 }  // namespace gelatin

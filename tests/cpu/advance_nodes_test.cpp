@@ -24,15 +24,30 @@ INSTANTIATE_TEST_SUITE_P(Solvers, AdvanceNodesTest,
 
 // SIMD against the double oracle: wrong lanes, tails or transposes would be off by far more than rounding.
 TEST_P(AdvanceNodesTest, FloatWithSimdMatchesTheOracle) {
-    const Model model = test::make_lively_model();
-    ASSERT_NE(model.node_count() % 64, 0u);
-    cpu::CpuSolver<float> solver(std::make_shared<const Model>(model), GetParam(), ForceMethod::fused);
-    solver.advance_nodes(kStep);
-    const State state = solver.read_state();
-    EXPECT_LE(
-        test::worst_error(model, test::rounding_bounds(model, GetParam(), kStep),
-                          test::oracle_step(model, GetParam(), kStep), state.positions, state.velocities),
-        1.0);
+    for (const Model& model : {test::make_lively_model(), test::make_driven_model()}) {
+        ASSERT_NE(model.node_count() % 64, 0u);
+        cpu::CpuSolver<float> solver(std::make_shared<const Model>(model), GetParam(), ForceMethod::fused);
+        solver.advance_nodes(kStep);
+        const State state = solver.read_state();
+        EXPECT_LE(
+            test::worst_error(model, test::rounding_bounds(model, GetParam(), kStep),
+                              test::oracle_step(model, GetParam(), kStep), state.positions, state.velocities),
+            1.0);
+    }
+}
+
+// A node without inverse mass moves with its velocity, straight, whatever pulls and presses.
+TEST_P(AdvanceNodesTest, HeldNodesMoveWithTheirVelocity) {
+    const auto model = std::make_shared<const Model>(test::make_driven_model());
+    cpu::CpuSolver<double> solver(model, GetParam(), ForceMethod::fused);
+    for (int s = 0; s < 3; ++s) solver.advance_nodes(kStep);
+    ASSERT_GT(model->handle_nodes.size(), 100u);
+    for (const HandleNode& held : model->handle_nodes) {
+        const glm::dvec3 start(model->positions[held.node]), velocity(model->velocities[held.node]);
+        const glm::dvec3 end = start + 3.0 * kStep * velocity;
+        EXPECT_LT(glm::distance(glm::dvec3(solver.nodes().positions[held.node]), end), 1e-15 * 16.0);
+        EXPECT_EQ(solver.nodes().velocities[held.node], glm::dvec4(model->velocities[held.node]));
+    }
 }
 
 // In double the two ways differ by the order of summation alone.

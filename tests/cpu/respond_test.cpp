@@ -162,6 +162,23 @@ TEST(Respond, APinnedBodyIsAWall) {
     EXPECT_GE(bounced, 4);
 }
 
+// A wall that a handle moves: what meets it leaves with the restitution as the wall sees it, whoever comes.
+TEST(Respond, AMovingHandlePushes) {
+    Body wall = make_cube({0, 0, 0}, {0, 0, 0});
+    wall.pins = {BoxRegion{{-9, -9, -9}, {9, 9, 9}}};
+    Model model = pack_bodies({wall, make_cube({0, 0.99, 0}, {0, 0, 0})}, {}, {0.0, -9.81, 0.0});
+    test::move_pinned(model, {0.0f, 3.0f, 0.0f});
+    const cpu::Nodes<double> after =
+        test::respond_on_cpu<double>(model, {.friction = 0.0, .restitution = 0.5}, kStep);
+    int pushed = 0;
+    for (std::uint32_t n = model.objects[1].nodes.first; n < model.node_count(); ++n) {
+        if (!moved(model, after, n)) continue;
+        EXPECT_NEAR(after.velocities[n].y, 4.5, 1e-6);
+        ++pushed;
+    }
+    EXPECT_GE(pushed, 4);
+}
+
 // The laws are the same in every inertial frame.
 TEST(Respond, DoesNotDependOnTheFrame) {
     const glm::vec3 common(3.0f, -1.0f, 2.0f);

@@ -35,18 +35,20 @@ INSTANTIATE_TEST_SUITE_P(All, AdvanceNodesOnGpuTest,
                                                                              : "_divide_and_merge");
                          });
 
-// An irregular net with damping, pins, a floor and a sphere in the way, no multiple of 64 nodes: one step
-// reproduces the double-precision reference within rounding, writes every node and nothing behind the last.
+// An irregular net with damping, pins, a floor and a sphere in the way, no multiple of 64 nodes, without
+// loads and moving handles and with them: one step reproduces the double-precision reference within rounding,
+// writes every node and nothing behind the last.
 TEST_P(AdvanceNodesOnGpuTest, MatchesTheCpuReference) {
-    const Model model = test::make_lively_model();
-    ASSERT_NE(model.node_count() % 64, 0u);
-    const test::NodeArrays actual = test::step_on_gpu(model, GetParam().solver, GetParam().forces, kStep);
-    EXPECT_LE(test::worst_error(model, test::rounding_bounds(model, GetParam().solver, kStep),
-                                test::oracle_step(model, GetParam().solver, kStep), actual.positions,
-                                actual.velocities),
-              1.0);
-    EXPECT_TRUE(test::guard_is_untouched(actual.positions, model.node_count()));
-    EXPECT_TRUE(test::guard_is_untouched(actual.velocities, model.node_count()));
+    for (const Model& model : {test::make_lively_model(), test::make_driven_model()}) {
+        ASSERT_NE(model.node_count() % 64, 0u);
+        const test::NodeArrays actual = test::step_on_gpu(model, GetParam().solver, GetParam().forces, kStep);
+        EXPECT_LE(test::worst_error(model, test::rounding_bounds(model, GetParam().solver, kStep),
+                                    test::oracle_step(model, GetParam().solver, kStep), actual.positions,
+                                    actual.velocities),
+                  1.0);
+        EXPECT_TRUE(test::guard_is_untouched(actual.positions, model.node_count()));
+        EXPECT_TRUE(test::guard_is_untouched(actual.velocities, model.node_count()));
+    }
 }
 
 // Two nodes in one place, and a node without springs: finite, and as the reference has it.

@@ -91,6 +91,19 @@ TEST_F(LayoutsTest, NodeSums) {
            FIELD(NodeSums, potential_energy), FIELD(NodeSums, deepest), FIELD(NodeSums, contacts)});
 }
 
+TEST_F(LayoutsTest, Drives) {
+    check("handle.glsl", "HandleNode", sizeof(HandleNode),
+          {FIELD(HandleNode, arm), FIELD(HandleNode, node), FIELD(HandleNode, handle)});
+    check("handle.glsl", "HandleMotion", sizeof(HandleMotion),
+          {FIELD(HandleMotion, center), FIELD(HandleMotion, map_x), FIELD(HandleMotion, map_y),
+           FIELD(HandleMotion, map_z), FIELD(HandleMotion, velocity), FIELD(HandleMotion, rate_x),
+           FIELD(HandleMotion, rate_y), FIELD(HandleMotion, rate_z)});
+    check("load.glsl", "NodeLoad", sizeof(NodeLoad),
+          {FIELD(NodeLoad, force), FIELD(NodeLoad, load), FIELD(NodeLoad, b), FIELD(NodeLoad, c)});
+    check("load.glsl", "LoadedNode", sizeof(LoadedNode),
+          {FIELD(LoadedNode, node), FIELD(LoadedNode, first), FIELD(LoadedNode, end)});
+}
+
 TEST_F(LayoutsTest, Boxes) {
     check("box.glsl", "Box", sizeof(Box), {FIELD(Box, min), FIELD(Box, max)});
     check("box.glsl", "BoundingBox", sizeof(BoundingBox),
@@ -110,7 +123,7 @@ TEST_F(LayoutsTest, Pairs) {
 }
 TEST_F(LayoutsTest, Contacts) {
     check("contact.glsl", "ContactPatch", sizeof(ContactPatch),
-          {FIELD(ContactPatch, area_normal), FIELD(ContactPatch, momentum)});
+          {FIELD(ContactPatch, area_normal), FIELD(ContactPatch, momentum), FIELD(ContactPatch, held)});
     check("contact.glsl", "ApproachSums", sizeof(ApproachSums),
           {FIELD(ApproachSums, momentum), FIELD(ApproachSums, impulse)});
     check(

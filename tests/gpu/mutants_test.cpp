@@ -8,6 +8,7 @@
 
 #include "support/crowd.h"
 #include "support/descend_on_gpu.h"
+#include "support/drive_on_gpu.h"
 #include "support/folded.h"
 #include "support/gl_fixture.h"
 #include "support/parity.h"
@@ -84,7 +85,8 @@ TEST_P(CollisionMutantsTest, IsCaught) {
     break_shaders(GetParam(), folder);
     bool caught = false;
     for (const int objects : {7, 30}) {
-        const Model model = test::make_crowd(objects, 1);
+        Model model = test::make_crowd(objects, 1);
+        test::move_pinned(model, {1.0f, -2.0f, 0.5f});
         for (const CollisionSettings& detection :
              {CollisionSettings{.broad_phase = BroadPhase::boxes}, CollisionSettings{},
               CollisionSettings{.detection = CollisionDetection::continuous}}) {
@@ -101,6 +103,34 @@ TEST_P(CollisionMutantsTest, IsCaught) {
     }
     for (const double extent : {2.0, 4.0, 100.0})
         caught = caught || is_wrong_by_depth(test::make_far_pairs(100, extent));
+    EXPECT_TRUE(caught) << "the broken kernel passes";
+}
+
+class DriveMutantsTest : public test::GlTest, public ::testing::WithParamInterface<test::Break> {};
+INSTANTIATE_TEST_SUITE_P(All, DriveMutantsTest, ::testing::ValuesIn(test::kDriveMutants), name_of_mutant);
+
+TEST_P(DriveMutantsTest, IsCaught) {
+    test::ShaderFolder folder;
+    break_shaders(GetParam(), folder);
+    const Model model = test::make_driven_model();
+    bool caught = false;
+    for (const double time : {0.3, 1.2}) {
+        const auto motions = handle_motions(model.handles, time, kStep);
+        caught = caught || test::worst_kinematics_error(model, motions,
+                                                        test::apply_kinematics_on_gpu(model, motions)) > 1.0;
+    }
+    const std::vector<float> factors{0.3f, 0.8f, 0.7f, 1.0f};
+    caught = caught || test::worst_load_error(model, factors, test::sum_loads_on_gpu(model, factors)) > 1.0;
+    for (const SolverKind solver : {test::kSemiImplicit, SolverKind::rk4}) {
+        const test::NodeArrays actual = test::step_on_gpu(model, solver, test::kFused, kStep);
+        caught = caught || test::worst_error(model, test::rounding_bounds(model, solver, kStep),
+                                             test::oracle_step(model, solver, kStep), actual.positions,
+                                             actual.velocities) > 1.0;
+    }
+    const Model bodies = test::make_bodies_to_descend(0.01, 0.25, 1, true);
+    const test::Descent descent{1.0 / 60.0, {3}};
+    caught =
+        caught || test::worst_descent_error(bodies, descent, test::descend_on_gpu(bodies, descent)) > 1.0;
     EXPECT_TRUE(caught) << "the broken kernel passes";
 }
 

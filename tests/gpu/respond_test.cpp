@@ -40,6 +40,13 @@ TEST_P(RespondOnGpuTest, MatchesTheDoubleReferenceOnTheWay) {
     EXPECT_LE(test::worst_response_error(model, settings, kLongStep, actual), 1.0);
 }
 
+// Pinned nodes that handles move push with their velocity.
+TEST_P(RespondOnGpuTest, MatchesTheDoubleReferenceWithMovingHandles) {
+    Model model = test::make_crowd(GetParam(), static_cast<unsigned>(GetParam()));
+    test::move_pinned(model, {1.0f, -2.0f, 0.5f});
+    EXPECT_LE(test::worst_response_error(model, {}, kStep, test::respond_on_gpu(model, {}, kStep)), 1.0);
+}
+
 TEST_P(RespondOnGpuTest, RepeatsBitForBit) {
     const Model model = test::make_crowd(GetParam(), 9);
     const test::NodeArrays one = test::respond_on_gpu(model, {}, kStep),

@@ -18,6 +18,27 @@ TEST(FrequencyBound, IsExactForTwoNodes) {
     EXPECT_NEAR(frequency_bound(model, model.objects[0]), 10.0, 1e-6);
 }
 
+// What a handle will release counts as free, what it holds for good as pinned.
+TEST(FrequencyBound, LooksBeyondTheRelease) {
+    Body block = test::make_body(test::make_block({3, 3, 3}, {0.3, 0.3, 0.3}, 0.2));
+    const Region most = HalfSpaceRegion{{1.0, 0.0, 0.0}, 0.25};
+    const auto bound = [](const Body& body) {
+        const Model model = test::make_model(body);
+        return frequency_bound(model, model.objects[0]);
+    };
+    const double free = bound(block);
+    block.pins = {most};
+    const double pinned = bound(block);
+    ASSERT_LT(pinned, 0.999 * free);
+    block.pins.clear();
+    HandleDescription handle;
+    handle.region = most;
+    block.handles = {handle};
+    EXPECT_DOUBLE_EQ(bound(block), pinned);
+    block.handles[0].release = 1.0;
+    EXPECT_DOUBLE_EQ(bound(block), free);
+}
+
 TEST(LargestStableStep, MatchesTheTextbooksWithoutDamping) {
     EXPECT_NEAR(largest_stable_step(SolverKind::semi_implicit_euler, 100.0, 0.0), 2.0 / 100.0, 1e-4);
     EXPECT_NEAR(largest_stable_step(SolverKind::rk4, 100.0, 0.0), 2.0 * std::sqrt(2.0) / 100.0, 1e-3);

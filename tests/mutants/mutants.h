@@ -98,6 +98,8 @@ inline constexpr Break kCollisionMutants[] = {
     {"rows_are_not_sorted", "sim/list_object_pairs.comp", "object_pairs[place - 1u].other > other", "false"},
     {"a_leaf_has_three_faces", "sim/walk_trees.comp", "k < 4u", "k < 3u"},
     {"the_larger_object_starts", "include/pairs.glsl", "ours == theirs && pair.object < pair.other", "false"},
+    {"handles_push_without_velocity", "include/contact_plane.glsl",
+     "(patch_.held.xyz + other.held.xyz) / pinned", "vec3(0.0)"},
     {"half_a_word_of_tests", "sim/cull_face_pairs.comp", "k < 32u", "k < 16u"},
     {"pixels_count_by_their_centers", "sim/face_footprint.geom", "0.5 + 0.0078", "0.0"},
     {"depth_is_that_of_the_center", "sim/face_footprint.geom", "kReach * (abs(slope.x) + abs(slope.y))",
@@ -210,6 +212,28 @@ inline constexpr Break kProximityMutants[] = {
      "vec4(1.0 - s, s, 1.0 - t, t)"},
     {"the_nearest_is_the_last", "sim/write_proximities.comp", "min(least, proximity.distance)",
      "proximity.distance"},
+};
+
+/// Broken handles and loads.
+inline constexpr Break kDriveMutants[] = {
+    {"the_last_held_nodes_stay", "sim/apply_kinematics.comp", "k >= held_count", "k + 20u >= held_count"},
+    {"released_nodes_stay_heavy", "sim/apply_kinematics.comp", "positions[n].w = held.arm.w;", ";"},
+    {"released_nodes_are_held", "sim/apply_kinematics.comp", "motion.center.w == 0.0", "false"},
+    {"handles_do_not_turn", "sim/apply_kinematics.comp", "map * arm", "arm"},
+    {"held_nodes_have_no_velocity_of_the_turn", "sim/apply_kinematics.comp", "rate * arm + ", ""},
+    {"all_nodes_follow_the_first_handle", "sim/apply_kinematics.comp", "motions[held.handle]", "motions[0]"},
+    {"held_nodes_do_not_move", "include/integrate_node.glsl", "+ way_time * base_velocity.xyz", ""},
+    {"held_nodes_stay_in_the_last_pass", "include/integrate_node.glsl",
+     "is_last != 0u ? time_step : next_step", "next_step"},
+    {"loads_are_forgotten", "include/integrate_node.glsl", "force += load_force(n);", ""},
+    {"the_last_loads_are_left_out", "sim/sum_loads.comp", "k >= loaded_count", "k + 20u >= loaded_count"},
+    {"the_first_load_alone", "sim/sum_loads.comp", "e < loaded.end", "e < loaded.first + 1u"},
+    {"pressure_pulls", "sim/sum_loads.comp", "- load.force.w", "+ load.force.w"},
+    {"loads_always_act", "sim/sum_loads.comp", "factors[load.load] *", "1.0 *"},
+    {"descent_forgets_loads", "include/descent_step.glsl", "acceleration += start.w * load_force(node);", ""},
+    {"held_nodes_do_not_descend", "sim/start_descent.comp", "held = start.xyz + time_step * velocity;",
+     "held = start.xyz;"},
+    {"held_nodes_are_taken_back", "sim/take_back_tangled.comp", "if (start.w > 0.0) positions", "positions"},
 };
 
 // Of vertex block descent.

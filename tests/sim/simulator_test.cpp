@@ -31,6 +31,24 @@ Scene falling_balls() {
     return scene;
 }
 
+// A ball held at its left, turned and let go, and another one that is pushed and pressed for a while.
+Scene driven_balls(SolverKind solver) {
+    Scene scene = falling_balls();
+    scene.simulation.solver = solver;
+    HandleDescription handle;
+    handle.region = HalfSpaceRegion{{1.0, 0.0, 0.0}, -0.1};
+    handle.interpolation = Interpolation::smooth;
+    handle.keyframes = {{0.003}, {0.05, {-0.02, 0.03, 0.0}, {30.0, 10.0, 0.0}, 1.1}};
+    handle.release = 0.03;
+    scene.objects[0].handles = {handle};
+    LoadDescription push{HalfSpaceRegion{{0.0, 1.0, 0.0}, 0.3}, ForceLoad{{0.0, 400.0, 100.0}}};
+    push.from = 0.0101;
+    push.until = 0.0507;
+    scene.objects[1].loads = {push, {HalfSpaceRegion{{1.0, 0.0, 0.0}, 9.0}, PressureLoad{2e3}}};
+    scene.objects[1].spin = {0.0, 200.0, 0.0};
+    return scene;
+}
+
 class SimulatorTest : public test::GlTest {
 protected:
     // The simulator shares the fixture's context, as a host application's would.
@@ -212,6 +230,70 @@ TEST_F(SimulatorTest, GoesOnFromACheckpointBitForBit) {
         EXPECT_DOUBLE_EQ(again.time(), whole.time());
         EXPECT_EQ(again.read_frame().positions, whole.read_frame().positions);
         EXPECT_EQ(again.read_frame().velocities, whole.read_frame().velocities);
+    }
+}
+
+// In the middle of a handle's motion, and of a load's time, and after the release.
+TEST_F(SimulatorTest, HandlesAndLoadsGoOnFromACheckpointBitForBit) {
+    const TemporaryFolder folder;
+    for (const SolverKind solver : {SolverKind::semi_implicit_euler, SolverKind::vbd}) {
+        for (const Backend backend : {Backend::cpu, Backend::gl}) {
+            const Scene scene = driven_balls(solver);
+            Simulator whole(scene, on(backend));
+            std::vector<Simulator> others;
+            for (int f = 0; f < 40; ++f) {
+                if (f == 7 || f == 21) {
+                    whole.save_checkpoint(folder.path() / "a.ckpt");
+                    others.emplace_back(scene, on(backend)).load_checkpoint(folder.path() / "a.ckpt");
+                }
+                whole.advance_frame();
+                for (Simulator& other : others) other.advance_frame();
+            }
+            ASSERT_EQ(others.size(), 2u);
+            for (const Simulator& other : others) {
+                EXPECT_EQ(other.frame(), 40);
+                EXPECT_EQ(other.time(), whole.time());
+                EXPECT_EQ(other.read_frame().positions, whole.read_frame().positions);
+                EXPECT_EQ(other.read_frame().velocities, whole.read_frame().velocities);
+            }
+        }
+    }
+}
+
+// A checkpoint from within a frame, which knows the frames that are done, goes on with the same times.
+TEST_F(SimulatorTest, GoesOnFromWithinAFrame) {
+    const TemporaryFolder folder;
+    Scene scene = driven_balls(SolverKind::vbd);
+    scene.simulation.substeps = 3;
+    Simulator whole(scene, on(Backend::cpu)), again(scene, on(Backend::cpu));
+    for (int s = 0; s < 7; ++s) whole.step();
+    whole.save_checkpoint(folder.path() / "a.ckpt");
+    again.load_checkpoint(folder.path() / "a.ckpt");
+    for (int s = 0; s < 11; ++s) {
+        whole.step();
+        again.step();
+    }
+    EXPECT_EQ(again.frame(), 6);
+    EXPECT_EQ(again.time(), whole.time());
+    EXPECT_EQ(again.read_frame().positions, whole.read_frame().positions);
+}
+
+TEST_F(SimulatorTest, BackendsAgreeOnHandlesAndLoads) {
+    for (const SolverKind solver : {SolverKind::semi_implicit_euler, SolverKind::vbd}) {
+        const Scene scene = driven_balls(solver);
+        SimulatorOptions options = on(Backend::gl);
+        options.time_stages = true;
+        Simulator gl(scene, options), cpu(scene, on(Backend::cpu));
+        for (int f = 0; f < 30; ++f) {
+            gl.advance_frame();
+            cpu.advance_frame();
+        }
+        EXPECT_LT(largest_difference(gl.read_frame(), cpu.read_frame()), 1e-4);
+        bool is_timed = false;
+        for (const auto& [stage, times] : gl.take_stage_times()) is_timed |= stage == "apply_kinematics";
+        EXPECT_TRUE(is_timed);
+        const Simulator fresh(scene, on(Backend::cpu));
+        EXPECT_GT(largest_difference(gl.read_frame(), fresh.read_frame()), 1e-2) << "something happens";
     }
 }
 

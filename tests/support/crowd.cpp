@@ -95,6 +95,12 @@ Model make_crowd(int count, unsigned seed) {
     return model;
 }
 
+void move_pinned(Model& model, const glm::vec3& velocity) {
+    for (std::size_t n = 0; n < model.positions.size(); ++n) {
+        if (model.positions[n].w == 0.0f) model.velocities[n] = glm::vec4(velocity, model.velocities[n].w);
+    }
+}
+
 Model make_far_pairs(int count, double extent, unsigned seed) {
     constexpr double kSide = 0.05, kDistance = 0.99 * kSide;  // of the centres: their inner spheres overlap
     std::mt19937 random(seed);

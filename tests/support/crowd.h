@@ -16,6 +16,9 @@ namespace gelatin::test {
 /// some nodes of the first are pinned.
 Model make_crowd(int count, unsigned seed = 1);
 
+/// Gives pinned nodes a velocity, as handles do.
+void move_pinned(Model& model, const glm::vec3& velocity);
+
 /// `count` pairs of cubes of 5 cm that overlap a little, turned at random and strewn over a cube of side
 /// `extent` [m].
 Model make_far_pairs(int count, double extent, unsigned seed = 1);

@@ -1,10 +1,13 @@
 #include "support/descend_on_gpu.h"
 
 #include <algorithm>
+#include <optional>
 #include <random>
 
 #include "cpu/block_descent.h"
+#include "cpu/sum_loads.h"
 #include "gpu/block_descent.h"
+#include "gpu/sum_loads.h"
 #include "support/crowd.h"
 #include "support/parity.h"
 #include "support/test_models.h"
@@ -19,7 +22,10 @@ NodeArrays descend_on_gpu(const Model& model, const Descent& descent) {
     const gpu::ModelBuffers buffers(model);
     const gpu::NodeBuffers previous(model.positions, model.velocities),
         current(arrays.positions, arrays.velocities);
-    gpu::BlockDescent(model, descent.settings).run(buffers, previous, current, descent.step, has_earlier);
+    const gpu::BlockDescent program(model, descent.settings);
+    std::optional<gpu::SumLoads> loads;
+    if (!model.loads.empty()) loads.emplace(model).run(previous);
+    program.run(buffers, previous, current, descent.step, has_earlier);
     gl::barrier(gl::Barrier::buffer_update);
     current.positions.download(arrays.positions);
     current.velocities.download(arrays.velocities);
@@ -30,11 +36,16 @@ double worst_descent_error(const Model& model, const Descent& descent, const Nod
     const cpu::Nodes<double> start{{model.positions.begin(), model.positions.end()},
                                    {model.velocities.begin(), model.velocities.end()}};
     cpu::Nodes<double> expected = start;
+    std::vector<glm::dvec4> loads(model.loads.empty() ? 0 : model.node_count(), glm::dvec4(0.0));
+    if (!loads.empty()) {
+        const std::vector<float> factors(model.loads.spans.size(), 1.0f);
+        cpu::sum_loads<double>(model.loads, factors, start.positions, loads);
+    }
     const bool has_earlier = !descent.earlier_velocities.empty();
     if (has_earlier)
         expected.velocities = {descent.earlier_velocities.begin(), descent.earlier_velocities.end()};
     cpu::BlockDescent<double>(std::make_shared<const Model>(model), descent.settings)
-        .run(descent.step, has_earlier, start, expected);
+        .run(descent.step, has_earlier, start, expected, loads);
     StepBounds bounds = rounding_bounds(model, SolverKind::semi_implicit_euler, descent.step);
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
         bounds.position[n] *= descent.settings.iterations;
@@ -43,7 +54,7 @@ double worst_descent_error(const Model& model, const Descent& descent, const Nod
     return worst_error(model, bounds, expected, actual.positions, actual.velocities);
 }
 
-Model make_bodies_to_descend(double damping_time, double poisson_ratio, unsigned seed) {
+Model make_bodies_to_descend(double damping_time, double poisson_ratio, unsigned seed, bool driven) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
     Material jelly;
@@ -57,8 +68,15 @@ Model make_bodies_to_descend(double damping_time, double poisson_ratio, unsigned
         body.velocity = {unit(random), unit(random), unit(random)};
         return bodies.emplace_back(std::move(body));
     };
-    add({5, 6, 7}, {0.0, 1.0, 0.0});
-    add({3, 2, 2}, {1.0, 1.0, 0.0});
+    Body& large = add({5, 6, 7}, {0.0, 1.0, 0.0});
+    if (driven) {
+        large.loads = {{HalfSpaceRegion{{0.0, 1.0, 0.0}, 1.2}, ForceLoad{{500.0, 2000.0, 0.0}}},
+                       {HalfSpaceRegion{{1.0, 0.0, 0.0}, 0.01}, PressureLoad{2e3}}};
+    }
+    HandleDescription handle;
+    handle.region = HalfSpaceRegion{{1.0, 0.0, 0.0}, 1.05};
+    Body& small = add({3, 2, 2}, {1.0, 1.0, 0.0});
+    if (driven) small.handles = {handle};
     add({4, 2, 2}, {0.0, 1.0, 1.0}).pins = {HalfSpaceRegion{{1.0, 0.0, 0.0}, 0.05}};
     add({3, 3, 3}, {-1.0, -0.01, 0.0}).velocity = {2.0, -1.0, 0.5};
     ColliderDescription floor, ball;
@@ -75,6 +93,8 @@ Model make_bodies_to_descend(double damping_time, double poisson_ratio, unsigned
             model.positions[n] += 0.06f * glm::vec4(x, y, z, 0.0f);
         }
     }
+    for (const HandleNode& held : model.handle_nodes)
+        model.velocities[held.node] += glm::vec4(0.5f, -1.0f, 0.7f, 0.0f);
     return model;
 }
 

@@ -47,6 +47,13 @@ StepBounds rounding_bounds(const Model& model, SolverKind solver, double step) {
             ++valence[n];
         }
     }
+    for (const LoadedNode& loaded : model.loads.nodes) {
+        for (std::uint32_t e = loaded.first; e < loaded.end; ++e) {
+            const glm::dvec4 load(model.loads.entries[e].force);
+            force[loaded.node] += glm::length(glm::dvec3(load)) + 4.0 * std::abs(load.w) * x * x;
+            ++valence[loaded.node];
+        }
+    }
     const int passes = explicit_scheme(solver).pass_count;
     StepBounds bounds;
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {

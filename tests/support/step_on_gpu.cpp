@@ -1,7 +1,10 @@
 #include "support/step_on_gpu.h"
 
+#include <optional>
+
 #include "gpu/advance_nodes.h"
 #include "gpu/divide_and_merge.h"
+#include "gpu/sum_loads.h"
 #include "support/parity.h"
 
 namespace gelatin::test {
@@ -16,9 +19,12 @@ NodeArrays step_on_gpu(const Model& model, SolverKind solver, ForceMethod forces
 
     const gpu::AdvanceNodes fused(model, scheme);
     const gpu::DivideAndMerge divided(model, scheme);
+    std::optional<gpu::SumLoads> loads;
+    if (!model.loads.empty()) loads.emplace(model);
     const gpu::NodeBuffers* from = &start;
     for (int p = 0; p < scheme.pass_count; ++p) {
         gpu::NodeBuffers& to = p + 1 == scheme.pass_count ? result : stage[p % 2];
+        if (loads) loads->run(*from);
         const gpu::Pass pass{scheme, p, step, start, *from, to, sums};
         if (forces == ForceMethod::fused) {
             fused.run(buffers, pass);

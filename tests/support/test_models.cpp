@@ -67,13 +67,19 @@ Model make_model(const Body& body, glm::dvec3 gravity) {
     return pack_bodies({body}, {}, gravity);
 }
 
-Model make_lively_model(unsigned seed) {
+namespace {
+
+Body lively_body(unsigned seed) {
     Material material;
     material.damping = 2e-3;
     material.springs = SpringKinds{true, true, true};
     Body body = make_body(make_block({9, 10, 10}, {0.9, 1.0, 1.0}, 0.2, seed), material);
     for (glm::dvec3& p : body.mesh.positions) p += glm::dvec3(0.4, -0.02, -0.3);
     body.pins = {HalfSpaceRegion{{-1.0, 0.0, 0.0}, -1.29}};
+    return body;
+}
+
+Model enlivened(const Body& body, unsigned seed) {
     ColliderDescription sphere;
     sphere.shape = SphereCollider{0.3};
     sphere.position = {0.3, 0.5, 0.2};
@@ -88,7 +94,36 @@ Model make_lively_model(unsigned seed) {
             model.velocities[n][k] += normal(random);
         }
     }
+    for (const HandleNode& held : model.handle_nodes) {
+        for (int k = 0; k < 3; ++k) model.velocities[held.node][k] = normal(random);
+    }
     return model;
+}
+
+}  // namespace
+
+Model make_lively_model(unsigned seed) {
+    return enlivened(lively_body(seed), seed);
+}
+
+Model make_driven_model(unsigned seed) {
+    Body body = lively_body(seed);
+    HandleDescription top, bottom;
+    top.region = HalfSpaceRegion{{0.0, -1.0, 0.0}, -0.97};
+    top.keyframes = {{0.0}, {0.5, {0.1, 0.2, -0.3}, {100.0, -40.0, 720.0}, 1.5}, {2.0}};
+    bottom.region = BoxRegion{{0.39, -0.1, -0.4}, {0.7, -0.01, 0.1}};
+    bottom.pivot = {1.0, 2.0, -0.5};
+    bottom.interpolation = Interpolation::smooth;
+    bottom.release = 1.0;
+    bottom.keyframes = {{0.2}, {1.5, {-0.5, 0.0, 0.0}, {0.0, 90.0, 0.0}, 0.7}};
+    body.handles = {top, bottom};
+    const Region left = HalfSpaceRegion{{1.0, 0.0, 0.0}, 0.41}, half = HalfSpaceRegion{{0.0, 0.0, 1.0}, 0.2};
+    body.loads = {{left, PressureLoad{3e5}},
+                  {half, ForceLoad{{8e5, 4e5, -2e5}}},
+                  {half, TractionLoad{{-1e5, 2e5, 5e4}}},
+                  {left, ForceLoad{{0.0, 3e4, 0.0}}}};
+    body.pins.clear();
+    return enlivened(body, seed);
 }
 
 Model make_model(const Net& net) {

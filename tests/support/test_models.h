@@ -27,6 +27,10 @@ Model make_model(const Body& body, glm::dvec3 gravity = {0.0, 0.0, 0.0});
 /// way.
 Model make_lively_model(unsigned seed = 7);
 
+/// The same with two handles, one of them released at 1 s, whose nodes move at random too, and with loads of
+/// every kind, several of them on some nodes.
+Model make_driven_model(unsigned seed = 7);
+
 /// Springs between points, as a model without tets or faces: for closed-form cases.
 struct Net {
     std::vector<glm::dvec3> positions;   ///< [m]

@@ -1,0 +1,80 @@
+#include "model/check_regions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "gelatin/error.h"
+#include "model/loads.h"
+#include "model/region.h"
+
+namespace gelatin {
+namespace {
+
+constexpr const char* kWorld = "(regions are in world coordinates at the start)";
+
+class RegionCheck {
+public:
+    RegionCheck(const std::filesystem::path& file, const ObjectDescription& object, const TetMesh& mesh)
+        : file_(file), object_(object), mesh_(mesh), holders_(mesh.positions.size()) {}
+
+    void check_pins() {
+        for (std::uint32_t n = 0; n < holders_.size(); ++n) {
+            if (any_holds(object_.pins, mesh_.positions[n])) holders_[n] = "a pin";
+        }
+        const bool hold_none = std::all_of(holders_.begin(), holders_.end(),
+                                           [](const std::string& holder) { return holder.empty(); });
+        if (!object_.pins.empty() && hold_none)
+            fail(object_.line, "pins", fmt::format("hold no node of the object {}", kWorld));
+    }
+
+    void check_handles() {
+        for (std::size_t h = 0; h < object_.handles.size(); ++h) {
+            const HandleDescription& handle = object_.handles[h];
+            const std::string field = fmt::format("handle[{}]", h);
+            const std::vector<std::uint32_t> nodes = find_inside(handle.region, mesh_.positions);
+            if (nodes.empty())
+                fail(handle.line, field + ".region", fmt::format("holds no node of the object {}", kWorld));
+            for (const std::uint32_t n : nodes) {
+                if (!holders_[n].empty()) {
+                    fail(handle.line, field + ".region",
+                         fmt::format("must not share a node with {}", holders_[n]));
+                }
+                holders_[n] = field;
+            }
+        }
+    }
+
+    void check_loads() const {
+        for (std::size_t l = 0; l < object_.loads.size(); ++l) {
+            const LoadDescription& load = object_.loads[l];
+            const bool acts_on_nodes = std::holds_alternative<ForceLoad>(load.kind);
+            const bool is_empty = acts_on_nodes ? find_inside(load.region, mesh_.positions).empty()
+                                                : find_faces_inside(load.region, mesh_).empty();
+            if (!is_empty) continue;
+            fail(load.line, fmt::format("load[{}].region", l),
+                 fmt::format("holds no {} of the object {}", acts_on_nodes ? "node" : "whole face", kWorld));
+        }
+    }
+
+private:
+    [[noreturn]] void fail(int line, const std::string& field, const std::string& problem) const {
+        throw InvalidInput({file_.string(), line, "object." + object_.name + "." + field, {}, problem});
+    }
+
+    const std::filesystem::path& file_;
+    const ObjectDescription& object_;
+    const TetMesh& mesh_;
+    std::vector<std::string> holders_;  // of each node: what already holds it, or nothing
+};
+
+}  // namespace
+
+void check_regions(const std::filesystem::path& file, const ObjectDescription& object, const TetMesh& mesh) {
+    RegionCheck check(file, object, mesh);
+    check.check_pins();
+    check.check_handles();
+    check.check_loads();
+}
+
+}  // namespace gelatin
