@@ -10,6 +10,7 @@
 
 #include "cpu/measure.h"
 #include "cpu/respond.h"
+#include "cpu/watch_nodes.h"
 
 namespace gelatin::cpu {
 namespace {
@@ -105,6 +106,11 @@ void CpuSolver<Real>::respond(double step) {
 }
 
 template <class Real>
+void CpuSolver<Real>::watch_nodes(std::uint32_t step_number, double most_energy) {
+    cpu::watch_nodes<Real>(current_, step_number, static_cast<Real>(most_energy), alarm_);
+}
+
+template <class Real>
 void CpuSolver<Real>::begin_measure() {
     Measured& measured = measures_.emplace_back(Measured{measure(*model_, current_), {}});
     for (std::size_t o = 0; o < model_->objects.size(); ++o) {
@@ -138,6 +144,7 @@ template <class Real>
 void CpuSolver<Real>::write_state(const State& state) {
     current_ = {converted<Real>(state.positions), converted<Real>(state.velocities)};
     previous_ = current_;
+    alarm_ = kNoAlarm;
 }
 
 template <class Real>

@@ -103,6 +103,7 @@ void GpuSolver::write_state(const State& state) {
         nodes->positions.upload(state.positions);
         nodes->velocities.upload(state.velocities);
     }
+    watch_nodes_.forget();
 }
 
 }  // namespace gelatin::gpu
