@@ -9,7 +9,6 @@
 #include <numeric>
 #include <utility>
 
-#include "core/log.h"
 #include "gelatin/error.h"
 #include "mesh/topology.h"
 #include "model/box_tree.h"
@@ -23,6 +22,7 @@
 #include "model/surface_parts.h"
 #include "model/tet_materials.h"
 #include "model/transform.h"
+#include "model/volume_term.h"
 
 namespace gelatin {
 namespace {
@@ -132,12 +132,12 @@ std::vector<glm::uvec2> spring_nodes(const Body& body, const FittedSprings* fitt
 
 // Fitted springs for the body's material and size, in ascending order of nodes.
 std::vector<Spring> scaled_springs(const Body& body, const Arranged& arranged, const FittedSprings& fitted) {
-    const double shear_modulus = kShearOverYoungs * body.material.youngs_modulus;
+    const double mu = shear_modulus(body.material);
     std::vector<Spring> springs;
     for (const UnitSpring& unit : fitted.springs) {
         const std::uint32_t a = arranged.new_index[unit.nodes.x], b = arranged.new_index[unit.nodes.y];
         const double length = glm::distance(arranged.mesh.positions[a], arranged.mesh.positions[b]);
-        const double stiffness = shear_modulus * body.scale * unit.stiffness;
+        const double stiffness = mu * body.scale * unit.stiffness;
         springs.push_back(
             {std::min(a, b), std::max(a, b), static_cast<float>(length), static_cast<float>(stiffness)});
     }
@@ -151,20 +151,21 @@ void adapt_to_parts(const Body& body, const Arranged& arranged, std::vector<Spri
     if (body.tet_materials.empty()) return;
     std::vector<double> tet_moduli;
     for (const std::size_t old : arranged.old_tets)
-        tet_moduli.push_back(body.material_of(old).youngs_modulus);
+        tet_moduli.push_back(shear_modulus(body.material_of(old)));
     std::vector<glm::uvec2> nodes;
     for (const Spring& spring : springs) nodes.emplace_back(spring.i, spring.j);
     const std::vector<double> moduli = spring_moduli(arranged.mesh, tet_moduli, nodes);
     for (std::size_t s = 0; s < springs.size(); ++s) {
-        const double factor = moduli[s] / body.material.youngs_modulus;
+        const double factor = moduli[s] / shear_modulus(body.material);
         springs[s].stiffness = static_cast<float>(factor * static_cast<double>(springs[s].stiffness));
     }
 }
 
 std::vector<Spring> springs_of(const Body& body, const Arranged& arranged, const FittedSprings* fitted) {
-    std::vector<Spring> springs =
-        fitted != nullptr ? scaled_springs(body, arranged, *fitted)
-                          : make_springs(arranged.mesh, *body.material.springs, body.material.youngs_modulus);
+    std::vector<Spring> springs = fitted != nullptr
+                                      ? scaled_springs(body, arranged, *fitted)
+                                      : make_springs(arranged.mesh, *body.material.springs,
+                                                     shear_modulus(body.material) / kShearOverYoungs);
     adapt_to_parts(body, arranged, springs);
     return springs;
 }
@@ -210,7 +211,8 @@ void append_body(Model& model, const Body& body) {
         object.mass += volume * material.density;
         model.tets.push_back(mesh.tets[t] + first);
         model.tet_rests.push_back({checked_float(volume, body.name, "a tet's volume [m^3]"),
-                                   static_cast<float>(material.youngs_modulus)});
+                                   static_cast<float>(material.youngs_modulus),
+                                   static_cast<float>(lacking_modulus(material))});
     }
     for (const glm::uvec3& f : mesh.faces) {
         model.faces.push_back({f.x + first, f.y + first, f.z + first, size(model.objects)});
@@ -318,6 +320,8 @@ Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDes
     model.incidence = make_incidence(model.node_count(), model.springs);
     model.node_faces = make_node_faces(model.node_count(), model.faces);
     model.surface_parts = make_surface_parts(model.faces, model.node_faces);
+    model.volume_term =
+        make_volume_term(model.tets, model.tet_rests, make_node_tets(model.node_count(), model.tets));
     return model;
 }
 
@@ -325,12 +329,6 @@ Model build_model(const Scene& scene) {
     std::vector<Body> bodies;
     ObjectMesher mesher;
     for (const ObjectDescription& object : scene.objects) bodies.push_back(make_body(scene, object, mesher));
-    for (const Material& material : scene.materials) {
-        if (material.poisson_ratio != 0.25) {
-            spdlog::warn("material '{}': poisson_ratio = {} has no effect: springs alone answer with 0.25",
-                         material.name, material.poisson_ratio);
-        }
-    }
     Model model = pack_bodies(bodies, scene.colliders, scene.simulation.gravity);
     if (scene.collision.self_collision) model.rest_shapes = make_rest_shapes(model);
     return model;

@@ -9,6 +9,7 @@
 
 #include "model/layouts.h"
 #include "model/rest_shape.h"
+#include "model/volume_term.h"
 
 namespace gelatin {
 
@@ -48,8 +49,9 @@ struct SpringIncidence {
 
 /// What a tet is at rest.
 struct TetRest {
-    float volume;   ///< [m^3], > 0
-    float modulus;  ///< of its resistance to being flat [Pa]: Young's
+    float volume;          ///< [m^3], > 0
+    float modulus;         ///< of its resistance to being flat [Pa]: Young's
+    float lacking = 0.0f;  ///< what its springs lack against changes of volume (model/volume_term.h) [Pa]
 };
 
 /// Faces by node: those of node n are faces[starts[n]] .. faces[starts[n + 1]], ascending; none inside.
@@ -102,6 +104,7 @@ struct Model {
 
     std::vector<glm::uvec4> tets;    ///< shape [tets]
     std::vector<TetRest> tet_rests;  ///< shape [tets]
+    VolumeTerm volume_term;          ///< empty where springs are all there is
     std::vector<Face> faces;         ///< boundary triangles, shape [faces]
     NodeFaces node_faces;
     SurfaceParts surface_parts;

@@ -7,7 +7,8 @@
 
 namespace gelatin {
 
-/// Young's modulus that each spring stands for [Pa], shape [springs], in a body of several materials.
+/// The modulus that each spring stands for [Pa], shape [springs], in a body of several materials: Young's, or
+/// the shear modulus, as `tet_moduli` has it.
 ///
 /// Along an edge the tets round it share the load, so moduli have their mean, weighted by volume. A link
 /// leads through one tet after the other, so compliances have it: of the two tets at a face, of those round

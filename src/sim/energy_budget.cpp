@@ -9,8 +9,11 @@ namespace {
 
 constexpr double kSlack = 10.0;
 
-double energy_of_doubled_springs(const Model& model) {
+// Of springs at twice their length, and of volumes that are gone.
+double energy_out_of_shape(const Model& model) {
     double sum = 0.0;
+    for (const TetRest& tet : model.tet_rests)
+        sum += 0.5 * static_cast<double>(std::abs(tet.lacking)) * static_cast<double>(tet.volume);
     for (const Spring& spring : model.springs) {
         const auto length = static_cast<double>(spring.rest_length);
         sum += 0.5 * static_cast<double>(spring.stiffness) * length * length;
@@ -28,7 +31,7 @@ double moving_mass(const Model& model) {
 }  // namespace
 
 EnergyBudget::EnergyBudget(const Model& model, const Account& start)
-    : allowance_(energy_of_doubled_springs(model)),
+    : allowance_(energy_out_of_shape(model)),
       drive_(static_cast<double>(glm::length(model.gravity)) * std::sqrt(0.5 * moving_mass(model))),
       start_(start),
       latest_(start) {}

@@ -14,8 +14,8 @@ namespace gelatin {
 /// springs k, V sqrt(sum k / 2).
 ///
 /// Numbers are not exact, and bodies that start inside a collider are pushed out of it, so there is an
-/// allowance: the energy of springs stretched to twice their length, and a factor of ten. A simulation that
-/// explodes multiplies its energy by a factor in each step, and is soon beyond that.
+/// allowance: the energy of springs at twice their length and of volumes pressed to nothing, and a factor of
+/// ten. A simulation that explodes multiplies its energy by a factor in each step, and is soon beyond that.
 class EnergyBudget {
 public:
     /// What the whole scene had at one moment.

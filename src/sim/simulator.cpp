@@ -12,6 +12,7 @@
 #include "model/build_model.h"
 #include "model/model_check.h"
 #include "model/stability.h"
+#include "model/start_state.h"
 #include "sim/backend.h"
 #include "sim/checkpoint.h"
 #include "sim/draw_source.h"
@@ -87,18 +88,22 @@ Simulator::Simulator(const Scene& scene, const SimulatorOptions& options) : impl
     d.substeps = choose_substeps(scene, *d.model);
     d.context = make_context(d.options);
     const SimulationSettings& settings = scene.simulation;
+    const DescentSettings descent{settings.iterations, settings.chebyshev};
     if (choose_gl(d.options, d.context)) {
         auto solver = std::make_unique<gpu::GpuSolver>(d.model, settings.solver, settings.forces,
-                                                       scene.collision, settings.iterations);
+                                                       scene.collision, descent);
         d.gpu_solver = solver.get();
         d.solver = std::move(solver);
     } else {
         auto solver = std::make_unique<cpu::CpuSolver<float>>(d.model, settings.solver, settings.forces,
-                                                              scene.collision, settings.iterations);
+                                                              scene.collision, descent);
         d.cpu_solver = solver.get();
         d.solver = std::move(solver);
     }
+    const std::optional<State> start = deformed_start(scene, *d.model);
+    if (start) d.solver->write_state(*start);
     d.watch.emplace(d.scene, d.model, d.substeps);
+    if (start) d.watch->begin(*start, {});
     for (const std::string& line : check_model(*d.model, scene, d.step_size())) spdlog::warn(line);
 }
 

@@ -38,7 +38,7 @@ std::size_t most_lively(const std::vector<ObjectMeasure>& objects) {
 
 Watch::Watch(const Scene& scene, std::shared_ptr<const Model> model, int substeps)
     : scene_(scene), model_(std::move(model)), substeps_(substeps), budget_(*model_, {}) {
-    begin({model_->positions, model_->velocities}, {});
+    begin({model_->positions, model_->velocities, {}}, {});
 }
 
 void Watch::begin(const State& state, const Moment& moment) {

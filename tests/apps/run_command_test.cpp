@@ -232,7 +232,7 @@ TEST_F(RunCommand, KeepsWhatWasGoodOfARunThatExplodes) {
     const double longest = largest_stable_step(SolverKind::semi_implicit_euler, model);
     settings.push_back("simulation.frame_rate=" + std::to_string(1.0 / (0.99 * longest)));
     settings.emplace_back("simulation.substeps=1");
-    State state{model.positions, model.velocities};
+    State state{model.positions, model.velocities, {}};
     for (std::size_t n = 0; n < state.positions.size(); ++n) {
         glm::vec4& p = state.positions[n];
         p = glm::vec4(p.x + 0.6f * p.y + 0.36f * p.z, 9.0f, 0.0f, p.w);

@@ -125,13 +125,18 @@ TEST_P(DescentMutantsTest, IsCaught) {
     test::ShaderFolder folder;
     break_shaders(GetParam(), folder);
     bool caught = false;
-    for (const double damping : {0.0, 0.01}) {
-        const Model model = test::make_bodies_to_descend(damping);
-        constexpr double kFrame = 1.0 / 60.0;
-        constexpr int kIterations = 4;
-        caught = caught || test::worst_descent_error(model, kFrame, kIterations,
-                                                     test::descend_on_gpu(model, kFrame, kIterations)) > 1.0;
-    }
+    const auto look = [&](const Model& model, const test::Descent& descent) {
+        caught =
+            caught || test::worst_descent_error(model, descent, test::descend_on_gpu(model, descent)) > 1.0;
+    };
+    constexpr double kFrame = 1.0 / 60.0;
+    for (const double damping : {0.0, 0.01}) look(test::make_bodies_to_descend(damping), {kFrame, {4}});
+    for (const double poisson_ratio : {0.1, 0.4})
+        look(test::make_bodies_to_descend(0.0, poisson_ratio), {kFrame, {4}});
+    const Model model = test::make_bodies_to_descend(0.0);
+    look(model, {kFrame, {3}});
+    look(model, {kFrame, {5, 0.8}});
+    look(model, {kFrame, {1}, model.velocities});
     EXPECT_TRUE(caught) << "the broken kernel passes";
 }
 

@@ -31,6 +31,22 @@ collider = [{ shape = { box = [1, 2, 3] } }, { shape = { sphere = 4 } }]
     EXPECT_EQ(std::get<SphereCollider>(scene.colliders.at(1).shape).radius, 4.0);
 }
 
+TEST_F(SceneFileBodies, ReadsHowAnObjectStarts) {
+    const Scene scene = load(R"(
+material = [{ name = "jelly" }]
+object = [
+    { name = "a", shape = { sphere = 1 } },
+    { name = "b", shape = { sphere = 1 }, start = { scale = [1, 0, 0.5], scatter = 0.1 } },
+]
+)");
+    EXPECT_EQ(scene.objects.at(0).start.scale, glm::dvec3(1.0));
+    EXPECT_EQ(scene.objects.at(0).start.scatter, 0.0);
+    EXPECT_EQ(scene.objects.at(1).start.scale, glm::dvec3(1.0, 0.0, 0.5));
+    EXPECT_EQ(scene.objects.at(1).start.scatter, 0.1);
+    EXPECT_EQ(object_error("shape = {sphere = 1}\nstart = {scatter = -1}"),
+              "scene.toml:5: object.ball.start.scatter = -1: must be 0 or more");
+}
+
 // Parts
 
 TEST_F(SceneFileBodies, ReadsParts) {
@@ -73,9 +89,8 @@ TEST_F(SceneFileBodies, RefusesPartsThatAreNotSaidRightly) {
               "scene.toml:6: object.ball.part[0].material = \"bone\": no such material; there is jelly");
     EXPECT_EQ(part_error("material = 'jelly'\nattribute = 1.5"),
               "scene.toml:7: object.ball.part[0].attribute = 1.5: must be a whole number, is a fraction");
-    EXPECT_EQ(
-        part_error("material = 'jelly'\nattribute = 1\nstiff = true"),
-        "scene.toml:8: object.ball.part[0].stiff = true: unknown key; known here are material and "
+    EXPECT_EQ(part_error("material = 'jelly'\nattribute = 1\nstiff = true"),
+              "scene.toml:8: object.ball.part[0].stiff = true: unknown key; known here are material and "
               "attribute");
 }
 

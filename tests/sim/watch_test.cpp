@@ -118,7 +118,7 @@ TEST_F(WatchTest, StopsAtTheFirstStepOnEitherBackend) {
 // All nodes put on a line: springs that now all pull along it are too stiff for steps that suit the shape at
 // rest.
 State crushed(const Model& model) {
-    State state{model.positions, model.velocities};
+    State state{model.positions, model.velocities, {}};
     for (std::size_t n = 0; n < state.positions.size(); ++n) {
         glm::vec4& p = state.positions[n];
         p = glm::vec4(p.x + 0.6f * p.y + 0.36f * p.z, 0.0f, 0.0f, p.w);

@@ -68,7 +68,7 @@ double pulled_modulus(const Model& model) {
     }
     statics.solve();
     double force = 0.0;
-    for (const std::uint32_t n : far_end) force -= statics.spring_force(n)[1];
+    for (const std::uint32_t n : far_end) force -= statics.elastic_force(n)[1];
     return force / (kSize.x * kSize.z) / kStrain;
 }
 
