@@ -32,11 +32,11 @@ Real specific_energy(const Vec4<Real>& velocity) {
     return Real(0.5) * glm::dot(Vec3<Real>(velocity), Vec3<Real>(velocity));
 }
 
-// For nearly all nodes true, and without a branch. What is not finite fails the comparison, for infinity
-// minus itself is not a number.
+// For nearly all nodes true, and without a branch. What is not finite fails the comparison, for zero times
+// infinity is not a number.
 template <class Real>
 bool is_well(const Vec4<Real>& position, const Vec4<Real>& velocity, Real most_energy) {
-    const Vec4<Real> zero = position - position;
+    const Vec4<Real> zero = Real(0) * position;
     return specific_energy(velocity) + zero.x + zero.y + zero.z <= most_energy * position.w;
 }
 
