@@ -49,12 +49,12 @@ bool Recorder::is_due() const {
 void Recorder::record() {
     if (!is_due()) return;
     if (video_) film(painter_->view());
-    if (exporter_) exporter_->write(simulator_.read_frame());
+    if (exporter_) export_frame();
 }
 
 void Recorder::record_and_advance() {
     if (!is_due()) return simulator_.advance_frame();
-    if (exporter_) exporter_->write(simulator_.read_frame());
+    if (exporter_) export_frame();
     if (!video_) return simulator_.advance_frame();
     const RenderView bodies = painter_->view();
     pipeline_.advance_beside([&] { film(bodies); });
@@ -67,6 +67,12 @@ void Recorder::finish() {
         video_.reset();
     }
     if (!options_.image.empty()) write_image();
+}
+
+// No frame of numbers that are of no use.
+void Recorder::export_frame() {
+    simulator_.check();
+    exporter_->write(simulator_.read_frame());
 }
 
 void Recorder::film(const RenderView& bodies) {

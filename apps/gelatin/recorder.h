@@ -33,6 +33,7 @@ public:
 
 private:
     bool is_due() const;
+    void export_frame();
     void film(const RenderView& bodies);
     void write(std::optional<render::Image> picture);
     void write_image();

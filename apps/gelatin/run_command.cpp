@@ -44,6 +44,8 @@ private:
     void measure();
     void look();
     void take_statistics(std::size_t leave);
+    void take_good_statistics();
+    std::string tell_last_checkpoint() const;
     void save_checkpoint();
     void finish(bool diverged);
     void print_summary() const;
@@ -62,11 +64,9 @@ void Run::go() {
     try {
         advance();
     } catch (const Diverged& error) {
+        take_good_statistics();
         finish(true);
-        const std::string saved = saved_frame_ ? fmt::format("; the last good checkpoint is {} of frame {}",
-                                                             options_.checkpoint.string(), *saved_frame_)
-                                               : "; no checkpoint was saved";
-        throw Diverged(error.what() + saved);
+        throw Diverged(error.what() + ("; " + tell_last_checkpoint()), error.where());
     }
     finish(false);
     if (interrupted_) {
@@ -126,7 +126,30 @@ void Run::take_statistics(std::size_t leave) {
     }
 }
 
-// Only a state that was looked at and found finite becomes a checkpoint.
+// Of a run that diverged: what was measured before it did.
+void Run::take_good_statistics() {
+    try {
+        take_statistics(0);
+    } catch (const Diverged&) {
+        return;  // told already
+    }
+}
+
+std::string Run::tell_last_checkpoint() const {
+    if (saved_frame_) {
+        return fmt::format("the last good checkpoint is {} of frame {}", options_.checkpoint.string(),
+                           *saved_frame_);
+    }
+    const std::string start = options_.resume.empty()
+                                  ? ""
+                                  : fmt::format(" since {}, where the run began", options_.resume.string());
+    return fmt::format(
+        "no checkpoint was saved{}: --checkpoint FILE --checkpoint-every N saves the last good state "
+        "every N frames",
+        start);
+}
+
+// Only a state that was looked at and found sound becomes a checkpoint.
 void Run::save_checkpoint() {
     look();
     take_statistics(0);

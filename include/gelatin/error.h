@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace gelatin {
 
@@ -32,10 +34,25 @@ private:
     InputProblem problem_;
 };
 
-/// The simulation produced numbers that are not finite (exit code 3).
+/// Where a simulation left what physics allows.
+struct Divergence {
+    std::uint64_t step = 0;  ///< the first one after which it had, counted from frame 0; 0: not known
+    int frame = 0;           ///< that it was on the way to
+    double time = 0.0;       ///< [s]
+    std::string object;
+    std::uint32_t node = 0;  ///< index in the object; of no meaning where the step is not known
+};
+
+/// The simulation produced numbers that are not finite, or energy from nothing (exit code 3).
 class Diverged : public Error {
 public:
-    using Error::Error;
+    explicit Diverged(const std::string& message, Divergence where = {})
+        : Error(message), where_(std::move(where)) {}
+
+    const Divergence& where() const { return where_; }
+
+private:
+    Divergence where_;
 };
 
 /// OpenGL failed; carries the driver's own words (exit code 1).

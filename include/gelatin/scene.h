@@ -67,6 +67,7 @@ struct SpringKinds {
     bool structural = true;  ///< the edges of the tets
     bool shear = false;      ///< the opposite corners of two tets that share a face
     bool flex = false;       ///< across a surface edge, and two edges apart inside
+    bool operator==(const SpringKinds&) const = default;
 };
 
 struct Material {
@@ -176,6 +177,19 @@ struct LoadDescription {
     int line = 0;                                ///< in the scene file, for later messages
 };
 
+/// Tets that have this number in their file: TetGen's first attribute, Gmsh's physical group, Medit's
+/// reference.
+struct TetAttribute {
+    int number;
+};
+
+/// A part of an object that is of a material of its own.
+struct PartDescription {
+    std::variant<Region, TetAttribute> where;  ///< of a region, the tets whose centroid it holds
+    std::string material;                      ///< a name in Scene::materials
+    int line = 0;                              ///< in the scene file, for later messages
+};
+
 /// How an object is out of shape when it starts; pinned nodes are not.
 struct StartDescription {
     glm::dvec3 scale{1.0};  ///< along the world's axes, about the centre of mass, >= 0: 0 squashes it flat
@@ -198,6 +212,8 @@ struct ObjectDescription {
     std::vector<LoadDescription> loads;
     std::optional<glm::dvec3> color;  ///< linear RGB in [0, 1]; empty: the renderer's palette
     int line = 0;                     ///< in the scene file, for later messages
+
+    std::vector<PartDescription> parts;  ///< later ones win
 };
 
 struct PlaneCollider {

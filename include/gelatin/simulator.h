@@ -80,10 +80,16 @@ public:
     ~Simulator();
 
     /// Advances by one frame: `substeps()` steps. Does not wait for a GPU.
+    /// @throws Diverged after a step that left nodes which are not finite or faster than the scene's energy
+    ///   allows, naming it, the node and the likely cause; with a GPU a frame or two late. The state is then
+    ///   of no use, and only load_checkpoint helps.
     void advance_frame();
 
-    /// Advances by one step; `substeps()` of them make a frame.
+    /// Advances by one step; `substeps()` of them make a frame. @throws as advance_frame
     void step();
+
+    /// Waits for the GPU. @throws Diverged if any step so far left the state so.
+    void check() const;
 
     int frame() const;            ///< frames done; 0 is the start
     double time() const;          ///< [s]
@@ -100,8 +106,8 @@ public:
     /// waiting.
     void begin_statistics();
     std::size_t pending_statistics() const;
-    /// @pre pending_statistics() > 0. @throws Diverged if a sum is not finite, naming the frame and the
-    /// object.
+    /// @pre pending_statistics() > 0. @throws Diverged as advance_frame, for the steps until that frame; and
+    /// if all bodies together have energy that neither the start nor gravity explains.
     FrameStatistics take_statistics();
 
     /// Durations by stage since the last call [ms]; empty unless `time_stages`.
@@ -114,7 +120,7 @@ public:
     RenderView render_view(const Overlays& overlays = {});
 
     /// The whole state, so that a run can go on later: exact, whole or not at all.
-    /// @throws SystemError
+    /// @throws SystemError; Diverged as check(): a state that is of no use never becomes a checkpoint.
     void save_checkpoint(const std::filesystem::path& file) const;
     /// @throws InvalidInput if it is not a checkpoint, damaged, or of another scene.
     void load_checkpoint(const std::filesystem::path& file);

@@ -12,6 +12,7 @@
 #include "cpu/measure.h"
 #include "cpu/respond.h"
 #include "cpu/sum_loads.h"
+#include "cpu/watch_nodes.h"
 
 namespace gelatin::cpu {
 namespace {
@@ -131,6 +132,11 @@ void CpuSolver<Real>::respond(double step) {
 }
 
 template <class Real>
+void CpuSolver<Real>::watch_nodes(std::uint32_t step_number, double most_energy) {
+    cpu::watch_nodes<Real>(current_, step_number, static_cast<Real>(most_energy), alarm_);
+}
+
+template <class Real>
 void CpuSolver<Real>::begin_measure() {
     Measured& measured = measures_.emplace_back(Measured{measure(*model_, current_), {}});
     for (std::size_t o = 0; o < model_->objects.size(); ++o) {
@@ -169,6 +175,7 @@ void CpuSolver<Real>::write_state(const State& state) {
     previous_ = current_;
     has_earlier_ = !state.earlier_velocities.empty();
     if (has_earlier_) previous_.velocities = converted<Real>(state.earlier_velocities);
+    alarm_ = kNoAlarm;
 }
 
 template <class Real>

@@ -35,6 +35,8 @@ public:
     void find_self_collisions() override { self_->collision.find(current_.positions); }
     void find_proximities() override { proximities_->run(current_.positions); }
     void respond(double step) override;
+    void watch_nodes(std::uint32_t step_number, double most_energy) override;
+    Alarm alarm(bool /*wait*/) override { return alarm_; }
     void begin_measure() override;
     std::vector<ObjectMeasure> end_measure() override;
     std::uint32_t lost_pairs() const override { return 0; }
@@ -77,6 +79,7 @@ private:
     };
     std::unique_ptr<SelfStages> self_;
     std::optional<FindProximities<Real>> proximities_;
+    Alarm alarm_ = kNoAlarm;
     struct Measured {
         std::vector<ObjectMeasure> objects;
         ProximityMeasure proximities;

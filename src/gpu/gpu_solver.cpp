@@ -118,6 +118,7 @@ void GpuSolver::write_state(const State& state) {
     }
     has_earlier_ = !state.earlier_velocities.empty();
     if (has_earlier_) previous_.velocities.upload(state.earlier_velocities);
+    watch_nodes_.forget();
 }
 
 }  // namespace gelatin::gpu

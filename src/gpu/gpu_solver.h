@@ -13,6 +13,7 @@
 #include "gpu/model_buffers.h"
 #include "gpu/node_buffers.h"
 #include "gpu/sum_loads.h"
+#include "gpu/watch_nodes.h"
 #include "model/solver.h"
 
 namespace gelatin::gpu {
@@ -32,6 +33,10 @@ public:
     void find_self_collisions() override;
     void find_proximities() override;
     void respond(double step) override;
+    void watch_nodes(std::uint32_t step_number, double most_energy) override {
+        watch_nodes_.run(buffers_, current_, step_number, most_energy);
+    }
+    Alarm alarm(bool wait) override { return watch_nodes_.alarm(wait); }
     void begin_measure() override;
     std::uint32_t lost_pairs() const override { return measure_.lost_pairs(); }
     ProximityMeasure proximities() const override { return measure_.proximities(); }
@@ -63,6 +68,7 @@ private:
     std::optional<AdvanceNodes> fused_;
     std::optional<DivideAndMerge> divide_and_merge_;
     std::optional<Collision> collision_;  // where something can collide, or somebody asked for boxes
+    WatchNodes watch_nodes_;
     Measure measure_;
     gl::TimestampStageTimer timer_;
 };

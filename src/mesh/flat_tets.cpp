@@ -39,12 +39,8 @@ std::size_t drop_flat_skin(TetMesh& mesh) {
             if (drop[face.tets[0]] && drop[face.tets[1]]) drop[face.tets[1]] = false;
         }
 
-        std::size_t kept = 0;
-        for (std::size_t t = 0; t < drop.size(); ++t) {
-            if (!drop[t]) mesh.tets[kept++] = mesh.tets[t];
-        }
-        if (kept == mesh.tets.size()) return flat_count;
-        mesh.tets.resize(kept);
+        drop.flip();
+        if (keep_tets(mesh, drop) == 0) return flat_count;
     }
 }
 

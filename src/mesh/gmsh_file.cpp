@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 
 #include "core/file.h"
@@ -86,13 +88,10 @@ public:
         return load_bytes<std::uint64_t>(scanner_.bytes(8, field), 0, swapped_);
     }
 
-    /// One that nobody needs, and that may be negative.
-    void skip_integer(const FieldName& field) {
-        if (binary_) {
-            scanner_.bytes(4, field);
-        } else {
-            scanner_.number(field);
-        }
+    /// One that may be negative.
+    int signed_integer(const FieldName& field) {
+        if (!binary_) return scanner_.signed_integer(field);
+        return load_bytes<std::int32_t>(scanner_.bytes(4, field), 0, swapped_);
     }
 
     double real(const FieldName& field) {
@@ -118,7 +117,10 @@ public:
             if (section == "$Elements" && !has_nodes) scanner_.fail("section", section, "must follow $Nodes");
             const std::string end = "$End" + section.substr(1);
             scanner_.skip_line();
-            if (section == "$Nodes") {
+            if (section == "$Entities" && is_version_4_) {
+                read_entities();
+                scanner_.skip_past(end, end.c_str());
+            } else if (section == "$Nodes") {
                 is_version_4_ ? read_nodes_4() : read_nodes_2();
                 sort_tags();
                 scanner_.expect(end.c_str());
@@ -151,6 +153,30 @@ private:
         scanner_.expect("$EndMeshFormat");
     }
 
+    // Of each volume the first physical group; what its entity is of is not said with an element.
+    void read_entities() {
+        std::array<std::uint64_t, 4> counts{};
+        for (std::uint64_t& count : counts) count = numbers_.large_integer("number of entities");
+        for (std::size_t dimension = 0; dimension < 4; ++dimension) {
+            for (std::uint64_t entity = 1; entity <= counts[dimension]; ++entity)
+                read_entity(static_cast<int>(dimension), {"entity", entity});
+        }
+    }
+
+    void read_entity(int dimension, const FieldName& field) {
+        const int tag = numbers_.signed_integer(field);
+        const int extent = dimension == 0 ? 3 : 6;  // a point, or a box
+        for (int k = 0; k < extent; ++k) numbers_.real(field);
+        const std::uint64_t groups = numbers_.large_integer(field);
+        for (std::uint64_t k = 0; k < groups; ++k) {
+            const int group = std::abs(numbers_.signed_integer(field));  // negative: turned
+            if (k == 0 && dimension == 3) group_of_volume_[tag] = group;
+        }
+        if (dimension == 0) return;
+        const std::uint64_t bounds = numbers_.large_integer(field);
+        for (std::uint64_t k = 0; k < bounds; ++k) numbers_.signed_integer(field);
+    }
+
     void read_nodes_2() {
         const std::size_t count = scanner_.count("number of nodes", numbers_.binary() ? 28 : 8);
         scanner_.skip_line();
@@ -177,7 +203,7 @@ private:
 
     void read_node_block(std::uint64_t block) {
         const std::uint64_t dimension = numbers_.integer({"dimension of node block", block});
-        numbers_.skip_integer({"entity of node block", block});
+        numbers_.signed_integer({"entity of node block", block});
         const bool parametric = numbers_.integer({"'parametric' of node block", block}) != 0;
         const std::uint64_t size = numbers_.large_integer({"size of node block", block});
         const std::uint64_t first = mesh_.positions.size() + 1;
@@ -219,8 +245,12 @@ private:
             }
             for (const std::uint64_t end = row + together; row < end; ++row) {
                 if (numbers_.binary()) numbers_.integer({"number of element", row});
-                for (std::uint64_t k = 0; k < tags; ++k) numbers_.skip_integer({"tags of element", row});
-                read_element(type, row);
+                int group = 0;  // the first tag
+                for (std::uint64_t k = 0; k < tags; ++k) {
+                    const int tag = numbers_.signed_integer({"tags of element", row});
+                    if (k == 0) group = std::abs(tag);
+                }
+                read_element(type, row, group);
             }
         }
     }
@@ -232,14 +262,16 @@ private:
         numbers_.large_integer("largest element number");
         std::uint64_t row = 1;
         for (std::uint64_t block = 1; block <= blocks; ++block) {
-            numbers_.skip_integer({"dimension of element block", block});
-            numbers_.skip_integer({"entity of element block", block});
+            const int dimension = numbers_.signed_integer({"dimension of element block", block});
+            const int entity = numbers_.signed_integer({"entity of element block", block});
+            const auto known = group_of_volume_.find(entity);
+            const int group = dimension == 3 && known != group_of_volume_.end() ? known->second : 0;
             const ElementType& type = read_type(row);
             const std::uint64_t size = numbers_.large_integer({"size of element block", block});
             scanner_.require_room({"size of element block", block}, size, numbers_.binary() ? 16 : 4);
             for (const std::uint64_t end = row + size; row < end; ++row) {
                 numbers_.large_integer({"number of element", row});
-                read_element(type, row);
+                read_element(type, row, group);
             }
         }
         if (row - 1 != count) {
@@ -257,7 +289,7 @@ private:
                       "is not one of Gmsh's that Gelatin knows");
     }
 
-    void read_element(const ElementType& type, std::uint64_t row) {
+    void read_element(const ElementType& type, std::uint64_t row, int group) {
         glm::uvec4 tet;
         for (int k = 0; k < type.node_count; ++k) {
             const std::uint64_t tag =
@@ -274,12 +306,14 @@ private:
         }
         if (type.node_count > 4) ++curved_;
         mesh_.tets.push_back(tet);
+        mesh_.attributes.push_back(group);
     }
 
     TextScanner scanner_;
     Numbers numbers_{scanner_};
     bool is_version_4_ = false;
     NodeTags tags_;
+    std::unordered_map<int, int> group_of_volume_;
     TetMesh mesh_;
     std::size_t skipped_ = 0, curved_ = 0;
 };

@@ -29,21 +29,20 @@ std::vector<glm::dvec3> read_vertices(TextScanner& scanner) {
     return positions;
 }
 
-std::vector<glm::uvec4> read_tetrahedra(TextScanner& scanner, std::size_t node_count) {
+void read_tetrahedra(TextScanner& scanner, TetMesh& mesh) {
     constexpr std::size_t kShortestRow = 10;  // "1 2 3 4 0\n"
     const std::size_t count = scanner.count("number of Tetrahedra", kShortestRow);
-    std::vector<glm::uvec4> tets;
-    tets.reserve(count);
+    const std::size_t node_count = mesh.positions.size();
+    mesh.tets.reserve(count);
     for (std::uint64_t row = 1; row <= count; ++row) {
         glm::uvec4 tet;
         for (int corner = 0; corner < 4; ++corner) {
             tet[corner] =
                 static_cast<std::uint32_t>(scanner.integer({"tetrahedron", row}, 1, node_count) - 1);
         }
-        scanner.number({"reference of tetrahedron", row});
-        tets.push_back(tet);
+        mesh.attributes.push_back(scanner.signed_integer({"reference of tetrahedron", row}));
+        mesh.tets.push_back(tet);
     }
-    return tets;
 }
 
 // Sections are a keyword, a count, and rows of numbers whose width only the format's manual knows.
@@ -75,7 +74,7 @@ TetMesh read_medit(const std::filesystem::path& file, Notes& notes) {
         } else if (keyword == "Vertices") {
             mesh.positions = read_vertices(scanner);
         } else if (keyword == "Tetrahedra") {
-            mesh.tets = read_tetrahedra(scanner, mesh.positions.size());
+            read_tetrahedra(scanner, mesh);
         } else if (keyword == "End") {
             break;
         } else if (begins_number(keyword)) {

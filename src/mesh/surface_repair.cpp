@@ -6,12 +6,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <tuple>
-#include <unordered_map>
 
 #include "mesh/edge_uses.h"
+#include "mesh/merge_points.h"
 #include "mesh/surface_winding.h"
 
 namespace gelatin {
@@ -19,96 +18,13 @@ namespace {
 
 constexpr std::uint32_t kNone = ~0u;
 
-// Vertices that are kept, in cells of a few tolerances, so that one near to a point is found in the cells
-// around it. Kept vertices lie a tolerance apart, so a cell holds few of them however the mesh is made.
-class VertexGrid {
-public:
-    VertexGrid(const std::vector<glm::dvec3>& positions, const glm::dvec3& origin, double tolerance)
-        : positions_(positions), origin_(origin), tolerance_(tolerance), cell_size_(8.0 * tolerance) {
-        first_in_cell_.reserve(positions.size());
-        next_in_cell_.assign(positions.size(), kNone);
-    }
-
-    std::uint32_t find_near(const glm::dvec3& p) const {
-        const Cell low = cell_of(p - tolerance_), high = cell_of(p + tolerance_);
-        for (std::int64_t x = low[0]; x <= high[0]; ++x) {
-            for (std::int64_t y = low[1]; y <= high[1]; ++y) {
-                for (std::int64_t z = low[2]; z <= high[2]; ++z) {
-                    const std::uint32_t found = find_in_cell({x, y, z}, p);
-                    if (found != kNone) return found;
-                }
-            }
-        }
-        return kNone;
-    }
-
-    void add(std::uint32_t vertex) {
-        const auto [entry, is_new] = first_in_cell_.try_emplace(hash(cell_of(positions_[vertex])), vertex);
-        if (is_new) return;
-        next_in_cell_[vertex] = entry->second;
-        entry->second = vertex;
-    }
-
-private:
-    using Cell = std::array<std::int64_t, 3>;
-
-    Cell cell_of(const glm::dvec3& p) const {
-        if (cell_size_ <= 0.0) return {0, 0, 0};
-        const glm::dvec3 cell = floor((p - origin_) / cell_size_);
-        return {static_cast<std::int64_t>(cell.x), static_cast<std::int64_t>(cell.y),
-                static_cast<std::int64_t>(cell.z)};
-    }
-
-    // Cells that share a hash only cost a few more distances.
-    static std::uint64_t hash(const Cell& cell) {
-        std::uint64_t h = 0;
-        for (const std::int64_t c : cell) {
-            h = (h ^ static_cast<std::uint64_t>(c)) * 0x9e3779b97f4a7c15u;
-            h ^= h >> 29;
-        }
-        return h;
-    }
-
-    std::uint32_t find_in_cell(const Cell& cell, const glm::dvec3& p) const {
-        const auto entry = first_in_cell_.find(hash(cell));
-        if (entry == first_in_cell_.end()) return kNone;
-        for (std::uint32_t v = entry->second; v != kNone; v = next_in_cell_[v]) {
-            if (distance(positions_[v], p) <= tolerance_) return v;
-        }
-        return kNone;
-    }
-
-    const std::vector<glm::dvec3>& positions_;
-    glm::dvec3 origin_;
-    double tolerance_, cell_size_;
-    std::unordered_map<std::uint64_t, std::uint32_t> first_in_cell_;
-    std::vector<std::uint32_t> next_in_cell_;
-};
-
 // Points the faces at the first of the vertices that coincide. Returns how many others there are.
 std::size_t merge_vertices(SurfaceMesh& mesh) {
-    if (mesh.positions.empty()) return 0;
-    glm::dvec3 low = mesh.positions[0], high = low;
-    for (const glm::dvec3& p : mesh.positions) {
-        low = min(low, p);
-        high = max(high, p);
-    }
-    VertexGrid kept(mesh.positions, low, 1e-9 * distance(low, high));
-    std::vector<std::uint32_t> merged_into(mesh.positions.size());
-    std::size_t merged = 0;
-    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
-        const std::uint32_t near = kept.find_near(mesh.positions[v]);
-        merged_into[v] = near == kNone ? v : near;
-        if (near == kNone) {
-            kept.add(v);
-        } else {
-            ++merged;
-        }
-    }
+    const MergedPoints merged = merge_points(mesh.positions, 1e-9);
     for (glm::uvec3& face : mesh.faces) {
-        face = {merged_into[face[0]], merged_into[face[1]], merged_into[face[2]]};
+        face = {merged.into[face[0]], merged.into[face[1]], merged.into[face[2]]};
     }
-    return merged;
+    return merged.count;
 }
 
 bool is_degenerate(const SurfaceMesh& mesh, const glm::uvec3& face) {

@@ -15,7 +15,8 @@ std::optional<TetMesh> TetCache::find(const std::string& key) const {
     if (!bytes) return std::nullopt;
     ArrayReader reader(*bytes);
     TetMesh mesh;
-    const bool is_whole = reader.take(mesh.positions) && reader.take(mesh.tets) && reader.take(mesh.faces);
+    const bool is_whole = reader.take(mesh.positions) && reader.take(mesh.tets) && reader.take(mesh.faces) &&
+                          reader.take(mesh.attributes);
     return is_whole && reader.at_end() ? std::optional(std::move(mesh)) : std::nullopt;
 }
 
@@ -24,6 +25,7 @@ void TetCache::store(const std::string& key, const TetMesh& mesh) const {
     writer.add(mesh.positions);
     writer.add(mesh.tets);
     writer.add(mesh.faces);
+    writer.add(mesh.attributes);
     cache_.store(key, writer.bytes());
 }
 

@@ -15,6 +15,8 @@
 #include "core/file.h"
 #include "gelatin/error.h"
 #include "mesh/file_ending.h"
+#include "mesh/merge_points.h"
+#include "mesh/tet_check.h"
 #include "mesh/tet_formats.h"
 #include "mesh/topology.h"
 
@@ -71,18 +73,14 @@ void drop_repeated_tets(TetMesh& mesh, Notes& notes) {
     }
     std::sort(keys.begin(), keys.end(),
               [](const Key& a, const Key& b) { return std::tie(a.nodes, a.tet) < std::tie(b.nodes, b.tet); });
-    std::vector<bool> repeated(mesh.tets.size(), false);
-    for (std::size_t k = 1; k < keys.size(); ++k) repeated[keys[k].tet] = keys[k].nodes == keys[k - 1].nodes;
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-        if (!repeated[t]) mesh.tets[kept++] = mesh.tets[t];
-    }
-    if (kept < mesh.tets.size())
-        notes.push_back(fmt::format("dropped repeated tets: {}", mesh.tets.size() - kept));
-    mesh.tets.resize(kept);
+    std::vector<bool> keep(mesh.tets.size(), true);
+    for (std::size_t k = 1; k < keys.size(); ++k) keep[keys[k].tet] = keys[k].nodes != keys[k - 1].nodes;
+    const std::size_t dropped = keep_tets(mesh, keep);
+    if (dropped > 0) notes.push_back(fmt::format("dropped repeated tets: {}", dropped));
 }
 
-void drop_unused_nodes(TetMesh& mesh, Notes& notes) {
+// Drops nodes that have no tets. Returns how many.
+std::size_t drop_unused_nodes(TetMesh& mesh) {
     std::vector<bool> used(mesh.positions.size(), false);
     for (const glm::uvec4& tet : mesh.tets) {
         for (int corner = 0; corner < 4; ++corner) used[tet[corner]] = true;
@@ -94,12 +92,24 @@ void drop_unused_nodes(TetMesh& mesh, Notes& notes) {
         mesh.positions[kept] = mesh.positions[n];
         new_index[n] = kept++;
     }
-    if (kept == mesh.positions.size()) return;
-    notes.push_back(fmt::format("dropped nodes without tets: {}", mesh.positions.size() - kept));
+    const std::size_t dropped = mesh.positions.size() - kept;
     mesh.positions.resize(kept);
     for (glm::uvec4& tet : mesh.tets) {
         tet = {new_index[tet[0]], new_index[tet[1]], new_index[tet[2]], new_index[tet[3]]};
     }
+    return dropped;
+}
+
+// Without nodes in common tets would fall apart, as those of programs that write each with nodes of its own.
+void merge_nodes(TetMesh& mesh, Notes& notes) {
+    constexpr double kTolerance = 1e-12;  // of the diagonal
+    const MergedPoints merged = merge_points(mesh.positions, kTolerance);
+    if (merged.count == 0) return;
+    for (glm::uvec4& tet : mesh.tets) {
+        for (int corner = 0; corner < 4; ++corner) tet[corner] = merged.into[tet[corner]];
+    }
+    drop_unused_nodes(mesh);
+    notes.push_back(fmt::format("merged nodes that coincide: {}", merged.count));
 }
 
 // The files appear together, as far as renaming can do that: all are written in full first.
@@ -139,9 +149,14 @@ TetMesh read_tets(const fs::path& file, Notes& notes) {
         const std::string but = notes.empty() ? "" : fmt::format(" ({})", fmt::join(notes, "; "));
         throw InvalidInput({file.string(), 0, {}, {}, "has no tets" + but});
     }
+    const auto is_zero = [](int attribute) { return attribute == 0; };
+    if (std::all_of(mesh.attributes.begin(), mesh.attributes.end(), is_zero)) mesh.attributes.clear();
+    if (const std::size_t dropped = drop_unused_nodes(mesh); dropped > 0)
+        notes.push_back(fmt::format("dropped nodes without tets: {}", dropped));
+    merge_nodes(mesh, notes);
     orient_tets(file, mesh, notes);
     drop_repeated_tets(mesh, notes);
-    drop_unused_nodes(mesh, notes);
+    check_tets(mesh, notes);
     mesh.faces = boundary_faces(mesh.tets);
     return mesh;
 }

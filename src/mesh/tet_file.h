@@ -13,6 +13,8 @@ bool is_tet_file(const std::filesystem::path& file);
 /// Reads ready tetrahedra: TetGen's .node with its .ele beside it (either may be named), Medit's ASCII .mesh,
 /// Gmsh's .msh versions 2.2 and 4.1 (ASCII and binary). Other elements are skipped, repeated tets and unused
 /// nodes dropped, and tets turned inside out turned back, each with a note; boundary faces are computed.
+/// Attributes are the first one of TetGen's, Medit's references, and the first of Gmsh's physical groups;
+/// none if all are 0.
 /// @throws InvalidInput naming file, line and field: missing, empty or cut off, an unknown version, indices
 ///   out of range, coordinates that are not finite, no tets, flat tets (volume below 1e-12 of the longest
 ///   edge cubed), counts that the file is too short for (checked before anything of that size is allocated).

@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <glm/common.hpp>
 #include <iterator>
+#include <map>
 #include <utility>
+#include <vector>
 
 #include "mesh/tet_formats.h"
 
@@ -14,9 +17,23 @@ void append(std::string& out, fmt::format_string<Arguments...> text, Arguments&&
     fmt::format_to(std::back_inserter(out), text, std::forward<Arguments>(arguments)...);
 }
 
+int attribute_of(const TetMesh& mesh, std::size_t tet) {
+    return mesh.attributes.empty() ? 0 : mesh.attributes[tet];
+}
+
 // The numbers are the shortest that read back as the same ones.
 void append_positions(std::string& out, const TetMesh& mesh) {
     for (const glm::dvec3& p : mesh.positions) append(out, "{} {} {}\n", p.x, p.y, p.z);
+}
+
+std::pair<glm::dvec3, glm::dvec3> bounds(const TetMesh& mesh) {
+    glm::dvec3 low(0.0), high(0.0);
+    if (!mesh.positions.empty()) low = high = mesh.positions.front();
+    for (const glm::dvec3& p : mesh.positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    return {low, high};
 }
 
 }  // namespace
@@ -31,10 +48,13 @@ std::string format_tetgen_nodes(const TetMesh& mesh) {
 }
 
 std::string format_tetgen_tets(const TetMesh& mesh) {
-    std::string out = fmt::format("{} 4 0\n", mesh.tets.size());
+    const bool has_attributes = !mesh.attributes.empty();
+    std::string out = fmt::format("{} 4 {}\n", mesh.tets.size(), has_attributes ? 1 : 0);
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
         const glm::uvec4& tet = mesh.tets[t];
-        append(out, "{} {} {} {} {}\n", t, tet[0], tet[1], tet[2], tet[3]);
+        append(out, "{} {} {} {} {}", t, tet[0], tet[1], tet[2], tet[3]);
+        if (has_attributes) append(out, " {}", mesh.attributes[t]);
+        out += "\n";
     }
     return out;
 }
@@ -54,22 +74,36 @@ std::string format_medit(const TetMesh& mesh) {
     append(out, "Triangles\n{}\n", mesh.faces.size());
     for (const glm::uvec3& f : mesh.faces) append(out, "{} {} {} 0\n", f[0] + 1, f[1] + 1, f[2] + 1);
     append(out, "Tetrahedra\n{}\n", mesh.tets.size());
-    for (const glm::uvec4& t : mesh.tets)
-        append(out, "{} {} {} {} 0\n", t[0] + 1, t[1] + 1, t[2] + 1, t[3] + 1);
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        const glm::uvec4 tet = mesh.tets[t] + 1u;
+        append(out, "{} {} {} {} {}\n", tet[0], tet[1], tet[2], tet[3], attribute_of(mesh, t));
+    }
     return out + "End\n";
 }
 
-// One block of nodes and one of tets, on the volume entity 1.
+// One block of nodes; and a block of tets and a volume for each attribute, which becomes its physical group.
 std::string format_gmsh(const TetMesh& mesh) {
-    const std::size_t nodes = mesh.positions.size(), tets = mesh.tets.size();
-    std::string out =
-        fmt::format("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 {0} 1 {0}\n3 1 0 {0}\n", nodes);
+    std::map<int, std::vector<std::size_t>> tets_of;  // by attribute
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) tets_of[attribute_of(mesh, t)].push_back(t);
+    const std::size_t nodes = mesh.positions.size(), volumes = tets_of.size();
+    std::string out = fmt::format("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 {}\n", volumes);
+    const auto [low, high] = bounds(mesh);
+    int volume = 0;
+    for (const auto& [attribute, tets] : tets_of) {
+        append(out, "{} {} {} {} {} {} {} {} 0\n", ++volume, low.x, low.y, low.z, high.x, high.y, high.z,
+               attribute != 0 ? fmt::format("1 {}", attribute) : "0");
+    }
+    append(out, "$EndEntities\n$Nodes\n1 {0} 1 {0}\n3 1 0 {0}\n", nodes);
     for (std::size_t n = 1; n <= nodes; ++n) append(out, "{}\n", n);
     append_positions(out, mesh);
-    append(out, "$EndNodes\n$Elements\n1 {0} 1 {0}\n3 1 4 {0}\n", tets);
-    for (std::size_t t = 0; t < tets; ++t) {
-        const glm::uvec4& tet = mesh.tets[t];
-        append(out, "{} {} {} {} {}\n", t + 1, tet[0] + 1, tet[1] + 1, tet[2] + 1, tet[3] + 1);
+    append(out, "$EndNodes\n$Elements\n{0} {1} 1 {1}\n", volumes, mesh.tets.size());
+    volume = 0;
+    for (const auto& [attribute, tets] : tets_of) {
+        append(out, "3 {} 4 {}\n", ++volume, tets.size());
+        for (const std::size_t t : tets) {
+            const glm::uvec4 tet = mesh.tets[t] + 1u;
+            append(out, "{} {} {} {} {}\n", t + 1, tet[0], tet[1], tet[2], tet[3]);
+        }
     }
     return out + "$EndElements\n";
 }
@@ -91,7 +125,13 @@ std::string format_vtu(const TetMesh& mesh) {
     for (std::size_t t = 1; t <= mesh.tets.size(); ++t) append(out, "{}\n", 4 * t);
     out += "</DataArray>\n<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">\n";
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) append(out, "{}\n", kVtkTetra);
-    return out + "</DataArray>\n</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+    out += "</DataArray>\n</Cells>\n";
+    if (!mesh.attributes.empty()) {
+        out += "<CellData>\n<DataArray type=\"Int32\" Name=\"attribute\" format=\"ascii\">\n";
+        for (const int attribute : mesh.attributes) append(out, "{}\n", attribute);
+        out += "</DataArray>\n</CellData>\n";
+    }
+    return out + "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
 }  // namespace gelatin

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "core/file.h"
@@ -53,7 +55,18 @@ Nodes read_nodes(const fs::path& file) {
     return nodes;
 }
 
-std::vector<glm::uvec4> read_rows_of_tets(const fs::path& file, const Nodes& nodes, Notes& notes) {
+// Numbers of regions; TetGen writes them as real numbers.
+void keep_whole(const std::vector<double>& attributes, TetMesh& mesh, Notes& notes) {
+    constexpr double kMost = 2147483647.0;
+    const auto is_whole = [](double a) { return std::abs(a) <= kMost && a == std::round(a); };
+    if (std::all_of(attributes.begin(), attributes.end(), is_whole)) {
+        for (const double attribute : attributes) mesh.attributes.push_back(static_cast<int>(attribute));
+    } else {
+        notes.emplace_back("left out attributes of tets: they are not whole numbers");
+    }
+}
+
+void read_rows_of_tets(const fs::path& file, const Nodes& nodes, TetMesh& mesh, Notes& notes) {
     const std::string content = read_file(file);
     TextScanner scanner(file, content);
     constexpr std::size_t kShortestRow = 10;  // "0 0 1 2 3\n"
@@ -65,8 +78,8 @@ std::vector<glm::uvec4> read_rows_of_tets(const fs::path& file, const Nodes& nod
     if (nodes.positions.empty() && count > 0)
         scanner.fail("number of tets", fmt::format("{}", count), "there are no nodes");
     const std::uint64_t last_number = nodes.first_number + nodes.positions.size() - 1;
-    std::vector<glm::uvec4> tets;
-    tets.reserve(count);
+    mesh.tets.reserve(count);
+    std::vector<double> regions;  // the first attribute of each
     for (std::uint64_t row = 1; row <= count; ++row) {
         scanner.integer({"number of tet", row});
         glm::uvec4 tet;
@@ -76,12 +89,15 @@ std::vector<glm::uvec4> read_rows_of_tets(const fs::path& file, const Nodes& nod
         }
         for (std::uint64_t k = 4; k < corners; ++k)
             scanner.integer({"tet", row}, nodes.first_number, last_number);
-        for (std::uint64_t k = 0; k < attributes; ++k) scanner.number({"attributes of tet", row});
-        tets.push_back(tet);
+        for (std::uint64_t k = 0; k < attributes; ++k) {
+            const double attribute = scanner.number({"attributes of tet", row});
+            if (k == 0) regions.push_back(attribute);
+        }
+        mesh.tets.push_back(tet);
     }
     if (!scanner.at_end()) scanner.fail("tet", scanner.word("tet"), "there are more rows than the file says");
     if (corners == 10) notes.push_back(fmt::format("kept the corners only of tets with 10 nodes: {}", count));
-    return tets;
+    keep_whole(regions, mesh, notes);
 }
 
 }  // namespace
@@ -92,7 +108,7 @@ TetMesh read_tetgen(const fs::path& file, Notes& notes) {
     const fs::path tet_file = named_nodes ? fs::path(file).replace_extension(".ele") : file;
     Nodes nodes = read_nodes(node_file);
     TetMesh mesh;
-    mesh.tets = read_rows_of_tets(tet_file, nodes, notes);
+    read_rows_of_tets(tet_file, nodes, mesh, notes);
     mesh.positions = std::move(nodes.positions);
     return mesh;
 }

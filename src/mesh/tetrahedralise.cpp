@@ -27,7 +27,7 @@ namespace gelatin {
 namespace {
 
 // Part of the key: to be raised when this file makes something else of TetGen's result.
-constexpr const char* kCacheFormat = "gelatin tets 1";
+constexpr const char* kCacheFormat = "gelatin tets 2";
 constexpr const char* kSurfaceFile = "surface.smesh";
 constexpr const char* kTetFile = "surface.1.ele";  // the name that TetGen derives
 constexpr double kMostTets = 1e8;                  // more would fill the memory long before they are done

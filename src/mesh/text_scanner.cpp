@@ -98,6 +98,15 @@ std::uint64_t TextScanner::integer(const FieldName& field, std::uint64_t low, st
     return value;
 }
 
+int TextScanner::signed_integer(const FieldName& field) {
+    const std::string_view text = word(field);
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size())
+        fail(field, text, "must be a whole number that 32 bits can hold");
+    return value;
+}
+
 double TextScanner::number(const FieldName& field) {
     const std::string_view text = word(field);
     const char* const end = text.data() + text.size();

@@ -38,6 +38,7 @@ public:
     void expect(const char* expected);
     std::uint64_t integer(const FieldName& field, std::uint64_t low = 0,
                           std::uint64_t high = std::numeric_limits<std::uint64_t>::max());
+    int signed_integer(const FieldName& field);
     double number(const FieldName& field);
     /// A number that a float can hold: mesh files with others are refused.
     double coordinate(const FieldName& field);

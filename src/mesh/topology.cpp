@@ -124,6 +124,18 @@ double tet_volume(const TetMesh& mesh, const glm::uvec4& tet) {
     return glm::dot(glm::cross(ab, ac), ad) / 6.0;
 }
 
+std::size_t keep_tets(TetMesh& mesh, const std::vector<bool>& keep) {
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < keep.size(); ++t) {
+        if (!keep[t]) continue;
+        if (!mesh.attributes.empty()) mesh.attributes[kept] = mesh.attributes[t];
+        mesh.tets[kept++] = mesh.tets[t];
+    }
+    mesh.tets.resize(kept);
+    if (!mesh.attributes.empty()) mesh.attributes.resize(kept);
+    return keep.size() - kept;
+}
+
 std::vector<glm::uvec2> tet_edges(std::span<const glm::uvec4> tets) {
     auto rows = group_by_node<std::uint32_t>(node_bound(tets), [&](const auto& visit) {
         for (const glm::uvec4& tet : tets) {

@@ -26,6 +26,9 @@ struct Graph {
 /// Signed volume of a tet [m^3], positive for the winding of TetMesh.
 double tet_volume(const TetMesh& mesh, const glm::uvec4& tet);
 
+/// Drops the tets, and their attributes, for which `keep` [tets] is false. Returns how many.
+std::size_t keep_tets(TetMesh& mesh, const std::vector<bool>& keep);
+
 /// The edges of the tets, each once, first node smaller, in ascending order.
 std::vector<glm::uvec2> tet_edges(std::span<const glm::uvec4> tets);
 

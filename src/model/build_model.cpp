@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -18,9 +19,11 @@
 #include "model/node_faces.h"
 #include "model/object_mesh.h"
 #include "model/region.h"
+#include "model/spring_moduli.h"
 #include "model/spring_packing.h"
 #include "model/springs.h"
 #include "model/surface_parts.h"
+#include "model/tet_materials.h"
 #include "model/transform.h"
 #include "model/volume_term.h"
 
@@ -46,6 +49,7 @@ void arrange_faces(TetMesh& mesh) {
 struct Arranged {
     TetMesh mesh;
     std::vector<std::uint32_t> new_index;  // by the index that a node had
+    std::vector<std::size_t> old_tets;     // the index that each tet had
 };
 
 Arranged arranged(const TetMesh& mesh, const std::vector<glm::uvec2>& edges) {
@@ -58,20 +62,22 @@ Arranged arranged(const TetMesh& mesh, const std::vector<glm::uvec2>& edges) {
     for (std::uint32_t n = 0; n < count; ++n) new_index[order[n]] = n;
     TetMesh result;
     for (const std::uint32_t old : order) result.positions.push_back(mesh.positions[old]);
-    for (const glm::uvec4& t : mesh.tets) {
-        result.tets.emplace_back(new_index[t.x], new_index[t.y], new_index[t.z], new_index[t.w]);
-    }
+    const auto renamed = [&](const glm::uvec4& t) {
+        return glm::uvec4(new_index[t.x], new_index[t.y], new_index[t.z], new_index[t.w]);
+    };
+    const auto least_node = [&](std::size_t tet) {
+        const glm::uvec4 t = renamed(mesh.tets[tet]);
+        return std::min(std::min(t.x, t.y), std::min(t.z, t.w));
+    };
+    std::vector<std::size_t> old_tets(mesh.tets.size());
+    std::iota(old_tets.begin(), old_tets.end(), std::size_t{0});
+    std::stable_sort(old_tets.begin(), old_tets.end(),
+                     [&](std::size_t a, std::size_t b) { return least_node(a) < least_node(b); });
+    for (const std::size_t old : old_tets) result.tets.push_back(renamed(mesh.tets[old]));
     for (const glm::uvec3& f : mesh.faces)
         result.faces.emplace_back(new_index[f.x], new_index[f.y], new_index[f.z]);
-    const auto least = [](const auto& e) {
-        std::uint32_t m = e[0];
-        for (int k = 1; k < e.length(); ++k) m = std::min(m, e[k]);
-        return m;
-    };
-    const auto by_least_node = [&](const auto& a, const auto& b) { return least(a) < least(b); };
-    std::stable_sort(result.tets.begin(), result.tets.end(), by_least_node);
     arrange_faces(result);
-    return {std::move(result), std::move(new_index)};
+    return {std::move(result), std::move(new_index), std::move(old_tets)};
 }
 
 float checked_float(double value, const std::string& object, const char* what) {
@@ -88,10 +94,16 @@ float checked_float(double value, const std::string& object, const char* what) {
                      what, value)});
 }
 
-void append_nodes(Model& model, const Body& body, const TetMesh& mesh) {
-    std::vector<double> masses(mesh.positions.size(), 0.0);
-    for (const glm::uvec4& tet : mesh.tets) {
-        for (int k = 0; k < 4; ++k) masses[tet[k]] += 0.25 * body.material.density * tet_volume(mesh, tet);
+void append_nodes(Model& model, const Body& body, const Arranged& arranged) {
+    const TetMesh& mesh = arranged.mesh;
+    std::vector<double> masses(mesh.positions.size(), 0.0), damping(masses);
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        const Material& material = body.material_of(arranged.old_tets[t]);
+        const double quarter = 0.25 * material.density * tet_volume(mesh, mesh.tets[t]);
+        for (int k = 0; k < 4; ++k) {
+            masses[mesh.tets[t][k]] += quarter;
+            damping[mesh.tets[t][k]] += quarter * material.damping;
+        }
     }
     glm::dvec3 center(0.0);  // of mass
     double sum = 0.0;
@@ -100,13 +112,15 @@ void append_nodes(Model& model, const Body& body, const TetMesh& mesh) {
         sum += masses[n];
     }
     center /= sum;
+    const bool has_parts = !body.tet_materials.empty();
     for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
         const float mass = checked_float(masses[n], body.name, "a node's mass [kg]");
         const bool pinned = any_holds(body.pins, mesh.positions[n]);
         const glm::dvec3 velocity = body.velocity + glm::cross(body.spin, mesh.positions[n] - center);
         model.positions.emplace_back(glm::vec3(mesh.positions[n]), pinned ? 0.0f : 1.0f / mass);
-        model.velocities.emplace_back(pinned ? glm::vec3(0.0f) : glm::vec3(velocity),
-                                      static_cast<float>(body.material.damping));
+        model.velocities.emplace_back(
+            pinned ? glm::vec3(0.0f) : glm::vec3(velocity),
+            static_cast<float>(has_parts ? damping[n] / masses[n] : body.material.damping));
         model.masses.push_back(mass);
     }
 }
@@ -139,6 +153,30 @@ std::vector<Spring> scaled_springs(const Body& body, const Arranged& arranged, c
     return springs;
 }
 
+// From springs as stiff as the body's own material makes them to those that its parts make.
+void adapt_to_parts(const Body& body, const Arranged& arranged, std::vector<Spring>& springs) {
+    if (body.tet_materials.empty()) return;
+    std::vector<double> tet_moduli;
+    for (const std::size_t old : arranged.old_tets)
+        tet_moduli.push_back(shear_modulus(body.material_of(old)));
+    std::vector<glm::uvec2> nodes;
+    for (const Spring& spring : springs) nodes.emplace_back(spring.i, spring.j);
+    const std::vector<double> moduli = spring_moduli(arranged.mesh, tet_moduli, nodes);
+    for (std::size_t s = 0; s < springs.size(); ++s) {
+        const double factor = moduli[s] / shear_modulus(body.material);
+        springs[s].stiffness = static_cast<float>(factor * static_cast<double>(springs[s].stiffness));
+    }
+}
+
+std::vector<Spring> springs_of(const Body& body, const Arranged& arranged, const FittedSprings* fitted) {
+    std::vector<Spring> springs = fitted != nullptr
+                                      ? scaled_springs(body, arranged, *fitted)
+                                      : make_springs(arranged.mesh, *body.material.springs,
+                                                     shear_modulus(body.material) / kShearOverYoungs);
+    adapt_to_parts(body, arranged, springs);
+    return springs;
+}
+
 void append_springs(Model& model, const std::vector<Spring>& springs, const std::string& object,
                     std::uint32_t first_node) {
     for (Spring spring : springs) {
@@ -168,26 +206,24 @@ void append_body(Model& model, const Body& body) {
     object.tets = {size(model.tets), size(mesh.tets)};
     object.faces = {size(model.faces), size(mesh.faces)};
     object.springs.first = size(model.springs);
-    for (const glm::uvec4& tet : mesh.tets) object.rest_volume += tet_volume(mesh, tet);
-    object.mass = object.rest_volume * body.material.density;
 
     const std::uint32_t first = object.nodes.first;
-    append_nodes(model, body, mesh);
+    append_nodes(model, body, order);
     object.handle_nodes.first = size(model.handle_nodes);
     for (const HandleDescription& handle : body.handles) append_handle(handle, mesh.positions, first, model);
     object.handle_nodes.count = size(model.handle_nodes) - object.handle_nodes.first;
     append_loads(body.loads, mesh, std::span(model.masses).subspan(first), first, model.loads);
-    append_springs(
-        model,
-        fitted ? scaled_springs(body, order, *fitted)
-               : make_springs(mesh, *body.material.springs, shear_modulus(body.material) / kShearOverYoungs),
-        body.name, first);
+    append_springs(model, springs_of(body, order, fitted.get()), body.name, first);
     object.springs.count = size(model.springs) - object.springs.first;
-    for (const glm::uvec4& t : mesh.tets) {
-        model.tets.push_back(t + first);
-        model.tet_rests.push_back({checked_float(tet_volume(mesh, t), body.name, "a tet's volume [m^3]"),
-                                   static_cast<float>(body.material.youngs_modulus),
-                                   static_cast<float>(lacking_modulus(body.material))});
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        const Material& material = body.material_of(order.old_tets[t]);
+        const double volume = tet_volume(mesh, mesh.tets[t]);
+        object.rest_volume += volume;
+        object.mass += volume * material.density;
+        model.tets.push_back(mesh.tets[t] + first);
+        model.tet_rests.push_back({checked_float(volume, body.name, "a tet's volume [m^3]"),
+                                   static_cast<float>(material.youngs_modulus),
+                                   static_cast<float>(lacking_modulus(material))});
     }
     for (const glm::uvec3& f : mesh.faces) {
         model.faces.push_back({f.x + first, f.y + first, f.z + first, size(model.objects)});
@@ -237,19 +273,33 @@ struct ColliderPacker {
     }
 };
 
-const Material& find_material(const Scene& scene, const ObjectDescription& object) {
+const Material& find_material(const Scene& scene, const ObjectDescription& object, const std::string& name,
+                              int line) {
     const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
-                                    [&](const Material& m) { return m.name == object.material; });
+                                    [&](const Material& m) { return m.name == name; });
     if (found != scene.materials.end()) return *found;
-    throw InvalidInput({scene.file.string(), object.line, "object." + object.name + ".material",
-                        object.material, "no such material"});
+    throw InvalidInput(
+        {scene.file.string(), line, "object." + object.name + ".material", name, "no such material"});
+}
+
+void add_parts(const Scene& scene, const ObjectDescription& object, Body& body) {
+    for (const PartDescription& part : object.parts) {
+        body.part_materials.push_back(find_material(scene, object, part.material, part.line));
+        if (body.part_materials.back().springs != body.material.springs) {
+            throw InvalidInput(
+                {scene.file.string(), part.line, "object." + object.name + ".part.material", part.material,
+                 fmt::format("must have the same springs as the object's own, '{}'", object.material)});
+        }
+    }
+    body.tet_materials = choose_tet_materials(object, body.mesh, scene.file.string());
 }
 
 Body make_body(const Scene& scene, const ObjectDescription& object, ObjectMesher& mesher) {
     Body body;
     body.name = object.name;
     body.mesh = mesher.make(object);
-    body.material = find_material(scene, object);
+    body.material = find_material(scene, object, object.material, object.line);
+    add_parts(scene, object, body);
     body.velocity = object.velocity;
     body.spin = glm::radians(object.spin);
     body.pins = object.pins;

@@ -21,10 +21,21 @@ struct Body {
     std::vector<LoadDescription> loads;
     glm::vec3 color{-1.0f};  ///< linear RGB; negative: the renderer's palette
 
+    /// Materials of parts, with springs of the same kinds as `material`'s, and which each tet has: 0 is
+    /// `material`, m part_materials[m - 1], shape [tets]; empty: `material` alone.
+    std::vector<Material> part_materials;
+    std::vector<std::uint32_t> tet_materials;
+
     /// Of a material without kinds of springs: those fitted to the mesh before it was scaled; empty:
     /// pack_bodies fits.
     std::shared_ptr<const FittedSprings> fitted;
     double scale = 1.0;  ///< of the mesh, since `fitted`
+
+    /// Of a tet of `mesh`.
+    const Material& material_of(std::size_t tet) const {
+        const std::uint32_t m = tet_materials.empty() ? 0 : tet_materials[tet];
+        return m == 0 ? material : part_materials[m - 1];
+    }
 };
 
 /// Packs bodies into the arrays of a model: nodes in an order that keeps neighbours near, lumped masses (a

@@ -10,6 +10,7 @@ namespace gelatin::layouts {
 using uint = std::uint32_t;
 using glm::vec4;
 
+#include "layouts/alarm.glsl"
 #include "layouts/box.glsl"
 #include "layouts/chunk.glsl"
 #include "layouts/collider.glsl"
@@ -29,6 +30,7 @@ using glm::vec4;
 #include "layouts/tree_node.glsl"
 
 static_assert(sizeof(AffineFit) == 80);
+static_assert(sizeof(Alarm) == 16);
 static_assert(sizeof(ApproachSums) == 32);
 static_assert(sizeof(BoundingBox) == 48);
 static_assert(sizeof(Box) == 32);
@@ -66,6 +68,7 @@ static_assert(sizeof(TreeNode) == 16);
 
 namespace gelatin {
 using layouts::AffineFit;
+using layouts::Alarm;
 using layouts::ApproachSums;
 using layouts::BoundingBox;
 using layouts::Box;

@@ -88,6 +88,22 @@ std::string read_material_name(TableReader& reader, const std::vector<Material>&
                             names.empty() ? "the scene has none" : "there is " + join_names(names)));
 }
 
+PartDescription read_part(TableReader& reader, const std::vector<Material>& materials) {
+    PartDescription part;
+    part.line = reader.line();
+    reader.require({"material"});
+    if (reader.require_one_of({"region", "attribute"}) == "region") {
+        part.where = read_region(*reader.table("region"));
+    } else {
+        TetAttribute attribute{};
+        reader.read("attribute", attribute.number, kAnyNumber);
+        part.where = attribute;
+    }
+    part.material = read_material_name(reader, materials);
+    reader.finish();
+    return part;
+}
+
 // The object, or its copies.
 std::vector<ObjectDescription> read_object(TableReader& reader, const std::vector<Material>& materials,
                                            const std::filesystem::path& folder) {
@@ -99,6 +115,7 @@ std::vector<ObjectDescription> read_object(TableReader& reader, const std::vecto
     object.shape = read_shape(*reader.table("shape"), folder);
     if (const auto mesher = reader.table("mesher")) object.mesher = read_mesher(*mesher);
     object.material = read_material_name(reader, materials);
+    for (TableReader& part : reader.tables("part")) object.parts.push_back(read_part(part, materials));
     reader.read("position", object.position);
     reader.read("rotation", object.rotation);
     reader.read("scale", object.scale, kPositive);

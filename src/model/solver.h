@@ -48,6 +48,9 @@ struct ObjectMeasure {
     std::uint32_t colliding_faces = 0;  ///< that touch another object, or another part of their own
 };
 
+/// What watch_nodes notes before there is anything to note.
+constexpr Alarm kNoAlarm{0xFFFFFFFFu, 0xFFFFFFFFu, 0, 0};
+
 /// What was near at one moment.
 struct ProximityMeasure {
     std::uint32_t node_face = 0;  ///< nodes and faces
@@ -82,6 +85,15 @@ public:
     virtual void find_proximities() = 0;
     virtual void respond(double step) = 0;
 
+    /// Looks at all nodes after the step of this number: what is noted of the first step after which nodes
+    /// are not finite, or more than `most_energy` of kinetic energy each [J], stays; pinned nodes may be as
+    /// fast as they like.
+    virtual void watch_nodes(std::uint32_t step_number, double most_energy) = 0;
+
+    /// What watching has found: until now if `wait`, else what a device has told so far. To be asked now and
+    /// then, once a frame, for each question starts bringing the next answer.
+    virtual Alarm alarm(bool wait) = 0;
+
     /// Starts measuring the present state. At most two measurements may be under way.
     virtual void begin_measure() = 0;
 
@@ -96,6 +108,7 @@ public:
     virtual ProximityMeasure proximities() const = 0;
 
     virtual State read_state() const = 0;
+    /// What watching has found so far is forgotten.
     virtual void write_state(const State& state) = 0;
 
     /// Times the stages on the clock of the device they run on.

@@ -56,7 +56,7 @@ bool is_stable(const ExplicitScheme& scheme, double frequency, double damping, d
 
 }  // namespace
 
-double frequency_bound(const Model& model, const ModelObject& object) {
+double frequency_bound(const Model& model, const ModelObject& object, Deformation deformation) {
     std::vector<Eigen::Matrix3d> blocks(object.nodes.count, Eigen::Matrix3d::Zero());
     std::vector<double> inverse_masses;
     for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n)
@@ -76,7 +76,9 @@ double frequency_bound(const Model& model, const ModelObject& object) {
         const Spring& spring = model.springs[s];
         const glm::dvec3 d = glm::dvec3(model.positions[spring.j]) - glm::dvec3(model.positions[spring.i]);
         const Eigen::Vector3d n = Eigen::Vector3d(d.x, d.y, d.z).normalized();
-        const Eigen::Matrix3d kn = static_cast<double>(spring.stiffness) * n * n.transpose();
+        const auto k = static_cast<double>(spring.stiffness);
+        Eigen::Matrix3d kn = k * n * n.transpose();
+        if (deformation == Deformation::any) kn = k * Eigen::Matrix3d::Identity();
         add(spring.i, spring.j, kn);
         add(spring.j, spring.i, kn);
     }
@@ -105,7 +107,7 @@ double largest_stable_step(SolverKind solver, double frequency, double damping) 
     return stable;
 }
 
-double largest_stable_step(SolverKind solver, const Model& model) {
+double largest_stable_step(SolverKind solver, const Model& model, Deformation deformation) {
     // Of bodies with the same damping the one with the highest frequency decides.
     std::map<float, double> frequencies;
     for (const ModelObject& object : model.objects) {
@@ -114,7 +116,7 @@ double largest_stable_step(SolverKind solver, const Model& model) {
             damping = std::max(damping, model.velocities[n].w);
         }
         double& highest = frequencies[damping];
-        highest = std::max(highest, frequency_bound(model, object));
+        highest = std::max(highest, frequency_bound(model, object, deformation));
     }
     double step = std::numeric_limits<double>::infinity();
     for (const auto& [damping, frequency] : frequencies)

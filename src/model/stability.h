@@ -5,10 +5,15 @@
 
 namespace gelatin {
 
+/// What a bound is asked to hold for: motion about the shape at rest, or in any shape whatever.
+enum class Deformation { small, any };
+
 /// An upper bound on the highest angular frequency [rad/s] of an object's springs at rest:
 ///   omega^2 <= max over nodes i of eig_max( sum_j k_ij (1 + m_i / m_j) n n^T ) / m_i
 /// (each spring's energy split between its ends by (a - b)^2 <= (1 + t) a^2 + (1 + 1/t) b^2, t = m_i / m_j).
-double frequency_bound(const Model& model, const ModelObject& object);
+/// In any shape springs may all line up, and pull across their direction too: n n^T is then the identity.
+double frequency_bound(const Model& model, const ModelObject& object,
+                       Deformation deformation = Deformation::small);
 
 /// The largest step [s] with which `solver` keeps every mode of a spring net quiet that has frequencies up to
 /// `frequency` [rad/s] and Kelvin-Voigt damping time `damping` [s]: no mode grows by more than 1% a second.
@@ -17,7 +22,8 @@ double frequency_bound(const Model& model, const ModelObject& object);
 double largest_stable_step(SolverKind solver, double frequency, double damping);
 
 /// The least of the objects' largest stable steps [s]; infinite without springs.
-double largest_stable_step(SolverKind solver, const Model& model);
+double largest_stable_step(SolverKind solver, const Model& model,
+                           Deformation deformation = Deformation::small);
 
 /// Steps a frame: what the scene asks for, or the fewest whose size is at most 0.8 of the largest stable step
 /// (the rest is for springs that stiffen as the body deforms).

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <deque>
 
 #include "core/log.h"
@@ -10,21 +10,18 @@
 #include "gelatin/error.h"
 #include "gpu/gpu_solver.h"
 #include "model/build_model.h"
+#include "model/model_check.h"
 #include "model/stability.h"
 #include "model/start_state.h"
 #include "sim/backend.h"
 #include "sim/checkpoint.h"
 #include "sim/draw_source.h"
 #include "sim/overlay_source.h"
+#include "sim/watch.h"
 
 namespace gelatin {
 
 struct Simulator::Impl {
-    struct Moment {
-        int frame;
-        double time;  // [s]
-    };
-
     Scene scene;
     SimulatorOptions options;
     std::optional<gl::Context> context;  // before everything that owns GL objects
@@ -36,8 +33,9 @@ struct Simulator::Impl {
     std::optional<DrawSource> draw_source;
     std::optional<OverlaySource> overlay_source;
 
-    Moment start{0, 0.0};     // of this run: where a checkpoint was loaded
+    Moment start{0, 0.0, 0};  // of this run: where a checkpoint was loaded
     std::uint64_t steps = 0;  // since then
+    std::optional<Watch> watch;
     std::deque<Moment> measured;
     std::uint32_t reported_losses = 0;
     bool lost_proximities = false;  // and told so
@@ -52,13 +50,14 @@ struct Simulator::Impl {
             moment.frame == static_cast<int>(whole / static_cast<std::uint64_t>(substeps)) &&
             std::abs(static_cast<double>(whole) * step_size() - moment.time) <= 1e-6 * step_size();
         if (!same_steps) return;
-        start = {0, 0.0};
+        start = {0, 0.0, 0};
         steps = whole;
     }
 
     double step_size() const { return scene.simulation.frame_time() / substeps; }
     int frame() const { return start.frame + static_cast<int>(steps / static_cast<std::uint64_t>(substeps)); }
     double time() const { return start.time + static_cast<double>(steps) * step_size(); }
+    Moment now() const { return {frame(), time(), start.steps + steps}; }
 
     bool seeks_proximities() const {
         return scene.collision.proximity_radius &&
@@ -115,7 +114,11 @@ Simulator::Simulator(const Scene& scene, const SimulatorOptions& options) : impl
         d.cpu_solver = solver.get();
         d.solver = std::move(solver);
     }
-    if (const std::optional<State> start = deformed_start(scene, *d.model)) d.solver->write_state(*start);
+    const std::optional<State> start = deformed_start(scene, *d.model);
+    if (start) d.solver->write_state(*start);
+    d.watch.emplace(d.scene, d.model, d.substeps);
+    if (start) d.watch->begin(*start, {});
+    for (const std::string& line : check_model(*d.model, scene, d.step_size())) spdlog::warn(line);
 }
 
 Simulator::Simulator(Simulator&&) noexcept = default;
@@ -141,6 +144,17 @@ void Simulator::step() {
     if (d.seeks_proximities()) d.run_stage("find_proximities", [&] { d.solver->find_proximities(); });
     if (meets_others || meets_itself) d.run_stage("respond", [&] { d.solver->respond(d.step_size()); });
     ++d.steps;
+    const Moment now = d.now();
+    d.run_stage("watch_nodes", [&] {
+        d.solver->watch_nodes(static_cast<std::uint32_t>(now.steps), d.watch->most_energy(now.time));
+    });
+    // A GPU is asked once a frame.
+    if (d.gpu_solver == nullptr || d.steps % static_cast<std::uint64_t>(d.substeps) == 0)
+        d.watch->check(d.solver->alarm(false), now, now);
+}
+
+void Simulator::check() const {
+    impl_->watch->check(impl_->solver->alarm(true), impl_->now(), impl_->now());
 }
 
 void Simulator::advance_frame() {
@@ -183,7 +197,7 @@ Counts Simulator::counts() const {
 void Simulator::begin_statistics() {
     Impl& d = *impl_;
     d.run_stage("measure", [&] { d.solver->begin_measure(); });
-    d.measured.push_back({frame(), time()});
+    d.measured.push_back(d.now());
 }
 
 std::size_t Simulator::pending_statistics() const {
@@ -193,21 +207,17 @@ std::size_t Simulator::pending_statistics() const {
 FrameStatistics Simulator::take_statistics() {
     Impl& d = *impl_;
     const std::vector<ObjectMeasure> objects = d.solver->end_measure();
-    FrameStatistics frame;
-    frame.frame = d.measured.front().frame;
-    frame.time = d.measured.front().time;
+    const Moment moment = d.measured.front();
     d.measured.pop_front();
+    d.watch->check(d.solver->alarm(false), moment, d.now());
+    d.watch->check(objects, moment);
+    FrameStatistics frame;
+    frame.frame = moment.frame;
+    frame.time = moment.time;
     d.warn_of_lost_pairs();
     if (d.seeks_proximities()) frame.proximities = d.take_proximities();
     for (std::size_t o = 0; o < objects.size(); ++o) {
         const ObjectMeasure& object = objects[o];
-        if (!std::isfinite(object.kinetic_energy + object.elastic_energy + object.potential_energy +
-                           object.volume)) {
-            throw Diverged(
-                fmt::format("the simulation diverged: object '{}' has positions or velocities that are not "
-                            "finite at frame {} ({:.6g} s)",
-                            d.model->objects[o].name, frame.frame, frame.time));
-        }
         frame.kinetic_energy += object.kinetic_energy;
         frame.elastic_energy += object.elastic_energy;
         frame.potential_energy += object.potential_energy;
@@ -257,13 +267,17 @@ RenderView Simulator::render_view(const Overlays& overlays) {
 }
 
 void Simulator::save_checkpoint(const std::filesystem::path& file) const {
+    check();
     write_checkpoint(file, model(), {frame(), time(), impl_->solver->read_state()});
 }
 
 void Simulator::load_checkpoint(const std::filesystem::path& file) {
     const Checkpoint checkpoint = read_checkpoint(file, model());
     impl_->solver->write_state(checkpoint.state);
-    impl_->go_on_from({checkpoint.frame, checkpoint.time});
+    impl_->go_on_from(
+        {checkpoint.frame, checkpoint.time,
+         static_cast<std::uint64_t>(checkpoint.frame) * static_cast<std::uint64_t>(substeps())});
+    impl_->watch->begin(checkpoint.state, impl_->now());
 }
 
 }  // namespace gelatin

@@ -3,7 +3,10 @@
 
 #include "apps/program_test.h"
 #include "mesh/surface_file.h"
+#include "model/build_model.h"
+#include "model/stability.h"
 #include "render/image.h"
+#include "sim/checkpoint.h"
 #include "support/image_compare.h"
 
 namespace gelatin::test {
@@ -212,10 +215,54 @@ TEST_F(RunCommand, StopsWhenTheSimulationDiverges) {
              "simulation.frame_rate=1e-13", "--set", "material.jelly.youngs_modulus=1e-14", "--set",
              "material.jelly.density=1e14", "--set", "simulation.gravity=[0, 1e15, 0]"});
     EXPECT_EQ(result.exit_code, 3) << result.err;
-    EXPECT_THAT(result.err, HasSubstr("gelatin: error: the simulation diverged: object 'cube'"));
-    EXPECT_THAT(result.err, HasSubstr("; no checkpoint was saved\n"));
+    EXPECT_THAT(result.err,
+                HasSubstr("gelatin: error: the simulation diverged in step 1 (on the way to frame 1, "));
+    EXPECT_THAT(result.err, HasSubstr("of object 'cube'"));
+    EXPECT_THAT(result.err,
+                HasSubstr("; no checkpoint was saved: --checkpoint FILE --checkpoint-every N saves"));
     EXPECT_EQ(read_json("s.json")["frames"].size(), 1u);  // the start
     EXPECT_FALSE(exists("c"));
+}
+
+// A bar that is crushed into a line explodes some frames later.
+TEST_F(RunCommand, KeepsWhatWasGoodOfARunThatExplodes) {
+    std::vector<std::string> settings = {"object.cube.shape={box=[2, 0.1, 0.1], segments=[20, 1, 1]}",
+                                         "simulation.gravity=[0, 0, 0]", "simulation.frames=500"};
+    const Model model = build_model(load_scene(path("cube.toml"), settings));
+    const double longest = largest_stable_step(SolverKind::semi_implicit_euler, model);
+    settings.push_back("simulation.frame_rate=" + std::to_string(1.0 / (0.99 * longest)));
+    settings.emplace_back("simulation.substeps=1");
+    State state{model.positions, model.velocities, {}};
+    for (std::size_t n = 0; n < state.positions.size(); ++n) {
+        glm::vec4& p = state.positions[n];
+        p = glm::vec4(p.x + 0.6f * p.y + 0.36f * p.z, 9.0f, 0.0f, p.w);
+        state.velocities[n].x = n % 2 == 0 ? 0.1f : -0.1f;
+    }
+    write_checkpoint(path("crushed"), model, {0, 0.0, state});
+
+    const auto explode = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(),
+                         {"run", "cube.toml", "--backend", "cpu", "--quiet", "--resume", "crushed"});
+        for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
+        return run(arguments);
+    };
+    const ProgramResult result = explode({"--checkpoint", "c", "--checkpoint-every", "1", "--stats", "s.json",
+                                          "--export", "out", "--format", "obj", "--every", "1"});
+    EXPECT_EQ(result.exit_code, 3) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("; likely cause: "));
+    EXPECT_THAT(partial_files(), IsEmpty());
+    const json frames = read_json("s.json")["frames"];
+    const int last = frames.back()["frame"].get<int>();
+    EXPECT_GT(last, 0);
+    EXPECT_EQ(frames.size(), static_cast<std::size_t>(last) + 1);
+    EXPECT_THAT(result.err,
+                EndsWith("; the last good checkpoint is c of frame " + std::to_string(last) + "\n"));
+    EXPECT_EQ(read_checkpoint(path("c"), model).frame, last);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("out")), {}), last + 1);
+
+    EXPECT_THAT(explode({}).err,
+                EndsWith("; no checkpoint was saved since crushed, where the run began: --checkpoint FILE "
+                         "--checkpoint-every N saves the last good state every N frames\n"));
 }
 
 // Checkpoints

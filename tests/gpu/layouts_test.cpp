@@ -56,6 +56,10 @@ TEST_F(LayoutsTest, Spring) {
     check("spring.glsl", "Spring", sizeof(Spring),
           {FIELD(Spring, i), FIELD(Spring, j), FIELD(Spring, rest_length), FIELD(Spring, stiffness)});
 }
+TEST_F(LayoutsTest, Alarm) {
+    check("alarm.glsl", "Alarm", sizeof(Alarm),
+          {FIELD(Alarm, step), FIELD(Alarm, node), FIELD(Alarm, count), FIELD(Alarm, speed)});
+}
 TEST_F(LayoutsTest, HalfSpringPair) {
     check("half_spring_pair.glsl", "HalfSpringPair", sizeof(HalfSpringPair),
           {FIELD(HalfSpringPair, node_0), FIELD(HalfSpringPair, rest_length_0), FIELD(HalfSpringPair, node_1),

@@ -16,6 +16,7 @@
 #include "support/shader_folder.h"
 #include "support/step_on_gpu.h"
 #include "support/test_models.h"
+#include "support/watched_runs.h"
 
 namespace gelatin {
 namespace {
@@ -69,6 +70,19 @@ TEST_P(MarkMutantsTest, IsCaught) {
     test::ShaderFolder folder;
     break_shaders(GetParam(), folder);
     EXPECT_NE(test::mark_faces_on_gpu(model), right) << "the broken kernel passes";
+}
+
+class WatchMutantsTest : public test::GlTest, public ::testing::WithParamInterface<test::Break> {};
+INSTANTIATE_TEST_SUITE_P(All, WatchMutantsTest, ::testing::ValuesIn(test::kWatchMutants), name_of_mutant);
+
+TEST_P(WatchMutantsTest, IsCaught) {
+    const Model model = test::make_lively_model();
+    test::ShaderFolder folder;
+    break_shaders(GetParam(), folder);
+    bool caught = false;
+    for (const test::WatchedRun& run : test::watched_runs(model))
+        caught = caught || !test::agree(test::watch_on_gpu(model, run), test::watch_on_cpu(model, run));
+    EXPECT_TRUE(caught) << "the broken kernel passes";
 }
 
 bool is_wrong_by_depth(const Model& model) {

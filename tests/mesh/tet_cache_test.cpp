@@ -17,12 +17,13 @@ TetMesh make_mesh(std::uint32_t seed, std::size_t size = 5000) {
     for (std::uint32_t k = 0; k < size; ++k) mesh.positions.emplace_back(seed + k, 0.1 * k, -1.0 / (k + 1));
     for (std::uint32_t k = 0; k < 2 * size; ++k) mesh.tets.emplace_back(seed, k, k + 1, k + 2);
     for (std::uint32_t k = 0; k < size / 2; ++k) mesh.faces.emplace_back(k, seed, k + 1);
+    for (std::uint32_t k = 0; k < 2 * size; ++k) mesh.attributes.push_back(static_cast<int>(k) - 100);
     return mesh;
 }
 
 bool is_same(const std::optional<TetMesh>& found, const TetMesh& mesh) {
     return found && found->positions == mesh.positions && found->tets == mesh.tets &&
-           found->faces == mesh.faces;
+           found->faces == mesh.faces && found->attributes == mesh.attributes;
 }
 
 fs::path only_entry(const fs::path& folder) {
@@ -66,7 +67,7 @@ TEST(TetCache, CutOffOrDamagedEntriesAreMisses) {
 TEST(TetCache, EntriesOfAnotherKindAreMisses) {
     const TemporaryFolder folder;
     const DiskCache any(folder.path(), "tets");
-    for (const std::string& content : {std::string(), std::string(24, '\xff'), std::string(32, '\0')}) {
+    for (const std::string& content : {std::string(), std::string(24, '\xff'), std::string(40, '\0')}) {
         any.store(kKey, content);
         EXPECT_FALSE(TetCache(folder.path()).find(kKey)) << content.size() << " bytes";
     }

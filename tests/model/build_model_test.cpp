@@ -27,6 +27,81 @@ TEST(BuildModel, LumpsTheWholeMass) {
         EXPECT_FLOAT_EQ(model.positions[n].w, 1.0f / model.masses[n]);
 }
 
+// The upper half of a block is of another material.
+TEST(BuildModel, PartsHaveTheirOwnDensityDampingAndModulus) {
+    Body body = test::make_body(test::make_block({3, 4, 3}, {1, 1, 1}));
+    body.material = {
+        .name = "flesh", .youngs_modulus = 1e4, .density = 1000.0, .damping = 0.02, .springs = {}};
+    body.part_materials = {
+        {.name = "bone", .youngs_modulus = 1e6, .density = 3000.0, .damping = 0.01, .springs = {}}};
+    for (const glm::uvec4& tet : body.mesh.tets) {
+        double y = 0.0;
+        for (int k = 0; k < 4; ++k) y += 0.25 * body.mesh.positions[tet[k]].y;
+        body.tet_materials.push_back(y > 0.5 ? 1u : 0u);
+    }
+    const Model model = test::make_model(body);
+    EXPECT_NEAR(model.objects[0].mass, 2000.0, 1e-9);
+    EXPECT_NEAR(sum(model.masses), 2000.0, 2000.0 * 1e-6);
+    for (std::size_t t = 0; t < model.tets.size(); ++t) {
+        float y = 0.0f;
+        for (int k = 0; k < 4; ++k) y += 0.25f * model.positions[model.tets[t][k]].y;
+        EXPECT_EQ(model.tet_rests[t].modulus, y > 0.5f ? 1e6f : 1e4f);
+    }
+    for (std::size_t n = 0; n < model.positions.size(); ++n) {
+        const float y = model.positions[n].y;
+        // In the middle by mass: (1 * 0.02 + 3 * 0.01) / 4, as a block's corners have the same tets above and
+        // below.
+        if (std::abs(y - 0.5f) < 0.1f) {
+            EXPECT_GT(model.velocities[n].w, 0.01f);
+            EXPECT_LT(model.velocities[n].w, 0.02f);
+        } else {
+            EXPECT_FLOAT_EQ(model.velocities[n].w, y > 0.5f ? 0.01f : 0.02f);
+        }
+    }
+    Body soft = body;
+    soft.part_materials.clear();
+    soft.tet_materials.clear();
+    const Model one = test::make_model(soft);
+    ASSERT_EQ(one.springs.size(), model.springs.size());
+    for (std::size_t s = 0; s < model.springs.size(); ++s) {
+        const Spring &spring = model.springs[s], &before = one.springs[s];
+        const float lower = std::min(model.positions[spring.i].y, model.positions[spring.j].y);
+        const float upper = std::max(model.positions[spring.i].y, model.positions[spring.j].y);
+        const float factor = spring.stiffness / before.stiffness;
+        EXPECT_GE(factor, 1.0f - 1e-5f);
+        EXPECT_LE(factor, 100.0f + 1e-3f);
+        if (upper <= 0.5f && lower < 0.3f) {
+            EXPECT_NEAR(factor, 1.0f, 1e-5f);
+        } else if (lower >= 0.5f && upper > 0.7f) {
+            EXPECT_NEAR(factor, 100.0f, 1e-3f);
+        }
+    }
+}
+
+TEST(BuildModel, RefusesPartsWithOtherKindsOfSprings) {
+    Scene scene;
+    scene.file = "parts.toml";
+    scene.materials.resize(2);
+    scene.materials[0].name = "flesh";
+    scene.materials[1].name = "bone";
+    scene.materials[1].springs = SpringKinds{};
+    ObjectDescription object;
+    object.name = "cube";
+    object.material = "flesh";
+    object.shape = BoxShape{};
+    object.parts = {{HalfSpaceRegion{{0, 1, 0}, 0.0}, "bone", 12}};
+    scene.objects.push_back(object);
+    try {
+        build_model(scene);
+        FAIL() << "accepted springs of two kinds";
+    } catch (const InvalidInput& error) {
+        EXPECT_STREQ(
+            error.what(),
+            "parts.toml:12: object.cube.part.material = bone: must have the same springs as the object's "
+            "own, 'flesh'");
+    }
+}
+
 TEST(BuildModel, ObjectsOwnContiguousRanges) {
     Body a = test::make_body(test::make_block({2, 2, 2}, {1, 1, 1}));
     Body b = test::make_body(test::make_block({3, 1, 1}, {1, 1, 1}));

@@ -47,6 +47,53 @@ object = [
               "scene.toml:5: object.ball.start.scatter = -1: must be 0 or more");
 }
 
+// Parts
+
+TEST_F(SceneFileBodies, ReadsParts) {
+    const Scene scene = load(R"(
+material = [{ name = "jelly" }, { name = "bone" }]
+[[object]]
+name = "arm"
+shape = { file = "arm.mesh" }
+material = "jelly"
+[[object.part]]
+region = { box = [[0, 0, 0], [1, 2, 3]] }
+material = "bone"
+[[object.part]]
+attribute = -2
+material = "jelly"
+[[object]]
+name = "ball"
+shape = { sphere = 1 }
+material = "bone"
+)");
+    const auto& parts = scene.objects[0].parts;
+    ASSERT_EQ(parts.size(), 2u);
+    EXPECT_EQ(std::get<BoxRegion>(std::get<Region>(parts[0].where)).max, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(parts[0].material, "bone");
+    EXPECT_EQ(parts[0].line, 7);
+    EXPECT_EQ(std::get<TetAttribute>(parts[1].where).number, -2);
+    EXPECT_TRUE(scene.objects[1].parts.empty());
+}
+
+TEST_F(SceneFileBodies, RefusesPartsThatAreNotSaidRightly) {
+    const auto part_error = [&](const std::string& lines) {
+        return object_error("shape = {sphere = 1}\n[[object.part]]\n" + lines);
+    };
+    EXPECT_EQ(part_error("region = {sphere = [0, 0, 0], radius = 1}"),
+              "scene.toml:5: object.ball.part[0]: needs \"material\"");
+    EXPECT_THAT(part_error("material = 'jelly'"), testing::HasSubstr("scene.toml:5: object.ball.part[0]: "));
+    EXPECT_THAT(part_error("material = 'jelly'\nattribute = 1\nregion = {plane = [0, 1, 0]}"),
+                testing::HasSubstr("scene.toml:5: object.ball.part[0]: "));
+    EXPECT_EQ(part_error("material = 'bone'\nattribute = 1"),
+              "scene.toml:6: object.ball.part[0].material = \"bone\": no such material; there is jelly");
+    EXPECT_EQ(part_error("material = 'jelly'\nattribute = 1.5"),
+              "scene.toml:7: object.ball.part[0].attribute = 1.5: must be a whole number, is a fraction");
+    EXPECT_EQ(part_error("material = 'jelly'\nattribute = 1\nstiff = true"),
+              "scene.toml:8: object.ball.part[0].stiff = true: unknown key; known here are material and "
+              "attribute");
+}
+
 // Names
 
 TEST_F(SceneFileBodies, RefusesNamesThatAreTaken) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "cpu/cpu_solver.h"
 #include "gelatin/error.h"
@@ -37,6 +38,19 @@ TEST(FrequencyBound, LooksBeyondTheRelease) {
     EXPECT_DOUBLE_EQ(bound(block), pinned);
     block.handles[0].release = 1.0;
     EXPECT_DOUBLE_EQ(bound(block), free);
+}
+
+// Three springs at right angles: they can all be turned into one direction.
+TEST(FrequencyBound, OfAnyShapeAddsUpAllSprings) {
+    test::Net net;
+    net.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    net.velocities.resize(4);
+    const double pinned = std::numeric_limits<double>::infinity();
+    net.masses = {2.0, pinned, pinned, pinned};
+    net.springs = {{0, 1, 1.0f, 50.0f}, {0, 2, 1.0f, 50.0f}, {0, 3, 1.0f, 50.0f}};
+    const Model model = test::make_model(net);
+    EXPECT_NEAR(frequency_bound(model, model.objects[0]), 5.0, 1e-6);
+    EXPECT_NEAR(frequency_bound(model, model.objects[0], Deformation::any), 5.0 * std::sqrt(3.0), 1e-6);
 }
 
 TEST(LargestStableStep, MatchesTheTextbooksWithoutDamping) {

@@ -290,6 +290,25 @@ inline constexpr Break kDescentMutants[] = {
      "add_outer(rest_volume * modulus, slope, terms);\n}\n\n//", "}\n\n//"},
 };
 
+/// A broken watch over the nodes.
+inline constexpr Break kWatchMutants[] = {
+    {"no_guard_behind_the_nodes", "sim/watch_nodes.comp", "if (n >= node_count) return;", ""},
+    {"the_last_nodes_are_not_watched", "sim/watch_nodes.comp", "n >= node_count", "n + 1u >= node_count"},
+    {"positions_are_not_looked_at", "sim/watch_nodes.comp", "is_finite(position.xyz) && ", ""},
+    {"velocities_are_not_looked_at", "sim/watch_nodes.comp", " && is_finite(velocity)", ""},
+    {"z_may_be_anything", "sim/watch_nodes.comp", "all(notEqual(floatBitsToUint(v) &",
+     "all(notEqual(floatBitsToUint(v.xyy) &"},
+    {"speed_is_not_looked_at", "sim/watch_nodes.comp", "0.5 * dot(velocity, velocity) <=", "0.0 <="},
+    {"heavy_nodes_may_be_as_fast", "sim/watch_nodes.comp", "<= most_energy * position.w", "<= most_energy"},
+    {"pinned_nodes_must_not_move", "sim/watch_nodes.comp", "pinned || ", ""},
+    {"a_later_step_takes_over", "sim/watch_nodes.comp",
+     "if (atomicMin(alarm.step, step_number) < step_number) return;", "alarm.step = step_number;"},
+    {"the_last_node_is_named", "sim/watch_nodes.comp", "atomicMin(alarm.node, n)", "alarm.node = n"},
+    {"nodes_are_not_counted", "sim/watch_nodes.comp", "atomicAdd(alarm.count, 1u)", "alarm.count = 1u"},
+    {"the_speed_is_any", "sim/watch_nodes.comp", "atomicMax(alarm.speed, finite ?",
+     "atomicMin(alarm.speed, finite ?"},
+};
+
 /// A broken marking of faces that touch.
 inline constexpr Break kMarkMutants[] = {
     {"the_first_pair_alone_counts", "include/face_collisions.glsl", "k < row.pair_count",

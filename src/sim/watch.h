@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "gelatin/scene.h"
+#include "model/model.h"
+#include "model/solver.h"
+#include "sim/energy_budget.h"
+
+namespace gelatin {
+
+/// A moment of a run.
+struct Moment {
+    int frame = 0;
+    double time = 0.0;        ///< [s]
+    std::uint64_t steps = 0;  ///< since frame 0
+};
+
+/// Holds a run against what physics allows, step by step and frame by frame, and says what went wrong.
+class Watch {
+public:
+    /// @param scene must outlive the watch
+    Watch(const Scene& scene, std::shared_ptr<const Model> model, int substeps);
+
+    /// Energy is accounted for from here on.
+    void begin(const State& state, const Moment& moment);
+
+    /// What Solver::watch_nodes may find with a node at this time [J].
+    double most_energy(double time) const { return is_driven_ ? kAnyEnergy : budget_.most_at(time); }
+
+    /// @throws Diverged if the alarm is of the steps until `until`, naming it, the node and the likely cause.
+    /// @param now not before the alarm, of whose step number it knows the upper half
+    void check(const Alarm& alarm, const Moment& until, const Moment& now) const;
+
+    /// @throws Diverged unless start and gravity explain the bodies' energy.
+    void check(const std::vector<ObjectMeasure>& objects, const Moment& moment);
+
+private:
+    static constexpr double kAnyEnergy = 1e38;  // [J], which a float holds
+
+    [[noreturn]] void fail(const Alarm& alarm, std::uint64_t step, const Moment& now) const;
+
+    double step_size() const { return scene_.simulation.frame_time() / substeps_; }  // [s]
+
+    const Scene& scene_;
+    std::shared_ptr<const Model> model_;
+    int substeps_;
+    bool is_driven_;  // by handles or loads, whose work is not accounted for
+    EnergyBudget budget_;
+};
+
+}  // namespace gelatin
