@@ -19,6 +19,9 @@ layout(binding = 10) uniform samplerBuffer tet_rests;     // volume [m^3], modul
 layout(std430, binding = 0) writeonly buffer OutPositions { vec4 out_positions[]; };
 layout(std430, binding = 1) buffer NearFlat { uint near_flat[]; };  // an invocation reads and clears its own node's
 layout(std430, binding = 2) writeonly buffer Touches { uint object_touches[]; };
+#ifdef NEO_HOOKEAN
+#include "include/neo_hookean_terms.glsl"
+#endif
 uniform uint first_row;
 uniform uint row_count;
 uniform uint clear_marks;  // before they are made anew
@@ -105,6 +108,9 @@ void main() {
                          rest.y, terms);
         }
     }
+#ifdef NEO_HOOKEAN
+    add_neo_hookean_tets(row, terms);
+#endif
     vec3 moved = position.xyz + solve(terms);
     if (push_outside_colliders(start, moved)) object_touches[entry.y] = 1u;
     out_positions[n] = vec4(moved, position.w);

@@ -14,6 +14,9 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
+#include "cpu/columns_simd.h"
+#include "cpu/tet_forces_simd.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR
@@ -25,59 +28,13 @@ void advance_slices(const Pass<float>& pass, Range slices) {
 
 #else
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Lanes = hn::CappedTag<float, 8>;
-using Vector = hn::Vec<Lanes>;
-constexpr std::size_t kLanes = hn::MaxLanes(Lanes());
-static_assert(kLanes == 4 || kLanes == 8);
-
-// Highway's own Prefetch compiles to nothing in Debian's 1.0.3. Beyond an array's end it is harmless.
-template <class T>
-HWY_INLINE void prefetch_lanes(const T* first) {
-    constexpr std::size_t kLine = 64;  // bytes
-    for (std::size_t offset = 0; offset < kLanes * sizeof(T); offset += kLine) {
-        __builtin_prefetch(reinterpret_cast<const char*>(first) + offset);
-    }
-}
-
-struct Columns {
-    Vector x, y, z, w;
-};
-
-// Rows of four floats, one a lane, turned into columns; `row(lane)` points at a row.
-template <class D, class Row>
-HWY_INLINE Columns load_columns(D d, const Row& row) {
-    Vector a, b, c, e;
-    if constexpr (kLanes == 8) {
-        const hn::Half<D> half;
-        a = hn::Combine(d, hn::LoadU(half, row(4)), hn::LoadU(half, row(0)));
-        b = hn::Combine(d, hn::LoadU(half, row(5)), hn::LoadU(half, row(1)));
-        c = hn::Combine(d, hn::LoadU(half, row(6)), hn::LoadU(half, row(2)));
-        e = hn::Combine(d, hn::LoadU(half, row(7)), hn::LoadU(half, row(3)));
-    } else {
-        a = hn::LoadU(d, row(0));
-        b = hn::LoadU(d, row(1));
-        c = hn::LoadU(d, row(2));
-        e = hn::LoadU(d, row(3));
-    }
-    const Vector ac_low = hn::InterleaveLower(d, a, c), be_low = hn::InterleaveLower(d, b, e);
-    const Vector ac_high = hn::InterleaveUpper(d, a, c), be_high = hn::InterleaveUpper(d, b, e);
-    return {hn::InterleaveLower(d, ac_low, be_low), hn::InterleaveUpper(d, ac_low, be_low),
-            hn::InterleaveLower(d, ac_high, be_high), hn::InterleaveUpper(d, ac_high, be_high)};
-}
-
 struct Node {
     Columns position, velocity;
 };
 
-struct Force {
-    Vector x, y, z;
-};
-
 // cpu::spring_force for a lane each, added to `force`.
 HWY_INLINE void add_spring_force(Lanes d, const Node& a, const Node& b, Vector rest_length, Vector stiffness,
-                                 Force& force) {
+                                 Vector3& force) {
     const Vector dx = hn::Sub(b.position.x, a.position.x);
     const Vector dy = hn::Sub(b.position.y, a.position.y);
     const Vector dz = hn::Sub(b.position.z, a.position.z);
@@ -99,7 +56,7 @@ HWY_INLINE void add_spring_force(Lanes d, const Node& a, const Node& b, Vector r
 }
 
 // Forces on the nodes first .. first + kLanes.
-HWY_INLINE Force gather_lanes(Lanes d, const Pass<float>& pass, std::uint32_t first) {
+HWY_INLINE Vector3 gather_lanes(Lanes d, const Pass<float>& pass, std::uint32_t first) {
     constexpr std::uint32_t kSlice = HalfSprings::kSlice;
     const float* positions = &pass.positions[0].x;
     const float* velocities = &pass.velocities[0].x;
@@ -109,7 +66,7 @@ HWY_INLINE Force gather_lanes(Lanes d, const Pass<float>& pass, std::uint32_t fi
     };
     const Node self = load_node([&](std::size_t l) { return first + l; });
     const HalfSprings& springs = pass.model.half_springs;
-    Force force{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    Vector3 force{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
     const std::uint32_t end = springs.slice_starts[first / kSlice + 1];
     const std::uint32_t slice_length = end - springs.slice_starts[first / kSlice];
     for (std::uint32_t p = springs.slice_starts[first / kSlice] + first % kSlice; p < end; p += kSlice) {
@@ -135,7 +92,8 @@ void advance_slices(const Pass<float>& pass, Range slices) {
     for (; n + kLanes <= end; n += kLanes) {
         prefetch_lanes(pass.positions + n + kNodesAhead);
         prefetch_lanes(pass.velocities + n + kNodesAhead);
-        const Force force = gather_lanes(d, pass, n);
+        Vector3 force = gather_lanes(d, pass, n);
+        if (!pass.model.neo_hookean_tets.empty()) add_tet_forces(d, pass, n, force);
         HWY_ALIGN float x[kLanes], y[kLanes], z[kLanes];
         hn::Store(force.x, d, x);
         hn::Store(force.y, d, y);

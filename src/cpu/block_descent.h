@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "cpu/node_terms.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
 #include "model/node_colors.h"
@@ -33,6 +34,8 @@ private:
     void sweep(Real step, const Nodes<Real>& previous, std::vector<Vec4<Real>>& positions);
     void move_node(std::uint32_t node, Real step, const Nodes<Real>& previous,
                    std::vector<Vec4<Real>>& positions);
+    void add_neo_hookean_tets(std::uint32_t node, Real step, const Nodes<Real>& previous,
+                              const std::vector<Vec4<Real>>& positions, NodeTerms<Real>& terms) const;
     Vec3<Real> outside_colliders(std::uint32_t node, const Vec3<Real>& start, Vec3<Real> position);
     void move_bodies(std::vector<Vec4<Real>>& positions) const;
     void finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current) const;

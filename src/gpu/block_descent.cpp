@@ -16,6 +16,7 @@ constexpr int kSweepsAMotion = 2;
 gl::Defines sweep_defines(const Model& model) {
     gl::Defines defines = ModelBuffers::collider_defines(model);
     if (model.has_damping()) defines.emplace_back("DAMPED");
+    if (!model.neo_hookean_tets.empty()) defines.emplace_back("NEO_HOOKEAN");
     return defines;
 }
 
@@ -77,6 +78,7 @@ BlockDescent::BlockDescent(const Model& model, int iterations)
         while (rows.size() % HalfSprings::kSlice != 0) rows.push_back(kNoNode);
         colors_.push_back({first, static_cast<std::uint32_t>(rows.size()) - first});
     }
+    neo_hookean_corners_ = NeoHookeanBuffers::Corners(model, rows);
     const HalfSprings springs = pack_half_springs(rows, model.springs);
     const TetCorners corners =
         pack_tet_corners(rows, make_node_tets(model.node_count(), model.tets), model.tets);
@@ -155,6 +157,8 @@ void BlockDescent::sweep(const ModelBuffers& model) const {
     tet_corner_texels_.bind(8);
     corner_start_texels_.bind(9);
     tet_rest_texels_.bind(10);
+    model.neo_hookean.bind_tets();
+    neo_hookean_corners_.bind();
     for (const Color& color : colors_) {
         sweep_program_.set("first_row", color.first_row);
         sweep_program_.set("row_count", color.row_count);

@@ -36,6 +36,7 @@ private:
     std::uint32_t tet_count_, object_count_;
     std::vector<Color> colors_;
     gl::Buffer<glm::uvec2> rows_;  // node, object
+    NeoHookeanBuffers::Corners neo_hookean_corners_;
     gl::Buffer<HalfSpringPair> half_springs_;
     gl::Buffer<glm::vec2> stiffnesses_;
     gl::Buffer<std::uint32_t> spring_starts_;

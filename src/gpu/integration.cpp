@@ -7,6 +7,7 @@ namespace gelatin::gpu {
 gl::Defines integration_defines(const Model& model, const ExplicitScheme& scheme) {
     gl::Defines defines = ModelBuffers::collider_defines(model);
     if (scheme.pass_count > 1) defines.emplace_back("MULTI_PASS");
+    for (const std::string& define : NeoHookeanBuffers::defines(model)) defines.push_back(define);
     return defines;
 }
 
@@ -18,6 +19,7 @@ void bind_integration(const gl::Program& program, const ModelBuffers& model, con
     pass.out.positions.bind_storage(0);
     pass.out.velocities.bind_storage(1);
     model.bind_colliders(program);
+    model.neo_hookean.bind();
 
     const auto h = static_cast<float>(pass.step);
     if (pass.scheme.pass_count > 1) {

@@ -13,6 +13,7 @@
 #include "mesh/topology.h"
 #include "model/box_tree.h"
 #include "model/draw_surface.h"
+#include "model/neo_hookean.h"
 #include "model/node_faces.h"
 #include "model/object_mesh.h"
 #include "model/spring_packing.h"
@@ -116,8 +117,13 @@ void append_nodes(Model& model, const Body& body, const TetMesh& mesh) {
     }
 }
 
-// Pairs of nodes that springs join, as the body's mesh counts them.
-std::vector<glm::uvec2> spring_nodes(const Body& body, const FittedSprings* fitted) {
+bool has_springs(const Body& body) {
+    return body.material.model == MaterialModel::mass_spring;
+}
+
+// Pairs of nodes that pull at each other, as the body's mesh counts them.
+std::vector<glm::uvec2> joined_nodes(const Body& body, const FittedSprings* fitted) {
+    if (!has_springs(body)) return tet_edges(body.mesh.tets);
     std::vector<glm::uvec2> nodes;
     if (fitted != nullptr) {
         for (const UnitSpring& spring : fitted->springs) nodes.push_back(spring.nodes);
@@ -154,16 +160,35 @@ void append_springs(Model& model, const std::vector<Spring>& springs, const std:
     }
 }
 
-// Null where the material names the paper's springs.
+void append_neo_hookean_tets(Model& model, const Body& body, const TetMesh& mesh, std::uint32_t first_node) {
+    const NeoHookeanModuli moduli =
+        neo_hookean_moduli(body.material.youngs_modulus, body.material.poisson_ratio);
+    checked_float(moduli.mu, body.name, "a tet's mu [Pa]");
+    checked_float(moduli.lambda, body.name, "a tet's lambda [Pa]");
+    for (const glm::uvec4& tet : mesh.tets) {
+        model.neo_hookean_tets.push_back(make_neo_hookean_tet(
+            tet + first_node,
+            {mesh.positions[tet.x], mesh.positions[tet.y], mesh.positions[tet.z], mesh.positions[tet.w]},
+            moduli));
+    }
+}
+
+NodeTets make_neo_hookean_corners(const Model& model) {
+    std::vector<glm::uvec4> nodes;
+    for (const NeoHookeanTet& tet : model.neo_hookean_tets) nodes.push_back(nodes_of(tet));
+    return nodes.empty() ? NodeTets() : make_node_tets(model.node_count(), nodes);
+}
+
+// Null where the material names the paper's springs, or has none.
 std::shared_ptr<const FittedSprings> fitted_springs(const Body& body) {
-    if (body.material.springs) return nullptr;
+    if (!has_springs(body) || body.material.springs) return nullptr;
     return body.fitted ? body.fitted : std::make_shared<const FittedSprings>(fit_springs(body.mesh));
 }
 
 void append_body(Model& model, const Body& body) {
     const auto size = [](const auto& array) { return static_cast<std::uint32_t>(array.size()); };
     const std::shared_ptr<const FittedSprings> fitted = fitted_springs(body);
-    const Arranged order = arranged(body.mesh, spring_nodes(body, fitted.get()));
+    const Arranged order = arranged(body.mesh, joined_nodes(body, fitted.get()));
     const TetMesh& mesh = order.mesh;
 
     ModelObject object;
@@ -178,16 +203,22 @@ void append_body(Model& model, const Body& body) {
 
     const std::uint32_t first = object.nodes.first;
     append_nodes(model, body, mesh);
-    append_springs(model,
-                   fitted ? scaled_springs(body, order, *fitted)
-                          : make_springs(mesh, *body.material.springs, body.material.youngs_modulus),
-                   body.name, first);
+    if (has_springs(body)) {
+        append_springs(model,
+                       fitted ? scaled_springs(body, order, *fitted)
+                              : make_springs(mesh, *body.material.springs, body.material.youngs_modulus),
+                       body.name, first);
+    }
     object.springs.count = size(model.springs) - object.springs.first;
+    const double flat_modulus = has_springs(body) ? body.material.youngs_modulus : 0.0;
     for (const glm::uvec4& t : mesh.tets) {
         model.tets.push_back(t + first);
         model.tet_rests.push_back({checked_float(tet_volume(mesh, t), body.name, "a tet's volume [m^3]"),
-                                   static_cast<float>(body.material.youngs_modulus)});
+                                   static_cast<float>(flat_modulus)});
     }
+    object.neo_hookean_tets.first = size(model.neo_hookean_tets);
+    if (!has_springs(body)) append_neo_hookean_tets(model, body, mesh, first);
+    object.neo_hookean_tets.count = size(model.neo_hookean_tets) - object.neo_hookean_tets.first;
     for (const glm::uvec3& f : mesh.faces) {
         model.faces.push_back({f.x + first, f.y + first, f.z + first, size(model.objects)});
     }
@@ -251,7 +282,7 @@ Body make_body(const Scene& scene, const ObjectDescription& object, ObjectMesher
     body.material = find_material(scene, object);
     body.velocity = object.velocity;
     body.pins = object.pins;
-    if (!body.material.springs) body.fitted = mesher.fit(object);
+    if (has_springs(body) && !body.material.springs) body.fitted = mesher.fit(object);
     body.scale = object.scale;
     if (object.color) body.color = glm::vec3(*object.color);
     const auto pinned = [&](const glm::dvec3& p) { return is_pinned(body.pins, p); };
@@ -278,6 +309,7 @@ Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDes
     model.gravity = glm::vec3(gravity);
     model.half_springs = pack_half_springs(model.node_count(), model.springs);
     model.incidence = make_incidence(model.node_count(), model.springs);
+    model.neo_hookean_corners = make_neo_hookean_corners(model);
     model.node_faces = make_node_faces(model.node_count(), model.faces);
     model.surface_parts = make_surface_parts(model.faces, model.node_faces);
     return model;
@@ -288,7 +320,7 @@ Model build_model(const Scene& scene) {
     ObjectMesher mesher;
     for (const ObjectDescription& object : scene.objects) bodies.push_back(make_body(scene, object, mesher));
     for (const Material& material : scene.materials) {
-        if (material.poisson_ratio != 0.25) {
+        if (material.model == MaterialModel::mass_spring && material.poisson_ratio != 0.25) {
             spdlog::warn("material '{}': poisson_ratio = {} has no effect: springs alone answer with 0.25",
                          material.name, material.poisson_ratio);
         }

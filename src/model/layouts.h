@@ -19,6 +19,7 @@ using glm::vec4;
 #include "layouts/draw.glsl"
 #include "layouts/face.glsl"
 #include "layouts/half_spring_pair.glsl"
+#include "layouts/neo_hookean_tet.glsl"
 #include "layouts/object_pair.glsl"
 #include "layouts/proximity.glsl"
 #include "layouts/rest_shape.glsl"
@@ -43,6 +44,7 @@ static_assert(sizeof(FitSums) == 48);
 static_assert(sizeof(HalfSpringPair) == 16);
 static_assert(sizeof(LeafSearch) == 32);
 static_assert(sizeof(NearObject) == 16);
+static_assert(sizeof(NeoHookeanTet) == 64);
 static_assert(sizeof(NodeSums) == 32);
 static_assert(sizeof(ObjectPair) == 32);
 static_assert(sizeof(PairRow) == 16);
@@ -76,6 +78,7 @@ using layouts::FitSums;
 using layouts::HalfSpringPair;
 using layouts::LeafSearch;
 using layouts::NearObject;
+using layouts::NeoHookeanTet;
 using layouts::NodeSums;
 using layouts::ObjectPair;
 using layouts::PairRow;

@@ -15,7 +15,7 @@ double worst_descent_error(const Model& model, double step, int iterations, cons
 
 /// Bodies in all states that block descent tells apart: free ones in motion, shaken so much that tets are
 /// inside out, one of them of two chunks of nodes; one with pins; one on a floor and against a sphere; with
-/// damping or without.
-Model make_bodies_to_descend(double damping_time, unsigned seed = 1);
+/// damping or without. All but the second are made of `model`, that one of springs.
+Model make_bodies_to_descend(double damping_time, MaterialModel model = MaterialModel::mass_spring);
 
 }  // namespace gelatin::test

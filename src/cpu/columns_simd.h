@@ -1,0 +1,69 @@
+// Nodes in lanes: rows of memory turned into columns of registers. Compiled once for each instruction set, by
+// those who include highway.h through foreach_target.h; hence no pragma once.
+#if defined(GELATIN_CPU_COLUMNS_SIMD_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef GELATIN_CPU_COLUMNS_SIMD_H
+#undef GELATIN_CPU_COLUMNS_SIMD_H
+#else
+#define GELATIN_CPU_COLUMNS_SIMD_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstddef>
+
+HWY_BEFORE_NAMESPACE();
+namespace gelatin::cpu::HWY_NAMESPACE {
+#if HWY_TARGET != HWY_SCALAR
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Lanes = hn::CappedTag<float, 8>;
+using Vector = hn::Vec<Lanes>;
+constexpr std::size_t kLanes = hn::MaxLanes(Lanes());
+static_assert(kLanes == 4 || kLanes == 8);
+
+// Highway's own Prefetch compiles to nothing in Debian's 1.0.3. Beyond an array's end it is harmless.
+template <class T>
+HWY_INLINE void prefetch_lanes(const T* first) {
+    constexpr std::size_t kLine = 64;  // bytes
+    for (std::size_t offset = 0; offset < kLanes * sizeof(T); offset += kLine) {
+        __builtin_prefetch(reinterpret_cast<const char*>(first) + offset);
+    }
+}
+
+struct Columns {
+    Vector x, y, z, w;
+};
+
+// Rows of four floats, one a lane, turned into columns; `row(lane)` points at a row.
+template <class D, class Row>
+HWY_INLINE Columns load_columns(D d, const Row& row) {
+    Vector a, b, c, e;
+    if constexpr (kLanes == 8) {
+        const hn::Half<D> half;
+        a = hn::Combine(d, hn::LoadU(half, row(4)), hn::LoadU(half, row(0)));
+        b = hn::Combine(d, hn::LoadU(half, row(5)), hn::LoadU(half, row(1)));
+        c = hn::Combine(d, hn::LoadU(half, row(6)), hn::LoadU(half, row(2)));
+        e = hn::Combine(d, hn::LoadU(half, row(7)), hn::LoadU(half, row(3)));
+    } else {
+        a = hn::LoadU(d, row(0));
+        b = hn::LoadU(d, row(1));
+        c = hn::LoadU(d, row(2));
+        e = hn::LoadU(d, row(3));
+    }
+    const Vector ac_low = hn::InterleaveLower(d, a, c), be_low = hn::InterleaveLower(d, b, e);
+    const Vector ac_high = hn::InterleaveUpper(d, a, c), be_high = hn::InterleaveUpper(d, b, e);
+    return {hn::InterleaveLower(d, ac_low, be_low), hn::InterleaveUpper(d, ac_low, be_low),
+            hn::InterleaveLower(d, ac_high, be_high), hn::InterleaveUpper(d, ac_high, be_high)};
+}
+
+// Three components, a lane each.
+struct Vector3 {
+    Vector x, y, z;
+};
+
+#endif
+}  // namespace gelatin::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
