@@ -21,9 +21,12 @@ enum class ForceMethod { divide_and_merge, fused };
 struct SimulationSettings {
     SolverKind solver = SolverKind::semi_implicit_euler;
     ForceMethod forces = ForceMethod::fused;
-    double frame_rate = 60.0;             ///< frames a second of simulated time [1/s], > 0
-    std::optional<int> substeps;          ///< steps a frame, >= 1; empty: the fewest that are stable
-    int iterations = 10;                  ///< of vbd, a step, >= 1
+    double frame_rate = 60.0;     ///< frames a second of simulated time [1/s], > 0
+    std::optional<int> substeps;  ///< steps a frame, >= 1; empty: the fewest that are stable
+    int iterations = 10;          ///< of vbd, a step, >= 1
+    /// Of vbd: the factor by which a sweep is taken to leave the slowest error, in [0, 1); Chebyshev's method
+    /// goes further by it. 0: not at all.
+    double chebyshev = 0.0;
     glm::dvec3 gravity{0.0, -9.81, 0.0};  ///< [m/s^2]
     int frames = 600;                     ///< length of a run, >= 0
 
@@ -78,7 +81,7 @@ struct Material {
     double youngs_modulus = 5e4;  ///< [Pa], > 0
     double density = 1000.0;      ///< [kg/m^3], > 0
     double poisson_ratio =
-        0.25;  ///< in (-1, 0.5); springs alone always answer with 1/4. Neo-Hookean: in [0, 0.5)
+        0.25;  ///< in [0, 0.49]; springs alone answer with 1/4, a volume term does the rest. Neo-Hookean: in [0, 0.5)
     double damping =
         0.0;  ///< Kelvin-Voigt relaxation time [s], >= 0: a spring's damping is damping * stiffness
     /// Of mass_spring alone. Empty: springs whose stiffnesses are fitted to each mesh, so that the body
@@ -140,6 +143,12 @@ struct HalfSpaceRegion {
 };
 using Region = std::variant<BoxRegion, SphereRegion, HalfSpaceRegion>;
 
+/// How an object is out of shape when it starts; pinned nodes are not.
+struct StartDescription {
+    glm::dvec3 scale{1.0};  ///< along the world's axes, about the centre of mass, >= 0: 0 squashes it flat
+    double scatter = 0.0;   ///< then each coordinate of a node moves by up to this, at random [m], >= 0
+};
+
 struct ObjectDescription {
     std::string name;
     Shape shape;
@@ -149,6 +158,7 @@ struct ObjectDescription {
     glm::dvec3 rotation{0.0};         ///< about x, then y, then z [degrees]
     double scale = 1.0;               ///< > 0, applied first
     glm::dvec3 velocity{0.0};         ///< [m/s]
+    StartDescription start;
     std::vector<Region> pins;         ///< nodes in any of these stay where they are
     std::optional<glm::dvec3> color;  ///< linear RGB in [0, 1]; empty: the renderer's palette
     int line = 0;                     ///< in the scene file, for later messages

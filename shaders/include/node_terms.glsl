@@ -46,17 +46,32 @@ void add_flat_tet(vec3 position, vec3 a, vec3 b, vec3 c, float rest_volume, floa
     add_outer(lack > 0.0 ? rest_volume * modulus : 0.0, slope, terms);
 }
 
+// kappa phi'(J - 1) of the volume term [Pa].
+float volume_stress(float ratio, float kappa) {
+    float u = ratio - 1.0;
+    float left = max(1.0 - 4.0 * u * u, 0.0);
+    return kappa >= 0.0 ? kappa * u : kappa * u * left * left;
+}
+
+// A tet's part of the volume term, as the corner at `position` sees it.
+void add_tet_volume(vec3 position, vec3 a, vec3 b, vec3 c, float rest_volume, float offset, float modulus,
+                    inout NodeTerms terms) {
+    vec3 slope = cross(b - a, c - a) / (6.0 * rest_volume);
+    terms.force -= rest_volume * (offset + modulus * dot(position - a, slope)) * slope;
+    add_outer(rest_volume * modulus, slope, terms);
+}
+
 float inverse_or_zero(float d) { return d > 0.0 ? 1.0 / d : 0.0; }
 
-// hessian^-1 force by the square-root-free Cholesky decomposition; zero along what has no stiffness.
-vec3 solve(NodeTerms terms) {
-    vec3 d = terms.diagonal, b = terms.beside, f = terms.force;
+// hessian^-1 v by the square-root-free Cholesky decomposition; zero along what has no stiffness.
+vec3 solve(NodeTerms terms, vec3 v) {
+    vec3 d = terms.diagonal, b = terms.beside;
     float i0 = inverse_or_zero(d.x);
     float l10 = b.z * i0, l20 = b.y * i0;
     float i1 = inverse_or_zero(d.y - l10 * b.z);
     float rest = b.x - l20 * b.z, l21 = rest * i1;
     float i2 = inverse_or_zero(d.z - l20 * b.y - l21 * rest);
-    float y1 = f.y - l10 * f.x, y2 = f.z - l20 * f.x - l21 * y1;
+    float y1 = v.y - l10 * v.x, y2 = v.z - l20 * v.x - l21 * y1;
     float z = y2 * i2, y = y1 * i1 - l21 * z;
-    return vec3(f.x * i0 - l10 * y - l20 * z, y, z);
+    return vec3(v.x * i0 - l10 * y - l20 * z, y, z);
 }

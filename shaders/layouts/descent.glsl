@@ -6,13 +6,10 @@ struct TetCorner {       // 16 bytes
     uint  c;
     uint  tet;
 };
-// Sums over nodes at r from an origin that have a way d to go, of mass m.
-struct RigidSums {       // 80 bytes
-    vec4  arm;           // m r [kg m]; w: m [kg]
-    vec4  way;           // m d [kg m]
-    vec4  moment;        // m r x d [kg m^2]
-    vec4  square;        // m r_x r_x, m r_y r_y, m r_z r_z [kg m^2]
-    vec4  product;       // m r_y r_z, m r_z r_x, m r_x r_y [kg m^2]
+// How a collider holds a node.
+struct Touch {           // 32 bytes
+    vec4  force;         // [N]; w: how it falls as the body comes away from the surface [N/m], 0 where nothing is touched
+    vec4  normal;        // unit; w: and as it slides [N/m]
 };
 // x becomes center + shift + turn (x - center).
 struct RigidMotion {     // 80 bytes

@@ -6,6 +6,7 @@
 #include "include/colliders.glsl"
 #include "include/descent_step.glsl"
 #include "include/node_terms.glsl"
+#include "layouts/descent.glsl"
 layout(local_size_x = 64) in;
 
 layout(binding = 0) uniform samplerBuffer positions;      // xyz [m], inverse mass [1/kg]
@@ -15,10 +16,13 @@ layout(binding = 5) uniform samplerBuffer stiffnesses;    // of the pair [N/m]
 layout(binding = 6) uniform usamplerBuffer slice_starts;
 layout(binding = 8) uniform usamplerBuffer tet_corners;   // TetCorner
 layout(binding = 9) uniform usamplerBuffer corner_starts;
-layout(binding = 10) uniform samplerBuffer tet_rests;     // volume [m^3], modulus [Pa]
+layout(binding = 10) uniform samplerBuffer tet_rests;     // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
+#ifdef VOLUME
+layout(binding = 11) uniform samplerBuffer offsets;       // q [Pa], of each tet
+#endif
 layout(std430, binding = 0) writeonly buffer OutPositions { vec4 out_positions[]; };
 layout(std430, binding = 1) buffer NearFlat { uint near_flat[]; };  // an invocation reads and clears its own node's
-layout(std430, binding = 2) writeonly buffer Touches { uint object_touches[]; };
+layout(std430, binding = 2) writeonly buffer ObjectTouches { uint object_touches[]; };
 #ifdef NEO_HOOKEAN
 #include "include/neo_hookean_terms.glsl"
 #endif
@@ -42,36 +46,54 @@ void add_half_spring(vec4 position, vec3 way, float damping_time, vec3 if_coinci
     add_spring(other_position - position.xyz, ahead, if_coincident, rest_length, stiffness, damping, terms);
 }
 
-// Pushed out of a collider it slides by Coulomb's law: what it is pushed by is the normal force over the node's own
-// stiffness, and so is the way that friction takes back.
-void push_out(uint c, vec4 surface, vec3 start, inout vec3 position, inout bool touches) {
+#if COLLIDER_KINDS != 0
+layout(std430, binding = 3) writeonly buffer Touches { Touch touches[]; };  // of nodes
+
+// Where the node's own objective, to second order, is least outside the collider's tangent plane, behind which all of it
+// lies: the normal force is what that takes. Friction then takes back what the node has slid along the plane, with as much
+// force as Coulomb's law allows.
+void push_out(uint c, vec4 surface, vec3 start, NodeTerms terms, inout vec3 position, inout Touch touch) {
     if (surface.w >= 0.0) return;
-    float friction = texelFetch(colliders, int(4u * c + 3u)).y;
-    position -= surface.w * surface.xyz;
+    vec3 n = surface.xyz;
+    vec3 yielding = solve(terms, n);  // to a force along n
+    float stiffness = 1.0 / dot(n, yielding);
+    float pressing = -surface.w * stiffness;
+    position += pressing * yielding;
+    touch.force = vec4(touch.force.xyz + pressing * n, stiffness);
+    touch.normal = vec4(n, 0.0);
+
     vec3 way = position - start;
-    vec3 slid = way - dot(way, surface.xyz) * surface.xyz;
+    vec3 slid = way - dot(way, n) * n;
     float length_ = length(slid);
-    if (length_ > 0.0) position -= min(1.0, -friction * surface.w / length_) * slid;
-    touches = true;
+    if (length_ == 0.0) return;
+    vec3 t = slid / length_;
+    vec3 giving = solve(terms, t);
+    giving -= stiffness * dot(n, giving) * yielding;  // within the plane
+    float needed = length_ / dot(t, giving);
+    float most = texelFetch(colliders, int(4u * c + 3u)).y * pressing;
+    position -= min(needed, most) * giving;
+    touch.force.xyz -= min(needed, most) * t;
+    if (needed <= most) touch.normal.w = stiffness;
 }
 
-bool push_outside_colliders(vec3 start, inout vec3 position) {
-    bool touches = false;
+Touch push_outside_colliders(vec3 start, NodeTerms terms, inout vec3 position) {
+    Touch touch = Touch(vec4(0.0), vec4(0.0));
     uint c = 0u;
 #if (COLLIDER_KINDS & 1) != 0
-    for (; c < collider_ends.x; ++c) push_out(c, distance_to_plane(c, position), start, position, touches);
+    for (; c < collider_ends.x; ++c) push_out(c, distance_to_plane(c, position), start, terms, position, touch);
 #endif
 #if (COLLIDER_KINDS & 2) != 0
-    for (; c < collider_ends.y; ++c) push_out(c, distance_to_turned_box(c, position), start, position, touches);
+    for (; c < collider_ends.y; ++c) push_out(c, distance_to_turned_box(c, position), start, terms, position, touch);
 #endif
 #if (COLLIDER_KINDS & 4) != 0
-    for (; c < collider_ends.z; ++c) push_out(c, distance_to_sphere(c, position), start, position, touches);
+    for (; c < collider_ends.z; ++c) push_out(c, distance_to_sphere(c, position), start, terms, position, touch);
 #endif
 #if (COLLIDER_KINDS & 8) != 0
-    for (; c < collider_ends.w; ++c) push_out(c, distance_to_capsule(c, position), start, position, touches);
+    for (; c < collider_ends.w; ++c) push_out(c, distance_to_capsule(c, position), start, terms, position, touch);
 #endif
-    return touches;
+    return touch;
 }
+#endif
 
 void main() {
     uint index = global_index();
@@ -97,21 +119,33 @@ void main() {
         add_half_spring(position, way, damping_time, if_coincident, pair.x, uintBitsToFloat(pair.y), stiffness.x, terms);
         add_half_spring(position, way, damping_time, if_coincident, pair.z, uintBitsToFloat(pair.w), stiffness.y, terms);
     }
-    if (near_flat[n] != 0u) {
-        if (clear_marks != 0u) near_flat[n] = 0u;
+    bool is_near_flat = near_flat[n] != 0u;
+    if (is_near_flat && clear_marks != 0u) near_flat[n] = 0u;
+#ifndef VOLUME
+    if (is_near_flat)
+#endif
+    {
         end = texelFetch(corner_starts, slice + 1).x;
         for (uint k = texelFetch(corner_starts, slice).x + row % 64u; k < end; k += 64u) {
             uvec4 corner = texelFetch(tet_corners, int(k));
             if (corner.w == 0xFFFFFFFFu) break;
-            vec2 rest = texelFetch(tet_rests, int(corner.w)).xy;
-            add_flat_tet(position.xyz, position_of(corner.x), position_of(corner.y), position_of(corner.z), rest.x,
-                         rest.y, terms);
+            vec3 a = position_of(corner.x), b = position_of(corner.y), c = position_of(corner.z);
+            vec3 rest = texelFetch(tet_rests, int(corner.w)).xyz;
+            if (is_near_flat) add_flat_tet(position.xyz, a, b, c, rest.x, rest.y, terms);
+#ifdef VOLUME
+            float offset = texelFetch(offsets, int(corner.w)).x;
+            add_tet_volume(position.xyz, a, b, c, rest.x, offset, rest.z, terms);
+#endif
         }
     }
 #ifdef NEO_HOOKEAN
     add_neo_hookean_tets(row, terms);
 #endif
-    vec3 moved = position.xyz + solve(terms);
-    if (push_outside_colliders(start, moved)) object_touches[entry.y] = 1u;
+    vec3 moved = position.xyz + solve(terms, terms.force);
+#if COLLIDER_KINDS != 0
+    Touch touch = push_outside_colliders(start, terms, moved);
+    touches[n] = touch;
+    if (touch.force.w != 0.0) object_touches[entry.y] = 1u;
+#endif
     out_positions[n] = vec4(moved, position.w);
 }

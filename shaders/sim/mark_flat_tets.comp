@@ -1,13 +1,16 @@
-// Marks the nodes of tets so flat that they resist. CPU twin: gelatin::cpu::BlockDescent.
-// Parity: tests/gpu/block_descent_test.cpp.
+// Looks at each tet: marks the nodes of those so flat that they resist; VOLUME: and keeps how much of its volume is there.
+// CPU twin: gelatin::cpu::TetResistance. Parity: tests/gpu/block_descent_test.cpp.
 #include "include/global_index.glsl"
 #include "include/node_terms.glsl"
 layout(local_size_x = 64) in;
 
 layout(binding = 0) uniform samplerBuffer positions;    // xyz [m]
 layout(binding = 9) uniform usamplerBuffer tets;        // nodes
-layout(binding = 10) uniform samplerBuffer tet_rests;   // volume [m^3], modulus [Pa]
+layout(binding = 10) uniform samplerBuffer tet_rests;   // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
 layout(std430, binding = 1) writeonly buffer NearFlat { uint near_flat[]; };
+#ifdef VOLUME
+layout(std430, binding = 3) writeonly buffer Ratios { float ratios[]; };  // J
+#endif
 uniform uint tet_count;
 
 void main() {
@@ -18,6 +21,10 @@ void main() {
     vec3 u = texelFetch(positions, int(tet.y)).xyz - a;
     vec3 v = texelFetch(positions, int(tet.z)).xyz - a;
     vec3 w = texelFetch(positions, int(tet.w)).xyz - a;
-    if (dot(cross(u, v), w) >= 6.0 * kFlattest * texelFetch(tet_rests, int(t)).x) return;
+    float ratio = dot(cross(u, v), w) / (6.0 * texelFetch(tet_rests, int(t)).x);
+#ifdef VOLUME
+    ratios[t] = ratio;
+#endif
+    if (ratio >= kFlattest) return;
     for (int k = 0; k < 4; ++k) near_flat[tet[k]] = 1u;
 }

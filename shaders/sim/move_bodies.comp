@@ -1,9 +1,13 @@
-// Moves bodies as rigid ones. LAST: the velocity is the way over the step.
+// Moves bodies as rigid ones. LAST: the velocity is the way over the step, and nodes that a collider has stopped go back
+// with restitution times the speed that they would have had without it.
 // CPU twin: gelatin::cpu::BlockDescent. Parity: tests/gpu/block_descent_test.cpp.
 #include "include/global_index.glsl"
 #include "include/descent_step.glsl"
 #include "layouts/chunk.glsl"
 #include "layouts/descent.glsl"
+#ifdef LAST
+#include "include/colliders.glsl"
+#endif
 layout(local_size_x = 64) in;
 
 layout(std430, binding = 0) buffer Positions { vec4 positions[]; };  // an invocation reads and writes its own nodes
@@ -11,6 +15,11 @@ layout(std430, binding = 1) writeonly buffer Velocities { vec4 velocities[]; };
 layout(std430, binding = 3) readonly buffer Chunks { Chunk chunks[]; };
 layout(std430, binding = 5) readonly buffer Motions { RigidMotion motions[]; };
 uniform uint element_count;
+#ifdef LAST
+layout(std430, binding = 2) readonly buffer Touches { uint object_touches[]; };
+uniform float contact_distance;  // [m]
+uniform float resting_speed;     // [m/s]
+#endif
 
 void main() {
     uint c = group_index();
@@ -27,8 +36,12 @@ void main() {
         }
 #ifdef LAST
         vec4 before = texelFetch(start_velocities, int(n));
-        vec3 way = position.xyz - texelFetch(start_positions, int(n)).xyz;
-        velocities[n] = position.w > 0.0 ? vec4(way / time_step, before.w) : before;
+        vec3 start = texelFetch(start_positions, int(n)).xyz;
+        vec3 velocity = (position.xyz - start) / time_step;
+        if (object_touches[chunk.object] != 0u) {
+            rebound(position.xyz, (target_of(n) - start) / time_step, contact_distance, resting_speed, velocity);
+        }
+        velocities[n] = vec4(position.w > 0.0 ? velocity : before.xyz, before.w);
 #endif
     }
 }

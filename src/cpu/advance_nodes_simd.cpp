@@ -14,8 +14,8 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include "cpu/columns_simd.h"
-#include "cpu/tet_forces_simd.h"
+#include "cpu/simd_columns-inl.h"
+#include "cpu/tet_forces-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {

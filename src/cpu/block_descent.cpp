@@ -4,12 +4,16 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <span>
+#include <type_traits>
 #include <utility>
 
 #include "cpu/colliders.h"
 #include "cpu/neo_hookean.h"
 #include "cpu/rigid_motion.h"
+#include "cpu/spring_terms.h"
 #include "model/solver.h"
 
 namespace gelatin::cpu {
@@ -28,111 +32,111 @@ void for_each(std::uint32_t count, const Work& work) {
 }  // namespace
 
 template <class Real>
-BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, int iterations)
+BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const DescentSettings& settings)
     : model_(std::move(model)),
-      iterations_(iterations),
-      colors_(color_nodes(*model_)),
-      node_tets_(make_node_tets(model_->node_count(), model_->tets)),
+      settings_(settings),
+      rows_(make_descent_rows(*model_)),
+      tets_(model_),
+      starts_(model_->node_count()),
       targets_(model_->node_count()),
-      near_flat_(model_->node_count()),
-      touches_(model_->node_count()) {
-    for (const ModelObject& object : model_->objects) {
-        const auto first = model_->positions.begin() + object.nodes.first;
-        is_pinned_.push_back(
-            std::any_of(first, first + object.nodes.count, [](const glm::vec4& p) { return p.w == 0.0f; }));
-    }
+      touches_(model_->objects.size()) {
+    for (std::uint32_t o = 0; o < model_->objects.size(); ++o)
+        object_of_.insert(object_of_.end(), model_->objects[o].nodes.count, o);
+    if (!model_->colliders.empty()) node_touches_.resize(model_->node_count());
+    if (settings_.chebyshev > 0.0) last_ = before_last_ = targets_;
 }
 
 template <class Real>
-void BlockDescent<Real>::run(Real step, const Nodes<Real>& previous, Nodes<Real>& current) {
-    start(step, previous, current.positions);
-    for (int i = 0; i < iterations_; ++i) {
-        if (i % kSweepsAMotion == 0) mark_nodes_of_flat_tets(current.positions);
-        sweep(step, previous, current.positions);
-        const bool is_last = i + 1 == iterations_;
-        if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(current.positions);
+void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current) {
+    start(step, has_earlier, previous, current);
+    for (int i = 0; i < settings_.iterations; ++i) {
+        if (settings_.chebyshev > 0.0) accelerate(i, current.positions);
+        if (i % kSweepsAMotion == 0) tets_.look(current.positions);
+        sweep(step, current.positions);
+        const bool is_last = i + 1 == settings_.iterations;
+        if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(step, is_last, current.positions);
     }
     finish(step, previous, current);
 }
 
-// Where the nodes would be without forces, which is exact in free fall.
+// As the last step went on: with as much of gravity as was felt in it, from none, where a body rests, to all,
+// where it falls (Chen et al. 2024, 3.7). Without a last step as in free fall.
 template <class Real>
-void BlockDescent<Real>::start(Real step, const Nodes<Real>& previous, std::vector<Vec4<Real>>& positions) {
+void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& previous,
+                               Nodes<Real>& current) {
     const Vec3<Real> gravity(model_->gravity);
+    const Real squared = glm::dot(gravity, gravity);
+    std::fill(touches_.begin(), touches_.end(), std::uint8_t(0));
     for_each(model_->node_count(), [&](std::uint32_t n) {
         const Vec4<Real>& from = previous.positions[n];
         const Vec3<Real> velocity(previous.velocities[n]);
+        const Vec3<Real> gained = velocity - Vec3<Real>(current.velocities[n]);
+        current.positions[n] = from;
+        starts_[n] = Vec4<Real>(Vec3<Real>(from), previous.velocities[n].w);
         targets_[n] = Vec3<Real>(from);
-        if (from.w > Real(0)) targets_[n] += step * (velocity + step * gravity);
-        positions[n] = Vec4<Real>(targets_[n], from.w);
-        touches_[n] = 0;
+        if (from.w == Real(0)) return;
+        targets_[n] += step * (velocity + step * gravity);
+        const Real felt = has_earlier && squared > Real(0)
+                              ? glm::clamp(glm::dot(gained, gravity) / (step * squared), Real(0), Real(1))
+                              : Real(1);
+        const Vec3<Real> guess = Vec3<Real>(from) + step * (velocity + step * felt * gravity);
+        current.positions[n] = Vec4<Real>(guess, from.w);
+    });
+}
+
+// Chebyshev's semi-iterative method (Golub, Varga 1961; for nonlinear sweeps Wang 2015): sweep k starts at
+//   x_k = w_k (x - x_(k-2)) + x_(k-2),  w_1 = 1,  w_2 = 2 / (2 - rho^2),  w_k = 4 / (4 - rho^2 w_(k-1)),
+// with x what the last one has found, so that what comes last is a sweep, which colliders have seen.
+template <class Real>
+void BlockDescent<Real>::accelerate(int sweep, std::vector<Vec4<Real>>& positions) {
+    const auto weight = static_cast<Real>(chebyshev_weight(settings_.chebyshev, sweep));
+    for_each(model_->node_count(), [&](std::uint32_t n) {
+        Vec3<Real> x(positions[n]);
+        if (sweep > 1) x = weight * (x - before_last_[n]) + before_last_[n];
+        before_last_[n] = last_[n];
+        last_[n] = x;
+        positions[n] = Vec4<Real>(x, positions[n].w);
     });
 }
 
 template <class Real>
-void BlockDescent<Real>::mark_nodes_of_flat_tets(const std::vector<Vec4<Real>>& positions) {
-    std::fill(near_flat_.begin(), near_flat_.end(), std::uint8_t(0));
-    for_each(static_cast<std::uint32_t>(model_->tets.size()), [&](std::uint32_t t) {
-        const glm::uvec4& tet = model_->tets[t];
-        const Vec3<Real> a(positions[tet.x]);
-        const Vec3<Real> u = Vec3<Real>(positions[tet.y]) - a, v = Vec3<Real>(positions[tet.z]) - a,
-                         w = Vec3<Real>(positions[tet.w]) - a;
-        const Real least =
-            static_cast<Real>(kFlattest) * Real(6) * static_cast<Real>(model_->tet_rests[t].volume);
-        if (glm::dot(glm::cross(u, v), w) >= least) return;
-        for (int k = 0; k < 4; ++k) std::atomic_ref(near_flat_[tet[k]]).store(1, std::memory_order_relaxed);
-    });
-}
-
-template <class Real>
-void BlockDescent<Real>::sweep(Real step, const Nodes<Real>& previous, std::vector<Vec4<Real>>& positions) {
-    for (std::uint32_t c = 0; c < colors_.count(); ++c) {
-        const std::span<const std::uint32_t> nodes = colors_.of(c);
-        for_each(static_cast<std::uint32_t>(nodes.size()),
-                 [&](std::uint32_t k) { move_node(nodes[k], step, previous, positions); });
+void BlockDescent<Real>::sweep(Real step, std::vector<Vec4<Real>>& positions) {
+    constexpr std::uint32_t kSlice = HalfSprings::kSlice;
+    const SpringRows<Real> springs{rows_, positions.data(), starts_.data(), Real(1) / step};
+    for (const Range& color : rows_.colors) {
+        tbb::parallel_for(color.first / kSlice, color.end() / kSlice, [&](std::uint32_t slice) {
+            std::array<NodeTerms<Real>, kSlice> terms;
+            if constexpr (std::is_same_v<Real, float>) {
+                gather_spring_terms_simd(springs, slice, terms.data());
+            } else {
+                gather_spring_terms(springs, slice, terms.data());
+            }
+            for (std::uint32_t row = 0; row < kSlice; ++row) {
+                const std::uint32_t node = rows_.nodes[slice * kSlice + row];
+                if (node != kNoNode) move_node(node, step, terms[row], positions);
+            }
+        });
     }
 }
 
+// @param terms of its springs
 template <class Real>
-void BlockDescent<Real>::move_node(std::uint32_t node, Real step, const Nodes<Real>& previous,
+void BlockDescent<Real>::move_node(std::uint32_t node, Real step, NodeTerms<Real> terms,
                                    std::vector<Vec4<Real>>& positions) {
     const Real inverse_mass = positions[node].w;
     if (inverse_mass == Real(0)) return;
-    const Model& model = *model_;
-    const auto way = [&](std::uint32_t n) {
-        return Vec3<Real>(positions[n]) - Vec3<Real>(previous.positions[n]);
-    };
     const Vec3<Real> position(positions[node]);
     const Real inertia = Real(1) / (inverse_mass * step * step);  // [N/m]
-    NodeTerms<Real> terms{inertia * (targets_[node] - position), {}};
+    terms.force += inertia * (targets_[node] - position);
     terms.hessian.add_identity(inertia);
-    const Vec3<Real> if_coincident = any_direction<Real>(node);
-
-    for (std::uint32_t e = model.incidence.starts[node]; e < model.incidence.starts[node + 1]; ++e) {
-        const std::uint32_t entry = model.incidence.entries[e];
-        const Spring& spring = model.springs[entry / 2];
-        const std::uint32_t other = entry % 2 == 0 ? spring.j : spring.i;
-        const Real damping_time = Real(0.5) * (previous.velocities[node].w + previous.velocities[other].w);
-        add_spring(Vec3<Real>(positions[other]) - position, way(other) - way(node), if_coincident,
-                   static_cast<Real>(spring.rest_length), static_cast<Real>(spring.stiffness),
-                   damping_time / step, terms);
-    }
-    const std::uint32_t end = near_flat_[node] != 0 ? node_tets_.starts[node + 1] : 0;
-    for (std::uint32_t e = node_tets_.starts[node]; e < end; ++e) {
-        const std::uint32_t tet = node_tets_.entries[e] / 4, corner = node_tets_.entries[e] % 4;
-        std::array<Vec3<Real>, 3> face;
-        for (std::size_t k = 0; k < 3; ++k) face[k] = positions[model.tets[tet][kOppositeCorners[corner][k]]];
-        add_flat_tet(position, face, static_cast<Real>(model.tet_rests[tet].volume),
-                     static_cast<Real>(model.tet_rests[tet].modulus), terms);
-    }
-    add_neo_hookean_tets(node, step, previous, positions, terms);
-    const Vec3<Real> moved =
-        outside_colliders(node, Vec3<Real>(previous.positions[node]), position + solve(terms));
+    tets_.add(node, positions, terms);
+    add_neo_hookean_tets(node, step, positions, terms);
+    const Vec3<Real> moved = outside_colliders(node, terms.hessian, position + solve(terms));
     positions[node] = Vec4<Real>(moved, inverse_mass);
 }
 
 template <class Real>
-void BlockDescent<Real>::add_neo_hookean_tets(std::uint32_t node, Real step, const Nodes<Real>& previous,
+void BlockDescent<Real>::add_neo_hookean_tets(std::uint32_t node, Real step,
                                               const std::vector<Vec4<Real>>& positions,
                                               NodeTerms<Real>& terms) const {
     if (model_->neo_hookean_tets.empty()) return;
@@ -144,55 +148,93 @@ void BlockDescent<Real>::add_neo_hookean_tets(std::uint32_t node, Real step, con
         const Vec3<Real> g = shape_gradient<Real>(tet, corners.entries[e] % 4);
         const Mat3<Real> f = gradient_of(tet, at_corners(tet, positions.data()));
         add_neo_hookean(g, f, volume, mu, lambda, terms);
-        const Real damping_time = mean_damping_time(tet, previous.velocities.data());
+        const Real damping_time = mean_damping_time(tet, starts_.data());
         if (damping_time > Real(0)) {
-            const Mat3<Real> start = gradient_of(tet, at_corners(tet, previous.positions.data()));
+            const Mat3<Real> start = gradient_of(tet, at_corners(tet, starts_.data()));
             add_viscosity(g, f, start, volume, mu, lambda, damping_time / step, terms);
         }
     }
 }
 
-// Pushed out of colliders it slides by Coulomb's law: what it is pushed by is the normal force over the
-// node's own stiffness, and so is the way that friction takes back.
+// Where the node's own objective, to second order, is least outside the collider's tangent plane, behind
+// which all of it lies: the normal force is what that takes. Friction then takes back what the node has slid
+// along the plane, with as much force as Coulomb's law allows.
 template <class Real>
-Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, const Vec3<Real>& start,
+Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, const SymmetricMatrix<Real>& hessian,
                                                  Vec3<Real> position) {
+    if (node_touches_.empty()) return position;
+    Touch touch;
     for (const Collider& collider : model_->colliders) {
         const SurfaceDistance<Real> surface = surface_distance(collider, position);
         if (surface.distance >= Real(0)) continue;
-        position -= surface.distance * surface.normal;
-        const Vec3<Real> way = position - start;
-        const Vec3<Real> slid = way - glm::dot(way, surface.normal) * surface.normal;
+        const Vec3<Real>& n = surface.normal;
+        const Vec3<Real> yielding = solve(hessian, n);  // to a force along n
+        const Real stiffness = Real(1) / glm::dot(n, yielding);
+        const Real pressing = -surface.distance * stiffness;
+        position += pressing * yielding;
+        touch.force += pressing * n;
+        touch.normal = n;
+        touch.along = stiffness;
+        touch.across = Real(0);
+        std::atomic_ref(touches_[object_of_[node]]).store(1, std::memory_order_relaxed);
+
+        const Vec3<Real> way = position - Vec3<Real>(starts_[node]);
+        const Vec3<Real> slid = way - glm::dot(way, n) * n;
         const Real length = glm::length(slid);
-        const Real held = -static_cast<Real>(collider.friction) * surface.distance;
-        if (length > Real(0)) position -= std::min(Real(1), held / length) * slid;
-        touches_[node] = 1;
+        if (length == Real(0)) continue;
+        const Vec3<Real> t = slid / length;
+        Vec3<Real> giving = solve(hessian, t);
+        giving -= stiffness * glm::dot(n, giving) * yielding;  // within the plane
+        const Real needed = length / glm::dot(t, giving);
+        const Real most = static_cast<Real>(collider.friction) * pressing;
+        position -= std::min(needed, most) * giving;
+        touch.force -= std::min(needed, most) * t;
+        if (needed <= most) touch.across = stiffness;
     }
+    node_touches_[node] = touch;
     return position;
 }
 
-// Internal forces do no work on a rigid motion: of G only the first term changes.
+// The last sweep has left nodes outside colliders: bodies that touch one do not move after it.
 template <class Real>
-void BlockDescent<Real>::move_bodies(std::vector<Vec4<Real>>& positions) const {
+void BlockDescent<Real>::move_bodies(Real step, bool is_last, std::vector<Vec4<Real>>& positions) const {
+    const double inertia = 1.0 / (static_cast<double>(step) * static_cast<double>(step));
     tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
         const Range& nodes = model_->objects[o].nodes;
-        const std::span touches(touches_.data() + nodes.first, nodes.count);
-        if (is_pinned_[o] || std::any_of(touches.begin(), touches.end(), [](auto t) { return t != 0; }))
-            return;
-        const std::span body(positions.data() + nodes.first, nodes.count);
-        const RigidMotion motion =
-            nearest_rigid_motion<Real>(body, {targets_.data() + nodes.first, nodes.count});
-        for (Vec4<Real>& p : body) p = Vec4<Real>(Vec3<Real>(motion.move(glm::dvec3(p))), p.w);
+        const std::span body_nodes(positions.data() + nodes.first, nodes.count);
+        const bool is_held = std::any_of(body_nodes.begin(), body_nodes.end(),
+                                         [](const Vec4<Real>& p) { return p.w == Real(0); });
+        if (is_held || (is_last && touches_[o] != 0)) return;
+        const glm::dvec3 origin(positions[nodes.first]);
+        RigidStep body;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            const glm::dvec3 position(positions[n]), r = position - origin;
+            const double stiffness = inertia / static_cast<double>(positions[n].w);
+            body.add(r, stiffness, stiffness * (glm::dvec3(targets_[n]) - position));
+            if (touches_[o] == 0 || node_touches_[n].along == Real(0)) continue;
+            const Touch& touch = node_touches_[n];
+            body.add(r, static_cast<double>(touch.across), glm::dvec3(touch.force));
+            body.add_along(r, glm::dvec3(touch.normal), static_cast<double>(touch.along - touch.across));
+        }
+        const RigidMotion motion = body.solve(origin);
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+            positions[n] = Vec4<Real>(Vec3<Real>(motion.move(glm::dvec3(positions[n]))), positions[n].w);
     });
 }
 
+// Nodes that a collider has stopped go back with restitution times the speed they would have had without it.
 template <class Real>
 void BlockDescent<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current) const {
+    const auto least = static_cast<Real>(resting_speed(model_->gravity, static_cast<double>(step)));
     for_each(model_->node_count(), [&](std::uint32_t n) {
-        current.velocities[n] = previous.velocities[n];
+        const Vec4<Real> old = previous.velocities[n];
+        current.velocities[n] = old;
         if (current.positions[n].w == Real(0)) return;
-        const Vec3<Real> way = Vec3<Real>(current.positions[n]) - Vec3<Real>(previous.positions[n]);
-        current.velocities[n] = Vec4<Real>(way / step, previous.velocities[n].w);
+        const Vec3<Real> position(current.positions[n]), start(previous.positions[n]);
+        Vec3<Real> velocity = (position - start) / step;
+        if (touches_[object_of_[n]] != 0)
+            rebound<Real>(model_->colliders, position, (targets_[n] - start) / step, least, velocity);
+        current.velocities[n] = Vec4<Real>(velocity, old.w);
     });
 }
 

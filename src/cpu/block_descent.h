@@ -5,9 +5,10 @@
 
 #include "cpu/node_terms.h"
 #include "cpu/nodes.h"
+#include "cpu/tet_resistance.h"
+#include "model/descent_rows.h"
 #include "model/model.h"
-#include "model/node_colors.h"
-#include "model/node_tets.h"
+#include "model/solver.h"
 
 namespace gelatin::cpu {
 
@@ -20,34 +21,38 @@ namespace gelatin::cpu {
 template <class Real>
 class BlockDescent {
 public:
-    /// @param iterations sweeps over all nodes in a step
-    BlockDescent(std::shared_ptr<const Model> model, int iterations);
+    BlockDescent(std::shared_ptr<const Model> model, const DescentSettings& settings);
 
     /// A step of `step` seconds from `previous`; writes `current`.
-    void run(Real step, const Nodes<Real>& previous, Nodes<Real>& current);
-
-    const NodeColors& colors() const { return colors_; }
+    /// @param current's velocities are those one step before `previous` if `has_earlier`, else not looked at
+    void run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current);
 
 private:
-    void start(Real step, const Nodes<Real>& previous, std::vector<Vec4<Real>>& positions);
-    void mark_nodes_of_flat_tets(const std::vector<Vec4<Real>>& positions);
-    void sweep(Real step, const Nodes<Real>& previous, std::vector<Vec4<Real>>& positions);
-    void move_node(std::uint32_t node, Real step, const Nodes<Real>& previous,
-                   std::vector<Vec4<Real>>& positions);
-    void add_neo_hookean_tets(std::uint32_t node, Real step, const Nodes<Real>& previous,
-                              const std::vector<Vec4<Real>>& positions, NodeTerms<Real>& terms) const;
-    Vec3<Real> outside_colliders(std::uint32_t node, const Vec3<Real>& start, Vec3<Real> position);
-    void move_bodies(std::vector<Vec4<Real>>& positions) const;
+    void start(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current);
+    void accelerate(int sweep, std::vector<Vec4<Real>>& positions);
+    void sweep(Real step, std::vector<Vec4<Real>>& positions);
+    void move_node(std::uint32_t node, Real step, NodeTerms<Real> terms, std::vector<Vec4<Real>>& positions);
+    void add_neo_hookean_tets(std::uint32_t node, Real step, const std::vector<Vec4<Real>>& positions,
+                              NodeTerms<Real>& terms) const;
+    Vec3<Real> outside_colliders(std::uint32_t node, const SymmetricMatrix<Real>& hessian,
+                                 Vec3<Real> position);
+    void move_bodies(Real step, bool is_last, std::vector<Vec4<Real>>& positions) const;
     void finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current) const;
 
     std::shared_ptr<const Model> model_;
-    int iterations_;
-    NodeColors colors_;
-    NodeTets node_tets_;
-    std::vector<bool> is_pinned_;          // by object: somewhere
-    std::vector<Vec3<Real>> targets_;      // y [m], shape [nodes]
-    std::vector<std::uint8_t> near_flat_;  // nodes of tets that resist
-    std::vector<std::uint8_t> touches_;    // nodes that met a collider in this step
+    DescentSettings settings_;
+    DescentRows rows_;
+    TetResistance<Real> tets_;
+    std::vector<Vec4<Real>> starts_;        // xyz [m], damping time [s]
+    std::vector<Vec3<Real>> targets_;       // y [m], shape [nodes]
+    std::vector<std::uint32_t> object_of_;  // by node
+    std::vector<std::uint8_t> touches_;     // objects that met a collider in this step
+    struct Touch {
+        Vec3<Real> force{0}, normal{0};  // [N], unit
+        Real along = 0, across = 0;      // how the force changes with the body's way [N/m]
+    };
+    std::vector<Touch> node_touches_;             // of the last sweep; empty without colliders
+    std::vector<Vec3<Real>> last_, before_last_;  // from where the last two sweeps went [m], for acceleration
 };
 
 }  // namespace gelatin::cpu

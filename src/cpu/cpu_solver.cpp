@@ -40,7 +40,7 @@ BoxMargin<Real> margin_for(const CollisionSettings& settings) {
 
 template <class Real>
 CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces,
-                           const CollisionSettings& collision, int iterations)
+                           const CollisionSettings& collision, const DescentSettings& descent)
     : model_(std::move(model)),
       scheme_(explicit_scheme(solver)),
       forces_(forces),
@@ -48,7 +48,7 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
       contact_{collision.friction, collision.restitution} {
     current_ = {converted<Real>(model_->positions), converted<Real>(model_->velocities)};
     previous_ = current_;
-    if (solver == SolverKind::vbd) block_descent_.emplace(model_, iterations);
+    if (solver == SolverKind::vbd) block_descent_.emplace(model_, descent);
     if (scheme_.pass_count > 1) sums_ = stage_[0] = stage_[1] = current_;
     if (collision.self_collision) {
         self_ = std::make_unique<SelfStages>(SelfStages{{model_, collision_}, {model_, contact_}});
@@ -65,7 +65,8 @@ template <class Real>
 void CpuSolver<Real>::advance_nodes(double step) {
     if (block_descent_) {
         std::swap(current_, previous_);
-        return block_descent_->run(static_cast<Real>(step), previous_, current_);
+        block_descent_->run(static_cast<Real>(step), std::exchange(has_earlier_, true), previous_, current_);
+        return;
     }
     const Nodes<Real>* from = &current_;
     for (int p = 0; p < scheme_.pass_count; ++p) {
@@ -130,14 +131,19 @@ std::vector<ObjectMeasure> CpuSolver<Real>::end_measure() {
 
 template <class Real>
 State CpuSolver<Real>::read_state() const {
-    return {{current_.positions.begin(), current_.positions.end()},
-            {current_.velocities.begin(), current_.velocities.end()}};
+    State state{{current_.positions.begin(), current_.positions.end()},
+                {current_.velocities.begin(), current_.velocities.end()},
+                {}};
+    if (has_earlier_) state.earlier_velocities = {previous_.velocities.begin(), previous_.velocities.end()};
+    return state;
 }
 
 template <class Real>
 void CpuSolver<Real>::write_state(const State& state) {
     current_ = {converted<Real>(state.positions), converted<Real>(state.velocities)};
     previous_ = current_;
+    has_earlier_ = !state.earlier_velocities.empty();
+    if (has_earlier_) previous_.velocities = converted<Real>(state.earlier_velocities);
 }
 
 template <class Real>

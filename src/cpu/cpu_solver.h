@@ -22,7 +22,7 @@ template <class Real>
 class CpuSolver : public Solver {
 public:
     CpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces,
-              const CollisionSettings& collision = {}, int iterations = 10);
+              const CollisionSettings& collision = {}, const DescentSettings& descent = {});
 
     void advance_nodes(double step) override;
     void update_boxes() override { collision_.update_boxes(current_.positions, previous_.positions); }
@@ -60,6 +60,7 @@ private:
     std::optional<BlockDescent<Real>> block_descent_;  // instead of the scheme
     ForceMethod forces_;
     Nodes<Real> current_, previous_;  // swapped by each step: where it ended, and where it started
+    bool has_earlier_ = false;        // previous_ is one step earlier: vbd looks back
     Nodes<Real> stage_[2];            // between the passes of one step
     Nodes<Real> sums_;
     std::vector<Vec4<Real>> spring_forces_, node_forces_;

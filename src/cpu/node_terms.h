@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -82,19 +83,50 @@ void add_flat_tet(const Vec3<Real>& position, const std::array<Vec3<Real>, 3>& f
     terms.hessian.add_outer(rest_volume * modulus, slope);
 }
 
-/// hessian^-1 force by the square-root-free Cholesky decomposition; zero along what has no stiffness.
+/// kappa phi'(J - 1) of the volume term [Pa], J being the volume round a node over that at rest: phi(u) = u^2
+/// / 2 where kappa > 0. Where it is negative, the term takes energy out of a body that grows, and must end
+/// somewhere: phi'(u) = u (1 - (u / a)^2)^2 up to |u| = a = 1/2, and nothing beyond.
 template <class Real>
-Vec3<Real> solve(const NodeTerms<Real>& terms) {
+Real volume_stress(Real ratio, Real kappa) {
+    const Real u = ratio - Real(1);
+    if (kappa >= Real(0)) return kappa * u;
+    const Real left = std::max(Real(1) - Real(4) * u * u, Real(0));
+    return kappa * u * left * left;
+}
+
+/// A tet's part of the volume term as one of its corners sees it. With p the mean of volume_stress at its
+/// corners and J_0 its own J, both at the last look, and k the mean |kappa| of its corners, the term is at
+/// most
+///   W = V (p (J - J_0) + k / 2 (J - J_0)^2) and what it was then.
+/// @param face as in add_flat_tet @param offset p - k J_0 [Pa] @param modulus k [Pa]
+template <class Real>
+void add_tet_volume(const Vec3<Real>& position, const std::array<Vec3<Real>, 3>& face, Real rest_volume,
+                    Real offset, Real modulus, NodeTerms<Real>& terms) {
+    const Vec3<Real> slope = glm::cross(face[1] - face[0], face[2] - face[0]) / (Real(6) * rest_volume);
+    const Real ratio = glm::dot(position - face[0], slope);
+    terms.force -= rest_volume * (offset + modulus * ratio) * slope;
+    terms.hessian.add_outer(rest_volume * modulus, slope);
+}
+
+/// matrix^-1 v by the square-root-free Cholesky decomposition; zero along what has no stiffness.
+template <class Real>
+Vec3<Real> solve(const SymmetricMatrix<Real>& matrix, const Vec3<Real>& v) {
     const auto inverse = [](Real d) { return d > Real(0) ? Real(1) / d : Real(0); };
-    const Vec3<Real>&d = terms.hessian.diagonal, &b = terms.hessian.beside, &f = terms.force;
+    const Vec3<Real>&d = matrix.diagonal, &b = matrix.beside;
     const Real i0 = inverse(d.x);
     const Real l10 = b.z * i0, l20 = b.y * i0;
     const Real i1 = inverse(d.y - l10 * b.z);
     const Real rest = b.x - l20 * b.z, l21 = rest * i1;
     const Real i2 = inverse(d.z - l20 * b.y - l21 * rest);
-    const Real y1 = f.y - l10 * f.x, y2 = f.z - l20 * f.x - l21 * y1;
+    const Real y1 = v.y - l10 * v.x, y2 = v.z - l20 * v.x - l21 * y1;
     const Real z = y2 * i2, y = y1 * i1 - l21 * z;
-    return {f.x * i0 - l10 * y - l20 * z, y, z};
+    return {v.x * i0 - l10 * y - l20 * z, y, z};
+}
+
+/// A node's Newton step [m].
+template <class Real>
+Vec3<Real> solve(const NodeTerms<Real>& terms) {
+    return solve(terms.hessian, terms.force);
 }
 
 }  // namespace gelatin::cpu

@@ -1,6 +1,6 @@
 #include "cpu/rigid_motion.h"
 
-#include "cpu/node_terms.h"
+#include <glm/matrix.hpp>
 
 namespace gelatin::cpu {
 namespace {
@@ -8,38 +8,53 @@ namespace {
 // Of the mean moment of inertia, added to all three: nodes in one line or place have none about it.
 constexpr double kLeastInertia = 1e-6;
 
-}  // namespace
-
-template <class Real>
-RigidMotion nearest_rigid_motion(std::span<const Vec4<Real>> nodes, std::span<const Vec3<Real>> targets) {
-    RigidMotion motion;
-    double mass = 0.0;
-    const auto mass_of = [&](std::size_t n) { return 1.0 / static_cast<double>(nodes[n].w); };
-    const auto way_of = [&](std::size_t n) { return glm::dvec3(targets[n]) - glm::dvec3(nodes[n]); };
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-        mass += mass_of(n);
-        motion.center += mass_of(n) * glm::dvec3(nodes[n]);
-        motion.shift += mass_of(n) * way_of(n);
-    }
-    motion.center /= mass;
-    motion.shift /= mass;
-
-    NodeTerms<double> turn;  // moment and inertia
-    double trace = 0.0;
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-        const glm::dvec3 r = glm::dvec3(nodes[n]) - motion.center;
-        turn.force += mass_of(n) * glm::cross(r, way_of(n));
-        turn.hessian.add_identity(mass_of(n) * glm::dot(r, r));
-        turn.hessian.add_outer(-mass_of(n), r);
-        trace += 2.0 * mass_of(n) * glm::dot(r, r);
-    }
-    turn.hessian.add_identity(kLeastInertia * trace / 3.0);
-    motion.turn = cayley_turn(solve(turn));
-    return motion;
+glm::dmat3 full(const SymmetricMatrix<double>& m) {
+    return {m.diagonal.x, m.beside.z, m.beside.y, m.beside.z,  m.diagonal.y,
+            m.beside.x,   m.beside.y, m.beside.x, m.diagonal.z};
 }
 
-template RigidMotion nearest_rigid_motion<float>(std::span<const Vec4<float>>, std::span<const Vec3<float>>);
-template RigidMotion nearest_rigid_motion<double>(std::span<const Vec4<double>>,
-                                                  std::span<const Vec3<double>>);
+// cross(v) x = v x x
+glm::dmat3 cross(const glm::dvec3& v) {
+    return {0.0, v.z, -v.y, -v.z, 0.0, v.x, v.y, -v.x, 0.0};
+}
+
+}  // namespace
+
+void RigidStep::add(const glm::dvec3& r, double stiffness, const glm::dvec3& force) {
+    stiffness_ += stiffness;
+    arm_ += stiffness * r;
+    square_.add_outer(stiffness, r);
+    force_ += force;
+    moment_ += glm::cross(r, force);
+}
+
+void RigidStep::add_along(const glm::dvec3& r, const glm::dvec3& normal, double stiffness) {
+    const glm::dvec3 turned = glm::cross(r, normal);
+    shifts_.add_outer(stiffness, normal);
+    turns_.add_outer(stiffness, turned);
+    mixed_ += stiffness * glm::outerProduct(normal, turned);
+}
+
+// [A B; B^T C] (s, w) = (force, moment) by elimination of s.
+RigidMotion RigidStep::solve(const glm::dvec3& origin) const {
+    const glm::dmat3 identity(1.0);
+    const double trace = square_.diagonal.x + square_.diagonal.y + square_.diagonal.z;
+    // About the centre of stiffness, which is that of mass where nothing is touched.
+    const double about_center = trace - glm::dot(arm_, arm_) / stiffness_;
+    const glm::dmat3 a = stiffness_ * identity + full(shifts_);
+    const glm::dmat3 b = mixed_ - cross(arm_);
+    const glm::dmat3 c =
+        (trace + kLeastInertia * 2.0 / 3.0 * about_center) * identity - full(square_) + full(turns_);
+    const glm::dmat3 a_inverse = glm::inverse(a);
+    const glm::dmat3 rest = c - glm::transpose(b) * a_inverse * b;
+    const glm::dvec3 left = moment_ - glm::transpose(b) * (a_inverse * force_);
+    SymmetricMatrix<double> inertia;
+    inertia.diagonal = {rest[0][0], rest[1][1], rest[2][2]};
+    inertia.beside = {rest[1][2], rest[2][0], rest[0][1]};
+    const glm::dvec3 w = cpu::solve(inertia, left), s = a_inverse * (force_ - b * w);
+    // A turn about the centre of mass does not move it, however large.
+    const glm::dvec3 center = arm_ / stiffness_;
+    return {origin + center, s + glm::cross(w, center), cayley_turn(w)};
+}
 
 }  // namespace gelatin::cpu

@@ -2,9 +2,8 @@
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
-#include <span>
 
-#include "cpu/nodes.h"
+#include "cpu/node_terms.h"
 
 namespace gelatin::cpu {
 
@@ -24,12 +23,28 @@ inline glm::dmat3 cayley_turn(const glm::dvec3& w) {
     return glm::dmat3(1.0) + 4.0 / (4.0 + glm::dot(w, w)) * (cross + 0.5 * cross * cross);
 }
 
-/// The motion of nodes as one rigid body that brings them nearest to `targets`, in the sense of
-/// sum m |x - target|^2 to first order in the turn: the centre of mass goes to that of the targets, and the
-/// turn is about w of
-///   sum m (r^2 - r r^T) w = sum m r x (target - x),   r = x - center.
-/// @param nodes xyz [m], inverse mass [1/kg] > 0
-template <class Real>
-RigidMotion nearest_rigid_motion(std::span<const Vec4<Real>> nodes, std::span<const Vec3<Real>> targets);
+/// Newton's step of a body along rigid motions, by a shift s and a turn w: node i goes s + w x r_i, which
+/// changes what acts on it by its stiffness times that. Internal forces do no work on it.
+///   sum_i J_i^T K_i J_i (s, w) = sum_i J_i^T f_i,   J_i (s, w) = s + w x r_i
+class RigidStep {
+public:
+    /// A node at r from the body's origin [m], that `force` [N] acts on, and whose way is resisted alike in
+    /// all directions by `stiffness` [N/m]: inertia, and friction that holds.
+    void add(const glm::dvec3& r, double stiffness, const glm::dvec3& force);
+    /// And along `normal` alone: a surface that it touches.
+    void add_along(const glm::dvec3& r, const glm::dvec3& normal, double stiffness);
+
+    /// @pre some stiffness was added
+    RigidMotion solve(const glm::dvec3& origin) const;
+
+private:
+    double stiffness_ = 0.0;          // sum k
+    glm::dvec3 arm_{0.0};             // sum k r
+    SymmetricMatrix<double> square_;  // sum k r r^T
+    glm::dvec3 force_{0.0}, moment_{0.0};
+    // Of surfaces, sum k (n, r x n) (n, r x n)^T in blocks.
+    SymmetricMatrix<double> shifts_, turns_;
+    glm::dmat3 mixed_{0.0};
+};
 
 }  // namespace gelatin::cpu

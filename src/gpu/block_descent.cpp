@@ -4,19 +4,30 @@
 #include <numeric>
 
 #include "gpu/chunks.h"
-#include "model/node_colors.h"
+#include "model/descent_rows.h"
 #include "model/node_tets.h"
-#include "model/spring_packing.h"
 
 namespace gelatin::gpu {
 namespace {
 
 constexpr int kSweepsAMotion = 2;
+constexpr std::size_t kRigidSums = 12;  // dvec4s in RigidSums, include/rigid_sums.glsl
+
+gl::Defines volume_defines(const Model& model) {
+    if (model.volume_term.is_empty()) return {};
+    return {"VOLUME"};
+}
 
 gl::Defines sweep_defines(const Model& model) {
     gl::Defines defines = ModelBuffers::collider_defines(model);
     if (model.has_damping()) defines.emplace_back("DAMPED");
     if (!model.neo_hookean_tets.empty()) defines.emplace_back("NEO_HOOKEAN");
+    for (const std::string& define : volume_defines(model)) defines.push_back(define);
+    return defines;
+}
+
+gl::Defines with(gl::Defines defines, const char* another) {
+    defines.emplace_back(another);
     return defines;
 }
 
@@ -27,20 +38,14 @@ gl::Buffer<T> make_buffer(std::vector<T> values, const T& padding) {
     return gl::Buffer<T>(std::span<const T>(values));
 }
 
-std::vector<glm::vec2> rests_of(const Model& model) {
-    std::vector<glm::vec2> rests;
-    for (const TetRest& rest : model.tet_rests) rests.emplace_back(rest.volume, rest.modulus);
-    return rests;
-}
-
-std::vector<std::uint32_t> find_pinned_objects(const Model& model) {
-    std::vector<std::uint32_t> pinned;
-    for (const ModelObject& object : model.objects) {
-        const auto first = model.positions.begin() + object.nodes.first;
-        pinned.push_back(
-            std::any_of(first, first + object.nodes.count, [](const glm::vec4& p) { return p.w == 0.0f; }));
+std::vector<glm::vec4> rests_of(const Model& model) {
+    const std::vector<float>& stiffnesses = model.volume_term.tets;
+    std::vector<glm::vec4> rests;
+    for (std::size_t t = 0; t < model.tet_rests.size(); ++t) {
+        const TetRest& rest = model.tet_rests[t];
+        rests.emplace_back(rest.volume, rest.modulus, stiffnesses.empty() ? 0.0f : stiffnesses[t], 0.0f);
     }
-    return pinned;
+    return rests;
 }
 
 std::vector<glm::uvec2> with_objects(const Model& model, const std::vector<std::uint32_t>& rows) {
@@ -56,49 +61,64 @@ std::vector<glm::uvec2> with_objects(const Model& model, const std::vector<std::
 
 }  // namespace
 
-BlockDescent::BlockDescent(const Model& model, int iterations)
+BlockDescent::Pressures::Pressures(const Model& model)
+    : node_program(gl::Program::compute("sim/find_pressures.comp", {"NODES"})),
+      tet_program(gl::Program::compute("sim/find_pressures.comp")),
+      node_volumes(std::span<const glm::vec2>(model.volume_term.nodes)),
+      ratios(model.tets.size()),
+      node_pressures(model.positions.size()),
+      offsets(model.tets.size()) {
+    const NodeTets tets = make_node_tets(model.node_count(), model.tets);
+    node_tet_starts = make_buffer(tets.starts, 0u);
+    node_tets = make_buffer(tets.entries, 0u);
+    node_volume_texels = {node_volumes, gl::TexelFormat::rg32f};
+    node_tet_start_texels = {node_tet_starts, gl::TexelFormat::r32ui};
+    node_tet_texels = {node_tets, gl::TexelFormat::r32ui};
+    offset_texels = {offsets, gl::TexelFormat::r32f};
+}
+
+BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
     : start_program_(gl::Program::compute("sim/start_descent.comp")),
-      mark_program_(gl::Program::compute("sim/mark_flat_tets.comp")),
+      accelerate_program_(gl::Program::compute("sim/accelerate_descent.comp")),
+      mark_program_(gl::Program::compute("sim/mark_flat_tets.comp", volume_defines(model))),
       sweep_program_(gl::Program::compute("sim/descend.comp", sweep_defines(model))),
-      sum_program_(gl::Program::compute("sim/sum_rigid_motions.comp")),
-      motion_program_(gl::Program::compute("sim/sum_rigid_motions.comp", {"OBJECTS"})),
+      sum_program_(gl::Program::compute("sim/sum_rigid_motions.comp", ModelBuffers::collider_defines(model))),
+      motion_program_(gl::Program::compute("sim/sum_rigid_motions.comp",
+                                           with(ModelBuffers::collider_defines(model), "OBJECTS"))),
       move_program_(gl::Program::compute("sim/move_bodies.comp")),
-      last_move_program_(gl::Program::compute("sim/move_bodies.comp", {"LAST"})),
-      iterations_(iterations),
+      last_move_program_(
+          gl::Program::compute("sim/move_bodies.comp", with(ModelBuffers::collider_defines(model), "LAST"))),
+      settings_(settings),
+      node_count_(model.node_count()),
       tet_count_(static_cast<std::uint32_t>(model.tets.size())),
       object_count_(static_cast<std::uint32_t>(model.objects.size())),
       near_flat_(model.positions.size()),
       object_touches_(model.objects.size()),
       motions_(model.objects.size()) {
-    std::vector<std::uint32_t> rows;
-    const NodeColors colors = color_nodes(model);
-    for (std::uint32_t c = 0; c < colors.count(); ++c) {
-        const auto first = static_cast<std::uint32_t>(rows.size());
-        rows.insert(rows.end(), colors.of(c).begin(), colors.of(c).end());
-        while (rows.size() % HalfSprings::kSlice != 0) rows.push_back(kNoNode);
-        colors_.push_back({first, static_cast<std::uint32_t>(rows.size()) - first});
-    }
-    neo_hookean_corners_ = NeoHookeanBuffers::Corners(model, rows);
-    const HalfSprings springs = pack_half_springs(rows, model.springs);
+    if (!model.volume_term.is_empty()) pressures_.emplace(model);
+    if (settings_.chebyshev > 0.0) sweep_starts_ = gl::Buffer<glm::vec4>(2 * model.positions.size());
+    const DescentRows rows = make_descent_rows(model);
+    colors_ = rows.colors;
+    neo_hookean_corners_ = NeoHookeanBuffers::Corners(model, rows.nodes);
     const TetCorners corners =
-        pack_tet_corners(rows, make_node_tets(model.node_count(), model.tets), model.tets);
+        pack_tet_corners(rows.nodes, make_node_tets(model.node_count(), model.tets), model.tets);
     const std::vector<Chunk> chunks = make_chunks(model, &ModelObject::nodes);
     std::vector<std::uint32_t> chunk_starts(model.objects.size() + 1, 0);
     for (const Chunk& chunk : chunks) ++chunk_starts[chunk.object + 1];
     std::partial_sum(chunk_starts.begin(), chunk_starts.end(), chunk_starts.begin());
 
-    rows_ = make_buffer(with_objects(model, rows), glm::uvec2(kNoNode, 0));
-    half_springs_ = make_buffer(springs.pairs, HalfSpringPair{});
-    stiffnesses_ = make_buffer(springs.stiffness, glm::vec2(0.0f));
-    spring_starts_ = make_buffer(springs.slice_starts, 0u);
+    rows_ = make_buffer(with_objects(model, rows.nodes), glm::uvec2(kNoNode, 0));
+    half_springs_ = make_buffer(rows.springs.pairs, HalfSpringPair{});
+    stiffnesses_ = make_buffer(rows.springs.stiffness, glm::vec2(0.0f));
+    spring_starts_ = make_buffer(rows.springs.slice_starts, 0u);
     tet_corners_ = make_buffer(corners.corners, TetCorner{});
     corner_starts_ = make_buffer(corners.slice_starts, 0u);
     tets_ = make_buffer(model.tets, glm::uvec4(0));
-    tet_rests_ = make_buffer(rests_of(model), glm::vec2(1.0f));
+    tet_rests_ = make_buffer(rests_of(model), glm::vec4(1.0f));
     chunks_ = make_buffer(chunks, Chunk{});
     chunk_starts_ = make_buffer(chunk_starts, 0u);
-    is_pinned_ = make_buffer(find_pinned_objects(model), 0u);
-    rigid_sums_ = gl::Buffer<RigidSums>(chunks.size());
+    rigid_sums_ = gl::Buffer<glm::dvec4>(kRigidSums * chunks.size());
+    if (!model.colliders.empty()) touches_ = gl::Buffer<Touch>(model.positions.size());
 
     row_texels_ = {rows_, gl::TexelFormat::rg32ui};
     half_spring_texels_ = {half_springs_, gl::TexelFormat::rgba32ui};
@@ -107,45 +127,73 @@ BlockDescent::BlockDescent(const Model& model, int iterations)
     tet_corner_texels_ = {tet_corners_, gl::TexelFormat::rgba32ui};
     corner_start_texels_ = {corner_starts_, gl::TexelFormat::r32ui};
     tet_texels_ = {tets_, gl::TexelFormat::rgba32ui};
-    tet_rest_texels_ = {tet_rests_, gl::TexelFormat::rg32f};
+    tet_rest_texels_ = {tet_rests_, gl::TexelFormat::rgba32f};
     chunk_start_texels_ = {chunk_starts_, gl::TexelFormat::r32ui};
-    is_pinned_texels_ = {is_pinned_, gl::TexelFormat::r32ui};
 }
 
 void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, const NodeBuffers& current,
-                       double step) const {
+                       double step, bool has_earlier) const {
     for (const gl::Program* program :
          {&start_program_, &sweep_program_, &sum_program_, &move_program_, &last_move_program_}) {
         program->set("time_step", static_cast<float>(step));
         program->set("gravity", model.gravity);
     }
+    last_move_program_.set("contact_distance", static_cast<float>(kContactDistance));
+    last_move_program_.set("resting_speed", static_cast<float>(resting_speed(model.gravity, step)));
     previous.position_texels.bind(1);
     previous.velocity_texels.bind(2);
     current.positions.bind_storage(0);
     near_flat_.bind_storage(1);
     object_touches_.bind_storage(2);
-    start_program_.set("node_count", model.node_count);
+    current.velocities.bind_storage(3);
+    start_program_.set("node_count", node_count_);
     start_program_.set("object_count", object_count_);
-    start_program_.dispatch(model.node_count);
+    start_program_.set("has_earlier", has_earlier ? 1u : 0u);
+    start_program_.dispatch(node_count_);
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 
     current.position_texels.bind(0);
-    for (int i = 0; i < iterations_; ++i) {
-        if (i % kSweepsAMotion == 0) mark_flat_tets();
+    for (int i = 0; i < settings_.iterations; ++i) {
+        if (settings_.chebyshev > 0.0) accelerate(i);
+        if (i % kSweepsAMotion == 0) look_at_tets();
         sweep_program_.set("clear_marks", i % kSweepsAMotion + 1 == kSweepsAMotion ? 1u : 0u);
         sweep(model);
-        const bool is_last = i + 1 == iterations_;
-        if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(current, is_last);
+        const bool is_last = i + 1 == settings_.iterations;
+        if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(model, current, is_last);
     }
 }
 
-void BlockDescent::mark_flat_tets() const {
+void BlockDescent::accelerate(int sweep) const {
+    sweep_starts_.bind_storage(3);
+    accelerate_program_.set("node_count", node_count_);
+    accelerate_program_.set("sweep", static_cast<std::uint32_t>(sweep));
+    accelerate_program_.set("weight", static_cast<float>(chebyshev_weight(settings_.chebyshev, sweep)));
+    accelerate_program_.dispatch(node_count_);
+    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
+}
+
+void BlockDescent::look_at_tets() const {
     tet_texels_.bind(9);
     tet_rest_texels_.bind(10);
     near_flat_.bind_storage(1);
+    if (pressures_) pressures_->ratios.bind_storage(3);
     mark_program_.set("tet_count", tet_count_);
     mark_program_.dispatch(tet_count_);
     gl::barrier(gl::Barrier::storage);
+    if (!pressures_) return;
+
+    pressures_->node_volume_texels.bind(11);
+    pressures_->node_tet_start_texels.bind(12);
+    pressures_->node_tet_texels.bind(13);
+    pressures_->node_pressures.bind_storage(4);
+    pressures_->node_program.set("element_count", node_count_);
+    pressures_->node_program.dispatch(node_count_);
+    gl::barrier(gl::Barrier::storage);
+
+    pressures_->offsets.bind_storage(5);
+    pressures_->tet_program.set("element_count", tet_count_);
+    pressures_->tet_program.dispatch(tet_count_);
+    gl::barrier(gl::Barrier::texture_fetch);
 }
 
 void BlockDescent::sweep(const ModelBuffers& model) const {
@@ -157,33 +205,39 @@ void BlockDescent::sweep(const ModelBuffers& model) const {
     tet_corner_texels_.bind(8);
     corner_start_texels_.bind(9);
     tet_rest_texels_.bind(10);
+    if (pressures_) pressures_->offset_texels.bind(11);
     model.neo_hookean.bind_tets();
     neo_hookean_corners_.bind();
-    for (const Color& color : colors_) {
-        sweep_program_.set("first_row", color.first_row);
-        sweep_program_.set("row_count", color.row_count);
-        sweep_program_.dispatch(color.row_count);
+    if (touches_.size() > 0) touches_.bind_storage(3);
+    for (const Range& color : colors_) {
+        sweep_program_.set("first_row", color.first);
+        sweep_program_.set("row_count", color.count);
+        sweep_program_.dispatch(color.count);
         gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::storage);
     }
 }
 
-void BlockDescent::move_bodies(const NodeBuffers& current, bool is_last) const {
+void BlockDescent::move_bodies(const ModelBuffers& model, const NodeBuffers& current, bool is_last) const {
     chunk_start_texels_.bind(3);
-    is_pinned_texels_.bind(4);
     chunks_.bind_storage(3);
     rigid_sums_.bind_storage(4);
     motions_.bind_storage(5);
+    if (touches_.size() > 0) touches_.bind_storage(6);
     const auto chunks = static_cast<std::uint32_t>(chunks_.size());
     sum_program_.set("element_count", chunks);
     sum_program_.dispatch(64 * chunks_.size());
     gl::barrier(gl::Barrier::storage);
 
     motion_program_.set("element_count", object_count_);
+    motion_program_.set("is_last", is_last ? 1u : 0u);
     motion_program_.dispatch(object_count_);
     gl::barrier(gl::Barrier::storage);
 
     const gl::Program& move = is_last ? last_move_program_ : move_program_;
-    if (is_last) current.velocities.bind_storage(1);
+    if (is_last) {
+        current.velocities.bind_storage(1);
+        model.bind_colliders(move);
+    }
     move.set("element_count", chunks);
     move.dispatch(64 * chunks_.size());
     gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::storage);

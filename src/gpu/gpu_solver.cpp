@@ -7,7 +7,7 @@
 namespace gelatin::gpu {
 
 GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces,
-                     const CollisionSettings& collision, int iterations)
+                     const CollisionSettings& collision, const DescentSettings& descent)
     : model_(std::move(model)),
       device_(gl::Context::current().device().renderer),
       scheme_(explicit_scheme(solver)),
@@ -23,7 +23,7 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, Forc
     }
     if (model_->objects.size() > 1 || collision.self_collision) collision_.emplace(*model_, collision);
     if (solver == SolverKind::vbd) {
-        block_descent_.emplace(*model_, iterations);
+        block_descent_.emplace(*model_, descent);
     } else if (forces == ForceMethod::fused) {
         fused_.emplace(*model_, scheme_);
     } else {
@@ -34,7 +34,8 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, Forc
 void GpuSolver::advance_nodes(double step) {
     if (block_descent_) {
         std::swap(current_, previous_);
-        return block_descent_->run(buffers_, previous_, current_, step);
+        block_descent_->run(buffers_, previous_, current_, step, std::exchange(has_earlier_, true));
+        return;
     }
     const NodeBuffers* from = &current_;
     for (int p = 0; p < scheme_.pass_count; ++p) {
@@ -94,6 +95,10 @@ State GpuSolver::read_state() const {
     state.velocities.resize(model_->velocities.size());
     current_.positions.download(state.positions);
     current_.velocities.download(state.velocities);
+    if (has_earlier_) {
+        state.earlier_velocities.resize(model_->velocities.size());
+        previous_.velocities.download(state.earlier_velocities);
+    }
     return state;
 }
 
@@ -103,6 +108,8 @@ void GpuSolver::write_state(const State& state) {
         nodes->positions.upload(state.positions);
         nodes->velocities.upload(state.velocities);
     }
+    has_earlier_ = !state.earlier_velocities.empty();
+    if (has_earlier_) previous_.velocities.upload(state.earlier_velocities);
 }
 
 }  // namespace gelatin::gpu

@@ -19,7 +19,7 @@ namespace gelatin::gpu {
 class GpuSolver : public Solver {
 public:
     GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces,
-              const CollisionSettings& collision = {}, int iterations = 10);
+              const CollisionSettings& collision = {}, const DescentSettings& descent = {});
 
     void advance_nodes(double step) override;
     void update_boxes() override;
@@ -53,6 +53,7 @@ private:
     NodeBuffers current_, previous_;             // swapped by each step: where it ended, and where it started
     NodeBuffers stage_[2], sums_;                // between the passes of one step
     std::optional<BlockDescent> block_descent_;  // instead of the scheme
+    bool has_earlier_ = false;                   // previous_ is one step earlier: vbd looks back
     std::optional<AdvanceNodes> fused_;
     std::optional<DivideAndMerge> divide_and_merge_;
     std::optional<Collision> collision_;  // where something can collide, or somebody asked for boxes

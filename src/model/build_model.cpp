@@ -8,7 +8,6 @@
 #include <limits>
 #include <utility>
 
-#include "core/log.h"
 #include "gelatin/error.h"
 #include "mesh/topology.h"
 #include "model/box_tree.h"
@@ -20,6 +19,7 @@
 #include "model/springs.h"
 #include "model/surface_parts.h"
 #include "model/transform.h"
+#include "model/volume_term.h"
 
 namespace gelatin {
 namespace {
@@ -136,12 +136,12 @@ std::vector<glm::uvec2> joined_nodes(const Body& body, const FittedSprings* fitt
 
 // Fitted springs for the body's material and size, in ascending order of nodes.
 std::vector<Spring> scaled_springs(const Body& body, const Arranged& arranged, const FittedSprings& fitted) {
-    const double shear_modulus = kShearOverYoungs * body.material.youngs_modulus;
+    const double mu = shear_modulus(body.material);
     std::vector<Spring> springs;
     for (const UnitSpring& unit : fitted.springs) {
         const std::uint32_t a = arranged.new_index[unit.nodes.x], b = arranged.new_index[unit.nodes.y];
         const double length = glm::distance(arranged.mesh.positions[a], arranged.mesh.positions[b]);
-        const double stiffness = shear_modulus * body.scale * unit.stiffness;
+        const double stiffness = mu * body.scale * unit.stiffness;
         springs.push_back(
             {std::min(a, b), std::max(a, b), static_cast<float>(length), static_cast<float>(stiffness)});
     }
@@ -204,17 +204,19 @@ void append_body(Model& model, const Body& body) {
     const std::uint32_t first = object.nodes.first;
     append_nodes(model, body, mesh);
     if (has_springs(body)) {
+        const double modulus = shear_modulus(body.material) / kShearOverYoungs;
         append_springs(model,
                        fitted ? scaled_springs(body, order, *fitted)
-                              : make_springs(mesh, *body.material.springs, body.material.youngs_modulus),
+                              : make_springs(mesh, *body.material.springs, modulus),
                        body.name, first);
     }
     object.springs.count = size(model.springs) - object.springs.first;
     const double flat_modulus = has_springs(body) ? body.material.youngs_modulus : 0.0;
+    const double lacking = has_springs(body) ? lacking_modulus(body.material) : 0.0;
     for (const glm::uvec4& t : mesh.tets) {
         model.tets.push_back(t + first);
         model.tet_rests.push_back({checked_float(tet_volume(mesh, t), body.name, "a tet's volume [m^3]"),
-                                   static_cast<float>(flat_modulus)});
+                                   static_cast<float>(flat_modulus), static_cast<float>(lacking)});
     }
     object.neo_hookean_tets.first = size(model.neo_hookean_tets);
     if (!has_springs(body)) append_neo_hookean_tets(model, body, mesh, first);
@@ -312,6 +314,8 @@ Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDes
     model.neo_hookean_corners = make_neo_hookean_corners(model);
     model.node_faces = make_node_faces(model.node_count(), model.faces);
     model.surface_parts = make_surface_parts(model.faces, model.node_faces);
+    model.volume_term =
+        make_volume_term(model.tets, model.tet_rests, make_node_tets(model.node_count(), model.tets));
     return model;
 }
 
@@ -319,12 +323,6 @@ Model build_model(const Scene& scene) {
     std::vector<Body> bodies;
     ObjectMesher mesher;
     for (const ObjectDescription& object : scene.objects) bodies.push_back(make_body(scene, object, mesher));
-    for (const Material& material : scene.materials) {
-        if (material.model == MaterialModel::mass_spring && material.poisson_ratio != 0.25) {
-            spdlog::warn("material '{}': poisson_ratio = {} has no effect: springs alone answer with 0.25",
-                         material.name, material.poisson_ratio);
-        }
-    }
     Model model = pack_bodies(bodies, scene.colliders, scene.simulation.gravity);
     if (scene.collision.self_collision) model.rest_shapes = make_rest_shapes(model);
     return model;

@@ -10,6 +10,7 @@
 #include "model/layouts.h"
 #include "model/node_tets.h"
 #include "model/rest_shape.h"
+#include "model/volume_term.h"
 
 namespace gelatin {
 
@@ -50,8 +51,9 @@ struct SpringIncidence {
 
 /// What a tet is at rest.
 struct TetRest {
-    float volume;   ///< [m^3], > 0
-    float modulus;  ///< of its resistance to being flat [Pa]: Young's; 0 for neo-Hookean tets
+    float volume;          ///< [m^3], > 0
+    float modulus;         ///< of its resistance to being flat [Pa]: Young's; 0 for neo-Hookean tets
+    float lacking = 0.0f;  ///< what its springs lack against changes of volume (model/volume_term.h) [Pa]
 };
 
 /// Faces by node: those of node n are faces[starts[n]] .. faces[starts[n + 1]], ascending; none inside.
@@ -104,6 +106,7 @@ struct Model {
 
     std::vector<glm::uvec4> tets;                 ///< shape [tets]
     std::vector<TetRest> tet_rests;               ///< shape [tets]
+    VolumeTerm volume_term;                       ///< empty where springs are all there is
     std::vector<NeoHookeanTet> neo_hookean_tets;  ///< of the bodies that have no springs
     NodeTets neo_hookean_corners;                 ///< by node; empty where there are none
     std::vector<Face> faces;                      ///< boundary triangles, shape [faces]

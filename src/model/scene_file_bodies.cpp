@@ -107,6 +107,14 @@ Region read_region(TableReader reader) {
     return result;
 }
 
+StartDescription read_start(TableReader reader) {
+    StartDescription start;
+    reader.read("scale", start.scale, kNotNegative);
+    reader.read("scatter", start.scatter, kNotNegative);
+    reader.finish();
+    return start;
+}
+
 // An object that names no material has the scene's only one.
 std::string read_material_name(TableReader& reader, const std::vector<Material>& materials) {
     std::vector<std::string> names;
@@ -139,6 +147,7 @@ std::vector<ObjectDescription> read_object(TableReader& reader, const std::vecto
     reader.read("rotation", object.rotation);
     reader.read("scale", object.scale, kPositive);
     reader.read("velocity", object.velocity);
+    if (const auto start = reader.table("start")) object.start = read_start(*start);
     for (TableReader& pin : reader.tables("pins")) object.pins.push_back(read_region(pin));
     if (reader.has("color")) {
         glm::dvec3 color{};

@@ -15,7 +15,19 @@ namespace gelatin {
 struct State {
     std::vector<glm::vec4> positions;   ///< xyz [m], inverse mass [1/kg], shape [nodes]
     std::vector<glm::vec4> velocities;  ///< xyz [m/s], damping time [s], shape [nodes]
+    /// The velocities one step before, from which solvers guess how the next one goes; empty before the
+    /// first.
+    std::vector<glm::vec4> earlier_velocities;
 };
+
+/// Of vertex block descent.
+struct DescentSettings {
+    int iterations = 10;     ///< sweeps over all nodes in a step, >= 1
+    double chebyshev = 0.0;  ///< see SimulationSettings::chebyshev
+};
+
+/// What sweep `sweep` of a step, from 0, is accelerated by; 1 for the first two.
+double chebyshev_weight(double spectral_radius, int sweep);
 
 /// A node nearer to a collider than this [m] counts as a contact.
 constexpr double kContactDistance = 1e-5;

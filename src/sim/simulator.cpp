@@ -11,6 +11,7 @@
 #include "gpu/gpu_solver.h"
 #include "model/build_model.h"
 #include "model/stability.h"
+#include "model/start_state.h"
 #include "sim/backend.h"
 #include "sim/checkpoint.h"
 #include "sim/draw_source.h"
@@ -88,17 +89,19 @@ Simulator::Simulator(const Scene& scene, const SimulatorOptions& options) : impl
     d.substeps = choose_substeps(scene, *d.model);
     d.context = make_context(d.options);
     const SimulationSettings& settings = scene.simulation;
+    const DescentSettings descent{settings.iterations, settings.chebyshev};
     if (choose_gl(d.options, d.context)) {
-        auto solver =
-            std::make_unique<gpu::GpuSolver>(d.model, settings.solver, settings.forces, scene.collision, settings.iterations);
+        auto solver = std::make_unique<gpu::GpuSolver>(d.model, settings.solver, settings.forces,
+                                                       scene.collision, descent);
         d.gpu_solver = solver.get();
         d.solver = std::move(solver);
     } else {
         auto solver = std::make_unique<cpu::CpuSolver<float>>(d.model, settings.solver, settings.forces,
-                                                              scene.collision, settings.iterations);
+                                                              scene.collision, descent);
         d.cpu_solver = solver.get();
         d.solver = std::move(solver);
     }
+    if (const std::optional<State> start = deformed_start(scene, *d.model)) d.solver->write_state(*start);
 }
 
 Simulator::Simulator(Simulator&&) noexcept = default;

@@ -42,12 +42,13 @@ cpu::Nodes<Real> nodes_of(const Model& model) {
 }
 
 template <class Real>
-cpu::Nodes<Real> run_steps(const Model& model, double step, int steps, int iterations) {
-    cpu::BlockDescent<Real> descent(std::make_shared<const Model>(model), iterations);
+cpu::Nodes<Real> run_steps(const Model& model, double step, int steps, int iterations,
+                           double chebyshev = 0.0) {
+    cpu::BlockDescent<Real> descent(std::make_shared<const Model>(model), {iterations, chebyshev});
     cpu::Nodes<Real> previous = nodes_of<Real>(model), current = previous;
     for (int s = 0; s < steps; ++s) {
         if (s > 0) std::swap(previous, current);
-        descent.run(static_cast<Real>(step), previous, current);
+        descent.run(static_cast<Real>(step), s > 0, previous, current);
     }
     return current;
 }

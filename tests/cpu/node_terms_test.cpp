@@ -150,6 +150,44 @@ TEST(NodeTerms, AFlatTetsForceAndHessianAreThoseOfItsEnergy) {
     EXPECT_GT(resisting, 50);
 }
 
+// It is the slope of a potential whose curvature never exceeds |kappa|, and is kappa at rest.
+TEST(NodeTerms, VolumeStressIsNoSteeperThanItsModulus) {
+    for (const double kappa : {-3.0, 2.0}) {
+        EXPECT_EQ(cpu::volume_stress(1.0, kappa), 0.0);
+        const double h = 1e-6;
+        EXPECT_NEAR(cpu::volume_stress(1.0 + h, kappa) / h, kappa, 1e-9);
+        for (double ratio = -1.0; ratio < 3.0; ratio += 0.01) {
+            const double slope =
+                (cpu::volume_stress(ratio + h, kappa) - cpu::volume_stress(ratio - h, kappa)) / (2 * h);
+            EXPECT_LE(std::abs(slope), std::abs(kappa) + 1e-9) << ratio;
+        }
+    }
+    EXPECT_EQ(cpu::volume_stress(1.5, -3.0), 0.0);
+    EXPECT_EQ(cpu::volume_stress(-7.0, -3.0), 0.0);
+}
+
+TEST(NodeTerms, ATetsVolumeTermIsThatOfItsEnergy) {
+    Random random;
+    const double volume = 0.02, offset = 300.0, modulus = 5e3;
+    for (int i = 0; i < 200; ++i) {
+        const V x = random.point(0.5);
+        const std::array<V, 3> face{random.point(0.5), random.point(0.5), random.point(0.5)};
+        const auto terms_at = [&](const V& p) {
+            Terms terms;
+            cpu::add_tet_volume(p, face, volume, offset, modulus, terms);
+            return terms;
+        };
+        const auto energy = [&](const V& p) {
+            const double v = glm::dot(p - face[0], glm::cross(face[1] - face[0], face[2] - face[0])) / 6.0;
+            return volume * (offset * v / volume + 0.5 * modulus * v * v / (volume * volume));
+        };
+        const Terms terms = terms_at(x);
+        expect_force_of(energy, x, terms.force, 1e-5 * glm::length(terms.force) + 1e-6);
+        const M exact = derivative_of([&](const V& p) { return terms_at(p).force; }, x);
+        EXPECT_LT((to_eigen(terms.hessian) - to_eigen(exact)).norm(), 1e-5 * to_eigen(exact).norm() + 1e-6);
+    }
+}
+
 TEST(NodeTerms, SolvesWhatIsPositive) {
     Random random;
     for (int i = 0; i < 200; ++i) {

@@ -21,6 +21,17 @@ std::vector<V4> make_nodes(const V3& extent) {
     return nodes;
 }
 
+// What takes free nodes nearest to their targets.
+cpu::RigidMotion nearest_motion(const std::vector<V4>& nodes, const std::vector<V3>& targets) {
+    const V3 origin(nodes[0]);
+    cpu::RigidStep step;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+        const double mass = 1.0 / nodes[n].w;
+        step.add(V3(nodes[n]) - origin, mass, mass * (targets[n] - V3(nodes[n])));
+    }
+    return step.solve(origin);
+}
+
 V3 sum_of_momenta(const std::vector<V4>& nodes, const std::vector<V3>& targets) {
     V3 sum(0);
     for (std::size_t n = 0; n < nodes.size(); ++n) sum += (targets[n] - V3(nodes[n])) / nodes[n].w;
@@ -33,7 +44,7 @@ TEST(RigidMotion, FindsAMotionThatWasMade) {
                                 cpu::cayley_turn(1e-4 * glm::normalize(V3(1, 2, 3)))};
     std::vector<V3> targets;
     for (const V4& p : nodes) targets.push_back(made.move(V3(p)));
-    const cpu::RigidMotion found = cpu::nearest_rigid_motion<double>(nodes, targets);
+    const cpu::RigidMotion found = nearest_motion(nodes, targets);
     // The turn is off by its second order, and by a millionth for what keeps thin bodies from turning wildly.
     for (const V4& p : nodes) EXPECT_LT(glm::distance(found.move(V3(p)), made.move(V3(p))), 3e-8);
 }
@@ -54,9 +65,38 @@ TEST(RigidMotion, GivesNodesTheMomentumOfTheirTargets) {
     std::vector<V4> nodes = make_nodes(V3(1));
     std::vector<V3> targets;
     for (const V4& p : make_nodes(V3(2, 1, 1))) targets.push_back(V3(p) + V3(0, 0.1, 0));
-    const cpu::RigidMotion motion = cpu::nearest_rigid_motion<double>(nodes, targets);
+    const cpu::RigidMotion motion = nearest_motion(nodes, targets);
     for (V4& p : nodes) p = V4(motion.move(V3(p)), p.w);
     EXPECT_LT(glm::length(sum_of_momenta(nodes, targets)), 1e-11);
+}
+
+// On a floor that is all but rigid a body goes along it, and turns about its normal, as if it had no weight.
+TEST(RigidMotion, SlidesAlongASurface) {
+    const std::vector<V4> nodes = make_nodes(V3(1));
+    const V3 origin(nodes[0]), normal(0, 1, 0);
+    const cpu::RigidMotion made{V3(10, 20, 30), V3(0.1, 0, 0.3), cpu::cayley_turn(V3(0, 1e-4, 0))};
+    cpu::RigidStep step;
+    for (const V4& p : nodes) {
+        const double mass = 1.0 / p.w;
+        const V3 force = mass * (made.move(V3(p)) - V3(p));
+        step.add(V3(p) - origin, mass, force + V3(0, -9.81 * mass, 0));
+        step.add_along(V3(p) - origin, normal, 1e12 * mass);
+    }
+    const cpu::RigidMotion found = step.solve(origin);
+    for (const V4& p : nodes) EXPECT_LT(glm::distance(found.move(V3(p)), made.move(V3(p))), 3e-8);
+}
+
+// Held by friction it stays, but for what that gives way.
+TEST(RigidMotion, StaysWhereFrictionHolds) {
+    const std::vector<V4> nodes = make_nodes(V3(1));
+    const V3 origin(nodes[0]);
+    cpu::RigidStep step;
+    for (const V4& p : nodes) {
+        step.add(V3(p) - origin, 1.0 / p.w, V3(1, 2, 3));
+        step.add(V3(p) - origin, 1e9, V3(0));
+    }
+    const cpu::RigidMotion found = step.solve(origin);
+    for (const V4& p : nodes) EXPECT_LT(glm::distance(found.move(V3(p)), V3(p)), 1e-8);
 }
 
 TEST(RigidMotion, OfWhatHasNoInertiaIsFinite) {
@@ -64,7 +104,7 @@ TEST(RigidMotion, OfWhatHasNoInertiaIsFinite) {
         const std::vector<V4> nodes = make_nodes(extent);
         std::vector<V3> targets;
         for (const V4& p : make_nodes(V3(1))) targets.push_back(V3(p));
-        const cpu::RigidMotion motion = cpu::nearest_rigid_motion<double>(nodes, targets);
+        const cpu::RigidMotion motion = nearest_motion(nodes, targets);
         for (const V4& p : nodes) EXPECT_LT(glm::distance(motion.move(V3(p)), V3(p)), 3.0);
     }
 }

@@ -19,8 +19,9 @@ TEST_F(BlockDescentOnGpuTest, MatchesTheDoubleReference) {
         ASSERT_NE(model.node_count() % 64, 0u);
         for (const double step : {1e-3, 1.0 / 60.0}) {
             for (const int iterations : {1, 2, 3, 10}) {
-                const test::NodeArrays actual = test::descend_on_gpu(model, step, iterations);
-                EXPECT_LE(test::worst_descent_error(model, step, iterations, actual), 1.0)
+                const test::Descent descent{step, {iterations}};
+                const test::NodeArrays actual = test::descend_on_gpu(model, descent);
+                EXPECT_LE(test::worst_descent_error(model, descent, actual), 1.0)
                     << damping << " s, " << step << " s, " << iterations << " sweeps";
                 EXPECT_TRUE(test::guard_is_untouched(actual.positions, model.node_count()));
                 EXPECT_TRUE(test::guard_is_untouched(actual.velocities, model.node_count()));
@@ -29,10 +30,36 @@ TEST_F(BlockDescentOnGpuTest, MatchesTheDoubleReference) {
     }
 }
 
-TEST_F(BlockDescentOnGpuTest, RepeatsBitForBit) {
+TEST_F(BlockDescentOnGpuTest, KeepsVolumesAsTheDoubleReference) {
+    for (const double poisson_ratio : {0.1, 0.4}) {
+        const Model model = test::make_bodies_to_descend(0.0, poisson_ratio);
+        const test::Descent descent{1.0 / 60.0, {5}};
+        const test::NodeArrays actual = test::descend_on_gpu(model, descent);
+        EXPECT_LE(test::worst_descent_error(model, descent, actual), 1.0) << poisson_ratio;
+    }
+}
+
+TEST_F(BlockDescentOnGpuTest, AcceleratesAsTheDoubleReference) {
+    const Model model = test::make_bodies_to_descend(0.01);
+    const test::Descent descent{1.0 / 60.0, {6, 0.8}};
+    EXPECT_LE(test::worst_descent_error(model, descent, test::descend_on_gpu(model, descent)), 1.0);
+}
+
+// Earlier velocities from which some nodes have gained less than nothing, some a part of gravity, some more
+// than all.
+TEST_F(BlockDescentOnGpuTest, LooksBackAsTheDoubleReference) {
     const Model model = test::make_bodies_to_descend(0.0);
-    const test::NodeArrays one = test::descend_on_gpu(model, 1.0 / 60.0, 10),
-                           two = test::descend_on_gpu(model, 1.0 / 60.0, 10);
+    test::Descent descent{1.0 / 60.0, {1}, model.velocities};
+    for (std::uint32_t n = 0; n < model.node_count(); ++n)
+        descent.earlier_velocities[n].y += 0.1f * static_cast<float>(n % 8) - 0.25f;
+    EXPECT_LE(test::worst_descent_error(model, descent, test::descend_on_gpu(model, descent)), 1.0);
+}
+
+TEST_F(BlockDescentOnGpuTest, RepeatsBitForBit) {
+    const Model model = test::make_bodies_to_descend(0.0, 0.4);
+    const test::Descent descent{1.0 / 60.0, {10, 0.7}};
+    const test::NodeArrays one = test::descend_on_gpu(model, descent),
+                           two = test::descend_on_gpu(model, descent);
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
         EXPECT_EQ(one.positions[n], two.positions[n]);
         EXPECT_EQ(one.velocities[n], two.velocities[n]);
@@ -51,8 +78,8 @@ TEST_F(BlockDescentOnGpuTest, SurvivesDegenerateSprings) {
     const cpu::Nodes<double> start{{model.positions.begin(), model.positions.end()},
                                    {model.velocities.begin(), model.velocities.end()}};
     cpu::Nodes<double> expected = start;
-    cpu::BlockDescent<double>(std::make_shared<const Model>(model), 5).run(0.01, start, expected);
-    const test::NodeArrays actual = test::descend_on_gpu(model, 0.01, 5);
+    cpu::BlockDescent<double>(std::make_shared<const Model>(model), {5}).run(0.01, false, start, expected);
+    const test::NodeArrays actual = test::descend_on_gpu(model, {0.01, {5}});
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
         EXPECT_LT(glm::distance(glm::dvec3(actual.positions[n]), glm::dvec3(expected.positions[n])), 1e-5);
         EXPECT_LT(glm::distance(glm::dvec3(actual.velocities[n]), glm::dvec3(expected.velocities[n])), 1e-3);

@@ -112,13 +112,18 @@ TEST_P(DescentMutantsTest, IsCaught) {
     test::ShaderFolder folder;
     break_shaders(GetParam(), folder);
     bool caught = false;
-    for (const double damping : {0.0, 0.01}) {
-        const Model model = test::make_bodies_to_descend(damping);
-        constexpr double kFrame = 1.0 / 60.0;
-        constexpr int kIterations = 4;
-        caught = caught || test::worst_descent_error(model, kFrame, kIterations,
-                                                     test::descend_on_gpu(model, kFrame, kIterations)) > 1.0;
-    }
+    const auto look = [&](const Model& model, const test::Descent& descent) {
+        caught =
+            caught || test::worst_descent_error(model, descent, test::descend_on_gpu(model, descent)) > 1.0;
+    };
+    constexpr double kFrame = 1.0 / 60.0;
+    for (const double damping : {0.0, 0.01}) look(test::make_bodies_to_descend(damping), {kFrame, {4}});
+    for (const double poisson_ratio : {0.1, 0.4})
+        look(test::make_bodies_to_descend(0.0, poisson_ratio), {kFrame, {4}});
+    const Model model = test::make_bodies_to_descend(0.0);
+    look(model, {kFrame, {3}});
+    look(model, {kFrame, {5, 0.8}});
+    look(model, {kFrame, {1}, model.velocities});
     EXPECT_TRUE(caught) << "the broken kernel passes";
 }
 
@@ -135,8 +140,8 @@ bool step_of_tets_is_wrong(const Model& model, ForceMethod forces) {
 }
 
 bool descent_is_wrong(const Model& model) {
-    constexpr double kFrame = 1.0 / 60.0;
-    return test::worst_descent_error(model, kFrame, 2, test::descend_on_gpu(model, kFrame, 2)) > 1.0;
+    const test::Descent descent{1.0 / 60.0, {2}};
+    return test::worst_descent_error(model, descent, test::descend_on_gpu(model, descent)) > 1.0;
 }
 
 // At rest and then set in motion, so that bounds are tight.
@@ -160,7 +165,7 @@ TEST_P(NeoHookeanMutantsTest, IsCaught) {
         caught = caught || step_of_tets_is_wrong(lively, ForceMethod::fused) ||
                  step_of_tets_is_wrong(lively, ForceMethod::divide_and_merge) ||
                  test::worst_energy_error(lively, test::measure_on_gpu(lively)) > 1.0;
-        Model falling = test::make_bodies_to_descend(damping, MaterialModel::neo_hookean);
+        Model falling = test::make_bodies_to_descend(damping, 0.3, MaterialModel::neo_hookean);
         const Range& point = falling.objects[2].nodes;
         for (std::uint32_t n = point.first; n < point.end(); ++n)
             falling.positions[n] = glm::vec4(0.0f, 1.0f, 1.0f, falling.positions[n].w);

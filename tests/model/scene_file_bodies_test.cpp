@@ -31,6 +31,22 @@ collider = [{ shape = { box = [1, 2, 3] } }, { shape = { sphere = 4 } }]
     EXPECT_EQ(std::get<SphereCollider>(scene.colliders.at(1).shape).radius, 4.0);
 }
 
+TEST_F(SceneFileBodies, ReadsHowAnObjectStarts) {
+    const Scene scene = load(R"(
+material = [{ name = "jelly" }]
+object = [
+    { name = "a", shape = { sphere = 1 } },
+    { name = "b", shape = { sphere = 1 }, start = { scale = [1, 0, 0.5], scatter = 0.1 } },
+]
+)");
+    EXPECT_EQ(scene.objects.at(0).start.scale, glm::dvec3(1.0));
+    EXPECT_EQ(scene.objects.at(0).start.scatter, 0.0);
+    EXPECT_EQ(scene.objects.at(1).start.scale, glm::dvec3(1.0, 0.0, 0.5));
+    EXPECT_EQ(scene.objects.at(1).start.scatter, 0.1);
+    EXPECT_EQ(object_error("shape = {sphere = 1}\nstart = {scatter = -1}"),
+              "scene.toml:5: object.ball.start.scatter = -1: must be 0 or more");
+}
+
 // Names
 
 TEST_F(SceneFileBodies, RefusesNamesThatAreTaken) {

@@ -22,7 +22,7 @@ protected:
         return "no error";
     }
     Model model_ = test::make_lively_model();
-    Checkpoint checkpoint_{42, 0.7, {model_.positions, model_.velocities}};
+    Checkpoint checkpoint_{42, 0.7, {model_.positions, model_.velocities, {}}};
 
 private:
     TemporaryFolder folder_;
@@ -36,6 +36,14 @@ TEST_F(CheckpointTest, GivesBackTheExactBits) {
     EXPECT_EQ(read.time, 0.7);
     EXPECT_EQ(read.state.positions, checkpoint_.state.positions);
     EXPECT_EQ(read.state.velocities, checkpoint_.state.velocities);
+    EXPECT_TRUE(read.state.earlier_velocities.empty());
+}
+
+TEST_F(CheckpointTest, GivesBackEarlierVelocities) {
+    checkpoint_.state.earlier_velocities = model_.velocities;
+    checkpoint_.state.earlier_velocities[3].y = 7.0f;
+    write_checkpoint(file(), model_, checkpoint_);
+    EXPECT_EQ(read_checkpoint(file(), model_).state.earlier_velocities, checkpoint_.state.earlier_velocities);
 }
 
 TEST_F(CheckpointTest, RefusesAnotherScenes) {

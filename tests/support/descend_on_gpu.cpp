@@ -11,32 +11,39 @@
 
 namespace gelatin::test {
 
-NodeArrays descend_on_gpu(const Model& model, double step, int iterations) {
+NodeArrays descend_on_gpu(const Model& model, const Descent& descent) {
     NodeArrays arrays{poisoned(model.node_count()), poisoned(model.node_count())};
+    const bool has_earlier = !descent.earlier_velocities.empty();
+    std::copy(descent.earlier_velocities.begin(), descent.earlier_velocities.end(),
+              arrays.velocities.begin());
     const gpu::ModelBuffers buffers(model);
     const gpu::NodeBuffers previous(model.positions, model.velocities),
         current(arrays.positions, arrays.velocities);
-    gpu::BlockDescent(model, iterations).run(buffers, previous, current, step);
+    gpu::BlockDescent(model, descent.settings).run(buffers, previous, current, descent.step, has_earlier);
     gl::barrier(gl::Barrier::buffer_update);
     current.positions.download(arrays.positions);
     current.velocities.download(arrays.velocities);
     return arrays;
 }
 
-double worst_descent_error(const Model& model, double step, int iterations, const NodeArrays& actual) {
+double worst_descent_error(const Model& model, const Descent& descent, const NodeArrays& actual) {
     const cpu::Nodes<double> start{{model.positions.begin(), model.positions.end()},
                                    {model.velocities.begin(), model.velocities.end()}};
     cpu::Nodes<double> expected = start;
-    cpu::BlockDescent<double>(std::make_shared<const Model>(model), iterations).run(step, start, expected);
-    StepBounds bounds = rounding_bounds(model, SolverKind::semi_implicit_euler, step);
+    const bool has_earlier = !descent.earlier_velocities.empty();
+    if (has_earlier)
+        expected.velocities = {descent.earlier_velocities.begin(), descent.earlier_velocities.end()};
+    cpu::BlockDescent<double>(std::make_shared<const Model>(model), descent.settings)
+        .run(descent.step, has_earlier, start, expected);
+    StepBounds bounds = rounding_bounds(model, SolverKind::semi_implicit_euler, descent.step);
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
-        bounds.position[n] *= iterations;
-        bounds.velocity[n] += bounds.position[n] / step;
+        bounds.position[n] *= descent.settings.iterations;
+        bounds.velocity[n] += bounds.position[n] / descent.step;
     }
     return worst_error(model, bounds, expected, actual.positions, actual.velocities);
 }
 
-Model make_bodies_to_descend(double damping_time, MaterialModel model_of_most) {
+Model make_bodies_to_descend(double damping_time, double poisson_ratio, MaterialModel model_of_most) {
     constexpr unsigned kSeed = 1;
     std::mt19937 random(kSeed);
     std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
@@ -44,7 +51,7 @@ Model make_bodies_to_descend(double damping_time, MaterialModel model_of_most) {
     jelly.youngs_modulus = 2e4;
     jelly.damping = damping_time;
     jelly.model = model_of_most;
-    jelly.poisson_ratio = 0.3;
+    jelly.poisson_ratio = poisson_ratio;
     std::vector<Body> bodies;
     const auto add = [&](glm::ivec3 cells, glm::dvec3 place) -> Body& {
         Body body = make_body(make_block(cells, 0.1 * glm::dvec3(cells), 0.2, kSeed), jelly);
@@ -59,6 +66,7 @@ Model make_bodies_to_descend(double damping_time, MaterialModel model_of_most) {
     ColliderDescription floor, ball;
     floor.shape = PlaneCollider{};
     floor.friction = 0.2;
+    floor.restitution = 0.9;
     ball.shape = SphereCollider{0.3};
     ball.position = {-0.85, 0.4, 0.0};
     Model model = pack_bodies(bodies, {floor, ball}, {0.0, -9.81, 0.0});

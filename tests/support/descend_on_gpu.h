@@ -1,21 +1,31 @@
 #pragma once
 
+#include <vector>
+
+#include "model/solver.h"
 #include "support/step_on_gpu.h"
 
 namespace gelatin::test {
 
+struct Descent {
+    double step;  ///< [s]
+    DescentSettings settings{};
+    std::vector<glm::vec4> earlier_velocities{};  ///< empty: none
+};
+
 /// A step of vertex block descent on the GPU from the model's start, positions and velocities poisoned first
 /// and guarded behind their end.
-NodeArrays descend_on_gpu(const Model& model, double step, int iterations);
+NodeArrays descend_on_gpu(const Model& model, const Descent& descent);
 
 /// The largest error of its nodes against the double reference, over a bound; infinite where something is not
 /// finite. A sweep solves H d = f with f off by as much as rounding_bounds says of a step's forces, and H at
 /// least m / h^2: h^2 times the acceleration's bound, and that once a sweep, for sweeps contract.
-double worst_descent_error(const Model& model, double step, int iterations, const NodeArrays& actual);
+double worst_descent_error(const Model& model, const Descent& descent, const NodeArrays& actual);
 
 /// Bodies in all states that block descent tells apart: free ones in motion, shaken so much that tets are
 /// inside out, one of them of two chunks of nodes; one with pins; one on a floor and against a sphere; with
-/// damping or without. All but the second are made of `model`, that one of springs.
-Model make_bodies_to_descend(double damping_time, MaterialModel model = MaterialModel::mass_spring);
+/// damping or without; of any Poisson's ratio. All but the second are made of `model`, that one of springs.
+Model make_bodies_to_descend(double damping_time, double poisson_ratio = 0.25,
+                             MaterialModel model = MaterialModel::mass_spring);
 
 }  // namespace gelatin::test

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <stdexcept>
 
+#include "model/node_tets.h"
+
 namespace gelatin::test {
 namespace {
 
@@ -21,7 +23,18 @@ Statics::Statics(const Model& model)
     : model_(model),
       forces_(Eigen::VectorXd::Zero(at(model.node_count()))),
       displacements_(forces_),
-      free_(Eigen::VectorXd::Ones(forces_.size())) {}
+      free_(Eigen::VectorXd::Ones(forces_.size())) {
+    if (model_.volume_term.is_empty()) return;
+    for (const glm::uvec4& tet : model_.tets) {
+        Eigen::Matrix<double, 3, 4> slopes;
+        for (int k = 0; k < 4; ++k) {
+            const auto& other = kOppositeCorners[k];
+            const Eigen::Vector3d a = rest(model_, tet[other[0]]);
+            slopes.col(k) = (rest(model_, tet[other[1]]) - a).cross(rest(model_, tet[other[2]]) - a) / 6.0;
+        }
+        volume_slopes_.push_back(slopes);
+    }
+}
 
 void Statics::hold(std::uint32_t node, int axis, double value) {
     displacements_[at(node) + axis] = value;
@@ -38,6 +51,11 @@ void Statics::solve() {
         const Eigen::Vector3d n = (rest(model_, s.j) - rest(model_, s.i)).normalized();
         for (const std::uint32_t end : {s.i, s.j})
             diagonal.segment<3>(at(end)) += static_cast<double>(s.stiffness) * n.cwiseAbs2();
+    }
+    for (std::size_t t = 0; t < volume_slopes_.size(); ++t) {
+        const double stiffness = static_cast<double>(model_.volume_term.tets[t] / model_.tet_rests[t].volume);
+        for (int k = 0; k < 4; ++k)
+            diagonal.segment<3>(at(model_.tets[t][k])) += stiffness * volume_slopes_[t].col(k).cwiseAbs2();
     }
     Eigen::VectorXd residual = (forces_ - stiffness_times(displacements_)).cwiseProduct(free_);
     Eigen::VectorXd z = residual.cwiseQuotient(diagonal), search = z, image;
@@ -60,7 +78,7 @@ Eigen::Vector3d Statics::displacement(std::uint32_t node) const {
     return displacements_.segment<3>(at(node));
 }
 
-Eigen::Vector3d Statics::spring_force(std::uint32_t node) const {
+Eigen::Vector3d Statics::elastic_force(std::uint32_t node) const {
     return -stiffness_times(displacements_).segment<3>(at(node));
 }
 
@@ -86,6 +104,23 @@ Eigen::VectorXd Statics::stiffness_times(const Eigen::VectorXd& u) const {
             static_cast<double>(s.stiffness) * n.dot(u.segment<3>(at(s.i)) - u.segment<3>(at(s.j))) * n;
         result.segment<3>(at(s.i)) += f;
         result.segment<3>(at(s.j)) -= f;
+    }
+    if (volume_slopes_.empty()) return result;
+    std::vector<double> growth(model_.node_count(), 0.0);  // of the volume round each node [m^3]
+    for (std::size_t t = 0; t < volume_slopes_.size(); ++t) {
+        double sum = 0.0;
+        for (int k = 0; k < 4; ++k) sum += volume_slopes_[t].col(k).dot(u.segment<3>(at(model_.tets[t][k])));
+        for (int k = 0; k < 4; ++k) growth[model_.tets[t][k]] += 0.25 * sum;
+    }
+    for (std::size_t t = 0; t < volume_slopes_.size(); ++t) {
+        double stress = 0.0;
+        for (int k = 0; k < 4; ++k) {
+            const std::uint32_t n = model_.tets[t][k];
+            const glm::dvec2 node(model_.volume_term.nodes[n]);
+            stress += 0.25 * node.y * growth[n] / node.x;
+        }
+        for (int k = 0; k < 4; ++k)
+            result.segment<3>(at(model_.tets[t][k])) += stress * volume_slopes_[t].col(k);
     }
     return result;
 }

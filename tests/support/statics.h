@@ -21,8 +21,8 @@ public:
     void solve();
 
     Eigen::Vector3d displacement(std::uint32_t node) const;  ///< [m]
-    /// The springs' force on the node [N]: what holds it there gives the opposite.
-    Eigen::Vector3d spring_force(std::uint32_t node) const;
+    /// The force of springs and volume term on the node [N]: what holds it there gives the opposite.
+    Eigen::Vector3d elastic_force(std::uint32_t node) const;
     /// The body's mean strain, from the displacements of its boundary (Gauss).
     Eigen::Matrix3d mean_strain() const;
 
@@ -30,6 +30,8 @@ private:
     Eigen::VectorXd stiffness_times(const Eigen::VectorXd& u) const;
 
     const Model& model_;
+    std::vector<Eigen::Matrix<double, 3, 4>>
+        volume_slopes_;  // of each tet by its corners [m^2]; none without volume term
     Eigen::VectorXd forces_, displacements_;
     Eigen::VectorXd free_;  // 1, and 0 where a coordinate is held
 };

@@ -41,6 +41,9 @@ std::vector<std::unique_ptr<Solver>> solvers_for(const Model& model, bool with_g
                 std::make_unique<gpu::GpuSolver>(shared, SolverKind::semi_implicit_euler, forces));
         }
     }
+    solvers.push_back(std::make_unique<cpu::CpuSolver<float>>(shared, SolverKind::vbd, ForceMethod::fused));
+    if (with_gl)
+        solvers.push_back(std::make_unique<gpu::GpuSolver>(shared, SolverKind::vbd, ForceMethod::fused));
     return solvers;
 }
 

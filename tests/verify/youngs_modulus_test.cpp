@@ -2,6 +2,7 @@
 // its ends between smooth plates, sides free, is a bar of uniform stress, E = (force / area) / (stretch /
 // length). Measured on the packed model, at rest, to first order. The paper's springs beside it, for what the
 // fit gains.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -33,9 +34,10 @@ TetMesh box_of_tets(const glm::dvec3& size, double edge) {
     return tetrahedralise(make_box(box), mesher, "box");
 }
 
-Model model_of(const TetMesh& mesh, const std::optional<SpringKinds>& springs) {
+Model model_of(const TetMesh& mesh, const std::optional<SpringKinds>& springs, double poisson_ratio = 0.25) {
     Material material;
     material.youngs_modulus = kYoungsModulus;
+    material.poisson_ratio = poisson_ratio;
     material.springs = springs;
     return test::make_model(test::make_body(mesh, material));
 }
@@ -59,7 +61,7 @@ Answer pull_apart(const Model& model, const glm::dvec3& size, int axis) {
     }
     statics.solve();
     double force = 0.0;
-    for (const std::uint32_t n : far_end) force -= statics.spring_force(n)[axis];
+    for (const std::uint32_t n : far_end) force -= statics.elastic_force(n)[axis];
     const double area = size.x * size.y * size.z / size[axis];
     const Eigen::Matrix3d strain = statics.mean_strain();
     const double sideways = 0.5 * (strain.trace() - strain(axis, axis));
@@ -102,6 +104,24 @@ TEST_P(PulledBar, AnswersWithTheModulusAskedFor) {
 }
 TEST_P(PulledBarLong, AnswersWithTheModulusAskedFor) {
     measure();
+}
+
+// With the volume term, which is averaged over nodes.
+TEST(PoissonsRatio, IsWhatWasAskedFor) {
+    const glm::dvec3 size(0.25, 1.0, 0.25);
+    for (const int edges_across : {4, 6}) {
+        const TetMesh mesh = box_of_tets(size, size.x / edges_across);
+        for (const double poisson_ratio : {0.0, 0.1, 0.4, 0.45, 0.49}) {
+            SCOPED_TRACE(testing::Message() << edges_across << " edges across, " << poisson_ratio);
+            const Answer answer = pull_apart(model_of(mesh, std::nullopt, poisson_ratio), size, 1);
+            RecordProperty(fmt::format("across_{}_nu_{}", edges_across, poisson_ratio),
+                           fmt::format("{:.3f} {:.3f}", answer.modulus, answer.poisson_ratio));
+            // What a negative kappa takes away is felt at the surface of a coarse mesh.
+            const double bound = poisson_ratio < 0.25 ? 0.3 / edges_across : 0.02;
+            EXPECT_NEAR(answer.modulus, 1.0, bound + 0.01);
+            EXPECT_NEAR(answer.poisson_ratio, poisson_ratio, bound);
+        }
+    }
 }
 
 TEST(YoungsModulus, IsTheSameInThreeDirections) {

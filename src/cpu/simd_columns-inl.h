@@ -1,10 +1,10 @@
-// Nodes in lanes: rows of memory turned into columns of registers. Compiled once for each instruction set, by
-// those who include highway.h through foreach_target.h; hence no pragma once.
-#if defined(GELATIN_CPU_COLUMNS_SIMD_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef GELATIN_CPU_COLUMNS_SIMD_H
-#undef GELATIN_CPU_COLUMNS_SIMD_H
+// Rows of four floats turned into columns, a lane each. Included once for each instruction set by the files
+// that Highway compiles for several (its foreach_target.h): so the guard is a toggle.
+#if defined(GELATIN_CPU_SIMD_COLUMNS) == defined(HWY_TARGET_TOGGLE)
+#ifdef GELATIN_CPU_SIMD_COLUMNS
+#undef GELATIN_CPU_SIMD_COLUMNS
 #else
-#define GELATIN_CPU_COLUMNS_SIMD_H
+#define GELATIN_CPU_SIMD_COLUMNS
 #endif
 
 #include <hwy/highway.h>
@@ -35,7 +35,7 @@ struct Columns {
     Vector x, y, z, w;
 };
 
-// Rows of four floats, one a lane, turned into columns; `row(lane)` points at a row.
+// `row(lane)` points at a row.
 template <class D, class Row>
 HWY_INLINE Columns load_columns(D d, const Row& row) {
     Vector a, b, c, e;
@@ -56,11 +56,6 @@ HWY_INLINE Columns load_columns(D d, const Row& row) {
     return {hn::InterleaveLower(d, ac_low, be_low), hn::InterleaveUpper(d, ac_low, be_low),
             hn::InterleaveLower(d, ac_high, be_high), hn::InterleaveUpper(d, ac_high, be_high)};
 }
-
-// Three components, a lane each.
-struct Vector3 {
-    Vector x, y, z;
-};
 
 #endif
 }  // namespace gelatin::cpu::HWY_NAMESPACE

@@ -1,18 +1,23 @@
-// cpu::gather_tet_forces for a node a lane. Compiled once for each instruction set, as columns_simd.h is.
-#if defined(GELATIN_CPU_TET_FORCES_SIMD_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef GELATIN_CPU_TET_FORCES_SIMD_H
-#undef GELATIN_CPU_TET_FORCES_SIMD_H
+// cpu::gather_tet_forces for a node a lane. Compiled once for each instruction set, as simd_columns-inl.h is.
+#if defined(GELATIN_CPU_TET_FORCES) == defined(HWY_TARGET_TOGGLE)
+#ifdef GELATIN_CPU_TET_FORCES
+#undef GELATIN_CPU_TET_FORCES
 #else
-#define GELATIN_CPU_TET_FORCES_SIMD_H
+#define GELATIN_CPU_TET_FORCES
 #endif
 
 #include "cpu/advance_nodes.h"
-#include "cpu/columns_simd.h"
+#include "cpu/simd_columns-inl.h"
 #include "cpu/neo_hookean.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {
 #if HWY_TARGET != HWY_SCALAR
+
+// Three components, a lane each.
+struct Vector3 {
+    Vector x, y, z;
+};
 
 HWY_INLINE Vector3 subtract(const Columns& a, const Columns& b) {
     return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};

@@ -1,0 +1,80 @@
+// Sums over a body's nodes, at r from its origin, for Newton's step along rigid motions. In double: what colliders hold
+// outweighs inertia by any factor. CPU twin: gelatin::cpu::RigidStep.
+struct RigidSums {      // 384 bytes
+    dvec4 arm;          // k r; w: k, with k the stiffness that resists alike in all directions
+    dvec4 square;       // k r_x r_x, k r_y r_y, k r_z r_z; w: nodes that are held
+    dvec4 product;      // k r_y r_z, k r_z r_x, k r_x r_y
+    dvec4 force;        // f
+    dvec4 moment;       // r x f
+    dvec4 shifts;       // of surfaces, along n, with t = r x n: k n_x n_x, k n_y n_y, k n_z n_z
+    dvec4 shift_pairs;  // k n_y n_z, k n_z n_x, k n_x n_y
+    dvec4 turns;        // k t_x t_x, ...
+    dvec4 turn_pairs;   // k t_y t_z, ...
+    dvec4 mixed_x;      // k t_x n
+    dvec4 mixed_y;
+    dvec4 mixed_z;
+};
+
+const dvec4 kZero = dvec4(0.0);
+const RigidSums kNothing = RigidSums(kZero, kZero, kZero, kZero, kZero, kZero, kZero, kZero, kZero, kZero, kZero, kZero);
+
+RigidSums add(RigidSums a, RigidSums b) {
+    return RigidSums(a.arm + b.arm, a.square + b.square, a.product + b.product, a.force + b.force, a.moment + b.moment,
+                     a.shifts + b.shifts, a.shift_pairs + b.shift_pairs, a.turns + b.turns,
+                     a.turn_pairs + b.turn_pairs, a.mixed_x + b.mixed_x, a.mixed_y + b.mixed_y, a.mixed_z + b.mixed_z);
+}
+
+void add_node(dvec3 r, double stiffness, dvec3 force, inout RigidSums sums) {
+    sums.arm += dvec4(stiffness * r, stiffness);
+    sums.square.xyz += stiffness * r * r;
+    sums.product.xyz += stiffness * r.yzx * r.zxy;
+    sums.force.xyz += force;
+    sums.moment.xyz += cross(r, force);
+}
+
+void add_along(dvec3 r, dvec3 normal, double stiffness, inout RigidSums sums) {
+    dvec3 turned = cross(r, normal);
+    sums.shifts.xyz += stiffness * normal * normal;
+    sums.shift_pairs.xyz += stiffness * normal.yzx * normal.zxy;
+    sums.turns.xyz += stiffness * turned * turned;
+    sums.turn_pairs.xyz += stiffness * turned.yzx * turned.zxy;
+    sums.mixed_x.xyz += stiffness * turned.x * normal;
+    sums.mixed_y.xyz += stiffness * turned.y * normal;
+    sums.mixed_z.xyz += stiffness * turned.z * normal;
+}
+
+dmat3 symmetric(dvec3 diagonal, dvec3 pairs) {
+    return dmat3(diagonal.x, pairs.z, pairs.y, pairs.z, diagonal.y, pairs.x, pairs.y, pairs.x, diagonal.z);
+}
+
+dmat3 cross_matrix(dvec3 v) { return dmat3(0.0, v.z, -v.y, -v.z, 0.0, v.x, v.y, -v.x, 0.0); }
+
+double inverse_or_zero(double d) { return d > 0.0 ? 1.0 / d : 0.0; }
+
+// m^-1 f by the square-root-free Cholesky decomposition; zero along what has no stiffness.
+dvec3 solve(dmat3 m, dvec3 f) {
+    double i0 = inverse_or_zero(m[0][0]);
+    double l10 = m[0][1] * i0, l20 = m[0][2] * i0;
+    double i1 = inverse_or_zero(m[1][1] - l10 * m[0][1]);
+    double rest = m[1][2] - l20 * m[0][1], l21 = rest * i1;
+    double i2 = inverse_or_zero(m[2][2] - l20 * m[0][2] - l21 * rest);
+    double y1 = f.y - l10 * f.x, y2 = f.z - l20 * f.x - l21 * y1;
+    double z = y2 * i2, y = y1 * i1 - l21 * z;
+    return dvec3(f.x * i0 - l10 * y - l20 * z, y, z);
+}
+
+const double kLeastInertia = 1e-6;
+
+// [A B; B^T C] (shift, turn) = (force, moment) by elimination of the shift.
+void solve_rigid_step(RigidSums sums, out dvec3 shift, out dvec3 turn) {
+    dmat3 identity = dmat3(1.0);
+    double trace = sums.square.x + sums.square.y + sums.square.z;
+    double about_center = trace - dot(sums.arm.xyz, sums.arm.xyz) / sums.arm.w;
+    dmat3 a = sums.arm.w * identity + symmetric(sums.shifts.xyz, sums.shift_pairs.xyz);
+    dmat3 b = dmat3(sums.mixed_x.xyz, sums.mixed_y.xyz, sums.mixed_z.xyz) - cross_matrix(sums.arm.xyz);
+    dmat3 c = (trace + kLeastInertia * 2.0 / 3.0 * about_center) * identity -
+              symmetric(sums.square.xyz, sums.product.xyz) + symmetric(sums.turns.xyz, sums.turn_pairs.xyz);
+    dmat3 a_inverse = inverse(a);
+    turn = solve(c - transpose(b) * a_inverse * b, sums.moment.xyz - transpose(b) * (a_inverse * sums.force.xyz));
+    shift = a_inverse * (sums.force.xyz - b * turn);
+}

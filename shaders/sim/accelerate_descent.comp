@@ -1,0 +1,24 @@
+// Chebyshev's semi-iterative method between the sweeps of block descent.
+// CPU twin: gelatin::cpu::BlockDescent. Parity: tests/gpu/block_descent_test.cpp.
+#include "include/global_index.glsl"
+layout(local_size_x = 64) in;
+
+// An invocation reads and writes its own node.
+layout(std430, binding = 0) buffer Positions { vec4 positions[]; };
+layout(std430, binding = 3) buffer Starts { vec4 sweep_starts[]; };  // of the last two sweeps: all nodes, and again
+uniform uint node_count;
+uniform uint sweep;    // in this step
+uniform float weight;  // w_k
+
+void main() {
+    uint n = global_index();
+    if (n >= node_count) return;
+    vec4 x = positions[n];
+    if (sweep > 1u) {
+        vec3 before = sweep_starts[node_count + n].xyz;
+        x.xyz = weight * (x.xyz - before) + before;
+        positions[n] = x;
+    }
+    sweep_starts[node_count + n] = sweep_starts[n];
+    sweep_starts[n] = x;
+}

@@ -1,0 +1,94 @@
+#include "cpu/tet_resistance.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
+namespace gelatin::cpu {
+namespace {
+
+constexpr std::uint32_t kItemsATask = 256;
+
+template <class Work>
+void for_each(std::size_t count, const Work& work) {
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(count), kItemsATask),
+                      [&](const auto& range) {
+                          for (std::uint32_t i = range.begin(); i < range.end(); ++i) work(i);
+                      });
+}
+
+}  // namespace
+
+template <class Real>
+TetResistance<Real>::TetResistance(std::shared_ptr<const Model> model)
+    : model_(std::move(model)),
+      node_tets_(make_node_tets(model_->node_count(), model_->tets)),
+      ratios_(model_->tets.size()),
+      is_near_flat_(model_->node_count()) {
+    if (model_->volume_term.is_empty()) return;
+    node_pressures_.resize(model_->node_count());
+    offsets_.resize(model_->tets.size());
+}
+
+template <class Real>
+void TetResistance<Real>::look(const std::vector<Vec4<Real>>& positions) {
+    const Model& model = *model_;
+    std::fill(is_near_flat_.begin(), is_near_flat_.end(), std::uint8_t(0));
+    for_each(model.tets.size(), [&](std::uint32_t t) {
+        const glm::uvec4& tet = model.tets[t];
+        const Vec3<Real> a(positions[tet.x]);
+        const Vec3<Real> u = Vec3<Real>(positions[tet.y]) - a, v = Vec3<Real>(positions[tet.z]) - a,
+                         w = Vec3<Real>(positions[tet.w]) - a;
+        ratios_[t] = glm::dot(glm::cross(u, v), w) / (Real(6) * static_cast<Real>(model.tet_rests[t].volume));
+        if (ratios_[t] >= static_cast<Real>(kFlattest)) return;
+        for (int k = 0; k < 4; ++k)
+            std::atomic_ref(is_near_flat_[tet[k]]).store(1, std::memory_order_relaxed);
+    });
+    const VolumeTerm& term = model.volume_term;
+    if (term.is_empty()) return;
+    for_each(model.positions.size(), [&](std::uint32_t n) {
+        Real volume(0);
+        for (std::uint32_t e = node_tets_.starts[n]; e < node_tets_.starts[n + 1]; ++e) {
+            const std::uint32_t t = node_tets_.entries[e] / 4;
+            volume += Real(0.25) * ratios_[t] * static_cast<Real>(model.tet_rests[t].volume);
+        }
+        const auto rest = static_cast<Real>(term.nodes[n].x);
+        node_pressures_[n] =
+            rest > Real(0) ? volume_stress(volume / rest, static_cast<Real>(term.nodes[n].y)) : Real(0);
+    });
+    for_each(model.tets.size(), [&](std::uint32_t t) {
+        const glm::uvec4& tet = model.tets[t];
+        Real sum(0);
+        for (int k = 0; k < 4; ++k) sum += node_pressures_[tet[k]];
+        offsets_[t] = Real(0.25) * sum - static_cast<Real>(term.tets[t]) * ratios_[t];
+    });
+}
+
+template <class Real>
+void TetResistance<Real>::add(std::uint32_t node, const std::vector<Vec4<Real>>& positions,
+                              NodeTerms<Real>& terms) const {
+    const Model& model = *model_;
+    const bool has_volume_term = !model.volume_term.is_empty();
+    if (is_near_flat_[node] == 0 && !has_volume_term) return;
+    const Vec3<Real> position(positions[node]);
+    for (std::uint32_t e = node_tets_.starts[node]; e < node_tets_.starts[node + 1]; ++e) {
+        const std::uint32_t tet = node_tets_.entries[e] / 4, corner = node_tets_.entries[e] % 4;
+        std::array<Vec3<Real>, 3> face;
+        for (std::size_t k = 0; k < 3; ++k) face[k] = positions[model.tets[tet][kOppositeCorners[corner][k]]];
+        const TetRest& rest = model.tet_rests[tet];
+        const auto volume = static_cast<Real>(rest.volume);
+        if (is_near_flat_[node] != 0)
+            add_flat_tet(position, face, volume, static_cast<Real>(rest.modulus), terms);
+        if (has_volume_term)
+            add_tet_volume(position, face, volume, offsets_[tet],
+                           static_cast<Real>(model.volume_term.tets[tet]), terms);
+    }
+}
+
+template class TetResistance<float>;
+template class TetResistance<double>;
+
+}  // namespace gelatin::cpu

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "cpu/node_terms.h"
+#include "cpu/nodes.h"
+#include "model/model.h"
+#include "model/node_tets.h"
+
+namespace gelatin::cpu {
+
+/// What tets add to the springs of vertex block descent: they resist being flat, and, where the material asks
+/// for another Poisson's ratio than springs have, changes of the volume round each node (docs/physics.md).
+template <class Real>
+class TetResistance {
+public:
+    explicit TetResistance(std::shared_ptr<const Model> model);
+
+    /// Looks which tets are flat and how far the volumes are from those at rest.
+    void look(const std::vector<Vec4<Real>>& positions);
+
+    /// Adds the resistance of the node's tets, with the volumes round other nodes as they were at the last
+    /// look.
+    void add(std::uint32_t node, const std::vector<Vec4<Real>>& positions, NodeTerms<Real>& terms) const;
+
+private:
+    std::shared_ptr<const Model> model_;
+    NodeTets node_tets_;
+    std::vector<Real> ratios_;                // J, by tet
+    std::vector<std::uint8_t> is_near_flat_;  // nodes of tets that resist
+    std::vector<Real> node_pressures_;        // [Pa]
+    std::vector<Real> offsets_;               // q [Pa], by tet
+};
+
+}  // namespace gelatin::cpu

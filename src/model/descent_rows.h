@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/model.h"
+#include "model/spring_packing.h"
+
+namespace gelatin {
+
+/// Nodes in the order in which block descent moves them: by colour, each filled up to whole slices of
+/// HalfSprings::kSlice rows with rows that have no node.
+struct DescentRows {
+    std::vector<std::uint32_t> nodes;  ///< kNoNode where there is none, shape [rows]
+    std::vector<Range> colors;         ///< rows
+    HalfSprings springs;               ///< of each row's node
+};
+
+DescentRows make_descent_rows(const Model& model);
+
+}  // namespace gelatin

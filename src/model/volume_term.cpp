@@ -1,0 +1,42 @@
+#include "model/volume_term.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gelatin/scene.h"
+#include "model/model.h"
+
+namespace gelatin {
+
+double shear_modulus(const Material& material) {
+    return material.youngs_modulus / (2.0 * (1.0 + material.poisson_ratio));
+}
+
+double lacking_modulus(const Material& material) {
+    const double nu = material.poisson_ratio;
+    return material.youngs_modulus * (4.0 * nu - 1.0) / (2.0 * (1.0 + nu) * (1.0 - 2.0 * nu));
+}
+
+VolumeTerm make_volume_term(std::span<const glm::uvec4> tets, std::span<const TetRest> rests,
+                            const NodeTets& node_tets) {
+    VolumeTerm term;
+    if (std::all_of(rests.begin(), rests.end(), [](const TetRest& r) { return r.lacking == 0.0f; }))
+        return term;
+    for (std::size_t n = 0; n + 1 < node_tets.starts.size(); ++n) {
+        double volume = 0.0, weighted = 0.0;
+        for (std::uint32_t e = node_tets.starts[n]; e < node_tets.starts[n + 1]; ++e) {
+            const TetRest& rest = rests[node_tets.entries[e] / 4];
+            volume += 0.25 * static_cast<double>(rest.volume);
+            weighted += 0.25 * static_cast<double>(rest.volume) * static_cast<double>(rest.lacking);
+        }
+        term.nodes.emplace_back(volume, volume > 0.0 ? weighted / volume : 0.0);
+    }
+    for (const glm::uvec4& tet : tets) {
+        float sum = 0.0f;
+        for (int k = 0; k < 4; ++k) sum += 0.25f * std::abs(term.nodes[tet[k]].y);
+        term.tets.push_back(sum);
+    }
+    return term;
+}
+
+}  // namespace gelatin

@@ -1,0 +1,84 @@
+// Bodies that start squashed to a plane, a line or a point, or with their nodes at random, find their shape
+// again, at 60 steps a second and any stiffness.
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <tuple>
+
+#include "cpu/cpu_solver.h"
+#include "mesh/shapes.h"
+#include "mesh/tetrahedralise.h"
+#include "model/start_state.h"
+#include "support/test_models.h"
+
+namespace gelatin {
+namespace {
+
+constexpr double kFrame = 1.0 / 60.0;  // [s]
+
+TetMesh make_ball() {
+    return tetrahedralise(make_sphere({0.5, 6}), {}, "ball");
+}
+
+TetMesh make_letter() {
+    TextShape text;
+    text.text = "R";
+    text.depth = 0.3;
+    MesherSettings mesher;
+    mesher.max_volume = 1e-3;
+    return tetrahedralise(make_text(text), mesher, "letter");
+}
+
+struct Squashed {
+    const char* name;
+    StartDescription start;
+};
+
+const Squashed kStarts[] = {{"plane", {{1, 0, 1}, 0.0}},
+                            {"line", {{1, 0, 0}, 0.0}},
+                            {"point", {{0, 0, 0}, 0.0}},
+                            {"random", {{0, 0, 0}, 0.5}}};
+
+// The largest difference of a spring from its rest length, over that.
+double worst_strain(const Model& model, const std::vector<glm::vec4>& positions) {
+    double worst = 0.0;
+    for (const Spring& s : model.springs) {
+        const double length = glm::distance(glm::dvec3(positions[s.i]), glm::dvec3(positions[s.j]));
+        worst = std::max(worst, std::abs(length / static_cast<double>(s.rest_length) - 1.0));
+    }
+    return worst;
+}
+
+void expect_recovery(const TetMesh& mesh, double youngs_modulus) {
+    Body body = test::make_body(mesh);
+    body.material.youngs_modulus = youngs_modulus;
+    const auto model = std::make_shared<const Model>(pack_bodies({body}, {}, {0, -9.81, 0}));
+    for (const Squashed& squashed : kStarts) {
+        Scene scene;
+        scene.objects.resize(1);
+        scene.objects[0].start = squashed.start;
+        cpu::CpuSolver<float> solver(model, SolverKind::vbd, ForceMethod::fused, {}, {20});
+        solver.write_state(*deformed_start(scene, *model));
+        for (int s = 0; s < 600; ++s) solver.advance_nodes(kFrame);
+        EXPECT_LT(worst_strain(*model, solver.read_state().positions), 0.01)
+            << youngs_modulus << " Pa, from a " << squashed.name;
+    }
+}
+
+class Recovery : public ::testing::TestWithParam<double> {};
+class RecoveryLong : public Recovery {};
+INSTANTIATE_TEST_SUITE_P(Moduli, Recovery, ::testing::Values(1e5));
+INSTANTIATE_TEST_SUITE_P(Moduli, RecoveryLong, ::testing::Values(1e3, 1e4, 1e6, 1e7, 1e8, 1e9));
+
+TEST_P(Recovery, OfABall) {
+    expect_recovery(make_ball(), GetParam());
+}
+TEST_P(RecoveryLong, OfABall) {
+    expect_recovery(make_ball(), GetParam());
+}
+TEST_P(RecoveryLong, OfALetter) {
+    expect_recovery(make_letter(), GetParam());
+}
+
+}  // namespace
+}  // namespace gelatin
