@@ -80,8 +80,8 @@ struct Material {
     MaterialModel model = MaterialModel::mass_spring;
     double youngs_modulus = 5e4;  ///< [Pa], > 0
     double density = 1000.0;      ///< [kg/m^3], > 0
-    double poisson_ratio =
-        0.25;  ///< in [0, 0.49]; springs alone answer with 1/4, a volume term does the rest. Neo-Hookean: in [0, 0.5)
+    double poisson_ratio = 0.25;  ///< in [0, 0.49]; springs alone answer with 1/4, a volume term does the
+                                  ///< rest. Neo-Hookean: in [0, 0.5)
     double damping =
         0.0;  ///< Kelvin-Voigt relaxation time [s], >= 0: a spring's damping is damping * stiffness
     /// Of mass_spring alone. Empty: springs whose stiffnesses are fitted to each mesh, so that the body
@@ -153,11 +153,11 @@ struct ObjectDescription {
     std::string name;
     Shape shape;
     MesherSettings mesher;
-    std::string material;             ///< a name in Scene::materials
-    glm::dvec3 position{0.0};         ///< [m]
-    glm::dvec3 rotation{0.0};         ///< about x, then y, then z [degrees]
-    double scale = 1.0;               ///< > 0, applied first
-    glm::dvec3 velocity{0.0};         ///< [m/s]
+    std::string material;      ///< a name in Scene::materials
+    glm::dvec3 position{0.0};  ///< [m]
+    glm::dvec3 rotation{0.0};  ///< about x, then y, then z [degrees]
+    double scale = 1.0;        ///< > 0, applied first
+    glm::dvec3 velocity{0.0};  ///< [m/s]
     StartDescription start;
     std::vector<Region> pins;         ///< nodes in any of these stay where they are
     std::optional<glm::dvec3> color;  ///< linear RGB in [0, 1]; empty: the renderer's palette

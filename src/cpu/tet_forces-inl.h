@@ -7,8 +7,8 @@
 #endif
 
 #include "cpu/advance_nodes.h"
-#include "cpu/simd_columns-inl.h"
 #include "cpu/neo_hookean.h"
+#include "cpu/simd_columns-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {

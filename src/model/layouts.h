@@ -86,9 +86,9 @@ using layouts::Proximity;
 using layouts::ProximityCounts;
 using layouts::RestShape;
 using layouts::RigidMotion;
-using layouts::Touch;
 using layouts::Spring;
 using layouts::SurfaceVertex;
 using layouts::TetCorner;
+using layouts::Touch;
 using layouts::TreeNode;
 }  // namespace gelatin
