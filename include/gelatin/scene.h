@@ -62,6 +62,12 @@ struct CollisionSettings {
     double restitution = 0.3;  ///< normal speed after over before, in [0, 1]
 };
 
+/// What a material's elasticity is made of.
+enum class MaterialModel {
+    mass_spring,  ///< the paper's: springs between nodes
+    neo_hookean,  ///< the tets' own, stable neo-Hookean: any Poisson's ratio (docs/physics.md)
+};
+
 /// Which of the paper's springs a material has (2.2). At least one.
 struct SpringKinds {
     bool structural = true;  ///< the edges of the tets
@@ -72,14 +78,15 @@ struct SpringKinds {
 
 struct Material {
     std::string name;
+    MaterialModel model = MaterialModel::mass_spring;
     double youngs_modulus = 5e4;  ///< [Pa], > 0
     double density = 1000.0;      ///< [kg/m^3], > 0
-    double poisson_ratio =
-        0.25;  ///< in [0, 0.49]; springs alone answer with 1/4, a volume term does the rest
+    double poisson_ratio = 0.25;  ///< in [0, 0.49]; springs alone answer with 1/4, a volume term does the
+                                  ///< rest. Neo-Hookean: in [0, 0.5)
     double damping =
         0.0;  ///< Kelvin-Voigt relaxation time [s], >= 0: a spring's damping is damping * stiffness
-    /// Empty: springs whose stiffnesses are fitted to each mesh, so that the body answers with
-    /// youngs_modulus. With kinds: the paper's, not fitted, which answer softer.
+    /// Of mass_spring alone. Empty: springs whose stiffnesses are fitted to each mesh, so that the body
+    /// answers with youngs_modulus. With kinds: the paper's, not fitted, which answer softer.
     std::optional<SpringKinds> springs;
 };
 

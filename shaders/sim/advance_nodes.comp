@@ -1,10 +1,13 @@
-// One invocation owns one node: it gathers its springs' forces and moves, and writes the node once. No atomics, a fixed
+// One invocation owns one node: it gathers the forces of its springs and tets and moves, and writes the node once. No atomics, a fixed
 // order of summation, so the same input gives the same bits on one driver. A work group is a slice of HalfSprings
 // (src/model/model.h): all its lanes run the same number of times, over neighbouring texels.
 // CPU twin: gelatin::cpu::advance_nodes. Parity: tests/gpu/advance_nodes_test.cpp.
 #include "include/global_index.glsl"
 #include "include/integrate_node.glsl"
 #include "include/spring_force.glsl"
+#ifdef NEO_HOOKEAN
+#include "include/neo_hookean_force.glsl"
+#endif
 layout(local_size_x = 64) in;
 
 layout(binding = 4) uniform usamplerBuffer half_springs;  // HalfSpringPair
@@ -27,5 +30,8 @@ void main() {
         force += spring_force(position, texelFetch(positions, int(pair.z)), velocity,
                               texelFetch(velocities, int(pair.z)), uintBitsToFloat(pair.w), stiffness.y);
     }
+#ifdef NEO_HOOKEAN
+    force += gather_tet_forces(n);
+#endif
     integrate_node(n, velocity, force);
 }

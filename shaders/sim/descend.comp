@@ -23,6 +23,9 @@ layout(binding = 11) uniform samplerBuffer offsets;       // q [Pa], of each tet
 layout(std430, binding = 0) writeonly buffer OutPositions { vec4 out_positions[]; };
 layout(std430, binding = 1) buffer NearFlat { uint near_flat[]; };  // an invocation reads and clears its own node's
 layout(std430, binding = 2) writeonly buffer ObjectTouches { uint object_touches[]; };
+#ifdef NEO_HOOKEAN
+#include "include/neo_hookean_terms.glsl"
+#endif
 uniform uint first_row;
 uniform uint row_count;
 uniform uint clear_marks;  // before they are made anew
@@ -144,6 +147,9 @@ void main() {
 #endif
         }
     }
+#ifdef NEO_HOOKEAN
+    add_neo_hookean_tets(row, terms);
+#endif
     vec3 moved = position.xyz + solve(terms, terms.force);
 #if COLLIDER_KINDS != 0
     Touch touch = push_outside_colliders(start, terms, moved);

@@ -1,7 +1,11 @@
-// The paper's way, third kernel (3.3): each node moves by the forces that were merged for it.
+// The paper's way, third kernel (3.3): each node moves by the forces that were merged for it, and those of its
+// neo-Hookean tets.
 // CPU twin: gelatin::cpu::integrate_nodes. Parity: tests/gpu/divide_and_merge_test.cpp.
 #include "include/global_index.glsl"
 #include "include/integrate_node.glsl"
+#ifdef NEO_HOOKEAN
+#include "include/neo_hookean_force.glsl"
+#endif
 layout(local_size_x = 64) in;
 
 layout(std430, binding = 4) readonly buffer NodeForces { vec4 node_forces[]; };  // [N]
@@ -9,5 +13,9 @@ layout(std430, binding = 4) readonly buffer NodeForces { vec4 node_forces[]; }; 
 void main() {
     uint n = global_index();
     if (n >= node_count) return;
-    integrate_node(n, texelFetch(velocities, int(n)), node_forces[n].xyz);
+    vec3 force = node_forces[n].xyz;
+#ifdef NEO_HOOKEAN
+    force += gather_tet_forces(n);
+#endif
+    integrate_node(n, texelFetch(velocities, int(n)), force);
 }

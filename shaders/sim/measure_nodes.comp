@@ -13,6 +13,9 @@ layout(binding = 5) uniform samplerBuffer stiffnesses;
 layout(binding = 6) uniform usamplerBuffer slice_starts;
 layout(std430, binding = 0) readonly buffer Chunks { Chunk chunks[]; };
 layout(std430, binding = 1) writeonly buffer Sums { NodeSums node_sums[]; };
+#ifdef NEO_HOOKEAN
+#include "include/neo_hookean.glsl"
+#endif
 uniform uint chunk_count;
 uniform vec3 gravity;            // [m/s^2]
 uniform float contact_distance;  // [m]
@@ -36,14 +39,36 @@ float half_spring_energy(uint n, vec3 position) {
     return energy;
 }
 
+#ifdef NEO_HOOKEAN
+// A node has a quarter of the energy of each of its tets.
+float quarter_tet_energy(uint n) {
+    float energy = 0.0;
+    uint end = texelFetch(neo_hookean_starts, int(n / 64u) + 1).x;
+    for (uint e = texelFetch(neo_hookean_starts, int(n / 64u)).x + n % 64u; e < end; e += 64u) {
+        uint entry = texelFetch(neo_hookean_corners, int(e)).x;
+        if (entry == kNoCorner) break;
+        NeoHookeanTet tet = fetch_neo_hookean_tet(entry / 4u);
+        mat3 f = gradient_of(tet, texelFetch(positions, int(tet.nodes.x)).xyz,
+                             texelFetch(positions, int(tet.nodes.y)).xyz, texelFetch(positions, int(tet.nodes.z)).xyz,
+                             texelFetch(positions, int(tet.nodes.w)).xyz);
+        energy += 0.25 * tet.volume * neo_hookean_energy(f, tet.mu, tet.lambda);
+    }
+    return energy;
+}
+#endif
+
 NodeSums measure_node(uint n) {
     vec4 position = texelFetch(positions, int(n));
     vec3 velocity = texelFetch(velocities, int(n)).xyz;
     float mass = position.w > 0.0 ? 1.0 / position.w : 0.0;
     float outside = distance_to_colliders(position.xyz);
     vec3 momentum = mass * velocity;
+    float elastic_energy = half_spring_energy(n, position.xyz);
+#ifdef NEO_HOOKEAN
+    elastic_energy += quarter_tet_energy(n);
+#endif
     return NodeSums(momentum.x, momentum.y, momentum.z, 0.5 * dot(momentum, velocity),
-                    half_spring_energy(n, position.xyz), -mass * dot(gravity, position.xyz), max(0.0, -outside),
+                    elastic_energy, -mass * dot(gravity, position.xyz), max(0.0, -outside),
                     uint(outside < contact_distance));
 }
 

@@ -95,7 +95,7 @@ void merge_spring_forces(const Model& model, std::span<const Vec4<Real>> spring_
 template <class Real>
 void integrate_nodes(const Pass<Real>& pass, std::span<const Vec4<Real>> node_forces, Range nodes) {
     for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-        integrate_node(pass, n, Vec3<Real>(node_forces[n]));
+        integrate_node(pass, n, Vec3<Real>(node_forces[n]) + gather_tet_forces(pass, n));
 }
 
 #define GELATIN_INSTANTIATE(Real)                                                                            \

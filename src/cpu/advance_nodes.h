@@ -34,8 +34,8 @@ template <class Real>
 Pass<Real> make_pass(const Model& model, const ExplicitScheme& scheme, int index, double step,
                      const Nodes<Real>& base, const Nodes<Real>& at, Nodes<Real>& out, Nodes<Real>& sums);
 
-/// Forces and integration fused: each node gathers its springs' forces and moves. Writes the nodes of
-/// `slices` only.
+/// Forces and integration fused: each node gathers the forces of its springs and tets and moves. Writes the
+/// nodes of `slices` only.
 template <class Real>
 void advance_nodes(const Pass<Real>& pass, Range slices);
 
@@ -54,7 +54,7 @@ template <class Real>
 void merge_spring_forces(const Model& model, std::span<const Vec4<Real>> spring_forces,
                          std::span<Vec4<Real>> node_forces, Range nodes);
 
-/// Third loop: each node moves.
+/// Third loop: each node moves, by these forces and those of its neo-Hookean tets.
 template <class Real>
 void integrate_nodes(const Pass<Real>& pass, std::span<const Vec4<Real>> node_forces, Range nodes);
 

@@ -15,6 +15,7 @@
 #include <hwy/highway.h>
 
 #include "cpu/simd_columns-inl.h"
+#include "cpu/tet_forces-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {
@@ -31,13 +32,9 @@ struct Node {
     Columns position, velocity;
 };
 
-struct Force {
-    Vector x, y, z;
-};
-
 // cpu::spring_force for a lane each, added to `force`.
 HWY_INLINE void add_spring_force(Lanes d, const Node& a, const Node& b, Vector rest_length, Vector stiffness,
-                                 Force& force) {
+                                 Vector3& force) {
     const Vector dx = hn::Sub(b.position.x, a.position.x);
     const Vector dy = hn::Sub(b.position.y, a.position.y);
     const Vector dz = hn::Sub(b.position.z, a.position.z);
@@ -59,7 +56,7 @@ HWY_INLINE void add_spring_force(Lanes d, const Node& a, const Node& b, Vector r
 }
 
 // Forces on the nodes first .. first + kLanes.
-HWY_INLINE Force gather_lanes(Lanes d, const Pass<float>& pass, std::uint32_t first) {
+HWY_INLINE Vector3 gather_lanes(Lanes d, const Pass<float>& pass, std::uint32_t first) {
     constexpr std::uint32_t kSlice = HalfSprings::kSlice;
     const float* positions = &pass.positions[0].x;
     const float* velocities = &pass.velocities[0].x;
@@ -69,7 +66,7 @@ HWY_INLINE Force gather_lanes(Lanes d, const Pass<float>& pass, std::uint32_t fi
     };
     const Node self = load_node([&](std::size_t l) { return first + l; });
     const HalfSprings& springs = pass.model.half_springs;
-    Force force{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    Vector3 force{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
     const std::uint32_t end = springs.slice_starts[first / kSlice + 1];
     const std::uint32_t slice_length = end - springs.slice_starts[first / kSlice];
     for (std::uint32_t p = springs.slice_starts[first / kSlice] + first % kSlice; p < end; p += kSlice) {
@@ -95,7 +92,8 @@ void advance_slices(const Pass<float>& pass, Range slices) {
     for (; n + kLanes <= end; n += kLanes) {
         prefetch_lanes(pass.positions + n + kNodesAhead);
         prefetch_lanes(pass.velocities + n + kNodesAhead);
-        const Force force = gather_lanes(d, pass, n);
+        Vector3 force = gather_lanes(d, pass, n);
+        if (!pass.model.neo_hookean_tets.empty()) add_tet_forces(d, pass, n, force);
         HWY_ALIGN float x[kLanes], y[kLanes], z[kLanes];
         hn::Store(force.x, d, x);
         hn::Store(force.y, d, y);

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "cpu/colliders.h"
-#include "cpu/node_terms.h"
+#include "cpu/neo_hookean.h"
 #include "cpu/rigid_motion.h"
 #include "cpu/spring_terms.h"
 #include "model/solver.h"
@@ -156,8 +156,30 @@ void BlockDescent<Real>::move_node(std::uint32_t node, Real step, NodeTerms<Real
     terms.force += inertia * (targets_[node] - position);
     terms.hessian.add_identity(inertia);
     tets_.add(node, positions, terms);
+    add_neo_hookean_tets(node, step, positions, terms);
     const Vec3<Real> moved = outside_colliders(node, terms.hessian, position + solve(terms));
     positions[node] = Vec4<Real>(moved, inverse_mass);
+}
+
+template <class Real>
+void BlockDescent<Real>::add_neo_hookean_tets(std::uint32_t node, Real step,
+                                              const std::vector<Vec4<Real>>& positions,
+                                              NodeTerms<Real>& terms) const {
+    if (model_->neo_hookean_tets.empty()) return;
+    const NodeTets& corners = model_->neo_hookean_corners;
+    for (std::uint32_t e = corners.starts[node]; e < corners.starts[node + 1]; ++e) {
+        const NeoHookeanTet& tet = model_->neo_hookean_tets[corners.entries[e] / 4];
+        const Real volume = static_cast<Real>(tet.gradient_1.w), mu = static_cast<Real>(tet.gradient_2.w),
+                   lambda = static_cast<Real>(tet.gradient_3.w);
+        const Vec3<Real> g = shape_gradient<Real>(tet, corners.entries[e] % 4);
+        const Mat3<Real> f = gradient_of(tet, at_corners(tet, positions.data()));
+        add_neo_hookean(g, f, volume, mu, lambda, terms);
+        const Real damping_time = mean_damping_time(tet, starts_.data());
+        if (damping_time > Real(0)) {
+            const Mat3<Real> start = gradient_of(tet, at_corners(tet, starts_.data()));
+            add_viscosity(g, f, start, volume, mu, lambda, damping_time / step, terms);
+        }
+    }
 }
 
 // Where the node's own objective, to second order, is least outside the collider's tangent plane, behind

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "cpu/node_terms.h"
 #include "cpu/nodes.h"
 #include "cpu/tet_resistance.h"
 #include "model/descent_rows.h"
@@ -37,6 +38,8 @@ private:
     void accelerate(int sweep, std::vector<Vec4<Real>>& positions);
     void sweep(Real step, std::vector<Vec4<Real>>& positions);
     void move_node(std::uint32_t node, Real step, NodeTerms<Real> terms, std::vector<Vec4<Real>>& positions);
+    void add_neo_hookean_tets(std::uint32_t node, Real step, const std::vector<Vec4<Real>>& positions,
+                              NodeTerms<Real>& terms) const;
     Vec3<Real> outside_colliders(std::uint32_t node, const SymmetricMatrix<Real>& hessian,
                                  Vec3<Real> position);
     void move_bodies(Real step, bool is_last, std::vector<Vec4<Real>>& positions) const;

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "cpu/colliders.h"
+#include "cpu/neo_hookean.h"
 
 namespace gelatin::cpu {
 namespace {
@@ -14,10 +15,11 @@ constexpr std::uint32_t kChunk = 1024;
 
 struct Chunk {
     std::uint32_t object;
-    Range nodes, springs, faces;
+    Range nodes, springs, tets, faces;
 };
 
-// Runs of nodes, springs and faces of one object each; summed in parallel, added up in order.
+// Runs of nodes, springs, neo-Hookean tets and faces of one object each; summed in parallel, added up in
+// order.
 std::vector<Chunk> make_chunks(const Model& model) {
     std::vector<Chunk> chunks;
     for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
@@ -26,10 +28,11 @@ std::vector<Chunk> make_chunks(const Model& model) {
             return offset < range.count ? Range{range.first + offset, std::min(kChunk, range.count - offset)}
                                         : Range{};
         };
-        const std::uint32_t most = std::max({object.nodes.count, object.springs.count, object.faces.count});
+        const std::uint32_t most = std::max(
+            {object.nodes.count, object.springs.count, object.neo_hookean_tets.count, object.faces.count});
         for (std::uint32_t offset = 0; offset < most; offset += kChunk) {
-            chunks.push_back(
-                {o, part(object.nodes, offset), part(object.springs, offset), part(object.faces, offset)});
+            chunks.push_back({o, part(object.nodes, offset), part(object.springs, offset),
+                              part(object.neo_hookean_tets, offset), part(object.faces, offset)});
         }
     }
     return chunks;
@@ -64,6 +67,14 @@ ObjectMeasure sum_chunk(const Model& model, const Nodes<Real>& nodes, const Chun
         const double stretch =
             glm::distance(position(spring.i), position(spring.j)) - static_cast<double>(spring.rest_length);
         sums.elastic_energy += 0.5 * static_cast<double>(spring.stiffness) * stretch * stretch;
+    }
+    for (std::uint32_t t = chunk.tets.first; t < chunk.tets.end(); ++t) {
+        const NeoHookeanTet& tet = model.neo_hookean_tets[t];
+        const Mat3<double> f = gradient_of<double>(
+            tet, {position(tet.node_0), position(tet.node_1), position(tet.node_2), position(tet.node_3)});
+        sums.elastic_energy += static_cast<double>(tet.gradient_1.w) *
+                               neo_hookean_energy(f, static_cast<double>(tet.gradient_2.w),
+                                                  static_cast<double>(tet.gradient_3.w));
     }
     const glm::dvec3 origin = position(model.objects[chunk.object].nodes.first);
     for (std::uint32_t f = chunk.faces.first; f < chunk.faces.end(); ++f) {

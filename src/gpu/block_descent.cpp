@@ -28,6 +28,7 @@ gl::Defines volume_defines(const Model& model) {
 gl::Defines sweep_defines(const Model& model) {
     gl::Defines defines = step_defines(model);
     if (model.has_damping()) defines.emplace_back("DAMPED");
+    if (!model.neo_hookean_tets.empty()) defines.emplace_back("NEO_HOOKEAN");
     for (const std::string& define : volume_defines(model)) defines.push_back(define);
     return defines;
 }
@@ -113,6 +114,7 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
     const DescentRows rows = make_descent_rows(model);
     colors_ = rows.colors;
     const std::vector<std::uint32_t> objects = objects_of_nodes(model);
+    neo_hookean_corners_ = NeoHookeanBuffers::Corners(model, rows.nodes);
     const TetCorners corners =
         pack_tet_corners(rows.nodes, make_node_tets(model.node_count(), model.tets), model.tets);
     const std::vector<Chunk> chunks = make_chunks(model, &ModelObject::nodes);
@@ -243,6 +245,8 @@ void BlockDescent::sweep(const ModelBuffers& model) const {
     corner_start_texels_.bind(9);
     tet_rest_texels_.bind(10);
     if (pressures_) pressures_->offset_texels.bind(11);
+    model.neo_hookean.bind_tets();
+    neo_hookean_corners_.bind();
     if (touches_.size() > 0) touches_.bind_storage(3);
     for (const Range& color : colors_) {
         sweep_program_.set("first_row", color.first);

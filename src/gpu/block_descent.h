@@ -53,6 +53,7 @@ private:
     gl::Buffer<glm::vec4> sweep_starts_;  // empty without acceleration
     std::vector<Range> colors_;           // rows
     gl::Buffer<glm::uvec2> rows_;         // node, object
+    NeoHookeanBuffers::Corners neo_hookean_corners_;
     gl::Buffer<HalfSpringPair> half_springs_;
     gl::Buffer<glm::vec2> stiffnesses_;
     gl::Buffer<std::uint32_t> spring_starts_;

@@ -8,6 +8,7 @@ gl::Defines integration_defines(const Model& model, const ExplicitScheme& scheme
     gl::Defines defines = ModelBuffers::collider_defines(model);
     if (scheme.pass_count > 1) defines.emplace_back("MULTI_PASS");
     if (!model.loads.empty()) defines.emplace_back("LOADED");
+    for (const std::string& define : NeoHookeanBuffers::defines(model)) defines.push_back(define);
     return defines;
 }
 
@@ -19,6 +20,7 @@ void bind_integration(const gl::Program& program, const ModelBuffers& model, con
     pass.out.positions.bind_storage(0);
     pass.out.velocities.bind_storage(1);
     model.bind_colliders(program);
+    model.neo_hookean.bind();
 
     const auto h = static_cast<float>(pass.step);
     if (pass.scheme.pass_count > 1) {

@@ -9,6 +9,12 @@
 namespace gelatin::gpu {
 namespace {
 
+gl::Defines node_defines(const Model& model) {
+    gl::Defines defines = ModelBuffers::collider_defines(model);
+    for (const std::string& define : NeoHookeanBuffers::defines(model)) defines.push_back(define);
+    return defines;
+}
+
 template <class T>
 std::vector<T> read_as(const std::vector<std::byte>& bytes) {
     std::vector<T> values(bytes.size() / sizeof(T));
@@ -19,7 +25,7 @@ std::vector<T> read_as(const std::vector<std::byte>& bytes) {
 }  // namespace
 
 Measure::Measure(const Model& model)
-    : node_program_(gl::Program::compute("sim/measure_nodes.comp", ModelBuffers::collider_defines(model))),
+    : node_program_(gl::Program::compute("sim/measure_nodes.comp", node_defines(model))),
       face_program_(gl::Program::compute("sim/measure_faces.comp")),
       colliding_program_(
           gl::Program::compute("sim/count_colliding_faces.comp", self_collision_defines(model))),
@@ -37,6 +43,7 @@ void Measure::begin(const ModelBuffers& model, const NodeBuffers& nodes, const C
     nodes.position_texels.bind(0);
     nodes.velocity_texels.bind(1);
     model.bind_half_springs();
+    model.neo_hookean.bind();
     model.bind_colliders(node_program_);
     node_chunk_buffer_.bind_storage(0);
     node_sums_.bind_storage(1);

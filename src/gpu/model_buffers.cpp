@@ -22,6 +22,7 @@ ModelBuffers::ModelBuffers(const Model& model)
       half_spring_texels(half_springs, gl::TexelFormat::rgba32ui),
       stiffness_texels(stiffnesses, gl::TexelFormat::rg32f),
       slice_start_texels(slice_starts, gl::TexelFormat::r32ui),
+      neo_hookean(model),
       faces(std::span(model.faces)),
       face_texels(faces, gl::TexelFormat::rgba32ui),
       colliders(std::span(model.colliders)),

@@ -28,7 +28,7 @@ void SumLoads::run(const NodeBuffers& nodes) const {
     program_.set("loaded_count", static_cast<std::uint32_t>(loaded_nodes_.size()));
     program_.dispatch(loaded_nodes_.size());
     gl::barrier(gl::Barrier::texture_fetch);
-    force_texels_.bind(15);
+    force_texels_.bind(16);
 }
 
 }  // namespace gelatin::gpu

@@ -20,7 +20,7 @@ public:
     /// @param factors of each load
     void set_factors(std::span<const float> factors);
 
-    /// Binds the forces to texture unit 15, where include/load_force.glsl looks for them, pressures on faces
+    /// Binds the forces to texture unit 16, where include/load_force.glsl looks for them, pressures on faces
     /// as they lie in `nodes`; no texture may be made before they are used. Ends with the barrier that the
     /// next pass needs.
     void run(const NodeBuffers& nodes) const;

@@ -11,11 +11,13 @@
 #include <span>
 #include <utility>
 
+#include "core/log.h"
 #include "gelatin/error.h"
 #include "mesh/topology.h"
 #include "model/box_tree.h"
 #include "model/check_regions.h"
 #include "model/draw_surface.h"
+#include "model/neo_hookean.h"
 #include "model/node_faces.h"
 #include "model/object_mesh.h"
 #include "model/region.h"
@@ -33,6 +35,7 @@ namespace {
 // Sorting all of a small object by degree evens out the slices; in a large one that would undo its locality.
 constexpr std::size_t kSmallObject = 8192;
 constexpr std::uint32_t kSortWindow = 256;
+constexpr double kPoissonRatioOfSprings = 0.25;
 constexpr double kCreaseAngle = 0.7;  // 40 degrees: flatter edges are drawn smooth
 
 // Faces in the order of the tree that is built over them.
@@ -125,8 +128,13 @@ void append_nodes(Model& model, const Body& body, const Arranged& arranged) {
     }
 }
 
-// Pairs of nodes that springs join, as the body's mesh counts them.
-std::vector<glm::uvec2> spring_nodes(const Body& body, const FittedSprings* fitted) {
+bool has_springs(const Body& body) {
+    return body.material.model == MaterialModel::mass_spring;
+}
+
+// Pairs of nodes that pull at each other, as the body's mesh counts them.
+std::vector<glm::uvec2> joined_nodes(const Body& body, const FittedSprings* fitted) {
+    if (!has_springs(body)) return tet_edges(body.mesh.tets);
     std::vector<glm::uvec2> nodes;
     if (fitted != nullptr) {
         for (const UnitSpring& spring : fitted->springs) nodes.push_back(spring.nodes);
@@ -187,16 +195,37 @@ void append_springs(Model& model, const std::vector<Spring>& springs, const std:
     }
 }
 
-// Null where the material names the paper's springs.
+void append_neo_hookean_tets(Model& model, const Body& body, const Arranged& arranged,
+                             std::uint32_t first_node) {
+    const std::vector<glm::dvec3>& positions = arranged.mesh.positions;
+    for (std::size_t t = 0; t < arranged.mesh.tets.size(); ++t) {
+        const Material& material = body.material_of(arranged.old_tets[t]);
+        const NeoHookeanModuli moduli = neo_hookean_moduli(material.youngs_modulus, material.poisson_ratio);
+        checked_float(moduli.mu, body.name, "a tet's mu [Pa]");
+        checked_float(moduli.lambda, body.name, "a tet's lambda [Pa]");
+        const glm::uvec4& tet = arranged.mesh.tets[t];
+        model.neo_hookean_tets.push_back(make_neo_hookean_tet(
+            tet + first_node, {positions[tet.x], positions[tet.y], positions[tet.z], positions[tet.w]},
+            moduli));
+    }
+}
+
+NodeTets make_neo_hookean_corners(const Model& model) {
+    std::vector<glm::uvec4> nodes;
+    for (const NeoHookeanTet& tet : model.neo_hookean_tets) nodes.push_back(nodes_of(tet));
+    return nodes.empty() ? NodeTets() : make_node_tets(model.node_count(), nodes);
+}
+
+// Null where the material names the paper's springs, or has none.
 std::shared_ptr<const FittedSprings> fitted_springs(const Body& body) {
-    if (body.material.springs) return nullptr;
+    if (!has_springs(body) || body.material.springs) return nullptr;
     return body.fitted ? body.fitted : std::make_shared<const FittedSprings>(fit_springs(body.mesh));
 }
 
 void append_body(Model& model, const Body& body) {
     const auto size = [](const auto& array) { return static_cast<std::uint32_t>(array.size()); };
     const std::shared_ptr<const FittedSprings> fitted = fitted_springs(body);
-    const Arranged order = arranged(body.mesh, spring_nodes(body, fitted.get()));
+    const Arranged order = arranged(body.mesh, joined_nodes(body, fitted.get()));
     const TetMesh& mesh = order.mesh;
 
     ModelObject object;
@@ -213,7 +242,7 @@ void append_body(Model& model, const Body& body) {
     for (const HandleDescription& handle : body.handles) append_handle(handle, mesh.positions, first, model);
     object.handle_nodes.count = size(model.handle_nodes) - object.handle_nodes.first;
     append_loads(body.loads, mesh, std::span(model.masses).subspan(first), first, model.loads);
-    append_springs(model, springs_of(body, order, fitted.get()), body.name, first);
+    if (has_springs(body)) append_springs(model, springs_of(body, order, fitted.get()), body.name, first);
     object.springs.count = size(model.springs) - object.springs.first;
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
         const Material& material = body.material_of(order.old_tets[t]);
@@ -221,10 +250,17 @@ void append_body(Model& model, const Body& body) {
         object.rest_volume += volume;
         object.mass += volume * material.density;
         model.tets.push_back(mesh.tets[t] + first);
-        model.tet_rests.push_back({checked_float(volume, body.name, "a tet's volume [m^3]"),
-                                   static_cast<float>(material.youngs_modulus),
-                                   static_cast<float>(lacking_modulus(material))});
+        const float volume_in_float = checked_float(volume, body.name, "a tet's volume [m^3]");
+        if (has_springs(body)) {
+            model.tet_rests.push_back({volume_in_float, static_cast<float>(material.youngs_modulus),
+                                       static_cast<float>(lacking_modulus(material))});
+        } else {
+            model.tet_rests.push_back({volume_in_float, 0.0f, 0.0f});
+        }
     }
+    object.neo_hookean_tets.first = size(model.neo_hookean_tets);
+    if (!has_springs(body)) append_neo_hookean_tets(model, body, order, first);
+    object.neo_hookean_tets.count = size(model.neo_hookean_tets) - object.neo_hookean_tets.first;
     for (const glm::uvec3& f : mesh.faces) {
         model.faces.push_back({f.x + first, f.y + first, f.z + first, size(model.objects)});
     }
@@ -282,13 +318,26 @@ const Material& find_material(const Scene& scene, const ObjectDescription& objec
         {scene.file.string(), line, "object." + object.name + ".material", name, "no such material"});
 }
 
+bool ignores_poisson_ratio(const Material& material, SolverKind solver) {
+    return solver != SolverKind::vbd && material.model == MaterialModel::mass_spring &&
+           material.poisson_ratio != kPoissonRatioOfSprings;
+}
+
+// As the solver has it: explicit ones have springs without the volume term.
+Material for_solver(Material material, SolverKind solver) {
+    if (ignores_poisson_ratio(material, solver)) material.poisson_ratio = kPoissonRatioOfSprings;
+    return material;
+}
+
 void add_parts(const Scene& scene, const ObjectDescription& object, Body& body) {
     for (const PartDescription& part : object.parts) {
-        body.part_materials.push_back(find_material(scene, object, part.material, part.line));
-        if (body.part_materials.back().springs != body.material.springs) {
-            throw InvalidInput(
-                {scene.file.string(), part.line, "object." + object.name + ".part.material", part.material,
-                 fmt::format("must have the same springs as the object's own, '{}'", object.material)});
+        const Material& material = find_material(scene, object, part.material, part.line);
+        body.part_materials.push_back(for_solver(material, scene.simulation.solver));
+        if (material.model != body.material.model || material.springs != body.material.springs) {
+            throw InvalidInput({scene.file.string(), part.line, "object." + object.name + ".part.material",
+                                part.material,
+                                fmt::format("must have the same model and springs as the object's own, '{}'",
+                                            object.material)});
         }
     }
     body.tet_materials = choose_tet_materials(object, body.mesh, scene.file.string());
@@ -298,14 +347,15 @@ Body make_body(const Scene& scene, const ObjectDescription& object, ObjectMesher
     Body body;
     body.name = object.name;
     body.mesh = mesher.make(object);
-    body.material = find_material(scene, object, object.material, object.line);
+    body.material =
+        for_solver(find_material(scene, object, object.material, object.line), scene.simulation.solver);
     add_parts(scene, object, body);
     body.velocity = object.velocity;
     body.spin = glm::radians(object.spin);
     body.pins = object.pins;
     body.handles = object.handles;
     body.loads = object.loads;
-    if (!body.material.springs) body.fitted = mesher.fit(object);
+    if (has_springs(body) && !body.material.springs) body.fitted = mesher.fit(object);
     body.scale = object.scale;
     if (object.color) body.color = glm::vec3(*object.color);
     check_regions(scene.file, object, body.mesh);
@@ -325,6 +375,7 @@ Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDes
     model.gravity = glm::vec3(gravity);
     model.half_springs = pack_half_springs(model.node_count(), model.springs);
     model.incidence = make_incidence(model.node_count(), model.springs);
+    model.neo_hookean_corners = make_neo_hookean_corners(model);
     model.node_faces = make_node_faces(model.node_count(), model.faces);
     model.surface_parts = make_surface_parts(model.faces, model.node_faces);
     model.volume_term =
@@ -336,6 +387,13 @@ Model build_model(const Scene& scene) {
     std::vector<Body> bodies;
     ObjectMesher mesher;
     for (const ObjectDescription& object : scene.objects) bodies.push_back(make_body(scene, object, mesher));
+    for (const Material& material : scene.materials) {
+        if (!ignores_poisson_ratio(material, scene.simulation.solver)) continue;
+        spdlog::warn(
+            "material '{}': poisson_ratio = {} needs solver = \"vbd\" or model = \"neo_hookean\"; "
+            "springs alone answer with {}",
+            material.name, material.poisson_ratio, kPoissonRatioOfSprings);
+    }
     Model model = pack_bodies(bodies, scene.colliders, scene.simulation.gravity);
     if (scene.collision.self_collision) model.rest_shapes = make_rest_shapes(model);
     return model;

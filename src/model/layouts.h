@@ -22,6 +22,7 @@ using glm::vec4;
 #include "layouts/half_spring_pair.glsl"
 #include "layouts/handle.glsl"
 #include "layouts/load.glsl"
+#include "layouts/neo_hookean_tet.glsl"
 #include "layouts/object_pair.glsl"
 #include "layouts/proximity.glsl"
 #include "layouts/rest_shape.glsl"
@@ -50,6 +51,7 @@ static_assert(sizeof(HandleNode) == 32);
 static_assert(sizeof(LeafSearch) == 32);
 static_assert(sizeof(LoadedNode) == 16);
 static_assert(sizeof(NearObject) == 16);
+static_assert(sizeof(NeoHookeanTet) == 64);
 static_assert(sizeof(NodeLoad) == 32);
 static_assert(sizeof(NodeSums) == 32);
 static_assert(sizeof(ObjectPair) == 32);
@@ -88,6 +90,7 @@ using layouts::HandleNode;
 using layouts::LeafSearch;
 using layouts::LoadedNode;
 using layouts::NearObject;
+using layouts::NeoHookeanTet;
 using layouts::NodeLoad;
 using layouts::NodeSums;
 using layouts::ObjectPair;
@@ -96,9 +99,9 @@ using layouts::Proximity;
 using layouts::ProximityCounts;
 using layouts::RestShape;
 using layouts::RigidMotion;
-using layouts::Touch;
 using layouts::Spring;
 using layouts::SurfaceVertex;
 using layouts::TetCorner;
+using layouts::Touch;
 using layouts::TreeNode;
 }  // namespace gelatin

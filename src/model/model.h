@@ -10,6 +10,7 @@
 #include "model/handles.h"
 #include "model/layouts.h"
 #include "model/loads.h"
+#include "model/node_tets.h"
 #include "model/rest_shape.h"
 #include "model/volume_term.h"
 
@@ -26,6 +27,7 @@ struct Range {
 struct ModelObject {
     std::string name;
     Range nodes, springs, faces, tets, handle_nodes;
+    Range neo_hookean_tets;    ///< all of its tets, or none
     double mass = 0.0;         ///< [kg]
     double rest_volume = 0.0;  ///< [m^3]
     glm::vec3 color{0.0f};     ///< linear RGB; negative where the scene does not say
@@ -52,7 +54,7 @@ struct SpringIncidence {
 /// What a tet is at rest.
 struct TetRest {
     float volume;          ///< [m^3], > 0
-    float modulus;         ///< of its resistance to being flat [Pa]: Young's
+    float modulus;         ///< of its resistance to being flat [Pa]: Young's; 0 for neo-Hookean tets
     float lacking = 0.0f;  ///< what its springs lack against changes of volume (model/volume_term.h) [Pa]
 };
 
@@ -104,10 +106,12 @@ struct Model {
     HalfSprings half_springs;
     SpringIncidence incidence;
 
-    std::vector<glm::uvec4> tets;    ///< shape [tets]
-    std::vector<TetRest> tet_rests;  ///< shape [tets]
-    VolumeTerm volume_term;          ///< empty where springs are all there is
-    std::vector<Face> faces;         ///< boundary triangles, shape [faces]
+    std::vector<glm::uvec4> tets;                 ///< shape [tets]
+    std::vector<TetRest> tet_rests;               ///< shape [tets]
+    VolumeTerm volume_term;                       ///< empty where springs are all there is
+    std::vector<NeoHookeanTet> neo_hookean_tets;  ///< of the bodies that have no springs
+    NodeTets neo_hookean_corners;                 ///< by node; empty where there are none
+    std::vector<Face> faces;                      ///< boundary triangles, shape [faces]
     NodeFaces node_faces;
     SurfaceParts surface_parts;
     BoxTree face_trees;      ///< one an object

@@ -30,6 +30,33 @@ NodeTets make_node_tets(std::uint32_t node_count, std::span<const glm::uvec4> te
     return result;
 }
 
+NodeTetSlices pack_node_tets(std::span<const std::uint32_t> rows, const NodeTets& node_tets) {
+    constexpr std::uint32_t kSlice = HalfSprings::kSlice;
+    const auto entries_of = [&](std::uint32_t n) {
+        if (n == kNoNode) return std::span<const std::uint32_t>();
+        return std::span(node_tets.entries)
+            .subspan(node_tets.starts[n], node_tets.starts[n + 1] - node_tets.starts[n]);
+    };
+    NodeTetSlices packed;
+    packed.slice_starts.push_back(0);
+    for (std::size_t first = 0; first < rows.size(); first += kSlice) {
+        const std::size_t end = std::min(first + kSlice, rows.size());
+        const std::uint32_t start = packed.slice_starts.back();
+        std::size_t most = 0;
+        for (std::size_t r = first; r < end; ++r) most = std::max(most, entries_of(rows[r]).size());
+        packed.slice_starts.push_back(start + kSlice * static_cast<std::uint32_t>(most));
+        packed.entries.resize(packed.slice_starts.back(), NodeTetSlices::kNoEntry);
+        for (std::size_t r = first; r < end; ++r) {
+            std::size_t at = start + (r - first);
+            for (const std::uint32_t entry : entries_of(rows[r])) {
+                packed.entries[at] = entry;
+                at += kSlice;
+            }
+        }
+    }
+    return packed;
+}
+
 TetCorners pack_tet_corners(std::span<const std::uint32_t> rows, const NodeTets& node_tets,
                             std::span<const glm::uvec4> tets) {
     constexpr std::uint32_t kSlice = HalfSprings::kSlice;

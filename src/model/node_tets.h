@@ -18,6 +18,18 @@ struct NodeTets {
 
 NodeTets make_node_tets(std::uint32_t node_count, std::span<const glm::uvec4> tets);
 
+/// The entries of each row's node in slices of 64 rows, laid out as HalfSprings' pairs are, padded with
+/// kNoEntry.
+struct NodeTetSlices {
+    static constexpr std::uint32_t kNoEntry = 0xFFFFFFFFu;
+
+    std::vector<std::uint32_t> slice_starts;  ///< shape [slices + 1]
+    std::vector<std::uint32_t> entries;       ///< shape [slice_starts.back()]
+};
+
+/// @param rows nodes, each at most once, or kNoNode
+NodeTetSlices pack_node_tets(std::span<const std::uint32_t> rows, const NodeTets& node_tets);
+
 /// A tet as its corner `place` sees it: the other three counter-clockwise.
 constexpr int kOppositeCorners[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
 

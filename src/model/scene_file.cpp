@@ -16,6 +16,8 @@ constexpr std::string_view kAutomatic = "auto";
 constexpr Limit kSubsteps{"\"auto\" or from 1 to 1000000", [](double v) { return v >= 1.0 && v <= 1e6; }};
 constexpr Limit kIterations{"from 1 to 1000", [](double v) { return v >= 1.0 && v <= 1e3; }};
 constexpr Limit kPoissonRatio{"from 0 to 0.49", [](double v) { return v >= 0.0 && v <= 0.49; }};
+constexpr Limit kNeoHookeanPoissonRatio{"0 or more and less than 0.5 with model = \"neo_hookean\"",
+                                        [](double v) { return v >= 0.0 && v < 0.5; }};
 constexpr Limit kSpectralRadius{"from 0 to less than 1", [](double v) { return v >= 0.0 && v < 1.0; }};
 constexpr Limit kFieldOfView{"greater than 0 and less than 180",
                              [](double v) { return v > 0.0 && v < 180.0; }};
@@ -105,10 +107,16 @@ Material read_material(TableReader& reader) {
     reader.require({"name"});
     reader.read("name", material.name);
     reader.set_path("material." + material.name);
+    reader.read("model", material.model,
+                {{"mass_spring", MaterialModel::mass_spring}, {"neo_hookean", MaterialModel::neo_hookean}});
+    const bool has_springs = material.model == MaterialModel::mass_spring;
     reader.read("youngs_modulus", material.youngs_modulus, kPositive);
     reader.read("density", material.density, kPositive);
-    reader.read("poisson_ratio", material.poisson_ratio, kPoissonRatio);
+    reader.read("poisson_ratio", material.poisson_ratio,
+                has_springs ? kPoissonRatio : kNeoHookeanPoissonRatio);
     reader.read("damping", material.damping, kNotNegative);
+    if (!has_springs && reader.has("springs"))
+        reader.fail("springs", "must not be given with model = \"neo_hookean\", which has none");
     material.springs = read_springs(reader);
     reader.finish();
     return material;

@@ -11,6 +11,7 @@
 
 #include "gelatin/error.h"
 #include "model/explicit_scheme.h"
+#include "model/neo_hookean.h"
 
 namespace gelatin {
 namespace {
@@ -54,10 +55,11 @@ bool is_stable(const ExplicitScheme& scheme, double frequency, double damping, d
     return true;
 }
 
-}  // namespace
+// Stiffness over mass [1/s^2], a block for each node of an object.
+using Blocks = std::vector<Eigen::Matrix3d>;
 
-double frequency_bound(const Model& model, const ModelObject& object, Deformation deformation) {
-    std::vector<Eigen::Matrix3d> blocks(object.nodes.count, Eigen::Matrix3d::Zero());
+// By node of the object.
+std::vector<double> inverse_masses_of(const Model& model, const ModelObject& object) {
     std::vector<double> inverse_masses;
     for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n)
         inverse_masses.push_back(static_cast<double>(model.positions[n].w));
@@ -67,6 +69,11 @@ double frequency_bound(const Model& model, const ModelObject& object, Deformatio
         if (std::isfinite(model.handles[held.handle].release))
             inverse_masses[held.node - object.nodes.first] = static_cast<double>(held.arm.w);
     }
+    return inverse_masses;
+}
+
+void add_springs(const Model& model, const ModelObject& object, Deformation deformation,
+                 const std::vector<double>& inverse_masses, Blocks& blocks) {
     const auto inverse_mass = [&](std::uint32_t n) { return inverse_masses[n - object.nodes.first]; };
     const auto add = [&](std::uint32_t node, std::uint32_t other, const Eigen::Matrix3d& kn) {
         if (inverse_mass(node) == 0.0) return;
@@ -82,6 +89,41 @@ double frequency_bound(const Model& model, const ModelObject& object, Deformatio
         add(spring.i, spring.j, kn);
         add(spring.j, spring.i, kn);
     }
+}
+
+void add_neo_hookean_tets(const Model& model, const ModelObject& object,
+                          const std::vector<double>& inverse_masses, Blocks& blocks) {
+    const auto inverse_mass = [&](std::uint32_t n) { return inverse_masses[n - object.nodes.first]; };
+    for (std::uint32_t t = object.neo_hookean_tets.first; t < object.neo_hookean_tets.end(); ++t) {
+        const NeoHookeanTet& tet = model.neo_hookean_tets[t];
+        const glm::uvec4 nodes = nodes_of(tet);
+        const std::array<glm::dvec3, 4> gradients = shape_gradients(tet);
+        double scale = 0.0;  // V sum |g|^2 / m
+        for (int k = 0; k < 4; ++k) {
+            const glm::dvec3& g = gradients[static_cast<std::size_t>(k)];
+            scale += static_cast<double>(tet.gradient_1.w) * glm::dot(g, g) * inverse_mass(nodes[k]);
+        }
+        const double mu = static_cast<double>(tet.gradient_2.w),
+                     lambda = static_cast<double>(tet.gradient_3.w);
+        const double shear = 0.75 * mu, dilation = lambda - 0.625 * mu;  // Lamé's
+        for (int k = 0; k < 4; ++k) {
+            if (inverse_mass(nodes[k]) == 0.0) continue;
+            const glm::dvec3 n = glm::normalize(gradients[static_cast<std::size_t>(k)]);
+            const Eigen::Vector3d normal(n.x, n.y, n.z);
+            Eigen::Matrix3d& block = blocks[nodes[k] - object.nodes.first];
+            block += scale * (shear + dilation) * normal * normal.transpose();
+            block.diagonal().array() += scale * shear;
+        }
+    }
+}
+
+}  // namespace
+
+double frequency_bound(const Model& model, const ModelObject& object, Deformation deformation) {
+    const std::vector<double> inverse_masses = inverse_masses_of(model, object);
+    Blocks blocks(object.nodes.count, Eigen::Matrix3d::Zero());
+    add_springs(model, object, deformation, inverse_masses, blocks);
+    add_neo_hookean_tets(model, object, inverse_masses, blocks);
     double largest = 0.0;
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
     for (const Eigen::Matrix3d& block : blocks) {

@@ -5,13 +5,16 @@
 
 namespace gelatin {
 
-/// What a bound is asked to hold for: motion about the shape at rest, or in any shape whatever.
+/// What a bound is asked to hold for: motion about the shape at rest, or springs in any shape whatever.
 enum class Deformation { small, any };
 
-/// An upper bound on the highest angular frequency [rad/s] of an object's springs at rest:
+/// An upper bound on the highest angular frequency [rad/s] of an object at rest. With springs:
 ///   omega^2 <= max over nodes i of eig_max( sum_j k_ij (1 + m_i / m_j) n n^T ) / m_i
 /// (each spring's energy split between its ends by (a - b)^2 <= (1 + t) a^2 + (1 + 1/t) b^2, t = m_i / m_j).
 /// In any shape springs may all line up, and pull across their direction too: n n^T is then the identity.
+/// A neo-Hookean tet's energy is split between its corners in the same way, each with a share by |g|^2 / m, g
+/// its shape gradient: V q (mu_L + (mu_L + lambda_L) n n^T), q = sum of |g|^2 / m over the corners, n = g /
+/// |g|, stands for k (1 + m_i / m_j) n n^T / m_i.
 double frequency_bound(const Model& model, const ModelObject& object,
                        Deformation deformation = Deformation::small);
 

@@ -32,7 +32,8 @@ TEST_F(BlockDescentOnGpuTest, MatchesTheDoubleReference) {
 
 TEST_F(BlockDescentOnGpuTest, MatchesTheDoubleReferenceWithLoadsAndHandles) {
     for (const double poisson_ratio : {0.25, 0.4}) {
-        const Model model = test::make_bodies_to_descend(0.01, poisson_ratio, 1, true);
+        const Model model =
+            test::make_bodies_to_descend(0.01, poisson_ratio, MaterialModel::mass_spring, true);
         ASSERT_FALSE(model.loads.empty() || model.handles.empty());
         for (const double step : {1e-3, 1.0 / 60.0}) {
             const test::Descent descent{step, {3}};

@@ -160,6 +160,12 @@ TEST_F(LayoutsTest, Proximities) {
           {FIELD(NearObject, leaf), FIELD(NearObject, object), FIELD(NearObject, first_near),
            FIELD(NearObject, near_count)});
 }
+TEST_F(LayoutsTest, NeoHookeanTet) {
+    check("neo_hookean_tet.glsl", "NeoHookeanTet", sizeof(NeoHookeanTet),
+          {FIELD(NeoHookeanTet, node_0), FIELD(NeoHookeanTet, node_1), FIELD(NeoHookeanTet, node_2),
+           FIELD(NeoHookeanTet, node_3), FIELD(NeoHookeanTet, gradient_1), FIELD(NeoHookeanTet, gradient_2),
+           FIELD(NeoHookeanTet, gradient_3)});
+}
 TEST_F(LayoutsTest, Dispatch) {
     check("dispatch.glsl", "Dispatch", sizeof(Dispatch),
           {FIELD(Dispatch, groups_x), FIELD(Dispatch, groups_y), FIELD(Dispatch, groups_z),

@@ -11,6 +11,7 @@
 #include "support/drive_on_gpu.h"
 #include "support/folded.h"
 #include "support/gl_fixture.h"
+#include "support/measure_on_gpu.h"
 #include "support/parity.h"
 #include "support/proximities.h"
 #include "support/shader_folder.h"
@@ -141,7 +142,7 @@ TEST_P(DriveMutantsTest, IsCaught) {
                                              test::oracle_step(model, solver, kStep), actual.positions,
                                              actual.velocities) > 1.0;
     }
-    const Model bodies = test::make_bodies_to_descend(0.01, 0.25, 1, true);
+    const Model bodies = test::make_bodies_to_descend(0.01, 0.25, MaterialModel::mass_spring, true);
     const test::Descent descent{1.0 / 60.0, {3}};
     caught =
         caught || test::worst_descent_error(bodies, descent, test::descend_on_gpu(bodies, descent)) > 1.0;
@@ -167,6 +168,53 @@ TEST_P(DescentMutantsTest, IsCaught) {
     look(model, {kFrame, {3}});
     look(model, {kFrame, {5, 0.8}});
     look(model, {kFrame, {1}, model.velocities});
+    EXPECT_TRUE(caught) << "the broken kernel passes";
+}
+
+class NeoHookeanMutantsTest : public test::GlTest, public ::testing::WithParamInterface<test::Break> {};
+INSTANTIATE_TEST_SUITE_P(All, NeoHookeanMutantsTest, ::testing::ValuesIn(test::kNeoHookeanMutants),
+                         name_of_mutant);
+
+bool step_of_tets_is_wrong(const Model& model, ForceMethod forces) {
+    constexpr SolverKind kSolver = SolverKind::semi_implicit_euler;
+    const test::NodeArrays actual = test::step_on_gpu(model, kSolver, forces, kStep);
+    return test::worst_error(model, test::rounding_bounds(model, kSolver, kStep),
+                             test::oracle_step(model, kSolver, kStep), actual.positions,
+                             actual.velocities) > 1.0;
+}
+
+bool descent_is_wrong(const Model& model) {
+    const test::Descent descent{1.0 / 60.0, {2}};
+    return test::worst_descent_error(model, descent, test::descend_on_gpu(model, descent)) > 1.0;
+}
+
+// At rest and then set in motion, so that bounds are tight.
+Model make_calm_tets(double damping) {
+    Material material;
+    material.model = MaterialModel::neo_hookean;
+    material.damping = damping;
+    Model model =
+        test::make_model(test::make_body(test::make_block({6, 5, 4}, {0.6, 0.5, 0.4}, 0.2), material));
+    for (std::uint32_t n = 0; n < model.node_count(); ++n)
+        model.velocities[n].x = 0.5f * static_cast<float>(n % 7) - 1.5f;
+    return model;
+}
+
+TEST_P(NeoHookeanMutantsTest, IsCaught) {
+    test::ShaderFolder folder;
+    break_shaders(GetParam(), folder);
+    bool caught = false;
+    for (const double damping : {0.0, 0.01}) {
+        const Model lively = test::make_lively_tets(damping);
+        caught = caught || step_of_tets_is_wrong(lively, ForceMethod::fused) ||
+                 step_of_tets_is_wrong(lively, ForceMethod::divide_and_merge) ||
+                 test::worst_energy_error(lively, test::measure_on_gpu(lively)) > 1.0;
+        Model falling = test::make_bodies_to_descend(damping, 0.3, MaterialModel::neo_hookean);
+        const Range& point = falling.objects[2].nodes;
+        for (std::uint32_t n = point.first; n < point.end(); ++n)
+            falling.positions[n] = glm::vec4(0.0f, 1.0f, 1.0f, falling.positions[n].w);
+        caught = caught || descent_is_wrong(falling) || descent_is_wrong(make_calm_tets(damping));
+    }
     EXPECT_TRUE(caught) << "the broken kernel passes";
 }
 

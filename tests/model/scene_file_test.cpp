@@ -349,6 +349,31 @@ TEST_F(SceneFile, RefusesSpringsThatAreNoListOfKinds) {
               "scene.toml:6: material.jelly.springs[1] = \"flex\": is there twice");
 }
 
+TEST_F(SceneFile, TakesTheModelOfAMaterial) {
+    EXPECT_EQ(load(kBall).materials[0].model, MaterialModel::mass_spring);
+    const Scene scene = load(
+        "material = [{name = 'flesh', model = 'neo_hookean', poisson_ratio = 0.45}]\n"
+        "object = [{name = 'ball', shape = {sphere = 0.5}}]\n");
+    EXPECT_EQ(scene.materials[0].model, MaterialModel::neo_hookean);
+    EXPECT_EQ(scene.materials[0].poisson_ratio, 0.45);
+}
+
+TEST_F(SceneFile, RefusesWhatAModelDoesNotHave) {
+    EXPECT_EQ(
+        material_error("model = 'neo_hookaen'"),
+        "scene.toml:6: material.jelly.model = \"neo_hookaen\": must be mass_spring or neo_hookean (did you "
+        "mean \"neo_hookean\"?)");
+    EXPECT_EQ(
+        material_error("model = 'neo_hookean'\nsprings = ['shear']"),
+        "scene.toml:7: material.jelly.springs = [\"shear\"]: must not be given with model = \"neo_hookean\", "
+        "which has none");
+    for (const char* value : {"-0.1", "0.5"}) {
+        EXPECT_EQ(material_error(std::string("model = 'neo_hookean'\npoisson_ratio = ") + value),
+                  std::string("scene.toml:7: material.jelly.poisson_ratio = ") + value +
+                      ": must be 0 or more and less than 0.5 with model = \"neo_hookean\"");
+    }
+}
+
 TEST_F(SceneFile, RefusesACameraInItsTarget) {
     EXPECT_EQ(error(std::string(kBall) + "[camera]\neye = [1, 1, 1]\ntarget = [1, 1, 1]"),
               "scene.toml:5: camera.eye = [1, 1, 1]: must not be the target");

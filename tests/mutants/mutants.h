@@ -309,6 +309,46 @@ inline constexpr Break kWatchMutants[] = {
      "atomicMin(alarm.speed, finite ?"},
 };
 
+// Of neo-Hookean tets: in explicit steps of either kind, in block descent or in what is measured.
+inline constexpr Break kNeoHookeanMutants[] = {
+    {"tets_pull_in_fused_steps_alone", "sim/integrate_nodes.comp", "force += gather_tet_forces(n);", ""},
+    {"tets_pull_in_divided_steps_alone", "sim/advance_nodes.comp", "force += gather_tet_forces(n);", ""},
+    {"a_corner_has_another_gradient", "include/neo_hookean.glsl", "if (corner == 2u) return tet.gradient_2;",
+     "if (corner == 2u) return tet.gradient_3;"},
+    {"corner_0_has_the_opposite_gradient", "include/neo_hookean.glsl", "return -(tet.gradient_1",
+     "return (tet.gradient_1"},
+    {"a_tet_is_another", "include/neo_hookean.glsl", "int first = int(4u * tet);",
+     "int first = int(4u * (tet ^ 1u));"},
+    {"the_gradient_is_transposed", "include/neo_hookean.glsl", "outerProduct(at_1 - at_0, tet.gradient_1)",
+     "outerProduct(tet.gradient_1, at_1 - at_0)"},
+    {"cofactors_have_the_wrong_sign", "include/neo_hookean.glsl", "cross(f[2], f[0])", "cross(f[0], f[2])"},
+    {"the_origin_has_no_barrier", "include/neo_hookean.glsl", "mu * squares / (squares + 1.0)", "0.75 * mu"},
+    {"rest_is_under_stress", "include/neo_hookean.glsl", "- 0.75 * mu,", "- mu,"},
+    {"points_stay_points", "include/neo_hookean.glsl", "squares < kCollapsed ? mu : 0.0", "0.0"},
+    {"energy_forgets_its_logarithm", "include/neo_hookean.glsl", " - log(0.25 * (squares + 1.0))", ""},
+    {"energy_is_of_three_corners", "sim/measure_nodes.comp", "0.25 * tet.volume", "0.1875 * tet.volume"},
+    {"damping_is_not_averaged", "include/neo_hookean_force.glsl", "0.25 * (v_0.w", "(v_0.w"},
+    {"spin_is_damped", "include/neo_hookean.glsl", "product + transpose(product)", "2.0 * product"},
+    {"viscosity_forgets_the_trace", "include/neo_hookean.glsl", " + mat3((lambda - 0.625 * mu) * trace)", ""},
+    {"lanes_are_shifted", "include/neo_hookean_force.glsl", "+ row % 64u; e < end",
+     "+ (row + 1u) % 64u; e < end"},
+    {"the_last_tets_are_left_out", "include/neo_hookean_force.glsl", "e < end", "e + 64u < end"},
+    {"lanes_of_descent_are_shifted", "include/neo_hookean_terms.glsl", "+ row % 64u; e < end",
+     "+ (row + 1u) % 64u; e < end"},
+    {"the_last_tets_do_not_descend", "include/neo_hookean_terms.glsl", "e < end", "e + 64u < end"},
+    {"pressure_has_no_stiffness", "include/neo_hookean_terms.glsl",
+     "add_outer(tet.volume * tet.lambda, slope, terms);", ""},
+    {"shear_has_no_stiffness", "include/neo_hookean_terms.glsl",
+     "terms.diagonal += tet.volume * stress.shear * dot(g, g);", ""},
+    {"the_barrier_has_no_stiffness", "include/neo_hookean_terms.glsl",
+     "add_outer(tet.volume * 2.0 * tet.mu * over * over, stretched, terms);", ""},
+    {"viscosity_has_no_stiffness", "include/neo_hookean_terms.glsl",
+     "add_outer(scale * (shear + dilation), stretched, terms);", ""},
+    {"viscosity_is_of_the_end", "include/neo_hookean_terms.glsl", "0.5 * (f + start)", "f"},
+    {"viscosity_forgets_the_step", "include/neo_hookean_terms.glsl", "damping_time / time_step",
+     "damping_time"},
+};
+
 /// A broken marking of faces that touch.
 inline constexpr Break kMarkMutants[] = {
     {"the_first_pair_alone_counts", "include/face_collisions.glsl", "k < row.pair_count",

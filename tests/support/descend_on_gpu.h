@@ -24,9 +24,9 @@ double worst_descent_error(const Model& model, const Descent& descent, const Nod
 
 /// Bodies in all states that block descent tells apart: free ones in motion, shaken so much that tets are
 /// inside out, one of them of two chunks of nodes; one with pins; one on a floor and against a sphere; with
-/// damping or without; of any Poisson's ratio. Driven: loads pull and press at the first, and a moving handle
-/// holds the second.
-Model make_bodies_to_descend(double damping_time, double poisson_ratio = 0.25, unsigned seed = 1,
-                             bool driven = false);
+/// damping or without; of any Poisson's ratio. All but the second are made of `model`, that one of springs.
+/// Driven: loads pull and press at the first, and a moving handle holds the second.
+Model make_bodies_to_descend(double damping_time, double poisson_ratio = 0.25,
+                             MaterialModel model = MaterialModel::mass_spring, bool driven = false);
 
 }  // namespace gelatin::test

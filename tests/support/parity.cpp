@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include "cpu/cpu_solver.h"
+#include "cpu/neo_hookean.h"
+#include "model/neo_hookean.h"
 
 namespace gelatin::test {
 namespace {
@@ -13,6 +15,30 @@ double largest(const std::vector<glm::vec4>& values) {
     double most = 0.0;
     for (const glm::vec4& v : values) most = std::max(most, static_cast<double>(glm::length(glm::vec3(v))));
     return most;
+}
+
+// Adds the bounds of tets to those of the nodes' forces.
+void add_tet_bounds(const Model& model, double x, double v, std::vector<double>& force,
+                    std::vector<int>& valence) {
+    for (const NeoHookeanTet& tet : model.neo_hookean_tets) {
+        const auto gradients = shape_gradients(tet);
+        double lengths = 0.0;
+        for (const glm::dvec3& g : gradients) lengths += glm::length(g);
+        const cpu::Mat3<double> f(cpu::gradient_of(tet, cpu::at_corners<float>(tet, model.positions.data())));
+        const double size = std::sqrt(cpu::sum_of_squares(f)), ratio = std::abs(glm::determinant(f));
+        const double mu = static_cast<double>(tet.gradient_2.w),
+                     lambda = static_cast<double>(tet.gradient_3.w);
+        const double damping = static_cast<double>(cpu::mean_damping_time(tet, model.velocities.data()));
+        const double stress = (3.0 + 2.0 * size) * mu +
+                              lambda * (std::pow(size, 4) + 2.0 * (ratio + 1.0) * size) +
+                              damping * (3.0 * mu + 2.0 * lambda) * size * (lengths * v + size * v / x);
+        for (int k = 0; k < 4; ++k) {
+            force[nodes_of(tet)[k]] += static_cast<double>(tet.gradient_1.w) *
+                                       glm::length(gradients[static_cast<std::size_t>(k)]) * stress *
+                                       lengths * x;
+            ++valence[nodes_of(tet)[k]];
+        }
+    }
 }
 
 }  // namespace
@@ -54,6 +80,7 @@ StepBounds rounding_bounds(const Model& model, SolverKind solver, double step) {
             ++valence[loaded.node];
         }
     }
+    add_tet_bounds(model, x, v, force, valence);
     const int passes = explicit_scheme(solver).pass_count;
     StepBounds bounds;
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {

@@ -126,6 +126,30 @@ Model make_driven_model(unsigned seed) {
     return enlivened(body, seed);
 }
 
+Model make_lively_tets(double damping_time, unsigned seed) {
+    Material springs = structural_material(), tets;
+    tets.model = MaterialModel::neo_hookean;
+    tets.poisson_ratio = 0.4;
+    springs.damping = tets.damping = damping_time;
+    Body one = make_body(make_block({4, 5, 4}, {0.4, 0.5, 0.4}, 0.2, seed), springs),
+         two = make_body(make_block({8, 7, 7}, {0.8, 0.7, 0.7}, 0.2, seed), tets);
+    for (glm::dvec3& p : one.mesh.positions) p += glm::dvec3(1.0, -0.02, 0.0);
+    for (glm::dvec3& p : two.mesh.positions) p.y -= 0.02;
+    two.pins = {HalfSpaceRegion{{1.0, 0.0, 0.0}, 0.05}};
+    Model model = pack_bodies({one, two}, {ColliderDescription{}}, {0.0, -9.81, 0.0});
+
+    std::mt19937 random(seed);
+    std::normal_distribution<float> normal;
+    for (std::size_t n = 0; n < model.positions.size(); ++n) {
+        if (model.positions[n].w == 0.0f) continue;
+        for (int k = 0; k < 3; ++k) {
+            model.positions[n][k] += 0.03f * normal(random);
+            model.velocities[n][k] += normal(random);
+        }
+    }
+    return model;
+}
+
 Model make_model(const Net& net) {
     Model model;
     for (std::size_t n = 0; n < net.positions.size(); ++n) {

@@ -31,6 +31,10 @@ Model make_lively_model(unsigned seed = 7);
 /// every kind, several of them on some nodes.
 Model make_driven_model(unsigned seed = 7);
 
+/// Two blocks moved and set in motion at random, so much that some of their tets are inside out: one of
+/// springs, one neo-Hookean with some pins; with damping or without, on a floor; no multiple of 64 nodes.
+Model make_lively_tets(double damping_time, unsigned seed = 7);
+
 /// Springs between points, as a model without tets or faces: for closed-form cases.
 struct Net {
     std::vector<glm::dvec3> positions;   ///< [m]

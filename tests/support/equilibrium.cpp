@@ -1,0 +1,186 @@
+#include "support/equilibrium.h"
+
+#include <Eigen/SparseCholesky>
+#include <numbers>
+#include <stdexcept>
+
+#include "cpu/gather_forces.h"
+#include "cpu/neo_hookean.h"
+#include "model/explicit_scheme.h"
+#include "model/neo_hookean.h"
+
+namespace gelatin::test {
+namespace {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+using Solver = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
+
+Eigen::Index at(std::uint32_t node) {
+    return 3 * static_cast<Eigen::Index>(node);
+}
+
+cpu::Nodes<double> nodes_at(const Model& model, const Eigen::VectorXd& displacements) {
+    cpu::Nodes<double> nodes;
+    for (std::uint32_t n = 0; n < model.node_count(); ++n) {
+        const Eigen::Vector3d d = displacements.segment<3>(at(n));
+        nodes.positions.push_back(glm::dvec4(model.positions[n]) + glm::dvec4(d.x(), d.y(), d.z(), 0.0));
+        nodes.velocities.emplace_back(0.0, 0.0, 0.0, static_cast<double>(model.velocities[n].w));
+    }
+    return nodes;
+}
+
+void add_block(std::uint32_t row, std::uint32_t column, const Eigen::Matrix3d& block, Triplets& triplets) {
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c) triplets.emplace_back(at(row) + r, at(column) + c, block(r, c));
+    }
+}
+
+// Minus the derivative of `force(moved)` on a node by the place of the node `moved`.
+template <class Force>
+Eigen::Matrix3d derivative(const Force& force, cpu::Nodes<double>& nodes, std::uint32_t moved) {
+    constexpr double kStep = 1e-7;  // [m]
+    Eigen::Matrix3d block;
+    for (int axis = 0; axis < 3; ++axis) {
+        double& x = nodes.positions[moved][axis];
+        const double middle = x;
+        x = middle + kStep;
+        const glm::dvec3 ahead = force();
+        x = middle - kStep;
+        const glm::dvec3 behind = force();
+        x = middle;
+        for (int r = 0; r < 3; ++r) block(r, axis) = (behind[r] - ahead[r]) / (2.0 * kStep);
+    }
+    return block;
+}
+
+}  // namespace
+
+Equilibrium::Equilibrium(const Model& model)
+    : model_(model),
+      loads_(Eigen::VectorXd::Zero(at(model.node_count()))),
+      displacements_(loads_),
+      masses_(loads_),
+      free_(Eigen::VectorXd::Ones(loads_.size())) {
+    for (std::uint32_t n = 0; n < model.node_count(); ++n) {
+        masses_.segment<3>(at(n)).setConstant(static_cast<double>(model.masses[n]));
+        if (model.positions[n].w == 0.0f) free_.segment<3>(at(n)).setZero();
+    }
+}
+
+void Equilibrium::hold(std::uint32_t node, int axis, double value) {
+    displacements_[at(node) + axis] = value;
+    free_[at(node) + axis] = 0.0;
+}
+
+void Equilibrium::pull(std::uint32_t node, const Eigen::Vector3d& force) {
+    loads_.segment<3>(at(node)) += force;
+}
+
+void Equilibrium::pull_by_gravity(double share) {
+    const glm::dvec3 g(model_.gravity);
+    for (std::uint32_t n = 0; n < model_.node_count(); ++n)
+        pull(n, share * static_cast<double>(model_.masses[n]) * Eigen::Vector3d(g.x, g.y, g.z));
+}
+
+void Equilibrium::solve() {
+    constexpr int kMostSteps = 60;
+    const auto unbalance = [&](const Eigen::VectorXd& u) {
+        return Eigen::VectorXd((loads_ + elastic_forces(u)).cwiseProduct(free_));
+    };
+    Eigen::VectorXd residual = unbalance(displacements_);
+    const double enough = 1e-9 * (residual.norm() + loads_.cwiseProduct(free_).norm());
+    for (int k = 0; residual.norm() > enough; ++k) {
+        const Solver solver(stiffness(displacements_));
+        if (k == kMostSteps || solver.info() != Eigen::Success)
+            throw std::runtime_error("no equilibrium was found");
+        const Eigen::VectorXd way = solver.solve(residual);
+        double share = 1.0;
+        Eigen::VectorXd next = unbalance(displacements_ + way);
+        // Halved until the forces along the way have not turned round to more than they were.
+        while (std::abs(next.dot(way)) > residual.dot(way) && share > 1e-3) {
+            share *= 0.5;
+            next = unbalance(displacements_ + share * way);
+        }
+        displacements_ += share * way;
+        residual = next;
+    }
+}
+
+Eigen::Vector3d Equilibrium::displacement(std::uint32_t node) const {
+    return displacements_.segment<3>(at(node));
+}
+
+Eigen::Vector3d Equilibrium::elastic_force(std::uint32_t node) const {
+    return elastic_forces(displacements_).segment<3>(at(node));
+}
+
+// Inverse iteration: Rayleigh's quotient converges with the fourth power of the ratio of the two lowest
+// frequencies, or at once where they are the same.
+double Equilibrium::lowest_frequency() const {
+    const Solver solver(stiffness(displacements_));
+    Eigen::VectorXd mode = free_;
+    double squared = 0.0;
+    for (int k = 0; k < 12; ++k) {
+        const Eigen::VectorXd load = masses_.cwiseProduct(mode).cwiseProduct(free_);
+        const Eigen::VectorXd next = solver.solve(load);
+        squared = next.dot(load) / next.dot(masses_.cwiseProduct(next));
+        mode = next / next.norm();
+    }
+    return std::sqrt(squared) / (2.0 * std::numbers::pi);
+}
+
+Eigen::VectorXd Equilibrium::elastic_forces(const Eigen::VectorXd& displacements) const {
+    const cpu::Nodes<double> nodes = nodes_at(model_, displacements);
+    cpu::Nodes<double> out = nodes, sums;
+    const auto pass = cpu::make_pass(model_, explicit_scheme(SolverKind::semi_implicit_euler), 0, 1.0, nodes,
+                                     nodes, out, sums);
+    Eigen::VectorXd forces(displacements.size());
+    for (std::uint32_t n = 0; n < model_.node_count(); ++n) {
+        const glm::dvec3 f = cpu::gather_forces(pass, n);
+        forces.segment<3>(at(n)) = Eigen::Vector3d(f.x, f.y, f.z);
+    }
+    return forces;
+}
+
+Eigen::SparseMatrix<double> Equilibrium::stiffness(const Eigen::VectorXd& displacements) const {
+    cpu::Nodes<double> nodes = nodes_at(model_, displacements);
+    Triplets triplets;
+    for (const NeoHookeanTet& tet : model_.neo_hookean_tets) {
+        const glm::uvec4 corners = nodes_of(tet);
+        for (std::uint32_t row = 0; row < 4; ++row) {
+            const auto force = [&] {
+                return cpu::neo_hookean_force(tet, row, nodes.positions.data(), nodes.velocities.data());
+            };
+            for (int column = 0; column < 4; ++column) {
+                add_block(corners[static_cast<int>(row)], corners[column],
+                          derivative(force, nodes, corners[column]), triplets);
+            }
+        }
+    }
+    for (const Spring& spring : model_.springs) {
+        const auto force = [&] {
+            return cpu::spring_force<double>(nodes.positions[spring.i], nodes.positions[spring.j],
+                                             nodes.velocities[spring.i], nodes.velocities[spring.j],
+                                             static_cast<double>(spring.rest_length),
+                                             static_cast<double>(spring.stiffness));
+        };
+        const Eigen::Matrix3d block = derivative(force, nodes, spring.i);
+        add_block(spring.i, spring.i, block, triplets);
+        add_block(spring.j, spring.j, block, triplets);
+        add_block(spring.i, spring.j, -block, triplets);
+        add_block(spring.j, spring.i, -block, triplets);
+    }
+    // Coordinates that are held answer to nothing and to nobody.
+    Triplets kept;
+    for (const auto& entry : triplets) {
+        if (free_[entry.row()] > 0.0 && free_[entry.col()] > 0.0) kept.push_back(entry);
+    }
+    for (Eigen::Index k = 0; k < free_.size(); ++k) {
+        if (free_[k] == 0.0) kept.emplace_back(k, k, 1.0);
+    }
+    Eigen::SparseMatrix<double> matrix(free_.size(), free_.size());
+    matrix.setFromTriplets(kept.begin(), kept.end());
+    return matrix;
+}
+
+}  // namespace gelatin::test
