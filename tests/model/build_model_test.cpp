@@ -97,8 +97,8 @@ TEST(BuildModel, RefusesPartsWithOtherKindsOfSprings) {
     } catch (const InvalidInput& error) {
         EXPECT_STREQ(
             error.what(),
-            "parts.toml:12: object.cube.part.material = bone: must have the same springs as the object's "
-            "own, 'flesh'");
+            "parts.toml:12: object.cube.part.material = bone: must have the same model and springs as the "
+            "object's own, 'flesh'");
     }
 }
 

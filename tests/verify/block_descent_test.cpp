@@ -40,11 +40,11 @@ Eigen::VectorXd descend(const Model& model, const DescentSettings& settings) {
     return x;
 }
 
-class Convergence : public ::testing::TestWithParam<std::tuple<double, double>> {};
-INSTANTIATE_TEST_SUITE_P(All, Convergence,
+class ConvergenceHeavy : public ::testing::TestWithParam<std::tuple<double, double>> {};
+INSTANTIATE_TEST_SUITE_P(All, ConvergenceHeavy,
                          ::testing::Combine(::testing::Values(1e4, 1e6), ::testing::Values(0.1, 0.25, 0.4)));
 
-TEST_P(Convergence, IsToNewtonsSolution) {
+TEST_P(ConvergenceHeavy, IsToNewtonsSolution) {
     const auto [youngs_modulus, poisson_ratio] = GetParam();
     const Model model = struck_bar(youngs_modulus, poisson_ratio);
     const test::ImplicitEuler objective(model, kFrame);

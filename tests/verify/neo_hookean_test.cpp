@@ -190,7 +190,7 @@ TEST_P(NeoHookeanHangingBar, AnswersAsRecorded) {
 
 // Spheres at 60 steps a second are their own shape again after five seconds (the softest, which swing,
 // twenty). What random starts of bodies that hardly change their volume may end in instead: docs/physics.md.
-TEST(NeoHookeanRecovery, SpheresRecoverFromAnyStart) {
+TEST(NeoHookeanRecoveryHeavy, SpheresRecoverFromAnyStart) {
     SphereShape shape;
     shape.radius = 0.2;
     shape.frequency = 4;
