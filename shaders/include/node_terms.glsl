@@ -25,14 +25,16 @@ vec3 any_direction(uint node) {
     return v / length(v);
 }
 
-// The spring to a node `apart` from this one, which has gone `ahead` of it along the step so far [m].
-void add_spring(vec3 apart, vec3 ahead, vec3 if_coincident, float rest_length, float stiffness, float damping,
+// The spring to a node `apart` from this one, with its damper.
+void add_spring(vec3 apart, vec3 if_coincident, float start_length, float rest_length, float stiffness, float damping,
                 inout NodeTerms terms) {
     float length_ = length(apart);
     vec3 n = length_ > 0.0 ? apart / length_ : -if_coincident;
-    terms.force += stiffness * (length_ - rest_length + damping * dot(ahead, n)) * n;
-    float across = length_ > rest_length ? stiffness * (1.0 - rest_length / length_) : 0.0;
-    add_outer(stiffness * (1.0 + damping) - across, n, terms);
+    float damped = stiffness * (1.0 + damping);
+    float rest = (rest_length + damping * start_length) / (1.0 + damping);
+    terms.force += damped * (length_ - rest) * n;
+    float across = length_ > rest ? damped * (1.0 - rest / length_) : 0.0;
+    add_outer(damped - across, n, terms);
     terms.diagonal += across;
 }
 

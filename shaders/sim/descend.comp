@@ -33,17 +33,15 @@ uniform uint clear_marks;  // before they are made anew
 vec3 position_of(uint node) { return texelFetch(positions, int(node)).xyz; }
 vec3 start_of(uint node) { return texelFetch(start_positions, int(node)).xyz; }
 
-void add_half_spring(vec4 position, vec3 way, float damping_time, vec3 if_coincident, uint other, float rest_length,
+void add_half_spring(vec4 position, vec3 start, float damping_time, vec3 if_coincident, uint other, float rest_length,
                      float stiffness, inout NodeTerms terms) {
-    vec3 other_position = position_of(other);
 #ifdef DAMPED
-    vec3 ahead = other_position - start_of(other) - way;
+    float start_length = distance(start_of(other), start);
     float damping = 0.5 * (damping_time + texelFetch(start_velocities, int(other)).w) / time_step;
 #else
-    vec3 ahead = vec3(0.0);
-    float damping = 0.0;
+    float start_length = 0.0, damping = 0.0;
 #endif
-    add_spring(other_position - position.xyz, ahead, if_coincident, rest_length, stiffness, damping, terms);
+    add_spring(position_of(other) - position.xyz, if_coincident, start_length, rest_length, stiffness, damping, terms);
 }
 
 #if COLLIDER_KINDS != 0
@@ -114,7 +112,6 @@ void main() {
     vec4 position = texelFetch(positions, int(n));
     if (position.w == 0.0) return;
     vec3 start = start_of(n);
-    vec3 way = position.xyz - start;
     float damping_time = texelFetch(start_velocities, int(n)).w;
     float inertia = 1.0 / (position.w * time_step * time_step);  // [N/m]
     NodeTerms terms = NodeTerms(inertia * (target_of(n) - position.xyz), vec3(inertia), vec3(0.0));
@@ -125,8 +122,8 @@ void main() {
     for (uint p = texelFetch(slice_starts, slice).x + row % 64u; p < end; p += 64u) {
         uvec4 pair = texelFetch(half_springs, int(p));
         vec2 stiffness = texelFetch(stiffnesses, int(p)).xy;
-        add_half_spring(position, way, damping_time, if_coincident, pair.x, uintBitsToFloat(pair.y), stiffness.x, terms);
-        add_half_spring(position, way, damping_time, if_coincident, pair.z, uintBitsToFloat(pair.w), stiffness.y, terms);
+        add_half_spring(position, start, damping_time, if_coincident, pair.x, uintBitsToFloat(pair.y), stiffness.x, terms);
+        add_half_spring(position, start, damping_time, if_coincident, pair.z, uintBitsToFloat(pair.w), stiffness.y, terms);
     }
     bool is_near_flat = near_flat[n] != 0u;
     if (is_near_flat && clear_marks != 0u) near_flat[n] = 0u;

@@ -48,21 +48,24 @@ Vec3<Real> any_direction(std::uint32_t node) {
     return v / glm::length(v);
 }
 
-/// The spring to a node `apart` from this one, which has gone `ahead` of it along the step so far [m]. With l
-/// the length of the one, n its direction, L the rest length, k the stiffness, t the damping time, h the
-/// step:
-///   force   k (l - L + (t / h) ahead . n) n
-///   hessian k ((1 + t / h) n n^T + max(0, 1 - L / l) (1 - n n^T)).
-/// The second term of the energy's own Hessian is negative where the spring is shorter than at rest, and is
-/// left out there. @param damping t / h @param if_coincident minus n where l is zero
+/// The spring to a node `apart` from this one. With l the length of that, n its direction, L the rest length,
+/// k the stiffness, t the damping time, h the step and l_0 how long the spring was when it began, the damper
+///   k t / (2 h) (l - l_0)^2
+/// makes it a spring of stiffness K = k (1 + t / h) and rest length M = (L + t / h l_0) / (1 + t / h):
+///   force   K (l - M) n
+///   hessian K (n n^T + max(0, 1 - M / l) (1 - n n^T)).
+/// The second term of the energy's own Hessian is negative where the spring is shorter than M, and is left
+/// out there. @param damping t / h @param if_coincident minus n where l is zero
 template <class Real>
-void add_spring(const Vec3<Real>& apart, const Vec3<Real>& ahead, const Vec3<Real>& if_coincident,
-                Real rest_length, Real stiffness, Real damping, NodeTerms<Real>& terms) {
+void add_spring(const Vec3<Real>& apart, const Vec3<Real>& if_coincident, Real start_length, Real rest_length,
+                Real stiffness, Real damping, NodeTerms<Real>& terms) {
     const Real length = glm::length(apart);
     const Vec3<Real> n = length > Real(0) ? apart / length : -if_coincident;
-    terms.force += stiffness * (length - rest_length + damping * glm::dot(ahead, n)) * n;
-    const Real across = length > rest_length ? stiffness * (Real(1) - rest_length / length) : Real(0);
-    terms.hessian.add_outer(stiffness * (Real(1) + damping) - across, n);
+    const Real damped = stiffness * (Real(1) + damping);
+    const Real rest = (rest_length + damping * start_length) / (Real(1) + damping);
+    terms.force += damped * (length - rest) * n;
+    const Real across = length > rest ? damped * (Real(1) - rest / length) : Real(0);
+    terms.hessian.add_outer(damped - across, n);
     terms.hessian.add_identity(across);
 }
 

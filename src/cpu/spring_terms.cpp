@@ -38,20 +38,22 @@ HWY_INLINE void add_spring_lanes(Lanes d, const Rows& self, const Rows& other, V
     const Vector nx = hn::Mul(dx, inverse_length), ny = hn::Mul(dy, inverse_length),
                  nz = hn::Mul(dz, inverse_length);
 
-    const Vector ahead_x = hn::Sub(dx, hn::Sub(other.start.x, self.start.x));
-    const Vector ahead_y = hn::Sub(dy, hn::Sub(other.start.y, self.start.y));
-    const Vector ahead_z = hn::Sub(dz, hn::Sub(other.start.z, self.start.z));
-    const Vector ahead = hn::MulAdd(ahead_x, nx, hn::MulAdd(ahead_y, ny, hn::Mul(ahead_z, nz)));
+    const Vector ex = hn::Sub(other.start.x, self.start.x);
+    const Vector ey = hn::Sub(other.start.y, self.start.y);
+    const Vector ez = hn::Sub(other.start.z, self.start.z);
+    const Vector start_length = hn::Sqrt(hn::MulAdd(ex, ex, hn::MulAdd(ey, ey, hn::Mul(ez, ez))));
     const Vector damping =
         hn::Mul(hn::Mul(hn::Set(d, 0.5f), hn::Add(self.start.w, other.start.w)), inverse_step);
+    const Vector damped = hn::MulAdd(stiffness, damping, stiffness);
+    const Vector rest = hn::Div(hn::MulAdd(damping, start_length, rest_length), hn::Add(one, damping));
 
-    const Vector pull = hn::Mul(stiffness, hn::MulAdd(damping, ahead, hn::Sub(length, rest_length)));
+    const Vector pull = hn::Mul(damped, hn::Sub(length, rest));
     terms.force_x = hn::MulAdd(pull, nx, terms.force_x);
     terms.force_y = hn::MulAdd(pull, ny, terms.force_y);
     terms.force_z = hn::MulAdd(pull, nz, terms.force_z);
 
-    const Vector across = hn::Max(hn::Mul(stiffness, hn::NegMulAdd(rest_length, inverse_length, one)), zero);
-    const Vector along = hn::Sub(hn::MulAdd(stiffness, damping, stiffness), across);
+    const Vector across = hn::Max(hn::Mul(damped, hn::NegMulAdd(rest, inverse_length, one)), zero);
+    const Vector along = hn::Sub(damped, across);
     const Vector along_x = hn::Mul(along, nx), along_y = hn::Mul(along, ny), along_z = hn::Mul(along, nz);
     terms.xx = hn::Add(hn::MulAdd(along_x, nx, terms.xx), across);
     terms.yy = hn::Add(hn::MulAdd(along_y, ny, terms.yy), across);

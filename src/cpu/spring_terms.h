@@ -29,11 +29,10 @@ void add_row_spring(const SpringRows<Real>& from, std::uint32_t node, std::uint3
                     float stiffness, NodeTerms<Real>& terms) {
     const Vec4<Real>&position = from.positions[node], &other_position = from.positions[other];
     const Vec4<Real>&start = from.starts[node], &other_start = from.starts[other];
-    const Vec3<Real> apart(other_position - position);
-    const Vec3<Real> ahead = apart - Vec3<Real>(other_start - start);
     const Real damping = Real(0.5) * (start.w + other_start.w) * from.inverse_step;
-    add_spring(apart, ahead, any_direction<Real>(node), static_cast<Real>(rest_length),
-               static_cast<Real>(stiffness), damping, terms);
+    const Real start_length = glm::distance(Vec3<Real>(other_start), Vec3<Real>(start));
+    add_spring(Vec3<Real>(other_position - position), any_direction<Real>(node), start_length,
+               static_cast<Real>(rest_length), static_cast<Real>(stiffness), damping, terms);
 }
 
 }  // namespace gelatin::cpu

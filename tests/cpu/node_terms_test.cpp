@@ -68,7 +68,7 @@ constexpr double kRest = 0.8, kStiffness = 30.0;
 
 Terms spring_terms(const V& x, const V& other, double damping = 0.0, const V& start = V(0)) {
     Terms terms;
-    cpu::add_spring(other - x, start - x, V(1, 0, 0), kRest, kStiffness, damping, terms);
+    cpu::add_spring(other - x, V(1, 0, 0), glm::distance(other, start), kRest, kStiffness, damping, terms);
     return terms;
 }
 
@@ -99,14 +99,18 @@ TEST(NodeTerms, ASpringsForceAndHessianAreThoseOfItsEnergy) {
     EXPECT_GT(stretched, 50);
 }
 
-// The damping force does the work of k t l'^2, and pulls against what the node has moved along the spring.
-TEST(NodeTerms, DampingActsAlongTheSpring) {
+// The damper pulls back by k t / h what the spring got longer in the step, and lets it turn.
+TEST(NodeTerms, DampingResistsChangesOfLengthAlone) {
     const V start(0, 0, 0), other(kRest, 0, 0), moved(0.1, 0.2, 0);
     const double damping = 2.0;  // t / h
-    const V with = spring_terms(moved, other, damping, start).force,
-            without = spring_terms(moved, other).force;
+    const auto damper = [&](const V& at) {
+        return spring_terms(at, other, damping, start).force - spring_terms(at, other).force;
+    };
     const V n = glm::normalize(other - moved);
-    EXPECT_LT(glm::distance(with - without, -kStiffness * damping * glm::dot(moved - start, n) * n), 1e-12);
+    const double longer = glm::distance(other, moved) - kRest;
+    EXPECT_LT(glm::distance(damper(moved), kStiffness * damping * longer * n), 1e-12);
+    const V turned = other + kRest * glm::normalize(V(-1, 2, 3));
+    EXPECT_LT(glm::length(damper(turned)), 1e-12);
 }
 
 TEST(NodeTerms, NodesInOnePlaceAreDrivenApart) {
@@ -115,7 +119,7 @@ TEST(NodeTerms, NodesInOnePlaceAreDrivenApart) {
         EXPECT_NEAR(glm::length(way), 1.0, 1e-12);
         EXPECT_NE(way, cpu::any_direction<double>(n + 1));
         Terms terms;
-        cpu::add_spring(V(0), V(0), way, kRest, kStiffness, 0.0, terms);
+        cpu::add_spring(V(0), way, kRest, kRest, kStiffness, 0.0, terms);
         EXPECT_LT(glm::distance(terms.force, kStiffness * kRest * way), 1e-12);
     }
 }
