@@ -112,13 +112,14 @@ void BlockDescent<Real>::take_back_tangled(std::vector<Vec4<Real>>& positions) c
 
 // Chebyshev's semi-iterative method (Golub, Varga 1961; for nonlinear sweeps Wang 2015): sweep k starts at
 //   x_k = w_k (x - x_(k-2)) + x_(k-2),  w_1 = 1,  w_2 = 2 / (2 - rho^2),  w_k = 4 / (4 - rho^2 w_(k-1)),
-// with x what the last one has found, so that what comes last is a sweep, which colliders have seen.
+// with x what the last one has found, so that what comes last is a sweep, which colliders have seen. Bodies
+// that touch one are left alone: what holds them changes from sweep to sweep.
 template <class Real>
 void BlockDescent<Real>::accelerate(int sweep, std::vector<Vec4<Real>>& positions) {
     const auto weight = static_cast<Real>(chebyshev_weight(settings_.chebyshev, sweep));
     for_each(model_->node_count(), [&](std::uint32_t n) {
         Vec3<Real> x(positions[n]);
-        if (sweep > 1) x = weight * (x - before_last_[n]) + before_last_[n];
+        if (sweep > 1 && touches_[object_of_[n]] == 0) x = weight * (x - before_last_[n]) + before_last_[n];
         before_last_[n] = last_[n];
         last_[n] = x;
         positions[n] = Vec4<Real>(x, positions[n].w);

@@ -204,6 +204,8 @@ void BlockDescent::take_back_tangled(const NodeBuffers& current) const {
 
 void BlockDescent::accelerate(int sweep) const {
     sweep_starts_.bind_storage(3);
+    object_touches_.bind_storage(2);
+    node_object_texels_.bind(12);
     accelerate_program_.set("node_count", node_count_);
     accelerate_program_.set("sweep", static_cast<std::uint32_t>(sweep));
     accelerate_program_.set("weight", static_cast<float>(chebyshev_weight(settings_.chebyshev, sweep)));
