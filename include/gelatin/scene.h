@@ -33,7 +33,7 @@ struct SimulationSettings {
     double frame_time() const { return 1.0 / frame_rate; }  ///< [s]
 };
 
-/// How faces that cannot touch are left out before face is tested against face (docs/physics.md).
+/// How faces that cannot touch are left out before face is tested against face (docs/collision.md).
 enum class BroadPhase {
     none,       ///< not at all: every face of every object against every face of every other
     boxes,      ///< the paper's: objects whose bounding boxes meet, every face against every face

@@ -1,5 +1,5 @@
 // How the corners of each pair answer: they leave the contact plane with the restitution, the impulses of the two sides
-// being equal and opposite, and are slowed by friction (docs/physics.md). CPU twin: src/cpu/contact.h.
+// being equal and opposite, and are slowed by friction (docs/collision.md). CPU twin: src/cpu/contact.h.
 // Parity: tests/gpu/respond_test.cpp.
 #include "include/pairs.glsl"
 #include "include/contact_plane.glsl"

@@ -1,4 +1,4 @@
-// The response to faces of one object that touch one another (docs/physics.md). Without NODES: the mean answer of a face
+// The response to faces of one object that touch one another (docs/collision.md). Without NODES: the mean answer of a face
 // to those that it touches, one invocation a face that touches any; with it: a node takes the mean of its faces' answers.
 // Sums go in the order of the tree and of the node's faces: the same bits each time.
 // CPU twins: gelatin::cpu::RespondToSelf, src/cpu/self_contact.h. Parity: tests/gpu/self_collision_test.cpp.

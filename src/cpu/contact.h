@@ -76,7 +76,7 @@ struct ContactProperties {
 
 /// The answer of the side `patch` to a contact with the side `other`: both sides' corners that approach the
 /// contact plane leave it with the restitution, and the impulses of the two sides are equal and opposite.
-/// See docs/physics.md. A pinned side takes any impulse.
+/// See docs/collision.md. A pinned side takes any impulse.
 /// @param resting_speed slower than this [m/s], nothing bounces
 template <class Real>
 ContactResponse<Real> contact_response(const ContactPlane<Real>& plane, const ApproachSums<Real>& approach,

@@ -7,7 +7,7 @@
 namespace gelatin::cpu {
 
 /// The response to faces of one object that touch one another: as cpu::respond, but face by face, for a body
-/// that folds touches itself in several places and directions (docs/physics.md). Momentum is kept; the same
+/// that folds touches itself in several places and directions (docs/collision.md). Momentum is kept; the same
 /// bits for any number of threads. GPU twin: shaders/sim/respond_to_self.comp.
 /// @param step from `previous` to `current` [s]
 template <class Real>

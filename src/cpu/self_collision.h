@@ -15,7 +15,7 @@ namespace gelatin::cpu {
 /// Finds which faces of an object touch others of the same object; those that share a corner are left out.
 ///
 /// Two faces cannot touch while both are calm: nearer to where an affine map of the rest shape puts them than
-/// half of what that map leaves of their clearance at rest (docs/physics.md). Only faces that are not walk
+/// half of what that map leaves of their clearance at rest (docs/collision.md). Only faces that are not walk
 /// through their object's tree, and only objects that their last map does not explain are looked at by face.
 /// GPU twin: gpu::FindSelfCollisions.
 template <class Real>

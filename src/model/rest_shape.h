@@ -9,7 +9,7 @@ namespace gelatin {
 
 struct Model;
 
-/// The objects' shapes at rest, by which a self-collision is known to be impossible (docs/physics.md).
+/// The objects' shapes at rest, by which a self-collision is known to be impossible (docs/collision.md).
 struct RestShapes {
     std::vector<RestShape> objects;
     std::vector<glm::vec4> offsets;  ///< of the nodes from their objects' middles at rest [m], shape [nodes]

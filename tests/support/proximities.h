@@ -56,7 +56,7 @@ struct ProximityErrors {
 };
 
 /// Distances may be off by 4 eps times the extent of the pair over the sine that its normal is made of, at
-/// least that of kParallel; what closes the way between the points by 32 times that (docs/physics.md).
+/// least that of kParallel; what closes the way between the points by 32 times that (docs/collision.md).
 template <class Real>
 ProximityErrors check_proximities(const Model& model, const CollisionSettings& settings,
                                   const FoundProximities& found);
