@@ -192,6 +192,7 @@ Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, const Symme
     if (node_touches_.empty()) return position;
     Touch touch;
     for (const Collider& collider : model_->colliders) {
+        if (is_above_plane(collider, position)) continue;  // as most nodes are
         const SurfaceDistance<Real> surface = surface_distance(collider, position);
         if (surface.distance >= Real(0)) continue;
         const Vec3<Real>& n = surface.normal;
@@ -227,7 +228,7 @@ Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, const Symme
         const Real left = length - std::min(needed, most) * sliding_compliance;
         touch.across = most < stiffness * left ? most / left : stiffness;
     }
-    node_touches_[node] = touch;
+    if (touch.along > Real(0) || node_touches_[node].along > Real(0)) node_touches_[node] = touch;
     return position;
 }
 

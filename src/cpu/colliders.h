@@ -39,6 +39,13 @@ SurfaceDistance<Real> distance_to_box(const Vec3<Real>& p, const Vec3<Real>& hal
     return {q.z, Vec3<Real>(0, 0, side.z)};
 }
 
+/// True if the collider is a plane and the point outside or on it.
+template <class Real>
+bool is_above_plane(const Collider& collider, const Vec3<Real>& p) {
+    return collider.kind == 0 &&
+           glm::dot(Vec3<Real>(collider.center), p) >= static_cast<Real>(collider.center.w);
+}
+
 template <class Real>
 SurfaceDistance<Real> surface_distance(const Collider& collider, const Vec3<Real>& p) {
     const Vec3<Real> center(collider.center);
