@@ -20,13 +20,13 @@
 #include "model/neo_hookean.h"
 #include "model/node_faces.h"
 #include "model/object_mesh.h"
+#include "model/pack_colliders.h"
 #include "model/region.h"
 #include "model/spring_moduli.h"
 #include "model/spring_packing.h"
 #include "model/springs.h"
 #include "model/surface_parts.h"
 #include "model/tet_materials.h"
-#include "model/transform.h"
 #include "model/volume_term.h"
 
 namespace gelatin {
@@ -269,46 +269,6 @@ void append_body(Model& model, const Body& body) {
     model.objects.push_back(std::move(object));
 }
 
-struct ColliderPacker {
-    const ColliderDescription& description;
-
-    Collider operator()(const PlaneCollider& plane) const {
-        Collider c = common(0);
-        c.center = glm::vec4(glm::vec3(plane.normal), static_cast<float>(plane.offset));
-        return c;
-    }
-    Collider operator()(const BoxCollider& box) const {
-        Collider c = common(1);
-        const glm::quat q(rotation_from_degrees(description.rotation));
-        c.axis = glm::vec4(glm::vec3(0.5 * box.size), 0.0f);
-        c.orientation = glm::vec4(q.x, q.y, q.z, q.w);
-        return c;
-    }
-    Collider operator()(const SphereCollider& sphere) const {
-        Collider c = common(2);
-        c.center.w = static_cast<float>(sphere.radius);
-        return c;
-    }
-    Collider operator()(const CapsuleCollider& capsule) const {
-        Collider c = common(3);
-        const glm::dvec3 half =
-            rotation_from_degrees(description.rotation) * glm::dvec3(0, 0.5 * capsule.length, 0);
-        c.center.w = static_cast<float>(capsule.radius);
-        c.axis = glm::vec4(glm::vec3(half), 0.0f);
-        return c;
-    }
-
-    Collider common(std::uint32_t kind) const {
-        Collider c{};
-        c.center = glm::vec4(glm::vec3(description.position), 0.0f);
-        c.orientation = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
-        c.kind = kind;
-        c.friction = static_cast<float>(description.friction);
-        c.restitution = static_cast<float>(description.restitution);
-        return c;
-    }
-};
-
 const Material& find_material(const Scene& scene, const ObjectDescription& object, const std::string& name,
                               int line) {
     const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
@@ -368,10 +328,7 @@ Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDes
                   const glm::dvec3& gravity) {
     Model model;
     for (const Body& body : bodies) append_body(model, body);
-    for (const ColliderDescription& c : colliders)
-        model.colliders.push_back(std::visit(ColliderPacker{c}, c.shape));
-    std::stable_sort(model.colliders.begin(), model.colliders.end(),
-                     [](const Collider& a, const Collider& b) { return a.kind < b.kind; });
+    model.colliders = pack_colliders(colliders);
     model.gravity = glm::vec3(gravity);
     model.half_springs = pack_half_springs(model.node_count(), model.springs);
     model.incidence = make_incidence(model.node_count(), model.springs);
