@@ -172,5 +172,14 @@ TEST_F(LayoutsTest, Dispatch) {
            FIELD(Dispatch, count)});
 }
 
+TEST_F(LayoutsTest, Descent) {
+    check("descent.glsl", "TetCorner", sizeof(TetCorner),
+          {FIELD(TetCorner, a), FIELD(TetCorner, b), FIELD(TetCorner, c), FIELD(TetCorner, tet)});
+    check("descent.glsl", "Touch", sizeof(Touch), {FIELD(Touch, force), FIELD(Touch, normal)});
+    check("descent.glsl", "RigidMotion", sizeof(RigidMotion),
+          {FIELD(RigidMotion, center), FIELD(RigidMotion, shift), FIELD(RigidMotion, turn_x),
+           FIELD(RigidMotion, turn_y), FIELD(RigidMotion, turn_z)});
+}
+
 }  // namespace
 }  // namespace gelatin
