@@ -87,9 +87,9 @@ struct Case {
     double bound;  // of what theory says, times what a bar of one material answers with
 };
 
-class TwoMaterials : public ::testing::TestWithParam<Case> {};
+class TwoMaterialsHeavy : public ::testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(
-    All, TwoMaterials,
+    All, TwoMaterialsHeavy,
     ::testing::Values(Case{"fitted", irregular_bar, 6, std::nullopt, 0.035},
                       Case{"fitted_coarse", irregular_bar, 4, std::nullopt, 0.035},
                       Case{"fitted_border_between_tets", regular_bar, 6, std::nullopt, 0.035},
@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"all_kinds", irregular_bar, 4, SpringKinds{true, true, true}, 0.065}),
     [](const auto& test) { return test.param.name; });
 
-TEST_P(TwoMaterials, AnswerTogetherAsTheorySays) {
+TEST_P(TwoMaterialsHeavy, AnswerTogetherAsTheorySays) {
     const TetMesh mesh = GetParam().make_bar(GetParam().edges_across);
     const auto& springs = GetParam().springs;
     const double alone = pulled_modulus(two_materials(mesh, 0, 1.0, springs)) / kSoft;

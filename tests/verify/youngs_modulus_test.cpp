@@ -107,7 +107,7 @@ TEST_P(PulledBarLong, AnswersWithTheModulusAskedFor) {
 }
 
 // With the volume term, which is averaged over nodes.
-TEST(PoissonsRatio, IsWhatWasAskedFor) {
+TEST(PoissonsRatioHeavy, IsWhatWasAskedFor) {
     const glm::dvec3 size(0.25, 1.0, 0.25);
     for (const int edges_across : {4, 6}) {
         const TetMesh mesh = box_of_tets(size, size.x / edges_across);
