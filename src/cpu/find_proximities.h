@@ -13,8 +13,8 @@ namespace gelatin::cpu {
 
 /// Finds what is near: for each surface node the faces, for each surface edge the edges, nearer than a
 /// radius, of the objects that may touch and, with `own`, of the same object; faces that have the node and
-/// edges that share a node are left out (docs/collision.md). The same result, in the same order, for any number
-/// of threads. GPU twin: gpu::FindProximities.
+/// edges that share a node are left out (docs/collision.md). The same result, in the same order, for any
+/// number of threads. GPU twin: gpu::FindProximities.
 template <class Real>
 class FindProximities {
 public:

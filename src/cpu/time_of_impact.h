@@ -127,8 +127,8 @@ Vec3<Real> make_relative(Moving<Real, N>& a, Moving<Real, M>& b) {
 /// well the nearest points are found. So no impact is missed, and the time is not late. False alarms need a
 /// and b to come near: in float to some 1e-6 of their extent, for pairs whose normals are ill-conditioned
 /// (kParallel) 1e-3; only pairs that turn over or stretch to several times their size within the step may be
-/// farther apart, as planes hold shortly then. Measured in docs/collision.md. Extents from 1e-9 to 1e9 m; what
-/// is not finite touches. GLSL twin: shaders/include/time_of_impact.glsl.
+/// farther apart, as planes hold shortly then. Measured in docs/collision.md. Extents from 1e-9 to 1e9 m;
+/// what is not finite touches. GLSL twin: shaders/include/time_of_impact.glsl.
 template <class Real, std::size_t N, std::size_t M>
 std::optional<Real> time_of_impact(Moving<Real, N> a, Moving<Real, M> b) {
     const Vec3<Real> reach = impact::make_relative(a, b);
