@@ -37,7 +37,7 @@ double share_behind_the_plate(const Simulator& simulator) {
     return static_cast<double>(behind) / count;
 }
 
-class BulletTest : public test::GlTest {
+class BulletHeavy : public test::GlTest {
 protected:
     // When it would have flown half a metre, of which 17 cm lead to the plate.
     static double share_that_passes(Backend backend, CollisionDetection detection, double speed) {
@@ -55,14 +55,14 @@ protected:
     }
 };
 
-TEST_F(BulletTest, IsStoppedByThePlateAtAnySpeed) {
+TEST_F(BulletHeavy, IsStoppedByThePlateAtAnySpeed) {
     for (const double speed : {50.0, 100.0, 300.0, 500.0}) {
         for (const Backend backend : {Backend::cpu, Backend::gl})
             EXPECT_EQ(share_that_passes(backend, CollisionDetection::continuous, speed), 0.0) << speed;
     }
 }
 
-TEST_F(BulletTest, DiscreteDetectionLetsItThrough) {
+TEST_F(BulletHeavy, DiscreteDetectionLetsItThrough) {
     for (const Backend backend : {Backend::cpu, Backend::gl})
         EXPECT_GT(share_that_passes(backend, CollisionDetection::discrete, 250.0), 0.5);
 }
