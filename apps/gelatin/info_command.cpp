@@ -14,6 +14,7 @@
 #include "mesh/surface_file.h"
 #include "mesh/tet_file.h"
 #include "mesh_report.h"
+#include "model/explicit_scheme.h"
 #include "model/model.h"
 #include "sim/report.h"
 
@@ -53,7 +54,7 @@ Json describe_scene(const std::filesystem::path& file) {
     const SimulationSettings& settings = simulator.scene().simulation;
     const Counts counts = simulator.counts();
     Json description = {{"kind", "scene"},
-                        {"solver", name_of(settings.solver)},
+                        {"solver", solver_name(settings.solver)},
                         {"frame_rate", settings.frame_rate},
                         {"frames", settings.frames},
                         {"substeps", simulator.substeps()},

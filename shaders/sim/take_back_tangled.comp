@@ -8,24 +8,18 @@ layout(binding = 12) uniform usamplerBuffer node_objects;
 uniform uint element_count;
 
 #ifdef TETS
+#include "include/volume_ratio.glsl"
+
 const float kLeastSound = -0.5, kMostSound = 4.0;  // volumes over those at rest
 
-layout(binding = 0) uniform samplerBuffer positions;    // xyz [m]
-layout(binding = 9) uniform usamplerBuffer tets;        // nodes
-layout(binding = 10) uniform samplerBuffer tet_rests;   // volume [m^3] first
 layout(std430, binding = 4) writeonly buffer Tangled { uint is_tangled[]; };  // by object
 
 void main() {
     uint t = global_index();
     if (t >= element_count) return;
-    uvec4 tet = texelFetch(tets, int(t));
-    vec3 a = texelFetch(positions, int(tet.x)).xyz;
-    vec3 u = texelFetch(positions, int(tet.y)).xyz - a;
-    vec3 v = texelFetch(positions, int(tet.z)).xyz - a;
-    vec3 w = texelFetch(positions, int(tet.w)).xyz - a;
-    float ratio = dot(cross(u, v), w) / (6.0 * texelFetch(tet_rests, int(t)).x);
+    float ratio = volume_ratio(t);
     if (ratio > kLeastSound && ratio < kMostSound) return;
-    is_tangled[texelFetch(node_objects, int(tet.x)).x] = 1u;
+    is_tangled[texelFetch(node_objects, int(texelFetch(tets, int(t)).x)).x] = 1u;
 }
 #else
 layout(binding = 1) uniform samplerBuffer start_positions;  // xyz [m], inverse mass [1/kg]

@@ -1,6 +1,5 @@
 #include "cpu/block_descent.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -14,19 +13,15 @@
 #include "cpu/neo_hookean.h"
 #include "cpu/rigid_motion.h"
 #include "cpu/spring_terms.h"
+#include "model/for_each_index.h"
 #include "model/solver.h"
 
 namespace gelatin::cpu {
 namespace {
 
-constexpr std::uint32_t kItemsATask = 256;
-constexpr int kSweepsAMotion = 2;
-
 template <class Work>
-void for_each(std::uint32_t count, const Work& work) {
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, kItemsATask), [&](const auto& range) {
-        for (std::uint32_t i = range.begin(); i < range.end(); ++i) work(i);
-    });
+void for_each_node(const Model& model, const Work& work) {
+    for_each_index(model.node_count(), [&](std::size_t n) { work(static_cast<std::uint32_t>(n)); });
 }
 
 }  // namespace
@@ -39,9 +34,8 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
       tets_(model_),
       starts_(model_->node_count()),
       targets_(model_->node_count()),
+      object_of_(objects_of_nodes(*model_)),
       touches_(model_->objects.size()) {
-    for (std::uint32_t o = 0; o < model_->objects.size(); ++o)
-        object_of_.insert(object_of_.end(), model_->objects[o].nodes.count, o);
     if (!model_->colliders.empty()) node_touches_.resize(model_->node_count());
     if (settings_.chebyshev > 0.0) last_ = before_last_ = targets_;
 }
@@ -71,7 +65,7 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
     const Vec3<Real> gravity(model_->gravity);
     const Real squared = glm::dot(gravity, gravity);
     std::fill(touches_.begin(), touches_.end(), std::uint8_t(0));
-    for_each(model_->node_count(), [&](std::uint32_t n) {
+    for_each_node(*model_, [&](std::uint32_t n) {
         const Vec3<Real> velocity(previous.velocities[n]);
         const Vec3<Real> gained = velocity - Vec3<Real>(current.velocities[n]);
         Vec4<Real> from = previous.positions[n];
@@ -117,7 +111,7 @@ void BlockDescent<Real>::take_back_tangled(std::vector<Vec4<Real>>& positions) c
 template <class Real>
 void BlockDescent<Real>::accelerate(int sweep, std::vector<Vec4<Real>>& positions) {
     const auto weight = static_cast<Real>(chebyshev_weight(settings_.chebyshev, sweep));
-    for_each(model_->node_count(), [&](std::uint32_t n) {
+    for_each_node(*model_, [&](std::uint32_t n) {
         Vec3<Real> x(positions[n]);
         if (sweep > 1 && touches_[object_of_[n]] == 0) x = weight * (x - before_last_[n]) + before_last_[n];
         before_last_[n] = last_[n];
@@ -263,7 +257,7 @@ void BlockDescent<Real>::move_bodies(Real step, bool is_last, std::vector<Vec4<R
 template <class Real>
 void BlockDescent<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current) const {
     const auto least = static_cast<Real>(resting_speed(model_->gravity, static_cast<double>(step)));
-    for_each(model_->node_count(), [&](std::uint32_t n) {
+    for_each_node(*model_, [&](std::uint32_t n) {
         const Vec4<Real> old = previous.velocities[n];
         current.velocities[n] = old;
         if (current.positions[n].w == Real(0)) return;

@@ -1,27 +1,12 @@
 #include "cpu/tet_resistance.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <utility>
 
+#include "model/for_each_index.h"
+
 namespace gelatin::cpu {
-namespace {
-
-constexpr std::uint32_t kItemsATask = 256;
-
-template <class Work>
-void for_each(std::size_t count, const Work& work) {
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(count), kItemsATask),
-                      [&](const auto& range) {
-                          for (std::uint32_t i = range.begin(); i < range.end(); ++i) work(i);
-                      });
-}
-
-}  // namespace
-
 template <class Real>
 TetResistance<Real>::TetResistance(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
@@ -46,7 +31,7 @@ template <class Real>
 bool TetResistance<Real>::is_tangled(const ModelObject& object,
                                      const std::vector<Vec4<Real>>& positions) const {
     for (std::uint32_t t = object.tets.first; t < object.tets.end(); ++t) {
-        const Real ratio = ratio_of(t, positions);
+        const Real ratio = ratio_of(static_cast<std::uint32_t>(t), positions);
         if (!(ratio > static_cast<Real>(kLeastSound) && ratio < static_cast<Real>(kMostSound))) return true;
     }
     return false;
@@ -56,16 +41,16 @@ template <class Real>
 void TetResistance<Real>::look(const std::vector<Vec4<Real>>& positions) {
     const Model& model = *model_;
     std::fill(is_near_flat_.begin(), is_near_flat_.end(), std::uint8_t(0));
-    for_each(model.tets.size(), [&](std::uint32_t t) {
+    for_each_index(model.tets.size(), [&](std::size_t t) {
         const glm::uvec4& tet = model.tets[t];
-        ratios_[t] = ratio_of(t, positions);
+        ratios_[t] = ratio_of(static_cast<std::uint32_t>(t), positions);
         if (ratios_[t] >= static_cast<Real>(kFlattest)) return;
         for (int k = 0; k < 4; ++k)
             std::atomic_ref(is_near_flat_[tet[k]]).store(1, std::memory_order_relaxed);
     });
     const VolumeTerm& term = model.volume_term;
     if (term.is_empty()) return;
-    for_each(model.positions.size(), [&](std::uint32_t n) {
+    for_each_index(model.positions.size(), [&](std::size_t n) {
         Real volume(0);
         for (std::uint32_t e = node_tets_.starts[n]; e < node_tets_.starts[n + 1]; ++e) {
             const std::uint32_t t = node_tets_.entries[e] / 4;
@@ -75,7 +60,7 @@ void TetResistance<Real>::look(const std::vector<Vec4<Real>>& positions) {
         node_pressures_[n] =
             rest > Real(0) ? volume_stress(volume / rest, static_cast<Real>(term.nodes[n].y)) : Real(0);
     });
-    for_each(model.tets.size(), [&](std::uint32_t t) {
+    for_each_index(model.tets.size(), [&](std::size_t t) {
         const glm::uvec4& tet = model.tets[t];
         Real sum(0);
         for (int k = 0; k < 4; ++k) sum += node_pressures_[tet[k]];

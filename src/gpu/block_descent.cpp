@@ -10,7 +10,6 @@
 namespace gelatin::gpu {
 namespace {
 
-constexpr int kSweepsAMotion = 2;
 constexpr std::size_t kRigidSums = 12;  // dvec4s in RigidSums, include/rigid_sums.glsl
 
 // For programs that include include/descent_step.glsl, colliders and loads.
@@ -53,15 +52,6 @@ std::vector<glm::vec4> rests_of(const Model& model) {
         rests.emplace_back(rest.volume, rest.modulus, stiffnesses.empty() ? 0.0f : stiffnesses[t], 0.0f);
     }
     return rests;
-}
-
-std::vector<std::uint32_t> objects_of_nodes(const Model& model) {
-    std::vector<std::uint32_t> objects(model.node_count(), 0);
-    for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
-        const Range& nodes = model.objects[o].nodes;
-        std::fill_n(objects.begin() + nodes.first, nodes.count, o);
-    }
-    return objects;
 }
 
 std::vector<glm::uvec2> with_objects(const std::vector<std::uint32_t>& rows,

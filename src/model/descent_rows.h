@@ -8,6 +8,9 @@
 
 namespace gelatin {
 
+/// After so many sweeps bodies move as rigid ones, and before them tets are looked at.
+constexpr int kSweepsAMotion = 2;
+
 /// Nodes in the order in which block descent moves them: by colour, each filled up to whole slices of
 /// HalfSprings::kSlice rows with rows that have no node.
 struct DescentRows {
@@ -17,5 +20,8 @@ struct DescentRows {
 };
 
 DescentRows make_descent_rows(const Model& model);
+
+/// The object of each node, shape [nodes].
+std::vector<std::uint32_t> objects_of_nodes(const Model& model);
 
 }  // namespace gelatin

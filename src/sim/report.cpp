@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gelatin/version.h"
+#include "model/explicit_scheme.h"
 #include "model/model.h"
 
 namespace gelatin {
@@ -16,7 +17,7 @@ Json settings_json(const RunReport& report) {
     const SimulationSettings& settings = report.settings;
     const std::optional<double>& proximity_radius = report.collision.proximity_radius;
     const Json radius = proximity_radius ? Json(*proximity_radius) : Json();
-    return {{"solver", name_of(settings.solver)},
+    return {{"solver", solver_name(settings.solver)},
             {"forces", name_of(settings.forces)},
             {"frame_rate", settings.frame_rate},
             {"substeps", report.substeps},
@@ -120,22 +121,6 @@ double percentile(std::vector<double> values, double fraction) {
     const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
     std::nth_element(values.begin(), nth, values.end());
     return *nth;
-}
-
-const char* name_of(SolverKind solver) {
-    switch (solver) {
-        case SolverKind::explicit_euler:
-            return "explicit_euler";
-        case SolverKind::semi_implicit_euler:
-            return "semi_implicit_euler";
-        case SolverKind::midpoint:
-            return "midpoint";
-        case SolverKind::rk4:
-            return "rk4";
-        case SolverKind::vbd:
-            return "vbd";
-    }
-    return "";
 }
 
 const char* name_of(ForceMethod forces) {

@@ -35,7 +35,6 @@ std::string to_json(const RunReport& report);
 double percentile(std::vector<double> values, double fraction);
 
 /// The names that scene files use.
-const char* name_of(SolverKind solver);
 const char* name_of(ForceMethod forces);
 const char* name_of(BroadPhase broad_phase);
 const char* name_of(CollisionDetection detection);

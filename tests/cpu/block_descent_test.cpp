@@ -225,6 +225,19 @@ TEST(BlockDescent, RestsOnTheFloor) {
     EXPECT_LT(fastest, 1e-3);
 }
 
+// It starts below the floor's surface, and is put on it at rest.
+TEST(BlockDescent, GivesNoSpeedToWhatStartsInsideACollider) {
+    ColliderDescription floor;
+    floor.shape = PlaneCollider{{0.0, 1.0, 0.0}, 1.0};
+    const Model model = make_model({.colliders = {floor}, .gravity = {0, 0, 0}});
+    const cpu::Nodes<double> nodes = run_steps<double>(model, kFrame, 1, 1);
+    const double popped = 0.7 / kFrame;  // [m/s], if the way out of the floor counted
+    for (std::uint32_t n = 0; n < model.node_count(); ++n) {
+        EXPECT_GE(nodes.positions[n].y, 1.0 - 1e-9);
+        EXPECT_LT(glm::length(glm::dvec3(nodes.velocities[n])), 0.5 * popped);
+    }
+}
+
 // A block slides up to v^2 / (2 mu g) far.
 TEST(BlockDescent, FrictionIsCoulombs) {
     ColliderDescription floor;

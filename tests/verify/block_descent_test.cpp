@@ -61,5 +61,12 @@ TEST_P(ConvergenceHeavy, IsToNewtonsSolution) {
     EXPECT_LT((descend(model, {5000}) - exact).norm() / way, 1e-5);
 }
 
+TEST(Acceleration, ReachesMoreWithAsManySweeps) {
+    const Model model = struck_bar(1e6, 0.25);
+    const Eigen::VectorXd exact = test::ImplicitEuler(model, kFrame).minimum();
+    const double plain = (descend(model, {30}) - exact).norm();
+    EXPECT_LT((descend(model, {30, 0.9}) - exact).norm(), 0.7 * plain);
+}
+
 }  // namespace
 }  // namespace gelatin

@@ -1,0 +1,13 @@
+// How much of its volume at rest a tet has; negative where it is inside out. CPU twin: cpu::TetResistance::ratio_of.
+layout(binding = 0) uniform samplerBuffer positions;   // xyz [m]
+layout(binding = 9) uniform usamplerBuffer tets;       // nodes
+layout(binding = 10) uniform samplerBuffer tet_rests;  // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
+
+float volume_ratio(uint t) {
+    uvec4 tet = texelFetch(tets, int(t));
+    vec3 a = texelFetch(positions, int(tet.x)).xyz;
+    vec3 u = texelFetch(positions, int(tet.y)).xyz - a;
+    vec3 v = texelFetch(positions, int(tet.z)).xyz - a;
+    vec3 w = texelFetch(positions, int(tet.w)).xyz - a;
+    return dot(cross(u, v), w) / (6.0 * texelFetch(tet_rests, int(t)).x);
+}
