@@ -238,6 +238,23 @@ inline constexpr Break kDriveMutants[] = {
 
 // Of vertex block descent.
 inline constexpr Break kDescentMutants[] = {
+    {"clusters_do_not_turn", "include/nearest_turn.glsl", "mat3 turn = map;", "return mat3(1.0); mat3 turn;"},
+    {"turns_are_not_orthogonal", "include/nearest_turn.glsl", "i < 10", "i < 1"},
+    {"a_core_loses_its_end", "sim/turn_clusters.comp", "c < rest.core_end", "c + 1u < rest.core_end"},
+    {"lanes_are_not_added", "sim/load_clusters.comp", "force += part_forces[l];", ""},
+    {"moments_are_about_the_origin", "sim/load_clusters.comp", " - cluster.middle.xyz", ""},
+    {"loads_are_not_turned_back", "sim/load_clusters.comp", "force = force * turn;", ""},
+    {"clusters_follow_their_own_load_alone", "sim/move_clusters.comp", "c < size", "c < 6u"},
+    {"rows_of_the_first_cluster", "sim/move_clusters.comp", "body.matrix + rests[k].row", "body.matrix"},
+    {"spins_are_not_turned", "sim/move_clusters.comp", "turn * spin", "spin"},
+    {"nodes_do_not_spin", "sim/find_ways.comp", "cross(cluster.spin.xyz, position.xyz - cluster.middle.xyz)",
+     "vec3(0.0)"},
+    {"the_first_cluster_is_left_out", "sim/find_ways.comp", "int(n)).x; p < end", "int(n)).x + 1u; p < end"},
+    {"all_the_way", "sim/follow_ways.comp", "here / max(here - ahead, here / kFarthest)", "1.0"},
+    {"forces_ahead_are_those_here", "sim/follow_ways.comp", "dot(forces_ahead[n].xyz, way)",
+     "dot(forces_here[n].xyz, way)"},
+    {"touches_do_not_count", "sim/descend.comp", "force += touch.force.xyz", "force += vec3(0.0)"},
+    {"touches_do_not_yield", "sim/descend.comp", "is_ahead != 0u ? ways[n].xyz : vec3(0.0)", "vec3(0.0)"},
     {"the_last_rows_stay", "sim/descend.comp", "index >= row_count", "index + 64u >= row_count"},
     {"inertia_is_forgotten", "sim/descend.comp", "inertia * (target_of(n) - position.xyz)", "vec3(0.0)"},
     {"damping_has_no_stiffness", "include/node_terms.glsl", "float damped = stiffness * (1.0 + damping);",
