@@ -351,6 +351,19 @@ inline constexpr Break kNeoHookeanMutants[] = {
      "damping_time"},
 };
 
+/// A broken volume term.
+inline constexpr Break kVolumeTermMutants[] = {
+    {"energy_has_no_volume_term", "sim/measure_nodes.comp", "rest.x * rest.y * volume_potential(", "0.0 * ("},
+    {"energy_is_not_over_the_volume", "sim/measure_nodes.comp", "rest.x * rest.y * volume_potential",
+     "rest.y * volume_potential"},
+    {"the_potential_never_ends", "include/volume_term.glsl", "min(4.0 * u * u, 1.0)", "4.0 * u * u"},
+    {"all_potentials_end", "include/volume_term.glsl", "kappa >= 0.0 ?", "false ?"},
+    {"volumes_have_the_wrong_sign", "include/volume_term.glsl", "cross(b - a, c - a)", "cross(c - a, b - a)"},
+    {"volumes_are_another_nodes", "include/volume_term.glsl", "+ n % 64u; e < end",
+     "+ (n + 1u) % 64u; e < end"},
+    {"the_last_tets_round_a_node_are_left_out", "include/volume_term.glsl", "e < end", "e + 64u < end"},
+};
+
 /// A broken marking of faces that touch.
 inline constexpr Break kMarkMutants[] = {
     {"the_first_pair_alone_counts", "include/face_collisions.glsl", "k < row.pair_count",
