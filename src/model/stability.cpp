@@ -58,20 +58,6 @@ bool is_stable(const ExplicitScheme& scheme, double frequency, double damping, d
 // Stiffness over mass [1/s^2], a block for each node of an object.
 using Blocks = std::vector<Eigen::Matrix3d>;
 
-// By node of the object.
-std::vector<double> inverse_masses_of(const Model& model, const ModelObject& object) {
-    std::vector<double> inverse_masses;
-    for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n)
-        inverse_masses.push_back(static_cast<double>(model.positions[n].w));
-    // What a handle releases will be free; until then, held, it makes no frequency higher.
-    for (std::uint32_t h = object.handle_nodes.first; h < object.handle_nodes.end(); ++h) {
-        const HandleNode& held = model.handle_nodes[h];
-        if (std::isfinite(model.handles[held.handle].release))
-            inverse_masses[held.node - object.nodes.first] = static_cast<double>(held.arm.w);
-    }
-    return inverse_masses;
-}
-
 void add_springs(const Model& model, const ModelObject& object, Deformation deformation,
                  const std::vector<double>& inverse_masses, Blocks& blocks) {
     const auto inverse_mass = [&](std::uint32_t n) { return inverse_masses[n - object.nodes.first]; };
@@ -120,7 +106,8 @@ void add_neo_hookean_tets(const Model& model, const ModelObject& object,
 }  // namespace
 
 double frequency_bound(const Model& model, const ModelObject& object, Deformation deformation) {
-    const std::vector<double> inverse_masses = inverse_masses_of(model, object);
+    // What a handle releases will be free; until then, held, it makes no frequency higher.
+    const std::vector<double> inverse_masses = free_inverse_masses(model, object);
     Blocks blocks(object.nodes.count, Eigen::Matrix3d::Zero());
     add_springs(model, object, deformation, inverse_masses, blocks);
     add_neo_hookean_tets(model, object, inverse_masses, blocks);
