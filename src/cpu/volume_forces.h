@@ -4,12 +4,13 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 
+#include "cpu/advance_nodes.h"
 #include "cpu/node_terms.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
 
 /// The volume term (model/volume_term.h) as it is, not as block descent bounds it (cpu/node_terms.h). GLSL
-/// twin: shaders/include/volume_term.glsl.
+/// twins: shaders/include/volume_term.glsl, volume_force.glsl.
 namespace gelatin::cpu {
 
 /// phi(J - 1), whose slope is volume_stress over kappa.
@@ -21,16 +22,6 @@ Real volume_potential(Real ratio, Real kappa) {
     return s * (Real(3) - Real(3) * s + s * s) / Real(24);
 }
 
-/// Calls `work` with each tet round node n as its corner there sees it. Rows are padded with tets without
-/// volume.
-template <class Work>
-void for_tets_round(const VolumeTerm& term, std::uint32_t n, const Work& work) {
-    constexpr std::uint32_t kSlice = HalfSprings::kSlice;
-    const TetCorners& corners = term.corners;
-    const std::uint32_t start = corners.slice_starts[n / kSlice], end = corners.slice_starts[n / kSlice + 1];
-    for (std::uint32_t e = start + n % kSlice; e < end; e += kSlice) work(corners.corners[e]);
-}
-
 /// J_n: the volume round node n over that at rest; 1 where there is none.
 /// @param position of a node, as a Vec3<Real>
 template <class Real, class Position>
@@ -39,11 +30,33 @@ Real volume_ratio_round(const VolumeTerm& term, std::uint32_t n, const Position&
     if (!(rest > Real(0))) return Real(1);
     const Vec3<Real> at = position(n);
     Real sum(0);  // 24 times the volume
-    for_tets_round(term, n, [&](const TetCorner& tet) {
+    term.corners.for_row(n, [&](const TetCorner& tet) {
         const Vec3<Real> a = position(tet.a);
         sum += glm::dot(at - a, glm::cross(position(tet.b) - a, position(tet.c) - a));
     });
     return sum / (Real(24) * rest);
+}
+
+/// p_n = kappa phi'(J_n - 1) [Pa].
+template <class Real>
+Real volume_stress_round(const VolumeTerm& term, std::uint32_t n, const Vec4<Real>* positions) {
+    const Real ratio =
+        volume_ratio_round<Real>(term, n, [&](std::uint32_t k) { return Vec3<Real>(positions[k]); });
+    return volume_stress(ratio, static_cast<Real>(term.nodes[n].y));
+}
+
+/// The term's force on node n [N]: each tet of volume v pulls with -p dv/dx, p the mean stress of its
+/// corners.
+template <class Real>
+Vec3<Real> gather_volume_forces(const Pass<Real>& pass, std::uint32_t n) {
+    Vec3<Real> sum(0);  // -24 times the force
+    if (pass.volume_stresses == nullptr) return sum;
+    pass.model.volume_term.corners.for_row(n, [&](const TetCorner& tet) {
+        const Vec3<Real> a(pass.positions[tet.a]), b(pass.positions[tet.b]), c(pass.positions[tet.c]);
+        const Real* p = pass.volume_stresses;
+        sum += (p[n] + p[tet.a] + p[tet.b] + p[tet.c]) * glm::cross(b - a, c - a);
+    });
+    return Real(-1) / Real(24) * sum;
 }
 
 }  // namespace gelatin::cpu
