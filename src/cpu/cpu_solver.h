@@ -58,6 +58,7 @@ public:
 
 private:
     void sum_loads(const Nodes<Real>& nodes);
+    void find_volume_stresses(const Nodes<Real>& nodes);
     void run_pass(const Pass<Real>& pass);
 
     std::shared_ptr<const Model> model_;
@@ -71,6 +72,7 @@ private:
     std::vector<Vec4<Real>> spring_forces_, node_forces_;
     std::vector<float> load_factors_;
     std::vector<Vec4<Real>> load_forces_;  // [N], shape [nodes]; empty where there are no loads
+    std::vector<Real> volume_stresses_;    // [Pa], shape [nodes]; empty where no explicit scheme needs them
     Collision<Real> collision_;
     ContactProperties contact_;
     struct SelfStages {

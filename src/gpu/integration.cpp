@@ -9,6 +9,7 @@ gl::Defines integration_defines(const Model& model, const ExplicitScheme& scheme
     if (scheme.pass_count > 1) defines.emplace_back("MULTI_PASS");
     if (!model.loads.empty()) defines.emplace_back("LOADED");
     for (const std::string& define : NeoHookeanBuffers::defines(model)) defines.push_back(define);
+    for (const std::string& define : VolumeTermBuffers::defines(model)) defines.push_back(define);
     return defines;
 }
 
@@ -21,6 +22,7 @@ void bind_integration(const gl::Program& program, const ModelBuffers& model, con
     pass.out.velocities.bind_storage(1);
     model.bind_colliders(program);
     model.neo_hookean.bind();
+    model.volume_term.bind();
 
     const auto h = static_cast<float>(pass.step);
     if (pass.scheme.pass_count > 1) {

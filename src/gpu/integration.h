@@ -23,7 +23,8 @@ struct Pass {
 /// Defines for a shader that includes include/integrate_node.glsl.
 gl::Defines integration_defines(const Model& model, const ExplicitScheme& scheme);
 
-/// Binds and sets what include/integrate_node.glsl reads and writes, but for what SumLoads::run binds.
+/// Binds and sets what include/integrate_node.glsl reads and writes, but for what SumLoads::run and
+/// FindVolumeStresses::run bind.
 void bind_integration(const gl::Program& program, const ModelBuffers& model, const Pass& pass);
 
 }  // namespace gelatin::gpu

@@ -5,6 +5,7 @@
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "gpu/neo_hookean_buffers.h"
+#include "gpu/volume_term_buffers.h"
 #include "model/model.h"
 
 namespace gelatin::gpu {
@@ -16,6 +17,7 @@ struct ModelBuffers {
     gl::Buffer<std::uint32_t> slice_starts;
     gl::BufferTexture half_spring_texels, stiffness_texels, slice_start_texels;
     NeoHookeanBuffers neo_hookean;
+    VolumeTermBuffers volume_term;
     gl::Buffer<Face> faces;
     gl::BufferTexture face_texels;
     gl::Buffer<Collider> colliders;  ///< empty if there are none

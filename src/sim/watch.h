@@ -28,13 +28,14 @@ public:
     void begin(const State& state, const Moment& moment);
 
     /// What Solver::watch_nodes may find with a node at this time [J].
-    double most_energy(double time) const { return is_driven_ ? kAnyEnergy : budget_.most_at(time); }
+    double most_energy(double time) const { return handles_act(time) ? kAnyEnergy : budget_.most_at(time); }
 
     /// @throws Diverged if the alarm is of the steps until `until`, naming it, the node and the likely cause.
     /// @param now not before the alarm, of whose step number it knows the upper half
     void check(const Alarm& alarm, const Moment& until, const Moment& now) const;
 
-    /// @throws Diverged unless start and gravity explain the bodies' energy.
+    /// @throws Diverged unless start, gravity and loads explain the bodies' energy. After what handles did it
+    /// is as it is, and accounted for from there on.
     void check(const std::vector<ObjectMeasure>& objects, const Moment& moment);
 
 private:
@@ -42,12 +43,15 @@ private:
 
     [[noreturn]] void fail(const Alarm& alarm, std::uint64_t step, const Moment& now) const;
 
+    // Their work since the last account is not known.
+    bool handles_act(double until) const {
+        return any_acts(model_->handles, budget_.time(), until, step_size());
+    }
     double step_size() const { return scene_.simulation.frame_time() / substeps_; }  // [s]
 
     const Scene& scene_;
     std::shared_ptr<const Model> model_;
     int substeps_;
-    bool is_driven_;  // by handles or loads, whose work is not accounted for
     EnergyBudget budget_;
 };
 

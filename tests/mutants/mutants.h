@@ -368,6 +368,33 @@ inline constexpr Break kNeoHookeanMutants[] = {
      "damping_time"},
 };
 
+/// A broken volume term.
+inline constexpr Break kVolumeTermMutants[] = {
+    {"energy_has_no_volume_term", "sim/measure_nodes.comp", "rest.x * rest.y * volume_potential(", "0.0 * ("},
+    {"energy_is_not_over_the_volume", "sim/measure_nodes.comp", "rest.x * rest.y * volume_potential",
+     "rest.y * volume_potential"},
+    {"the_potential_never_ends", "include/volume_term.glsl", "min(4.0 * u * u, 1.0)", "4.0 * u * u"},
+    {"all_potentials_end", "include/volume_term.glsl", "kappa >= 0.0 ?", "false ?"},
+    {"volumes_have_the_wrong_sign", "include/volume_term.glsl", "cross(b - a, c - a)", "cross(c - a, b - a)"},
+    {"volumes_are_another_nodes", "include/volume_term.glsl", "+ n % 64u; e < end",
+     "+ (n + 1u) % 64u; e < end"},
+    {"the_last_tets_round_a_node_are_left_out", "include/volume_term.glsl", "e < end", "e + 64u < end"},
+    {"the_last_nodes_have_no_stress", "sim/find_volume_stresses.comp", "n >= node_count",
+     "n + 64u >= node_count"},
+    {"stresses_take_volumes_for_moduli", "sim/find_volume_stresses.comp", "int(n)).y", "int(n)).x"},
+    {"stresses_never_end", "include/node_terms.glsl", "kappa * u * left * left", "kappa * u"},
+    {"volumes_pull_in_fused_steps_alone", "sim/integrate_nodes.comp", "force += gather_volume_forces(n);",
+     ""},
+    {"volumes_pull_in_divided_steps_alone", "sim/advance_nodes.comp", "force += gather_volume_forces(n);",
+     ""},
+    {"volumes_pull_the_wrong_way", "include/volume_force.glsl", "return -sum", "return sum"},
+    {"a_corners_stress_is_forgotten", "include/volume_force.glsl",
+     "texelFetch(volume_stresses, int(tet.z)).x", "0.0"},
+    {"volume_forces_are_another_nodes", "include/volume_force.glsl", "+ n % 64u; e < end",
+     "+ (n + 1u) % 64u; e < end"},
+    {"the_last_tets_do_not_pull", "include/volume_force.glsl", "e < end", "e + 64u < end"},
+};
+
 /// A broken marking of faces that touch.
 inline constexpr Break kMarkMutants[] = {
     {"the_first_pair_alone_counts", "include/face_collisions.glsl", "k < row.pair_count",
