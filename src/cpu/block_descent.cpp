@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <span>
 #include <type_traits>
@@ -18,6 +17,12 @@
 
 namespace gelatin::cpu {
 namespace {
+
+constexpr std::size_t kGroupsATask = 16;
+
+// The float path has SIMD; in double it is the plain one, which tests hold everything against.
+template <class Real>
+constexpr bool kIsFloat = std::is_same_v<Real, float>;
 
 template <class Work>
 void for_each_node(const Model& model, const Work& work) {
@@ -37,7 +42,13 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
       object_of_(objects_of_nodes(*model_)),
       touches_(model_->objects.size()) {
     if (!model_->colliders.empty()) node_touches_.resize(model_->node_count());
-    if (settings_.chebyshev > 0.0) last_ = before_last_ = targets_;
+    if (settings_.chebyshev > 0.0) last_ = before_last_ = std::vector<Vec3<Real>>(model_->node_count());
+    if constexpr (kIsFloat<Real>) {
+        springs_ = make_spring_blocks(rows_);
+        rows_.springs = {};
+        if (model_->has_damping()) damped_springs_ = springs_;
+        collider_bounds_ = make_collider_bounds(model_->colliders);
+    }
 }
 
 template <class Real>
@@ -64,7 +75,6 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
                                std::span<const Vec4<Real>> load_forces, Nodes<Real>& current) {
     const Vec3<Real> gravity(model_->gravity);
     const Real squared = glm::dot(gravity, gravity);
-    std::fill(touches_.begin(), touches_.end(), std::uint8_t(0));
     for_each_node(*model_, [&](std::uint32_t n) {
         const Vec3<Real> velocity(previous.velocities[n]);
         const Vec3<Real> gained = velocity - Vec3<Real>(current.velocities[n]);
@@ -74,20 +84,27 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
             resolve_colliders<Real>(model_->colliders, Real(0), from, none);
         }
         starts_[n] = Vec4<Real>(Vec3<Real>(from), previous.velocities[n].w);
+        if (touches_[object_of_[n]] != 0) node_touches_[n] = {};  // of the last step
         if (from.w == Real(0)) {
-            targets_[n] = Vec3<Real>(from) + step * velocity;
-            current.positions[n] = Vec4<Real>(targets_[n], Real(0));
+            targets_[n] = Vec4<Real>(Vec3<Real>(from) + step * velocity, Real(0));
+            current.positions[n] = targets_[n];
             return;
         }
         Vec3<Real> acceleration = gravity;
         if (!load_forces.empty()) acceleration += from.w * Vec3<Real>(load_forces[n]);
-        targets_[n] = Vec3<Real>(from) + step * (velocity + step * acceleration);
+        targets_[n] = Vec4<Real>(Vec3<Real>(from) + step * (velocity + step * acceleration),
+                                 Real(1) / (from.w * step * step));
         const Real felt = has_earlier && squared > Real(0)
                               ? glm::clamp(glm::dot(gained, gravity) / (step * squared), Real(0), Real(1))
                               : Real(1);
         const Vec3<Real> guess = Vec3<Real>(from) + step * (velocity + step * felt * gravity);
         current.positions[n] = Vec4<Real>(guess, from.w);
     });
+    std::fill(touches_.begin(), touches_.end(), std::uint8_t(0));
+    if constexpr (kIsFloat<Real>) {
+        if (model_->has_damping())
+            damp_springs(springs_, rows_.nodes, starts_.data(), Real(1) / step, damped_springs_);
+    }
 }
 
 // A guess that tangles a body can hold any energy, which few sweeps would not take out again. From where the
@@ -122,21 +139,54 @@ void BlockDescent<Real>::accelerate(int sweep, std::vector<Vec4<Real>>& position
 
 template <class Real>
 void BlockDescent<Real>::sweep(Real step, std::vector<Vec4<Real>>& positions) {
-    constexpr std::uint32_t kSlice = HalfSprings::kSlice;
-    const SpringRows<Real> springs{rows_, positions.data(), starts_.data(), Real(1) / step};
-    for (const Range& color : rows_.colors) {
-        tbb::parallel_for(color.first / kSlice, color.end() / kSlice, [&](std::uint32_t slice) {
-            std::array<NodeTerms<Real>, kSlice> terms;
-            if constexpr (std::is_same_v<Real, float>) {
-                gather_spring_terms_simd(springs, slice, terms.data());
-            } else {
-                gather_spring_terms(springs, slice, terms.data());
-            }
-            for (std::uint32_t row = 0; row < kSlice; ++row) {
-                const std::uint32_t node = rows_.nodes[slice * kSlice + row];
-                if (node != kNoNode) move_node(node, step, terms[row], positions);
-            }
-        });
+    if constexpr (kIsFloat<Real>) {
+        const DescentGroups groups{model_->has_damping() ? damped_springs_ : springs_, rows_.nodes, targets_,
+                                   collider_bounds_};
+        const bool any_touch = std::any_of(touches_.begin(), touches_.end(), [](auto t) { return t != 0; });
+        for (const Range& color : rows_.colors) {
+            for_each_index(color.first / kGroup, color.end() / kGroup, kGroupsATask, [&](std::size_t group) {
+                move_group(groups, group, step, any_touch, positions);
+            });
+        }
+    } else {
+        const SpringRows<Real> springs{rows_, positions.data(), starts_.data(), Real(1) / step};
+        for (const Range& color : rows_.colors) {
+            for_each_index(color.first, color.end(), kGroup * kGroupsATask, [&](std::size_t row) {
+                if (rows_.nodes[row] == kNoNode) return;
+                const auto index = static_cast<std::uint32_t>(row);
+                move_node(rows_.nodes[row], step, gather_spring_terms(springs, index), positions);
+            });
+        }
+    }
+}
+
+// @param any_touch whether nodes touched a collider in the last sweep
+template <class Real>
+void BlockDescent<Real>::move_group(const DescentGroups& groups, std::size_t group, Real step, bool any_touch,
+                                    std::vector<Vec4<Real>>& positions)
+    requires std::same_as<Real, float>
+{
+    TermColumns terms;
+    if (tets_.any_resist() || !model_->neo_hookean_tets.empty()) {
+        for (std::uint32_t row = 0; row < kGroup; ++row) {
+            const std::uint32_t node = groups.nodes[group * kGroup + row];
+            if (node == kNoNode) continue;
+            NodeTerms<Real> of_tets;
+            add_tets(node, step, positions, of_tets);
+            terms.add(row, of_tets);
+        }
+    }
+    const std::uint32_t near_colliders = descend_group(groups, group, terms, positions);
+    if (near_colliders == 0 && !any_touch) return;
+    for (std::uint32_t row = 0; row < kGroup; ++row) {
+        const std::uint32_t node = groups.nodes[group * kGroup + row];
+        if ((near_colliders >> row & 1u) != 0) {
+            const NodeTerms<Real> own = terms.row(row);
+            const Vec3<Real> moved = outside_colliders(node, own.hessian, Vec3<Real>(positions[node]));
+            positions[node] = Vec4<Real>(moved, positions[node].w);
+        } else if (any_touch && node != kNoNode) {
+            node_touches_[node] = {};
+        }
     }
 }
 
@@ -144,16 +194,21 @@ void BlockDescent<Real>::sweep(Real step, std::vector<Vec4<Real>>& positions) {
 template <class Real>
 void BlockDescent<Real>::move_node(std::uint32_t node, Real step, NodeTerms<Real> terms,
                                    std::vector<Vec4<Real>>& positions) {
-    const Real inverse_mass = positions[node].w;
-    if (inverse_mass == Real(0)) return;
+    const Vec4<Real>& target = targets_[node];
+    if (target.w == Real(0)) return;
     const Vec3<Real> position(positions[node]);
-    const Real inertia = Real(1) / (inverse_mass * step * step);  // [N/m]
-    terms.force += inertia * (targets_[node] - position);
-    terms.hessian.add_identity(inertia);
+    terms.force += target.w * (Vec3<Real>(target) - position);
+    terms.hessian.add_identity(target.w);
+    add_tets(node, step, positions, terms);
+    const Vec3<Real> moved = outside_colliders(node, terms.hessian, position + solve(terms));
+    positions[node] = Vec4<Real>(moved, positions[node].w);
+}
+
+template <class Real>
+void BlockDescent<Real>::add_tets(std::uint32_t node, Real step, const std::vector<Vec4<Real>>& positions,
+                                  NodeTerms<Real>& terms) const {
     tets_.add(node, positions, terms);
     add_neo_hookean_tets(node, step, positions, terms);
-    const Vec3<Real> moved = outside_colliders(node, terms.hessian, position + solve(terms));
-    positions[node] = Vec4<Real>(moved, inverse_mass);
 }
 
 template <class Real>
@@ -264,7 +319,7 @@ void BlockDescent<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Re
         const Vec3<Real> position(current.positions[n]), start(starts_[n]);
         Vec3<Real> velocity = (position - start) / step;
         if (touches_[object_of_[n]] != 0)
-            rebound<Real>(model_->colliders, position, (targets_[n] - start) / step, least, velocity);
+            rebound<Real>(model_->colliders, position, (Vec3<Real>(targets_[n]) - start) / step, least, velocity);
         current.velocities[n] = Vec4<Real>(velocity, old.w);
     });
 }

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <concepts>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "cpu/descend_groups.h"
 #include "cpu/node_terms.h"
 #include "cpu/nodes.h"
+#include "cpu/spring_blocks.h"
 #include "cpu/tet_resistance.h"
 #include "model/descent_rows.h"
 #include "model/model.h"
@@ -38,6 +41,11 @@ private:
     void accelerate(int sweep, std::vector<Vec4<Real>>& positions);
     void sweep(Real step, std::vector<Vec4<Real>>& positions);
     void move_node(std::uint32_t node, Real step, NodeTerms<Real> terms, std::vector<Vec4<Real>>& positions);
+    void move_group(const DescentGroups& groups, std::size_t group, Real step, bool any_touch,
+                    std::vector<Vec4<Real>>& positions)
+        requires std::same_as<Real, float>;
+    void add_tets(std::uint32_t node, Real step, const std::vector<Vec4<Real>>& positions,
+                  NodeTerms<Real>& terms) const;
     void add_neo_hookean_tets(std::uint32_t node, Real step, const std::vector<Vec4<Real>>& positions,
                               NodeTerms<Real>& terms) const;
     Vec3<Real> outside_colliders(std::uint32_t node, const SymmetricMatrix<Real>& hessian,
@@ -50,7 +58,7 @@ private:
     DescentRows rows_;
     TetResistance<Real> tets_;
     std::vector<Vec4<Real>> starts_;        // xyz [m], damping time [s]
-    std::vector<Vec3<Real>> targets_;       // y [m], shape [nodes]
+    std::vector<Vec4<Real>> targets_;       // y [m], m / h^2 [N/m], 0 where a node is held; shape [nodes]
     std::vector<std::uint32_t> object_of_;  // by node
     std::vector<std::uint8_t> touches_;     // objects that met a collider in this step
     struct Touch {
@@ -58,6 +66,8 @@ private:
         Real along = 0, across = 0;      // how the force changes with the body's way [N/m]
     };
     std::vector<Touch> node_touches_;             // of the last sweep; empty without colliders
+    SpringBlocks springs_, damped_springs_;      // in float; damped ones where the model has dampers
+    std::vector<ColliderBound> collider_bounds_;
     std::vector<Vec3<Real>> last_, before_last_;  // from where the last two sweeps went [m], for acceleration
 };
 

@@ -40,11 +40,13 @@ bool TetResistance<Real>::is_tangled(const ModelObject& object,
 template <class Real>
 void TetResistance<Real>::look(const std::vector<Vec4<Real>>& positions) {
     const Model& model = *model_;
-    std::fill(is_near_flat_.begin(), is_near_flat_.end(), std::uint8_t(0));
+    if (any_flat_) std::fill(is_near_flat_.begin(), is_near_flat_.end(), std::uint8_t(0));
+    any_flat_ = false;
     for_each_index(model.tets.size(), [&](std::size_t t) {
         const glm::uvec4& tet = model.tets[t];
         ratios_[t] = ratio_of(static_cast<std::uint32_t>(t), positions);
         if (ratios_[t] >= static_cast<Real>(kFlattest)) return;
+        std::atomic_ref(any_flat_).store(true, std::memory_order_relaxed);
         for (int k = 0; k < 4; ++k)
             std::atomic_ref(is_near_flat_[tet[k]]).store(1, std::memory_order_relaxed);
     });

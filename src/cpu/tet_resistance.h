@@ -26,6 +26,9 @@ public:
     /// Looks which tets are flat and how far the volumes are from those at rest.
     void look(const std::vector<Vec4<Real>>& positions);
 
+    /// False if no node has anything to add.
+    bool any_resist() const { return any_flat_ || !model_->volume_term.is_empty(); }
+
     /// Adds the resistance of the node's tets, with the volumes round other nodes as they were at the last
     /// look.
     void add(std::uint32_t node, const std::vector<Vec4<Real>>& positions, NodeTerms<Real>& terms) const;
@@ -37,6 +40,7 @@ private:
     NodeTets node_tets_;
     std::vector<Real> ratios_;                // J, by tet
     std::vector<std::uint8_t> is_near_flat_;  // nodes of tets that resist
+    bool any_flat_ = false;
     std::vector<Real> node_pressures_;        // [Pa]
     std::vector<Real> offsets_;               // q [Pa], by tet
 };
