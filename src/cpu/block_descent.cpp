@@ -10,7 +10,7 @@
 
 #include "cpu/colliders.h"
 #include "cpu/neo_hookean.h"
-#include "cpu/rigid_motion.h"
+#include "cpu/rigid_nodes.h"
 #include "cpu/spring_terms.h"
 #include "model/for_each_index.h"
 #include "model/solver.h"
@@ -61,7 +61,7 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
         if (i % kSweepsAMotion == 0) tets_.look(current.positions);
         sweep(step, current.positions);
         const bool is_last = i + 1 == settings_.iterations;
-        if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(step, is_last, current.positions);
+        if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(is_last, current.positions);
     }
     finish(step, previous, current);
 }
@@ -283,8 +283,7 @@ Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, const Symme
 
 // The last sweep has left nodes outside colliders: bodies that touch one do not move after it.
 template <class Real>
-void BlockDescent<Real>::move_bodies(Real step, bool is_last, std::vector<Vec4<Real>>& positions) const {
-    const double inertia = 1.0 / (static_cast<double>(step) * static_cast<double>(step));
+void BlockDescent<Real>::move_bodies(bool is_last, std::vector<Vec4<Real>>& positions) const {
     tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
         const Range& nodes = model_->objects[o].nodes;
         const std::span body_nodes(positions.data() + nodes.first, nodes.count);
@@ -292,20 +291,36 @@ void BlockDescent<Real>::move_bodies(Real step, bool is_last, std::vector<Vec4<R
                                          [](const Vec4<Real>& p) { return p.w == Real(0); });
         if (is_held || (is_last && touches_[o] != 0)) return;
         const glm::dvec3 origin(positions[nodes.first]);
+        const std::span targets(targets_.data() + nodes.first, nodes.count);
         RigidStep body;
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
-            const glm::dvec3 position(positions[n]), r = position - origin;
-            const double stiffness = inertia / static_cast<double>(positions[n].w);
-            body.add(r, stiffness, stiffness * (glm::dvec3(targets_[n]) - position));
-            if (touches_[o] == 0 || node_touches_[n].along == Real(0)) continue;
-            const Touch& touch = node_touches_[n];
-            body.add(r, static_cast<double>(touch.across), glm::dvec3(touch.force));
-            body.add_along(r, glm::dvec3(touch.normal), static_cast<double>(touch.along - touch.across));
+        if constexpr (kIsFloat<Real>) {
+            body.add(sum_rigid_nodes(body_nodes, targets, glm::vec3(origin)));
+        } else {
+            for (std::size_t n = 0; n < body_nodes.size(); ++n) {
+                const glm::dvec3 position(body_nodes[n]);
+                body.add(position - origin, targets[n].w, targets[n].w * (glm::dvec3(targets[n]) - position));
+            }
+        }
+        if (touches_[o] != 0) {
+            for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) add_touch(n, origin, positions, body);
         }
         const RigidMotion motion = body.solve(origin);
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-            positions[n] = Vec4<Real>(Vec3<Real>(motion.move(glm::dvec3(positions[n]))), positions[n].w);
+        if constexpr (kIsFloat<Real>) {
+            move_rigid_nodes(motion, body_nodes);
+        } else {
+            for (Vec4<Real>& p : body_nodes) p = Vec4<Real>(motion.move(glm::dvec3(p)), p.w);
+        }
     });
+}
+
+template <class Real>
+void BlockDescent<Real>::add_touch(std::uint32_t node, const glm::dvec3& origin,
+                                   const std::vector<Vec4<Real>>& positions, RigidStep& body) const {
+    const Touch& touch = node_touches_[node];
+    if (touch.along == Real(0)) return;
+    const glm::dvec3 r = glm::dvec3(positions[node]) - origin;
+    body.add(r, static_cast<double>(touch.across), glm::dvec3(touch.force));
+    body.add_along(r, glm::dvec3(touch.normal), static_cast<double>(touch.along - touch.across));
 }
 
 // Nodes that a collider has stopped go back with restitution times the speed they would have had without it.

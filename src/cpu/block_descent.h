@@ -8,6 +8,7 @@
 #include "cpu/descend_groups.h"
 #include "cpu/node_terms.h"
 #include "cpu/nodes.h"
+#include "cpu/rigid_motion.h"
 #include "cpu/spring_blocks.h"
 #include "cpu/tet_resistance.h"
 #include "model/descent_rows.h"
@@ -50,7 +51,9 @@ private:
                               NodeTerms<Real>& terms) const;
     Vec3<Real> outside_colliders(std::uint32_t node, const SymmetricMatrix<Real>& hessian,
                                  Vec3<Real> position);
-    void move_bodies(Real step, bool is_last, std::vector<Vec4<Real>>& positions) const;
+    void move_bodies(bool is_last, std::vector<Vec4<Real>>& positions) const;
+    void add_touch(std::uint32_t node, const glm::dvec3& origin, const std::vector<Vec4<Real>>& positions,
+                   RigidStep& body) const;
     void finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current) const;
 
     std::shared_ptr<const Model> model_;

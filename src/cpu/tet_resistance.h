@@ -34,6 +34,7 @@ public:
     void add(std::uint32_t node, const std::vector<Vec4<Real>>& positions, NodeTerms<Real>& terms) const;
 
 private:
+    void look_at(const Range& tets, const std::vector<Vec4<Real>>& positions);
     Real ratio_of(std::uint32_t tet, const std::vector<Vec4<Real>>& positions) const;
 
     std::shared_ptr<const Model> model_;
