@@ -144,9 +144,8 @@ void BlockDescent<Real>::sweep(Real step, std::vector<Vec4<Real>>& positions) {
                                    collider_bounds_};
         const bool any_touch = std::any_of(touches_.begin(), touches_.end(), [](auto t) { return t != 0; });
         for (const Range& color : rows_.colors) {
-            for_each_index(color.first / kGroup, color.end() / kGroup, kGroupsATask, [&](std::size_t group) {
-                move_group(groups, group, step, any_touch, positions);
-            });
+            for_each_index(color.first / kGroup, color.end() / kGroup, kGroupsATask,
+                           [&](std::size_t group) { move_group(groups, group, step, any_touch, positions); });
         }
     } else {
         const SpringRows<Real> springs{rows_, positions.data(), starts_.data(), Real(1) / step};
@@ -163,9 +162,7 @@ void BlockDescent<Real>::sweep(Real step, std::vector<Vec4<Real>>& positions) {
 // @param any_touch whether nodes touched a collider in the last sweep
 template <class Real>
 void BlockDescent<Real>::move_group(const DescentGroups& groups, std::size_t group, Real step, bool any_touch,
-                                    std::vector<Vec4<Real>>& positions)
-    requires std::same_as<Real, float>
-{
+                                    std::vector<Vec4<Real>>& positions) requires std::same_as<Real, float> {
     TermColumns terms;
     if (tets_.any_resist() || !model_->neo_hookean_tets.empty()) {
         for (std::uint32_t row = 0; row < kGroup; ++row) {
@@ -334,7 +331,8 @@ void BlockDescent<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Re
         const Vec3<Real> position(current.positions[n]), start(starts_[n]);
         Vec3<Real> velocity = (position - start) / step;
         if (touches_[object_of_[n]] != 0)
-            rebound<Real>(model_->colliders, position, (Vec3<Real>(targets_[n]) - start) / step, least, velocity);
+            rebound<Real>(model_->colliders, position, (Vec3<Real>(targets_[n]) - start) / step, least,
+                          velocity);
         current.velocities[n] = Vec4<Real>(velocity, old.w);
     });
 }

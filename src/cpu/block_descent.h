@@ -43,8 +43,7 @@ private:
     void sweep(Real step, std::vector<Vec4<Real>>& positions);
     void move_node(std::uint32_t node, Real step, NodeTerms<Real> terms, std::vector<Vec4<Real>>& positions);
     void move_group(const DescentGroups& groups, std::size_t group, Real step, bool any_touch,
-                    std::vector<Vec4<Real>>& positions)
-        requires std::same_as<Real, float>;
+                    std::vector<Vec4<Real>>& positions) requires std::same_as<Real, float>;
     void add_tets(std::uint32_t node, Real step, const std::vector<Vec4<Real>>& positions,
                   NodeTerms<Real>& terms) const;
     void add_neo_hookean_tets(std::uint32_t node, Real step, const std::vector<Vec4<Real>>& positions,
@@ -68,8 +67,8 @@ private:
         Vec3<Real> force{0}, normal{0};  // [N], unit
         Real along = 0, across = 0;      // how the force changes with the body's way [N/m]
     };
-    std::vector<Touch> node_touches_;             // of the last sweep; empty without colliders
-    SpringBlocks springs_, damped_springs_;      // in float; damped ones where the model has dampers
+    std::vector<Touch> node_touches_;        // of the last sweep; empty without colliders
+    SpringBlocks springs_, damped_springs_;  // in float; damped ones where the model has dampers
     std::vector<ColliderBound> collider_bounds_;
     std::vector<Vec3<Real>> last_, before_last_;  // from where the last two sweeps went [m], for acceleration
 };

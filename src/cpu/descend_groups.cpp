@@ -77,9 +77,8 @@ HWY_INLINE bool gather_lanes(Lanes d, std::span<const SpringBlock> blocks, std::
         add_spring_lanes(d, dx, dy, dz, squared, hn::LoadU(d, &block.rest_lengths[row]), stiffness, sums);
         coincide = hn::Or(coincide, hn::And(hn::Eq(squared, zero), hn::Gt(stiffness, zero)));
     }
-    const auto add = [&](Vector sum, TermColumns::Column& column) HWY_ATTR {
-        hn::StoreU(hn::Add(sum, hn::LoadU(d, &column[row])), d, &column[row]);
-    };
+    const auto add = [&](Vector sum, TermColumns::Column& column)
+                         HWY_ATTR { hn::StoreU(hn::Add(sum, hn::LoadU(d, &column[row])), d, &column[row]); };
     add(sums.force_x, terms.force[0]);
     add(sums.force_y, terms.force[1]);
     add(sums.force_z, terms.force[2]);
@@ -100,8 +99,7 @@ HWY_INLINE Vector inverse_or_zero(Lanes d, Vector pivot, Vector diagonal) {
 
 // cpu::solve for a lane each, from where the nodes are.
 HWY_INLINE Columns moved_lanes(Lanes d, std::uint32_t row, const Columns& from, const TermColumns& terms) {
-    const auto load = [&](const TermColumns::Column& column)
-                          HWY_ATTR { return hn::LoadU(d, &column[row]); };
+    const auto load = [&](const TermColumns::Column& column) HWY_ATTR { return hn::LoadU(d, &column[row]); };
     const Vector dx = load(terms.diagonal[0]), dy = load(terms.diagonal[1]), dz = load(terms.diagonal[2]);
     const Vector bx = load(terms.beside[0]), by = load(terms.beside[1]), bz = load(terms.beside[2]);
     const Vector vx = load(terms.force[0]), vy = load(terms.force[1]), vz = load(terms.force[2]);
@@ -143,8 +141,7 @@ HWY_INLINE std::uint32_t near_colliders(Lanes d, std::span<const ColliderBound> 
         } else {
             const Vector px = hn::Sub(position.x, x), py = hn::Sub(position.y, y),
                          pz = hn::Sub(position.z, z);
-            is_near = hn::Or(
-                is_near, hn::Lt(hn::MulAdd(px, px, hn::MulAdd(py, py, hn::Mul(pz, pz))), w));
+            is_near = hn::Or(is_near, hn::Lt(hn::MulAdd(px, px, hn::MulAdd(py, py, hn::Mul(pz, pz))), w));
         }
     }
     std::uint8_t bits[8] = {};

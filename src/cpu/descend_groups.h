@@ -28,9 +28,9 @@ std::vector<ColliderBound> make_collider_bounds(std::span<const Collider> collid
 
 /// What a sweep of vertex block descent reads.
 struct DescentGroups {
-    const SpringBlocks& springs;            ///< their dampers in them
-    std::span<const std::uint32_t> nodes;   ///< of each row, or kNoNode
-    std::span<const glm::vec4> targets;     ///< y [m], m / h^2 [N/m], 0 where a node is held; shape [nodes]
+    const SpringBlocks& springs;           ///< their dampers in them
+    std::span<const std::uint32_t> nodes;  ///< of each row, or kNoNode
+    std::span<const glm::vec4> targets;    ///< y [m], m / h^2 [N/m], 0 where a node is held; shape [nodes]
     std::span<const ColliderBound> colliders;
 };
 

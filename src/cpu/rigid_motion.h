@@ -23,8 +23,8 @@ inline glm::dmat3 cayley_turn(const glm::dvec3& w) {
     return glm::dmat3(1.0) + 4.0 / (4.0 + glm::dot(w, w)) * (cross + 0.5 * cross * cross);
 }
 
-/// Sums over nodes at r from a body's origin [m], that forces f [N] act on, and whose way is resisted alike in
-/// all directions by stiffnesses k [N/m]: inertia, and friction that holds.
+/// Sums over nodes at r from a body's origin [m], that forces f [N] act on, and whose way is resisted alike
+/// in all directions by stiffnesses k [N/m]: inertia, and friction that holds.
 struct RigidSums {
     double stiffness = 0.0;          ///< sum k
     glm::dvec3 arm{0.0};             ///< sum k r
@@ -40,7 +40,9 @@ struct RigidSums {
 ///   sum_i J_i^T K_i J_i (s, w) = sum_i J_i^T f_i,   J_i (s, w) = s + w x r_i
 class RigidStep {
 public:
-    void add(const glm::dvec3& r, double stiffness, const glm::dvec3& force) { sums_.add(r, stiffness, force); }
+    void add(const glm::dvec3& r, double stiffness, const glm::dvec3& force) {
+        sums_.add(r, stiffness, force);
+    }
     void add(const RigidSums& nodes) { sums_.add(nodes); }
     /// A node that is resisted along `normal` alone: a surface that it touches.
     void add_along(const glm::dvec3& r, const glm::dvec3& normal, double stiffness);

@@ -102,10 +102,9 @@ void move_nodes(const RigidMotion& motion, std::span<glm::vec4> positions) {
         const Vector x = hn::Sub(p.x, hn::Set(d, center.x)), y = hn::Sub(p.y, hn::Set(d, center.y)),
                      z = hn::Sub(p.z, hn::Set(d, center.z));
         const auto row = [&](int c) HWY_ATTR {
-            return hn::MulAdd(
-                hn::Set(d, turned[0][c]), x,
-                hn::MulAdd(hn::Set(d, turned[1][c]), y,
-                           hn::MulAdd(hn::Set(d, turned[2][c]), z, hn::Set(d, shift[c]))));
+            return hn::MulAdd(hn::Set(d, turned[0][c]), x,
+                              hn::MulAdd(hn::Set(d, turned[1][c]), y,
+                                         hn::MulAdd(hn::Set(d, turned[2][c]), z, hn::Set(d, shift[c]))));
         };
         hn::StoreInterleaved4(hn::Add(p.x, row(0)), hn::Add(p.y, row(1)), hn::Add(p.z, row(2)), p.w, d,
                               &positions[n].x);

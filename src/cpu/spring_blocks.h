@@ -22,10 +22,10 @@ inline std::array<std::uint32_t, kGroup> shown_nodes(const std::uint32_t* nodes)
 }
 
 /// A half spring of each row of a group.
-struct alignas(32) SpringBlock {                  // 96 bytes
-    std::array<std::uint32_t, kGroup> nodes;      ///< the other ends
-    std::array<float, kGroup> rest_lengths;       ///< [m]
-    std::array<float, kGroup> stiffnesses;        ///< [N/m]; 0 where a row has no more
+struct alignas(32) SpringBlock {              // 96 bytes
+    std::array<std::uint32_t, kGroup> nodes;  ///< the other ends
+    std::array<float, kGroup> rest_lengths;   ///< [m]
+    std::array<float, kGroup> stiffnesses;    ///< [N/m]; 0 where a row has no more
 };
 
 /// The springs of DescentRows as SIMD reads them: a group's blocks one after another, and group after group.

@@ -42,8 +42,8 @@ private:
     std::vector<Real> ratios_;                // J, by tet
     std::vector<std::uint8_t> is_near_flat_;  // nodes of tets that resist
     bool any_flat_ = false;
-    std::vector<Real> node_pressures_;        // [Pa]
-    std::vector<Real> offsets_;               // q [Pa], by tet
+    std::vector<Real> node_pressures_;  // [Pa]
+    std::vector<Real> offsets_;         // q [Pa], by tet
 };
 
 }  // namespace gelatin::cpu

@@ -2,6 +2,7 @@
 #include "cpu/volume_ratios.h"
 
 #include <algorithm>
+#include <array>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "cpu/volume_ratios.cpp"
@@ -24,26 +25,47 @@ HWY_INLINE Vector six_volumes(const Columns& a, const Columns& b, const Columns&
     return hn::MulAdd(x, wx, hn::MulAdd(y, wy, hn::Mul(z, wz)));
 }
 
+// Of kLanes tets.
+HWY_INLINE Vector ratios_of(Lanes d, const glm::uvec4* tets, const TetRest* rests,
+                            const glm::vec4* positions) {
+    const auto corner = [&](int k) HWY_ATTR {
+        return load_columns(d, [&](std::size_t l) { return &positions[tets[l][k]].x; });
+    };
+    HWY_ALIGN float volumes[kLanes];
+    for (std::size_t l = 0; l < kLanes; ++l) volumes[l] = rests[l].volume;
+    return hn::Div(six_volumes(corner(0), corner(1), corner(2), corner(3)),
+                   hn::Mul(hn::Set(d, 6.0f), hn::Load(d, volumes)));
+}
+
 bool are_within(float least, float most, const Model& model, const Range& tets, const glm::vec4* positions,
                 float* ratios) {
     const Lanes d;
+    const Vector low = hn::Set(d, least), high = hn::Set(d, most);
+    const auto within = [&](Vector v)
+                            HWY_ATTR { return hn::AllTrue(d, hn::And(hn::Gt(v, low), hn::Lt(v, high))); };
     bool all = true;
-    for (std::size_t first = tets.first; first < tets.end(); first += kLanes) {
-        const std::size_t count = std::min(kLanes, tets.end() - first);
-        const auto tet = [&](std::size_t l) { return first + std::min(l, count - 1); };  // the last one again
-        const auto corner = [&](int k) HWY_ATTR {
-            return load_columns(d, [&](std::size_t l) { return &positions[model.tets[tet(l)][k]].x; });
-        };
-        HWY_ALIGN float values[kLanes];
-        for (std::size_t l = 0; l < kLanes; ++l) values[l] = model.tet_rests[tet(l)].volume;
-        const Vector rest = hn::Mul(hn::Set(d, 6.0f), hn::Load(d, values));
-        const Vector ratio = hn::Div(six_volumes(corner(0), corner(1), corner(2), corner(3)), rest);
-        all = all && hn::AllTrue(d, hn::And(hn::Gt(ratio, hn::Set(d, least)), hn::Lt(ratio, hn::Set(d, most))));
-        if (ratios == nullptr) continue;
-        hn::Store(ratio, d, values);
-        std::copy_n(values, count, ratios + first);
+    std::size_t t = tets.first;
+    for (; t + kLanes <= tets.end(); t += kLanes) {
+        const Vector ratio = ratios_of(d, &model.tets[t], &model.tet_rests[t], positions);
+        all = within(ratio) && all;
+        if (ratios != nullptr) hn::StoreU(ratio, d, ratios + t);
     }
-    return all;
+    if (t == tets.end()) return all;
+    // The last ones, filled up with one of them.
+    const std::size_t count = tets.end() - t;
+    std::array<glm::uvec4, kLanes> last;
+    std::array<TetRest, kLanes> rests;
+    for (std::size_t l = 0; l < kLanes; ++l) {
+        last[l] = model.tets[t + std::min(l, count - 1)];
+        rests[l] = model.tet_rests[t + std::min(l, count - 1)];
+    }
+    const Vector ratio = ratios_of(d, last.data(), rests.data(), positions);
+    if (ratios != nullptr) {
+        HWY_ALIGN float values[kLanes];
+        hn::Store(ratio, d, values);
+        std::copy_n(values, count, ratios + t);
+    }
+    return within(ratio) && all;
 }
 
 }  // namespace gelatin::cpu::HWY_NAMESPACE

@@ -34,7 +34,8 @@ TEST(SpringTerms, WithSimdAreThePlainOnes) {
     const cpu::SpringBlocks springs = cpu::make_spring_blocks(rows);
     cpu::SpringBlocks damped = springs;
     cpu::damp_springs(springs, rows.nodes, starts.data(), inverse_step, damped);
-    const std::vector<glm::vec4> held(model.node_count(), glm::vec4(0.0f));  // nothing but springs, and no step
+    const std::vector<glm::vec4> held(model.node_count(),
+                                      glm::vec4(0.0f));  // nothing but springs, and no step
     const cpu::DescentGroups groups{damped, rows.nodes, held, {}};
     float largest = 0.0f;
     for (const Spring& s : model.springs) largest = std::max(largest, s.stiffness);
