@@ -6,7 +6,7 @@
 #include "include/descent_step.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 3) uniform usamplerBuffer rows;          // node, object; node 0xFFFFFFFF pads a colour
+layout(binding = 3) uniform usamplerBuffer rows;          // DescentRow
 layout(binding = 4) uniform usamplerBuffer spring_ends;   // of two half springs, the nodes at their other ends
 layout(binding = 5) uniform samplerBuffer springs;        // their rest length [m], stiffness [N/m]
 layout(binding = 6) uniform usamplerBuffer slice_starts;
@@ -31,12 +31,12 @@ vec2 damped(Node a, Node b, vec2 spring) {
 void main() {
     uint row = global_index();
     if (row >= row_count) return;
-    uint n = texelFetch(rows, int(row)).x;
+    uvec2 entry = texelFetch(rows, int(row)).xz;
+    uint n = entry.x;
     if (n == 0xFFFFFFFFu) return;
     Node self = fetch_node(n);
-    int slice = int(row / 64u);
-    uint end = texelFetch(slice_starts, slice + 1).x;
-    for (uint p = texelFetch(slice_starts, slice).x + row % 64u; p < end; p += 64u) {
+    uint first = texelFetch(slice_starts, int(row / 64u)).x + row % 64u, end = first + 64u * entry.y;
+    for (uint p = first; p < end; p += 64u) {
         uvec2 ends = texelFetch(spring_ends, int(p)).xy;
         vec4 two = texelFetch(springs, int(p));
         damped_springs[p] = vec4(damped(self, fetch_node(ends.x), two.xy), damped(self, fetch_node(ends.y), two.zw));

@@ -10,10 +10,11 @@
 layout(local_size_x = 64) in;
 
 layout(binding = 0) uniform samplerBuffer positions;      // xyz [m], inverse mass [1/kg]
-layout(binding = 3) uniform usamplerBuffer rows;          // node, object; node 0xFFFFFFFF pads a colour
+layout(binding = 3) uniform usamplerBuffer rows;          // DescentRow
 layout(binding = 4) uniform usamplerBuffer spring_ends;   // of two half springs, the nodes at their other ends
 layout(binding = 5) uniform samplerBuffer springs;        // their rest length [m], stiffness [N/m], dampers in them
 layout(binding = 6) uniform usamplerBuffer slice_starts;
+layout(binding = 18) uniform usamplerBuffer is_near_flat; // of nodes
 layout(binding = 8) uniform usamplerBuffer tet_corners;   // TetCorner
 layout(binding = 9) uniform usamplerBuffer corner_starts;
 layout(binding = 10) uniform samplerBuffer tet_rests;     // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
@@ -21,7 +22,7 @@ layout(binding = 10) uniform samplerBuffer tet_rests;     // volume [m^3], modul
 layout(binding = 11) uniform samplerBuffer offsets;       // q [Pa], of each tet
 #endif
 layout(std430, binding = 0) writeonly buffer OutPositions { vec4 out_positions[]; };
-layout(std430, binding = 1) buffer NearFlat { uint near_flat[]; };  // an invocation reads and clears its own node's
+layout(std430, binding = 1) writeonly buffer NearFlat { uint near_flat[]; };  // an invocation clears its own node's
 layout(std430, binding = 2) buffer ObjectTouches { uint object_touches[]; };
 #ifdef NEO_HOOKEAN
 #include "include/neo_hookean_terms.glsl"
@@ -96,7 +97,7 @@ void main() {
     uint index = global_index();
     if (index >= row_count) return;
     uint row = first_row + index;
-    uvec2 entry = texelFetch(rows, int(row)).xy;
+    uvec4 entry = texelFetch(rows, int(row));
     uint n = entry.x;
     if (n == 0xFFFFFFFFu) return;
     vec4 position = texelFetch(positions, int(n));
@@ -104,7 +105,7 @@ void main() {
     vec4 target = texelFetch(targets, int(n));
     NodeTerms terms = NodeTerms(target.w * (target.xyz - position.xyz), vec3(target.w), vec3(0.0));
     int slice = int(row / 64u);
-    uint first = texelFetch(slice_starts, slice).x + row % 64u, end = texelFetch(slice_starts, slice + 1).x;
+    uint first = texelFetch(slice_starts, slice).x + row % 64u, end = first + 64u * entry.z;
     bool coincides = false;  // with the other end of a spring
     for (uint p = first; p < end; p += 64u) {
         uvec2 ends = texelFetch(spring_ends, int(p)).xy;
@@ -123,19 +124,19 @@ void main() {
         if (position_of(ends.x) == position.xyz) add_coincident_spring(way_out, two.x, two.y, terms);
         if (position_of(ends.y) == position.xyz) add_coincident_spring(way_out, two.z, two.w, terms);
     }
-    bool is_near_flat = near_flat[n] != 0u;
-    if (is_near_flat && clear_marks != 0u) near_flat[n] = 0u;
+    bool resists = texelFetch(is_near_flat, int(n)).x != 0u;
+    if (resists && clear_marks != 0u) near_flat[n] = 0u;
 #ifndef VOLUME
-    if (is_near_flat)
+    if (resists)
 #endif
     {
-        end = texelFetch(corner_starts, slice + 1).x;
-        for (uint k = texelFetch(corner_starts, slice).x + row % 64u; k < end; k += 64u) {
+        uint corners_end = texelFetch(corner_starts, slice + 1).x;
+        for (uint k = texelFetch(corner_starts, slice).x + row % 64u; k < corners_end; k += 64u) {
             uvec4 corner = texelFetch(tet_corners, int(k));
             if (corner.w == 0xFFFFFFFFu) break;
             vec3 a = position_of(corner.x), b = position_of(corner.y), c = position_of(corner.z);
             vec3 rest = texelFetch(tet_rests, int(corner.w)).xyz;
-            if (is_near_flat) add_flat_tet(position.xyz, a, b, c, rest.x, rest.y, terms);
+            if (resists) add_flat_tet(position.xyz, a, b, c, rest.x, rest.y, terms);
 #ifdef VOLUME
             float offset = texelFetch(offsets, int(corner.w)).x;
             add_tet_volume(position.xyz, a, b, c, rest.x, offset, rest.z, terms);

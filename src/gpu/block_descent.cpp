@@ -69,10 +69,21 @@ std::vector<glm::vec4> springs_of(const HalfSprings& springs) {
     return result;
 }
 
-std::vector<glm::uvec2> with_objects(const std::vector<std::uint32_t>& rows,
-                                     const std::vector<std::uint32_t>& objects) {
-    std::vector<glm::uvec2> result;
-    for (const std::uint32_t n : rows) result.emplace_back(n, n == kNoNode ? 0 : objects[n]);
+// Pairs of half springs that the row's slice has for it.
+std::uint32_t pair_count(const HalfSprings& springs, std::uint32_t row) {
+    constexpr std::uint32_t kSlice = HalfSprings::kSlice;
+    const std::uint32_t slice = row / kSlice, first = springs.slice_starts[slice] + row % kSlice;
+    std::uint32_t count = (springs.slice_starts[slice + 1] - springs.slice_starts[slice]) / kSlice;
+    while (count > 0 && springs.stiffness[first + (count - 1) * kSlice] == glm::vec2(0.0f)) --count;
+    return count;
+}
+
+std::vector<DescentRow> rows_of(const DescentRows& rows, const std::vector<std::uint32_t>& objects) {
+    std::vector<DescentRow> result;
+    for (std::uint32_t r = 0; r < rows.nodes.size(); ++r) {
+        const std::uint32_t n = rows.nodes[r];
+        result.push_back({n, n == kNoNode ? 0 : objects[n], pair_count(rows.springs, r), 0});
+    }
     return result;
 }
 
@@ -133,7 +144,7 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
     for (const Chunk& chunk : chunks) ++chunk_starts[chunk.object + 1];
     std::partial_sum(chunk_starts.begin(), chunk_starts.end(), chunk_starts.begin());
 
-    rows_ = make_buffer(with_objects(rows.nodes, objects), glm::uvec2(kNoNode, 0));
+    rows_ = make_buffer(rows_of(rows, objects), DescentRow{kNoNode, 0, 0, 0});
     spring_ends_ = make_buffer(ends_of(rows.springs), glm::uvec2(0));
     springs_ = make_buffer(springs_of(rows.springs), glm::vec4(0.0f));
     if (model.has_damping()) damped_springs_.emplace(springs_.size());
@@ -153,7 +164,8 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
     rigid_sums_ = gl::Buffer<glm::dvec4>(kRigidSums * chunks.size());
     if (!model.colliders.empty()) touches_ = gl::Buffer<Touch>(model.positions.size());
 
-    row_texels_ = {rows_, gl::TexelFormat::rg32ui};
+    row_texels_ = {rows_, gl::TexelFormat::rgba32ui};
+    near_flat_texels_ = {near_flat_, gl::TexelFormat::r32ui};
     spring_end_texels_ = {spring_ends_, gl::TexelFormat::rg32ui};
     spring_texels_ = {springs_, gl::TexelFormat::rgba32f};
     spring_start_texels_ = {spring_starts_, gl::TexelFormat::r32ui};
@@ -193,6 +205,7 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
     current.position_texels.bind(0);
     start_texels_.bind(1);
     target_texels_.bind(17);
+    near_flat_texels_.bind(18);
     row_texels_.bind(3);
     spring_start_texels_.bind(6);
     if (damped_springs_) damp_springs(step);
@@ -250,7 +263,7 @@ void BlockDescent::look_at_tets() const {
     if (pressures_) pressures_->ratios.bind_storage(3);
     mark_program_.set("tet_count", tet_count_);
     mark_program_.dispatch(tet_count_);
-    gl::barrier(gl::Barrier::storage);
+    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
     if (!pressures_) return;
 
     pressures_->node_volume_texels.bind(11);

@@ -64,7 +64,7 @@ private:
     std::optional<DampedSprings> damped_springs_;  // where the model has dampers
     gl::Buffer<glm::vec4> sweep_starts_;           // empty without acceleration
     std::vector<Range> colors_;                    // rows
-    gl::Buffer<glm::uvec2> rows_;                  // node, object
+    gl::Buffer<DescentRow> rows_;
     NeoHookeanBuffers::Corners neo_hookean_corners_;
     gl::Buffer<glm::uvec2> spring_ends_;  // of pairs of half springs
     gl::Buffer<glm::vec4> springs_;       // of each its rest length [m], stiffness [N/m]
@@ -80,8 +80,9 @@ private:
     gl::Buffer<glm::vec4> targets_;  // y [m], m / h^2 [N/m]
     gl::BufferTexture start_texels_, target_texels_;
     gl::BufferTexture node_object_texels_;
-    gl::BufferTexture row_texels_, spring_end_texels_, spring_texels_, spring_start_texels_,
-        tet_corner_texels_, corner_start_texels_, tet_texels_, tet_rest_texels_, chunk_start_texels_;
+    gl::BufferTexture near_flat_texels_, row_texels_, spring_end_texels_, spring_texels_,
+        spring_start_texels_, tet_corner_texels_, corner_start_texels_, tet_texels_, tet_rest_texels_,
+        chunk_start_texels_;
     gl::Buffer<std::uint32_t> near_flat_, object_touches_, is_tangled_;
     gl::Buffer<Touch> touches_;  // of nodes in the last sweep; empty without colliders
     gl::Buffer<glm::dvec4> rigid_sums_;
