@@ -161,8 +161,9 @@ void BlockDescent<Real>::sweep(Real step, std::vector<Vec4<Real>>& positions) {
 
 // @param any_touch whether nodes touched a collider in the last sweep
 template <class Real>
-void BlockDescent<Real>::move_group(const DescentGroups& groups, std::size_t group, Real step, bool any_touch,
-                                    std::vector<Vec4<Real>>& positions) requires std::same_as<Real, float> {
+template <class Groups>
+void BlockDescent<Real>::move_group(const Groups& groups, std::size_t group, Real step, bool any_touch,
+                                    std::vector<Vec4<Real>>& positions) {
     TermColumns terms;
     if (tets_.any_resist() || !model_->neo_hookean_tets.empty()) {
         for (std::uint32_t row = 0; row < kGroup; ++row) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <concepts>
 #include <memory>
 #include <span>
 #include <vector>
@@ -42,8 +41,9 @@ private:
     void accelerate(int sweep, std::vector<Vec4<Real>>& positions);
     void sweep(Real step, std::vector<Vec4<Real>>& positions);
     void move_node(std::uint32_t node, Real step, NodeTerms<Real> terms, std::vector<Vec4<Real>>& positions);
-    void move_group(const DescentGroups& groups, std::size_t group, Real step, bool any_touch,
-                    std::vector<Vec4<Real>>& positions) requires std::same_as<Real, float>;
+    template <class Groups>  // DescentGroups: a template, for there is none but in float
+    void move_group(const Groups& groups, std::size_t group, Real step, bool any_touch,
+                    std::vector<Vec4<Real>>& positions);
     void add_tets(std::uint32_t node, Real step, const std::vector<Vec4<Real>>& positions,
                   NodeTerms<Real>& terms) const;
     void add_neo_hookean_tets(std::uint32_t node, Real step, const std::vector<Vec4<Real>>& positions,
