@@ -37,7 +37,7 @@ struct Row {
     double spread;  // (90th - 10th percentile) / median
     double bytes;   // read and written at least once
     double springs;
-    std::vector<double> samples;  // [ms], by round
+    double least;  // [ms], of all samples
 };
 
 // 3 x scale spheres of the paper's size in a grid, damped a little so that both terms of the force are at
@@ -131,7 +131,7 @@ std::vector<Row> time_cases(const std::vector<Case>& cases, int scale, int runs,
     for (std::size_t c = 0; c < cases.size(); ++c) {
         const BenchSummary summary = summarise(samples[c]);
         rows.push_back({cases[c].backend, cases[c].stage, scale, summary.median, summary.spread(),
-                        cases[c].bytes, springs, samples[c]});
+                        cases[c].bytes, springs, *std::min_element(samples[c].begin(), samples[c].end())});
     }
     return rows;
 }
@@ -293,31 +293,26 @@ void print_rows(const std::vector<Row>& rows) {
     }
 }
 
-// What a sweep of block descent costs in explicit steps, by differences within each round.
+// What a sweep of block descent costs in explicit steps, by differences. Of shortest times: medians of times
+// that others have disturbed differ by more than a sweep.
 void add_sweep_ratios(const std::vector<Row>& rows, const std::string& backend, int scale,
                       std::vector<BenchRatio>& ratios) {
-    const auto samples = [&](const std::string& stage) {
-        return find_row(rows, backend, stage, scale).samples;
+    const auto least = [&](const std::string& stage) { return find_row(rows, backend, stage, scale).least; };
+    const double fused = least("advance_nodes (fused)");
+    const double one = least(descent_stage(1)), two = least(descent_stage(2)), ten = least(descent_stage(10));
+    const auto add = [&](const std::string& what, double ms, const std::string& wanted = "") {
+        ratios.push_back({fmt::format("{}: {} / fused, {}x", backend, what, scale), ms / fused, wanted});
     };
-    const std::vector<double> fused = samples("advance_nodes (fused)"), one = samples(descent_stage(1)),
-                              two = samples(descent_stage(2)), ten = samples(descent_stage(10)),
-                              dispatches = backend == "GL" ? samples(kDispatches)
-                                                           : std::vector<double>(fused.size(), 0.0);
-    const auto add = [&](const std::string& what, const std::string& wanted, const auto& cost) {
-        std::vector<double> ratio;
-        for (std::size_t r = 0; r < fused.size(); ++r) ratio.push_back(cost(r) / fused[r]);
-        ratios.push_back(
-            {fmt::format("{}: {} / fused, {}x", backend, what, scale), summarise(ratio).median, wanted});
-    };
-    // Eight sweeps, and four times what comes with every second one.
-    const auto sweep = [&](std::size_t r) { return (ten[r] - two[r]) / 8; };
-    add("a sweep of vbd", backend == "GL" ? "" : "<= 1.2", sweep);
+    const double sweep = (ten - two) / 8;  // and half of what comes with every second one
     if (backend == "GL") {
-        add("its dispatches", "", [&](std::size_t r) { return dispatches[r]; });
-        add("a sweep less them", "<= 1.2", [&](std::size_t r) { return sweep(r) - dispatches[r]; });
+        add("a sweep of vbd", sweep);
+        add("its dispatches", least(kDispatches));
+        add("a sweep less them", sweep - least(kDispatches), "<= 1.2");
+    } else {
+        add("a sweep of vbd", sweep, "<= 1.2");
     }
-    add("its colours alone", "", [&](std::size_t r) { return two[r] - one[r]; });
-    add("the rest of a step", "", [&](std::size_t r) { return ten[r] - 10 * sweep(r); });
+    add("its colours alone", two - one);
+    add("the rest of a step", ten - 10 * sweep);
 }
 
 std::vector<BenchRatio> summarise(const std::vector<Row>& rows, const KernelBenchOptions& options) {
