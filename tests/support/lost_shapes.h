@@ -1,0 +1,24 @@
+#pragma once
+
+#include "cpu/nodes.h"
+#include "model/model.h"
+
+namespace gelatin::test {
+
+/// Bodies at rest: a large block of two chunks of nodes, a long bar, a block that is held at one end, and a
+/// cube.
+Model make_bodies_to_lose();
+
+/// Nodes of them, moving at random: with `bar_is_lost` those of all but the cube lie at random in boxes, else
+/// the bar is rolled up to a ring, without a tet inside out. The cube is mirrored: all of its tets are.
+cpu::Nodes<float> lose_shapes(const Model& model, bool bar_is_lost);
+
+/// A run of the matcher on the GPU for each of `runs`, one after the other.
+void match_on_gpu(const Model& model, std::vector<cpu::Nodes<float>>& runs);
+
+/// The largest error of runs on the GPU against the double reference, in places over 1e-5 m, in velocities
+/// over 1e-4 m/s: bodies and coordinates are about 1 m large, speeds 1 m/s, inverse moments some 100 times
+/// that.
+double worst_matching_error(const Model& model);
+
+}  // namespace gelatin::test
