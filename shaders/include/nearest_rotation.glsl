@@ -10,7 +10,8 @@ mat3 nearest_rotation(mat3 moment) {
                   turned.x, a.x - b.y - c.z, a.y + b.x, c.x + a.z,
                   turned.y, a.y + b.x, b.y - a.x - c.z, b.z + c.y,
                   turned.z, c.x + a.z, b.z + c.y, c.z - a.x - b.y);
-    float size = sqrt(dot(m[0], m[0]) + dot(m[1], m[1]) + dot(m[2], m[2]) + dot(m[3], m[3]));
+    vec4 sums = abs(m[0]) + abs(m[1]) + abs(m[2]) + abs(m[3]);
+    float size = sums.x + sums.y + sums.z + sums.w;
     m = mat4(1.0) + m * (size > 0.0 ? 1.0 / size : 0.0);  // none of its eigenvalues is negative
     for (int k = 0; k < kSquarings; ++k) {
         m = m * m;

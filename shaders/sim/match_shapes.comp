@@ -53,10 +53,12 @@ void main() {
     float square = sums.momentum.w - mass * dot(center, center);
     if (trace(moment * inverse_ * transpose(moment)) > kLeastExplained * square) return;
 
-    mat3 turn = nearest_rotation(moment), square_at_rest = inverse(inverse_);
+    // Moments of inertia in units of the object's own: determinants have three of them.
+    float unit = trace(inverse_);
+    mat3 turn = nearest_rotation(moment), square_at_rest = inverse(inverse_ / unit);
     mat3 inertia = trace(square_at_rest) * mat3(1.0) - square_at_rest;
     vec3 spin = sums.spin.xyz - cross(center, sums.momentum.xyz);
-    spin = turn * (inverse(inertia) * (transpose(turn) * spin));
+    spin = turn * (inverse(inertia) * (transpose(turn) * (unit * spin)));
     vec3 origin = texelFetch(positions, int(chunks[first].origin)).xyz;
     places[object] = ShapePlace(vec4(origin + center, 1.0), vec4(turn[0], 0.0), vec4(turn[1], 0.0),
                                 vec4(turn[2], 0.0), vec4(sums.momentum.xyz / mass, 0.0), vec4(spin, 0.0));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
@@ -21,8 +21,8 @@ inline glm::dmat3 nearest_rotation(const glm::dmat3& moment) {
                  turned.x, a.x - b.y - c.z, a.y + b.x, c.x + a.z,  //
                  turned.y, a.y + b.x, b.y - a.x - c.z, b.z + c.y,  //
                  turned.z, c.x + a.z, b.z + c.y, c.z - a.x - b.y);
-    const double size =
-        std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]) + glm::dot(m[3], m[3]));
+    const glm::dvec4 sums = glm::abs(m[0]) + glm::abs(m[1]) + glm::abs(m[2]) + glm::abs(m[3]);
+    const double size = sums.x + sums.y + sums.z + sums.w;
     m = glm::dmat4(1.0) + m * (size > 0.0 ? 1.0 / size : 0.0);  // none of its eigenvalues is negative
     for (int k = 0; k < kSquarings; ++k) {
         m = m * m;
