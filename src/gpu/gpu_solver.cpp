@@ -27,6 +27,7 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, Forc
     if (!model_->volume_term.is_empty() && solver != SolverKind::vbd) find_volume_stresses_.emplace(*model_);
     if (solver == SolverKind::vbd) {
         block_descent_.emplace(*model_, descent);
+        shape_matcher_.emplace(*model_);
     } else if (forces == ForceMethod::fused) {
         fused_.emplace(*model_, scheme_);
     } else {
@@ -41,6 +42,7 @@ void GpuSolver::apply_kinematics(std::span<const HandleMotion> motions) {
 void GpuSolver::advance_nodes(double step) {
     if (block_descent_) {
         std::swap(current_, previous_);
+        shape_matcher_->run(previous_);
         if (sum_loads_) sum_loads_->run(previous_);
         block_descent_->run(buffers_, previous_, current_, step, std::exchange(has_earlier_, true));
         return;

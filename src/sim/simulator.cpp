@@ -14,6 +14,7 @@
 #include "model/stability.h"
 #include "model/start_state.h"
 #include "sim/backend.h"
+#include "sim/check_starts.h"
 #include "sim/checkpoint.h"
 #include "sim/draw_source.h"
 #include "sim/overlay_source.h"
@@ -119,6 +120,9 @@ Simulator::Simulator(const Scene& scene, const SimulatorOptions& options) : impl
     d.watch.emplace(d.scene, d.model, d.substeps);
     if (start) d.watch->begin(*start, {});
     for (const std::string& line : check_model(*d.model, scene, d.step_size())) spdlog::warn(line);
+    for (const std::string& line :
+         check_starts(*d.model, scene, start ? start->positions : d.model->positions))
+        spdlog::warn(line);
 }
 
 Simulator::Simulator(Simulator&&) noexcept = default;

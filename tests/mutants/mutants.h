@@ -236,6 +236,24 @@ inline constexpr Break kDriveMutants[] = {
     {"held_nodes_are_taken_back", "sim/take_back_tangled.comp", "if (start.w > 0.0) positions", "positions"},
 };
 
+// Of shape matching.
+inline constexpr Break kMatchingMutants[] = {
+    {"no_tet_is_inside_out", "sim/count_inverted_tets.comp", "volume_ratio(t) > 0.0", "true"},
+    {"all_tets_count", "sim/count_inverted_tets.comp", "|| volume_ratio(t) > 0.0", ""},
+    {"counts_stay", "sim/match_shapes.comp", "inverted[object] = 0u;", ""},
+    {"mirrored_bodies_are_lost", "sim/match_shapes.comp",
+     "trace(moment * inverse_ * transpose(moment)) > kLeastExplained * square", "false"},
+    {"only_the_first_chunk_counts", "sim/match_shapes.comp", "c < end", "c < first + 1u"},
+    {"half_of_the_lanes_count", "sim/match_shapes.comp", "l < 64u", "l < 32u"},
+    {"bodies_are_turned_back", "include/nearest_rotation.glsl", "2.0 * (q.x * cross_",
+     "2.0 * (-q.x * cross_"},
+    {"momentum_is_lost", "sim/match_shapes.comp", "sums.momentum.xyz / mass", "vec3(0.0)"},
+    {"angular_momentum_is_lost", "sim/match_shapes.comp", "vec4(spin, 0.0)", "vec4(0.0)"},
+    {"angular_momentum_is_about_a_node", "sim/match_shapes.comp", "- cross(center, sums.momentum.xyz)", ""},
+    {"held_nodes_are_put_there", "sim/place_shapes.comp", "|| positions[n].w == 0.0", ""},
+    {"whole_bodies_are_put_there", "sim/place_shapes.comp", "place.center.w == 0.0 ||", ""},
+};
+
 // Of vertex block descent.
 inline constexpr Break kDescentMutants[] = {
     {"clusters_do_not_turn", "include/nearest_turn.glsl", "mat3 turn = map;", "return mat3(1.0); mat3 turn;"},
