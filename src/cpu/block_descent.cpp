@@ -33,14 +33,6 @@ void for_each_node(const Model& model, const Work& work) {
     for_each_index(model.node_count(), [&](std::size_t n) { work(static_cast<std::uint32_t>(n)); });
 }
 
-void gather_terms(const SpringRows<float>& springs, std::uint32_t slice, NodeTerms<float>* terms) {
-    gather_spring_terms_simd(springs, slice, terms);
-}
-
-void gather_terms(const SpringRows<double>& springs, std::uint32_t slice, NodeTerms<double>* terms) {
-    gather_spring_terms(springs, slice, terms);
-}
-
 }  // namespace
 
 template <class Real>
