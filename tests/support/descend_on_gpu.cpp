@@ -72,7 +72,6 @@ Model make_bodies_to_descend(double damping_time, double poisson_ratio, Material
         return bodies.emplace_back(std::move(body));
     };
     Body& large = add({5, 6, 7}, {0.0, 1.0, 0.0});
-    large.spin = {5.0, -20.0, 8.0};
     if (driven) {
         large.loads = {{HalfSpaceRegion{{0.0, 1.0, 0.0}, 1.2}, ForceLoad{{500.0, 2000.0, 0.0}}},
                        {HalfSpaceRegion{{1.0, 0.0, 0.0}, 0.01}, PressureLoad{2e3}}};
@@ -83,7 +82,9 @@ Model make_bodies_to_descend(double damping_time, double poisson_ratio, Material
     small.material.model = MaterialModel::mass_spring;
     if (driven) small.handles = {handle};
     add({4, 2, 2}, {0.0, 1.0, 1.0}).pins = {HalfSpaceRegion{{1.0, 0.0, 0.0}, 0.05}};
-    add({3, 3, 3}, {-1.0, -0.01, 0.0}).velocity = {2.0, -1.0, 0.5};
+    Body& landing = add({3, 3, 3}, {-1.0, -0.01, 0.0});
+    landing.velocity = {2.0, -1.0, 0.5};
+    landing.spin = {5.0, -20.0, 8.0};
     ColliderDescription floor, ball;
     floor.shape = PlaneCollider{};
     floor.friction = 0.2;
