@@ -75,6 +75,8 @@ public:
     /// largest
     ///   safe one); NoOpenGl if GL is asked for and there is none.
     explicit Simulator(const Scene& scene, const SimulatorOptions& options = {});
+    /// The same with tets and springs that were made before: what build_model made of this very scene.
+    Simulator(const Scene& scene, std::shared_ptr<const Model> model, const SimulatorOptions& options = {});
     Simulator(Simulator&&) noexcept;
     Simulator& operator=(Simulator&&) noexcept;
     ~Simulator();
@@ -87,6 +89,13 @@ public:
 
     /// Advances by one step; `substeps()` of them make a frame. @throws as advance_frame
     void step();
+
+    /// Back to the start, measurements under way forgotten; after Diverged, too.
+    void reset();
+
+    /// Goes on from where another simulation of the same tets is, with the masses, materials and settings of
+    /// this one's own scene. @throws InvalidInput if the tets differ
+    void go_on_from(const Simulator& other);
 
     /// Waits for the GPU. @throws Diverged if any step so far left the state so.
     void check() const;

@@ -76,6 +76,14 @@ struct Simulator::Impl {
         return {measure.node_face, measure.edge_edge, measure.lost, measure.nearest};
     }
 
+    // Goes on from there. What was being measured is of a state that is gone.
+    void take_state(const State& state, const Moment& moment) {
+        for (; !measured.empty(); measured.pop_front()) solver->end_measure();
+        solver->write_state(state);
+        go_on_from(moment);
+        watch->begin(state, now());
+    }
+
     void warn_of_lost_pairs() {
         const std::uint32_t lost = solver->lost_pairs();
         if (lost == reported_losses) return;
@@ -94,11 +102,15 @@ struct Simulator::Impl {
     }
 };
 
-Simulator::Simulator(const Scene& scene, const SimulatorOptions& options) : impl_(std::make_unique<Impl>()) {
+Simulator::Simulator(const Scene& scene, const SimulatorOptions& options)
+    : Simulator(scene, std::make_shared<const Model>(build_model(scene)), options) {}
+
+Simulator::Simulator(const Scene& scene, std::shared_ptr<const Model> model, const SimulatorOptions& options)
+    : impl_(std::make_unique<Impl>()) {
     Impl& d = *impl_;
     d.scene = scene;
     d.options = with_needed_backend(options, scene);
-    d.model = std::make_shared<const Model>(build_model(scene));
+    d.model = std::move(model);
     d.substeps = choose_substeps(scene, *d.model);
     d.context = make_context(d.options);
     const SimulationSettings& settings = scene.simulation;
@@ -151,6 +163,26 @@ void Simulator::step() {
     // A GPU is asked once a frame.
     if (d.gpu_solver == nullptr || d.steps % static_cast<std::uint64_t>(d.substeps) == 0)
         d.watch->check(d.solver->alarm(false), now, now);
+}
+
+void Simulator::reset() {
+    const Model& m = model();
+    const std::optional<State> deformed = deformed_start(scene(), m);
+    impl_->take_state(deformed ? *deformed : State{m.positions, m.velocities, {}}, {});
+}
+
+void Simulator::go_on_from(const Simulator& other) {
+    const Model& m = model();
+    if (m.tets != other.model().tets || m.node_count() != other.model().node_count())
+        throw InvalidInput("a simulation can go on from another of the same tets alone");
+    State state = other.impl_->solver->read_state();
+    for (std::uint32_t n = 0; n < m.node_count(); ++n) {
+        state.positions[n].w = m.positions[n].w;
+        state.velocities[n].w = m.velocities[n].w;
+    }
+    const int frame = static_cast<int>(other.time() * scene().simulation.frame_rate + 1e-6);
+    impl_->take_state(state, {frame, other.time(),
+                              static_cast<std::uint64_t>(frame) * static_cast<std::uint64_t>(substeps())});
 }
 
 void Simulator::check() const {
@@ -273,11 +305,10 @@ void Simulator::save_checkpoint(const std::filesystem::path& file) const {
 
 void Simulator::load_checkpoint(const std::filesystem::path& file) {
     const Checkpoint checkpoint = read_checkpoint(file, model());
-    impl_->solver->write_state(checkpoint.state);
-    impl_->go_on_from(
+    impl_->take_state(
+        checkpoint.state,
         {checkpoint.frame, checkpoint.time,
          static_cast<std::uint64_t>(checkpoint.frame) * static_cast<std::uint64_t>(substeps())});
-    impl_->watch->begin(checkpoint.state, impl_->now());
 }
 
 }  // namespace gelatin

@@ -1,0 +1,275 @@
+#include "viewer_app.h"
+
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "common/surroundings.h"
+#include "core/log.h"
+#include "gelatin/error.h"
+#include "gl/context.h"
+#include "render/frame_grabber.h"
+#include "render/image.h"
+#include "shortcuts.h"
+
+namespace gelatin::viewer {
+namespace {
+
+constexpr double kNoticeTime = 4.0;       // [s]
+constexpr double kIdle = 0.1;             // between pictures when nothing moves [s]
+constexpr double kLeastSpeed = 1.0 / 64;  // of real time
+constexpr int kUsualBoxLevels = 2;
+
+render::Quality choose_quality(render::Quality quality) {
+    if (quality != render::Quality::automatic) return quality;
+    return gl::Context::current().device().is_software ? render::Quality::fast : render::Quality::high;
+}
+
+// The first of NAME-1.png, NAME-2.png, ... that is not there yet.
+std::filesystem::path free_name(const std::string& stem) {
+    for (int i = 1;; ++i) {
+        std::filesystem::path file = fmt::format("{}-{}.png", stem, i);
+        if (!std::filesystem::exists(file)) return file;
+    }
+}
+
+}  // namespace
+
+ViewerApp::ViewerApp(Window& window, const ViewerOptions& options)
+    : window_(window), options_(options), samples_(sample_scenes()) {
+    options_.quality = choose_quality(options.quality);
+    panels_.quality = options_.quality == render::Quality::fast ? "fast" : "high";
+    if (!options_.scene.empty()) open(options_.scene);
+}
+
+void ViewerApp::open(const std::filesystem::path& file) {
+    if (file != options_.scene) options_.overrides.clear();  // meant for another
+    options_.scene = file;
+    problem_.clear();
+    loader_.open(file, options_.overrides);
+}
+
+void ViewerApp::draw_frame() {
+    window_.begin_frame(patience());
+    panels_.scale = window_.scale();
+    const double now = window_.now(), elapsed = now - std::exchange(last_frame_, now);
+    if (elapsed > 0.0) panels_.picture_rate += 0.1 * (1.0 / elapsed - panels_.picture_rate);
+    for (const Event& event : window_.take_events()) handle(event);
+    take_loaded_scene();
+    const bool is_new = session_ && session_->update(now);
+    if (session_ && std::exchange(told_problem_, session_->problem()) != session_->problem())
+        if (!session_->problem().empty()) fail(session_->problem() + "\n\nR goes back to the start.");
+    draw_picture(is_new);
+    const Requests requests = draw_panels();
+    window_.draw_panels();
+    save_pictures();
+    window_.present();
+    update_title();
+    obey(requests);
+}
+
+// Panels take a picture or two to follow what happened.
+double ViewerApp::patience() const {
+    const bool is_busy = loader_.is_busy() || (session_ && (session_->is_playing() || session_->is_computing()));
+    return is_busy ? 0.0 : kIdle;
+}
+
+float ViewerApp::aspect() const {
+    const glm::ivec2 size = glm::max(window_.pixels(), glm::ivec2(1));
+    return static_cast<float>(size.x) / static_cast<float>(size.y);
+}
+
+void ViewerApp::take_loaded_scene() {
+    // A scene that goes on takes over what is under way once that is done.
+    if (session_ && session_->is_computing()) return;
+    try {
+        if (auto result = loader_.take()) show_scene(std::move(*result));
+    } catch (const Error& error) {
+        fail(error.what());
+    }
+}
+
+void ViewerApp::show_scene(SceneLoader::Result result) {
+    const bool goes_on = result.purpose == SceneLoader::Purpose::go_on && session_;
+    auto session = std::make_unique<Session>(std::move(result.loaded), options_.backend,
+                                             goes_on ? session_.get() : nullptr);
+    session->show(panels_.overlays);
+    session_ = std::move(session);
+    if (goes_on) return;
+    panels_.edited = session_->scene();
+    surroundings_ = describe_surroundings(session_->simulator());
+    camera_.set(choose_camera(session_->scene(), surroundings_, aspect()));
+    if (renderer_) renderer_->set_surroundings(surroundings_);
+}
+
+void ViewerApp::handle(const Event& event) {
+    if (const auto* key = std::get_if<KeyPress>(&event)) {
+        if (const std::optional<Command> command = find_command(*key)) obey(*command);
+    } else if (const auto* button = std::get_if<ButtonChange>(&event)) {
+        pointer_ = button->place;
+        if (button->is_down) {
+            dragging_ = button->button;
+        } else if (dragging_ == button->button) {
+            dragging_.reset();
+        }
+    } else if (const auto* move = std::get_if<PointerMove>(&event)) {
+        handle(*move);
+    } else if (const auto* wheel = std::get_if<WheelTurn>(&event)) {
+        camera_.zoom(wheel->notches, wheel->place);
+    } else if (const auto* drop = std::get_if<FileDrop>(&event)) {
+        if (!drop->files.empty()) open(drop->files.front());
+    }
+}
+
+void ViewerApp::handle(const PointerMove& move) {
+    const glm::vec2 way = move.place - std::exchange(pointer_, move.place);
+    if (!dragging_) return;
+    if (*dragging_ == GLFW_MOUSE_BUTTON_LEFT) {
+        camera_.orbit(way);
+    } else {
+        camera_.pan(way);
+    }
+}
+
+void ViewerApp::obey(Command command) {
+    if (command == Command::toggle_help) {
+        shows_help_ = !shows_help_;
+    } else if (command == Command::toggle_panels) {
+        shows_panels_ = !shows_panels_;
+    } else if (command == Command::quit) {
+        window_.ask_to_close();
+    } else if (command == Command::reload && !options_.scene.empty()) {
+        open(options_.scene);
+    }
+    if (!session_) return;
+    Overlays overlays = panels_.overlays;
+    switch (command) {
+        case Command::toggle_play:
+            return session_->play(!session_->is_playing());
+        case Command::step:
+            session_->play(false);
+            return session_->make_steps(1);
+        case Command::step_frame:
+            session_->play(false);
+            return session_->make_steps(session_->simulator().substeps());
+        case Command::reset:
+            problem_.clear();
+            return session_->reset();
+        case Command::slower:
+            return session_->set_speed(std::max(0.5 * session_->pace().speed(), kLeastSpeed));
+        case Command::faster:
+            return session_->set_speed(std::min(2.0 * session_->pace().speed(), 1.0));
+        case Command::frame_all:
+            return camera_.frame(surroundings_.bounds, aspect());
+        case Command::toggle_strain:
+            overlays.full_strain = overlays.full_strain ? std::nullopt : std::optional(kUsualStrain);
+            return show_overlays(overlays);
+        case Command::toggle_faces:
+            overlays.faces = !overlays.faces;
+            return show_overlays(overlays);
+        case Command::toggle_boxes:
+            overlays.box_levels = overlays.box_levels ? std::nullopt : std::optional(kUsualBoxLevels);
+            return show_overlays(overlays);
+        case Command::screenshot:
+            wants_picture_ = true;
+            return;
+        case Command::screenshot_of_window:
+            wants_window_picture_ = true;
+            return;
+        default:
+            return;
+    }
+}
+
+void ViewerApp::obey(const Requests& requests) {
+    for (const Command command : requests.commands) obey(command);
+    if (requests.speed && session_) session_->set_speed(*requests.speed);
+    if (requests.overlays) show_overlays(*requests.overlays);
+    if (requests.opened) open(*requests.opened);
+    if (requests.edited) {
+        panels_.edited = *requests.edited;
+        loader_.rebuild(panels_.edited);
+    }
+}
+
+void ViewerApp::show_overlays(const Overlays& overlays) {
+    panels_.overlays = overlays;
+    if (session_) session_->show(overlays);
+}
+
+void ViewerApp::draw_picture(bool is_new) {
+    const glm::ivec2 size = window_.pixels();
+    if (!session_ || size.x == 0 || size.y == 0) return window_.show_picture(0);
+    if (!renderer_) {
+        render::RendererOptions options;
+        options.width = size.x;
+        options.height = size.y;
+        options.quality = options_.quality;
+        renderer_.emplace(options);
+        renderer_->set_surroundings(surroundings_);
+        drawn_camera_.reset();
+    } else if (renderer_->width() != size.x || renderer_->height() != size.y) {
+        renderer_->resize(size.x, size.y);
+        drawn_camera_.reset();
+    }
+    const render::Camera camera = camera_.camera();
+    if (is_new || drawn_camera_ != camera) {
+        if (session_->view().node_count > 0) renderer_->draw(session_->view(), camera);
+        drawn_camera_ = camera;
+    }
+    window_.show_picture(renderer_->framebuffer());
+}
+
+Requests ViewerApp::draw_panels() {
+    Requests requests;
+    const float scale = window_.scale();
+    if (session_ && shows_panels_) draw_session_panel(*session_, panels_, requests);
+    if (!session_ && !loader_.is_busy()) draw_start_screen(scale, samples_, requests);
+    if (shows_help_) draw_help(scale, requests);
+    if (!problem_.empty() && !draw_problem(scale, problem_)) problem_.clear();
+    if (loader_.is_busy() && loader_.purpose() == SceneLoader::Purpose::show) {
+        draw_notice(scale, fmt::format("opening {} ...", loader_.file().filename().string()));
+    } else if (window_.now() < notice_until_) {
+        draw_notice(scale, notice_);
+    }
+    return requests;
+}
+
+void ViewerApp::save_pictures() {
+    if (std::exchange(wants_picture_, false) && renderer_)
+        save_picture(renderer_->framebuffer(), renderer_->width(), renderer_->height());
+    if (std::exchange(wants_window_picture_, false))
+        save_picture(0, window_.pixels().x, window_.pixels().y);
+}
+
+void ViewerApp::save_picture(unsigned framebuffer, int width, int height) {
+    const std::filesystem::path file = free_name(options_.scene.stem().string());
+    try {
+        render::FrameGrabber grabber(width, height);
+        grabber.grab(framebuffer);
+        if (const auto picture = grabber.flush()) render::write_png(file, *picture);
+        tell("saved " + file.string());
+    } catch (const Error& error) {
+        fail(error.what());
+    }
+}
+
+void ViewerApp::tell(const std::string& notice) {
+    notice_ = notice;
+    notice_until_ = window_.now() + kNoticeTime;
+}
+
+void ViewerApp::fail(const std::string& problem) {
+    spdlog::error("{}", problem.substr(0, problem.find('\n')));
+    problem_ = problem;
+}
+
+void ViewerApp::update_title() {
+    if (!session_) return window_.set_title("Gelatin");
+    window_.set_title(fmt::format("{} ({}) - Gelatin", session_->scene().file.filename().string(),
+                                  session_->is_playing() ? "playing" : "paused"));
+}
+
+}  // namespace gelatin::viewer
