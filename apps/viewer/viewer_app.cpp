@@ -27,6 +27,11 @@ render::Quality choose_quality(render::Quality quality) {
     return gl::Context::current().device().is_software ? render::Quality::fast : render::Quality::high;
 }
 
+render::Bounds bounds_of_bodies(const RenderView& view) {
+    return {{view.box_min[0], view.box_min[1], view.box_min[2]},
+            {view.box_max[0], view.box_max[1], view.box_max[2]}};
+}
+
 // The first of NAME-1.png, NAME-2.png, ... that is not there yet.
 std::filesystem::path free_name(const std::string& stem) {
     for (int i = 1;; ++i) {
@@ -162,7 +167,7 @@ void ViewerApp::obey(Command command) {
         case Command::faster:
             return session_->set_speed(std::min(2.0 * session_->pace().speed(), 1.0));
         case Command::frame_all:
-            return camera_.frame(surroundings_.bounds, aspect());
+            return camera_.frame(bounds_of_bodies(session_->view()), aspect());
         case Command::toggle_strain:
             overlays.full_strain = overlays.full_strain ? std::nullopt : std::optional(kUsualStrain);
             return show_overlays(overlays);

@@ -27,7 +27,9 @@ constexpr double kMostPictures = 60.0;  // a second, where the driver does not w
 std::string last_glfw_problem() {
     const char* description = nullptr;
     glfwGetError(&description);
-    return description == nullptr ? "no reason given" : description;
+    std::string problem = description == nullptr ? "no reason given" : description;
+    while (!problem.empty() && problem.back() == ' ') problem.pop_back();
+    return problem;
 }
 
 }  // namespace
@@ -36,11 +38,8 @@ std::string last_glfw_problem() {
 struct WindowCallbacks {
     static Window& of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
 
-    static glm::vec2 pointer(GLFWwindow* window) {
-        double x = 0.0, y = 0.0;
-        glfwGetCursorPos(window, &x, &y);
-        return of(window).place_of(x, y);
-    }
+    // Where the pointer is when an event is heard of may be another place than where it happened.
+    static glm::vec2 pointer(GLFWwindow* window) { return of(window).pointer_; }
     static void key(GLFWwindow* window, int key, int, int action, int modifiers) {
         if (action == GLFW_RELEASE) return;
         of(window).events_.emplace_back(KeyPress{key, (modifiers & GLFW_MOD_CONTROL) != 0,
@@ -50,7 +49,8 @@ struct WindowCallbacks {
         of(window).events_.emplace_back(ButtonChange{button, action == GLFW_PRESS, pointer(window)});
     }
     static void move(GLFWwindow* window, double x, double y) {
-        of(window).events_.emplace_back(PointerMove{of(window).place_of(x, y)});
+        of(window).pointer_ = of(window).place_of(x, y);
+        of(window).events_.emplace_back(PointerMove{pointer(window)});
     }
     static void wheel(GLFWwindow* window, double, double notches) {
         of(window).events_.emplace_back(WheelTurn{static_cast<float>(notches), pointer(window)});

@@ -58,6 +58,7 @@ private:
     float scale_ = 1.0f;
     float new_scale_ = 1.0f;  // what the screen has asked for since
     std::vector<Event> events_;
+    glm::vec2 pointer_{0.0f};  // after the last of them
     double next_frame_ = 0.0;  // [s]
 };
 

@@ -1,0 +1,156 @@
+#include <glm/geometric.hpp>
+
+#include "render/image.h"
+#include "viewer/support/window_test.h"
+
+namespace gelatin::test {
+namespace {
+
+TEST_F(WindowTest, PlaysPausesStepsAndGoesBack) {
+    open(two_cubes());
+    draw_until([&] { return session().time() > 0.1; });
+    press("space");
+    ASSERT_FALSE(session().is_playing());
+    draw_until([&] { return !session().is_computing(); });
+    draw(2);
+    const double paused = session().time();
+    draw(5);
+    EXPECT_EQ(session().time(), paused);
+
+    press("period");
+    draw_until([&] { return session().time() > paused; });
+    draw(2);
+    EXPECT_NEAR(session().time(), paused + 0.01, 1e-9);
+    press("Right");
+    draw_until([&] { return session().time() > paused + 0.015; });
+    draw(2);
+    EXPECT_NEAR(session().time(), paused + 0.03, 1e-9);
+
+    press("r");
+    draw_until([&] { return session().time() == 0.0; });
+    EXPECT_EQ(session().simulator().frame(), 0);
+    press("space");
+    draw_until([&] { return session().time() > 0.02; });
+}
+
+TEST_F(WindowTest, SlowMotionIsSlow) {
+    open(two_cubes());
+    for (int i = 0; i < 3; ++i) press("minus");
+    EXPECT_EQ(session().pace().speed(), 0.125);
+    const double start = session().time(), now = window().now();
+    draw_until([&] { return window().now() > now + 0.8; });
+    EXPECT_NEAR(session().time() - start, 0.1, 0.05);
+    press("plus");
+    EXPECT_EQ(session().pace().speed(), 0.25);
+}
+
+TEST_F(WindowTest, MouseTurnsMovesAndZoomsTheView) {
+    open(two_cubes());
+    press("space");
+    const render::Camera start = app().camera().camera();
+    // On the floor, where no body is.
+    act({"mousemove", "500", "400", "mousedown", "1", "mousemove", "600", "400", "mouseup", "1"});
+    draw(3);
+    const render::Camera turned = app().camera().camera();
+    EXPECT_EQ(turned.target, start.target);
+    EXPECT_GT(glm::distance(turned.eye, start.eye), 1.0f);
+    EXPECT_NEAR(glm::distance(turned.eye, turned.target), glm::distance(start.eye, start.target), 1e-4f);
+
+    act({"mousemove", "300", "300", "mousedown", "3", "mousemove", "330", "280", "mouseup", "3"});
+    draw(3);
+    const render::Camera moved = app().camera().camera();
+    EXPECT_GT(glm::distance(moved.target, turned.target), 0.1f);
+
+    act({"click", "4", "click", "4"});
+    draw(3);
+    const render::Camera nearer = app().camera().camera();
+    EXPECT_LT(glm::distance(nearer.eye, nearer.target), 0.9f * glm::distance(moved.eye, moved.target));
+
+    press("f");
+    const render::Camera all = app().camera().camera();
+    EXPECT_NEAR(all.target.x, 0.625f, 0.05f);  // from the left of the large cube to the right of the small one
+}
+
+// The picture has a body's colour there.
+bool is_orange(const render::Image& image, int x, int y) {
+    const std::uint8_t* p = image.at(x, y);
+    return p[0] > p[2] + 60;
+}
+
+TEST_F(WindowTest, FollowsItsSize) {
+    open(two_cubes());
+    press("space");
+    EXPECT_TRUE(is_orange(picture(), kWidth / 2, kHeight / 2));
+    act({"search", "--name", "Gelatin", "windowsize", "800", "300"});
+    draw_until([&] { return window().pixels() == glm::ivec2(800, 300); });
+    draw(2);
+    const render::Image wide = picture();
+    EXPECT_TRUE(is_orange(wide, 400, 150));
+    EXPECT_FALSE(is_orange(wide, 330, 250));
+}
+
+TEST_F(WindowTest, KeysShowWhatTheyPromise) {
+    open(two_cubes());
+    press("space");
+    draw_until([&] { return !session().is_computing(); });
+    draw(2);
+    press("Tab");
+    const render::Image plain = picture();
+    const auto looks_different = [&](const char* key) {
+        press(key);
+        draw(2);
+        const bool differs = picture().pixels != plain.pixels;
+        press(key);
+        draw(2);
+        return differs;
+    };
+    EXPECT_TRUE(looks_different("1"));
+    EXPECT_TRUE(looks_different("3"));
+    EXPECT_TRUE(looks_different("F1"));
+    EXPECT_EQ(picture().pixels, plain.pixels);
+    press("2");
+    EXPECT_TRUE(app().panels().overlays.faces);
+}
+
+TEST_F(WindowTest, ShowsWhatIsWrongWithASceneAndReadsItAgain) {
+    open("[simulation]\nframe_rate = 0\n");
+    EXPECT_EQ(app().problem(),
+              path("scene.toml").string() + ":2: simulation.frame_rate = 0: must be greater than 0");
+    EXPECT_EQ(app().session(), nullptr);
+    write_file(path("scene.toml"), two_cubes());
+    press("F5");
+    draw_until([&] { return app().session() != nullptr; });
+    EXPECT_EQ(app().problem(), "");
+    // One that breaks while another is shown leaves that alone.
+    write_file(path("scene.toml"), "[[object]]\n");
+    press("F5");
+    draw_until([&] { return !app().problem().empty(); });
+    EXPECT_NE(app().session(), nullptr);
+}
+
+TEST_F(WindowTest, SavesThePicture) {
+    open(two_cubes());
+    press("space");
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(path(""));
+    press("F12");
+    press("shift+F12");
+    std::filesystem::current_path(before);
+    EXPECT_EQ(app().notice(), "saved scene-2.png");
+    const render::Image plain = render::read_png(path("scene-1.png"));
+    const render::Image with_panels = render::read_png(path("scene-2.png"));
+    EXPECT_EQ(plain.width, kWidth);
+    EXPECT_EQ(plain.height, kHeight);
+    EXPECT_TRUE(is_orange(plain, kWidth / 2, kHeight / 2));
+    EXPECT_NE(plain.pixels, with_panels.pixels);
+}
+
+TEST_F(WindowTest, ClosesByItsKey) {
+    open(two_cubes());
+    EXPECT_FALSE(window().is_asked_to_close());
+    press("ctrl+q");
+    EXPECT_TRUE(window().is_asked_to_close());
+}
+
+}  // namespace
+}  // namespace gelatin::test
