@@ -81,4 +81,13 @@ Ray CameraController::ray(const glm::vec2& place) const {
     return {target_ - distance_ * forward(), glm::normalize(direction)};
 }
 
+float CameraController::depth_of(const glm::vec3& point) const {
+    return glm::dot(point - camera().eye, forward());
+}
+
+glm::vec3 CameraController::at_depth(const glm::vec2& place, float depth) const {
+    const Ray under = ray(place);
+    return under.at(depth / glm::dot(under.direction, forward()));
+}
+
 }  // namespace gelatin::viewer

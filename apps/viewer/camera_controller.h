@@ -3,17 +3,10 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "ray.h"
 #include "render/camera.h"
 
 namespace gelatin::viewer {
-
-/// A half-line in the world.
-struct Ray {
-    glm::vec3 origin;     ///< [m]
-    glm::vec3 direction;  ///< unit
-
-    glm::vec3 at(float distance) const { return origin + distance * direction; }
-};
 
 /// Turns the pointer's ways into a camera's. Ways and places are in heights of the picture, from its centre,
 /// x to the right, y up: the same for every size and density of screen.
@@ -35,6 +28,10 @@ public:
 
     /// What lies under `place`.
     Ray ray(const glm::vec2& place) const;
+    /// How far in front of the eye a point lies, along the view [m].
+    float depth_of(const glm::vec3& point) const;
+    /// The point under `place` that lies so far in front.
+    glm::vec3 at_depth(const glm::vec2& place, float depth) const;
 
 private:
     glm::vec3 forward() const;

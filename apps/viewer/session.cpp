@@ -50,7 +50,7 @@ void Session::show(const Overlays& overlays) {
 
 bool Session::update(double now) {
     if (is_computing()) return false;
-    take_over(now);
+    take_over();
     const bool is_new = is_view_old_;
     if (is_view_old_) {
         view_ = simulator_.render_view(overlays_);
@@ -64,7 +64,7 @@ bool Session::update(double now) {
     return is_new;
 }
 
-void Session::take_over(double now) {
+void Session::take_over() {
     try {
         worker_.rethrow();
         while (simulator_.pending_statistics() > 0) measured_.push_back(simulator_.take_statistics());
@@ -74,16 +74,46 @@ void Session::take_over(double now) {
     const double step_ms = readings_.add_stages(simulator_.take_stage_times());
     if (step_ms > 0.0) pace_.note_cost(1e-3 * step_ms);
     for (const FrameStatistics& statistics : std::exchange(measured_, {})) readings_.add(statistics);
-    if (std::exchange(is_reset_asked_, false)) {
-        simulator_.reset();
-        problem_.clear();
-        readings_.clear();
-        pace_.restart();
-        last_measure_ = now - kMeasureInterval;
-        is_view_old_ = true;
-    }
+    if (std::exchange(is_reset_asked_, false)) go_back();
+    follow_hand();
     time_ = simulator_.time();
     frame_ = simulator_.frame();
+}
+
+void Session::go_back() {
+    simulator_.reset();
+    problem_.clear();
+    readings_.clear();
+    pace_.restart();
+    is_view_old_ = true;
+}
+
+void Session::reach(const Ray& ray) {
+    let_go();
+    hand_ = Hand::reaching;
+    reach_ = ray;
+}
+
+void Session::let_go() {
+    hand_ = Hand::free;
+}
+
+void Session::follow_hand() {
+    if (is_pulled_ && hand_ != Hand::holding) {
+        simulator_.set_pull({});
+        is_pulled_ = false;
+    }
+    if (hand_ == Hand::reaching) {
+        const std::vector<float> positions = simulator_.read_frame().positions;
+        const std::optional<Pick> found = pick(reach_, positions, model().faces);
+        hand_ = found ? Hand::holding : Hand::free;
+        if (!found) return;
+        held_point_ = hand_target_ = found->point;
+        simulator_.set_pull(take_hold(model(), positions, *found));
+        is_pulled_ = true;
+    } else if (hand_ == Hand::holding) {
+        simulator_.move_pull(glm::dvec3(hand_target_));
+    }
 }
 
 void Session::start_batch(int steps, double now) {

@@ -9,6 +9,7 @@
 #include "gelatin/simulator.h"
 #include "gl/fence.h"
 #include "pace.h"
+#include "picking.h"
 #include "readings.h"
 #include "scene_source.h"
 #include "worker.h"
@@ -40,6 +41,17 @@ public:
     const Pace& pace() const { return pace_; }
     void show(const Overlays& overlays);
 
+    /// A hand takes hold of the body that the ray meets first, once the batch under way is done: if it meets
+    /// any.
+    void reach(const Ray& ray);
+    enum class Hand { free, reaching, holding };
+    Hand hand() const { return hand_; }
+    /// Where it took hold [m]. @pre it holds something
+    const glm::vec3& held_point() const { return held_point_; }
+    void move_hand(const glm::vec3& target) { hand_target_ = target; }
+    /// What was held keeps its momentum.
+    void let_go();
+
     /// True where a batch is under way: nothing of the simulator may be touched.
     bool is_computing() const { return worker_.is_busy() || !fence_.is_passed(); }
 
@@ -60,7 +72,9 @@ public:
     const Simulator& simulator() const { return simulator_; }
 
 private:
-    void take_over(double now);
+    void take_over();
+    void go_back();
+    void follow_hand();
     void start_batch(int steps, double now);
     void run_batch(int steps, bool measure);
     void fail(const std::string& problem);
@@ -75,6 +89,10 @@ private:
     bool is_reset_asked_ = false;
     bool is_view_old_ = true;
     int steps_asked_ = 0;
+    Hand hand_ = Hand::free;
+    bool is_pulled_ = false;  // the simulator knows of a hand
+    Ray reach_{};
+    glm::vec3 held_point_{0.0f}, hand_target_{0.0f};
     double last_update_ = 0.0, last_measure_ = -1.0;  // [s]
     double time_ = 0.0;
     int frame_ = 0;

@@ -55,7 +55,8 @@ std::optional<Command> find_command(const KeyPress& press) {
 
 std::span<const Gesture> gestures() {
     static constexpr std::array kGestures{
-        Gesture{"drag", "turn the view"},
+        Gesture{"drag a body", "pull at it; the wheel takes it away"},
+        Gesture{"drag beside", "turn the view"},
         Gesture{"right or middle drag", "move the view"},
         Gesture{"wheel", "come nearer, go away"},
     };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/surroundings.h"
@@ -21,6 +22,7 @@ constexpr double kNoticeTime = 4.0;       // [s]
 constexpr double kIdle = 0.1;             // between pictures when nothing moves [s]
 constexpr double kLeastSpeed = 1.0 / 64;  // of real time
 constexpr int kUsualBoxLevels = 2;
+constexpr float kHandNotch = 1.05f;  // a notch of the wheel takes what is held so much farther away
 
 render::Quality choose_quality(render::Quality quality) {
     if (quality != render::Quality::automatic) return quality;
@@ -66,6 +68,7 @@ void ViewerApp::draw_frame() {
     const bool is_new = session_ && session_->update(now);
     if (session_ && std::exchange(told_problem_, session_->problem()) != session_->problem())
         if (!session_->problem().empty()) fail(session_->problem() + "\n\nR goes back to the start.");
+    follow_hand();
     draw_picture(is_new);
     const Requests requests = draw_panels();
     window_.draw_panels();
@@ -113,29 +116,65 @@ void ViewerApp::handle(const Event& event) {
     if (const auto* key = std::get_if<KeyPress>(&event)) {
         if (const std::optional<Command> command = find_command(*key)) obey(*command);
     } else if (const auto* button = std::get_if<ButtonChange>(&event)) {
-        pointer_ = button->place;
-        if (button->is_down) {
-            dragging_ = button->button;
-        } else if (dragging_ == button->button) {
-            dragging_.reset();
-        }
+        handle(*button);
     } else if (const auto* move = std::get_if<PointerMove>(&event)) {
         handle(*move);
     } else if (const auto* wheel = std::get_if<WheelTurn>(&event)) {
-        camera_.zoom(wheel->notches, wheel->place);
+        handle(*wheel);
     } else if (const auto* drop = std::get_if<FileDrop>(&event)) {
         if (!drop->files.empty()) open(drop->files.front());
     }
 }
 
+// A drag that begins on a body is a hand's, one beside turns the view. Which it is shows once the simulation can
+// be asked.
+void ViewerApp::handle(const ButtonChange& button) {
+    pointer_ = button.place;
+    if (button.is_down && !dragging_) {
+        dragging_ = button.button;
+        if (!session_ || button.button != GLFW_MOUSE_BUTTON_LEFT) return;
+        session_->reach(camera_.ray(button.place));
+        is_hand_asked_ = true;
+        way_since_asked_ = glm::vec2(0.0f);
+    } else if (!button.is_down && dragging_ == button.button) {
+        dragging_.reset();
+        is_hand_asked_ = false;
+        hand_depth_.reset();
+        if (session_ && button.button == GLFW_MOUSE_BUTTON_LEFT) session_->let_go();
+    }
+}
+
 void ViewerApp::handle(const PointerMove& move) {
     const glm::vec2 way = move.place - std::exchange(pointer_, move.place);
-    if (!dragging_) return;
-    if (*dragging_ == GLFW_MOUSE_BUTTON_LEFT) {
-        camera_.orbit(way);
-    } else {
+    if (!dragging_ || hand_depth_) return;
+    if (*dragging_ != GLFW_MOUSE_BUTTON_LEFT) {
         camera_.pan(way);
+    } else if (is_hand_asked_) {
+        way_since_asked_ += way;
+    } else {
+        camera_.orbit(way);
     }
+}
+
+// With a body in hand the wheel takes it away or brings it here.
+void ViewerApp::handle(const WheelTurn& wheel) {
+    if (hand_depth_) {
+        *hand_depth_ *= std::pow(kHandNotch, wheel.notches);
+    } else {
+        camera_.zoom(wheel.notches, wheel.place);
+    }
+}
+
+void ViewerApp::follow_hand() {
+    if (is_hand_asked_ && session_ && session_->hand() != Session::Hand::reaching) {
+        is_hand_asked_ = false;
+        if (session_->hand() == Session::Hand::holding) {
+            hand_depth_ = camera_.depth_of(session_->held_point());
+        } else {
+            camera_.orbit(way_since_asked_);
+        }
+    }
+    if (hand_depth_ && session_) session_->move_hand(camera_.at_depth(pointer_, *hand_depth_));
 }
 
 void ViewerApp::obey(Command command) {

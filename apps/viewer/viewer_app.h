@@ -39,7 +39,10 @@ private:
     void take_loaded_scene();
     void show_scene(SceneLoader::Result result);
     void handle(const Event& event);
+    void handle(const ButtonChange& button);
     void handle(const PointerMove& move);
+    void handle(const WheelTurn& wheel);
+    void follow_hand();
     void obey(Command command);
     void obey(const Requests& requests);
     void show_overlays(const Overlays& overlays);
@@ -72,6 +75,9 @@ private:
 
     std::optional<int> dragging_;  // the button
     glm::vec2 pointer_{0.0f};
+    bool is_hand_asked_ = false;          // whether the drag has met a body is not known yet
+    glm::vec2 way_since_asked_{0.0f};
+    std::optional<float> hand_depth_;     // in front of the eye, while a body is held [m]
 };
 
 }  // namespace gelatin::viewer

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "gelatin/pull.h"
 #include "gelatin/scene.h"
 #include "gelatin/views.h"
 
@@ -96,6 +97,13 @@ public:
     /// Goes on from where another simulation of the same tets is, with the masses, materials and settings of
     /// this one's own scene. @throws InvalidInput if the tets differ
     void go_on_from(const Simulator& other);
+
+    /// What a user's hand holds from now on; empty: nothing, and bodies keep the momentum that they have. Their
+    /// energy is no longer held against what gravity explains, until reset().
+    /// @pre nodes are in the model, their stiffnesses positive
+    void set_pull(const std::optional<Pull>& pull);
+    /// Moves the hand [m]. @pre it holds something
+    void move_pull(const glm::dvec3& target);
 
     /// Waits for the GPU. @throws Diverged if any step so far left the state so.
     void check() const;

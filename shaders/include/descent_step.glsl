@@ -1,5 +1,6 @@
 // The start of a step and where it leads without springs.
 #include "include/load_force.glsl"
+#include "include/pull.glsl"
 layout(binding = 1) uniform samplerBuffer start_positions;   // xyz [m], inverse mass [1/kg]
 layout(binding = 2) uniform samplerBuffer start_velocities;  // xyz [m/s], damping time [s]
 uniform float time_step;                                     // h [s]

@@ -115,6 +115,11 @@ void main() {
     float damping_time = texelFetch(start_velocities, int(n)).w;
     float inertia = 1.0 / (position.w * time_step * time_step);  // [N/m]
     NodeTerms terms = NodeTerms(inertia * (target_of(n) - position.xyz), vec3(inertia), vec3(0.0));
+#ifdef PULLED
+    vec4 pull = pull_terms(n, position.xyz, start, time_step);
+    terms.force += pull.xyz;
+    terms.diagonal += pull.w;
+#endif
     vec3 if_coincident = any_direction(n);
 
     int slice = int(row / 64u);

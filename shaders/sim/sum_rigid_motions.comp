@@ -68,6 +68,10 @@ void main() {
         dvec3 r = dvec3(position.xyz - origin);
         double stiffness = inertia / double(position.w);
         add_node(r, stiffness, stiffness * dvec3(target_of(n) - position.xyz), sums);
+#ifdef PULLED
+        vec4 pull = pull_terms(n, position.xyz, texelFetch(start_positions, int(n)).xyz, time_step);
+        add_node(r, double(pull.w), dvec3(pull.xyz), sums);
+#endif
 #if COLLIDER_KINDS != 0
         Touch touch = touches[n];
         if (object_touches[chunk.object] == 0u || touch.force.w == 0.0) continue;

@@ -42,7 +42,8 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
 
 template <class Real>
 void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current,
-                             std::span<const Vec4<Real>> load_forces) {
+                             std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls) {
+    pulls_ = pulls;
     start(step, has_earlier, previous, load_forces, current);
     take_back_tangled(current.positions);
     for (int i = 0; i < settings_.iterations; ++i) {
@@ -150,6 +151,11 @@ void BlockDescent<Real>::move_node(std::uint32_t node, Real step, NodeTerms<Real
     const Real inertia = Real(1) / (inverse_mass * step * step);  // [N/m]
     terms.force += inertia * (targets_[node] - position);
     terms.hessian.add_identity(inertia);
+    if (pulls_ != nullptr) {
+        const Vec4<Real> pull = pulls_->terms(node, position, Vec3<Real>(starts_[node]), step);
+        terms.force += Vec3<Real>(pull);
+        terms.hessian.add_identity(pull.w);
+    }
     tets_.add(node, positions, terms);
     add_neo_hookean_tets(node, step, positions, terms);
     const Vec3<Real> moved = outside_colliders(node, terms.hessian, position + solve(terms));
@@ -242,6 +248,11 @@ void BlockDescent<Real>::move_bodies(Real step, bool is_last, std::vector<Vec4<R
             const glm::dvec3 position(positions[n]), r = position - origin;
             const double stiffness = inertia / static_cast<double>(positions[n].w);
             body.add(r, stiffness, stiffness * (glm::dvec3(targets_[n]) - position));
+            if (pulls_ != nullptr) {
+                const Vec4<Real> pull =
+                    pulls_->terms(n, Vec3<Real>(positions[n]), Vec3<Real>(starts_[n]), step);
+                body.add(r, static_cast<double>(pull.w), glm::dvec3(pull));
+            }
             if (touches_[o] == 0 || node_touches_[n].along == Real(0)) continue;
             const Touch& touch = node_touches_[n];
             body.add(r, static_cast<double>(touch.across), glm::dvec3(touch.force));

@@ -6,6 +6,7 @@
 
 #include "cpu/node_terms.h"
 #include "cpu/nodes.h"
+#include "cpu/pulls.h"
 #include "cpu/tet_resistance.h"
 #include "model/descent_rows.h"
 #include "model/model.h"
@@ -27,9 +28,9 @@ public:
 
     /// A step of `step` seconds from `previous`; writes `current`.
     /// @param current's velocities are those one step before `previous` if `has_earlier`, else not looked at
-    /// @param load_forces [N], shape [nodes], or empty
+    /// @param load_forces [N], shape [nodes], or empty @param pulls null: no hand holds anything
     void run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current,
-             std::span<const Vec4<Real>> load_forces = {});
+             std::span<const Vec4<Real>> load_forces = {}, const Pulls<Real>* pulls = nullptr);
 
 private:
     void start(Real step, bool has_earlier, const Nodes<Real>& previous,
@@ -47,6 +48,7 @@ private:
 
     std::shared_ptr<const Model> model_;
     DescentSettings settings_;
+    const Pulls<Real>* pulls_ = nullptr;  // of the step that is made
     DescentRows rows_;
     TetResistance<Real> tets_;
     std::vector<Vec4<Real>> starts_;        // xyz [m], damping time [s]

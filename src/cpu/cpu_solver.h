@@ -10,6 +10,7 @@
 #include "cpu/contact.h"
 #include "cpu/find_proximities.h"
 #include "cpu/nodes.h"
+#include "cpu/pulls.h"
 #include "cpu/respond_to_self.h"
 #include "cpu/self_collision.h"
 #include "model/solver.h"
@@ -26,6 +27,8 @@ public:
 
     void apply_kinematics(std::span<const HandleMotion> motions) override;
     void set_load_factors(std::span<const float> factors) override;
+    void set_pull(const std::optional<Pull>& pull) override;
+    void move_pull(const glm::dvec3& target) override { pulls_->move(target); }
     void advance_nodes(double step) override;
     void update_boxes() override { collision_.update_boxes(current_.positions, previous_.positions); }
     void find_object_pairs() override { collision_.find_object_pairs(); }
@@ -58,6 +61,8 @@ public:
 
 private:
     void sum_loads(const Nodes<Real>& nodes);
+    void add_pulls(const Nodes<Real>& nodes, Real step);
+    void clear_pulled_forces();
     void run_pass(const Pass<Real>& pass);
 
     std::shared_ptr<const Model> model_;
@@ -71,6 +76,7 @@ private:
     std::vector<Vec4<Real>> spring_forces_, node_forces_;
     std::vector<float> load_factors_;
     std::vector<Vec4<Real>> load_forces_;  // [N], shape [nodes]; empty where there are no loads
+    std::optional<Pulls<Real>> pulls_;     // while a hand holds something
     Collision<Real> collision_;
     ContactProperties contact_;
     struct SelfStages {

@@ -12,10 +12,11 @@ namespace {
 
 constexpr std::size_t kRigidSums = 12;  // dvec4s in RigidSums, include/rigid_sums.glsl
 
-// For programs that include include/descent_step.glsl, colliders and loads.
-gl::Defines step_defines(const Model& model) {
+// For programs that include include/descent_step.glsl, colliders, loads and pulls.
+gl::Defines step_defines(const Model& model, bool pulled) {
     gl::Defines defines = ModelBuffers::collider_defines(model);
     if (!model.loads.empty()) defines.emplace_back("LOADED");
+    if (pulled) defines.emplace_back("PULLED");
     return defines;
 }
 
@@ -24,8 +25,8 @@ gl::Defines volume_defines(const Model& model) {
     return {"VOLUME"};
 }
 
-gl::Defines sweep_defines(const Model& model) {
-    gl::Defines defines = step_defines(model);
+gl::Defines sweep_defines(const Model& model, bool pulled) {
+    gl::Defines defines = step_defines(model, pulled);
     if (model.has_damping()) defines.emplace_back("DAMPED");
     if (!model.neo_hookean_tets.empty()) defines.emplace_back("NEO_HOOKEAN");
     for (const std::string& define : volume_defines(model)) defines.push_back(define);
@@ -79,18 +80,18 @@ BlockDescent::Pressures::Pressures(const Model& model)
     offset_texels = {offsets, gl::TexelFormat::r32f};
 }
 
-BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
+BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, bool pulled)
     : start_program_(gl::Program::compute("sim/start_descent.comp", ModelBuffers::collider_defines(model))),
       find_tangled_program_(gl::Program::compute("sim/take_back_tangled.comp", {"TETS"})),
       take_back_program_(gl::Program::compute("sim/take_back_tangled.comp")),
       accelerate_program_(gl::Program::compute("sim/accelerate_descent.comp")),
       mark_program_(gl::Program::compute("sim/mark_flat_tets.comp", volume_defines(model))),
-      sweep_program_(gl::Program::compute("sim/descend.comp", sweep_defines(model))),
-      sum_program_(gl::Program::compute("sim/sum_rigid_motions.comp", step_defines(model))),
+      sweep_program_(gl::Program::compute("sim/descend.comp", sweep_defines(model, pulled))),
+      sum_program_(gl::Program::compute("sim/sum_rigid_motions.comp", step_defines(model, pulled))),
       motion_program_(gl::Program::compute("sim/sum_rigid_motions.comp",
                                            with(ModelBuffers::collider_defines(model), "OBJECTS"))),
       move_program_(gl::Program::compute("sim/move_bodies.comp")),
-      last_move_program_(gl::Program::compute("sim/move_bodies.comp", with(step_defines(model), "LAST"))),
+      last_move_program_(gl::Program::compute("sim/move_bodies.comp", with(step_defines(model, false), "LAST"))),
       settings_(settings),
       node_count_(model.node_count()),
       tet_count_(static_cast<std::uint32_t>(model.tets.size())),
@@ -146,6 +147,9 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
          {&start_program_, &sweep_program_, &sum_program_, &move_program_, &last_move_program_}) {
         program->set("time_step", static_cast<float>(step));
         program->set("gravity", model.gravity);
+    }
+    if (model.pulls) {
+        for (const gl::Program* program : {&sweep_program_, &sum_program_}) model.pulls->bind(*program);
     }
     last_move_program_.set("contact_distance", static_cast<float>(kContactDistance));
     last_move_program_.set("resting_speed", static_cast<float>(resting_speed(model.gravity, step)));

@@ -185,6 +185,15 @@ void Simulator::go_on_from(const Simulator& other) {
                               static_cast<std::uint64_t>(frame) * static_cast<std::uint64_t>(substeps())});
 }
 
+void Simulator::set_pull(const std::optional<Pull>& pull) {
+    if (pull) impl_->watch->note_pull();
+    impl_->solver->set_pull(pull);
+}
+
+void Simulator::move_pull(const glm::dvec3& target) {
+    impl_->solver->move_pull(target);
+}
+
 void Simulator::check() const {
     impl_->watch->check(impl_->solver->alarm(true), impl_->now(), impl_->now());
 }

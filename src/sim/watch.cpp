@@ -48,6 +48,7 @@ Watch::Watch(const Scene& scene, std::shared_ptr<const Model> model, int substep
 void Watch::begin(const State& state, const Moment& moment) {
     const auto objects = cpu::measure<float>(*model_, {state.positions, state.velocities});
     budget_ = EnergyBudget(*model_, add_up(objects, moment.time));
+    is_pulled_ = false;
 }
 
 void Watch::check(const Alarm& alarm, const Moment& until, const Moment& now) const {
@@ -85,7 +86,7 @@ void Watch::fail(const Alarm& alarm, std::uint64_t step, const Moment& now) cons
 
 void Watch::check(const std::vector<ObjectMeasure>& objects, const Moment& moment) {
     const EnergyBudget::Account now = add_up(objects, moment.time);
-    const double most = is_driven_ ? kAnyEnergy : budget_.most_for(now);
+    const double most = any_energy() ? kAnyEnergy : budget_.most_for(now);
     // A comparison with what is not a number is false, too.
     if (now.energy <= most && std::isfinite(now.potential)) return budget_.note(now);
     const ModelObject& object = model_->objects[most_lively(objects)];

@@ -27,8 +27,11 @@ public:
     /// Energy is accounted for from here on.
     void begin(const State& state, const Moment& moment);
 
+    /// A hand does work that is not accounted for, from here until energy is accounted for anew.
+    void note_pull() { is_pulled_ = true; }
+
     /// What Solver::watch_nodes may find with a node at this time [J].
-    double most_energy(double time) const { return is_driven_ ? kAnyEnergy : budget_.most_at(time); }
+    double most_energy(double time) const { return any_energy() ? kAnyEnergy : budget_.most_at(time); }
 
     /// @throws Diverged if the alarm is of the steps until `until`, naming it, the node and the likely cause.
     /// @param now not before the alarm, of whose step number it knows the upper half
@@ -42,12 +45,14 @@ private:
 
     [[noreturn]] void fail(const Alarm& alarm, std::uint64_t step, const Moment& now) const;
 
+    bool any_energy() const { return is_driven_ || is_pulled_; }
     double step_size() const { return scene_.simulation.frame_time() / substeps_; }  // [s]
 
     const Scene& scene_;
     std::shared_ptr<const Model> model_;
     int substeps_;
     bool is_driven_;  // by handles or loads, whose work is not accounted for
+    bool is_pulled_ = false;
     EnergyBudget budget_;
 };
 
