@@ -5,8 +5,8 @@
 
 namespace gelatin {
 
-/// A scene's floor, colliders and colours, for a renderer; its scale is that of the bodies as they lie now. The
-/// highest level plane is the floor.
+/// A scene's floor, colliders and colours, for a renderer; its scale is that of the bodies as they lie now.
+/// The highest level plane is the floor.
 render::Surroundings describe_surroundings(const Simulator& simulator);
 
 /// The scene's own camera, or one that shows all of it.

@@ -9,11 +9,11 @@
 namespace gelatin::viewer {
 namespace {
 
-constexpr float kTurn = 3.5f;                            // radians for a drag over the picture's height
-constexpr float kHighest = glm::radians(89.0f);          // short of the poles, where right has no direction
-constexpr float kNotch = 0.88f;                          // of the distance is left
-constexpr float kNearest = 1e-4f, kFarthest = 1e5f;      // [m]
-constexpr float kMargin = 1.1f;                          // picture over what it frames
+constexpr float kTurn = 3.5f;                        // radians for a drag over the picture's height
+constexpr float kHighest = glm::radians(89.0f);      // short of the poles, where right has no direction
+constexpr float kNotch = 0.88f;                      // of the distance is left
+constexpr float kNearest = 1e-4f, kFarthest = 1e5f;  // [m]
+constexpr float kMargin = 1.1f;                      // picture over what it frames
 
 }  // namespace
 

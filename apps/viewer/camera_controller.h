@@ -40,9 +40,9 @@ private:
     float slope() const;  // tangent of half the vertical angle of view
 
     glm::vec3 target_{0.0f};
-    float distance_ = 5.0f;       // [m]
-    float azimuth_ = 0.0f;        // of the eye seen from the target, about +y from +z [radians]
-    float elevation_ = 0.0f;      // [radians]
+    float distance_ = 5.0f;        // [m]
+    float azimuth_ = 0.0f;         // of the eye seen from the target, about +y from +z [radians]
+    float elevation_ = 0.0f;       // [radians]
     float field_of_view_ = 35.0f;  // [degrees]
 };
 

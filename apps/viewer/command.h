@@ -18,6 +18,7 @@ enum class Command {
     toggle_panels,
     screenshot,
     screenshot_of_window,
+    toggle_film,
     toggle_help,
     quit,
 };

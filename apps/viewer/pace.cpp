@@ -6,10 +6,10 @@
 namespace gelatin::viewer {
 namespace {
 
-constexpr double kBudget = 1.0 / 30.0;   // for the steps between two pictures [s]
-constexpr double kLongest = 0.1;         // a window that was held up does not make up for more [s]
-constexpr double kMemory = 0.5;          // over which achieved speed is looked at [s]
-constexpr double kCostMemory = 0.2;      // share of the newest cost in the mean
+constexpr double kBudget = 1.0 / 30.0;  // for the steps between two pictures [s]
+constexpr double kLongest = 0.1;        // a window that was held up does not make up for more [s]
+constexpr double kMemory = 0.5;         // over which achieved speed is looked at [s]
+constexpr double kCostMemory = 0.2;     // share of the newest cost in the mean
 
 }  // namespace
 

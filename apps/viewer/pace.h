@@ -34,8 +34,8 @@ public:
 private:
     double step_size_;
     double speed_ = 1.0;
-    double cost_ = 0.0;  // [s], 0: not known
-    double due_ = 0.0;   // simulated time to make up for [s]
+    double cost_ = 0.0;                       // [s], 0: not known
+    double due_ = 0.0;                        // simulated time to make up for [s]
     double elapsed_ = 0.0, simulated_ = 0.0;  // fading sums [s]
 };
 

@@ -33,10 +33,10 @@ struct Requests {
     std::optional<std::filesystem::path> opened;
 };
 
-/// The panels draw themselves with Dear ImGui and say what was asked for. @pre between Window::begin_frame and
-/// Window::draw_panels
+/// The panels draw themselves with Dear ImGui and say what was asked for. @pre between Window::begin_frame
+/// and Window::draw_panels
 ///
-/// All that concerns a session, at the left edge.
+/// All that concerns a session, at the right edge: the lower left corner is for the legends of overlays.
 void draw_session_panel(const Session& session, const PanelState& state, Requests& requests);
 void draw_playback(const Session& session, const PanelState& state, Requests& requests);
 void draw_settings(const PanelState& state, Requests& requests);

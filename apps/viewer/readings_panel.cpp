@@ -10,8 +10,8 @@ namespace {
 
 void draw_graph(const char* name, const History& history, const char* unit, float scale) {
     const std::string latest = fmt::format("{} {:.4g} {}", name, history.latest(), unit);
-    ImGui::PlotLines("", history.data(), history.size(), history.start(), latest.c_str(), 3.4e38f, 3.4e38f,
-                     {-1.0f, 44.0f * scale});
+    ImGui::PlotLines(fmt::format("##{}", name).c_str(), history.data(), history.size(), history.start(),
+                     latest.c_str(), 3.4e38f, 3.4e38f, {ImGui::GetContentRegionAvail().x, 44.0f * scale});
 }
 
 void draw_stages(const Readings& readings, float scale) {
@@ -31,10 +31,11 @@ void draw_readings(const Session& session, const PanelState& state) {
     const Readings& readings = session.readings();
     const Counts counts = session.simulator().counts();
     const FrameStatistics& latest = readings.latest;
-    ImGui::TextDisabled("%s: %s", session.simulator().uses_gl() ? "OpenGL" : "CPU", session.device().c_str());
+    ImGui::TextDisabled("%s", session.device().c_str());
     ImGui::Text("%zu bodies, %zu nodes, %zu springs", counts.objects, counts.nodes, counts.springs);
     ImGui::Text("%zu tets, %zu faces, %zu of them touch", counts.tets, counts.faces, latest.colliding_faces);
-    ImGui::Text("%d steps of %.3g ms a frame", session.simulator().substeps(),
+    const int steps = session.simulator().substeps();
+    ImGui::Text("%d step%s of %.3g ms a frame", steps, steps == 1 ? "" : "s",
                 1e3 * session.simulator().step_size());
     draw_graph("kinetic", readings.kinetic, "J", state.scale);
     draw_graph("elastic", readings.elastic, "J", state.scale);

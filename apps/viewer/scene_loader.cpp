@@ -14,8 +14,8 @@ void SceneLoader::rebuild(const Scene& scene) {
 
 void SceneLoader::ask_for(Job job) {
     // What was to be edited is gone once another scene is on its way.
-    const bool another = next_ ? next_->purpose == Purpose::show
-                               : current_.work && current_.purpose == Purpose::show;
+    const bool another =
+        next_ ? next_->purpose == Purpose::show : current_.work && current_.purpose == Purpose::show;
     if (job.purpose == Purpose::go_on && another) return;
     if (current_.work) {
         next_ = std::move(job);

@@ -23,7 +23,8 @@ std::vector<glm::dvec3> read_positions(const std::filesystem::path& file) {
 }  // namespace
 
 LoadedScene open_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-    return build_scene(lower_case_ending(file) == ".toml" ? load_scene(file, overrides) : scene_of_mesh(file));
+    return build_scene(lower_case_ending(file) == ".toml" ? load_scene(file, overrides)
+                                                          : scene_of_mesh(file));
 }
 
 LoadedScene build_scene(const Scene& scene) {

@@ -24,7 +24,8 @@ namespace gelatin::viewer {
 /// which it was made.
 class Session {
 public:
-    /// @param earlier goes on from where that is, at its speed; null: from the start. @pre that is not computing
+    /// @param earlier goes on from where that is, at its speed; null: from the start. @pre that is not
+    /// computing
     /// @throws as Simulator
     Session(LoadedScene loaded, Backend backend, const Session* earlier = nullptr);
 

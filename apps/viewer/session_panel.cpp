@@ -20,9 +20,10 @@ void tell(const std::string& text) {
 
 void draw_session_panel(const Session& session, const PanelState& state, Requests& requests) {
     const float margin = 10.0f * state.scale;
-    ImGui::SetNextWindowPos({margin, margin});
-    ImGui::SetNextWindowSizeConstraints(
-        {kWidth * state.scale, 0.0f}, {kWidth * state.scale, ImGui::GetIO().DisplaySize.y - 2.0f * margin});
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({window.x - margin, margin}, ImGuiCond_Always, {1.0f, 0.0f});
+    ImGui::SetNextWindowSizeConstraints({kWidth * state.scale, 0.0f},
+                                        {kWidth * state.scale, window.y - 2.0f * margin});
     const std::string title = session.scene().file.filename().string() + "###session";
     ImGui::Begin(title.c_str(), nullptr,
                  ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNav);

@@ -31,7 +31,9 @@ std::span<const Shortcut> shortcuts() {
         Shortcut{GLFW_KEY_3, With::nothing, Command::toggle_boxes, "3", "boxes of the hierarchy"},
         Shortcut{GLFW_KEY_TAB, With::nothing, Command::toggle_panels, "Tab", "hide the panels, show them"},
         Shortcut{GLFW_KEY_F12, With::nothing, Command::screenshot, "F12", "save the picture as PNG"},
-        Shortcut{GLFW_KEY_F12, With::shift, Command::screenshot_of_window, "Shift+F12", "the same with the panels"},
+        Shortcut{GLFW_KEY_F12, With::shift, Command::screenshot_of_window, "Shift+F12",
+                 "the same with the panels"},
+        Shortcut{GLFW_KEY_F9, With::nothing, Command::toggle_film, "F9", "begin a film, end it"},
         Shortcut{GLFW_KEY_F1, With::nothing, Command::toggle_help, "F1", "this list"},
         Shortcut{GLFW_KEY_Q, With::control, Command::quit, "Ctrl+Q", "quit"},
     };

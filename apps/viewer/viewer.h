@@ -20,7 +20,8 @@ struct ViewerOptions {
 };
 
 /// Opens a window and returns when the user has closed it.
-/// @throws SystemError if there is no display; NoOpenGl if it has no OpenGL 4.3. What is wrong with a scene is
+/// @throws SystemError if there is no display; NoOpenGl if it has no OpenGL 4.3. What is wrong with a scene
+/// is
 ///   shown in the window and logged.
 void run_viewer(const ViewerOptions& options);
 

@@ -35,9 +35,9 @@ render::Bounds bounds_of_bodies(const RenderView& view) {
 }
 
 // The first of NAME-1.png, NAME-2.png, ... that is not there yet.
-std::filesystem::path free_name(const std::string& stem) {
+std::filesystem::path free_name(const std::string& stem, const char* ending) {
     for (int i = 1;; ++i) {
-        std::filesystem::path file = fmt::format("{}-{}.png", stem, i);
+        std::filesystem::path file = fmt::format("{}-{}{}", stem, i, ending);
         if (!std::filesystem::exists(file)) return file;
     }
 }
@@ -49,6 +49,10 @@ ViewerApp::ViewerApp(Window& window, const ViewerOptions& options)
     options_.quality = choose_quality(options.quality);
     panels_.quality = options_.quality == render::Quality::fast ? "fast" : "high";
     if (!options_.scene.empty()) open(options_.scene);
+}
+
+ViewerApp::~ViewerApp() {
+    if (film_) end_film();
 }
 
 void ViewerApp::open(const std::filesystem::path& file) {
@@ -65,6 +69,7 @@ void ViewerApp::draw_frame() {
     if (elapsed > 0.0) panels_.picture_rate += 0.1 * (1.0 / elapsed - panels_.picture_rate);
     for (const Event& event : window_.take_events()) handle(event);
     take_loaded_scene();
+    if (shader_watch_.has_changed(now)) reload_shaders();
     const bool is_new = session_ && session_->update(now);
     if (session_ && std::exchange(told_problem_, session_->problem()) != session_->problem())
         if (!session_->problem().empty()) fail(session_->problem() + "\n\nR goes back to the start.");
@@ -80,7 +85,8 @@ void ViewerApp::draw_frame() {
 
 // Panels take a picture or two to follow what happened.
 double ViewerApp::patience() const {
-    const bool is_busy = loader_.is_busy() || (session_ && (session_->is_playing() || session_->is_computing()));
+    const bool is_busy =
+        loader_.is_busy() || (session_ && (session_->is_playing() || session_->is_computing()));
     return is_busy ? 0.0 : kIdle;
 }
 
@@ -105,6 +111,9 @@ void ViewerApp::show_scene(SceneLoader::Result result) {
                                              goes_on ? session_.get() : nullptr);
     session->show(panels_.overlays);
     session_ = std::move(session);
+    // The hand was the old one's.
+    hand_depth_.reset();
+    is_hand_asked_ = false;
     if (goes_on) return;
     panels_.edited = session_->scene();
     surroundings_ = describe_surroundings(session_->simulator());
@@ -126,8 +135,8 @@ void ViewerApp::handle(const Event& event) {
     }
 }
 
-// A drag that begins on a body is a hand's, one beside turns the view. Which it is shows once the simulation can
-// be asked.
+// A drag that begins on a body is a hand's, one beside turns the view. Which it is shows once the simulation
+// can be asked.
 void ViewerApp::handle(const ButtonChange& button) {
     pointer_ = button.place;
     if (button.is_down && !dragging_) {
@@ -138,9 +147,7 @@ void ViewerApp::handle(const ButtonChange& button) {
         way_since_asked_ = glm::vec2(0.0f);
     } else if (!button.is_down && dragging_ == button.button) {
         dragging_.reset();
-        is_hand_asked_ = false;
-        hand_depth_.reset();
-        if (session_ && button.button == GLFW_MOUSE_BUTTON_LEFT) session_->let_go();
+        if (button.button == GLFW_MOUSE_BUTTON_LEFT && !is_hand_asked_) let_go();
     }
 }
 
@@ -165,13 +172,20 @@ void ViewerApp::handle(const WheelTurn& wheel) {
     }
 }
 
+void ViewerApp::let_go() {
+    hand_depth_.reset();
+    if (session_) session_->let_go();
+}
+
 void ViewerApp::follow_hand() {
     if (is_hand_asked_ && session_ && session_->hand() != Session::Hand::reaching) {
         is_hand_asked_ = false;
-        if (session_->hand() == Session::Hand::holding) {
+        if (session_->hand() == Session::Hand::free) {
+            camera_.orbit(way_since_asked_);
+        } else if (dragging_) {
             hand_depth_ = camera_.depth_of(session_->held_point());
         } else {
-            camera_.orbit(way_since_asked_);
+            let_go();
         }
     }
     if (hand_depth_ && session_) session_->move_hand(camera_.at_depth(pointer_, *hand_depth_));
@@ -186,6 +200,8 @@ void ViewerApp::obey(Command command) {
         window_.ask_to_close();
     } else if (command == Command::reload && !options_.scene.empty()) {
         open(options_.scene);
+    } else if (command == Command::screenshot_of_window) {
+        wants_window_picture_ = true;
     }
     if (!session_) return;
     Overlays overlays = panels_.overlays;
@@ -216,11 +232,10 @@ void ViewerApp::obey(Command command) {
         case Command::toggle_boxes:
             overlays.box_levels = overlays.box_levels ? std::nullopt : std::optional(kUsualBoxLevels);
             return show_overlays(overlays);
+        case Command::toggle_film:
+            return toggle_film();
         case Command::screenshot:
             wants_picture_ = true;
-            return;
-        case Command::screenshot_of_window:
-            wants_window_picture_ = true;
             return;
         default:
             return;
@@ -247,23 +262,77 @@ void ViewerApp::draw_picture(bool is_new) {
     const glm::ivec2 size = window_.pixels();
     if (!session_ || size.x == 0 || size.y == 0) return window_.show_picture(0);
     if (!renderer_) {
-        render::RendererOptions options;
-        options.width = size.x;
-        options.height = size.y;
-        options.quality = options_.quality;
-        renderer_.emplace(options);
-        renderer_->set_surroundings(surroundings_);
-        drawn_camera_.reset();
+        make_renderer(size.x, size.y);
     } else if (renderer_->width() != size.x || renderer_->height() != size.y) {
+        if (film_) end_film();
         renderer_->resize(size.x, size.y);
         drawn_camera_.reset();
     }
     const render::Camera camera = camera_.camera();
     if (is_new || drawn_camera_ != camera) {
-        if (session_->view().node_count > 0) renderer_->draw(session_->view(), camera);
         drawn_camera_ = camera;
+        try {
+            if (session_->view().node_count > 0) renderer_->draw(session_->view(), camera);
+        } catch (const GlError& error) {
+            fail(error.what());  // overlays make their programs when they are first drawn
+        }
+        if (film_ && is_new) film_picture();
     }
     window_.show_picture(renderer_->framebuffer());
+}
+
+// Where something is wrong the one before stays.
+void ViewerApp::make_renderer(int width, int height) {
+    render::RendererOptions options;
+    options.width = width;
+    options.height = height;
+    options.quality = options_.quality;
+    auto renderer = std::make_unique<render::Renderer>(options);
+    renderer->set_surroundings(surroundings_);
+    renderer_ = std::move(renderer);
+    drawn_camera_.reset();
+}
+
+// Programs are made where a renderer and a simulation are: new ones take the place of the old.
+void ViewerApp::reload_shaders() {
+    try {
+        if (renderer_) make_renderer(renderer_->width(), renderer_->height());
+        if (session_ && session_->simulator().uses_gl()) loader_.rebuild(panels_.edited);
+        problem_.clear();
+        tell("shaders read again");
+    } catch (const GlError& error) {
+        fail(error.what());
+    }
+}
+
+void ViewerApp::toggle_film() {
+    if (film_) return end_film();
+    if (!renderer_) return;
+    try {
+        film_.emplace(free_name(options_.scene.stem().string(), ".mp4"), renderer_->width(),
+                      renderer_->height());
+    } catch (const Error& error) {
+        fail(error.what());
+    }
+}
+
+void ViewerApp::film_picture() {
+    try {
+        film_->add(renderer_->framebuffer(), session_->time(), session_->pace().speed());
+    } catch (const Error& error) {
+        film_.reset();
+        fail(error.what());
+    }
+}
+
+void ViewerApp::end_film() {
+    try {
+        film_->finish();
+        tell("saved " + film_->file().string());
+    } catch (const Error& error) {
+        fail(error.what());
+    }
+    film_.reset();
 }
 
 Requests ViewerApp::draw_panels() {
@@ -277,6 +346,8 @@ Requests ViewerApp::draw_panels() {
         draw_notice(scale, fmt::format("opening {} ...", loader_.file().filename().string()));
     } else if (window_.now() < notice_until_) {
         draw_notice(scale, notice_);
+    } else if (film_) {
+        draw_notice(scale, "filming " + film_->file().string() + " (F9 ends it)");
     }
     return requests;
 }
@@ -284,12 +355,12 @@ Requests ViewerApp::draw_panels() {
 void ViewerApp::save_pictures() {
     if (std::exchange(wants_picture_, false) && renderer_)
         save_picture(renderer_->framebuffer(), renderer_->width(), renderer_->height());
-    if (std::exchange(wants_window_picture_, false))
-        save_picture(0, window_.pixels().x, window_.pixels().y);
+    if (std::exchange(wants_window_picture_, false)) save_picture(0, window_.pixels().x, window_.pixels().y);
 }
 
 void ViewerApp::save_picture(unsigned framebuffer, int width, int height) {
-    const std::filesystem::path file = free_name(options_.scene.stem().string());
+    const std::filesystem::path file =
+        free_name(session_ ? options_.scene.stem().string() : "gelatin", ".png");
     try {
         render::FrameGrabber grabber(width, height);
         grabber.grab(framebuffer);
@@ -306,6 +377,7 @@ void ViewerApp::tell(const std::string& notice) {
 }
 
 void ViewerApp::fail(const std::string& problem) {
+    if (problem == problem_) return;
     spdlog::error("{}", problem.substr(0, problem.find('\n')));
     problem_ = problem;
 }

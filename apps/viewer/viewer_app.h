@@ -5,10 +5,12 @@
 #include <string>
 
 #include "camera_controller.h"
+#include "film.h"
 #include "panels.h"
 #include "render/renderer.h"
 #include "scene_loader.h"
 #include "session.h"
+#include "shader_watch.h"
 #include "viewer.h"
 #include "window.h"
 
@@ -19,6 +21,10 @@ class ViewerApp {
 public:
     /// @param window must outlive it
     ViewerApp(Window& window, const ViewerOptions& options);
+    ViewerApp(const ViewerApp&) = delete;
+    ViewerApp& operator=(const ViewerApp&) = delete;
+    /// A film under way is ended.
+    ~ViewerApp();
 
     /// One picture: what the user did, what was simulated, panels.
     void draw_frame();
@@ -32,6 +38,7 @@ public:
     bool shows_help() const { return shows_help_; }
     /// What is shown as wrong; empty while nothing is.
     const std::string& problem() const { return problem_; }
+    bool is_filming() const { return film_.has_value(); }
     /// The last line at the lower edge.
     const std::string& notice() const { return notice_; }
 
@@ -43,10 +50,16 @@ private:
     void handle(const PointerMove& move);
     void handle(const WheelTurn& wheel);
     void follow_hand();
+    void let_go();
     void obey(Command command);
     void obey(const Requests& requests);
     void show_overlays(const Overlays& overlays);
     void draw_picture(bool is_new);
+    void make_renderer(int width, int height);
+    void reload_shaders();
+    void toggle_film();
+    void film_picture();
+    void end_film();
     Requests draw_panels();
     void save_pictures();
     void save_picture(unsigned framebuffer, int width, int height);
@@ -60,7 +73,9 @@ private:
     ViewerOptions options_;
     SceneLoader loader_;
     std::unique_ptr<Session> session_;
-    std::optional<render::Renderer> renderer_;
+    std::unique_ptr<render::Renderer> renderer_;
+    std::optional<Film> film_;
+    ShaderWatch shader_watch_;
     render::Surroundings surroundings_;
     CameraController camera_;
     std::optional<render::Camera> drawn_camera_;  // of the picture; empty: there is none yet
@@ -75,9 +90,9 @@ private:
 
     std::optional<int> dragging_;  // the button
     glm::vec2 pointer_{0.0f};
-    bool is_hand_asked_ = false;          // whether the drag has met a body is not known yet
+    bool is_hand_asked_ = false;  // whether the drag has met a body is not known yet
     glm::vec2 way_since_asked_{0.0f};
-    std::optional<float> hand_depth_;     // in front of the eye, while a body is held [m]
+    std::optional<float> hand_depth_;  // in front of the eye, while a body is held [m]
 };
 
 }  // namespace gelatin::viewer

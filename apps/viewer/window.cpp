@@ -148,7 +148,8 @@ std::vector<Event> Window::take_events() {
     std::erase_if(events, [&](const Event& event) {
         if (std::holds_alternative<KeyPress>(event)) return io.WantTextInput;
         const auto* button = std::get_if<ButtonChange>(&event);
-        const bool begins = (button != nullptr && button->is_down) || std::holds_alternative<WheelTurn>(event);
+        const bool begins =
+            (button != nullptr && button->is_down) || std::holds_alternative<WheelTurn>(event);
         return begins && io.WantCaptureMouse;  // what ends a drag is for whoever began it
     });
     return events;

@@ -43,9 +43,9 @@ public:
     /// Shows it.
     void present();
 
-    glm::ivec2 pixels() const;  ///< of the picture; 0 while the window is hidden
+    glm::ivec2 pixels() const;              ///< of the picture; 0 while the window is hidden
     float scale() const { return scale_; }  ///< of text and panels: 2 on a screen of twice the usual density
-    double now() const;  ///< [s]
+    double now() const;                     ///< [s]
     void set_title(const std::string& title);
 
 private:

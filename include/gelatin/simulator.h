@@ -98,8 +98,8 @@ public:
     /// this one's own scene. @throws InvalidInput if the tets differ
     void go_on_from(const Simulator& other);
 
-    /// What a user's hand holds from now on; empty: nothing, and bodies keep the momentum that they have. Their
-    /// energy is no longer held against what gravity explains, until reset().
+    /// What a user's hand holds from now on; empty: nothing, and bodies keep the momentum that they have.
+    /// Their energy is no longer held against what gravity explains, until reset().
     /// @pre nodes are in the model, their stiffnesses positive
     void set_pull(const std::optional<Pull>& pull);
     /// Moves the hand [m]. @pre it holds something

@@ -11,7 +11,8 @@
 
 namespace gelatin::gpu {
 
-/// The immutable parts of a model that the solver's kernels read, on the GPU, and what a user's hand holds of it.
+/// The immutable parts of a model that the solver's kernels read, on the GPU, and what a user's hand holds of
+/// it.
 struct ModelBuffers {
     gl::Buffer<HalfSpringPair> half_springs;
     gl::Buffer<glm::vec2> stiffnesses;  ///< of the pairs [N/m]

@@ -314,10 +314,9 @@ void Simulator::save_checkpoint(const std::filesystem::path& file) const {
 
 void Simulator::load_checkpoint(const std::filesystem::path& file) {
     const Checkpoint checkpoint = read_checkpoint(file, model());
-    impl_->take_state(
-        checkpoint.state,
-        {checkpoint.frame, checkpoint.time,
-         static_cast<std::uint64_t>(checkpoint.frame) * static_cast<std::uint64_t>(substeps())});
+    impl_->take_state(checkpoint.state, {checkpoint.frame, checkpoint.time,
+                                         static_cast<std::uint64_t>(checkpoint.frame) *
+                                             static_cast<std::uint64_t>(substeps())});
 }
 
 }  // namespace gelatin

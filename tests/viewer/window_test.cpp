@@ -1,3 +1,5 @@
+#include <epoxy/gl.h>
+
 #include <glm/geometric.hpp>
 
 #include "render/image.h"
@@ -68,7 +70,8 @@ TEST_F(WindowTest, MouseTurnsMovesAndZoomsTheView) {
 
     press("f");
     const render::Camera all = app().camera().camera();
-    EXPECT_NEAR(all.target.x, 0.625f, 0.05f);  // from the left of the large cube to the right of the small one
+    EXPECT_NEAR(all.target.x, 0.625f,
+                0.05f);  // from the left of the large cube to the right of the small one
 }
 
 // The picture has a body's colour there.
@@ -126,6 +129,111 @@ TEST_F(WindowTest, ShowsWhatIsWrongWithASceneAndReadsItAgain) {
     press("F5");
     draw_until([&] { return !app().problem().empty(); });
     EXPECT_NE(app().session(), nullptr);
+}
+
+// The mean place of a body's nodes, as long as nothing is computed.
+glm::dvec3 center_of(const viewer::Session& session, std::size_t object) {
+    const std::vector<float> p = session.simulator().read_frame().positions;
+    const Range& nodes = session.model().objects[object].nodes;
+    glm::dvec3 sum(0.0);
+    for (std::size_t n = nodes.first; n < nodes.end(); ++n)
+        sum += glm::dvec3(p[3 * n], p[3 * n + 1], p[3 * n + 2]);
+    return sum / static_cast<double>(nodes.count);
+}
+
+TEST_F(WindowTest, ABodyIsGrabbedPulledAndThrown) {
+    for (const Backend backend : {Backend::cpu, Backend::gl}) {
+        open(two_cubes(), backend);
+        const auto settle = [&] { draw_until([&] { return !session().is_computing(); }); };
+        draw_until([&] { return session().time() > 0.3; });  // it lies on the floor
+        const render::Camera before = app().camera().camera();
+        act({"mousemove", "320", "250", "mousedown", "1"});
+        draw_until([&] { return session().hand() == viewer::Session::Hand::holding; });
+        EXPECT_NEAR(session().held_point().z, 0.5f, 0.1f);  // on the front of the large cube
+        for (int y = 240; y >= 130; y -= 10) {
+            act({"mousemove", "320", std::to_string(y)});
+            draw(1);
+        }
+        const double grabbed = session().time();
+        draw_until([&] { return session().time() > grabbed + 0.7; });
+        settle();
+        EXPECT_GT(center_of(session(), 0).y, 0.8) << "it hangs in the air";
+        EXPECT_LT(center_of(session(), 1).y, 0.4) << "the other one does not";
+        EXPECT_EQ(app().camera().camera(), before);
+
+        // Let go on the way to the left it flies on, and falls.
+        act({"mousemove", "250", "130"});
+        draw_until([&] {
+            return session().hand() == viewer::Session::Hand::holding && session().time() > grabbed + 0.85;
+        });
+        act({"mouseup", "1"});
+        draw_until([&] { return session().hand() == viewer::Session::Hand::free; });
+        settle();
+        const double thrown = session().time(), x = center_of(session(), 0).x;
+        draw_until([&] { return session().time() > thrown + 0.1; });
+        settle();
+        EXPECT_LT(center_of(session(), 0).x, x - 0.02);
+        draw_until([&] { return session().time() > thrown + 0.8; });
+        settle();
+        EXPECT_LT(center_of(session(), 0).y, 0.7);
+        close();
+    }
+}
+
+// Where in the panel is known by its look; Ctrl and a click let numbers be typed.
+TEST_F(WindowTest, StiffnessChangesUnderWay) {
+    open(two_cubes());
+    draw_until([&] { return session().time() > 0.2; });
+    const Counts counts = session().simulator().counts();
+    act({"mousemove", "430", "162", "click", "1"});  // opens the settings
+    draw(3);
+    // Dear ImGui looks at the keys once a picture.
+    const std::vector<std::vector<std::string>> typing = {
+        {"mousemove", "405", "310"}, {"keydown", "ctrl"}, {"click", "1"}, {"key", "a"},
+        {"keyup", "ctrl"},           {"type", "1e6"}};
+    for (const std::vector<std::string>& action : typing) {
+        act(action);
+        draw(3);
+    }
+    const double before = session().time();
+    act({"key", "Return"});
+    draw_until([&] { return session().scene().materials[0].youngs_modulus == 1e6; });
+    EXPECT_GE(session().time(), before);
+    EXPECT_TRUE(session().is_playing());
+    draw_until([&] { return session().time() > before + 0.5; });
+    draw_until([&] { return !session().is_computing(); });
+    EXPECT_EQ(session().simulator().counts().nodes, counts.nodes);
+    EXPECT_NEAR(center_of(session(), 0).y, 0.5, 0.02) << "a stiff cube does not sag";
+}
+
+// How many objects of OpenGL there are of each kind.
+std::vector<int> count_gl_objects() {
+    std::vector<int> counts(6, 0);
+    for (GLuint name = 1; name < 4000; ++name) {
+        counts[0] += glIsBuffer(name);
+        counts[1] += glIsTexture(name);
+        counts[2] += glIsProgram(name);
+        counts[3] += glIsFramebuffer(name);
+        counts[4] += glIsQuery(name);
+        counts[5] += glIsVertexArray(name);
+    }
+    return counts;
+}
+
+TEST_F(WindowTest, ReadingASceneAgainLeavesNothingBehind) {
+    open(two_cubes(), Backend::gl);
+    const auto reload = [&] {
+        const viewer::Session* before = &session();
+        press("F5");
+        draw_until([&] { return &session() != before || session().time() == 0.0; });
+        press("space");
+        draw_until([&] { return !session().is_computing(); });
+        draw(3);
+    };
+    reload();
+    const std::vector<int> once = count_gl_objects();
+    for (int i = 0; i < 3; ++i) reload();
+    EXPECT_EQ(count_gl_objects(), once);
 }
 
 TEST_F(WindowTest, SavesThePicture) {

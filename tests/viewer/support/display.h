@@ -14,7 +14,8 @@ public:
     /// Why there is none; empty if there is.
     const std::string& why_not() const { return why_not_; }
 
-    /// One call of xdotool: {"mousemove", "10", "20", "click", "1"}. Returns when the display has taken it in.
+    /// One call of xdotool: {"mousemove", "10", "20", "click", "1"}. Returns when the display has taken it
+    /// in.
     void act(const std::vector<std::string>& actions) const;
 
 private:

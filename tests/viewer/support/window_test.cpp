@@ -21,6 +21,10 @@ void WindowTest::SetUp() {
 }
 
 void WindowTest::TearDown() {
+    close();
+}
+
+void WindowTest::close() {
     if (!window_) return;
     app_.reset();
     EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
@@ -28,8 +32,9 @@ void WindowTest::TearDown() {
     window_.reset();
 }
 
-void WindowTest::open(const std::string& text, const viewer::ViewerOptions& options) {
-    viewer::ViewerOptions all = options;
+void WindowTest::open(const std::string& text, Backend backend) {
+    viewer::ViewerOptions all;
+    all.backend = backend;
     all.scene = path("scene.toml");
     all.width = kWidth;
     all.height = kHeight;
@@ -49,6 +54,7 @@ std::string WindowTest::two_cubes() {
            "solver = 'vbd'\n"
            "[[material]]\n"
            "name = 'jelly'\n"
+           "youngs_modulus = 2e5\n"
            "[[object]]\n"
            "name = 'large'\n"
            "shape = { box = [1, 1, 1], segments = [3, 3, 3] }\n"
