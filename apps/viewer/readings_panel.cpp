@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
+#include <cfloat>
 
 #include "panels.h"
 
@@ -11,7 +11,7 @@ namespace {
 void draw_graph(const char* name, const History& history, const char* unit, float scale) {
     const std::string latest = fmt::format("{} {:.4g} {}", name, history.latest(), unit);
     ImGui::PlotLines(fmt::format("##{}", name).c_str(), history.data(), history.size(), history.start(),
-                     latest.c_str(), 3.4e38f, 3.4e38f, {ImGui::GetContentRegionAvail().x, 44.0f * scale});
+                     latest.c_str(), FLT_MAX, FLT_MAX, {ImGui::GetContentRegionAvail().x, 44.0f * scale});
 }
 
 void draw_stages(const Readings& readings, float scale) {

@@ -1,14 +1,19 @@
 #include <epoxy/gl.h>
 
 #include <glm/geometric.hpp>
+#include <thread>
 
+#include "gl/debug.h"
 #include "render/image.h"
+#include "support/run_program.h"
+#include "support/shader_folder.h"
+#include "viewer/support/drop_file.h"
 #include "viewer/support/window_test.h"
 
 namespace gelatin::test {
 namespace {
 
-TEST_F(WindowTest, PlaysPausesStepsAndGoesBack) {
+TEST_F(WindowHeavy, PlaysPausesStepsAndGoesBack) {
     open(two_cubes());
     draw_until([&] { return session().time() > 0.1; });
     press("space");
@@ -35,7 +40,7 @@ TEST_F(WindowTest, PlaysPausesStepsAndGoesBack) {
     draw_until([&] { return session().time() > 0.02; });
 }
 
-TEST_F(WindowTest, SlowMotionIsSlow) {
+TEST_F(WindowHeavy, SlowMotionIsSlow) {
     open(two_cubes());
     for (int i = 0; i < 3; ++i) press("minus");
     EXPECT_EQ(session().pace().speed(), 0.125);
@@ -46,7 +51,7 @@ TEST_F(WindowTest, SlowMotionIsSlow) {
     EXPECT_EQ(session().pace().speed(), 0.25);
 }
 
-TEST_F(WindowTest, MouseTurnsMovesAndZoomsTheView) {
+TEST_F(WindowHeavy, MouseTurnsMovesAndZoomsTheView) {
     open(two_cubes());
     press("space");
     const render::Camera start = app().camera().camera();
@@ -80,7 +85,7 @@ bool is_orange(const render::Image& image, int x, int y) {
     return p[0] > p[2] + 60;
 }
 
-TEST_F(WindowTest, FollowsItsSize) {
+TEST_F(WindowHeavy, FollowsItsSize) {
     open(two_cubes());
     press("space");
     EXPECT_TRUE(is_orange(picture(), kWidth / 2, kHeight / 2));
@@ -92,7 +97,7 @@ TEST_F(WindowTest, FollowsItsSize) {
     EXPECT_FALSE(is_orange(wide, 330, 250));
 }
 
-TEST_F(WindowTest, KeysShowWhatTheyPromise) {
+TEST_F(WindowHeavy, KeysShowWhatTheyPromise) {
     open(two_cubes());
     press("space");
     draw_until([&] { return !session().is_computing(); });
@@ -115,7 +120,7 @@ TEST_F(WindowTest, KeysShowWhatTheyPromise) {
     EXPECT_TRUE(app().panels().overlays.faces);
 }
 
-TEST_F(WindowTest, ShowsWhatIsWrongWithASceneAndReadsItAgain) {
+TEST_F(WindowHeavy, ShowsWhatIsWrongWithASceneAndReadsItAgain) {
     open("[simulation]\nframe_rate = 0\n");
     EXPECT_EQ(app().problem(),
               path("scene.toml").string() + ":2: simulation.frame_rate = 0: must be greater than 0");
@@ -141,7 +146,7 @@ glm::dvec3 center_of(const viewer::Session& session, std::size_t object) {
     return sum / static_cast<double>(nodes.count);
 }
 
-TEST_F(WindowTest, ABodyIsGrabbedPulledAndThrown) {
+TEST_F(WindowHeavy, ABodyIsGrabbedPulledAndThrown) {
     for (const Backend backend : {Backend::cpu, Backend::gl}) {
         open(two_cubes(), backend);
         const auto settle = [&] { draw_until([&] { return !session().is_computing(); }); };
@@ -181,7 +186,7 @@ TEST_F(WindowTest, ABodyIsGrabbedPulledAndThrown) {
 }
 
 // Where in the panel is known by its look; Ctrl and a click let numbers be typed.
-TEST_F(WindowTest, StiffnessChangesUnderWay) {
+TEST_F(WindowHeavy, StiffnessChangesUnderWay) {
     open(two_cubes());
     draw_until([&] { return session().time() > 0.2; });
     const Counts counts = session().simulator().counts();
@@ -220,7 +225,7 @@ std::vector<int> count_gl_objects() {
     return counts;
 }
 
-TEST_F(WindowTest, ReadingASceneAgainLeavesNothingBehind) {
+TEST_F(WindowHeavy, ReadingASceneAgainLeavesNothingBehind) {
     open(two_cubes(), Backend::gl);
     const auto reload = [&] {
         const viewer::Session* before = &session();
@@ -236,7 +241,7 @@ TEST_F(WindowTest, ReadingASceneAgainLeavesNothingBehind) {
     EXPECT_EQ(count_gl_objects(), once);
 }
 
-TEST_F(WindowTest, SavesThePicture) {
+TEST_F(WindowHeavy, SavesThePicture) {
     open(two_cubes());
     press("space");
     const std::filesystem::path before = std::filesystem::current_path();
@@ -253,7 +258,66 @@ TEST_F(WindowTest, SavesThePicture) {
     EXPECT_NE(plain.pixels, with_panels.pixels);
 }
 
-TEST_F(WindowTest, ClosesByItsKey) {
+TEST_F(WindowHeavy, AFileThatIsDroppedOpens) {
+    open(two_cubes());
+    write_file(path("tetrahedron.obj"),
+               "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 0 0 100\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+    std::string problem;
+    std::thread hand([&] { problem = drop_file("Gelatin", path("tetrahedron.obj")); });
+    draw_until([&] { return session().scene().file.filename() == "tetrahedron.obj"; });
+    hand.join();
+    EXPECT_EQ(problem, "");
+    EXPECT_EQ(session().scene().objects[0].scale, 0.01) << "a hundred metres become one";
+    draw_until([&] { return session().time() > 0.1; });
+    EXPECT_TRUE(is_orange(picture(), kWidth / 2, kHeight / 2));
+}
+
+TEST_F(WindowHeavy, FilmsBySimulatedTime) {
+    open(two_cubes());
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(path(""));
+    press("F9");
+    EXPECT_TRUE(app().is_filming());
+    const double start = session().time();
+    draw_until([&] { return session().time() > start + 0.5; });
+    press("space");
+    draw_until([&] { return !session().is_computing(); });
+    draw(2);
+    const double length = session().time() - start;
+    press("F9");
+    std::filesystem::current_path(before);
+    EXPECT_EQ(app().notice(), "saved scene-1.mp4");
+    const ProgramResult probe =
+        run_program({"ffprobe", "-v", "error", "-show_entries", "stream=width,height,duration", "-of",
+                     "csv=p=0", path("scene-1.mp4").string()});
+    ASSERT_EQ(probe.exit_code, 0) << probe.err;
+    EXPECT_EQ(probe.out.substr(0, 8), "640,480,");
+    EXPECT_NEAR(std::stod(probe.out.substr(8)), length, 0.1);
+}
+
+TEST_F(WindowHeavy, ShadersAreReadAgainAndTheOldOnesKept) {
+    namespace fs = std::filesystem;
+    ShaderFolder folder;
+    const fs::path root = fs::path(GELATIN_SOURCE_DIR) / "shaders";
+    for (const auto& entry : fs::recursive_directory_iterator(root)) {
+        if (entry.is_regular_file())
+            folder.add(fs::relative(entry.path(), root).generic_string(), read_file(entry.path()));
+    }
+    open(two_cubes());
+    press("space");
+    const fs::path tone = "include/tone.glsl";
+    const std::string original = read_file(root / tone);
+    folder.add(tone.generic_string(), original + "\nthis is no GLSL\n");
+    draw_until([&] { return !app().problem().empty(); });
+    gl::take_debug_messages();  // the driver tells it too
+    EXPECT_NE(app().problem().find("include/tone.glsl"), std::string::npos) << app().problem();
+    EXPECT_TRUE(is_orange(picture(), kWidth / 2, kHeight / 2)) << "the old ones draw on";
+    folder.add(tone.generic_string(), original);
+    draw_until([&] { return app().problem().empty(); });
+    EXPECT_EQ(app().notice(), "shaders read again");
+}
+
+TEST_F(WindowHeavy, ClosesByItsKey) {
     open(two_cubes());
     EXPECT_FALSE(window().is_asked_to_close());
     press("ctrl+q");

@@ -12,7 +12,7 @@ namespace gelatin::test {
 
 using Clock = std::chrono::steady_clock;
 
-void WindowTest::SetUp() {
+void WindowHeavy::SetUp() {
     const std::string& why_not = VirtualDisplay::instance().why_not();
     if (why_not.empty()) return;
     const char* required = std::getenv("GELATIN_REQUIRE_GL");
@@ -20,11 +20,11 @@ void WindowTest::SetUp() {
     GTEST_SKIP() << why_not;
 }
 
-void WindowTest::TearDown() {
+void WindowHeavy::TearDown() {
     close();
 }
 
-void WindowTest::close() {
+void WindowHeavy::close() {
     if (!window_) return;
     app_.reset();
     EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
@@ -32,7 +32,7 @@ void WindowTest::close() {
     window_.reset();
 }
 
-void WindowTest::open(const std::string& text, Backend backend) {
+void WindowHeavy::open(const std::string& text, Backend backend) {
     viewer::ViewerOptions all;
     all.backend = backend;
     all.scene = path("scene.toml");
@@ -47,7 +47,7 @@ void WindowTest::open(const std::string& text, Backend backend) {
     draw(2);  // a new window may still be about to get its keys
 }
 
-std::string WindowTest::two_cubes() {
+std::string WindowHeavy::two_cubes() {
     return "[simulation]\n"
            "frame_rate = 50\n"
            "substeps = 2\n"
@@ -70,7 +70,7 @@ std::string WindowTest::two_cubes() {
            "target = [0, 0.7, 0]\n";
 }
 
-void WindowTest::draw_until(const std::function<bool()>& holds) {
+void WindowHeavy::draw_until(const std::function<bool()>& holds) {
     const Clock::time_point end = Clock::now() + std::chrono::seconds(10);
     while (!holds()) {
         ASSERT_LT(Clock::now(), end) << "what was waited for does not come";
@@ -78,16 +78,16 @@ void WindowTest::draw_until(const std::function<bool()>& holds) {
     }
 }
 
-void WindowTest::draw(int pictures) {
+void WindowHeavy::draw(int pictures) {
     for (int i = 0; i < pictures; ++i) app_->draw_frame();
 }
 
-void WindowTest::press(const std::string& key) {
+void WindowHeavy::press(const std::string& key) {
     act({"key", key});
     draw(2);
 }
 
-render::Image WindowTest::picture() const {
+render::Image WindowHeavy::picture() const {
     // A software driver, as Xvfb has, copies what it presents, and keeps it.
     render::FrameGrabber grabber(window_->pixels().x, window_->pixels().y);
     grabber.grab(0);

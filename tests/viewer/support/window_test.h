@@ -16,7 +16,7 @@ namespace gelatin::test {
 
 /// Drives the real window by real keys and a real mouse. Skipped without a display for it, unless
 /// GELATIN_REQUIRE_GL=1. A debug message or an error of OpenGL that is left when the test ends fails it.
-class WindowTest : public testing::Test {
+class WindowHeavy : public testing::Test {
 protected:
     static constexpr int kWidth = 640, kHeight = 480;
 
