@@ -9,6 +9,7 @@ enum class Command {
     step_frame,
     reset,
     reload,
+    throw_body,
     slower,
     faster,
     frame_all,

@@ -23,6 +23,8 @@ std::span<const Shortcut> shortcuts() {
         Shortcut{GLFW_KEY_RIGHT, With::nothing, Command::step_frame, "Right", "one frame"},
         Shortcut{GLFW_KEY_R, With::nothing, Command::reset, "R", "back to the start"},
         Shortcut{GLFW_KEY_F5, With::nothing, Command::reload, "F5", "read the scene file again"},
+        Shortcut{GLFW_KEY_T, With::nothing, Command::throw_body, "T",
+                 "throw a copy of a body to the pointer"},
         Shortcut{GLFW_KEY_MINUS, With::nothing, Command::slower, "-", "half the speed"},
         Shortcut{GLFW_KEY_EQUAL, With::nothing, Command::faster, "+", "twice the speed, up to real time"},
         Shortcut{GLFW_KEY_F, With::nothing, Command::frame_all, "F", "show all bodies"},

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "common/surroundings.h"
 #include "core/log.h"
 #include "gelatin/error.h"
 #include "gl/context.h"
+#include "projectile.h"
 #include "render/frame_grabber.h"
 #include "render/image.h"
 #include "shortcuts.h"
@@ -102,6 +104,7 @@ void ViewerApp::take_loaded_scene() {
         if (auto result = loader_.take()) show_scene(std::move(*result));
     } catch (const Error& error) {
         fail(error.what());
+        if (session_) panels_.edited = session_->scene();  // what was wished for cannot be
     }
 }
 
@@ -116,6 +119,7 @@ void ViewerApp::show_scene(SceneLoader::Result result) {
     is_hand_asked_ = false;
     if (goes_on) return;
     panels_.edited = session_->scene();
+    own_bodies_ = session_->scene().objects.size();
     surroundings_ = describe_surroundings(session_->simulator());
     camera_.set(choose_camera(session_->scene(), surroundings_, aspect()));
     if (renderer_) renderer_->set_surroundings(surroundings_);
@@ -217,6 +221,8 @@ void ViewerApp::obey(Command command) {
         case Command::reset:
             problem_.clear();
             return session_->reset();
+        case Command::throw_body:
+            return throw_body();
         case Command::slower:
             return session_->set_speed(std::max(0.5 * session_->pace().speed(), kLeastSpeed));
         case Command::faster:
@@ -251,6 +257,19 @@ void ViewerApp::obey(const Requests& requests) {
         panels_.edited = *requests.edited;
         loader_.rebuild(panels_.edited);
     }
+}
+
+// The scene's own bodies in turns. While one is being made, no other is: it would need that one's model.
+void ViewerApp::throw_body() {
+    if (loader_.is_busy()) return;
+    Scene scene = panels_.edited;
+    const std::size_t thrown = scene.objects.size() - own_bodies_;
+    const render::Camera camera = camera_.camera();
+    const double distance = static_cast<double>(glm::distance(camera.eye, camera.target));
+    scene.objects.push_back(
+        make_projectile(scene, session_->model(), thrown % own_bodies_, camera_.ray(pointer_), distance));
+    panels_.edited = std::move(scene);
+    loader_.rebuild(panels_.edited);
 }
 
 void ViewerApp::show_overlays(const Overlays& overlays) {

@@ -53,6 +53,7 @@ private:
     void let_go();
     void obey(Command command);
     void obey(const Requests& requests);
+    void throw_body();
     void show_overlays(const Overlays& overlays);
     void draw_picture(bool is_new);
     void make_renderer(int width, int height);
@@ -90,6 +91,7 @@ private:
 
     std::optional<int> dragging_;  // the button
     glm::vec2 pointer_{0.0f};
+    std::size_t own_bodies_ = 0;  // of the scene as it was read; the others were thrown in
     bool is_hand_asked_ = false;  // whether the drag has met a body is not known yet
     glm::vec2 way_since_asked_{0.0f};
     std::optional<float> hand_depth_;  // in front of the eye, while a body is held [m]

@@ -121,6 +121,11 @@ void Window::ask_to_close() {
     glfwSetWindowShouldClose(window_, GLFW_TRUE);
 }
 
+void Window::hide() {
+    glfwHideWindow(window_);
+    glfwPollEvents();
+}
+
 void Window::begin_frame(double patience) {
     if (patience > 0.0) {
         glfwWaitEventsTimeout(patience);

@@ -27,6 +27,7 @@ public:
 
     bool is_asked_to_close() const;
     void ask_to_close();
+    void hide();
 
     /// Takes in what happened and begins a picture; panels may be drawn until draw_panels. Waits for what
     /// happens, but no longer than `patience` [s].

@@ -94,8 +94,8 @@ public:
     /// Back to the start, measurements under way forgotten; after Diverged, too.
     void reset();
 
-    /// Goes on from where another simulation of the same tets is, with the masses, materials and settings of
-    /// this one's own scene. @throws InvalidInput if the tets differ
+    /// Goes on from where another simulation is, with the masses, materials and settings of this one's own
+    /// scene. Bodies of the same name and tets are where they are there; others begin at their start.
     void go_on_from(const Simulator& other);
 
     /// What a user's hand holds from now on; empty: nothing, and bodies keep the momentum that they have.

@@ -14,6 +14,7 @@
 #include "model/stability.h"
 #include "model/start_state.h"
 #include "sim/backend.h"
+#include "sim/carry_over.h"
 #include "sim/checkpoint.h"
 #include "sim/draw_source.h"
 #include "sim/overlay_source.h"
@@ -74,6 +75,11 @@ struct Simulator::Impl {
             lost_proximities = true;
         }
         return {measure.node_face, measure.edge_edge, measure.lost, measure.nearest};
+    }
+
+    State start_state() const {
+        if (std::optional<State> deformed = deformed_start(scene, *model)) return *std::move(deformed);
+        return {model->positions, model->velocities, {}};
     }
 
     // Goes on from there. What was being measured is of a state that is gone.
@@ -166,23 +172,14 @@ void Simulator::step() {
 }
 
 void Simulator::reset() {
-    const Model& m = model();
-    const std::optional<State> deformed = deformed_start(scene(), m);
-    impl_->take_state(deformed ? *deformed : State{m.positions, m.velocities, {}}, {});
+    impl_->take_state(impl_->start_state(), {});
 }
 
 void Simulator::go_on_from(const Simulator& other) {
-    const Model& m = model();
-    if (m.tets != other.model().tets || m.node_count() != other.model().node_count())
-        throw InvalidInput("a simulation can go on from another of the same tets alone");
-    State state = other.impl_->solver->read_state();
-    for (std::uint32_t n = 0; n < m.node_count(); ++n) {
-        state.positions[n].w = m.positions[n].w;
-        state.velocities[n].w = m.velocities[n].w;
-    }
     const int frame = static_cast<int>(other.time() * scene().simulation.frame_rate + 1e-6);
-    impl_->take_state(state, {frame, other.time(),
-                              static_cast<std::uint64_t>(frame) * static_cast<std::uint64_t>(substeps())});
+    impl_->take_state(
+        carried_over(other.model(), other.impl_->solver->read_state(), model(), impl_->start_state()),
+        {frame, other.time(), static_cast<std::uint64_t>(frame) * static_cast<std::uint64_t>(substeps())});
 }
 
 void Simulator::set_pull(const std::optional<Pull>& pull) {

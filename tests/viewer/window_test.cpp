@@ -211,6 +211,24 @@ TEST_F(WindowHeavy, StiffnessChangesUnderWay) {
     EXPECT_NEAR(center_of(session(), 0).y, 0.5, 0.02) << "a stiff cube does not sag";
 }
 
+TEST_F(WindowHeavy, ABodyIsThrownIn) {
+    open(two_cubes());
+    draw_until([&] { return session().time() > 0.1; });
+    act({"mousemove", "200", "200"});
+    draw(3);
+    const double before = session().time();
+    press("t");
+    draw_until([&] { return session().model().objects.size() == 3; });
+    EXPECT_GE(session().time(), before);
+    draw_until([&] { return !session().is_computing(); });
+    EXPECT_EQ(session().model().objects[2].name, "large 2");
+    EXPECT_GT(center_of(session(), 2).z, 2.0) << "it comes from where the eye is";
+    draw_until([&] { return session().time() > before + 0.5; });
+    draw_until([&] { return !session().is_computing(); });
+    EXPECT_LT(center_of(session(), 2).z, 1.5);
+    EXPECT_LT(center_of(session(), 0).y, 0.7) << "the others go on";
+}
+
 // How many objects of OpenGL there are of each kind.
 std::vector<int> count_gl_objects() {
     std::vector<int> counts(6, 0);
