@@ -17,6 +17,7 @@ enum class Command {
     toggle_faces,
     toggle_strain,
     toggle_panels,
+    save_scene,
     screenshot,
     screenshot_of_window,
     toggle_film,

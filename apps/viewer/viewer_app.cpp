@@ -12,6 +12,7 @@
 #include "core/log.h"
 #include "gelatin/error.h"
 #include "gl/context.h"
+#include "model/scene_writer.h"
 #include "projectile.h"
 #include "render/frame_grabber.h"
 #include "render/image.h"
@@ -238,6 +239,8 @@ void ViewerApp::obey(Command command) {
         case Command::toggle_boxes:
             overlays.box_levels = overlays.box_levels ? std::nullopt : std::optional(kUsualBoxLevels);
             return show_overlays(overlays);
+        case Command::save_scene:
+            return save_scene();
         case Command::toggle_film:
             return toggle_film();
         case Command::screenshot:
@@ -270,6 +273,21 @@ void ViewerApp::throw_body() {
         make_projectile(scene, session_->model(), thrown % own_bodies_, camera_.ray(pointer_), distance));
     panels_.edited = std::move(scene);
     loader_.rebuild(panels_.edited);
+}
+
+// Seen from where the camera is.
+void ViewerApp::save_scene() {
+    const std::filesystem::path file = free_name(options_.scene.stem().string(), ".toml");
+    Scene scene = panels_.edited;
+    const render::Camera camera = camera_.camera();
+    scene.camera = CameraDescription{glm::dvec3(camera.eye), glm::dvec3(camera.target),
+                                     static_cast<double>(camera.field_of_view)};
+    try {
+        gelatin::save_scene(file, scene);
+        tell("saved " + file.string());
+    } catch (const Error& error) {
+        fail(error.what());
+    }
 }
 
 void ViewerApp::show_overlays(const Overlays& overlays) {

@@ -54,6 +54,7 @@ private:
     void obey(Command command);
     void obey(const Requests& requests);
     void throw_body();
+    void save_scene();
     void show_overlays(const Overlays& overlays);
     void draw_picture(bool is_new);
     void make_renderer(int width, int height);

@@ -276,6 +276,23 @@ TEST_F(WindowHeavy, SavesThePicture) {
     EXPECT_NE(plain.pixels, with_panels.pixels);
 }
 
+TEST_F(WindowHeavy, SavesTheSceneAsItIs) {
+    open(two_cubes());
+    press("space");
+    press("t");
+    draw_until([&] { return session().model().objects.size() == 3; });
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(path(""));
+    press("ctrl+s");
+    std::filesystem::current_path(before);
+    EXPECT_EQ(app().notice(), "saved scene-1.toml");
+    const Scene scene = load_scene(path("scene-1.toml"));
+    ASSERT_EQ(scene.objects.size(), 3u);
+    EXPECT_EQ(scene.objects[2].name, "large 2");
+    EXPECT_EQ(scene.simulation.solver, SolverKind::vbd);
+    EXPECT_NEAR(scene.camera->eye.z, 6.0, 1e-4);
+}
+
 TEST_F(WindowHeavy, AFileThatIsDroppedOpens) {
     open(two_cubes());
     write_file(path("tetrahedron.obj"),
