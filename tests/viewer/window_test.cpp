@@ -97,6 +97,22 @@ TEST_F(WindowHeavy, FollowsItsSize) {
     EXPECT_FALSE(is_orange(wide, 330, 250));
 }
 
+TEST_F(WindowHeavy, OnADenseScreenAllIsLarger) {
+    VirtualDisplay::instance().set_density(192);
+    open(two_cubes());
+    VirtualDisplay::instance().set_density(96);
+    EXPECT_EQ(window().scale(), 2.0f);
+    EXPECT_EQ(window().pixels(), glm::ivec2(2 * kWidth, 2 * kHeight));
+    press("space");
+    draw(3);
+    const render::Image large = picture();
+    if (const char* folder = std::getenv("GELATIN_KEEP_PICTURES"))
+        render::write_png(std::filesystem::path(folder) / "dense.png", large);
+    // The panel's title bar is blue where it begins at the usual density and at this one.
+    const std::uint8_t* title = large.at(2 * (kWidth - 310) + 60, 2 * 12 + 4);
+    EXPECT_GT(title[2], title[0] + 40);
+}
+
 TEST_F(WindowHeavy, KeysShowWhatTheyPromise) {
     open(two_cubes());
     press("space");

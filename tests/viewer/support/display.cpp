@@ -12,6 +12,9 @@
 #include <cstdlib>
 
 #include "support/run_program.h"
+// After GoogleTest, whose names it has macros for.
+#include <X11/Xatom.h>
+#include <X11/Xlib.h>
 
 namespace gelatin::test {
 namespace {
@@ -64,6 +67,16 @@ void VirtualDisplay::act(const std::vector<std::string>& actions) const {
     command.insert(command.end(), actions.begin(), actions.end());
     const ProgramResult result = run_program(command);
     EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+void VirtualDisplay::set_density(int dots) const {
+    Display* display = XOpenDisplay(nullptr);
+    ASSERT_NE(display, nullptr);
+    const std::string resources = "Xft.dpi:\t" + std::to_string(dots) + "\n";
+    XChangeProperty(display, DefaultRootWindow(display), XA_RESOURCE_MANAGER, XA_STRING, 8, PropModeReplace,
+                    reinterpret_cast<const unsigned char*>(resources.data()),
+                    static_cast<int>(resources.size()));
+    XCloseDisplay(display);
 }
 
 }  // namespace gelatin::test

@@ -18,6 +18,9 @@ public:
     /// in.
     void act(const std::vector<std::string>& actions) const;
 
+    /// What programs that start from now on take the screen's density for; usual is 96 [dots an inch].
+    void set_density(int dots) const;
+
 private:
     VirtualDisplay();
 
