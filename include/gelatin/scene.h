@@ -19,7 +19,7 @@ enum class SolverKind { explicit_euler, semi_implicit_euler, midpoint, rk4, vbd 
 enum class ForceMethod { divide_and_merge, fused };
 
 struct SimulationSettings {
-    SolverKind solver = SolverKind::semi_implicit_euler;
+    SolverKind solver = SolverKind::vbd;
     ForceMethod forces = ForceMethod::fused;
     double frame_rate = 60.0;     ///< frames a second of simulated time [1/s], > 0
     std::optional<int> substeps;  ///< steps a frame, >= 1; empty: the fewest that are stable

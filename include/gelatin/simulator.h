@@ -99,8 +99,8 @@ public:
     void go_on_from(const Simulator& other);
 
     /// What a user's hand holds from now on; empty: nothing, and bodies keep the momentum that they have.
-    /// Their energy is no longer held against what gravity explains, until reset().
-    /// @pre nodes are in the model, their stiffnesses positive
+    /// What it does is not accounted for: meanwhile energy is not held against what start, gravity and loads
+    /// explain. @pre nodes are in the model, their stiffnesses positive
     void set_pull(const std::optional<Pull>& pull);
     /// Moves the hand [m]. @pre it holds something
     void move_pull(const glm::dvec3& target);

@@ -8,6 +8,9 @@
 #ifdef NEO_HOOKEAN
 #include "include/neo_hookean_force.glsl"
 #endif
+#ifdef VOLUME
+#include "include/volume_force.glsl"
+#endif
 layout(local_size_x = 64) in;
 
 layout(binding = 4) uniform usamplerBuffer half_springs;  // HalfSpringPair
@@ -32,6 +35,9 @@ void main() {
     }
 #ifdef NEO_HOOKEAN
     force += gather_tet_forces(n);
+#endif
+#ifdef VOLUME
+    force += gather_volume_forces(n);
 #endif
     integrate_node(n, velocity, force);
 }

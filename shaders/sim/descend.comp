@@ -1,6 +1,7 @@
 // Vertex block descent (Chen et al. 2024): each node of one colour makes a Newton step on its own part of the objective.
 // One invocation a row; rows are nodes by colour, in slices of 64 as advance_nodes has them. Neighbours have other
 // colours, so that what is gathered is not written here.
+// With FORCES nodes stay, and what acts on each is written, touches included: rows of all colours at once.
 // CPU twin: gelatin::cpu::BlockDescent. Parity: tests/gpu/block_descent_test.cpp.
 #include "include/global_index.glsl"
 #include "include/colliders.glsl"
@@ -22,7 +23,12 @@ layout(binding = 11) uniform samplerBuffer offsets;       // q [Pa], of each tet
 #endif
 layout(std430, binding = 0) writeonly buffer OutPositions { vec4 out_positions[]; };
 layout(std430, binding = 1) buffer NearFlat { uint near_flat[]; };  // an invocation reads and clears its own node's
-layout(std430, binding = 2) writeonly buffer ObjectTouches { uint object_touches[]; };
+#ifdef FORCES
+layout(std430, binding = 4) readonly buffer Ways { vec4 ways[]; };       // [m]
+layout(std430, binding = 5) writeonly buffer Forces { vec4 forces[]; };  // [N]
+uniform uint is_ahead;  // positions are those at the ways' ends
+#endif
+layout(std430, binding = 2) buffer ObjectTouches { uint object_touches[]; };
 #ifdef NEO_HOOKEAN
 #include "include/neo_hookean_terms.glsl"
 #endif
@@ -45,7 +51,7 @@ void add_half_spring(vec4 position, vec3 start, float damping_time, vec3 if_coin
 }
 
 #if COLLIDER_KINDS != 0
-layout(std430, binding = 3) writeonly buffer Touches { Touch touches[]; };  // of nodes
+layout(std430, binding = 3) buffer Touches { Touch touches[]; };  // of nodes
 
 // Where the node's own objective, to second order, is least outside the collider's tangent plane, behind which all of it
 // lies: the normal force is what that takes. Friction then takes back what the node has slid along the plane, with as much
@@ -110,7 +116,12 @@ void main() {
     uint n = entry.x;
     if (n == 0xFFFFFFFFu) return;
     vec4 position = texelFetch(positions, int(n));
-    if (position.w == 0.0) return;
+    if (position.w == 0.0) {
+#ifdef FORCES
+        forces[n] = vec4(0.0);
+#endif
+        return;
+    }
     vec3 start = start_of(n);
     float damping_time = texelFetch(start_velocities, int(n)).w;
     float inertia = 1.0 / (position.w * time_step * time_step);  // [N/m]
@@ -131,7 +142,9 @@ void main() {
         add_half_spring(position, start, damping_time, if_coincident, pair.z, uintBitsToFloat(pair.w), stiffness.y, terms);
     }
     bool is_near_flat = near_flat[n] != 0u;
+#ifndef FORCES
     if (is_near_flat && clear_marks != 0u) near_flat[n] = 0u;
+#endif
 #ifndef VOLUME
     if (is_near_flat)
 #endif
@@ -152,6 +165,18 @@ void main() {
 #ifdef NEO_HOOKEAN
     add_neo_hookean_tets(row, terms);
 #endif
+#ifdef FORCES
+    vec3 force = terms.force;
+#if COLLIDER_KINDS != 0
+    if (object_touches[entry.y] != 0u) {
+        Touch touch = touches[n];
+        vec3 way = is_ahead != 0u ? ways[n].xyz : vec3(0.0);
+        float across = touch.normal.w, along = touch.force.w;
+        force += touch.force.xyz - across * way - (along - across) * dot(touch.normal.xyz, way) * touch.normal.xyz;
+    }
+#endif
+    forces[n] = vec4(force, 0.0);
+#else
     vec3 moved = position.xyz + solve(terms, terms.force);
 #if COLLIDER_KINDS != 0
     Touch touch = push_outside_colliders(start, terms, moved);
@@ -159,4 +184,5 @@ void main() {
     if (touch.force.w != 0.0) object_touches[entry.y] = 1u;
 #endif
     out_positions[n] = vec4(moved, position.w);
+#endif
 }

@@ -1,10 +1,13 @@
 // The paper's way, third kernel (3.3): each node moves by the forces that were merged for it, and those of its
-// neo-Hookean tets.
+// tets.
 // CPU twin: gelatin::cpu::integrate_nodes. Parity: tests/gpu/divide_and_merge_test.cpp.
 #include "include/global_index.glsl"
 #include "include/integrate_node.glsl"
 #ifdef NEO_HOOKEAN
 #include "include/neo_hookean_force.glsl"
+#endif
+#ifdef VOLUME
+#include "include/volume_force.glsl"
 #endif
 layout(local_size_x = 64) in;
 
@@ -16,6 +19,9 @@ void main() {
     vec3 force = node_forces[n].xyz;
 #ifdef NEO_HOOKEAN
     force += gather_tet_forces(n);
+#endif
+#ifdef VOLUME
+    force += gather_volume_forces(n);
 #endif
     integrate_node(n, texelFetch(velocities, int(n)), force);
 }

@@ -1,5 +1,5 @@
 // Sums over nodes, one work group a chunk; the host adds the chunks up in double precision.
-// Pinned nodes (inverse mass 0) count for contacts and springs alone. CPU twin: gelatin::cpu::measure.
+// Pinned nodes (inverse mass 0) count for contacts and elastic energy alone. CPU twin: gelatin::cpu::measure.
 // Parity: tests/gpu/measure_test.cpp.
 #include "include/colliders.glsl"
 #include "include/global_index.glsl"
@@ -15,6 +15,9 @@ layout(std430, binding = 0) readonly buffer Chunks { Chunk chunks[]; };
 layout(std430, binding = 1) writeonly buffer Sums { NodeSums node_sums[]; };
 #ifdef NEO_HOOKEAN
 #include "include/neo_hookean.glsl"
+#endif
+#ifdef VOLUME
+#include "include/volume_term.glsl"
 #endif
 uniform uint chunk_count;
 uniform vec3 gravity;            // [m/s^2]
@@ -66,6 +69,10 @@ NodeSums measure_node(uint n) {
     float elastic_energy = half_spring_energy(n, position.xyz);
 #ifdef NEO_HOOKEAN
     elastic_energy += quarter_tet_energy(n);
+#endif
+#ifdef VOLUME
+    vec2 rest = texelFetch(node_volumes, int(n)).xy;
+    elastic_energy += rest.x * rest.y * volume_potential(volume_ratio_round(n), rest.y);
 #endif
     return NodeSums(momentum.x, momentum.y, momentum.z, 0.5 * dot(momentum, velocity),
                     elastic_energy, -mass * dot(gravity, position.xyz), max(0.0, -outside),

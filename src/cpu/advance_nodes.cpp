@@ -5,6 +5,7 @@
 
 #include "cpu/gather_forces.h"
 #include "cpu/integrate_node.h"
+#include "cpu/volume_forces.h"
 #include "model/solver.h"
 
 namespace gelatin::cpu {
@@ -44,6 +45,7 @@ Pass<Real> make_pass(const Model& model, const ExplicitScheme& scheme, int index
             .last = index + 1 == scheme.pass_count,
             .semi_implicit = scheme.semi_implicit,
             .load_forces = nullptr,
+            .volume_stresses = nullptr,
             .base_positions = base.positions.data(),
             .base_velocities = base.velocities.data(),
             .positions = at.positions.data(),
@@ -52,6 +54,14 @@ Pass<Real> make_pass(const Model& model, const ExplicitScheme& scheme, int index
             .sum_velocities = sums.velocities.data(),
             .out_positions = out.positions.data(),
             .out_velocities = out.velocities.data()};
+}
+
+template <class Real>
+void find_volume_stresses(const Model& model, const Nodes<Real>& at, std::span<Real> stresses, Range slices) {
+    const std::uint32_t first = slices.first * HalfSprings::kSlice;
+    const std::uint32_t end = std::min(slices.end() * HalfSprings::kSlice, model.node_count());
+    for (std::uint32_t n = first; n < end; ++n)
+        stresses[n] = volume_stress_round(model.volume_term, n, at.positions.data());
 }
 
 template <class Real>
@@ -95,12 +105,14 @@ void merge_spring_forces(const Model& model, std::span<const Vec4<Real>> spring_
 template <class Real>
 void integrate_nodes(const Pass<Real>& pass, std::span<const Vec4<Real>> node_forces, Range nodes) {
     for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-        integrate_node(pass, n, Vec3<Real>(node_forces[n]) + gather_tet_forces(pass, n));
+        integrate_node(
+            pass, n, Vec3<Real>(node_forces[n]) + gather_tet_forces(pass, n) + gather_volume_forces(pass, n));
 }
 
 #define GELATIN_INSTANTIATE(Real)                                                                            \
     template Pass<Real> make_pass<Real>(const Model&, const ExplicitScheme&, int, double,                    \
                                         const Nodes<Real>&, const Nodes<Real>&, Nodes<Real>&, Nodes<Real>&); \
+    template void find_volume_stresses<Real>(const Model&, const Nodes<Real>&, std::span<Real>, Range);      \
     template void advance_nodes<Real>(const Pass<Real>&, Range);                                             \
     template void write_spring_forces<Real>(const Pass<Real>&, std::span<Vec4<Real>>, Range);                \
     template void merge_spring_forces<Real>(const Model&, std::span<const Vec4<Real>>,                       \

@@ -22,6 +22,7 @@ struct Pass {
     bool semi_implicit;
 
     const Vec4<Real>* load_forces;                      ///< of loads [N]; null where there are none
+    const Real* volume_stresses;                        ///< of the volume term [Pa]; null where there is none
     const Vec4<Real>*base_positions, *base_velocities;  ///< at the step's start
     const Vec4<Real>*positions, *velocities;            ///< where forces are evaluated
     Vec4<Real>*sum_positions, *sum_velocities;          ///< null for schemes of one pass
@@ -29,10 +30,18 @@ struct Pass {
 };
 
 /// Pass `index` of a step of `step` seconds from `base`, with forces at `at`; `sums` may be empty for schemes
-/// of one pass. Without loads; the arrays must outlive the pass.
+/// of one pass. Without loads and volume term; the arrays must outlive the pass.
 template <class Real>
 Pass<Real> make_pass(const Model& model, const ExplicitScheme& scheme, int index, double step,
                      const Nodes<Real>& base, const Nodes<Real>& at, Nodes<Real>& out, Nodes<Real>& sums);
+
+/// Before the pass, where the model has a volume term: its stress round each node of `slices` [Pa].
+template <class Real>
+void find_volume_stresses(const Model& model, const Nodes<Real>& at, std::span<Real> stresses, Range slices);
+
+/// The same in float with SIMD.
+void find_volume_stresses_simd(const Model& model, const Nodes<float>& at, std::span<float> stresses,
+                               Range slices);
 
 /// Forces and integration fused: each node gathers the forces of its springs and tets and moves. Writes the
 /// nodes of `slices` only.
@@ -54,7 +63,7 @@ template <class Real>
 void merge_spring_forces(const Model& model, std::span<const Vec4<Real>> spring_forces,
                          std::span<Vec4<Real>> node_forces, Range nodes);
 
-/// Third loop: each node moves, by these forces and those of its neo-Hookean tets.
+/// Third loop: each node moves, by these forces and those of its tets.
 template <class Real>
 void integrate_nodes(const Pass<Real>& pass, std::span<const Vec4<Real>> node_forces, Range nodes);
 

@@ -8,6 +8,7 @@
 
 #include "cpu/gather_forces.h"
 #include "cpu/integrate_node.h"
+#include "cpu/volume_forces.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "cpu/advance_nodes_simd.cpp"
@@ -16,6 +17,7 @@
 
 #include "cpu/simd_columns-inl.h"
 #include "cpu/tet_forces-inl.h"
+#include "cpu/volume_forces-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {
@@ -24,6 +26,10 @@ namespace gelatin::cpu::HWY_NAMESPACE {
 // Below SSSE3 there is nothing to gain.
 void advance_slices(const Pass<float>& pass, Range slices) {
     advance_nodes<float>(pass, slices);
+}
+
+void find_stresses(const Model& model, const Nodes<float>& at, std::span<float> stresses, Range slices) {
+    find_volume_stresses<float>(model, at, stresses, slices);
 }
 
 #else
@@ -94,6 +100,7 @@ void advance_slices(const Pass<float>& pass, Range slices) {
         prefetch_lanes(pass.velocities + n + kNodesAhead);
         Vector3 force = gather_lanes(d, pass, n);
         if (!pass.model.neo_hookean_tets.empty()) add_tet_forces(d, pass, n, force);
+        if (pass.volume_stresses != nullptr) add_volume_forces(d, pass, n, force);
         HWY_ALIGN float x[kLanes], y[kLanes], z[kLanes];
         hn::Store(force.x, d, x);
         hn::Store(force.y, d, y);
@@ -101,6 +108,16 @@ void advance_slices(const Pass<float>& pass, Range slices) {
         for (std::uint32_t l = 0; l < kLanes; ++l) integrate_node(pass, n + l, {x[l], y[l], z[l]});
     }
     for (; n < end; ++n) integrate_node(pass, n, gather_forces(pass, n));
+}
+
+void find_stresses(const Model& model, const Nodes<float>& at, std::span<float> stresses, Range slices) {
+    const Lanes d;
+    const Vec4<float>* positions = at.positions.data();
+    const std::uint32_t end = std::min(slices.end() * HalfSprings::kSlice, model.node_count());
+    std::uint32_t n = slices.first * HalfSprings::kSlice;
+    for (; n + kLanes <= end; n += kLanes)
+        hn::StoreU(volume_stresses(d, model.volume_term, positions, n), d, &stresses[n]);
+    for (; n < end; ++n) stresses[n] = volume_stress_round(model.volume_term, n, positions);
 }
 
 #endif
@@ -116,10 +133,16 @@ HWY_AFTER_NAMESPACE();
 namespace gelatin::cpu {
 
 HWY_EXPORT(advance_slices);
+HWY_EXPORT(find_stresses);
 HWY_EXPORT(target_name);
 
 void advance_nodes_simd(const Pass<float>& pass, Range slices) {
     HWY_DYNAMIC_DISPATCH(advance_slices)(pass, slices);
+}
+
+void find_volume_stresses_simd(const Model& model, const Nodes<float>& at, std::span<float> stresses,
+                               Range slices) {
+    HWY_DYNAMIC_DISPATCH(find_stresses)(model, at, stresses, slices);
 }
 
 const char* simd_target() {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <span>
-#include <type_traits>
 #include <utility>
 
 #include "cpu/colliders.h"
@@ -19,9 +19,20 @@
 namespace gelatin::cpu {
 namespace {
 
+// Ways are made longer by no more than this.
+constexpr double kFarthest = 2.0;
+
 template <class Work>
 void for_each_node(const Model& model, const Work& work) {
     for_each_index(model.node_count(), [&](std::size_t n) { work(static_cast<std::uint32_t>(n)); });
+}
+
+void gather_terms(const SpringRows<float>& springs, std::uint32_t slice, NodeTerms<float>* terms) {
+    gather_spring_terms_simd(springs, slice, terms);
+}
+
+void gather_terms(const SpringRows<double>& springs, std::uint32_t slice, NodeTerms<double>* terms) {
+    gather_spring_terms(springs, slice, terms);
 }
 
 }  // namespace
@@ -32,12 +43,18 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
       settings_(settings),
       rows_(make_descent_rows(*model_)),
       tets_(model_),
+      coarse_(model_),
       starts_(model_->node_count()),
       targets_(model_->node_count()),
       object_of_(objects_of_nodes(*model_)),
       touches_(model_->objects.size()) {
     if (!model_->colliders.empty()) node_touches_.resize(model_->node_count());
     if (settings_.chebyshev > 0.0) last_ = before_last_ = targets_;
+    if (!coarse_.is_empty()) {
+        ahead_.resize(model_->node_count());
+        ways_.resize(model_->node_count());
+        forces_ = forces_ahead_ = ways_;
+    }
 }
 
 template <class Real>
@@ -46,11 +63,13 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
     pulls_ = pulls;
     start(step, has_earlier, previous, load_forces, current);
     take_back_tangled(current.positions);
+    coarse_.begin(step, current.positions);
     for (int i = 0; i < settings_.iterations; ++i) {
         if (settings_.chebyshev > 0.0) accelerate(i, current.positions);
         if (i % kSweepsAMotion == 0) tets_.look(current.positions);
         sweep(step, current.positions);
         const bool is_last = i + 1 == settings_.iterations;
+        if (!is_last && i % kSweepsACorrection == 0) correct(step, current.positions);
         if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(step, is_last, current.positions);
     }
     finish(step, previous, current);
@@ -128,11 +147,7 @@ void BlockDescent<Real>::sweep(Real step, std::vector<Vec4<Real>>& positions) {
     for (const Range& color : rows_.colors) {
         tbb::parallel_for(color.first / kSlice, color.end() / kSlice, [&](std::uint32_t slice) {
             std::array<NodeTerms<Real>, kSlice> terms;
-            if constexpr (std::is_same_v<Real, float>) {
-                gather_spring_terms_simd(springs, slice, terms.data());
-            } else {
-                gather_spring_terms(springs, slice, terms.data());
-            }
+            gather_terms(springs, slice, terms.data());
             for (std::uint32_t row = 0; row < kSlice; ++row) {
                 const std::uint32_t node = rows_.nodes[slice * kSlice + row];
                 if (node != kNoNode) move_node(node, step, terms[row], positions);
@@ -141,25 +156,100 @@ void BlockDescent<Real>::sweep(Real step, std::vector<Vec4<Real>>& positions) {
     }
 }
 
-// @param terms of its springs
+// All of a node's, to those of its springs.
 template <class Real>
-void BlockDescent<Real>::move_node(std::uint32_t node, Real step, NodeTerms<Real> terms,
-                                   std::vector<Vec4<Real>>& positions) {
-    const Real inverse_mass = positions[node].w;
-    if (inverse_mass == Real(0)) return;
-    const Vec3<Real> position(positions[node]);
-    const Real inertia = Real(1) / (inverse_mass * step * step);  // [N/m]
-    terms.force += inertia * (targets_[node] - position);
+void BlockDescent<Real>::add_node_terms(std::uint32_t node, Real step,
+                                        const std::vector<Vec4<Real>>& positions,
+                                        NodeTerms<Real>& terms) const {
+    const Vec4<Real>& position = positions[node];
+    const Real inertia = Real(1) / (position.w * step * step);  // [N/m]
+    terms.force += inertia * (targets_[node] - Vec3<Real>(position));
     terms.hessian.add_identity(inertia);
     if (pulls_ != nullptr) {
-        const Vec4<Real> pull = pulls_->terms(node, position, Vec3<Real>(starts_[node]), step);
+        const Vec4<Real> pull = pulls_->terms(node, Vec3<Real>(position), Vec3<Real>(starts_[node]), step);
         terms.force += Vec3<Real>(pull);
         terms.hessian.add_identity(pull.w);
     }
     tets_.add(node, positions, terms);
     add_neo_hookean_tets(node, step, positions, terms);
-    const Vec3<Real> moved = outside_colliders(node, terms.hessian, position + solve(terms));
-    positions[node] = Vec4<Real>(moved, inverse_mass);
+}
+
+// @param terms of its springs
+template <class Real>
+void BlockDescent<Real>::move_node(std::uint32_t node, Real step, NodeTerms<Real> terms,
+                                   std::vector<Vec4<Real>>& positions) {
+    const Vec4<Real> position = positions[node];
+    if (position.w == Real(0)) return;
+    add_node_terms(node, step, positions, terms);
+    const Vec3<Real> moved = outside_colliders(node, terms.hessian, Vec3<Real>(position) + solve(terms));
+    positions[node] = Vec4<Real>(moved, position.w);
+}
+
+// Minus the slope of the objective by each node; colliders left out.
+template <class Real>
+void BlockDescent<Real>::find_forces(Real step, const std::vector<Vec4<Real>>& positions,
+                                     std::vector<Vec3<Real>>& forces) const {
+    constexpr std::uint32_t kSlice = HalfSprings::kSlice;
+    const SpringRows<Real> springs{rows_, positions.data(), starts_.data(), Real(1) / step};
+    const auto slices = static_cast<std::uint32_t>(rows_.nodes.size()) / kSlice;
+    tbb::parallel_for(std::uint32_t(0), slices, [&](std::uint32_t slice) {
+        std::array<NodeTerms<Real>, kSlice> terms;
+        gather_terms(springs, slice, terms.data());
+        for (std::uint32_t row = 0; row < kSlice; ++row) {
+            const std::uint32_t node = rows_.nodes[slice * kSlice + row];
+            if (node == kNoNode || positions[node].w == Real(0)) continue;
+            add_node_terms(node, step, positions, terms[row]);
+            forces[node] = terms[row].force;
+        }
+    });
+}
+
+// All nodes at once along the motions of clusters, as far as the objective falls.
+template <class Real>
+void BlockDescent<Real>::correct(Real step, std::vector<Vec4<Real>>& positions) {
+    if (coarse_.is_empty()) return;
+    const auto is_touched = [&](std::uint32_t n) {
+        return !node_touches_.empty() && touches_[object_of_[n]] != 0;
+    };
+    find_forces(step, positions, forces_);
+    for_each_node(*model_, [&](std::uint32_t n) {
+        if (is_touched(n)) forces_[n] += node_touches_[n].force;
+    });
+    coarse_.find_ways(positions, forces_, ways_);
+    for_each_node(*model_,
+                  [&](std::uint32_t n) { ahead_[n] = positions[n] + Vec4<Real>(ways_[n], Real(0)); });
+    find_forces(step, ahead_, forces_ahead_);
+    for_each_node(*model_, [&](std::uint32_t n) {
+        if (!is_touched(n)) return;
+        const Touch& touch = node_touches_[n];
+        const Real along = glm::dot(touch.normal, ways_[n]);
+        forces_ahead_[n] +=
+            touch.force - touch.across * ways_[n] - (touch.along - touch.across) * along * touch.normal;
+    });
+    tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
+        if (!coarse_.moves(o)) return;
+        const Real factor = way_factor(o);
+        if (factor == Real(0)) return;
+        const Range& nodes = model_->objects[o].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+            positions[n] += Vec4<Real>(factor * ways_[n], Real(0));
+    });
+}
+
+// The part of an object's ways at which what acts along them is nothing, by the secant through its values
+// here and at the ways' ends. No node goes farther than the object is long.
+template <class Real>
+Real BlockDescent<Real>::way_factor(std::size_t object) const {
+    double here = 0.0, ahead = 0.0, longest = 0.0;  // [J], [m]
+    const Range& nodes = model_->objects[object].nodes;
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+        here += static_cast<double>(glm::dot(forces_[n], ways_[n]));
+        ahead += static_cast<double>(glm::dot(forces_ahead_[n], ways_[n]));
+        longest = std::max(longest, static_cast<double>(glm::length(ways_[n])));
+    }
+    if (!(here > 0.0 && std::isfinite(here) && std::isfinite(ahead))) return Real(0);
+    const double factor = here / std::max(here - ahead, here / kFarthest);
+    return static_cast<Real>(std::min(factor, coarse_.length(object) / longest));
 }
 
 template <class Real>

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "cpu/coarse_correction.h"
 #include "cpu/node_terms.h"
 #include "cpu/nodes.h"
 #include "cpu/pulls.h"
@@ -18,9 +19,10 @@ namespace gelatin::cpu {
 ///   G(x) = sum_i m_i / (2 h^2) |x_i - y_i|^2 + E(x),   y = x_t + h v_t + h^2 (g + f / m),
 /// with f the force of loads, found node by node, each by one Newton step on its own three coordinates, all
 /// nodes of one colour at once.
-/// Between sweeps and after the last one, bodies that nothing holds move as rigid ones to where G is least:
-/// that keeps their momentum, which sweeps alone lose (docs/physics.md). Stable for any step and start. The
-/// same bits for any number of threads.
+/// Between sweeps, clusters of nodes move towards that minimum (cpu/coarse_correction.h), which long stiff
+/// bodies would need thousands of sweeps for. Between sweeps and after the last one, bodies that nothing
+/// holds move as rigid ones to where G is least: that keeps their momentum, which sweeps alone lose
+/// (docs/physics.md). Stable for any step and start. The same bits for any number of threads.
 template <class Real>
 class BlockDescent {
 public:
@@ -38,11 +40,17 @@ private:
     void take_back_tangled(std::vector<Vec4<Real>>& positions) const;
     void accelerate(int sweep, std::vector<Vec4<Real>>& positions);
     void sweep(Real step, std::vector<Vec4<Real>>& positions);
+    void add_node_terms(std::uint32_t node, Real step, const std::vector<Vec4<Real>>& positions,
+                        NodeTerms<Real>& terms) const;
     void move_node(std::uint32_t node, Real step, NodeTerms<Real> terms, std::vector<Vec4<Real>>& positions);
     void add_neo_hookean_tets(std::uint32_t node, Real step, const std::vector<Vec4<Real>>& positions,
                               NodeTerms<Real>& terms) const;
     Vec3<Real> outside_colliders(std::uint32_t node, const SymmetricMatrix<Real>& hessian,
                                  Vec3<Real> position);
+    void find_forces(Real step, const std::vector<Vec4<Real>>& positions,
+                     std::vector<Vec3<Real>>& forces) const;
+    void correct(Real step, std::vector<Vec4<Real>>& positions);
+    Real way_factor(std::size_t object) const;
     void move_bodies(Real step, bool is_last, std::vector<Vec4<Real>>& positions) const;
     void finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current) const;
 
@@ -51,6 +59,7 @@ private:
     const Pulls<Real>* pulls_ = nullptr;  // of the step that is made
     DescentRows rows_;
     TetResistance<Real> tets_;
+    CoarseCorrection<Real> coarse_;
     std::vector<Vec4<Real>> starts_;        // xyz [m], damping time [s]
     std::vector<Vec3<Real>> targets_;       // y [m], shape [nodes]
     std::vector<std::uint32_t> object_of_;  // by node
@@ -59,7 +68,9 @@ private:
         Vec3<Real> force{0}, normal{0};  // [N], unit
         Real along = 0, across = 0;      // how the force changes with the body's way [N/m]
     };
-    std::vector<Touch> node_touches_;             // of the last sweep; empty without colliders
+    std::vector<Touch> node_touches_;                       // of the last sweep; empty without colliders
+    std::vector<Vec4<Real>> ahead_;                         // where ways would lead [m]; these empty without
+    std::vector<Vec3<Real>> ways_, forces_, forces_ahead_;  // [m], [N], a coarse correction
     std::vector<Vec3<Real>> last_, before_last_;  // from where the last two sweeps went [m], for acceleration
 };
 

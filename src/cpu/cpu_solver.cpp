@@ -28,6 +28,10 @@ void for_ranges(std::uint32_t count, std::uint32_t grain, const Work& work) {
 constexpr std::uint32_t kSlicesATask = 8;
 constexpr std::uint32_t kElementsATask = 2048;
 
+std::uint32_t slice_count(const Model& model) {
+    return static_cast<std::uint32_t>(model.half_springs.slice_starts.size() - 1);
+}
+
 template <class Real>
 std::vector<Vec4<Real>> converted(const std::vector<glm::vec4>& values) {
     return {values.begin(), values.end()};
@@ -63,6 +67,7 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
         node_forces_.resize(model_->node_count());
     }
     load_factors_.assign(model_->loads.spans.size(), 1.0f);
+    if (!model_->volume_term.is_empty() && !block_descent_) volume_stresses_.resize(model_->node_count());
     if (!model_->loads.empty()) load_forces_.assign(model_->node_count(), Vec4<Real>(0));
 }
 
@@ -114,8 +119,10 @@ void CpuSolver<Real>::advance_nodes(double step) {
         if (pulls_) clear_pulled_forces();
         sum_loads(*from);
         if (pulls_) add_pulls(*from, static_cast<Real>(step));
+        find_volume_stresses(*from);
         Pass<Real> pass = make_pass(*model_, scheme_, p, step, current_, *from, to, sums_);
         if (!load_forces_.empty()) pass.load_forces = load_forces_.data();
+        if (!volume_stresses_.empty()) pass.volume_stresses = volume_stresses_.data();
         run_pass(pass);
         from = &to;
     }
@@ -129,11 +136,22 @@ void CpuSolver<Real>::sum_loads(const Nodes<Real>& nodes) {
 }
 
 template <class Real>
+void CpuSolver<Real>::find_volume_stresses(const Nodes<Real>& nodes) {
+    if (volume_stresses_.empty()) return;
+    for_ranges(slice_count(*model_), kSlicesATask, [&](Range slices) {
+        if constexpr (std::is_same_v<Real, float>) {
+            find_volume_stresses_simd(*model_, nodes, volume_stresses_, slices);
+        } else {
+            cpu::find_volume_stresses<Real>(*model_, nodes, volume_stresses_, slices);
+        }
+    });
+}
+
+template <class Real>
 void CpuSolver<Real>::run_pass(const Pass<Real>& pass) {
     const std::uint32_t nodes = model_->node_count();
     if (forces_ == ForceMethod::fused) {
-        const auto slices = static_cast<std::uint32_t>(model_->half_springs.slice_starts.size() - 1);
-        for_ranges(slices, kSlicesATask, [&](Range range) {
+        for_ranges(slice_count(*model_), kSlicesATask, [&](Range range) {
             if constexpr (std::is_same_v<Real, float>) {
                 advance_nodes_simd(pass, range);
             } else {

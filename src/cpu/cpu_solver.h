@@ -63,6 +63,7 @@ private:
     void sum_loads(const Nodes<Real>& nodes);
     void add_pulls(const Nodes<Real>& nodes, Real step);
     void clear_pulled_forces();
+    void find_volume_stresses(const Nodes<Real>& nodes);
     void run_pass(const Pass<Real>& pass);
 
     std::shared_ptr<const Model> model_;
@@ -77,6 +78,7 @@ private:
     std::vector<float> load_factors_;
     std::vector<Vec4<Real>> load_forces_;  // [N], shape [nodes]; empty where there are no loads
     std::optional<Pulls<Real>> pulls_;     // while a hand holds something
+    std::vector<Real> volume_stresses_;    // [Pa], shape [nodes]; empty where no explicit scheme needs them
     Collision<Real> collision_;
     ContactProperties contact_;
     struct SelfStages {

@@ -3,6 +3,7 @@
 #include "cpu/advance_nodes.h"
 #include "cpu/neo_hookean.h"
 #include "cpu/spring_force.h"
+#include "cpu/volume_forces.h"
 
 namespace gelatin::cpu {
 
@@ -49,7 +50,7 @@ inline Vec3<Real> gather_spring_forces(const Pass<Real>& pass, std::uint32_t n) 
 /// The elastic force on node n [N].
 template <class Real>
 inline Vec3<Real> gather_forces(const Pass<Real>& pass, std::uint32_t n) {
-    return gather_spring_forces(pass, n) + gather_tet_forces(pass, n);
+    return gather_spring_forces(pass, n) + gather_tet_forces(pass, n) + gather_volume_forces(pass, n);
 }
 
 }  // namespace gelatin::cpu

@@ -7,6 +7,7 @@
 
 #include "cpu/colliders.h"
 #include "cpu/neo_hookean.h"
+#include "cpu/volume_forces.h"
 
 namespace gelatin::cpu {
 namespace {
@@ -57,11 +58,22 @@ void add_node(const Model& model, const Nodes<Real>& nodes, std::uint32_t n, Obj
     sums.contacts += touches ? 1 : 0;
 }
 
+// Of the volume term, round one node [J].
+template <class Position>
+double volume_energy(const VolumeTerm& term, std::uint32_t n, const Position& position) {
+    const glm::dvec2 node(term.nodes[n]);
+    return node.x * node.y * volume_potential(volume_ratio_round<double>(term, n, position), node.y);
+}
+
 template <class Real>
 ObjectMeasure sum_chunk(const Model& model, const Nodes<Real>& nodes, const Chunk& chunk) {
     const auto position = [&](std::uint32_t n) { return glm::dvec3(nodes.positions[n]); };
     ObjectMeasure sums;
-    for (std::uint32_t n = chunk.nodes.first; n < chunk.nodes.end(); ++n) add_node(model, nodes, n, sums);
+    for (std::uint32_t n = chunk.nodes.first; n < chunk.nodes.end(); ++n) {
+        add_node(model, nodes, n, sums);
+        if (!model.volume_term.is_empty())
+            sums.elastic_energy += volume_energy(model.volume_term, n, position);
+    }
     for (std::uint32_t s = chunk.springs.first; s < chunk.springs.end(); ++s) {
         const Spring& spring = model.springs[s];
         const double stretch =

@@ -8,34 +8,11 @@
 
 #include "cpu/advance_nodes.h"
 #include "cpu/neo_hookean.h"
-#include "cpu/simd_columns-inl.h"
+#include "cpu/simd_vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {
 #if HWY_TARGET != HWY_SCALAR
-
-// Three components, a lane each.
-struct Vector3 {
-    Vector x, y, z;
-};
-
-HWY_INLINE Vector3 subtract(const Columns& a, const Columns& b) {
-    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-HWY_INLINE Vector dot(const Vector3& a, const Vector3& b) {
-    return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
-}
-HWY_INLINE Vector3 cross(const Vector3& a, const Vector3& b) {
-    return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
-            hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
-}
-// sum + factor v
-HWY_INLINE Vector3 add_scaled(const Vector3& sum, Vector factor, const Vector3& v) {
-    return {hn::MulAdd(factor, v.x, sum.x), hn::MulAdd(factor, v.y, sum.y), hn::MulAdd(factor, v.z, sum.z)};
-}
-HWY_INLINE Vector3 scaled(Vector factor, const Vector3& v) {
-    return {hn::Mul(factor, v.x), hn::Mul(factor, v.y), hn::Mul(factor, v.z)};
-}
 
 // Columns of a matrix.
 struct Matrix3 {

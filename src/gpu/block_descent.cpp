@@ -87,6 +87,7 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
       accelerate_program_(gl::Program::compute("sim/accelerate_descent.comp")),
       mark_program_(gl::Program::compute("sim/mark_flat_tets.comp", volume_defines(model))),
       sweep_program_(gl::Program::compute("sim/descend.comp", sweep_defines(model, pulled))),
+      force_program_(gl::Program::compute("sim/descend.comp", with(sweep_defines(model, pulled), "FORCES"))),
       sum_program_(gl::Program::compute("sim/sum_rigid_motions.comp", step_defines(model, pulled))),
       motion_program_(gl::Program::compute("sim/sum_rigid_motions.comp",
                                            with(ModelBuffers::collider_defines(model), "OBJECTS"))),
@@ -140,17 +141,20 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
     tet_texels_ = {tets_, gl::TexelFormat::rgba32ui};
     tet_rest_texels_ = {tet_rests_, gl::TexelFormat::rgba32f};
     chunk_start_texels_ = {chunk_starts_, gl::TexelFormat::r32ui};
+    coarse_.emplace(model);
+    if (coarse_->is_empty()) coarse_.reset();
 }
 
 void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, const NodeBuffers& current,
-                       double step, bool has_earlier) const {
-    for (const gl::Program* program :
-         {&start_program_, &sweep_program_, &sum_program_, &move_program_, &last_move_program_}) {
+                       double step, bool has_earlier) {
+    for (const gl::Program* program : {&start_program_, &sweep_program_, &force_program_, &sum_program_,
+                                       &move_program_, &last_move_program_}) {
         program->set("time_step", static_cast<float>(step));
         program->set("gravity", model.gravity);
     }
     if (model.pulls) {
-        for (const gl::Program* program : {&sweep_program_, &sum_program_}) model.pulls->bind(*program);
+        for (const gl::Program* program : {&sweep_program_, &force_program_, &sum_program_})
+            model.pulls->bind(*program);
     }
     last_move_program_.set("contact_distance", static_cast<float>(kContactDistance));
     last_move_program_.set("resting_speed", static_cast<float>(resting_speed(model.gravity, step)));
@@ -172,12 +176,14 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
     current.position_texels.bind(0);
     start_texels_.bind(1);
     take_back_tangled(current);
+    if (coarse_) coarse_->begin(step);
     for (int i = 0; i < settings_.iterations; ++i) {
         if (settings_.chebyshev > 0.0) accelerate(i);
         if (i % kSweepsAMotion == 0) look_at_tets();
         sweep_program_.set("clear_marks", i % kSweepsAMotion + 1 == kSweepsAMotion ? 1u : 0u);
         sweep(model);
         const bool is_last = i + 1 == settings_.iterations;
+        if (coarse_ && !is_last && i % kSweepsACorrection == 0) correct(model, current);
         if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(model, current, is_last);
     }
 }
@@ -233,11 +239,17 @@ void BlockDescent::look_at_tets() const {
 }
 
 void BlockDescent::sweep(const ModelBuffers& model) const {
+    descend(sweep_program_, model, colors_);
+}
+
+// One dispatch after another for each of `rows`.
+void BlockDescent::descend(const gl::Program& program, const ModelBuffers& model,
+                           std::span<const Range> rows) const {
     row_texels_.bind(3);
     half_spring_texels_.bind(4);
     stiffness_texels_.bind(5);
     spring_start_texels_.bind(6);
-    model.bind_colliders(sweep_program_);
+    model.bind_colliders(program);
     tet_corner_texels_.bind(8);
     corner_start_texels_.bind(9);
     tet_rest_texels_.bind(10);
@@ -245,12 +257,28 @@ void BlockDescent::sweep(const ModelBuffers& model) const {
     model.neo_hookean.bind_tets();
     neo_hookean_corners_.bind();
     if (touches_.size() > 0) touches_.bind_storage(3);
-    for (const Range& color : colors_) {
-        sweep_program_.set("first_row", color.first);
-        sweep_program_.set("row_count", color.count);
-        sweep_program_.dispatch(color.count);
+    for (const Range& range : rows) {
+        program.set("first_row", range.first);
+        program.set("row_count", range.count);
+        program.dispatch(range.count);
         gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::storage);
     }
+}
+
+// All nodes at once along the motions of clusters, as far as the objective falls.
+void BlockDescent::correct(const ModelBuffers& model, const NodeBuffers& current) {
+    const Range all{0, static_cast<std::uint32_t>(rows_.size())};
+    coarse_->bind_forces(false);
+    force_program_.set("is_ahead", 0u);
+    descend(force_program_, model, {&all, 1});
+    coarse_->find_ways();
+
+    coarse_->bind_forces(true);
+    coarse_->ahead_texels().bind(0);
+    force_program_.set("is_ahead", 1u);
+    descend(force_program_, model, {&all, 1});
+    current.position_texels.bind(0);
+    coarse_->follow_ways(chunks_, chunk_start_texels_);
 }
 
 void BlockDescent::move_bodies(const ModelBuffers& model, const NodeBuffers& current, bool is_last) const {

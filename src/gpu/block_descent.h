@@ -3,8 +3,10 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <optional>
+#include <span>
 
 #include "gl/program.h"
+#include "gpu/coarse_correction.h"
 #include "gpu/model_buffers.h"
 #include "gpu/node_buffers.h"
 #include "model/model.h"
@@ -24,7 +26,7 @@ public:
     /// @pre where the model has loads, SumLoads::run
     /// @param current's velocities are those one step before `previous` if `has_earlier`, else not looked at
     void run(const ModelBuffers& model, const NodeBuffers& previous, const NodeBuffers& current, double step,
-             bool has_earlier) const;
+             bool has_earlier);
 
 private:
     // What the volume term needs, in models that have one.
@@ -43,10 +45,12 @@ private:
     void accelerate(int sweep) const;
     void look_at_tets() const;
     void sweep(const ModelBuffers& model) const;
+    void descend(const gl::Program& program, const ModelBuffers& model, std::span<const Range> rows) const;
+    void correct(const ModelBuffers& model, const NodeBuffers& current);
     void move_bodies(const ModelBuffers& model, const NodeBuffers& current, bool is_last) const;
 
     gl::Program start_program_, find_tangled_program_, take_back_program_, accelerate_program_, mark_program_,
-        sweep_program_, sum_program_, motion_program_, move_program_, last_move_program_;
+        sweep_program_, force_program_, sum_program_, motion_program_, move_program_, last_move_program_;
     DescentSettings settings_;
     std::uint32_t node_count_, tet_count_, object_count_;
     std::optional<Pressures> pressures_;
@@ -73,6 +77,7 @@ private:
     gl::Buffer<Touch> touches_;  // of nodes in the last sweep; empty without colliders
     gl::Buffer<glm::dvec4> rigid_sums_;
     gl::Buffer<RigidMotion> motions_;
+    std::optional<CoarseCorrection> coarse_;  // where there are clusters
 };
 
 }  // namespace gelatin::gpu

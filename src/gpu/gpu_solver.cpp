@@ -27,6 +27,7 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, Forc
     if (model_->objects.size() > 1 || collision.self_collision) collision_.emplace(*model_, collision);
     if (!model_->handles.empty()) apply_kinematics_.emplace(*model_);
     if (!model_->loads.empty()) sum_loads_.emplace(*model_);
+    if (!model_->volume_term.is_empty() && solver != SolverKind::vbd) find_volume_stresses_.emplace(*model_);
     make_integrator();
 }
 
@@ -65,6 +66,7 @@ void GpuSolver::advance_nodes(double step) {
     for (int p = 0; p < scheme_.pass_count; ++p) {
         NodeBuffers& to = p + 1 == scheme_.pass_count ? previous_ : stage_[p % 2];
         if (sum_loads_) sum_loads_->run(*from);
+        if (find_volume_stresses_) find_volume_stresses_->run(buffers_, *from);
         const Pass pass{scheme_, p, step, current_, *from, to, sums_};
         if (fused_) {
             fused_->run(buffers_, pass);

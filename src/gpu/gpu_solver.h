@@ -9,6 +9,7 @@
 #include "gpu/block_descent.h"
 #include "gpu/collision.h"
 #include "gpu/divide_and_merge.h"
+#include "gpu/find_volume_stresses.h"
 #include "gpu/measure.h"
 #include "gpu/model_buffers.h"
 #include "gpu/node_buffers.h"
@@ -70,8 +71,9 @@ private:
     NodeBuffers stage_[2], sums_;                // between the passes of one step
     std::optional<BlockDescent> block_descent_;  // instead of the scheme
     bool has_earlier_ = false;                   // previous_ is one step earlier: vbd looks back
-    std::optional<ApplyKinematics> apply_kinematics_;  // where the scene has handles
-    std::optional<SumLoads> sum_loads_;                // where it has loads
+    std::optional<ApplyKinematics> apply_kinematics_;         // where the scene has handles
+    std::optional<SumLoads> sum_loads_;                       // where it has loads
+    std::optional<FindVolumeStresses> find_volume_stresses_;  // where an explicit scheme needs them
     std::optional<AdvanceNodes> fused_;
     std::optional<DivideAndMerge> divide_and_merge_;
     std::optional<Collision> collision_;  // where something can collide, or somebody asked for boxes

@@ -10,6 +10,7 @@ gl::Defines integration_defines(const Model& model, const ExplicitScheme& scheme
     if (!model.loads.empty()) defines.emplace_back("LOADED");
     if (pulled) defines.emplace_back("PULLED");
     for (const std::string& define : NeoHookeanBuffers::defines(model)) defines.push_back(define);
+    for (const std::string& define : VolumeTermBuffers::defines(model)) defines.push_back(define);
     return defines;
 }
 
@@ -23,6 +24,7 @@ void bind_integration(const gl::Program& program, const ModelBuffers& model, con
     model.bind_colliders(program);
     model.neo_hookean.bind();
     if (model.pulls) model.pulls->bind(program);
+    model.volume_term.bind();
 
     const auto h = static_cast<float>(pass.step);
     if (pass.scheme.pass_count > 1) {

@@ -24,7 +24,8 @@ struct Pass {
 /// @param pulled nodes may be held by a hand
 gl::Defines integration_defines(const Model& model, const ExplicitScheme& scheme, bool pulled = false);
 
-/// Binds and sets what include/integrate_node.glsl reads and writes, but for what SumLoads::run binds.
+/// Binds and sets what include/integrate_node.glsl reads and writes, but for what SumLoads::run and
+/// FindVolumeStresses::run bind.
 void bind_integration(const gl::Program& program, const ModelBuffers& model, const Pass& pass);
 
 }  // namespace gelatin::gpu

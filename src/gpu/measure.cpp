@@ -12,6 +12,7 @@ namespace {
 gl::Defines node_defines(const Model& model) {
     gl::Defines defines = ModelBuffers::collider_defines(model);
     for (const std::string& define : NeoHookeanBuffers::defines(model)) defines.push_back(define);
+    for (const std::string& define : VolumeTermBuffers::defines(model)) defines.push_back(define);
     return defines;
 }
 
@@ -44,6 +45,7 @@ void Measure::begin(const ModelBuffers& model, const NodeBuffers& nodes, const C
     nodes.velocity_texels.bind(1);
     model.bind_half_springs();
     model.neo_hookean.bind();
+    model.volume_term.bind();
     model.bind_colliders(node_program_);
     node_chunk_buffer_.bind_storage(0);
     node_sums_.bind_storage(1);

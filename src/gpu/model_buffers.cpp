@@ -23,6 +23,7 @@ ModelBuffers::ModelBuffers(const Model& model)
       stiffness_texels(stiffnesses, gl::TexelFormat::rg32f),
       slice_start_texels(slice_starts, gl::TexelFormat::r32ui),
       neo_hookean(model),
+      volume_term(model),
       faces(std::span(model.faces)),
       face_texels(faces, gl::TexelFormat::rgba32ui),
       colliders(std::span(model.colliders)),

@@ -7,6 +7,7 @@
 #include "gl/program.h"
 #include "gpu/neo_hookean_buffers.h"
 #include "gpu/pulls.h"
+#include "gpu/volume_term_buffers.h"
 #include "model/model.h"
 
 namespace gelatin::gpu {
@@ -19,6 +20,7 @@ struct ModelBuffers {
     gl::Buffer<std::uint32_t> slice_starts;
     gl::BufferTexture half_spring_texels, stiffness_texels, slice_start_texels;
     NeoHookeanBuffers neo_hookean;
+    VolumeTermBuffers volume_term;
     gl::Buffer<Face> faces;
     gl::BufferTexture face_texels;
     gl::Buffer<Collider> colliders;  ///< empty if there are none

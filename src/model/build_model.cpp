@@ -11,7 +11,6 @@
 #include <span>
 #include <utility>
 
-#include "core/log.h"
 #include "gelatin/error.h"
 #include "mesh/topology.h"
 #include "model/box_tree.h"
@@ -35,7 +34,6 @@ namespace {
 // Sorting all of a small object by degree evens out the slices; in a large one that would undo its locality.
 constexpr std::size_t kSmallObject = 8192;
 constexpr std::uint32_t kSortWindow = 256;
-constexpr double kPoissonRatioOfSprings = 0.25;
 constexpr double kCreaseAngle = 0.7;  // 40 degrees: flatter edges are drawn smooth
 
 // Faces in the order of the tree that is built over them.
@@ -278,21 +276,10 @@ const Material& find_material(const Scene& scene, const ObjectDescription& objec
         {scene.file.string(), line, "object." + object.name + ".material", name, "no such material"});
 }
 
-bool ignores_poisson_ratio(const Material& material, SolverKind solver) {
-    return solver != SolverKind::vbd && material.model == MaterialModel::mass_spring &&
-           material.poisson_ratio != kPoissonRatioOfSprings;
-}
-
-// As the solver has it: explicit ones have springs without the volume term.
-Material for_solver(Material material, SolverKind solver) {
-    if (ignores_poisson_ratio(material, solver)) material.poisson_ratio = kPoissonRatioOfSprings;
-    return material;
-}
-
 void add_parts(const Scene& scene, const ObjectDescription& object, Body& body) {
     for (const PartDescription& part : object.parts) {
         const Material& material = find_material(scene, object, part.material, part.line);
-        body.part_materials.push_back(for_solver(material, scene.simulation.solver));
+        body.part_materials.push_back(material);
         if (material.model != body.material.model || material.springs != body.material.springs) {
             throw InvalidInput({scene.file.string(), part.line, "object." + object.name + ".part.material",
                                 part.material,
@@ -307,8 +294,7 @@ Body make_body(const Scene& scene, const ObjectDescription& object, ObjectMesher
     Body body;
     body.name = object.name;
     body.mesh = mesher.make(object);
-    body.material =
-        for_solver(find_material(scene, object, object.material, object.line), scene.simulation.solver);
+    body.material = find_material(scene, object, object.material, object.line);
     add_parts(scene, object, body);
     body.velocity = object.velocity;
     body.spin = glm::radians(object.spin);
@@ -344,13 +330,6 @@ Model build_model(const Scene& scene) {
     std::vector<Body> bodies;
     ObjectMesher mesher;
     for (const ObjectDescription& object : scene.objects) bodies.push_back(make_body(scene, object, mesher));
-    for (const Material& material : scene.materials) {
-        if (!ignores_poisson_ratio(material, scene.simulation.solver)) continue;
-        spdlog::warn(
-            "material '{}': poisson_ratio = {} needs solver = \"vbd\" or model = \"neo_hookean\"; "
-            "springs alone answer with {}",
-            material.name, material.poisson_ratio, kPoissonRatioOfSprings);
-    }
     Model model = pack_bodies(bodies, scene.colliders, scene.simulation.gravity);
     if (scene.collision.self_collision) model.rest_shapes = make_rest_shapes(model);
     return model;

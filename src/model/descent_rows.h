@@ -11,6 +11,11 @@ namespace gelatin {
 /// After so many sweeps bodies move as rigid ones, and before them tets are looked at.
 constexpr int kSweepsAMotion = 2;
 
+/// Of so many sweeps the first is followed by a coarse correction (model/coarse_basis.h), which has the tets
+/// as they were looked at before it.
+constexpr int kSweepsACorrection = 6;
+static_assert(kSweepsACorrection % kSweepsAMotion == 0);
+
 /// Nodes in the order in which block descent moves them: by colour, each filled up to whole slices of
 /// HalfSprings::kSlice rows with rows that have no node.
 struct DescentRows {

@@ -1,6 +1,7 @@
 #include "model/handles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
 #include "model/model.h"
@@ -66,6 +67,28 @@ std::vector<HandleMotion> handle_motions(const std::vector<Handle>& handles, dou
                            rate(start.map[2], end.map[2])});
     }
     return motions;
+}
+
+bool any_acts(const std::vector<Handle>& handles, double from, double until, double step) {
+    return std::any_of(handles.begin(), handles.end(), [&](const Handle& handle) {
+        if (from > handle.release + step) return false;
+        if (until > handle.release - step) return true;
+        if (handle.keyframes.empty()) return false;
+        const bool begins = from <= 0.0;  // the first keyframe may be anywhere
+        return begins || (handle.keyframes.front().time < until && handle.keyframes.back().time > from);
+    });
+}
+
+std::vector<double> free_inverse_masses(const Model& model, const ModelObject& object) {
+    std::vector<double> inverse_masses;
+    for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n)
+        inverse_masses.push_back(static_cast<double>(model.positions[n].w));
+    for (std::uint32_t h = object.handle_nodes.first; h < object.handle_nodes.end(); ++h) {
+        const HandleNode& held = model.handle_nodes[h];
+        if (std::isfinite(model.handles[held.handle].release))
+            inverse_masses[held.node - object.nodes.first] = static_cast<double>(held.arm.w);
+    }
+    return inverse_masses;
 }
 
 }  // namespace gelatin

@@ -11,6 +11,7 @@
 namespace gelatin {
 
 struct Model;
+struct ModelObject;
 
 /// What moves a group of nodes: see HandleDescription.
 struct Handle {
@@ -35,5 +36,12 @@ HandlePose pose_at(const Handle& handle, double time);
 /// The motions of all handles over the step of `step` seconds that begins at `time`. A node is free from the
 /// first step on that begins nearer to its release than half a step, or later.
 std::vector<HandleMotion> handle_motions(const std::vector<Handle>& handles, double time, double step);
+
+/// True if a handle moves or lets go between two times [s]: else those that hold something are like pins.
+/// @param step as above
+bool any_acts(const std::vector<Handle>& handles, double from, double until, double step);
+
+/// Inverse masses of an object's nodes [1/kg], all handles that ever let go having done so.
+std::vector<double> free_inverse_masses(const Model& model, const ModelObject& object);
 
 }  // namespace gelatin

@@ -13,6 +13,7 @@ using glm::vec4;
 #include "layouts/alarm.glsl"
 #include "layouts/box.glsl"
 #include "layouts/chunk.glsl"
+#include "layouts/cluster.glsl"
 #include "layouts/collider.glsl"
 #include "layouts/contact.glsl"
 #include "layouts/descent.glsl"
@@ -36,6 +37,9 @@ static_assert(sizeof(ApproachSums) == 32);
 static_assert(sizeof(BoundingBox) == 48);
 static_assert(sizeof(Box) == 32);
 static_assert(sizeof(Chunk) == 16);
+static_assert(sizeof(Cluster) == 96);
+static_assert(sizeof(ClusterRest) == 80);
+static_assert(sizeof(CoarseBody) == 16);
 static_assert(sizeof(Collider) == 64);
 static_assert(sizeof(ContactPatch) == 48);
 static_assert(sizeof(ContactResponse) == 48);
@@ -75,6 +79,9 @@ using layouts::ApproachSums;
 using layouts::BoundingBox;
 using layouts::Box;
 using layouts::Chunk;
+using layouts::Cluster;
+using layouts::ClusterRest;
+using layouts::CoarseBody;
 using layouts::Collider;
 using layouts::ContactPatch;
 using layouts::ContactResponse;

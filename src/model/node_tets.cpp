@@ -59,7 +59,8 @@ NodeTetSlices pack_node_tets(std::span<const std::uint32_t> rows, const NodeTets
 
 TetCorners pack_tet_corners(std::span<const std::uint32_t> rows, const NodeTets& node_tets,
                             std::span<const glm::uvec4> tets) {
-    constexpr std::uint32_t kSlice = HalfSprings::kSlice;
+    constexpr std::uint32_t kSlice = TetCorners::kSlice;
+    static_assert(kSlice == HalfSprings::kSlice);
     const auto count_of = [&](std::uint32_t n) {
         return n == kNoNode ? 0 : node_tets.starts[n + 1] - node_tets.starts[n];
     };

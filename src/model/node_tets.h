@@ -35,8 +35,17 @@ constexpr int kOppositeCorners[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 
 
 /// Those of each row's node in slices of 64 rows, laid out as HalfSprings' pairs are.
 struct TetCorners {
+    static constexpr std::uint32_t kSlice = 64;
+
     std::vector<std::uint32_t> slice_starts;  ///< shape [slices + 1]
     std::vector<TetCorner> corners;           ///< shape [slice_starts.back()]
+
+    /// Calls `work` with each tet of a row, and with tets without volume that pad it.
+    template <class Work>
+    void for_row(std::uint32_t row, const Work& work) const {
+        const std::uint32_t start = slice_starts[row / kSlice], end = slice_starts[row / kSlice + 1];
+        for (std::uint32_t e = start + row % kSlice; e < end; e += kSlice) work(corners[e]);
+    }
 };
 
 /// @param rows nodes, each at most once, or kNoNode

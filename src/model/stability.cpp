@@ -58,20 +58,6 @@ bool is_stable(const ExplicitScheme& scheme, double frequency, double damping, d
 // Stiffness over mass [1/s^2], a block for each node of an object.
 using Blocks = std::vector<Eigen::Matrix3d>;
 
-// By node of the object.
-std::vector<double> inverse_masses_of(const Model& model, const ModelObject& object) {
-    std::vector<double> inverse_masses;
-    for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n)
-        inverse_masses.push_back(static_cast<double>(model.positions[n].w));
-    // What a handle releases will be free; until then, held, it makes no frequency higher.
-    for (std::uint32_t h = object.handle_nodes.first; h < object.handle_nodes.end(); ++h) {
-        const HandleNode& held = model.handle_nodes[h];
-        if (std::isfinite(model.handles[held.handle].release))
-            inverse_masses[held.node - object.nodes.first] = static_cast<double>(held.arm.w);
-    }
-    return inverse_masses;
-}
-
 void add_springs(const Model& model, const ModelObject& object, Deformation deformation,
                  const std::vector<double>& inverse_masses, Blocks& blocks) {
     const auto inverse_mass = [&](std::uint32_t n) { return inverse_masses[n - object.nodes.first]; };
@@ -117,13 +103,77 @@ void add_neo_hookean_tets(const Model& model, const ModelObject& object,
     }
 }
 
+// How the volume round a node changes with the places of the nodes round it, itself among them [m^2].
+std::vector<std::pair<std::uint32_t, glm::dvec3>> slopes_of_volume(const Model& model, std::uint32_t node) {
+    std::vector<std::pair<std::uint32_t, glm::dvec3>> slopes;
+    const auto add = [&](std::uint32_t n, const glm::dvec3& slope) {
+        const auto found =
+            std::find_if(slopes.begin(), slopes.end(), [&](const auto& s) { return s.first == n; });
+        if (found == slopes.end()) {
+            slopes.emplace_back(n, slope);
+        } else {
+            found->second += slope;
+        }
+    };
+    const auto position = [&](std::uint32_t n) { return glm::dvec3(model.positions[n]); };
+    model.volume_term.corners.for_row(node, [&](const TetCorner& tet) {
+        const glm::dvec3 a = position(tet.a), to_b = position(tet.b) - a, to_c = position(tet.c) - a,
+                         to_node = position(node) - a;
+        const glm::dvec3 by_node = glm::cross(to_b, to_c) / 24.0, by_b = glm::cross(to_c, to_node) / 24.0,
+                         by_c = glm::cross(to_node, to_b) / 24.0;
+        if (by_node == glm::dvec3(0.0)) return;  // pads the row
+        add(node, by_node);
+        add(tet.b, by_b);
+        add(tet.c, by_c);
+        add(tet.a, -(by_node + by_b + by_c));
+    });
+    return slopes;
+}
+
+void add_volume_term(const Model& model, const ModelObject& object, Deformation deformation,
+                     const std::vector<double>& inverse_masses, Blocks& blocks) {
+    if (model.volume_term.is_empty()) return;
+    const auto inverse_mass = [&](std::uint32_t n) { return inverse_masses[n - object.nodes.first]; };
+    for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
+        const glm::dvec2 rest(model.volume_term.nodes[n]);
+        if (!(rest.y > 0.0)) continue;  // it takes stiffness away
+        const auto slopes = slopes_of_volume(model, n);
+        double scale = 0.0;  // kappa / V sum |s|^2 / m
+        for (const auto& [k, slope] : slopes)
+            scale += rest.y / rest.x * glm::dot(slope, slope) * inverse_mass(k);
+        for (const auto& [k, slope] : slopes) {
+            const double length = glm::length(slope);
+            if (inverse_mass(k) == 0.0 || length == 0.0) continue;
+            const Eigen::Vector3d normal(slope.x / length, slope.y / length, slope.z / length);
+            Eigen::Matrix3d along = scale * normal * normal.transpose();
+            if (deformation == Deformation::any) along = scale * Eigen::Matrix3d::Identity();
+            blocks[k - object.nodes.first] += along;
+        }
+    }
+}
+
+// Of a mode's stiffness what springs, which are damped, have at least: 5/3 mu of the bulk modulus, where mu
+// is more than E / 3, and kappa the rest.
+double least_damped_share(const Model& model, const ModelObject& object) {
+    double least = 1.0;
+    for (std::uint32_t t = object.tets.first; t < object.tets.end(); ++t) {
+        const TetRest& rest = model.tet_rests[t];
+        const double springs = 5.0 / 9.0 * static_cast<double>(rest.modulus);
+        if (rest.lacking > 0.0f)
+            least = std::min(least, springs / (springs + static_cast<double>(rest.lacking)));
+    }
+    return least;
+}
+
 }  // namespace
 
 double frequency_bound(const Model& model, const ModelObject& object, Deformation deformation) {
-    const std::vector<double> inverse_masses = inverse_masses_of(model, object);
+    // What a handle releases will be free; until then, held, it makes no frequency higher.
+    const std::vector<double> inverse_masses = free_inverse_masses(model, object);
     Blocks blocks(object.nodes.count, Eigen::Matrix3d::Zero());
     add_springs(model, object, deformation, inverse_masses, blocks);
     add_neo_hookean_tets(model, object, inverse_masses, blocks);
+    add_volume_term(model, object, deformation, inverse_masses, blocks);
     double largest = 0.0;
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
     for (const Eigen::Matrix3d& block : blocks) {
@@ -150,19 +200,22 @@ double largest_stable_step(SolverKind solver, double frequency, double damping) 
 }
 
 double largest_stable_step(SolverKind solver, const Model& model, Deformation deformation) {
+    if (solver == SolverKind::vbd) return std::numeric_limits<double>::infinity();
     // Of bodies with the same damping the one with the highest frequency decides.
-    std::map<float, double> frequencies;
+    std::map<double, double> frequencies;
     for (const ModelObject& object : model.objects) {
-        float damping = 0.0f;
-        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
-            damping = std::max(damping, model.velocities[n].w);
+        double damping = 0.0;
+        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n)
+            damping = std::max(damping, static_cast<double>(model.velocities[n].w));
+        const double frequency = frequency_bound(model, object, deformation);
+        for (const double share : {1.0, least_damped_share(model, object)}) {
+            double& highest = frequencies[share * damping];
+            highest = std::max(highest, frequency);
         }
-        double& highest = frequencies[damping];
-        highest = std::max(highest, frequency_bound(model, object, deformation));
     }
     double step = std::numeric_limits<double>::infinity();
     for (const auto& [damping, frequency] : frequencies)
-        step = std::min(step, largest_stable_step(solver, frequency, static_cast<double>(damping)));
+        step = std::min(step, largest_stable_step(solver, frequency, damping));
     return step;
 }
 

@@ -14,7 +14,8 @@ enum class Deformation { small, any };
 /// In any shape springs may all line up, and pull across their direction too: n n^T is then the identity.
 /// A neo-Hookean tet's energy is split between its corners in the same way, each with a share by |g|^2 / m, g
 /// its shape gradient: V q (mu_L + (mu_L + lambda_L) n n^T), q = sum of |g|^2 / m over the corners, n = g /
-/// |g|, stands for k (1 + m_i / m_j) n n^T / m_i.
+/// |g|, stands for k (1 + m_i / m_j) n n^T / m_i. So is the volume term's of each node, between all whose
+/// places its volume v depends on: kappa / V q n n^T, with s = dv/dx for g.
 double frequency_bound(const Model& model, const ModelObject& object,
                        Deformation deformation = Deformation::small);
 

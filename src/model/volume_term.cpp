@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "gelatin/scene.h"
 #include "model/model.h"
@@ -36,6 +37,9 @@ VolumeTerm make_volume_term(std::span<const glm::uvec4> tets, std::span<const Te
         for (int k = 0; k < 4; ++k) sum += 0.25f * std::abs(term.nodes[tet[k]].y);
         term.tets.push_back(sum);
     }
+    std::vector<std::uint32_t> rows(term.nodes.size());
+    std::iota(rows.begin(), rows.end(), 0u);
+    term.corners = pack_tet_corners(rows, node_tets, tets);
     return term;
 }
 

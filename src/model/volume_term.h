@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct VolumeTerm {
     /// Of each tet the mean |kappa_i| of its corners [Pa], shape [tets]: with it as the stiffness of every
     /// tet by itself, W is never underestimated.
     std::vector<float> tets;
+    TetCorners corners;  ///< of the tets round each node, a row a node
 
     bool is_empty() const { return nodes.empty(); }
 };

@@ -4,16 +4,23 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "cpu/neo_hookean.h"
+
 namespace gelatin {
 namespace {
 
 constexpr double kSlack = 10.0;
 
-// Of springs at twice their length, and of volumes that are gone.
+// Of springs and tets at twice their length, and of volumes that are gone.
 double energy_out_of_shape(const Model& model) {
     double sum = 0.0;
     for (const TetRest& tet : model.tet_rests)
         sum += 0.5 * static_cast<double>(std::abs(tet.lacking)) * static_cast<double>(tet.volume);
+    for (const NeoHookeanTet& tet : model.neo_hookean_tets) {
+        sum += static_cast<double>(tet.gradient_1.w) *
+               cpu::neo_hookean_energy(cpu::Mat3<double>(2.0), static_cast<double>(tet.gradient_2.w),
+                                       static_cast<double>(tet.gradient_3.w));
+    }
     for (const Spring& spring : model.springs) {
         const auto length = static_cast<double>(spring.rest_length);
         sum += 0.5 * static_cast<double>(spring.stiffness) * length * length;
@@ -21,29 +28,81 @@ double energy_out_of_shape(const Model& model) {
     return sum;
 }
 
-double moving_mass(const Model& model) {
+// The most that all loads together pull at a node [N].
+double most_load(const Model& model, const LoadedNode& loaded) {
+    constexpr double kGrowth = 4.0;  // of a face
+    const glm::dvec3 position(model.positions[loaded.node]);
     double sum = 0.0;
-    for (std::uint32_t n = 0; n < model.node_count(); ++n)
-        sum += model.positions[n].w > 0.0f ? static_cast<double>(model.masses[n]) : 0.0;
+    for (std::uint32_t e = loaded.first; e < loaded.end; ++e) {
+        const NodeLoad& load = model.loads.entries[e];
+        const double twice_area = glm::length(glm::cross(glm::dvec3(model.positions[load.b]) - position,
+                                                         glm::dvec3(model.positions[load.c]) - position));
+        sum += glm::length(glm::dvec3(load.force)) +
+               kGrowth * std::abs(static_cast<double>(load.force.w)) * twice_area;
+    }
     return sum;
+}
+
+std::vector<double> free_inverse_masses(const Model& model) {
+    std::vector<double> all;
+    for (const ModelObject& object : model.objects) {
+        const std::vector<double> own = free_inverse_masses(model, object);
+        all.insert(all.end(), own.begin(), own.end());
+    }
+    return all;
+}
+
+double drive_of_gravity(const Model& model) {
+    double mass = 0.0;
+    for (const double inverse_mass : free_inverse_masses(model))
+        mass += inverse_mass > 0.0 ? 1.0 / inverse_mass : 0.0;
+    return static_cast<double>(glm::length(model.gravity)) * std::sqrt(0.5 * mass);
+}
+
+double drive_of_loads(const Model& model) {
+    const std::vector<double> inverse_masses = free_inverse_masses(model);
+    double sum = 0.0;
+    for (const LoadedNode& loaded : model.loads.nodes)
+        sum += std::pow(most_load(model, loaded), 2) * inverse_masses[loaded.node];
+    return std::sqrt(0.5 * sum);
 }
 
 }  // namespace
 
 EnergyBudget::EnergyBudget(const Model& model, const Account& start)
     : allowance_(energy_out_of_shape(model)),
-      drive_(static_cast<double>(glm::length(model.gravity)) * std::sqrt(0.5 * moving_mass(model))),
+      gravity_drive_(drive_of_gravity(model)),
+      load_drive_(drive_of_loads(model)),
       start_(start),
       latest_(start) {}
 
+double EnergyBudget::root_at(double time) const {
+    const double since = time - latest_.time;
+    return std::sqrt(latest_.energy + allowance_) + (gravity_drive_ + load_drive_) * since;
+}
+
+// sqrt(E) only grows in the bound, so that the power at the end is the most.
+double EnergyBudget::work_of_loads(double time) const {
+    return given_by_loads_ + 2.0 * load_drive_ * root_at(time) * (time - latest_.time);
+}
+
 double EnergyBudget::most_at(double time) const {
-    const double root = std::sqrt(latest_.energy + allowance_) + drive_ * (time - latest_.time);
-    return kSlack * root * root;
+    return kSlack * root_at(time) * root_at(time);
 }
 
 double EnergyBudget::most_for(const Account& now) const {
     const double given = std::max(0.0, start_.potential - now.potential);
-    return kSlack * (start_.energy + given + allowance_);
+    return kSlack * (start_.energy + given + work_of_loads(now.time) + allowance_);
+}
+
+void EnergyBudget::note(const Account& now) {
+    given_by_loads_ = work_of_loads(now.time);
+    latest_ = now;
+}
+
+void EnergyBudget::restart(const Account& start) {
+    given_by_loads_ = 0.0;
+    start_ = latest_ = start;
 }
 
 }  // namespace gelatin

@@ -183,7 +183,7 @@ void Simulator::go_on_from(const Simulator& other) {
 }
 
 void Simulator::set_pull(const std::optional<Pull>& pull) {
-    if (pull) impl_->watch->note_pull();
+    impl_->watch->note_pull(pull.has_value(), time());
     impl_->solver->set_pull(pull);
 }
 

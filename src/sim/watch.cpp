@@ -37,18 +37,14 @@ std::size_t most_lively(const std::vector<ObjectMeasure>& objects) {
 }  // namespace
 
 Watch::Watch(const Scene& scene, std::shared_ptr<const Model> model, int substeps)
-    : scene_(scene),
-      model_(std::move(model)),
-      substeps_(substeps),
-      is_driven_(!model_->handles.empty() || !model_->loads.empty()),
-      budget_(*model_, {}) {
+    : scene_(scene), model_(std::move(model)), substeps_(substeps), budget_(*model_, {}) {
     begin({model_->positions, model_->velocities, {}}, {});
 }
 
 void Watch::begin(const State& state, const Moment& moment) {
     const auto objects = cpu::measure<float>(*model_, {state.positions, state.velocities});
-    budget_ = EnergyBudget(*model_, add_up(objects, moment.time));
-    is_pulled_ = false;
+    budget_.restart(add_up(objects, moment.time));
+    if (std::isfinite(pulled_until_)) pulled_until_ = -HUGE_VAL;  // time may have gone back
 }
 
 void Watch::check(const Alarm& alarm, const Moment& until, const Moment& now) const {
@@ -86,14 +82,17 @@ void Watch::fail(const Alarm& alarm, std::uint64_t step, const Moment& now) cons
 
 void Watch::check(const std::vector<ObjectMeasure>& objects, const Moment& moment) {
     const EnergyBudget::Account now = add_up(objects, moment.time);
-    const double most = any_energy() ? kAnyEnergy : budget_.most_for(now);
+    const bool is_moved = somebody_acts(now.time);
+    const double most = is_moved ? kAnyEnergy : budget_.most_for(now);
     // A comparison with what is not a number is false, too.
-    if (now.energy <= most && std::isfinite(now.potential)) return budget_.note(now);
+    if (now.energy <= most && std::isfinite(now.potential))
+        return is_moved ? budget_.restart(now) : budget_.note(now);
     const ModelObject& object = model_->objects[most_lively(objects)];
     throw Diverged(
         fmt::format(
             "the simulation diverged before frame {} ({:.6g} s): the bodies' kinetic and elastic energy is "
-            "{:.3g} J, most of it object '{}''s, while start and gravity explain {:.3g} J at most; likely "
+            "{:.3g} J, most of it object '{}''s, while start, gravity and loads explain {:.3g} J at most; "
+            "likely "
             "cause: {}",
             moment.frame, moment.time, now.energy, object.name, most,
             likely_cause(*model_, scene_, stiffest_node(*model_, object), step_size())),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -27,17 +28,20 @@ public:
     /// Energy is accounted for from here on.
     void begin(const State& state, const Moment& moment);
 
-    /// A hand does work that is not accounted for, from here until energy is accounted for anew.
-    void note_pull() { is_pulled_ = true; }
+    /// A hand holds something from this time on [s], or lets go: its work is not accounted for.
+    void note_pull(bool holds, double time) {
+        pulled_until_ = holds ? std::numeric_limits<double>::infinity() : time;
+    }
 
     /// What Solver::watch_nodes may find with a node at this time [J].
-    double most_energy(double time) const { return any_energy() ? kAnyEnergy : budget_.most_at(time); }
+    double most_energy(double time) const { return somebody_acts(time) ? kAnyEnergy : budget_.most_at(time); }
 
     /// @throws Diverged if the alarm is of the steps until `until`, naming it, the node and the likely cause.
     /// @param now not before the alarm, of whose step number it knows the upper half
     void check(const Alarm& alarm, const Moment& until, const Moment& now) const;
 
-    /// @throws Diverged unless start and gravity explain the bodies' energy.
+    /// @throws Diverged unless start, gravity and loads explain the bodies' energy. After what handles did it
+    /// is as it is, and accounted for from there on.
     void check(const std::vector<ObjectMeasure>& objects, const Moment& moment);
 
 private:
@@ -45,14 +49,17 @@ private:
 
     [[noreturn]] void fail(const Alarm& alarm, std::uint64_t step, const Moment& now) const;
 
-    bool any_energy() const { return is_driven_ || is_pulled_; }
+    // Their work since the last account is not known.
+    bool somebody_acts(double until) const {
+        return budget_.time() < pulled_until_ ||
+               any_acts(model_->handles, budget_.time(), until, step_size());
+    }
     double step_size() const { return scene_.simulation.frame_time() / substeps_; }  // [s]
 
     const Scene& scene_;
     std::shared_ptr<const Model> model_;
     int substeps_;
-    bool is_driven_;  // by handles or loads, whose work is not accounted for
-    bool is_pulled_ = false;
+    double pulled_until_ = -std::numeric_limits<double>::infinity();  // [s]
     EnergyBudget budget_;
 };
 

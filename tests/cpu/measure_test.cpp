@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <cmath>
+#include <random>
+
+#include "support/implicit_euler.h"
 #include "support/test_models.h"
 
 namespace gelatin {
@@ -34,6 +38,35 @@ TEST(Measure, AgreesWithClosedFormsForABlockInFlight) {
 TEST(Measure, StretchedSpringHoldsHalfKTimesItsSquare) {
     const Model model = test::make_model(test::make_oscillator(200.0, 1.0, 0.1));
     EXPECT_NEAR(cpu::measure(model, start_of<double>(model))[0].elastic_energy, 0.5 * 200.0 * 0.01, 1e-6);
+}
+
+// Against the energy of the Newton reference, written apart from it: at rest nothing, and shaken until tets
+// are inside out.
+TEST(Measure, ElasticEnergyHasTheVolumeTerm) {
+    for (const double poisson_ratio : {0.0, 0.1, 0.4, 0.49}) {
+        SCOPED_TRACE(poisson_ratio);
+        Material material = test::structural_material();
+        material.poisson_ratio = poisson_ratio;
+        Model model =
+            test::make_model(test::make_body(test::make_block({3, 4, 3}, {0.3, 0.4, 0.3}, 0.2), material));
+        const auto energy = [&] { return cpu::measure(model, start_of<double>(model))[0].elastic_energy; };
+        const double scale = 0.036 * material.youngs_modulus;
+        EXPECT_LT(std::abs(energy()), 1e-10 * scale);
+        std::mt19937 random(3);
+        std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
+        for (const float size : {1e-3f, 0.02f, 0.06f}) {
+            for (glm::vec4& p : model.positions)
+                p += size * glm::vec4(unit(random), unit(random), unit(random), 0.0f);
+            // At rest there, so that inertia has no part in the objective.
+            const test::ImplicitEuler reference(model, 1.0);
+            const double expected = reference.value(reference.start());
+            EXPECT_NEAR(energy() / expected, 1.0, 1e-9);
+            model.volume_term = {};
+            EXPECT_GT(std::abs(energy() / expected - 1.0), 0.005) << "springs alone";
+            model.volume_term =
+                make_volume_term(model.tets, model.tet_rests, make_node_tets(model.node_count(), model.tets));
+        }
+    }
 }
 
 TEST(Measure, CountsNodesOnAColliderAndTheDeepest) {

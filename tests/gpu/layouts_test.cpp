@@ -56,6 +56,19 @@ TEST_F(LayoutsTest, Spring) {
     check("spring.glsl", "Spring", sizeof(Spring),
           {FIELD(Spring, i), FIELD(Spring, j), FIELD(Spring, rest_length), FIELD(Spring, stiffness)});
 }
+TEST_F(LayoutsTest, Clusters) {
+    check("cluster.glsl", "Cluster", sizeof(Cluster),
+          {FIELD(Cluster, middle), FIELD(Cluster, turn_x), FIELD(Cluster, turn_y), FIELD(Cluster, turn_z),
+           FIELD(Cluster, shift), FIELD(Cluster, spin)});
+    check("cluster.glsl", "ClusterRest", sizeof(ClusterRest),
+          {FIELD(ClusterRest, middle), FIELD(ClusterRest, inverse_moment_x),
+           FIELD(ClusterRest, inverse_moment_y), FIELD(ClusterRest, inverse_moment_z),
+           FIELD(ClusterRest, object), FIELD(ClusterRest, core_first), FIELD(ClusterRest, core_end),
+           FIELD(ClusterRest, row)});
+    check("cluster.glsl", "CoarseBody", sizeof(CoarseBody),
+          {FIELD(CoarseBody, first), FIELD(CoarseBody, count), FIELD(CoarseBody, matrix),
+           FIELD(CoarseBody, length)});
+}
 TEST_F(LayoutsTest, Alarm) {
     check("alarm.glsl", "Alarm", sizeof(Alarm),
           {FIELD(Alarm, step), FIELD(Alarm, node), FIELD(Alarm, count), FIELD(Alarm, speed)});

@@ -219,6 +219,24 @@ TEST_P(NeoHookeanMutantsTest, IsCaught) {
     EXPECT_TRUE(caught) << "the broken kernel passes";
 }
 
+class VolumeTermMutantsTest : public test::GlTest, public ::testing::WithParamInterface<test::Break> {};
+INSTANTIATE_TEST_SUITE_P(All, VolumeTermMutantsTest, ::testing::ValuesIn(test::kVolumeTermMutants),
+                         name_of_mutant);
+
+TEST_P(VolumeTermMutantsTest, IsCaught) {
+    test::ShaderFolder folder;
+    break_shaders(GetParam(), folder);
+    bool caught = false;
+    for (const double poisson_ratio : {0.0, 0.45}) {
+        Model model = test::make_bodies_to_descend(0.0, poisson_ratio);
+        for (glm::vec4& p : model.positions) p.x *= 1.02f;  // no body is at rest
+        caught = caught || test::worst_energy_error(model, test::measure_on_gpu(model)) > 1.0 ||
+                 step_of_tets_is_wrong(model, ForceMethod::fused) ||
+                 step_of_tets_is_wrong(model, ForceMethod::divide_and_merge);
+    }
+    EXPECT_TRUE(caught) << "the broken kernel passes";
+}
+
 class SelfCollisionMutantsTest : public test::GlTest, public ::testing::WithParamInterface<test::Break> {};
 INSTANTIATE_TEST_SUITE_P(All, SelfCollisionMutantsTest, ::testing::ValuesIn(test::kSelfCollisionMutants),
                          name_of_mutant);

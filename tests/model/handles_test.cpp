@@ -127,5 +127,24 @@ TEST(Handles, TakeTheMassOfTheirNodesAndTurnAboutTheirCentre) {
     }
 }
 
+// Before, between and behind its keyframes, and about its release.
+TEST(Handles, ActWhileTheyMoveAndWhenTheyLetGo) {
+    Handle handle;
+    handle.release = 3.0;
+    handle.keyframes = {{1.0}, {2.0, {1.0, 0.0, 0.0}}};
+    const auto acts = [&](double from, double until) { return any_acts({handle}, from, until, 0.01); };
+    EXPECT_TRUE(acts(0.0, 0.1)) << "it takes its nodes to the first keyframe";
+    EXPECT_FALSE(acts(0.1, 1.0));
+    EXPECT_TRUE(acts(0.1, 1.1));
+    EXPECT_TRUE(acts(1.9, 2.5));
+    EXPECT_FALSE(acts(2.0, 2.5));
+    EXPECT_TRUE(acts(2.5, 3.0));
+    EXPECT_TRUE(acts(3.0, 3.5));
+    EXPECT_FALSE(acts(3.02, 9.0));
+    handle.keyframes.clear();
+    EXPECT_FALSE(acts(0.0, 2.0));
+    EXPECT_FALSE(any_acts({}, 0.0, 1e9, 0.01));
+}
+
 }  // namespace
 }  // namespace gelatin

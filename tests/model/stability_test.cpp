@@ -73,9 +73,10 @@ TEST(LargestStableStep, MatchesTheClosedFormWithDamping) {
     EXPECT_NEAR(largest_stable_step(SolverKind::explicit_euler, 100.0, 1e-3), 1e-3, 2e-5);
 }
 
-double energy_after(const Model& model, double step, int steps) {
-    cpu::CpuSolver<double> solver(std::make_shared<const Model>(model), SolverKind::semi_implicit_euler,
-                                  ForceMethod::fused);
+constexpr SolverKind kSemiImplicit = SolverKind::semi_implicit_euler;
+
+double energy_after(const Model& model, SolverKind kind, double step, int steps) {
+    cpu::CpuSolver<double> solver(std::make_shared<const Model>(model), kind, ForceMethod::fused);
     for (int s = 0; s < steps; ++s) solver.advance_nodes(step);
     solver.begin_measure();
     const ObjectMeasure sums = solver.end_measure()[0];
@@ -89,10 +90,42 @@ TEST(LargestStableStep, SeparatesQuietFromExploding) {
     for (std::size_t n = 0; n < model.velocities.size(); ++n) {
         model.velocities[n].x = 1e-3f * static_cast<float>(n % 7) - 3e-3f;
     }
-    const double step = largest_stable_step(SolverKind::semi_implicit_euler, model);
-    const double start = energy_after(model, step, 0);
-    EXPECT_LT(energy_after(model, step, 2000), 2.0 * start);
-    EXPECT_FALSE(energy_after(model, 1.35 * step, 2000) < 100.0 * start) << "or NaN by then";
+    const double step = largest_stable_step(kSemiImplicit, model);
+    const double start = energy_after(model, kSemiImplicit, step, 0);
+    EXPECT_LT(energy_after(model, kSemiImplicit, step, 2000), 2.0 * start);
+    EXPECT_FALSE(energy_after(model, kSemiImplicit, 1.35 * step, 2000) < 100.0 * start) << "or NaN by then";
+}
+
+// Of fitted springs.
+Model quivering_block(double poisson_ratio, double damping) {
+    Material material;
+    material.poisson_ratio = poisson_ratio;
+    material.damping = damping;
+    Model model =
+        test::make_model(test::make_body(test::make_block({5, 4, 3}, {1.0, 0.8, 0.6}, 0.2), material));
+    for (std::size_t n = 0; n < model.velocities.size(); ++n)
+        model.velocities[n].x = 1e-3f * static_cast<float>(n % 7) - 3e-3f;
+    return model;
+}
+
+// The volume term makes bodies stiffer, and the bound still is neither unsafe nor needlessly small.
+TEST(LargestStableStep, KnowsTheVolumeTerm) {
+    for (const double poisson_ratio : {0.1, 0.4, 0.49}) {
+        const Model model = quivering_block(poisson_ratio, 0.0);
+        const double step = largest_stable_step(kSemiImplicit, model);
+        const double start = energy_after(model, kSemiImplicit, step, 0);
+        EXPECT_LT(energy_after(model, kSemiImplicit, step, 1000), 4.0 * start) << poisson_ratio;
+        EXPECT_FALSE(energy_after(model, kSemiImplicit, 2.0 * step, 1000) < 100.0 * start) << poisson_ratio;
+    }
+}
+
+// It is not damped: what holds explicit Euler is the share of springs.
+TEST(LargestStableStep, KnowsThatVolumesAreNotDamped) {
+    const Model model = quivering_block(0.45, 1e-3);
+    const double step = largest_stable_step(SolverKind::explicit_euler, model);
+    const double start = energy_after(model, SolverKind::explicit_euler, step, 0);
+    EXPECT_LT(energy_after(model, SolverKind::explicit_euler, step, 1000), start);
+    EXPECT_GT(largest_stable_step(SolverKind::explicit_euler, quivering_block(0.25, 1e-3)), 2.0 * step);
 }
 
 Scene scene_with(SolverKind solver, std::optional<int> substeps) {

@@ -238,6 +238,23 @@ inline constexpr Break kDriveMutants[] = {
 
 // Of vertex block descent.
 inline constexpr Break kDescentMutants[] = {
+    {"clusters_do_not_turn", "include/nearest_turn.glsl", "mat3 turn = map;", "return mat3(1.0); mat3 turn;"},
+    {"turns_are_not_orthogonal", "include/nearest_turn.glsl", "i < 10", "i < 1"},
+    {"a_core_loses_its_end", "sim/turn_clusters.comp", "c < rest.core_end", "c + 1u < rest.core_end"},
+    {"lanes_are_not_added", "sim/load_clusters.comp", "force += part_forces[l];", ""},
+    {"moments_are_about_the_origin", "sim/load_clusters.comp", " - cluster.middle.xyz", ""},
+    {"loads_are_not_turned_back", "sim/load_clusters.comp", "force = force * turn;", ""},
+    {"clusters_follow_their_own_load_alone", "sim/move_clusters.comp", "c < size", "c < 6u"},
+    {"rows_of_the_first_cluster", "sim/move_clusters.comp", "body.matrix + rests[k].row", "body.matrix"},
+    {"spins_are_not_turned", "sim/move_clusters.comp", "turn * spin", "spin"},
+    {"nodes_do_not_spin", "sim/find_ways.comp", "cross(cluster.spin.xyz, position.xyz - cluster.middle.xyz)",
+     "vec3(0.0)"},
+    {"the_first_cluster_is_left_out", "sim/find_ways.comp", "int(n)).x; p < end", "int(n)).x + 1u; p < end"},
+    {"all_the_way", "sim/follow_ways.comp", "here / max(here - ahead, here / kFarthest)", "1.0"},
+    {"forces_ahead_are_those_here", "sim/follow_ways.comp", "dot(forces_ahead[n].xyz, way)",
+     "dot(forces_here[n].xyz, way)"},
+    {"touches_do_not_count", "sim/descend.comp", "force += touch.force.xyz", "force += vec3(0.0)"},
+    {"touches_do_not_yield", "sim/descend.comp", "is_ahead != 0u ? ways[n].xyz : vec3(0.0)", "vec3(0.0)"},
     {"the_last_rows_stay", "sim/descend.comp", "index >= row_count", "index + 64u >= row_count"},
     {"inertia_is_forgotten", "sim/descend.comp", "inertia * (target_of(n) - position.xyz)", "vec3(0.0)"},
     {"damping_has_no_stiffness", "include/node_terms.glsl", "float damped = stiffness * (1.0 + damping);",
@@ -349,6 +366,33 @@ inline constexpr Break kNeoHookeanMutants[] = {
     {"viscosity_is_of_the_end", "include/neo_hookean_terms.glsl", "0.5 * (f + start)", "f"},
     {"viscosity_forgets_the_step", "include/neo_hookean_terms.glsl", "damping_time / time_step",
      "damping_time"},
+};
+
+/// A broken volume term.
+inline constexpr Break kVolumeTermMutants[] = {
+    {"energy_has_no_volume_term", "sim/measure_nodes.comp", "rest.x * rest.y * volume_potential(", "0.0 * ("},
+    {"energy_is_not_over_the_volume", "sim/measure_nodes.comp", "rest.x * rest.y * volume_potential",
+     "rest.y * volume_potential"},
+    {"the_potential_never_ends", "include/volume_term.glsl", "min(4.0 * u * u, 1.0)", "4.0 * u * u"},
+    {"all_potentials_end", "include/volume_term.glsl", "kappa >= 0.0 ?", "false ?"},
+    {"volumes_have_the_wrong_sign", "include/volume_term.glsl", "cross(b - a, c - a)", "cross(c - a, b - a)"},
+    {"volumes_are_another_nodes", "include/volume_term.glsl", "+ n % 64u; e < end",
+     "+ (n + 1u) % 64u; e < end"},
+    {"the_last_tets_round_a_node_are_left_out", "include/volume_term.glsl", "e < end", "e + 64u < end"},
+    {"the_last_nodes_have_no_stress", "sim/find_volume_stresses.comp", "n >= node_count",
+     "n + 64u >= node_count"},
+    {"stresses_take_volumes_for_moduli", "sim/find_volume_stresses.comp", "int(n)).y", "int(n)).x"},
+    {"stresses_never_end", "include/node_terms.glsl", "kappa * u * left * left", "kappa * u"},
+    {"volumes_pull_in_fused_steps_alone", "sim/integrate_nodes.comp", "force += gather_volume_forces(n);",
+     ""},
+    {"volumes_pull_in_divided_steps_alone", "sim/advance_nodes.comp", "force += gather_volume_forces(n);",
+     ""},
+    {"volumes_pull_the_wrong_way", "include/volume_force.glsl", "return -sum", "return sum"},
+    {"a_corners_stress_is_forgotten", "include/volume_force.glsl",
+     "texelFetch(volume_stresses, int(tet.z)).x", "0.0"},
+    {"volume_forces_are_another_nodes", "include/volume_force.glsl", "+ n % 64u; e < end",
+     "+ (n + 1u) % 64u; e < end"},
+    {"the_last_tets_do_not_pull", "include/volume_force.glsl", "e < end", "e + 64u < end"},
 };
 
 /// A broken marking of faces that touch.

@@ -55,5 +55,56 @@ TEST(EnergyBudget, ALaterAccountNarrowsWhatASingleNodeMayHave) {
     EXPECT_GT(budget.most_at(60.5), 10.0 * (1.0 + 200.0));
 }
 
+// A body without gravity, pulled by a force: half of (F t)^2 / M, measured at every frame or never.
+TEST(EnergyBudget, LoadsMayGiveWhatTheyGiveAFreeBody) {
+    Body block = test::make_body(test::make_block({2, 2, 2}, {1.0, 1.0, 1.0}));
+    block.material.youngs_modulus = 1.0;  // [Pa]: hardly any allowance
+    block.loads = {{HalfSpaceRegion{{1.0, 0.0, 0.0}, 2.0}, ForceLoad{{300.0, -400.0, 0.0}}}};
+    const Model model = test::make_model(block);
+    const double mass = model.objects[0].mass, allowance = 7.5 * 0.4;
+    const auto energy = [&](double time) { return 0.5 * std::pow(500.0 * time, 2) / mass; };
+    for (const int frames : {1, 50}) {
+        EnergyBudget budget(model, {0.0, 0.0, 0.0});
+        for (int f = 1; f <= frames; ++f) {
+            const double time = 100.0 * f / frames, now = energy(time);
+            EXPECT_GE(budget.most_at(time), 10.0 * now);
+            EXPECT_GE(budget.most_for({time, now, 0.0}), 10.0 * now);
+            EXPECT_LE(budget.most_for({time, now, 0.0}), 10.0 * (2.2 * now + 10.0 * allowance));
+            budget.note({time, now, 0.0});
+            EXPECT_EQ(budget.time(), time);
+        }
+    }
+}
+
+// A pressure on one side of a closed box, of 1 m^2: at most four times its force.
+TEST(EnergyBudget, PressuresCountByArea) {
+    const auto drive = [](const LoadDescription& load) {
+        Body block = test::make_body(test::make_block({3, 3, 3}, {1.0, 1.0, 1.0}));
+        block.material.youngs_modulus = 1e-3;  // [Pa]
+        block.loads = {load};
+        const EnergyBudget budget(test::make_model(block), {0.0, 0.0, 0.0});
+        return std::sqrt(budget.most_at(1.0) / 10.0);
+    };
+    const Region side = HalfSpaceRegion{{1.0, 0.0, 0.0}, 0.01};
+    const double pressed = drive({side, PressureLoad{1e4}}),
+                 pulled = drive({side, TractionLoad{{1e4, 0, 0}}});
+    EXPECT_NEAR(pressed / pulled, 4.0, 0.01);
+}
+
+TEST(EnergyBudget, NeoHookeanBodiesHaveAnAllowanceToo) {
+    Material material;
+    material.model = MaterialModel::neo_hookean;
+    const Model model = test::make_model(test::make_body(test::make_block({2, 2, 2}, {1, 1, 1}), material));
+    const EnergyBudget budget(model, {0.0, 0.0, 0.0});
+    EXPECT_GT(budget.most_for({1.0, 0.0, 0.0}), material.youngs_modulus);
+}
+
+TEST(EnergyBudget, StartsAnew) {
+    EnergyBudget budget(oscillator(0.0), {0.0, 1.0, 0.0});
+    budget.restart({2.0, 500.0, 30.0});
+    EXPECT_EQ(budget.time(), 2.0);
+    EXPECT_NEAR(budget.most_for({3.0, 0.0, 30.0}), 10.0 * 700.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace gelatin

@@ -242,5 +242,51 @@ TEST_F(WatchTest, DoesNotExplainEnergyFromNothing) {
     EXPECT_THROW(watch.check(objects, {3, 0.03, 30}), Diverged);
 }
 
+// While a handle moves or lets go any energy is explained, and what it was is the start of what follows.
+TEST_F(WatchTest, HandlesExplainEnergyWhileTheyMove) {
+    Scene scene = two_balls();
+    HandleDescription handle;
+    handle.region = HalfSpaceRegion{{1.0, 0.0, 0.0}, 10.0};
+    handle.keyframes = {{1.0}, {2.0, {1.0, 0.0, 0.0}}};
+    handle.release = 3.0;
+    scene.objects[0].handles = {handle};
+    const Simulator simulator(scene, on(Backend::cpu));
+    Watch watch(scene, std::make_shared<const Model>(simulator.model()), simulator.substeps());
+    std::vector<ObjectMeasure> objects(2);
+    const auto check_at = [&](double time, double energy) {
+        objects[0].kinetic_energy = energy;
+        watch.check(objects, {static_cast<int>(100.0 * time), time, 0});
+    };
+    check_at(0.5, 0.0);
+    EXPECT_THROW(check_at(0.9, 1e9), Diverged) << "not yet";
+    EXPECT_GT(watch.most_energy(1.5), 1e30);
+    check_at(1.0, 0.0);
+    EXPECT_NO_THROW(check_at(1.5, 1e9));
+    EXPECT_NO_THROW(check_at(2.0, 1e8));
+    EXPECT_LT(watch.most_energy(2.1), 1e10);
+    EXPECT_NO_THROW(check_at(2.5, 1e9)) << "within ten times what was there";
+    EXPECT_THROW(check_at(2.7, 1e11), Diverged) << "it rests";
+    EXPECT_NO_THROW(check_at(3.01, 1e11)) << "it lets go";
+    EXPECT_THROW(check_at(3.5, 1e13), Diverged) << "gone";
+    objects[1].elastic_energy = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(check_at(1.5, 0.0), Diverged);
+}
+
+TEST_F(WatchTest, LoadsExplainWhatTheyCanGive) {
+    Scene scene = two_balls();
+    scene.simulation.gravity = glm::dvec3(0.0);
+    scene.objects[0].loads = {{HalfSpaceRegion{{1.0, 0.0, 0.0}, 10.0}, ForceLoad{{0.0, 1e6, 0.0}}}};
+    const Simulator simulator(scene, on(Backend::cpu));
+    Watch watch(scene, std::make_shared<const Model>(simulator.model()), simulator.substeps());
+    const double mass = simulator.model().objects[0].mass;
+    std::vector<ObjectMeasure> objects(2);
+    for (const double time : {1.0, 10.0}) {
+        objects[0].kinetic_energy = 0.5 * std::pow(1e6 * time, 2) / mass;
+        EXPECT_NO_THROW(watch.check(objects, {1, time, 1}));
+    }
+    objects[0].kinetic_energy *= 30.0;
+    EXPECT_THROW(watch.check(objects, {11, 10.1, 11}), Diverged);
+}
+
 }  // namespace
 }  // namespace gelatin

@@ -22,7 +22,7 @@ NodeArrays descend_on_gpu(const Model& model, const Descent& descent) {
     const gpu::ModelBuffers buffers(model);
     const gpu::NodeBuffers previous(model.positions, model.velocities),
         current(arrays.positions, arrays.velocities);
-    const gpu::BlockDescent program(model, descent.settings);
+    gpu::BlockDescent program(model, descent.settings);
     std::optional<gpu::SumLoads> loads;
     if (!model.loads.empty()) loads.emplace(model).run(previous);
     program.run(buffers, previous, current, descent.step, has_earlier);
@@ -72,6 +72,7 @@ Model make_bodies_to_descend(double damping_time, double poisson_ratio, Material
         return bodies.emplace_back(std::move(body));
     };
     Body& large = add({5, 6, 7}, {0.0, 1.0, 0.0});
+    large.spin = {5.0, -20.0, 8.0};
     if (driven) {
         large.loads = {{HalfSpaceRegion{{0.0, 1.0, 0.0}, 1.2}, ForceLoad{{500.0, 2000.0, 0.0}}},
                        {HalfSpaceRegion{{1.0, 0.0, 0.0}, 0.01}, PressureLoad{2e3}}};

@@ -31,6 +31,11 @@ double worst_energy_error(const Model& model, const std::vector<ObjectMeasure>& 
             bound +=
                 16.0 * kEps * static_cast<double>(tet.gradient_1.w * (tet.gradient_2.w + tet.gradient_3.w));
         }
+        for (std::uint32_t n = model.objects[o].nodes.first; n < model.objects[o].nodes.end(); ++n) {
+            if (model.volume_term.is_empty()) break;
+            const glm::dvec2 rest(model.volume_term.nodes[n]);
+            bound += 16.0 * kEps * rest.x * std::abs(rest.y);
+        }
         const double error = std::abs(actual[o].elastic_energy - expected[o].elastic_energy) / bound;
         if (!std::isfinite(error)) return std::numeric_limits<double>::infinity();
         worst = std::max(worst, error);

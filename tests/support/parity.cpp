@@ -41,6 +41,43 @@ void add_tet_bounds(const Model& model, double x, double v, std::vector<double>&
     }
 }
 
+// Adds the bounds of the volume term to those of the nodes' forces: a tet's volume changes by its slopes
+// times X where its corners move by X, and a slope by a third of the length of the face's edges.
+void add_volume_bounds(const Model& model, double x, std::vector<double>& force, std::vector<int>& valence) {
+    const VolumeTerm& term = model.volume_term;
+    if (term.is_empty()) return;
+    std::vector<glm::dvec4> slopes, lengths;          // of each tet by its corners [m^2], [m]
+    std::vector<double> changes(model.node_count());  // of the volume round each node [m^3]
+    for (const glm::uvec4& tet : model.tets) {
+        slopes.emplace_back();
+        lengths.emplace_back();
+        for (int k = 0; k < 4; ++k) {
+            const auto corner = [&](int o) {
+                return glm::dvec3(model.positions[tet[kOppositeCorners[k][o]]]);
+            };
+            const glm::dvec3 u = corner(1) - corner(0), v = corner(2) - corner(0);
+            slopes.back()[k] = glm::length(glm::cross(u, v)) / 6.0;
+            lengths.back()[k] = (glm::length(u) + glm::length(v)) / 3.0;
+        }
+        const glm::dvec4& own = slopes.back();
+        for (int k = 0; k < 4; ++k) changes[tet[k]] += 0.25 * (own.x + own.y + own.z + own.w) * x;
+    }
+    for (std::size_t t = 0; t < model.tets.size(); ++t) {
+        const glm::uvec4& tet = model.tets[t];
+        double stress = 0.0,
+               change = 0.0;  // [Pa]; a stress is less than kappa where the volume less than doubles
+        for (int k = 0; k < 4; ++k) {
+            const glm::dvec2 node(term.nodes[tet[k]]);
+            stress += 0.25 * std::abs(node.y);
+            change += 0.25 * std::abs(node.y) * changes[tet[k]] / node.x;
+        }
+        for (int k = 0; k < 4; ++k) {
+            force[tet[k]] += change * slopes[t][k] + stress * lengths[t][k] * x;
+            ++valence[tet[k]];
+        }
+    }
+}
+
 }  // namespace
 
 bool guard_is_untouched(const std::vector<glm::vec4>& values, std::size_t count) {
@@ -81,6 +118,7 @@ StepBounds rounding_bounds(const Model& model, SolverKind solver, double step) {
         }
     }
     add_tet_bounds(model, x, v, force, valence);
+    add_volume_bounds(model, x, force, valence);
     const int passes = explicit_scheme(solver).pass_count;
     StepBounds bounds;
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {

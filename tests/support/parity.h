@@ -31,9 +31,10 @@ cpu::Nodes<double> oracle_step(const Model& model, SolverKind solver, double ste
 ///   8 eps (valence + 4) (sum_j k (X + t V (1 + X / l)) + T) / m
 /// with X, V the largest coordinate and speed, l the spring's length, t the damping time, and T what
 /// its neo-Hookean tets add: V |g| times the change of their stress where F changes by G X, and its rate by G
-/// V, G being the sum of their shape gradients' lengths (a load adds its force, or its pressure times the
-/// square of 2 X, to the sum and one to the valence); its velocity by h times that and its position by h^2
-/// times that, each plus 16 eps of its own size. Times the number of passes.
+/// V, G being the sum of their shape gradients' lengths, and the volume term what its stresses and areas
+/// change by where nodes move by X (a load adds its force, or its pressure times the square of 2 X, to the
+/// sum and one to the valence); its velocity by h times that and its position by h^2 times that, each plus 16
+/// eps of its own size. Times the number of passes.
 struct StepBounds {
     std::vector<double> position, velocity;
 };

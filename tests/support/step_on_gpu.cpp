@@ -4,6 +4,7 @@
 
 #include "gpu/advance_nodes.h"
 #include "gpu/divide_and_merge.h"
+#include "gpu/find_volume_stresses.h"
 #include "gpu/sum_loads.h"
 #include "support/parity.h"
 
@@ -21,10 +22,13 @@ NodeArrays step_on_gpu(const Model& model, SolverKind solver, ForceMethod forces
     const gpu::DivideAndMerge divided(model, scheme);
     std::optional<gpu::SumLoads> loads;
     if (!model.loads.empty()) loads.emplace(model);
+    std::optional<gpu::FindVolumeStresses> stresses;
+    if (!model.volume_term.is_empty()) stresses.emplace(model);
     const gpu::NodeBuffers* from = &start;
     for (int p = 0; p < scheme.pass_count; ++p) {
         gpu::NodeBuffers& to = p + 1 == scheme.pass_count ? result : stage[p % 2];
         if (loads) loads->run(*from);
+        if (stresses) stresses->run(buffers, *from);
         const gpu::Pass pass{scheme, p, step, start, *from, to, sums};
         if (forces == ForceMethod::fused) {
             fused.run(buffers, pass);

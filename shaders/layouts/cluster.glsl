@@ -1,0 +1,27 @@
+// Compiled twice: as GLSL (std430) and as C++ (src/model/layouts.h).
+// A cluster of the coarse basis at rest, and as it is in a step.
+struct ClusterRest {     // 80 bytes
+    vec4  middle;        // of its core [m]
+    vec4  inverse_moment_x;  // columns [1/(kg m^2)]
+    vec4  inverse_moment_y;
+    vec4  inverse_moment_z;
+    uint  object;
+    uint  core_first;    // nodes of its core
+    uint  core_end;
+    uint  row;           // of the inverse of its object's matrix: 6 times its place in the object
+};
+struct Cluster {         // 96 bytes
+    vec4  middle;        // of its core [m]
+    vec4  turn_x;        // columns
+    vec4  turn_y;
+    vec4  turn_z;
+    vec4  shift;         // [m]
+    vec4  spin;          // [radians]
+};
+// The clusters of an object, and its matrix.
+struct CoarseBody {      // 16 bytes
+    uint  first;
+    uint  count;
+    uint  matrix;        // its first element in the array of all
+    float length;        // of the body at rest [m]
+};
