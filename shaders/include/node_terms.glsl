@@ -25,17 +25,19 @@ vec3 any_direction(uint node) {
     return v / length(v);
 }
 
-// The spring to a node `apart` from this one, with its damper.
-void add_spring(vec3 apart, vec3 if_coincident, float start_length, float rest_length, float stiffness, float damping,
-                inout NodeTerms terms) {
-    float length_ = length(apart);
-    vec3 n = length_ > 0.0 ? apart / length_ : -if_coincident;
-    float damped = stiffness * (1.0 + damping);
-    float rest = (rest_length + damping * start_length) / (1.0 + damping);
-    terms.force += damped * (length_ - rest) * n;
-    float across = length_ > rest ? damped * (1.0 - rest / length_) : 0.0;
-    add_outer(damped - across, n, terms);
+// The spring to a node `apart` from this one, its damper in it (damp_springs.comp); nothing where both coincide.
+void add_spring(vec3 apart, float rest_length, float stiffness, inout NodeTerms terms) {
+    float inverse_length = inversesqrt(max(dot(apart, apart), 1e-30));
+    float scale = stiffness - stiffness * rest_length * inverse_length;
+    terms.force += scale * apart;
+    float across = max(scale, 0.0);
+    add_outer(stiffness - across, inverse_length * apart, terms);
     terms.diagonal += across;
+}
+
+void add_coincident_spring(vec3 way_out, float rest_length, float stiffness, inout NodeTerms terms) {
+    terms.force += stiffness * rest_length * way_out;
+    add_outer(stiffness, way_out, terms);
 }
 
 const float kFlattest = 0.5;

@@ -1,7 +1,7 @@
 // Nodes that a hand holds (gelatin/pull.h); for programs of solvers that were told of one (PULLED).
 // CPU twin: gelatin::cpu::Pulls.
 #ifdef PULLED
-layout(binding = 17) uniform samplerBuffer pulls;  // by node: its place from the target [m], stiffness [N/m]; 0: not held
+layout(binding = 19) uniform samplerBuffer pulls;  // by node: its place from the target [m], stiffness [N/m]; 0: not held
 uniform vec3 pull_target;                          // [m]
 uniform float pull_damping_time;                   // damping over stiffness [s]
 
@@ -14,11 +14,13 @@ vec3 pull_force(uint node, vec3 position, vec3 velocity, float inverse_mass, flo
     return pull.w / (1.0 + pull.w * inverse_mass * h * time) * (way - time * velocity);
 }
 
-// For block descent: the force [N] at `position` after a step of h seconds from `start`, and how much it falls with a way
-// in its direction [N/m].
-vec4 pull_terms(uint node, vec3 position, vec3 start, float h) {
+// For block descent: the target of a node [m] and its weight [N/m] with the spring's own beside them, as of a step of h
+// seconds from `start`. A damped spring pulls as a stiffer one to a place between the hand's and the start.
+vec4 with_pull(uint node, vec4 target, vec3 start, float h) {
     vec4 pull = texelFetch(pulls, int(node));
-    float damping = pull.w * pull_damping_time / h;
-    return vec4(pull.w * (pull_target + pull.xyz - position) - damping * (position - start), pull.w + damping);
+    float damping = pull_damping_time / h, stiffness = pull.w * (1.0 + damping);
+    vec3 place = (pull_target + pull.xyz + damping * start) / (1.0 + damping);
+    float weight = target.w + stiffness;
+    return vec4((target.w * target.xyz + stiffness * place) / weight, weight);
 }
 #endif

@@ -6,6 +6,13 @@ struct TetCorner {       // 16 bytes
     uint  c;
     uint  tet;
 };
+// A row of nodes by colour, in slices of 64.
+struct DescentRow {      // 16 bytes
+    uint  node;          // 0xFFFFFFFF pads a colour
+    uint  object;
+    uint  pairs;         // of half springs, in the slice from its start on, 64 apart
+    uint  unused;
+};
 // How a collider holds a node.
 struct Touch {           // 32 bytes
     vec4  force;         // [N]; w: how it falls as the body comes away from the surface [N/m], 0 where nothing is touched

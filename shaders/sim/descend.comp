@@ -11,10 +11,11 @@
 layout(local_size_x = 64) in;
 
 layout(binding = 0) uniform samplerBuffer positions;      // xyz [m], inverse mass [1/kg]
-layout(binding = 3) uniform usamplerBuffer rows;          // node, object; node 0xFFFFFFFF pads a colour
-layout(binding = 4) uniform usamplerBuffer half_springs;  // HalfSpringPair
-layout(binding = 5) uniform samplerBuffer stiffnesses;    // of the pair [N/m]
+layout(binding = 3) uniform usamplerBuffer rows;          // DescentRow
+layout(binding = 4) uniform usamplerBuffer spring_ends;   // of two half springs, the nodes at their other ends
+layout(binding = 5) uniform samplerBuffer springs;        // their rest length [m], stiffness [N/m], dampers in them
 layout(binding = 6) uniform usamplerBuffer slice_starts;
+layout(binding = 18) uniform usamplerBuffer is_near_flat; // of nodes
 layout(binding = 8) uniform usamplerBuffer tet_corners;   // TetCorner
 layout(binding = 9) uniform usamplerBuffer corner_starts;
 layout(binding = 10) uniform samplerBuffer tet_rests;     // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
@@ -22,7 +23,7 @@ layout(binding = 10) uniform samplerBuffer tet_rests;     // volume [m^3], modul
 layout(binding = 11) uniform samplerBuffer offsets;       // q [Pa], of each tet
 #endif
 layout(std430, binding = 0) writeonly buffer OutPositions { vec4 out_positions[]; };
-layout(std430, binding = 1) buffer NearFlat { uint near_flat[]; };  // an invocation reads and clears its own node's
+layout(std430, binding = 1) writeonly buffer NearFlat { uint near_flat[]; };  // an invocation clears its own node's
 #ifdef FORCES
 layout(std430, binding = 4) readonly buffer Ways { vec4 ways[]; };       // [m]
 layout(std430, binding = 5) writeonly buffer Forces { vec4 forces[]; };  // [N]
@@ -37,18 +38,6 @@ uniform uint row_count;
 uniform uint clear_marks;  // before they are made anew
 
 vec3 position_of(uint node) { return texelFetch(positions, int(node)).xyz; }
-vec3 start_of(uint node) { return texelFetch(start_positions, int(node)).xyz; }
-
-void add_half_spring(vec4 position, vec3 start, float damping_time, vec3 if_coincident, uint other, float rest_length,
-                     float stiffness, inout NodeTerms terms) {
-#ifdef DAMPED
-    float start_length = distance(start_of(other), start);
-    float damping = 0.5 * (damping_time + texelFetch(start_velocities, int(other)).w) / time_step;
-#else
-    float start_length = 0.0, damping = 0.0;
-#endif
-    add_spring(position_of(other) - position.xyz, if_coincident, start_length, rest_length, stiffness, damping, terms);
-}
 
 #if COLLIDER_KINDS != 0
 layout(std430, binding = 3) buffer Touches { Touch touches[]; };  // of nodes
@@ -89,20 +78,22 @@ void push_out(uint c, vec4 surface, vec3 start, NodeTerms terms, inout vec3 posi
     touch.normal.w = most < stiffness * left ? most / left : stiffness;
 }
 
-Touch push_outside_colliders(vec3 start, NodeTerms terms, inout vec3 position) {
+// @param ends of the colliders of each kind, all zero for nodes that are outside: software drivers run all that is not in
+// a loop, and loops that no node of a group has a turn of they leave out
+Touch push_outside_colliders(uvec4 ends, vec3 start, NodeTerms terms, inout vec3 position) {
     Touch touch = Touch(vec4(0.0), vec4(0.0));
     uint c = 0u;
 #if (COLLIDER_KINDS & 1) != 0
-    for (; c < collider_ends.x; ++c) push_out(c, distance_to_plane(c, position), start, terms, position, touch);
+    for (; c < ends.x; ++c) push_out(c, distance_to_plane(c, position), start, terms, position, touch);
 #endif
 #if (COLLIDER_KINDS & 2) != 0
-    for (; c < collider_ends.y; ++c) push_out(c, distance_to_turned_box(c, position), start, terms, position, touch);
+    for (; c < ends.y; ++c) push_out(c, distance_to_turned_box(c, position), start, terms, position, touch);
 #endif
 #if (COLLIDER_KINDS & 4) != 0
-    for (; c < collider_ends.z; ++c) push_out(c, distance_to_sphere(c, position), start, terms, position, touch);
+    for (; c < ends.z; ++c) push_out(c, distance_to_sphere(c, position), start, terms, position, touch);
 #endif
 #if (COLLIDER_KINDS & 8) != 0
-    for (; c < collider_ends.w; ++c) push_out(c, distance_to_capsule(c, position), start, terms, position, touch);
+    for (; c < ends.w; ++c) push_out(c, distance_to_capsule(c, position), start, terms, position, touch);
 #endif
     return touch;
 }
@@ -112,7 +103,7 @@ void main() {
     uint index = global_index();
     if (index >= row_count) return;
     uint row = first_row + index;
-    uvec2 entry = texelFetch(rows, int(row)).xy;
+    uvec4 entry = texelFetch(rows, int(row));
     uint n = entry.x;
     if (n == 0xFFFFFFFFu) return;
     vec4 position = texelFetch(positions, int(n));
@@ -122,40 +113,43 @@ void main() {
 #endif
         return;
     }
-    vec3 start = start_of(n);
-    float damping_time = texelFetch(start_velocities, int(n)).w;
-    float inertia = 1.0 / (position.w * time_step * time_step);  // [N/m]
-    NodeTerms terms = NodeTerms(inertia * (target_of(n) - position.xyz), vec3(inertia), vec3(0.0));
-#ifdef PULLED
-    vec4 pull = pull_terms(n, position.xyz, start, time_step);
-    terms.force += pull.xyz;
-    terms.diagonal += pull.w;
-#endif
-    vec3 if_coincident = any_direction(n);
-
+    vec4 target = texelFetch(targets, int(n));
+    NodeTerms terms = NodeTerms(target.w * (target.xyz - position.xyz), vec3(target.w), vec3(0.0));
     int slice = int(row / 64u);
-    uint end = texelFetch(slice_starts, slice + 1).x;
-    for (uint p = texelFetch(slice_starts, slice).x + row % 64u; p < end; p += 64u) {
-        uvec4 pair = texelFetch(half_springs, int(p));
-        vec2 stiffness = texelFetch(stiffnesses, int(p)).xy;
-        add_half_spring(position, start, damping_time, if_coincident, pair.x, uintBitsToFloat(pair.y), stiffness.x, terms);
-        add_half_spring(position, start, damping_time, if_coincident, pair.z, uintBitsToFloat(pair.w), stiffness.y, terms);
+    uint first = texelFetch(slice_starts, slice).x + row % 64u, end = first + 64u * entry.z;
+    bool coincides = false;  // with the other end of a spring
+    for (uint p = first; p < end; p += 64u) {
+        uvec2 ends = texelFetch(spring_ends, int(p)).xy;
+        vec4 two = texelFetch(springs, int(p));
+        vec3 apart = position_of(ends.x) - position.xyz;
+        coincides = coincides || (apart == vec3(0.0) && two.y > 0.0);
+        add_spring(apart, two.x, two.y, terms);
+        apart = position_of(ends.y) - position.xyz;
+        coincides = coincides || (apart == vec3(0.0) && two.w > 0.0);
+        add_spring(apart, two.z, two.w, terms);
     }
-    bool is_near_flat = near_flat[n] != 0u;
+    for (uint p = coincides ? first : end; p < end; p += 64u) {
+        uvec2 ends = texelFetch(spring_ends, int(p)).xy;
+        vec4 two = texelFetch(springs, int(p));
+        vec3 way_out = any_direction(n);
+        if (position_of(ends.x) == position.xyz) add_coincident_spring(way_out, two.x, two.y, terms);
+        if (position_of(ends.y) == position.xyz) add_coincident_spring(way_out, two.z, two.w, terms);
+    }
+    bool resists = texelFetch(is_near_flat, int(n)).x != 0u;
 #ifndef FORCES
-    if (is_near_flat && clear_marks != 0u) near_flat[n] = 0u;
+    if (resists && clear_marks != 0u) near_flat[n] = 0u;
 #endif
 #ifndef VOLUME
-    if (is_near_flat)
+    if (resists)
 #endif
     {
-        end = texelFetch(corner_starts, slice + 1).x;
-        for (uint k = texelFetch(corner_starts, slice).x + row % 64u; k < end; k += 64u) {
+        uint corners_end = texelFetch(corner_starts, slice + 1).x;
+        for (uint k = texelFetch(corner_starts, slice).x + row % 64u; k < corners_end; k += 64u) {
             uvec4 corner = texelFetch(tet_corners, int(k));
             if (corner.w == 0xFFFFFFFFu) break;
             vec3 a = position_of(corner.x), b = position_of(corner.y), c = position_of(corner.z);
             vec3 rest = texelFetch(tet_rests, int(corner.w)).xyz;
-            if (is_near_flat) add_flat_tet(position.xyz, a, b, c, rest.x, rest.y, terms);
+            if (resists) add_flat_tet(position.xyz, a, b, c, rest.x, rest.y, terms);
 #ifdef VOLUME
             float offset = texelFetch(offsets, int(corner.w)).x;
             add_tet_volume(position.xyz, a, b, c, rest.x, offset, rest.z, terms);
@@ -179,8 +173,11 @@ void main() {
 #else
     vec3 moved = position.xyz + solve(terms, terms.force);
 #if COLLIDER_KINDS != 0
-    Touch touch = push_outside_colliders(start, terms, moved);
-    touches[n] = touch;
+    bool is_inside = distance_to_colliders(moved) < 0.0;
+    Touch touch = push_outside_colliders(is_inside ? collider_ends : uvec4(0u), texelFetch(start_positions, int(n)).xyz,
+                                         terms, moved);
+    // As long as nothing of a body touches, it has no touches to forget.
+    if (is_inside || object_touches[entry.y] != 0u) touches[n] = touch;
     if (touch.force.w != 0.0) object_touches[entry.y] = 1u;
 #endif
     out_positions[n] = vec4(moved, position.w);

@@ -5,14 +5,21 @@
 // CPU twin: gelatin::cpu::BlockDescent. Parity: tests/gpu/block_descent_test.cpp.
 #include "include/global_index.glsl"
 #include "include/colliders.glsl"
+#include "include/load_force.glsl"
+#include "include/pull.glsl"
+#include "layouts/descent.glsl"
 layout(local_size_x = 64) in;
 
 layout(std430, binding = 0) writeonly buffer Positions { vec4 positions[]; };
 layout(std430, binding = 1) writeonly buffer NearFlat { uint near_flat[]; };
-layout(std430, binding = 2) writeonly buffer Touches { uint object_touches[]; };
+layout(std430, binding = 2) writeonly buffer ObjectTouches { uint object_touches[]; };
 layout(std430, binding = 3) readonly buffer EarlierVelocities { vec4 earlier_velocities[]; };
 layout(std430, binding = 4) writeonly buffer Tangled { uint is_tangled[]; };  // by object
 layout(std430, binding = 5) writeonly buffer Starts { vec4 starts[]; };        // xyz [m], inverse mass [1/kg]
+layout(std430, binding = 6) writeonly buffer Targets { vec4 targets[]; };      // y [m], m / h^2 [N/m], 0 where held
+#if COLLIDER_KINDS != 0
+layout(std430, binding = 7) writeonly buffer Touches { Touch touches[]; };  // of nodes
+#endif
 
 layout(binding = 1) uniform samplerBuffer start_positions;   // as the last step has left them
 layout(binding = 2) uniform samplerBuffer start_velocities;  // xyz [m/s], damping time [s]
@@ -36,7 +43,20 @@ void main() {
     vec3 guess = start.xyz + time_step * (velocity + time_step * felt * gravity);
     vec3 held = start.xyz + time_step * velocity;
     positions[n] = vec4(start.w > 0.0 ? guess : held, start.w);
+    vec3 acceleration = gravity;
+#ifdef LOADED
+    acceleration += start.w * load_force(n);
+#endif
+    vec4 target = vec4(start.xyz + time_step * (velocity + time_step * acceleration),
+                       start.w > 0.0 ? 1.0 / (start.w * time_step * time_step) : 0.0);
+#ifdef PULLED
+    if (start.w > 0.0) target = with_pull(n, target, start.xyz, time_step);
+#endif
+    targets[n] = target;
     near_flat[n] = 0u;
+#if COLLIDER_KINDS != 0
+    touches[n] = Touch(vec4(0.0), vec4(0.0));
+#endif
     if (n < object_count) {
         object_touches[n] = 0u;
         is_tangled[n] = 0u;

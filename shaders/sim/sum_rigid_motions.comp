@@ -12,7 +12,11 @@ layout(binding = 0) uniform samplerBuffer positions;      // xyz [m], inverse ma
 layout(binding = 3) uniform usamplerBuffer chunk_starts;  // of each object, and the end
 layout(std430, binding = 2) readonly buffer ObjectTouches { uint object_touches[]; };
 layout(std430, binding = 3) readonly buffer Chunks { Chunk chunks[]; };
-layout(std430, binding = 4) buffer Sums { RigidSums rigid_sums[]; };
+#ifdef OBJECTS
+layout(std430, binding = 4) readonly buffer Sums { RigidSums rigid_sums[]; };
+#else
+layout(std430, binding = 4) writeonly buffer Sums { dvec4 sum_members[]; };  // of RigidSums
+#endif
 layout(std430, binding = 5) writeonly buffer Motions { RigidMotion motions[]; };
 #if COLLIDER_KINDS != 0
 layout(std430, binding = 6) readonly buffer Touches { Touch touches[]; };  // of nodes
@@ -48,41 +52,57 @@ void main() {
                                   vec4(matrix[0], 0.0), vec4(matrix[1], 0.0), vec4(matrix[2], 0.0));
 }
 #else
-shared RigidSums parts[64];
+// The sums of each lane, member by member of RigidSums.
+const uint kMembers = 12u;
+shared dvec4 parts[kMembers * 64u];
+
+void share(uint lane, RigidSums sums) {
+    parts[lane] = sums.arm;
+    parts[64u + lane] = sums.square;
+    parts[128u + lane] = sums.product;
+    parts[192u + lane] = sums.force;
+    parts[256u + lane] = sums.moment;
+    parts[320u + lane] = sums.shifts;
+    parts[384u + lane] = sums.shift_pairs;
+    parts[448u + lane] = sums.turns;
+    parts[512u + lane] = sums.turn_pairs;
+    parts[576u + lane] = sums.mixed_x;
+    parts[640u + lane] = sums.mixed_y;
+    parts[704u + lane] = sums.mixed_z;
+}
 
 void main() {
     uint c = group_index();
     if (c >= element_count) return;
     Chunk chunk = chunks[c];
     vec3 origin = texelFetch(positions, int(chunk.origin)).xyz;
-    double inertia = 1.0 / (double(time_step) * double(time_step));
     uint lane = gl_LocalInvocationID.x;
     RigidSums sums = kNothing;
     for (uint k = lane; k < chunk.count; k += 64u) {
         uint n = chunk.first + k;
-        vec4 position = texelFetch(positions, int(n));
-        if (position.w == 0.0) {
-            sums.square.w += 1.0;
-            continue;
-        }
-        dvec3 r = dvec3(position.xyz - origin);
-        double stiffness = inertia / double(position.w);
-        add_node(r, stiffness, stiffness * dvec3(target_of(n) - position.xyz), sums);
-#ifdef PULLED
-        vec4 pull = pull_terms(n, position.xyz, texelFetch(start_positions, int(n)).xyz, time_step);
-        add_node(r, double(pull.w), dvec3(pull.xyz), sums);
-#endif
+        vec4 position = texelFetch(positions, int(n)), target = texelFetch(targets, int(n));
+        if (position.w == 0.0) sums.square.w += 1.0;  // and target.w is 0
+        double stiffness = double(target.w);
+        add_node(dvec3(position.xyz - origin), stiffness, stiffness * dvec3(target.xyz - position.xyz), sums);
+    }
 #if COLLIDER_KINDS != 0
+    // A loop of its own, which most bodies have no turn of.
+    uint touched_count = object_touches[chunk.object] != 0u ? chunk.count : 0u;
+    for (uint k = lane; k < touched_count; k += 64u) {
+        uint n = chunk.first + k;
         Touch touch = touches[n];
-        if (object_touches[chunk.object] == 0u || touch.force.w == 0.0) continue;
+        vec4 position = texelFetch(positions, int(n));
+        if (position.w == 0.0 || touch.force.w == 0.0) continue;
+        dvec3 r = dvec3(position.xyz - origin);
         add_node(r, double(touch.normal.w), dvec3(touch.force.xyz), sums);
         add_along(r, dvec3(touch.normal.xyz), double(touch.force.w) - double(touch.normal.w), sums);
-#endif
     }
-    parts[lane] = sums;
+#endif
+    share(lane, sums);
     barrier();
-    if (lane != 0u) return;
-    for (uint l = 1u; l < 64u; ++l) sums = add(sums, parts[l]);
-    rigid_sums[c] = sums;
+    if (lane >= kMembers) return;
+    dvec4 sum = parts[64u * lane];
+    for (uint l = 1u; l < 64u; ++l) sum += parts[64u * lane + l];
+    sum_members[kMembers * c + lane] = sum;
 }
 #endif

@@ -3,15 +3,15 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "cpu/colliders.h"
 #include "cpu/neo_hookean.h"
-#include "cpu/rigid_motion.h"
+#include "cpu/rigid_nodes.h"
 #include "cpu/spring_terms.h"
 #include "model/for_each_index.h"
 #include "model/solver.h"
@@ -22,17 +22,15 @@ namespace {
 // Ways are made longer by no more than this.
 constexpr double kFarthest = 2.0;
 
+constexpr std::size_t kGroupsATask = 16;
+
+// The float path has SIMD; in double it is the plain one, which tests hold everything against.
+template <class Real>
+constexpr bool kIsFloat = std::is_same_v<Real, float>;
+
 template <class Work>
 void for_each_node(const Model& model, const Work& work) {
     for_each_index(model.node_count(), [&](std::size_t n) { work(static_cast<std::uint32_t>(n)); });
-}
-
-void gather_terms(const SpringRows<float>& springs, std::uint32_t slice, NodeTerms<float>* terms) {
-    gather_spring_terms_simd(springs, slice, terms);
-}
-
-void gather_terms(const SpringRows<double>& springs, std::uint32_t slice, NodeTerms<double>* terms) {
-    gather_spring_terms(springs, slice, terms);
 }
 
 }  // namespace
@@ -49,7 +47,13 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
       object_of_(objects_of_nodes(*model_)),
       touches_(model_->objects.size()) {
     if (!model_->colliders.empty()) node_touches_.resize(model_->node_count());
-    if (settings_.chebyshev > 0.0) last_ = before_last_ = targets_;
+    if (settings_.chebyshev > 0.0) last_ = before_last_ = std::vector<Vec3<Real>>(model_->node_count());
+    if constexpr (kIsFloat<Real>) {
+        springs_ = make_spring_blocks(rows_);
+        rows_.springs = {};
+        if (model_->has_damping()) damped_springs_ = springs_;
+        collider_bounds_ = make_collider_bounds(model_->colliders);
+    }
     if (!coarse_.is_empty()) {
         ahead_.resize(model_->node_count());
         ways_.resize(model_->node_count());
@@ -60,8 +64,7 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
 template <class Real>
 void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current,
                              std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls) {
-    pulls_ = pulls;
-    start(step, has_earlier, previous, load_forces, current);
+    start(step, has_earlier, previous, load_forces, pulls, current);
     take_back_tangled(current.positions);
     coarse_.begin(step, current.positions);
     for (int i = 0; i < settings_.iterations; ++i) {
@@ -70,7 +73,7 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
         sweep(step, current.positions);
         const bool is_last = i + 1 == settings_.iterations;
         if (!is_last && i % kSweepsACorrection == 0) correct(step, current.positions);
-        if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(step, is_last, current.positions);
+        if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(is_last, current.positions);
     }
     finish(step, previous, current);
 }
@@ -81,10 +84,10 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
 // handle takes them.
 template <class Real>
 void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& previous,
-                               std::span<const Vec4<Real>> load_forces, Nodes<Real>& current) {
+                               std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls,
+                               Nodes<Real>& current) {
     const Vec3<Real> gravity(model_->gravity);
     const Real squared = glm::dot(gravity, gravity);
-    std::fill(touches_.begin(), touches_.end(), std::uint8_t(0));
     for_each_node(*model_, [&](std::uint32_t n) {
         const Vec3<Real> velocity(previous.velocities[n]);
         const Vec3<Real> gained = velocity - Vec3<Real>(current.velocities[n]);
@@ -94,20 +97,28 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
             resolve_colliders<Real>(model_->colliders, Real(0), from, none);
         }
         starts_[n] = Vec4<Real>(Vec3<Real>(from), previous.velocities[n].w);
+        if (touches_[object_of_[n]] != 0) node_touches_[n] = {};  // of the last step
         if (from.w == Real(0)) {
-            targets_[n] = Vec3<Real>(from) + step * velocity;
-            current.positions[n] = Vec4<Real>(targets_[n], Real(0));
+            targets_[n] = Vec4<Real>(Vec3<Real>(from) + step * velocity, Real(0));
+            current.positions[n] = targets_[n];
             return;
         }
         Vec3<Real> acceleration = gravity;
         if (!load_forces.empty()) acceleration += from.w * Vec3<Real>(load_forces[n]);
-        targets_[n] = Vec3<Real>(from) + step * (velocity + step * acceleration);
+        targets_[n] = Vec4<Real>(Vec3<Real>(from) + step * (velocity + step * acceleration),
+                                 Real(1) / (from.w * step * step));
+        if (pulls != nullptr) targets_[n] = pulls->with_target(n, targets_[n], Vec3<Real>(from), step);
         const Real felt = has_earlier && squared > Real(0)
                               ? glm::clamp(glm::dot(gained, gravity) / (step * squared), Real(0), Real(1))
                               : Real(1);
         const Vec3<Real> guess = Vec3<Real>(from) + step * (velocity + step * felt * gravity);
         current.positions[n] = Vec4<Real>(guess, from.w);
     });
+    std::fill(touches_.begin(), touches_.end(), std::uint8_t(0));
+    if constexpr (kIsFloat<Real>) {
+        if (model_->has_damping())
+            damp_springs(springs_, rows_.nodes, starts_.data(), Real(1) / step, damped_springs_);
+    }
 }
 
 // A guess that tangles a body can hold any energy, which few sweeps would not take out again. From where the
@@ -142,66 +153,118 @@ void BlockDescent<Real>::accelerate(int sweep, std::vector<Vec4<Real>>& position
 
 template <class Real>
 void BlockDescent<Real>::sweep(Real step, std::vector<Vec4<Real>>& positions) {
-    constexpr std::uint32_t kSlice = HalfSprings::kSlice;
-    const SpringRows<Real> springs{rows_, positions.data(), starts_.data(), Real(1) / step};
-    for (const Range& color : rows_.colors) {
-        tbb::parallel_for(color.first / kSlice, color.end() / kSlice, [&](std::uint32_t slice) {
-            std::array<NodeTerms<Real>, kSlice> terms;
-            gather_terms(springs, slice, terms.data());
-            for (std::uint32_t row = 0; row < kSlice; ++row) {
-                const std::uint32_t node = rows_.nodes[slice * kSlice + row];
-                if (node != kNoNode) move_node(node, step, terms[row], positions);
-            }
-        });
+    if constexpr (kIsFloat<Real>) {
+        const DescentGroups groups{model_->has_damping() ? damped_springs_ : springs_, rows_.nodes, targets_,
+                                   collider_bounds_};
+        const bool any_touch = std::any_of(touches_.begin(), touches_.end(), [](auto t) { return t != 0; });
+        for (const Range& color : rows_.colors) {
+            for_each_index(color.first / kGroup, color.end() / kGroup, kGroupsATask,
+                           [&](std::size_t group) { move_group(groups, group, step, any_touch, positions); });
+        }
+    } else {
+        const SpringRows<Real> springs{rows_, positions.data(), starts_.data(), Real(1) / step};
+        for (const Range& color : rows_.colors) {
+            for_each_index(color.first, color.end(), kGroup * kGroupsATask, [&](std::size_t row) {
+                const std::uint32_t node = rows_.nodes[row];
+                if (node == kNoNode || targets_[node].w == Real(0)) return;
+                const NodeTerms<Real> of_springs =
+                    gather_spring_terms(springs, static_cast<std::uint32_t>(row));
+                move_node(node, terms_of(node, step, of_springs, positions), positions);
+            });
+        }
     }
 }
 
-// All of a node's, to those of its springs.
+// @param any_touch whether nodes touched a collider in the last sweep
 template <class Real>
-void BlockDescent<Real>::add_node_terms(std::uint32_t node, Real step,
-                                        const std::vector<Vec4<Real>>& positions,
-                                        NodeTerms<Real>& terms) const {
-    const Vec4<Real>& position = positions[node];
-    const Real inertia = Real(1) / (position.w * step * step);  // [N/m]
-    terms.force += inertia * (targets_[node] - Vec3<Real>(position));
-    terms.hessian.add_identity(inertia);
-    if (pulls_ != nullptr) {
-        const Vec4<Real> pull = pulls_->terms(node, Vec3<Real>(position), Vec3<Real>(starts_[node]), step);
-        terms.force += Vec3<Real>(pull);
-        terms.hessian.add_identity(pull.w);
+template <class Groups>
+void BlockDescent<Real>::move_group(const Groups& groups, std::size_t group, Real step, bool any_touch,
+                                    std::vector<Vec4<Real>>& positions) {
+    TermColumns terms;
+    if (tets_.any_resist() || !model_->neo_hookean_tets.empty()) {
+        for (std::uint32_t row = 0; row < kGroup; ++row) {
+            const std::uint32_t node = groups.nodes[group * kGroup + row];
+            if (node == kNoNode) continue;
+            NodeTerms<Real> of_tets;
+            add_tets(node, step, positions, of_tets);
+            terms.add(row, of_tets);
+        }
     }
+    const std::uint32_t near_colliders = descend_group(groups, group, terms, positions);
+    if (near_colliders == 0 && !any_touch) return;
+    for (std::uint32_t row = 0; row < kGroup; ++row) {
+        const std::uint32_t node = groups.nodes[group * kGroup + row];
+        if ((near_colliders >> row & 1u) != 0) {
+            const NodeTerms<Real> own = terms.row(row);
+            const Vec3<Real> moved = outside_colliders(node, own.hessian, Vec3<Real>(positions[node]));
+            positions[node] = Vec4<Real>(moved, positions[node].w);
+        } else if (any_touch && node != kNoNode) {
+            node_touches_[node] = {};
+        }
+    }
+}
+
+// All terms of a node that is not held.
+template <class Real>
+NodeTerms<Real> BlockDescent<Real>::terms_of(std::uint32_t node, Real step, NodeTerms<Real> of_springs,
+                                             const std::vector<Vec4<Real>>& positions) const {
+    const Vec4<Real>& target = targets_[node];
+    of_springs.force += target.w * (Vec3<Real>(target) - Vec3<Real>(positions[node]));
+    of_springs.hessian.add_identity(target.w);
+    add_tets(node, step, positions, of_springs);
+    return of_springs;
+}
+
+template <class Real>
+void BlockDescent<Real>::move_node(std::uint32_t node, const NodeTerms<Real>& terms,
+                                   std::vector<Vec4<Real>>& positions) {
+    const Vec3<Real> moved =
+        outside_colliders(node, terms.hessian, Vec3<Real>(positions[node]) + solve(terms));
+    positions[node] = Vec4<Real>(moved, positions[node].w);
+}
+
+template <class Real>
+void BlockDescent<Real>::add_tets(std::uint32_t node, Real step, const std::vector<Vec4<Real>>& positions,
+                                  NodeTerms<Real>& terms) const {
     tets_.add(node, positions, terms);
     add_neo_hookean_tets(node, step, positions, terms);
-}
-
-// @param terms of its springs
-template <class Real>
-void BlockDescent<Real>::move_node(std::uint32_t node, Real step, NodeTerms<Real> terms,
-                                   std::vector<Vec4<Real>>& positions) {
-    const Vec4<Real> position = positions[node];
-    if (position.w == Real(0)) return;
-    add_node_terms(node, step, positions, terms);
-    const Vec3<Real> moved = outside_colliders(node, terms.hessian, Vec3<Real>(position) + solve(terms));
-    positions[node] = Vec4<Real>(moved, position.w);
 }
 
 // Minus the slope of the objective by each node; colliders left out.
 template <class Real>
 void BlockDescent<Real>::find_forces(Real step, const std::vector<Vec4<Real>>& positions,
                                      std::vector<Vec3<Real>>& forces) const {
-    constexpr std::uint32_t kSlice = HalfSprings::kSlice;
-    const SpringRows<Real> springs{rows_, positions.data(), starts_.data(), Real(1) / step};
-    const auto slices = static_cast<std::uint32_t>(rows_.nodes.size()) / kSlice;
-    tbb::parallel_for(std::uint32_t(0), slices, [&](std::uint32_t slice) {
-        std::array<NodeTerms<Real>, kSlice> terms;
-        gather_terms(springs, slice, terms.data());
-        for (std::uint32_t row = 0; row < kSlice; ++row) {
-            const std::uint32_t node = rows_.nodes[slice * kSlice + row];
-            if (node == kNoNode || positions[node].w == Real(0)) continue;
-            add_node_terms(node, step, positions, terms[row]);
-            forces[node] = terms[row].force;
-        }
-    });
+    if constexpr (kIsFloat<Real>) {
+        const DescentGroups groups{model_->has_damping() ? damped_springs_ : springs_, rows_.nodes, targets_,
+                                   collider_bounds_};
+        for_each_index(0, rows_.nodes.size() / kGroup, kGroupsATask,
+                       [&](std::size_t group) { find_group_forces(groups, group, step, positions, forces); });
+    } else {
+        const SpringRows<Real> springs{rows_, positions.data(), starts_.data(), Real(1) / step};
+        for_each_index(0, rows_.nodes.size(), kGroup * kGroupsATask, [&](std::size_t row) {
+            const std::uint32_t node = rows_.nodes[row];
+            if (node == kNoNode || targets_[node].w == Real(0)) return;
+            const NodeTerms<Real> of_springs = gather_spring_terms(springs, static_cast<std::uint32_t>(row));
+            forces[node] = terms_of(node, step, of_springs, positions).force;
+        });
+    }
+}
+
+template <class Real>
+template <class Groups>
+void BlockDescent<Real>::find_group_forces(const Groups& groups, std::size_t group, Real step,
+                                           const std::vector<Vec4<Real>>& positions,
+                                           std::vector<Vec3<Real>>& forces) const {
+    TermColumns terms;
+    gather_group(groups, group, positions, terms);
+    const bool has_tets = tets_.any_resist() || !model_->neo_hookean_tets.empty();
+    for (std::uint32_t row = 0; row < kGroup; ++row) {
+        const std::uint32_t node = groups.nodes[group * kGroup + row];
+        if (node == kNoNode || targets_[node].w == Real(0)) continue;
+        NodeTerms<Real> all = terms.row(row);
+        if (has_tets) add_tets(node, step, positions, all);
+        forces[node] = all.force;
+    }
 }
 
 // All nodes at once along the motions of clusters, as far as the objective falls.
@@ -324,8 +387,7 @@ Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, const Symme
 
 // The last sweep has left nodes outside colliders: bodies that touch one do not move after it.
 template <class Real>
-void BlockDescent<Real>::move_bodies(Real step, bool is_last, std::vector<Vec4<Real>>& positions) const {
-    const double inertia = 1.0 / (static_cast<double>(step) * static_cast<double>(step));
+void BlockDescent<Real>::move_bodies(bool is_last, std::vector<Vec4<Real>>& positions) const {
     tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
         const Range& nodes = model_->objects[o].nodes;
         const std::span body_nodes(positions.data() + nodes.first, nodes.count);
@@ -333,25 +395,36 @@ void BlockDescent<Real>::move_bodies(Real step, bool is_last, std::vector<Vec4<R
                                          [](const Vec4<Real>& p) { return p.w == Real(0); });
         if (is_held || (is_last && touches_[o] != 0)) return;
         const glm::dvec3 origin(positions[nodes.first]);
+        const std::span targets(targets_.data() + nodes.first, nodes.count);
         RigidStep body;
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
-            const glm::dvec3 position(positions[n]), r = position - origin;
-            const double stiffness = inertia / static_cast<double>(positions[n].w);
-            body.add(r, stiffness, stiffness * (glm::dvec3(targets_[n]) - position));
-            if (pulls_ != nullptr) {
-                const Vec4<Real> pull =
-                    pulls_->terms(n, Vec3<Real>(positions[n]), Vec3<Real>(starts_[n]), step);
-                body.add(r, static_cast<double>(pull.w), glm::dvec3(pull));
+        if constexpr (kIsFloat<Real>) {
+            body.add(sum_rigid_nodes(body_nodes, targets, glm::vec3(origin)));
+        } else {
+            for (std::size_t n = 0; n < body_nodes.size(); ++n) {
+                const glm::dvec3 position(body_nodes[n]);
+                body.add(position - origin, targets[n].w, targets[n].w * (glm::dvec3(targets[n]) - position));
             }
-            if (touches_[o] == 0 || node_touches_[n].along == Real(0)) continue;
-            const Touch& touch = node_touches_[n];
-            body.add(r, static_cast<double>(touch.across), glm::dvec3(touch.force));
-            body.add_along(r, glm::dvec3(touch.normal), static_cast<double>(touch.along - touch.across));
+        }
+        if (touches_[o] != 0) {
+            for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) add_touch(n, origin, positions, body);
         }
         const RigidMotion motion = body.solve(origin);
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-            positions[n] = Vec4<Real>(Vec3<Real>(motion.move(glm::dvec3(positions[n]))), positions[n].w);
+        if constexpr (kIsFloat<Real>) {
+            move_rigid_nodes(motion, body_nodes);
+        } else {
+            for (Vec4<Real>& p : body_nodes) p = Vec4<Real>(motion.move(glm::dvec3(p)), p.w);
+        }
     });
+}
+
+template <class Real>
+void BlockDescent<Real>::add_touch(std::uint32_t node, const glm::dvec3& origin,
+                                   const std::vector<Vec4<Real>>& positions, RigidStep& body) const {
+    const Touch& touch = node_touches_[node];
+    if (touch.along == Real(0)) return;
+    const glm::dvec3 r = glm::dvec3(positions[node]) - origin;
+    body.add(r, static_cast<double>(touch.across), glm::dvec3(touch.force));
+    body.add_along(r, glm::dvec3(touch.normal), static_cast<double>(touch.along - touch.across));
 }
 
 // Nodes that a collider has stopped go back with restitution times the speed they would have had without it.
@@ -365,7 +438,8 @@ void BlockDescent<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Re
         const Vec3<Real> position(current.positions[n]), start(starts_[n]);
         Vec3<Real> velocity = (position - start) / step;
         if (touches_[object_of_[n]] != 0)
-            rebound<Real>(model_->colliders, position, (targets_[n] - start) / step, least, velocity);
+            rebound<Real>(model_->colliders, position, (Vec3<Real>(targets_[n]) - start) / step, least,
+                          velocity);
         current.velocities[n] = Vec4<Real>(velocity, old.w);
     });
 }

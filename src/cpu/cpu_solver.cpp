@@ -55,7 +55,10 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
       contact_{collision.friction, collision.restitution} {
     current_ = {converted<Real>(model_->positions), converted<Real>(model_->velocities)};
     previous_ = current_;
-    if (solver == SolverKind::vbd) block_descent_.emplace(model_, descent);
+    if (solver == SolverKind::vbd) {
+        block_descent_.emplace(model_, descent);
+        shape_matcher_.emplace(model_);
+    }
     if (scheme_.pass_count > 1) sums_ = stage_[0] = stage_[1] = current_;
     if (collision.self_collision) {
         self_ = std::make_unique<SelfStages>(SelfStages{{model_, collision_}, {model_, contact_}});
@@ -107,6 +110,7 @@ template <class Real>
 void CpuSolver<Real>::advance_nodes(double step) {
     if (block_descent_) {
         std::swap(current_, previous_);
+        shape_matcher_->run(previous_);
         sum_loads(previous_);
         block_descent_->run(static_cast<Real>(step), std::exchange(has_earlier_, true), previous_, current_,
                             load_forces_, pulls_ ? &*pulls_ : nullptr);

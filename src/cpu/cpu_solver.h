@@ -9,6 +9,7 @@
 #include "cpu/collision.h"
 #include "cpu/contact.h"
 #include "cpu/find_proximities.h"
+#include "cpu/match_shapes.h"
 #include "cpu/nodes.h"
 #include "cpu/pulls.h"
 #include "cpu/respond_to_self.h"
@@ -69,6 +70,7 @@ private:
     std::shared_ptr<const Model> model_;
     ExplicitScheme scheme_;
     std::optional<BlockDescent<Real>> block_descent_;  // instead of the scheme
+    std::optional<ShapeMatcher<Real>> shape_matcher_;  // before block descent
     ForceMethod forces_;
     Nodes<Real> current_, previous_;  // swapped by each step: where it ended, and where it started
     bool has_earlier_ = false;        // previous_ is one step earlier: vbd looks back

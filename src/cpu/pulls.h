@@ -27,15 +27,16 @@ public:
         return pull.w / (Real(1) + pull.w * position.w * step * time) * (way - time * velocity);
     }
 
-    /// For block descent: the force [N] at `position` after a step of `step` seconds from `start`, and in w
-    /// how much it falls with a way in its direction [N/m].
-    Vec4<Real> terms(std::uint32_t node, const Vec3<Real>& position, const Vec3<Real>& start,
-                     Real step) const {
+    /// For block descent: the target of a node [m] and its weight [N/m] with the spring's own beside them, as
+    /// of a step of `step` seconds from `start`. A damped spring pulls as a stiffer one to a place between
+    /// the hand's and the start.
+    Vec4<Real> with_target(std::uint32_t node, const Vec4<Real>& target, const Vec3<Real>& start,
+                           Real step) const {
         const Vec4<Real>& pull = by_node_[node];
-        const Real damping = pull.w * damping_time_ / step;
-        const Vec3<Real> force =
-            pull.w * (target_ + Vec3<Real>(pull) - position) - damping * (position - start);
-        return {force, pull.w + damping};
+        const Real damping = damping_time_ / step, stiffness = pull.w * (Real(1) + damping);
+        const Vec3<Real> place = (target_ + Vec3<Real>(pull) + damping * start) / (Real(1) + damping);
+        const Real weight = target.w + stiffness;
+        return {(target.w * Vec3<Real>(target) + stiffness * place) / weight, weight};
     }
 
 private:

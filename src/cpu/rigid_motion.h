@@ -23,25 +23,35 @@ inline glm::dmat3 cayley_turn(const glm::dvec3& w) {
     return glm::dmat3(1.0) + 4.0 / (4.0 + glm::dot(w, w)) * (cross + 0.5 * cross * cross);
 }
 
+/// Sums over nodes at r from a body's origin [m], that forces f [N] act on, and whose way is resisted alike
+/// in all directions by stiffnesses k [N/m]: inertia, and friction that holds.
+struct RigidSums {
+    double stiffness = 0.0;          ///< sum k
+    glm::dvec3 arm{0.0};             ///< sum k r
+    SymmetricMatrix<double> square;  ///< sum k r r^T
+    glm::dvec3 force{0.0}, moment{0.0};
+
+    void add(const glm::dvec3& r, double k, const glm::dvec3& f);
+    void add(const RigidSums& other);
+};
+
 /// Newton's step of a body along rigid motions, by a shift s and a turn w: node i goes s + w x r_i, which
 /// changes what acts on it by its stiffness times that. Internal forces do no work on it.
 ///   sum_i J_i^T K_i J_i (s, w) = sum_i J_i^T f_i,   J_i (s, w) = s + w x r_i
 class RigidStep {
 public:
-    /// A node at r from the body's origin [m], that `force` [N] acts on, and whose way is resisted alike in
-    /// all directions by `stiffness` [N/m]: inertia, and friction that holds.
-    void add(const glm::dvec3& r, double stiffness, const glm::dvec3& force);
-    /// And along `normal` alone: a surface that it touches.
+    void add(const glm::dvec3& r, double stiffness, const glm::dvec3& force) {
+        sums_.add(r, stiffness, force);
+    }
+    void add(const RigidSums& nodes) { sums_.add(nodes); }
+    /// A node that is resisted along `normal` alone: a surface that it touches.
     void add_along(const glm::dvec3& r, const glm::dvec3& normal, double stiffness);
 
     /// @pre some stiffness was added
     RigidMotion solve(const glm::dvec3& origin) const;
 
 private:
-    double stiffness_ = 0.0;          // sum k
-    glm::dvec3 arm_{0.0};             // sum k r
-    SymmetricMatrix<double> square_;  // sum k r r^T
-    glm::dvec3 force_{0.0}, moment_{0.0};
+    RigidSums sums_;
     // Of surfaces, sum k (n, r x n) (n, r x n)^T in blocks.
     SymmetricMatrix<double> shifts_, turns_;
     glm::dmat3 mixed_{0.0};

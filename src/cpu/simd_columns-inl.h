@@ -10,17 +10,17 @@
 #include <hwy/highway.h>
 
 #include <cstddef>
+#include <cstdint>
 
 HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {
-#if HWY_TARGET != HWY_SCALAR
 
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Lanes = hn::CappedTag<float, 8>;
 using Vector = hn::Vec<Lanes>;
 constexpr std::size_t kLanes = hn::MaxLanes(Lanes());
-static_assert(kLanes == 4 || kLanes == 8);
+static_assert(kLanes == 1 || kLanes == 4 || kLanes == 8);
 
 // Highway's own Prefetch compiles to nothing in Debian's 1.0.3. Beyond an array's end it is harmless.
 template <class T>
@@ -38,6 +38,10 @@ struct Columns {
 // `row(lane)` points at a row.
 template <class D, class Row>
 HWY_INLINE Columns load_columns(D d, const Row& row) {
+#if HWY_TARGET == HWY_SCALAR
+    const float* values = row(0);
+    return {hn::Set(d, values[0]), hn::Set(d, values[1]), hn::Set(d, values[2]), hn::Set(d, values[3])};
+#else
     Vector a, b, c, e;
     if constexpr (kLanes == 8) {
         const hn::Half<D> half;
@@ -55,9 +59,14 @@ HWY_INLINE Columns load_columns(D d, const Row& row) {
     const Vector ac_high = hn::InterleaveUpper(d, a, c), be_high = hn::InterleaveUpper(d, b, e);
     return {hn::InterleaveLower(d, ac_low, be_low), hn::InterleaveUpper(d, ac_low, be_low),
             hn::InterleaveLower(d, ac_high, be_high), hn::InterleaveUpper(d, ac_high, be_high)};
+#endif
 }
 
-#endif
+// Those of nodes, a lane each.
+HWY_INLINE Columns load_nodes(Lanes d, const float* values, const std::uint32_t* nodes) {
+    return load_columns(d, [&](std::size_t l) { return values + 4 * std::size_t(nodes[l]); });
+}
+
 }  // namespace gelatin::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -15,14 +15,6 @@ struct SpringRows {
     Real inverse_step;            ///< [1/s]
 };
 
-/// The terms of all springs of each node in slice `slice` of the rows; zero where a row has none.
-/// @param terms shape [HalfSprings::kSlice]
-template <class Real>
-void gather_spring_terms(const SpringRows<Real>& from, std::uint32_t slice, NodeTerms<Real>* terms);
-
-/// The same in float with SIMD, for the processor it runs on; differs from the plain one by rounding alone.
-void gather_spring_terms_simd(const SpringRows<float>& from, std::uint32_t slice, NodeTerms<float>* terms);
-
 /// One spring's, from the row's node to `other`.
 template <class Real>
 void add_row_spring(const SpringRows<Real>& from, std::uint32_t node, std::uint32_t other, float rest_length,
@@ -33,6 +25,25 @@ void add_row_spring(const SpringRows<Real>& from, std::uint32_t node, std::uint3
     const Real start_length = glm::distance(Vec3<Real>(other_start), Vec3<Real>(start));
     add_spring(Vec3<Real>(other_position - position), any_direction<Real>(node), start_length,
                static_cast<Real>(rest_length), static_cast<Real>(stiffness), damping, terms);
+}
+
+/// The terms of all springs of the node in row `row`.
+template <class Real>
+NodeTerms<Real> gather_spring_terms(const SpringRows<Real>& from, std::uint32_t row) {
+    constexpr std::uint32_t kSlice = HalfSprings::kSlice;
+    const HalfSprings& springs = from.rows.springs;
+    const std::uint32_t node = from.rows.nodes[row], slice = row / kSlice;
+    NodeTerms<Real> terms;
+    for (std::uint32_t p = springs.slice_starts[slice] + row % kSlice; p < springs.slice_starts[slice + 1];
+         p += kSlice) {
+        const HalfSpringPair& pair = springs.pairs[p];
+        const glm::vec2& stiffness = springs.stiffness[p];
+        if (stiffness.x > 0.0f)
+            add_row_spring(from, node, pair.node_0, pair.rest_length_0, stiffness.x, terms);
+        if (stiffness.y > 0.0f)
+            add_row_spring(from, node, pair.node_1, pair.rest_length_1, stiffness.y, terms);
+    }
+    return terms;
 }
 
 }  // namespace gelatin::cpu

@@ -1,9 +1,14 @@
 #include "cpu/tet_resistance.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <atomic>
+#include <limits>
+#include <type_traits>
 #include <utility>
 
+#include "cpu/volume_ratios.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -30,8 +35,12 @@ Real TetResistance<Real>::ratio_of(std::uint32_t tet, const std::vector<Vec4<Rea
 template <class Real>
 bool TetResistance<Real>::is_tangled(const ModelObject& object,
                                      const std::vector<Vec4<Real>>& positions) const {
+    if constexpr (std::is_same_v<Real, float>) {
+        return !volumes_are_within(static_cast<float>(kLeastSound), static_cast<float>(kMostSound), *model_,
+                                   object.tets, positions.data(), nullptr);
+    }
     for (std::uint32_t t = object.tets.first; t < object.tets.end(); ++t) {
-        const Real ratio = ratio_of(static_cast<std::uint32_t>(t), positions);
+        const Real ratio = ratio_of(t, positions);
         if (!(ratio > static_cast<Real>(kLeastSound) && ratio < static_cast<Real>(kMostSound))) return true;
     }
     return false;
@@ -40,13 +49,13 @@ bool TetResistance<Real>::is_tangled(const ModelObject& object,
 template <class Real>
 void TetResistance<Real>::look(const std::vector<Vec4<Real>>& positions) {
     const Model& model = *model_;
-    std::fill(is_near_flat_.begin(), is_near_flat_.end(), std::uint8_t(0));
-    for_each_index(model.tets.size(), [&](std::size_t t) {
-        const glm::uvec4& tet = model.tets[t];
-        ratios_[t] = ratio_of(static_cast<std::uint32_t>(t), positions);
-        if (ratios_[t] >= static_cast<Real>(kFlattest)) return;
-        for (int k = 0; k < 4; ++k)
-            std::atomic_ref(is_near_flat_[tet[k]]).store(1, std::memory_order_relaxed);
+    if (any_flat_) std::fill(is_near_flat_.begin(), is_near_flat_.end(), std::uint8_t(0));
+    any_flat_ = false;
+    const auto tet_count = static_cast<std::uint32_t>(model.tets.size());
+    constexpr std::uint32_t kTetsATask = 512;
+    tbb::parallel_for(0u, (tet_count + kTetsATask - 1) / kTetsATask, [&](std::uint32_t task) {
+        const std::uint32_t first = task * kTetsATask;
+        look_at({first, std::min(kTetsATask, tet_count - first)}, positions);
     });
     const VolumeTerm& term = model.volume_term;
     if (term.is_empty()) return;
@@ -66,6 +75,22 @@ void TetResistance<Real>::look(const std::vector<Vec4<Real>>& positions) {
         for (int k = 0; k < 4; ++k) sum += node_pressures_[tet[k]];
         offsets_[t] = Real(0.25) * sum - static_cast<Real>(term.tets[t]) * ratios_[t];
     });
+}
+
+template <class Real>
+void TetResistance<Real>::look_at(const Range& tets, const std::vector<Vec4<Real>>& positions) {
+    constexpr auto kLeast = static_cast<Real>(kFlattest), kMost = std::numeric_limits<Real>::infinity();
+    if constexpr (std::is_same_v<Real, float>) {
+        if (volumes_are_within(kLeast, kMost, *model_, tets, positions.data(), ratios_.data())) return;
+    } else {
+        for (std::uint32_t t = tets.first; t < tets.end(); ++t) ratios_[t] = ratio_of(t, positions);
+    }
+    for (std::uint32_t t = tets.first; t < tets.end(); ++t) {
+        if (ratios_[t] >= kLeast) continue;
+        std::atomic_ref(any_flat_).store(true, std::memory_order_relaxed);
+        for (int k = 0; k < 4; ++k)
+            std::atomic_ref(is_near_flat_[model_->tets[t][k]]).store(1, std::memory_order_relaxed);
+    }
 }
 
 template <class Real>

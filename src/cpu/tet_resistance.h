@@ -26,19 +26,24 @@ public:
     /// Looks which tets are flat and how far the volumes are from those at rest.
     void look(const std::vector<Vec4<Real>>& positions);
 
+    /// False if no node has anything to add.
+    bool any_resist() const { return any_flat_ || !model_->volume_term.is_empty(); }
+
     /// Adds the resistance of the node's tets, with the volumes round other nodes as they were at the last
     /// look.
     void add(std::uint32_t node, const std::vector<Vec4<Real>>& positions, NodeTerms<Real>& terms) const;
 
 private:
+    void look_at(const Range& tets, const std::vector<Vec4<Real>>& positions);
     Real ratio_of(std::uint32_t tet, const std::vector<Vec4<Real>>& positions) const;
 
     std::shared_ptr<const Model> model_;
     NodeTets node_tets_;
     std::vector<Real> ratios_;                // J, by tet
     std::vector<std::uint8_t> is_near_flat_;  // nodes of tets that resist
-    std::vector<Real> node_pressures_;        // [Pa]
-    std::vector<Real> offsets_;               // q [Pa], by tet
+    bool any_flat_ = false;
+    std::vector<Real> node_pressures_;  // [Pa]
+    std::vector<Real> offsets_;         // q [Pa], by tet
 };
 
 }  // namespace gelatin::cpu

@@ -12,8 +12,7 @@ namespace {
 
 constexpr std::size_t kRigidSums = 12;  // dvec4s in RigidSums, include/rigid_sums.glsl
 
-// For programs that include include/descent_step.glsl, colliders, loads and pulls.
-gl::Defines step_defines(const Model& model, bool pulled) {
+gl::Defines start_defines(const Model& model, bool pulled) {
     gl::Defines defines = ModelBuffers::collider_defines(model);
     if (!model.loads.empty()) defines.emplace_back("LOADED");
     if (pulled) defines.emplace_back("PULLED");
@@ -25,8 +24,8 @@ gl::Defines volume_defines(const Model& model) {
     return {"VOLUME"};
 }
 
-gl::Defines sweep_defines(const Model& model, bool pulled) {
-    gl::Defines defines = step_defines(model, pulled);
+gl::Defines sweep_defines(const Model& model) {
+    gl::Defines defines = ModelBuffers::collider_defines(model);
     if (model.has_damping()) defines.emplace_back("DAMPED");
     if (!model.neo_hookean_tets.empty()) defines.emplace_back("NEO_HOOKEAN");
     for (const std::string& define : volume_defines(model)) defines.push_back(define);
@@ -55,14 +54,46 @@ std::vector<glm::vec4> rests_of(const Model& model) {
     return rests;
 }
 
-std::vector<glm::uvec2> with_objects(const std::vector<std::uint32_t>& rows,
-                                     const std::vector<std::uint32_t>& objects) {
-    std::vector<glm::uvec2> result;
-    for (const std::uint32_t n : rows) result.emplace_back(n, n == kNoNode ? 0 : objects[n]);
+std::vector<glm::uvec2> ends_of(const HalfSprings& springs) {
+    std::vector<glm::uvec2> ends;
+    for (const HalfSpringPair& pair : springs.pairs) ends.emplace_back(pair.node_0, pair.node_1);
+    return ends;
+}
+
+std::vector<glm::vec4> springs_of(const HalfSprings& springs) {
+    std::vector<glm::vec4> result;
+    for (std::size_t p = 0; p < springs.pairs.size(); ++p) {
+        const HalfSpringPair& pair = springs.pairs[p];
+        const glm::vec2& stiffness = springs.stiffness[p];
+        result.emplace_back(pair.rest_length_0, stiffness.x, pair.rest_length_1, stiffness.y);
+    }
+    return result;
+}
+
+// Pairs of half springs that the row's slice has for it.
+std::uint32_t pair_count(const HalfSprings& springs, std::uint32_t row) {
+    constexpr std::uint32_t kSlice = HalfSprings::kSlice;
+    const std::uint32_t slice = row / kSlice, first = springs.slice_starts[slice] + row % kSlice;
+    std::uint32_t count = (springs.slice_starts[slice + 1] - springs.slice_starts[slice]) / kSlice;
+    while (count > 0 && springs.stiffness[first + (count - 1) * kSlice] == glm::vec2(0.0f)) --count;
+    return count;
+}
+
+std::vector<DescentRow> rows_of(const DescentRows& rows, const std::vector<std::uint32_t>& objects) {
+    std::vector<DescentRow> result;
+    for (std::uint32_t r = 0; r < rows.nodes.size(); ++r) {
+        const std::uint32_t n = rows.nodes[r];
+        result.push_back({n, n == kNoNode ? 0 : objects[n], pair_count(rows.springs, r), 0});
+    }
     return result;
 }
 
 }  // namespace
+
+BlockDescent::DampedSprings::DampedSprings(std::size_t pairs)
+    : program(gl::Program::compute("sim/damp_springs.comp")),
+      springs(pairs),
+      texels(springs, gl::TexelFormat::rgba32f) {}
 
 BlockDescent::Pressures::Pressures(const Model& model)
     : node_program(gl::Program::compute("sim/find_pressures.comp", {"NODES"})),
@@ -81,19 +112,19 @@ BlockDescent::Pressures::Pressures(const Model& model)
 }
 
 BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, bool pulled)
-    : start_program_(gl::Program::compute("sim/start_descent.comp", ModelBuffers::collider_defines(model))),
+    : start_program_(gl::Program::compute("sim/start_descent.comp", start_defines(model, pulled))),
       find_tangled_program_(gl::Program::compute("sim/take_back_tangled.comp", {"TETS"})),
       take_back_program_(gl::Program::compute("sim/take_back_tangled.comp")),
       accelerate_program_(gl::Program::compute("sim/accelerate_descent.comp")),
       mark_program_(gl::Program::compute("sim/mark_flat_tets.comp", volume_defines(model))),
-      sweep_program_(gl::Program::compute("sim/descend.comp", sweep_defines(model, pulled))),
-      force_program_(gl::Program::compute("sim/descend.comp", with(sweep_defines(model, pulled), "FORCES"))),
-      sum_program_(gl::Program::compute("sim/sum_rigid_motions.comp", step_defines(model, pulled))),
+      sweep_program_(gl::Program::compute("sim/descend.comp", sweep_defines(model))),
+      force_program_(gl::Program::compute("sim/descend.comp", with(sweep_defines(model), "FORCES"))),
+      sum_program_(gl::Program::compute("sim/sum_rigid_motions.comp", ModelBuffers::collider_defines(model))),
       motion_program_(gl::Program::compute("sim/sum_rigid_motions.comp",
                                            with(ModelBuffers::collider_defines(model), "OBJECTS"))),
       move_program_(gl::Program::compute("sim/move_bodies.comp")),
       last_move_program_(
-          gl::Program::compute("sim/move_bodies.comp", with(step_defines(model, false), "LAST"))),
+          gl::Program::compute("sim/move_bodies.comp", with(ModelBuffers::collider_defines(model), "LAST"))),
       settings_(settings),
       node_count_(model.node_count()),
       tet_count_(static_cast<std::uint32_t>(model.tets.size())),
@@ -115,9 +146,10 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
     for (const Chunk& chunk : chunks) ++chunk_starts[chunk.object + 1];
     std::partial_sum(chunk_starts.begin(), chunk_starts.end(), chunk_starts.begin());
 
-    rows_ = make_buffer(with_objects(rows.nodes, objects), glm::uvec2(kNoNode, 0));
-    half_springs_ = make_buffer(rows.springs.pairs, HalfSpringPair{});
-    stiffnesses_ = make_buffer(rows.springs.stiffness, glm::vec2(0.0f));
+    rows_ = make_buffer(rows_of(rows, objects), DescentRow{kNoNode, 0, 0, 0});
+    spring_ends_ = make_buffer(ends_of(rows.springs), glm::uvec2(0));
+    springs_ = make_buffer(springs_of(rows.springs), glm::vec4(0.0f));
+    if (model.has_damping()) damped_springs_.emplace(springs_.size());
     spring_starts_ = make_buffer(rows.springs.slice_starts, 0u);
     tet_corners_ = make_buffer(corners.corners, TetCorner{});
     corner_starts_ = make_buffer(corners.slice_starts, 0u);
@@ -127,14 +159,17 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
     chunk_starts_ = make_buffer(chunk_starts, 0u);
     starts_ = gl::Buffer<glm::vec4>(model.positions.size());
     start_texels_ = {starts_, gl::TexelFormat::rgba32f};
+    targets_ = gl::Buffer<glm::vec4>(model.positions.size());
+    target_texels_ = {targets_, gl::TexelFormat::rgba32f};
     node_objects_ = make_buffer(objects, 0u);
     node_object_texels_ = {node_objects_, gl::TexelFormat::r32ui};
     rigid_sums_ = gl::Buffer<glm::dvec4>(kRigidSums * chunks.size());
     if (!model.colliders.empty()) touches_ = gl::Buffer<Touch>(model.positions.size());
 
-    row_texels_ = {rows_, gl::TexelFormat::rg32ui};
-    half_spring_texels_ = {half_springs_, gl::TexelFormat::rgba32ui};
-    stiffness_texels_ = {stiffnesses_, gl::TexelFormat::rg32f};
+    row_texels_ = {rows_, gl::TexelFormat::rgba32ui};
+    near_flat_texels_ = {near_flat_, gl::TexelFormat::r32ui};
+    spring_end_texels_ = {spring_ends_, gl::TexelFormat::rg32ui};
+    spring_texels_ = {springs_, gl::TexelFormat::rgba32f};
     spring_start_texels_ = {spring_starts_, gl::TexelFormat::r32ui};
     tet_corner_texels_ = {tet_corners_, gl::TexelFormat::rgba32ui};
     corner_start_texels_ = {corner_starts_, gl::TexelFormat::r32ui};
@@ -152,10 +187,6 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
         program->set("time_step", static_cast<float>(step));
         program->set("gravity", model.gravity);
     }
-    if (model.pulls) {
-        for (const gl::Program* program : {&sweep_program_, &force_program_, &sum_program_})
-            model.pulls->bind(*program);
-    }
     last_move_program_.set("contact_distance", static_cast<float>(kContactDistance));
     last_move_program_.set("resting_speed", static_cast<float>(resting_speed(model.gravity, step)));
     previous.position_texels.bind(1);
@@ -166,7 +197,10 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
     current.velocities.bind_storage(3);
     is_tangled_.bind_storage(4);
     starts_.bind_storage(5);
+    targets_.bind_storage(6);
+    if (touches_.size() > 0) touches_.bind_storage(7);
     model.bind_colliders(start_program_);
+    if (model.pulls) model.pulls->bind(start_program_);
     start_program_.set("node_count", node_count_);
     start_program_.set("object_count", object_count_);
     start_program_.set("has_earlier", has_earlier ? 1u : 0u);
@@ -175,6 +209,11 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
 
     current.position_texels.bind(0);
     start_texels_.bind(1);
+    target_texels_.bind(17);
+    near_flat_texels_.bind(18);
+    row_texels_.bind(3);
+    spring_start_texels_.bind(6);
+    if (damped_springs_) damp_springs(step);
     take_back_tangled(current);
     if (coarse_) coarse_->begin(step);
     for (int i = 0; i < settings_.iterations; ++i) {
@@ -186,6 +225,16 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
         if (coarse_ && !is_last && i % kSweepsACorrection == 0) correct(model, current);
         if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(model, current, is_last);
     }
+}
+
+void BlockDescent::damp_springs(double step) const {
+    spring_end_texels_.bind(4);
+    spring_texels_.bind(5);
+    damped_springs_->springs.bind_storage(0);
+    damped_springs_->program.set("time_step", static_cast<float>(step));
+    damped_springs_->program.set("row_count", static_cast<std::uint32_t>(rows_.size()));
+    damped_springs_->program.dispatch(rows_.size());
+    gl::barrier(gl::Barrier::texture_fetch);
 }
 
 void BlockDescent::take_back_tangled(const NodeBuffers& current) const {
@@ -221,7 +270,7 @@ void BlockDescent::look_at_tets() const {
     if (pressures_) pressures_->ratios.bind_storage(3);
     mark_program_.set("tet_count", tet_count_);
     mark_program_.dispatch(tet_count_);
-    gl::barrier(gl::Barrier::storage);
+    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
     if (!pressures_) return;
 
     pressures_->node_volume_texels.bind(11);
@@ -246,8 +295,8 @@ void BlockDescent::sweep(const ModelBuffers& model) const {
 void BlockDescent::descend(const gl::Program& program, const ModelBuffers& model,
                            std::span<const Range> rows) const {
     row_texels_.bind(3);
-    half_spring_texels_.bind(4);
-    stiffness_texels_.bind(5);
+    spring_end_texels_.bind(4);
+    (damped_springs_ ? damped_springs_->texels : spring_texels_).bind(5);
     spring_start_texels_.bind(6);
     model.bind_colliders(program);
     tet_corner_texels_.bind(8);

@@ -9,13 +9,14 @@
 #include "gpu/coarse_correction.h"
 #include "gpu/model_buffers.h"
 #include "gpu/node_buffers.h"
+#include "model/descent_rows.h"
 #include "model/model.h"
 #include "model/solver.h"
 
 namespace gelatin::gpu {
 
 /// Vertex block descent: shaders/sim/start_descent.comp, take_back_tangled.comp,
-/// accelerate_descent.comp, mark_flat_tets.comp,
+/// damp_springs.comp, accelerate_descent.comp, mark_flat_tets.comp,
 /// find_pressures.comp, descend.comp, sum_rigid_motions.comp, move_bodies.comp. CPU twin: cpu::BlockDescent.
 class BlockDescent {
 public:
@@ -41,6 +42,16 @@ private:
         gl::BufferTexture offset_texels;
     };
 
+    // Springs with their dampers in them, anew in each step.
+    struct DampedSprings {
+        explicit DampedSprings(std::size_t pairs);
+
+        gl::Program program;
+        gl::Buffer<glm::vec4> springs;
+        gl::BufferTexture texels;
+    };
+
+    void damp_springs(double step) const;
     void take_back_tangled(const NodeBuffers& current) const;
     void accelerate(int sweep) const;
     void look_at_tets() const;
@@ -54,12 +65,13 @@ private:
     DescentSettings settings_;
     std::uint32_t node_count_, tet_count_, object_count_;
     std::optional<Pressures> pressures_;
-    gl::Buffer<glm::vec4> sweep_starts_;  // empty without acceleration
-    std::vector<Range> colors_;           // rows
-    gl::Buffer<glm::uvec2> rows_;         // node, object
+    std::optional<DampedSprings> damped_springs_;  // where the model has dampers
+    gl::Buffer<glm::vec4> sweep_starts_;           // empty without acceleration
+    std::vector<Range> colors_;                    // rows
+    gl::Buffer<DescentRow> rows_;
     NeoHookeanBuffers::Corners neo_hookean_corners_;
-    gl::Buffer<HalfSpringPair> half_springs_;
-    gl::Buffer<glm::vec2> stiffnesses_;
+    gl::Buffer<glm::uvec2> spring_ends_;  // of pairs of half springs
+    gl::Buffer<glm::vec4> springs_;       // of each its rest length [m], stiffness [N/m]
     gl::Buffer<std::uint32_t> spring_starts_;
     gl::Buffer<TetCorner> tet_corners_;
     gl::Buffer<std::uint32_t> corner_starts_;
@@ -68,11 +80,13 @@ private:
     gl::Buffer<Chunk> chunks_;
     gl::Buffer<std::uint32_t> chunk_starts_;  // by object
     gl::Buffer<std::uint32_t> node_objects_;
-    gl::Buffer<glm::vec4> starts_;  // xyz, outside colliders [m], inverse mass [1/kg]
-    gl::BufferTexture start_texels_;
+    gl::Buffer<glm::vec4> starts_;   // xyz, outside colliders [m], inverse mass [1/kg]
+    gl::Buffer<glm::vec4> targets_;  // y [m], m / h^2 [N/m]
+    gl::BufferTexture start_texels_, target_texels_;
     gl::BufferTexture node_object_texels_;
-    gl::BufferTexture row_texels_, half_spring_texels_, stiffness_texels_, spring_start_texels_,
-        tet_corner_texels_, corner_start_texels_, tet_texels_, tet_rest_texels_, chunk_start_texels_;
+    gl::BufferTexture near_flat_texels_, row_texels_, spring_end_texels_, spring_texels_,
+        spring_start_texels_, tet_corner_texels_, corner_start_texels_, tet_texels_, tet_rest_texels_,
+        chunk_start_texels_;
     gl::Buffer<std::uint32_t> near_flat_, object_touches_, is_tangled_;
     gl::Buffer<Touch> touches_;  // of nodes in the last sweep; empty without colliders
     gl::Buffer<glm::dvec4> rigid_sums_;

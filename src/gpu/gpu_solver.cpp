@@ -28,6 +28,7 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, Forc
     if (!model_->handles.empty()) apply_kinematics_.emplace(*model_);
     if (!model_->loads.empty()) sum_loads_.emplace(*model_);
     if (!model_->volume_term.is_empty() && solver != SolverKind::vbd) find_volume_stresses_.emplace(*model_);
+    if (solver == SolverKind::vbd) shape_matcher_.emplace(*model_);
     make_integrator();
 }
 
@@ -58,6 +59,7 @@ void GpuSolver::apply_kinematics(std::span<const HandleMotion> motions) {
 void GpuSolver::advance_nodes(double step) {
     if (block_descent_) {
         std::swap(current_, previous_);
+        shape_matcher_->run(previous_);
         if (sum_loads_) sum_loads_->run(previous_);
         block_descent_->run(buffers_, previous_, current_, step, std::exchange(has_earlier_, true));
         return;

@@ -10,6 +10,7 @@
 #include "gpu/collision.h"
 #include "gpu/divide_and_merge.h"
 #include "gpu/find_volume_stresses.h"
+#include "gpu/match_shapes.h"
 #include "gpu/measure.h"
 #include "gpu/model_buffers.h"
 #include "gpu/node_buffers.h"
@@ -70,6 +71,7 @@ private:
     NodeBuffers current_, previous_;             // swapped by each step: where it ended, and where it started
     NodeBuffers stage_[2], sums_;                // between the passes of one step
     std::optional<BlockDescent> block_descent_;  // instead of the scheme
+    std::optional<ShapeMatcher> shape_matcher_;  // before block descent
     bool has_earlier_ = false;                   // previous_ is one step earlier: vbd looks back
     std::optional<ApplyKinematics> apply_kinematics_;         // where the scene has handles
     std::optional<SumLoads> sum_loads_;                       // where it has loads

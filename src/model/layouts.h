@@ -27,6 +27,7 @@ using glm::vec4;
 #include "layouts/object_pair.glsl"
 #include "layouts/proximity.glsl"
 #include "layouts/rest_shape.glsl"
+#include "layouts/shape_match.glsl"
 #include "layouts/spring.glsl"
 #include "layouts/surface_vertex.glsl"
 #include "layouts/tree_node.glsl"
@@ -43,6 +44,7 @@ static_assert(sizeof(CoarseBody) == 16);
 static_assert(sizeof(Collider) == 64);
 static_assert(sizeof(ContactPatch) == 48);
 static_assert(sizeof(ContactResponse) == 48);
+static_assert(sizeof(DescentRow) == 16);
 static_assert(sizeof(Dispatch) == 16);
 static_assert(sizeof(Draw) == 16);
 static_assert(sizeof(Face) == 16);
@@ -62,8 +64,11 @@ static_assert(sizeof(ObjectPair) == 32);
 static_assert(sizeof(PairRow) == 16);
 static_assert(sizeof(Proximity) == 48);
 static_assert(sizeof(ProximityCounts) == 16);
+static_assert(sizeof(RestMoment) == 48);
 static_assert(sizeof(RestShape) == 48);
 static_assert(sizeof(RigidMotion) == 80);
+static_assert(sizeof(ShapePlace) == 96);
+static_assert(sizeof(ShapeSums) == 80);
 static_assert(sizeof(Touch) == 32);
 static_assert(sizeof(Spring) == 16);
 static_assert(sizeof(SurfaceVertex) == 16);
@@ -85,6 +90,7 @@ using layouts::CoarseBody;
 using layouts::Collider;
 using layouts::ContactPatch;
 using layouts::ContactResponse;
+using layouts::DescentRow;
 using layouts::Dispatch;
 using layouts::Draw;
 using layouts::Face;
@@ -104,8 +110,11 @@ using layouts::ObjectPair;
 using layouts::PairRow;
 using layouts::Proximity;
 using layouts::ProximityCounts;
+using layouts::RestMoment;
 using layouts::RestShape;
 using layouts::RigidMotion;
+using layouts::ShapePlace;
+using layouts::ShapeSums;
 using layouts::Spring;
 using layouts::SurfaceVertex;
 using layouts::TetCorner;

@@ -12,11 +12,40 @@ std::uint32_t node_count(const Graph& graph) {
     return static_cast<std::uint32_t>(graph.starts.size() - 1);
 }
 
-std::vector<std::uint32_t> by_falling_degree(const Graph& graph) {
-    std::vector<std::uint32_t> order(node_count(graph));
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return graph.degree(a) > graph.degree(b); });
+std::uint32_t highest_degree(const Graph& graph) {
+    std::uint32_t highest = 0;
+    for (std::uint32_t n = 0; n < node_count(graph); ++n) highest = std::max(highest, graph.degree(n));
+    return highest;
+}
+
+// The node that has the fewest neighbours among those that are left goes last, one by one: each then has few
+// before it. Nodes wait in lists by that number, once for each that they have had; the last one counts.
+std::vector<std::uint32_t> smallest_last(const Graph& graph) {
+    std::vector<std::uint32_t> left(node_count(graph));  // neighbours that are left
+    std::vector<std::vector<std::uint32_t>> waiting(highest_degree(graph) + 1);
+    for (std::uint32_t n = 0; n < left.size(); ++n) {
+        left[n] = graph.degree(n);
+        waiting[left[n]].push_back(n);
+    }
+    std::vector<std::uint32_t> order;
+    std::vector<bool> is_placed(left.size(), false);
+    for (std::uint32_t least = 0; order.size() < left.size();) {
+        if (waiting[least].empty()) {
+            ++least;
+            continue;
+        }
+        const std::uint32_t n = waiting[least].back();
+        waiting[least].pop_back();
+        if (is_placed[n] || left[n] != least) continue;
+        is_placed[n] = true;
+        order.push_back(n);
+        for (const std::uint32_t other : graph.row(n)) {
+            if (is_placed[other]) continue;
+            waiting[--left[other]].push_back(other);
+            least = std::min(least, left[other]);
+        }
+    }
+    std::reverse(order.begin(), order.end());
     return order;
 }
 
@@ -39,11 +68,9 @@ private:
 };
 
 std::vector<std::uint32_t> color_greedily(const Graph& graph) {
-    std::uint32_t highest = 0;
-    for (std::uint32_t n = 0; n < node_count(graph); ++n) highest = std::max(highest, graph.degree(n));
-    Neighbors neighbors(highest + 1);
+    Neighbors neighbors(highest_degree(graph) + 1);
     std::vector<std::uint32_t> colors(node_count(graph), kNoColor);
-    for (const std::uint32_t n : by_falling_degree(graph)) {
+    for (const std::uint32_t n : smallest_last(graph)) {
         neighbors.look(graph, colors, n);
         colors[n] = 0;
         while (!neighbors.allow(colors[n])) ++colors[n];

@@ -20,9 +20,11 @@ struct NodeColors {
     }
 };
 
-/// Greedy colours, nodes of the highest degree first, then balanced: nodes of colours that are larger than
-/// the mean move into the smallest that their neighbours allow. At most the highest degree and one; the same
-/// for the same graph.
+/// Greedy colours, smallest last (Matula, Beck: *Smallest-Last Ordering and Clustering and Graph Coloring
+/// Algorithms*, Journal of the ACM 30(3), 1983), then balanced: nodes of colours that are larger than the
+/// mean move into the smallest that their neighbours allow. At most as many as the densest part of the graph
+/// asks for: one more than the largest k for which some subgraph's nodes all have k neighbours in it. The
+/// same for the same graph.
 NodeColors color_nodes(const Graph& graph);
 
 /// Neighbours are the ends of a spring, and the corners of a tet.

@@ -15,6 +15,7 @@
 #include "model/start_state.h"
 #include "sim/backend.h"
 #include "sim/carry_over.h"
+#include "sim/check_starts.h"
 #include "sim/checkpoint.h"
 #include "sim/draw_source.h"
 #include "sim/overlay_source.h"
@@ -137,6 +138,9 @@ Simulator::Simulator(const Scene& scene, std::shared_ptr<const Model> model, con
     d.watch.emplace(d.scene, d.model, d.substeps);
     if (start) d.watch->begin(*start, {});
     for (const std::string& line : check_model(*d.model, scene, d.step_size())) spdlog::warn(line);
+    for (const std::string& line :
+         check_starts(*d.model, scene, start ? start->positions : d.model->positions))
+        spdlog::warn(line);
 }
 
 Simulator::Simulator(Simulator&&) noexcept = default;

@@ -8,6 +8,7 @@
 
 #include "cpu/cpu_solver.h"
 #include "cpu/node_terms.h"
+#include "support/descend_on_gpu.h"
 #include "support/test_models.h"
 
 namespace gelatin {
@@ -256,6 +257,26 @@ TEST(BlockDescent, FrictionIsCoulombs) {
     }
     EXPECT_NEAR(way.x / mass, speed * speed / (2 * 0.3 * 9.81), 0.03);
     EXPECT_LT(glm::length(momenta_of(nodes).linear) / mass, 0.01);
+}
+
+// SIMD, on bodies in all states that it tells apart: free, held, on the floor, against a sphere, with flat
+// tets.
+TEST(BlockDescent, InFloatIsTheDoubleReference) {
+    for (const double damping : {0.0, 0.01}) {
+        for (const double poisson_ratio : {0.25, 0.4}) {
+            const Model model = test::make_bodies_to_descend(damping, poisson_ratio);
+            ASSERT_NE(model.node_count() % cpu::kGroup, 0u);
+            for (const double step : {1e-3, 1.0 / 60.0}) {
+                for (const int iterations : {1, 2, 3, 10}) {
+                    const cpu::Nodes<float> nodes = run_steps<float>(model, step, 1, iterations);
+                    const test::NodeArrays actual{nodes.positions, nodes.velocities};
+                    EXPECT_LE(test::worst_descent_error(model, {step, {iterations}}, actual), 1.0)
+                        << damping << " s, " << poisson_ratio << ", " << step << " s, " << iterations
+                        << " sweeps";
+                }
+            }
+        }
+    }
 }
 
 TEST(BlockDescent, IsTheSameForAnyNumberOfThreads) {

@@ -2,9 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <random>
 
+#include "cpu/descend_groups.h"
+#include "cpu/spring_blocks.h"
 #include "support/test_models.h"
 
 namespace gelatin {
@@ -28,27 +29,33 @@ TEST(SpringTerms, WithSimdAreThePlainOnes) {
     const std::vector<glm::dvec4> positions_d(model.positions.begin(), model.positions.end()),
         starts_d(starts.begin(), starts.end());
     const float inverse_step = 60.0f;
-    const cpu::SpringRows<float> in_float{rows, model.positions.data(), starts.data(), inverse_step};
     const cpu::SpringRows<double> in_double{rows, positions_d.data(), starts_d.data(),
                                             static_cast<double>(inverse_step)};
+    const cpu::SpringBlocks springs = cpu::make_spring_blocks(rows);
+    cpu::SpringBlocks damped = springs;
+    cpu::damp_springs(springs, rows.nodes, starts.data(), inverse_step, damped);
+    const std::vector<glm::vec4> held(model.node_count(),
+                                      glm::vec4(0.0f));  // nothing but springs, and no step
+    const cpu::DescentGroups groups{damped, rows.nodes, held, {}};
     float largest = 0.0f;
     for (const Spring& s : model.springs) largest = std::max(largest, s.stiffness);
     int looked_at = 0;
-    for (std::uint32_t slice = 0; slice < rows.nodes.size() / HalfSprings::kSlice; ++slice) {
-        std::array<cpu::NodeTerms<float>, HalfSprings::kSlice> actual;
-        std::array<cpu::NodeTerms<double>, HalfSprings::kSlice> expected;
-        cpu::gather_spring_terms_simd(in_float, slice, actual.data());
-        cpu::gather_spring_terms(in_double, slice, expected.data());
-        for (std::uint32_t row = 0; row < HalfSprings::kSlice; ++row) {
-            if (rows.nodes[slice * HalfSprings::kSlice + row] == kNoNode) continue;
+    for (std::uint32_t group = 0; group < rows.nodes.size() / cpu::kGroup; ++group) {
+        cpu::TermColumns columns;
+        EXPECT_EQ(cpu::descend_group(groups, group, columns, model.positions), 0u);
+        for (std::uint32_t row = 0; row < cpu::kGroup; ++row) {
+            const std::uint32_t node = rows.nodes[group * cpu::kGroup + row];
+            if (node == kNoNode) continue;
             ++looked_at;
+            const cpu::NodeTerms<float> actual = columns.row(row);
+            const cpu::NodeTerms<double> expected =
+                cpu::gather_spring_terms(in_double, group * cpu::kGroup + row);
             // Positions of some metres, to rounding; a node has some forty springs.
             const double bound = 40 * 1e-5 * static_cast<double>(largest);
-            EXPECT_LT(glm::distance(glm::dvec3(actual[row].force), expected[row].force), bound);
-            EXPECT_LT(glm::distance(glm::dvec3(actual[row].hessian.diagonal), expected[row].hessian.diagonal),
-                      bound);
-            EXPECT_LT(glm::distance(glm::dvec3(actual[row].hessian.beside), expected[row].hessian.beside),
-                      bound);
+            EXPECT_LT(glm::distance(glm::dvec3(actual.force), expected.force), bound);
+            EXPECT_LT(glm::distance(glm::dvec3(actual.hessian.diagonal), expected.hessian.diagonal), bound);
+            EXPECT_LT(glm::distance(glm::dvec3(actual.hessian.beside), expected.hessian.beside), bound);
+            EXPECT_EQ(glm::dvec4(model.positions[node]), positions_d[node]) << "a held node has moved";
         }
     }
     EXPECT_EQ(looked_at, static_cast<int>(model.node_count()));

@@ -69,6 +69,16 @@ TEST_F(LayoutsTest, Clusters) {
           {FIELD(CoarseBody, first), FIELD(CoarseBody, count), FIELD(CoarseBody, matrix),
            FIELD(CoarseBody, length)});
 }
+TEST_F(LayoutsTest, ShapeMatching) {
+    check("shape_match.glsl", "RestMoment", sizeof(RestMoment),
+          {FIELD(RestMoment, inverse_x), FIELD(RestMoment, inverse_y), FIELD(RestMoment, inverse_z)});
+    check("shape_match.glsl", "ShapeSums", sizeof(ShapeSums),
+          {FIELD(ShapeSums, column_x), FIELD(ShapeSums, column_y), FIELD(ShapeSums, column_z),
+           FIELD(ShapeSums, momentum), FIELD(ShapeSums, spin)});
+    check("shape_match.glsl", "ShapePlace", sizeof(ShapePlace),
+          {FIELD(ShapePlace, center), FIELD(ShapePlace, turn_x), FIELD(ShapePlace, turn_y),
+           FIELD(ShapePlace, turn_z), FIELD(ShapePlace, velocity), FIELD(ShapePlace, spin)});
+}
 TEST_F(LayoutsTest, Alarm) {
     check("alarm.glsl", "Alarm", sizeof(Alarm),
           {FIELD(Alarm, step), FIELD(Alarm, node), FIELD(Alarm, count), FIELD(Alarm, speed)});
@@ -186,6 +196,9 @@ TEST_F(LayoutsTest, Dispatch) {
 }
 
 TEST_F(LayoutsTest, Descent) {
+    check("descent.glsl", "DescentRow", sizeof(DescentRow),
+          {FIELD(DescentRow, node), FIELD(DescentRow, object), FIELD(DescentRow, pairs),
+           FIELD(DescentRow, unused)});
     check("descent.glsl", "TetCorner", sizeof(TetCorner),
           {FIELD(TetCorner, a), FIELD(TetCorner, b), FIELD(TetCorner, c), FIELD(TetCorner, tet)});
     check("descent.glsl", "Touch", sizeof(Touch), {FIELD(Touch, force), FIELD(Touch, normal)});

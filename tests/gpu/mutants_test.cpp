@@ -11,6 +11,7 @@
 #include "support/drive_on_gpu.h"
 #include "support/folded.h"
 #include "support/gl_fixture.h"
+#include "support/lost_shapes.h"
 #include "support/measure_on_gpu.h"
 #include "support/parity.h"
 #include "support/proximities.h"
@@ -170,6 +171,16 @@ TEST_P(DescentMutantsTest, IsCaught) {
     look(model, {kFrame, {5, 0.8}});
     look(model, {kFrame, {1}, model.velocities});
     EXPECT_TRUE(caught) << "the broken kernel passes";
+}
+
+class MatchingMutantsTest : public test::GlTest, public ::testing::WithParamInterface<test::Break> {};
+INSTANTIATE_TEST_SUITE_P(All, MatchingMutantsTest, ::testing::ValuesIn(test::kMatchingMutants),
+                         name_of_mutant);
+
+TEST_P(MatchingMutantsTest, IsCaught) {
+    test::ShaderFolder folder;
+    break_shaders(GetParam(), folder);
+    EXPECT_GT(test::worst_matching_error(), 1.0) << "the broken kernel passes";
 }
 
 class NeoHookeanMutantsTest : public test::GlTest, public ::testing::WithParamInterface<test::Break> {};

@@ -60,6 +60,17 @@ TEST(NodeColors, NeighboursDiffer) {
     }
 }
 
+// The order takes at most one colour more than the highest k for which some subgraph's nodes all have k
+// neighbours in it; a tree has no such part above 1, whatever its degrees.
+TEST(NodeColors, OfATreeAreTwo) {
+    std::mt19937 random(5);
+    std::vector<glm::uvec2> edges;
+    for (std::uint32_t n = 1; n < 1000; ++n) edges.emplace_back(static_cast<std::uint32_t>(random() % n), n);
+    const Graph tree = make_graph(1000, edges);
+    EXPECT_EQ(color_nodes(tree).count(), 2u);
+    expect_colored(tree, color_nodes(tree));
+}
+
 TEST(NodeColors, AreBalanced) {
     const NodeColors colors = color_nodes(graph_of_block());
     const double mean = static_cast<double>(colors.nodes.size()) / colors.count();

@@ -189,7 +189,7 @@ TEST_P(NeoHookeanHangingBar, AnswersAsRecorded) {
 }
 
 // Spheres at 60 steps a second are their own shape again after five seconds (the softest, which swing,
-// twenty). What random starts of bodies that hardly change their volume may end in instead: docs/physics.md.
+// twenty).
 TEST(NeoHookeanRecoveryHeavy, SpheresRecoverFromAnyStart) {
     SphereShape shape;
     shape.radius = 0.2;
@@ -199,30 +199,29 @@ TEST(NeoHookeanRecoveryHeavy, SpheresRecoverFromAnyStart) {
     for (const double nu : {0.25, 0.4}) {
         for (const double modulus : {1e3, 1e6, 1e9}) {
             for (const int start : {random, plane, point}) {
-                if (nu > 0.3 && start != plane) continue;
                 Body body = make_body(mesh, nu);
                 body.material.youngs_modulus = modulus;
                 body.material.damping = modulus < 1e4 ? 0.02 : 0.0;
-                const Model rest = test::make_model(body, {0.0, -9.81, 0.0});
-                Model model = rest;
+                const auto rest = std::make_shared<const Model>(test::make_model(body, {0.0, -9.81, 0.0}));
+                State state{rest->positions, rest->velocities, {}};
                 std::mt19937 generator(1);
                 std::uniform_real_distribution<float> unit(-0.2f, 0.2f);
-                for (glm::vec4& p : model.positions) {
+                for (glm::vec4& p : state.positions) {
                     const float x = unit(generator), y = unit(generator), z = unit(generator);
                     if (start == random) p = glm::vec4(x, y, z, p.w);
                     if (start == plane) p.y = 0.0f;
                     if (start == point) p = glm::vec4(0.0f, 0.0f, 0.0f, p.w);
                 }
-                cpu::CpuSolver<float> solver(std::make_shared<const Model>(model), SolverKind::vbd,
-                                             ForceMethod::fused, {}, {20});
+                cpu::CpuSolver<float> solver(rest, SolverKind::vbd, ForceMethod::fused, {}, {20});
+                solver.write_state(state);
                 const int steps = modulus < 1e4 ? 1200 : 300;
                 for (int s = 0; s < steps; ++s) solver.advance_nodes(1.0 / 60.0);
                 double worst = 0.0;
-                for (const glm::uvec2& edge : tet_edges(rest.tets)) {
+                for (const glm::uvec2& edge : tet_edges(rest->tets)) {
                     const auto length = [&](const auto& positions) {
                         return glm::distance(glm::dvec3(positions[edge.x]), glm::dvec3(positions[edge.y]));
                     };
-                    const double stretch = length(solver.nodes().positions) / length(rest.positions);
+                    const double stretch = length(solver.nodes().positions) / length(rest->positions);
                     worst = std::max(worst, std::abs(stretch - 1.0));
                 }
                 // A random start has a spin, which stays, and stretches the softest by more than a hundredth.

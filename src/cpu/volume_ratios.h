@@ -1,0 +1,14 @@
+#pragma once
+
+#include "cpu/nodes.h"
+#include "model/model.h"
+
+namespace gelatin::cpu {
+
+/// True if all of these tets have between `least` and `most` of their volume at rest; with SIMD for the
+/// processor it runs on.
+/// @param ratios where their shares go, shape [tets of the model], or null
+bool volumes_are_within(float least, float most, const Model& model, const Range& tets,
+                        const glm::vec4* positions, float* ratios);
+
+}  // namespace gelatin::cpu

@@ -1,0 +1,77 @@
+#include "sim/check_starts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "cpu/colliders.h"
+#include "model/pack_colliders.h"
+
+namespace gelatin {
+namespace {
+
+struct Depth {
+    double depth = 0.0;  // [m]
+    glm::dvec3 out{0.0};
+};
+
+Depth deepest(const Collider& collider, std::span<const glm::vec4> nodes) {
+    Depth result;
+    for (const glm::vec4& p : nodes) {
+        if (p.w == 0.0f) continue;  // held nodes are where they are told to be
+        const cpu::SurfaceDistance<double> surface = cpu::surface_distance(collider, glm::dvec3(p));
+        if (-surface.distance > result.depth) result = {-surface.distance, surface.normal};
+    }
+    return result;
+}
+
+double thickness_along(const glm::dvec3& direction, std::span<const glm::vec4> nodes) {
+    double least = glm::dot(direction, glm::dvec3(nodes.front())), most = least;
+    for (const glm::vec4& p : nodes) {
+        const double along = glm::dot(direction, glm::dvec3(p));
+        least = std::min(least, along);
+        most = std::max(most, along);
+    }
+    return most - least;
+}
+
+const char* name_of(const Collider& collider) {
+    constexpr const char* kNames[] = {"plane", "box", "sphere", "capsule"};
+    return kNames[collider.kind];
+}
+
+}  // namespace
+
+std::vector<std::string> check_starts(const Model& model, const Scene& scene,
+                                      std::span<const glm::vec4> positions) {
+    std::vector<std::string> lines;
+    for (std::size_t c = 0; c < scene.colliders.size(); ++c) {
+        const Collider collider = pack_colliders({scene.colliders[c]}).front();
+        std::string first;
+        std::size_t others = 0;
+        for (const ModelObject& object : model.objects) {
+            const auto of_object = [&](std::span<const glm::vec4> nodes) {
+                return nodes.subspan(object.nodes.first, object.nodes.count);
+            };
+            const Depth found = deepest(collider, of_object(positions));
+            if (found.depth == 0.0) continue;
+            const double allowed = 0.5 * thickness_along(found.out, of_object(model.positions));
+            if (found.depth <= allowed) continue;
+            if (!first.empty()) {
+                ++others;
+                continue;
+            }
+            first = fmt::format(
+                "object '{}': starts {:.3g} m deep inside collider {} (a {}), which may tear it as its nodes "
+                "are "
+                "pushed out; at most {:.3g} m, half of its thickness there, are allowed for",
+                object.name, found.depth, c + 1, name_of(collider), allowed);
+        }
+        if (first.empty()) continue;
+        lines.push_back(first + (others > 0 ? fmt::format(" (and {} more objects)", others) : ""));
+    }
+    return lines;
+}
+
+}  // namespace gelatin

@@ -1,0 +1,45 @@
+#include "sim/check_starts.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/test_models.h"
+
+namespace gelatin {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+// A block of 1 x 0.4 x 1 m from the origin on, with a floor beneath it at `height`, and a sphere far away.
+std::vector<std::string> check(double height, const std::vector<Region>& pins = {}) {
+    Scene scene;
+    scene.colliders.resize(2);
+    scene.colliders[0].shape = SphereCollider{0.5};
+    scene.colliders[0].position = {9.0, 0.0, 0.0};
+    scene.colliders[1].shape = PlaneCollider{{0.0, 1.0, 0.0}, height};
+    Body body = test::make_body(test::make_block({3, 2, 3}, {1.0, 0.4, 1.0}));
+    body.name = "jelly";
+    body.pins = pins;
+    const Model model = pack_bodies({body}, scene.colliders, {0.0, 0.0, 0.0});
+    return check_starts(model, scene, model.positions);
+}
+
+TEST(CheckStarts, HasNothingToSayOutsideAndNotDeepInside) {
+    EXPECT_THAT(check(-0.1), IsEmpty());
+    EXPECT_THAT(check(0.19), IsEmpty());
+}
+
+TEST(CheckStarts, TellsOfObjectsDeepInside) {
+    EXPECT_THAT(check(0.25),
+                ElementsAre("object 'jelly': starts 0.25 m deep inside collider 2 (a plane), which "
+                            "may tear it as its nodes are pushed out; at most 0.2 m, half of its "
+                            "thickness there, are allowed for"));
+}
+
+TEST(CheckStarts, LooksAtFreeNodesAlone) {
+    EXPECT_THAT(check(0.25, {HalfSpaceRegion{{0.0, 1.0, 0.0}, 1.0}}), IsEmpty());
+}
+
+}  // namespace
+}  // namespace gelatin
