@@ -1,10 +1,7 @@
 // Compiled twice: as GLSL (std430) and as C++ (src/model/layouts.h).
 // A cluster of the coarse basis at rest, and as it is in a step.
-struct ClusterRest {     // 80 bytes
+struct ClusterRest {     // 32 bytes
     vec4  middle;        // of its core [m]
-    vec4  inverse_moment_x;  // columns [1/(kg m^2)]
-    vec4  inverse_moment_y;
-    vec4  inverse_moment_z;
     uint  object;
     uint  core_first;    // nodes of its core
     uint  core_end;

@@ -1,7 +1,7 @@
 // How each cluster is turned, and where its middle is; one work group a cluster.
 // CPU twin: gelatin::cpu::CoarseCorrection::begin. Parity: tests/gpu/block_descent_test.cpp.
 #include "include/global_index.glsl"
-#include "include/nearest_turn.glsl"
+#include "include/nearest_rotation.glsl"
 #include "layouts/cluster.glsl"
 layout(local_size_x = 64) in;
 
@@ -40,8 +40,7 @@ void main() {
         sums.moved += parts[l].moved;
         sums.moment += parts[l].moment;
     }
-    mat3 turn = nearest_turn(sums.moment * mat3(rest.inverse_moment_x.xyz, rest.inverse_moment_y.xyz,
-                                                rest.inverse_moment_z.xyz));
+    mat3 turn = nearest_rotation(sums.moment);
     clusters[k].middle = vec4(origin + sums.moved.xyz / sums.moved.w, 0.0);
     clusters[k].turn_x = vec4(turn[0], 0.0);
     clusters[k].turn_y = vec4(turn[1], 0.0);

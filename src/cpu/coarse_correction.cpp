@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "cpu/nearest_turn.h"
+#include "cpu/nearest_rotation.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -40,7 +40,7 @@ void CoarseCorrection<Real>::begin(Real step, std::span<const Vec4<Real>> positi
             mass += m;
         }
         clusters_[k].middle = origin + sum / mass;
-        clusters_[k].turn = nearest_turn(moment * glm::mat<3, 3, Real>(basis_.inverse_moments[k]));
+        clusters_[k].turn = glm::mat<3, 3, Real>(nearest_rotation(glm::dmat3(moment)));
     });
 }
 

@@ -18,10 +18,8 @@ std::vector<ClusterRest> rests_of(const CoarseBasis& basis) {
     for (std::uint32_t o = 0; o < basis.objects.size(); ++o) {
         const Range& clusters = basis.objects[o];
         for (std::uint32_t k = clusters.first; k < clusters.end(); ++k) {
-            const glm::mat3 inverse(basis.inverse_moments[k]);
-            rests.push_back({glm::vec4(glm::vec3(basis.middles[k]), 0.0f), glm::vec4(inverse[0], 0.0f),
-                             glm::vec4(inverse[1], 0.0f), glm::vec4(inverse[2], 0.0f), o,
-                             basis.core_starts[k], basis.core_starts[k + 1], 6 * (k - clusters.first)});
+            rests.push_back({glm::vec4(glm::vec3(basis.middles[k]), 0.0f), o, basis.core_starts[k],
+                             basis.core_starts[k + 1], 6 * (k - clusters.first)});
         }
     }
     return rests;

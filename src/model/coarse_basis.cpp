@@ -7,7 +7,6 @@
 #include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <limits>
 #include <queue>
 #include <utility>
@@ -26,9 +25,6 @@ constexpr double kSmoothed = 0.6;
 
 // Smaller weights are left out.
 constexpr float kLeastWeight = 0.03f;
-
-// Of the trace of a cluster's moment, added to it: clusters may be flat, or a line.
-constexpr double kLeastWidth = 1e-6;
 
 // One object's.
 struct Clusters {
@@ -167,13 +163,6 @@ void append_core(const Model& model, const Range& nodes, std::uint32_t k, const 
     }
     basis.core_starts.push_back(static_cast<std::uint32_t>(basis.core_nodes.size()));
     basis.middles.push_back(sum / mass);
-    glm::dmat3 moment(0.0);
-    for (const std::uint32_t n : basis.core_of(basis.cluster_count() - 1)) {
-        const glm::dvec3 x = glm::dvec3(model.positions[n]) - basis.middles.back();
-        moment += glm::outerProduct(static_cast<double>(model.masses[n]) * x, x);
-    }
-    const double trace = moment[0][0] + moment[1][1] + moment[2][2];
-    basis.inverse_moments.push_back(glm::inverse(moment + glm::dmat3(kLeastWidth * trace)));
 }
 
 void append(const Model& model, const Range& nodes, const Clusters& clusters, CoarseBasis& basis) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
@@ -32,8 +31,6 @@ struct CoarseBasis {
     std::vector<std::uint32_t> core_starts;     ///< shape [clusters + 1]
     std::vector<std::uint32_t> core_nodes;      ///< of each cluster those that are in no other one's core
     std::vector<glm::dvec3> middles;            ///< c at rest: of the core's mass [m], shape [clusters]
-    /// (sum_i m_i X_i X_i^T)^-1 [1/(kg m^2)] over the core's nodes, X from the middle at rest.
-    std::vector<glm::dmat3> inverse_moments;
 
     std::uint32_t cluster_count() const { return static_cast<std::uint32_t>(middles.size()); }
     std::span<const Part> clusters_of(std::uint32_t node) const {

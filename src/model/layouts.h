@@ -39,7 +39,7 @@ static_assert(sizeof(BoundingBox) == 48);
 static_assert(sizeof(Box) == 32);
 static_assert(sizeof(Chunk) == 16);
 static_assert(sizeof(Cluster) == 96);
-static_assert(sizeof(ClusterRest) == 80);
+static_assert(sizeof(ClusterRest) == 32);
 static_assert(sizeof(CoarseBody) == 16);
 static_assert(sizeof(Collider) == 64);
 static_assert(sizeof(ContactPatch) == 48);

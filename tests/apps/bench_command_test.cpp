@@ -26,15 +26,17 @@ protected:
         const std::string sphere =
             "shape = { sphere = 0.5, frequency = 3 }\nmesher = { max_volume = 1 }\nmaterial = 'jelly'\n";
         std::filesystem::create_directory(path("small"));
-        write("small/free_fall.toml", "[simulation]\nframe_rate = 1000\nframes = 5000\n" + material +
-                                          "[[object]]\nname = 'low'\n" + sphere +
-                                          "position = [0, 0.5, 0]\n[[object]]\nname = 'high'\n" + sphere +
-                                          "position = [0, 1.55, 0]\nvelocity = [0, -2, "
-                                          "0]\n[[collider]]\nshape = { plane = [0, 1, 0] }\n");
+        write("small/free_fall.toml",
+              "[simulation]\nsolver = 'semi_implicit_euler'\nframe_rate = 1000\nframes = 5000\n" + material +
+                  "[[object]]\nname = 'low'\n" + sphere +
+                  "position = [0, 0.5, 0]\n[[object]]\nname = 'high'\n" + sphere +
+                  "position = [0, 1.55, 0]\nvelocity = [0, -2, "
+                  "0]\n[[collider]]\nshape = { plane = [0, 1, 0] }\n");
         write("small/collision.toml",
-              "[simulation]\nframe_rate = 1000\nframes = 5000\ngravity = [0, 0, 0]\n" + material +
-                  "[[object]]\nname = 'left'\n" + sphere + "[[object]]\nname = 'right'\n" + sphere +
-                  "position = [1.1, 0, 0]\nvelocity = [-2, 0, 0]\n");
+              "[simulation]\nsolver = 'semi_implicit_euler'\nframe_rate = 1000\nframes = 5000\ngravity = [0, "
+              "0, 0]\n" +
+                  material + "[[object]]\nname = 'left'\n" + sphere + "[[object]]\nname = 'right'\n" +
+                  sphere + "position = [1.1, 0, 0]\nvelocity = [-2, 0, 0]\n");
     }
 
     static constexpr int kFrames = 75;

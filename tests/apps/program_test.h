@@ -20,6 +20,7 @@ protected:
     ProgramTest() {
         write("cube.toml",
               "[simulation]\n"
+              "solver = 'semi_implicit_euler'\n"
               "frame_rate = 100\n"
               "frames = 20\n"
               "[[material]]\n"

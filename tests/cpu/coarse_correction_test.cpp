@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 
-#include "cpu/nearest_turn.h"
 #include "cpu/rigid_motion.h"
 #include "support/coarse_motions.h"
 #include "support/test_models.h"
@@ -92,23 +90,6 @@ TEST(CoarseCorrection, GoesDownhillWhateverTheShape) {
         }
         EXPECT_GT(work, 0.0);
     }
-}
-
-TEST(NearestTurn, UndoesAStretch) {
-    const glm::dmat3 turn = cpu::cayley_turn({0.5, -2.0, 1.0});
-    const glm::dmat3 stretch(glm::dvec3(1.5, 0.2, 0.1), glm::dvec3(0.2, 0.7, -0.1),
-                             glm::dvec3(0.1, -0.1, 1.1));
-    const glm::dmat3 found = cpu::nearest_turn(turn * stretch);
-    for (int c = 0; c < 3; ++c) EXPECT_LT(glm::distance(found[c], turn[c]), 1e-12);
-}
-
-TEST(NearestTurn, IsNoneForWhatIsMirroredFlatOrNotFinite) {
-    const glm::dmat3 none(1.0);
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(cpu::nearest_turn(glm::dmat3(-1.0)), none);
-    EXPECT_EQ(cpu::nearest_turn(glm::dmat3(0.0)), none);
-    EXPECT_EQ(cpu::nearest_turn(glm::dmat3(100.0)), none);
-    EXPECT_EQ(cpu::nearest_turn(glm::dmat3(nan)), none);
 }
 
 }  // namespace

@@ -61,10 +61,8 @@ TEST_F(LayoutsTest, Clusters) {
           {FIELD(Cluster, middle), FIELD(Cluster, turn_x), FIELD(Cluster, turn_y), FIELD(Cluster, turn_z),
            FIELD(Cluster, shift), FIELD(Cluster, spin)});
     check("cluster.glsl", "ClusterRest", sizeof(ClusterRest),
-          {FIELD(ClusterRest, middle), FIELD(ClusterRest, inverse_moment_x),
-           FIELD(ClusterRest, inverse_moment_y), FIELD(ClusterRest, inverse_moment_z),
-           FIELD(ClusterRest, object), FIELD(ClusterRest, core_first), FIELD(ClusterRest, core_end),
-           FIELD(ClusterRest, row)});
+          {FIELD(ClusterRest, middle), FIELD(ClusterRest, object), FIELD(ClusterRest, core_first),
+           FIELD(ClusterRest, core_end), FIELD(ClusterRest, row)});
     check("cluster.glsl", "CoarseBody", sizeof(CoarseBody),
           {FIELD(CoarseBody, first), FIELD(CoarseBody, count), FIELD(CoarseBody, matrix),
            FIELD(CoarseBody, length)});

@@ -256,8 +256,7 @@ inline constexpr Break kMatchingMutants[] = {
 
 // Of vertex block descent.
 inline constexpr Break kDescentMutants[] = {
-    {"clusters_do_not_turn", "include/nearest_turn.glsl", "mat3 turn = map;", "return mat3(1.0); mat3 turn;"},
-    {"turns_are_not_orthogonal", "include/nearest_turn.glsl", "i < 10", "i < 1"},
+    {"clusters_do_not_turn", "sim/turn_clusters.comp", "nearest_rotation(sums.moment)", "mat3(1.0)"},
     {"a_core_loses_its_end", "sim/turn_clusters.comp", "c < rest.core_end", "c + 1u < rest.core_end"},
     {"lanes_are_not_added", "sim/load_clusters.comp", "force += part_forces[l];", ""},
     {"moments_are_about_the_origin", "sim/load_clusters.comp", " - cluster.middle.xyz", ""},

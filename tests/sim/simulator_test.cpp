@@ -15,6 +15,7 @@ namespace {
 
 Scene falling_balls() {
     Scene scene;
+    scene.simulation.solver = SolverKind::semi_implicit_euler;
     scene.simulation.frame_rate = 500.0;
     scene.materials.push_back({});
     scene.materials[0].name = "jelly";

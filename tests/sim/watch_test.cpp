@@ -34,6 +34,7 @@ protected:
 
 Scene two_balls() {
     Scene scene;
+    scene.simulation.solver = SolverKind::semi_implicit_euler;
     scene.simulation.frame_rate = 100.0;
     scene.materials.push_back({});
     scene.materials[0].name = "jelly";

@@ -18,6 +18,7 @@ constexpr double kSpeed = 3.0;  // of each ball [m/s]
 
 Scene make_meeting(BroadPhase broad_phase = BroadPhase::hierarchy, ForceMethod forces = ForceMethod::fused) {
     Scene scene;
+    scene.simulation.solver = SolverKind::semi_implicit_euler;
     scene.simulation.frame_rate = 500.0;
     scene.simulation.gravity = {0.0, 0.0, 0.0};
     scene.simulation.forces = forces;
