@@ -42,6 +42,7 @@ int run(int argc, char** argv) {
     app.set_help_all_flag("--help-all", "Show the options of every command");
     app.require_subcommand(1);
     add_run_command(app);
+    add_view_command(app);
     add_mesh_command(app);
     add_info_command(app);
     add_bench_command(app);

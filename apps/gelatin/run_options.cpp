@@ -116,9 +116,7 @@ void check_outputs(const RunOptions& options) {
 
 SimulatorOptions simulator_options(const RunOptions& options) {
     SimulatorOptions result;
-    result.backend =
-        choose<Backend>("--backend", options.backend,
-                        {{"auto", Backend::automatic}, {"gl", Backend::gl}, {"cpu", Backend::cpu}});
+    result.backend = parse_backend(options.backend);
     result.need_gl = options.draws();
     result.gl_debug = options.gl_debug;
     result.gl_device = options.device;
@@ -133,9 +131,22 @@ ExportFormat export_format(const RunOptions& options) {
 }
 
 PictureSize picture_size(const RunOptions& options) {
+    return parse_size(options.size);
+}
+
+render::Quality picture_quality(const RunOptions& options) {
+    return parse_quality(options.quality);
+}
+
+Backend parse_backend(const std::string& text) {
+    return choose<Backend>("--backend", text,
+                           {{"auto", Backend::automatic}, {"gl", Backend::gl}, {"cpu", Backend::cpu}});
+}
+
+PictureSize parse_size(const std::string& text) {
     PictureSize size{0, 0};
-    const char* begin = options.size.data();
-    const char* end = begin + options.size.size();
+    const char* begin = text.data();
+    const char* end = begin + text.size();
     const auto [cross, width_status] = std::from_chars(begin, end, size.width);
     const bool has_cross = width_status == std::errc() && cross != end && *cross == 'x';
     if (has_cross && std::from_chars(cross + 1, end, size.height).ptr != end) size.height = 0;
@@ -145,15 +156,15 @@ PictureSize picture_size(const RunOptions& options) {
             {{},
              0,
              "--size",
-             options.size,
+             text,
              fmt::format("must be WIDTHxHEIGHT with sides from {} to {}", kLeastSide, kLargestSide)});
     }
     return size;
 }
 
-render::Quality picture_quality(const RunOptions& options) {
+render::Quality parse_quality(const std::string& text) {
     using render::Quality;
-    return choose<Quality>("--quality", options.quality,
+    return choose<Quality>("--quality", text,
                            {{"auto", Quality::automatic}, {"high", Quality::high}, {"fast", Quality::fast}});
 }
 

@@ -59,6 +59,11 @@ ExportFormat export_format(const RunOptions& options);
 PictureSize picture_size(const RunOptions& options);
 render::Quality picture_quality(const RunOptions& options);
 
+/// What options say, of any command. @throws InvalidInput naming what is allowed
+Backend parse_backend(const std::string& text);
+PictureSize parse_size(const std::string& text);
+render::Quality parse_quality(const std::string& text);
+
 /// Frames from one recorded frame to the next: as asked, or so that a film in real time has about 60 pictures
 /// a second.
 int record_interval(const RunOptions& options, double frame_rate);

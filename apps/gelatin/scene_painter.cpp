@@ -1,41 +1,9 @@
 #include "scene_painter.h"
 
-#include <utility>
-
-#include "model/model.h"
-#include "render/collider_props.h"
+#include "common/surroundings.h"
 
 namespace gelatin {
 namespace {
-
-render::Surroundings describe_surroundings(const Simulator& simulator) {
-    render::Surroundings surroundings;
-    surroundings.bounds = render::bounds_of(simulator.read_frame().positions);
-    render::ColliderProps colliders =
-        render::make_collider_props(simulator.scene().colliders, surroundings.bounds);
-    surroundings.floor_height = colliders.floor_height;
-    surroundings.props = std::move(colliders.props);
-    if (surroundings.floor_height) {  // what falls ends there
-        glm::vec3 below = surroundings.bounds.center();
-        below.y = *surroundings.floor_height;
-        surroundings.bounds.add(below);
-    }
-    for (const ModelObject& object : simulator.model().objects) surroundings.colors.push_back(object.color);
-    return surroundings;
-}
-
-render::Camera choose_camera(const Scene& scene, const render::Surroundings& surroundings,
-                             const PictureSize& size) {
-    if (const auto& camera = scene.camera) {
-        return {glm::vec3(camera->eye), glm::vec3(camera->target), static_cast<float>(camera->field_of_view)};
-    }
-    const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
-    render::Bounds bounds = surroundings.bounds;
-    for (const SurfaceMesh& prop : surroundings.props) {
-        for (const glm::dvec3& p : prop.positions) bounds.add(glm::vec3(p));
-    }
-    return render::frame_bounds(bounds, aspect);
-}
 
 render::RendererOptions renderer_options(const PictureSize& size, render::Quality quality) {
     render::RendererOptions options;
@@ -51,7 +19,8 @@ ScenePainter::ScenePainter(Simulator& simulator, const PictureSize& size, render
                            const Overlays& overlays)
     : simulator_(simulator), overlays_(overlays), renderer_(renderer_options(size, quality)) {
     const render::Surroundings surroundings = describe_surroundings(simulator);
-    camera_ = choose_camera(simulator.scene(), surroundings, size);
+    const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+    camera_ = choose_camera(simulator.scene(), surroundings, aspect);
     renderer_.set_surroundings(surroundings);
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "gelatin/pull.h"
 #include "gelatin/scene.h"
 #include "gelatin/views.h"
 
@@ -75,6 +76,8 @@ public:
     /// largest
     ///   safe one); NoOpenGl if GL is asked for and there is none.
     explicit Simulator(const Scene& scene, const SimulatorOptions& options = {});
+    /// The same with tets and springs that were made before: what build_model made of this very scene.
+    Simulator(const Scene& scene, std::shared_ptr<const Model> model, const SimulatorOptions& options = {});
     Simulator(Simulator&&) noexcept;
     Simulator& operator=(Simulator&&) noexcept;
     ~Simulator();
@@ -87,6 +90,20 @@ public:
 
     /// Advances by one step; `substeps()` of them make a frame. @throws as advance_frame
     void step();
+
+    /// Back to the start, measurements under way forgotten; after Diverged, too.
+    void reset();
+
+    /// Goes on from where another simulation is, with the masses, materials and settings of this one's own
+    /// scene. Bodies of the same name and tets are where they are there; others begin at their start.
+    void go_on_from(const Simulator& other);
+
+    /// What a user's hand holds from now on; empty: nothing, and bodies keep the momentum that they have.
+    /// What it does is not accounted for: meanwhile energy is not held against what start, gravity and loads
+    /// explain. @pre nodes are in the model, their stiffnesses positive
+    void set_pull(const std::optional<Pull>& pull);
+    /// Moves the hand [m]. @pre it holds something
+    void move_pull(const glm::dvec3& target);
 
     /// Waits for the GPU. @throws Diverged if any step so far left the state so.
     void check() const;

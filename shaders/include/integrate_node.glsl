@@ -3,6 +3,7 @@
 // MULTI_PASS: the scheme has several passes, whose weighted rates add up in sum_*. CPU twin: src/cpu/integrate_node.h.
 #include "include/colliders.glsl"
 #include "include/load_force.glsl"
+#include "include/pull.glsl"
 
 layout(binding = 0) uniform samplerBuffer base_positions;   // xyz [m], inverse mass [1/kg]: at the step's start
 layout(binding = 1) uniform samplerBuffer base_velocities;  // xyz [m/s], damping time [s]
@@ -40,6 +41,9 @@ void integrate_node(uint n, vec4 velocity, vec3 force) {
     }
 #ifdef LOADED
     force += load_force(n);
+#endif
+#ifdef PULLED
+    force += pull_force(n, texelFetch(positions, int(n)).xyz, velocity.xyz, base_position.w, time_step);
 #endif
     vec3 rate = velocity.xyz;
     vec3 acceleration = gravity + base_position.w * force;

@@ -6,6 +6,7 @@
 #include "include/global_index.glsl"
 #include "include/colliders.glsl"
 #include "include/load_force.glsl"
+#include "include/pull.glsl"
 #include "layouts/descent.glsl"
 layout(local_size_x = 64) in;
 
@@ -46,8 +47,12 @@ void main() {
 #ifdef LOADED
     acceleration += start.w * load_force(n);
 #endif
-    vec3 target = start.xyz + time_step * (velocity + time_step * acceleration);
-    targets[n] = vec4(target, start.w > 0.0 ? 1.0 / (start.w * time_step * time_step) : 0.0);
+    vec4 target = vec4(start.xyz + time_step * (velocity + time_step * acceleration),
+                       start.w > 0.0 ? 1.0 / (start.w * time_step * time_step) : 0.0);
+#ifdef PULLED
+    if (start.w > 0.0) target = with_pull(n, target, start.xyz, time_step);
+#endif
+    targets[n] = target;
     near_flat[n] = 0u;
 #if COLLIDER_KINDS != 0
     touches[n] = Touch(vec4(0.0), vec4(0.0));

@@ -63,8 +63,8 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
 
 template <class Real>
 void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current,
-                             std::span<const Vec4<Real>> load_forces) {
-    start(step, has_earlier, previous, load_forces, current);
+                             std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls) {
+    start(step, has_earlier, previous, load_forces, pulls, current);
     take_back_tangled(current.positions);
     coarse_.begin(step, current.positions);
     for (int i = 0; i < settings_.iterations; ++i) {
@@ -84,7 +84,8 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
 // handle takes them.
 template <class Real>
 void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& previous,
-                               std::span<const Vec4<Real>> load_forces, Nodes<Real>& current) {
+                               std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls,
+                               Nodes<Real>& current) {
     const Vec3<Real> gravity(model_->gravity);
     const Real squared = glm::dot(gravity, gravity);
     for_each_node(*model_, [&](std::uint32_t n) {
@@ -106,6 +107,7 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
         if (!load_forces.empty()) acceleration += from.w * Vec3<Real>(load_forces[n]);
         targets_[n] = Vec4<Real>(Vec3<Real>(from) + step * (velocity + step * acceleration),
                                  Real(1) / (from.w * step * step));
+        if (pulls != nullptr) targets_[n] = pulls->with_target(n, targets_[n], Vec3<Real>(from), step);
         const Real felt = has_earlier && squared > Real(0)
                               ? glm::clamp(glm::dot(gained, gravity) / (step * squared), Real(0), Real(1))
                               : Real(1);

@@ -8,6 +8,7 @@
 #include "cpu/descend_groups.h"
 #include "cpu/node_terms.h"
 #include "cpu/nodes.h"
+#include "cpu/pulls.h"
 #include "cpu/rigid_motion.h"
 #include "cpu/spring_blocks.h"
 #include "cpu/tet_resistance.h"
@@ -32,13 +33,13 @@ public:
 
     /// A step of `step` seconds from `previous`; writes `current`.
     /// @param current's velocities are those one step before `previous` if `has_earlier`, else not looked at
-    /// @param load_forces [N], shape [nodes], or empty
+    /// @param load_forces [N], shape [nodes], or empty @param pulls null: no hand holds anything
     void run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current,
-             std::span<const Vec4<Real>> load_forces = {});
+             std::span<const Vec4<Real>> load_forces = {}, const Pulls<Real>* pulls = nullptr);
 
 private:
     void start(Real step, bool has_earlier, const Nodes<Real>& previous,
-               std::span<const Vec4<Real>> load_forces, Nodes<Real>& current);
+               std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls, Nodes<Real>& current);
     void take_back_tangled(std::vector<Vec4<Real>>& positions) const;
     void accelerate(int sweep, std::vector<Vec4<Real>>& positions);
     void sweep(Real step, std::vector<Vec4<Real>>& positions);

@@ -85,19 +85,44 @@ void CpuSolver<Real>::set_load_factors(std::span<const float> factors) {
 }
 
 template <class Real>
+void CpuSolver<Real>::set_pull(const std::optional<Pull>& pull) {
+    if (pulls_) clear_pulled_forces();
+    pulls_.reset();
+    if (pull) pulls_.emplace(*pull, model_->node_count());
+}
+
+template <class Real>
+void CpuSolver<Real>::clear_pulled_forces() {
+    if (load_forces_.empty()) return;
+    for (const std::uint32_t n : pulls_->nodes()) load_forces_[n] = Vec4<Real>(0);
+}
+
+// To the loads, for explicit schemes.
+template <class Real>
+void CpuSolver<Real>::add_pulls(const Nodes<Real>& nodes, Real step) {
+    for (const std::uint32_t n : pulls_->nodes()) {
+        const Vec3<Real> velocity(nodes.velocities[n]);
+        load_forces_[n] += Vec4<Real>(pulls_->force(n, nodes.positions[n], velocity, step), 0);
+    }
+}
+
+template <class Real>
 void CpuSolver<Real>::advance_nodes(double step) {
     if (block_descent_) {
         std::swap(current_, previous_);
         shape_matcher_->run(previous_);
         sum_loads(previous_);
         block_descent_->run(static_cast<Real>(step), std::exchange(has_earlier_, true), previous_, current_,
-                            load_forces_);
+                            load_forces_, pulls_ ? &*pulls_ : nullptr);
         return;
     }
     const Nodes<Real>* from = &current_;
     for (int p = 0; p < scheme_.pass_count; ++p) {
         Nodes<Real>& to = p + 1 == scheme_.pass_count ? previous_ : stage_[p % 2];
+        if (pulls_ && load_forces_.empty()) load_forces_.assign(model_->node_count(), Vec4<Real>(0));
+        if (pulls_) clear_pulled_forces();
         sum_loads(*from);
+        if (pulls_) add_pulls(*from, static_cast<Real>(step));
         find_volume_stresses(*from);
         Pass<Real> pass = make_pass(*model_, scheme_, p, step, current_, *from, to, sums_);
         if (!load_forces_.empty()) pass.load_forces = load_forces_.data();

@@ -11,6 +11,7 @@
 #include "cpu/find_proximities.h"
 #include "cpu/match_shapes.h"
 #include "cpu/nodes.h"
+#include "cpu/pulls.h"
 #include "cpu/respond_to_self.h"
 #include "cpu/self_collision.h"
 #include "model/solver.h"
@@ -27,6 +28,8 @@ public:
 
     void apply_kinematics(std::span<const HandleMotion> motions) override;
     void set_load_factors(std::span<const float> factors) override;
+    void set_pull(const std::optional<Pull>& pull) override;
+    void move_pull(const glm::dvec3& target) override { pulls_->move(target); }
     void advance_nodes(double step) override;
     void update_boxes() override { collision_.update_boxes(current_.positions, previous_.positions); }
     void find_object_pairs() override { collision_.find_object_pairs(); }
@@ -59,6 +62,8 @@ public:
 
 private:
     void sum_loads(const Nodes<Real>& nodes);
+    void add_pulls(const Nodes<Real>& nodes, Real step);
+    void clear_pulled_forces();
     void find_volume_stresses(const Nodes<Real>& nodes);
     void run_pass(const Pass<Real>& pass);
 
@@ -74,6 +79,7 @@ private:
     std::vector<Vec4<Real>> spring_forces_, node_forces_;
     std::vector<float> load_factors_;
     std::vector<Vec4<Real>> load_forces_;  // [N], shape [nodes]; empty where there are no loads
+    std::optional<Pulls<Real>> pulls_;     // while a hand holds something
     std::vector<Real> volume_stresses_;    // [Pa], shape [nodes]; empty where no explicit scheme needs them
     Collision<Real> collision_;
     ContactProperties contact_;

@@ -12,9 +12,10 @@ namespace {
 
 constexpr std::size_t kRigidSums = 12;  // dvec4s in RigidSums, include/rigid_sums.glsl
 
-gl::Defines start_defines(const Model& model) {
+gl::Defines start_defines(const Model& model, bool pulled) {
     gl::Defines defines = ModelBuffers::collider_defines(model);
     if (!model.loads.empty()) defines.emplace_back("LOADED");
+    if (pulled) defines.emplace_back("PULLED");
     return defines;
 }
 
@@ -110,8 +111,8 @@ BlockDescent::Pressures::Pressures(const Model& model)
     offset_texels = {offsets, gl::TexelFormat::r32f};
 }
 
-BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
-    : start_program_(gl::Program::compute("sim/start_descent.comp", start_defines(model))),
+BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, bool pulled)
+    : start_program_(gl::Program::compute("sim/start_descent.comp", start_defines(model, pulled))),
       find_tangled_program_(gl::Program::compute("sim/take_back_tangled.comp", {"TETS"})),
       take_back_program_(gl::Program::compute("sim/take_back_tangled.comp")),
       accelerate_program_(gl::Program::compute("sim/accelerate_descent.comp")),
@@ -199,6 +200,7 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
     targets_.bind_storage(6);
     if (touches_.size() > 0) touches_.bind_storage(7);
     model.bind_colliders(start_program_);
+    if (model.pulls) model.pulls->bind(start_program_);
     start_program_.set("node_count", node_count_);
     start_program_.set("object_count", object_count_);
     start_program_.set("has_earlier", has_earlier ? 1u : 0u);

@@ -20,7 +20,7 @@ namespace gelatin::gpu {
 /// find_pressures.comp, descend.comp, sum_rigid_motions.comp, move_bodies.comp. CPU twin: cpu::BlockDescent.
 class BlockDescent {
 public:
-    BlockDescent(const Model& model, const DescentSettings& settings);
+    BlockDescent(const Model& model, const DescentSettings& settings, bool pulled = false);
 
     /// A step of `step` seconds from `previous`; writes `current`. Ends with the barrier that whoever gathers
     /// the nodes as textures or storage needs.

@@ -2,11 +2,11 @@
 
 namespace gelatin::gpu {
 
-DivideAndMerge::DivideAndMerge(const Model& model, const ExplicitScheme& scheme)
+DivideAndMerge::DivideAndMerge(const Model& model, const ExplicitScheme& scheme, bool pulled)
     : write_program_(gl::Program::compute("sim/write_spring_forces.comp")),
       merge_program_(gl::Program::compute("sim/merge_spring_forces.comp")),
       integrate_program_(
-          gl::Program::compute("sim/integrate_nodes.comp", integration_defines(model, scheme))),
+          gl::Program::compute("sim/integrate_nodes.comp", integration_defines(model, scheme, pulled))),
       springs_(std::span(model.springs)),
       starts_(std::span(model.incidence.starts)),
       entries_(std::span(model.incidence.entries)),

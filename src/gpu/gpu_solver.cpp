@@ -10,7 +10,10 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, Forc
                      const CollisionSettings& collision, const DescentSettings& descent)
     : model_(std::move(model)),
       device_(gl::Context::current().device().renderer),
+      kind_(solver),
       scheme_(explicit_scheme(solver)),
+      forces_(forces),
+      descent_settings_(descent),
       collision_settings_(collision),
       buffers_(*model_),
       current_(model_->positions, model_->velocities),
@@ -25,14 +28,28 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, Forc
     if (!model_->handles.empty()) apply_kinematics_.emplace(*model_);
     if (!model_->loads.empty()) sum_loads_.emplace(*model_);
     if (!model_->volume_term.is_empty() && solver != SolverKind::vbd) find_volume_stresses_.emplace(*model_);
-    if (solver == SolverKind::vbd) {
-        block_descent_.emplace(*model_, descent);
-        shape_matcher_.emplace(*model_);
-    } else if (forces == ForceMethod::fused) {
-        fused_.emplace(*model_, scheme_);
+    if (solver == SolverKind::vbd) shape_matcher_.emplace(*model_);
+    make_integrator();
+}
+
+void GpuSolver::make_integrator() {
+    const bool pulled = buffers_.pulls.has_value();
+    if (kind_ == SolverKind::vbd) {
+        block_descent_.emplace(*model_, descent_settings_, pulled);
+    } else if (forces_ == ForceMethod::fused) {
+        fused_.emplace(*model_, scheme_, pulled);
     } else {
-        divide_and_merge_.emplace(*model_, scheme_);
+        divide_and_merge_.emplace(*model_, scheme_, pulled);
     }
+}
+
+void GpuSolver::set_pull(const std::optional<Pull>& pull) {
+    if (!buffers_.pulls) {
+        if (!pull) return;
+        buffers_.pulls.emplace(model_->positions.size());
+        make_integrator();
+    }
+    buffers_.pulls->set(pull);
 }
 
 void GpuSolver::apply_kinematics(std::span<const HandleMotion> motions) {

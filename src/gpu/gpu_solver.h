@@ -28,6 +28,8 @@ public:
 
     void apply_kinematics(std::span<const HandleMotion> motions) override;
     void set_load_factors(std::span<const float> factors) override { sum_loads_->set_factors(factors); }
+    void set_pull(const std::optional<Pull>& pull) override;
+    void move_pull(const glm::dvec3& target) override { buffers_.pulls->move(target); }
     void advance_nodes(double step) override;
     void update_boxes() override;
     void find_object_pairs() override;
@@ -56,9 +58,14 @@ public:
     bool has_collision() const { return collision_.has_value(); }
 
 private:
+    void make_integrator();
+
     std::shared_ptr<const Model> model_;
     std::string device_;
+    SolverKind kind_;
     ExplicitScheme scheme_;
+    ForceMethod forces_;
+    DescentSettings descent_settings_;
     CollisionSettings collision_settings_;
     ModelBuffers buffers_;
     NodeBuffers current_, previous_;             // swapped by each step: where it ended, and where it started

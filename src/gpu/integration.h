@@ -21,7 +21,8 @@ struct Pass {
 };
 
 /// Defines for a shader that includes include/integrate_node.glsl.
-gl::Defines integration_defines(const Model& model, const ExplicitScheme& scheme);
+/// @param pulled nodes may be held by a hand
+gl::Defines integration_defines(const Model& model, const ExplicitScheme& scheme, bool pulled = false);
 
 /// Binds and sets what include/integrate_node.glsl reads and writes, but for what SumLoads::run and
 /// FindVolumeStresses::run bind.

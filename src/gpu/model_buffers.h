@@ -1,16 +1,19 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <optional>
 
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "gpu/neo_hookean_buffers.h"
+#include "gpu/pulls.h"
 #include "gpu/volume_term_buffers.h"
 #include "model/model.h"
 
 namespace gelatin::gpu {
 
-/// The immutable parts of a model that the solver's kernels read, on the GPU.
+/// The immutable parts of a model that the solver's kernels read, on the GPU, and what a user's hand holds of
+/// it.
 struct ModelBuffers {
     gl::Buffer<HalfSpringPair> half_springs;
     gl::Buffer<glm::vec2> stiffnesses;  ///< of the pairs [N/m]
@@ -25,6 +28,7 @@ struct ModelBuffers {
     std::uint32_t node_count = 0;
     glm::uvec4 collider_ends{0};  ///< behind the planes, boxes, spheres, capsules
     glm::vec3 gravity{0.0f};      ///< [m/s^2]
+    std::optional<Pulls> pulls;   ///< empty until somebody pulls: programs are then made anew, with PULLED
 
     explicit ModelBuffers(const Model& model);
 

@@ -2,11 +2,13 @@
 
 #include <glm/vec4.hpp>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/stage_timer.h"
+#include "gelatin/pull.h"
 #include "gelatin/scene.h"
 #include "model/model.h"
 
@@ -70,6 +72,11 @@ public:
 
     /// For scenes with loads: how much of the next steps each of them acts, 1 until somebody says otherwise.
     virtual void set_load_factors(std::span<const float> factors) = 0;
+
+    /// What a hand holds from now on; empty: nothing. The first one may cost what making the solver has.
+    virtual void set_pull(const std::optional<Pull>& pull) = 0;
+    /// @pre a hand holds something
+    virtual void move_pull(const glm::dvec3& target) = 0;
 
     /// Forces and integration over one step of `step` seconds, world collisions included.
     virtual void advance_nodes(double step) = 0;

@@ -15,9 +15,15 @@ constexpr int kShadeResolution = 6 * kTiles;  // [texels a side]
 FastPipeline::FastPipeline(int width, int height)
     : shade_program_(gl::Program::graphics("render/whole_picture.vert", "render/floor_shade.frag")),
       shadow_program_(gl::Program::graphics("render/floor_shadow.vert", "render/floor_shadow.frag")),
-      plate_(Target::color_and_depth(width, height)),
-      floor_shade_(Target::color(kShadeResolution, kShadeResolution, GL_RGBA8)),
-      picture_(Target::color_and_depth(width, height)) {}
+      floor_shade_(Target::color(kShadeResolution, kShadeResolution, GL_RGBA8)) {
+    FastPipeline::resize(width, height);
+}
+
+void FastPipeline::resize(int width, int height) {
+    plate_ = Target::color_and_depth(width, height);
+    picture_ = Target::color_and_depth(width, height);
+    plate_view_.reset();
+}
 
 void FastPipeline::draw(const Frame& frame) {
     if (plate_view_ != frame.view) draw_plate(frame.view);

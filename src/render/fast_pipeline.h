@@ -18,6 +18,7 @@ public:
     FastPipeline(int width, int height);
 
     void draw(const Frame& frame) override;
+    void resize(int width, int height) override;
     const Target& picture() const override { return picture_; }
 
 private:

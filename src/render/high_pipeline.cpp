@@ -21,10 +21,15 @@ Smoothing chosen(Smoothing smoothing) {
 
 HighPipeline::HighPipeline(int width, int height, Smoothing smoothing)
     : smoothing_(chosen(smoothing)),
-      filter_program_(gl::Program::graphics("render/whole_picture.vert", "render/smooth_edges.frag")),
-      canvas_(smoothing_ == Smoothing::samples ? Target::multisampled(width, height, kSamples)
-                                               : Target::color_and_depth(width, height)),
-      picture_(Target::color(width, height, GL_RGBA8)) {}
+      filter_program_(gl::Program::graphics("render/whole_picture.vert", "render/smooth_edges.frag")) {
+    HighPipeline::resize(width, height);
+}
+
+void HighPipeline::resize(int width, int height) {
+    canvas_ = smoothing_ == Smoothing::samples ? Target::multisampled(width, height, kSamples)
+                                               : Target::color_and_depth(width, height);
+    picture_ = Target::color(width, height, GL_RGBA8);
+}
 
 // From the nearest to the farthest, so that what is hidden is not lit.
 void HighPipeline::draw(const Frame& frame) {

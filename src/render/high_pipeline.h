@@ -16,6 +16,7 @@ public:
     HighPipeline(int width, int height, Smoothing smoothing);
 
     void draw(const Frame& frame) override;
+    void resize(int width, int height) override;
     const Target& picture() const override { return picture_; }
 
 private:

@@ -16,6 +16,9 @@ public:
     /// @pre faces are culled and depths compared as Renderer::draw sets it; a vertex array object is bound
     virtual void draw(const Frame& frame) = 0;
 
+    /// The pictures from now on are of this size [pixels].
+    virtual void resize(int width, int height) = 0;
+
     /// Where the finished picture is.
     virtual const Target& picture() const = 0;
 };

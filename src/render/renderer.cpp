@@ -68,6 +68,15 @@ Renderer::~Renderer() {
     glDeleteVertexArrays(1, &vertex_array_);
 }
 
+void Renderer::resize(int width, int height) {
+    RendererOptions resized = options_;
+    resized.width = width;
+    resized.height = height;
+    options_ = checked(resized);
+    pipeline_->resize(width, height);
+    gl::check_errors("resizing the picture");
+}
+
 void Renderer::set_surroundings(const Surroundings& surroundings) {
     surroundings_ = surroundings;
     props_ = StaticMesh(surroundings.props);

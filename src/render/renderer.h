@@ -50,6 +50,9 @@ public:
     Renderer& operator=(const Renderer&) = delete;
     ~Renderer();
 
+    /// The pictures from now on are of this size. @throws as the constructor
+    void resize(int width, int height);
+
     void set_surroundings(const Surroundings& surroundings);
 
     /// Draws one frame and what its overlay shows. Orders itself after the dispatches that wrote the buffers;

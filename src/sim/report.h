@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gelatin/simulator.h"
+#include "model/setting_names.h"
 
 namespace gelatin {
 
@@ -33,11 +34,5 @@ std::string to_json(const RunReport& report);
 
 /// The value that `fraction` of the sorted values lie below or at (nearest rank); 0 for no values.
 double percentile(std::vector<double> values, double fraction);
-
-/// The names that scene files use.
-const char* name_of(ForceMethod forces);
-const char* name_of(BroadPhase broad_phase);
-const char* name_of(CollisionDetection detection);
-const char* name_of(CollisionResponse response);
 
 }  // namespace gelatin

@@ -14,6 +14,7 @@
 #include "model/stability.h"
 #include "model/start_state.h"
 #include "sim/backend.h"
+#include "sim/carry_over.h"
 #include "sim/check_starts.h"
 #include "sim/checkpoint.h"
 #include "sim/draw_source.h"
@@ -77,6 +78,19 @@ struct Simulator::Impl {
         return {measure.node_face, measure.edge_edge, measure.lost, measure.nearest};
     }
 
+    State start_state() const {
+        if (std::optional<State> deformed = deformed_start(scene, *model)) return *std::move(deformed);
+        return {model->positions, model->velocities, {}};
+    }
+
+    // Goes on from there. What was being measured is of a state that is gone.
+    void take_state(const State& state, const Moment& moment) {
+        for (; !measured.empty(); measured.pop_front()) solver->end_measure();
+        solver->write_state(state);
+        go_on_from(moment);
+        watch->begin(state, now());
+    }
+
     void warn_of_lost_pairs() {
         const std::uint32_t lost = solver->lost_pairs();
         if (lost == reported_losses) return;
@@ -95,11 +109,15 @@ struct Simulator::Impl {
     }
 };
 
-Simulator::Simulator(const Scene& scene, const SimulatorOptions& options) : impl_(std::make_unique<Impl>()) {
+Simulator::Simulator(const Scene& scene, const SimulatorOptions& options)
+    : Simulator(scene, std::make_shared<const Model>(build_model(scene)), options) {}
+
+Simulator::Simulator(const Scene& scene, std::shared_ptr<const Model> model, const SimulatorOptions& options)
+    : impl_(std::make_unique<Impl>()) {
     Impl& d = *impl_;
     d.scene = scene;
     d.options = with_needed_backend(options, scene);
-    d.model = std::make_shared<const Model>(build_model(scene));
+    d.model = std::move(model);
     d.substeps = choose_substeps(scene, *d.model);
     d.context = make_context(d.options);
     const SimulationSettings& settings = scene.simulation;
@@ -155,6 +173,26 @@ void Simulator::step() {
     // A GPU is asked once a frame.
     if (d.gpu_solver == nullptr || d.steps % static_cast<std::uint64_t>(d.substeps) == 0)
         d.watch->check(d.solver->alarm(false), now, now);
+}
+
+void Simulator::reset() {
+    impl_->take_state(impl_->start_state(), {});
+}
+
+void Simulator::go_on_from(const Simulator& other) {
+    const int frame = static_cast<int>(other.time() * scene().simulation.frame_rate + 1e-6);
+    impl_->take_state(
+        carried_over(other.model(), other.impl_->solver->read_state(), model(), impl_->start_state()),
+        {frame, other.time(), static_cast<std::uint64_t>(frame) * static_cast<std::uint64_t>(substeps())});
+}
+
+void Simulator::set_pull(const std::optional<Pull>& pull) {
+    impl_->watch->note_pull(pull.has_value(), time());
+    impl_->solver->set_pull(pull);
+}
+
+void Simulator::move_pull(const glm::dvec3& target) {
+    impl_->solver->move_pull(target);
 }
 
 void Simulator::check() const {
@@ -277,11 +315,9 @@ void Simulator::save_checkpoint(const std::filesystem::path& file) const {
 
 void Simulator::load_checkpoint(const std::filesystem::path& file) {
     const Checkpoint checkpoint = read_checkpoint(file, model());
-    impl_->solver->write_state(checkpoint.state);
-    impl_->go_on_from(
-        {checkpoint.frame, checkpoint.time,
-         static_cast<std::uint64_t>(checkpoint.frame) * static_cast<std::uint64_t>(substeps())});
-    impl_->watch->begin(checkpoint.state, impl_->now());
+    impl_->take_state(checkpoint.state, {checkpoint.frame, checkpoint.time,
+                                         static_cast<std::uint64_t>(checkpoint.frame) *
+                                             static_cast<std::uint64_t>(substeps())});
 }
 
 }  // namespace gelatin

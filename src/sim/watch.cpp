@@ -44,6 +44,7 @@ Watch::Watch(const Scene& scene, std::shared_ptr<const Model> model, int substep
 void Watch::begin(const State& state, const Moment& moment) {
     const auto objects = cpu::measure<float>(*model_, {state.positions, state.velocities});
     budget_.restart(add_up(objects, moment.time));
+    if (std::isfinite(pulled_until_)) pulled_until_ = -HUGE_VAL;  // time may have gone back
 }
 
 void Watch::check(const Alarm& alarm, const Moment& until, const Moment& now) const {
@@ -81,7 +82,7 @@ void Watch::fail(const Alarm& alarm, std::uint64_t step, const Moment& now) cons
 
 void Watch::check(const std::vector<ObjectMeasure>& objects, const Moment& moment) {
     const EnergyBudget::Account now = add_up(objects, moment.time);
-    const bool is_moved = handles_act(now.time);
+    const bool is_moved = somebody_acts(now.time);
     const double most = is_moved ? kAnyEnergy : budget_.most_for(now);
     // A comparison with what is not a number is false, too.
     if (now.energy <= most && std::isfinite(now.potential))

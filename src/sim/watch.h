@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -27,8 +28,13 @@ public:
     /// Energy is accounted for from here on.
     void begin(const State& state, const Moment& moment);
 
+    /// A hand holds something from this time on [s], or lets go: its work is not accounted for.
+    void note_pull(bool holds, double time) {
+        pulled_until_ = holds ? std::numeric_limits<double>::infinity() : time;
+    }
+
     /// What Solver::watch_nodes may find with a node at this time [J].
-    double most_energy(double time) const { return handles_act(time) ? kAnyEnergy : budget_.most_at(time); }
+    double most_energy(double time) const { return somebody_acts(time) ? kAnyEnergy : budget_.most_at(time); }
 
     /// @throws Diverged if the alarm is of the steps until `until`, naming it, the node and the likely cause.
     /// @param now not before the alarm, of whose step number it knows the upper half
@@ -44,14 +50,16 @@ private:
     [[noreturn]] void fail(const Alarm& alarm, std::uint64_t step, const Moment& now) const;
 
     // Their work since the last account is not known.
-    bool handles_act(double until) const {
-        return any_acts(model_->handles, budget_.time(), until, step_size());
+    bool somebody_acts(double until) const {
+        return budget_.time() < pulled_until_ ||
+               any_acts(model_->handles, budget_.time(), until, step_size());
     }
     double step_size() const { return scene_.simulation.frame_time() / substeps_; }  // [s]
 
     const Scene& scene_;
     std::shared_ptr<const Model> model_;
     int substeps_;
+    double pulled_until_ = -std::numeric_limits<double>::infinity();  // [s]
     EnergyBudget budget_;
 };
 

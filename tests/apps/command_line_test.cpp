@@ -19,7 +19,7 @@ TEST_F(CommandLine, TellsItsVersion) {
 TEST_F(CommandLine, HelpShowsEveryCommandAndOption) {
     EXPECT_EQ(run({"--help"}).exit_code, 0);
     const std::string help = run({"--help"}).out;
-    for (const char* command : {"run", "mesh", "bench", "info"})
+    for (const char* command : {"run", "view", "mesh", "bench", "info"})
         EXPECT_THAT(help, HasSubstr(std::string("\n  ") + command));
     const std::string run_help = run({"run", "--help"}).out;
     for (const char* option : {"--frames", "--backend", "--set", "--stats", "--image", "--video", "--export",
@@ -32,7 +32,7 @@ TEST_F(CommandLine, HelpShowsEveryCommandAndOption) {
 TEST_F(CommandLine, RefusesCallsThatAreWrong) {
     expect_error({}, 2, "A subcommand is required (see gelatin --help)");
     expect_error({"rn", "cube.toml"}, 2,
-                 "there is no command \"rn\" (did you mean \"run\"?); there are run, mesh, info and bench");
+                 "there is no command \"rn\" (did you mean \"run\"?); there are run, view, mesh, info and bench");
     expect_error({"run"}, 2, "SCENE is required (see gelatin run --help)");
     expect_error({"run", "cube.toml", "--image"}, 2,
                  "--image: 1 required FILE.png missing (see gelatin run --help)");

@@ -15,6 +15,7 @@
 #include "support/measure_on_gpu.h"
 #include "support/parity.h"
 #include "support/proximities.h"
+#include "support/pull_on_gpu.h"
 #include "support/shader_folder.h"
 #include "support/step_on_gpu.h"
 #include "support/test_models.h"
@@ -302,6 +303,19 @@ TEST_P(ProximityMutantsTest, IsCaught) {
                  !test::check_proximities<float>(model, settings, found).are_none();
     }
     EXPECT_TRUE(caught) << "the broken kernel passes";
+}
+
+class PullMutantsTest : public test::GlTest, public ::testing::WithParamInterface<test::PullMutant> {};
+INSTANTIATE_TEST_SUITE_P(All, PullMutantsTest, ::testing::ValuesIn(test::kPullMutants), name_of_mutant);
+
+TEST_P(PullMutantsTest, IsCaught) {
+    test::ShaderFolder folder;
+    break_shaders(GetParam(), folder);
+    const bool descends = GetParam().solver == SolverKind::vbd;
+    const Model model = descends ? test::make_bodies_to_descend(0.01) : test::make_lively_model();
+    const double error =
+        test::worst_pull_error(model, GetParam().solver, ForceMethod::fused, descends ? 1.0 / 60.0 : kStep);
+    EXPECT_GT(error, 1.0) << "the broken kernel passes";
 }
 
 }  // namespace

@@ -144,7 +144,7 @@ TEST_F(SceneFile, TakesAutomaticSubsteps) {
 }
 
 TEST_F(SceneFile, TakesTheShippedScenes) {
-    for (const char* name : {"free_fall", "bounce", "hanging_beam", "twist", "cantilever"}) {
+    for (const char* name : {"free_fall", "bounce", "hanging_beam", "twist", "cantilever", "play"}) {
         EXPECT_NO_THROW(load_scene(std::string(GELATIN_SOURCE_DIR) + "/scenes/" + name + ".toml")) << name;
     }
 }

@@ -423,4 +423,24 @@ inline constexpr Break kMarkMutants[] = {
      "if (collides_with_any(pair_rows[faces[f].object], f)) marks[f] = uint("},
 };
 
+/// A broken hand that holds nodes.
+struct PullMutant : Break {
+    SolverKind solver;
+};
+
+inline constexpr PullMutant kPullMutants[] = {
+    {{"nothing_is_held", "include/integrate_node.glsl", "force += pull_force", "vec3 unused = pull_force"},
+     kSemiImplicit},
+    {{"light_nodes_are_not_spared", "include/pull.glsl", "1.0 + pull.w * inverse_mass * h * time", "1.0"},
+     kSemiImplicit},
+    {{"damping_is_forgotten", "include/pull.glsl", "h + pull_damping_time", "h"}, kSemiImplicit},
+    {{"arms_are_forgotten", "include/pull.glsl", "way = pull_target + pull.xyz", "way = pull_target"},
+     SolverKind::rk4},
+    {{"descent_has_no_damping", "include/pull.glsl", "pull_damping_time / h", "0.0"}, SolverKind::vbd},
+    {{"descent_has_no_curvature", "include/pull.glsl", "weight = target.w + stiffness", "weight = target.w"},
+     SolverKind::vbd},
+    {{"descent_is_not_held", "sim/start_descent.comp", "target = with_pull", "vec4 unused = with_pull"},
+     SolverKind::vbd},
+};
+
 }  // namespace gelatin::test

@@ -252,6 +252,63 @@ TEST_F(SimulatorTest, HandlesAndLoadsGoOnFromACheckpointBitForBit) {
 }
 
 // A checkpoint from within a frame, which knows the frames that are done, goes on with the same times.
+TEST_F(SimulatorTest, ResetGoesBackToTheVeryStart) {
+    for (const Backend backend : {Backend::cpu, Backend::gl}) {
+        for (const SolverKind solver : {SolverKind::semi_implicit_euler, SolverKind::vbd}) {
+            Simulator simulator(driven_balls(solver), on(backend));
+            const auto run = [&] {
+                for (int f = 0; f < 12; ++f) simulator.advance_frame();
+                return simulator.read_frame();
+            };
+            const HostFrame first = run();
+            simulator.begin_statistics();
+            simulator.reset();
+            EXPECT_EQ(simulator.frame(), 0);
+            EXPECT_EQ(simulator.pending_statistics(), 0u);
+            const HostFrame second = run();
+            EXPECT_EQ(second.positions, first.positions) << simulator.backend();
+            EXPECT_EQ(second.velocities, first.velocities) << simulator.backend();
+        }
+    }
+}
+
+// What is edited goes on; what is new begins; masses are the edited scene's.
+TEST_F(SimulatorTest, GoesOnFromAnotherSimulation) {
+    for (const Backend backend : {Backend::cpu, Backend::gl}) {
+        Scene scene = falling_balls();
+        Simulator before(scene, on(backend));
+        for (int f = 0; f < 10; ++f) before.advance_frame();
+        const HostFrame there = before.read_frame();
+
+        scene.materials[0].density *= 2.0;
+        scene.simulation.solver = SolverKind::vbd;
+        ObjectDescription third = scene.objects[0];
+        third.name = "third";
+        third.position = {0.0, 2.0, 0.0};
+        scene.objects.insert(scene.objects.begin(), third);
+        Simulator after(scene, on(backend));
+        const HostFrame start = after.read_frame();
+        after.go_on_from(before);
+        EXPECT_EQ(after.time(), before.time());
+        EXPECT_EQ(after.frame(), 10);
+        const HostFrame here = after.read_frame();
+        const std::size_t added = 3 * std::size_t{after.model().objects[0].nodes.count};
+        EXPECT_EQ(
+            std::vector(here.positions.begin() + static_cast<std::ptrdiff_t>(added), here.positions.end()),
+            there.positions);
+        EXPECT_EQ(
+            std::vector(here.velocities.begin() + static_cast<std::ptrdiff_t>(added), here.velocities.end()),
+            there.velocities);
+        for (std::size_t k = 0; k < added; ++k) ASSERT_EQ(here.positions[k], start.positions[k]);
+
+        // An impulse needs the new masses: the momentum of a fall is theirs.
+        after.begin_statistics();
+        before.begin_statistics();
+        const double both = before.take_statistics().momentum[1];
+        EXPECT_NEAR(after.take_statistics().momentum[1], 2.0 * both, 1e-3 * std::abs(both));
+    }
+}
+
 TEST_F(SimulatorTest, GoesOnFromWithinAFrame) {
     const TemporaryFolder folder;
     Scene scene = driven_balls(SolverKind::vbd);

@@ -273,6 +273,28 @@ TEST_F(WatchTest, HandlesExplainEnergyWhileTheyMove) {
     EXPECT_THROW(check_at(1.5, 0.0), Diverged);
 }
 
+TEST_F(WatchTest, AHandExplainsEnergyWhileItHolds) {
+    const Scene scene = two_balls();
+    const Simulator simulator(scene, on(Backend::cpu));
+    Watch watch(scene, std::make_shared<const Model>(simulator.model()), simulator.substeps());
+    std::vector<ObjectMeasure> objects(2);
+    const auto check_at = [&](double time, double energy) {
+        objects[0].kinetic_energy = energy;
+        watch.check(objects, {static_cast<int>(100.0 * time), time, 0});
+    };
+    EXPECT_THROW(check_at(0.1, 1e9), Diverged) << "nobody holds it";
+    watch.note_pull(true, 0.1);
+    EXPECT_GT(watch.most_energy(0.2), 1e30);
+    EXPECT_NO_THROW(check_at(0.2, 1e9));
+    watch.note_pull(false, 0.3);
+    EXPECT_NO_THROW(check_at(0.25, 1e11)) << "of before it let go";
+    EXPECT_NO_THROW(check_at(0.35, 1e13)) << "of the time since the last account it held for a part";
+    EXPECT_LT(watch.most_energy(0.4), 1e15);
+    EXPECT_THROW(check_at(0.4, 1e15), Diverged);
+    watch.begin({simulator.model().positions, simulator.model().velocities, {}}, {});
+    EXPECT_THROW(check_at(0.1, 1e9), Diverged) << "back at the start it holds nothing";
+}
+
 TEST_F(WatchTest, LoadsExplainWhatTheyCanGive) {
     Scene scene = two_balls();
     scene.simulation.gravity = glm::dvec3(0.0);

@@ -1,0 +1,37 @@
+#include "common/surroundings.h"
+
+#include <utility>
+
+#include "model/model.h"
+#include "render/collider_props.h"
+
+namespace gelatin {
+
+render::Surroundings describe_surroundings(const Simulator& simulator) {
+    render::Surroundings surroundings;
+    surroundings.bounds = render::bounds_of(simulator.read_frame().positions);
+    render::ColliderProps colliders =
+        render::make_collider_props(simulator.scene().colliders, surroundings.bounds);
+    surroundings.floor_height = colliders.floor_height;
+    surroundings.props = std::move(colliders.props);
+    if (surroundings.floor_height) {  // what falls ends there
+        glm::vec3 below = surroundings.bounds.center();
+        below.y = *surroundings.floor_height;
+        surroundings.bounds.add(below);
+    }
+    for (const ModelObject& object : simulator.model().objects) surroundings.colors.push_back(object.color);
+    return surroundings;
+}
+
+render::Camera choose_camera(const Scene& scene, const render::Surroundings& surroundings, float aspect) {
+    if (const auto& camera = scene.camera) {
+        return {glm::vec3(camera->eye), glm::vec3(camera->target), static_cast<float>(camera->field_of_view)};
+    }
+    render::Bounds bounds = surroundings.bounds;
+    for (const SurfaceMesh& prop : surroundings.props) {
+        for (const glm::dvec3& p : prop.positions) bounds.add(glm::vec3(p));
+    }
+    return render::frame_bounds(bounds, aspect);
+}
+
+}  // namespace gelatin

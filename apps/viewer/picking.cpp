@@ -1,0 +1,76 @@
+#include "picking.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace gelatin::viewer {
+namespace {
+
+constexpr float kReach = 0.5f;  // of half the diagonal of the body's box
+
+glm::vec3 position_of(std::span<const float> positions, std::uint32_t node) {
+    const float* p = positions.data() + 3 * std::size_t{node};
+    return {p[0], p[1], p[2]};
+}
+
+// The distance along the ray to a triangle (Moeller and Trumbore 1997).
+std::optional<float> distance_to(const Ray& ray, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    const glm::vec3 ab = b - a, ac = c - a, across = glm::cross(ray.direction, ac);
+    const float determinant = glm::dot(ab, across);
+    if (determinant == 0.0f) return {};
+    const glm::vec3 from_a = ray.origin - a, normal = glm::cross(from_a, ab);
+    const float u = glm::dot(from_a, across) / determinant, v = glm::dot(ray.direction, normal) / determinant;
+    const float distance = glm::dot(ac, normal) / determinant;
+    const bool is_inside = u >= 0.0f && v >= 0.0f && u + v <= 1.0f && distance > 0.0f;
+    return is_inside ? std::optional(distance) : std::nullopt;
+}
+
+float reach_of_hand(const Range& nodes, std::span<const float> positions) {
+    glm::vec3 low = position_of(positions, nodes.first), high = low;
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+        low = glm::min(low, position_of(positions, n));
+        high = glm::max(high, position_of(positions, n));
+    }
+    return 0.5f * kReach * glm::distance(low, high);
+}
+
+}  // namespace
+
+std::optional<Pick> pick(const Ray& ray, std::span<const float> positions, std::span<const Face> faces) {
+    std::optional<Pick> nearest;
+    for (std::uint32_t f = 0; f < faces.size(); ++f) {
+        const Face& face = faces[f];
+        const auto distance = distance_to(ray, position_of(positions, face.a), position_of(positions, face.b),
+                                          position_of(positions, face.c));
+        if (!distance || (nearest && nearest->distance <= *distance)) continue;
+        nearest = Pick{f, face.object, ray.at(*distance), *distance};
+    }
+    return nearest;
+}
+
+Pull take_hold(const Model& model, std::span<const float> positions, const Pick& pick) {
+    const ModelObject& object = model.objects[pick.object];
+    const Face& face = model.faces[pick.face];
+    const float reach = reach_of_hand(object.nodes, positions);
+    Pull pull;
+    double sum = 0.0;
+    for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
+        const glm::vec3 arm = position_of(positions, n) - pick.point;
+        const float part = glm::dot(arm, arm) / (reach * reach);
+        const float firmness = part < 1.0f ? (1.0f - part) * (1.0f - part) : 0.0f;
+        const bool is_corner = n == face.a || n == face.b || n == face.c;
+        const float weight = model.masses[n] * std::max(firmness, is_corner ? 0.1f : 0.0f);
+        if (weight == 0.0f) continue;
+        pull.nodes.push_back({n, arm, weight});
+        sum += static_cast<double>(weight);
+    }
+    const double stiffness = object.mass * kHandRate * kHandRate;
+    for (Pull::Node& held : pull.nodes)
+        held.stiffness = static_cast<float>(static_cast<double>(held.stiffness) / sum * stiffness);
+    pull.target = glm::dvec3(pick.point);
+    pull.damping_time = 2.0 / kHandRate;
+    return pull;
+}
+
+}  // namespace gelatin::viewer

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gelatin/simulator.h"
+#include "gl/fence.h"
+#include "pace.h"
+#include "picking.h"
+#include "readings.h"
+#include "scene_source.h"
+#include "worker.h"
+
+namespace gelatin::viewer {
+
+/// A scene that runs beside the window.
+///
+/// Steps are made in batches: by a thread of their own where the CPU simulates, told to the GPU and followed
+/// by a fence where that does. While a batch is under way the window goes on drawing what the one before has
+/// left; what is wanted meanwhile waits until it is done. Use it from one thread, with the context current in
+/// which it was made.
+class Session {
+public:
+    /// @param earlier goes on from where that is, at its speed; null: from the start. @pre that is not
+    /// computing
+    /// @throws as Simulator
+    Session(LoadedScene loaded, Backend backend, const Session* earlier = nullptr);
+
+    /// Once for each picture: takes over what was computed and goes on. Never waits for the simulation.
+    /// @param now real time [s]. @return true if there is something new to draw
+    bool update(double now);
+
+    void play(bool is_playing);
+    bool is_playing() const { return is_playing_; }
+    /// Makes steps while paused.
+    void make_steps(int count) { steps_asked_ += count; }
+    void reset();
+    void set_speed(double speed) { pace_.set_speed(speed); }
+    const Pace& pace() const { return pace_; }
+    void show(const Overlays& overlays);
+
+    /// A hand takes hold of the body that the ray meets first, once the batch under way is done: if it meets
+    /// any.
+    void reach(const Ray& ray);
+    enum class Hand { free, reaching, holding };
+    Hand hand() const { return hand_; }
+    /// Where it took hold [m]. @pre it holds something
+    const glm::vec3& held_point() const { return held_point_; }
+    void move_hand(const glm::vec3& target) { hand_target_ = target; }
+    /// What was held keeps its momentum.
+    void let_go();
+
+    /// True where a batch is under way: nothing of the simulator may be touched.
+    bool is_computing() const { return worker_.is_busy() || !fence_.is_passed(); }
+
+    /// As of the last batch that is done.
+    double time() const { return time_; }
+    int frame() const { return frame_; }
+    const RenderView& view() const { return view_; }
+    const Readings& readings() const { return readings_; }
+    /// What stopped it; empty while all is well. reset() goes on.
+    const std::string& problem() const { return problem_; }
+
+    const std::string& device() const { return device_; }
+
+    /// What never changes.
+    const Scene& scene() const { return simulator_.scene(); }
+    const Model& model() const { return simulator_.model(); }
+    /// @pre !is_computing(), for what changes
+    const Simulator& simulator() const { return simulator_; }
+
+private:
+    void take_over();
+    void go_back();
+    void follow_hand();
+    void start_batch(int steps, double now);
+    void run_batch(int steps, bool measure);
+    void fail(const std::string& problem);
+
+    Simulator simulator_;
+    std::string device_;
+    Pace pace_;
+    Readings readings_;
+    RenderView view_;
+    Overlays overlays_;
+    bool is_playing_ = true;
+    bool is_reset_asked_ = false;
+    bool is_view_old_ = true;
+    int steps_asked_ = 0;
+    Hand hand_ = Hand::free;
+    bool is_pulled_ = false;  // the simulator knows of a hand
+    Ray reach_{};
+    glm::vec3 held_point_{0.0f}, hand_target_{0.0f};
+    double last_update_ = 0.0, last_measure_ = -1.0;  // [s]
+    double time_ = 0.0;
+    int frame_ = 0;
+    std::string problem_;
+    std::vector<FrameStatistics> measured_;  // by the batch under way
+    gl::Fence fence_;                        // of the batch, where the GPU simulates
+    Worker worker_;                          // last: its thread uses the others
+};
+
+}  // namespace gelatin::viewer

@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "panels.h"
+
+namespace gelatin::viewer {
+namespace {
+
+constexpr float kWidth = 300.0f;
+
+bool button(const char* label, float width) {
+    return ImGui::Button(label, {width, 0.0f});
+}
+
+void tell(const std::string& text) {
+    ImGui::TextUnformatted(text.c_str());
+}
+
+}  // namespace
+
+void draw_session_panel(const Session& session, const PanelState& state, Requests& requests) {
+    const float margin = 10.0f * state.scale;
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({window.x - margin, margin}, ImGuiCond_Always, {1.0f, 0.0f});
+    ImGui::SetNextWindowSizeConstraints({kWidth * state.scale, 0.0f},
+                                        {kWidth * state.scale, window.y - 2.0f * margin});
+    const std::string title = session.scene().file.filename().string() + "###session";
+    ImGui::Begin(title.c_str(), nullptr,
+                 ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNav);
+    ImGui::PushItemWidth(150.0f * state.scale);
+    draw_playback(session, state, requests);
+    if (ImGui::CollapsingHeader("Show")) draw_overlay_choices(state, requests);
+    if (ImGui::CollapsingHeader("Settings")) draw_settings(state, requests);
+    if (ImGui::CollapsingHeader("Readings")) draw_readings(session, state);
+    ImGui::PopItemWidth();
+    ImGui::End();
+}
+
+void draw_playback(const Session& session, const PanelState& state, Requests& requests) {
+    const float spacing = ImGui::GetStyle().ItemSpacing.x;
+    const float width = (ImGui::GetContentRegionAvail().x - 3.0f * spacing) / 4.0f;
+    const auto command_button = [&](const char* label, Command command) {
+        if (button(label, width)) requests.commands.push_back(command);
+    };
+    command_button(session.is_playing() ? "Pause###play" : "Play###play", Command::toggle_play);
+    ImGui::SameLine();
+    command_button("Step", Command::step);
+    ImGui::SameLine();
+    command_button("Frame", Command::step_frame);
+    ImGui::SameLine();
+    command_button("Reset", Command::reset);
+
+    float speed = static_cast<float>(session.pace().speed());
+    if (ImGui::SliderFloat("speed", &speed, 1.0f / 64.0f, 1.0f, "%.3f x real time",
+                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
+        requests.speed = static_cast<double>(speed);
+    tell(fmt::format("{:.3f} s, frame {}", session.time(), session.frame()));
+    ImGui::SameLine(ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize("F1: help").x);
+    ImGui::TextDisabled("F1: help");
+    if (session.is_playing() && session.pace().is_behind()) {
+        ImGui::TextColored({0.95f, 0.69f, 0.20f, 1.0f}, "slowed down: %.2g x real time",
+                           session.pace().achieved_speed());
+    } else {
+        ImGui::TextDisabled("%.0f pictures/s, %s quality", state.picture_rate, state.quality);
+    }
+}
+
+void draw_overlay_choices(const PanelState& state, Requests& requests) {
+    Overlays overlays = state.overlays;
+    bool changed = false;
+    bool strain = overlays.full_strain.has_value(), boxes = overlays.box_levels.has_value();
+    if (ImGui::Checkbox("springs by strain", &strain)) {
+        overlays.full_strain = strain ? std::optional(kUsualStrain) : std::nullopt;
+        changed = true;
+    }
+    if (overlays.full_strain) {
+        float percent = 100.0f * *overlays.full_strain;
+        if (ImGui::SliderFloat("full colour", &percent, 0.1f, 50.0f, "%.1f %%",
+                               ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
+            overlays.full_strain = percent / 100.0f;
+            changed = true;
+        }
+    }
+    changed |= ImGui::Checkbox("faces that touch", &overlays.faces);
+    if (ImGui::Checkbox("boxes", &boxes)) {
+        overlays.box_levels = boxes ? std::optional(0) : std::nullopt;
+        changed = true;
+    }
+    if (overlays.box_levels) {
+        int levels = *overlays.box_levels;
+        if (ImGui::SliderInt("levels below", &levels, 0, 8, "%d", ImGuiSliderFlags_AlwaysClamp)) {
+            overlays.box_levels = levels;
+            changed = true;
+        }
+    }
+    if (changed) requests.overlays = overlays;
+}
+
+}  // namespace gelatin::viewer

@@ -1,0 +1,71 @@
+#include "shortcuts.h"
+
+#include <GLFW/glfw3.h>
+
+#include <array>
+
+namespace gelatin::viewer {
+namespace {
+
+using With = Shortcut::With;
+
+// A key that is held down makes steps, but does not play and pause in turns.
+bool may_repeat(Command command) {
+    return command == Command::step || command == Command::step_frame;
+}
+
+}  // namespace
+
+std::span<const Shortcut> shortcuts() {
+    static constexpr std::array kShortcuts{
+        Shortcut{GLFW_KEY_SPACE, With::nothing, Command::toggle_play, "Space", "play, pause"},
+        Shortcut{GLFW_KEY_PERIOD, With::nothing, Command::step, ".", "one step"},
+        Shortcut{GLFW_KEY_RIGHT, With::nothing, Command::step_frame, "Right", "one frame"},
+        Shortcut{GLFW_KEY_R, With::nothing, Command::reset, "R", "back to the start"},
+        Shortcut{GLFW_KEY_F5, With::nothing, Command::reload, "F5", "read the scene file again"},
+        Shortcut{GLFW_KEY_T, With::nothing, Command::throw_body, "T",
+                 "throw a copy of a body to the pointer"},
+        Shortcut{GLFW_KEY_MINUS, With::nothing, Command::slower, "-", "half the speed"},
+        Shortcut{GLFW_KEY_EQUAL, With::nothing, Command::faster, "+", "twice the speed, up to real time"},
+        Shortcut{GLFW_KEY_F, With::nothing, Command::frame_all, "F", "show all bodies"},
+        Shortcut{GLFW_KEY_1, With::nothing, Command::toggle_strain, "1", "springs coloured by strain"},
+        Shortcut{GLFW_KEY_2, With::nothing, Command::toggle_faces, "2", "faces that touch"},
+        Shortcut{GLFW_KEY_3, With::nothing, Command::toggle_boxes, "3", "boxes of the hierarchy"},
+        Shortcut{GLFW_KEY_TAB, With::nothing, Command::toggle_panels, "Tab", "hide the panels, show them"},
+        Shortcut{GLFW_KEY_F12, With::nothing, Command::screenshot, "F12", "save the picture as PNG"},
+        Shortcut{GLFW_KEY_F12, With::shift, Command::screenshot_of_window, "Shift+F12",
+                 "the same with the panels"},
+        Shortcut{GLFW_KEY_F9, With::nothing, Command::toggle_film, "F9", "begin a film, end it"},
+        Shortcut{GLFW_KEY_S, With::control, Command::save_scene, "Ctrl+S", "save the scene as it now is"},
+        Shortcut{GLFW_KEY_F1, With::nothing, Command::toggle_help, "F1", "this list"},
+        Shortcut{GLFW_KEY_Q, With::control, Command::quit, "Ctrl+Q", "quit"},
+    };
+    return kShortcuts;
+}
+
+std::optional<Command> find_command(const KeyPress& press) {
+    int key = press.key;
+    if (key == GLFW_KEY_KP_ADD) key = GLFW_KEY_EQUAL;
+    if (key == GLFW_KEY_KP_SUBTRACT) key = GLFW_KEY_MINUS;
+    // '+' takes a Shift on most keyboards.
+    const bool with_shift = press.with_shift && key != GLFW_KEY_EQUAL;
+    const With with = press.with_control ? With::control : with_shift ? With::shift : With::nothing;
+    for (const Shortcut& shortcut : shortcuts()) {
+        if (shortcut.key != key || shortcut.with != with) continue;
+        if (press.is_repeat && !may_repeat(shortcut.command)) return {};
+        return shortcut.command;
+    }
+    return {};
+}
+
+std::span<const Gesture> gestures() {
+    static constexpr std::array kGestures{
+        Gesture{"drag a body", "pull at it; the wheel takes it away"},
+        Gesture{"drag beside", "turn the view"},
+        Gesture{"right or middle drag", "move the view"},
+        Gesture{"wheel", "come nearer, go away"},
+    };
+    return kGestures;
+}
+
+}  // namespace gelatin::viewer

@@ -1,0 +1,9 @@
+#pragma once
+
+namespace gelatin::viewer {
+
+/// Colours, sizes and font of the panels. @param scale 1 on a screen of usual density. @pre a context of Dear
+/// ImGui; what the font was drawn to before is gone
+void apply_theme(float scale);
+
+}  // namespace gelatin::viewer

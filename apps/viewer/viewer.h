@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "gelatin/simulator.h"
+#include "render/renderer.h"
+
+namespace gelatin::viewer {
+
+/// What the user asked `gelatin view` for.
+struct ViewerOptions {
+    std::filesystem::path scene;         ///< or a mesh; empty: the start screen
+    std::vector<std::string> overrides;  ///< as load_scene's
+    Backend backend = Backend::automatic;
+    render::Quality quality = render::Quality::automatic;  ///< automatic: fast on software drivers, else high
+    int width = 1280, height = 720;                        ///< of the window
+    bool gl_debug = false;
+};
+
+/// Opens a window and returns when the user has closed it.
+/// @throws SystemError if there is no display; NoOpenGl if it has no OpenGL 4.3. What is wrong with a scene
+/// is
+///   shown in the window and logged.
+void run_viewer(const ViewerOptions& options);
+
+}  // namespace gelatin::viewer

@@ -1,0 +1,186 @@
+#include "viewer_app.h"
+
+#include <fmt/format.h>
+
+#include <glm/common.hpp>
+#include <utility>
+
+#include "common/surroundings.h"
+#include "core/log.h"
+#include "gelatin/error.h"
+#include "gl/context.h"
+
+namespace gelatin::viewer {
+namespace {
+
+constexpr double kNoticeTime = 4.0;  // [s]
+constexpr double kIdle = 0.1;        // between pictures when nothing moves [s]
+
+render::Quality choose_quality(render::Quality quality) {
+    if (quality != render::Quality::automatic) return quality;
+    return gl::Context::current().device().is_software ? render::Quality::fast : render::Quality::high;
+}
+
+}  // namespace
+
+ViewerApp::ViewerApp(Window& window, const ViewerOptions& options)
+    : window_(window), options_(options), samples_(sample_scenes()) {
+    options_.quality = choose_quality(options.quality);
+    panels_.quality = options_.quality == render::Quality::fast ? "fast" : "high";
+    if (!options_.scene.empty()) open(options_.scene);
+}
+
+ViewerApp::~ViewerApp() {
+    if (film_) end_film();
+}
+
+void ViewerApp::open(const std::filesystem::path& file) {
+    if (file != options_.scene) options_.overrides.clear();  // meant for another
+    options_.scene = file;
+    problem_.clear();
+    loader_.open(file, options_.overrides);
+}
+
+void ViewerApp::draw_frame() {
+    window_.begin_frame(patience());
+    panels_.scale = window_.scale();
+    const double now = window_.now(), elapsed = now - std::exchange(last_frame_, now);
+    if (elapsed > 0.0) panels_.picture_rate += 0.1 * (1.0 / elapsed - panels_.picture_rate);
+    for (const Event& event : window_.take_events()) handle(event);
+    take_loaded_scene();
+    if (shader_watch_.has_changed(now)) reload_shaders();
+    const bool is_new = session_ && session_->update(now);
+    if (session_ && std::exchange(told_problem_, session_->problem()) != session_->problem())
+        if (!session_->problem().empty()) fail(session_->problem() + "\n\nR goes back to the start.");
+    follow_hand();
+    draw_picture(is_new);
+    const Requests requests = draw_panels();
+    window_.draw_panels();
+    save_pictures();
+    window_.present();
+    update_title();
+    obey(requests);
+}
+
+// Panels take a picture or two to follow what happened.
+double ViewerApp::patience() const {
+    const bool is_busy =
+        loader_.is_busy() || (session_ && (session_->is_playing() || session_->is_computing()));
+    return is_busy ? 0.0 : kIdle;
+}
+
+float ViewerApp::aspect() const {
+    const glm::ivec2 size = glm::max(window_.pixels(), glm::ivec2(1));
+    return static_cast<float>(size.x) / static_cast<float>(size.y);
+}
+
+void ViewerApp::take_loaded_scene() {
+    // A scene that goes on takes over what is under way once that is done.
+    if (session_ && session_->is_computing()) return;
+    try {
+        if (auto result = loader_.take()) show_scene(std::move(*result));
+    } catch (const Error& error) {
+        fail(error.what());
+        if (session_) panels_.edited = session_->scene();  // what was wished for cannot be
+    }
+}
+
+void ViewerApp::show_scene(SceneLoader::Result result) {
+    const bool goes_on = result.purpose == SceneLoader::Purpose::go_on && session_;
+    auto session = std::make_unique<Session>(std::move(result.loaded), options_.backend,
+                                             goes_on ? session_.get() : nullptr);
+    session->show(panels_.overlays);
+    session_ = std::move(session);
+    // The hand was the old one's.
+    hand_depth_.reset();
+    is_hand_asked_ = false;
+    if (goes_on) return;
+    panels_.edited = session_->scene();
+    own_bodies_ = session_->scene().objects.size();
+    surroundings_ = describe_surroundings(session_->simulator());
+    camera_.set(choose_camera(session_->scene(), surroundings_, aspect()));
+    if (renderer_) renderer_->set_surroundings(surroundings_);
+}
+
+void ViewerApp::draw_picture(bool is_new) {
+    const glm::ivec2 size = window_.pixels();
+    if (!session_ || size.x == 0 || size.y == 0) return window_.show_picture(0);
+    if (!renderer_) {
+        make_renderer(size.x, size.y);
+    } else if (renderer_->width() != size.x || renderer_->height() != size.y) {
+        if (film_) end_film();
+        renderer_->resize(size.x, size.y);
+        drawn_camera_.reset();
+    }
+    const render::Camera camera = camera_.camera();
+    if (is_new || drawn_camera_ != camera) {
+        drawn_camera_ = camera;
+        try {
+            if (session_->view().node_count > 0) renderer_->draw(session_->view(), camera);
+        } catch (const GlError& error) {
+            fail(error.what());  // overlays make their programs when they are first drawn
+        }
+        if (film_ && is_new) film_picture();
+    }
+    window_.show_picture(renderer_->framebuffer());
+}
+
+// Where something is wrong the one before stays.
+void ViewerApp::make_renderer(int width, int height) {
+    render::RendererOptions options;
+    options.width = width;
+    options.height = height;
+    options.quality = options_.quality;
+    auto renderer = std::make_unique<render::Renderer>(options);
+    renderer->set_surroundings(surroundings_);
+    renderer_ = std::move(renderer);
+    drawn_camera_.reset();
+}
+
+// Programs are made where a renderer and a simulation are: new ones take the place of the old.
+void ViewerApp::reload_shaders() {
+    try {
+        if (renderer_) make_renderer(renderer_->width(), renderer_->height());
+        if (session_ && session_->simulator().uses_gl()) loader_.rebuild(panels_.edited);
+        problem_.clear();
+        tell("shaders read again");
+    } catch (const GlError& error) {
+        fail(error.what());
+    }
+}
+
+Requests ViewerApp::draw_panels() {
+    Requests requests;
+    const float scale = window_.scale();
+    if (session_ && shows_panels_) draw_session_panel(*session_, panels_, requests);
+    if (!session_ && !loader_.is_busy()) draw_start_screen(scale, samples_, requests);
+    if (shows_help_) draw_help(scale, requests);
+    if (!problem_.empty() && !draw_problem(scale, problem_)) problem_.clear();
+    if (loader_.is_busy() && loader_.purpose() == SceneLoader::Purpose::show) {
+        draw_notice(scale, fmt::format("opening {} ...", loader_.file().filename().string()));
+    } else if (window_.now() < notice_until_) {
+        draw_notice(scale, notice_);
+    } else if (film_) {
+        draw_notice(scale, "filming " + film_->file().string() + " (F9 ends it)");
+    }
+    return requests;
+}
+
+void ViewerApp::tell(const std::string& notice) {
+    notice_ = notice;
+    notice_until_ = window_.now() + kNoticeTime;
+}
+
+void ViewerApp::fail(const std::string& problem) {
+    if (problem == problem_) return;
+    spdlog::error("{}", problem.substr(0, problem.find('\n')));
+    problem_ = problem;
+}
+
+void ViewerApp::update_title() {
+    if (!session_) return window_.set_title("Gelatin");
+    window_.set_title(fmt::format("{} ({}) - Gelatin", session_->scene().file.filename().string(),
+                                  session_->is_playing() ? "playing" : "paused"));
+}
+
+}  // namespace gelatin::viewer

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "camera_controller.h"
+#include "film.h"
+#include "panels.h"
+#include "render/renderer.h"
+#include "scene_loader.h"
+#include "session.h"
+#include "shader_watch.h"
+#include "viewer.h"
+#include "window.h"
+
+namespace gelatin::viewer {
+
+/// What happens in the window. docs/viewer.md tells how its parts work together.
+class ViewerApp {
+public:
+    /// @param window must outlive it
+    ViewerApp(Window& window, const ViewerOptions& options);
+    ViewerApp(const ViewerApp&) = delete;
+    ViewerApp& operator=(const ViewerApp&) = delete;
+    /// A film under way is ended.
+    ~ViewerApp();
+
+    /// One picture: what the user did, what was simulated, panels.
+    void draw_frame();
+
+    void open(const std::filesystem::path& file);
+
+    /// Null before a scene is there.
+    const Session* session() const { return session_.get(); }
+    const CameraController& camera() const { return camera_; }
+    const PanelState& panels() const { return panels_; }
+    bool shows_help() const { return shows_help_; }
+    /// What is shown as wrong; empty while nothing is.
+    const std::string& problem() const { return problem_; }
+    bool is_filming() const { return film_.has_value(); }
+    /// The last line at the lower edge.
+    const std::string& notice() const { return notice_; }
+
+private:
+    void take_loaded_scene();
+    void show_scene(SceneLoader::Result result);
+    void handle(const Event& event);
+    void handle(const ButtonChange& button);
+    void handle(const PointerMove& move);
+    void handle(const WheelTurn& wheel);
+    void follow_hand();
+    void let_go();
+    void obey(Command command);
+    void obey(const Requests& requests);
+    void throw_body();
+    void save_scene();
+    void show_overlays(const Overlays& overlays);
+    void draw_picture(bool is_new);
+    void make_renderer(int width, int height);
+    void reload_shaders();
+    void toggle_film();
+    void film_picture();
+    void end_film();
+    Requests draw_panels();
+    void save_pictures();
+    void save_picture(unsigned framebuffer, int width, int height);
+    void tell(const std::string& notice);
+    void fail(const std::string& problem);
+    void update_title();
+    double patience() const;
+    float aspect() const;
+
+    Window& window_;
+    ViewerOptions options_;
+    SceneLoader loader_;
+    std::unique_ptr<Session> session_;
+    std::unique_ptr<render::Renderer> renderer_;
+    std::optional<Film> film_;
+    ShaderWatch shader_watch_;
+    render::Surroundings surroundings_;
+    CameraController camera_;
+    std::optional<render::Camera> drawn_camera_;  // of the picture; empty: there is none yet
+
+    PanelState panels_;
+    std::vector<std::filesystem::path> samples_;
+    bool shows_panels_ = true, shows_help_ = false;
+    bool wants_picture_ = false, wants_window_picture_ = false;
+    std::string problem_, notice_, told_problem_;
+    double notice_until_ = 0.0;  // [s]
+    double last_frame_ = 0.0;    // [s]
+
+    std::optional<int> dragging_;  // the button
+    glm::vec2 pointer_{0.0f};
+    std::size_t own_bodies_ = 0;  // of the scene as it was read; the others were thrown in
+    bool is_hand_asked_ = false;  // whether the drag has met a body is not known yet
+    glm::vec2 way_since_asked_{0.0f};
+    std::optional<float> hand_depth_;  // in front of the eye, while a body is held [m]
+};
+
+}  // namespace gelatin::viewer

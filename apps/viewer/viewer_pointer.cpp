@@ -1,0 +1,87 @@
+// ViewerApp: what keys and the mouse do.
+#include <GLFW/glfw3.h>
+
+#include <cmath>
+#include <utility>
+
+#include "shortcuts.h"
+#include "viewer_app.h"
+
+namespace gelatin::viewer {
+namespace {
+
+constexpr float kHandNotch = 1.05f;  // a notch of the wheel takes what is held so much farther away
+
+}  // namespace
+
+void ViewerApp::handle(const Event& event) {
+    if (const auto* key = std::get_if<KeyPress>(&event)) {
+        if (const std::optional<Command> command = find_command(*key)) obey(*command);
+    } else if (const auto* button = std::get_if<ButtonChange>(&event)) {
+        handle(*button);
+    } else if (const auto* move = std::get_if<PointerMove>(&event)) {
+        handle(*move);
+    } else if (const auto* wheel = std::get_if<WheelTurn>(&event)) {
+        handle(*wheel);
+    } else if (const auto* drop = std::get_if<FileDrop>(&event)) {
+        if (!drop->files.empty()) open(drop->files.front());
+    }
+}
+
+// A drag that begins on a body is a hand's, one beside turns the view. Which it is shows once the simulation
+// can be asked.
+void ViewerApp::handle(const ButtonChange& button) {
+    pointer_ = button.place;
+    if (button.is_down && !dragging_) {
+        dragging_ = button.button;
+        if (!session_ || button.button != GLFW_MOUSE_BUTTON_LEFT) return;
+        session_->reach(camera_.ray(button.place));
+        is_hand_asked_ = true;
+        way_since_asked_ = glm::vec2(0.0f);
+    } else if (!button.is_down && dragging_ == button.button) {
+        dragging_.reset();
+        if (button.button == GLFW_MOUSE_BUTTON_LEFT && !is_hand_asked_) let_go();
+    }
+}
+
+void ViewerApp::handle(const PointerMove& move) {
+    const glm::vec2 way = move.place - std::exchange(pointer_, move.place);
+    if (!dragging_ || hand_depth_) return;
+    if (*dragging_ != GLFW_MOUSE_BUTTON_LEFT) {
+        camera_.pan(way);
+    } else if (is_hand_asked_) {
+        way_since_asked_ += way;
+    } else {
+        camera_.orbit(way);
+    }
+}
+
+// With a body in hand the wheel takes it away or brings it here.
+void ViewerApp::handle(const WheelTurn& wheel) {
+    if (hand_depth_) {
+        *hand_depth_ *= std::pow(kHandNotch, wheel.notches);
+    } else {
+        camera_.zoom(wheel.notches, wheel.place);
+    }
+}
+
+void ViewerApp::let_go() {
+    hand_depth_.reset();
+    if (session_) session_->let_go();
+}
+
+void ViewerApp::follow_hand() {
+    if (is_hand_asked_ && session_ && session_->hand() != Session::Hand::reaching) {
+        is_hand_asked_ = false;
+        if (session_->hand() == Session::Hand::free) {
+            camera_.orbit(way_since_asked_);
+        } else if (dragging_) {
+            hand_depth_ = camera_.depth_of(session_->held_point());
+        } else {
+            let_go();
+        }
+    }
+    if (hand_depth_ && session_) session_->move_hand(camera_.at_depth(pointer_, *hand_depth_));
+}
+
+}  // namespace gelatin::viewer

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "gelatin/scene.h"
+
+namespace gelatin {
+
+/// The names that scene files use.
+const char* name_of(ForceMethod forces);
+const char* name_of(BroadPhase broad_phase);
+const char* name_of(CollisionDetection detection);
+const char* name_of(CollisionResponse response);
+
+}  // namespace gelatin
