@@ -68,7 +68,8 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
     take_back_tangled(current.positions);
     coarse_.begin(step, current.positions);
     for (int i = 0; i < settings_.iterations; ++i) {
-        if (settings_.chebyshev > 0.0) accelerate(i, current.positions);
+        if (settings_.chebyshev > 0.0)
+            accelerate(coarse_.is_empty() ? i : sweeps_since_correction(i), current.positions);
         if (i % kSweepsAMotion == 0) tets_.look(current.positions);
         sweep(step, current.positions);
         const bool is_last = i + 1 == settings_.iterations;
@@ -138,7 +139,8 @@ void BlockDescent<Real>::take_back_tangled(std::vector<Vec4<Real>>& positions) c
 // Chebyshev's semi-iterative method (Golub, Varga 1961; for nonlinear sweeps Wang 2015): sweep k starts at
 //   x_k = w_k (x - x_(k-2)) + x_(k-2),  w_1 = 1,  w_2 = 2 / (2 - rho^2),  w_k = 4 / (4 - rho^2 w_(k-1)),
 // with x what the last one has found, so that what comes last is a sweep, which colliders have seen. Bodies
-// that touch one are left alone: what holds them changes from sweep to sweep.
+// that touch one are left alone: what holds them changes from sweep to sweep. A coarse correction is no
+// sweep: the method begins anew behind it.
 template <class Real>
 void BlockDescent<Real>::accelerate(int sweep, std::vector<Vec4<Real>>& positions) {
     const auto weight = static_cast<Real>(chebyshev_weight(settings_.chebyshev, sweep));

@@ -217,7 +217,7 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
     take_back_tangled(current);
     if (coarse_) coarse_->begin(step);
     for (int i = 0; i < settings_.iterations; ++i) {
-        if (settings_.chebyshev > 0.0) accelerate(i);
+        if (settings_.chebyshev > 0.0) accelerate(coarse_ ? sweeps_since_correction(i) : i);
         if (i % kSweepsAMotion == 0) look_at_tets();
         sweep_program_.set("clear_marks", i % kSweepsAMotion + 1 == kSweepsAMotion ? 1u : 0u);
         sweep(model);

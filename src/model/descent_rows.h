@@ -16,6 +16,11 @@ constexpr int kSweepsAMotion = 2;
 constexpr int kSweepsACorrection = 6;
 static_assert(kSweepsACorrection % kSweepsAMotion == 0);
 
+/// How many sweeps lie between the last correction and sweep `sweep` of a step, from 0.
+constexpr int sweeps_since_correction(int sweep) {
+    return sweep == 0 ? 0 : (sweep - 1) % kSweepsACorrection;
+}
+
 /// Nodes in the order in which block descent moves them: by colour, each filled up to whole slices of
 /// HalfSprings::kSlice rows with rows that have no node.
 struct DescentRows {

@@ -170,6 +170,7 @@ TEST_P(DescentMutantsTest, IsCaught) {
     look(model, {kFrame, {3}});
     look(model, {kFrame, {5, 0.8}});
     look(model, {kFrame, {1}, model.velocities});
+    look(model, {kFrame, {2}, {}, test::turned_start(model)});
     EXPECT_TRUE(caught) << "the broken kernel passes";
 }
 

@@ -11,7 +11,11 @@ struct Descent {
     double step;  ///< [s]
     DescentSettings settings{};
     std::vector<glm::vec4> earlier_velocities{};  ///< empty: none
+    std::vector<glm::vec4> positions{};           ///< at the start; empty: the model's
 };
+
+/// The model's positions with every body turned about its middle by two thirds of half a turn.
+std::vector<glm::vec4> turned_start(const Model& model);
 
 /// A step of vertex block descent on the GPU from the model's start, positions and velocities poisoned first
 /// and guarded behind their end.
