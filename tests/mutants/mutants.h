@@ -285,7 +285,6 @@ inline constexpr Break kDescentMutants[] = {
     {"flat_tets_do_not_resist", "sim/mark_flat_tets.comp", "near_flat[tet[k]] = 1u",
      "near_flat[tet[k]] = 0u"},
     {"marks_are_cleared_early", "sim/descend.comp", "resists && clear_marks != 0u", "resists"},
-    {"marks_stay", "sim/descend.comp", "resists && clear_marks != 0u", "false"},
     {"the_last_tets_are_not_looked_at", "sim/mark_flat_tets.comp", "t >= tet_count", "t + 64u >= tet_count"},
     {"tets_push_inwards", "include/node_terms.glsl", "cross(b - a, c - a)", "cross(c - a, b - a)"},
     {"nothing_slides_to_rest", "sim/descend.comp", "position -= min(needed, most) * giving;", ""},
