@@ -20,16 +20,20 @@ namespace {
 // begins to cost as much as sweeps.
 constexpr std::uint32_t kNodesPerCluster = 20, kMostClusters = 32;
 
-// Edges are smoothed over this part of a cluster's width.
+// Edges are smoothed over this part of a cluster's width. In bodies of more than 30,000 nodes that would take
+// longer than the rest of loading them, and they are sharper.
 constexpr double kSmoothed = 0.6;
+constexpr double kMostRounds = 32.0;
 
-// Smaller weights are left out.
-constexpr float kLeastWeight = 0.03f;
+// Smaller weights are left out, and much smaller ones not carried on by smoothing.
+constexpr float kLeastWeight = 0.03f, kLeastSpread = 1e-4f;
+
+using Weights = std::vector<float>;  // by node of an object
 
 // One object's.
 struct Clusters {
-    std::vector<std::vector<float>> weights;  // by cluster, then by node of the object
-    std::vector<std::uint32_t> cores;         // of each node
+    std::vector<Weights> weights;      // by cluster
+    std::vector<std::uint32_t> cores;  // of each node
 };
 
 // Cuts one object into clusters.
@@ -44,22 +48,19 @@ public:
         const std::uint32_t most = std::min(free_count_ / kNodesPerCluster, kMostClusters);
         if (most < 2) return {};
         const std::uint32_t count = spread_centers(most);
-        std::vector<std::vector<float>> weights(count, std::vector<float>(nodes_.count, 0.0f));
-        for (std::uint32_t n = 0; n < nodes_.count; ++n) {
-            if (is_free(n)) weights[nearest_[n]][n] = 1.0f;
-        }
         // The way that smoothing carries grows with the square root of its rounds.
         const double width = kSmoothed * std::cbrt(static_cast<double>(nodes_.count) / count);
-        const int rounds = static_cast<int>(std::ceil(width * width));
-        for (std::vector<float>& values : weights) {
-            for (int round = 0; round < rounds; ++round) smooth(values);
-        }
-        leave_out_small(weights);
+        const int rounds = static_cast<int>(std::ceil(std::min(width * width, kMostRounds)));
+        std::vector<Weights> weights(count);
+        tbb::parallel_for(std::uint32_t(0), count,
+                          [&](std::uint32_t k) { weights[k] = smoothed(core_of(k), rounds); });
+        leave_out_small(smoothed(free_nodes(), rounds), weights);
         return {std::move(weights), std::move(nearest_)};
     }
 
 private:
     using Distances = std::vector<float>;
+    using Nodes = std::vector<std::uint32_t>;
 
     bool is_free(std::uint32_t n) const { return model_.positions[nodes_.first + n].w > 0.0f; }
     glm::vec3 position(std::uint32_t n) const { return glm::vec3(model_.positions[nodes_.first + n]); }
@@ -108,30 +109,60 @@ private:
         }
     }
 
-    // Each node's becomes the mean of its own and its neighbours'.
-    void smooth(std::vector<float>& weights) const {
-        std::vector<float> smoothed(weights.size(), 0.0f);
+    Nodes free_nodes() const {
+        Nodes nodes;
         for (std::uint32_t n = 0; n < nodes_.count; ++n) {
-            if (!is_free(n)) continue;
-            float sum = weights[n];
-            for (const std::uint32_t other : graph_.row(nodes_.first + n))
-                sum += weights[other - nodes_.first];
-            smoothed[n] = sum / static_cast<float>(graph_.degree(nodes_.first + n) + 1);
+            if (is_free(n)) nodes.push_back(n);
         }
-        weights = std::move(smoothed);
+        return nodes;
     }
 
-    // A node's others grow by as much.
-    void leave_out_small(std::vector<std::vector<float>>& by_cluster) const {
+    Nodes core_of(std::uint32_t cluster) const {
+        Nodes core = free_nodes();
+        core.erase(
+            std::remove_if(core.begin(), core.end(), [&](std::uint32_t n) { return nearest_[n] != cluster; }),
+            core.end());
+        return core;
+    }
+
+    // One in these nodes and nothing elsewhere; then, round after round, each free node's becomes the mean of
+    // its own and its neighbours'.
+    Weights smoothed(Nodes reached, int rounds) const {
+        Weights weights(nodes_.count, 0.0f), next(nodes_.count, 0.0f);
+        for (const std::uint32_t n : reached) weights[n] = 1.0f;
+        std::vector<bool> is_reached(nodes_.count, false);
+        for (const std::uint32_t n : reached) is_reached[n] = true;
+        for (int round = 0; round < rounds; ++round) {
+            for (std::size_t k = 0, count = reached.size(); k < count; ++k) {
+                if (weights[reached[k]] < kLeastSpread) continue;
+                for (const std::uint32_t neighbour : graph_.row(nodes_.first + reached[k])) {
+                    const std::uint32_t other = neighbour - nodes_.first;
+                    if (is_reached[other] || !is_free(other)) continue;
+                    is_reached[other] = true;
+                    reached.push_back(other);
+                }
+            }
+            for (const std::uint32_t n : reached) {
+                float sum = weights[n];
+                for (const std::uint32_t other : graph_.row(nodes_.first + n))
+                    sum += weights[other - nodes_.first];
+                next[n] = sum / static_cast<float>(graph_.degree(nodes_.first + n) + 1);
+            }
+            for (const std::uint32_t n : reached) weights[n] = next[n];
+        }
+        return weights;
+    }
+
+    // A node's others grow until they are as much as all were.
+    void leave_out_small(const Weights& all, std::vector<Weights>& by_cluster) const {
         for (std::uint32_t n = 0; n < nodes_.count; ++n) {
-            float all = 0.0f, left = 0.0f;
-            for (std::vector<float>& weights : by_cluster) {
-                all += weights[n];
+            float left = 0.0f;
+            for (Weights& weights : by_cluster) {
                 if (weights[n] < kLeastWeight) weights[n] = 0.0f;
                 left += weights[n];
             }
             if (!(left > 0.0f)) continue;
-            for (std::vector<float>& weights : by_cluster) weights[n] *= all / left;
+            for (Weights& weights : by_cluster) weights[n] *= all[n] / left;
         }
     }
 
@@ -166,7 +197,7 @@ void append_core(const Model& model, const Range& nodes, std::uint32_t k, const 
 }
 
 void append(const Model& model, const Range& nodes, const Clusters& clusters, CoarseBasis& basis) {
-    const std::vector<std::vector<float>>& weights = clusters.weights;
+    const std::vector<Weights>& weights = clusters.weights;
     const Range range{basis.cluster_count(), static_cast<std::uint32_t>(weights.size())};
     basis.objects.push_back(range);
     basis.lengths.push_back(length_of(model, nodes));

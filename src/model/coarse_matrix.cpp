@@ -76,33 +76,44 @@ private:
     std::vector<Row> rows_;
 };
 
-class ObjectMatrices {
-public:
-    ObjectMatrices(const Model& model, const CoarseBasis& basis, std::size_t object)
-        : model_(model),
-          basis_(basis),
-          index_(object),
-          object_(model.objects[object]),
-          assembly_(model, basis, basis.objects[object]),
-          size_(6 * static_cast<Eigen::Index>(basis.objects[object].count)),
-          result_{Eigen::MatrixXd::Zero(size_, size_), Eigen::MatrixXd::Zero(size_, size_),
-                  Eigen::MatrixXd::Zero(size_, size_), Eigen::MatrixXd::Zero(size_, size_)} {}
+// A body's elements are added up in so many parts, each by one thread, which are added up in their order.
+constexpr std::uint32_t kParts = 16;
 
-    CoarseMatrices make() {
-        if (size_ == 0) return result_;
+// One part of one object's.
+class ElementSums {
+public:
+    ElementSums(const Model& model, const CoarseBasis& basis, std::size_t object, std::uint32_t part)
+        : model_(model),
+          object_(model.objects[object]),
+          part_(part),
+          assembly_(model, basis, basis.objects[object]),
+          result_(nothing(basis, object)) {}
+
+    static CoarseMatrices nothing(const CoarseBasis& basis, std::size_t object) {
+        const auto size = 6 * static_cast<Eigen::Index>(basis.objects[object].count);
+        const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(size, size);
+        return {zero, zero, zero, zero};
+    }
+
+    CoarseMatrices sum() {
         add_masses();
         add_springs();
         add_volume_term();
         add_neo_hookean_tets();
-        for (Eigen::MatrixXd* matrix : {&result_.inertia, &result_.elastic, &result_.viscous})
-            matrix->triangularView<Eigen::StrictlyUpper>() = matrix->transpose();
-        if (is_free()) result_.rigid = rigid_part();
         return std::move(result_);
     }
 
 private:
+    Range part_of(const Range& range) const {
+        const auto at = [&](std::uint64_t part) {
+            return static_cast<std::uint32_t>(range.count * part / kParts);
+        };
+        return {range.first + at(part_), at(part_ + 1) - at(part_)};
+    }
+
     void add_masses() {
-        for (std::uint32_t n = object_.nodes.first; n < object_.nodes.end(); ++n) {
+        const Range part = part_of(object_.nodes);
+        for (std::uint32_t n = part.first; n < part.end(); ++n) {
             for (const glm::dvec3& axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)}) {
                 assembly_.add(std::array{Slope{n, axis}}, static_cast<double>(model_.masses[n]),
                               result_.inertia);
@@ -119,7 +130,8 @@ private:
     }
 
     void add_springs() {
-        for (std::uint32_t s = object_.springs.first; s < object_.springs.end(); ++s) {
+        const Range part = part_of(object_.springs);
+        for (std::uint32_t s = part.first; s < part.end(); ++s) {
             const Spring& spring = model_.springs[s];
             const glm::dvec3 n = glm::normalize(position(spring.j) - position(spring.i));
             add_damped(std::array{Slope{spring.i, -n}, Slope{spring.j, n}},
@@ -130,7 +142,8 @@ private:
     // With the stiffness of every tet by itself, which the sweeps have as well.
     void add_volume_term() {
         if (model_.volume_term.is_empty()) return;
-        for (std::uint32_t t = object_.tets.first; t < object_.tets.end(); ++t) {
+        const Range part = part_of(object_.tets);
+        for (std::uint32_t t = part.first; t < part.end(); ++t) {
             const glm::uvec4& tet = model_.tets[t];
             const auto volume = static_cast<double>(model_.tet_rests[t].volume);
             std::array<Slope, 4> form;
@@ -148,7 +161,8 @@ private:
     // Hooke's law, which they obey about their shape at rest: V (mu_L e : e + lambda_L / 2 tr(e)^2), with e
     // the small strain.
     void add_neo_hookean_tets() {
-        for (std::uint32_t t = object_.neo_hookean_tets.first; t < object_.neo_hookean_tets.end(); ++t) {
+        const Range part = part_of(object_.neo_hookean_tets);
+        for (std::uint32_t t = part.first; t < part.end(); ++t) {
             const NeoHookeanTet& tet = model_.neo_hookean_tets[t];
             const std::array<glm::dvec3, 4> gradients = shape_gradients(tet);
             const double volume = static_cast<double>(tet.gradient_1.w);
@@ -175,37 +189,54 @@ private:
         }
     }
 
-    bool is_free() const {
-        const auto first = model_.positions.begin() + object_.nodes.first;
-        return std::all_of(first, first + object_.nodes.count, [](const glm::vec4& p) { return p.w > 0.0f; });
-    }
-
-    // M R (R^T M R)^-1 R^T M, with R the motions of all clusters as one rigid body about the first one's
-    // middle.
-    Eigen::MatrixXd rigid_part() const {
-        const Range& clusters = basis_.objects[index_];
-        Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(size_, 6);
-        for (std::uint32_t k = 0; k < clusters.count; ++k) {
-            const glm::dvec3 arm = basis_.middles[clusters.first + k] - basis_.middles[clusters.first];
-            auto rows = motions.middleRows<6>(6 * k);
-            rows.setIdentity();
-            // r x arm
-            rows.block<3, 3>(0, 3) << 0.0, arm.z, -arm.y, -arm.z, 0.0, arm.x, arm.y, -arm.x, 0.0;
-        }
-        const Eigen::MatrixXd moved = result_.inertia * motions;
-        return moved * (motions.transpose() * moved).ldlt().solve(moved.transpose());
-    }
-
     glm::dvec3 position(std::uint32_t node) const { return glm::dvec3(model_.positions[node]); }
 
     const Model& model_;
-    const CoarseBasis& basis_;
-    std::size_t index_;
     const ModelObject& object_;
+    std::uint32_t part_;
     Assembly assembly_;
-    Eigen::Index size_;
     CoarseMatrices result_;
 };
+
+bool is_free(const Model& model, const Range& nodes) {
+    const auto first = model.positions.begin() + nodes.first;
+    return std::all_of(first, first + nodes.count, [](const glm::vec4& p) { return p.w > 0.0f; });
+}
+
+// M R (R^T M R)^-1 R^T M, with M the inertia and R the motions of all clusters as one rigid body about the
+// first one's middle.
+Eigen::MatrixXd rigid_part(const CoarseBasis& basis, const Range& clusters, const Eigen::MatrixXd& inertia) {
+    Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(inertia.rows(), 6);
+    for (std::uint32_t k = 0; k < clusters.count; ++k) {
+        const glm::dvec3 arm = basis.middles[clusters.first + k] - basis.middles[clusters.first];
+        auto rows = motions.middleRows<6>(6 * static_cast<Eigen::Index>(k));
+        rows.setIdentity();
+        // r x arm
+        rows.block<3, 3>(0, 3) << 0.0, arm.z, -arm.y, -arm.z, 0.0, arm.x, arm.y, -arm.x, 0.0;
+    }
+    const Eigen::MatrixXd moved = inertia * motions;
+    return moved * (motions.transpose() * moved).ldlt().solve(moved.transpose());
+}
+
+CoarseMatrices object_matrices(const Model& model, const CoarseBasis& basis, std::size_t object) {
+    CoarseMatrices matrices = ElementSums::nothing(basis, object);
+    const Range& clusters = basis.objects[object];
+    if (clusters.count == 0) return matrices;
+    std::vector<CoarseMatrices> parts(kParts);
+    tbb::parallel_for(std::uint32_t(0), kParts, [&](std::uint32_t part) {
+        parts[part] = ElementSums(model, basis, object, part).sum();
+    });
+    for (const CoarseMatrices& part : parts) {
+        matrices.inertia += part.inertia;
+        matrices.elastic += part.elastic;
+        matrices.viscous += part.viscous;
+    }
+    for (Eigen::MatrixXd* matrix : {&matrices.inertia, &matrices.elastic, &matrices.viscous})
+        matrix->triangularView<Eigen::StrictlyUpper>() = matrix->transpose();
+    if (is_free(model, model.objects[object].nodes))
+        matrices.rigid = rigid_part(basis, clusters, matrices.inertia);
+    return matrices;
+}
 
 }  // namespace
 
@@ -219,7 +250,7 @@ Eigen::MatrixXd CoarseMatrices::inverse(double step) const {
 std::vector<CoarseMatrices> make_coarse_matrices(const Model& model, const CoarseBasis& basis) {
     std::vector<CoarseMatrices> matrices(model.objects.size());
     tbb::parallel_for(std::size_t(0), matrices.size(),
-                      [&](std::size_t o) { matrices[o] = ObjectMatrices(model, basis, o).make(); });
+                      [&](std::size_t o) { matrices[o] = object_matrices(model, basis, o); });
     return matrices;
 }
 
