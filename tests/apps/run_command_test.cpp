@@ -201,7 +201,7 @@ TEST_F(RunCommand, ASecondInterruptKills) {
     // One frame of 5,000 s: the first interrupt waits for its end.
     const ProgramResult result =
         run({"run", "cube.toml", "--set", "simulation.frame_rate=2e-4", "--set", "simulation.substeps=auto",
-             "--set", "material.jelly.youngs_modulus=100", "--set",
+             "--set", "material.jelly.youngs_modulus=50", "--set",
              "object.cube.shape={box=[1, 1, 1], segments=[40, 40, 40]}"});
     EXPECT_EQ(result.signal, SIGINT) << result.exit_code << result.err;
 }
