@@ -196,13 +196,14 @@ TEST_F(RunCommand, TerminationIsAnInterruptToo) {
 }
 
 TEST_F(RunCommand, ASecondInterruptKills) {
-    settings_.signal_after = "steps of";
+    settings_.signal_after = "10%";
     settings_.signals = {SIGINT, SIGINT};
-    // One frame of 5,000 s: the first interrupt waits for its end.
+    settings_.signal_delay = std::chrono::milliseconds(300);
+    // Frames of 5,000 s, which take a second or more: the first interrupt waits for the second one's end.
     const ProgramResult result =
-        run({"run", "cube.toml", "--set", "simulation.frame_rate=2e-4", "--set", "simulation.substeps=auto",
-             "--set", "material.jelly.youngs_modulus=50", "--set",
-             "object.cube.shape={box=[1, 1, 1], segments=[40, 40, 40]}"});
+        run({"run", "cube.toml", "--frames", "10", "--set", "simulation.frame_rate=2e-4", "--set",
+             "simulation.substeps=auto", "--set", "material.jelly.youngs_modulus=1000", "--set",
+             "object.cube.shape={box=[1, 1, 1], segments=[10, 10, 10]}"});
     EXPECT_EQ(result.signal, SIGINT) << result.exit_code << result.err;
 }
 

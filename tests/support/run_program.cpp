@@ -10,6 +10,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <optional>
 #include <stdexcept>
 
 namespace gelatin::test {
@@ -70,15 +71,16 @@ void listen(pid_t child, const ProgramSettings& settings, int out, int err, Prog
     const auto deadline = std::chrono::steady_clock::now() + kLongest;
     bool out_open = true, err_open = true;
     std::size_t sent = 0;
-    auto next_signal = std::chrono::steady_clock::now();
+    std::optional<std::chrono::steady_clock::time_point> next_signal;
     while (out_open || err_open) {
         pollfd sources[2] = {{out_open ? out : -1, POLLIN, 0}, {err_open ? err : -1, POLLIN, 0}};
         ::poll(sources, 2, 100);
         if (sources[0].revents != 0) out_open = read_some(out, result.out);
         if (sources[1].revents != 0) err_open = read_some(err, result.err);
         const auto now = std::chrono::steady_clock::now();
-        const bool has_come = result.err.find(settings.signal_after) != std::string::npos;
-        if (has_come && sent < settings.signals.size() && now >= next_signal) {
+        if (!next_signal && result.err.find(settings.signal_after) != std::string::npos)
+            next_signal = now + settings.signal_delay;
+        if (next_signal && sent < settings.signals.size() && now >= *next_signal) {
             ::kill(child, settings.signals[sent++]);
             next_signal = now + kBetweenSignals;
         }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct ProgramSettings {
     std::size_t largest_file = 0;  ///< no file may grow beyond [bytes], as on a full disk; 0: no limit
     std::string signal_after;      ///< once stderr has this text, `signals` are sent
     std::vector<int> signals;
+    std::chrono::milliseconds signal_delay{0};  ///< between that text and the first signal
 };
 
 /// Runs the gelatin program with `arguments` and waits for its end; kills it after a minute and a half.
