@@ -58,7 +58,7 @@ TEST_P(ConvergenceHeavy, IsToNewtonsSolution) {
         EXPECT_LT(error, std::max(last, 1e-11)) << iterations << " sweeps";
         last = error;
     }
-    EXPECT_LT((descend(model, {100}) - exact).norm() / way, 1e-5);
+    EXPECT_LT(last, 1e-5);
 }
 
 // Sweeps alone were 42% of the way off after ten.
