@@ -66,11 +66,11 @@ void CoarseCorrection<Real>::find_ways(std::span<const Vec4<Real>> positions,
 
 // What acts on the cluster, as it was at rest.
 template <class Real>
-void CoarseCorrection<Real>::gather(std::uint32_t k, std::span<const Vec4<Real>> positions,
+void CoarseCorrection<Real>::gather(std::uint32_t index, std::span<const Vec4<Real>> positions,
                                     std::span<const Vec3<Real>> forces) {
-    Cluster& cluster = clusters_[k];
+    Cluster& cluster = clusters_[index];
     Vec3<Real> force(0), moment(0);
-    for (const CoarseBasis::Part& part : basis_.nodes_of(k)) {
+    for (const CoarseBasis::Part& part : basis_.nodes_of(index)) {
         const Vec3<Real> f = static_cast<Real>(part.weight) * forces[part.index];
         force += f;
         moment += glm::cross(Vec3<Real>(positions[part.index]) - cluster.middle, f);

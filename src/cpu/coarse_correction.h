@@ -41,7 +41,7 @@ private:
         Vec3<Real> shift{0}, spin{0};    // [m], [radians]
     };
 
-    void gather(std::uint32_t cluster, std::span<const Vec4<Real>> positions,
+    void gather(std::uint32_t index, std::span<const Vec4<Real>> positions,
                 std::span<const Vec3<Real>> forces);
     void solve(std::size_t object);
 
