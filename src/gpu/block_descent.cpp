@@ -1,7 +1,6 @@
 #include "gpu/block_descent.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "gpu/chunks.h"
 #include "model/descent_rows.h"
@@ -118,7 +117,6 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
       accelerate_program_(gl::Program::compute("sim/accelerate_descent.comp")),
       mark_program_(gl::Program::compute("sim/mark_flat_tets.comp", volume_defines(model))),
       sweep_program_(gl::Program::compute("sim/descend.comp", sweep_defines(model))),
-      force_program_(gl::Program::compute("sim/descend.comp", with(sweep_defines(model), "FORCES"))),
       sum_program_(gl::Program::compute("sim/sum_rigid_motions.comp", ModelBuffers::collider_defines(model))),
       motion_program_(gl::Program::compute("sim/sum_rigid_motions.comp",
                                            with(ModelBuffers::collider_defines(model), "OBJECTS"))),
@@ -142,9 +140,6 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
     const TetCorners corners =
         pack_tet_corners(rows.nodes, make_node_tets(model.node_count(), model.tets), model.tets);
     const std::vector<Chunk> chunks = make_chunks(model, &ModelObject::nodes);
-    std::vector<std::uint32_t> chunk_starts(model.objects.size() + 1, 0);
-    for (const Chunk& chunk : chunks) ++chunk_starts[chunk.object + 1];
-    std::partial_sum(chunk_starts.begin(), chunk_starts.end(), chunk_starts.begin());
 
     rows_ = make_buffer(rows_of(rows, objects), DescentRow{kNoNode, 0, 0, 0});
     spring_ends_ = make_buffer(ends_of(rows.springs), glm::uvec2(0));
@@ -156,7 +151,7 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
     tets_ = make_buffer(model.tets, glm::uvec4(0));
     tet_rests_ = make_buffer(rests_of(model), glm::vec4(1.0f));
     chunks_ = make_buffer(chunks, Chunk{});
-    chunk_starts_ = make_buffer(chunk_starts, 0u);
+    chunk_starts_ = make_buffer(chunk_starts(chunks, model.objects.size()), 0u);
     starts_ = gl::Buffer<glm::vec4>(model.positions.size());
     start_texels_ = {starts_, gl::TexelFormat::rgba32f};
     targets_ = gl::Buffer<glm::vec4>(model.positions.size());
@@ -176,14 +171,16 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
     tet_texels_ = {tets_, gl::TexelFormat::rgba32ui};
     tet_rest_texels_ = {tet_rests_, gl::TexelFormat::rgba32f};
     chunk_start_texels_ = {chunk_starts_, gl::TexelFormat::r32ui};
-    coarse_.emplace(model);
-    if (coarse_->is_empty()) coarse_.reset();
+    const CoarseBasis basis = make_coarse_basis(model);
+    if (basis.cluster_count() == 0) return;
+    coarse_.emplace(model, basis);
+    force_program_ = gl::Program::compute("sim/descend.comp", with(sweep_defines(model), "FORCES"));
 }
 
 void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, const NodeBuffers& current,
                        double step, bool has_earlier) {
-    for (const gl::Program* program : {&start_program_, &sweep_program_, &force_program_, &sum_program_,
-                                       &move_program_, &last_move_program_}) {
+    for (const gl::Program* program :
+         {&start_program_, &sweep_program_, &sum_program_, &move_program_, &last_move_program_}) {
         program->set("time_step", static_cast<float>(step));
         program->set("gravity", model.gravity);
     }
@@ -222,7 +219,7 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
         sweep_program_.set("clear_marks", i % kSweepsAMotion + 1 == kSweepsAMotion ? 1u : 0u);
         sweep(model);
         const bool is_last = i + 1 == settings_.iterations;
-        if (coarse_ && !is_last && i % kSweepsACorrection == 0) correct(model, current);
+        if (coarse_ && !is_last && i % kSweepsACorrection == 0) correct(model, current, step);
         if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(model, current, is_last);
     }
 }
@@ -315,9 +312,10 @@ void BlockDescent::descend(const gl::Program& program, const ModelBuffers& model
 }
 
 // All nodes at once along the motions of clusters, as far as the objective falls.
-void BlockDescent::correct(const ModelBuffers& model, const NodeBuffers& current) {
+void BlockDescent::correct(const ModelBuffers& model, const NodeBuffers& current, double step) {
     const Range all{0, static_cast<std::uint32_t>(rows_.size())};
     coarse_->bind_forces(false);
+    force_program_.set("time_step", static_cast<float>(step));
     force_program_.set("is_ahead", 0u);
     descend(force_program_, model, {&all, 1});
     coarse_->find_ways();

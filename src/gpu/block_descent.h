@@ -57,11 +57,11 @@ private:
     void look_at_tets() const;
     void sweep(const ModelBuffers& model) const;
     void descend(const gl::Program& program, const ModelBuffers& model, std::span<const Range> rows) const;
-    void correct(const ModelBuffers& model, const NodeBuffers& current);
+    void correct(const ModelBuffers& model, const NodeBuffers& current, double step);
     void move_bodies(const ModelBuffers& model, const NodeBuffers& current, bool is_last) const;
 
     gl::Program start_program_, find_tangled_program_, take_back_program_, accelerate_program_, mark_program_,
-        sweep_program_, force_program_, sum_program_, motion_program_, move_program_, last_move_program_;
+        sweep_program_, sum_program_, motion_program_, move_program_, last_move_program_;
     DescentSettings settings_;
     std::uint32_t node_count_, tet_count_, object_count_;
     std::optional<Pressures> pressures_;
@@ -92,6 +92,7 @@ private:
     gl::Buffer<glm::dvec4> rigid_sums_;
     gl::Buffer<RigidMotion> motions_;
     std::optional<CoarseCorrection> coarse_;  // where there are clusters
+    gl::Program force_program_;               // with it
 };
 
 }  // namespace gelatin::gpu

@@ -1,6 +1,7 @@
 #include "gpu/chunks.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace gelatin::gpu {
 
@@ -14,6 +15,13 @@ std::vector<Chunk> make_chunks(const Model& model, Range ModelObject::*range) {
         }
     }
     return chunks;
+}
+
+std::vector<std::uint32_t> chunk_starts(const std::vector<Chunk>& chunks, std::size_t object_count) {
+    std::vector<std::uint32_t> starts(object_count + 1, 0);
+    for (const Chunk& chunk : chunks) ++starts[chunk.object + 1];
+    std::partial_sum(starts.begin(), starts.end(), starts.begin());
+    return starts;
 }
 
 }  // namespace gelatin::gpu

@@ -10,4 +10,7 @@ namespace gelatin::gpu {
 /// work group sums up.
 std::vector<Chunk> make_chunks(const Model& model, Range ModelObject::*range);
 
+/// The first of each object's chunks, and the end, shape [objects + 1].
+std::vector<std::uint32_t> chunk_starts(const std::vector<Chunk>& chunks, std::size_t object_count);
+
 }  // namespace gelatin::gpu

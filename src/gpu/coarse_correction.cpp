@@ -53,7 +53,7 @@ gl::Buffer<T> make_buffer(const std::vector<T>& values) {
 
 }  // namespace
 
-CoarseCorrection::CoarseCorrection(const Model& model)
+CoarseCorrection::CoarseCorrection(const Model& model, const CoarseBasis& basis)
     : turn_program_(gl::Program::compute("sim/turn_clusters.comp")),
       load_program_(gl::Program::compute("sim/load_clusters.comp")),
       move_program_(gl::Program::compute("sim/move_clusters.comp")),
@@ -62,11 +62,8 @@ CoarseCorrection::CoarseCorrection(const Model& model)
       factor_program_(gl::Program::compute("sim/follow_ways.comp", {"OBJECTS"})),
       follow_program_(gl::Program::compute("sim/follow_ways.comp")),
       node_count_(model.node_count()),
-      cluster_count_(0),
+      cluster_count_(basis.cluster_count()),
       object_count_(static_cast<std::uint32_t>(model.objects.size())) {
-    const CoarseBasis basis = make_coarse_basis(model);
-    cluster_count_ = basis.cluster_count();
-    if (is_empty()) return;
     matrices_ = make_coarse_matrices(model, basis);
     rests_ = make_buffer(rests_of(basis));
     clusters_ = gl::Buffer<Cluster>(cluster_count_);

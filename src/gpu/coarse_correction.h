@@ -19,9 +19,8 @@ namespace gelatin::gpu {
 /// positions in all of them; storage 0 to 2 stay as they are. CPU twin: cpu::CoarseCorrection.
 class CoarseCorrection {
 public:
-    explicit CoarseCorrection(const Model& model);
-
-    bool is_empty() const { return cluster_count_ == 0; }
+    /// @pre basis, of the model, has clusters
+    CoarseCorrection(const Model& model, const CoarseBasis& basis);
 
     /// Looks how clusters are turned. Once a step of `step` seconds, before the rest.
     void begin(double step);

@@ -1,6 +1,5 @@
 #include "gpu/match_shapes.h"
 
-#include <numeric>
 #include <span>
 
 #include "gpu/chunks.h"
@@ -23,13 +22,6 @@ std::vector<glm::vec4> volumes_of(const Model& model) {
     return volumes;
 }
 
-std::vector<std::uint32_t> starts_of(const std::vector<Chunk>& chunks, std::size_t object_count) {
-    std::vector<std::uint32_t> starts(object_count + 1, 0);
-    for (const Chunk& chunk : chunks) ++starts[chunk.object + 1];
-    std::partial_sum(starts.begin(), starts.end(), starts.begin());
-    return starts;
-}
-
 }  // namespace
 
 ShapeMatcher::ShapeMatcher(const Model& model)
@@ -50,7 +42,7 @@ ShapeMatcher::ShapeMatcher(const Model& model)
     rest_moments_ = make_buffer(shapes.objects);
     const std::vector<Chunk> chunks = make_chunks(model, &ModelObject::nodes);
     chunks_ = make_buffer(chunks);
-    chunk_starts_ = make_buffer(starts_of(chunks, model.objects.size()));
+    chunk_starts_ = make_buffer(chunk_starts(chunks, model.objects.size()));
     sums_ = gl::Buffer<ShapeSums>(chunks.size());
     inverted_.fill(0);
 
