@@ -182,12 +182,14 @@ TEST_F(BenchPaper, RefusesWhatItCannotDo) {
 }
 
 TEST_F(BenchCommand, KernelsStillRuns) {
-    const ProgramResult result =
-        run({"bench", "kernels", "--no-gl", "--scales", "1", "--runs", "1", "--json", "k.json"});
+    const ProgramResult result = run({"bench", "kernels", "--no-gl", "--scales", "1", "--runs", "1", "--json",
+                                      "k.json", "--report", "k.md"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const json kernels = read_json("k.json");
     EXPECT_EQ(kernels["benchmark"], "kernels");
     for (const json& stage : kernels["stages"]) EXPECT_GT(stage["ms"].get<double>(), 0.0);
+    EXPECT_THAT(result.out, HasSubstr("CPU, 1 thread: a sweep of vbd / fused, 1x"));
+    EXPECT_THAT(read_file(path("k.md")), HasSubstr(result.out));
 }
 
 }  // namespace

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+#include "model/model.h"
+
+namespace gelatin {
+
+/// A stage of `gelatin bench kernels`, ready to be timed: `run` enqueues it (or does it), `wait` ends when it
+/// is done.
+struct KernelCase {
+    std::string backend, stage;
+    double bytes;  ///< that it reads and writes at least
+    std::function<void()> run;
+    std::function<void()> wait;
+    int threads = 0;  ///< 0: all
+};
+
+// Names that ratios look for.
+inline constexpr const char* kPlainCore = "plain C++";
+inline constexpr const char* kOneThread = "CPU, 1 thread";
+inline constexpr const char* kOpenGl = "GL";
+inline constexpr const char* kFusedStage = "advance_nodes (fused)";
+inline constexpr const char* kDividedStage = "divide and merge";
+inline constexpr const char* kDispatchStage = "dispatches of a sweep";
+
+/// Steps of vertex block descent are timed with so many sweeps. By differences they tell what a sweep costs
+/// alone (4 - 3), with its half of what comes with every second one (6 - 2), and a correction by the coarse
+/// level, which comes with every sixth but the last (10 - 6).
+inline constexpr std::array<int, 5> kSweepCounts{2, 3, 4, 6, 10};
+inline std::string descent_stage(int sweeps) {
+    return fmt::format("vbd ({} sweeps)", sweeps);
+}
+
+/// Three times `scale` of this sphere in a grid, damped a little so that both terms of the force are at work.
+std::shared_ptr<const Model> make_sphere_grid(const TetMesh& sphere, int scale);
+
+/// Every stage on every backend. @param use_gl needs a context. @param step of the explicit stages [s]
+std::vector<KernelCase> kernel_cases(const std::shared_ptr<const Model>& model, double step, bool use_gl);
+
+}  // namespace gelatin
