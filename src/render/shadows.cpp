@@ -16,6 +16,7 @@ constexpr float kLightSize = 0.11f;       // tangent of the key light's apparent
 constexpr float kPenumbraLeast = 0.006f;  // of the scene's extent
 constexpr float kPenumbraMost = 0.07f;
 constexpr float kSkyRadius = 0.35f;
+constexpr float kFreePath = 0.07f;
 
 // Clip coordinates to texture coordinates and depth.
 const glm::mat4 kHalf =
@@ -153,6 +154,8 @@ void Shadows::set_uniforms(const gl::Program& program) const {
     program.set("world_to_shadow", kHalf * world_to_light_);
     const float texel = std::max(light_size_.x, light_size_.y) / static_cast<float>(shadow_map_.width());
     program.set("shadow_bias", 3.0f * texel);
+    program.set("shadow_range", light_size_.z);
+    program.set("free_path", kFreePath * extent_);
     program.set("shadow_blur", 1.5f / static_cast<float>(shadow_map_.width()));
     const glm::vec4 patch(patch_corner_, 1.0f / patch_size_.x, 1.0f / patch_size_.y);
     program.set("floor_patch", lights_floor_ ? patch : kNowhere);
@@ -169,6 +172,7 @@ void Shadows::bind_textures() const {
     bind_texture(4, shadow_map_);
     glBindSampler(4, compare_sampler_);
     bind_texture(5, floor_light_);
+    bind_texture(9, shadow_map_);
 }
 
 }  // namespace gelatin::render
