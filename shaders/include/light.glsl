@@ -1,15 +1,10 @@
 // The light on a body: ambient, diffuse and specular (Blinn and Phong), softened as on jelly. Called for each
 // node, as the paper does, or for each pixel.
+#include "include/body_shadow.glsl"
 #include "include/floor_light.glsl"
 #include "include/openness.glsl"
 #include "include/studio.glsl"
 
-layout(binding = 4) uniform sampler2DShadow shadow_map;
-layout(binding = 9) uniform sampler2D shadow_depths;  // the same
-uniform mat4 world_to_shadow;  // to texture coordinates and depth
-uniform float shadow_bias;     // along the normal [m]
-uniform float shadow_range;    // metres a unit of depth
-uniform float shadow_blur;     // in texture coordinates
 uniform vec3 eye;              // [m]
 uniform vec3 key_position;     // of the key light [m]: near enough that flat faces are not all of one shade
 uniform float key_distance;    // at which it has its full strength [m]
@@ -17,12 +12,6 @@ uniform float floor_height;    // [m]
 uniform float floor_reach;     // height up to which the floor's shading is felt [m]
 uniform float free_path;       // of light in jelly [m]
 uniform float jelly;           // 1: soft and glossy; 0: matt
-
-float key_visibility(vec3 position, vec3 normal) {
-    vec3 at = (world_to_shadow * vec4(position + shadow_bias * normal, 1.0)).xyz;
-    return 0.5 * (textureLod(shadow_map, at + vec3(shadow_blur, 0.5 * shadow_blur, 0.0), 0.0) +
-                  textureLod(shadow_map, at - vec3(shadow_blur, 0.5 * shadow_blur, 0.0), 0.0));
-}
 
 const float kRoughness = 0.28;
 const float kHead = 0.04;   // of light that comes straight on, what is mirrored

@@ -2,10 +2,19 @@
 
 namespace gelatin::render {
 
+namespace {
+
+gl::Defines defines(const AmbientOcclusion* occlusion) {
+    gl::Defines all = AmbientOcclusion::defines(occlusion);
+    if (occlusion != nullptr) all.emplace_back("SOFT_SHADOWS");
+    return all;
+}
+
+}  // namespace
+
 PixelLight::PixelLight(const AmbientOcclusion* occlusion)
     : occlusion_(occlusion),
-      program_(gl::Program::graphics("render/surface.vert", "render/surface.frag",
-                                     AmbientOcclusion::defines(occlusion))) {}
+      program_(gl::Program::graphics("render/surface.vert", "render/surface.frag", defines(occlusion))) {}
 
 void PixelLight::draw(const Frame& frame, std::initializer_list<const Layer*> layers) const {
     frame.view.set_uniforms(program_);

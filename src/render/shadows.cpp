@@ -112,17 +112,21 @@ void Shadows::draw_depths(std::span<const DepthMap> maps, std::initializer_list<
     glDisable(GL_DEPTH_CLAMP);
 }
 
-void Shadows::draw_floor_visibility() const {
-    floor_visibility_.bind();
-    bind_texture(4, shadow_map_);
-    bind_texture(6, underside_);
-    const gl::Program& program = floor_program_;
+void Shadows::set_penumbra(const gl::Program& program) const {
     program.set("world_to_shadow", kHalf * world_to_light_);
     program.set("shadow_scale", glm::vec2(1.0f / light_size_.x, 1.0f / light_size_.y));
     program.set("shadow_range", light_size_.z);
     program.set("light_size", kLightSize);
     program.set("penumbra_least", kPenumbraLeast * extent_);
     program.set("penumbra_most", kPenumbraMost * extent_);
+}
+
+void Shadows::draw_floor_visibility() const {
+    floor_visibility_.bind();
+    bind_texture(4, shadow_map_);
+    bind_texture(6, underside_);
+    const gl::Program& program = floor_program_;
+    set_penumbra(program);
     program.set("underside_range", extent_);
     program.set("sky_radius", kSkyRadius * extent_);
     program.set("patch_corner", patch_corner_);
@@ -151,10 +155,9 @@ void Shadows::draw(std::initializer_list<const SurfaceDraw*> casters, bool light
 }
 
 void Shadows::set_uniforms(const gl::Program& program) const {
-    program.set("world_to_shadow", kHalf * world_to_light_);
+    set_penumbra(program);
     const float texel = std::max(light_size_.x, light_size_.y) / static_cast<float>(shadow_map_.width());
     program.set("shadow_bias", 3.0f * texel);
-    program.set("shadow_range", light_size_.z);
     program.set("free_path", kFreePath * extent_);
     program.set("shadow_blur", 1.5f / static_cast<float>(shadow_map_.width()));
     const glm::vec4 patch(patch_corner_, 1.0f / patch_size_.x, 1.0f / patch_size_.y);
