@@ -60,7 +60,9 @@ void add_run_options(CLI::App& command, RunOptions& options) {
         ->type_name("WIDTHxHEIGHT")
         ->capture_default_str()
         ->group(outputs);
-    command.add_option("--quality", options.quality, "Of the same: auto, high or fast; auto is high")
+    command
+        .add_option("--quality", options.quality,
+                    "Of the same: auto, high or fast; auto is fast on software drivers, else high")
         ->capture_default_str()
         ->group(outputs);
     command

@@ -41,7 +41,7 @@ void add_view_command(CLI::App& app) {
         ->capture_default_str();
     command
         ->add_option("--quality", options->quality,
-                     "Of the picture: auto, high or fast; auto is fast on software drivers")
+                     "Of the picture: auto, high or fast; auto is fast on software drivers, else high")
         ->capture_default_str();
     command->add_option("--size", options->size, "Of the window")
         ->type_name("WIDTHxHEIGHT")

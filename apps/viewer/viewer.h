@@ -14,7 +14,7 @@ struct ViewerOptions {
     std::filesystem::path scene;         ///< or a mesh; empty: the start screen
     std::vector<std::string> overrides;  ///< as load_scene's
     Backend backend = Backend::automatic;
-    render::Quality quality = render::Quality::automatic;  ///< automatic: fast on software drivers, else high
+    render::Quality quality = render::Quality::automatic;
     int width = 1280, height = 720;                        ///< of the window
     bool gl_debug = false;
 };

@@ -8,7 +8,6 @@
 #include "common/surroundings.h"
 #include "core/log.h"
 #include "gelatin/error.h"
-#include "gl/context.h"
 
 namespace gelatin::viewer {
 namespace {
@@ -16,17 +15,10 @@ namespace {
 constexpr double kNoticeTime = 4.0;  // [s]
 constexpr double kIdle = 0.1;        // between pictures when nothing moves [s]
 
-render::Quality choose_quality(render::Quality quality) {
-    if (quality != render::Quality::automatic) return quality;
-    return gl::Context::current().device().is_software ? render::Quality::fast : render::Quality::high;
-}
-
 }  // namespace
 
 ViewerApp::ViewerApp(Window& window, const ViewerOptions& options)
     : window_(window), options_(options), samples_(sample_scenes()) {
-    options_.quality = choose_quality(options.quality);
-    panels_.quality = options_.quality == render::Quality::fast ? "fast" : "high";
     if (!options_.scene.empty()) open(options_.scene);
 }
 
@@ -134,6 +126,7 @@ void ViewerApp::make_renderer(int width, int height) {
     auto renderer = std::make_unique<render::Renderer>(options);
     renderer->set_surroundings(surroundings_);
     renderer_ = std::move(renderer);
+    panels_.quality = renderer_->quality() == render::Quality::fast ? "fast" : "high";
     drawn_camera_.reset();
 }
 

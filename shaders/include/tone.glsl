@@ -1,7 +1,18 @@
 // From linear light to what a screen shows.
 
-// Film's shoulder: linear in the dark, never quite white.
-vec3 compress(vec3 light) { return 1.0 - exp(-light); }
+const float kShoulder = 0.72;  // up to where light is shown as it is
+const float kBleach = 0.3;    // how soon what is brighter still turns white
+
+// Brighter than the shoulder, the strongest of the three colours nears 1 and the others keep their ratio to it, so that
+// bright jelly does not fade (Khronos 2024, PBR Neutral tone mapper).
+vec3 compress(vec3 light) {
+    float peak = max(light.r, max(light.g, light.b));
+    float room = 1.0 - kShoulder;
+    float over = max(peak - kShoulder, 0.0);
+    float shown = min(peak, kShoulder) + room * over / (over + room);
+    float white = 1.0 - 1.0 / (kBleach * (peak - shown) + 1.0);
+    return mix(light * (shown / max(peak, 1e-6)), vec3(shown), white);
+}
 
 // sRGB's transfer curve from three square roots, which are cheaper than pow.
 vec3 encode_srgb(vec3 linear) {

@@ -3,6 +3,7 @@
 #include "include/dither.glsl"
 #include "include/floor_color.glsl"
 #include "include/floor_light.glsl"
+#include "include/openness.glsl"
 #include "include/tone.glsl"
 
 uniform float grid_spacing;  // [m]
@@ -20,6 +21,9 @@ float grid() {
 }
 
 void main() {
-    vec3 color = floor_color(floor_visibility(xz)) * (1.0 - 0.10 * grid());
+    // Of two estimates of the same: the patch knows what is hidden from the eye, the picture what stands upright.
+    vec2 visible = floor_visibility(xz);
+    visible.y = min(visible.y, pixel_openness(-1.0));
+    vec3 color = floor_color(visible) * (1.0 - 0.05 * grid());
     pixel = surrounding_pixel(to_display(mix(color, backdrop(), floor_fade(xz))) + dither());
 }

@@ -17,7 +17,7 @@ void main() {
     if (v >= vertex_count) return;
     SurfacePoint point = fetch_point(int(v));
     vec3 albedo = texelFetch(object_colors, int(point.object)).rgb;
-    vec3 light = light_surface(point.position, fetch_normal(int(v)), albedo);
+    vec3 light = light_surface(point.position, fetch_normal(int(v)), albedo, 1.0);
     clip_positions[v] = world_to_clip * vec4(point.position, 1.0);
     display_colors[v] = packUnorm4x8(vec4(to_display(light), 1.0));
 }

@@ -7,4 +7,4 @@ in vec3 normal;
 flat in vec3 albedo;
 layout(location = 0) out vec4 pixel;
 
-void main() { pixel = body_pixel(to_display(light_surface(position, normalize(normal), albedo))); }
+void main() { pixel = body_pixel(to_display(light_surface(position, normalize(normal), albedo, pixel_openness(1.0)))); }

@@ -28,17 +28,25 @@ HighPipeline::HighPipeline(int width, int height, Smoothing smoothing)
 void HighPipeline::resize(int width, int height) {
     canvas_ = smoothing_ == Smoothing::samples ? Target::multisampled(width, height, kSamples)
                                                : Target::color_and_depth(width, height);
+    occlusion_.resize(width, height);
     picture_ = Target::color(width, height, GL_RGBA8);
 }
 
 // From the nearest to the farthest, so that what is hidden is not lit.
 void HighPipeline::draw(const Frame& frame) {
+    const bool has_bodies = !frame.overlay.replaces_bodies();
+    if (has_bodies) {
+        occlusion_.draw(frame, {&frame.bodies.surfaces, &frame.props.surfaces});
+    } else {
+        occlusion_.draw(frame, {&frame.props.surfaces});
+    }
     canvas_.bind();
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glClear(GL_DEPTH_BUFFER_BIT);  // the backdrop covers every pixel's colour
     frame.shadows.bind_textures();
-    if (!frame.overlay.replaces_bodies()) light_.draw(frame, {&frame.bodies});
+    occlusion_.bind_texture();
+    if (has_bodies) light_.draw(frame, {&frame.bodies});
     light_.draw(frame, {&frame.props});
     scenery_.draw(frame.view, &frame.shadows);
     frame.overlay.draw(frame);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/ambient_occlusion.h"
 #include "render/pipeline.h"
 #include "render/pixel_light.h"
 #include "render/scenery.h"
@@ -10,7 +11,7 @@ namespace gelatin::render {
 /// cheaper on software drivers. automatic: the filter on software drivers, samples on all others.
 enum class Smoothing { automatic, samples, filter, none };
 
-/// Light at each pixel, smooth edges.
+/// Light at each pixel, ambient occlusion, smooth edges.
 class HighPipeline : public Pipeline {
 public:
     HighPipeline(int width, int height, Smoothing smoothing);
@@ -23,8 +24,9 @@ private:
     void smooth_edges() const;
 
     Smoothing smoothing_;
-    Scenery scenery_;
-    PixelLight light_;
+    AmbientOcclusion occlusion_;
+    Scenery scenery_{&occlusion_};
+    PixelLight light_{&occlusion_};
     gl::Program filter_program_;
     Target canvas_;   // what is drawn into, edges not smoothed yet
     Target picture_;  // what comes out

@@ -21,8 +21,8 @@ glm::vec3 from_srgb(const glm::vec3& srgb) {
 }
 
 glm::vec3 palette_color(std::size_t index) {
-    constexpr std::array<std::uint32_t, 8> kColors = {0xE4572E, 0x1FA187, 0xF2B134, 0x3A7CC8,
-                                                      0xC2649A, 0x6CBCE8, 0xE9DC5C, 0x6B7280};
+    constexpr std::array<std::uint32_t, 8> kColors = {0xE4572E, 0x1FA187, 0xEEAD2A, 0x3A7CC8,
+                                                      0xCD75B2, 0x6CBCE8, 0xEEE163, 0x697080};
     const std::uint32_t color = kColors[index % kColors.size()];
     return from_srgb(glm::vec3(color >> 16 & 255u, color >> 8 & 255u, color & 255u) / 255.0f);
 }

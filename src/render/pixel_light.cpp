@@ -2,11 +2,24 @@
 
 namespace gelatin::render {
 
-PixelLight::PixelLight() : program_(gl::Program::graphics("render/surface.vert", "render/surface.frag")) {}
+namespace {
+
+gl::Defines defines(const AmbientOcclusion* occlusion) {
+    gl::Defines all = AmbientOcclusion::defines(occlusion);
+    if (occlusion != nullptr) all.emplace_back("SOFT_SHADOWS");
+    return all;
+}
+
+}  // namespace
+
+PixelLight::PixelLight(const AmbientOcclusion* occlusion)
+    : occlusion_(occlusion),
+      program_(gl::Program::graphics("render/surface.vert", "render/surface.frag", defines(occlusion))) {}
 
 void PixelLight::draw(const Frame& frame, std::initializer_list<const Layer*> layers) const {
     frame.view.set_uniforms(program_);
     frame.shadows.set_uniforms(program_);
+    if (occlusion_ != nullptr) occlusion_->set_uniforms(program_);
     program_.use();
     for (const Layer* layer : layers) {
         program_.set("jelly", layer->jelly);

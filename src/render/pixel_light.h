@@ -3,6 +3,7 @@
 #include <initializer_list>
 
 #include "gl/program.h"
+#include "render/ambient_occlusion.h"
 #include "render/frame.h"
 
 namespace gelatin::render {
@@ -10,12 +11,14 @@ namespace gelatin::render {
 /// Draws surfaces with their light worked out at each pixel.
 class PixelLight {
 public:
-    PixelLight();
+    /// @param occlusion of what is drawn; null: all of the ambient light reaches everything
+    explicit PixelLight(const AmbientOcclusion* occlusion = nullptr);
 
     /// @pre a vertex array object and the shadows' textures are bound
     void draw(const Frame& frame, std::initializer_list<const Layer*> layers) const;
 
 private:
+    const AmbientOcclusion* occlusion_;
     gl::Program program_;
 };
 

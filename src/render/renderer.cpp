@@ -7,6 +7,7 @@
 #include <string>
 
 #include "gelatin/error.h"
+#include "gl/context.h"
 #include "gl/debug.h"
 #include "render/fast_pipeline.h"
 #include "render/palette.h"
@@ -32,7 +33,8 @@ RendererOptions checked(RendererOptions options) {
             throw InvalidInput({{}, 0, name, std::to_string(size), "must be " + allowed});
         }
     }
-    if (options.quality == Quality::automatic) options.quality = Quality::high;
+    if (options.quality == Quality::automatic)
+        options.quality = gl::Context::current().device().is_software ? Quality::fast : Quality::high;
     return options;
 }
 

@@ -18,7 +18,7 @@
 namespace gelatin::render {
 
 /// high: light at each pixel, smooth edges. fast: light at each vertex as in the paper, small shadow maps,
-/// edges as they come; about an eighth of the time on software drivers. automatic: high.
+/// edges as they come; about a tenth of the time on software drivers. automatic: fast on those, high on GPUs.
 enum class Quality { automatic, high, fast };
 
 struct RendererOptions {
@@ -59,6 +59,8 @@ public:
     /// does not wait for them.
     void draw(const RenderView& bodies, const Camera& camera);
 
+    /// high or fast.
+    Quality quality() const { return options_.quality; }
     int width() const { return options_.width; }
     int height() const { return options_.height; }
 

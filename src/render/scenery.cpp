@@ -19,8 +19,10 @@ float grid_spacing(float extent) {
 
 }  // namespace
 
-Scenery::Scenery()
-    : floor_program_(gl::Program::graphics("render/floor.vert", "render/floor.frag")),
+Scenery::Scenery(const AmbientOcclusion* occlusion)
+    : occlusion_(occlusion),
+      floor_program_(gl::Program::graphics("render/floor.vert", "render/floor.frag",
+                                           AmbientOcclusion::defines(occlusion))),
       backdrop_program_(gl::Program::graphics("render/whole_picture.vert", "render/backdrop.frag")) {}
 
 void Scenery::set_floor_uniforms(const gl::Program& program, const View& view) {
@@ -35,6 +37,7 @@ void Scenery::draw(const View& view, const Shadows* shadows) const {
         view.set_uniforms(floor_program_);
         set_floor_uniforms(floor_program_, view);
         floor_program_.set("grid_spacing", grid_spacing(view.extent()));
+        if (occlusion_ != nullptr) occlusion_->set_uniforms(floor_program_);
         if (shadows != nullptr) {
             shadows->set_uniforms(floor_program_);
         } else {

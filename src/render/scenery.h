@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gl/program.h"
+#include "render/ambient_occlusion.h"
 #include "render/frame.h"
 
 namespace gelatin::render {
@@ -8,7 +9,8 @@ namespace gelatin::render {
 /// The floor and the backdrop round the bodies.
 class Scenery {
 public:
-    Scenery();
+    /// @param occlusion of what is drawn; null: that of the shadows alone
+    explicit Scenery(const AmbientOcclusion* occlusion = nullptr);
 
     /// Draws the floor, if the view shows one, and the backdrop behind all that has been drawn.
     /// @param shadows null: on a floor without any @pre a vertex array object and the shadows' textures are
@@ -19,6 +21,7 @@ public:
     static void set_floor_uniforms(const gl::Program& program, const View& view);
 
 private:
+    const AmbientOcclusion* occlusion_;
     gl::Program floor_program_;
     gl::Program backdrop_program_;
 };

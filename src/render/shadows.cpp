@@ -16,6 +16,7 @@ constexpr float kLightSize = 0.11f;       // tangent of the key light's apparent
 constexpr float kPenumbraLeast = 0.006f;  // of the scene's extent
 constexpr float kPenumbraMost = 0.07f;
 constexpr float kSkyRadius = 0.35f;
+constexpr float kFreePath = 0.07f;
 
 // Clip coordinates to texture coordinates and depth.
 const glm::mat4 kHalf =
@@ -111,17 +112,21 @@ void Shadows::draw_depths(std::span<const DepthMap> maps, std::initializer_list<
     glDisable(GL_DEPTH_CLAMP);
 }
 
-void Shadows::draw_floor_visibility() const {
-    floor_visibility_.bind();
-    bind_texture(4, shadow_map_);
-    bind_texture(6, underside_);
-    const gl::Program& program = floor_program_;
+void Shadows::set_penumbra(const gl::Program& program) const {
     program.set("world_to_shadow", kHalf * world_to_light_);
     program.set("shadow_scale", glm::vec2(1.0f / light_size_.x, 1.0f / light_size_.y));
     program.set("shadow_range", light_size_.z);
     program.set("light_size", kLightSize);
     program.set("penumbra_least", kPenumbraLeast * extent_);
     program.set("penumbra_most", kPenumbraMost * extent_);
+}
+
+void Shadows::draw_floor_visibility() const {
+    floor_visibility_.bind();
+    bind_texture(4, shadow_map_);
+    bind_texture(6, underside_);
+    const gl::Program& program = floor_program_;
+    set_penumbra(program);
     program.set("underside_range", extent_);
     program.set("sky_radius", kSkyRadius * extent_);
     program.set("patch_corner", patch_corner_);
@@ -150,9 +155,10 @@ void Shadows::draw(std::initializer_list<const SurfaceDraw*> casters, bool light
 }
 
 void Shadows::set_uniforms(const gl::Program& program) const {
-    program.set("world_to_shadow", kHalf * world_to_light_);
+    set_penumbra(program);
     const float texel = std::max(light_size_.x, light_size_.y) / static_cast<float>(shadow_map_.width());
     program.set("shadow_bias", 3.0f * texel);
+    program.set("free_path", kFreePath * extent_);
     program.set("shadow_blur", 1.5f / static_cast<float>(shadow_map_.width()));
     const glm::vec4 patch(patch_corner_, 1.0f / patch_size_.x, 1.0f / patch_size_.y);
     program.set("floor_patch", lights_floor_ ? patch : kNowhere);
@@ -169,6 +175,7 @@ void Shadows::bind_textures() const {
     bind_texture(4, shadow_map_);
     glBindSampler(4, compare_sampler_);
     bind_texture(5, floor_light_);
+    bind_texture(9, shadow_map_);
 }
 
 }  // namespace gelatin::render

@@ -50,6 +50,7 @@ public:
 
 private:
     void draw_depths(std::span<const DepthMap> maps, std::initializer_list<const SurfaceDraw*> casters);
+    void set_penumbra(const gl::Program& program) const;
     void draw_floor_visibility() const;
     void draw_floor_light() const;
 

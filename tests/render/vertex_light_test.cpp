@@ -20,9 +20,16 @@ namespace {
 constexpr int kWidth = 320, kHeight = 200;
 const glm::vec4 kColor(0.7f, 0.2f, 0.05f, 1.0f);
 
-// The formula of shaders/include/light.glsl and tone.glsl in double, where nothing casts a shadow.
+// The part of light that is mirrored.
+double schlick(double cosine) {
+    return 0.04 + 0.96 * std::pow(1.0 - cosine, 5.0);
+}
+
+// The formula of shaders/include/light.glsl in double, where nothing casts a shadow or is near.
 glm::dvec3 lit(const View& view, const glm::dvec3& position, const glm::dvec3& normal, double jelly) {
-    const glm::dvec3 key_light(2.10, 1.98, 1.80), sky_light(0.62, 0.68, 0.76), floor_light(0.50, 0.46, 0.42);
+    const glm::dvec3 key_light(1.20, 1.13, 1.03), sky_light(0.37, 0.405, 0.455),
+        floor_light(0.33, 0.305, 0.28);
+    const glm::dvec3 horizon(0.755, 0.765, 0.775), zenith(0.39, 0.465, 0.575);
     const glm::dvec3 albedo(kColor);
     const double key_distance = 2.0 * glm::length(glm::dvec3(view.bounds.size()));
     const glm::dvec3 key_position =
@@ -39,20 +46,29 @@ glm::dvec3 lit(const View& view, const glm::dvec3& position, const glm::dvec3& n
     const glm::dvec3 deep = albedo * glm::sqrt(albedo);
     const glm::dvec3 key =
         glm::mix(deep, albedo, std::clamp(1.5 * diffuse + 1.0 - jelly, 0.0, 1.0)) * diffuse;
+    const double through = 0.5 * std::clamp(0.4 - 0.8 * facing, 0.0, 1.0);
     const glm::dvec3 ambient = glm::mix(floor_light, sky_light, 0.5 + 0.5 * normal.y);
 
-    const double highlight = std::max(glm::dot(normal, glm::normalize(to_key + to_eye)), 0.0);
-    const double gloss =
-        facing < 0.0 ? 0.0 : 0.07 * std::pow(highlight, 16.0) + 0.75 * std::pow(highlight, 128.0);
-    const double edge = std::pow(1.0 - std::max(glm::dot(normal, to_eye), 0.0), 3.0);
-    const double rim = edge * std::clamp(0.35 + 0.65 * normal.y, 0.0, 1.0) * glm::mix(0.1, 0.6, jelly);
-    const double through = 0.12 * (0.5 - 0.5 * facing);
+    const glm::dvec3 half_way = glm::normalize(to_key + to_eye);
+    const double square = std::pow(0.28, 4.0);
+    const double along = std::max(glm::dot(normal, half_way), 0.0);
+    const double gloss = 0.25 * square / std::pow(along * along * (square - 1.0) + 1.0, 2.0) *
+                         schlick(std::max(glm::dot(to_eye, half_way), 0.0)) * std::max(facing, 0.0);
+    const glm::dvec3 mirrored = glm::reflect(-to_eye, normal);
+    const glm::dvec3 around = glm::mix(floor_light, glm::mix(horizon, zenith, std::max(mirrored.y, 0.0)),
+                                       glm::smoothstep(-0.25, 0.25, mirrored.y));
+    const double edge = 0.55 * schlick(std::max(glm::dot(normal, to_eye), 0.0)) * glm::mix(0.2, 1.0, jelly);
     return albedo * ambient + key_light * strength * (0.85 * key + jelly * (gloss + through * deep)) +
-           sky_light * rim * glm::mix(albedo, glm::dvec3(1.0), 0.5);
+           around * edge;
 }
 
+// That of tone.glsl.
 glm::dvec3 displayed(const glm::dvec3& light) {
-    const glm::dvec3 compressed = 1.0 - glm::exp(-light);
+    const double peak = std::max({light.r, light.g, light.b});
+    const double over = std::max(peak - 0.72, 0.0);
+    const double shown = peak - over + 0.28 * over / (over + 0.28);
+    const double white = 1.0 - 1.0 / (0.3 * (peak - shown) + 1.0);
+    const glm::dvec3 compressed = glm::mix(light * shown / peak, glm::dvec3(shown), white);
     const glm::dvec3 a = glm::sqrt(compressed), b = glm::sqrt(a), c = glm::sqrt(b);
     return glm::clamp(0.585122381 * a + 0.783140355 * b - 0.368262736 * c, 0.0, 1.0);
 }

@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <thread>
 
+#include "gl/context.h"
 #include "gl/debug.h"
 #include "render/image.h"
 #include "support/run_program.h"
@@ -49,6 +50,18 @@ TEST_F(WindowHeavy, SlowMotionIsSlow) {
     EXPECT_NEAR(session().time() - start, 0.1, 0.05);
     press("plus");
     EXPECT_EQ(session().pace().speed(), 0.25);
+}
+
+TEST_F(WindowHeavy, PicturesAreFastOnSoftwareDriversUnlessAskedFor) {
+    open(two_cubes());
+    const bool is_software = gl::Context::current().device().is_software;
+    EXPECT_STREQ(app().panels().quality, is_software ? "fast" : "high");
+    for (const auto& [quality, name] :
+         {std::pair(render::Quality::high, "high"), std::pair(render::Quality::fast, "fast")}) {
+        close();
+        open(two_cubes(), Backend::automatic, quality);
+        EXPECT_STREQ(app().panels().quality, name);
+    }
 }
 
 TEST_F(WindowHeavy, MouseTurnsMovesAndZoomsTheView) {

@@ -32,9 +32,10 @@ void WindowHeavy::close() {
     window_.reset();
 }
 
-void WindowHeavy::open(const std::string& text, Backend backend) {
+void WindowHeavy::open(const std::string& text, Backend backend, render::Quality quality) {
     viewer::ViewerOptions all;
     all.backend = backend;
+    all.quality = quality;
     all.scene = path("scene.toml");
     all.width = kWidth;
     all.height = kHeight;

@@ -24,7 +24,8 @@ protected:
     void TearDown() override;
 
     /// Opens a window on a scene; `text` is its file's. The pointer is in the middle.
-    void open(const std::string& text, Backend backend = Backend::automatic);
+    void open(const std::string& text, Backend backend = Backend::automatic,
+              render::Quality quality = render::Quality::automatic);
     /// Closes it, with all that TearDown looks at.
     void close();
     /// Two cubes, the smaller at the right, above a floor.
