@@ -8,12 +8,10 @@
 #include "command.h"
 #include "gelatin/scene.h"
 #include "gelatin/views.h"
+#include "render/camera.h"
 #include "session.h"
 
 namespace gelatin::viewer {
-
-/// At which springs have the full colour until the user says otherwise.
-constexpr float kUsualStrain = 0.1f;
 
 /// What panels know of the window.
 struct PanelState {
@@ -21,6 +19,7 @@ struct PanelState {
     double picture_rate = 0.0;     ///< pictures a second
     const char* quality = "high";  ///< of the picture
     Overlays overlays;
+    render::Camera camera;  ///< of the picture
     Scene edited;  ///< the session's scene as the user wants it by now
 };
 
@@ -41,7 +40,7 @@ void draw_session_panel(const Session& session, const PanelState& state, Request
 void draw_playback(const Session& session, const PanelState& state, Requests& requests);
 void draw_settings(const PanelState& state, Requests& requests);
 void draw_readings(const Session& session, const PanelState& state);
-void draw_overlay_choices(const PanelState& state, Requests& requests);
+void draw_overlay_choices(const Session& session, const PanelState& state, Requests& requests);
 
 /// What keys and mouse do.
 void draw_help(float scale, Requests& requests);

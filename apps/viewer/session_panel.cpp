@@ -29,7 +29,7 @@ void draw_session_panel(const Session& session, const PanelState& state, Request
                  ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNav);
     ImGui::PushItemWidth(150.0f * state.scale);
     draw_playback(session, state, requests);
-    if (ImGui::CollapsingHeader("Show")) draw_overlay_choices(state, requests);
+    if (ImGui::CollapsingHeader("Show")) draw_overlay_choices(session, state, requests);
     if (ImGui::CollapsingHeader("Settings")) draw_settings(state, requests);
     if (ImGui::CollapsingHeader("Readings")) draw_readings(session, state);
     ImGui::PopItemWidth();
@@ -63,37 +63,6 @@ void draw_playback(const Session& session, const PanelState& state, Requests& re
     } else {
         ImGui::TextDisabled("%.0f pictures/s, %s quality", state.picture_rate, state.quality);
     }
-}
-
-void draw_overlay_choices(const PanelState& state, Requests& requests) {
-    Overlays overlays = state.overlays;
-    bool changed = false;
-    bool strain = overlays.full_strain.has_value(), boxes = overlays.box_levels.has_value();
-    if (ImGui::Checkbox("springs by strain", &strain)) {
-        overlays.full_strain = strain ? std::optional(kUsualStrain) : std::nullopt;
-        changed = true;
-    }
-    if (overlays.full_strain) {
-        float percent = 100.0f * *overlays.full_strain;
-        if (ImGui::SliderFloat("full colour", &percent, 0.1f, 50.0f, "%.1f %%",
-                               ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
-            overlays.full_strain = percent / 100.0f;
-            changed = true;
-        }
-    }
-    changed |= ImGui::Checkbox("faces that touch", &overlays.faces);
-    if (ImGui::Checkbox("boxes", &boxes)) {
-        overlays.box_levels = boxes ? std::optional(0) : std::nullopt;
-        changed = true;
-    }
-    if (overlays.box_levels) {
-        int levels = *overlays.box_levels;
-        if (ImGui::SliderInt("levels below", &levels, 0, 8, "%d", ImGuiSliderFlags_AlwaysClamp)) {
-            overlays.box_levels = levels;
-            changed = true;
-        }
-    }
-    if (changed) requests.overlays = overlays;
 }
 
 }  // namespace gelatin::viewer

@@ -38,7 +38,11 @@ void HighPipeline::draw(const Frame& frame) {
     glDepthMask(GL_TRUE);
     glClear(GL_DEPTH_BUFFER_BIT);  // the backdrop covers every pixel's colour
     frame.shadows.bind_textures();
-    if (!frame.overlay.replaces_bodies()) light_.draw(frame, {&frame.bodies});
+    if (frame.overlay.replaces_bodies()) {
+        frame.overlay.draw_bodies(frame);
+    } else {
+        light_.draw(frame, {&frame.bodies});
+    }
     light_.draw(frame, {&frame.props});
     scenery_.draw(frame.view, &frame.shadows);
     frame.overlay.draw(frame);

@@ -2,7 +2,8 @@
 
 namespace gelatin::render {
 
-PixelLight::PixelLight() : program_(gl::Program::graphics("render/surface.vert", "render/surface.frag")) {}
+PixelLight::PixelLight(const gl::Defines& defines)
+    : program_(gl::Program::graphics("render/surface.vert", "render/surface.frag", defines)) {}
 
 void PixelLight::draw(const Frame& frame, std::initializer_list<const Layer*> layers) const {
     frame.view.set_uniforms(program_);

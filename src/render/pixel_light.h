@@ -10,10 +10,13 @@ namespace gelatin::render {
 /// Draws surfaces with their light worked out at each pixel.
 class PixelLight {
 public:
-    PixelLight();
+    /// @param defines CUT: by a plane, "cut_plane" of the program
+    explicit PixelLight(const gl::Defines& defines = {});
 
     /// @pre a vertex array object and the shadows' textures are bound
     void draw(const Frame& frame, std::initializer_list<const Layer*> layers) const;
+
+    const gl::Program& program() const { return program_; }
 
 private:
     gl::Program program_;
