@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -14,55 +15,154 @@ constexpr const char* kOption = "--overlay";
 constexpr Limit kLevels{"a whole number from 0 to 12",
                         [](double v) { return v >= 0.0 && v <= 12.0 && v == std::floor(v); }};
 constexpr Limit kStrain{"a strain from 0.0001 to 1", [](double v) { return v >= 1e-4 && v <= 1.0; }};
-constexpr double kUsualLevels = 0.0, kUsualStrain = 0.1;
+constexpr Limit kStretch{"a stretch above 1, up to 1000", [](double v) { return v > 1.0 && v <= 1e3; }};
+constexpr Limit kStress{"a stress above 0, up to 1e15 Pa", [](double v) { return v > 0.0 && v <= 1e15; }};
+constexpr Limit kSpeed{"a speed above 0, up to 1e6 m/s", [](double v) { return v > 0.0 && v <= 1e6; }};
+constexpr Limit kTime{"a time from 0.0001 to 100 s", [](double v) { return v >= 1e-4 && v <= 100.0; }};
+constexpr Limit kCoordinate{"between -1e6 and 1e6", [](double v) { return std::abs(v) <= 1e6; }};
+constexpr double kUsualLevels = 0.0, kUsualStrain = 0.1, kUsualTime = 0.1;
+constexpr const char* kCutForms =
+    "must be cut:x, cut:y, cut:z or cut:NX:NY:NZ, a direction, and may end in another number, the offset "
+    "along it "
+    "[m]; -x, -y and -z are the other side";
 
-enum class Kind { boxes, faces, springs };
+enum class Kind { boxes, faces, springs, stretch, stress, speed, cut, velocity, objects, wireframe };
 
-// "NAME" or "NAME:NUMBER".
+// "NAME", or with fields behind it, "NAME:FIELD:FIELD".
 struct Request {
-    explicit Request(const std::string& whole) : text(whole), colon(whole.find(':')) {
-        kind = choose<Kind>(kOption, whole.substr(0, colon),
-                            {{"boxes", Kind::boxes}, {"faces", Kind::faces}, {"springs", Kind::springs}});
+    explicit Request(const std::string& whole) : text(whole) {
+        std::size_t begin = 0;
+        for (std::size_t colon = whole.find(':'); colon != std::string::npos;
+             colon = whole.find(':', begin)) {
+            fields.push_back(whole.substr(begin, colon - begin));
+            begin = colon + 1;
+        }
+        fields.push_back(whole.substr(begin));
+        name = fields.front();
+        fields.erase(fields.begin());
+        kind = choose<Kind>(kOption, name,
+                            {{"boxes", Kind::boxes},
+                             {"faces", Kind::faces},
+                             {"springs", Kind::springs},
+                             {"stretch", Kind::stretch},
+                             {"stress", Kind::stress},
+                             {"speed", Kind::speed},
+                             {"cut", Kind::cut},
+                             {"velocity", Kind::velocity},
+                             {"objects", Kind::objects},
+                             {"wireframe", Kind::wireframe}});
     }
 
-    bool has_number() const { return colon != std::string::npos; }
-    double number(double usual, const Limit& limit) const {
-        if (!has_number()) return usual;
+    double number(std::size_t field, const Limit& limit) const {
+        const std::string& word = fields[field];
         double value = 0.0;
-        const char* end = text.data() + text.size();
-        const auto [read, status] = std::from_chars(text.data() + colon + 1, end, value);
+        const char* end = word.data() + word.size();
+        const auto [read, status] = std::from_chars(word.data(), end, value);
         if (status != std::errc() || read != end || !limit.holds(value))
             refuse(fmt::format("the number must be {}", limit.allowed));
         return value;
+    }
+    // The one number that there may be.
+    double number_or(double usual, const Limit& limit) const {
+        allow(1);
+        return fields.empty() ? usual : number(0, limit);
+    }
+    void allow(std::size_t most) const {
+        if (fields.size() <= most) return;
+        refuse(most == 0 ? fmt::format("{} takes no number", name)
+                         : fmt::format("{} takes no more than {} number", name, most));
     }
     [[noreturn]] void refuse(const std::string& problem) const {
         throw InvalidInput({{}, 0, kOption, text, problem});
     }
 
-    std::string text;
-    std::size_t colon;
+    std::string text, name;
+    std::vector<std::string> fields;
     Kind kind;
 };
+
+void show_boxes(const Request& request, Overlays& overlays) {
+    request.allow(2);
+    if (request.fields.size() == 2 && request.fields[1] != "alone")
+        request.refuse("behind the number there may be 'alone', for the boxes of that level and no other");
+    overlays.box_levels =
+        static_cast<int>(request.fields.empty() ? kUsualLevels : request.number(0, kLevels));
+    overlays.lowest_boxes_alone = request.fields.size() == 2;
+}
+
+// Springs and the quantities each colour the bodies in their own way.
+void check_colors(const Request& request, const Overlays& overlays) {
+    if (overlays.full_strain || overlays.color_map)
+        request.refuse("of springs, stretch, stress and speed one can be shown");
+}
+
+void show_quantity(const Request& request, Quantity quantity, const Limit& limit, Overlays& overlays) {
+    check_colors(request, overlays);
+    request.allow(1);
+    overlays.color_map = ColorMap{.quantity = quantity};
+    if (!request.fields.empty()) overlays.color_map->full = static_cast<float>(request.number(0, limit));
+}
+
+void show_cut(const Request& request, Overlays& overlays) {
+    CutPlane cut{.normal = {0.0f, 0.0f, 0.0f}};
+    const auto& fields = request.fields;
+    if (fields.empty()) request.refuse(kCutForms);
+    const std::string axis = fields[0].starts_with('-') ? fields[0].substr(1) : fields[0];
+    const bool is_axis = axis == "x" || axis == "y" || axis == "z";
+    const std::size_t direction = is_axis ? 1 : 3;
+    if (fields.size() < direction || fields.size() > direction + 1) request.refuse(kCutForms);
+    if (is_axis) {
+        cut.normal[axis[0] - 'x'] = fields[0].starts_with('-') ? -1.0f : 1.0f;
+    } else {
+        for (std::size_t k = 0; k < 3; ++k)
+            cut.normal[k] = static_cast<float>(request.number(k, kCoordinate));
+        const auto is_small = [](float v) { return std::abs(v) < 1e-6f; };
+        if (std::all_of(std::begin(cut.normal), std::end(cut.normal), is_small))
+            request.refuse("the direction must not be zero");
+    }
+    if (fields.size() > direction) cut.offset = static_cast<float>(request.number(direction, kCoordinate));
+    overlays.cut = cut;
+}
+
+void show(const Request& request, Overlays& overlays) {
+    switch (request.kind) {
+        case Kind::boxes:
+            return show_boxes(request, overlays);
+        case Kind::faces:
+            request.allow(0);
+            overlays.faces = true;
+            return;
+        case Kind::springs:
+            check_colors(request, overlays);
+            overlays.full_strain = static_cast<float>(request.number_or(kUsualStrain, kStrain));
+            return;
+        case Kind::stretch:
+            return show_quantity(request, Quantity::stretch, kStretch, overlays);
+        case Kind::stress:
+            return show_quantity(request, Quantity::stress, kStress, overlays);
+        case Kind::speed:
+            return show_quantity(request, Quantity::speed, kSpeed, overlays);
+        case Kind::cut:
+            return show_cut(request, overlays);
+        case Kind::velocity:
+            overlays.arrow_time = static_cast<float>(request.number_or(kUsualTime, kTime));
+            return;
+        case Kind::objects:
+            request.allow(0);
+            overlays.objects = true;
+            return;
+        case Kind::wireframe:
+            request.allow(0);
+            overlays.wireframe = true;
+            return;
+    }
+}
 
 }  // namespace
 
 Overlays parse_overlays(const std::vector<std::string>& texts) {
     Overlays overlays;
-    for (const std::string& text : texts) {
-        const Request request(text);
-        switch (request.kind) {
-            case Kind::boxes:
-                overlays.box_levels = static_cast<int>(request.number(kUsualLevels, kLevels));
-                break;
-            case Kind::faces:
-                if (request.has_number()) request.refuse("faces takes no number");
-                overlays.faces = true;
-                break;
-            case Kind::springs:
-                overlays.full_strain = static_cast<float>(request.number(kUsualStrain, kStrain));
-                break;
-        }
-    }
+    for (const std::string& text : texts) show(Request(text), overlays);
     return overlays;
 }
 

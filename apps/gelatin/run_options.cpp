@@ -69,8 +69,10 @@ void add_run_options(CLI::App& command, RunOptions& options) {
         .add_option(
             "--overlay", options.overlays,
             "Show in the same: boxes (boxes:3 with three levels of the trees below), faces that touch, "
-            "springs by strain (springs:0.02 colours fully at 2%)")
-        ->type_name("boxes|faces|springs")
+            "springs by strain (springs:0.02 colours fully at 2%), stretch, stress or speed (stress:2e4 "
+            "colours "
+            "fully at 20 kPa), cut (cut:z, cut:x:0.2, cut:1:0:1), velocity, objects, wireframe")
+        ->type_name("NAME")
         ->delimiter(',')
         ->expected(1)
         ->take_all()

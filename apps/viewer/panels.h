@@ -9,12 +9,10 @@
 #include "gelatin/scene.h"
 #include "gelatin/views.h"
 #include "markers.h"
+#include "render/camera.h"
 #include "session.h"
 
 namespace gelatin::viewer {
-
-/// At which springs have the full colour until the user says otherwise.
-constexpr float kUsualStrain = 0.1f;
 
 /// What panels know of the window.
 struct PanelState {
@@ -22,6 +20,7 @@ struct PanelState {
     double picture_rate = 0.0;     ///< pictures a second
     const char* quality = "high";  ///< of the picture
     Overlays overlays;
+    render::Camera camera;      ///< of the picture
     bool shows_markers = true;  ///< of pins and handles
     Scene edited;               ///< the session's scene as the user wants it by now
 };

@@ -65,38 +65,4 @@ void draw_playback(const Session& session, const PanelState& state, Requests& re
     }
 }
 
-void draw_overlay_choices(const Session& session, const PanelState& state, Requests& requests) {
-    Overlays overlays = state.overlays;
-    bool changed = false;
-    bool strain = overlays.full_strain.has_value(), boxes = overlays.box_levels.has_value();
-    if (ImGui::Checkbox("springs by strain", &strain)) {
-        overlays.full_strain = strain ? std::optional(kUsualStrain) : std::nullopt;
-        changed = true;
-    }
-    if (overlays.full_strain) {
-        float percent = 100.0f * *overlays.full_strain;
-        if (ImGui::SliderFloat("full colour", &percent, 0.1f, 50.0f, "%.1f %%",
-                               ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
-            overlays.full_strain = percent / 100.0f;
-            changed = true;
-        }
-    }
-    changed |= ImGui::Checkbox("faces that touch", &overlays.faces);
-    if (ImGui::Checkbox("boxes", &boxes)) {
-        overlays.box_levels = boxes ? std::optional(0) : std::nullopt;
-        changed = true;
-    }
-    if (overlays.box_levels) {
-        int levels = *overlays.box_levels;
-        if (ImGui::SliderInt("levels below", &levels, 0, 8, "%d", ImGuiSliderFlags_AlwaysClamp)) {
-            overlays.box_levels = levels;
-            changed = true;
-        }
-    }
-    if (changed) requests.overlays = overlays;
-    bool markers = state.shows_markers;
-    if (!session.held_nodes().empty() && ImGui::Checkbox("pins and handles", &markers))
-        requests.shows_markers = markers;
-}
-
 }  // namespace gelatin::viewer

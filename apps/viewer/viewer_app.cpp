@@ -36,6 +36,7 @@ void ViewerApp::open(const std::filesystem::path& file) {
 void ViewerApp::draw_frame() {
     window_.begin_frame(patience());
     panels_.scale = window_.scale();
+    panels_.camera = camera_.camera();
     const double now = window_.now(), elapsed = now - std::exchange(last_frame_, now);
     if (elapsed > 0.0) panels_.picture_rate += 0.1 * (1.0 / elapsed - panels_.picture_rate);
     for (const Event& event : window_.take_events()) handle(event);

@@ -8,6 +8,7 @@
 #include "dragged_scene.h"
 #include "gelatin/error.h"
 #include "model/scene_writer.h"
+#include "overlay_choices.h"
 #include "projectile.h"
 #include "render/frame_grabber.h"
 #include "render/image.h"
@@ -17,7 +18,6 @@ namespace gelatin::viewer {
 namespace {
 
 constexpr double kLeastSpeed = 1.0 / 64;  // of real time
-constexpr int kUsualBoxLevels = 2;
 
 render::Bounds bounds_of_bodies(const RenderView& view) {
     return {{view.box_min[0], view.box_min[1], view.box_min[2]},
@@ -47,7 +47,8 @@ void ViewerApp::obey(Command command) {
         wants_window_picture_ = true;
     }
     if (!session_) return;
-    Overlays overlays = panels_.overlays;
+    if (const auto overlays = toggled(panels_.overlays, command, session_->view(), camera_.camera()))
+        return show_overlays(*overlays);
     switch (command) {
         case Command::toggle_play:
             return session_->play(!session_->is_playing());
@@ -70,15 +71,6 @@ void ViewerApp::obey(Command command) {
             return session_->set_speed(std::min(2.0 * session_->pace().speed(), 1.0));
         case Command::frame_all:
             return camera_.frame(bounds_of_bodies(session_->view()), aspect());
-        case Command::toggle_strain:
-            overlays.full_strain = overlays.full_strain ? std::nullopt : std::optional(kUsualStrain);
-            return show_overlays(overlays);
-        case Command::toggle_faces:
-            overlays.faces = !overlays.faces;
-            return show_overlays(overlays);
-        case Command::toggle_boxes:
-            overlays.box_levels = overlays.box_levels ? std::nullopt : std::optional(kUsualBoxLevels);
-            return show_overlays(overlays);
         case Command::save_scene:
             return save_scene();
         case Command::toggle_film:

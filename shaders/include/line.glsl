@@ -1,5 +1,7 @@
 // A straight line as two triangles that face the screen, some pixels wide: six vertices, corner 0 to 5. The fragment
 // shader (render/line.frag) softens its sides by its distance from the middle.
+#include "include/near_plane.glsl"
+
 uniform vec2 picture_size;  // [pixels]
 uniform float line_width;   // [pixels]
 
@@ -7,13 +9,7 @@ noperspective out float across;  // from the middle of the line [pixels]
 
 // a, b: its ends in clip coordinates.
 void place_line_corner(vec4 a, vec4 b, int corner) {
-    // What is nearer than the near plane is cut off, for behind the eye there are no pixels to measure in.
-    float depth_a = a.z + a.w, depth_b = b.z + b.w;
-    vec4 cut = mix(a, b, depth_a / (depth_a - depth_b));
-    bool is_hidden = depth_a <= 0.0 && depth_b <= 0.0;
-    a = depth_a < 0.0 ? cut : a;
-    b = depth_b < 0.0 ? cut : b;
-
+    bool is_hidden = cut_by_near_plane(a, b);
     vec2 pixels = 0.5 * picture_size;
     vec2 along = (b.xy / b.w - a.xy / a.w) * pixels;
     along = dot(along, along) > 1e-6 ? normalize(along) : vec2(1.0, 0.0);

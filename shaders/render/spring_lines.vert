@@ -1,4 +1,5 @@
 // Springs as lines, coloured by their strain.
+#include "include/cut.glsl"
 #include "include/line.glsl"
 
 layout(binding = 0) uniform samplerBuffer node_positions;  // xyz [m]
@@ -16,6 +17,7 @@ void main() {
     vec3 a = texelFetch(node_positions, int(spring.x)).xyz;
     vec3 b = texelFetch(node_positions, int(spring.y)).xyz;
     place_line_corner(world_to_clip * vec4(a, 1.0), world_to_clip * vec4(b, 1.0), gl_VertexID % 6);
+    if (depth_below_cut(0.5 * (a + b)) < 0.0) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
     float strain = distance(a, b) / uintBitsToFloat(spring.z) - 1.0;
     float at = clamp(strain / full_strain, -1.0, 1.0);
     float place = 2.0 * at + 2.0;

@@ -248,6 +248,7 @@ void append_body(Model& model, const Body& body) {
         object.rest_volume += volume;
         object.mass += volume * material.density;
         model.tets.push_back(mesh.tets[t] + first);
+        model.shear_moduli.push_back(static_cast<float>(shear_modulus(material)));
         const float volume_in_float = checked_float(volume, body.name, "a tet's volume [m^3]");
         if (has_springs(body)) {
             model.tet_rests.push_back({volume_in_float, static_cast<float>(material.youngs_modulus),

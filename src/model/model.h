@@ -108,6 +108,7 @@ struct Model {
 
     std::vector<glm::uvec4> tets;                 ///< shape [tets]
     std::vector<TetRest> tet_rests;               ///< shape [tets]
+    std::vector<float> shear_moduli;              ///< of the tets' materials [Pa], shape [tets]
     VolumeTerm volume_term;                       ///< empty where springs are all there is
     std::vector<NeoHookeanTet> neo_hookean_tets;  ///< of the bodies that have no springs
     NodeTets neo_hookean_corners;                 ///< by node; empty where there are none

@@ -36,7 +36,11 @@ void FastPipeline::draw(const Frame& frame) {
     restore_picture(frame);
     picture_.bind();
     glEnable(GL_DEPTH_TEST);
-    if (has_bodies) body_light_.draw(frame.bodies);
+    if (has_bodies) {
+        body_light_.draw(frame.bodies);
+    } else {
+        frame.overlay.draw_bodies(frame);
+    }
     prop_light_.draw(frame, {&frame.props});
     if (has_shadows) draw_floor_shadow(frame);
     frame.overlay.draw(frame);

@@ -10,7 +10,9 @@
 namespace gelatin::render {
 namespace {
 
-constexpr float kKeyDistance = 2.0f;  // of the scene's extent
+constexpr float kKeyDistance = 2.0f;    // of the scene's extent
+constexpr float kUsualHeight = 720.0f;  // of a picture [pixels], whose lines are as wide as they are told
+constexpr int kHeightOfALetterPixel = 540;
 
 }  // namespace
 
@@ -20,6 +22,14 @@ glm::vec3 to_key_light() {
 
 float View::extent() const {
     return std::max(glm::length(bounds.size()), 1e-3f);
+}
+
+float View::line_scale() const {
+    return std::max(1.0f, static_cast<float>(height) / kUsualHeight);
+}
+
+int View::letter_scale() const {
+    return 1 + height / kHeightOfALetterPixel;
 }
 
 PixelRect View::pixels_of(const Bounds& box) const {

@@ -25,6 +25,10 @@ struct View {
 
     /// How large the scene is [m], > 0.
     float extent() const;
+    /// How much wider lines are than they are told, in larger pictures; and pixels of letters, a whole
+    /// number.
+    float line_scale() const;
+    int letter_scale() const;
     bool shows_floor() const { return floor_height && camera.eye.y > *floor_height; }
 
     /// The camera and the key light, for programs of the folder shaders/render.

@@ -46,7 +46,11 @@ void HighPipeline::draw(const Frame& frame) {
     glClear(GL_DEPTH_BUFFER_BIT);  // the backdrop covers every pixel's colour
     frame.shadows.bind_textures();
     occlusion_.bind_texture();
-    if (has_bodies) light_.draw(frame, {&frame.bodies});
+    if (has_bodies) {
+        light_.draw(frame, {&frame.bodies});
+    } else {
+        frame.overlay.draw_bodies(frame);
+    }
     light_.draw(frame, {&frame.props});
     scenery_.draw(frame.view, &frame.shadows);
     frame.overlay.draw(frame);

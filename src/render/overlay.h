@@ -1,52 +1,62 @@
 #pragma once
 
+#include <glm/vec4.hpp>
 #include <optional>
 
 #include "gelatin/views.h"
-#include "gl/buffer.h"
-#include "gl/program.h"
+#include "render/arrow_overlay.h"
+#include "render/body_overlay.h"
+#include "render/box_overlay.h"
+#include "render/cut_overlay.h"
+#include "render/face_overlay.h"
 #include "render/frame.h"
-#include "render/strain_legend.h"
+#include "render/label_overlay.h"
+#include "render/legend.h"
+#include "render/spring_overlay.h"
 
 namespace gelatin::render {
 
-/// Draws what a view shows beside the bodies over a picture: marked faces, springs, boxes. Nothing is made or
-/// drawn before a view asks for it. Needs the context it was made in.
+/// Draws what a view shows beside the bodies over a picture, or of the bodies in place of the pipeline.
+/// Nothing is made or drawn before a view asks for it. Needs the context it was made in.
 class Overlay {
 public:
     /// Takes what the next frame shows; as long-lived as the view.
     void show(const RenderView& bodies);
 
-    bool is_empty() const { return !boxes_ && !faces_ && !springs_; }
-    /// Springs are inside: bodies are drawn here, see-through.
-    bool replaces_bodies() const { return springs_.has_value(); }
+    bool is_empty() const;
+    /// Bodies are drawn here: see-through, coloured or cut open.
+    bool replaces_bodies() const { return has_springs() || view().color_map || view().cut; }
+    /// What is on the positive side of the plane is not drawn; all 0 where nothing is cut.
+    glm::vec4 cut_plane() const;
 
+    /// The bodies, where they are solid. @pre as Pipeline::draw, the shadows' textures are bound, and
+    /// replaces_bodies
+    void draw_bodies(const Frame& frame) const;
     /// Draws over all that is in the picture, by its depth. @pre as Pipeline::draw. Keeps alpha as it is.
     void draw(const Frame& frame) const;
 
 private:
-    // A view's buffers as textures.
-    struct Boxes {
-        gl::BufferTexture boxes, shown;
-        std::uint32_t count;
-    };
-    struct Faces {
-        gl::BufferTexture marks;
-    };
-    struct Springs {
-        gl::BufferTexture positions, springs;
-        std::uint32_t count;
-        float full_strain;
-    };
-    void draw_boxes(const View& view) const;
-    void draw_faces(const Frame& frame) const;
-    void draw_springs(const Frame& frame) const;
+    const OverlayView& view() const { return bodies_.overlay; }
+    bool has_springs() const { return view().springs != 0; }
 
-    std::optional<Boxes> boxes_;
-    std::optional<Faces> faces_;
-    std::optional<Springs> springs_;
-    std::optional<gl::Program> box_program_, face_program_, spring_program_, glass_program_;
-    std::optional<StrainLegend> legend_;
+    RenderView bodies_;
+    std::optional<BodyOverlay> recolored_;
+    std::optional<CutOverlay> cut_;
+    std::optional<SpringOverlay> springs_;
+    std::optional<FaceOverlay> faces_;
+    std::optional<BoxOverlay> boxes_;
+    std::optional<ArrowOverlay> arrows_;
+    std::optional<LabelOverlay> labels_;
+    std::optional<Legend> legend_;
+};
+
+/// While it lives, programs that tell their distance from the plane do not draw beyond it, if there is one.
+class Clipping {
+public:
+    explicit Clipping(const Overlay& overlay);
+    Clipping(const Clipping&) = delete;
+    Clipping& operator=(const Clipping&) = delete;
+    ~Clipping();
 };
 
 }  // namespace gelatin::render

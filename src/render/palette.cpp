@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <glm/common.hpp>
 
 namespace gelatin::render {
 
@@ -25,6 +26,18 @@ glm::vec3 palette_color(std::size_t index) {
                                                       0xCD75B2, 0x6CBCE8, 0xEEE163, 0x697080};
     const std::uint32_t color = kColors[index % kColors.size()];
     return from_srgb(glm::vec3(color >> 16 & 255u, color >> 8 & 255u, color & 255u) / 255.0f);
+}
+
+glm::vec3 object_color(std::size_t index) {
+    const glm::vec3 color = to_srgb(palette_color(index));
+    switch (index / 8 % 3) {
+        case 1:
+            return from_srgb(0.6f * color);
+        case 2:
+            return from_srgb(glm::mix(color, glm::vec3(1.0f), 0.5f));
+        default:
+            return palette_color(index);
+    }
 }
 
 }  // namespace gelatin::render

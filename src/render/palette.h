@@ -9,6 +9,10 @@ namespace gelatin::render {
 /// common kinds of colour blindness tell apart (after Okabe and Ito 2008, softened), repeated.
 glm::vec3 palette_color(std::size_t index);
 
+/// As many colours as possible that tell objects apart: the palette's, then darker ones, then paler ones,
+/// repeated. Linear RGB.
+glm::vec3 object_color(std::size_t index);
+
 /// Linear to sRGB and back, each component in [0, 1] (IEC 61966-2-1).
 glm::vec3 to_srgb(const glm::vec3& linear);
 glm::vec3 from_srgb(const glm::vec3& srgb);

@@ -4,17 +4,18 @@ namespace gelatin::render {
 
 namespace {
 
-gl::Defines defines(const AmbientOcclusion* occlusion) {
-    gl::Defines all = AmbientOcclusion::defines(occlusion);
-    if (occlusion != nullptr) all.emplace_back("SOFT_SHADOWS");
-    return all;
+gl::Defines with_occlusion(gl::Defines defines, const AmbientOcclusion* occlusion) {
+    for (const std::string& define : AmbientOcclusion::defines(occlusion)) defines.push_back(define);
+    if (occlusion != nullptr) defines.emplace_back("SOFT_SHADOWS");
+    return defines;
 }
 
 }  // namespace
 
-PixelLight::PixelLight(const AmbientOcclusion* occlusion)
+PixelLight::PixelLight(const AmbientOcclusion* occlusion, const gl::Defines& defines)
     : occlusion_(occlusion),
-      program_(gl::Program::graphics("render/surface.vert", "render/surface.frag", defines(occlusion))) {}
+      program_(gl::Program::graphics("render/surface.vert", "render/surface.frag",
+                                     with_occlusion(defines, occlusion))) {}
 
 void PixelLight::draw(const Frame& frame, std::initializer_list<const Layer*> layers) const {
     frame.view.set_uniforms(program_);

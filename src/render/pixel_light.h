@@ -12,10 +12,13 @@ namespace gelatin::render {
 class PixelLight {
 public:
     /// @param occlusion of what is drawn; null: all of the ambient light reaches everything
-    explicit PixelLight(const AmbientOcclusion* occlusion = nullptr);
+    /// @param defines CUT: by a plane, "cut_plane" of the program
+    explicit PixelLight(const AmbientOcclusion* occlusion = nullptr, const gl::Defines& defines = {});
 
     /// @pre a vertex array object and the shadows' textures are bound
     void draw(const Frame& frame, std::initializer_list<const Layer*> layers) const;
+
+    const gl::Program& program() const { return program_; }
 
 private:
     const AmbientOcclusion* occlusion_;

@@ -100,14 +100,19 @@ void Renderer::aim_shadows(const RenderView& bodies, const View& view) {
     shadows_.aim(casters, view.extent(), view.floor_height.value_or(usual.min.y), to_key_light());
 }
 
-void Renderer::grow_colors(std::uint32_t body_count) {
-    if (body_colors_.size() >= std::max(body_count, 1u)) return;
+const gl::Buffer<glm::vec4>& Renderer::colors_of(const RenderView& bodies) {
+    const bool tells_objects_apart = bodies.overlay.objects.has_value();
+    gl::Buffer<glm::vec4>& buffer = tells_objects_apart ? object_colors_ : body_colors_;
+    const std::size_t count = std::max(bodies.object_count, 1u);
+    if (buffer.size() >= count) return buffer;
     std::vector<glm::vec4> colors;
-    for (std::size_t i = 0; i < std::max(body_count, 1u); ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         const bool given = i < surroundings_.colors.size() && surroundings_.colors[i].r >= 0.0f;
-        colors.emplace_back(given ? surroundings_.colors[i] : palette_color(i), 1.0f);
+        const glm::vec3 usual = given ? surroundings_.colors[i] : palette_color(i);
+        colors.emplace_back(tells_objects_apart ? object_color(i) : usual, 1.0f);
     }
-    body_colors_ = gl::Buffer<glm::vec4>(std::span<const glm::vec4>(colors));
+    buffer = gl::Buffer<glm::vec4>(std::span<const glm::vec4>(colors));
+    return buffer;
 }
 
 void Renderer::draw(const RenderView& bodies, const Camera& camera) {
@@ -121,10 +126,9 @@ void Renderer::draw(const RenderView& bodies, const Camera& camera) {
     glDepthFunc(GL_LEQUAL);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 
-    grow_colors(bodies.object_count);
     const SurfaceDraw body_draw(bodies);
     const SurfaceDraw prop_draw(props_.view());
-    const gl::BufferTexture body_colors(body_colors_, gl::TexelFormat::rgba32f);
+    const gl::BufferTexture body_colors(colors_of(bodies), gl::TexelFormat::rgba32f);
     const gl::BufferTexture prop_colors(prop_colors_, gl::TexelFormat::rgba32f);
     const View view{camera, width(), height(), surroundings_.bounds, surroundings_.floor_height};
     aim_shadows(bodies, view);

@@ -69,7 +69,7 @@ public:
     unsigned framebuffer() const { return pipeline_->picture().framebuffer(); }
 
 private:
-    void grow_colors(std::uint32_t body_count);
+    const gl::Buffer<glm::vec4>& colors_of(const RenderView& bodies);
     void aim_shadows(const RenderView& bodies, const View& view);
 
     RendererOptions options_;
@@ -81,6 +81,7 @@ private:
     Surroundings surroundings_;
     StaticMesh props_;
     gl::Buffer<glm::vec4> body_colors_;
+    gl::Buffer<glm::vec4> object_colors_;  // where the overlay tells objects apart
     gl::Buffer<glm::vec4> prop_colors_;
 };
 

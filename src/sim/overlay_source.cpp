@@ -1,29 +1,50 @@
 #include "sim/overlay_source.h"
 
-#include <vector>
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "sim/thin_nodes.h"
 
 namespace gelatin {
 namespace {
 
-// The nodes of trees down to a number of levels below their roots: index, level.
-std::vector<glm::uvec2> list_boxes(const BoxTree& trees, int levels) {
+constexpr std::size_t kArrows = 400;
+
+// The nodes of trees down to a number of levels below their roots, or of that level alone: index, level below
+// the first one listed.
+std::vector<glm::uvec2> list_boxes(const BoxTree& trees, int levels, bool is_alone) {
+    const auto last = static_cast<std::size_t>(levels), first = is_alone ? last : std::size_t{0};
     std::vector<glm::uvec2> list;
     std::vector<std::uint32_t> ends;  // of the subtrees that the node lies in
     for (std::uint32_t n = 0; n < trees.nodes.size(); ++n) {
         while (!ends.empty() && ends.back() <= n) ends.pop_back();
-        if (ends.size() <= static_cast<std::size_t>(levels)) list.emplace_back(n, ends.size());
+        if (ends.size() >= first && ends.size() <= last) list.emplace_back(n, ends.size() - first);
         ends.push_back(trees.nodes[n].skip);
     }
     return list;
 }
 
+bool needs_boxes(const Overlays& overlays) {
+    return overlays.box_levels || overlays.objects;
+}
+
+bool needs_velocities(const Overlays& overlays) {
+    return overlays.color_map || overlays.arrow_time;
+}
+
+gl::BufferTexture texels_of(unsigned nodes, const RenderView& bodies) {
+    return {nodes, std::size_t{16} * bodies.node_count, gl::TexelFormat::rgba32f};
+}
+
 }  // namespace
 
-OverlayView OverlaySource::update(const Overlays& overlays, gpu::GpuSolver& solver) {
-    OverlayView view;
-    if (overlays.box_levels) {
+OverlayView OverlaySource::update(const Overlays& overlays, const RenderView& bodies,
+                                  gpu::GpuSolver& solver) {
+    unsigned boxes = 0;
+    if (needs_boxes(overlays)) {
         solver.update_boxes();
-        view_boxes(*overlays.box_levels, solver.collision().buffers.face_trees.boxes.id(), view);
+        boxes = solver.collision().buffers.face_trees.boxes.id();
     }
     if (overlays.faces) {
         make_marks();
@@ -33,44 +54,70 @@ OverlayView OverlaySource::update(const Overlays& overlays, gpu::GpuSolver& solv
             mark_faces_->run(solver.model_buffers(), solver.collision().buffers,
                              self ? &self->buffers : nullptr, marks_);
         }
-        view_marks(view);
     }
-    if (overlays.full_strain) view_springs(*overlays.full_strain, view);
-    return view;
+    return update(overlays, bodies, boxes, solver.nodes().velocities.id());
 }
 
-OverlayView OverlaySource::update(const Overlays& overlays, cpu::CpuSolver<float>& solver) {
-    OverlayView view;
-    if (overlays.box_levels) {
+OverlayView OverlaySource::update(const Overlays& overlays, const RenderView& bodies,
+                                  cpu::CpuSolver<float>& solver) {
+    if (needs_boxes(overlays)) {
         solver.update_boxes();
         std::vector<Box> boxes;
         for (const cpu::AxisBox<float>& box : solver.collision().tree_boxes())
             boxes.push_back({glm::vec4(box.min, 0.0f), glm::vec4(box.max, 0.0f)});
         if (uploaded_boxes_.empty()) uploaded_boxes_ = gl::Buffer<Box>(boxes.size());
         uploaded_boxes_.upload(boxes);
-        view_boxes(*overlays.box_levels, uploaded_boxes_.id(), view);
     }
     if (overlays.faces) {
         std::vector<std::uint32_t> marks(model_->faces.size());
         for (std::uint32_t f = 0; f < marks.size(); ++f) marks[f] = solver.collides(f) ? 1 : 0;
         make_marks();
         marks_.upload(marks);
-        view_marks(view);
     }
+    if (needs_velocities(overlays)) {
+        const State state = solver.read_state();
+        if (uploaded_velocities_.empty())
+            uploaded_velocities_ = gl::Buffer<glm::vec4>(state.velocities.size());
+        uploaded_velocities_.upload(state.velocities);
+    }
+    return update(overlays, bodies, uploaded_boxes_.id(), uploaded_velocities_.id());
+}
+
+OverlayView OverlaySource::update(const Overlays& overlays, const RenderView& bodies, unsigned boxes,
+                                  unsigned velocities) {
+    OverlayView view;
+    if (needs_boxes(overlays)) {
+        view.boxes = boxes;
+        view.box_count = static_cast<std::uint32_t>(model_->face_trees.nodes.size());
+    }
+    if (overlays.box_levels) view_boxes(overlays, view);
+    if (overlays.objects) view_objects(view);
+    if (overlays.faces) view.face_marks = marks_.id();
     if (overlays.full_strain) view_springs(*overlays.full_strain, view);
+    if (overlays.color_map) view_colors(*overlays.color_map, bodies, velocities, view);
+    if (overlays.cut) view_cut(*overlays.cut, bodies, view);
+    if (overlays.arrow_time) view_arrows(*overlays.arrow_time, velocities, view);
+    view.wireframe = overlays.wireframe;
     return view;
 }
 
-void OverlaySource::view_boxes(int levels, unsigned boxes, OverlayView& view) {
-    if (shown_levels_ != levels) {
-        shown_boxes_ =
-            gl::Buffer<glm::uvec2>(std::span<const glm::uvec2>(list_boxes(model_->face_trees, levels)));
-        shown_levels_ = levels;
+void OverlaySource::view_boxes(const Overlays& overlays, OverlayView& view) {
+    if (shown_levels_ != overlays.box_levels || shown_alone_ != overlays.lowest_boxes_alone) {
+        shown_levels_ = overlays.box_levels;
+        shown_alone_ = overlays.lowest_boxes_alone;
+        shown_boxes_ = gl::Buffer<glm::uvec2>(
+            std::span<const glm::uvec2>(list_boxes(model_->face_trees, *shown_levels_, shown_alone_)));
     }
-    view.boxes = boxes;
-    view.box_count = static_cast<std::uint32_t>(model_->face_trees.nodes.size());
     view.shown_boxes = shown_boxes_.id();
     view.shown_box_count = static_cast<std::uint32_t>(shown_boxes_.size());
+}
+
+void OverlaySource::view_objects(OverlayView& view) {
+    if (roots_.empty()) {
+        roots_ = gl::Buffer<std::uint32_t>(std::span(model_->face_trees.roots));
+        for (const ModelObject& object : model_->objects) names_.push_back(object.name);
+    }
+    view.objects = ObjectView{.roots = roots_.id(), .names = names_};
 }
 
 // Where nothing can collide they stay so.
@@ -85,6 +132,44 @@ void OverlaySource::view_springs(float full_strain, OverlayView& view) {
     view.springs = springs_.id();
     view.spring_count = static_cast<std::uint32_t>(springs_.size());
     view.full_strain = full_strain;
+}
+
+void OverlaySource::view_cut(const CutPlane& cut, const RenderView& bodies, OverlayView& view) {
+    if (tets_.empty()) {
+        tets_ = gl::Buffer<glm::uvec4>(std::span(model_->tets));
+        std::vector<std::uint32_t> objects(model_->tets.size());
+        for (std::uint32_t o = 0; o < model_->objects.size(); ++o) {
+            const Range tets = model_->objects[o].tets;
+            std::fill_n(objects.begin() + tets.first, tets.count, o);
+        }
+        tet_objects_ = gl::Buffer<std::uint32_t>(std::span<const std::uint32_t>(objects));
+    }
+    const glm::vec3 normal = glm::normalize(glm::vec3(cut.normal[0], cut.normal[1], cut.normal[2]));
+    const glm::vec3 low(bodies.box_min[0], bodies.box_min[1], bodies.box_min[2]);
+    const glm::vec3 high(bodies.box_max[0], bodies.box_max[1], bodies.box_max[2]);
+    const float offset = cut.offset.value_or(glm::dot(normal, 0.5f * (low + high)));
+    view.cut = CutView{.plane = {normal.x, normal.y, normal.z, -offset},
+                       .tets = tets_.id(),
+                       .tet_objects = tet_objects_.id(),
+                       .tet_count = static_cast<std::uint32_t>(tets_.size())};
+}
+
+void OverlaySource::view_colors(const ColorMap& map, const RenderView& bodies, unsigned velocities,
+                                OverlayView& view) {
+    if (!colors_ || colors_->quantity() != map.quantity) colors_.emplace(*model_, map.quantity);
+    view.color_map =
+        colors_->update(map, texels_of(bodies.node_positions, bodies), texels_of(velocities, bodies));
+}
+
+void OverlaySource::view_arrows(float time, unsigned velocities, OverlayView& view) {
+    if (arrow_nodes_.empty()) {
+        arrow_nodes_ =
+            gl::Buffer<std::uint32_t>(std::span<const std::uint32_t>(thin_surface_nodes(*model_, kArrows)));
+    }
+    view.arrows = ArrowView{.nodes = arrow_nodes_.id(),
+                            .velocities = velocities,
+                            .count = static_cast<std::uint32_t>(arrow_nodes_.size()),
+                            .time = time};
 }
 
 }  // namespace gelatin

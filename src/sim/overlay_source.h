@@ -3,11 +3,14 @@
 #include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "cpu/cpu_solver.h"
 #include "gelatin/views.h"
 #include "gpu/gpu_solver.h"
 #include "gpu/mark_faces.h"
+#include "sim/color_source.h"
 
 namespace gelatin {
 
@@ -19,22 +22,36 @@ public:
 
     /// Brings the solver's boxes up to date where they are asked for. Ends with the barriers that drawing
     /// needs.
-    OverlayView update(const Overlays& overlays, gpu::GpuSolver& solver);
-    OverlayView update(const Overlays& overlays, cpu::CpuSolver<float>& solver);
+    /// @param bodies what is drawn of the solver's nodes
+    OverlayView update(const Overlays& overlays, const RenderView& bodies, gpu::GpuSolver& solver);
+    OverlayView update(const Overlays& overlays, const RenderView& bodies, cpu::CpuSolver<float>& solver);
 
 private:
-    void view_boxes(int levels, unsigned boxes, OverlayView& view);
-    void view_marks(OverlayView& view) const { view.face_marks = marks_.id(); }
+    OverlayView update(const Overlays& overlays, const RenderView& bodies, unsigned boxes,
+                       unsigned velocities);
+    void view_boxes(const Overlays& overlays, OverlayView& view);
+    void view_objects(OverlayView& view);
     void view_springs(float full_strain, OverlayView& view);
+    void view_cut(const CutPlane& cut, const RenderView& bodies, OverlayView& view);
+    void view_colors(const ColorMap& map, const RenderView& bodies, unsigned velocities, OverlayView& view);
+    void view_arrows(float time, unsigned velocities, OverlayView& view);
     void make_marks();
 
     std::shared_ptr<const Model> model_;
     gl::Buffer<glm::uvec2> shown_boxes_;
-    int shown_levels_ = -1;  // of shown_boxes_
+    std::optional<int> shown_levels_;  // of shown_boxes_
+    bool shown_alone_ = false;
+    gl::Buffer<std::uint32_t> roots_;
+    std::vector<std::string> names_;
     gl::Buffer<Box> uploaded_boxes_;
     gl::Buffer<std::uint32_t> marks_;  // by face
     std::optional<gpu::MarkFaces> mark_faces_;
     gl::Buffer<Spring> springs_;
+    gl::Buffer<glm::uvec4> tets_;
+    gl::Buffer<std::uint32_t> tet_objects_;
+    std::optional<ColorSource> colors_;
+    gl::Buffer<std::uint32_t> arrow_nodes_;
+    gl::Buffer<glm::vec4> uploaded_velocities_;
 };
 
 }  // namespace gelatin

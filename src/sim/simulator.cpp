@@ -333,8 +333,8 @@ RenderView Simulator::render_view(const Overlays& overlays) {
     if (!overlays.any()) return view;
     if (!d.overlay_source) d.overlay_source.emplace(d.model);
     d.run_stage("update_overlays", [&] {
-        view.overlay = d.gpu_solver != nullptr ? d.overlay_source->update(overlays, *d.gpu_solver)
-                                               : d.overlay_source->update(overlays, *d.cpu_solver);
+        view.overlay = d.gpu_solver != nullptr ? d.overlay_source->update(overlays, view, *d.gpu_solver)
+                                               : d.overlay_source->update(overlays, view, *d.cpu_solver);
     });
     return view;
 }

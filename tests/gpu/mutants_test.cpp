@@ -19,6 +19,7 @@
 #include "support/shader_folder.h"
 #include "support/step_on_gpu.h"
 #include "support/test_models.h"
+#include "support/tet_values.h"
 #include "support/watched_runs.h"
 
 namespace gelatin {
@@ -73,6 +74,22 @@ TEST_P(MarkMutantsTest, IsCaught) {
     test::ShaderFolder folder;
     break_shaders(GetParam(), folder);
     EXPECT_NE(test::mark_faces_on_gpu(model), right) << "the broken kernel passes";
+}
+
+class TetValueMutantsTest : public test::GlTest, public ::testing::WithParamInterface<test::Break> {};
+INSTANTIATE_TEST_SUITE_P(All, TetValueMutantsTest, ::testing::ValuesIn(test::kTetValueMutants),
+                         name_of_mutant);
+
+TEST_P(TetValueMutantsTest, IsCaught) {
+    test::ShaderFolder folder;
+    break_shaders(GetParam(), folder);
+    const test::Deformed bodies = test::make_deformed();
+    bool caught = false;
+    for (const Quantity quantity : {Quantity::stretch, Quantity::stress, Quantity::speed}) {
+        caught =
+            caught || test::worst_value_error(bodies, quantity, test::values_on_gpu(bodies, quantity)) > 1.0;
+    }
+    EXPECT_TRUE(caught) << "the broken kernel passes";
 }
 
 class WatchMutantsTest : public test::GlTest, public ::testing::WithParamInterface<test::Break> {};

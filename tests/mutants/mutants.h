@@ -422,6 +422,31 @@ inline constexpr Break kMarkMutants[] = {
      "if (collides_with_any(pair_rows[faces[f].object], f)) marks[f] = uint("},
 };
 
+/// Of what colours show.
+inline constexpr Break kTetValueMutants[] = {
+    {"rest_is_forgotten", "sim/find_tet_values.comp", " * inverse(edges(rest_positions, tet))", ""},
+    {"all_materials_are_one", "sim/find_tet_values.comp", "texelFetch(tet_materials, int(t)).y * sqrt",
+     "texelFetch(tet_materials, 0).y * sqrt"},
+    {"half_of_the_energy_of_shape", "sim/find_tet_values.comp", "sqrt(2.0 *", "sqrt("},
+    {"three_corners_are_averaged", "sim/find_tet_values.comp", " + speed(tet.w)", ""},
+    {"the_last_tets_are_left_out", "sim/find_tet_values.comp", "t >= tet_count", "t + 64u >= tet_count"},
+    {"counted_from_zero", "sim/find_tet_values.comp", "value - least", "value"},
+    {"axes_turn_the_wrong_way", "include/principal_stretches.glsl", "-twice : twice", "twice : -twice"},
+    {"one_sweep", "include/principal_stretches.glsl", "kSweeps = 4", "kSweeps = 1"},
+    {"axes_are_mixed_up", "include/principal_stretches.glsl", "vec3(turned.y, 0.0, turned.x)",
+     "vec3(turned.x, 0.0, turned.y)"},
+    {"nothing_is_inside_out", "include/principal_stretches.glsl", "clamp(volume /", "clamp(abs(volume) /"},
+    {"rounding_is_taken_for_a_stretch", "include/principal_stretches.glsl",
+     "clamp(volume / max(first * second, 1e-30), -second, second)", "volume / max(first * second, 1e-30)"},
+    {"small_tets_count_as_much", "sim/average_tet_values.comp",
+     "float weight = texelFetch(tet_materials, int(entry / 4u)).x", "float weight = 1.0"},
+    {"the_first_tet_is_left_out", "sim/average_tet_values.comp", "+ n % 64u; e < end",
+     "+ n % 64u + 64u; e < end"},
+    {"lanes_are_shifted", "sim/average_tet_values.comp", "+ n % 64u; e < end", "+ (n + 1u) % 64u; e < end"},
+    {"the_last_nodes_are_left_out", "sim/average_tet_values.comp", "n >= node_count",
+     "n + 64u >= node_count"},
+};
+
 /// A broken hand that holds nodes.
 struct PullMutant : Break {
     SolverKind solver;

@@ -1,0 +1,15 @@
+// Bodies in the colours of a quantity, with so little shade that the legend's colours are found again.
+#include "include/color_map.glsl"
+#include "include/studio.glsl"
+#include "include/tone.glsl"
+
+in vec3 normal;
+in float value;
+layout(location = 0) out vec4 pixel;
+
+const float kDarkest = 0.62;
+
+void main() {
+    float facing = 0.5 + 0.5 * dot(normalize(normal), to_key_light);
+    pixel = body_pixel(color_of(value) * mix(kDarkest, 1.0, facing));
+}

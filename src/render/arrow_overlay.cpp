@@ -1,0 +1,42 @@
+#include "render/arrow_overlay.h"
+
+#include <epoxy/gl.h>
+
+#include "render/overlay.h"
+
+namespace gelatin::render {
+namespace {
+
+constexpr float kHidden = 0.2f;  // opacity of what lies behind something
+
+}  // namespace
+
+ArrowOverlay::ArrowOverlay() : program_(gl::Program::graphics("render/arrows.vert", "render/arrows.frag")) {}
+
+// All of them faintly, then over that what is in front.
+void ArrowOverlay::draw(const Frame& frame, const RenderView& bodies) const {
+    const ArrowView& arrows = *bodies.overlay.arrows;
+    const std::size_t node_bytes = std::size_t{16} * bodies.node_count;
+    const gl::BufferTexture positions(bodies.node_positions, node_bytes, gl::TexelFormat::rgba32f);
+    const gl::BufferTexture velocities(arrows.velocities, node_bytes, gl::TexelFormat::rgba32f);
+    const gl::BufferTexture nodes(arrows.nodes, std::size_t{4} * arrows.count, gl::TexelFormat::r32ui);
+    positions.bind(0);
+    velocities.bind(1);
+    nodes.bind(2);
+    frame.view.set_uniforms(program_);
+    program_.set("cut_plane", frame.overlay.cut_plane());
+    program_.set("arrow_time", arrows.time);
+    program_.set("line_scale", frame.view.line_scale());
+    program_.use();
+    glEnable(GL_POLYGON_OFFSET_FILL);  // they begin in the surface
+    glPolygonOffset(-1.0f, -16.0f);
+    for (const bool in_front : {false, true}) {
+        (in_front ? glEnable : glDisable)(GL_DEPTH_TEST);
+        program_.set("opacity", in_front ? 1.0f : kHidden);
+        glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(6 * arrows.count));
+    }
+    glEnable(GL_DEPTH_TEST);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+}
+
+}  // namespace gelatin::render

@@ -1,0 +1,34 @@
+#include "render/box_overlay.h"
+
+#include <epoxy/gl.h>
+
+namespace gelatin::render {
+namespace {
+
+constexpr float kWidth = 1.5f;    // of lines [pixels]
+constexpr float kHidden = 0.28f;  // opacity of what lies behind something
+
+}  // namespace
+
+BoxOverlay::BoxOverlay() : program_(gl::Program::graphics("render/box_lines.vert", "render/line.frag")) {}
+
+// All of them faintly, then over that what is in front.
+void BoxOverlay::draw(const View& view, const OverlayView& overlay) const {
+    const gl::BufferTexture boxes(overlay.boxes, std::size_t{32} * overlay.box_count,
+                                  gl::TexelFormat::rgba32f);
+    const gl::BufferTexture shown(overlay.shown_boxes, std::size_t{8} * overlay.shown_box_count,
+                                  gl::TexelFormat::rg32ui);
+    boxes.bind(0);
+    shown.bind(1);
+    view.set_uniforms(program_);
+    program_.set("line_width", kWidth * view.line_scale());
+    program_.use();
+    for (const bool in_front : {false, true}) {
+        (in_front ? glEnable : glDisable)(GL_DEPTH_TEST);
+        program_.set("opacity", in_front ? 1.0f : kHidden);
+        glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(72 * overlay.shown_box_count));
+    }
+    glEnable(GL_DEPTH_TEST);
+}
+
+}  // namespace gelatin::render

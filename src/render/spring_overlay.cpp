@@ -1,0 +1,48 @@
+#include "render/spring_overlay.h"
+
+#include <epoxy/gl.h>
+
+#include "render/legend.h"
+#include "render/overlay.h"
+
+namespace gelatin::render {
+namespace {
+
+constexpr float kWidth = 1.2f;  // of lines [pixels]
+
+}  // namespace
+
+SpringOverlay::SpringOverlay()
+    : spring_program_(gl::Program::graphics("render/spring_lines.vert", "render/line.frag")),
+      glass_program_(gl::Program::graphics("render/surface.vert", "render/glass.frag", {"CUT"})) {}
+
+// Bodies of glass first, whose springs then are seen as if through nothing.
+void SpringOverlay::draw(const Frame& frame, const RenderView& bodies) const {
+    const OverlayView& overlay = bodies.overlay;
+    frame.view.set_uniforms(glass_program_);
+    glass_program_.set("cut_plane", frame.overlay.cut_plane());
+    glass_program_.use();
+    frame.bodies.colors.bind(3);
+    glEnable(GL_CULL_FACE);
+    {
+        const Clipping clipping(frame.overlay);
+        frame.bodies.surfaces.draw();
+    }
+    glDisable(GL_CULL_FACE);
+
+    const gl::BufferTexture positions(bodies.node_positions, std::size_t{16} * bodies.node_count,
+                                      gl::TexelFormat::rgba32f);
+    const gl::BufferTexture springs(overlay.springs, std::size_t{16} * overlay.spring_count,
+                                    gl::TexelFormat::rgba32ui);
+    positions.bind(0);
+    springs.bind(1);
+    set_strain_colors(spring_program_, overlay.full_strain);
+    frame.view.set_uniforms(spring_program_);
+    spring_program_.set("cut_plane", frame.overlay.cut_plane());
+    spring_program_.set("line_width", kWidth * frame.view.line_scale());
+    spring_program_.set("opacity", 1.0f);
+    spring_program_.use();
+    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(6 * overlay.spring_count));
+}
+
+}  // namespace gelatin::render
