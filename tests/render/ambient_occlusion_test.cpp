@@ -20,6 +20,7 @@ namespace gelatin::render {
 namespace {
 
 constexpr int kWidth = 320, kHeight = 201;  // an odd one: half of it is not whole
+constexpr std::size_t kHalfWidth = 160, kHalfHeight = 101;
 const Bounds kBounds{{-0.6f, 0.0f, -0.6f}, {0.6f, 1.0f, 0.6f}};
 
 // Pixels on the floor are small against the reach.
@@ -69,8 +70,7 @@ protected:
                         .overlay = Overlay()},
                        {&surfaces});
         occlusion.bind_texture();
-        width_ = (view_.width + 1) / 2;
-        pixels_.assign(static_cast<std::size_t>(width_ * ((view_.height + 1) / 2)), glm::vec2(NAN));
+        pixels_.assign(kHalfWidth * kHalfHeight, glm::vec2(NAN));
         glGetTexImage(GL_TEXTURE_2D, 0, GL_RG, GL_FLOAT, pixels_.data());
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
         glBindVertexArray(0);
@@ -85,12 +85,10 @@ protected:
     }
 
     glm::vec2 at(const glm::vec3& point) const {
-        const glm::vec2 place = place_of(point) * glm::vec2(width_, (view_.height + 1) / 2);
-        return pixels_[static_cast<std::size_t>(static_cast<int>(place.y) * width_ +
-                                                static_cast<int>(place.x))];
+        const glm::vec2 place = place_of(point) * glm::vec2(kHalfWidth, kHalfHeight);
+        return pixels_[static_cast<std::size_t>(place.y) * kHalfWidth + static_cast<std::size_t>(place.x)];
     }
 
-    int width_ = 0;
     std::vector<glm::vec2> pixels_;
 };
 
@@ -184,6 +182,31 @@ TEST_F(AmbientOcclusionTest, TheKeyLightIsLeftAlone) {
         EXPECT_LT(green, floor_brightness(0.75));
         EXPECT_LT(floor_brightness(0.75), floor_brightness(1.0) - 5.0);
     }
+}
+
+// Half floats hold distances up to 65 km alone.
+TEST_F(AmbientOcclusionTest, SizeDoesNotMatter) {
+    const auto picture = [](float scale) {
+        const auto times = [&](const glm::vec3& v) { return scale * v; };
+        Renderer renderer({.width = kWidth, .height = kHeight, .quality = Quality::high});
+        renderer.set_surroundings({.bounds = {times(kBounds.min), times(kBounds.max)},
+                                   .floor_height = 0.0f,
+                                   .props = {},
+                                   .colors = {}});
+        std::vector<SurfaceMesh> bodies{ball_at({-0.3, 0.3, 0.0}, 0.3),
+                                        box_at({0.3, 0.3, 0.0}, glm::dvec3(0.6))};
+        for (SurfaceMesh& body : bodies) {
+            for (glm::dvec3& p : body.positions) p *= scale;
+        }
+        const StaticMesh mesh(bodies);
+        renderer.draw(mesh.view(), {times({0.3f, 1.5f, 3.0f}), times({0.0f, 0.3f, 0.0f}), 35.0f});
+        FrameGrabber grabber(kWidth, kHeight);
+        grabber.grab(renderer.framebuffer());
+        return *grabber.flush();
+    };
+    const Image usual = picture(1.0f);
+    for (const float scale : {1e-3f, 3e4f})
+        EXPECT_LT(test::perceptual_difference(picture(scale), usual), 0.5) << scale;
 }
 
 }  // namespace
