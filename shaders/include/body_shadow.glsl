@@ -13,7 +13,7 @@ uniform float shadow_range;    // metres a unit of depth
 uniform vec2 shadow_scale;     // texture coordinates a metre
 uniform float penumbra_least;  // [m]
 
-const int kTaps = 12;
+const int kTaps = 10;
 
 // The mean over a disc that is the same for all pixels, so that there is no grain. Beside the point its own surface may
 // lie nearer to the light, by its slope.
@@ -23,7 +23,8 @@ float key_visibility(vec3 position, vec3 normal) {
     float slope = sqrt(1.0 - facing * facing) / (facing * shadow_range);  // depth a metre
     vec2 direction = vec2(1.0, 0.0);
     float lit = 0.0;
-    for (int i = 0; i < kTaps; ++i) {
+    int taps = dot(normal, to_key_light) > -0.2 ? kTaps : 0;  // none where nothing is lit anyway
+    for (int i = 0; i < taps; ++i) {
         float away = disc_radius(i, kTaps) * penumbra_least;
         lit += textureLod(shadow_map, vec3(at.xy + direction * away * shadow_scale, at.z - slope * away), 0.0);
         direction = kGoldenTurn * direction;

@@ -11,7 +11,7 @@ float pixel_openness(float side) {
     vec2 at = gl_FragCoord.xy * occlusion_scale - 0.5;
     vec2 corner = floor(at), f = at - corner;
     vec2 uv = (corner + 1.0) / vec2(textureSize(occlusion, 0));
-    vec4 away = abs(textureGather(occlusion, uv, 1) - side / gl_FragCoord.w) / same_surface;
+    vec4 away = min(abs(textureGather(occlusion, uv, 1) - side / gl_FragCoord.w) / same_surface, 1e3);
     vec4 weight = vec4((1.0 - f.x) * f.y, f.x * f.y, f.x * (1.0 - f.y), (1.0 - f.x) * (1.0 - f.y));
     weight = (weight + 1e-3) / (1.0 + away * away * away * away);
     return dot(weight, textureGather(occlusion, uv, 0)) / dot(weight, vec4(1.0));

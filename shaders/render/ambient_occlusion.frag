@@ -13,6 +13,7 @@ const mat2 kNextSlice = mat2(0.0, 1.0, -1.0, 0.0);
 const int kSteps = 6;             // along each half of a slice
 const float kMostPixels = 120.0;  // that the reach may cover
 const float kFlat = 0.1;          // slope of what is taken for the rounding of a flat surface
+const float kFarthest = 6e4;      // [m]; half floats end at 65,504
 const float kPi = 3.14159265;
 
 // A number in [0, 16) for each pixel of a tile, such that neighbours differ most (Bayer 1973).
@@ -99,5 +100,6 @@ void main() {
         direction = kNextSlice * direction;
     }
     float openness = clamp(open / all, 0.0, 1.0);
+    distance = min(distance, kFarthest);
     occlusion = vec2(openness, is_floor ? -distance : distance);
 }

@@ -5,8 +5,8 @@
 
 namespace gelatin::render {
 
-/// The colour of object `index` where the scene gives none, linear RGB: eight hues that people with the
-/// common kinds of colour blindness tell apart (after Okabe and Ito 2008, softened), repeated.
+/// The colour of object `index` where the scene gives none, linear RGB: eight hues that people with any
+/// kind of dichromacy tell apart (after Okabe and Ito 2008, softened), repeated.
 glm::vec3 palette_color(std::size_t index);
 
 /// As many colours as possible that tell objects apart: the palette's, then darker ones, then paler ones,

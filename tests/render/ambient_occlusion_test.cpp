@@ -12,6 +12,7 @@
 #include "mesh/shapes.h"
 #include "render/frame_grabber.h"
 #include "render/overlay.h"
+#include "render/palette.h"
 #include "render/renderer.h"
 #include "support/gl_fixture.h"
 #include "support/image_compare.h"
@@ -20,6 +21,7 @@ namespace gelatin::render {
 namespace {
 
 constexpr int kWidth = 320, kHeight = 201;  // an odd one: half of it is not whole
+constexpr std::size_t kHalfWidth = 160, kHalfHeight = 101;
 const Bounds kBounds{{-0.6f, 0.0f, -0.6f}, {0.6f, 1.0f, 0.6f}};
 
 // Pixels on the floor are small against the reach.
@@ -69,8 +71,7 @@ protected:
                         .overlay = Overlay()},
                        {&surfaces});
         occlusion.bind_texture();
-        width_ = (view_.width + 1) / 2;
-        pixels_.assign(static_cast<std::size_t>(width_ * ((view_.height + 1) / 2)), glm::vec2(NAN));
+        pixels_.assign(kHalfWidth * kHalfHeight, glm::vec2(NAN));
         glGetTexImage(GL_TEXTURE_2D, 0, GL_RG, GL_FLOAT, pixels_.data());
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
         glBindVertexArray(0);
@@ -85,12 +86,10 @@ protected:
     }
 
     glm::vec2 at(const glm::vec3& point) const {
-        const glm::vec2 place = place_of(point) * glm::vec2(width_, (view_.height + 1) / 2);
-        return pixels_[static_cast<std::size_t>(static_cast<int>(place.y) * width_ +
-                                                static_cast<int>(place.x))];
+        const glm::vec2 place = place_of(point) * glm::vec2(kHalfWidth, kHalfHeight);
+        return pixels_[static_cast<std::size_t>(place.y) * kHalfWidth + static_cast<std::size_t>(place.x)];
     }
 
-    int width_ = 0;
     std::vector<glm::vec2> pixels_;
 };
 
@@ -184,6 +183,66 @@ TEST_F(AmbientOcclusionTest, TheKeyLightIsLeftAlone) {
         EXPECT_LT(green, floor_brightness(0.75));
         EXPECT_LT(floor_brightness(0.75), floor_brightness(1.0) - 5.0);
     }
+}
+
+// The floor beside a body is dark, the body above it is not.
+TEST_F(AmbientOcclusionTest, SurfacesThatMeetKeepTheirOwn) {
+    draw({box_at({0.0, 0.25, 0.0}, glm::dvec3(0.5))});
+    float darkest_floor = 1.0f;
+    for (const glm::vec2& pixel : pixels_) {
+        const bool is_floor = pixel.y < 0.0f;
+        if (is_floor) darkest_floor = std::min(darkest_floor, pixel.x);
+        EXPECT_GE(is_floor ? 1.0f : pixel.x, 0.93f) << pixel.y;
+    }
+    EXPECT_LT(darkest_floor, 0.7f);
+}
+
+// The same of a prop that the key light shines on: at half the openness it has lost no more than half its
+// ambient light, which is a third of all.
+TEST_F(AmbientOcclusionTest, TheKeyLightOnBodiesIsLeftAlone) {
+    view_.camera = kNear;
+    Renderer renderer({.width = kWidth, .height = kHeight, .quality = Quality::high});
+    renderer.set_surroundings(
+        {.bounds = kBounds,
+         .floor_height = {},
+         .props = {box_at({0.0, 0.5, -0.5}, {4.0, 1.0, 1.0}), box_at({0.0, -0.05, 0.0}, {4.0, 0.1, 4.0})},
+         .colors = {}});
+    renderer.draw(StaticMesh(std::vector<SurfaceMesh>{}).view(), view_.camera);
+    FrameGrabber grabber(kWidth, kHeight);
+    grabber.grab(renderer.framebuffer());
+    const Image image = *grabber.flush();
+    const auto light = [&](float from_wall) {
+        const glm::vec2 place = place_of({0.1f, 0.0f, from_wall}) * glm::vec2(kWidth, kHeight);
+        const int x = static_cast<int>(place.x), y = kHeight - 1 - static_cast<int>(place.y);
+        return from_srgb(glm::vec3(test::mean_color(image, x, y, 1, 1) / 255.0)).g;
+    };
+    EXPECT_LT(light(0.15f * reach_), 0.95f * light(1.2f * reach_));
+    EXPECT_GT(light(0.15f * reach_), 0.80f * light(1.2f * reach_));
+}
+
+// Half floats hold distances up to 65 km alone.
+TEST_F(AmbientOcclusionTest, SizeDoesNotMatter) {
+    const auto picture = [](float scale) {
+        const auto times = [&](const glm::vec3& v) { return scale * v; };
+        Renderer renderer({.width = kWidth, .height = kHeight, .quality = Quality::high});
+        renderer.set_surroundings({.bounds = {times(kBounds.min), times(kBounds.max)},
+                                   .floor_height = 0.0f,
+                                   .props = {},
+                                   .colors = {}});
+        std::vector<SurfaceMesh> bodies{ball_at({-0.3, 0.3, 0.0}, 0.3),
+                                        box_at({0.3, 0.3, 0.0}, glm::dvec3(0.6))};
+        for (SurfaceMesh& body : bodies) {
+            for (glm::dvec3& p : body.positions) p *= scale;
+        }
+        const StaticMesh mesh(bodies);
+        renderer.draw(mesh.view(), {times({0.3f, 1.5f, 3.0f}), times({0.0f, 0.3f, 0.0f}), 35.0f});
+        FrameGrabber grabber(kWidth, kHeight);
+        grabber.grab(renderer.framebuffer());
+        return *grabber.flush();
+    };
+    const Image usual = picture(1.0f);
+    for (const float scale : {1e-3f, 1e4f})
+        EXPECT_LT(test::perceptual_difference(picture(scale), usual), 0.5) << scale;
 }
 
 }  // namespace

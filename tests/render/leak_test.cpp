@@ -32,10 +32,11 @@ struct Living {
     }
 };
 
-void PrintTo(const Living& l, std::ostream* out) {
-    *out << l.textures << " textures, " << l.buffers << " buffers, " << l.framebuffers << " framebuffers, "
-         << l.renderbuffers << " renderbuffers, " << l.programs << " programs, " << l.shaders << " shaders, "
-         << l.samplers << " samplers, " << l.vertex_arrays << " vertex arrays";
+std::ostream& operator<<(std::ostream& out, const Living& l) {
+    return out << l.textures << " textures, " << l.buffers << " buffers, " << l.framebuffers
+               << " framebuffers, " << l.renderbuffers << " renderbuffers, " << l.programs << " programs, "
+               << l.shaders << " shaders, " << l.samplers << " samplers, " << l.vertex_arrays
+               << " vertex arrays";
 }
 
 class LeakTest : public RendererTest {
