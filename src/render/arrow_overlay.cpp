@@ -7,7 +7,7 @@
 namespace gelatin::render {
 namespace {
 
-constexpr float kHidden = 0.2f;  // opacity of what lies behind something
+constexpr float kHidden = 0.15f;  // opacity of what lies behind something
 
 }  // namespace
 
