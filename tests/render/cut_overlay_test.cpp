@@ -148,22 +148,30 @@ TEST_P(CutOverlayTest, SidesOfTetsAreThinLines) {
     }
 }
 
-class CutBodiesTest : public OverlayTest {};
+class CutBodiesTest : public OverlayTest {
+protected:
+    // The ball's surface, without tets inside.
+    Image draw_cut_ball(const Plane& plane) {
+        const auto tets = buffer_of<glm::uvec4>({glm::uvec4(0)});
+        const auto objects = buffer_of<std::uint32_t>({0u});
+        OverlayView overlay{.cut = plane.view()};
+        overlay.cut->tets = tets.id();
+        overlay.cut->tet_objects = objects.id();
+        overlay.cut->tet_count = 1;
+        return draw(overlay);
+    }
+    Image draw_nothing() {
+        view_.face_count = 0;
+        Image image = draw();
+        view_ = body_.view();
+        return image;
+    }
+};
 INSTANTIATE_TEST_SUITE_P(Qualities, CutBodiesTest, kQualities, name_of_quality);
 
-// The ball alone, without tets inside.
 TEST_P(CutBodiesTest, WhatLiesBeyondThePlaneIsGone) {
-    const Image plain = draw();
-    view_.face_count = 0;
-    const Image empty = draw();
-    view_ = body_.view();
-    const auto tets = buffer_of<glm::uvec4>({glm::uvec4(0)});
-    const auto objects = buffer_of<std::uint32_t>({0u});
-    OverlayView overlay{.cut = Plane{{1.0f, 0.0f, 0.0f}, 0.05f}.view()};
-    overlay.cut->tets = tets.id();
-    overlay.cut->tet_objects = objects.id();
-    overlay.cut->tet_count = 1;
-    const Image cut = draw(overlay);
+    const Image plain = draw(), empty = draw_nothing();
+    const Image cut = draw_cut_ball({{1.0f, 0.0f, 0.0f}, 0.05f});
     // As high as the ball's middle, where neither half throws a shadow on the other or on what is behind.
     for (const float x : {-0.3f, -0.2f, -0.1f})
         EXPECT_LT(glm::distance(color_at(cut, {x, 0.75f, 0.3f}), color_at(plain, {x, 0.75f, 0.3f})), 24.0)
@@ -172,6 +180,22 @@ TEST_P(CutBodiesTest, WhatLiesBeyondThePlaneIsGone) {
         EXPECT_LT(glm::distance(color_at(cut, {x, 0.75f, 0.2f}), color_at(empty, {x, 0.75f, 0.2f})), 16.0)
             << x;
     EXPECT_EQ(draw().pixels, plain.pixels) << "nothing stays of it";
+}
+
+TEST_P(CutBodiesTest, WhatIsLeftAloneCastsAShadow) {
+    const Image plain = draw(), empty = draw_nothing();
+    EXPECT_LT(test::perceptual_difference(draw_cut_ball({{1.0f, 0.0f, 0.0f}, -0.41f}), empty), 0.1);
+    // Half of the shadow is the other half's: right of the ball and behind it, for light from the left.
+    const auto shade = [&](const Image& image, const glm::vec3& place) {
+        return lightness(color_at(empty, place)) - lightness(color_at(image, place));
+    };
+    const glm::vec3 under(0.1f, 0.0f, -0.1f), right(0.55f, 0.0f, -0.25f);
+    const Image right_half = draw_cut_ball({{-1.0f, 0.0f, 0.0f}, 0.0f});
+    const Image left_half = draw_cut_ball({{1.0f, 0.0f, 0.0f}, 0.0f});
+    ASSERT_GT(shade(plain, right), 10.0);
+    EXPECT_NEAR(shade(right_half, right), shade(plain, right), 6.0);
+    EXPECT_LT(shade(left_half, right), 0.5 * shade(plain, right));
+    EXPECT_GT(shade(left_half, under), 10.0) << "what is within casts it, too";
 }
 
 TEST_P(CutBodiesTest, SpringsBeyondThePlaneAreGone) {
