@@ -39,8 +39,8 @@ TEST(HighValue, IsZeroAtRestAndFiniteWhateverHappens) {
 
 TEST(CalmRange, HasRoundEndsThatHoldWhatTheyAreAskedTo) {
     for (const auto& [high, end] :
-         {std::pair(0.9f, 1.0f), std::pair(1.1f, 2.0f), std::pair(2.5f, 3.0f), std::pair(4.0f, 5.0f),
-          std::pair(700.0f, 1000.0f), std::pair(0.012f, 0.02f)})
+         {std::pair(0.9f, 1.0f), std::pair(1.1f, 1.5f), std::pair(1.6f, 2.0f), std::pair(2.5f, 3.0f),
+          std::pair(4.0f, 5.0f), std::pair(650.0f, 700.0f), std::pair(8e4f, 1e5f), std::pair(0.012f, 0.015f)})
         EXPECT_FLOAT_EQ(CalmRange(1e-3f).follow(high), end) << high;
     EXPECT_FLOAT_EQ(CalmRange(0.5f).follow(0.0f), 0.5f) << "noise is not blown up";
 }
@@ -48,8 +48,8 @@ TEST(CalmRange, HasRoundEndsThatHoldWhatTheyAreAskedTo) {
 TEST(CalmRange, GrowsAtOnceAndShrinksLate) {
     CalmRange range(1e-3f);
     EXPECT_EQ(range.follow(4.0f), 5.0f);
-    EXPECT_EQ(range.follow(60.0f), 100.0f);
-    for (int i = 0; i < 119; ++i) EXPECT_EQ(range.follow(i == 50 ? 15.0f : 4.0f), 100.0f) << i;
+    EXPECT_EQ(range.follow(60.0f), 70.0f);
+    for (int i = 0; i < 119; ++i) EXPECT_EQ(range.follow(i == 50 ? 16.0f : 4.0f), 70.0f) << i;
     EXPECT_EQ(range.follow(4.0f), 20.0f) << "what was the most meanwhile still fits";
     for (int i = 0; i < 119; ++i) EXPECT_EQ(range.follow(4.0f), 20.0f);
     EXPECT_EQ(range.follow(4.0f), 5.0f);
