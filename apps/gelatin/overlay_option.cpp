@@ -70,7 +70,7 @@ struct Request {
     void allow(std::size_t most) const {
         if (fields.size() <= most) return;
         refuse(most == 0 ? fmt::format("{} takes no number", name)
-                         : fmt::format("{} takes no more than {} number", name, most));
+                         : fmt::format("{} takes no more than {} field{}", name, most, most == 1 ? "" : "s"));
     }
     [[noreturn]] void refuse(const std::string& problem) const {
         throw InvalidInput({{}, 0, kOption, text, problem});

@@ -22,7 +22,7 @@ struct ColorMap {
 /// Cuts all bodies open: what lies on the side that the normal points to is taken away.
 struct CutPlane {
     float normal[3] = {0.0f, 0.0f, 1.0f};  ///< of any length but 0
-    /// From the origin along the normal [m]; empty: through the middle of the bodies, wherever they are.
+    /// From the origin along the normal [m]; empty: through the middle of where the bodies start.
     std::optional<float> offset = {};
 };
 

@@ -20,6 +20,10 @@ out vec4 side_distances;       // from the polygon's sides [m]
 flat out float polygon_size;  // [pixels], about
 
 const float kNoSide = 1e30;
+// Bodies that are in one another are cut at the same depth: one of them comes before the other by what rounding of
+// depths does not reach.
+const uint kRanks = 16u;
+const float kRankDepth = 2e-6;
 // By which of the tet's corners are cut away, a bit each: the edges that the polygon's corners lie on, in order, four
 // bits each, which are two corners of the tet. Only the first eight: the others are the first ones turned round.
 const uint kEdges[8] = uint[8](0x0000u, 0x1321u, 0x1761u, 0x6732u, 0x2b62u, 0x6b31u, 0x2b71u, 0x3b73u);
@@ -51,13 +55,15 @@ void main() {
     int own = int[6](0, 1, 2, 0, 2, 3)[gl_VertexID % 6];
     for (int c = 0; c < 4; ++c)
         side_distances[c] = distance_from_side(corners[own], corners[c], corners[(c + 1) % 4]);
+    uint object = texelFetch(tet_objects, int(t)).x;
     gl_Position = world_to_clip * vec4(corners[own], 1.0);
+    gl_Position.z -= float(object % kRanks) * kRankDepth * gl_Position.w;
     float across = max(distance(corners[0], corners[2]), distance(corners[1], corners[3]));
     vec3 upwards = vec3(world_to_clip[0].y, world_to_clip[1].y, world_to_clip[2].y);
     polygon_size = 0.5 * picture_size.y * length(upwards) * across / gl_Position.w;
 #ifdef COLOR_MAP
     value = texelFetch(tet_values, int(t)).x;
 #else
-    albedo = texelFetch(object_colors, int(texelFetch(tet_objects, int(t)).x)).rgb;
+    albedo = texelFetch(object_colors, int(object)).rgb;
 #endif
 }

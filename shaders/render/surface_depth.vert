@@ -1,6 +1,15 @@
-// Bodies and colliders as the light, or the floor, sees them: depth alone.
+// Bodies and colliders as the light, or the floor, sees them: depth alone. CUT: by the plane of an overlay.
 #include "include/surface_fetch.glsl"
+#ifdef CUT
+#include "include/cut.glsl"
+#endif
 
 uniform mat4 world_to_clip;
 
-void main() { gl_Position = world_to_clip * vec4(fetch_point(gl_VertexID).position, 1.0); }
+void main() {
+    vec3 position = fetch_point(gl_VertexID).position;
+    gl_Position = world_to_clip * vec4(position, 1.0);
+#ifdef CUT
+    gl_ClipDistance[0] = depth_below_cut(position);
+#endif
+}

@@ -2,12 +2,10 @@
 
 #include <epoxy/gl.h>
 
-#include "render/overlay.h"
-
 namespace gelatin::render {
 namespace {
 
-constexpr float kHidden = 0.2f;  // opacity of what lies behind something
+constexpr float kHidden = 0.15f;  // opacity of what lies behind something
 
 }  // namespace
 
@@ -24,7 +22,7 @@ void ArrowOverlay::draw(const Frame& frame, const RenderView& bodies) const {
     velocities.bind(1);
     nodes.bind(2);
     frame.view.set_uniforms(program_);
-    program_.set("cut_plane", frame.overlay.cut_plane());
+    program_.set("cut_plane", frame.bodies.surfaces.cut_plane());
     program_.set("arrow_time", arrows.time);
     program_.set("line_scale", frame.view.line_scale());
     program_.use();

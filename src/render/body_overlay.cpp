@@ -1,7 +1,6 @@
 #include "render/body_overlay.h"
 
 #include "render/legend.h"
-#include "render/overlay.h"
 
 namespace gelatin::render {
 
@@ -16,9 +15,9 @@ void BodyOverlay::prepare(const OverlayView& overlay) {
 }
 
 void BodyOverlay::draw(const Frame& frame, const RenderView& bodies) const {
-    const Clipping clipping(frame.overlay);
+    const Clipping clipping(frame.bodies.surfaces);
     if (bodies.overlay.color_map) return draw_colored(frame, bodies);
-    cut_light_->program().set("cut_plane", frame.overlay.cut_plane());
+    cut_light_->program().set("cut_plane", frame.bodies.surfaces.cut_plane());
     cut_light_->draw(frame, {&frame.bodies});
 }
 
@@ -29,7 +28,7 @@ void BodyOverlay::draw_colored(const Frame& frame, const RenderView& bodies) con
     values.bind(3);
     set_value_colors(*colored_program_, map);
     frame.view.set_uniforms(*colored_program_);
-    colored_program_->set("cut_plane", frame.overlay.cut_plane());
+    colored_program_->set("cut_plane", frame.bodies.surfaces.cut_plane());
     colored_program_->use();
     frame.bodies.surfaces.draw();
 }

@@ -5,7 +5,6 @@
 #include <array>
 
 #include "render/legend.h"
-#include "render/overlay.h"
 
 namespace gelatin::render {
 namespace {
@@ -65,7 +64,7 @@ void CutOverlay::draw(const Frame& frame, const RenderView& bodies) const {
     }
     glBindSampler(4, 0);
     frame.view.set_uniforms(program);
-    program.set("cut_plane", frame.overlay.cut_plane());
+    program.set("cut_plane", frame.bodies.surfaces.cut_plane());
     program.set("line_width", kSideWidth * frame.view.line_scale());
     program.use();
     glDisable(GL_CULL_FACE);

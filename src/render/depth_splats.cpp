@@ -24,26 +24,40 @@ glm::mat4 world_to_texels(const DepthMap& map) {
 
 DepthSplats::DepthSplats() : program_(gl::Program::compute("render/splat_depth.comp")) {}
 
-void DepthSplats::draw(std::span<const DepthMap> maps, std::initializer_list<const SurfaceDraw*> surfaces) {
-    assert(maps.size() <= kMostMaps);
-    std::size_t texels = 0;
+void DepthSplats::set_maps(const gl::Program& program, std::span<const DepthMap> maps) {
+    std::size_t start = 0;
     for (std::size_t m = 0; m < maps.size(); ++m) {
         const std::string place = "[" + std::to_string(m) + "]";
         const Target& target = maps[m].target;
-        program_.set(("world_to_map" + place).c_str(), world_to_texels(maps[m]));
-        program_.set(("map_size" + place).c_str(), glm::ivec2(target.width(), target.height()));
-        program_.set(("map_start" + place).c_str(), static_cast<int>(texels));
-        texels += texel_count(maps[m]);
+        program.set(("world_to_map" + place).c_str(), world_to_texels(maps[m]));
+        program.set(("map_size" + place).c_str(), glm::ivec2(target.width(), target.height()));
+        program.set(("map_start" + place).c_str(), static_cast<int>(start));
+        start += texel_count(maps[m]);
     }
-    program_.set("map_count", static_cast<int>(maps.size()));
+    program.set("map_count", static_cast<int>(maps.size()));
+}
+
+const gl::Program& DepthSplats::program_for(const SurfaceDraw& surface) {
+    if (!surface.is_cut()) return program_;
+    if (!cut_program_) cut_program_ = gl::Program::compute("render/splat_depth.comp", {"CUT"});
+    cut_program_->set("cut_plane", surface.cut_plane());
+    return *cut_program_;
+}
+
+void DepthSplats::draw(std::span<const DepthMap> maps, std::initializer_list<const SurfaceDraw*> surfaces) {
+    assert(maps.size() <= kMostMaps);
+    std::size_t texels = 0;
+    for (const DepthMap& map : maps) texels += texel_count(map);
     if (depths_.size() < texels) depths_ = gl::Buffer<std::uint32_t>(texels);
     depths_.fill(0xffffffffu);
     depths_.bind_storage(0);
     for (const SurfaceDraw* surface : surfaces) {
+        const gl::Program& program = program_for(*surface);
+        set_maps(program, maps);
         surface->bind_textures();
         surface->bind_triangles(3);
-        program_.set("face_count", surface->face_count());
-        program_.dispatch(surface->face_count());
+        program.set("face_count", surface->face_count());
+        program.dispatch(surface->face_count());
     }
     // Into the textures now, and filled anew for the next frame.
     gl::barrier(gl::Barrier::pixel_unpack | gl::Barrier::buffer_update);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <initializer_list>
+#include <optional>
 #include <span>
 
 #include "gl/buffer.h"
@@ -31,7 +32,11 @@ public:
     void draw(std::span<const DepthMap> maps, std::initializer_list<const SurfaceDraw*> surfaces);
 
 private:
+    static void set_maps(const gl::Program& program, std::span<const DepthMap> maps);
+    const gl::Program& program_for(const SurfaceDraw& surface);
+
     gl::Program program_;
+    std::optional<gl::Program> cut_program_;  // once something is cut open
     gl::Buffer<std::uint32_t>
         depths_;  // 2^32 - 1 is the far plane, shape [map][row][column], and unused ones
 };

@@ -2,8 +2,6 @@
 
 #include <epoxy/gl.h>
 
-#include "render/overlay.h"
-
 namespace gelatin::render {
 namespace {
 
@@ -18,7 +16,7 @@ void use(const Frame& frame, const gl::Program& program) {
     frame.bodies.surfaces.bind_textures();
     frame.bodies.surfaces.bind_triangles(3);
     frame.view.set_uniforms(program);
-    program.set("cut_plane", frame.overlay.cut_plane());
+    program.set("cut_plane", frame.bodies.surfaces.cut_plane());
     program.use();
 }
 
@@ -50,7 +48,7 @@ void FaceOverlay::draw_marks(const Frame& frame, const OverlayView& overlay) con
                                   gl::TexelFormat::r32ui);
     marks.bind(6);
     use(frame, *mark_program_);
-    const Clipping clipping(frame.overlay);
+    const Clipping clipping(frame.bodies.surfaces);
     const Raised raised;
     for (const bool in_front : {false, true}) {
         (in_front ? glEnable : glDisable)(GL_DEPTH_TEST);
@@ -62,7 +60,7 @@ void FaceOverlay::draw_marks(const Frame& frame, const OverlayView& overlay) con
 
 void FaceOverlay::draw_edges(const Frame& frame) const {
     use(frame, *edge_program_);
-    const Clipping clipping(frame.overlay);
+    const Clipping clipping(frame.bodies.surfaces);
     const Raised raised;
     edge_program_->set("line_width", kEdgeWidth * frame.view.line_scale());
     glEnable(GL_CULL_FACE);

@@ -36,12 +36,6 @@ bool Overlay::is_empty() const {
            !shown.arrows && !shown.objects;
 }
 
-glm::vec4 Overlay::cut_plane() const {
-    if (!view().cut) return glm::vec4(0.0f);
-    const float* plane = view().cut->plane;
-    return {plane[0], plane[1], plane[2], plane[3]};
-}
-
 void Overlay::draw_bodies(const Frame& frame) const {
     if (has_springs()) return;
     recolored_->draw(frame, bodies_);
@@ -70,14 +64,6 @@ void Overlay::draw(const Frame& frame) const {
     glDepthMask(GL_TRUE);
     glEnable(GL_CULL_FACE);
     glDisable(GL_BLEND);
-}
-
-Clipping::Clipping(const Overlay& overlay) {
-    if (overlay.cut_plane() != glm::vec4(0.0f)) glEnable(GL_CLIP_DISTANCE0);
-}
-
-Clipping::~Clipping() {
-    glDisable(GL_CLIP_DISTANCE0);
 }
 
 }  // namespace gelatin::render

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <glm/vec4.hpp>
 #include <optional>
 
 #include "gelatin/views.h"
@@ -26,8 +25,6 @@ public:
     bool is_empty() const;
     /// Bodies are drawn here: see-through, coloured or cut open.
     bool replaces_bodies() const { return has_springs() || view().color_map || view().cut; }
-    /// What is on the positive side of the plane is not drawn; all 0 where nothing is cut.
-    glm::vec4 cut_plane() const;
 
     /// The bodies, where they are solid. @pre as Pipeline::draw, the shadows' textures are bound, and
     /// replaces_bodies
@@ -48,15 +45,6 @@ private:
     std::optional<ArrowOverlay> arrows_;
     std::optional<LabelOverlay> labels_;
     std::optional<Legend> legend_;
-};
-
-/// While it lives, programs that tell their distance from the plane do not draw beyond it, if there is one.
-class Clipping {
-public:
-    explicit Clipping(const Overlay& overlay);
-    Clipping(const Clipping&) = delete;
-    Clipping& operator=(const Clipping&) = delete;
-    ~Clipping();
 };
 
 }  // namespace gelatin::render

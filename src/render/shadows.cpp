@@ -102,14 +102,35 @@ void Shadows::draw_depths(std::span<const DepthMap> maps, std::initializer_list<
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glEnable(GL_DEPTH_CLAMP);  // what lies before or behind a map still casts into it
-    depth_program_.use();
     for (const DepthMap& map : maps) {
         map.target.bind();
         glClear(GL_DEPTH_BUFFER_BIT);
-        depth_program_.set("world_to_clip", map.world_to_clip);
-        for (const SurfaceDraw* caster : casters) caster->draw();
+        for (const SurfaceDraw* caster : casters) {
+            if (caster->is_cut()) {
+                draw_cut_depth(map, *caster);
+                continue;
+            }
+            depth_program_.set("world_to_clip", map.world_to_clip);
+            depth_program_.use();
+            caster->draw();
+        }
     }
     glDisable(GL_DEPTH_CLAMP);
+}
+
+// Without the cut's own face, which light that falls through would leave by the body's other side: faces seen
+// from within cast its shadow.
+void Shadows::draw_cut_depth(const DepthMap& map, const SurfaceDraw& caster) {
+    if (!cut_depth_program_)
+        cut_depth_program_ =
+            gl::Program::graphics("render/surface_depth.vert", "render/surface_depth.frag", {"CUT"});
+    cut_depth_program_->set("world_to_clip", map.world_to_clip);
+    cut_depth_program_->set("cut_plane", caster.cut_plane());
+    cut_depth_program_->use();
+    glDisable(GL_CULL_FACE);
+    const Clipping clipping(caster);
+    caster.draw();
+    glEnable(GL_CULL_FACE);
 }
 
 void Shadows::set_penumbra(const gl::Program& program) const {

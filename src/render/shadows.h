@@ -51,10 +51,12 @@ public:
 private:
     void draw_depths(std::span<const DepthMap> maps, std::initializer_list<const SurfaceDraw*> casters);
     void set_penumbra(const gl::Program& program) const;
+    void draw_cut_depth(const DepthMap& map, const SurfaceDraw& caster);
     void draw_floor_visibility() const;
     void draw_floor_light() const;
 
     gl::Program depth_program_;
+    std::optional<gl::Program> cut_depth_program_;  // once something is cut open
     gl::Program floor_program_;
     gl::Program blend_program_;
     std::optional<DepthSplats> splats_;

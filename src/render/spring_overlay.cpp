@@ -3,7 +3,6 @@
 #include <epoxy/gl.h>
 
 #include "render/legend.h"
-#include "render/overlay.h"
 
 namespace gelatin::render {
 namespace {
@@ -20,12 +19,12 @@ SpringOverlay::SpringOverlay()
 void SpringOverlay::draw(const Frame& frame, const RenderView& bodies) const {
     const OverlayView& overlay = bodies.overlay;
     frame.view.set_uniforms(glass_program_);
-    glass_program_.set("cut_plane", frame.overlay.cut_plane());
+    glass_program_.set("cut_plane", frame.bodies.surfaces.cut_plane());
     glass_program_.use();
     frame.bodies.colors.bind(3);
     glEnable(GL_CULL_FACE);
     {
-        const Clipping clipping(frame.overlay);
+        const Clipping clipping(frame.bodies.surfaces);
         frame.bodies.surfaces.draw();
     }
     glDisable(GL_CULL_FACE);
@@ -38,7 +37,7 @@ void SpringOverlay::draw(const Frame& frame, const RenderView& bodies) const {
     springs.bind(1);
     set_strain_colors(spring_program_, overlay.full_strain);
     frame.view.set_uniforms(spring_program_);
-    spring_program_.set("cut_plane", frame.overlay.cut_plane());
+    spring_program_.set("cut_plane", frame.bodies.surfaces.cut_plane());
     spring_program_.set("line_width", kWidth * frame.view.line_scale());
     spring_program_.set("opacity", 1.0f);
     spring_program_.use();

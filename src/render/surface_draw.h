@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/vec4.hpp>
+
 #include "gelatin/views.h"
 #include "gl/buffer.h"
 
@@ -12,6 +14,11 @@ public:
 
     std::uint32_t vertex_count() const { return view_.vertex_count; }
     std::uint32_t face_count() const { return view_.face_count; }
+
+    /// Where an overlay cuts the surfaces open: what is on the plane's positive side is not drawn.
+    bool is_cut() const { return view_.overlay.cut.has_value(); }
+    /// All 0 where nothing is cut.
+    glm::vec4 cut_plane() const;
 
     /// For shaders that fetch points: units 0 to 2.
     void bind_textures() const;
@@ -29,6 +36,16 @@ private:
     gl::BufferTexture surface_vertices_;
     gl::BufferTexture vertex_normals_;
     gl::BufferTexture triangles_;
+};
+
+/// While it lives, programs that tell their distance from the plane do not draw beyond it, where there is
+/// one.
+class Clipping {
+public:
+    explicit Clipping(const SurfaceDraw& surfaces);
+    Clipping(const Clipping&) = delete;
+    Clipping& operator=(const Clipping&) = delete;
+    ~Clipping();
 };
 
 }  // namespace gelatin::render

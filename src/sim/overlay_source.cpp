@@ -1,6 +1,7 @@
 #include "sim/overlay_source.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -31,6 +32,16 @@ bool needs_boxes(const Overlays& overlays) {
 
 bool needs_velocities(const Overlays& overlays) {
     return overlays.color_map || overlays.arrow_time;
+}
+
+// Of the box round all.
+glm::vec3 middle_of(const std::vector<glm::vec4>& positions) {
+    glm::vec3 low(positions.empty() ? glm::vec4(0.0f) : positions.front()), high = low;
+    for (const glm::vec4& p : positions) {
+        low = glm::min(low, glm::vec3(p));
+        high = glm::max(high, glm::vec3(p));
+    }
+    return 0.5f * (low + high);
 }
 
 gl::BufferTexture texels_of(unsigned nodes, const RenderView& bodies) {
@@ -95,7 +106,7 @@ OverlayView OverlaySource::update(const Overlays& overlays, const RenderView& bo
     if (overlays.faces) view.face_marks = marks_.id();
     if (overlays.full_strain) view_springs(*overlays.full_strain, view);
     if (overlays.color_map) view_colors(*overlays.color_map, bodies, velocities, view);
-    if (overlays.cut) view_cut(*overlays.cut, bodies, view);
+    if (overlays.cut) view_cut(*overlays.cut, view);
     if (overlays.arrow_time) view_arrows(*overlays.arrow_time, velocities, view);
     view.wireframe = overlays.wireframe;
     return view;
@@ -134,7 +145,7 @@ void OverlaySource::view_springs(float full_strain, OverlayView& view) {
     view.full_strain = full_strain;
 }
 
-void OverlaySource::view_cut(const CutPlane& cut, const RenderView& bodies, OverlayView& view) {
+void OverlaySource::view_cut(const CutPlane& cut, OverlayView& view) {
     if (tets_.empty()) {
         tets_ = gl::Buffer<glm::uvec4>(std::span(model_->tets));
         std::vector<std::uint32_t> objects(model_->tets.size());
@@ -145,9 +156,7 @@ void OverlaySource::view_cut(const CutPlane& cut, const RenderView& bodies, Over
         tet_objects_ = gl::Buffer<std::uint32_t>(std::span<const std::uint32_t>(objects));
     }
     const glm::vec3 normal = glm::normalize(glm::vec3(cut.normal[0], cut.normal[1], cut.normal[2]));
-    const glm::vec3 low(bodies.box_min[0], bodies.box_min[1], bodies.box_min[2]);
-    const glm::vec3 high(bodies.box_max[0], bodies.box_max[1], bodies.box_max[2]);
-    const float offset = cut.offset.value_or(glm::dot(normal, 0.5f * (low + high)));
+    const float offset = cut.offset.value_or(glm::dot(normal, middle_of(model_->positions)));
     view.cut = CutView{.plane = {normal.x, normal.y, normal.z, -offset},
                        .tets = tets_.id(),
                        .tet_objects = tet_objects_.id(),

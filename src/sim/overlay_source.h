@@ -32,7 +32,7 @@ private:
     void view_boxes(const Overlays& overlays, OverlayView& view);
     void view_objects(OverlayView& view);
     void view_springs(float full_strain, OverlayView& view);
-    void view_cut(const CutPlane& cut, const RenderView& bodies, OverlayView& view);
+    void view_cut(const CutPlane& cut, OverlayView& view);
     void view_colors(const ColorMap& map, const RenderView& bodies, unsigned velocities, OverlayView& view);
     void view_arrows(float time, unsigned velocities, OverlayView& view);
     void make_marks();

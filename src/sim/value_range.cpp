@@ -15,10 +15,10 @@ constexpr int kPatience = 120;  // pictures
 constexpr std::size_t kInfinity = std::bit_cast<std::uint32_t>(std::numeric_limits<float>::infinity()) >>
                                   gpu::TetValues::kBinShift;  // the first bin without a number
 
-// The least of 1, 2, 3 and 5 times a power of ten that is not less.
+// The least of 1, 1.5, 2, 3, 5 and 7 times a power of ten that is not less.
 float round_up(float value) {
     const float power = std::pow(10.0f, std::floor(std::log10(value)));
-    for (const float factor : {1.0f, 2.0f, 3.0f, 5.0f}) {
+    for (const float factor : {1.0f, 1.5f, 2.0f, 3.0f, 5.0f, 7.0f}) {
         if (factor * power >= value) return factor * power;
     }
     return 10.0f * power;

@@ -10,8 +10,9 @@ namespace gelatin {
 /// upper bits of floats (gpu::TetValues). 0 where nothing is counted.
 float high_value(std::span<const std::uint32_t> histogram);
 
-/// Where a scale of colours ends that follows what it shows and yet stays calm: at 1, 2, 3 or 5 times a power of
-/// ten. It grows at once, and gets smaller only when values have been low for two seconds of pictures.
+/// Where a scale of colours ends that follows what it shows and yet stays calm: at 1, 1.5, 2, 3, 5 or 7 times
+/// a power of ten. It grows at once, and gets smaller only when values have been low for two seconds of
+/// pictures.
 class CalmRange {
 public:
     /// @param least the smallest that it may be, > 0: what is less is noise

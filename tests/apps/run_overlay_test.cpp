@@ -11,14 +11,38 @@ using test::ProgramResult;
 class RunOverlays : public test::ProgramTest {};
 
 TEST_F(RunOverlays, RefusesWhatItDoesNotKnow) {
-    expect_error({"run", "cube.toml", "--overlay", "faces,bxes"}, 2,
-                 "--overlay = bxes: must be boxes, faces or springs (did you mean \"boxes\"?)");
+    expect_error(
+        {"run", "cube.toml", "--overlay", "faces,bxes"}, 2,
+        "--overlay = bxes: must be boxes, faces, springs, stretch, stress, speed, cut, velocity, objects or "
+        "wireframe (did you mean \"boxes\"?)");
     expect_error({"run", "cube.toml", "--overlay", "faces:2"}, 2,
                  "--overlay = faces:2: faces takes no number");
     for (const char* text : {"boxes:", "boxes:x", "boxes:1.5", "boxes:-1", "boxes:13"}) {
         expect_error({"run", "cube.toml", "--overlay", text}, 2,
                      std::string("--overlay = ") + text + ": the number must be a whole number from 0 to 12");
     }
+    const auto refuses = [&](const char* text, const char* problem) {
+        expect_error({"run", "cube.toml", "--overlay", text}, 2,
+                     std::string("--overlay = ") + text + ": " + problem);
+    };
+    refuses("boxes:2:only",
+            "behind the number there may be 'alone', for the boxes of that level and no other");
+    refuses("boxes:2:alone:1", "boxes takes no more than 2 fields");
+    refuses("stress:0", "the number must be a stress above 0, up to 1e15 Pa");
+    refuses("stretch:1", "the number must be a stretch above 1, up to 1000");
+    refuses("speed:1:2", "speed takes no more than 1 field");
+    refuses("velocity:0", "the number must be a time from 0.0001 to 100 s");
+    refuses("objects:1", "objects takes no number");
+    refuses("cut:0:0:0", "the direction must not be zero");
+    refuses("cut:x:a", "the number must be between -1e6 and 1e6");
+    for (const char* text : {"cut", "cut:1:2", "cut:w", "cut:x:1:2", "cut:1:2:3:4:5"}) {
+        const ProgramResult result = run({"run", "cube.toml", "--overlay", text});
+        EXPECT_EQ(result.exit_code, 2) << text;
+        EXPECT_NE(result.err.find("must be cut:x, cut:y, cut:z or cut:NX:NY:NZ"), std::string::npos)
+            << result.err;
+    }
+    expect_error({"run", "cube.toml", "--overlay", "springs,stress"}, 2,
+                 "--overlay = stress: of springs, stretch, stress and speed one can be shown");
     expect_error({"run", "cube.toml", "--overlay", "springs:0"}, 2,
                  "--overlay = springs:0: the number must be a strain from 0.0001 to 1");
 }
@@ -44,7 +68,8 @@ TEST_F(RunOverlaysDrawn, AreTheSameOnBothBackends) {
     };
     for (const char* quality : {"high", "fast"}) {
         const render::Image plain = picture(quality, "cpu", {});
-        for (const char* overlay : {"boxes", "boxes:2", "faces", "springs:0.05"}) {
+        for (const char* overlay : {"boxes:2:alone,faces", "springs:0.05,wireframe",
+                                    "cut:1:0:1:0.1,stretch:1.1", "cut:z:0.05,speed,velocity:0.3,objects"}) {
             const render::Image cpu = picture(quality, "cpu", {"--overlay", overlay}),
                                 gl = picture(quality, "gl", {"--overlay", overlay});
             EXPECT_GT(test::perceptual_difference(cpu, plain), 0.1) << overlay;

@@ -10,29 +10,10 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "mesh/shapes.h"
-#include "render/frame_grabber.h"
-#include "render/renderer.h"
-#include "support/gl_fixture.h"
-#include "support/image_compare.h"
+#include "render/overlay_fixture.h"
 
 namespace gelatin::render {
 namespace {
-
-constexpr int kWidth = 320, kHeight = 240;
-constexpr Camera kCamera{{0.0f, 1.0f, 4.0f}, {0.0f, 0.5f, 0.0f}, 35.0f};
-
-// Where a point in space is in the picture [pixels].
-glm::vec2 project(const glm::vec3& point) {
-    const float aspect = static_cast<float>(kWidth) / kHeight;
-    const glm::vec4 clip = kCamera.projection(aspect) * kCamera.view() * glm::vec4(point, 1.0f);
-    return {(0.5f + 0.5f * clip.x / clip.w) * kWidth, (0.5f - 0.5f * clip.y / clip.w) * kHeight};
-}
-
-glm::dvec3 color_at(const Image& image, const glm::vec3& point) {
-    const glm::ivec2 pixel(project(point));
-    return test::mean_color(image, pixel.x, pixel.y, 1, 1);
-}
 
 // As in shaders/layouts/spring.glsl.
 struct Spring {
@@ -40,48 +21,7 @@ struct Spring {
     float rest_length, stiffness;
 };
 
-double lightness(const glm::dvec3& color) {
-    return (color.r + color.g + color.b) / 3.0;
-}
-
-// A green ball over a floor, with what an overlay shows of it in buffers of the test's own.
-class OverlayTest : public test::GlTest, public ::testing::WithParamInterface<Quality> {
-protected:
-    void SetUp() override {
-        GlTest::SetUp();
-        if (IsSkipped() || HasFatalFailure()) return;
-        SurfaceMesh ball = make_sphere({0.4, 8});
-        for (glm::dvec3& p : ball.positions) p.y += 0.6;
-        surfaces_ = {ball};
-        body_ = StaticMesh(surfaces_);
-        view_ = body_.view();
-        renderer_.emplace(RendererOptions{.width = kWidth, .height = kHeight, .quality = GetParam()});
-        renderer_->set_surroundings({.bounds = {{-0.5f, 0.0f, -0.5f}, {0.5f, 1.1f, 0.5f}},
-                                     .floor_height = 0.0f,
-                                     .props = {},
-                                     .colors = {{0.05f, 0.4f, 0.1f}}});
-    }
-
-    Image draw(const OverlayView& overlay = {}) {
-        view_.overlay = overlay;
-        renderer_->draw(view_, kCamera);
-        FrameGrabber grabber(kWidth, kHeight);
-        grabber.grab(renderer_->framebuffer());
-        return *grabber.flush();
-    }
-
-    template <class T>
-    static gl::Buffer<T> buffer_of(const std::vector<T>& values) {
-        return gl::Buffer<T>(std::span<const T>(values));
-    }
-
-    std::vector<SurfaceMesh> surfaces_;
-    StaticMesh body_;
-    RenderView view_;
-    std::optional<Renderer> renderer_;
-};
-INSTANTIATE_TEST_SUITE_P(Qualities, OverlayTest, ::testing::Values(Quality::high, Quality::fast),
-                         [](const auto& test) { return test.param == Quality::high ? "High" : "Fast"; });
+INSTANTIATE_TEST_SUITE_P(Qualities, OverlayTest, kQualities, name_of_quality);
 
 class BoxOverlayTest : public OverlayTest {
 protected:
@@ -97,8 +37,7 @@ protected:
                      .shown_box_count = static_cast<std::uint32_t>(shown.size())});
     }
 };
-INSTANTIATE_TEST_SUITE_P(Qualities, BoxOverlayTest, ::testing::Values(Quality::high, Quality::fast),
-                         [](const auto& test) { return test.param == Quality::high ? "High" : "Fast"; });
+INSTANTIATE_TEST_SUITE_P(Qualities, BoxOverlayTest, kQualities, name_of_quality);
 
 // Each of the twelve edges, at points along it that nothing hides, and beside it.
 TEST_P(BoxOverlayTest, EdgesAreWhereTheyProject) {
@@ -273,7 +212,7 @@ TEST_P(OverlayTest, SpringsShowThroughTheirBody) {
 
 // Heavy, though it is quick: LeakSanitizer crashes behind it ("Tracer caught signal 11").
 class LegendHeavy : public OverlayTest {};
-INSTANTIATE_TEST_SUITE_P(Qualities, LegendHeavy, ::testing::Values(Quality::high, Quality::fast));
+INSTANTIATE_TEST_SUITE_P(Qualities, LegendHeavy, kQualities);
 
 // The legend's bar goes from one end of the colours to the other.
 TEST_P(LegendHeavy, HasTheColorsOfTheScale) {

@@ -4,6 +4,8 @@
 
 #include <epoxy/gl.h>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <tuple>
 
 #include "gelatin/simulator.h"
 #include "support/gl_fixture.h"
@@ -55,6 +57,7 @@ TEST_P(OverlaySourceTest, GivesNothingThatIsNotAskedFor) {
     Simulator simulator = simulate(balls(2));
     const OverlayView view = simulator.render_view().overlay;
     EXPECT_EQ(view.boxes + view.shown_boxes + view.face_marks + view.springs, 0u);
+    EXPECT_FALSE(view.color_map || view.cut || view.arrows || view.objects || view.wireframe);
 }
 
 // At the start, after steps, and of a body that has none to collide with.
@@ -103,6 +106,108 @@ TEST_P(OverlaySourceTest, LevelsOfBoxesLieInOneAnother) {
     EXPECT_EQ(counts, (std::vector<std::size_t>{2, 4, 16}));
 }
 
+TEST_P(OverlaySourceTest, ALevelOfBoxesMayStandAlone) {
+    Simulator simulator = simulate(balls(2));
+    const auto shown_of = [&](const Overlays& overlays) {
+        const OverlayView view = simulator.render_view(overlays).overlay;
+        return download<glm::uvec2>(view.shown_boxes, view.shown_box_count);
+    };
+    const auto all = shown_of({.box_levels = 2});
+    std::vector<std::uint32_t> lowest;
+    for (const glm::uvec2& shown : all)
+        if (shown.y == 2) lowest.push_back(shown.x);
+    std::vector<std::uint32_t> alone;
+    for (const glm::uvec2& shown : shown_of({.box_levels = 2, .lowest_boxes_alone = true})) {
+        EXPECT_EQ(shown.y, 0u) << "the first that is shown does not fade";
+        alone.push_back(shown.x);
+    }
+    EXPECT_EQ(alone, lowest);
+    EXPECT_EQ(shown_of({.box_levels = 2}).size(), all.size());
+}
+
+// A body that starts stretched, of springs or neo-Hookean, has the stress of that at each tet and node.
+TEST_P(OverlaySourceTest, ColorsShowTheStressOfABodyOutOfShape) {
+    for (const MaterialModel model : {MaterialModel::mass_spring, MaterialModel::neo_hookean}) {
+        Scene scene = balls(1);
+        scene.materials[0].model = model;
+        scene.materials[0].youngs_modulus = 1e5;
+        scene.materials[0].poisson_ratio = 0.25;
+        scene.objects[0].start.scale = {1.05, 1.0, 1.0};
+        Simulator simulator = simulate(scene);
+        for (const auto& [quantity, right, end] : {std::tuple(Quantity::stress, 1e5 / 1.25 * 0.05, 5e3),
+                                                   std::tuple(Quantity::stretch, 1.05, 1.07)}) {
+            const OverlayView view = simulator.render_view({.color_map = ColorMap{quantity, {}}}).overlay;
+            ASSERT_TRUE(view.color_map);
+            EXPECT_EQ(view.color_map->quantity, quantity);
+            EXPECT_NEAR(view.color_map->full, end, 1e-5 * end);
+            for (const float v : download<float>(view.color_map->tet_values, simulator.counts().tets))
+                EXPECT_NEAR(v, right, 1e-3 * right);
+            for (const float v : download<float>(view.color_map->node_values, simulator.counts().nodes))
+                EXPECT_NEAR(v, right, 1e-3 * right);
+        }
+        const Overlays set{.color_map = ColorMap{Quantity::stress, 1234.0f}};
+        EXPECT_EQ(simulator.render_view(set).overlay.color_map->full, 1234.0f);
+    }
+}
+
+TEST_P(OverlaySourceTest, SpeedsAndArrowsAreTheNodes) {
+    Simulator simulator = simulate(balls(2));
+    simulator.advance_frame();
+    const OverlayView view =
+        simulator.render_view({.color_map = ColorMap{Quantity::speed, {}}, .arrow_time = 0.2f}).overlay;
+    const HostFrame frame = simulator.read_frame();
+    const auto values = download<float>(view.color_map->node_values, simulator.counts().nodes);
+    ASSERT_TRUE(view.arrows);
+    EXPECT_EQ(view.arrows->time, 0.2f);
+    const auto velocities = download<glm::vec4>(view.arrows->velocities, simulator.counts().nodes);
+    for (std::size_t n = 0; n < values.size(); ++n) {
+        const glm::vec3 v(frame.velocities[3 * n], frame.velocities[3 * n + 1], frame.velocities[3 * n + 2]);
+        EXPECT_NEAR(values[n], glm::length(v), 1e-6f);
+        EXPECT_EQ(glm::vec3(velocities[n]), v);
+    }
+    const auto nodes = download<std::uint32_t>(view.arrows->nodes, view.arrows->count);
+    EXPECT_GT(nodes.size(), 50u);
+    for (const std::uint32_t node : nodes) EXPECT_LT(node, values.size());
+}
+
+TEST_P(OverlaySourceTest, ACutWithoutAnOffsetGoesThroughTheMiddle) {
+    Simulator simulator = simulate(balls(2));
+    simulator.advance_frame();
+    const CutPlane free{.normal = {0.0f, 3.0f, 4.0f}};
+    const RenderView view = simulator.render_view({.cut = free});
+    ASSERT_TRUE(view.overlay.cut);
+    const float* plane = view.overlay.cut->plane;
+    EXPECT_NEAR(plane[0], 0.0f, 1e-6f);
+    EXPECT_NEAR(plane[1], 0.6f, 1e-6f);
+    EXPECT_NEAR(plane[2], 0.8f, 1e-6f);
+    const glm::vec3 middle(0.305f, 0.05f, 0.0f);
+    EXPECT_NEAR(0.6f * middle.y + 0.8f * middle.z + plane[3], 0.0f, 2e-3f);
+    EXPECT_EQ(simulator.render_view({.cut = CutPlane{{0.0f, 0.0f, 2.0f}, 0.3f}}).overlay.cut->plane[3],
+              -0.3f);
+
+    const auto tets = download<glm::uvec4>(view.overlay.cut->tets, view.overlay.cut->tet_count);
+    EXPECT_EQ(tets, simulator.model().tets);
+    const auto objects = download<std::uint32_t>(view.overlay.cut->tet_objects, view.overlay.cut->tet_count);
+    for (std::uint32_t o = 0; o < 2; ++o) {
+        const Range range = simulator.model().objects[o].tets;
+        for (std::uint32_t t = range.first; t < range.end(); ++t) EXPECT_EQ(objects[t], o);
+    }
+}
+
+TEST_P(OverlaySourceTest, ObjectsAreNamedByTheirBoxes) {
+    Simulator simulator = simulate(balls(3));
+    const OverlayView view = simulator.render_view({.objects = true}).overlay;
+    ASSERT_TRUE(view.objects);
+    EXPECT_EQ(view.shown_boxes, 0u) << "which are not shown for that";
+    ASSERT_EQ(view.objects->names.size(), 3u);
+    EXPECT_EQ(view.objects->names[2], "ball 2");
+    const auto boxes = download<Box>(view.boxes, view.box_count);
+    const auto roots = download<std::uint32_t>(view.objects->roots, 3);
+    for (std::size_t o = 0; o < 3; ++o)
+        EXPECT_NEAR(0.5f * (boxes[roots[o]].min.x + boxes[roots[o]].max.x), 0.61f * static_cast<float>(o),
+                    0.01f);
+}
+
 TEST_P(OverlaySourceTest, MarksAsManyFacesAsCollide) {
     Simulator simulator = simulate(balls(2));
     const auto marked = [&] {
@@ -149,6 +254,8 @@ TEST_P(OverlaySourceTest, LeavesTheSimulationAsItWas) {
     Simulator watched = simulate(balls(3)), alone = simulate(balls(3));
     for (int f = 0; f < 40; ++f) {
         watched.render_view({.box_levels = 1, .faces = true, .full_strain = 0.1f});
+        watched.render_view(
+            {.color_map = ColorMap{}, .cut = CutPlane{}, .arrow_time = 0.1f, .objects = true});
         watched.advance_frame();
         alone.advance_frame();
     }

@@ -141,12 +141,31 @@ TEST_F(WindowHeavy, KeysShowWhatTheyPromise) {
         draw(2);
         return differs;
     };
-    EXPECT_TRUE(looks_different("1"));
-    EXPECT_TRUE(looks_different("3"));
-    EXPECT_TRUE(looks_different("F1"));
+    for (const char* key : {"1", "3", "4", "5", "6", "7", "9", "0", "F1"})
+        EXPECT_TRUE(looks_different(key)) << key;
     EXPECT_EQ(picture().pixels, plain.pixels);
     press("2");
     EXPECT_TRUE(app().panels().overlays.faces);
+    press("8");  // nothing moves as long as nothing is simulated
+    EXPECT_TRUE(app().panels().overlays.arrow_time);
+}
+
+// Straight from the buffers of a simulation that goes on meanwhile.
+TEST_F(WindowHeavy, OverlaysFollowASimulationOnOpenGl) {
+    open(two_cubes(), Backend::gl);
+    for (const char* key : {"2", "3", "4", "6", "8", "9", "0"}) press(key);
+    const Overlays& shown = app().panels().overlays;
+    EXPECT_TRUE(shown.faces && shown.box_levels && shown.cut && shown.color_map && shown.arrow_time &&
+                shown.wireframe && shown.objects);
+    EXPECT_EQ(shown.cut->normal[2], 1.0f) << "open towards the eye";
+    const double before = session().time();
+    draw_until([&] { return session().time() > before + 0.1; });
+    ASSERT_TRUE(session().view().overlay.color_map);
+    EXPECT_GT(session().view().overlay.color_map->full, 0.0f);
+    press("5");
+    EXPECT_EQ(shown.color_map->quantity, Quantity::stretch);
+    press("1");
+    EXPECT_TRUE(shown.full_strain && !shown.color_map) << "springs have colours of their own";
 }
 
 TEST_F(WindowHeavy, ShowsWhatIsWrongWithASceneAndReadsItAgain) {
