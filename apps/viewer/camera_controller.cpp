@@ -9,7 +9,6 @@
 namespace gelatin::viewer {
 namespace {
 
-constexpr float kTurn = 3.5f;                        // radians for a drag over the picture's height
 constexpr float kHighest = glm::radians(89.0f);      // short of the poles, where right has no direction
 constexpr float kNotch = 0.88f;                      // of the distance is left
 constexpr float kNearest = 1e-4f, kFarthest = 1e5f;  // [m]
@@ -88,6 +87,13 @@ float CameraController::depth_of(const glm::vec3& point) const {
 glm::vec3 CameraController::at_depth(const glm::vec2& place, float depth) const {
     const Ray under = ray(place);
     return under.at(depth / glm::dot(under.direction, forward()));
+}
+
+std::optional<glm::vec2> CameraController::place_of(const glm::vec3& point) const {
+    const glm::vec3 way = point - camera().eye;
+    const float depth = glm::dot(way, forward());
+    if (depth <= 0.0f) return {};
+    return glm::vec2(glm::dot(way, right()), glm::dot(way, up())) / (2.0f * slope() * depth);
 }
 
 }  // namespace gelatin::viewer

@@ -2,6 +2,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "ray.h"
 #include "render/camera.h"
@@ -32,11 +33,18 @@ public:
     float depth_of(const glm::vec3& point) const;
     /// The point under `place` that lies so far in front.
     glm::vec3 at_depth(const glm::vec2& place, float depth) const;
+    /// Where a point shows, in the picture or beside it; nothing of one that is not in front of the eye.
+    std::optional<glm::vec2> place_of(const glm::vec3& point) const;
 
-private:
+    /// The view's axes, unit.
     glm::vec3 forward() const;
     glm::vec3 right() const;
     glm::vec3 up() const;
+
+    /// Of a drag over the picture's height [radians].
+    static constexpr float kTurn = 3.5f;
+
+private:
     float slope() const;  // tangent of half the vertical angle of view
 
     glm::vec3 target_{0.0f};

@@ -10,6 +10,7 @@ enum class Command {
     reset,
     reload,
     throw_body,
+    pin,
     slower,
     faster,
     frame_all,

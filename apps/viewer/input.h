@@ -18,6 +18,7 @@ struct KeyPress {
 struct ButtonChange {
     int button = 0;  ///< GLFW's
     bool is_down = false;
+    bool with_control = false;
     glm::vec2 place{0.0f};
 };
 

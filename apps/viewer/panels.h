@@ -8,6 +8,7 @@
 #include "command.h"
 #include "gelatin/scene.h"
 #include "gelatin/views.h"
+#include "markers.h"
 #include "session.h"
 
 namespace gelatin::viewer {
@@ -21,7 +22,8 @@ struct PanelState {
     double picture_rate = 0.0;     ///< pictures a second
     const char* quality = "high";  ///< of the picture
     Overlays overlays;
-    Scene edited;  ///< the session's scene as the user wants it by now
+    bool shows_markers = true;  ///< of pins and handles
+    Scene edited;               ///< the session's scene as the user wants it by now
 };
 
 /// What the user asked for in the panels while one picture was drawn.
@@ -29,6 +31,7 @@ struct Requests {
     std::vector<Command> commands;
     std::optional<double> speed;
     std::optional<Overlays> overlays;
+    std::optional<bool> shows_markers;
     std::optional<Scene> edited;
     std::optional<std::filesystem::path> opened;
 };
@@ -41,7 +44,10 @@ void draw_session_panel(const Session& session, const PanelState& state, Request
 void draw_playback(const Session& session, const PanelState& state, Requests& requests);
 void draw_settings(const PanelState& state, Requests& requests);
 void draw_readings(const Session& session, const PanelState& state);
-void draw_overlay_choices(const PanelState& state, Requests& requests);
+void draw_overlay_choices(const Session& session, const PanelState& state, Requests& requests);
+
+/// Over the picture and under the panels. @param pointed the one at the pointer; null: none
+void draw_markers(float scale, const std::vector<Marker>& markers, const Marker* pointed);
 
 /// What keys and mouse do.
 void draw_help(float scale, Requests& requests);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace gelatin::viewer {
 namespace {
@@ -71,6 +72,24 @@ Pull take_hold(const Model& model, std::span<const float> positions, const Pick&
     pull.target = glm::dvec3(pick.point);
     pull.damping_time = 2.0 / kHandRate;
     return pull;
+}
+
+SphereRegion region_of(const Pull& pull, const Model& model) {
+    const auto at_rest = [&](const Pull::Node& held) { return glm::dvec3(model.positions[held.node]); };
+    SphereRegion region{glm::dvec3(0.0), 0.0};
+    double sum = 0.0;
+    for (const Pull::Node& held : pull.nodes) {
+        region.center += static_cast<double>(held.stiffness) * at_rest(held);
+        sum += static_cast<double>(held.stiffness);
+    }
+    region.center /= sum;
+    double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
+    for (const Pull::Node& held : pull.nodes) {
+        nearest = std::min(nearest, glm::distance(region.center, at_rest(held)));
+        farthest = std::max(farthest, glm::distance(region.center, at_rest(held)));
+    }
+    region.radius = std::max(0.5 * farthest, 1.001 * nearest);
+    return region;
 }
 
 }  // namespace gelatin::viewer

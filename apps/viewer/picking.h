@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gelatin/pull.h"
+#include "gelatin/scene.h"
 #include "model/model.h"
 #include "ray.h"
 
@@ -29,6 +30,9 @@ std::optional<Pick> pick(const Ray& ray, std::span<const float> positions, std::
 /// as a critically damped oscillator of kHandRate.
 /// @param positions as they are now
 Pull take_hold(const Model& model, std::span<const float> positions, const Pick& pick);
+
+/// Where at rest the nodes are that a hand holds the most firmly: half as far as it reaches.
+SphereRegion region_of(const Pull& pull, const Model& model);
 
 /// How fast a body follows the hand: its angular frequency [1/s].
 constexpr double kHandRate = 14.0;

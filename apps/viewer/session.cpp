@@ -22,9 +22,11 @@ SimulatorOptions simulator_options(Backend backend) {
 Session::Session(LoadedScene loaded, Backend backend, const Session* earlier)
     : simulator_(loaded.scene, std::move(loaded.model), simulator_options(backend)),
       device_(simulator_.device()),
-      pace_(simulator_.step_size()) {
+      pace_(simulator_.step_size()),
+      held_nodes_(simulator_.held_nodes()) {
     if (earlier == nullptr) return;
     simulator_.go_on_from(earlier->simulator_);
+    held_nodes_ = simulator_.held_nodes();
     pace_.set_speed(earlier->pace_.speed());
     readings_ = earlier->readings_;
     is_playing_ = earlier->is_playing_;
@@ -76,12 +78,14 @@ void Session::take_over() {
     for (const FrameStatistics& statistics : std::exchange(measured_, {})) readings_.add(statistics);
     if (std::exchange(is_reset_asked_, false)) go_back();
     follow_hand();
+    follow_drags();
     time_ = simulator_.time();
     frame_ = simulator_.frame();
 }
 
 void Session::go_back() {
     simulator_.reset();
+    drags_asked_.clear();
     problem_.clear();
     readings_.clear();
     pace_.restart();
@@ -109,11 +113,21 @@ void Session::follow_hand() {
         hand_ = found ? Hand::holding : Hand::free;
         if (!found) return;
         held_point_ = hand_target_ = found->point;
-        simulator_.set_pull(take_hold(model(), positions, *found));
+        pull_ = take_hold(model(), positions, *found);
+        simulator_.set_pull(pull_);
         is_pulled_ = true;
     } else if (hand_ == Hand::holding) {
         simulator_.move_pull(glm::dvec3(hand_target_));
     }
+}
+
+void Session::drag(std::size_t held, const Drag& target) {
+    drags_asked_.emplace_back(held, target);
+}
+
+void Session::follow_drags() {
+    for (const auto& [held, target] : std::exchange(drags_asked_, {})) simulator_.drag(held, target);
+    held_nodes_ = simulator_.held_nodes();
 }
 
 void Session::start_batch(int steps, double now) {

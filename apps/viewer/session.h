@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gelatin/simulator.h"
@@ -52,6 +53,14 @@ public:
     void move_hand(const glm::vec3& target) { hand_target_ = target; }
     /// What was held keeps its momentum.
     void let_go();
+    /// What would be pinned of it, and one of the nodes there. @pre a hand holds something
+    SphereRegion held_region() const { return region_of(pull_, model()); }
+    std::uint32_t held_node() const { return pull_.nodes.front().node; }
+
+    /// What pins and handles hold, as of the last batch that is done.
+    const std::vector<HeldNodes>& held_nodes() const { return held_nodes_; }
+    /// Drags one of them there, from the next batch on.
+    void drag(std::size_t held, const Drag& target);
 
     /// True where a batch is under way: nothing of the simulator may be touched.
     bool is_computing() const { return worker_.is_busy() || !fence_.is_passed(); }
@@ -76,6 +85,7 @@ private:
     void take_over();
     void go_back();
     void follow_hand();
+    void follow_drags();
     void start_batch(int steps, double now);
     void run_batch(int steps, bool measure);
     void fail(const std::string& problem);
@@ -93,6 +103,9 @@ private:
     Hand hand_ = Hand::free;
     bool is_pulled_ = false;  // the simulator knows of a hand
     Ray reach_{};
+    Pull pull_;
+    std::vector<HeldNodes> held_nodes_;
+    std::vector<std::pair<std::size_t, Drag>> drags_asked_;
     glm::vec3 held_point_{0.0f}, hand_target_{0.0f};
     double last_update_ = 0.0, last_measure_ = -1.0;  // [s]
     double time_ = 0.0;

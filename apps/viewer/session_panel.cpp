@@ -29,7 +29,7 @@ void draw_session_panel(const Session& session, const PanelState& state, Request
                  ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNav);
     ImGui::PushItemWidth(150.0f * state.scale);
     draw_playback(session, state, requests);
-    if (ImGui::CollapsingHeader("Show")) draw_overlay_choices(state, requests);
+    if (ImGui::CollapsingHeader("Show")) draw_overlay_choices(session, state, requests);
     if (ImGui::CollapsingHeader("Settings")) draw_settings(state, requests);
     if (ImGui::CollapsingHeader("Readings")) draw_readings(session, state);
     ImGui::PopItemWidth();
@@ -65,7 +65,7 @@ void draw_playback(const Session& session, const PanelState& state, Requests& re
     }
 }
 
-void draw_overlay_choices(const PanelState& state, Requests& requests) {
+void draw_overlay_choices(const Session& session, const PanelState& state, Requests& requests) {
     Overlays overlays = state.overlays;
     bool changed = false;
     bool strain = overlays.full_strain.has_value(), boxes = overlays.box_levels.has_value();
@@ -94,6 +94,9 @@ void draw_overlay_choices(const PanelState& state, Requests& requests) {
         }
     }
     if (changed) requests.overlays = overlays;
+    bool markers = state.shows_markers;
+    if (!session.held_nodes().empty() && ImGui::Checkbox("pins and handles", &markers))
+        requests.shows_markers = markers;
 }
 
 }  // namespace gelatin::viewer

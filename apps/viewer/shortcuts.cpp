@@ -25,6 +25,8 @@ std::span<const Shortcut> shortcuts() {
         Shortcut{GLFW_KEY_F5, With::nothing, Command::reload, "F5", "read the scene file again"},
         Shortcut{GLFW_KEY_T, With::nothing, Command::throw_body, "T",
                  "throw a copy of a body to the pointer"},
+        Shortcut{GLFW_KEY_P, With::nothing, Command::pin, "P",
+                 "pin the body in hand; free the pin at the pointer"},
         Shortcut{GLFW_KEY_MINUS, With::nothing, Command::slower, "-", "half the speed"},
         Shortcut{GLFW_KEY_EQUAL, With::nothing, Command::faster, "+", "twice the speed, up to real time"},
         Shortcut{GLFW_KEY_F, With::nothing, Command::frame_all, "F", "show all bodies"},
@@ -61,6 +63,8 @@ std::optional<Command> find_command(const KeyPress& press) {
 std::span<const Gesture> gestures() {
     static constexpr std::array kGestures{
         Gesture{"drag a body", "pull at it; the wheel takes it away"},
+        Gesture{"drag a pin or handle", "move it; the wheel takes it away"},
+        Gesture{"Ctrl+drag it", "turn it; the wheel about the line of sight"},
         Gesture{"drag beside", "turn the view"},
         Gesture{"right or middle drag", "move the view"},
         Gesture{"wheel", "come nearer, go away"},

@@ -81,7 +81,9 @@ void ViewerApp::take_loaded_scene() {
         if (auto result = loader_.take()) show_scene(std::move(*result));
     } catch (const Error& error) {
         fail(error.what());
-        if (session_) panels_.edited = session_->scene();  // what was wished for cannot be
+        if (!session_) return;
+        panels_.edited = session_->scene();  // what was wished for cannot be
+        if (!hand_depth_) session_->let_go();
     }
 }
 
@@ -94,6 +96,7 @@ void ViewerApp::show_scene(SceneLoader::Result result) {
     // The hand was the old one's.
     hand_depth_.reset();
     is_hand_asked_ = false;
+    handle_drag_.reset();
     if (goes_on) return;
     panels_.edited = session_->scene();
     own_bodies_ = session_->scene().objects.size();
@@ -152,6 +155,8 @@ void ViewerApp::reload_shaders() {
 Requests ViewerApp::draw_panels() {
     Requests requests;
     const float scale = window_.scale();
+    const std::vector<Marker> marked = markers();
+    draw_markers(scale, marked, pointed(marked));
     if (session_ && shows_panels_) draw_session_panel(*session_, panels_, requests);
     if (!session_ && !loader_.is_busy()) draw_start_screen(scale, samples_, requests);
     if (shows_help_) draw_help(scale, requests);

@@ -6,6 +6,7 @@
 
 #include "camera_controller.h"
 #include "film.h"
+#include "handle_drag.h"
 #include "panels.h"
 #include "render/renderer.h"
 #include "scene_loader.h"
@@ -51,6 +52,10 @@ private:
     void handle(const WheelTurn& wheel);
     void follow_hand();
     void let_go();
+    std::vector<Marker> markers() const;
+    const Marker* pointed(const std::vector<Marker>& markers) const;
+    bool take_handle(bool turns);
+    void pin();
     void obey(Command command);
     void obey(const Requests& requests);
     void throw_body();
@@ -96,6 +101,7 @@ private:
     bool is_hand_asked_ = false;  // whether the drag has met a body is not known yet
     glm::vec2 way_since_asked_{0.0f};
     std::optional<float> hand_depth_;  // in front of the eye, while a body is held [m]
+    std::optional<HandleDrag> handle_drag_;
 };
 
 }  // namespace gelatin::viewer

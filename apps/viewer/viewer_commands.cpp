@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "dragged_scene.h"
 #include "gelatin/error.h"
 #include "model/scene_writer.h"
 #include "projectile.h"
@@ -61,6 +62,8 @@ void ViewerApp::obey(Command command) {
             return session_->reset();
         case Command::throw_body:
             return throw_body();
+        case Command::pin:
+            return pin();
         case Command::slower:
             return session_->set_speed(std::max(0.5 * session_->pace().speed(), kLeastSpeed));
         case Command::faster:
@@ -92,6 +95,7 @@ void ViewerApp::obey(const Requests& requests) {
     for (const Command command : requests.commands) obey(command);
     if (requests.speed && session_) session_->set_speed(*requests.speed);
     if (requests.overlays) show_overlays(*requests.overlays);
+    if (requests.shows_markers) panels_.shows_markers = *requests.shows_markers;
     if (requests.opened) open(*requests.opened);
     if (requests.edited) {
         panels_.edited = *requests.edited;
@@ -112,10 +116,11 @@ void ViewerApp::throw_body() {
     loader_.rebuild(panels_.edited);
 }
 
-// Seen from where the camera is.
+// Seen from where the camera is, and dragged as it is.
 void ViewerApp::save_scene() {
+    if (loader_.is_busy()) return tell("the scene is still being made");
     const std::filesystem::path file = free_name(options_.scene.stem().string(), ".toml");
-    Scene scene = panels_.edited;
+    Scene scene = dragged_scene(panels_.edited, session_->held_nodes());
     const render::Camera camera = camera_.camera();
     scene.camera = CameraDescription{glm::dvec3(camera.eye), glm::dvec3(camera.target),
                                      static_cast<double>(camera.field_of_view)};

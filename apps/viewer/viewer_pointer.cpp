@@ -28,18 +28,21 @@ void ViewerApp::handle(const Event& event) {
     }
 }
 
-// A drag that begins on a body is a hand's, one beside turns the view. Which it is shows once the simulation
-// can be asked.
+// A drag that begins at a marker moves what is held there; one that begins on a body is a hand's, one beside
+// turns the view. Which of these it is shows once the simulation can be asked.
 void ViewerApp::handle(const ButtonChange& button) {
     pointer_ = button.place;
     if (button.is_down && !dragging_) {
+        const bool is_left = button.button == GLFW_MOUSE_BUTTON_LEFT;
+        if (is_left) take_handle(button.with_control);
         dragging_ = button.button;
-        if (!session_ || button.button != GLFW_MOUSE_BUTTON_LEFT) return;
+        if (!session_ || !is_left || handle_drag_) return;
         session_->reach(camera_.ray(button.place));
         is_hand_asked_ = true;
         way_since_asked_ = glm::vec2(0.0f);
     } else if (!button.is_down && dragging_ == button.button) {
         dragging_.reset();
+        if (std::exchange(handle_drag_, {})) return;
         if (button.button == GLFW_MOUSE_BUTTON_LEFT && !is_hand_asked_) let_go();
     }
 }
@@ -47,6 +50,10 @@ void ViewerApp::handle(const ButtonChange& button) {
 void ViewerApp::handle(const PointerMove& move) {
     const glm::vec2 way = move.place - std::exchange(pointer_, move.place);
     if (!dragging_ || hand_depth_) return;
+    if (handle_drag_) {
+        handle_drag_->move_pointer(camera_, move.place);
+        return session_->drag(handle_drag_->held(), handle_drag_->target());
+    }
     if (*dragging_ != GLFW_MOUSE_BUTTON_LEFT) {
         camera_.pan(way);
     } else if (is_hand_asked_) {
@@ -56,9 +63,12 @@ void ViewerApp::handle(const PointerMove& move) {
     }
 }
 
-// With a body in hand the wheel takes it away or brings it here.
+// With something in hand the wheel takes it away or brings it here.
 void ViewerApp::handle(const WheelTurn& wheel) {
-    if (hand_depth_) {
+    if (handle_drag_) {
+        handle_drag_->turn_wheel(camera_, wheel.notches);
+        session_->drag(handle_drag_->held(), handle_drag_->target());
+    } else if (hand_depth_) {
         *hand_depth_ *= std::pow(kHandNotch, wheel.notches);
     } else {
         camera_.zoom(wheel.notches, wheel.place);

@@ -45,8 +45,9 @@ struct WindowCallbacks {
         of(window).events_.emplace_back(KeyPress{key, (modifiers & GLFW_MOD_CONTROL) != 0,
                                                  (modifiers & GLFW_MOD_SHIFT) != 0, action == GLFW_REPEAT});
     }
-    static void button(GLFWwindow* window, int button, int action, int) {
-        of(window).events_.emplace_back(ButtonChange{button, action == GLFW_PRESS, pointer(window)});
+    static void button(GLFWwindow* window, int button, int action, int modifiers) {
+        of(window).events_.emplace_back(
+            ButtonChange{button, action == GLFW_PRESS, (modifiers & GLFW_MOD_CONTROL) != 0, pointer(window)});
     }
     static void move(GLFWwindow* window, double x, double y) {
         of(window).pointer_ = of(window).place_of(x, y);
@@ -158,6 +159,10 @@ std::vector<Event> Window::take_events() {
         return begins && io.WantCaptureMouse;  // what ends a drag is for whoever began it
     });
     return events;
+}
+
+bool Window::is_over_panel() const {
+    return ImGui::GetIO().WantCaptureMouse;
 }
 
 void Window::show_picture(unsigned framebuffer) {

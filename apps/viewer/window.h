@@ -36,6 +36,9 @@ public:
     /// What happened since the last call, less what panels take for themselves.
     std::vector<Event> take_events();
 
+    /// True if the pointer is over a panel, or the mouse is a panel's.
+    bool is_over_panel() const;
+
     /// Copies a framebuffer of the window's size behind the panels; 0: a plain colour.
     void show_picture(unsigned framebuffer);
 

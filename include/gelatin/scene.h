@@ -155,6 +155,13 @@ struct Keyframe {
 /// How a handle goes from one keyframe to the next: evenly, or slowly at both ends.
 enum class Interpolation { linear, smooth };
 
+/// How far a handle is dragged away from its keyframes, from the start on: no faster than its body can
+/// follow.
+struct DragDescription {
+    glm::dvec3 move{0.0};  ///< [m]
+    glm::dvec3 turn{0.0};  ///< about x, then y, then z [degrees]
+};
+
 /// Nodes that follow keyframes, and rest before the first and after the last.
 struct HandleDescription {
     Region region;
@@ -163,6 +170,7 @@ struct HandleDescription {
     std::optional<double> release;    ///< from then on the nodes are free [s], > 0
     std::vector<Keyframe> keyframes;  ///< times ascend; the first is where the nodes start; none: they rest
     int line = 0;                     ///< in the scene file, for later messages
+    DragDescription drag = {};        ///< on top of them
 };
 
 /// What a load pulls or presses with.

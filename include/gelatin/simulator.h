@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "gelatin/drag.h"
 #include "gelatin/pull.h"
 #include "gelatin/scene.h"
 #include "gelatin/views.h"
@@ -95,7 +96,8 @@ public:
     void reset();
 
     /// Goes on from where another simulation is, with the masses, materials and settings of this one's own
-    /// scene. Bodies of the same name and tets are where they are there; others begin at their start.
+    /// scene. Bodies of the same name and tets are where they are there, what is held of them as it has been
+    /// dragged; others begin at their start.
     void go_on_from(const Simulator& other);
 
     /// What a user's hand holds from now on; empty: nothing, and bodies keep the momentum that they have.
@@ -104,6 +106,13 @@ public:
     void set_pull(const std::optional<Pull>& pull);
     /// Moves the hand [m]. @pre it holds something
     void move_pull(const glm::dvec3& target);
+
+    /// What the scene's pins and handles hold now, in a fixed order.
+    std::vector<HeldNodes> held_nodes() const;
+    /// Drags what one of them holds there, from where it is by now, in the steps that follow: no faster than
+    /// the body can follow. Of a handle that follows keyframes, the way that they lead it is on top. The work
+    /// is not accounted for, as a hand's. @param held index in held_nodes() @pre the turn is a unit one
+    void drag(std::size_t held, const Drag& target);
 
     /// Waits for the GPU. @throws Diverged if any step so far left the state so.
     void check() const;

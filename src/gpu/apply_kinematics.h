@@ -12,7 +12,7 @@ namespace gelatin::gpu {
 /// Moves what handles hold: shaders/sim/apply_kinematics.comp. CPU twin: cpu::apply_kinematics.
 class ApplyKinematics {
 public:
-    /// @pre the model has handles
+    /// @pre the model has pins or handles
     explicit ApplyKinematics(const Model& model);
 
     /// Ends with the barrier that whoever gathers the nodes as textures or storage needs.

@@ -25,7 +25,6 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, Forc
         }
     }
     if (model_->objects.size() > 1 || collision.self_collision) collision_.emplace(*model_, collision);
-    if (!model_->handles.empty()) apply_kinematics_.emplace(*model_);
     if (!model_->loads.empty()) sum_loads_.emplace(*model_);
     if (!model_->volume_term.is_empty() && solver != SolverKind::vbd) find_volume_stresses_.emplace(*model_);
     if (solver == SolverKind::vbd) shape_matcher_.emplace(*model_);
@@ -53,6 +52,7 @@ void GpuSolver::set_pull(const std::optional<Pull>& pull) {
 }
 
 void GpuSolver::apply_kinematics(std::span<const HandleMotion> motions) {
+    if (!apply_kinematics_) apply_kinematics_.emplace(*model_);
     apply_kinematics_->run(motions, current_);
 }
 

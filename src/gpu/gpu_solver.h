@@ -73,7 +73,7 @@ private:
     std::optional<BlockDescent> block_descent_;  // instead of the scheme
     std::optional<ShapeMatcher> shape_matcher_;  // before block descent
     bool has_earlier_ = false;                   // previous_ is one step earlier: vbd looks back
-    std::optional<ApplyKinematics> apply_kinematics_;         // where the scene has handles
+    std::optional<ApplyKinematics> apply_kinematics_;         // once something held moves
     std::optional<SumLoads> sum_loads_;                       // where it has loads
     std::optional<FindVolumeStresses> find_volume_stresses_;  // where an explicit scheme needs them
     std::optional<AdvanceNodes> fused_;

@@ -13,6 +13,7 @@
 
 #include "gelatin/error.h"
 #include "mesh/topology.h"
+#include "model/body_handles.h"
 #include "model/box_tree.h"
 #include "model/check_regions.h"
 #include "model/draw_surface.h"
@@ -116,11 +117,10 @@ void append_nodes(Model& model, const Body& body, const Arranged& arranged) {
     const bool has_parts = !body.tet_materials.empty();
     for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
         const float mass = checked_float(masses[n], body.name, "a node's mass [kg]");
-        const bool pinned = any_holds(body.pins, mesh.positions[n]);
         const glm::dvec3 velocity = body.velocity + glm::cross(body.spin, mesh.positions[n] - center);
-        model.positions.emplace_back(glm::vec3(mesh.positions[n]), pinned ? 0.0f : 1.0f / mass);
+        model.positions.emplace_back(glm::vec3(mesh.positions[n]), 1.0f / mass);
         model.velocities.emplace_back(
-            pinned ? glm::vec3(0.0f) : glm::vec3(velocity),
+            glm::vec3(velocity),
             static_cast<float>(has_parts ? damping[n] / masses[n] : body.material.damping));
         model.masses.push_back(mass);
     }
@@ -237,7 +237,7 @@ void append_body(Model& model, const Body& body) {
     const std::uint32_t first = object.nodes.first;
     append_nodes(model, body, order);
     object.handle_nodes.first = size(model.handle_nodes);
-    for (const HandleDescription& handle : body.handles) append_handle(handle, mesh.positions, first, model);
+    append_handles(body, mesh.positions, first, model);
     object.handle_nodes.count = size(model.handle_nodes) - object.handle_nodes.first;
     append_loads(body.loads, mesh, std::span(model.masses).subspan(first), first, model.loads);
     if (has_springs(body)) append_springs(model, springs_of(body, order, fitted.get()), body.name, first);

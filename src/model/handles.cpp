@@ -5,7 +5,6 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "model/model.h"
-#include "model/region.h"
 #include "model/transform.h"
 
 namespace gelatin {
@@ -27,44 +26,40 @@ Keyframe interpolated(const Handle& handle, double time) {
 
 }  // namespace
 
-void append_handle(const HandleDescription& description, const std::vector<glm::dvec3>& positions,
-                   std::uint32_t first_node, Model& model) {
-    const std::vector<std::uint32_t> nodes = find_inside(description.region, positions);
-    glm::dvec3 center(0.0);
-    for (const std::uint32_t n : nodes) center += positions[n] / static_cast<double>(nodes.size());
-
-    Handle handle{description.pivot.value_or(center), description.interpolation, description.keyframes};
-    if (description.release) handle.release = *description.release;
-    const auto index = static_cast<std::uint32_t>(model.handles.size());
-    for (const std::uint32_t n : nodes) {
-        const std::uint32_t node = first_node + n;
-        glm::vec4& position = model.positions[node];
-        model.handle_nodes.push_back(
-            {glm::vec4(glm::vec3(positions[n] - handle.pivot), position.w), node, index, 0, 0});
-        position.w = 0.0f;
-        model.velocities[node] = glm::vec4(0.0f, 0.0f, 0.0f, model.velocities[node].w);
-    }
-    model.handles.push_back(std::move(handle));
-}
-
 HandlePose pose_at(const Handle& handle, double time) {
     const Keyframe key = interpolated(handle, time);
     return {handle.pivot + key.move, key.scale * glm::mat3_cast(rotation_from_degrees(key.turn))};
 }
 
+HandlePose pose_at(const Handle& handle, double time, const Drag& drag) {
+    const HandlePose pose = pose_at(handle, time);
+    return {pose.center + drag.move, glm::mat3_cast(drag.turn) * pose.map};
+}
+
+bool is_held(const Handle& handle, double time, double step) {
+    return time + 0.5 * step < handle.release;
+}
+
 std::vector<HandleMotion> handle_motions(const std::vector<Handle>& handles, double time, double step) {
+    const std::vector<Drag> none(handles.size());
+    return handle_motions(handles, none, none, time, step);
+}
+
+std::vector<HandleMotion> handle_motions(const std::vector<Handle>& handles, std::span<const Drag> before,
+                                         std::span<const Drag> after, double time, double step) {
     std::vector<HandleMotion> motions;
-    for (const Handle& handle : handles) {
-        const bool is_held = time + 0.5 * step < handle.release;
-        const HandlePose start = pose_at(handle, time), end = pose_at(handle, time + step);
+    for (std::size_t h = 0; h < handles.size(); ++h) {
+        const Handle& handle = handles[h];
+        const HandlePose start = pose_at(handle, time, before[h]);
+        const HandlePose end = pose_at(handle, time + step, after[h]);
         const auto column = [](const glm::dvec3& v) { return glm::vec4(glm::vec3(v), 0.0f); };
         const auto rate = [&](const glm::dvec3& from, const glm::dvec3& to) {
             return column((to - from) / step);
         };
-        motions.push_back({glm::vec4(glm::vec3(start.center), is_held ? 1.0f : 0.0f), column(start.map[0]),
-                           column(start.map[1]), column(start.map[2]), rate(start.center, end.center),
-                           rate(start.map[0], end.map[0]), rate(start.map[1], end.map[1]),
-                           rate(start.map[2], end.map[2])});
+        motions.push_back({glm::vec4(glm::vec3(start.center), is_held(handle, time, step) ? 1.0f : 0.0f),
+                           column(start.map[0]), column(start.map[1]), column(start.map[2]),
+                           rate(start.center, end.center), rate(start.map[0], end.map[0]),
+                           rate(start.map[1], end.map[1]), rate(start.map[2], end.map[2])});
     }
     return motions;
 }

@@ -118,8 +118,8 @@ struct Model {
     RestShapes rest_shapes;  ///< empty where objects do not collide with themselves
     DrawSurface surface;
 
-    std::vector<Handle> handles;
-    std::vector<HandleNode> handle_nodes;  ///< object by object
+    std::vector<Handle> handles;           ///< and pins, object by object: an object's handles, then its pins
+    std::vector<HandleNode> handle_nodes;  ///< in the same order
     Loads loads;
 
     std::vector<Collider> colliders;  ///< in the order of their kinds

@@ -36,6 +36,14 @@ std::vector<Keyframe> read_keyframes(const std::vector<TableReader>& tables) {
     return keyframes;
 }
 
+DragDescription read_drag(TableReader reader) {
+    DragDescription drag;
+    reader.read("move", drag.move);
+    reader.read("turn", drag.turn);
+    reader.finish();
+    return drag;
+}
+
 Region require_region(TableReader& reader) {
     reader.require({"region"});
     return read_region(*reader.table("region"));
@@ -52,6 +60,7 @@ HandleDescription read_handle(TableReader reader) {
                 {{"linear", Interpolation::linear}, {"smooth", Interpolation::smooth}});
     reader.read("release", handle.release, kPositive);
     handle.keyframes = read_keyframes(reader.tables("keyframes"));
+    if (auto drag = reader.table("drag")) handle.drag = read_drag(std::move(*drag));
     reader.finish();
     return handle;
 }

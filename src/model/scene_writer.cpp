@@ -139,6 +139,10 @@ Table table_of(const HandleDescription& handle) {
     if (handle.interpolation == Interpolation::smooth) table.add("interpolation", "smooth");
     table.add("release", handle.release);
     if (!handle.keyframes.empty()) table.add_text("keyframes", list_of_tables(handle.keyframes));
+    const DragDescription usual;
+    Table drag;
+    drag.add_unless(usual.move, "move", handle.drag.move).add_unless(usual.turn, "turn", handle.drag.turn);
+    if (!drag.is_empty()) table.add_text("drag", drag.in_line());
     return table;
 }
 

@@ -67,7 +67,8 @@ class Solver {
 public:
     virtual ~Solver() = default;
 
-    /// For scenes with handles, before the step whose motions these are: moves what they hold.
+    /// For scenes with pins or handles that move, before the step whose motions these are: moves what they
+    /// hold. The first one may cost what making the solver has.
     virtual void apply_kinematics(std::span<const HandleMotion> motions) = 0;
 
     /// For scenes with loads: how much of the next steps each of them acts, 1 until somebody says otherwise.

@@ -1,6 +1,9 @@
 #include "sim/carry_over.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
 
 namespace gelatin {
 namespace {
@@ -21,22 +24,73 @@ void copy_vectors(const std::vector<glm::vec4>& from, const Range& range, std::v
         to[first + n] = glm::vec4(glm::vec3(from[range.first + n]), to[first + n].w);
 }
 
+const ModelObject* find_same(const Model& from, const Model& to, const ModelObject& object) {
+    const auto same = std::find_if(from.objects.begin(), from.objects.end(), [&](const ModelObject& other) {
+        return other.name == object.name && have_the_same_tets(from, other, to, object);
+    });
+    return same == from.objects.end() ? nullptr : &*same;
+}
+
+// Those of a handle, in ascending order, as their object counts them.
+std::vector<std::uint32_t> nodes_of(const Model& model, std::size_t handle) {
+    const ModelObject& object = model.objects[model.handles[handle].object];
+    std::vector<std::uint32_t> nodes;
+    for (std::uint32_t h = object.handle_nodes.first; h < object.handle_nodes.end(); ++h) {
+        const HandleNode& held = model.handle_nodes[h];
+        if (held.handle == handle) nodes.push_back(held.node - object.nodes.first);
+    }
+    return nodes;
+}
+
+std::optional<std::size_t> find_handle(const Model& model, const ModelObject& object,
+                                       const std::vector<std::uint32_t>& nodes) {
+    for (std::size_t h = 0; h < model.handles.size(); ++h) {
+        if (&model.objects[model.handles[h].object] == &object && nodes_of(model, h) == nodes) return h;
+    }
+    return {};
+}
+
+Drag drag_to(const State& state, const Model& model, std::size_t handle, double time) {
+    std::vector<glm::dvec3> arms, places;
+    for (const HandleNode& held : model.handle_nodes) {
+        if (held.handle != handle) continue;
+        arms.emplace_back(held.arm);
+        places.emplace_back(state.positions[held.node]);
+    }
+    return nearest_drag(pose_at(model.handles[handle], time), arms, places);
+}
+
 }  // namespace
 
 State carried_over(const Model& from, const State& state, const Model& to, State start) {
     const bool has_earlier = !state.earlier_velocities.empty();
     if (has_earlier) start.earlier_velocities = start.velocities;
     for (const ModelObject& object : to.objects) {
-        const auto same =
-            std::find_if(from.objects.begin(), from.objects.end(), [&](const ModelObject& other) {
-                return other.name == object.name && have_the_same_tets(from, other, to, object);
-            });
-        if (same == from.objects.end()) continue;
+        const ModelObject* same = find_same(from, to, object);
+        if (same == nullptr) continue;
         copy_vectors(state.positions, same->nodes, start.positions, object.nodes.first);
         copy_vectors(state.velocities, same->nodes, start.velocities, object.nodes.first);
         if (has_earlier)
             copy_vectors(state.earlier_velocities, same->nodes, start.earlier_velocities, object.nodes.first);
     }
+    for (const HandleNode& held : to.handle_nodes) {
+        if (std::isinf(to.handles[held.handle].release))
+            start.velocities[held.node] = to.velocities[held.node];
+    }
+    return start;
+}
+
+Drags carried_over(const Model& from, const Drags& drags, const Model& to, const State& state, double time,
+                   Drags start) {
+    std::vector<Drag> carried = start.drags(), targets = start.targets();
+    for (std::size_t h = 0; h < to.handles.size(); ++h) {
+        const ModelObject* same = find_same(from, to, to.objects[to.handles[h].object]);
+        if (same == nullptr || to.handles[h].count == 0) continue;
+        const std::optional<std::size_t> earlier = find_handle(from, *same, nodes_of(to, h));
+        carried[h] = earlier ? drags.drags()[*earlier] : drag_to(state, to, h, time);
+        targets[h] = earlier ? drags.targets()[*earlier] : carried[h];
+    }
+    start.go_on_with(std::move(carried), std::move(targets));
     return start;
 }
 

@@ -2,6 +2,7 @@
 
 #include <xxhash.h>
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 
@@ -11,7 +12,7 @@
 namespace gelatin {
 namespace {
 
-// The file is this header, then the arrays of the state, one behind the other.
+// The file is this header, then the arrays of the state and those of the drags, one behind the other.
 struct Header {
     char magic[8];
     std::uint32_t version;
@@ -19,13 +20,14 @@ struct Header {
     double time;
     std::uint64_t nodes;
     std::uint64_t arrays;    // 2, or 3 with earlier velocities
+    std::uint64_t handles;   // in the arrays of drags; 0 where nothing is dragged
     std::uint64_t topology;  // hash of what the nodes mean
     std::uint64_t checksum;  // hash of the arrays
 };
-static_assert(sizeof(Header) == 56);
+static_assert(sizeof(Header) == 64 && sizeof(Drag) == 56);
 
 constexpr char kMagic[8] = {'G', 'E', 'L', 'A', 'C', 'K', 'P', 'T'};
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 template <class T>
 std::uint64_t hash(const std::vector<T>& values, std::uint64_t seed) {
@@ -34,6 +36,24 @@ std::uint64_t hash(const std::vector<T>& values, std::uint64_t seed) {
 
 std::uint64_t topology_hash(const Model& model) {
     return hash(model.tets, hash(model.faces, model.positions.size()));
+}
+
+bool is_any_dragged(const Checkpoint& checkpoint) {
+    const auto is_away = [](const Drag& drag) { return drag != Drag(); };
+    return std::any_of(checkpoint.drags.begin(), checkpoint.drags.end(), is_away) ||
+           std::any_of(checkpoint.drag_targets.begin(), checkpoint.drag_targets.end(), is_away);
+}
+
+template <class T>
+void append(const std::vector<T>& array, std::string& bytes) {
+    bytes.append(reinterpret_cast<const char*>(array.data()), array.size() * sizeof(T));
+}
+
+template <class T>
+void take(const char*& next, std::size_t count, std::vector<T>& array) {
+    array.resize(count);
+    std::memcpy(array.data(), next, count * sizeof(T));
+    next += count * sizeof(T);
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const char* problem) {
@@ -49,8 +69,13 @@ void write_checkpoint(const std::filesystem::path& file, const Model& model, con
     for (const std::vector<glm::vec4>* array :
          {&state.positions, &state.velocities, &state.earlier_velocities}) {
         if (array->empty()) continue;
-        arrays.append(reinterpret_cast<const char*>(array->data()), array->size() * sizeof(glm::vec4));
+        append(*array, arrays);
         ++count;
+    }
+    const bool has_drags = is_any_dragged(checkpoint);
+    if (has_drags) {
+        append(checkpoint.drags, arrays);
+        append(checkpoint.drag_targets, arrays);
     }
     Header header{};
     std::memcpy(header.magic, kMagic, sizeof(kMagic));
@@ -59,6 +84,7 @@ void write_checkpoint(const std::filesystem::path& file, const Model& model, con
     header.time = checkpoint.time;
     header.nodes = state.positions.size();
     header.arrays = count;
+    header.handles = has_drags ? checkpoint.drags.size() : 0;
     header.topology = topology_hash(model);
     header.checksum = XXH3_64bits(arrays.data(), arrays.size());
 
@@ -77,23 +103,26 @@ Checkpoint read_checkpoint(const std::filesystem::path& file, const Model& model
     if (header.nodes != model.positions.size() || header.topology != topology_hash(model)) {
         refuse(file, "was made from a scene with other objects or meshes");
     }
-    const std::size_t bytes = model.positions.size() * sizeof(glm::vec4);
-    if (header.arrays < 2 || header.arrays > 3 || content.size() != sizeof(Header) + header.arrays * bytes)
+    if (header.handles != 0 && header.handles != model.handles.size())
+        refuse(file, "was made from a scene with other pins or handles");
+    const std::size_t bytes =
+        header.arrays * model.positions.size() * sizeof(glm::vec4) + 2 * header.handles * sizeof(Drag);
+    if (header.arrays < 2 || header.arrays > 3 || content.size() != sizeof(Header) + bytes)
         refuse(file, "is damaged: it has the wrong size");
     const char* next = content.data() + sizeof(Header);
-    if (XXH3_64bits(next, header.arrays * bytes) != header.checksum)
-        refuse(file, "is damaged: its checksum does not match");
+    if (XXH3_64bits(next, bytes) != header.checksum) refuse(file, "is damaged: its checksum does not match");
 
     Checkpoint checkpoint;
     checkpoint.frame = header.frame;
     checkpoint.time = header.time;
     State& state = checkpoint.state;
-    for (std::vector<glm::vec4>* array : {&state.positions, &state.velocities, &state.earlier_velocities}) {
-        if (header.arrays == 2 && array == &state.earlier_velocities) break;
-        array->resize(model.positions.size());
-        std::memcpy(array->data(), next, bytes);
-        next += bytes;
-    }
+    take(next, model.positions.size(), state.positions);
+    take(next, model.positions.size(), state.velocities);
+    if (header.arrays == 3) take(next, model.positions.size(), state.earlier_velocities);
+    take(next, header.handles, checkpoint.drags);
+    take(next, header.handles, checkpoint.drag_targets);
+    checkpoint.drags.resize(model.handles.size());
+    checkpoint.drag_targets.resize(model.handles.size());
     return checkpoint;
 }
 

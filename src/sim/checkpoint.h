@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
+#include "gelatin/drag.h"
 #include "model/model.h"
 #include "model/solver.h"
 
@@ -12,6 +14,7 @@ struct Checkpoint {
     int frame = 0;
     double time = 0.0;  ///< [s]
     State state;
+    std::vector<Drag> drags = {}, drag_targets = {};  ///< shape [handles], or none
 };
 
 /// Writes the exact bits, with the model's topology and a checksum; whole or not at all. @throws SystemError

@@ -10,6 +10,7 @@
 #include "gelatin/error.h"
 #include "gpu/gpu_solver.h"
 #include "model/build_model.h"
+#include "model/drags.h"
 #include "model/model_check.h"
 #include "model/stability.h"
 #include "model/start_state.h"
@@ -38,6 +39,8 @@ struct Simulator::Impl {
     Moment start{0, 0.0, 0};  // of this run: where a checkpoint was loaded
     std::uint64_t steps = 0;  // since then
     std::optional<Watch> watch;
+    std::optional<Drags> drags;
+    bool is_pulled = false;
     std::deque<Moment> measured;
     std::uint32_t reported_losses = 0;
     bool lost_proximities = false;  // and told so
@@ -91,6 +94,14 @@ struct Simulator::Impl {
         watch->begin(state, now());
     }
 
+    // A user's work is not accounted for.
+    void move_held_nodes() {
+        if (is_pulled || drags->is_under_way()) watch->note_hand(time() + step_size());
+        if (!drags->may_move()) return;
+        const std::vector<HandleMotion> motions = drags->advance(time(), step_size());
+        run_stage("apply_kinematics", [&] { solver->apply_kinematics(motions); });
+    }
+
     void warn_of_lost_pairs() {
         const std::uint32_t lost = solver->lost_pairs();
         if (lost == reported_losses) return;
@@ -136,6 +147,7 @@ Simulator::Simulator(const Scene& scene, std::shared_ptr<const Model> model, con
     const std::optional<State> start = deformed_start(scene, *d.model);
     if (start) d.solver->write_state(*start);
     d.watch.emplace(d.scene, d.model, d.substeps);
+    d.drags.emplace(d.model);
     if (start) d.watch->begin(*start, {});
     for (const std::string& line : check_model(*d.model, scene, d.step_size())) spdlog::warn(line);
     for (const std::string& line :
@@ -149,10 +161,7 @@ Simulator::~Simulator() = default;
 
 void Simulator::step() {
     Impl& d = *impl_;
-    if (!d.model->handles.empty()) {
-        const auto motions = handle_motions(d.model->handles, d.time(), d.step_size());
-        d.run_stage("apply_kinematics", [&] { d.solver->apply_kinematics(motions); });
-    }
+    d.move_held_nodes();
     if (!d.model->loads.empty())
         d.solver->set_load_factors(load_factors(d.model->loads, d.time(), d.step_size()));
     d.run_stage("advance_nodes", [&] { d.solver->advance_nodes(d.step_size()); });
@@ -176,23 +185,45 @@ void Simulator::step() {
 }
 
 void Simulator::reset() {
+    impl_->drags->restart();
     impl_->take_state(impl_->start_state(), {});
 }
 
 void Simulator::go_on_from(const Simulator& other) {
+    Impl& d = *impl_;
     const int frame = static_cast<int>(other.time() * scene().simulation.frame_rate + 1e-6);
-    impl_->take_state(
-        carried_over(other.model(), other.impl_->solver->read_state(), model(), impl_->start_state()),
-        {frame, other.time(), static_cast<std::uint64_t>(frame) * static_cast<std::uint64_t>(substeps())});
+    const State state =
+        carried_over(other.model(), other.impl_->solver->read_state(), model(), d.start_state());
+    d.drags = carried_over(other.model(), *other.impl_->drags, model(), state, other.time(), Drags(d.model));
+    d.take_state(state, {frame, other.time(),
+                         static_cast<std::uint64_t>(frame) * static_cast<std::uint64_t>(substeps())});
 }
 
 void Simulator::set_pull(const std::optional<Pull>& pull) {
-    impl_->watch->note_pull(pull.has_value(), time());
+    impl_->is_pulled = pull.has_value();
     impl_->solver->set_pull(pull);
 }
 
 void Simulator::move_pull(const glm::dvec3& target) {
     impl_->solver->move_pull(target);
+}
+
+std::vector<HeldNodes> Simulator::held_nodes() const {
+    const Impl& d = *impl_;
+    std::vector<HeldNodes> all;
+    for (std::size_t h = 0; h < d.model->handles.size(); ++h) {
+        const Handle& handle = d.model->handles[h];
+        const Drag& drag = d.drags->drags()[h];
+        const HandlePose pose = pose_at(handle, time(), drag);
+        const bool is_released = !is_held(handle, time(), step_size());
+        all.push_back({handle.object, handle.is_pin, handle.index, handle.count, is_released,
+                       pose.place(handle.middle), pose.center, drag, d.drags->targets()[h]});
+    }
+    return all;
+}
+
+void Simulator::drag(std::size_t held, const Drag& target) {
+    impl_->drags->set_target(held, target);
 }
 
 void Simulator::check() const {
@@ -310,11 +341,14 @@ RenderView Simulator::render_view(const Overlays& overlays) {
 
 void Simulator::save_checkpoint(const std::filesystem::path& file) const {
     check();
-    write_checkpoint(file, model(), {frame(), time(), impl_->solver->read_state()});
+    const Drags& drags = *impl_->drags;
+    write_checkpoint(file, model(),
+                     {frame(), time(), impl_->solver->read_state(), drags.drags(), drags.targets()});
 }
 
 void Simulator::load_checkpoint(const std::filesystem::path& file) {
     const Checkpoint checkpoint = read_checkpoint(file, model());
+    impl_->drags->go_on_with(checkpoint.drags, checkpoint.drag_targets);
     impl_->take_state(checkpoint.state, {checkpoint.frame, checkpoint.time,
                                          static_cast<std::uint64_t>(checkpoint.frame) *
                                              static_cast<std::uint64_t>(substeps())});

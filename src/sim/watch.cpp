@@ -44,7 +44,7 @@ Watch::Watch(const Scene& scene, std::shared_ptr<const Model> model, int substep
 void Watch::begin(const State& state, const Moment& moment) {
     const auto objects = cpu::measure<float>(*model_, {state.positions, state.velocities});
     budget_.restart(add_up(objects, moment.time));
-    if (std::isfinite(pulled_until_)) pulled_until_ = -HUGE_VAL;  // time may have gone back
+    handled_until_ = -HUGE_VAL;  // time may have gone back
 }
 
 void Watch::check(const Alarm& alarm, const Moment& until, const Moment& now) const {

@@ -28,10 +28,8 @@ public:
     /// Energy is accounted for from here on.
     void begin(const State& state, const Moment& moment);
 
-    /// A hand holds something from this time on [s], or lets go: its work is not accounted for.
-    void note_pull(bool holds, double time) {
-        pulled_until_ = holds ? std::numeric_limits<double>::infinity() : time;
-    }
+    /// A hand pulls or drags something until this time [s]: its work is not accounted for.
+    void note_hand(double until) { handled_until_ = until; }
 
     /// What Solver::watch_nodes may find with a node at this time [J].
     double most_energy(double time) const { return somebody_acts(time) ? kAnyEnergy : budget_.most_at(time); }
@@ -51,7 +49,7 @@ private:
 
     // Their work since the last account is not known.
     bool somebody_acts(double until) const {
-        return budget_.time() < pulled_until_ ||
+        return budget_.time() < handled_until_ ||
                any_acts(model_->handles, budget_.time(), until, step_size());
     }
     double step_size() const { return scene_.simulation.frame_time() / substeps_; }  // [s]
@@ -59,7 +57,7 @@ private:
     const Scene& scene_;
     std::shared_ptr<const Model> model_;
     int substeps_;
-    double pulled_until_ = -std::numeric_limits<double>::infinity();  // [s]
+    double handled_until_ = -std::numeric_limits<double>::infinity();  // [s]
     EnergyBudget budget_;
 };
 

@@ -20,6 +20,7 @@ pivot = [0, 1, 2]
 interpolation = "smooth"
 release = 3.5
 keyframes = [ { time = 0 }, { time = 2, move = [0, 0.1, 0], turn = [720, 0, 0], scale = 2 } ]
+drag = { move = [0.5, 0, 0], turn = [0, 0, 90] }
 
 [[object.handle]]
 region = { sphere = [1, 0, 0], radius = 0.1 })"));
@@ -35,12 +36,15 @@ region = { sphere = [1, 0, 0], radius = 0.1 })"));
     EXPECT_EQ(handle.keyframes[1].move, glm::dvec3(0.0, 0.1, 0.0));
     EXPECT_EQ(handle.keyframes[1].turn, glm::dvec3(720.0, 0.0, 0.0));
     EXPECT_EQ(handle.keyframes[1].scale, 2.0);
+    EXPECT_EQ(handle.drag.move, glm::dvec3(0.5, 0.0, 0.0));
+    EXPECT_EQ(handle.drag.turn, glm::dvec3(0.0, 0.0, 90.0));
     const HandleDescription& silent = scene.objects[0].handles[1];
     EXPECT_FALSE(silent.pivot);
     EXPECT_FALSE(silent.release);
     EXPECT_EQ(silent.interpolation, Interpolation::linear);
     EXPECT_TRUE(silent.keyframes.empty());
-    EXPECT_EQ(silent.line, 12);
+    EXPECT_EQ(silent.drag.move, glm::dvec3(0.0));
+    EXPECT_EQ(silent.line, 13);
 }
 
 TEST_F(SceneFileDrives, ReadsLoadsAndSpin) {
@@ -94,6 +98,8 @@ TEST_F(SceneFileDrives, RefusesWrongHandles) {
     EXPECT_EQ(handle_error("pivot = [0, 0, 0]"), "scene.toml:5: object.bar.handle[0]: needs \"region\"");
     EXPECT_EQ(handle_error("region = {plane = [1, 0, 0]}\nrelese = 2"),
               "scene.toml:7: object.bar.handle[0].relese = 2: unknown key (did you mean \"release\"?)");
+    EXPECT_EQ(handle_error("region = {plane = [1, 0, 0]}\ndrag = {scale = 2}"),
+              "scene.toml:7: object.bar.handle[0].drag.scale = 2: unknown key; known here are move and turn");
     EXPECT_EQ(handle_error("region = {plane = [1, 0, 0]}\nrelease = 0"),
               "scene.toml:7: object.bar.handle[0].release = 0: must be greater than 0");
     EXPECT_EQ(

@@ -81,6 +81,7 @@ pivot = [0, 2, 0]
 interpolation = "smooth"
 release = 3
 keyframes = [{ time = 0 }, { time = 1.5, move = [0, 0.5, 0], turn = [720, 0, 0], scale = 1.25 }]
+drag = { move = [0, 0, 0.5], turn = [0, 30, 0] }
 
 [[object.load]]
 region = { sphere = [0, 2, 0], radius = 9 }

@@ -46,6 +46,18 @@ TEST_F(CheckpointTest, GivesBackEarlierVelocities) {
     EXPECT_EQ(read_checkpoint(file(), model_).state.earlier_velocities, checkpoint_.state.earlier_velocities);
 }
 
+TEST_F(CheckpointTest, GivesBackDrags) {
+    ASSERT_EQ(model_.handles.size(), 1u);
+    checkpoint_.drags = {{{0.1, 0.2, 0.3}, {0.6, 0.0, 0.8, 0.0}}};
+    checkpoint_.drag_targets = {{{0.0, -1.0, 0.0}}};
+    write_checkpoint(file(), model_, checkpoint_);
+    const Checkpoint read = read_checkpoint(file(), model_);
+    EXPECT_EQ(read.drags, checkpoint_.drags);
+    EXPECT_EQ(read.drag_targets, checkpoint_.drag_targets);
+    model_.handles.clear();
+    EXPECT_THAT(message_of_reading(model_), ::testing::HasSubstr("other pins or handles"));
+}
+
 TEST_F(CheckpointTest, RefusesAnotherScenes) {
     write_checkpoint(file(), model_, checkpoint_);
     EXPECT_THAT(message_of_reading(test::make_model(test::make_body(test::make_block({2, 2, 2}, {1, 1, 1})))),

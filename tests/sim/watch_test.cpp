@@ -283,10 +283,10 @@ TEST_F(WatchTest, AHandExplainsEnergyWhileItHolds) {
         watch.check(objects, {static_cast<int>(100.0 * time), time, 0});
     };
     EXPECT_THROW(check_at(0.1, 1e9), Diverged) << "nobody holds it";
-    watch.note_pull(true, 0.1);
+    watch.note_hand(0.2);
     EXPECT_GT(watch.most_energy(0.2), 1e30);
     EXPECT_NO_THROW(check_at(0.2, 1e9));
-    watch.note_pull(false, 0.3);
+    watch.note_hand(0.3);
     EXPECT_NO_THROW(check_at(0.25, 1e11)) << "of before it let go";
     EXPECT_NO_THROW(check_at(0.35, 1e13)) << "of the time since the last account it held for a part";
     EXPECT_LT(watch.most_energy(0.4), 1e15);

@@ -122,8 +122,10 @@ Model make_bodies_to_descend(double damping_time, double poisson_ratio, Material
             model.positions[n] += 0.06f * glm::vec4(x, y, z, 0.0f);
         }
     }
-    for (const HandleNode& held : model.handle_nodes)
-        model.velocities[held.node] += glm::vec4(0.5f, -1.0f, 0.7f, 0.0f);
+    for (const HandleNode& held : model.handle_nodes) {
+        if (!model.handles[held.handle].is_pin)
+            model.velocities[held.node] += glm::vec4(0.5f, -1.0f, 0.7f, 0.0f);
+    }
     return model;
 }
 

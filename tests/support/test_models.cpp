@@ -95,6 +95,7 @@ Model enlivened(const Body& body, unsigned seed) {
         }
     }
     for (const HandleNode& held : model.handle_nodes) {
+        if (model.handles[held.handle].is_pin) continue;
         for (int k = 0; k < 3; ++k) model.velocities[held.node][k] = normal(random);
     }
     return model;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "gelatin/scene.h"
 #include "gelatin/simulator.h"
@@ -17,11 +18,16 @@ class TwistHeavy : public test::GlTest {};
 // The mean angle about x by which the nodes of the free end have turned, followed from frame to frame.
 class Twist {
 public:
-    explicit Twist(const Simulator& simulator) : model_(simulator.model()) {}
+    explicit Twist(const Simulator& simulator) {
+        const Model& model = simulator.model();
+        for (const HandleNode& held : model.handle_nodes) {
+            if (!model.handles[held.handle].is_pin) held_.push_back(held);
+        }
+    }
 
     double update(const HostFrame& frame) {
         double along = 0.0, across = 0.0;
-        for (const HandleNode& held : model_.handle_nodes) {
+        for (const HandleNode& held : held_) {
             const auto y = static_cast<double>(held.arm.y), z = static_cast<double>(held.arm.z);
             const auto now_y = static_cast<double>(frame.positions[3 * held.node + 1] - center(frame, 1)),
                        now_z = static_cast<double>(frame.positions[3 * held.node + 2] - center(frame, 2));
@@ -36,11 +42,11 @@ public:
 private:
     float center(const HostFrame& frame, std::size_t axis) const {
         float sum = 0.0f;
-        for (const HandleNode& held : model_.handle_nodes) sum += frame.positions[3 * held.node + axis];
-        return sum / static_cast<float>(model_.handle_nodes.size());
+        for (const HandleNode& held : held_) sum += frame.positions[3 * held.node + axis];
+        return sum / static_cast<float>(held_.size());
     }
 
-    const Model& model_;
+    std::vector<HandleNode> held_;
     double angle_ = 0.0;  // [rad]
 };
 

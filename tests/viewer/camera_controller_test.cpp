@@ -100,5 +100,14 @@ TEST(CameraController, RaysGoThroughWhatShowsThere) {
     }
 }
 
+TEST(CameraController, KnowsWherePointsShow) {
+    const CameraController c = controller();
+    const glm::vec3 point(0.7f, 0.2f, 1.0f), eye = c.camera().eye;
+    ASSERT_TRUE(c.place_of(point));
+    EXPECT_LE(glm::distance(*c.place_of(point), place_of(c.camera(), point)), 1e-5f);
+    EXPECT_FALSE(c.place_of(2.0f * eye - point)) << "behind the eye";
+    EXPECT_FALSE(c.place_of(eye));
+}
+
 }  // namespace
 }  // namespace gelatin::viewer

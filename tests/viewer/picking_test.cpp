@@ -86,5 +86,23 @@ TEST(Picking, AHandHoldsTheFaceAtLeast) {
     }
 }
 
+// Wherever the body is now, what is pinned are its nodes.
+TEST(Picking, TheFirmestHalfIsPinned) {
+    const Model model = two_blocks();
+    std::vector<float> positions = positions_of(model);
+    for (std::size_t k = 1; k < positions.size(); k += 3) positions[k] += 7.0f;
+    const auto found = pick({{0.3f, 7.4f, 5.0f}, {0.0f, 0.0f, -1.0f}}, positions, model.faces);
+    ASSERT_TRUE(found);
+    const Pull pull = take_hold(model, positions, *found);
+    const SphereRegion region = region_of(pull, model);
+    std::size_t count = 0;
+    for (const Pull::Node& held : pull.nodes)
+        count +=
+            glm::distance(glm::dvec3(model.positions[held.node]), region.center) <= region.radius ? 1 : 0;
+    EXPECT_GT(count, 0u);
+    EXPECT_LT(count, pull.nodes.size());
+    EXPECT_LT(glm::distance(region.center, glm::dvec3(found->point) - glm::dvec3(0.0, 7.0, 0.0)), 0.5);
+}
+
 }  // namespace
 }  // namespace gelatin::viewer

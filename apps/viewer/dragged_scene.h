@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "gelatin/drag.h"
+#include "gelatin/scene.h"
+
+namespace gelatin::viewer {
+
+/// The scene with what is held dragged there from the start on; a pin that was dragged becomes a handle.
+/// @param held the simulation's of this scene
+Scene dragged_scene(Scene scene, const std::vector<HeldNodes>& held);
+
+/// Without one of its pins or handles.
+Scene released_scene(Scene scene, const HeldNodes& held);
+
+}  // namespace gelatin::viewer

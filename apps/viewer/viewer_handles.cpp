@@ -1,0 +1,81 @@
+// ViewerApp: pins and handles that are dragged, set and taken away.
+#include <algorithm>
+#include <utility>
+
+#include "dragged_scene.h"
+#include "model/region.h"
+#include "viewer_app.h"
+
+namespace gelatin::viewer {
+namespace {
+
+constexpr float kReach = 12.0f;  // of the pointer [pixels of a usual screen]
+
+// True if something already holds a node that the region would.
+bool is_taken(const Model& model, std::size_t object, const Region& region) {
+    const Range& nodes = model.objects[object].handle_nodes;
+    for (std::uint32_t h = nodes.first; h < nodes.end(); ++h) {
+        const glm::vec4& start = model.positions[model.handle_nodes[h].node];
+        if (holds(region, glm::dvec3(start))) return true;
+    }
+    return false;
+}
+
+std::size_t object_of(const Model& model, std::uint32_t node) {
+    const auto found = std::find_if(model.objects.begin(), model.objects.end(),
+                                    [&](const ModelObject& object) { return node < object.nodes.end(); });
+    return static_cast<std::size_t>(found - model.objects.begin());
+}
+
+}  // namespace
+
+std::vector<Marker> ViewerApp::markers() const {
+    if (!session_ || !panels_.shows_markers) return {};
+    return make_markers(session_->held_nodes(), session_->scene(), camera_);
+}
+
+const Marker* ViewerApp::pointed(const std::vector<Marker>& markers) const {
+    if (handle_drag_) {
+        const auto dragged = std::find_if(markers.begin(), markers.end(), [&](const Marker& marker) {
+            return marker.held == handle_drag_->held();
+        });
+        return dragged == markers.end() ? nullptr : &*dragged;
+    }
+    if (dragging_ || window_.is_over_panel()) return nullptr;
+    return find_marker(markers, pointer_,
+                       kReach * window_.scale() / static_cast<float>(std::max(window_.pixels().y, 1)));
+}
+
+bool ViewerApp::take_handle(bool turns) {
+    const std::vector<Marker> all = markers();
+    const Marker* marker = pointed(all);
+    if (marker == nullptr) return false;
+    const auto kind = turns ? HandleDrag::Kind::turn : HandleDrag::Kind::move;
+    handle_drag_.emplace(marker->held, session_->held_nodes()[marker->held], kind, camera_, pointer_);
+    return true;
+}
+
+// With a body in hand it is pinned there: the hand holds on until the simulation that has the pin takes over.
+// With the pointer at a pin or a handle that is taken away. While a scene is being made none is changed, so
+// that they stay in the same order.
+void ViewerApp::pin() {
+    if (loader_.is_busy()) return tell("the scene is still being made");
+    const std::vector<Marker> all = markers();
+    if (const Marker* marker = pointed(all)) {
+        panels_.edited = released_scene(std::move(panels_.edited), session_->held_nodes()[marker->held]);
+    } else if (hand_depth_) {
+        const SphereRegion region = session_->held_region();
+        const std::size_t object = object_of(session_->model(), session_->held_node());
+        if (is_taken(session_->model(), object, region)) return tell("there is a pin already");
+        HandleDescription handle;
+        handle.region = region;
+        panels_.edited.objects[object].handles.push_back(handle);
+        hand_depth_.reset();
+        dragging_.reset();
+    } else {
+        return tell("drag a body and press P to pin it, or point at a pin to free it");
+    }
+    loader_.rebuild(panels_.edited);
+}
+
+}  // namespace gelatin::viewer
