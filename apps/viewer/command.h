@@ -23,6 +23,7 @@ enum class Command {
     screenshot_of_window,
     toggle_film,
     toggle_help,
+    dismiss,
     quit,
 };
 

@@ -1,5 +1,7 @@
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "panels.h"
 #include "shortcuts.h"
 
@@ -8,10 +10,21 @@ namespace {
 
 constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                                     ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav;
+constexpr ImGuiWindowFlags kMessage =
+    (kPlain & ~(ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar)) |
+    ImGuiWindowFlags_HorizontalScrollbar;
 
-void put_in_the_middle() {
+// Room for what is in the middle: the window's, but for a margin.
+ImVec2 room(float scale) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const float margin = 20.0f * scale;
+    return {std::max(size.x - margin, 1.0f), std::max(size.y - margin, 1.0f)};
+}
+
+void put_in_the_middle(float scale) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5f * size.x, 0.5f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, room(scale));
 }
 
 void row(const char* what, const char* meaning) {
@@ -25,12 +38,11 @@ void row(const char* what, const char* meaning) {
 }  // namespace
 
 void draw_help(float scale, Requests& requests) {
-    put_in_the_middle();
+    put_in_the_middle(scale);
+    ImGui::SetNextWindowBgAlpha(1.0f);  // there may be another panel behind it
     bool is_open = true;
-    ImGui::Begin("Keys and mouse", &is_open, kPlain & ~ImGuiWindowFlags_NoTitleBar);
-    if (ImGui::BeginTable("shortcuts", 2)) {
-        ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 180.0f * scale);
-        ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 240.0f * scale);
+    ImGui::Begin("Keys and mouse", &is_open, kMessage);
+    if (ImGui::BeginTable("shortcuts", 2, ImGuiTableFlags_SizingFixedFit)) {
         for (const Gesture& gesture : gestures()) row(gesture.gesture, gesture.meaning);
         for (const Shortcut& shortcut : shortcuts()) row(shortcut.keys, shortcut.meaning);
         ImGui::EndTable();
@@ -40,16 +52,23 @@ void draw_help(float scale, Requests& requests) {
 }
 
 void draw_start_screen(float scale, const std::vector<std::filesystem::path>& samples, Requests& requests) {
-    put_in_the_middle();
-    ImGui::Begin("start", nullptr, kPlain);
+    constexpr float kButton = 150.0f;
+    put_in_the_middle(scale);
+    ImGui::Begin("start", nullptr, kPlain & ~ImGuiWindowFlags_NoScrollbar);
     ImGui::TextUnformatted("Gelatin");
+    const float across = room(scale).x / (kButton * scale + ImGui::GetStyle().ItemSpacing.x);
+    const auto columns = static_cast<std::size_t>(std::clamp(across, 1.0f, 3.0f));
+    ImGui::PushTextWrapPos(static_cast<float>(columns) * kButton * scale);
     ImGui::TextDisabled("Drop a scene or a mesh onto this window, or begin with:");
+    ImGui::PopTextWrapPos();
     ImGui::Spacing();
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        if (i % 3 != 0) ImGui::SameLine();
+        if (i % columns != 0) ImGui::SameLine();
         const std::string name = samples[i].stem().string();
-        if (ImGui::Button(name.c_str(), {150.0f * scale, 0.0f})) requests.opened = samples[i];
+        if (ImGui::Button(name.c_str(), {kButton * scale, 0.0f})) requests.opened = samples[i];
     }
+    ImGui::Spacing();
+    ImGui::TextDisabled("F1: help");
     ImGui::End();
 }
 
@@ -57,15 +76,18 @@ void draw_notice(float scale, const std::string& text) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5f * size.x, size.y - 16.0f * scale}, ImGuiCond_Always, {0.5f, 1.0f});
     ImGui::Begin("notice", nullptr, kPlain | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::PushTextWrapPos(room(scale).x);
     ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
     ImGui::End();
 }
 
 bool draw_problem(float scale, const std::string& text) {
-    put_in_the_middle();
+    put_in_the_middle(scale);
+    ImGui::SetNextWindowBgAlpha(1.0f);
     bool is_open = true;
-    ImGui::Begin("Something is wrong", &is_open, kPlain & ~ImGuiWindowFlags_NoTitleBar);
-    ImGui::PushTextWrapPos(560.0f * scale);
+    ImGui::Begin("Something is wrong", &is_open, kMessage);
+    ImGui::PushTextWrapPos(std::min(560.0f * scale, room(scale).x));
     ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
     if (ImGui::Button("OK", {80.0f * scale, 0.0f})) is_open = false;

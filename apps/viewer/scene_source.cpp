@@ -1,9 +1,12 @@
 #include "scene_source.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "core/file.h"
+#include "gelatin/error.h"
 #include "mesh/file_ending.h"
 #include "mesh/surface_file.h"
 #include "mesh/tet_file.h"
@@ -20,9 +23,25 @@ std::vector<glm::dvec3> read_positions(const std::filesystem::path& file) {
     return is_tet_file(file) ? read_tets(file, notes).positions : read_surface(file, notes).positions;
 }
 
+// Whatever may be dropped onto a window.
+void check_kind(const std::filesystem::path& file) {
+    constexpr std::array kKinds = {".toml", ".obj", ".stl", ".ply", ".off"};
+    if (is_tet_file(file) || std::find(kKinds.begin(), kKinds.end(), lower_case_ending(file)) != kKinds.end())
+        return;
+    if (!std::filesystem::is_regular_file(file)) read_file(file);  // says what it is instead
+    throw InvalidInput(
+        {file.string(),
+         0,
+         {},
+         {},
+         "is neither a scene (.toml) nor a mesh (.obj, .stl, .ply, .off, .node, .ele, .mesh or "
+         ".msh)"});
+}
+
 }  // namespace
 
 LoadedScene open_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+    check_kind(file);
     return build_scene(lower_case_ending(file) == ".toml" ? load_scene(file, overrides)
                                                           : scene_of_mesh(file));
 }

@@ -40,6 +40,7 @@ std::span<const Shortcut> shortcuts() {
         Shortcut{GLFW_KEY_F9, With::nothing, Command::toggle_film, "F9", "begin a film, end it"},
         Shortcut{GLFW_KEY_S, With::control, Command::save_scene, "Ctrl+S", "save the scene as it now is"},
         Shortcut{GLFW_KEY_F1, With::nothing, Command::toggle_help, "F1", "this list"},
+        Shortcut{GLFW_KEY_ESCAPE, With::nothing, Command::dismiss, "Esc", "close a message or this list"},
         Shortcut{GLFW_KEY_Q, With::control, Command::quit, "Ctrl+Q", "quit"},
     };
     return kShortcuts;

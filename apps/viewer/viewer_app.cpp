@@ -158,9 +158,14 @@ Requests ViewerApp::draw_panels() {
     const std::vector<Marker> marked = markers();
     draw_markers(scale, marked, pointed(marked));
     if (session_ && shows_panels_) draw_session_panel(*session_, panels_, requests);
-    if (!session_ && !loader_.is_busy()) draw_start_screen(scale, samples_, requests);
-    if (shows_help_) draw_help(scale, requests);
-    if (!problem_.empty() && !draw_problem(scale, problem_)) problem_.clear();
+    // One thing in the middle at a time.
+    if (!problem_.empty()) {
+        if (!draw_problem(scale, problem_)) problem_.clear();
+    } else if (shows_help_) {
+        draw_help(scale, requests);
+    } else if (!session_ && !loader_.is_busy()) {
+        draw_start_screen(scale, samples_, requests);
+    }
     if (loader_.is_busy() && loader_.purpose() == SceneLoader::Purpose::show) {
         draw_notice(scale, fmt::format("opening {} ...", loader_.file().filename().string()));
     } else if (window_.now() < notice_until_) {

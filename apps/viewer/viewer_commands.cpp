@@ -37,6 +37,9 @@ std::filesystem::path free_name(const std::string& stem, const char* ending) {
 void ViewerApp::obey(Command command) {
     if (command == Command::toggle_help) {
         shows_help_ = !shows_help_;
+    } else if (command == Command::dismiss) {
+        if (problem_.empty()) shows_help_ = false;
+        problem_.clear();
     } else if (command == Command::toggle_panels) {
         shows_panels_ = !shows_panels_;
     } else if (command == Command::quit) {

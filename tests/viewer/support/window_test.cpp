@@ -7,6 +7,7 @@
 
 #include "gl/debug.h"
 #include "render/frame_grabber.h"
+#include "viewer/support/gl_objects.h"
 
 namespace gelatin::test {
 
@@ -27,23 +28,31 @@ void WindowHeavy::TearDown() {
 void WindowHeavy::close() {
     if (!window_) return;
     app_.reset();
+    EXPECT_EQ(count_gl_objects(), own_objects_);
     EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
     for (const std::string& message : gl::take_debug_messages()) ADD_FAILURE() << message;
     window_.reset();
 }
 
 void WindowHeavy::open(const std::string& text, Backend backend) {
+    write_file(path("scene.toml"), text);
+    open_file(path("scene.toml"), backend);
+}
+
+void WindowHeavy::open_file(const std::filesystem::path& file, Backend backend) {
     viewer::ViewerOptions all;
     all.backend = backend;
-    all.scene = path("scene.toml");
+    all.scene = file;
     all.width = kWidth;
     all.height = kHeight;
     all.gl_debug = true;
-    write_file(all.scene, text);
     window_ = std::make_unique<viewer::Window>(viewer::WindowSettings{kWidth, kHeight, true});
+    window_->begin_frame(0.0);  // Dear ImGui makes what it needs
+    window_->draw_panels();
+    own_objects_ = count_gl_objects();
     app_ = std::make_unique<viewer::ViewerApp>(*window_, all);
     act({"mousemove", std::to_string(kWidth / 2), std::to_string(kHeight / 2)});
-    draw_until([&] { return app_->session() != nullptr || !app_->problem().empty(); });
+    draw_until([&] { return file.empty() || app_->session() != nullptr || !app_->problem().empty(); });
     draw(2);  // a new window may still be about to get its keys
 }
 

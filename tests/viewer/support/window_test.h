@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,7 +16,8 @@
 namespace gelatin::test {
 
 /// Drives the real window by real keys and a real mouse. Skipped without a display for it, unless
-/// GELATIN_REQUIRE_GL=1. A debug message or an error of OpenGL that is left when the test ends fails it.
+/// GELATIN_REQUIRE_GL=1. A debug message or an error of OpenGL that is left when the test ends fails it, and
+/// so does any object of OpenGL that outlives what happened in the window.
 class WindowHeavy : public testing::Test {
 protected:
     static constexpr int kWidth = 640, kHeight = 480;
@@ -25,6 +27,8 @@ protected:
 
     /// Opens a window on a scene; `text` is its file's. The pointer is in the middle.
     void open(const std::string& text, Backend backend = Backend::automatic);
+    /// The same of a scene file or a mesh; empty: on the start screen.
+    void open_file(const std::filesystem::path& file, Backend backend = Backend::automatic);
     /// Closes it, with all that TearDown looks at.
     void close();
     /// Two cubes, the smaller at the right, above a floor.
@@ -50,6 +54,7 @@ protected:
 private:
     TemporaryFolder folder_;
     std::unique_ptr<viewer::Window> window_;
+    std::map<std::string, int> own_objects_;  // the window's own
     std::unique_ptr<viewer::ViewerApp> app_;
 };
 
