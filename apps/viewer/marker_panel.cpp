@@ -13,8 +13,10 @@ ImVec2 on_screen(const glm::vec2& place) {
     return {0.5f * size.x + place.x * size.y, 0.5f * size.y - place.y * size.y};
 }
 
-// A pin is round, a handle stands on a corner.
-void draw_mark(ImDrawList& list, const ImVec2& at, float radius, int corners, ImU32 color) {
+// A pin is round, a handle stands on a corner, as large as it looks.
+void draw_mark(ImDrawList& list, const ImVec2& at, float radius, bool is_pin, ImU32 color) {
+    const int corners = is_pin ? 16 : 4;
+    if (!is_pin) radius *= 1.3f;
     list.AddNgonFilled(at, 1.5f * radius, kDark, corners);
     list.AddNgonFilled(at, radius, color, corners);
 }
@@ -35,7 +37,7 @@ void draw_markers(float scale, const std::vector<Marker>& markers, const Marker*
         const bool is_pointed = &marker == pointed;
         const ImVec2 place = on_screen(marker.place), target = on_screen(marker.target);
         if (marker.target != marker.place) list.AddLine(place, target, kLight, scale);
-        draw_mark(list, target, (is_pointed ? 6.0f : 4.0f) * scale, marker.is_pin ? 16 : 4,
+        draw_mark(list, target, (is_pointed ? 6.0f : 4.0f) * scale, marker.is_pin,
                   is_pointed ? kPointed : kLight);
     }
     if (pointed != nullptr) draw_name(list, on_screen(pointed->target), scale, pointed->name);

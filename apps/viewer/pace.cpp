@@ -17,12 +17,15 @@ void Pace::note_cost(double seconds_a_step) {
     cost_ = cost_ == 0.0 ? seconds_a_step : cost_ + kCostMemory * (seconds_a_step - cost_);
 }
 
+int Pace::most_steps() const {
+    return cost_ > 0.0 ? static_cast<int>(std::clamp(kBudget / cost_, 1.0, 1e6)) : 1;
+}
+
 int Pace::steps_for(double elapsed) {
     due_ += speed_ * std::min(elapsed, kLongest);
     // The sum of many frames' times may end a rounding error short of a step.
     const double wanted = std::floor(due_ / step_size_ + 1e-9);
-    const double most = cost_ > 0.0 ? std::max(1.0, std::floor(kBudget / cost_)) : 1.0;
-    const double steps = std::min(wanted, most);
+    const double steps = std::min(wanted, static_cast<double>(most_steps()));
     due_ = std::clamp(due_ - steps * step_size_, 0.0, step_size_);
 
     const double fading = std::exp(-elapsed / kMemory);

@@ -19,8 +19,12 @@ public:
     void note_cost(double seconds_a_step);
     double cost() const { return cost_; }
 
+    /// How many steps may be made before the next picture, > 0: those that take no longer than it may, but
+    /// one at least.
+    int most_steps() const;
+
     /// How many steps to make now that `elapsed` real seconds have gone by since the last call, >= 0: as many
-    /// as follow them, but not so many that they would take longer than a picture may, except for one.
+    /// as follow them, but no more than most_steps().
     int steps_for(double elapsed);
 
     /// Forgets time that was due: after a pause, nothing is.

@@ -1,5 +1,6 @@
 #include "session.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "gelatin/error.h"
@@ -59,9 +60,10 @@ bool Session::update(double now) {
         is_view_old_ = false;
     }
     const double elapsed = now - std::exchange(last_update_, now);
-    int steps = std::exchange(steps_asked_, 0);
+    if (!problem_.empty()) steps_asked_ = 0;
+    int steps = std::min(steps_asked_, pace_.most_steps());
+    steps_asked_ -= steps;
     if (is_playing_) steps += pace_.steps_for(elapsed);
-    if (!problem_.empty()) steps = 0;
     if (steps > 0) start_batch(steps, now);
     return is_new;
 }

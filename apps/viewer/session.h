@@ -36,7 +36,7 @@ public:
 
     void play(bool is_playing);
     bool is_playing() const { return is_playing_; }
-    /// Makes steps while paused.
+    /// Makes steps while paused; many, in several batches.
     void make_steps(int count) { steps_asked_ += count; }
     void reset();
     void set_speed(double speed) { pace_.set_speed(speed); }
@@ -64,6 +64,9 @@ public:
 
     /// True where a batch is under way: nothing of the simulator may be touched.
     bool is_computing() const { return worker_.is_busy() || !fence_.is_passed(); }
+
+    /// True while there is something to wait for.
+    bool is_busy() const { return is_playing_ || steps_asked_ > 0 || is_computing(); }
 
     /// As of the last batch that is done.
     double time() const { return time_; }

@@ -14,6 +14,7 @@ namespace gelatin::viewer {
 namespace {
 
 constexpr double kNoticeTime = 4.0;  // [s]
+constexpr double kLong = 3.0;        // to wait without a sign of life [s]
 constexpr double kIdle = 0.1;        // between pictures when nothing moves [s]
 
 render::Quality choose_quality(render::Quality quality) {
@@ -38,6 +39,7 @@ void ViewerApp::open(const std::filesystem::path& file) {
     if (file != options_.scene) options_.overrides.clear();  // meant for another
     options_.scene = file;
     problem_.clear();
+    opened_at_ = window_.now();
     loader_.open(file, options_.overrides);
 }
 
@@ -64,9 +66,7 @@ void ViewerApp::draw_frame() {
 
 // Panels take a picture or two to follow what happened.
 double ViewerApp::patience() const {
-    const bool is_busy =
-        loader_.is_busy() || (session_ && (session_->is_playing() || session_->is_computing()));
-    return is_busy ? 0.0 : kIdle;
+    return loader_.is_busy() || (session_ && session_->is_busy()) ? 0.0 : kIdle;
 }
 
 float ViewerApp::aspect() const {
@@ -167,7 +167,9 @@ Requests ViewerApp::draw_panels() {
         draw_start_screen(scale, samples_, requests);
     }
     if (loader_.is_busy() && loader_.purpose() == SceneLoader::Purpose::show) {
-        draw_notice(scale, fmt::format("opening {} ...", loader_.file().filename().string()));
+        const double since = window_.now() - opened_at_;
+        draw_notice(scale, fmt::format("opening {} ...{}", loader_.file().filename().string(),
+                                       since < kLong ? "" : fmt::format(" {:.0f} s", since)));
     } else if (window_.now() < notice_until_) {
         draw_notice(scale, notice_);
     } else if (film_) {

@@ -94,6 +94,7 @@ private:
     std::string problem_, notice_, told_problem_;
     double notice_until_ = 0.0;  // [s]
     double last_frame_ = 0.0;    // [s]
+    double opened_at_ = 0.0;     // what is being opened [s]
 
     std::optional<int> dragging_;  // the button
     glm::vec2 pointer_{0.0f};

@@ -66,6 +66,17 @@ TEST(Pace, AStepThatTakesSecondsIsStillMade) {
     EXPECT_EQ(pace.steps_for(2.0), 1);
 }
 
+// A whole frame that is asked for while paused must not hold up the window either.
+TEST(Pace, ManyStepsAreMadeInParts) {
+    Pace pace(1.0 / 60.0);
+    EXPECT_EQ(pace.most_steps(), 1) << "nothing is known yet";
+    pace.note_cost(0.01);
+    EXPECT_EQ(pace.most_steps(), 3);
+    Pace slow(1.0 / 60.0);
+    slow.note_cost(2.0);
+    EXPECT_EQ(slow.most_steps(), 1);
+}
+
 TEST(Pace, AWindowThatWasHeldUpDoesNotMakeUpForIt) {
     Pace pace(1e-3);
     pace.note_cost(1e-6);
