@@ -223,7 +223,7 @@ struct ObjectDescription {
     glm::dvec3 spin{0.0};      ///< angular velocity about the centre of mass [degrees/s]
     StartDescription start;
     std::vector<Region> pins;                ///< nodes in any of these stay where they are
-    std::vector<HandleDescription> handles;  ///< which share no node with each other or a pin
+    std::vector<HandleDescription> handles;  ///< those that move share no node with each other or a pin
     std::vector<LoadDescription> loads;
     std::optional<glm::dvec3> color;  ///< linear RGB in [0, 1]; empty: the renderer's palette
     int line = 0;                     ///< in the scene file, for later messages

@@ -11,6 +11,11 @@
 namespace gelatin {
 namespace {
 
+// One that is like a pin: which of them holds a node makes no difference until somebody drags one.
+bool rests(const HandleDescription& handle) {
+    return handle.keyframes.empty() && !handle.release;
+}
+
 constexpr const char* kWorld = "(regions are in world coordinates at the start)";
 
 class RegionCheck {
@@ -20,10 +25,10 @@ public:
 
     void check_pins() {
         for (std::uint32_t n = 0; n < holders_.size(); ++n) {
-            if (any_holds(object_.pins, mesh_.positions[n])) holders_[n] = "a pin";
+            if (any_holds(object_.pins, mesh_.positions[n])) holders_[n] = {"a pin", true};
         }
         const bool hold_none = std::all_of(holders_.begin(), holders_.end(),
-                                           [](const std::string& holder) { return holder.empty(); });
+                                           [](const Holder& holder) { return holder.name.empty(); });
         if (!object_.pins.empty() && hold_none)
             fail(object_.line, "pins", fmt::format("hold no node of the object {}", kWorld));
     }
@@ -36,11 +41,12 @@ public:
             if (nodes.empty())
                 fail(handle.line, field + ".region", fmt::format("holds no node of the object {}", kWorld));
             for (const std::uint32_t n : nodes) {
-                if (!holders_[n].empty()) {
+                const Holder& other = holders_[n];
+                if (!other.name.empty() && !(other.rests && rests(handle))) {
                     fail(handle.line, field + ".region",
-                         fmt::format("must not share a node with {}", holders_[n]));
+                         fmt::format("must not share a node with {}", other.name));
                 }
-                holders_[n] = field;
+                holders_[n] = {field, rests(handle)};
             }
         }
     }
@@ -62,10 +68,15 @@ private:
         throw InvalidInput({file_.string(), line, "object." + object_.name + "." + field, {}, problem});
     }
 
+    struct Holder {
+        std::string name;  // empty: nothing
+        bool rests = true;
+    };
+
     const std::filesystem::path& file_;
     const ObjectDescription& object_;
     const TetMesh& mesh_;
-    std::vector<std::string> holders_;  // of each node: what already holds it, or nothing
+    std::vector<Holder> holders_;  // of each node: what already holds it
 };
 
 }  // namespace

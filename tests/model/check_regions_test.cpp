@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "gelatin/error.h"
 #include "support/test_models.h"
 
@@ -78,10 +80,17 @@ TEST(CheckRegions, RefusesRegionsThatHoldNothing) {
 TEST(CheckRegions, RefusesNodesThatAreHeldTwice) {
     ObjectDescription object = make_object();
     object.handles = {handle_on(kLeft, 7), handle_on(kCorner, 9)};
-    EXPECT_EQ(problem_with(object),
-              "scene.toml:9: object.cube.handle[1].region: must not share a node with handle[0]");
+    EXPECT_EQ(problem_with(object), "no error") << "handles that rest are pins";
+    object.handles[0].release = 2.0;
+    const char* with_handle =
+        "scene.toml:9: object.cube.handle[1].region: must not share a node with handle[0]";
+    EXPECT_EQ(problem_with(object), with_handle);
+    std::swap(object.handles[0].release, object.handles[1].release);
+    EXPECT_EQ(problem_with(object), with_handle);
     object.handles.pop_back();
     object.pins = {kCorner};
+    EXPECT_EQ(problem_with(object), "no error");
+    object.handles[0].keyframes = {{0.0}, {1.0, {1.0, 0.0, 0.0}}};
     EXPECT_EQ(problem_with(object),
               "scene.toml:7: object.cube.handle[0].region: must not share a node with a pin");
 }

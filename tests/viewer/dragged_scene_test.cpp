@@ -66,6 +66,18 @@ TEST(DraggedScene, OfWhatNobodyDragsIsTheSame) {
     EXPECT_EQ(scene.objects[0].handles[0].drag.move, glm::dvec3(0.0));
 }
 
+// Pins may share nodes; what becomes of them when one is dragged can be opened again.
+TEST(DraggedScene, OfPinsThatOverlapCanBeBuilt) {
+    Scene overlapping = held_bar();
+    overlapping.objects[0].pins[1] = HalfSpaceRegion{{1.0, 0.0, 0.0}, 0.11};
+    overlapping.objects[0].handles.clear();
+    Simulator simulator(overlapping, on_cpu());
+    simulator.drag(1, {{0.0, 0.0, 0.1}});
+    const Scene scene = dragged_scene(overlapping, simulator.held_nodes());
+    EXPECT_EQ(scene.objects[0].handles.size(), 1u);
+    EXPECT_NO_THROW(Simulator(scene, on_cpu()));
+}
+
 TEST(DraggedScene, LosesWhatIsReleased) {
     const Simulator simulator(held_bar(), on_cpu());
     const std::vector<HeldNodes> held = simulator.held_nodes();

@@ -79,7 +79,7 @@ TEST_F(LooksWindowHeavy, SceneAndHelp) {
     act({"mousemove", "5", "5"});
     press("r");
     draw_until([&] { return session().time() == 0.0; });
-    for (int frame = 0; frame < 20; ++frame) {
+    for (int frame = 0; frame < 6; ++frame) {
         const double before = session().time();
         press("Right");
         draw_until([&] { return session().time() > before && !session().is_computing(); });
