@@ -13,7 +13,8 @@ void add_kernels(CLI::App& bench) {
     auto options = std::make_shared<KernelBenchOptions>();
     CLI::App* kernels =
         bench.add_subcommand("kernels", "Each stage on each backend: ms, bytes, rate, ratios");
-    kernels->add_option("--json", options->json, "Also write the figures to this file")->type_name("FILE.json");
+    kernels->add_option("--json", options->json, "Also write the figures to this file")
+        ->type_name("FILE.json");
     kernels->add_option("--report", options->report, "Also write a report")->type_name("FILE.md");
     kernels->add_option("--runs", options->runs, "Samples of each stage; the median counts")
         ->check(CLI::Range(1, 1000))

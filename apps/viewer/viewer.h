@@ -15,7 +15,7 @@ struct ViewerOptions {
     std::vector<std::string> overrides;  ///< as load_scene's
     Backend backend = Backend::automatic;
     render::Quality quality = render::Quality::automatic;
-    int width = 1280, height = 720;                        ///< of the window
+    int width = 1280, height = 720;  ///< of the window
     bool gl_debug = false;
 };
 
