@@ -20,7 +20,7 @@ struct PanelState {
     const char* quality = "high";  ///< of the picture
     Overlays overlays;
     render::Camera camera;  ///< of the picture
-    Scene edited;  ///< the session's scene as the user wants it by now
+    Scene edited;           ///< the session's scene as the user wants it by now
 };
 
 /// What the user asked for in the panels while one picture was drawn.
