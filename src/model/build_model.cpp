@@ -193,14 +193,17 @@ void append_springs(Model& model, const std::vector<Spring>& springs, const std:
     }
 }
 
+NeoHookeanModuli moduli_of(const Material& material) {
+    return neo_hookean_moduli(material.youngs_modulus, material.poisson_ratio);
+}
+
 void append_neo_hookean_tets(Model& model, const Body& body, const Arranged& arranged,
                              std::uint32_t first_node) {
     const std::vector<glm::dvec3>& positions = arranged.mesh.positions;
     for (std::size_t t = 0; t < arranged.mesh.tets.size(); ++t) {
-        const Material& material = body.material_of(arranged.old_tets[t]);
-        const NeoHookeanModuli moduli = neo_hookean_moduli(material.youngs_modulus, material.poisson_ratio);
+        const NeoHookeanModuli moduli = moduli_of(body.material_of(arranged.old_tets[t]));
         checked_float(moduli.mu, body.name, "a tet's mu [Pa]");
-        checked_float(moduli.lambda, body.name, "a tet's lambda [Pa]");
+        checked_float(moduli.lambda + moduli.kappa, body.name, "a tet's lambda [Pa]");
         const glm::uvec4& tet = arranged.mesh.tets[t];
         model.neo_hookean_tets.push_back(make_neo_hookean_tet(
             tet + first_node, {positions[tet.x], positions[tet.y], positions[tet.z], positions[tet.w]},
@@ -248,13 +251,11 @@ void append_body(Model& model, const Body& body) {
         object.rest_volume += volume;
         object.mass += volume * material.density;
         model.tets.push_back(mesh.tets[t] + first);
-        const float volume_in_float = checked_float(volume, body.name, "a tet's volume [m^3]");
-        if (has_springs(body)) {
-            model.tet_rests.push_back({volume_in_float, static_cast<float>(material.youngs_modulus),
-                                       static_cast<float>(lacking_modulus(material))});
-        } else {
-            model.tet_rests.push_back({volume_in_float, 0.0f, 0.0f});
-        }
+        const double kappa = has_springs(body) ? lacking_modulus(material) : moduli_of(material).kappa;
+        model.tet_rests.push_back({checked_float(volume, body.name, "a tet's volume [m^3]"),
+                                   has_springs(body) ? static_cast<float>(material.youngs_modulus) : 0.0f,
+                                   static_cast<float>(bulk_modulus(material) - kappa),
+                                   static_cast<float>(kappa)});
     }
     object.neo_hookean_tets.first = size(model.neo_hookean_tets);
     if (!has_springs(body)) append_neo_hookean_tets(model, body, order, first);

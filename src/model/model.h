@@ -53,9 +53,10 @@ struct SpringIncidence {
 
 /// What a tet is at rest.
 struct TetRest {
-    float volume;          ///< [m^3], > 0
-    float modulus;         ///< of its resistance to being flat [Pa]: Young's; 0 for neo-Hookean tets
-    float lacking = 0.0f;  ///< what its springs lack against changes of volume (model/volume_term.h) [Pa]
+    float volume;   ///< [m^3], > 0
+    float modulus;  ///< of its resistance to being flat [Pa]: Young's; 0 for neo-Hookean tets
+    float bulk;     ///< bulk modulus of its springs, or of itself [Pa], > 0
+    float kappa;    ///< what the volume term adds to that (model/volume_term.h) [Pa]
 };
 
 /// Faces by node: those of node n are faces[starts[n]] .. faces[starts[n + 1]], ascending; none inside.
@@ -108,7 +109,7 @@ struct Model {
 
     std::vector<glm::uvec4> tets;                 ///< shape [tets]
     std::vector<TetRest> tet_rests;               ///< shape [tets]
-    VolumeTerm volume_term;                       ///< empty where springs are all there is
+    VolumeTerm volume_term;                       ///< empty where springs and tets need none
     std::vector<NeoHookeanTet> neo_hookean_tets;  ///< of the bodies that have no springs
     NodeTets neo_hookean_corners;                 ///< by node; empty where there are none
     std::vector<Face> faces;                      ///< boundary triangles, shape [faces]

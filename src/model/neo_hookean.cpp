@@ -1,5 +1,6 @@
 #include "model/neo_hookean.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 namespace gelatin {
@@ -7,7 +8,8 @@ namespace gelatin {
 NeoHookeanModuli neo_hookean_moduli(double youngs_modulus, double poisson_ratio) {
     const double shear = youngs_modulus / (2.0 * (1.0 + poisson_ratio));
     const double lame = 2.0 * shear * poisson_ratio / (1.0 - 2.0 * poisson_ratio);
-    return {4.0 / 3.0 * shear, lame + 5.0 / 6.0 * shear};
+    const double own = std::min(lame, shear);
+    return {4.0 / 3.0 * shear, own + 5.0 / 6.0 * shear, lame - own};
 }
 
 NeoHookeanTet make_neo_hookean_tet(const glm::uvec4& nodes, const std::array<glm::dvec3, 4>& corners,

@@ -8,16 +8,19 @@
 
 namespace gelatin {
 
-/// The two constants of the stable neo-Hookean energy (cpu/neo_hookean.h).
+/// The two constants of a tet's own energy (cpu/neo_hookean.h), and that of the volume term, which is
+/// averaged over nodes (model/volume_term.h): each tet by itself would lock.
 struct NeoHookeanModuli {
     double mu;      ///< [Pa], > 0
     double lambda;  ///< [Pa], > 0
+    double kappa;   ///< [Pa], >= 0
 };
 
 /// Those with which small strains are answered as by Hooke's law. With Lamé's
 ///   mu_L = E / (2 (1 + nu)),   lambda_L = E nu / ((1 + nu) (1 - 2 nu)),
-/// they are 4/3 mu_L and lambda_L + 5/6 mu_L (Smith, de Goes, Kim: "Stable Neo-Hookean Flesh Simulation", ACM
-/// Transactions on Graphics 37(2), 2018, 3.4).
+/// tets keep as much of lambda_L as mu_L is, which is all of it up to nu = 1/4, and kappa is the rest. Of
+/// what they keep, mu and lambda are 4/3 mu_L and lambda_L + 5/6 mu_L (Smith, de Goes, Kim: "Stable
+/// Neo-Hookean Flesh Simulation", ACM Transactions on Graphics 37(2), 2018, 3.4).
 /// @param youngs_modulus [Pa], > 0 @param poisson_ratio in [0, 0.5)
 NeoHookeanModuli neo_hookean_moduli(double youngs_modulus, double poisson_ratio);
 

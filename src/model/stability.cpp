@@ -152,15 +152,16 @@ void add_volume_term(const Model& model, const ModelObject& object, Deformation 
     }
 }
 
-// Of a mode's stiffness what springs, which are damped, have at least: 5/3 mu of the bulk modulus, where mu
-// is more than E / 3, and kappa the rest.
+// What is damped of a mode's stiffness at least: all but the volume term, which is at most what it would be
+// in every tet by itself.
 double least_damped_share(const Model& model, const ModelObject& object) {
+    if (model.volume_term.is_empty()) return 1.0;
     double least = 1.0;
     for (std::uint32_t t = object.tets.first; t < object.tets.end(); ++t) {
         const TetRest& rest = model.tet_rests[t];
-        const double springs = 5.0 / 9.0 * static_cast<double>(rest.modulus);
-        if (rest.lacking > 0.0f)
-            least = std::min(least, springs / (springs + static_cast<double>(rest.lacking)));
+        const auto damped = static_cast<double>(rest.bulk);
+        if (rest.kappa >= 0.0f)
+            least = std::min(least, damped / (damped + static_cast<double>(model.volume_term.tets[t])));
     }
     return least;
 }

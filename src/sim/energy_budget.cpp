@@ -15,7 +15,7 @@ constexpr double kSlack = 10.0;
 double energy_out_of_shape(const Model& model) {
     double sum = 0.0;
     for (const TetRest& tet : model.tet_rests)
-        sum += 0.5 * static_cast<double>(std::abs(tet.lacking)) * static_cast<double>(tet.volume);
+        sum += 0.5 * static_cast<double>(std::abs(tet.kappa)) * static_cast<double>(tet.volume);
     for (const NeoHookeanTet& tet : model.neo_hookean_tets) {
         sum += static_cast<double>(tet.gradient_1.w) *
                cpu::neo_hookean_energy(cpu::Mat3<double>(2.0), static_cast<double>(tet.gradient_2.w),

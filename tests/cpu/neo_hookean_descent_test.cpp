@@ -6,8 +6,9 @@
 #include <random>
 
 #include "cpu/block_descent.h"
-#include "cpu/neo_hookean.h"
+#include "cpu/measure.h"
 #include "mesh/topology.h"
+#include "support/implicit_euler.h"
 #include "support/test_models.h"
 
 namespace gelatin {
@@ -68,26 +69,12 @@ double worst_strain(const Model& rest, const cpu::Nodes<Real>& nodes) {
 
 // The gradient of a step's objective where it ended [N]: zero is implicit Euler.
 double gradient_norm(const Model& model, const cpu::Nodes<double>& nodes) {
-    std::vector<glm::dvec3> gradient(model.node_count());
-    for (std::uint32_t n = 0; n < model.node_count(); ++n) {
-        if (model.positions[n].w == 0.0f) continue;
-        const glm::dvec3 target =
-            glm::dvec3(model.positions[n]) +
-            kFrame * (glm::dvec3(model.velocities[n]) + kFrame * glm::dvec3(model.gravity));
-        gradient[n] = (glm::dvec3(nodes.positions[n]) - target) /
-                      (static_cast<double>(model.positions[n].w) * kFrame * kFrame);
+    Eigen::VectorXd x(3 * static_cast<Eigen::Index>(nodes.positions.size()));
+    Eigen::Index row = 0;
+    for (const glm::dvec4& p : nodes.positions) {
+        for (int axis = 0; axis < 3; ++axis) x[row++] = p[axis];
     }
-    for (const NeoHookeanTet& tet : model.neo_hookean_tets) {
-        const std::uint32_t corners[] = {tet.node_0, tet.node_1, tet.node_2, tet.node_3};
-        for (std::uint32_t k = 0; k < 4; ++k) {
-            if (model.positions[corners[k]].w == 0.0f) continue;
-            gradient[corners[k]] -=
-                cpu::neo_hookean_force(tet, k, nodes.positions.data(), nodes.velocities.data());
-        }
-    }
-    double sum = 0.0;
-    for (const glm::dvec3& g : gradient) sum += glm::dot(g, g);
-    return std::sqrt(sum);
+    return test::ImplicitEuler(model, kFrame).gradient(x).norm();
 }
 
 TEST(NeoHookeanDescent, FreeFallIsExact) {
@@ -174,18 +161,8 @@ TEST(NeoHookeanDescent, AFreeBodyKeepsItsMomentum) {
 }
 
 double energy_of(const Model& model, const cpu::Nodes<double>& nodes) {
-    double sum = 0.0;
-    for (const NeoHookeanTet& tet : model.neo_hookean_tets) {
-        const cpu::Mat3<double> f = cpu::gradient_of(tet, cpu::at_corners(tet, nodes.positions.data()));
-        sum += static_cast<double>(tet.gradient_1.w) *
-               cpu::neo_hookean_energy(f, static_cast<double>(tet.gradient_2.w),
-                                       static_cast<double>(tet.gradient_3.w));
-    }
-    for (std::uint32_t n = 0; n < model.node_count(); ++n) {
-        const glm::dvec3 v(nodes.velocities[n]);
-        sum += 0.5 * static_cast<double>(model.masses[n]) * glm::dot(v, v);
-    }
-    return sum;
+    const ObjectMeasure sums = cpu::measure(model, nodes)[0];
+    return sums.kinetic_energy + sums.elastic_energy;
 }
 
 // A spin is damped by the step alone, not by the material; a shake is.

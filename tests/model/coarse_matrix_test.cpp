@@ -65,7 +65,8 @@ Eigen::Matrix3d strain_of(const Model& model, const glm::uvec4& tet, const std::
     return 0.5 * (gradient + gradient.transpose());
 }
 
-// Springs lack lambda - mu of Hooke's law, here of every tet by itself; neo-Hookean tets have all of it.
+// Springs lack lambda - mu of Hooke's law, here of every tet by itself; neo-Hookean tets and what they leave
+// to the volume term have all of it.
 TEST(CoarseMatrices, HaveTheEnergyOfTets) {
     for (const auto& [material, nu] : kMaterials) {
         const Model model = block_of(material, nu);

@@ -1,6 +1,7 @@
 #include "support/equilibrium.h"
 
 #include <Eigen/SparseCholesky>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 
@@ -8,6 +9,7 @@
 #include "cpu/neo_hookean.h"
 #include "model/explicit_scheme.h"
 #include "model/neo_hookean.h"
+#include "model/node_tets.h"
 
 namespace gelatin::test {
 namespace {
@@ -51,6 +53,57 @@ Eigen::Matrix3d derivative(const Force& force, cpu::Nodes<double>& nodes, std::u
         for (int r = 0; r < 3; ++r) block(r, axis) = (behind[r] - ahead[r]) / (2.0 * kStep);
     }
     return block;
+}
+
+// Of the volume term round each node [Pa]; empty without it.
+std::vector<double> volume_stresses_at(const Model& model, const cpu::Nodes<double>& nodes) {
+    std::vector<double> stresses;
+    if (model.volume_term.is_empty()) return stresses;
+    for (std::uint32_t n = 0; n < model.node_count(); ++n)
+        stresses.push_back(cpu::volume_stress_round(model.volume_term, n, nodes.positions.data()));
+    return stresses;
+}
+
+// With p the stresses, J the ratios and s the slopes of volumes v: p_t dds v_t of each tet, and of each node
+// dp/dJ s s^T / V.
+void add_volume_term(const Model& model, cpu::Nodes<double>& nodes, Triplets& triplets) {
+    const std::vector<double> stresses = volume_stresses_at(model, nodes);
+    if (stresses.empty()) return;
+    std::vector<std::map<std::uint32_t, Eigen::Vector3d>> slopes(model.node_count());  // of v round nodes
+    for (const glm::uvec4& tet : model.tets) {
+        double stress = 0.0;
+        for (int k = 0; k < 4; ++k) stress += 0.25 * stresses[tet[k]];
+        for (int row = 0; row < 4; ++row) {
+            const auto slope = [&] {
+                const auto& others = kOppositeCorners[row];
+                const glm::dvec3 a(nodes.positions[tet[others[0]]]);
+                return glm::cross(glm::dvec3(nodes.positions[tet[others[1]]]) - a,
+                                  glm::dvec3(nodes.positions[tet[others[2]]]) - a) /
+                       6.0;
+            };
+            const glm::dvec3 s = slope();
+            for (int k = 0; k < 4; ++k) {
+                slopes[tet[k]].try_emplace(tet[row], Eigen::Vector3d::Zero()).first->second +=
+                    0.25 * Eigen::Vector3d(s.x, s.y, s.z);
+            }
+            const auto force = [&] { return -stress * slope(); };
+            for (int column = 0; column < 4; ++column)
+                add_block(tet[row], tet[column], derivative(force, nodes, tet[column]), triplets);
+        }
+    }
+    for (std::uint32_t n = 0; n < model.node_count(); ++n) {
+        const glm::dvec2 rest(model.volume_term.nodes[n]);
+        const double ratio = cpu::volume_ratio_round<double>(
+            model.volume_term, n, [&](std::uint32_t k) { return glm::dvec3(nodes.positions[k]); });
+        constexpr double kStep = 1e-4;
+        const double stiffness =
+            (cpu::volume_stress(ratio + kStep, rest.y) - cpu::volume_stress(ratio - kStep, rest.y)) /
+            (2.0 * kStep * rest.x);
+        for (const auto& [a, of_a] : slopes[n]) {
+            for (const auto& [b, of_b] : slopes[n])
+                add_block(a, b, stiffness * of_a * of_b.transpose(), triplets);
+        }
+    }
 }
 
 }  // namespace
@@ -132,8 +185,10 @@ double Equilibrium::lowest_frequency() const {
 Eigen::VectorXd Equilibrium::elastic_forces(const Eigen::VectorXd& displacements) const {
     const cpu::Nodes<double> nodes = nodes_at(model_, displacements);
     cpu::Nodes<double> out = nodes, sums;
-    const auto pass = cpu::make_pass(model_, explicit_scheme(SolverKind::semi_implicit_euler), 0, 1.0, nodes,
-                                     nodes, out, sums);
+    auto pass = cpu::make_pass(model_, explicit_scheme(SolverKind::semi_implicit_euler), 0, 1.0, nodes, nodes,
+                               out, sums);
+    const std::vector<double> volume_stresses = volume_stresses_at(model_, nodes);
+    if (!volume_stresses.empty()) pass.volume_stresses = volume_stresses.data();
     Eigen::VectorXd forces(displacements.size());
     for (std::uint32_t n = 0; n < model_.node_count(); ++n) {
         const glm::dvec3 f = cpu::gather_forces(pass, n);
@@ -170,6 +225,7 @@ Eigen::SparseMatrix<double> Equilibrium::stiffness(const Eigen::VectorXd& displa
         add_block(spring.i, spring.j, -block, triplets);
         add_block(spring.j, spring.i, -block, triplets);
     }
+    add_volume_term(model_, nodes, triplets);
     // Coordinates that are held answer to nothing and to nobody.
     Triplets kept;
     for (const auto& entry : triplets) {

@@ -1,5 +1,6 @@
 #include "support/implicit_euler.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 
@@ -7,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "model/neo_hookean.h"
 #include "model/node_tets.h"
 
 namespace gelatin::test {
@@ -30,6 +32,68 @@ double slope_of_potential(double ratio, double kappa) {
     const double u = ratio - 1.0;
     return kappa >= 0.0 ? u : u * std::pow(std::max(1.0 - 4.0 * u * u, 0.0), 2);
 }
+
+// A neo-Hookean tet where its nodes are. The columns of matrices follow each other in vectors of nine.
+struct ElasticTet {
+    using Vector9 = Eigen::Matrix<double, 9, 1>;
+    using Matrix9 = Eigen::Matrix<double, 9, 9>;
+
+    Eigen::Vector4i nodes;
+    Eigen::Matrix<double, 4, 3> gradients;  // of the corners' shape functions, a row each
+    double volume, mu, lambda;
+    Eigen::Matrix3d f, cofactor;
+    double squares, dilation;
+
+    ElasticTet(const NeoHookeanTet& tet, const Eigen::VectorXd& x)
+        : nodes(tet.node_0, tet.node_1, tet.node_2, tet.node_3),
+          volume(static_cast<double>(tet.gradient_1.w)),
+          mu(static_cast<double>(tet.gradient_2.w)),
+          lambda(static_cast<double>(tet.gradient_3.w)) {
+        gradients.row(1) = to_eigen(tet.gradient_1);
+        gradients.row(2) = to_eigen(tet.gradient_2);
+        gradients.row(3) = to_eigen(tet.gradient_3);
+        gradients.row(0) = -gradients.bottomRows<3>().colwise().sum();
+        f.setZero();
+        for (int k = 0; k < 4; ++k) f += x.segment<3>(3 * nodes[k]) * gradients.row(k);
+        cofactor << f.col(1).cross(f.col(2)), f.col(2).cross(f.col(0)), f.col(0).cross(f.col(1));
+        squares = f.squaredNorm();
+        dilation = f.determinant() - 1.0;
+    }
+
+    double energy() const {
+        return volume * (0.5 * mu * (squares - 3.0 - std::log(0.25 * (squares + 1.0))) -
+                         0.75 * mu * dilation + 0.5 * lambda * dilation * dilation);
+    }
+    double pressure() const { return lambda * dilation - 0.75 * mu; }
+    Eigen::Matrix3d stress() const {
+        return volume * (mu * squares / (squares + 1.0) * f + pressure() * cofactor);
+    }
+    // By f, without what is negative (J. Teran et al.: Robust Quasistatic Finite Elements, 2005).
+    Matrix9 stiffness() const {
+        const Vector9 along = f.reshaped(), growing = cofactor.reshaped();
+        Matrix9 matrix = mu * squares / (squares + 1.0) * Matrix9::Identity();
+        matrix += 2.0 * mu / std::pow(squares + 1.0, 2) * along * along.transpose();
+        matrix += lambda * growing * growing.transpose();
+        for (int k = 0; k < 3; ++k) {  // how columns of the cofactor turn with the other two of f
+            const Eigen::Vector3d v = f.col(k);
+            Eigen::Matrix3d cross;
+            cross << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+            const int next = 3 * ((k + 1) % 3), last = 3 * ((k + 2) % 3);
+            matrix.block<3, 3>(next, last) -= pressure() * cross;
+            matrix.block<3, 3>(last, next) += pressure() * cross;
+        }
+        const Eigen::SelfAdjointEigenSolver<Matrix9> modes(matrix);
+        return volume * modes.eigenvectors() * modes.eigenvalues().cwiseMax(0.0).asDiagonal() *
+               modes.eigenvectors().transpose();
+    }
+    // How f changes with a corner's place.
+    Eigen::Matrix<double, 9, 3> slope(int corner) const {
+        Eigen::Matrix<double, 9, 3> result;
+        for (int axis = 0; axis < 3; ++axis)
+            result.middleRows<3>(3 * axis) = gradients(corner, axis) * Eigen::Matrix3d::Identity();
+        return result;
+    }
+};
 
 }  // namespace
 
@@ -83,6 +147,7 @@ double ImplicitEuler::value(const Eigen::VectorXd& x) const {
             (x.segment<3>(at(s.j)) - x.segment<3>(at(s.i))).norm() - static_cast<double>(s.rest_length);
         sum += 0.5 * static_cast<double>(s.stiffness) * stretch * stretch;
     }
+    for (const NeoHookeanTet& tet : model_.neo_hookean_tets) sum += ElasticTet(tet, x).energy();
     if (model_.volume_term.is_empty()) return sum;
     const Volumes now = volumes(x);
     for (std::size_t n = 0; n < now.nodes.size(); ++n) {
@@ -101,6 +166,11 @@ Eigen::VectorXd ImplicitEuler::gradient(const Eigen::VectorXd& x) const {
             static_cast<double>(s.stiffness) * (length - static_cast<double>(s.rest_length)) / length * apart;
         result.segment<3>(at(s.i)) -= force;
         result.segment<3>(at(s.j)) += force;
+    }
+    for (const NeoHookeanTet& packed : model_.neo_hookean_tets) {
+        const ElasticTet tet(packed, x);
+        for (int k = 0; k < 4; ++k)
+            result.segment<3>(3 * tet.nodes[k]) += tet.stress() * tet.gradients.row(k).transpose();
     }
     if (!model_.volume_term.is_empty()) {
         const Volumes now = volumes(x);
@@ -152,6 +222,16 @@ Eigen::VectorXd ImplicitEuler::direction(const Eigen::VectorXd& x, const Eigen::
         add(s.i, s.j, -block);
         add(s.j, s.i, -block);
     }
+    for (const NeoHookeanTet& packed : model_.neo_hookean_tets) {
+        const ElasticTet tet(packed, x);
+        const ElasticTet::Matrix9 stiffness = tet.stiffness();
+        for (int a = 0; a < 4; ++a) {
+            for (int b = 0; b < 4; ++b) {
+                add(nodes_of(packed)[a], nodes_of(packed)[b],
+                    tet.slope(a).transpose() * stiffness * tet.slope(b));
+            }
+        }
+    }
     if (!model_.volume_term.is_empty()) {
         const Volumes now = volumes(x);
         const NodeTets tets = make_node_tets(model_.node_count(), model_.tets);
@@ -178,10 +258,13 @@ Eigen::VectorXd ImplicitEuler::minimum() const {
     Eigen::VectorXd x = start();
     Eigen::VectorXd slope = gradient(x);
     const double enough = 1e-11 * slope.norm();
+    double terms = 0.0;  // of what tets' energy is the difference [J]
+    for (const NeoHookeanTet& tet : model_.neo_hookean_tets)
+        terms += static_cast<double>(tet.gradient_1.w * tet.gradient_2.w);
     for (int i = 0; slope.norm() > enough; ++i) {
         if (i > 500) throw std::runtime_error("Newton's method does not converge");
         const Eigen::VectorXd way = direction(x, slope);
-        const double here = value(x), promised = slope.dot(way), rounding = 1e-14 * std::abs(here);
+        const double here = value(x), promised = slope.dot(way), rounding = 1e-14 * (std::abs(here) + terms);
         double length = 1.0;
         while (length > 1e-6 && value(x + length * way) > here + 1e-4 * length * promised + rounding)
             length *= 0.5;

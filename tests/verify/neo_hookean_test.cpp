@@ -147,6 +147,30 @@ TEST(NeoHookeanBar, FollowsItsEnergyAtLargeStretch) {
     EXPECT_NEAR(answer.poisson_ratio, (1.0 - low) / (s - 1.0), 1e-5);
 }
 
+// A bar of two materials, one behind the other or side by side: E over 1 / mean(1 / E) or mean(E). Where they
+// meet, each hinders the other's waist.
+double answer_of_two(int axis, double ratio, double second_poisson_ratio) {
+    const glm::dvec3 size(0.25, 1.0, 0.25);
+    Body body = make_body(box_of_tets(size, size.x / 4), 0.25);
+    body.part_materials = {body.material};
+    body.part_materials[0].youngs_modulus *= ratio;
+    body.part_materials[0].poisson_ratio = second_poisson_ratio;
+    for (const glm::uvec4& t : body.mesh.tets) {
+        double middle = 0.0;
+        for (int k = 0; k < 4; ++k) middle += body.mesh.positions[t[k]][axis];
+        body.tet_materials.push_back(middle > 0.0 ? 1u : 0u);
+    }
+    const double theory = axis == 1 ? 2.0 / (1.0 + 1.0 / ratio) : 0.5 * (1.0 + ratio);
+    return pull_apart(test::make_model(body), size, 1e-4).modulus / theory;
+}
+
+TEST(NeoHookeanBar, OfTwoMaterialsAnswersAsRecorded) {
+    EXPECT_NEAR(answer_of_two(1, 1.0, 0.49), 1.002, 5e-3);
+    EXPECT_NEAR(answer_of_two(0, 1.0, 0.49), 1.007, 5e-3);
+    EXPECT_NEAR(answer_of_two(1, 10.0, 0.49), 1.030, 5e-3);
+    EXPECT_NEAR(answer_of_two(0, 10.0, 0.49), 0.999, 5e-3);
+}
+
 // E that a bar hung up by its upper end answers with, over E asked for: rho g L^2 / (2 E) longer. The end is
 // held sideways too, which the formula does not know: sides narrow by nu there, and a little more is asked
 // for.
@@ -180,8 +204,8 @@ INSTANTIATE_TEST_SUITE_P(
     Recorded, NeoHookeanHangingBar,
     ::testing::Values(Hanging{"nu_0_edges_4", 4, 0.0, 1.0}, Hanging{"nu_25_edges_2", 2, 0.25, 1.018},
                       Hanging{"nu_25_edges_4", 4, 0.25, 1.013}, Hanging{"nu_25_edges_6", 6, 0.25, 1.011},
-                      Hanging{"nu_45_edges_2", 2, 0.45, 1.104}, Hanging{"nu_45_edges_4", 4, 0.45, 1.070},
-                      Hanging{"nu_45_edges_6", 6, 0.45, 1.057}),
+                      Hanging{"nu_45_edges_2", 2, 0.45, 1.078}, Hanging{"nu_45_edges_4", 4, 0.45, 1.055},
+                      Hanging{"nu_45_edges_6", 6, 0.45, 1.047}),
     [](const auto& test) { return test.param.name; });
 
 TEST_P(NeoHookeanHangingBar, AnswersAsRecorded) {
