@@ -52,7 +52,7 @@ void append(const std::vector<T>& array, std::string& bytes) {
 template <class T>
 void take(const char*& next, std::size_t count, std::vector<T>& array) {
     array.resize(count);
-    std::memcpy(array.data(), next, count * sizeof(T));
+    std::copy_n(next, count * sizeof(T), reinterpret_cast<char*>(array.data()));  // none: of no array, too
     next += count * sizeof(T);
 }
 
