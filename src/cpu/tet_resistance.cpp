@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "cpu/neo_hookean.h"
 #include "cpu/volume_ratios.h"
 #include "model/for_each_index.h"
 
@@ -95,8 +96,9 @@ void TetResistance<Real>::look_at(const Range& tets, const std::vector<Vec4<Real
 
 template <class Real>
 void TetResistance<Real>::add(std::uint32_t node, const std::vector<Vec4<Real>>& positions,
-                              NodeTerms<Real>& terms) const {
+                              const StepStart<Real>& start, NodeTerms<Real>& terms) const {
     const Model& model = *model_;
+    if (!model.neo_hookean_tets.empty()) add_neo_hookean_tets(node, positions, start, terms);
     const bool has_volume_term = !model.volume_term.is_empty();
     if (is_near_flat_[node] == 0 && !has_volume_term) return;
     const Vec3<Real> position(positions[node]);
@@ -111,6 +113,25 @@ void TetResistance<Real>::add(std::uint32_t node, const std::vector<Vec4<Real>>&
         if (has_volume_term)
             add_tet_volume(position, face, volume, offsets_[tet],
                            static_cast<Real>(model.volume_term.tets[tet]), terms);
+    }
+}
+
+template <class Real>
+void TetResistance<Real>::add_neo_hookean_tets(std::uint32_t node, const std::vector<Vec4<Real>>& positions,
+                                               const StepStart<Real>& start, NodeTerms<Real>& terms) const {
+    const NodeTets& corners = model_->neo_hookean_corners;
+    for (std::uint32_t e = corners.starts[node]; e < corners.starts[node + 1]; ++e) {
+        const NeoHookeanTet& tet = model_->neo_hookean_tets[corners.entries[e] / 4];
+        const Real volume = static_cast<Real>(tet.gradient_1.w), mu = static_cast<Real>(tet.gradient_2.w),
+                   lambda = static_cast<Real>(tet.gradient_3.w);
+        const Vec3<Real> g = shape_gradient<Real>(tet, corners.entries[e] % 4);
+        const Mat3<Real> f = gradient_of(tet, at_corners(tet, positions.data()));
+        add_neo_hookean(g, f, volume, mu, lambda, terms);
+        const Real damping_time = mean_damping_time(tet, start.nodes);
+        if (damping_time > Real(0)) {
+            const Mat3<Real> before = gradient_of(tet, at_corners(tet, start.nodes));
+            add_viscosity(g, f, before, volume, mu, lambda, damping_time * start.inverse_step, terms);
+        }
     }
 }
 
