@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gpu/chunks.h"
+#include "gpu/make_buffer.h"
 #include "model/descent_rows.h"
 #include "model/node_tets.h"
 
@@ -34,13 +35,6 @@ gl::Defines sweep_defines(const Model& model) {
 gl::Defines with(gl::Defines defines, const char* another) {
     defines.emplace_back(another);
     return defines;
-}
-
-// No buffer is empty.
-template <class T>
-gl::Buffer<T> make_buffer(std::vector<T> values, const T& padding) {
-    if (values.empty()) values.push_back(padding);
-    return gl::Buffer<T>(std::span<const T>(values));
 }
 
 std::vector<glm::vec4> rests_of(const Model& model) {
@@ -102,8 +96,8 @@ BlockDescent::Pressures::Pressures(const Model& model)
       node_pressures(model.positions.size()),
       offsets(model.tets.size()) {
     const NodeTets tets = make_node_tets(model.node_count(), model.tets);
-    node_tet_starts = make_buffer(tets.starts, 0u);
-    node_tets = make_buffer(tets.entries, 0u);
+    node_tet_starts = make_buffer(tets.starts);
+    node_tets = make_buffer(tets.entries);
     node_volume_texels = {node_volumes, gl::TexelFormat::rg32f};
     node_tet_start_texels = {node_tet_starts, gl::TexelFormat::r32ui};
     node_tet_texels = {node_tets, gl::TexelFormat::r32ui};
@@ -142,21 +136,21 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
     const std::vector<Chunk> chunks = make_chunks(model, &ModelObject::nodes);
 
     rows_ = make_buffer(rows_of(rows, objects), DescentRow{kNoNode, 0, 0, 0});
-    spring_ends_ = make_buffer(ends_of(rows.springs), glm::uvec2(0));
-    springs_ = make_buffer(springs_of(rows.springs), glm::vec4(0.0f));
+    spring_ends_ = make_buffer(ends_of(rows.springs));
+    springs_ = make_buffer(springs_of(rows.springs));
     if (model.has_damping()) damped_springs_.emplace(springs_.size());
-    spring_starts_ = make_buffer(rows.springs.slice_starts, 0u);
-    tet_corners_ = make_buffer(corners.corners, TetCorner{});
-    corner_starts_ = make_buffer(corners.slice_starts, 0u);
-    tets_ = make_buffer(model.tets, glm::uvec4(0));
+    spring_starts_ = make_buffer(rows.springs.slice_starts);
+    tet_corners_ = make_buffer(corners.corners);
+    corner_starts_ = make_buffer(corners.slice_starts);
+    tets_ = make_buffer(model.tets);
     tet_rests_ = make_buffer(rests_of(model), glm::vec4(1.0f));
-    chunks_ = make_buffer(chunks, Chunk{});
-    chunk_starts_ = make_buffer(chunk_starts(chunks, model.objects.size()), 0u);
+    chunks_ = make_buffer(chunks);
+    chunk_starts_ = make_buffer(chunk_starts(chunks, model.objects.size()));
     starts_ = gl::Buffer<glm::vec4>(model.positions.size());
     start_texels_ = {starts_, gl::TexelFormat::rgba32f};
     targets_ = gl::Buffer<glm::vec4>(model.positions.size());
     target_texels_ = {targets_, gl::TexelFormat::rgba32f};
-    node_objects_ = make_buffer(objects, 0u);
+    node_objects_ = make_buffer(objects);
     node_object_texels_ = {node_objects_, gl::TexelFormat::r32ui};
     rigid_sums_ = gl::Buffer<glm::dvec4>(kRigidSums * chunks.size());
     if (!model.colliders.empty()) touches_ = gl::Buffer<Touch>(model.positions.size());
