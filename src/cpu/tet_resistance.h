@@ -48,10 +48,12 @@ private:
     void look_at(const Range& tets, const std::vector<Vec4<Real>>& positions);
     void add_neo_hookean_tets(std::uint32_t node, const std::vector<Vec4<Real>>& positions,
                               const StepStart<Real>& start, NodeTerms<Real>& terms) const;
+    VolumeBound<Real> volume_bound(std::uint32_t tet) const;
     Real ratio_of(std::uint32_t tet, const std::vector<Vec4<Real>>& positions) const;
 
     std::shared_ptr<const Model> model_;
     NodeTets node_tets_;
+    std::vector<std::uint32_t> object_of_;    // by node
     std::vector<Real> ratios_;                // J, by tet
     std::vector<std::uint8_t> is_near_flat_;  // nodes of tets that resist
     bool any_flat_ = false;

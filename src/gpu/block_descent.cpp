@@ -5,6 +5,7 @@
 #include "gpu/chunks.h"
 #include "gpu/make_buffer.h"
 #include "model/descent_rows.h"
+#include "model/neo_hookean.h"
 #include "model/node_tets.h"
 
 namespace gelatin::gpu {
@@ -72,13 +73,24 @@ std::uint32_t pair_count(const HalfSprings& springs, std::uint32_t row) {
     return count;
 }
 
-std::vector<DescentRow> rows_of(const DescentRows& rows, const std::vector<std::uint32_t>& objects) {
+std::vector<DescentRow> rows_of(const Model& model, const DescentRows& rows,
+                                const std::vector<std::uint32_t>& objects) {
     std::vector<DescentRow> result;
     for (std::uint32_t r = 0; r < rows.nodes.size(); ++r) {
-        const std::uint32_t n = rows.nodes[r];
-        result.push_back({n, n == kNoNode ? 0 : objects[n], pair_count(rows.springs, r), 0});
+        const std::uint32_t n = rows.nodes[r], o = n == kNoNode ? 0 : objects[n];
+        const ModelObject& object = model.objects[o];
+        result.push_back(
+            {n, o, pair_count(rows.springs, r), object.tets.first - object.neo_hookean_tets.first});
     }
     return result;
+}
+
+// Without the nodes of neo-Hookean tets, which have their terms with those.
+TetCorners corners_of(const Model& model, std::vector<std::uint32_t> rows) {
+    for (std::uint32_t& node : rows) {
+        if (node != kNoNode && has_neo_hookean_tets(model, node)) node = kNoNode;
+    }
+    return pack_tet_corners(rows, make_node_tets(model.node_count(), model.tets), model.tets);
 }
 
 }  // namespace
@@ -131,11 +143,10 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
     colors_ = rows.colors;
     const std::vector<std::uint32_t> objects = objects_of_nodes(model);
     neo_hookean_corners_ = NeoHookeanBuffers::Corners(model, rows.nodes);
-    const TetCorners corners =
-        pack_tet_corners(rows.nodes, make_node_tets(model.node_count(), model.tets), model.tets);
+    const TetCorners corners = corners_of(model, rows.nodes);
     const std::vector<Chunk> chunks = make_chunks(model, &ModelObject::nodes);
 
-    rows_ = make_buffer(rows_of(rows, objects), DescentRow{kNoNode, 0, 0, 0});
+    rows_ = make_buffer(rows_of(model, rows, objects), DescentRow{kNoNode, 0, 0, 0});
     spring_ends_ = make_buffer(ends_of(rows.springs));
     springs_ = make_buffer(springs_of(rows.springs));
     if (model.has_damping()) damped_springs_.emplace(springs_.size());
