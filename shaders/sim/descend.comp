@@ -16,7 +16,7 @@ layout(binding = 4) uniform usamplerBuffer spring_ends;   // of two half springs
 layout(binding = 5) uniform samplerBuffer springs;        // their rest length [m], stiffness [N/m], dampers in them
 layout(binding = 6) uniform usamplerBuffer slice_starts;
 layout(binding = 18) uniform usamplerBuffer is_near_flat; // of nodes
-layout(binding = 8) uniform usamplerBuffer tet_corners;   // TetCorner
+layout(binding = 8) uniform usamplerBuffer tet_corners;   // TetCorner, of bodies of springs
 layout(binding = 9) uniform usamplerBuffer corner_starts;
 layout(binding = 10) uniform samplerBuffer tet_rests;     // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
 #ifdef VOLUME
@@ -157,7 +157,7 @@ void main() {
         }
     }
 #ifdef NEO_HOOKEAN
-    add_neo_hookean_tets(row, terms);
+    add_neo_hookean_tets(row, entry.w, terms);
 #endif
 #ifdef FORCES
     vec3 force = terms.force;

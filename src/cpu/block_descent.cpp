@@ -10,17 +10,12 @@
 #include <utility>
 
 #include "cpu/colliders.h"
-#include "cpu/neo_hookean.h"
 #include "cpu/rigid_nodes.h"
-#include "cpu/spring_terms.h"
 #include "model/for_each_index.h"
 #include "model/solver.h"
 
 namespace gelatin::cpu {
 namespace {
-
-// Ways are made longer by no more than this.
-constexpr double kFarthest = 2.0;
 
 constexpr std::size_t kGroupsATask = 16;
 
@@ -39,26 +34,12 @@ template <class Real>
 BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const DescentSettings& settings)
     : model_(std::move(model)),
       settings_(settings),
-      rows_(make_descent_rows(*model_)),
-      tets_(model_),
+      objective_(model_),
       coarse_(model_),
-      starts_(model_->node_count()),
-      targets_(model_->node_count()),
-      object_of_(objects_of_nodes(*model_)),
-      touches_(model_->objects.size()) {
-    if (!model_->colliders.empty()) node_touches_.resize(model_->node_count());
+      touches_{objects_of_nodes(*model_), std::vector<std::uint8_t>(model_->objects.size()), {}} {
+    if (!model_->colliders.empty()) touches_.nodes.resize(model_->node_count());
     if (settings_.chebyshev > 0.0) last_ = before_last_ = std::vector<Vec3<Real>>(model_->node_count());
-    if constexpr (kIsFloat<Real>) {
-        springs_ = make_spring_blocks(rows_);
-        rows_.springs = {};
-        if (model_->has_damping()) damped_springs_ = springs_;
-        collider_bounds_ = make_collider_bounds(model_->colliders);
-    }
-    if (!coarse_.is_empty()) {
-        ahead_.resize(model_->node_count());
-        ways_.resize(model_->node_count());
-        forces_ = forces_ahead_ = ways_;
-    }
+    if constexpr (kIsFloat<Real>) collider_bounds_ = make_collider_bounds(model_->colliders);
 }
 
 template <class Real>
@@ -70,10 +51,10 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
     for (int i = 0; i < settings_.iterations; ++i) {
         if (settings_.chebyshev > 0.0)
             accelerate(coarse_.is_empty() ? i : sweeps_since_correction(i), current.positions);
-        if (i % kSweepsAMotion == 0) tets_.look(current.positions);
-        sweep(step, current.positions);
+        if (i % kSweepsAMotion == 0) objective_.look(current.positions);
+        sweep(current.positions);
         const bool is_last = i + 1 == settings_.iterations;
-        if (!is_last && i % kSweepsACorrection == 0) correct(step, current.positions);
+        if (!is_last && i % kSweepsACorrection == 0) coarse_.run(objective_, touches_, current.positions);
         if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(is_last, current.positions);
     }
     finish(step, previous, current);
@@ -97,29 +78,27 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
             Vec4<Real> none(0);
             resolve_colliders<Real>(model_->colliders, Real(0), from, none);
         }
-        starts_[n] = Vec4<Real>(Vec3<Real>(from), previous.velocities[n].w);
-        if (touches_[object_of_[n]] != 0) node_touches_[n] = {};  // of the last step
+        objective_.starts[n] = Vec4<Real>(Vec3<Real>(from), previous.velocities[n].w);
+        if (touches_.is_touched(n)) touches_.nodes[n] = {};  // of the last step
         if (from.w == Real(0)) {
-            targets_[n] = Vec4<Real>(Vec3<Real>(from) + step * velocity, Real(0));
-            current.positions[n] = targets_[n];
+            objective_.targets[n] = Vec4<Real>(Vec3<Real>(from) + step * velocity, Real(0));
+            current.positions[n] = objective_.targets[n];
             return;
         }
         Vec3<Real> acceleration = gravity;
         if (!load_forces.empty()) acceleration += from.w * Vec3<Real>(load_forces[n]);
-        targets_[n] = Vec4<Real>(Vec3<Real>(from) + step * (velocity + step * acceleration),
-                                 Real(1) / (from.w * step * step));
-        if (pulls != nullptr) targets_[n] = pulls->with_target(n, targets_[n], Vec3<Real>(from), step);
+        objective_.targets[n] = Vec4<Real>(Vec3<Real>(from) + step * (velocity + step * acceleration),
+                                           Real(1) / (from.w * step * step));
+        if (pulls != nullptr)
+            objective_.targets[n] = pulls->with_target(n, objective_.targets[n], Vec3<Real>(from), step);
         const Real felt = has_earlier && squared > Real(0)
                               ? glm::clamp(glm::dot(gained, gravity) / (step * squared), Real(0), Real(1))
                               : Real(1);
         const Vec3<Real> guess = Vec3<Real>(from) + step * (velocity + step * felt * gravity);
         current.positions[n] = Vec4<Real>(guess, from.w);
     });
-    std::fill(touches_.begin(), touches_.end(), std::uint8_t(0));
-    if constexpr (kIsFloat<Real>) {
-        if (model_->has_damping())
-            damp_springs(springs_, rows_.nodes, starts_.data(), Real(1) / step, damped_springs_);
-    }
+    std::fill(touches_.objects.begin(), touches_.objects.end(), std::uint8_t(0));
+    objective_.begin(step);
 }
 
 // A guess that tangles a body can hold any energy, which few sweeps would not take out again. From where the
@@ -128,10 +107,10 @@ template <class Real>
 void BlockDescent<Real>::take_back_tangled(std::vector<Vec4<Real>>& positions) const {
     tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
         const ModelObject& object = model_->objects[o];
-        if (!tets_.is_tangled(object, positions)) return;
+        if (!objective_.is_tangled(object, positions)) return;
         for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
             if (positions[n].w == Real(0)) continue;  // held ones are where their handle takes them
-            positions[n] = Vec4<Real>(Vec3<Real>(starts_[n]), positions[n].w);
+            positions[n] = Vec4<Real>(Vec3<Real>(objective_.starts[n]), positions[n].w);
         }
     });
 }
@@ -146,7 +125,7 @@ void BlockDescent<Real>::accelerate(int sweep, std::vector<Vec4<Real>>& position
     const auto weight = static_cast<Real>(chebyshev_weight(settings_.chebyshev, sweep));
     for_each_node(*model_, [&](std::uint32_t n) {
         Vec3<Real> x(positions[n]);
-        if (sweep > 1 && touches_[object_of_[n]] == 0) x = weight * (x - before_last_[n]) + before_last_[n];
+        if (sweep > 1 && !touches_.is_touched(n)) x = weight * (x - before_last_[n]) + before_last_[n];
         before_last_[n] = last_[n];
         last_[n] = x;
         positions[n] = Vec4<Real>(x, positions[n].w);
@@ -154,24 +133,22 @@ void BlockDescent<Real>::accelerate(int sweep, std::vector<Vec4<Real>>& position
 }
 
 template <class Real>
-void BlockDescent<Real>::sweep(Real step, std::vector<Vec4<Real>>& positions) {
+void BlockDescent<Real>::sweep(std::vector<Vec4<Real>>& positions) {
+    const DescentRows& rows = objective_.rows();
     if constexpr (kIsFloat<Real>) {
-        const DescentGroups groups{model_->has_damping() ? damped_springs_ : springs_, rows_.nodes, targets_,
-                                   collider_bounds_};
-        const bool any_touch = std::any_of(touches_.begin(), touches_.end(), [](auto t) { return t != 0; });
-        for (const Range& color : rows_.colors) {
+        const DescentGroups groups = objective_.groups(collider_bounds_);
+        const bool any_touch =
+            std::any_of(touches_.objects.begin(), touches_.objects.end(), [](auto t) { return t != 0; });
+        for (const Range& color : rows.colors) {
             for_each_index(color.first / kGroup, color.end() / kGroup, kGroupsATask,
-                           [&](std::size_t group) { move_group(groups, group, step, any_touch, positions); });
+                           [&](std::size_t group) { move_group(groups, group, any_touch, positions); });
         }
     } else {
-        const SpringRows<Real> springs{rows_, positions.data(), starts_.data(), Real(1) / step};
-        for (const Range& color : rows_.colors) {
+        for (const Range& color : rows.colors) {
             for_each_index(color.first, color.end(), kGroup * kGroupsATask, [&](std::size_t row) {
-                const std::uint32_t node = rows_.nodes[row];
-                if (node == kNoNode || targets_[node].w == Real(0)) return;
-                const NodeTerms<Real> of_springs =
-                    gather_spring_terms(springs, static_cast<std::uint32_t>(row));
-                move_node(node, terms_of(node, step, of_springs, positions), positions);
+                const std::uint32_t node = rows.nodes[row];
+                if (node == kNoNode || objective_.targets[node].w == Real(0)) return;
+                move_node(node, objective_.terms_of(static_cast<std::uint32_t>(row), positions), positions);
             });
         }
     }
@@ -180,15 +157,15 @@ void BlockDescent<Real>::sweep(Real step, std::vector<Vec4<Real>>& positions) {
 // @param any_touch whether nodes touched a collider in the last sweep
 template <class Real>
 template <class Groups>
-void BlockDescent<Real>::move_group(const Groups& groups, std::size_t group, Real step, bool any_touch,
+void BlockDescent<Real>::move_group(const Groups& groups, std::size_t group, bool any_touch,
                                     std::vector<Vec4<Real>>& positions) {
     TermColumns terms;
-    if (tets_.any_resist() || !model_->neo_hookean_tets.empty()) {
+    if (objective_.any_tets()) {
         for (std::uint32_t row = 0; row < kGroup; ++row) {
             const std::uint32_t node = groups.nodes[group * kGroup + row];
             if (node == kNoNode) continue;
             NodeTerms<Real> of_tets;
-            add_tets(node, step, positions, of_tets);
+            objective_.add_tets(node, positions, of_tets);
             terms.add(row, of_tets);
         }
     }
@@ -201,20 +178,9 @@ void BlockDescent<Real>::move_group(const Groups& groups, std::size_t group, Rea
             const Vec3<Real> moved = outside_colliders(node, own.hessian, Vec3<Real>(positions[node]));
             positions[node] = Vec4<Real>(moved, positions[node].w);
         } else if (any_touch && node != kNoNode) {
-            node_touches_[node] = {};
+            touches_.nodes[node] = {};
         }
     }
-}
-
-// All terms of a node that is not held.
-template <class Real>
-NodeTerms<Real> BlockDescent<Real>::terms_of(std::uint32_t node, Real step, NodeTerms<Real> of_springs,
-                                             const std::vector<Vec4<Real>>& positions) const {
-    const Vec4<Real>& target = targets_[node];
-    of_springs.force += target.w * (Vec3<Real>(target) - Vec3<Real>(positions[node]));
-    of_springs.hessian.add_identity(target.w);
-    add_tets(node, step, positions, of_springs);
-    return of_springs;
 }
 
 template <class Real>
@@ -225,127 +191,14 @@ void BlockDescent<Real>::move_node(std::uint32_t node, const NodeTerms<Real>& te
     positions[node] = Vec4<Real>(moved, positions[node].w);
 }
 
-template <class Real>
-void BlockDescent<Real>::add_tets(std::uint32_t node, Real step, const std::vector<Vec4<Real>>& positions,
-                                  NodeTerms<Real>& terms) const {
-    tets_.add(node, positions, terms);
-    add_neo_hookean_tets(node, step, positions, terms);
-}
-
-// Minus the slope of the objective by each node; colliders left out.
-template <class Real>
-void BlockDescent<Real>::find_forces(Real step, const std::vector<Vec4<Real>>& positions,
-                                     std::vector<Vec3<Real>>& forces) const {
-    if constexpr (kIsFloat<Real>) {
-        const DescentGroups groups{model_->has_damping() ? damped_springs_ : springs_, rows_.nodes, targets_,
-                                   collider_bounds_};
-        for_each_index(0, rows_.nodes.size() / kGroup, kGroupsATask,
-                       [&](std::size_t group) { find_group_forces(groups, group, step, positions, forces); });
-    } else {
-        const SpringRows<Real> springs{rows_, positions.data(), starts_.data(), Real(1) / step};
-        for_each_index(0, rows_.nodes.size(), kGroup * kGroupsATask, [&](std::size_t row) {
-            const std::uint32_t node = rows_.nodes[row];
-            if (node == kNoNode || targets_[node].w == Real(0)) return;
-            const NodeTerms<Real> of_springs = gather_spring_terms(springs, static_cast<std::uint32_t>(row));
-            forces[node] = terms_of(node, step, of_springs, positions).force;
-        });
-    }
-}
-
-template <class Real>
-template <class Groups>
-void BlockDescent<Real>::find_group_forces(const Groups& groups, std::size_t group, Real step,
-                                           const std::vector<Vec4<Real>>& positions,
-                                           std::vector<Vec3<Real>>& forces) const {
-    TermColumns terms;
-    gather_group(groups, group, positions, terms);
-    const bool has_tets = tets_.any_resist() || !model_->neo_hookean_tets.empty();
-    for (std::uint32_t row = 0; row < kGroup; ++row) {
-        const std::uint32_t node = groups.nodes[group * kGroup + row];
-        if (node == kNoNode || targets_[node].w == Real(0)) continue;
-        NodeTerms<Real> all = terms.row(row);
-        if (has_tets) add_tets(node, step, positions, all);
-        forces[node] = all.force;
-    }
-}
-
-// All nodes at once along the motions of clusters, as far as the objective falls.
-template <class Real>
-void BlockDescent<Real>::correct(Real step, std::vector<Vec4<Real>>& positions) {
-    if (coarse_.is_empty()) return;
-    const auto is_touched = [&](std::uint32_t n) {
-        return !node_touches_.empty() && touches_[object_of_[n]] != 0;
-    };
-    find_forces(step, positions, forces_);
-    for_each_node(*model_, [&](std::uint32_t n) {
-        if (is_touched(n)) forces_[n] += node_touches_[n].force;
-    });
-    coarse_.find_ways(positions, forces_, ways_);
-    for_each_node(*model_,
-                  [&](std::uint32_t n) { ahead_[n] = positions[n] + Vec4<Real>(ways_[n], Real(0)); });
-    find_forces(step, ahead_, forces_ahead_);
-    for_each_node(*model_, [&](std::uint32_t n) {
-        if (!is_touched(n)) return;
-        const Touch& touch = node_touches_[n];
-        const Real along = glm::dot(touch.normal, ways_[n]);
-        forces_ahead_[n] +=
-            touch.force - touch.across * ways_[n] - (touch.along - touch.across) * along * touch.normal;
-    });
-    tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
-        if (!coarse_.moves(o)) return;
-        const Real factor = way_factor(o);
-        if (factor == Real(0)) return;
-        const Range& nodes = model_->objects[o].nodes;
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-            positions[n] += Vec4<Real>(factor * ways_[n], Real(0));
-    });
-}
-
-// The part of an object's ways at which what acts along them is nothing, by the secant through its values
-// here and at the ways' ends. No node goes farther than the object is long.
-template <class Real>
-Real BlockDescent<Real>::way_factor(std::size_t object) const {
-    double here = 0.0, ahead = 0.0, longest = 0.0;  // [J], [m]
-    const Range& nodes = model_->objects[object].nodes;
-    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
-        here += static_cast<double>(glm::dot(forces_[n], ways_[n]));
-        ahead += static_cast<double>(glm::dot(forces_ahead_[n], ways_[n]));
-        longest = std::max(longest, static_cast<double>(glm::length(ways_[n])));
-    }
-    if (!(here > 0.0 && std::isfinite(here) && std::isfinite(ahead))) return Real(0);
-    const double factor = here / std::max(here - ahead, here / kFarthest);
-    return static_cast<Real>(std::min(factor, coarse_.length(object) / longest));
-}
-
-template <class Real>
-void BlockDescent<Real>::add_neo_hookean_tets(std::uint32_t node, Real step,
-                                              const std::vector<Vec4<Real>>& positions,
-                                              NodeTerms<Real>& terms) const {
-    if (model_->neo_hookean_tets.empty()) return;
-    const NodeTets& corners = model_->neo_hookean_corners;
-    for (std::uint32_t e = corners.starts[node]; e < corners.starts[node + 1]; ++e) {
-        const NeoHookeanTet& tet = model_->neo_hookean_tets[corners.entries[e] / 4];
-        const Real volume = static_cast<Real>(tet.gradient_1.w), mu = static_cast<Real>(tet.gradient_2.w),
-                   lambda = static_cast<Real>(tet.gradient_3.w);
-        const Vec3<Real> g = shape_gradient<Real>(tet, corners.entries[e] % 4);
-        const Mat3<Real> f = gradient_of(tet, at_corners(tet, positions.data()));
-        add_neo_hookean(g, f, volume, mu, lambda, terms);
-        const Real damping_time = mean_damping_time(tet, starts_.data());
-        if (damping_time > Real(0)) {
-            const Mat3<Real> start = gradient_of(tet, at_corners(tet, starts_.data()));
-            add_viscosity(g, f, start, volume, mu, lambda, damping_time / step, terms);
-        }
-    }
-}
-
 // Where the node's own objective, to second order, is least outside the collider's tangent plane, behind
 // which all of it lies: the normal force is what that takes. Friction then takes back what the node has slid
 // along the plane, with as much force as Coulomb's law allows.
 template <class Real>
 Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, const SymmetricMatrix<Real>& hessian,
                                                  Vec3<Real> position) {
-    if (node_touches_.empty()) return position;
-    Touch touch;
+    if (touches_.nodes.empty()) return position;
+    NodeTouch<Real> touch;
     for (const Collider& collider : model_->colliders) {
         if (is_above_plane(collider, position)) continue;  // as most nodes are
         const SurfaceDistance<Real> surface = surface_distance(collider, position);
@@ -364,9 +217,9 @@ Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, const Symme
         touch.normal = n;
         touch.along = stiffness;
         touch.across = Real(0);
-        std::atomic_ref(touches_[object_of_[node]]).store(1, std::memory_order_relaxed);
+        std::atomic_ref(touches_.objects[touches_.object_of[node]]).store(1, std::memory_order_relaxed);
 
-        const Vec3<Real> way = position - Vec3<Real>(starts_[node]);
+        const Vec3<Real> way = position - Vec3<Real>(objective_.starts[node]);
         const Vec3<Real> slid = way - glm::dot(way, n) * n;
         const Real length = glm::length(slid);
         if (length == Real(0)) continue;
@@ -383,7 +236,7 @@ Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, const Symme
         const Real left = length - std::min(needed, most) * sliding_compliance;
         touch.across = most < stiffness * left ? most / left : stiffness;
     }
-    if (touch.along > Real(0) || node_touches_[node].along > Real(0)) node_touches_[node] = touch;
+    if (touch.along > Real(0) || touches_.nodes[node].along > Real(0)) touches_.nodes[node] = touch;
     return position;
 }
 
@@ -395,9 +248,9 @@ void BlockDescent<Real>::move_bodies(bool is_last, std::vector<Vec4<Real>>& posi
         const std::span body_nodes(positions.data() + nodes.first, nodes.count);
         const bool is_held = std::any_of(body_nodes.begin(), body_nodes.end(),
                                          [](const Vec4<Real>& p) { return p.w == Real(0); });
-        if (is_held || (is_last && touches_[o] != 0)) return;
+        if (is_held || (is_last && touches_.objects[o] != 0)) return;
         const glm::dvec3 origin(positions[nodes.first]);
-        const std::span targets(targets_.data() + nodes.first, nodes.count);
+        const std::span targets(objective_.targets.data() + nodes.first, nodes.count);
         RigidStep body;
         if constexpr (kIsFloat<Real>) {
             body.add(sum_rigid_nodes(body_nodes, targets, glm::vec3(origin)));
@@ -407,7 +260,7 @@ void BlockDescent<Real>::move_bodies(bool is_last, std::vector<Vec4<Real>>& posi
                 body.add(position - origin, targets[n].w, targets[n].w * (glm::dvec3(targets[n]) - position));
             }
         }
-        if (touches_[o] != 0) {
+        if (touches_.objects[o] != 0) {
             for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) add_touch(n, origin, positions, body);
         }
         const RigidMotion motion = body.solve(origin);
@@ -422,7 +275,7 @@ void BlockDescent<Real>::move_bodies(bool is_last, std::vector<Vec4<Real>>& posi
 template <class Real>
 void BlockDescent<Real>::add_touch(std::uint32_t node, const glm::dvec3& origin,
                                    const std::vector<Vec4<Real>>& positions, RigidStep& body) const {
-    const Touch& touch = node_touches_[node];
+    const NodeTouch<Real>& touch = touches_.nodes[node];
     if (touch.along == Real(0)) return;
     const glm::dvec3 r = glm::dvec3(positions[node]) - origin;
     body.add(r, static_cast<double>(touch.across), glm::dvec3(touch.force));
@@ -437,11 +290,11 @@ void BlockDescent<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Re
         const Vec4<Real> old = previous.velocities[n];
         current.velocities[n] = old;
         if (current.positions[n].w == Real(0)) return;
-        const Vec3<Real> position(current.positions[n]), start(starts_[n]);
+        const Vec3<Real> position(current.positions[n]), start(objective_.starts[n]);
         Vec3<Real> velocity = (position - start) / step;
-        if (touches_[object_of_[n]] != 0)
-            rebound<Real>(model_->colliders, position, (Vec3<Real>(targets_[n]) - start) / step, least,
-                          velocity);
+        if (touches_.is_touched(n))
+            rebound<Real>(model_->colliders, position, (Vec3<Real>(objective_.targets[n]) - start) / step,
+                          least, velocity);
         current.velocities[n] = Vec4<Real>(velocity, old.w);
     });
 }

@@ -4,15 +4,14 @@
 #include <span>
 #include <vector>
 
-#include "cpu/coarse_correction.h"
+#include "cpu/coarse_step.h"
 #include "cpu/descend_groups.h"
 #include "cpu/node_terms.h"
+#include "cpu/node_touches.h"
 #include "cpu/nodes.h"
 #include "cpu/pulls.h"
 #include "cpu/rigid_motion.h"
-#include "cpu/spring_blocks.h"
-#include "cpu/tet_resistance.h"
-#include "model/descent_rows.h"
+#include "cpu/step_objective.h"
 #include "model/model.h"
 #include "model/solver.h"
 
@@ -42,26 +41,13 @@ private:
                std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls, Nodes<Real>& current);
     void take_back_tangled(std::vector<Vec4<Real>>& positions) const;
     void accelerate(int sweep, std::vector<Vec4<Real>>& positions);
-    void sweep(Real step, std::vector<Vec4<Real>>& positions);
-    NodeTerms<Real> terms_of(std::uint32_t node, Real step, NodeTerms<Real> of_springs,
-                             const std::vector<Vec4<Real>>& positions) const;
+    void sweep(std::vector<Vec4<Real>>& positions);
     void move_node(std::uint32_t node, const NodeTerms<Real>& terms, std::vector<Vec4<Real>>& positions);
     template <class Groups>  // DescentGroups: a template, for there is none but in float
-    void move_group(const Groups& groups, std::size_t group, Real step, bool any_touch,
+    void move_group(const Groups& groups, std::size_t group, bool any_touch,
                     std::vector<Vec4<Real>>& positions);
-    void add_tets(std::uint32_t node, Real step, const std::vector<Vec4<Real>>& positions,
-                  NodeTerms<Real>& terms) const;
-    void add_neo_hookean_tets(std::uint32_t node, Real step, const std::vector<Vec4<Real>>& positions,
-                              NodeTerms<Real>& terms) const;
     Vec3<Real> outside_colliders(std::uint32_t node, const SymmetricMatrix<Real>& hessian,
                                  Vec3<Real> position);
-    void find_forces(Real step, const std::vector<Vec4<Real>>& positions,
-                     std::vector<Vec3<Real>>& forces) const;
-    template <class Groups>
-    void find_group_forces(const Groups& groups, std::size_t group, Real step,
-                           const std::vector<Vec4<Real>>& positions, std::vector<Vec3<Real>>& forces) const;
-    void correct(Real step, std::vector<Vec4<Real>>& positions);
-    Real way_factor(std::size_t object) const;
     void move_bodies(bool is_last, std::vector<Vec4<Real>>& positions) const;
     void add_touch(std::uint32_t node, const glm::dvec3& origin, const std::vector<Vec4<Real>>& positions,
                    RigidStep& body) const;
@@ -69,22 +55,10 @@ private:
 
     std::shared_ptr<const Model> model_;
     DescentSettings settings_;
-    DescentRows rows_;
-    TetResistance<Real> tets_;
-    CoarseCorrection<Real> coarse_;
-    std::vector<Vec4<Real>> starts_;        // xyz [m], damping time [s]
-    std::vector<Vec4<Real>> targets_;       // y [m], m / h^2 [N/m], 0 where a node is held; shape [nodes]
-    std::vector<std::uint32_t> object_of_;  // by node
-    std::vector<std::uint8_t> touches_;     // objects that met a collider in this step
-    struct Touch {
-        Vec3<Real> force{0}, normal{0};  // [N], unit
-        Real along = 0, across = 0;      // how the force changes with the body's way [N/m]
-    };
-    std::vector<Touch> node_touches_;        // of the last sweep; empty without colliders
-    SpringBlocks springs_, damped_springs_;  // in float; damped ones where the model has dampers
-    std::vector<ColliderBound> collider_bounds_;
-    std::vector<Vec4<Real>> ahead_;                         // where ways would lead [m]; these empty without
-    std::vector<Vec3<Real>> ways_, forces_, forces_ahead_;  // [m], [N], a coarse correction
+    StepObjective<Real> objective_;
+    CoarseStep<Real> coarse_;
+    NodeTouches<Real> touches_;
+    std::vector<ColliderBound> collider_bounds_;  // in float
     std::vector<Vec3<Real>> last_, before_last_;  // from where the last two sweeps went [m], for acceleration
 };
 

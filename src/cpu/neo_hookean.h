@@ -140,17 +140,20 @@ Vec3<Real> neo_hookean_force(const NeoHookeanTet& tet, std::uint32_t corner, con
 ///   force   -V (shear F g + pressure s)
 ///   hessian V (shear |g|^2 + 2 mu / (I + 1)^2 (F g) (F g)^T + lambda s s^T),
 /// which is the energy's own, for J is linear in one corner, and positive semi-definite for any F.
+/// @param bound of the tet's part of the volume term, which is added as add_tet_volume does
 template <class Real>
 void add_neo_hookean(const Vec3<Real>& g, const Mat3<Real>& f, Real volume, Real mu, Real lambda,
-                     NodeTerms<Real>& terms) {
+                     const VolumeBound<Real>& bound, NodeTerms<Real>& terms) {
     const Mat3<Real> cofactors = cofactor(f);
     const Real squares = sum_of_squares(f), over = Real(1) / (squares + Real(1));
-    const NeoHookeanStress<Real> stress(squares, glm::dot(f[0], cofactors[0]), mu, lambda);
+    const Real ratio = glm::dot(f[0], cofactors[0]);
+    const NeoHookeanStress<Real> stress(squares, ratio, mu, lambda);
+    const Real pressure = stress.pressure + bound.offset + bound.modulus * ratio;
     const Vec3<Real> stretched = f * g, slope = cofactors * g;
-    terms.force -= volume * (stress.shear * stretched + stress.pressure * slope - stress.opening * g);
+    terms.force -= volume * (stress.shear * stretched + pressure * slope - stress.opening * g);
     terms.hessian.add_identity(volume * stress.shear * glm::dot(g, g));
     terms.hessian.add_outer(volume * Real(2) * mu * over * over, stretched);
-    terms.hessian.add_outer(volume * lambda, slope);
+    terms.hessian.add_outer(volume * (lambda + bound.modulus), slope);
 }
 
 /// Its viscosity over a step that brings the gradient from `start` to `f`: the dissipation

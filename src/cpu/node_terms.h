@@ -98,18 +98,24 @@ Real volume_stress(Real ratio, Real kappa) {
     return kappa * u * left * left;
 }
 
+/// Of a tet's part of the volume term p - k J_0 and k, below [Pa].
+template <class Real>
+struct VolumeBound {
+    Real offset{0}, modulus{0};
+};
+
 /// A tet's part of the volume term as one of its corners sees it. With p the mean of volume_stress at its
 /// corners and J_0 its own J, both at the last look, and k the mean |kappa| of its corners, the term is at
 /// most
 ///   W = V (p (J - J_0) + k / 2 (J - J_0)^2) and what it was then.
-/// @param face as in add_flat_tet @param offset p - k J_0 [Pa] @param modulus k [Pa]
+/// @param face as in add_flat_tet
 template <class Real>
 void add_tet_volume(const Vec3<Real>& position, const std::array<Vec3<Real>, 3>& face, Real rest_volume,
-                    Real offset, Real modulus, NodeTerms<Real>& terms) {
+                    const VolumeBound<Real>& bound, NodeTerms<Real>& terms) {
     const Vec3<Real> slope = glm::cross(face[1] - face[0], face[2] - face[0]) / (Real(6) * rest_volume);
     const Real ratio = glm::dot(position - face[0], slope);
-    terms.force -= rest_volume * (offset + modulus * ratio) * slope;
-    terms.hessian.add_outer(rest_volume * modulus, slope);
+    terms.force -= rest_volume * (bound.offset + bound.modulus * ratio) * slope;
+    terms.hessian.add_outer(rest_volume * bound.modulus, slope);
 }
 
 /// matrix^-1 v by the square-root-free Cholesky decomposition; zero along what has no stiffness. Pivots that

@@ -8,14 +8,18 @@
 #include <type_traits>
 #include <utility>
 
+#include "cpu/neo_hookean.h"
 #include "cpu/volume_ratios.h"
+#include "model/descent_rows.h"
 #include "model/for_each_index.h"
+#include "model/neo_hookean.h"
 
 namespace gelatin::cpu {
 template <class Real>
 TetResistance<Real>::TetResistance(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
       node_tets_(make_node_tets(model_->node_count(), model_->tets)),
+      object_of_(objects_of_nodes(*model_)),
       ratios_(model_->tets.size()),
       is_near_flat_(model_->node_count()) {
     if (model_->volume_term.is_empty()) return;
@@ -94,9 +98,15 @@ void TetResistance<Real>::look_at(const Range& tets, const std::vector<Vec4<Real
 }
 
 template <class Real>
+VolumeBound<Real> TetResistance<Real>::volume_bound(std::uint32_t tet) const {
+    return {offsets_[tet], static_cast<Real>(model_->volume_term.tets[tet])};
+}
+
+template <class Real>
 void TetResistance<Real>::add(std::uint32_t node, const std::vector<Vec4<Real>>& positions,
-                              NodeTerms<Real>& terms) const {
+                              const StepStart<Real>& start, NodeTerms<Real>& terms) const {
     const Model& model = *model_;
+    if (has_neo_hookean_tets(model, node)) return add_neo_hookean_tets(node, positions, start, terms);
     const bool has_volume_term = !model.volume_term.is_empty();
     if (is_near_flat_[node] == 0 && !has_volume_term) return;
     const Vec3<Real> position(positions[node]);
@@ -108,9 +118,31 @@ void TetResistance<Real>::add(std::uint32_t node, const std::vector<Vec4<Real>>&
         const auto volume = static_cast<Real>(rest.volume);
         if (is_near_flat_[node] != 0)
             add_flat_tet(position, face, volume, static_cast<Real>(rest.modulus), terms);
-        if (has_volume_term)
-            add_tet_volume(position, face, volume, offsets_[tet],
-                           static_cast<Real>(model.volume_term.tets[tet]), terms);
+        if (has_volume_term) add_tet_volume(position, face, volume, volume_bound(tet), terms);
+    }
+}
+
+template <class Real>
+void TetResistance<Real>::add_neo_hookean_tets(std::uint32_t node, const std::vector<Vec4<Real>>& positions,
+                                               const StepStart<Real>& start, NodeTerms<Real>& terms) const {
+    const NodeTets& corners = model_->neo_hookean_corners;
+    const ModelObject& object = model_->objects[object_of_[node]];
+    const std::uint32_t first_tet = object.tets.first - object.neo_hookean_tets.first;
+    const bool has_volume_term = !model_->volume_term.is_empty();
+    for (std::uint32_t e = corners.starts[node]; e < corners.starts[node + 1]; ++e) {
+        const NeoHookeanTet& tet = model_->neo_hookean_tets[corners.entries[e] / 4];
+        const Real volume = static_cast<Real>(tet.gradient_1.w), mu = static_cast<Real>(tet.gradient_2.w),
+                   lambda = static_cast<Real>(tet.gradient_3.w);
+        const Vec3<Real> g = shape_gradient<Real>(tet, corners.entries[e] % 4);
+        const Mat3<Real> f = gradient_of(tet, at_corners(tet, positions.data()));
+        const VolumeBound<Real> bound =
+            has_volume_term ? volume_bound(first_tet + corners.entries[e] / 4) : VolumeBound<Real>{};
+        add_neo_hookean(g, f, volume, mu, lambda, bound, terms);
+        const Real damping_time = mean_damping_time(tet, start.nodes);
+        if (damping_time > Real(0)) {
+            const Mat3<Real> before = gradient_of(tet, at_corners(tet, start.nodes));
+            add_viscosity(g, f, before, volume, mu, lambda, damping_time * start.inverse_step, terms);
+        }
     }
 }
 

@@ -13,8 +13,16 @@ namespace gelatin::cpu {
 /// Volumes over those at rest between which a first guess is taken for sound.
 constexpr double kLeastSound = -0.5, kMostSound = 4.0;
 
-/// What tets add to the springs of vertex block descent: they resist being flat, and, where the material asks
-/// for another Poisson's ratio than springs have, changes of the volume round each node (docs/physics.md).
+/// Where a step of vertex block descent began.
+template <class Real>
+struct StepStart {
+    const Vec4<Real>* nodes;  ///< xyz [m], damping time [s], shape [nodes]
+    Real inverse_step;        ///< [1/s]
+};
+
+/// What tets add to vertex block descent. Neo-Hookean ones are all that their bodies have; those of springs
+/// resist being flat; and both, where the material asks for another Poisson's ratio than they have, changes
+/// of the volume round each node (docs/physics.md).
 template <class Real>
 class TetResistance {
 public:
@@ -27,18 +35,25 @@ public:
     void look(const std::vector<Vec4<Real>>& positions);
 
     /// False if no node has anything to add.
-    bool any_resist() const { return any_flat_ || !model_->volume_term.is_empty(); }
+    bool any_resist() const {
+        return any_flat_ || !model_->volume_term.is_empty() || !model_->neo_hookean_tets.empty();
+    }
 
     /// Adds the resistance of the node's tets, with the volumes round other nodes as they were at the last
     /// look.
-    void add(std::uint32_t node, const std::vector<Vec4<Real>>& positions, NodeTerms<Real>& terms) const;
+    void add(std::uint32_t node, const std::vector<Vec4<Real>>& positions, const StepStart<Real>& start,
+             NodeTerms<Real>& terms) const;
 
 private:
     void look_at(const Range& tets, const std::vector<Vec4<Real>>& positions);
+    void add_neo_hookean_tets(std::uint32_t node, const std::vector<Vec4<Real>>& positions,
+                              const StepStart<Real>& start, NodeTerms<Real>& terms) const;
+    VolumeBound<Real> volume_bound(std::uint32_t tet) const;
     Real ratio_of(std::uint32_t tet, const std::vector<Vec4<Real>>& positions) const;
 
     std::shared_ptr<const Model> model_;
     NodeTets node_tets_;
+    std::vector<std::uint32_t> object_of_;    // by node
     std::vector<Real> ratios_;                // J, by tet
     std::vector<std::uint8_t> is_near_flat_;  // nodes of tets that resist
     bool any_flat_ = false;

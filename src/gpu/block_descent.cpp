@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "gpu/chunks.h"
+#include "gpu/make_buffer.h"
 #include "model/descent_rows.h"
+#include "model/neo_hookean.h"
 #include "model/node_tets.h"
 
 namespace gelatin::gpu {
@@ -34,13 +36,6 @@ gl::Defines sweep_defines(const Model& model) {
 gl::Defines with(gl::Defines defines, const char* another) {
     defines.emplace_back(another);
     return defines;
-}
-
-// No buffer is empty.
-template <class T>
-gl::Buffer<T> make_buffer(std::vector<T> values, const T& padding) {
-    if (values.empty()) values.push_back(padding);
-    return gl::Buffer<T>(std::span<const T>(values));
 }
 
 std::vector<glm::vec4> rests_of(const Model& model) {
@@ -78,13 +73,24 @@ std::uint32_t pair_count(const HalfSprings& springs, std::uint32_t row) {
     return count;
 }
 
-std::vector<DescentRow> rows_of(const DescentRows& rows, const std::vector<std::uint32_t>& objects) {
+std::vector<DescentRow> rows_of(const Model& model, const DescentRows& rows,
+                                const std::vector<std::uint32_t>& objects) {
     std::vector<DescentRow> result;
     for (std::uint32_t r = 0; r < rows.nodes.size(); ++r) {
-        const std::uint32_t n = rows.nodes[r];
-        result.push_back({n, n == kNoNode ? 0 : objects[n], pair_count(rows.springs, r), 0});
+        const std::uint32_t n = rows.nodes[r], o = n == kNoNode ? 0 : objects[n];
+        const ModelObject& object = model.objects[o];
+        result.push_back(
+            {n, o, pair_count(rows.springs, r), object.tets.first - object.neo_hookean_tets.first});
     }
     return result;
+}
+
+// Without the nodes of neo-Hookean tets, which have their terms with those.
+TetCorners corners_of(const Model& model, std::vector<std::uint32_t> rows) {
+    for (std::uint32_t& node : rows) {
+        if (node != kNoNode && has_neo_hookean_tets(model, node)) node = kNoNode;
+    }
+    return pack_tet_corners(rows, make_node_tets(model.node_count(), model.tets), model.tets);
 }
 
 }  // namespace
@@ -102,8 +108,8 @@ BlockDescent::Pressures::Pressures(const Model& model)
       node_pressures(model.positions.size()),
       offsets(model.tets.size()) {
     const NodeTets tets = make_node_tets(model.node_count(), model.tets);
-    node_tet_starts = make_buffer(tets.starts, 0u);
-    node_tets = make_buffer(tets.entries, 0u);
+    node_tet_starts = make_buffer(tets.starts);
+    node_tets = make_buffer(tets.entries);
     node_volume_texels = {node_volumes, gl::TexelFormat::rg32f};
     node_tet_start_texels = {node_tet_starts, gl::TexelFormat::r32ui};
     node_tet_texels = {node_tets, gl::TexelFormat::r32ui};
@@ -137,26 +143,25 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
     colors_ = rows.colors;
     const std::vector<std::uint32_t> objects = objects_of_nodes(model);
     neo_hookean_corners_ = NeoHookeanBuffers::Corners(model, rows.nodes);
-    const TetCorners corners =
-        pack_tet_corners(rows.nodes, make_node_tets(model.node_count(), model.tets), model.tets);
+    const TetCorners corners = corners_of(model, rows.nodes);
     const std::vector<Chunk> chunks = make_chunks(model, &ModelObject::nodes);
 
-    rows_ = make_buffer(rows_of(rows, objects), DescentRow{kNoNode, 0, 0, 0});
-    spring_ends_ = make_buffer(ends_of(rows.springs), glm::uvec2(0));
-    springs_ = make_buffer(springs_of(rows.springs), glm::vec4(0.0f));
+    rows_ = make_buffer(rows_of(model, rows, objects), DescentRow{kNoNode, 0, 0, 0});
+    spring_ends_ = make_buffer(ends_of(rows.springs));
+    springs_ = make_buffer(springs_of(rows.springs));
     if (model.has_damping()) damped_springs_.emplace(springs_.size());
-    spring_starts_ = make_buffer(rows.springs.slice_starts, 0u);
-    tet_corners_ = make_buffer(corners.corners, TetCorner{});
-    corner_starts_ = make_buffer(corners.slice_starts, 0u);
-    tets_ = make_buffer(model.tets, glm::uvec4(0));
+    spring_starts_ = make_buffer(rows.springs.slice_starts);
+    tet_corners_ = make_buffer(corners.corners);
+    corner_starts_ = make_buffer(corners.slice_starts);
+    tets_ = make_buffer(model.tets);
     tet_rests_ = make_buffer(rests_of(model), glm::vec4(1.0f));
-    chunks_ = make_buffer(chunks, Chunk{});
-    chunk_starts_ = make_buffer(chunk_starts(chunks, model.objects.size()), 0u);
+    chunks_ = make_buffer(chunks);
+    chunk_starts_ = make_buffer(chunk_starts(chunks, model.objects.size()));
     starts_ = gl::Buffer<glm::vec4>(model.positions.size());
     start_texels_ = {starts_, gl::TexelFormat::rgba32f};
     targets_ = gl::Buffer<glm::vec4>(model.positions.size());
     target_texels_ = {targets_, gl::TexelFormat::rgba32f};
-    node_objects_ = make_buffer(objects, 0u);
+    node_objects_ = make_buffer(objects);
     node_object_texels_ = {node_objects_, gl::TexelFormat::r32ui};
     rigid_sums_ = gl::Buffer<glm::dvec4>(kRigidSums * chunks.size());
     if (!model.colliders.empty()) touches_ = gl::Buffer<Touch>(model.positions.size());

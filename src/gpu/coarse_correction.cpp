@@ -3,6 +3,8 @@
 #include <bit>
 #include <utility>
 
+#include "gpu/make_buffer.h"
+
 namespace gelatin::gpu {
 namespace {
 
@@ -44,11 +46,6 @@ std::vector<float> inverses_of(const std::vector<CoarseMatrices>& matrices, doub
         result.insert(result.end(), inverse.data(), inverse.data() + inverse.size());
     }
     return result;
-}
-
-template <class T>
-gl::Buffer<T> make_buffer(const std::vector<T>& values) {
-    return gl::Buffer<T>(std::span<const T>(values));
 }
 
 }  // namespace

@@ -3,18 +3,12 @@
 #include <span>
 
 #include "gpu/chunks.h"
+#include "gpu/make_buffer.h"
 #include "model/descent_rows.h"
 #include "model/match_shapes.h"
 
 namespace gelatin::gpu {
 namespace {
-
-// No buffer is empty.
-template <class T>
-gl::Buffer<T> make_buffer(std::vector<T> values) {
-    if (values.empty()) values.push_back(T{});
-    return gl::Buffer<T>(std::span<const T>(values));
-}
 
 std::vector<glm::vec4> volumes_of(const Model& model) {
     std::vector<glm::vec4> volumes;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "model/model.h"
+
 namespace gelatin {
 
 NeoHookeanModuli neo_hookean_moduli(double youngs_modulus, double poisson_ratio) {
@@ -31,6 +33,11 @@ NeoHookeanTet make_neo_hookean_tet(const glm::uvec4& nodes, const std::array<glm
 std::array<glm::dvec3, 4> shape_gradients(const NeoHookeanTet& tet) {
     const glm::dvec3 g1(tet.gradient_1), g2(tet.gradient_2), g3(tet.gradient_3);
     return {-(g1 + g2 + g3), g1, g2, g3};
+}
+
+bool has_neo_hookean_tets(const Model& model, std::uint32_t node) {
+    const std::vector<std::uint32_t>& starts = model.neo_hookean_corners.starts;
+    return !starts.empty() && starts[node] < starts[node + 1];
 }
 
 }  // namespace gelatin

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include "model/layouts.h"
 
 namespace gelatin {
+
+struct Model;
 
 /// The two constants of a tet's own energy (cpu/neo_hookean.h), and that of the volume term, which is
 /// averaged over nodes (model/volume_term.h): each tet by itself would lock.
@@ -31,6 +34,9 @@ NeoHookeanTet make_neo_hookean_tet(const glm::uvec4& nodes, const std::array<glm
 
 /// The gradients of the corners' shape functions [1/m].
 std::array<glm::dvec3, 4> shape_gradients(const NeoHookeanTet& tet);
+
+/// True for the nodes of bodies that are made of such tets.
+bool has_neo_hookean_tets(const Model& model, std::uint32_t node);
 
 inline glm::uvec4 nodes_of(const NeoHookeanTet& tet) {
     return {tet.node_0, tet.node_1, tet.node_2, tet.node_3};

@@ -86,20 +86,22 @@ TEST(NeoHookeanDescent, FreeFallIsExact) {
     }
 }
 
+// With a volume term as far as single precision has the tets' shapes, which it counts in two ways.
 TEST(NeoHookeanDescent, ConvergesToImplicitEuler) {
-    for (const double modulus : {1e4, 1e6}) {
-        Body body = make_block_of(neo_hookean(modulus));
+    for (const auto& [modulus, nu] : {std::pair(1e4, 0.25), {1e6, 0.25}, {1e4, 0.4}, {1e6, 0.4}}) {
+        const double floor = nu > 0.25 ? 1e-4 : 1e-9;
+        Body body = make_block_of(neo_hookean(modulus, nu));
         body.pins = {HalfSpaceRegion{{1, 0, 0}, 1e-6}};
         Model model = test::make_model(body, kGravity);
         for (glm::vec4& v : model.velocities) v.y += 0.3f;
         const double start = gradient_norm(model, run_steps<double>(model, 1, 1));
         double last = start;
-        for (const int iterations : {10, 100, 1000, 10000}) {
+        for (const int iterations : {10, 100, 1000}) {
             const double now = gradient_norm(model, run_steps<double>(model, 1, iterations));
-            EXPECT_LT(now, std::max(last, 1e-12 * start)) << modulus << " Pa, " << iterations << " sweeps";
+            EXPECT_LT(now, std::max(last, floor * start)) << modulus << " Pa, " << iterations << " sweeps";
             last = now;
         }
-        EXPECT_LT(last, 1e-9 * start) << modulus;
+        EXPECT_LT(last, floor * start) << modulus;
     }
 }
 

@@ -64,7 +64,7 @@ V force_on(const NeoHookeanTet& tet, std::uint32_t corner, const Corners& x, con
 cpu::NodeTerms<double> terms_of(const NeoHookeanTet& tet, std::uint32_t corner, const Corners& x) {
     cpu::NodeTerms<double> terms;
     cpu::add_neo_hookean(cpu::shape_gradient<double>(tet, corner), cpu::gradient_of(tet, x), volume_of(tet),
-                         mu_of(tet), lambda_of(tet), terms);
+                         mu_of(tet), lambda_of(tet), {}, terms);
     return terms;
 }
 

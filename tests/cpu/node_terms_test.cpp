@@ -179,7 +179,7 @@ TEST(NodeTerms, ATetsVolumeTermIsThatOfItsEnergy) {
         const std::array<V, 3> face{random.point(0.5), random.point(0.5), random.point(0.5)};
         const auto terms_at = [&](const V& p) {
             Terms terms;
-            cpu::add_tet_volume(p, face, volume, offset, modulus, terms);
+            cpu::add_tet_volume(p, face, volume, {offset, modulus}, terms);
             return terms;
         };
         const auto energy = [&](const V& p) {

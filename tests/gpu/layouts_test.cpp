@@ -196,7 +196,7 @@ TEST_F(LayoutsTest, Dispatch) {
 TEST_F(LayoutsTest, Descent) {
     check("descent.glsl", "DescentRow", sizeof(DescentRow),
           {FIELD(DescentRow, node), FIELD(DescentRow, object), FIELD(DescentRow, pairs),
-           FIELD(DescentRow, unused)});
+           FIELD(DescentRow, first_tet)});
     check("descent.glsl", "TetCorner", sizeof(TetCorner),
           {FIELD(TetCorner, a), FIELD(TetCorner, b), FIELD(TetCorner, c), FIELD(TetCorner, tet)});
     check("descent.glsl", "Touch", sizeof(Touch), {FIELD(Touch, force), FIELD(Touch, normal)});

@@ -239,7 +239,7 @@ TEST_P(NeoHookeanMutantsTest, IsCaught) {
         caught = caught || step_of_tets_is_wrong(lively, ForceMethod::fused) ||
                  step_of_tets_is_wrong(lively, ForceMethod::divide_and_merge) ||
                  test::worst_energy_error(lively, test::measure_on_gpu(lively)) > 1.0;
-        Model falling = test::make_bodies_to_descend(damping, 0.3, MaterialModel::neo_hookean);
+        Model falling = test::make_bodies_to_descend(damping, 0.45, MaterialModel::neo_hookean);
         const Range& point = falling.objects[2].nodes;
         for (std::uint32_t n = point.first; n < point.end(); ++n)
             falling.positions[n] = glm::vec4(0.0f, 1.0f, 1.0f, falling.positions[n].w);

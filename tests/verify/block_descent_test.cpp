@@ -58,12 +58,14 @@ TEST_P(ConvergenceHeavy, IsToNewtonsSolution) {
     const test::ImplicitEuler objective(model, kFrame);
     const Eigen::VectorXd exact = objective.minimum();
     const double way = (exact - objective.start()).norm();
+    // Tets' shapes at rest are in single precision, and the volume term has them twice.
+    const double floor = model_of_material == MaterialModel::neo_hookean ? 1e-6 : 1e-11;
     double last = 1.0;
     for (const int iterations : {3, 10, 30, 100, 300, 1000}) {
         const Eigen::VectorXd x = descend(model, {iterations});
         const double error = (x - exact).norm() / way;
         RecordProperty("error_" + std::to_string(iterations), fmt::format("{:.2e}", error));
-        EXPECT_LT(error, std::max(last, 1e-11)) << iterations << " sweeps";
+        EXPECT_LT(error, std::max(last, floor)) << iterations << " sweeps";
         last = error;
     }
     EXPECT_LT(last, 1e-5);
