@@ -37,11 +37,11 @@ TexelLayout layout_of(TexelFormat format) {
 
 }  // namespace
 
-RawBuffer::RawBuffer(std::size_t bytes, const void* data) : bytes_(bytes) {
+RawBuffer::RawBuffer(std::size_t bytes, const void* data, Use use) : bytes_(bytes) {
     if (bytes == 0) return;
     GLint64 limit = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
-    if (bytes > static_cast<std::size_t>(limit)) {
+    if (use == Use::storage && bytes > static_cast<std::size_t>(limit)) {
         throw GlError("a buffer of " + std::to_string(bytes) + " bytes is more than this driver's limit of " +
                       std::to_string(limit) + " bytes a storage block (GL_MAX_SHADER_STORAGE_BLOCK_SIZE)");
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -12,8 +13,12 @@ namespace gelatin::gl {
 class RawBuffer {
 public:
     RawBuffer() = default;
-    /// @throws GlError if the driver cannot give `bytes`, or its storage block limit is smaller.
-    RawBuffer(std::size_t bytes, const void* data);
+    /// What shaders reach it through: a storage block, whose size the driver limits, or a BufferTexture.
+    enum class Use { storage, texels };
+
+    /// @throws GlError if the driver cannot give `bytes`, or its limit of storage blocks is less than these
+    /// of one.
+    RawBuffer(std::size_t bytes, const void* data, Use use = Use::storage);
     RawBuffer(RawBuffer&& other) noexcept
         : id_(std::exchange(other.id_, 0)), bytes_(std::exchange(other.bytes_, 0)) {}
     RawBuffer& operator=(RawBuffer&& other) noexcept;
@@ -100,6 +105,37 @@ public:
 
 private:
     unsigned id_ = 0;
+};
+
+/// A table that shaders read through a samplerBuffer and nobody writes: a buffer and its texture in one. It
+/// may be larger than a storage block.
+///
+/// Move-only; one that was default-made or moved from binds nothing.
+template <class T>
+class TexelTable {
+    static_assert(std::is_trivially_copyable_v<T>);
+
+public:
+    TexelTable() = default;
+
+    /// One of no values holds a T{}: textures are never empty.
+    /// @throws GlError if the driver cannot give the bytes, or has textures of fewer texels.
+    TexelTable(std::span<const T> values, TexelFormat format)
+        : TexelTable(values.empty() ? &kNothing : values.data(), std::max<std::size_t>(values.size(), 1),
+                     format) {}
+
+    void bind(unsigned unit) const {
+        if (texels_.id() != 0) texels_.bind(unit);
+    }
+
+private:
+    static constexpr T kNothing{};
+
+    TexelTable(const T* values, std::size_t size, TexelFormat format)
+        : raw_(size * sizeof(T), values, RawBuffer::Use::texels), texels_(raw_.id(), raw_.bytes(), format) {}
+
+    RawBuffer raw_;
+    BufferTexture texels_;
 };
 
 }  // namespace gelatin::gl

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "gpu/chunks.h"
-#include "gpu/make_buffer.h"
 #include "model/descent_rows.h"
 #include "model/neo_hookean.h"
 #include "model/node_tets.h"
@@ -103,16 +102,13 @@ BlockDescent::DampedSprings::DampedSprings(std::size_t pairs)
 BlockDescent::Pressures::Pressures(const Model& model)
     : node_program(gl::Program::compute("sim/find_pressures.comp", {"NODES"})),
       tet_program(gl::Program::compute("sim/find_pressures.comp")),
-      node_volumes(std::span<const glm::vec2>(model.volume_term.nodes)),
+      node_volumes(model.volume_term.nodes, gl::TexelFormat::rg32f),
       ratios(model.tets.size()),
       node_pressures(model.positions.size()),
       offsets(model.tets.size()) {
     const NodeTets tets = make_node_tets(model.node_count(), model.tets);
-    node_tet_starts = make_buffer(tets.starts);
-    node_tets = make_buffer(tets.entries);
-    node_volume_texels = {node_volumes, gl::TexelFormat::rg32f};
-    node_tet_start_texels = {node_tet_starts, gl::TexelFormat::r32ui};
-    node_tet_texels = {node_tets, gl::TexelFormat::r32ui};
+    node_tet_starts = {tets.starts, gl::TexelFormat::r32ui};
+    node_tets = {tets.entries, gl::TexelFormat::r32ui};
     offset_texels = {offsets, gl::TexelFormat::r32f};
 }
 
@@ -146,36 +142,27 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
     const TetCorners corners = corners_of(model, rows.nodes);
     const std::vector<Chunk> chunks = make_chunks(model, &ModelObject::nodes);
 
-    rows_ = make_buffer(rows_of(model, rows, objects), DescentRow{kNoNode, 0, 0, 0});
-    spring_ends_ = make_buffer(ends_of(rows.springs));
-    springs_ = make_buffer(springs_of(rows.springs));
-    if (model.has_damping()) damped_springs_.emplace(springs_.size());
-    spring_starts_ = make_buffer(rows.springs.slice_starts);
-    tet_corners_ = make_buffer(corners.corners);
-    corner_starts_ = make_buffer(corners.slice_starts);
-    tets_ = make_buffer(model.tets);
-    tet_rests_ = make_buffer(rests_of(model), glm::vec4(1.0f));
-    chunks_ = make_buffer(chunks);
-    chunk_starts_ = make_buffer(chunk_starts(chunks, model.objects.size()));
+    row_count_ = static_cast<std::uint32_t>(rows.nodes.size());
+    rows_ = {rows_of(model, rows, objects), gl::TexelFormat::rgba32ui};
+    spring_ends_ = {ends_of(rows.springs), gl::TexelFormat::rg32ui};
+    springs_ = {springs_of(rows.springs), gl::TexelFormat::rgba32f};
+    if (model.has_damping()) damped_springs_.emplace(rows.springs.pairs.size());
+    spring_starts_ = {rows.springs.slice_starts, gl::TexelFormat::r32ui};
+    tet_corners_ = {corners.corners, gl::TexelFormat::rgba32ui};
+    corner_starts_ = {corners.slice_starts, gl::TexelFormat::r32ui};
+    tets_ = {model.tets, gl::TexelFormat::rgba32ui};
+    tet_rests_ = {rests_of(model), gl::TexelFormat::rgba32f};
+    chunks_ = gl::Buffer<Chunk>(chunks);
+    chunk_starts_ = {chunk_starts(chunks, model.objects.size()), gl::TexelFormat::r32ui};
+    node_objects_ = {objects, gl::TexelFormat::r32ui};
     starts_ = gl::Buffer<glm::vec4>(model.positions.size());
     start_texels_ = {starts_, gl::TexelFormat::rgba32f};
     targets_ = gl::Buffer<glm::vec4>(model.positions.size());
     target_texels_ = {targets_, gl::TexelFormat::rgba32f};
-    node_objects_ = make_buffer(objects);
-    node_object_texels_ = {node_objects_, gl::TexelFormat::r32ui};
+    near_flat_texels_ = {near_flat_, gl::TexelFormat::r32ui};
     rigid_sums_ = gl::Buffer<glm::dvec4>(kRigidSums * chunks.size());
     if (!model.colliders.empty()) touches_ = gl::Buffer<Touch>(model.positions.size());
 
-    row_texels_ = {rows_, gl::TexelFormat::rgba32ui};
-    near_flat_texels_ = {near_flat_, gl::TexelFormat::r32ui};
-    spring_end_texels_ = {spring_ends_, gl::TexelFormat::rg32ui};
-    spring_texels_ = {springs_, gl::TexelFormat::rgba32f};
-    spring_start_texels_ = {spring_starts_, gl::TexelFormat::r32ui};
-    tet_corner_texels_ = {tet_corners_, gl::TexelFormat::rgba32ui};
-    corner_start_texels_ = {corner_starts_, gl::TexelFormat::r32ui};
-    tet_texels_ = {tets_, gl::TexelFormat::rgba32ui};
-    tet_rest_texels_ = {tet_rests_, gl::TexelFormat::rgba32f};
-    chunk_start_texels_ = {chunk_starts_, gl::TexelFormat::r32ui};
     const CoarseBasis basis = make_coarse_basis(model);
     if (basis.cluster_count() == 0) return;
     coarse_.emplace(model, basis);
@@ -213,8 +200,8 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
     start_texels_.bind(1);
     target_texels_.bind(17);
     near_flat_texels_.bind(18);
-    row_texels_.bind(3);
-    spring_start_texels_.bind(6);
+    rows_.bind(3);
+    spring_starts_.bind(6);
     if (damped_springs_) damp_springs(step);
     take_back_tangled(current);
     if (coarse_) coarse_->begin(step);
@@ -230,19 +217,19 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
 }
 
 void BlockDescent::damp_springs(double step) const {
-    spring_end_texels_.bind(4);
-    spring_texels_.bind(5);
+    spring_ends_.bind(4);
+    springs_.bind(5);
     damped_springs_->springs.bind_storage(0);
     damped_springs_->program.set("time_step", static_cast<float>(step));
-    damped_springs_->program.set("row_count", static_cast<std::uint32_t>(rows_.size()));
-    damped_springs_->program.dispatch(rows_.size());
+    damped_springs_->program.set("row_count", row_count_);
+    damped_springs_->program.dispatch(row_count_);
     gl::barrier(gl::Barrier::texture_fetch);
 }
 
 void BlockDescent::take_back_tangled(const NodeBuffers& current) const {
-    tet_texels_.bind(9);
-    tet_rest_texels_.bind(10);
-    node_object_texels_.bind(12);
+    tets_.bind(9);
+    tet_rests_.bind(10);
+    node_objects_.bind(12);
     is_tangled_.bind_storage(4);
     find_tangled_program_.set("element_count", tet_count_);
     find_tangled_program_.dispatch(tet_count_);
@@ -257,7 +244,7 @@ void BlockDescent::take_back_tangled(const NodeBuffers& current) const {
 void BlockDescent::accelerate(int sweep) const {
     sweep_starts_.bind_storage(3);
     object_touches_.bind_storage(2);
-    node_object_texels_.bind(12);
+    node_objects_.bind(12);
     accelerate_program_.set("node_count", node_count_);
     accelerate_program_.set("sweep", static_cast<std::uint32_t>(sweep));
     accelerate_program_.set("weight", static_cast<float>(chebyshev_weight(settings_.chebyshev, sweep)));
@@ -266,8 +253,8 @@ void BlockDescent::accelerate(int sweep) const {
 }
 
 void BlockDescent::look_at_tets() const {
-    tet_texels_.bind(9);
-    tet_rest_texels_.bind(10);
+    tets_.bind(9);
+    tet_rests_.bind(10);
     near_flat_.bind_storage(1);
     if (pressures_) pressures_->ratios.bind_storage(3);
     mark_program_.set("tet_count", tet_count_);
@@ -275,9 +262,9 @@ void BlockDescent::look_at_tets() const {
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
     if (!pressures_) return;
 
-    pressures_->node_volume_texels.bind(11);
-    pressures_->node_tet_start_texels.bind(12);
-    pressures_->node_tet_texels.bind(13);
+    pressures_->node_volumes.bind(11);
+    pressures_->node_tet_starts.bind(12);
+    pressures_->node_tets.bind(13);
     pressures_->node_pressures.bind_storage(4);
     pressures_->node_program.set("element_count", node_count_);
     pressures_->node_program.dispatch(node_count_);
@@ -296,14 +283,18 @@ void BlockDescent::sweep(const ModelBuffers& model) const {
 // One dispatch after another for each of `rows`.
 void BlockDescent::descend(const gl::Program& program, const ModelBuffers& model,
                            std::span<const Range> rows) const {
-    row_texels_.bind(3);
-    spring_end_texels_.bind(4);
-    (damped_springs_ ? damped_springs_->texels : spring_texels_).bind(5);
-    spring_start_texels_.bind(6);
+    rows_.bind(3);
+    spring_ends_.bind(4);
+    if (damped_springs_) {
+        damped_springs_->texels.bind(5);
+    } else {
+        springs_.bind(5);
+    }
+    spring_starts_.bind(6);
     model.bind_colliders(program);
-    tet_corner_texels_.bind(8);
-    corner_start_texels_.bind(9);
-    tet_rest_texels_.bind(10);
+    tet_corners_.bind(8);
+    corner_starts_.bind(9);
+    tet_rests_.bind(10);
     if (pressures_) pressures_->offset_texels.bind(11);
     model.neo_hookean.bind_tets();
     neo_hookean_corners_.bind();
@@ -318,7 +309,7 @@ void BlockDescent::descend(const gl::Program& program, const ModelBuffers& model
 
 // All nodes at once along the motions of clusters, as far as the objective falls.
 void BlockDescent::correct(const ModelBuffers& model, const NodeBuffers& current, double step) {
-    const Range all{0, static_cast<std::uint32_t>(rows_.size())};
+    const Range all{0, row_count_};
     coarse_->bind_forces(false);
     force_program_.set("time_step", static_cast<float>(step));
     force_program_.set("is_ahead", 0u);
@@ -330,11 +321,11 @@ void BlockDescent::correct(const ModelBuffers& model, const NodeBuffers& current
     force_program_.set("is_ahead", 1u);
     descend(force_program_, model, {&all, 1});
     current.position_texels.bind(0);
-    coarse_->follow_ways(chunks_, chunk_start_texels_);
+    coarse_->follow_ways(chunks_, chunk_starts_);
 }
 
 void BlockDescent::move_bodies(const ModelBuffers& model, const NodeBuffers& current, bool is_last) const {
-    chunk_start_texels_.bind(3);
+    chunk_starts_.bind(3);
     chunks_.bind_storage(3);
     rigid_sums_.bind_storage(4);
     motions_.bind_storage(5);

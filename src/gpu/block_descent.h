@@ -35,9 +35,8 @@ private:
         explicit Pressures(const Model& model);
 
         gl::Program node_program, tet_program;
-        gl::Buffer<glm::vec2> node_volumes;  // [m^3], [Pa]
-        gl::Buffer<std::uint32_t> node_tet_starts, node_tets;
-        gl::BufferTexture node_volume_texels, node_tet_start_texels, node_tet_texels;
+        gl::TexelTable<glm::vec2> node_volumes;  // [m^3], [Pa]
+        gl::TexelTable<std::uint32_t> node_tet_starts, node_tets;
         gl::Buffer<float> ratios, node_pressures, offsets;
         gl::BufferTexture offset_texels;
     };
@@ -63,31 +62,26 @@ private:
     gl::Program start_program_, find_tangled_program_, take_back_program_, accelerate_program_, mark_program_,
         sweep_program_, sum_program_, motion_program_, move_program_, last_move_program_;
     DescentSettings settings_;
-    std::uint32_t node_count_, tet_count_, object_count_;
+    std::uint32_t node_count_, tet_count_, object_count_, row_count_;
     std::optional<Pressures> pressures_;
     std::optional<DampedSprings> damped_springs_;  // where the model has dampers
     gl::Buffer<glm::vec4> sweep_starts_;           // empty without acceleration
     std::vector<Range> colors_;                    // rows
-    gl::Buffer<DescentRow> rows_;
+    gl::TexelTable<DescentRow> rows_;
     NeoHookeanBuffers::Corners neo_hookean_corners_;
-    gl::Buffer<glm::uvec2> spring_ends_;  // of pairs of half springs
-    gl::Buffer<glm::vec4> springs_;       // of each its rest length [m], stiffness [N/m]
-    gl::Buffer<std::uint32_t> spring_starts_;
-    gl::Buffer<TetCorner> tet_corners_;
-    gl::Buffer<std::uint32_t> corner_starts_;
-    gl::Buffer<glm::uvec4> tets_;
-    gl::Buffer<glm::vec4> tet_rests_;  // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
+    gl::TexelTable<glm::uvec2> spring_ends_;  // of pairs of half springs
+    gl::TexelTable<glm::vec4> springs_;       // of each its rest length [m], stiffness [N/m]
+    gl::TexelTable<std::uint32_t> spring_starts_;
+    gl::TexelTable<TetCorner> tet_corners_;
+    gl::TexelTable<std::uint32_t> corner_starts_;
+    gl::TexelTable<glm::uvec4> tets_;
+    gl::TexelTable<glm::vec4> tet_rests_;  // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
     gl::Buffer<Chunk> chunks_;
-    gl::Buffer<std::uint32_t> chunk_starts_;  // by object
-    gl::Buffer<std::uint32_t> node_objects_;
+    gl::TexelTable<std::uint32_t> chunk_starts_, node_objects_;  // by object; by node
     gl::Buffer<glm::vec4> starts_;   // xyz, outside colliders [m], inverse mass [1/kg]
     gl::Buffer<glm::vec4> targets_;  // y [m], m / h^2 [N/m]
-    gl::BufferTexture start_texels_, target_texels_;
-    gl::BufferTexture node_object_texels_;
-    gl::BufferTexture near_flat_texels_, row_texels_, spring_end_texels_, spring_texels_,
-        spring_start_texels_, tet_corner_texels_, corner_start_texels_, tet_texels_, tet_rest_texels_,
-        chunk_start_texels_;
     gl::Buffer<std::uint32_t> near_flat_, object_touches_, is_tangled_;
+    gl::BufferTexture start_texels_, target_texels_, near_flat_texels_;
     gl::Buffer<Touch> touches_;  // of nodes in the last sweep; empty without colliders
     gl::Buffer<glm::dvec4> rigid_sums_;
     gl::Buffer<RigidMotion> motions_;

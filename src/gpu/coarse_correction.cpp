@@ -3,8 +3,6 @@
 #include <bit>
 #include <utility>
 
-#include "gpu/make_buffer.h"
-
 namespace gelatin::gpu {
 namespace {
 
@@ -62,36 +60,29 @@ CoarseCorrection::CoarseCorrection(const Model& model, const CoarseBasis& basis)
       cluster_count_(basis.cluster_count()),
       object_count_(static_cast<std::uint32_t>(model.objects.size())) {
     matrices_ = make_coarse_matrices(model, basis);
-    rests_ = make_buffer(rests_of(basis));
+    rests_ = gl::Buffer<ClusterRest>(rests_of(basis));
     clusters_ = gl::Buffer<Cluster>(cluster_count_);
-    bodies_ = make_buffer(bodies_of(basis));
-    core_nodes_ = make_buffer(basis.core_nodes);
-    cluster_starts_ = make_buffer(basis.cluster_starts);
-    node_starts_ = make_buffer(basis.node_starts);
-    cluster_parts_ = make_buffer(packed(basis.cluster_parts));
-    node_parts_ = make_buffer(packed(basis.node_parts));
-    rest_positions_ = make_buffer(model.positions);
+    bodies_ = gl::Buffer<CoarseBody>(bodies_of(basis));
+    core_nodes_ = {basis.core_nodes, gl::TexelFormat::r32ui};
+    cluster_starts_ = {basis.cluster_starts, gl::TexelFormat::r32ui};
+    node_starts_ = {basis.node_starts, gl::TexelFormat::r32ui};
+    cluster_parts_ = {packed(basis.cluster_parts), gl::TexelFormat::rg32ui};
+    node_parts_ = {packed(basis.node_parts), gl::TexelFormat::rg32ui};
+    rest_positions_ = {model.positions, gl::TexelFormat::rgba32f};
     for (gl::Buffer<glm::vec4>* by_node : {&forces_, &forces_ahead_, &ways_, &ahead_})
         *by_node = gl::Buffer<glm::vec4>(node_count_);
     loads_ = gl::Buffer<float>(std::size_t{6} * cluster_count_);
     factors_ = gl::Buffer<float>(object_count_);
-
-    core_node_texels_ = {core_nodes_, gl::TexelFormat::r32ui};
-    cluster_start_texels_ = {cluster_starts_, gl::TexelFormat::r32ui};
-    node_start_texels_ = {node_starts_, gl::TexelFormat::r32ui};
-    cluster_part_texels_ = {cluster_parts_, gl::TexelFormat::rg32ui};
-    node_part_texels_ = {node_parts_, gl::TexelFormat::rg32ui};
-    rest_position_texels_ = {rest_positions_, gl::TexelFormat::rgba32f};
     ahead_texels_ = {ahead_, gl::TexelFormat::rgba32f};
 }
 
 void CoarseCorrection::begin(double step) {
     if (step != step_) {
-        inverses_ = make_buffer(inverses_of(matrices_, step));
+        inverses_ = gl::Buffer<float>(inverses_of(matrices_, step));
         step_ = step;
     }
-    core_node_texels_.bind(3);
-    rest_position_texels_.bind(4);
+    core_nodes_.bind(3);
+    rest_positions_.bind(4);
     rests_.bind_storage(3);
     clusters_.bind_storage(4);
     turn_program_.set("cluster_count", cluster_count_);
@@ -105,8 +96,8 @@ void CoarseCorrection::bind_forces(bool is_ahead) const {
 }
 
 void CoarseCorrection::find_ways() const {
-    cluster_start_texels_.bind(3);
-    cluster_part_texels_.bind(4);
+    cluster_starts_.bind(3);
+    cluster_parts_.bind(4);
     forces_.bind_storage(3);
     clusters_.bind_storage(4);
     loads_.bind_storage(5);
@@ -121,8 +112,8 @@ void CoarseCorrection::find_ways() const {
     move_program_.dispatch(cluster_count_);
     gl::barrier(gl::Barrier::storage);
 
-    node_start_texels_.bind(3);
-    node_part_texels_.bind(4);
+    node_starts_.bind(3);
+    node_parts_.bind(4);
     ways_.bind_storage(5);
     ahead_.bind_storage(6);
     way_program_.set("node_count", node_count_);
@@ -130,7 +121,8 @@ void CoarseCorrection::find_ways() const {
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 }
 
-void CoarseCorrection::follow_ways(const gl::Buffer<Chunk>& chunks, const gl::BufferTexture& chunk_starts) {
+void CoarseCorrection::follow_ways(const gl::Buffer<Chunk>& chunks,
+                                   const gl::TexelTable<std::uint32_t>& chunk_starts) {
     const auto chunk_count = static_cast<std::uint32_t>(chunks.size());
     if (sums_.size() != chunks.size()) sums_ = gl::Buffer<glm::vec4>(chunks.size());
     chunks.bind_storage(3);

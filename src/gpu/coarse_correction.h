@@ -34,7 +34,7 @@ public:
     void find_ways() const;
     /// From those ahead too: how far. Moves the nodes at storage 0; ends with the barrier for whoever gathers
     /// them. @param chunks of nodes @param chunk_starts of each object in them, and the end
-    void follow_ways(const gl::Buffer<Chunk>& chunks, const gl::BufferTexture& chunk_starts);
+    void follow_ways(const gl::Buffer<Chunk>& chunks, const gl::TexelTable<std::uint32_t>& chunk_starts);
 
 private:
     gl::Program turn_program_, load_program_, move_program_, way_program_, sum_program_, factor_program_,
@@ -45,12 +45,12 @@ private:
     gl::Buffer<ClusterRest> rests_;
     gl::Buffer<Cluster> clusters_;
     gl::Buffer<CoarseBody> bodies_;
-    gl::Buffer<std::uint32_t> core_nodes_, cluster_starts_, node_starts_;
-    gl::Buffer<glm::uvec2> cluster_parts_, node_parts_;  // index, weight
-    gl::Buffer<glm::vec4> rest_positions_, forces_, forces_ahead_, ways_, ahead_, sums_;
+    gl::TexelTable<std::uint32_t> core_nodes_, cluster_starts_, node_starts_;
+    gl::TexelTable<glm::uvec2> cluster_parts_, node_parts_;  // index, weight
+    gl::TexelTable<glm::vec4> rest_positions_;
+    gl::Buffer<glm::vec4> forces_, forces_ahead_, ways_, ahead_, sums_;
+    gl::BufferTexture ahead_texels_;
     gl::Buffer<float> loads_, inverses_, factors_;
-    gl::BufferTexture core_node_texels_, cluster_start_texels_, node_start_texels_, cluster_part_texels_,
-        node_part_texels_, rest_position_texels_, ahead_texels_;
 };
 
 }  // namespace gelatin::gpu

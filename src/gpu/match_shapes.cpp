@@ -3,7 +3,6 @@
 #include <span>
 
 #include "gpu/chunks.h"
-#include "gpu/make_buffer.h"
 #include "model/descent_rows.h"
 #include "model/match_shapes.h"
 
@@ -26,40 +25,34 @@ ShapeMatcher::ShapeMatcher(const Model& model)
       node_count_(model.node_count()),
       tet_count_(static_cast<std::uint32_t>(model.tets.size())),
       object_count_(static_cast<std::uint32_t>(model.objects.size())),
-      tets_(make_buffer(model.tets)),
-      tet_rests_(make_buffer(volumes_of(model))),
-      node_objects_(make_buffer(objects_of_nodes(model))),
+      tets_(model.tets, gl::TexelFormat::rgba32ui),
+      tet_rests_(volumes_of(model), gl::TexelFormat::rgba32f),
+      node_objects_(objects_of_nodes(model), gl::TexelFormat::r32ui),
       inverted_(model.objects.size()),
       places_(model.objects.size()) {
     const MatchShapes shapes = make_match_shapes(model);
-    rest_offsets_ = make_buffer(shapes.offsets);
-    rest_moments_ = make_buffer(shapes.objects);
+    rest_offsets_ = {shapes.offsets, gl::TexelFormat::rgba32f};
+    rest_moments_ = gl::Buffer<RestMoment>(shapes.objects);
     const std::vector<Chunk> chunks = make_chunks(model, &ModelObject::nodes);
-    chunks_ = make_buffer(chunks);
-    chunk_starts_ = make_buffer(chunk_starts(chunks, model.objects.size()));
+    chunks_ = gl::Buffer<Chunk>(chunks);
+    chunk_starts_ = {chunk_starts(chunks, model.objects.size()), gl::TexelFormat::r32ui};
     sums_ = gl::Buffer<ShapeSums>(chunks.size());
     inverted_.fill(0);
-
-    tet_texels_ = {tets_, gl::TexelFormat::rgba32ui};
-    tet_rest_texels_ = {tet_rests_, gl::TexelFormat::rgba32f};
-    rest_offset_texels_ = {rest_offsets_, gl::TexelFormat::rgba32f};
-    node_object_texels_ = {node_objects_, gl::TexelFormat::r32ui};
-    chunk_start_texels_ = {chunk_starts_, gl::TexelFormat::r32ui};
 }
 
 void ShapeMatcher::run(const NodeBuffers& nodes) const {
     nodes.position_texels.bind(0);
-    tet_texels_.bind(9);
-    tet_rest_texels_.bind(10);
-    node_object_texels_.bind(12);
+    tets_.bind(9);
+    tet_rests_.bind(10);
+    node_objects_.bind(12);
     inverted_.bind_storage(4);
     count_program_.set("tet_count", tet_count_);
     count_program_.dispatch(tet_count_);
     gl::barrier(gl::Barrier::storage);
 
     nodes.velocity_texels.bind(2);
-    chunk_start_texels_.bind(3);
-    rest_offset_texels_.bind(4);
+    chunk_starts_.bind(3);
+    rest_offsets_.bind(4);
     rest_moments_.bind_storage(2);
     chunks_.bind_storage(3);
     sums_.bind_storage(5);

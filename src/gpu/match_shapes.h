@@ -20,18 +20,16 @@ public:
 private:
     gl::Program count_program_, sum_program_, match_program_, place_program_;
     std::uint32_t node_count_, tet_count_, object_count_;
-    gl::Buffer<glm::uvec4> tets_;
-    gl::Buffer<glm::vec4> tet_rests_;     // volume [m^3]
-    gl::Buffer<glm::vec4> rest_offsets_;  // from the object's centre of mass [m], mass [kg], shape [nodes]
+    gl::TexelTable<glm::uvec4> tets_;
+    gl::TexelTable<glm::vec4> tet_rests_;  // volume [m^3]
+    gl::TexelTable<glm::vec4>
+        rest_offsets_;  // from the object's centre of mass [m], mass [kg], shape [nodes]
+    gl::TexelTable<std::uint32_t> node_objects_, chunk_starts_;  // by object
     gl::Buffer<RestMoment> rest_moments_;
-    gl::Buffer<std::uint32_t> node_objects_;
     gl::Buffer<Chunk> chunks_;
-    gl::Buffer<std::uint32_t> chunk_starts_;  // by object
-    gl::Buffer<std::uint32_t> inverted_;      // tets, by object; all 0 between runs
-    gl::Buffer<ShapeSums> sums_;              // by chunk
-    gl::Buffer<ShapePlace> places_;           // by object
-    gl::BufferTexture tet_texels_, tet_rest_texels_, rest_offset_texels_, node_object_texels_,
-        chunk_start_texels_;
+    gl::Buffer<std::uint32_t> inverted_;  // tets, by object; all 0 between runs
+    gl::Buffer<ShapeSums> sums_;          // by chunk
+    gl::Buffer<ShapePlace> places_;       // by object
 };
 
 }  // namespace gelatin::gpu

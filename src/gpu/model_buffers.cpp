@@ -16,18 +16,14 @@ glm::uvec4 count_up_to_kind(const std::vector<Collider>& colliders) {
 }  // namespace
 
 ModelBuffers::ModelBuffers(const Model& model)
-    : half_springs(std::span(model.half_springs.pairs)),
-      stiffnesses(std::span(model.half_springs.stiffness)),
-      slice_starts(std::span(model.half_springs.slice_starts)),
-      half_spring_texels(half_springs, gl::TexelFormat::rgba32ui),
-      stiffness_texels(stiffnesses, gl::TexelFormat::rg32f),
-      slice_start_texels(slice_starts, gl::TexelFormat::r32ui),
+    : half_springs(model.half_springs.pairs, gl::TexelFormat::rgba32ui),
+      stiffnesses(model.half_springs.stiffness, gl::TexelFormat::rg32f),
+      slice_starts(model.half_springs.slice_starts, gl::TexelFormat::r32ui),
       neo_hookean(model),
       volume_term(model),
       faces(std::span(model.faces)),
       face_texels(faces, gl::TexelFormat::rgba32ui),
-      colliders(std::span(model.colliders)),
-      collider_texels(colliders, gl::TexelFormat::rgba32f),
+      colliders(model.colliders, gl::TexelFormat::rgba32f),
       node_count(model.node_count()),
       collider_ends(count_up_to_kind(model.colliders)),
       gravity(model.gravity) {}
@@ -39,13 +35,13 @@ gl::Defines ModelBuffers::collider_defines(const Model& model) {
 }
 
 void ModelBuffers::bind_half_springs() const {
-    half_spring_texels.bind(4);
-    stiffness_texels.bind(5);
-    slice_start_texels.bind(6);
+    half_springs.bind(4);
+    stiffnesses.bind(5);
+    slice_starts.bind(6);
 }
 
 void ModelBuffers::bind_colliders(const gl::Program& program) const {
-    collider_texels.bind(7);
+    colliders.bind(7);
     program.set("collider_ends", collider_ends);
 }
 

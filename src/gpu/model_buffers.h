@@ -15,16 +15,14 @@ namespace gelatin::gpu {
 /// The immutable parts of a model that the solver's kernels read, on the GPU, and what a user's hand holds of
 /// it.
 struct ModelBuffers {
-    gl::Buffer<HalfSpringPair> half_springs;
-    gl::Buffer<glm::vec2> stiffnesses;  ///< of the pairs [N/m]
-    gl::Buffer<std::uint32_t> slice_starts;
-    gl::BufferTexture half_spring_texels, stiffness_texels, slice_start_texels;
+    gl::TexelTable<HalfSpringPair> half_springs;
+    gl::TexelTable<glm::vec2> stiffnesses;  ///< of the pairs [N/m]
+    gl::TexelTable<std::uint32_t> slice_starts;
     NeoHookeanBuffers neo_hookean;
     VolumeTermBuffers volume_term;
     gl::Buffer<Face> faces;
     gl::BufferTexture face_texels;
-    gl::Buffer<Collider> colliders;  ///< empty if there are none
-    gl::BufferTexture collider_texels;
+    gl::TexelTable<Collider> colliders;
     std::uint32_t node_count = 0;
     glm::uvec4 collider_ends{0};  ///< behind the planes, boxes, spheres, capsules
     glm::vec3 gravity{0.0f};      ///< [m/s^2]

@@ -18,22 +18,18 @@ std::vector<std::uint32_t> all_nodes(const Model& model) {
 NeoHookeanBuffers::Corners::Corners(const Model& model, std::span<const std::uint32_t> rows) {
     if (model.neo_hookean_tets.empty()) return;
     const NodeTetSlices slices = pack_node_tets(rows, model.neo_hookean_corners);
-    entries_ = gl::Buffer<std::uint32_t>(std::span(slices.entries));
-    slice_starts_ = gl::Buffer<std::uint32_t>(std::span(slices.slice_starts));
-    entry_texels_ = {entries_, gl::TexelFormat::r32ui};
-    slice_start_texels_ = {slice_starts_, gl::TexelFormat::r32ui};
+    entries_ = {slices.entries, gl::TexelFormat::r32ui};
+    slice_starts_ = {slices.slice_starts, gl::TexelFormat::r32ui};
 }
 
 void NeoHookeanBuffers::Corners::bind() const {
-    if (entries_.empty()) return;
-    entry_texels_.bind(14);
-    slice_start_texels_.bind(15);
+    entries_.bind(14);
+    slice_starts_.bind(15);
 }
 
-NeoHookeanBuffers::NeoHookeanBuffers(const Model& model)
-    : tets_(std::span(model.neo_hookean_tets)),
-      tet_texels_(tets_, gl::TexelFormat::rgba32ui),
-      corners_(model, all_nodes(model)) {}
+NeoHookeanBuffers::NeoHookeanBuffers(const Model& model) : corners_(model, all_nodes(model)) {
+    if (!model.neo_hookean_tets.empty()) tets_ = {model.neo_hookean_tets, gl::TexelFormat::rgba32ui};
+}
 
 gl::Defines NeoHookeanBuffers::defines(const Model& model) {
     if (model.neo_hookean_tets.empty()) return {};
@@ -42,7 +38,7 @@ gl::Defines NeoHookeanBuffers::defines(const Model& model) {
 }
 
 void NeoHookeanBuffers::bind_tets() const {
-    if (!tets_.empty()) tet_texels_.bind(13);
+    tets_.bind(13);
 }
 
 void NeoHookeanBuffers::bind() const {

@@ -21,8 +21,7 @@ public:
         void bind() const;
 
     private:
-        gl::Buffer<std::uint32_t> entries_, slice_starts_;
-        gl::BufferTexture entry_texels_, slice_start_texels_;
+        gl::TexelTable<std::uint32_t> entries_, slice_starts_;
     };
 
     explicit NeoHookeanBuffers(const Model& model);
@@ -35,8 +34,7 @@ public:
     void bind() const;
 
 private:
-    gl::Buffer<NeoHookeanTet> tets_;
-    gl::BufferTexture tet_texels_;
+    gl::TexelTable<NeoHookeanTet> tets_;
     Corners corners_;
 };
 

@@ -32,12 +32,9 @@ TetValues::TetValues(const Model& model, Quantity quantity)
     : quantity_(quantity),
       tet_program_(gl::Program::compute("sim/find_tet_values.comp", defines(quantity))),
       node_program_(gl::Program::compute("sim/average_tet_values.comp", defines(quantity))),
-      tets_(std::span(model.tets)),
-      rest_positions_(std::span(model.positions)),
-      materials_(std::span<const glm::vec2>(materials_of(model))),
-      tet_texels_(tets_, gl::TexelFormat::rgba32ui),
-      rest_texels_(rest_positions_, gl::TexelFormat::rgba32f),
-      material_texels_(materials_, gl::TexelFormat::rg32f),
+      tets_(model.tets, gl::TexelFormat::rgba32ui),
+      rest_positions_(model.positions, gl::TexelFormat::rgba32f),
+      materials_(materials_of(model), gl::TexelFormat::rg32f),
       tet_values_(model.tets.size()),
       node_values_(model.positions.size()),
       tet_value_texels_(tet_values_, gl::TexelFormat::r32f),
@@ -45,10 +42,8 @@ TetValues::TetValues(const Model& model, Quantity quantity)
     std::vector<std::uint32_t> rows(model.node_count());
     std::iota(rows.begin(), rows.end(), 0u);
     const NodeTetSlices slices = pack_node_tets(rows, make_node_tets(model.node_count(), model.tets));
-    node_tets_ = gl::Buffer<std::uint32_t>(std::span(slices.entries));
-    slice_starts_ = gl::Buffer<std::uint32_t>(std::span(slices.slice_starts));
-    node_tet_texels_ = {node_tets_, gl::TexelFormat::r32ui};
-    slice_start_texels_ = {slice_starts_, gl::TexelFormat::r32ui};
+    node_tets_ = {slices.entries, gl::TexelFormat::r32ui};
+    slice_starts_ = {slices.slice_starts, gl::TexelFormat::r32ui};
 }
 
 void TetValues::run(const gl::BufferTexture& positions, const gl::BufferTexture& velocities) {
@@ -56,9 +51,9 @@ void TetValues::run(const gl::BufferTexture& positions, const gl::BufferTexture&
     histogram_.fill(0);
     positions.bind(0);
     velocities.bind(1);
-    tet_texels_.bind(2);
-    rest_texels_.bind(3);
-    material_texels_.bind(4);
+    tets_.bind(2);
+    rest_positions_.bind(3);
+    materials_.bind(4);
     tet_values_.bind_storage(0);
     histogram_.bind_storage(1);
     tet_program_.set("tet_count", static_cast<std::uint32_t>(tet_values_.size()));
@@ -67,8 +62,8 @@ void TetValues::run(const gl::BufferTexture& positions, const gl::BufferTexture&
     gl::barrier(gl::Barrier::texture_fetch);
 
     tet_value_texels_.bind(0);
-    node_tet_texels_.bind(2);
-    slice_start_texels_.bind(3);
+    node_tets_.bind(2);
+    slice_starts_.bind(3);
     node_values_.bind_storage(0);
     node_program_.set("node_count", static_cast<std::uint32_t>(node_values_.size()));
     node_program_.dispatch(node_values_.size());

@@ -36,11 +36,10 @@ public:
 private:
     Quantity quantity_;
     gl::Program tet_program_, node_program_;
-    gl::Buffer<glm::uvec4> tets_;
-    gl::Buffer<glm::vec4> rest_positions_;
-    gl::Buffer<glm::vec2> materials_;
-    gl::Buffer<std::uint32_t> node_tets_, slice_starts_;
-    gl::BufferTexture tet_texels_, rest_texels_, material_texels_, node_tet_texels_, slice_start_texels_;
+    gl::TexelTable<glm::uvec4> tets_;
+    gl::TexelTable<glm::vec4> rest_positions_;
+    gl::TexelTable<glm::vec2> materials_;
+    gl::TexelTable<std::uint32_t> node_tets_, slice_starts_;
     gl::Buffer<float> tet_values_, node_values_;
     gl::BufferTexture tet_value_texels_;
     gl::Buffer<std::uint32_t> histogram_;

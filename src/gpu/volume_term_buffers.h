@@ -20,10 +20,9 @@ public:
     void bind() const;
 
 private:
-    gl::Buffer<TetCorner> corners_;
-    gl::Buffer<std::uint32_t> slice_starts_;
-    gl::Buffer<glm::vec2> nodes_;
-    gl::BufferTexture corner_texels_, slice_start_texels_, node_texels_;
+    gl::TexelTable<TetCorner> corners_;
+    gl::TexelTable<std::uint32_t> slice_starts_;
+    gl::TexelTable<glm::vec2> nodes_;
 };
 
 }  // namespace gelatin::gpu

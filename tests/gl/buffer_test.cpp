@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 #include <gmock/gmock.h>
 
+#include <glm/vec4.hpp>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -119,6 +120,52 @@ TEST_F(BufferTest, TextureOfTooManyTexelsNamesTheLimit) {
         EXPECT_THAT(error.what(), HasSubstr(std::to_string(limit + 1) + " texels"));
         EXPECT_THAT(error.what(), HasSubstr("limit of " + std::to_string(limit)));
     }
+}
+
+// What a shader reads of a table's texel at `index`.
+glm::vec4 texel_of(const TexelTable<glm::vec4>& table, std::size_t index) {
+    test::ShaderFolder folder;
+    folder.add("texel.comp", R"(
+        layout(local_size_x = 1) in;
+        layout(binding = 2) uniform samplerBuffer table;
+        layout(std430, binding = 0) buffer Out { vec4 value; };
+        uniform uint index;
+        void main() { value = texelFetch(table, int(index)); }
+    )");
+    const Program program = Program::compute("texel.comp");
+    const Buffer<glm::vec4> out(1);
+    table.bind(2);
+    out.bind_storage(0);
+    program.set("index", static_cast<std::uint32_t>(index));
+    program.dispatch(1);
+    barrier(Barrier::buffer_update);
+    glm::vec4 value(std::numeric_limits<float>::quiet_NaN());
+    out.download({&value, 1});
+    return value;
+}
+
+TEST_F(BufferTest, TablesMayBeLargerThanAStorageBlock) {
+    const DeviceInfo& device = context().device();
+    const std::size_t texels = device.max_storage_block_bytes / sizeof(glm::vec4) + 2;
+    if (texels > (std::size_t{1} << 24)) GTEST_SKIP() << "storage blocks of " << texels << " texels";
+    ASSERT_LE(texels, static_cast<std::size_t>(device.max_texture_buffer_texels));
+    std::vector<glm::vec4> values(texels);
+    values.back() = {1, 2, 3, 4};
+    EXPECT_EQ(texel_of({values, TexelFormat::rgba32f}, texels - 1), glm::vec4(1, 2, 3, 4));
+}
+
+TEST_F(BufferTest, ATableOfNothingHasOneTexelOfZeros) {
+    EXPECT_EQ(texel_of({std::vector<glm::vec4>(), TexelFormat::rgba32f}, 0), glm::vec4(0.0f));
+}
+
+TEST_F(BufferTest, NoTableBindsNothing) {
+    const TexelTable<glm::vec4> some(std::vector{glm::vec4(5.0f)}, TexelFormat::rgba32f);
+    some.bind(2);
+    EXPECT_EQ(texel_of({}, 0), glm::vec4(5.0f));
+    TexelTable<glm::vec4> source(std::vector{glm::vec4(6.0f)}, TexelFormat::rgba32f);
+    const TexelTable<glm::vec4> target = std::move(source);
+    EXPECT_EQ(texel_of(target, 0), glm::vec4(6.0f));
+    EXPECT_EQ(texel_of(source, 0), glm::vec4(6.0f));  // NOLINT(bugprone-use-after-move): what is tested
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
-// Deliberately broken kernels must be caught: each mutant of tests/mutants/mutants.h is run in place of the
+// Deliberately broken kernels must be caught: each mutant of tests/mutants/ is run in place of the
 // true shader, and the parity test's own measure must say so.
-#include "mutants/mutants.h"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
+#include "mutants/collision_mutants.h"
+#include "mutants/solver_mutants.h"
 #include "support/crowd.h"
 #include "support/descend_on_gpu.h"
 #include "support/drive_on_gpu.h"
