@@ -161,8 +161,8 @@ void add_gl_cases(const std::shared_ptr<const Model>& model, double step, std::v
                          [descent] { descent->advance_nodes(kFrame); }, finish});
     }
     // One a colour, and half of the four that come with every second sweep.
-    const std::size_t dispatches = rows.colors.size() + 2,
-                      invocations = rows.nodes.size() / rows.colors.size();
+    const std::size_t dispatches = rows.batches.front().colors.size() + 2,
+                      invocations = rows.nodes.size() / rows.batches.front().colors.size();
     cases.push_back({kOpenGl, kDispatchStage, 0.0,
                      [empty, dispatches, invocations] {
                          for (std::size_t k = 0; k < dispatches; ++k) {

@@ -31,10 +31,11 @@ void for_each_node(const Model& model, const Work& work) {
 }  // namespace
 
 template <class Real>
-BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const DescentSettings& settings)
+BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const DescentSettings& settings,
+                                 std::uint32_t nodes_a_batch)
     : model_(std::move(model)),
       settings_(settings),
-      objective_(model_),
+      objective_(model_, nodes_a_batch),
       coarse_(model_),
       touches_{objects_of_nodes(*model_), std::vector<std::uint8_t>(model_->objects.size()), {}} {
     if (!model_->colliders.empty()) touches_.nodes.resize(model_->node_count());
@@ -48,16 +49,34 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
     start(step, has_earlier, previous, load_forces, pulls, current);
     take_back_tangled(current.positions);
     coarse_.begin(step, current.positions);
-    for (int i = 0; i < settings_.iterations; ++i) {
-        if (settings_.chebyshev > 0.0)
-            accelerate(coarse_.is_empty() ? i : sweeps_since_correction(i), current.positions);
-        if (i % kSweepsAMotion == 0) objective_.look(current.positions);
-        sweep(current.positions);
-        const bool is_last = i + 1 == settings_.iterations;
-        if (!is_last && i % kSweepsACorrection == 0) coarse_.run(objective_, touches_, current.positions);
-        if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(is_last, current.positions);
+    for (int first = 0; first < settings_.iterations;) {
+        const int end = end_of_run(first);
+        tbb::parallel_for(std::size_t(0), objective_.rows().batches.size(), [&](std::size_t batch) {
+            for (int i = first; i < end; ++i) make_sweep(i, batch, current.positions);
+        });
+        if (end < settings_.iterations) coarse_.run(objective_, touches_, current.positions);
+        first = end;
     }
     finish(step, previous, current);
+}
+
+// Of sweeps that no correction comes between.
+template <class Real>
+int BlockDescent<Real>::end_of_run(int first) const {
+    if (coarse_.is_empty()) return settings_.iterations;
+    const int corrected = (first + kSweepsACorrection - 1) / kSweepsACorrection * kSweepsACorrection;
+    return std::min(corrected + 1, settings_.iterations);
+}
+
+template <class Real>
+void BlockDescent<Real>::make_sweep(int index, std::size_t batch, std::vector<Vec4<Real>>& positions) {
+    const DescentBatch& bodies = objective_.rows().batches[batch];
+    if (settings_.chebyshev > 0.0)
+        accelerate(coarse_.is_empty() ? index : sweeps_since_correction(index), bodies.nodes, positions);
+    if (index % kSweepsAMotion == 0) objective_.look(batch, positions);
+    sweep(batch, positions);
+    const bool is_last = index + 1 == settings_.iterations;
+    if (is_last || (index + 1) % kSweepsAMotion == 0) move_bodies(bodies.objects, is_last, positions);
 }
 
 // As the last step went on: with as much of gravity as was felt in it, from none, where a body rests, to all,
@@ -121,9 +140,9 @@ void BlockDescent<Real>::take_back_tangled(std::vector<Vec4<Real>>& positions) c
 // that touch one are left alone: what holds them changes from sweep to sweep. A coarse correction is no
 // sweep: the method begins anew behind it.
 template <class Real>
-void BlockDescent<Real>::accelerate(int sweep, std::vector<Vec4<Real>>& positions) {
+void BlockDescent<Real>::accelerate(int sweep, const Range& nodes, std::vector<Vec4<Real>>& positions) {
     const auto weight = static_cast<Real>(chebyshev_weight(settings_.chebyshev, sweep));
-    for_each_node(*model_, [&](std::uint32_t n) {
+    for_each_index(nodes, [&](std::uint32_t n) {
         Vec3<Real> x(positions[n]);
         if (sweep > 1 && !touches_.is_touched(n)) x = weight * (x - before_last_[n]) + before_last_[n];
         before_last_[n] = last_[n];
@@ -133,18 +152,21 @@ void BlockDescent<Real>::accelerate(int sweep, std::vector<Vec4<Real>>& position
 }
 
 template <class Real>
-void BlockDescent<Real>::sweep(std::vector<Vec4<Real>>& positions) {
+void BlockDescent<Real>::sweep(std::size_t batch, std::vector<Vec4<Real>>& positions) {
     const DescentRows& rows = objective_.rows();
+    const DescentBatch& bodies = rows.batches[batch];
     if constexpr (kIsFloat<Real>) {
         const DescentGroups groups = objective_.groups(collider_bounds_);
-        const bool any_touch =
-            std::any_of(touches_.objects.begin(), touches_.objects.end(), [](auto t) { return t != 0; });
-        for (const Range& color : rows.colors) {
-            for_each_index(color.first / kGroup, color.end() / kGroup, kGroupsATask,
-                           [&](std::size_t group) { move_group(groups, group, any_touch, positions); });
+        const bool any_tets = objective_.any_tets(batch);
+        const std::span touched(touches_.objects.data() + bodies.objects.first, bodies.objects.count);
+        const bool any_touch = std::any_of(touched.begin(), touched.end(), [](auto t) { return t != 0; });
+        for (const Range& color : bodies.colors) {
+            for_each_index(color.first / kGroup, color.end() / kGroup, kGroupsATask, [&](std::size_t group) {
+                move_group(groups, group, any_tets, any_touch, positions);
+            });
         }
     } else {
-        for (const Range& color : rows.colors) {
+        for (const Range& color : bodies.colors) {
             for_each_index(color.first, color.end(), kGroup * kGroupsATask, [&](std::size_t row) {
                 const std::uint32_t node = rows.nodes[row];
                 if (node == kNoNode || objective_.targets[node].w == Real(0)) return;
@@ -154,13 +176,14 @@ void BlockDescent<Real>::sweep(std::vector<Vec4<Real>>& positions) {
     }
 }
 
-// @param any_touch whether nodes touched a collider in the last sweep
+// @param any_tets whether tets add anything @param any_touch whether nodes touched a collider in the last
+// sweep
 template <class Real>
 template <class Groups>
-void BlockDescent<Real>::move_group(const Groups& groups, std::size_t group, bool any_touch,
+void BlockDescent<Real>::move_group(const Groups& groups, std::size_t group, bool any_tets, bool any_touch,
                                     std::vector<Vec4<Real>>& positions) {
     TermColumns terms;
-    if (objective_.any_tets()) {
+    if (any_tets) {
         for (std::uint32_t row = 0; row < kGroup; ++row) {
             const std::uint32_t node = groups.nodes[group * kGroup + row];
             if (node == kNoNode) continue;
@@ -242,8 +265,9 @@ Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, const Symme
 
 // The last sweep has left nodes outside colliders: bodies that touch one do not move after it.
 template <class Real>
-void BlockDescent<Real>::move_bodies(bool is_last, std::vector<Vec4<Real>>& positions) const {
-    tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
+void BlockDescent<Real>::move_bodies(const Range& objects, bool is_last,
+                                     std::vector<Vec4<Real>>& positions) const {
+    tbb::parallel_for(objects.first, objects.end(), [&](std::uint32_t o) {
         const Range& nodes = model_->objects[o].nodes;
         const std::span body_nodes(positions.data() + nodes.first, nodes.count);
         const bool is_held = std::any_of(body_nodes.begin(), body_nodes.end(),

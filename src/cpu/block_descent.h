@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -28,7 +29,12 @@ namespace gelatin::cpu {
 template <class Real>
 class BlockDescent {
 public:
-    BlockDescent(std::shared_ptr<const Model> model, const DescentSettings& settings);
+    /// Bodies of so many nodes in all make their sweeps one batch after the other, or beside each other: what
+    /// a processor's caches hold.
+    static constexpr std::uint32_t kNodesABatch = 16384;
+
+    BlockDescent(std::shared_ptr<const Model> model, const DescentSettings& settings,
+                 std::uint32_t nodes_a_batch = kNodesABatch);
 
     /// A step of `step` seconds from `previous`; writes `current`.
     /// @param current's velocities are those one step before `previous` if `has_earlier`, else not looked at
@@ -40,15 +46,17 @@ private:
     void start(Real step, bool has_earlier, const Nodes<Real>& previous,
                std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls, Nodes<Real>& current);
     void take_back_tangled(std::vector<Vec4<Real>>& positions) const;
-    void accelerate(int sweep, std::vector<Vec4<Real>>& positions);
-    void sweep(std::vector<Vec4<Real>>& positions);
+    int end_of_run(int first) const;
+    void make_sweep(int index, std::size_t batch, std::vector<Vec4<Real>>& positions);
+    void accelerate(int sweep, const Range& nodes, std::vector<Vec4<Real>>& positions);
+    void sweep(std::size_t batch, std::vector<Vec4<Real>>& positions);
     void move_node(std::uint32_t node, const NodeTerms<Real>& terms, std::vector<Vec4<Real>>& positions);
     template <class Groups>  // DescentGroups: a template, for there is none but in float
-    void move_group(const Groups& groups, std::size_t group, bool any_touch,
+    void move_group(const Groups& groups, std::size_t group, bool any_tets, bool any_touch,
                     std::vector<Vec4<Real>>& positions);
     Vec3<Real> outside_colliders(std::uint32_t node, const SymmetricMatrix<Real>& hessian,
                                  Vec3<Real> position);
-    void move_bodies(bool is_last, std::vector<Vec4<Real>>& positions) const;
+    void move_bodies(const Range& objects, bool is_last, std::vector<Vec4<Real>>& positions) const;
     void add_touch(std::uint32_t node, const glm::dvec3& origin, const std::vector<Vec4<Real>>& positions,
                    RigidStep& body) const;
     void finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current) const;

@@ -18,12 +18,12 @@ constexpr bool kIsFloat = std::is_same_v<Real, float>;
 }  // namespace
 
 template <class Real>
-StepObjective<Real>::StepObjective(std::shared_ptr<const Model> model)
+StepObjective<Real>::StepObjective(std::shared_ptr<const Model> model, std::uint32_t nodes_a_batch)
     : starts(model->node_count()),
       targets(model->node_count()),
       model_(std::move(model)),
-      rows_(make_descent_rows(*model_)),
-      tets_(model_) {
+      rows_(make_descent_rows(*model_, nodes_a_batch)),
+      tets_(model_, rows_.batches.size()) {
     if constexpr (kIsFloat<Real>) {
         springs_ = make_spring_blocks(rows_);
         rows_.springs = {};
@@ -58,8 +58,10 @@ void StepObjective<Real>::find_forces(const std::vector<Vec4<Real>>& positions,
                                       std::vector<Vec3<Real>>& forces) const {
     if constexpr (kIsFloat<Real>) {
         const auto all = groups();
-        for_each_index(0, rows_.nodes.size() / kGroup, kGroupsATask,
-                       [&](std::size_t group) { find_group_forces(all, group, positions, forces); });
+        const bool any_tets = tets_.any_resist();
+        for_each_index(0, rows_.nodes.size() / kGroup, kGroupsATask, [&](std::size_t group) {
+            find_group_forces(all, group, any_tets, positions, forces);
+        });
     } else {
         for_each_index(0, rows_.nodes.size(), kGroup * kGroupsATask, [&](std::size_t row) {
             const std::uint32_t node = rows_.nodes[row];
@@ -71,7 +73,7 @@ void StepObjective<Real>::find_forces(const std::vector<Vec4<Real>>& positions,
 
 template <class Real>
 template <class Groups>
-void StepObjective<Real>::find_group_forces(const Groups& groups, std::size_t group,
+void StepObjective<Real>::find_group_forces(const Groups& groups, std::size_t group, bool any_tets,
                                             const std::vector<Vec4<Real>>& positions,
                                             std::vector<Vec3<Real>>& forces) const {
     TermColumns terms;
@@ -80,7 +82,7 @@ void StepObjective<Real>::find_group_forces(const Groups& groups, std::size_t gr
         const std::uint32_t node = groups.nodes[group * kGroup + row];
         if (node == kNoNode || targets[node].w == Real(0)) continue;
         NodeTerms<Real> all = terms.row(row);
-        if (any_tets()) add_tets(node, positions, all);
+        if (any_tets) add_tets(node, positions, all);
         forces[node] = all.force;
     }
 }

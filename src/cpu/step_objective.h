@@ -19,7 +19,8 @@ namespace gelatin::cpu {
 template <class Real>
 class StepObjective {
 public:
-    explicit StepObjective(std::shared_ptr<const Model> model);
+    /// @param nodes_a_batch as make_descent_rows has it
+    StepObjective(std::shared_ptr<const Model> model, std::uint32_t nodes_a_batch);
 
     std::vector<Vec4<Real>> starts;   ///< xyz when the step began [m], damping time [s], shape [nodes]
     std::vector<Vec4<Real>> targets;  ///< y [m], m / h^2 [N/m], 0 where a node is held, shape [nodes]
@@ -31,10 +32,12 @@ public:
     bool is_tangled(const ModelObject& object, const std::vector<Vec4<Real>>& positions) const {
         return tets_.is_tangled(object, positions);
     }
-    /// Looks how tets are (cpu/tet_resistance.h).
-    void look(const std::vector<Vec4<Real>>& positions) { tets_.look(positions); }
+    /// Looks how the tets of a batch of rows() are (cpu/tet_resistance.h).
+    void look(std::size_t batch, const std::vector<Vec4<Real>>& positions) {
+        tets_.look(batch, rows_.batches[batch], positions);
+    }
 
-    /// Rows of nodes by colour; their springs are in groups().
+    /// Rows of nodes by batch and colour; their springs are in groups().
     const DescentRows& rows() const { return rows_; }
     /// Springs and inertia for SIMD, in float: a template, for there is none in double.
     /// @param colliders what a sweep will look out for
@@ -43,7 +46,7 @@ public:
         return {model_->has_damping() ? damped_springs_ : springs_, rows_.nodes, targets, colliders};
     }
     /// What tets add to that.
-    bool any_tets() const { return tets_.any_resist(); }
+    bool any_tets(std::size_t batch) const { return tets_.any_resist(batch); }
     void add_tets(std::uint32_t node, const std::vector<Vec4<Real>>& positions,
                   NodeTerms<Real>& terms) const {
         tets_.add(node, positions, {starts.data(), inverse_step_}, terms);
@@ -56,8 +59,8 @@ public:
 
 private:
     template <class Groups>  // as above
-    void find_group_forces(const Groups& groups, std::size_t group, const std::vector<Vec4<Real>>& positions,
-                           std::vector<Vec3<Real>>& forces) const;
+    void find_group_forces(const Groups& groups, std::size_t group, bool any_tets,
+                           const std::vector<Vec4<Real>>& positions, std::vector<Vec3<Real>>& forces) const;
 
     std::shared_ptr<const Model> model_;
     DescentRows rows_;

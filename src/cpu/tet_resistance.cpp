@@ -10,18 +10,19 @@
 
 #include "cpu/neo_hookean.h"
 #include "cpu/volume_ratios.h"
-#include "model/descent_rows.h"
 #include "model/for_each_index.h"
 #include "model/neo_hookean.h"
 
 namespace gelatin::cpu {
 template <class Real>
-TetResistance<Real>::TetResistance(std::shared_ptr<const Model> model)
+TetResistance<Real>::TetResistance(std::shared_ptr<const Model> model, std::size_t batches)
     : model_(std::move(model)),
       node_tets_(make_node_tets(model_->node_count(), model_->tets)),
       object_of_(objects_of_nodes(*model_)),
       ratios_(model_->tets.size()),
-      is_near_flat_(model_->node_count()) {
+      is_near_flat_(model_->node_count()),
+      any_flat_(batches),
+      any_always_(!model_->volume_term.is_empty() || !model_->neo_hookean_tets.empty()) {
     if (model_->volume_term.is_empty()) return;
     node_pressures_.resize(model_->node_count());
     offsets_.resize(model_->tets.size());
@@ -51,19 +52,22 @@ bool TetResistance<Real>::is_tangled(const ModelObject& object,
 }
 
 template <class Real>
-void TetResistance<Real>::look(const std::vector<Vec4<Real>>& positions) {
+void TetResistance<Real>::look(std::size_t index, const DescentBatch& batch,
+                               const std::vector<Vec4<Real>>& positions) {
     const Model& model = *model_;
-    if (any_flat_) std::fill(is_near_flat_.begin(), is_near_flat_.end(), std::uint8_t(0));
-    any_flat_ = false;
-    const auto tet_count = static_cast<std::uint32_t>(model.tets.size());
+    std::uint8_t& any_flat = any_flat_[index];
+    if (any_flat != 0)
+        std::fill_n(is_near_flat_.begin() + batch.nodes.first, batch.nodes.count, std::uint8_t(0));
+    any_flat = 0;
     constexpr std::uint32_t kTetsATask = 512;
-    tbb::parallel_for(0u, (tet_count + kTetsATask - 1) / kTetsATask, [&](std::uint32_t task) {
+    tbb::parallel_for(0u, (batch.tets.count + kTetsATask - 1) / kTetsATask, [&](std::uint32_t task) {
         const std::uint32_t first = task * kTetsATask;
-        look_at({first, std::min(kTetsATask, tet_count - first)}, positions);
+        look_at({batch.tets.first + first, std::min(kTetsATask, batch.tets.count - first)}, any_flat,
+                positions);
     });
     const VolumeTerm& term = model.volume_term;
     if (term.is_empty()) return;
-    for_each_index(model.positions.size(), [&](std::size_t n) {
+    for_each_index(batch.nodes, [&](std::uint32_t n) {
         Real volume(0);
         for (std::uint32_t e = node_tets_.starts[n]; e < node_tets_.starts[n + 1]; ++e) {
             const std::uint32_t t = node_tets_.entries[e] / 4;
@@ -73,7 +77,7 @@ void TetResistance<Real>::look(const std::vector<Vec4<Real>>& positions) {
         node_pressures_[n] =
             rest > Real(0) ? volume_stress(volume / rest, static_cast<Real>(term.nodes[n].y)) : Real(0);
     });
-    for_each_index(model.tets.size(), [&](std::size_t t) {
+    for_each_index(batch.tets, [&](std::uint32_t t) {
         const glm::uvec4& tet = model.tets[t];
         Real sum(0);
         for (int k = 0; k < 4; ++k) sum += node_pressures_[tet[k]];
@@ -82,7 +86,8 @@ void TetResistance<Real>::look(const std::vector<Vec4<Real>>& positions) {
 }
 
 template <class Real>
-void TetResistance<Real>::look_at(const Range& tets, const std::vector<Vec4<Real>>& positions) {
+void TetResistance<Real>::look_at(const Range& tets, std::uint8_t& any_flat,
+                                  const std::vector<Vec4<Real>>& positions) {
     constexpr auto kLeast = static_cast<Real>(kFlattest), kMost = std::numeric_limits<Real>::infinity();
     if constexpr (std::is_same_v<Real, float>) {
         if (volumes_are_within(kLeast, kMost, *model_, tets, positions.data(), ratios_.data())) return;
@@ -91,7 +96,7 @@ void TetResistance<Real>::look_at(const Range& tets, const std::vector<Vec4<Real
     }
     for (std::uint32_t t = tets.first; t < tets.end(); ++t) {
         if (ratios_[t] >= kLeast) continue;
-        std::atomic_ref(any_flat_).store(true, std::memory_order_relaxed);
+        std::atomic_ref(any_flat).store(1, std::memory_order_relaxed);
         for (int k = 0; k < 4; ++k)
             std::atomic_ref(is_near_flat_[model_->tets[t][k]]).store(1, std::memory_order_relaxed);
     }

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
 #include "cpu/node_terms.h"
 #include "cpu/nodes.h"
+#include "model/descent_rows.h"
 #include "model/model.h"
 #include "model/node_tets.h"
 
@@ -26,17 +28,20 @@ struct StepStart {
 template <class Real>
 class TetResistance {
 public:
-    explicit TetResistance(std::shared_ptr<const Model> model);
+    /// @param batches of bodies that are looked at one by one
+    TetResistance(std::shared_ptr<const Model> model, std::size_t batches);
 
     /// True if a tet of the object is far from its volume at rest (kLeastSound, kMostSound).
     bool is_tangled(const ModelObject& object, const std::vector<Vec4<Real>>& positions) const;
 
-    /// Looks which tets are flat and how far the volumes are from those at rest.
-    void look(const std::vector<Vec4<Real>>& positions);
+    /// Looks which tets of a batch are flat and how far the volumes are from those at rest.
+    void look(std::size_t index, const DescentBatch& batch, const std::vector<Vec4<Real>>& positions);
 
-    /// False if no node has anything to add.
+    /// False if no node of the batch has anything to add.
+    bool any_resist(std::size_t batch) const { return any_flat_[batch] != 0 || any_always_; }
     bool any_resist() const {
-        return any_flat_ || !model_->volume_term.is_empty() || !model_->neo_hookean_tets.empty();
+        return any_always_ ||
+               std::any_of(any_flat_.begin(), any_flat_.end(), [](auto flat) { return flat != 0; });
     }
 
     /// Adds the resistance of the node's tets, with the volumes round other nodes as they were at the last
@@ -45,7 +50,7 @@ public:
              NodeTerms<Real>& terms) const;
 
 private:
-    void look_at(const Range& tets, const std::vector<Vec4<Real>>& positions);
+    void look_at(const Range& tets, std::uint8_t& any_flat, const std::vector<Vec4<Real>>& positions);
     void add_neo_hookean_tets(std::uint32_t node, const std::vector<Vec4<Real>>& positions,
                               const StepStart<Real>& start, NodeTerms<Real>& terms) const;
     VolumeBound<Real> volume_bound(std::uint32_t tet) const;
@@ -56,9 +61,10 @@ private:
     std::vector<std::uint32_t> object_of_;    // by node
     std::vector<Real> ratios_;                // J, by tet
     std::vector<std::uint8_t> is_near_flat_;  // nodes of tets that resist
-    bool any_flat_ = false;
-    std::vector<Real> node_pressures_;  // [Pa]
-    std::vector<Real> offsets_;         // q [Pa], by tet
+    std::vector<std::uint8_t> any_flat_;      // by batch
+    bool any_always_;                         // whatever their shapes
+    std::vector<Real> node_pressures_;        // [Pa]
+    std::vector<Real> offsets_;               // q [Pa], by tet
 };
 
 }  // namespace gelatin::cpu

@@ -136,7 +136,7 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
     if (!model.volume_term.is_empty()) pressures_.emplace(model);
     if (settings_.chebyshev > 0.0) sweep_starts_ = gl::Buffer<glm::vec4>(2 * model.positions.size());
     const DescentRows rows = make_descent_rows(model);
-    colors_ = rows.colors;
+    colors_ = rows.batches.front().colors;
     const std::vector<std::uint32_t> objects = objects_of_nodes(model);
     neo_hookean_corners_ = NeoHookeanBuffers::Corners(model, rows.nodes);
     const TetCorners corners = corners_of(model, rows.nodes);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "model/model.h"
@@ -21,15 +22,23 @@ constexpr int sweeps_since_correction(int sweep) {
     return sweep == 0 ? 0 : (sweep - 1) % kSweepsACorrection;
 }
 
-/// Nodes in the order in which block descent moves them: by colour, each filled up to whole slices of
-/// HalfSprings::kSlice rows with rows that have no node.
-struct DescentRows {
-    std::vector<std::uint32_t> nodes;  ///< kNoNode where there is none, shape [rows]
-    std::vector<Range> colors;         ///< rows
-    HalfSprings springs;               ///< of each row's node
+/// Bodies that descend together. Bodies do not meet within a step, so batches need not wait for each other.
+struct DescentBatch {
+    Range objects, nodes, tets;
+    std::vector<Range> colors;  ///< rows
 };
 
-DescentRows make_descent_rows(const Model& model);
+/// Nodes in the order in which block descent moves them: by batch, then colour, each colour filled up to
+/// whole slices of HalfSprings::kSlice rows with rows that have no node.
+struct DescentRows {
+    std::vector<std::uint32_t> nodes;  ///< kNoNode where there is none, shape [rows]
+    std::vector<DescentBatch> batches;
+    HalfSprings springs;  ///< of each row's node
+};
+
+/// @param nodes_a_batch at most, but for bodies of more
+DescentRows make_descent_rows(const Model& model,
+                              std::uint32_t nodes_a_batch = std::numeric_limits<std::uint32_t>::max());
 
 /// The object of each node, shape [nodes].
 std::vector<std::uint32_t> objects_of_nodes(const Model& model);

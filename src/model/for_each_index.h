@@ -4,6 +4,9 @@
 #include <tbb/parallel_for.h>
 
 #include <cstddef>
+#include <cstdint>
+
+#include "model/model.h"
 
 namespace gelatin {
 
@@ -16,7 +19,13 @@ void for_each_index(std::size_t first, std::size_t end, std::size_t grain, const
     });
 }
 
-/// Calls visit(k) for each k below `count`, on several threads where that pays.
+/// Calls visit(k) for each k of the range, or below `count`, on several threads where that pays.
+template <class Visit>
+void for_each_index(const Range& range, const Visit& visit) {
+    constexpr std::size_t kGrain = 512;
+    for_each_index(range.first, range.end(), kGrain,
+                   [&](std::size_t k) { visit(static_cast<std::uint32_t>(k)); });
+}
 template <class Visit>
 void for_each_index(std::size_t count, const Visit& visit) {
     constexpr std::size_t kGrain = 512;
