@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cmath>
 #include <span>
-#include <type_traits>
 #include <utility>
 
 #include "cpu/colliders.h"
@@ -16,12 +15,6 @@
 
 namespace gelatin::cpu {
 namespace {
-
-constexpr std::size_t kGroupsATask = 16;
-
-// The float path has SIMD; in double it is the plain one, which tests hold everything against.
-template <class Real>
-constexpr bool kIsFloat = std::is_same_v<Real, float>;
 
 template <class Work>
 void for_each_node(const Model& model, const Work& work) {

@@ -1,22 +1,11 @@
 #include "cpu/step_objective.h"
 
-#include <type_traits>
 #include <utility>
 
 #include "cpu/spring_terms.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
-namespace {
-
-constexpr std::size_t kGroupsATask = 16;
-
-// The float path has SIMD; in double it is the plain one, which tests hold everything against.
-template <class Real>
-constexpr bool kIsFloat = std::is_same_v<Real, float>;
-
-}  // namespace
-
 template <class Real>
 StepObjective<Real>::StepObjective(std::shared_ptr<const Model> model, std::uint32_t nodes_a_batch)
     : starts(model->node_count()),

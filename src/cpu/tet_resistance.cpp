@@ -22,7 +22,7 @@ TetResistance<Real>::TetResistance(std::shared_ptr<const Model> model, std::size
       ratios_(model_->tets.size()),
       is_near_flat_(model_->node_count()),
       any_flat_(batches),
-      any_always_(!model_->volume_term.is_empty() || !model_->neo_hookean_tets.empty()) {
+      resist_always_(!model_->volume_term.is_empty() || !model_->neo_hookean_tets.empty()) {
     if (model_->volume_term.is_empty()) return;
     node_pressures_.resize(model_->node_count());
     offsets_.resize(model_->tets.size());

@@ -38,9 +38,9 @@ public:
     void look(std::size_t index, const DescentBatch& batch, const std::vector<Vec4<Real>>& positions);
 
     /// False if no node of the batch has anything to add.
-    bool any_resist(std::size_t batch) const { return any_flat_[batch] != 0 || any_always_; }
+    bool any_resist(std::size_t batch) const { return any_flat_[batch] != 0 || resist_always_; }
     bool any_resist() const {
-        return any_always_ ||
+        return resist_always_ ||
                std::any_of(any_flat_.begin(), any_flat_.end(), [](auto flat) { return flat != 0; });
     }
 
@@ -62,7 +62,7 @@ private:
     std::vector<Real> ratios_;                // J, by tet
     std::vector<std::uint8_t> is_near_flat_;  // nodes of tets that resist
     std::vector<std::uint8_t> any_flat_;      // by batch
-    bool any_always_;                         // whatever their shapes
+    bool resist_always_;                      // whatever their shapes
     std::vector<Real> node_pressures_;        // [Pa]
     std::vector<Real> offsets_;               // q [Pa], by tet
 };
