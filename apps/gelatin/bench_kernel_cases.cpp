@@ -1,5 +1,7 @@
 #include "bench_kernel_cases.h"
 
+#include <array>
+
 #include "bench_threads.h"
 #include "cpu/cpu_solver.h"
 #include "gl/program.h"
@@ -12,6 +14,8 @@ namespace gelatin {
 namespace {
 
 constexpr double kFrame = 1.0 / 60.0;  // [s], what vertex block descent steps over
+
+constexpr std::array kDescentCases{kFewSweeps, kManySweeps, kWholeStep};
 
 constexpr double kNodeBytes = 2 * sizeof(glm::vec4);
 
@@ -105,11 +109,10 @@ void add_cpu_cases(const std::shared_ptr<const Model>& model, double step, std::
     };
     const auto fused = solver_for(ForceMethod::fused);
     const auto divided = solver_for(ForceMethod::divide_and_merge);
-    std::array<std::shared_ptr<cpu::CpuSolver<float>>, kSweepCounts.size()> descents;
-    for (std::size_t k = 0; k < descents.size(); ++k) {
-        descents[k] =
-            std::make_shared<cpu::CpuSolver<float>>(model, SolverKind::vbd, ForceMethod::fused,
-                                                    CollisionSettings{}, DescentSettings{kSweepCounts[k]});
+    std::vector<std::shared_ptr<cpu::CpuSolver<float>>> descents;
+    for (const DescentCase& descent : kDescentCases) {
+        descents.push_back(std::make_shared<cpu::CpuSolver<float>>(model, SolverKind::vbd, ForceMethod::fused,
+                                                                   CollisionSettings{}, descent.settings));
     }
     const double divided_bytes = write_bytes(*model) + merge_bytes(*model) + integrate_bytes(*model);
     for (const int threads : measured_thread_counts()) {
@@ -120,8 +123,8 @@ void add_cpu_cases(const std::shared_ptr<const Model>& model, double step, std::
         cases.push_back({name, kDividedStage, divided_bytes,
                          [divided, step] { divided->advance_nodes(step); }, nothing, threads});
         for (std::size_t k = 0; k < descents.size(); ++k) {
-            const int sweeps = kSweepCounts[k];
-            cases.push_back({name, descent_stage(sweeps), descent_bytes(*model, sweeps),
+            const DescentCase& descent = kDescentCases[k];
+            cases.push_back({name, descent.stage, descent_bytes(*model, descent.settings.iterations),
                              [descent = descents[k]] { descent->advance_nodes(kFrame); }, nothing, threads});
         }
         cases.push_back({name, "measure", fused_bytes(*model),
@@ -154,11 +157,11 @@ void add_gl_cases(const std::shared_ptr<const Model>& model, double step, std::v
                      [kernels] { kernels->merge_spring_forces(); }, finish});
     cases.push_back({kOpenGl, kDividedStage, write_bytes(m) + merge_bytes(m) + integrate_bytes(m),
                      [divided, step] { divided->advance_nodes(step); }, finish});
-    for (const int sweeps : kSweepCounts) {
-        const auto descent = std::make_shared<gpu::GpuSolver>(model, SolverKind::vbd, ForceMethod::fused,
-                                                              CollisionSettings{}, DescentSettings{sweeps});
-        cases.push_back({kOpenGl, descent_stage(sweeps), descent_bytes(m, sweeps),
-                         [descent] { descent->advance_nodes(kFrame); }, finish});
+    for (const DescentCase& descent : kDescentCases) {
+        const auto solver = std::make_shared<gpu::GpuSolver>(model, SolverKind::vbd, ForceMethod::fused,
+                                                             CollisionSettings{}, descent.settings);
+        cases.push_back({kOpenGl, descent.stage, descent_bytes(m, descent.settings.iterations),
+                         [solver] { solver->advance_nodes(kFrame); }, finish});
     }
     // One a colour, and half of the four that come with every second sweep.
     const std::size_t dispatches = rows.batches.front().colors.size() + 2,

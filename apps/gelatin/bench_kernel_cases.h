@@ -1,8 +1,5 @@
 #pragma once
 
-#include <fmt/format.h>
-
-#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -10,6 +7,7 @@
 
 #include "mesh/tet_mesh.h"
 #include "model/model.h"
+#include "model/solver.h"
 
 namespace gelatin {
 
@@ -31,13 +29,15 @@ inline constexpr const char* kFusedStage = "advance_nodes (fused)";
 inline constexpr const char* kDividedStage = "divide and merge";
 inline constexpr const char* kDispatchStage = "dispatches of a sweep";
 
-/// Steps of vertex block descent are timed with so many sweeps. By differences they tell what a sweep costs
-/// alone (4 - 3), with its half of what comes with every second one (6 - 2), and a correction by the coarse
-/// level, which comes with every sixth but the last (10 - 6).
-inline constexpr std::array<int, 5> kSweepCounts{2, 3, 4, 6, 10};
-inline std::string descent_stage(int sweeps) {
-    return fmt::format("vbd ({} sweeps)", sweeps);
-}
+/// Steps of vertex block descent that are timed. By differences they tell what a sweep costs, with its part
+/// of what comes with some sweeps only, what a correction by the coarse level and what the rest of a step.
+struct DescentCase {
+    const char* stage;
+    DescentSettings settings;
+};
+inline constexpr DescentCase kFewSweeps{"vbd (2 sweeps alone)", {2, 0.0, false}};
+inline constexpr DescentCase kManySweeps{"vbd (26 sweeps alone)", {26, 0.0, false}};
+inline constexpr DescentCase kWholeStep{"vbd (26 sweeps)", {26}};
 
 /// Three times `scale` of this sphere in a grid, damped a little so that both terms of the force are at work.
 std::shared_ptr<const Model> make_sphere_grid(const TetMesh& sphere, int scale);

@@ -9,6 +9,7 @@
 #include "core/file.h"
 #include "gelatin/version.h"
 #include "markdown_table.h"
+#include "model/descent_rows.h"
 
 namespace gelatin {
 namespace {
@@ -18,9 +19,8 @@ using Json = nlohmann::ordered_json;
 const char* const kMethod = R"(
 Medians of samples that are taken in turn; spread is (90th - 10th percentile) / median. 1x is three spheres of 4,581 nodes,
 22,638 springs and 8,000 faces each, damped, above a plane; MB is what a stage reads and writes at least once. What is told of
-block descent are differences of the shortest times of steps with 2 to 10 sweeps: a sweep with its half of what comes
-with every second one (looks at tets, rigid motions), its colours alone, a correction by the coarse level, which comes with
-every sixth, and the rest of a step, a correction in it.
+block descent are differences of the shortest times of steps: a sweep with its half of what comes with every
+second one (a look at all tets, a rigid motion of all bodies), a correction by the coarse level, which comes with every sixth, and the rest of a step.
 )";
 
 const KernelTime& find_time(const std::vector<KernelTime>& times, const std::string& backend,
@@ -38,11 +38,11 @@ void add_sweep_ratios(const std::vector<KernelTime>& times, const std::string& b
         return find_time(times, backend, stage, scale).least;
     };
     const double fused = least(kFusedStage);
-    const auto step = [&](int sweeps) { return least(descent_stage(sweeps)); };
     const auto add = [&](const std::string& what, double ms, const std::string& wanted = "") {
         ratios.push_back({fmt::format("{}: {} / fused, {}x", backend, what, scale), ms / fused, wanted});
     };
-    const double sweep = (step(6) - step(2)) / 4;
+    const double few = least(kFewSweeps.stage), many = least(kManySweeps.stage);
+    const double sweep = (many - few) / (kManySweeps.settings.iterations - kFewSweeps.settings.iterations);
     if (backend == kOpenGl) {
         add("a sweep of vbd", sweep);
         add("its dispatches", least(kDispatchStage));
@@ -50,9 +50,9 @@ void add_sweep_ratios(const std::vector<KernelTime>& times, const std::string& b
     } else {
         add("a sweep of vbd", sweep, "<= 1.2");
     }
-    add("its colours alone", step(4) - step(3));
-    add("a coarse correction", step(10) - step(6) - 4 * sweep);
-    add("the rest of a step", step(2) - 2 * sweep);
+    add("a coarse correction",
+        (least(kWholeStep.stage) - many) / correction_count(kWholeStep.settings.iterations));
+    add("the rest of a step", few - kFewSweeps.settings.iterations * sweep);
 }
 
 }  // namespace

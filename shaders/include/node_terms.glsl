@@ -12,8 +12,8 @@ void add_outer(float factor, vec3 v, inout NodeTerms terms) {
     terms.beside += factor * v.yzx * v.zxy;
 }
 
-// The way out for a node that is where a neighbour is.
-vec3 any_direction(uint node) {
+// For a node that is where a neighbour is: out of there, too short to show in a position [m].
+vec3 any_short_way(uint node) {
     uint bits = (node + 1u) * 0x9E3779B9u;
     vec3 v;
     for (int k = 0; k < 3; ++k) {
@@ -22,10 +22,10 @@ vec3 any_direction(uint node) {
         bits ^= bits << 5;
         v[k] = float(int(bits & 0xFFFFu) - 0x8000) + 0.5;
     }
-    return v / length(v);
+    return 1e-16 * v;
 }
 
-// The spring to a node `apart` from this one, its damper in it (damp_springs.comp); nothing where both coincide.
+// The spring to a node `apart` from this one, its damper in it (damp_springs.comp).
 void add_spring(vec3 apart, float rest_length, float stiffness, inout NodeTerms terms) {
     float inverse_length = inversesqrt(max(dot(apart, apart), 1e-30));
     float scale = stiffness - stiffness * rest_length * inverse_length;
@@ -33,11 +33,6 @@ void add_spring(vec3 apart, float rest_length, float stiffness, inout NodeTerms 
     float across = max(scale, 0.0);
     add_outer(stiffness - across, inverse_length * apart, terms);
     terms.diagonal += across;
-}
-
-void add_coincident_spring(vec3 way_out, float rest_length, float stiffness, inout NodeTerms terms) {
-    terms.force += stiffness * rest_length * way_out;
-    add_outer(stiffness, way_out, terms);
 }
 
 const float kFlattest = 0.5;

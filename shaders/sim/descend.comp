@@ -15,7 +15,7 @@ layout(binding = 3) uniform usamplerBuffer rows;          // DescentRow
 layout(binding = 4) uniform usamplerBuffer spring_ends;   // of two half springs, the nodes at their other ends
 layout(binding = 5) uniform samplerBuffer springs;        // their rest length [m], stiffness [N/m], dampers in them
 layout(binding = 6) uniform usamplerBuffer slice_starts;
-layout(binding = 18) uniform usamplerBuffer is_near_flat; // of nodes
+layout(binding = 18) uniform usamplerBuffer near_flat;    // of nodes, the look at which they were
 layout(binding = 8) uniform usamplerBuffer tet_corners;   // TetCorner, of bodies of springs
 layout(binding = 9) uniform usamplerBuffer corner_starts;
 layout(binding = 10) uniform samplerBuffer tet_rests;     // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
@@ -23,7 +23,6 @@ layout(binding = 10) uniform samplerBuffer tet_rests;     // volume [m^3], modul
 layout(binding = 11) uniform samplerBuffer offsets;       // q [Pa], of each tet
 #endif
 layout(std430, binding = 0) writeonly buffer OutPositions { vec4 out_positions[]; };
-layout(std430, binding = 1) writeonly buffer NearFlat { uint near_flat[]; };  // an invocation clears its own node's
 #ifdef FORCES
 layout(std430, binding = 4) readonly buffer Ways { vec4 ways[]; };       // [m]
 layout(std430, binding = 5) writeonly buffer Forces { vec4 forces[]; };  // [N]
@@ -35,7 +34,7 @@ layout(std430, binding = 2) buffer ObjectTouches { uint object_touches[]; };
 #endif
 uniform uint first_row;
 uniform uint row_count;
-uniform uint clear_marks;  // before they are made anew
+uniform uint look;         // the last
 
 vec3 position_of(uint node) { return texelFetch(positions, int(node)).xyz; }
 
@@ -117,28 +116,16 @@ void main() {
     NodeTerms terms = NodeTerms(target.w * (target.xyz - position.xyz), vec3(target.w), vec3(0.0));
     int slice = int(row / 64u);
     uint first = texelFetch(slice_starts, slice).x + row % 64u, end = first + 64u * entry.z;
-    bool coincides = false;  // with the other end of a spring
+    vec3 way_in = -any_short_way(n);
     for (uint p = first; p < end; p += 64u) {
         uvec2 ends = texelFetch(spring_ends, int(p)).xy;
         vec4 two = texelFetch(springs, int(p));
         vec3 apart = position_of(ends.x) - position.xyz;
-        coincides = coincides || (apart == vec3(0.0) && two.y > 0.0);
-        add_spring(apart, two.x, two.y, terms);
+        add_spring(apart == vec3(0.0) ? way_in : apart, two.x, two.y, terms);
         apart = position_of(ends.y) - position.xyz;
-        coincides = coincides || (apart == vec3(0.0) && two.w > 0.0);
-        add_spring(apart, two.z, two.w, terms);
+        add_spring(apart == vec3(0.0) ? way_in : apart, two.z, two.w, terms);
     }
-    for (uint p = coincides ? first : end; p < end; p += 64u) {
-        uvec2 ends = texelFetch(spring_ends, int(p)).xy;
-        vec4 two = texelFetch(springs, int(p));
-        vec3 way_out = any_direction(n);
-        if (position_of(ends.x) == position.xyz) add_coincident_spring(way_out, two.x, two.y, terms);
-        if (position_of(ends.y) == position.xyz) add_coincident_spring(way_out, two.z, two.w, terms);
-    }
-    bool resists = texelFetch(is_near_flat, int(n)).x != 0u;
-#ifndef FORCES
-    if (resists && clear_marks != 0u) near_flat[n] = 0u;
-#endif
+    bool resists = texelFetch(near_flat, int(n)).x == look;
 #ifndef VOLUME
     if (resists)
 #endif

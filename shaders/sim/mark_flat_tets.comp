@@ -1,4 +1,4 @@
-// Looks at each tet: marks the nodes of those so flat that they resist; VOLUME: and keeps how much of its volume is there.
+// Looks at each tet: marks the nodes of those so flat that they resist with the number of the look; VOLUME: and keeps how much of its volume is there.
 // CPU twin: gelatin::cpu::TetResistance. Parity: tests/gpu/block_descent_test.cpp.
 #include "include/global_index.glsl"
 #include "include/node_terms.glsl"
@@ -10,6 +10,7 @@ layout(std430, binding = 1) writeonly buffer NearFlat { uint near_flat[]; };
 layout(std430, binding = 3) writeonly buffer Ratios { float ratios[]; };  // J
 #endif
 uniform uint tet_count;
+uniform uint look;  // from 1
 
 void main() {
     uint t = global_index();
@@ -20,5 +21,5 @@ void main() {
 #endif
     if (ratio >= kFlattest) return;
     uvec4 tet = texelFetch(tets, int(t));
-    for (int k = 0; k < 4; ++k) near_flat[tet[k]] = 1u;
+    for (int k = 0; k < 4; ++k) near_flat[tet[k]] = look;
 }

@@ -10,7 +10,8 @@
 #endif
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 0) buffer Positions { vec4 positions[]; };  // an invocation reads and writes its own nodes
+layout(binding = 0) uniform samplerBuffer positions;  // xyz [m], inverse mass [1/kg]; of out_positions
+layout(std430, binding = 0) writeonly buffer OutPositions { vec4 out_positions[]; };  // an invocation has its own nodes
 layout(std430, binding = 1) writeonly buffer Velocities { vec4 velocities[]; };
 layout(std430, binding = 3) readonly buffer Chunks { Chunk chunks[]; };
 layout(std430, binding = 5) readonly buffer Motions { RigidMotion motions[]; };
@@ -29,10 +30,10 @@ void main() {
     mat3 turn = mat3(motion.turn_x.xyz, motion.turn_y.xyz, motion.turn_z.xyz);
     for (uint k = gl_LocalInvocationID.x; k < chunk.count; k += 64u) {
         uint n = chunk.first + k;
-        vec4 position = positions[n];
+        vec4 position = texelFetch(positions, int(n));
         if (motion.center.w != 0.0) {
             position.xyz = motion.center.xyz + motion.shift.xyz + turn * (position.xyz - motion.center.xyz);
-            positions[n] = position;
+            out_positions[n] = position;
         }
 #ifdef LAST
         vec4 before = texelFetch(start_velocities, int(n));

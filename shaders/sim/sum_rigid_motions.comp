@@ -1,5 +1,5 @@
 // The motion of each body as a rigid one that takes it to where the objective is least. Without OBJECTS: sums over a
-// chunk's nodes, one work group a chunk; with it: the motion, one invocation an object.
+// chunk's nodes, four chunks a work group; with it: the motion, one invocation an object.
 // CPU twin: gelatin::cpu::RigidStep. Parity: tests/gpu/block_descent_test.cpp.
 #include "include/global_index.glsl"
 #include "include/descent_step.glsl"
@@ -71,14 +71,14 @@ void share(uint lane, RigidSums sums) {
     parts[704u + lane] = sums.mixed_z;
 }
 
-void main() {
-    uint c = group_index();
-    if (c >= element_count) return;
-    Chunk chunk = chunks[c];
+// Few lanes a chunk: what a lane has to share costs more than a node.
+const uint kLanes = 16u;
+const uint kChunks = 64u / kLanes;  // a work group
+
+RigidSums sum_nodes(Chunk chunk, uint lane) {
     vec3 origin = texelFetch(positions, int(chunk.origin)).xyz;
-    uint lane = gl_LocalInvocationID.x;
     RigidSums sums = kNothing;
-    for (uint k = lane; k < chunk.count; k += 64u) {
+    for (uint k = lane; k < chunk.count; k += kLanes) {
         uint n = chunk.first + k;
         vec4 position = texelFetch(positions, int(n)), target = texelFetch(targets, int(n));
         if (position.w == 0.0) sums.square.w += 1.0;  // and target.w is 0
@@ -88,7 +88,7 @@ void main() {
 #if COLLIDER_KINDS != 0
     // A loop of its own, which most bodies have no turn of.
     uint touched_count = object_touches[chunk.object] != 0u ? chunk.count : 0u;
-    for (uint k = lane; k < touched_count; k += 64u) {
+    for (uint k = lane; k < touched_count; k += kLanes) {
         uint n = chunk.first + k;
         Touch touch = touches[n];
         vec4 position = texelFetch(positions, int(n));
@@ -98,11 +98,19 @@ void main() {
         add_along(r, dvec3(touch.normal.xyz), double(touch.force.w) - double(touch.normal.w), sums);
     }
 #endif
-    share(lane, sums);
+    return sums;
+}
+
+void main() {
+    uint lane = gl_LocalInvocationID.x, first = kChunks * group_index(), c = first + lane / kLanes;
+    share(lane, c < element_count ? sum_nodes(chunks[c], lane % kLanes) : kNothing);
     barrier();
-    if (lane >= kMembers) return;
-    dvec4 sum = parts[64u * lane];
-    for (uint l = 1u; l < 64u; ++l) sum += parts[64u * lane + l];
-    sum_members[kMembers * c + lane] = sum;
+    uint k = lane / kMembers, member = lane % kMembers;
+    c = first + k;
+    if (k >= kChunks || c >= element_count) return;
+    uint from = 64u * member + kLanes * k;
+    dvec4 sum = parts[from];
+    for (uint l = 1u; l < kLanes; ++l) sum += parts[from + l];
+    sum_members[kMembers * c + member] = sum;
 }
 #endif

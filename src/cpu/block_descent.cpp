@@ -29,8 +29,9 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
     : model_(std::move(model)),
       settings_(settings),
       objective_(model_, nodes_a_batch),
-      coarse_(model_),
       touches_{objects_of_nodes(*model_), std::vector<std::uint8_t>(model_->objects.size()), {}} {
+    if (settings_.coarse_level) coarse_.emplace(model_);
+    if (coarse_ && coarse_->is_empty()) coarse_.reset();
     if (!model_->colliders.empty()) touches_.nodes.resize(model_->node_count());
     if (settings_.chebyshev > 0.0) last_ = before_last_ = std::vector<Vec3<Real>>(model_->node_count());
     if constexpr (kIsFloat<Real>) collider_bounds_ = make_collider_bounds(model_->colliders);
@@ -41,13 +42,13 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
                              std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls) {
     start(step, has_earlier, previous, load_forces, pulls, current);
     take_back_tangled(current.positions);
-    coarse_.begin(step, current.positions);
+    if (coarse_) coarse_->begin(step, current.positions);
     for (int first = 0; first < settings_.iterations;) {
         const int end = end_of_run(first);
         tbb::parallel_for(std::size_t(0), objective_.rows().batches.size(), [&](std::size_t batch) {
             for (int i = first; i < end; ++i) make_sweep(i, batch, current.positions);
         });
-        if (end < settings_.iterations) coarse_.run(objective_, touches_, current.positions);
+        if (end < settings_.iterations) coarse_->run(objective_, touches_, current.positions);
         first = end;
     }
     finish(step, previous, current);
@@ -56,7 +57,7 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
 // Of sweeps that no correction comes between.
 template <class Real>
 int BlockDescent<Real>::end_of_run(int first) const {
-    if (coarse_.is_empty()) return settings_.iterations;
+    if (!coarse_) return settings_.iterations;
     const int corrected = (first + kSweepsACorrection - 1) / kSweepsACorrection * kSweepsACorrection;
     return std::min(corrected + 1, settings_.iterations);
 }
@@ -65,7 +66,7 @@ template <class Real>
 void BlockDescent<Real>::make_sweep(int index, std::size_t batch, std::vector<Vec4<Real>>& positions) {
     const DescentBatch& bodies = objective_.rows().batches[batch];
     if (settings_.chebyshev > 0.0)
-        accelerate(coarse_.is_empty() ? index : sweeps_since_correction(index), bodies.nodes, positions);
+        accelerate(coarse_ ? sweeps_since_correction(index) : index, bodies.nodes, positions);
     if (index % kSweepsAMotion == 0) objective_.look(batch, positions);
     sweep(batch, positions);
     const bool is_last = index + 1 == settings_.iterations;

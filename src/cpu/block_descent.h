@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -64,7 +65,7 @@ private:
     std::shared_ptr<const Model> model_;
     DescentSettings settings_;
     StepObjective<Real> objective_;
-    CoarseStep<Real> coarse_;
+    std::optional<CoarseStep<Real>> coarse_;  // where there are clusters
     NodeTouches<Real> touches_;
     std::vector<ColliderBound> collider_bounds_;  // in float
     std::vector<Vec3<Real>> last_, before_last_;  // from where the last two sweeps went [m], for acceleration

@@ -18,7 +18,6 @@ constexpr double kFarthest = 2.0;
 
 template <class Real>
 CoarseStep<Real>::CoarseStep(std::shared_ptr<const Model> model) : model_(std::move(model)), coarse_(model_) {
-    if (coarse_.is_empty()) return;
     ahead_.resize(model_->node_count());
     ways_.resize(model_->node_count());
     forces_ = forces_ahead_ = ways_;
@@ -27,7 +26,6 @@ CoarseStep<Real>::CoarseStep(std::shared_ptr<const Model> model) : model_(std::m
 template <class Real>
 void CoarseStep<Real>::run(const StepObjective<Real>& objective, const NodeTouches<Real>& touches,
                            std::vector<Vec4<Real>>& positions) {
-    if (is_empty()) return;
     objective.find_forces(positions, forces_);
     for_each_index(positions.size(), [&](std::size_t n) {
         if (touches.is_touched(n)) forces_[n] += touches.nodes[n].force;

@@ -19,7 +19,7 @@ class CoarseStep {
 public:
     explicit CoarseStep(std::shared_ptr<const Model> model);
 
-    bool is_empty() const { return coarse_.is_empty(); }
+    bool is_empty() const { return coarse_.is_empty(); }  ///< there is nothing for it to move
 
     /// To be called before others of a step of `step` seconds.
     void begin(Real step, std::span<const Vec4<Real>> positions) { coarse_.begin(step, positions); }
@@ -32,8 +32,8 @@ private:
 
     std::shared_ptr<const Model> model_;
     CoarseCorrection<Real> coarse_;
-    std::vector<Vec4<Real>> ahead_;                         // where ways would lead [m]; these empty without
-    std::vector<Vec3<Real>> ways_, forces_, forces_ahead_;  // [m], [N], clusters
+    std::vector<Vec4<Real>> ahead_;                         // where ways would lead [m]
+    std::vector<Vec3<Real>> ways_, forces_, forces_ahead_;  // [m], [N]
 };
 
 }  // namespace gelatin::cpu

@@ -10,7 +10,8 @@
 namespace gelatin::gpu {
 namespace {
 
-constexpr std::size_t kRigidSums = 12;  // dvec4s in RigidSums, include/rigid_sums.glsl
+constexpr std::size_t kRigidSums = 12;    // dvec4s in RigidSums, include/rigid_sums.glsl
+constexpr std::size_t kLanesAChunk = 16;  // sim/sum_rigid_motions.comp
 
 gl::Defines start_defines(const Model& model, bool pulled) {
     gl::Defines defines = ModelBuffers::collider_defines(model);
@@ -163,6 +164,7 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
     rigid_sums_ = gl::Buffer<glm::dvec4>(kRigidSums * chunks.size());
     if (!model.colliders.empty()) touches_ = gl::Buffer<Touch>(model.positions.size());
 
+    if (!settings_.coarse_level) return;
     const CoarseBasis basis = make_coarse_basis(model);
     if (basis.cluster_count() == 0) return;
     coarse_.emplace(model, basis);
@@ -205,10 +207,10 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
     if (damped_springs_) damp_springs(step);
     take_back_tangled(current);
     if (coarse_) coarse_->begin(step);
+    std::uint32_t looks = 0;
     for (int i = 0; i < settings_.iterations; ++i) {
         if (settings_.chebyshev > 0.0) accelerate(coarse_ ? sweeps_since_correction(i) : i);
-        if (i % kSweepsAMotion == 0) look_at_tets();
-        sweep_program_.set("clear_marks", i % kSweepsAMotion + 1 == kSweepsAMotion ? 1u : 0u);
+        if (i % kSweepsAMotion == 0) look_at_tets(++looks);
         sweep(model);
         const bool is_last = i + 1 == settings_.iterations;
         if (coarse_ && !is_last && i % kSweepsACorrection == 0) correct(model, current, step);
@@ -252,7 +254,11 @@ void BlockDescent::accelerate(int sweep) const {
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 }
 
-void BlockDescent::look_at_tets() const {
+// Marks of earlier looks count no more.
+void BlockDescent::look_at_tets(std::uint32_t look) const {
+    sweep_program_.set("look", look);
+    if (coarse_) force_program_.set("look", look);
+    mark_program_.set("look", look);
     tets_.bind(9);
     tet_rests_.bind(10);
     near_flat_.bind_storage(1);
@@ -332,7 +338,7 @@ void BlockDescent::move_bodies(const ModelBuffers& model, const NodeBuffers& cur
     if (touches_.size() > 0) touches_.bind_storage(6);
     const auto chunks = static_cast<std::uint32_t>(chunks_.size());
     sum_program_.set("element_count", chunks);
-    sum_program_.dispatch(64 * chunks_.size());
+    sum_program_.dispatch(kLanesAChunk * chunks_.size());
     gl::barrier(gl::Barrier::storage);
 
     motion_program_.set("element_count", object_count_);

@@ -53,7 +53,7 @@ private:
     void damp_springs(double step) const;
     void take_back_tangled(const NodeBuffers& current) const;
     void accelerate(int sweep) const;
-    void look_at_tets() const;
+    void look_at_tets(std::uint32_t look) const;
     void sweep(const ModelBuffers& model) const;
     void descend(const gl::Program& program, const ModelBuffers& model, std::span<const Range> rows) const;
     void correct(const ModelBuffers& model, const NodeBuffers& current, double step);

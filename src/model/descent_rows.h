@@ -9,13 +9,20 @@
 
 namespace gelatin {
 
-/// After so many sweeps bodies move as rigid ones, and before them tets are looked at.
+/// After so many sweeps bodies move as rigid ones, and before them tets are looked at. With fewer motions
+/// stiff bodies that slide are held back by what they lie on; with fewer looks bodies gain energy that turn
+/// inside out.
 constexpr int kSweepsAMotion = 2;
 
 /// Of so many sweeps the first is followed by a coarse correction (model/coarse_basis.h), which has the tets
 /// as they were looked at before it.
 constexpr int kSweepsACorrection = 6;
 static_assert(kSweepsACorrection % kSweepsAMotion == 0);
+
+/// How many corrections a step of `sweeps` has: none after the last.
+constexpr int correction_count(int sweeps) {
+    return sweeps < 2 ? 0 : (sweeps - 2) / kSweepsACorrection + 1;
+}
 
 /// How many sweeps lie between the last correction and sweep `sweep` of a step, from 0.
 constexpr int sweeps_since_correction(int sweep) {

@@ -25,8 +25,9 @@ struct State {
 
 /// Of vertex block descent.
 struct DescentSettings {
-    int iterations = 10;     ///< sweeps over all nodes in a step, >= 1
-    double chebyshev = 0.0;  ///< see SimulationSettings::chebyshev
+    int iterations = 10;       ///< sweeps over all nodes in a step, >= 1
+    double chebyshev = 0.0;    ///< see SimulationSettings::chebyshev
+    bool coarse_level = true;  ///< model/coarse_basis.h; off to compare
 };
 
 /// What sweep `sweep` of a step, from 0, is accelerated by; 1 for the first two.

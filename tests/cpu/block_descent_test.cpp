@@ -4,6 +4,7 @@
 #include <tbb/global_control.h>
 
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <random>
 
 #include "cpu/cpu_solver.h"
@@ -257,6 +258,28 @@ TEST(BlockDescent, FrictionIsCoulombs) {
     }
     EXPECT_NEAR(way.x / mass, speed * speed / (2 * 0.3 * 9.81), 0.03);
     EXPECT_LT(glm::length(momenta_of(nodes).linear) / mass, 0.01);
+}
+
+// On a slope a block gains g (sin - mu cos). Sweeps come to the forces that hold it the later, the stiffer it
+// is.
+TEST(BlockDescent, BlocksSlideDownSlopes) {
+    ColliderDescription floor;
+    floor.shape = PlaneCollider{{0.0, 1.0, 0.0}, 0.0};
+    floor.friction = 0.1;
+    const glm::dvec3 gravity(3.0, -9.0, 0.0);
+    const int steps = 30;
+    const double speed = steps * kFrame * (gravity.x + floor.friction * gravity.y);
+    const auto error = [&](double youngs_modulus, int iterations) {
+        const Model model =
+            make_model({.youngs_modulus = youngs_modulus, .colliders = {floor}, .gravity = gravity});
+        const double mass = std::accumulate(model.masses.begin(), model.masses.end(), 0.0);
+        const cpu::Nodes<double> nodes = run_steps<double>(model, kFrame, steps, iterations);
+        return std::abs(momenta_of(nodes).linear.x / mass / speed - 1.0);
+    };
+    EXPECT_LT(error(1e5, 10), 0.01);
+    EXPECT_LT(error(1e6, 10), 0.07);
+    EXPECT_LT(error(1e6, 20), 0.01);
+    EXPECT_LT(error(1e8, 60), 0.01);
 }
 
 // SIMD, on bodies in all states that it tells apart: free, held, on the floor, against a sphere, with flat

@@ -61,6 +61,14 @@ TEST(DescentRows, HaveEachNodeOfABatchOnceAndNoNeighboursInAColour) {
     }
 }
 
+TEST(Corrections, AreCounted) {
+    int count = 0;
+    for (int sweeps = 1; sweeps <= 30; ++sweeps) {
+        EXPECT_EQ(correction_count(sweeps), count) << sweeps;
+        count += (sweeps - 1) % kSweepsACorrection == 0 ? 1 : 0;  // if another sweep comes
+    }
+}
+
 TEST(DescentRows, FillBatchesUp) {
     const Model model = test::make_crowd(9, 3);
     EXPECT_EQ(make_descent_rows(model).batches.size(), 1u);

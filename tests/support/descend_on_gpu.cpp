@@ -1,6 +1,7 @@
 #include "support/descend_on_gpu.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <random>
 
@@ -75,6 +76,34 @@ double worst_descent_error(const Model& model, const Descent& descent, const Nod
         bounds.velocity[n] += bounds.position[n] / descent.step;
     }
     return worst_error(model, bounds, expected, actual.positions, actual.velocities);
+}
+
+double degenerate_descent_error(int iterations) {
+    constexpr double kStep = 0.01;
+    Net net;
+    net.positions = {{0, 1, 0}, {0, 1, 0}, {1, 1, 0}, {5, 5, 5}};
+    net.velocities = {{1, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 0, 0}};
+    net.masses = {1.0, 2.0, 3.0, 4.0};
+    net.springs = {{0, 1, 0.5f, 100.0f}, {1, 2, 0.5f, 100.0f}};
+    net.gravity = {0.0, -9.81, 0.0};
+    const Model model = make_model(net);
+    const cpu::Nodes<double> start{{model.positions.begin(), model.positions.end()},
+                                   {model.velocities.begin(), model.velocities.end()}};
+    cpu::Nodes<double> expected = start;
+    cpu::BlockDescent<double>(std::make_shared<const Model>(model), {iterations})
+        .run(kStep, false, start, expected);
+    const NodeArrays actual = descend_on_gpu(model, {kStep, {iterations}});
+    // Positions are up to 5 m, and springs move nodes by some centimetres.
+    constexpr double kLargest = 1e-6;
+    double error = 0.0;
+    for (std::uint32_t n = 0; n < model.node_count(); ++n) {
+        const glm::dvec3 off(glm::dvec3(actual.positions[n]) - glm::dvec3(expected.positions[n]));
+        const glm::dvec3 faster(glm::dvec3(actual.velocities[n]) - glm::dvec3(expected.velocities[n]));
+        error =
+            std::max({error, glm::length(off) / kLargest, kStep * glm::length(faster) / (2.0 * kLargest)});
+        if (!(glm::length(off) < 1.0)) return std::numeric_limits<double>::infinity();
+    }
+    return error;
 }
 
 Model make_bodies_to_descend(double damping_time, double poisson_ratio, MaterialModel model_of_most,

@@ -26,6 +26,10 @@ NodeArrays descend_on_gpu(const Model& model, const Descent& descent);
 /// least m / h^2: h^2 times the acceleration's bound, and that once a sweep, for sweeps contract.
 double worst_descent_error(const Model& model, const Descent& descent, const NodeArrays& actual);
 
+/// A step of two nodes that start in one place at one speed, one they are tied to, and one without springs:
+/// how far the GPU's is from the double reference, over what rounding may make of it.
+double degenerate_descent_error(int iterations);
+
 /// Bodies in all states that block descent tells apart: free ones in motion, shaken so much that tets are
 /// inside out, one of them of two chunks of nodes; one with pins; one on a floor and against a sphere; with
 /// damping or without; of any Poisson's ratio. All but the second are made of `model`, that one of springs.
