@@ -1,27 +1,34 @@
 // Sums over a body's nodes, at r from its origin, for Newton's step along rigid motions. In double: what colliders hold
 // outweighs inertia by any factor. CPU twin: gelatin::cpu::RigidStep.
-struct RigidSums {      // 384 bytes
+struct RigidSums {      // 512 bytes
     dvec4 arm;          // k r; w: k, with k the stiffness that resists alike in all directions
     dvec4 square;       // k r_x r_x, k r_y r_y, k r_z r_z; w: nodes that are held
     dvec4 product;      // k r_y r_z, k r_z r_x, k r_x r_y
     dvec4 force;        // f
     dvec4 moment;       // r x f
-    dvec4 shifts;       // of surfaces, along n, with t = r x n: k n_x n_x, k n_y n_y, k n_z n_z
-    dvec4 shift_pairs;  // k n_y n_z, k n_z n_x, k n_x n_y
-    dvec4 turns;        // k t_x t_x, ...
-    dvec4 turn_pairs;   // k t_y t_z, ...
-    dvec4 mixed_x;      // k t_x n
+    dvec4 shifts;       // of surfaces, along n, with t = r x n: k n_x n_x, k n_y n_y, k n_z n_z; w: what they press with
+    dvec4 shift_pairs;  // k n_y n_z, k n_z n_x, k n_x n_y; w: k n_x, by which that falls
+    dvec4 turns;        // k t_x t_x, ...; w: k n_y
+    dvec4 turn_pairs;   // k t_y t_z, ...; w: k n_z
+    dvec4 mixed_x;      // k t_x n; w: k t_x
     dvec4 mixed_y;
     dvec4 mixed_z;
+    dvec4 sliding_arm;  // friction of nodes that slide: k r; w: k
+    dvec4 sliding_square;   // w: f_x
+    dvec4 sliding_product;  // w: f_y
+    dvec4 sliding_moment;   // w: f_z
 };
 
 const dvec4 kZero = dvec4(0.0);
-const RigidSums kNothing = RigidSums(kZero, kZero, kZero, kZero, kZero, kZero, kZero, kZero, kZero, kZero, kZero, kZero);
+const RigidSums kNothing = RigidSums(kZero, kZero, kZero, kZero, kZero, kZero, kZero, kZero, kZero, kZero, kZero, kZero,
+                                     kZero, kZero, kZero, kZero);
 
 RigidSums add(RigidSums a, RigidSums b) {
     return RigidSums(a.arm + b.arm, a.square + b.square, a.product + b.product, a.force + b.force, a.moment + b.moment,
                      a.shifts + b.shifts, a.shift_pairs + b.shift_pairs, a.turns + b.turns,
-                     a.turn_pairs + b.turn_pairs, a.mixed_x + b.mixed_x, a.mixed_y + b.mixed_y, a.mixed_z + b.mixed_z);
+                     a.turn_pairs + b.turn_pairs, a.mixed_x + b.mixed_x, a.mixed_y + b.mixed_y, a.mixed_z + b.mixed_z,
+                     a.sliding_arm + b.sliding_arm, a.sliding_square + b.sliding_square,
+                     a.sliding_product + b.sliding_product, a.sliding_moment + b.sliding_moment);
 }
 
 void add_node(dvec3 r, double stiffness, dvec3 force, inout RigidSums sums) {
@@ -41,6 +48,36 @@ void add_along(dvec3 r, dvec3 normal, double stiffness, inout RigidSums sums) {
     sums.mixed_x.xyz += stiffness * turned.x * normal;
     sums.mixed_y.xyz += stiffness * turned.y * normal;
     sums.mixed_z.xyz += stiffness * turned.z * normal;
+}
+
+// A surface that presses a node with a force along its normal, which falls by `along` as the node comes away, and holds
+// it back with friction, which falls by `across` as the node slides back; alike where it does not let the node slide.
+// What slides is resisted along the normal by a little more than that, which spares sums.
+void add_touch(dvec3 r, dvec3 normal, double pressing, dvec3 friction, double along, double across, inout RigidSums sums) {
+    bool slides = across < along;
+    add_node(r, slides ? 0.0 : across, pressing * normal + (slides ? dvec3(0.0) : friction), sums);
+    add_along(r, normal, slides ? along : along - across, sums);
+    dvec3 fall = along * normal, fall_by_turn = along * cross(r, normal);
+    sums.shifts.w += pressing;
+    sums.shift_pairs.w += fall.x;
+    sums.turns.w += fall.y;
+    sums.turn_pairs.w += fall.z;
+    sums.mixed_x.w += fall_by_turn.x;
+    sums.mixed_y.w += fall_by_turn.y;
+    sums.mixed_z.w += fall_by_turn.z;
+    if (!slides) return;
+    sums.sliding_arm += dvec4(across * r, across);
+    sums.sliding_square += dvec4(across * r * r, friction.x);
+    sums.sliding_product += dvec4(across * r.yzx * r.zxy, friction.y);
+    sums.sliding_moment += dvec4(cross(r, friction), friction.z);
+}
+
+void add_sliding(double factor, inout RigidSums sums) {
+    sums.arm += factor * sums.sliding_arm;
+    sums.square.xyz += factor * sums.sliding_square.xyz;
+    sums.product.xyz += factor * sums.sliding_product.xyz;
+    sums.force.xyz += factor * dvec3(sums.sliding_square.w, sums.sliding_product.w, sums.sliding_moment.w);
+    sums.moment.xyz += factor * sums.sliding_moment.xyz;
 }
 
 dmat3 symmetric(dvec3 diagonal, dvec3 pairs) {
@@ -70,7 +107,7 @@ const double kLeastInertia = 1e-6lf;
 const double kLargestTurn = 1.0;  // [radians]
 
 // [A B; B^T C] (shift, turn) = (force, moment) by elimination of the shift.
-void solve_rigid_step(RigidSums sums, out dvec3 shift, out dvec3 turn) {
+void find_way(RigidSums sums, out dvec3 shift, out dvec3 turn) {
     dmat3 identity = dmat3(1.0);
     double trace = sums.square.x + sums.square.y + sums.square.z;
     double about_center = trace - dot(sums.arm.xyz, sums.arm.xyz) / sums.arm.w;
@@ -82,4 +119,16 @@ void solve_rigid_step(RigidSums sums, out dvec3 shift, out dvec3 turn) {
     turn = solve(c - transpose(b) * a_inverse * b, sums.moment.xyz - transpose(b) * (a_inverse * sums.force.xyz));
     turn *= min(1.0, kLargestTurn / max(length(turn), 1e-300lf));
     shift = a_inverse * (sums.force.xyz - b * turn);
+}
+
+// Friction of nodes that slide is taken times what that leaves of all pressing forces, of which few sweeps find far too
+// much in stiff bodies. Adds it to the sums.
+void solve_rigid_step(inout RigidSums sums, out dvec3 shift, out dvec3 turn) {
+    add_sliding(1.0, sums);
+    find_way(sums, shift, turn);
+    if (!(sums.sliding_arm.w > 0.0 && sums.shifts.w > 0.0)) return;
+    double fall = dot(dvec3(sums.shift_pairs.w, sums.turns.w, sums.turn_pairs.w), shift) +
+                  dot(dvec3(sums.mixed_x.w, sums.mixed_y.w, sums.mixed_z.w), turn);
+    add_sliding(clamp(1.0 - fall / sums.shifts.w, 0.0lf, 1.0lf) - 1.0, sums);
+    find_way(sums, shift, turn);
 }

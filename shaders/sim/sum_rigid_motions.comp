@@ -53,7 +53,7 @@ void main() {
 }
 #else
 // The sums of each lane, member by member of RigidSums.
-const uint kMembers = 12u;
+const uint kMembers = 16u;
 shared dvec4 parts[kMembers * 64u];
 
 void share(uint lane, RigidSums sums) {
@@ -69,6 +69,10 @@ void share(uint lane, RigidSums sums) {
     parts[576u + lane] = sums.mixed_x;
     parts[640u + lane] = sums.mixed_y;
     parts[704u + lane] = sums.mixed_z;
+    parts[768u + lane] = sums.sliding_arm;
+    parts[832u + lane] = sums.sliding_square;
+    parts[896u + lane] = sums.sliding_product;
+    parts[960u + lane] = sums.sliding_moment;
 }
 
 // Few lanes a chunk: what a lane has to share costs more than a node.
@@ -93,9 +97,10 @@ RigidSums sum_nodes(Chunk chunk, uint lane) {
         Touch touch = touches[n];
         vec4 position = texelFetch(positions, int(n));
         if (position.w == 0.0 || touch.force.w == 0.0) continue;
-        dvec3 r = dvec3(position.xyz - origin);
-        add_node(r, double(touch.normal.w), dvec3(touch.force.xyz), sums);
-        add_along(r, dvec3(touch.normal.xyz), double(touch.force.w) - double(touch.normal.w), sums);
+        dvec3 force = dvec3(touch.force.xyz), normal = dvec3(touch.normal.xyz);
+        double pressing = dot(force, normal);
+        add_touch(dvec3(position.xyz - origin), normal, pressing, force - pressing * normal, double(touch.force.w),
+                  double(touch.normal.w), sums);
     }
 #endif
     return sums;
@@ -105,9 +110,9 @@ void main() {
     uint lane = gl_LocalInvocationID.x, first = kChunks * group_index(), c = first + lane / kLanes;
     share(lane, c < element_count ? sum_nodes(chunks[c], lane % kLanes) : kNothing);
     barrier();
-    uint k = lane / kMembers, member = lane % kMembers;
+    uint k = lane / kMembers, member = lane % kMembers;  // as many members as lanes a chunk
     c = first + k;
-    if (k >= kChunks || c >= element_count) return;
+    if (c >= element_count) return;
     uint from = 64u * member + kLanes * k;
     dvec4 sum = parts[from];
     for (uint l = 1u; l < kLanes; ++l) sum += parts[from + l];

@@ -295,9 +295,11 @@ void BlockDescent<Real>::add_touch(std::uint32_t node, const glm::dvec3& origin,
                                    const std::vector<Vec4<Real>>& positions, RigidStep& body) const {
     const NodeTouch<Real>& touch = touches_.nodes[node];
     if (touch.along == Real(0)) return;
-    const glm::dvec3 r = glm::dvec3(positions[node]) - origin;
-    body.add(r, static_cast<double>(touch.across), glm::dvec3(touch.force));
-    body.add_along(r, glm::dvec3(touch.normal), static_cast<double>(touch.along - touch.across));
+    const glm::dvec3 force(touch.force), normal(touch.normal);
+    const double pressing = glm::dot(force, normal);
+    body.add(glm::dvec3(positions[node]) - origin,
+             {normal, pressing, force - pressing * normal, static_cast<double>(touch.along),
+              static_cast<double>(touch.across)});
 }
 
 // Nodes that a collider has stopped go back with restitution times the speed they would have had without it.

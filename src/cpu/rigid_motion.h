@@ -24,7 +24,7 @@ inline glm::dmat3 cayley_turn(const glm::dvec3& w) {
 }
 
 /// Sums over nodes at r from a body's origin [m], that forces f [N] act on, and whose way is resisted alike
-/// in all directions by stiffnesses k [N/m]: inertia, and friction that holds.
+/// in all directions by stiffnesses k [N/m]: inertia, and friction.
 struct RigidSums {
     double stiffness = 0.0;          ///< sum k
     glm::dvec3 arm{0.0};             ///< sum k r
@@ -32,29 +32,49 @@ struct RigidSums {
     glm::dvec3 force{0.0}, moment{0.0};
 
     void add(const glm::dvec3& r, double k, const glm::dvec3& f);
-    void add(const RigidSums& other);
+    /// @param factor times these
+    void add(const RigidSums& other, double factor = 1.0);
+};
+
+/// How a surface holds a node: presses it with a force along its normal, which falls by `along` as the node
+/// comes away, and holds it back with friction, which falls by `across` as the node slides back.
+struct RigidTouch {
+    glm::dvec3 normal{0.0};  ///< unit
+    double pressing = 0.0;   ///< [N]
+    glm::dvec3 friction{0.0};
+    double along = 0.0, across = 0.0;  ///< [N/m]; alike where the surface does not let it slide
 };
 
 /// Newton's step of a body along rigid motions, by a shift s and a turn w: node i goes s + w x r_i, which
 /// changes what acts on it by its stiffness times that. Internal forces do no work on it.
 ///   sum_i J_i^T K_i J_i (s, w) = sum_i J_i^T f_i,   J_i (s, w) = s + w x r_i
+/// Friction of nodes that slide is taken times what that leaves of all pressing forces, of which few sweeps
+/// find far too much in stiff bodies.
 class RigidStep {
 public:
     void add(const glm::dvec3& r, double stiffness, const glm::dvec3& force) {
         sums_.add(r, stiffness, force);
     }
     void add(const RigidSums& nodes) { sums_.add(nodes); }
-    /// A node that is resisted along `normal` alone: a surface that it touches.
-    void add_along(const glm::dvec3& r, const glm::dvec3& normal, double stiffness);
+    void add(const glm::dvec3& r, const RigidTouch& touch);
 
     /// @pre some stiffness was added
     RigidMotion solve(const glm::dvec3& origin) const;
 
 private:
-    RigidSums sums_;
+    struct Way {
+        glm::dvec3 shift, turn;
+    };
+    void add_along(const glm::dvec3& r, const glm::dvec3& normal, double stiffness);
+    Way way(const RigidSums& sums) const;
+
+    RigidSums sums_, sliding_;  // sliding: the friction of nodes that slide
     // Of surfaces, sum k (n, r x n) (n, r x n)^T in blocks.
     SymmetricMatrix<double> shifts_, turns_;
     glm::dmat3 mixed_{0.0};
+    // All that surfaces press with, and how it falls by a shift and a turn: sum k n, sum k r x n.
+    double pressing_ = 0.0;
+    glm::dvec3 pressing_shift_{0.0}, pressing_turn_{0.0};
 };
 
 }  // namespace gelatin::cpu

@@ -10,7 +10,7 @@
 namespace gelatin::gpu {
 namespace {
 
-constexpr std::size_t kRigidSums = 12;    // dvec4s in RigidSums, include/rigid_sums.glsl
+constexpr std::size_t kRigidSums = 16;    // dvec4s in RigidSums, include/rigid_sums.glsl
 constexpr std::size_t kLanesAChunk = 16;  // sim/sum_rigid_motions.comp
 
 gl::Defines start_defines(const Model& model, bool pulled) {

@@ -260,8 +260,7 @@ TEST(BlockDescent, FrictionIsCoulombs) {
     EXPECT_LT(glm::length(momenta_of(nodes).linear) / mass, 0.01);
 }
 
-// On a slope a block gains g (sin - mu cos). Sweeps come to the forces that hold it the later, the stiffer it
-// is.
+// On a slope a block gains g (sin - mu cos), also where ten sweeps find forty times the force that holds it.
 TEST(BlockDescent, BlocksSlideDownSlopes) {
     ColliderDescription floor;
     floor.shape = PlaneCollider{{0.0, 1.0, 0.0}, 0.0};
@@ -276,10 +275,9 @@ TEST(BlockDescent, BlocksSlideDownSlopes) {
         const cpu::Nodes<double> nodes = run_steps<double>(model, kFrame, steps, iterations);
         return std::abs(momenta_of(nodes).linear.x / mass / speed - 1.0);
     };
-    EXPECT_LT(error(1e5, 10), 0.01);
-    EXPECT_LT(error(1e6, 10), 0.07);
-    EXPECT_LT(error(1e6, 20), 0.01);
-    EXPECT_LT(error(1e8, 60), 0.01);
+    for (const double youngs_modulus : {1e5, 1e6, 1e7}) EXPECT_LT(error(youngs_modulus, 10), 0.01);
+    EXPECT_LT(error(1e8, 10), 0.03);
+    EXPECT_LT(error(1e8, 20), 0.01);
 }
 
 // SIMD, on bodies in all states that it tells apart: free, held, on the floor, against a sphere, with flat

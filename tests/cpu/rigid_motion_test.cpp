@@ -80,10 +80,33 @@ TEST(RigidMotion, SlidesAlongASurface) {
         const double mass = 1.0 / p.w;
         const V3 force = mass * (made.move(V3(p)) - V3(p));
         step.add(V3(p) - origin, mass, force + V3(0, -9.81 * mass, 0));
-        step.add_along(V3(p) - origin, normal, 1e12 * mass);
+        step.add(V3(p) - origin, {normal, 0.0, V3(0), 1e12 * mass, 0.0});
     }
     const cpu::RigidMotion found = step.solve(origin);
     for (const V4& p : nodes) EXPECT_LT(glm::distance(found.move(V3(p)), made.move(V3(p))), 3e-8);
+}
+
+// Nodes have found ten times the force that is needed to hold the body up, and of friction as much as goes
+// with it. What is left of it goes with the force that is needed.
+TEST(RigidMotion, SlidesWithTheFrictionOfWhatHoldsIt) {
+    const std::vector<V4> nodes = make_nodes(V3(1));
+    const V3 origin(nodes[0]);
+    const double step = 1e-2, gravity = 9.81, friction = 0.2, pull = 5.0;
+    cpu::RigidStep body;
+    double inertia = 0.0, friction_stiffness = 0.0;
+    for (const V4& p : nodes) {
+        const double mass = 1.0 / p.w, pressing = 10.0 * mass * gravity;
+        body.add(V3(p) - origin, mass / (step * step), mass * V3(pull, -gravity, 0));
+        body.add(V3(p) - origin,
+                 {V3(0, 1, 0), pressing, V3(-friction * pressing, 0, 0), 1e9 * mass, 10.0 * mass});
+        inertia += mass / (step * step);
+        friction_stiffness += 10.0 * mass;
+    }
+    const cpu::RigidMotion found = body.solve(origin);
+    const double force = (pull - friction * gravity) * inertia * step * step;
+    const double expected = force / (inertia + 0.1 * friction_stiffness);
+    EXPECT_NEAR(found.shift.x, expected, 1e-3 * expected);
+    EXPECT_LT(glm::length(found.turn[0] - V3(1, 0, 0)), 1e-2 * expected);
 }
 
 // Held by friction it stays, but for what that gives way.
@@ -93,7 +116,7 @@ TEST(RigidMotion, StaysWhereFrictionHolds) {
     cpu::RigidStep step;
     for (const V4& p : nodes) {
         step.add(V3(p) - origin, 1.0 / p.w, V3(1, 2, 3));
-        step.add(V3(p) - origin, 1e9, V3(0));
+        step.add(V3(p) - origin, {V3(0, 1, 0), 0.0, V3(0), 1e9, 1e9});
     }
     const cpu::RigidMotion found = step.solve(origin);
     for (const V4& p : nodes) EXPECT_LT(glm::distance(found.move(V3(p)), V3(p)), 1e-8);

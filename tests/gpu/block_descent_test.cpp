@@ -74,6 +74,10 @@ TEST_F(BlockDescentOnGpuTest, MatchesTheDoubleReferenceOfTurnedBodies) {
     EXPECT_LE(test::worst_descent_error(model, descent, test::descend_on_gpu(model, descent)), 1.0);
 }
 
+TEST_F(BlockDescentOnGpuTest, SlidesAsTheDoubleReference) {
+    EXPECT_LE(test::sliding_descent_error(), 1.0);
+}
+
 TEST_F(BlockDescentOnGpuTest, RepeatsBitForBit) {
     const Model model = test::make_bodies_to_descend(0.0, 0.4);
     const test::Descent descent{1.0 / 60.0, {10, 0.7}};

@@ -30,6 +30,10 @@ double worst_descent_error(const Model& model, const Descent& descent, const Nod
 /// how far the GPU's is from the double reference, over what rounding may make of it.
 double degenerate_descent_error(int iterations);
 
+/// The same of a block on a slope that starts squeezed by 2% in height, so that its nodes find far more than
+/// its weight on the floor, and too much friction.
+double sliding_descent_error();
+
 /// Bodies in all states that block descent tells apart: free ones in motion, shaken so much that tets are
 /// inside out, one of them of two chunks of nodes; one with pins; one on a floor and against a sphere; with
 /// damping or without; of any Poisson's ratio. All but the second are made of `model`, that one of springs.
