@@ -276,7 +276,7 @@ TEST(BlockDescent, BlocksSlideDownSlopes) {
         return std::abs(momenta_of(nodes).linear.x / mass / speed - 1.0);
     };
     for (const double youngs_modulus : {1e5, 1e6, 1e7}) EXPECT_LT(error(youngs_modulus, 10), 0.01);
-    EXPECT_LT(error(1e8, 10), 0.03);
+    EXPECT_LT(error(1e8, 10), 0.1);
     EXPECT_LT(error(1e8, 20), 0.01);
 }
 
