@@ -13,10 +13,11 @@ struct RigidSums {      // 512 bytes
     dvec4 mixed_x;      // k t_x n; w: k t_x
     dvec4 mixed_y;
     dvec4 mixed_z;
-    dvec4 sliding_arm;  // friction of nodes that slide: k r; w: k
-    dvec4 sliding_square;   // w: f_x
-    dvec4 sliding_product;  // w: f_y
-    dvec4 sliding_moment;   // w: f_z
+    // Friction of nodes that slide, k being how it falls:
+    dvec4 sliding_arm;      // k r; w: k
+    dvec4 sliding_square;   // as square; w: f_x
+    dvec4 sliding_product;  // as product; w: f_y
+    dvec4 sliding_moment;   // r x f; w: f_z
 };
 
 const dvec4 kZero = dvec4(0.0);
@@ -53,7 +54,8 @@ void add_along(dvec3 r, dvec3 normal, double stiffness, inout RigidSums sums) {
 // A surface that presses a node with a force along its normal, which falls by `along` as the node comes away, and holds
 // it back with friction, which falls by `across` as the node slides back; alike where it does not let the node slide.
 // What slides is resisted along the normal by a little more than that, which spares sums.
-void add_touch(dvec3 r, dvec3 normal, double pressing, dvec3 friction, double along, double across, inout RigidSums sums) {
+void add_touch(dvec3 r, dvec3 normal, double pressing, dvec3 friction, double along, double across,
+               inout RigidSums sums) {
     bool slides = across < along;
     add_node(r, slides ? 0.0 : across, pressing * normal + (slides ? dvec3(0.0) : friction), sums);
     add_along(r, normal, slides ? along : along - across, sums);
