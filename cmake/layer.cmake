@@ -1,10 +1,10 @@
 # gelatin_layer(NAME [DEPENDS layers...] [LIBRARIES targets...])
 #
-# Makes the static library gelatin_NAME of src/NAME/*.cpp. A layer sees the public headers, its own folder and,
+# Makes the static library gelatin_NAME of all sources below src/NAME. A layer sees the public headers, its own folder and,
 # by DEPENDS, the layers below it; scripts/check_layers holds the includes against the same list.
 function(gelatin_layer name)
     cmake_parse_arguments(arg "" "" "DEPENDS;LIBRARIES" ${ARGN})
-    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*.cpp)
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*.cpp)
     add_library(gelatin_${name} STATIC ${sources})
     add_library(gelatin::${name} ALIAS gelatin_${name})
     target_include_directories(gelatin_${name} PUBLIC ${CMAKE_SOURCE_DIR}/include ${CMAKE_SOURCE_DIR}/src

@@ -1,9 +1,9 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "bench_kernels.h"
-#include "bench_paper.h"
-#include "bench_scaling.h"
+#include "bench/kernels.h"
+#include "bench/paper.h"
+#include "bench/scaling.h"
 #include "commands.h"
 
 namespace gelatin {

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "commands.h"
-#include "cpu/advance_nodes.h"
+#include "cpu/explicit/advance_nodes.h"
 #include "gelatin/error.h"
 #include "gelatin/simulator.h"
 #include "gelatin/version.h"
@@ -14,7 +14,7 @@
 #include "mesh/surface_file.h"
 #include "mesh/tet_file.h"
 #include "mesh_report.h"
-#include "model/explicit_scheme.h"
+#include "model/explicit/explicit_scheme.h"
 #include "model/model.h"
 #include "sim/report.h"
 

@@ -7,14 +7,14 @@
 #include <memory>
 #include <optional>
 
-#include "choice.h"
 #include "commands.h"
+#include "common/choice.h"
+#include "common/output_file.h"
 #include "mesh/file_ending.h"
 #include "mesh/surface_file.h"
 #include "mesh/tet_file.h"
 #include "mesh/tetrahedralise.h"
 #include "mesh_report.h"
-#include "output_file.h"
 
 namespace gelatin {
 namespace {

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "choice.h"
+#include "common/choice.h"
 
 namespace gelatin {
 namespace {

@@ -3,12 +3,12 @@
 #include <memory>
 #include <optional>
 
-#include "frame_pipeline.h"
+#include "common/frame_pipeline.h"
+#include "common/scene_painter.h"
 #include "gelatin/simulator.h"
 #include "render/frame_grabber.h"
 #include "render/video_writer.h"
 #include "run_options.h"
-#include "scene_painter.h"
 #include "sim/export.h"
 
 namespace gelatin {

@@ -8,10 +8,10 @@
 #include <memory>
 
 #include "commands.h"
+#include "common/progress.h"
 #include "core/file.h"
 #include "gelatin/error.h"
 #include "interrupt.h"
-#include "progress.h"
 #include "recorder.h"
 #include "run_options.h"
 #include "sim/report.h"

@@ -7,8 +7,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "choice.h"
-#include "output_file.h"
+#include "common/choice.h"
+#include "common/output_file.h"
 #include "overlay_option.h"
 
 namespace gelatin {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/picture_size.h"
 #include "gelatin/simulator.h"
 #include "render/renderer.h"
 #include "sim/export.h"
@@ -14,12 +15,6 @@ class App;
 }
 
 namespace gelatin {
-
-/// Pixels.
-struct PictureSize {
-    int width = 1280;
-    int height = 720;
-};
 
 /// What the user asked `gelatin run` for; empty paths are not wanted.
 struct RunOptions {

@@ -1,8 +1,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "choice.h"
 #include "commands.h"
+#include "common/choice.h"
 #include "run_options.h"
 #include "viewer/viewer.h"
 

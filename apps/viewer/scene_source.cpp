@@ -10,7 +10,7 @@
 #include "mesh/file_ending.h"
 #include "mesh/surface_file.h"
 #include "mesh/tet_file.h"
-#include "model/build_model.h"
+#include "model/build/build_model.h"
 
 namespace gelatin::viewer {
 namespace {

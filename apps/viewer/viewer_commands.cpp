@@ -7,7 +7,7 @@
 
 #include "dragged_scene.h"
 #include "gelatin/error.h"
-#include "model/scene_writer.h"
+#include "model/scene/scene_writer.h"
 #include "overlay_choices.h"
 #include "projectile.h"
 #include "render/frame_grabber.h"

@@ -2,7 +2,7 @@
 // horizons that the depth map has round it (Jimenez, Wu, Pesce and Jarabo 2016, ground-truth ambient occlusion). Each
 // pixel of a tile of 4 x 4 looks in directions of its own; blur_occlusion.frag takes the mean of such a tile. The tiles
 // stay where they are from frame to frame. Bodies are what occludes; the floor does not, for it gives light back.
-#include "include/seen_points.glsl"
+#include "render/include/seen_points.glsl"
 
 uniform float reach;  // how far away something is still felt [m]
 

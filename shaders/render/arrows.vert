@@ -1,7 +1,7 @@
 // Velocities as arrows from nodes of the surface to where they will be after some time: each a rectangle round it that
 // faces the screen, six vertices; render/arrows.frag draws the arrow in it.
-#include "include/cut.glsl"
-#include "include/near_plane.glsl"
+#include "render/include/cut.glsl"
+#include "render/include/near_plane.glsl"
 
 layout(binding = 0) uniform samplerBuffer node_positions;  // xyz [m]
 layout(binding = 1) uniform samplerBuffer velocities;      // xyz [m/s]

@@ -1,7 +1,7 @@
 // What is seen where there is nothing.
-#include "include/backdrop.glsl"
-#include "include/dither.glsl"
-#include "include/tone.glsl"
+#include "render/include/backdrop.glsl"
+#include "render/include/dither.glsl"
+#include "render/include/tone.glsl"
 
 layout(location = 0) out vec4 pixel;
 

@@ -1,5 +1,5 @@
 // The twelve edges of boxes, as lines that fade from level to level.
-#include "include/line.glsl"
+#include "render/include/line.glsl"
 
 layout(binding = 0) uniform samplerBuffer boxes;         // lower and upper corner [m]
 layout(binding = 1) uniform usamplerBuffer shown_boxes;  // index into boxes, level

@@ -1,7 +1,7 @@
 // Bodies in the colours of a quantity, with so little shade that the legend's colours are found again.
-#include "include/color_map.glsl"
-#include "include/studio.glsl"
-#include "include/tone.glsl"
+#include "render/include/color_map.glsl"
+#include "render/include/studio.glsl"
+#include "render/include/tone.glsl"
 
 in vec3 normal;
 in float value;

@@ -1,6 +1,6 @@
 // Bodies with a quantity at their nodes.
-#include "include/cut.glsl"
-#include "include/surface_fetch.glsl"
+#include "render/include/cut.glsl"
+#include "render/include/surface_fetch.glsl"
 
 layout(binding = 3) uniform samplerBuffer node_values;
 uniform mat4 world_to_clip;

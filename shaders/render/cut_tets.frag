@@ -1,9 +1,9 @@
 // A cut through tets, in flat light, with the tets' sides as thin lines.
 #ifdef COLOR_MAP
-#include "include/color_map.glsl"
+#include "render/include/color_map.glsl"
 #endif
-#include "include/studio.glsl"
-#include "include/tone.glsl"
+#include "render/include/studio.glsl"
+#include "render/include/tone.glsl"
 
 uniform float line_width;  // [pixels]
 uniform vec4 cut_plane;    // unit normal

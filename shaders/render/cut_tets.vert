@@ -1,6 +1,6 @@
 // The polygon in which a plane cuts a tet, three or four corners, as two triangles of the corners 0 1 2 and 0 2 3; of
 // three corners the last is the first once more. Needs find_cut_tets.comp.
-#include "include/cut.glsl"
+#include "render/include/cut.glsl"
 
 layout(binding = 0) uniform samplerBuffer node_positions;  // xyz [m]
 layout(binding = 1) uniform usamplerBuffer tets;           // nodes

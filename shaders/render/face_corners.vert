@@ -1,6 +1,6 @@
 // Faces with their corners told apart; with MARKED those that are marked, while all others collapse to nothing.
-#include "include/cut.glsl"
-#include "include/surface_fetch.glsl"
+#include "render/include/cut.glsl"
+#include "render/include/surface_fetch.glsl"
 
 layout(binding = 3) uniform usamplerBuffer triangles;  // surface vertices of each face
 #ifdef MARKED

@@ -1,6 +1,6 @@
 // Lists the tets that a plane cuts, one invocation a tet, as an indirect draw of six vertices each. Their order
 // differs from run to run, which pictures hardly show: the tets of a body share no place, unless some are inside out.
-#include "include/cut.glsl"
+#include "render/include/cut.glsl"
 #include "include/global_index.glsl"
 #include "layouts/draw.glsl"
 layout(local_size_x = 64) in;

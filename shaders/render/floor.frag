@@ -1,10 +1,10 @@
 // A calm floor with a faint grid, which goes over into the backdrop before its end.
-#include "include/backdrop.glsl"
-#include "include/dither.glsl"
-#include "include/floor_color.glsl"
-#include "include/floor_light.glsl"
-#include "include/openness.glsl"
-#include "include/tone.glsl"
+#include "render/include/backdrop.glsl"
+#include "render/include/dither.glsl"
+#include "render/include/floor_color.glsl"
+#include "render/include/floor_light.glsl"
+#include "render/include/openness.glsl"
+#include "render/include/tone.glsl"
 
 uniform float grid_spacing;  // [m]
 

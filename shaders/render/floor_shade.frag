@@ -1,8 +1,8 @@
 // By how much shadows darken a floor that was drawn without them, as a factor of displayed values: once a frame in a
 // small texture, so that the floor's many pixels need one look each.
-#include "include/floor_color.glsl"
-#include "include/floor_light.glsl"
-#include "include/tone.glsl"
+#include "render/include/floor_color.glsl"
+#include "render/include/floor_light.glsl"
+#include "render/include/tone.glsl"
 
 in vec2 uv;
 layout(location = 0) out vec4 factor;

@@ -1,7 +1,7 @@
 // How much of the key light (red) and of the sky (green) reaches a patch of floor. Each pixel turns the pattern of its
 // samples; floor_blend.frag evens that out.
-#include "include/floor_key.glsl"
-#include "include/floor_sky.glsl"
+#include "render/include/floor_key.glsl"
+#include "render/include/floor_sky.glsl"
 
 uniform vec2 patch_corner;   // [m]
 uniform vec2 patch_size;     // [m]

@@ -1,9 +1,9 @@
 // The paper's light (3.1): one invocation lights one surface vertex and carries it into the picture, so that drawing
 // fetches a place and a finished colour and works out nothing. Test: tests/render/vertex_light_test.cpp.
 #include "include/global_index.glsl"
-#include "include/light.glsl"
-#include "include/surface_fetch.glsl"
-#include "include/tone.glsl"
+#include "render/include/light.glsl"
+#include "render/include/surface_fetch.glsl"
+#include "render/include/tone.glsl"
 layout(local_size_x = 64) in;
 
 layout(binding = 3) uniform samplerBuffer object_colors;  // linear RGB

@@ -3,9 +3,9 @@
 // thread in software drivers. Minima do not depend on the order, so the maps have the same bits each time. CUT: surfaces
 // are cut open by the plane of an overlay, and faces seen from within count too.
 #include "include/global_index.glsl"
-#include "include/surface_fetch.glsl"
+#include "render/include/surface_fetch.glsl"
 #ifdef CUT
-#include "include/cut.glsl"
+#include "render/include/cut.glsl"
 #endif
 layout(local_size_x = 64) in;
 

@@ -1,6 +1,6 @@
 // Springs as lines, coloured by their strain.
-#include "include/cut.glsl"
-#include "include/line.glsl"
+#include "render/include/cut.glsl"
+#include "render/include/line.glsl"
 
 layout(binding = 0) uniform samplerBuffer node_positions;  // xyz [m]
 layout(binding = 1) uniform usamplerBuffer springs;        // Spring: two nodes, rest length [m], stiffness

@@ -1,6 +1,6 @@
 // Bodies and colliders, lit at each pixel.
-#include "include/light.glsl"
-#include "include/tone.glsl"
+#include "render/include/light.glsl"
+#include "render/include/tone.glsl"
 
 in vec3 position;
 in vec3 normal;

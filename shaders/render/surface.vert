@@ -1,7 +1,7 @@
 // Bodies and colliders, straight from their buffers. CUT: by the plane of an overlay.
-#include "include/surface_fetch.glsl"
+#include "render/include/surface_fetch.glsl"
 #ifdef CUT
-#include "include/cut.glsl"
+#include "render/include/cut.glsl"
 #endif
 
 layout(binding = 3) uniform samplerBuffer object_colors;  // linear RGB

@@ -1,7 +1,7 @@
 // Bodies and colliders as the light, or the floor, sees them: depth alone. CUT: by the plane of an overlay.
-#include "include/surface_fetch.glsl"
+#include "render/include/surface_fetch.glsl"
 #ifdef CUT
-#include "include/cut.glsl"
+#include "render/include/cut.glsl"
 #endif
 
 uniform mat4 world_to_clip;

@@ -8,11 +8,11 @@
 #include <type_traits>
 #include <utility>
 
-#include "cpu/apply_kinematics.h"
-#include "cpu/measure.h"
-#include "cpu/respond.h"
-#include "cpu/sum_loads.h"
-#include "cpu/watch_nodes.h"
+#include "cpu/collision/respond.h"
+#include "cpu/drive/apply_kinematics.h"
+#include "cpu/drive/sum_loads.h"
+#include "cpu/measure/measure.h"
+#include "cpu/measure/watch_nodes.h"
 
 namespace gelatin::cpu {
 namespace {

@@ -4,16 +4,16 @@
 #include <memory>
 #include <optional>
 
-#include "cpu/advance_nodes.h"
-#include "cpu/block_descent.h"
-#include "cpu/collision.h"
-#include "cpu/contact.h"
-#include "cpu/find_proximities.h"
-#include "cpu/match_shapes.h"
+#include "cpu/collision/collision.h"
+#include "cpu/collision/contact.h"
+#include "cpu/collision/find_self_collisions.h"
+#include "cpu/collision/respond_to_self.h"
+#include "cpu/descent/block_descent.h"
+#include "cpu/descent/match_shapes.h"
+#include "cpu/drive/pulls.h"
+#include "cpu/explicit/advance_nodes.h"
 #include "cpu/nodes.h"
-#include "cpu/pulls.h"
-#include "cpu/respond_to_self.h"
-#include "cpu/self_collision.h"
+#include "cpu/proximity/find_proximities.h"
 #include "model/solver.h"
 
 namespace gelatin::cpu {

@@ -6,7 +6,7 @@
 namespace gelatin::gl {
 
 struct EmbeddedShader {
-    std::string_view name;  ///< path below shaders/, e.g. "sim/advance_nodes.comp"
+    std::string_view name;  ///< path below shaders/, e.g. "sim/explicit/advance_nodes.comp"
     std::string_view text;
 };
 

@@ -4,18 +4,18 @@
 #include <optional>
 
 #include "gl/timer.h"
-#include "gpu/advance_nodes.h"
-#include "gpu/apply_kinematics.h"
-#include "gpu/block_descent.h"
-#include "gpu/collision.h"
-#include "gpu/divide_and_merge.h"
-#include "gpu/find_volume_stresses.h"
-#include "gpu/match_shapes.h"
-#include "gpu/measure.h"
+#include "gpu/collision_stages.h"
+#include "gpu/descent/block_descent.h"
+#include "gpu/descent/match_shapes.h"
+#include "gpu/drive/apply_kinematics.h"
+#include "gpu/drive/sum_loads.h"
+#include "gpu/explicit/advance_nodes.h"
+#include "gpu/explicit/divide_and_merge.h"
+#include "gpu/explicit/find_volume_stresses.h"
+#include "gpu/measure/measure.h"
+#include "gpu/measure/watch_nodes.h"
 #include "gpu/model_buffers.h"
 #include "gpu/node_buffers.h"
-#include "gpu/sum_loads.h"
-#include "gpu/watch_nodes.h"
 #include "model/solver.h"
 
 namespace gelatin::gpu {

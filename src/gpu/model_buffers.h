@@ -5,9 +5,9 @@
 
 #include "gl/buffer.h"
 #include "gl/program.h"
-#include "gpu/neo_hookean_buffers.h"
-#include "gpu/pulls.h"
-#include "gpu/volume_term_buffers.h"
+#include "gpu/drive/pulls.h"
+#include "gpu/elasticity/neo_hookean_buffers.h"
+#include "gpu/elasticity/volume_term_buffers.h"
 #include "model/model.h"
 
 namespace gelatin::gpu {
@@ -30,13 +30,13 @@ struct ModelBuffers {
 
     explicit ModelBuffers(const Model& model);
 
-    /// Defines for a shader that includes include/colliders.glsl.
+    /// Defines for a shader that includes sim/collision/colliders.glsl.
     static gl::Defines collider_defines(const Model& model);
 
     /// Binds the half springs to texture units 4 to 6, where the kernels look for them.
     void bind_half_springs() const;
 
-    /// Binds and sets what include/colliders.glsl reads: texture unit 7.
+    /// Binds and sets what sim/collision/colliders.glsl reads: texture unit 7.
     void bind_colliders(const gl::Program& program) const;
 };
 

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "model/handles.h"
+#include "model/collision/rest_shape.h"
+#include "model/drive/handles.h"
+#include "model/drive/loads.h"
+#include "model/elasticity/node_tets.h"
+#include "model/elasticity/volume_term.h"
 #include "model/layouts.h"
-#include "model/loads.h"
-#include "model/node_tets.h"
-#include "model/rest_shape.h"
-#include "model/volume_term.h"
 
 namespace gelatin {
 
@@ -56,7 +56,7 @@ struct TetRest {
     float volume;   ///< [m^3], > 0
     float modulus;  ///< of its resistance to being flat [Pa]: Young's; 0 for neo-Hookean tets
     float bulk;     ///< bulk modulus of its springs, or of itself [Pa], > 0
-    float kappa;    ///< what the volume term adds to that (model/volume_term.h) [Pa]
+    float kappa;    ///< what the volume term adds to that (model/elasticity/volume_term.h) [Pa]
 };
 
 /// Faces by node: those of node n are faces[starts[n]] .. faces[starts[n + 1]], ascending; none inside.

@@ -27,7 +27,7 @@ struct State {
 struct DescentSettings {
     int iterations = 10;       ///< sweeps over all nodes in a step, >= 1
     double chebyshev = 0.0;    ///< see SimulationSettings::chebyshev
-    bool coarse_level = true;  ///< model/coarse_basis.h; off to compare
+    bool coarse_level = true;  ///< model/descent/coarse_basis.h; off to compare
 };
 
 /// What sweep `sweep` of a step, from 0, is accelerated by; 1 for the first two.

@@ -24,7 +24,7 @@ public:
     /// @param occluders what stands in the way of light @pre a vertex array object is bound
     void draw(const Frame& frame, std::initializer_list<const SurfaceDraw*> occluders);
 
-    /// For programs that use shaders/include/openness.glsl: how they are made, and what they need.
+    /// For programs that use shaders/render/include/openness.glsl: how they are made, and what they need.
     static gl::Defines defines(const AmbientOcclusion* occlusion);
     void set_uniforms(const gl::Program& program) const;
     /// Openness in [0, 1] and distance [m], < 0 on the floor, at unit 8.

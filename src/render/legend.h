@@ -33,7 +33,7 @@ ColorScale strain_scale(float full_strain);
 const std::array<glm::vec3, 9>& value_colors();
 ColorScale value_scale(const ColorMapView& map);
 
-/// Sets what spring_lines.vert goes by, and shaders/include/color_map.glsl.
+/// Sets what spring_lines.vert goes by, and shaders/render/include/color_map.glsl.
 void set_strain_colors(const gl::Program& program, float full_strain);
 void set_value_colors(const gl::Program& program, const ColorMapView& map);
 

@@ -17,7 +17,7 @@ public:
     /// bound
     void draw(const View& view, const Shadows* shadows) const;
 
-    /// The place of the floor, for shaders/include/floor_color.glsl.
+    /// The place of the floor, for shaders/render/include/floor_color.glsl.
     static void set_floor_uniforms(const gl::Program& program, const View& view);
 
 private:

@@ -44,7 +44,7 @@ public:
     /// The part of the floor that may be darkened.
     Bounds floor_patch() const;
 
-    /// For programs that use shaders/include/light.glsl or floor_light.glsl.
+    /// For programs that use shaders/render/include/light.glsl or floor_light.glsl.
     void set_uniforms(const gl::Program& program) const;
     void bind_textures() const;
 

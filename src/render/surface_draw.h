@@ -7,7 +7,8 @@
 
 namespace gelatin::render {
 
-/// The buffers of a RenderView made ready for shaders/include/surface_fetch.glsl; as long-lived as the view.
+/// The buffers of a RenderView made ready for shaders/render/include/surface_fetch.glsl; as long-lived as the
+/// view.
 class SurfaceDraw {
 public:
     explicit SurfaceDraw(const RenderView& view);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/drags.h"
+#include "model/drive/drags.h"
 #include "model/model.h"
 #include "model/solver.h"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "cpu/colliders.h"
-#include "model/pack_colliders.h"
+#include "cpu/collision/colliders.h"
+#include "model/collision/pack_colliders.h"
 
 namespace gelatin {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "gelatin/views.h"
 #include "gl/readback.h"
-#include "gpu/tet_values.h"
+#include "gpu/view/tet_values.h"
 #include "sim/value_range.h"
 
 namespace gelatin {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "mesh/tet_check.h"
-#include "model/explicit_scheme.h"
-#include "model/stability.h"
+#include "model/explicit/explicit_scheme.h"
+#include "model/explicit/stability.h"
 
 namespace gelatin {
 namespace {

@@ -7,7 +7,7 @@
 #include "gelatin/views.h"
 #include "gl/readback.h"
 #include "gpu/gpu_solver.h"
-#include "gpu/update_normals.h"
+#include "gpu/view/update_normals.h"
 
 namespace gelatin {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "cpu/neo_hookean.h"
+#include "cpu/elasticity/neo_hookean.h"
 
 namespace gelatin {
 namespace {

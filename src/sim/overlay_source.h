@@ -9,7 +9,7 @@
 #include "cpu/cpu_solver.h"
 #include "gelatin/views.h"
 #include "gpu/gpu_solver.h"
-#include "gpu/mark_faces.h"
+#include "gpu/view/mark_faces.h"
 #include "sim/color_source.h"
 
 namespace gelatin {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gelatin/version.h"
-#include "model/explicit_scheme.h"
+#include "model/explicit/explicit_scheme.h"
 #include "model/model.h"
 
 namespace gelatin {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "gpu/tet_values.h"
+#include "gpu/view/tet_values.h"
 
 namespace gelatin {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "cpu/measure.h"
+#include "cpu/measure/measure.h"
 #include "gelatin/error.h"
 #include "sim/divergence.h"
 

@@ -3,8 +3,8 @@
 
 #include "apps/program_test.h"
 #include "mesh/surface_file.h"
-#include "model/build_model.h"
-#include "model/stability.h"
+#include "model/build/build_model.h"
+#include "model/explicit/stability.h"
 #include "render/image.h"
 #include "sim/checkpoint.h"
 #include "support/image_compare.h"

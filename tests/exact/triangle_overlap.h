@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cpu/triangle_overlap.h"
+#include "cpu/collision/triangle_overlap.h"
 
 namespace gelatin::test {
 

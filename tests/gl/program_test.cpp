@@ -10,6 +10,7 @@
 #include "gl/buffer.h"
 #include "support/gl_fixture.h"
 #include "support/shader_folder.h"
+#include "support/source_path.h"
 
 namespace gelatin::gl {
 namespace {
@@ -136,7 +137,7 @@ protected:
             layout(std430, binding = 0) buffer Out { uint visits[]; };
             uniform uint count;
             void main() { uint i = global_index(); if (i < count) atomicAdd(visits[i], 1u); })");
-        folder_.add("global_index.glsl", read_file(GELATIN_SOURCE_DIR "/shaders/include/global_index.glsl"));
+        folder_.add("global_index.glsl", read_file(test::source_path("shaders/include/global_index.glsl")));
     }
 };
 

@@ -6,6 +6,7 @@
 #include "gl/embedded_shaders.h"
 #include "support/environment.h"
 #include "support/shader_folder.h"
+#include "support/source_path.h"
 
 namespace gelatin::gl {
 namespace {
@@ -77,7 +78,7 @@ TEST(ShaderSourceTest, CircleIsNamed) {
 
 TEST(ShaderSourceTest, EmbeddedFilesAreThoseOfTheSourceTree) {
     const std::string embedded = load_shader("include/global_index.glsl").text;
-    const test::EnvironmentVariable variable("GELATIN_SHADER_DIR", GELATIN_SOURCE_DIR "/shaders");
+    const test::EnvironmentVariable variable("GELATIN_SHADER_DIR", test::source_path("shaders"));
     EXPECT_EQ(load_shader("include/global_index.glsl").text, embedded);
     EXPECT_GT(embedded_shaders().size(), 5u);
 }

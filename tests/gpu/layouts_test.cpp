@@ -9,6 +9,7 @@
 #include "model/layouts.h"
 #include "support/gl_fixture.h"
 #include "support/shader_folder.h"
+#include "support/source_path.h"
 
 namespace gelatin {
 namespace {
@@ -19,8 +20,7 @@ protected:
     void check(const std::string& file, const std::string& type, std::size_t size,
                const std::vector<std::pair<std::string, std::size_t>>& fields) {
         test::ShaderFolder folder;
-        folder.add("layouts/" + file,
-                   read_file(std::string(GELATIN_SOURCE_DIR) + "/shaders/layouts/" + file));
+        folder.add("layouts/" + file, read_file(test::source_path() + "shaders/layouts/" + file));
         std::string sum;
         for (const auto& [field, offset] : fields) sum += " + vec4(items[1]." + field + ")";
         folder.add("probe.comp",

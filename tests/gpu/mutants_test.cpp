@@ -17,6 +17,7 @@
 #include "support/proximities.h"
 #include "support/pull_on_gpu.h"
 #include "support/shader_folder.h"
+#include "support/source_path.h"
 #include "support/step_on_gpu.h"
 #include "support/test_models.h"
 #include "support/tet_values.h"
@@ -32,7 +33,7 @@ constexpr double kLongStep = 0.1;  // on its way a block meets others [s]
 
 // All shaders in a folder, one of them broken.
 void break_shaders(const test::Break& mutant, test::ShaderFolder& folder) {
-    const fs::path root = fs::path(GELATIN_SOURCE_DIR) / "shaders";
+    const fs::path root = fs::path(test::source_path()) / "shaders";
     for (const auto& entry : fs::recursive_directory_iterator(root)) {
         if (!entry.is_regular_file()) continue;
         const std::string name = fs::relative(entry.path(), root).generic_string();

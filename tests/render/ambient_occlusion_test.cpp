@@ -162,7 +162,7 @@ TEST_F(AmbientOcclusionTest, KnownBoundsChangeNothing) {
 TEST_F(AmbientOcclusionTest, TheKeyLightIsLeftAlone) {
     const auto floor_brightness = [](double openness) {
         const double to_key = 1.0 / glm::length(glm::dvec3(-0.55, 1.0, 0.42));
-        // Green, of include/studio.glsl; where it is below the shoulder of include/tone.glsl.
+        // Green, of render/include/studio.glsl; where it is below the shoulder of render/include/tone.glsl.
         const double light = 0.57 * (1.13 * to_key + 0.405 * openness);
         return 255.0 * (1.055 * std::pow(light, 1.0 / 2.4) - 0.055);
     };

@@ -6,6 +6,7 @@
 #include "gelatin/simulator.h"
 #include "render/image.h"
 #include "render/overlay_fixture.h"
+#include "support/source_path.h"
 
 namespace gelatin::render {
 namespace {
@@ -66,7 +67,7 @@ TEST_P(OverlayReferenceTest, LooksAsItDidOnEitherBackend) {
             const Image image = *grabber.flush();
             const std::string ending = GetParam() == Quality::fast ? "_fast.png" : ".png";
             const auto file =
-                std::filesystem::path(GELATIN_SOURCE_DIR "/tests/render/references") / (name + ending);
+                std::filesystem::path(test::source_path("tests/render/references")) / (name + ending);
             if (std::getenv("GELATIN_UPDATE_REFERENCES") != nullptr) write_png(file, image);
             EXPECT_LT(test::perceptual_difference(image, read_png(file)), 1.0)
                 << name << ": if the new picture is better, set GELATIN_UPDATE_REFERENCES=1 once";

@@ -10,6 +10,7 @@
 
 #include "gelatin/error.h"
 #include "render/renderer_fixture.h"
+#include "support/source_path.h"
 
 namespace gelatin::render {
 namespace {
@@ -80,7 +81,7 @@ TEST_F(RendererTest, LooksAsItDid) {
         Studio studio = ball_and_box();
         studio.options.quality = quality;
         const Image image = picture_of(studio);
-        const auto file = std::filesystem::path(GELATIN_SOURCE_DIR "/tests/render/references") / name;
+        const auto file = std::filesystem::path(test::source_path("tests/render/references")) / name;
         if (std::getenv("GELATIN_UPDATE_REFERENCES") != nullptr) write_png(file, image);
         EXPECT_LT(test::perceptual_difference(image, read_png(file)), 1.0)
             << "if the new picture is better, set GELATIN_UPDATE_REFERENCES=1 once";

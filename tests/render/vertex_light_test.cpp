@@ -25,7 +25,7 @@ double schlick(double cosine) {
     return 0.04 + 0.96 * std::pow(1.0 - cosine, 5.0);
 }
 
-// The formula of shaders/include/light.glsl in double, where nothing casts a shadow or is near.
+// The formula of shaders/render/include/light.glsl in double, where nothing casts a shadow or is near.
 glm::dvec3 lit(const View& view, const glm::dvec3& position, const glm::dvec3& normal, double jelly) {
     const glm::dvec3 key_light(1.20, 1.13, 1.03), sky_light(0.37, 0.405, 0.455),
         floor_light(0.33, 0.305, 0.28);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "model/stability.h"
+#include "model/explicit/stability.h"
 #include "support/test_models.h"
 
 namespace gelatin {

@@ -102,7 +102,7 @@ TEST_P(OverlaySourceTest, LevelsOfBoxesLieInOneAnother) {
         EXPECT_EQ(glm::min(box.min, parents[shown.y - 1].min), parents[shown.y - 1].min);
         EXPECT_EQ(glm::max(box.max, parents[shown.y - 1].max), parents[shown.y - 1].max);
     }
-    // 320 faces a ball are parts of 256 and 64, and these of four parts each (model/box_tree.h).
+    // 320 faces a ball are parts of 256 and 64, and these of four parts each (model/collision/box_tree.h).
     EXPECT_EQ(counts, (std::vector<std::size_t>{2, 4, 16}));
 }
 

@@ -9,6 +9,7 @@
 #include "gelatin/error.h"
 #include "model/model.h"
 #include "support/gl_fixture.h"
+#include "support/source_path.h"
 
 namespace gelatin {
 namespace {
@@ -86,7 +87,7 @@ double largest_difference(const HostFrame& a, const HostFrame& b) {
 // Both backends in float from the same bits: they differ by rounding, 1e-7 of coordinates of a metre a step,
 // that adds up at most linearly as long as nothing amplifies it. A wrong kernel is off by millimetres.
 TEST_F(SimulatorTest, BackendsAgreeOnFreeFallAfter100Steps) {
-    const Scene scene = load_scene(GELATIN_SOURCE_DIR "/scenes/free_fall.toml");
+    const Scene scene = load_scene(test::source_path("scenes/free_fall.toml"));
     Simulator gl(scene, on(Backend::gl)), cpu(scene, on(Backend::cpu));
     EXPECT_EQ(gl.backend(), "gl");
     EXPECT_EQ(cpu.backend(), "cpu");

@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "model/coarse_basis.h"
+#include "model/descent/coarse_basis.h"
 
 namespace gelatin::test {
 

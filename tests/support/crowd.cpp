@@ -8,11 +8,11 @@
 #include <memory>
 #include <random>
 
-#include "cpu/respond.h"
-#include "cpu/triangle_overlap.h"
-#include "gpu/collision.h"
-#include "gpu/mark_faces.h"
-#include "model/face_collision_words.h"
+#include "cpu/collision/respond.h"
+#include "cpu/collision/triangle_overlap.h"
+#include "gpu/collision_stages.h"
+#include "gpu/view/mark_faces.h"
+#include "model/collision/face_collision_words.h"
 #include "support/parity.h"
 #include "support/test_models.h"
 

@@ -4,7 +4,7 @@
 #include <tuple>
 #include <vector>
 
-#include "cpu/collision.h"
+#include "cpu/collision/collision.h"
 #include "cpu/nodes.h"
 #include "gl/buffer.h"
 #include "model/model.h"

@@ -5,10 +5,10 @@
 #include <optional>
 #include <random>
 
-#include "cpu/block_descent.h"
-#include "cpu/sum_loads.h"
-#include "gpu/block_descent.h"
-#include "gpu/sum_loads.h"
+#include "cpu/descent/block_descent.h"
+#include "cpu/drive/sum_loads.h"
+#include "gpu/descent/block_descent.h"
+#include "gpu/drive/sum_loads.h"
 #include "support/crowd.h"
 #include "support/parity.h"
 #include "support/test_models.h"

@@ -5,10 +5,10 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "cpu/apply_kinematics.h"
-#include "cpu/sum_loads.h"
-#include "gpu/apply_kinematics.h"
-#include "gpu/sum_loads.h"
+#include "cpu/drive/apply_kinematics.h"
+#include "cpu/drive/sum_loads.h"
+#include "gpu/drive/apply_kinematics.h"
+#include "gpu/drive/sum_loads.h"
 #include "support/parity.h"
 
 namespace gelatin::test {

@@ -5,11 +5,11 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "cpu/gather_forces.h"
-#include "cpu/neo_hookean.h"
-#include "model/explicit_scheme.h"
-#include "model/neo_hookean.h"
-#include "model/node_tets.h"
+#include "cpu/elasticity/neo_hookean.h"
+#include "cpu/explicit/gather_forces.h"
+#include "model/elasticity/neo_hookean.h"
+#include "model/elasticity/node_tets.h"
+#include "model/explicit/explicit_scheme.h"
 
 namespace gelatin::test {
 namespace {

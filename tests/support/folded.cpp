@@ -8,9 +8,9 @@
 #include <memory>
 #include <random>
 
-#include "cpu/respond_to_self.h"
-#include "cpu/self_collision.h"
-#include "gpu/collision.h"
+#include "cpu/collision/find_self_collisions.h"
+#include "cpu/collision/respond_to_self.h"
+#include "gpu/collision_stages.h"
 #include "support/crowd.h"
 #include "support/parity.h"
 #include "support/test_models.h"

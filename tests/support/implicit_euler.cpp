@@ -8,8 +8,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "model/neo_hookean.h"
-#include "model/node_tets.h"
+#include "model/elasticity/neo_hookean.h"
+#include "model/elasticity/node_tets.h"
 
 namespace gelatin::test {
 namespace {

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <random>
 
-#include "cpu/match_shapes.h"
-#include "gpu/match_shapes.h"
+#include "cpu/descent/match_shapes.h"
+#include "gpu/descent/match_shapes.h"
 #include "support/test_models.h"
 
 namespace gelatin::test {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "cpu/measure.h"
-#include "gpu/measure.h"
+#include "cpu/measure/measure.h"
+#include "gpu/measure/measure.h"
 
 namespace gelatin::test {
 

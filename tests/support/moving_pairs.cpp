@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/gtc/type_precision.hpp>
 
-#include "cpu/triangle_overlap.h"
+#include "cpu/collision/triangle_overlap.h"
 #include "support/random_maker.h"
 
 namespace gelatin::test {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "cpu/time_of_impact.h"
+#include "cpu/collision/time_of_impact.h"
 
 namespace gelatin::test {
 

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include "cpu/cpu_solver.h"
-#include "cpu/neo_hookean.h"
-#include "model/neo_hookean.h"
+#include "cpu/elasticity/neo_hookean.h"
+#include "model/elasticity/neo_hookean.h"
 
 namespace gelatin::test {
 namespace {

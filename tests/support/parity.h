@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cpu/nodes.h"
-#include "model/explicit_scheme.h"
+#include "model/explicit/explicit_scheme.h"
 #include "model/model.h"
 
 namespace gelatin::test {

@@ -6,9 +6,9 @@
 #include <memory>
 #include <ostream>
 
-#include "cpu/find_proximities.h"
-#include "gpu/collision.h"
-#include "gpu/measure.h"
+#include "cpu/proximity/find_proximities.h"
+#include "gpu/collision_stages.h"
+#include "gpu/measure/measure.h"
 #include "support/crowd.h"
 #include "support/folded.h"
 #include "support/test_models.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "cpu/proximity.h"
+#include "cpu/proximity/proximity.h"
 #include "gelatin/scene.h"
 #include "model/model.h"
 #include "model/solver.h"

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <stdexcept>
 
-#include "model/node_tets.h"
+#include "model/elasticity/node_tets.h"
 
 namespace gelatin::test {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "gpu/advance_nodes.h"
-#include "gpu/divide_and_merge.h"
-#include "gpu/find_volume_stresses.h"
-#include "gpu/sum_loads.h"
+#include "gpu/drive/sum_loads.h"
+#include "gpu/explicit/advance_nodes.h"
+#include "gpu/explicit/divide_and_merge.h"
+#include "gpu/explicit/find_volume_stresses.h"
 #include "support/parity.h"
 
 namespace gelatin::test {

@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-#include "gpu/tet_values.h"
+#include "gpu/view/tet_values.h"
 #include "support/test_models.h"
 
 namespace gelatin::test {

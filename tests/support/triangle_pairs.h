@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "cpu/triangle_overlap.h"
+#include "cpu/collision/triangle_overlap.h"
 
 namespace gelatin::test {
 

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "cpu/watch_nodes.h"
-#include "gpu/watch_nodes.h"
+#include "cpu/measure/watch_nodes.h"
+#include "gpu/measure/watch_nodes.h"
 #include "support/parity.h"
 
 namespace gelatin::test {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "cpu/block_descent.h"
+#include "cpu/descent/block_descent.h"
 #include "support/implicit_euler.h"
 #include "support/test_models.h"
 

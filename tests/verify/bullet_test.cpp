@@ -6,6 +6,7 @@
 #include "gelatin/simulator.h"
 #include "model/model.h"
 #include "support/gl_fixture.h"
+#include "support/source_path.h"
 
 namespace gelatin {
 namespace {
@@ -41,7 +42,7 @@ class BulletHeavy : public test::GlTest {
 protected:
     // When it would have flown half a metre, of which 17 cm lead to the plate.
     static double share_that_passes(Backend backend, CollisionDetection detection, double speed) {
-        Scene scene = load_scene(GELATIN_SOURCE_DIR "/scenes/bullet.toml");
+        Scene scene = load_scene(test::source_path("scenes/bullet.toml"));
         scene.collision.detection = detection;
         scene.objects[1].velocity = {0.0, 0.0, -speed};
         SimulatorOptions options;

@@ -6,6 +6,7 @@
 
 #include "gelatin/simulator.h"
 #include "model/model.h"
+#include "support/source_path.h"
 
 namespace gelatin {
 namespace {
@@ -19,7 +20,7 @@ struct Swing {
 
 Swing fold(bool self_collision) {
     const Scene scene =
-        load_scene(std::string(GELATIN_SOURCE_DIR) + "/scenes/fold.toml",
+        load_scene(test::source_path() + "scenes/fold.toml",
                    {std::string("collision.self_collision=") + (self_collision ? "true" : "false")});
     SimulatorOptions options;
     options.backend = Backend::cpu;

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "cpu/cpu_solver.h"
-#include "model/start_state.h"
+#include "model/build/start_state.h"
 #include "support/test_models.h"
 
 namespace gelatin {

@@ -11,7 +11,7 @@
 #include "cpu/cpu_solver.h"
 #include "mesh/shapes.h"
 #include "mesh/tetrahedralise.h"
-#include "model/stability.h"
+#include "model/explicit/stability.h"
 #include "support/test_models.h"
 
 namespace gelatin {

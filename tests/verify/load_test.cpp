@@ -8,7 +8,7 @@
 #include "gpu/gpu_solver.h"
 #include "mesh/shapes.h"
 #include "mesh/tetrahedralise.h"
-#include "model/stability.h"
+#include "model/explicit/stability.h"
 #include "support/gl_fixture.h"
 #include "support/test_models.h"
 

@@ -7,6 +7,7 @@
 
 #include "gelatin/simulator.h"
 #include "support/gl_fixture.h"
+#include "support/source_path.h"
 
 namespace gelatin {
 namespace {
@@ -21,7 +22,7 @@ protected:
     // Nothing leaves, nothing collapses, no number stops being one.
     static void play(const PaperScene& paper, Backend backend) {
         SCOPED_TRACE(std::string(paper.name) + (backend == Backend::gl ? " on GL" : " on the CPU"));
-        const Scene scene = load_scene(std::string(GELATIN_SOURCE_DIR "/scenes/") + paper.name + ".toml");
+        const Scene scene = load_scene(test::source_path("scenes/") + paper.name + ".toml");
         ASSERT_EQ(scene.simulation.frames, 5000);
         ASSERT_EQ(scene.simulation.frame_rate, 1000.0);
         SimulatorOptions options;

@@ -6,8 +6,8 @@
 
 #include "cpu/cpu_solver.h"
 #include "gpu/gpu_solver.h"
-#include "model/explicit_scheme.h"
-#include "model/stability.h"
+#include "model/explicit/explicit_scheme.h"
+#include "model/explicit/stability.h"
 #include "support/gl_fixture.h"
 #include "support/test_models.h"
 

@@ -4,13 +4,14 @@
 #include <algorithm>
 
 #include "gelatin/simulator.h"
+#include "support/source_path.h"
 
 namespace gelatin {
 namespace {
 
 TEST(RainHeavy, DropsComeToRestWhole) {
     const Scene scene =
-        load_scene(GELATIN_SOURCE_DIR "/scenes/rain.toml", {"object.drop.copies.counts=[3, 4, 3]"});
+        load_scene(test::source_path("scenes/rain.toml"), {"object.drop.copies.counts=[3, 4, 3]"});
     SimulatorOptions options;
     options.backend = Backend::cpu;
     Simulator simulator(scene, options);

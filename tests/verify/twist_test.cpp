@@ -9,6 +9,7 @@
 #include "gelatin/simulator.h"
 #include "model/model.h"
 #include "support/gl_fixture.h"
+#include "support/source_path.h"
 
 namespace gelatin {
 namespace {
@@ -54,7 +55,7 @@ void play(Backend backend) {
     SimulatorOptions options;
     options.backend = backend;
     options.use_current_context = backend == Backend::gl;
-    Simulator simulator(load_scene(GELATIN_SOURCE_DIR "/scenes/twist.toml"), options);
+    Simulator simulator(load_scene(test::source_path("scenes/twist.toml")), options);
     Twist twist(simulator);
     constexpr double kTurns = 4.0 * std::numbers::pi;
     double held = 0.0, least = 1e9, elastic_when_held = 0.0;

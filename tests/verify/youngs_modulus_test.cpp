@@ -13,7 +13,7 @@
 
 #include "mesh/shapes.h"
 #include "mesh/tetrahedralise.h"
-#include "model/stability.h"
+#include "model/explicit/stability.h"
 #include "support/statics.h"
 #include "support/test_models.h"
 

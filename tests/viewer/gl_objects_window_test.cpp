@@ -4,6 +4,7 @@
 
 #include "gl/debug.h"
 #include "support/shader_folder.h"
+#include "support/source_path.h"
 #include "viewer/support/gl_objects.h"
 #include "viewer/support/window_test.h"
 
@@ -50,12 +51,12 @@ protected:
 
 TEST_F(GlObjectsWindowHeavy, DoNotAddUp) {
     ShaderFolder folder;
-    const fs::path root = fs::path(GELATIN_SOURCE_DIR) / "shaders";
+    const fs::path root = fs::path(test::source_path()) / "shaders";
     for (const auto& entry : fs::recursive_directory_iterator(root)) {
         if (entry.is_regular_file())
             folder.add(fs::relative(entry.path(), root).generic_string(), read_file(entry.path()));
     }
-    const fs::path tone = "include/tone.glsl";
+    const fs::path tone = "render/include/tone.glsl";
     write_file(path("tetrahedron.obj"),
                "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
     for (const Backend backend : {Backend::gl, Backend::cpu}) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "support/image_compare.h"
+#include "support/source_path.h"
 #include "viewer/support/window_test.h"
 
 namespace gelatin::test {
@@ -45,7 +46,7 @@ constexpr double kMost = 12.0;  // of worst_tile, of 255: what other letters mak
 class LooksWindowHeavy : public WindowHeavy {
 protected:
     static fs::path reference(const std::string& name) {
-        return fs::path(GELATIN_SOURCE_DIR) / "tests" / "viewer" / "references" / name;
+        return fs::path(test::source_path()) / "tests" / "viewer" / "references" / name;
     }
 
     void expect_looks_like(const std::string& name) {
@@ -58,7 +59,7 @@ protected:
 
 // The last button of the start screen.
 TEST(WindowLooks, AButtonTooFewIsNoticed) {
-    const fs::path file = fs::path(GELATIN_SOURCE_DIR) / "tests" / "viewer" / "references" / "start.png";
+    const fs::path file = fs::path(test::source_path()) / "tests" / "viewer" / "references" / "start.png";
     render::Image image = render::read_png(file);
     const render::Image reference = image;
     for (int y = 146; y < 158; ++y) std::copy_n(image.at(125, y), 3 * 75, image.at(44, y));

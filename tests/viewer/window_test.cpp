@@ -8,6 +8,7 @@
 #include "render/image.h"
 #include "support/run_program.h"
 #include "support/shader_folder.h"
+#include "support/source_path.h"
 #include "viewer/support/drop_file.h"
 #include "viewer/support/window_test.h"
 
@@ -352,19 +353,19 @@ TEST_F(WindowHeavy, FilmsBySimulatedTime) {
 TEST_F(WindowHeavy, ShadersAreReadAgainAndTheOldOnesKept) {
     namespace fs = std::filesystem;
     ShaderFolder folder;
-    const fs::path root = fs::path(GELATIN_SOURCE_DIR) / "shaders";
+    const fs::path root = fs::path(test::source_path()) / "shaders";
     for (const auto& entry : fs::recursive_directory_iterator(root)) {
         if (entry.is_regular_file())
             folder.add(fs::relative(entry.path(), root).generic_string(), read_file(entry.path()));
     }
     open(two_cubes());
     press("space");
-    const fs::path tone = "include/tone.glsl";
+    const fs::path tone = "render/include/tone.glsl";
     const std::string original = read_file(root / tone);
     folder.add(tone.generic_string(), original + "\nthis is no GLSL\n");
     draw_until([&] { return !app().problem().empty(); });
     gl::take_debug_messages();  // the driver tells it too
-    EXPECT_NE(app().problem().find("include/tone.glsl"), std::string::npos) << app().problem();
+    EXPECT_NE(app().problem().find("render/include/tone.glsl"), std::string::npos) << app().problem();
     EXPECT_TRUE(is_orange(picture(), kWidth / 2, kHeight / 2)) << "the old ones draw on";
     folder.add(tone.generic_string(), original);
     draw_until([&] { return app().problem().empty(); });

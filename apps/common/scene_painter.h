@@ -1,0 +1,37 @@
+#pragma once
+
+#include "common/picture_size.h"
+#include "gelatin/simulator.h"
+#include "render/renderer.h"
+
+namespace gelatin {
+
+/// Draws a simulator's bodies with its scene's floor, colliders and camera. The highest level plane is the
+/// floor.
+///
+/// Needs the simulator's context, which must outlive it.
+class ScenePainter {
+public:
+    /// Frames the picture for the present state where the scene has no camera.
+    ScenePainter(Simulator& simulator, const PictureSize& size, render::Quality quality,
+                 const Overlays& overlays = {});
+
+    /// The present state with the overlays.
+    RenderView view() { return simulator_.render_view(overlays_); }
+
+    /// Draws the present state.
+    void draw() { draw(view()); }
+
+    /// Draws what `view` gave, without a look at the simulator.
+    void draw(const RenderView& bodies) { renderer_.draw(bodies, camera_); }
+
+    unsigned framebuffer() const { return renderer_.framebuffer(); }
+
+private:
+    Simulator& simulator_;
+    Overlays overlays_;
+    render::Renderer renderer_;
+    render::Camera camera_;
+};
+
+}  // namespace gelatin

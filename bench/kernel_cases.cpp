@@ -1,0 +1,214 @@
+#include "bench/kernel_cases.h"
+
+#include <array>
+
+#include "bench/threads.h"
+#include "cpu/cpu_solver.h"
+#include "gl/program.h"
+#include "gpu/gpu_solver.h"
+#include "gpu/view/update_normals.h"
+#include "model/build/build_model.h"
+#include "model/descent/descent_rows.h"
+
+namespace gelatin {
+namespace {
+
+constexpr double kFrame = 1.0 / 60.0;  // [s], what vertex block descent steps over
+
+constexpr std::array kDescentCases{kFewSweeps, kManySweeps, kWholeStep};
+
+constexpr double kNodeBytes = 2 * sizeof(glm::vec4);
+
+// What each stage reads and writes once, gathers counted once a node.
+double fused_bytes(const Model& m) {
+    return static_cast<double>(m.half_springs.pairs.size()) * (sizeof(HalfSpringPair) + sizeof(glm::vec2)) +
+           2 * kNodeBytes * m.node_count();
+}
+double write_bytes(const Model& m) {
+    return static_cast<double>(m.springs.size()) * (sizeof(Spring) + sizeof(glm::vec4)) +
+           kNodeBytes * m.node_count();
+}
+double merge_bytes(const Model& m) {
+    return static_cast<double>(m.springs.size()) * (2 * sizeof(std::uint32_t) + sizeof(glm::vec4)) +
+           (sizeof(std::uint32_t) + sizeof(glm::vec4)) * m.node_count();
+}
+double integrate_bytes(const Model& m) {
+    return (2 * kNodeBytes + sizeof(glm::vec4)) * m.node_count();
+}
+// A sweep reads springs, with their dampers in them, and positions and targets; the step makes the springs.
+double descent_bytes(const Model& m, int sweeps) {
+    return (sweeps + 1) * fused_bytes(m);
+}
+double normals_bytes(const Model& m) {
+    return static_cast<double>(m.faces.size()) *
+               (sizeof(Face) + sizeof(glm::vec4) + 3 * sizeof(std::uint32_t)) +
+           static_cast<double>(m.surface.vertices.size()) * (sizeof(SurfaceVertex) + 2 * sizeof(glm::vec4));
+}
+
+// The plain scalar core: the templated kernels in float on one thread, no SIMD, no TBB.
+class PlainCore {
+public:
+    PlainCore(std::shared_ptr<const Model> model, double step)
+        : model_(std::move(model)),
+          step_(step),
+          now_{{model_->positions}, {model_->velocities}},
+          next_(now_),
+          spring_forces_(model_->springs.size()),
+          node_forces_(model_->node_count()) {}
+
+    void fused() {
+        cpu::advance_nodes(pass(),
+                           {0, static_cast<std::uint32_t>(model_->half_springs.slice_starts.size() - 1)});
+        std::swap(now_, next_);
+    }
+    void write() { cpu::write_spring_forces<float>(pass(), spring_forces_, {0, size(model_->springs)}); }
+    void merge() {
+        cpu::merge_spring_forces<float>(*model_, spring_forces_, node_forces_, {0, model_->node_count()});
+    }
+    void integrate() { cpu::integrate_nodes<float>(pass(), node_forces_, {0, model_->node_count()}); }
+    void divide_and_merge() {
+        write();
+        merge();
+        integrate();
+        std::swap(now_, next_);
+    }
+
+private:
+    template <class T>
+    static std::uint32_t size(const std::vector<T>& v) {
+        return static_cast<std::uint32_t>(v.size());
+    }
+    cpu::Pass<float> pass() {
+        return cpu::make_pass(*model_, explicit_scheme(SolverKind::semi_implicit_euler), 0, step_, now_, now_,
+                              next_, none_);
+    }
+    std::shared_ptr<const Model> model_;
+    double step_;
+    cpu::Nodes<float> now_, next_, none_;
+    std::vector<glm::vec4> spring_forces_, node_forces_;
+};
+
+void add_plain_cases(const std::shared_ptr<const Model>& model, double step, std::vector<KernelCase>& cases) {
+    const auto fused = std::make_shared<PlainCore>(model, step),
+               divided = std::make_shared<PlainCore>(model, step);
+    const auto add = [&](const char* stage, double bytes, std::function<void()> run) {
+        cases.push_back({kPlainCore, stage, bytes, std::move(run), [] {}});
+    };
+    const Model& m = *model;
+    add(kFusedStage, fused_bytes(m), [fused] { fused->fused(); });
+    add("write_spring_forces", write_bytes(m), [divided] { divided->write(); });
+    add("merge_spring_forces", merge_bytes(m), [divided] { divided->merge(); });
+    add("integrate_nodes", integrate_bytes(m), [divided] { divided->integrate(); });
+    add(kDividedStage, write_bytes(m) + merge_bytes(m) + integrate_bytes(m),
+        [divided] { divided->divide_and_merge(); });
+}
+
+void add_cpu_cases(const std::shared_ptr<const Model>& model, double step, std::vector<KernelCase>& cases) {
+    const auto solver_for = [&](ForceMethod forces) {
+        return std::make_shared<cpu::CpuSolver<float>>(model, SolverKind::semi_implicit_euler, forces);
+    };
+    const auto fused = solver_for(ForceMethod::fused);
+    const auto divided = solver_for(ForceMethod::divide_and_merge);
+    std::vector<std::shared_ptr<cpu::CpuSolver<float>>> descents;
+    for (const DescentCase& descent : kDescentCases) {
+        descents.push_back(std::make_shared<cpu::CpuSolver<float>>(model, SolverKind::vbd, ForceMethod::fused,
+                                                                   CollisionSettings{}, descent.settings));
+    }
+    const double divided_bytes = write_bytes(*model) + merge_bytes(*model) + integrate_bytes(*model);
+    for (const int threads : measured_thread_counts()) {
+        const std::string name = describe_cpu(threads);
+        const auto nothing = [] {};
+        cases.push_back({name, kFusedStage, fused_bytes(*model),
+                         [fused, step] { fused->advance_nodes(step); }, nothing, threads});
+        cases.push_back({name, kDividedStage, divided_bytes,
+                         [divided, step] { divided->advance_nodes(step); }, nothing, threads});
+        for (std::size_t k = 0; k < descents.size(); ++k) {
+            const DescentCase& descent = kDescentCases[k];
+            cases.push_back({name, descent.stage, descent_bytes(*model, descent.settings.iterations),
+                             [descent = descents[k]] { descent->advance_nodes(kFrame); }, nothing, threads});
+        }
+        cases.push_back({name, "measure", fused_bytes(*model),
+                         [fused] {
+                             fused->begin_measure();
+                             fused->end_measure();
+                         },
+                         nothing, threads});
+    }
+}
+
+void add_gl_cases(const std::shared_ptr<const Model>& model, double step, std::vector<KernelCase>& cases) {
+    const Model& m = *model;
+    const auto solver_for = [&](ForceMethod forces) {
+        return std::make_shared<gpu::GpuSolver>(model, SolverKind::semi_implicit_euler, forces);
+    };
+    const auto fused = solver_for(ForceMethod::fused);
+    const auto divided = solver_for(ForceMethod::divide_and_merge);
+    const auto kernels =
+        std::make_shared<gpu::DivideAndMerge>(*model, explicit_scheme(SolverKind::semi_implicit_euler));
+    const auto normals = std::make_shared<gpu::UpdateNormals>(*model);
+    const DescentRows rows = make_descent_rows(m);
+    const auto empty = std::make_shared<gl::Program>(gl::Program::compute("bench/nothing.comp"));
+    const auto finish = [] { gl::finish(); };
+    cases.push_back(
+        {kOpenGl, kFusedStage, fused_bytes(m), [fused, step] { fused->advance_nodes(step); }, finish});
+    cases.push_back({kOpenGl, "write_spring_forces", write_bytes(m),
+                     [kernels, fused] { kernels->write_spring_forces(fused->nodes()); }, finish});
+    cases.push_back({kOpenGl, "merge_spring_forces", merge_bytes(m),
+                     [kernels] { kernels->merge_spring_forces(); }, finish});
+    cases.push_back({kOpenGl, kDividedStage, write_bytes(m) + merge_bytes(m) + integrate_bytes(m),
+                     [divided, step] { divided->advance_nodes(step); }, finish});
+    for (const DescentCase& descent : kDescentCases) {
+        const auto solver = std::make_shared<gpu::GpuSolver>(model, SolverKind::vbd, ForceMethod::fused,
+                                                             CollisionSettings{}, descent.settings);
+        cases.push_back({kOpenGl, descent.stage, descent_bytes(m, descent.settings.iterations),
+                         [solver] { solver->advance_nodes(kFrame); }, finish});
+    }
+    // One a colour, and half of the four that come with every second sweep.
+    const std::size_t dispatches = rows.batches.front().colors.size() + 2,
+                      invocations = rows.nodes.size() / rows.batches.front().colors.size();
+    cases.push_back({kOpenGl, kDispatchStage, 0.0,
+                     [empty, dispatches, invocations] {
+                         for (std::size_t k = 0; k < dispatches; ++k) {
+                             empty->dispatch(invocations);
+                             gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::storage);
+                         }
+                     },
+                     finish});
+    cases.push_back({kOpenGl, "update_normals", normals_bytes(m),
+                     [normals, fused] { normals->run(fused->nodes().position_texels); }, finish});
+    cases.push_back({kOpenGl, "measure", fused_bytes(m),
+                     [fused] {
+                         fused->begin_measure();
+                         fused->end_measure();
+                     },
+                     finish});
+}
+
+}  // namespace
+
+std::shared_ptr<const Model> make_sphere_grid(const TetMesh& sphere, int scale) {
+    std::vector<Body> bodies;
+    for (int i = 0; i < 3 * scale; ++i) {
+        Body body;
+        body.name = "sphere " + std::to_string(i);
+        body.mesh = sphere;
+        const int row = i / 20, column = i % 20;
+        for (glm::dvec3& p : body.mesh.positions) p += glm::dvec3(1.5 * column, 50.0 + 1.5 * row, 0.0);
+        body.material.damping = 1e-4;
+        body.material.springs = SpringKinds{};  // the paper's
+        bodies.push_back(std::move(body));
+    }
+    // Nothing lands while it is timed: what touches or is crushed costs more.
+    const glm::dvec3 gravity(0.0, -0.01, 0.0);
+    return std::make_shared<const Model>(pack_bodies(bodies, {ColliderDescription{}}, gravity));
+}
+
+std::vector<KernelCase> kernel_cases(const std::shared_ptr<const Model>& model, double step, bool use_gl) {
+    std::vector<KernelCase> cases;
+    add_plain_cases(model, step, cases);
+    add_cpu_cases(model, step, cases);
+    if (use_gl) add_gl_cases(model, step, cases);
+    return cases;
+}
+
+}  // namespace gelatin

@@ -1,0 +1,58 @@
+#include "bench/machine.h"
+
+#include <fmt/format.h>
+#include <tbb/info.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "cpu/explicit/advance_nodes.h"
+#include "gelatin/version.h"
+
+namespace gelatin {
+namespace {
+
+std::string cpu_name() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        const std::size_t colon = line.find(": ");
+        if (line.rfind("model name", 0) == 0 && colon != std::string::npos) return line.substr(colon + 2);
+    }
+    return "unknown";
+}
+
+std::string describe_opengl(const gl::DeviceInfo* device) {
+    if (device == nullptr) return "none";
+    std::string text = device->renderer + ", OpenGL " + device->version;
+    const char* threads = std::getenv("LP_NUM_THREADS");  // llvmpipe's; it takes all where nothing is set
+    if (device->is_software && threads != nullptr) text += std::string(", LP_NUM_THREADS=") + threads;
+    return text;
+}
+
+}  // namespace
+
+BenchMachine describe_bench_machine(const gl::DeviceInfo* device) {
+    return {cpu_name(),
+            tbb::info::default_concurrency(),
+            cpu::simd_target(),
+            describe_opengl(device),
+            GELATIN_COMPILER,
+            GELATIN_BUILD_TYPE,
+            GELATIN_COMPILER_FLAGS};
+}
+
+void add_machine_rows(const BenchMachine& machine, MarkdownTable& table) {
+    table.add({"gelatin", fmt::format("{} ({})", version(), commit())});
+    table.add({"OpenGL", machine.opengl});
+    table.add({"CPU", fmt::format("{}, {} threads, {}", machine.cpu, machine.threads, machine.simd)});
+    table.add({"build", fmt::format("{}, {}: `{}`", machine.compiler, machine.build_type, machine.flags)});
+}
+
+nlohmann::ordered_json machine_json(const BenchMachine& machine) {
+    return {{"cpu", machine.cpu},       {"threads", machine.threads},   {"simd", machine.simd},
+            {"opengl", machine.opengl}, {"compiler", machine.compiler}, {"build_type", machine.build_type},
+            {"flags", machine.flags}};
+}
+
+}  // namespace gelatin

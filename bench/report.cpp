@@ -1,0 +1,133 @@
+#include "bench/report.h"
+
+#include <fmt/format.h>
+
+#include "bench/bar_chart.h"
+#include "bench/markdown_table.h"
+#include "core/file.h"
+
+namespace gelatin {
+namespace {
+
+std::string name_of_scene(std::size_t scene) {
+    return bench_scenes()[scene].name;
+}
+
+std::string describe_timing(const BenchResult& result) {
+    if (!result.sampled) return fmt::format("whole: {} frames", result.window_frames);
+    return fmt::format("sampled: {} windows of {} frames", result.window_count, result.window_frames);
+}
+
+std::string describe_scene(const BenchSceneFacts& facts) {
+    const Counts& counts = facts.counts;
+    return fmt::format("{} objects, {} nodes, {} springs, {} faces; {} frames, the first {} without contact",
+                       counts.objects, counts.nodes, counts.springs, counts.faces, facts.frames,
+                       facts.contact_free_frames);
+}
+
+std::string scene_table(const PaperBench& bench, std::size_t scene) {
+    MarkdownTable table(
+        {"system", "drawn", "paper FPS", "mean FPS", "deviation", "min", "max", "ours / paper", "timed"},
+        {2, 3, 4, 5, 6, 7});
+    for (const BenchResult& result : bench.results) {
+        if (result.scene != scene) continue;
+        const BenchSpread spread = result.spread();
+        table.add({result.system.name, result.drawn ? "yes" : "no", format_figure(result.paper_fps()),
+                   format_figure(spread.mean), format_figure(spread.standard_deviation),
+                   format_figure(spread.least), format_figure(spread.most),
+                   format_figure(spread.mean / result.paper_fps()) + "x", describe_timing(result)});
+    }
+    return table.text();
+}
+
+std::string ratio_text(std::optional<double> ratio) {
+    return ratio ? format_figure(*ratio) + "x" : "-";
+}
+
+std::string ratio_table(const PaperBench& bench) {
+    MarkdownTable table({"times faster", "scene", "paper", "drawn", "undrawn"}, {2, 3, 4});
+    for (const BenchComparison& comparison : bench_comparisons()) {
+        for (const BenchSceneFacts& facts : bench.scenes) {
+            const std::optional<double> drawn = bench.ratio(facts.scene, comparison, true),
+                                        undrawn = bench.ratio(facts.scene, comparison, false);
+            if (!drawn && !undrawn) continue;
+            table.add({comparison.name, name_of_scene(facts.scene),
+                       format_figure(comparison.paper[facts.scene]) + "x", ratio_text(drawn),
+                       ratio_text(undrawn)});
+        }
+    }
+    return table.text();
+}
+
+std::string machine_table(const PaperBench& bench) {
+    MarkdownTable table({"", ""}, {});
+    add_machine_rows(bench.machine, table);
+    table.add({"picture", bench.picture});
+    table.add({"settings",
+               fmt::format("`--runs {} --whole-limit {} --windows {} --window-frames {}`", bench.options.runs,
+                           bench.options.whole_limit, bench.options.windows, bench.options.window_frames)});
+    return table.text();
+}
+
+constexpr const char* kMethod = R"(
+## How it was measured
+
+A figure is the mean of all runs; each run's is frames over wall-clock seconds, all included: steps and, where drawn,
+normals, light and picture, until the last one is finished. At most one frame is under way while the next is told to the
+driver. Loading a scene and compiling shaders do not count. The runs of the systems take turns.
+
+Systems that would take longer than `--whole-limit` seconds for a whole run are sampled: a fast run saves its state at
+evenly spread frames, and a run times the next few frames from each of these states, so that frames in contact have the
+same share as in a whole run. "Until contact" leaves out all from the first frame with colliding faces on.
+
+- **paper, CPU single core**: spring forces divided and merged, boxes, one thread; drawn with OpenGL, one after the other.
+- **paper, GPU**: the same in compute shaders. The paper's Table 4 compares boxes and none up to the first contact.
+- **fast**: fused kernels and a hierarchy of boxes, on the backend that `auto` chooses. Where that is the CPU, a frame is
+  simulated by all threads while the one before is drawn. Its figures stand beside those of the paper's GPU.
+- **fast, GL**: the same in compute shaders, where OpenGL is a software driver.
+
+The paper's machine: GeForce GTX 760 Ti, Core i7-3770K; all its frames are drawn.
+)";
+
+BarChart chart_of(const PaperBench& bench) {
+    BarChart chart{"Frames a second, more is better", {"published", "here, drawn", "here, undrawn"}, {}};
+    for (const BenchSceneFacts& facts : bench.scenes) {
+        BarChart::Panel panel{name_of_scene(facts.scene), {}};
+        for (const BenchResult& result : bench.results) {
+            if (result.scene != facts.scene) continue;
+            const std::string& name = result.system.name;
+            if (panel.groups.empty() || panel.groups.back().label != name) {
+                const double paper = result.paper_fps();
+                panel.groups.push_back({name, {{0, paper, paper, paper}}});
+            }
+            const BenchSpread spread = result.spread();
+            panel.groups.back().bars.push_back(
+                {result.drawn ? 1u : 2u, spread.mean, spread.least, spread.most});
+        }
+        chart.panels.push_back(std::move(panel));
+    }
+    return chart;
+}
+
+}  // namespace
+
+std::string bench_tables(const PaperBench& bench) {
+    std::string text;
+    for (const BenchSceneFacts& facts : bench.scenes) {
+        text += fmt::format("## {}\n\n{}\n\n{}\n", name_of_scene(facts.scene), describe_scene(facts),
+                            scene_table(bench, facts.scene));
+    }
+    return text + "## Ratios\n\n" + ratio_table(bench);
+}
+
+void write_bench_report(const std::filesystem::path& file, const PaperBench& bench) {
+    std::filesystem::path chart = file;
+    chart.replace_extension(".svg");
+    write_file(chart, to_svg(chart_of(bench)));
+    write_file(file,
+               fmt::format("# The paper's benchmark\n\n`gelatin bench paper`\n\n{}\n"
+                           "![Frames a second]({})\n\n{}{}",
+                           machine_table(bench), chart.filename().string(), bench_tables(bench), kMethod));
+}
+
+}  // namespace gelatin

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "bench/result.h"
+
+namespace gelatin {
+
+/// Frames a second of every system, a table a scene, and the ratios, as Markdown that is also read well as it
+/// is.
+std::string bench_tables(const PaperBench& bench);
+
+/// One JSON object; docs/command-line.md lists its keys.
+std::string bench_json(const PaperBench& bench);
+
+/// Writes the tables with all that they depend on, but no date, to `file` (.md), and beside it a chart
+/// (.svg).
+/// @throws SystemError
+void write_bench_report(const std::filesystem::path& file, const PaperBench& bench);
+
+}  // namespace gelatin

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/scaling.h"
+#include "bench/stages.h"
+#include "gelatin/scene.h"
+#include "model/model.h"
+
+namespace gelatin {
+
+/// The four tables of `gelatin bench scaling`.
+enum class ScalingPart { two_bodies, faces, objects, self_collision };
+const char* name_of(ScalingPart part);
+
+/// A model, and the ways in which its collisions are found.
+struct ScalingCase {
+    ScalingPart part;
+    std::string scene;  ///< "touching", "1000 apart"
+    std::function<std::shared_ptr<const Model>()> make_model;
+    std::vector<CollisionSettings> ways;
+    std::vector<BenchStage> stages;
+};
+
+/// In the order of the report. Makes no model yet.
+std::vector<ScalingCase> scaling_cases(const ScalingBenchOptions& options);
+
+/// "two bodies, touching, hierarchy, CPU, 1 thread": what `--only` looks into.
+std::string scaling_label(const ScalingCase& scaling_case, const CollisionSettings& way,
+                          const StageSystem& system);
+
+}  // namespace gelatin

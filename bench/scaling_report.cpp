@@ -1,0 +1,191 @@
+#include "bench/scaling_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "bench/bar_chart.h"
+#include "bench/markdown_table.h"
+#include "core/file.h"
+#include "sim/report.h"
+
+namespace gelatin {
+namespace {
+
+constexpr std::array kParts{ScalingPart::two_bodies, ScalingPart::faces, ScalingPart::objects,
+                            ScalingPart::self_collision};
+
+std::string ms(const BenchSummary& time) {
+    return fmt::format("{:.4f}", time.median);
+}
+std::string per(const BenchSummary& time, double unit, std::size_t count) {
+    return format_figure(time.median * unit / static_cast<double>(count));
+}
+constexpr double kNanoseconds = 1e6, kMicroseconds = 1e3;  // in a millisecond
+
+// Of one part; empty if nothing of it was measured.
+std::vector<const ScalingResult*> results_of(const ScalingBench& bench, ScalingPart part) {
+    std::vector<const ScalingResult*> results;
+    for (const ScalingResult& result : bench.results)
+        if (result.part == part) results.push_back(&result);
+    return results;
+}
+
+std::string two_bodies_table(const std::vector<const ScalingResult*>& results) {
+    MarkdownTable table({"bodies", "faces by", "system", "refit ms", "query ms", "both ms", "spread",
+                         "colliding faces", "steps"},
+                        {3, 4, 5, 6, 7, 8});
+    for (const ScalingResult* r : results) {
+        table.add({r->scene, name_of(r->broad_phase), r->system, ms(r->refit()), ms(r->query()),
+                   ms(r->step()), fmt::format("{:.0f}%", 100.0 * r->step().spread()),
+                   std::to_string(r->colliding_faces), fmt::format("{} x {}", r->samples.size(), r->steps)});
+    }
+    return table.text();
+}
+
+std::string faces_table(const std::vector<const ScalingResult*>& results) {
+    MarkdownTable table({"a body", "system", "refit ms", "refit ns a face", "query ms", "query ns a face",
+                         "colliding faces", "loading s"},
+                        {2, 3, 4, 5, 6, 7});
+    for (const ScalingResult* r : results) {
+        table.add({r->scene, r->system, ms(r->refit()), per(r->refit(), kNanoseconds, r->faces),
+                   ms(r->query()), per(r->query(), kNanoseconds, r->faces),
+                   std::to_string(r->colliding_faces), format_figure(r->loading)});
+    }
+    return table.text();
+}
+
+std::string objects_table(const std::vector<const ScalingResult*>& results) {
+    const std::vector<BenchStage> stages = step_stages();
+    std::vector<std::string> header{"objects", "system"};
+    for (const BenchStage& stage : stages) header.emplace_back(stage.name);
+    header.insert(header.end(), {"step ms", "us an object", "colliding faces", "lost", "loading s"});
+    MarkdownTable table(header, {2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
+    for (const ScalingResult* r : results) {
+        std::vector<std::string> cells{r->scene, r->system};
+        for (const BenchStage& stage : stages) cells.push_back(ms(r->time({stage.name})));
+        cells.insert(cells.end(), {ms(r->step()), per(r->step(), kMicroseconds, r->objects),
+                                   std::to_string(r->colliding_faces), std::to_string(r->lost_pairs),
+                                   format_figure(r->loading)});
+        table.add(cells);
+    }
+    return table.text();
+}
+
+double self_share(const ScalingResult& result) {
+    return result.time({"find_self_collisions"}).median / result.time({"advance_nodes"}).median;
+}
+
+std::string self_collision_table(const std::vector<const ScalingResult*>& results) {
+    MarkdownTable table({"scene", "system", "advance_nodes ms", "find_self_collisions ms", "share"},
+                        {2, 3, 4});
+    for (const ScalingResult* r : results) {
+        table.add({r->scene, r->system, ms(r->time({"advance_nodes"})), ms(r->time({"find_self_collisions"})),
+                   fmt::format("{:.0f}%", 100.0 * self_share(*r))});
+    }
+    return table.text();
+}
+
+std::string ratio_table(const std::vector<BenchRatio>& ratios) {
+    MarkdownTable table({"", "ratio", "wanted"}, {1, 2});
+    for (const BenchRatio& ratio : ratios) table.add({ratio.what, format_figure(ratio.value), ratio.wanted});
+    return table.text();
+}
+
+struct PartReport {
+    const char* title;
+    std::string (*table)(const std::vector<const ScalingResult*>&);
+    const char* chart_title;
+    double (*chart_value)(const ScalingResult&);
+};
+
+PartReport report_of(ScalingPart part) {
+    const auto per_face = [](const ScalingResult& r) {
+        return kNanoseconds * r.step().median / static_cast<double>(r.faces);
+    };
+    const auto per_object = [](const ScalingResult& r) {
+        return kMicroseconds * r.step().median / static_cast<double>(r.objects);
+    };
+    switch (part) {
+        case ScalingPart::two_bodies:
+            return {"Two bodies of 8,000 faces", two_bodies_table,
+                    "Two bodies of 8,000 faces: refit and query [ms]",
+                    [](const ScalingResult& r) { return r.step().median; }};
+        case ScalingPart::faces:
+            return {"By number of faces: two bodies that touch", faces_table,
+                    "By number of faces: refit and query [ns a face]", per_face};
+        case ScalingPart::objects:
+            return {"By number of objects of 80 faces", objects_table,
+                    "By number of objects: a step [us an object]", per_object};
+        case ScalingPart::self_collision:
+            break;
+    }
+    return {"Undeformed bodies with themselves", self_collision_table,
+            "Undeformed bodies with themselves [% of advance_nodes]",
+            [](const ScalingResult& r) { return 100.0 * self_share(r); }};
+}
+
+BarChart chart_of(const ScalingBench& bench) {
+    BarChart chart{"What collision costs by size, less is better", bench.systems(), {}};
+    for (const ScalingPart part : kParts) {
+        BarChart::Panel panel{report_of(part).chart_title, {}};
+        for (const ScalingResult* result : results_of(bench, part)) {
+            std::string label = result->scene;
+            if (part == ScalingPart::two_bodies) label += std::string(", ") + name_of(result->broad_phase);
+            if (panel.groups.empty() || panel.groups.back().label != label)
+                panel.groups.push_back({label, {}});
+            const auto series = std::find(chart.series.begin(), chart.series.end(), result->system);
+            const double value = report_of(part).chart_value(*result);
+            panel.groups.back().bars.push_back(
+                {static_cast<std::size_t>(series - chart.series.begin()), value, value, value});
+        }
+        if (!panel.groups.empty()) chart.panels.push_back(std::move(panel));
+    }
+    return chart;
+}
+
+constexpr const char* kMethod = R"(
+## How it was measured
+
+Stages are timed by the clock of the device that they run on, GL_TIMESTAMP with OpenGL. A sample is the mean of a step over
+as many steps as take a fiftieth of a second, at least one, from the same state; a figure is the median of all samples; the
+spread is (90th - 10th percentile) / median. The systems of a scene take turns. Steps above 0.3 s are sampled three times.
+
+- Refit is `update_boxes`, the query `find_object_pairs` and `find_face_collisions`. By `boxes` every face of one body is
+  held against every face of the other.
+- **Two bodies**: spheres of the paper's size, 1.99 radii apart (touching) and one (deep).
+- **By number of faces**: balls with a hole, so that they need no mesher, 1.99 radii apart. Loading is making the model,
+  meshing included.
+- **By number of objects**: balls of a jittered lattice in which they touch, and in which nothing does. Lost are pairs for
+  which a device's buffers had no room.
+- **With themselves**: `free_fall.toml` and `rain.toml` with `self_collision = true`, as they start to fall.
+)";
+
+}  // namespace
+
+std::string scaling_tables(const ScalingBench& bench) {
+    std::string text;
+    for (const ScalingPart part : kParts) {
+        const std::vector<const ScalingResult*> results = results_of(bench, part);
+        if (results.empty()) continue;
+        text += fmt::format("## {}\n\n{}\n", report_of(part).title, report_of(part).table(results));
+    }
+    const std::vector<BenchRatio> ratios = bench.ratios();
+    if (!ratios.empty()) text += "## Ratios\n\n" + ratio_table(ratios);
+    return text;
+}
+
+void write_scaling_report(const std::filesystem::path& file, const ScalingBench& bench) {
+    std::filesystem::path chart = file;
+    chart.replace_extension(".svg");
+    write_file(chart, to_svg(chart_of(bench)));
+    MarkdownTable machine({"", ""}, {});
+    add_machine_rows(bench.machine, machine);
+    machine.add({"settings", fmt::format("`--runs {}`", bench.options.runs)});
+    write_file(file, fmt::format("# Collision by size\n\n`gelatin bench scaling`\n\n{}\n"
+                                 "![Time by size]({})\n\n{}{}",
+                                 machine.text(), chart.filename().string(), scaling_tables(bench), kMethod));
+}
+
+}  // namespace gelatin

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "bench/scaling_result.h"
+
+namespace gelatin {
+
+/// A table a part, and the ratios, as Markdown that is also read well as it is.
+std::string scaling_tables(const ScalingBench& bench);
+
+/// One JSON object; docs/command-line.md lists its keys.
+std::string scaling_json(const ScalingBench& bench);
+
+/// Writes the tables with all that they depend on, but no date, to `file` (.md), and beside it a chart
+/// (.svg).
+/// @throws SystemError
+void write_scaling_report(const std::filesystem::path& file, const ScalingBench& bench);
+
+}  // namespace gelatin

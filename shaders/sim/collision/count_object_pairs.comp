@@ -1,0 +1,13 @@
+// How many objects each object may touch: those whose boxes meet, or all. OBJECT_TREE: sought in a tree. CPU twin: gelatin::cpu::Collision.
+// Parity: tests/gpu/collision/collision_test.cpp.
+#include "sim/collision/object_may_touch.glsl"
+layout(local_size_x = 64) in;
+
+void main() {
+    uint a = global_index();
+    if (a >= object_count) return;
+    uint count = 0u;
+    Search search = start_search(a);
+    while (next_partner(search) != kNone) ++count;
+    pair_rows[a].pair_count = count;
+}

@@ -1,0 +1,40 @@
+// The buffers that the stages of collision share (src/gpu/collision/collision_buffers.h), and what is found through them.
+#include "sim/collision/dispatches.glsl"
+#include "include/global_index.glsl"
+#include "layouts/box.glsl"
+#include "layouts/object_pair.glsl"
+
+layout(std430, binding = 0) buffer BoundingBoxes { BoundingBox bounding_boxes[]; };
+layout(std430, binding = 1) buffer PairRows { PairRow pair_rows[]; };
+layout(std430, binding = 2) buffer ObjectPairs { ObjectPair object_pairs[]; };
+
+const uint kAllFaces = 0xFFFFFFFFu;  // ObjectPair::first_candidate
+
+const uint kFacesAWord = 16u;        // of the Face Collision Result
+
+uint word_count(uint object) { return (bounding_boxes[object].face_count + kFacesAWord - 1u) / kFacesAWord; }
+
+uint leaf_count(uint object) { return (bounding_boxes[object].face_count + 3u) / 4u; }
+
+// A pair is tested once, from the object with fewer faces.
+bool starts_tests(ObjectPair pair) {
+    uint ours = bounding_boxes[pair.object].face_count;
+    uint theirs = bounding_boxes[pair.other].face_count;
+    return ours < theirs || (ours == theirs && pair.object < pair.other);
+}
+
+// The pair as `object` sees it, or kNone.
+uint find_pair(uint object, uint other) {
+    PairRow row = pair_rows[object];
+    uint first = row.first_pair;
+    uint last = first + row.pair_count;
+    while (first < last) {
+        uint middle = (first + last) / 2u;
+        if (object_pairs[middle].other < other) {
+            first = middle + 1u;
+        } else {
+            last = middle;
+        }
+    }
+    return first < row.first_pair + row.pair_count && object_pairs[first].other == other ? first : kNone;
+}

@@ -1,0 +1,18 @@
+// How two faces that touch on the way do so, each as it sees the other. CPU twin: src/cpu/collision/touch.h.
+#include "sim/collision/time_of_impact.glsl"
+
+const float kAcross = 0.25;
+
+vec3 unit_normal(mat3 corners) {
+    vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    float size = length(normal);
+    return size > 0.0 ? normal / size : vec3(0.0);
+}
+
+uvec2 touches_on_the_way(MovingFace face, MovingFace other) {
+    vec3 normal = unit_normal(face.start), other_normal = unit_normal(other.start);
+    if (abs(dot(normal, other_normal)) < kAcross) return uvec2(kTouches);
+    mat3 ways = (face.end - face.start) - (other.end - other.start);
+    vec3 way = ways[0] + ways[1] + ways[2];  // three times the face's, as seen from the other
+    return uvec2(dot(way, normal) > 0.0 ? kEnters : kTouches, dot(way, other_normal) < 0.0 ? kEnters : kTouches);
+}

@@ -1,0 +1,172 @@
+// Vertex block descent (Chen et al. 2024): each node of one colour makes a Newton step on its own part of the objective.
+// One invocation a row; rows are nodes by colour, in slices of 64 as advance_nodes has them. Neighbours have other
+// colours, so that what is gathered is not written here.
+// With FORCES nodes stay, and what acts on each is written, touches included: rows of all colours at once.
+// CPU twin: gelatin::cpu::BlockDescent. Parity: tests/gpu/descent/block_descent_test.cpp.
+#include "include/global_index.glsl"
+#include "sim/collision/colliders.glsl"
+#include "sim/descent/descent_step.glsl"
+#include "sim/elasticity/node_terms.glsl"
+#include "layouts/descent.glsl"
+layout(local_size_x = 64) in;
+
+layout(binding = 0) uniform samplerBuffer positions;      // xyz [m], inverse mass [1/kg]
+layout(binding = 3) uniform usamplerBuffer rows;          // DescentRow
+layout(binding = 4) uniform usamplerBuffer spring_ends;   // of two half springs, the nodes at their other ends
+layout(binding = 5) uniform samplerBuffer springs;        // their rest length [m], stiffness [N/m], dampers in them
+layout(binding = 6) uniform usamplerBuffer slice_starts;
+layout(binding = 18) uniform usamplerBuffer near_flat;    // of nodes, the look at which they were
+layout(binding = 8) uniform usamplerBuffer tet_corners;   // TetCorner, of bodies of springs
+layout(binding = 9) uniform usamplerBuffer corner_starts;
+layout(binding = 10) uniform samplerBuffer tet_rests;     // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
+#ifdef VOLUME
+layout(binding = 11) uniform samplerBuffer offsets;       // q [Pa], of each tet
+#endif
+layout(std430, binding = 0) writeonly buffer OutPositions { vec4 out_positions[]; };
+#ifdef FORCES
+layout(std430, binding = 4) readonly buffer Ways { vec4 ways[]; };       // [m]
+layout(std430, binding = 5) writeonly buffer Forces { vec4 forces[]; };  // [N]
+uniform uint is_ahead;  // positions are those at the ways' ends
+#endif
+layout(std430, binding = 2) buffer ObjectTouches { uint object_touches[]; };
+#ifdef NEO_HOOKEAN
+#include "sim/elasticity/neo_hookean_terms.glsl"
+#endif
+uniform uint first_row;
+uniform uint row_count;
+uniform uint look;         // the last
+
+vec3 position_of(uint node) { return texelFetch(positions, int(node)).xyz; }
+
+#if COLLIDER_KINDS != 0
+layout(std430, binding = 3) buffer Touches { Touch touches[]; };  // of nodes
+
+// Where the node's own objective, to second order, is least outside the collider's tangent plane, behind which all of it
+// lies: the normal force is what that takes. Friction then takes back what the node has slid along the plane, with as much
+// force as Coulomb's law allows.
+void push_out(uint c, vec4 surface, vec3 start, NodeTerms terms, inout vec3 position, inout Touch touch) {
+    if (surface.w >= 0.0) return;
+    vec3 n = surface.xyz;
+    vec3 yielding = solve(terms, n);  // to a force along n
+    float compliance = dot(n, yielding);
+    if (!(compliance > 0.0)) {  // lost in rounding
+        position -= surface.w * n;
+        return;
+    }
+    float stiffness = 1.0 / compliance;
+    float pressing = -surface.w * stiffness;
+    position += pressing * yielding;
+    touch.force = vec4(touch.force.xyz + pressing * n, stiffness);
+    touch.normal = vec4(n, 0.0);
+
+    vec3 way = position - start;
+    vec3 slid = way - dot(way, n) * n;
+    float length_ = length(slid);
+    if (length_ == 0.0) return;
+    vec3 t = slid / length_;
+    vec3 giving = solve(terms, t);
+    giving -= stiffness * dot(n, giving) * yielding;  // within the plane
+    float sliding_compliance = dot(t, giving);
+    if (!(sliding_compliance > 0.0)) return;
+    float needed = length_ / sliding_compliance;
+    float most = texelFetch(colliders, int(4u * c + 3u)).y * pressing;
+    position -= min(needed, most) * giving;
+    touch.force.xyz -= min(needed, most) * t;
+    // It falls to nothing where all of the way is taken back.
+    float left = length_ - min(needed, most) * sliding_compliance;
+    touch.normal.w = most < stiffness * left ? most / left : stiffness;
+}
+
+// @param ends of the colliders of each kind, all zero for nodes that are outside: software drivers run all that is not in
+// a loop, and loops that no node of a group has a turn of they leave out
+Touch push_outside_colliders(uvec4 ends, vec3 start, NodeTerms terms, inout vec3 position) {
+    Touch touch = Touch(vec4(0.0), vec4(0.0));
+    uint c = 0u;
+#if (COLLIDER_KINDS & 1) != 0
+    for (; c < ends.x; ++c) push_out(c, distance_to_plane(c, position), start, terms, position, touch);
+#endif
+#if (COLLIDER_KINDS & 2) != 0
+    for (; c < ends.y; ++c) push_out(c, distance_to_turned_box(c, position), start, terms, position, touch);
+#endif
+#if (COLLIDER_KINDS & 4) != 0
+    for (; c < ends.z; ++c) push_out(c, distance_to_sphere(c, position), start, terms, position, touch);
+#endif
+#if (COLLIDER_KINDS & 8) != 0
+    for (; c < ends.w; ++c) push_out(c, distance_to_capsule(c, position), start, terms, position, touch);
+#endif
+    return touch;
+}
+#endif
+
+void main() {
+    uint index = global_index();
+    if (index >= row_count) return;
+    uint row = first_row + index;
+    uvec4 entry = texelFetch(rows, int(row));
+    uint n = entry.x;
+    if (n == 0xFFFFFFFFu) return;
+    vec4 position = texelFetch(positions, int(n));
+    if (position.w == 0.0) {
+#ifdef FORCES
+        forces[n] = vec4(0.0);
+#endif
+        return;
+    }
+    vec4 target = texelFetch(targets, int(n));
+    NodeTerms terms = NodeTerms(target.w * (target.xyz - position.xyz), vec3(target.w), vec3(0.0));
+    int slice = int(row / 64u);
+    uint first = texelFetch(slice_starts, slice).x + row % 64u, end = first + 64u * entry.z;
+    vec3 way_in = -any_short_way(n);
+    for (uint p = first; p < end; p += 64u) {
+        uvec2 ends = texelFetch(spring_ends, int(p)).xy;
+        vec4 two = texelFetch(springs, int(p));
+        vec3 apart = position_of(ends.x) - position.xyz;
+        add_spring(apart == vec3(0.0) ? way_in : apart, two.x, two.y, terms);
+        apart = position_of(ends.y) - position.xyz;
+        add_spring(apart == vec3(0.0) ? way_in : apart, two.z, two.w, terms);
+    }
+    bool resists = texelFetch(near_flat, int(n)).x == look;
+#ifndef VOLUME
+    if (resists)
+#endif
+    {
+        uint corners_end = texelFetch(corner_starts, slice + 1).x;
+        for (uint k = texelFetch(corner_starts, slice).x + row % 64u; k < corners_end; k += 64u) {
+            uvec4 corner = texelFetch(tet_corners, int(k));
+            if (corner.w == 0xFFFFFFFFu) break;
+            vec3 a = position_of(corner.x), b = position_of(corner.y), c = position_of(corner.z);
+            vec3 rest = texelFetch(tet_rests, int(corner.w)).xyz;
+            if (resists) add_flat_tet(position.xyz, a, b, c, rest.x, rest.y, terms);
+#ifdef VOLUME
+            float offset = texelFetch(offsets, int(corner.w)).x;
+            add_tet_volume(position.xyz, a, b, c, rest.x, offset, rest.z, terms);
+#endif
+        }
+    }
+#ifdef NEO_HOOKEAN
+    add_neo_hookean_tets(row, entry.w, terms);
+#endif
+#ifdef FORCES
+    vec3 force = terms.force;
+#if COLLIDER_KINDS != 0
+    if (object_touches[entry.y] != 0u) {
+        Touch touch = touches[n];
+        vec3 way = is_ahead != 0u ? ways[n].xyz : vec3(0.0);
+        float across = touch.normal.w, along = touch.force.w;
+        force += touch.force.xyz - across * way - (along - across) * dot(touch.normal.xyz, way) * touch.normal.xyz;
+    }
+#endif
+    forces[n] = vec4(force, 0.0);
+#else
+    vec3 moved = position.xyz + solve(terms, terms.force);
+#if COLLIDER_KINDS != 0
+    bool is_inside = distance_to_colliders(moved) < 0.0;
+    Touch touch = push_outside_colliders(is_inside ? collider_ends : uvec4(0u), texelFetch(start_positions, int(n)).xyz,
+                                         terms, moved);
+    // As long as nothing of a body touches, it has no touches to forget.
+    if (is_inside || object_touches[entry.y] != 0u) touches[n] = touch;
+    if (touch.force.w != 0.0) object_touches[entry.y] = 1u;
+#endif
+    out_positions[n] = vec4(moved, position.w);
+#endif
+}

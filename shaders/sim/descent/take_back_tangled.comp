@@ -1,0 +1,35 @@
+// Bodies that the first guess tangles start where they were: it can hold any energy, which few sweeps would not take out
+// again. TETS: looks for them; without: takes their nodes back.
+// CPU twin: gelatin::cpu::BlockDescent. Parity: tests/gpu/descent/block_descent_test.cpp.
+#include "include/global_index.glsl"
+layout(local_size_x = 64) in;
+
+layout(binding = 12) uniform usamplerBuffer node_objects;
+uniform uint element_count;
+
+#ifdef TETS
+#include "sim/elasticity/volume_ratio.glsl"
+
+const float kLeastSound = -0.5, kMostSound = 4.0;  // volumes over those at rest
+
+layout(std430, binding = 4) writeonly buffer Tangled { uint is_tangled[]; };  // by object
+
+void main() {
+    uint t = global_index();
+    if (t >= element_count) return;
+    float ratio = volume_ratio(t);
+    if (ratio > kLeastSound && ratio < kMostSound) return;
+    is_tangled[texelFetch(node_objects, int(texelFetch(tets, int(t)).x)).x] = 1u;
+}
+#else
+layout(binding = 1) uniform samplerBuffer start_positions;  // xyz [m], inverse mass [1/kg]
+layout(std430, binding = 0) writeonly buffer Positions { vec4 positions[]; };
+layout(std430, binding = 4) readonly buffer Tangled { uint is_tangled[]; };  // by object
+
+void main() {
+    uint n = global_index();
+    if (n >= element_count || is_tangled[texelFetch(node_objects, int(n)).x] == 0u) return;
+    vec4 start = texelFetch(start_positions, int(n));
+    if (start.w > 0.0) positions[n] = start;  // held ones are where their handle takes them
+}
+#endif

@@ -1,0 +1,100 @@
+// Sums over nodes, one work group a chunk; the host adds the chunks up in double precision.
+// Pinned nodes (inverse mass 0) count for contacts and elastic energy alone. CPU twin: gelatin::cpu::measure.
+// Parity: tests/gpu/measure/measure_test.cpp.
+#include "sim/collision/colliders.glsl"
+#include "include/global_index.glsl"
+#include "layouts/chunk.glsl"
+layout(local_size_x = 64) in;
+
+layout(binding = 0) uniform samplerBuffer positions;   // xyz [m], inverse mass [1/kg]
+layout(binding = 1) uniform samplerBuffer velocities;  // xyz [m/s]
+layout(binding = 4) uniform usamplerBuffer half_springs;
+layout(binding = 5) uniform samplerBuffer stiffnesses;
+layout(binding = 6) uniform usamplerBuffer slice_starts;
+layout(std430, binding = 0) readonly buffer Chunks { Chunk chunks[]; };
+layout(std430, binding = 1) writeonly buffer Sums { NodeSums node_sums[]; };
+#ifdef NEO_HOOKEAN
+#include "sim/elasticity/neo_hookean.glsl"
+#endif
+#ifdef VOLUME
+#include "sim/elasticity/volume_term.glsl"
+#endif
+uniform uint chunk_count;
+uniform vec3 gravity;            // [m/s^2]
+uniform float contact_distance;  // [m]
+
+shared NodeSums parts[64];
+
+float half_energy(vec3 a, uint other, float rest_length, float stiffness) {
+    float stretch = distance(a, texelFetch(positions, int(other)).xyz) - rest_length;
+    return 0.25 * stiffness * stretch * stretch;
+}
+
+float half_spring_energy(uint n, vec3 position) {
+    float energy = 0.0;
+    uint end = texelFetch(slice_starts, int(n / 64u) + 1).x;
+    for (uint p = texelFetch(slice_starts, int(n / 64u)).x + n % 64u; p < end; p += 64u) {
+        uvec4 pair = texelFetch(half_springs, int(p));
+        vec2 stiffness = texelFetch(stiffnesses, int(p)).xy;
+        energy += half_energy(position, pair.x, uintBitsToFloat(pair.y), stiffness.x);
+        energy += half_energy(position, pair.z, uintBitsToFloat(pair.w), stiffness.y);
+    }
+    return energy;
+}
+
+#ifdef NEO_HOOKEAN
+// A node has a quarter of the energy of each of its tets.
+float quarter_tet_energy(uint n) {
+    float energy = 0.0;
+    uint end = texelFetch(neo_hookean_starts, int(n / 64u) + 1).x;
+    for (uint e = texelFetch(neo_hookean_starts, int(n / 64u)).x + n % 64u; e < end; e += 64u) {
+        uint entry = texelFetch(neo_hookean_corners, int(e)).x;
+        if (entry == kNoCorner) break;
+        NeoHookeanTet tet = fetch_neo_hookean_tet(entry / 4u);
+        mat3 f = gradient_of(tet, texelFetch(positions, int(tet.nodes.x)).xyz,
+                             texelFetch(positions, int(tet.nodes.y)).xyz, texelFetch(positions, int(tet.nodes.z)).xyz,
+                             texelFetch(positions, int(tet.nodes.w)).xyz);
+        energy += 0.25 * tet.volume * neo_hookean_energy(f, tet.mu, tet.lambda);
+    }
+    return energy;
+}
+#endif
+
+NodeSums measure_node(uint n) {
+    vec4 position = texelFetch(positions, int(n));
+    vec3 velocity = texelFetch(velocities, int(n)).xyz;
+    float mass = position.w > 0.0 ? 1.0 / position.w : 0.0;
+    float outside = distance_to_colliders(position.xyz);
+    vec3 momentum = mass * velocity;
+    float elastic_energy = half_spring_energy(n, position.xyz);
+#ifdef NEO_HOOKEAN
+    elastic_energy += quarter_tet_energy(n);
+#endif
+#ifdef VOLUME
+    vec2 rest = texelFetch(node_volumes, int(n)).xy;
+    elastic_energy += rest.x * rest.y * volume_potential(volume_ratio_round(n), rest.y);
+#endif
+    return NodeSums(momentum.x, momentum.y, momentum.z, 0.5 * dot(momentum, velocity),
+                    elastic_energy, -mass * dot(gravity, position.xyz), max(0.0, -outside),
+                    uint(outside < contact_distance));
+}
+
+NodeSums add(NodeSums a, NodeSums b) {
+    return NodeSums(a.momentum_x + b.momentum_x, a.momentum_y + b.momentum_y, a.momentum_z + b.momentum_z,
+                    a.kinetic_energy + b.kinetic_energy, a.elastic_energy + b.elastic_energy,
+                    a.potential_energy + b.potential_energy, max(a.deepest, b.deepest), a.contacts + b.contacts);
+}
+
+void main() {
+    uint group = group_index();
+    if (group >= chunk_count) return;  // the whole group leaves, so no one waits at the barrier
+    Chunk chunk = chunks[group];
+    uint lane = gl_LocalInvocationID.x;
+    NodeSums sums = NodeSums(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0u);
+    for (uint k = lane; k < chunk.count; k += 64u) sums = add(sums, measure_node(chunk.first + k));
+    parts[lane] = sums;
+    barrier();
+    if (lane != 0u) return;
+    for (uint l = 1u; l < 64u; ++l) sums = add(sums, parts[l]);
+    node_sums[group] = sums;
+}

@@ -1,0 +1,43 @@
+// What the kernels of gpu::FindProximities read: leaves of the face trees, whose nodes and edges search together.
+#include "sim/collision/box_margin.glsl"
+#include "sim/collision/dispatches.glsl"
+#include "include/global_index.glsl"
+#include "layouts/proximity.glsl"
+
+layout(binding = 0) uniform samplerBuffer positions;     // xyz [m]
+layout(binding = 1) uniform usamplerBuffer tree_nodes;   // TreeNode
+layout(binding = 2) uniform samplerBuffer tree_boxes;    // Box
+layout(binding = 3) uniform usamplerBuffer faces;        // Face
+layout(binding = 4) uniform samplerBuffer face_boxes;    // Box
+layout(binding = 5) uniform usamplerBuffer leaf_nodes;   // of the trees, by leaf
+layout(binding = 6) uniform usamplerBuffer face_starts;  // of each face in surface_nodes and face_edges
+layout(binding = 7) uniform usamplerBuffer surface_nodes;
+layout(binding = 8) uniform usamplerBuffer face_edges;   // FaceEdge
+
+struct Bounds {
+    vec3 min;
+    vec3 max;
+};
+
+Bounds tree_bounds(uint node) {
+    return Bounds(texelFetch(tree_boxes, int(2u * node)).xyz, texelFetch(tree_boxes, int(2u * node + 1u)).xyz);
+}
+Bounds face_bounds(uint face) {
+    return Bounds(texelFetch(face_boxes, int(2u * face)).xyz, texelFetch(face_boxes, int(2u * face + 1u)).xyz);
+}
+bool meet(Bounds a, Bounds b) { return meet(a.min, a.max, b.min, b.max); }
+
+vec3 position(uint node) { return texelFetch(positions, int(node)).xyz; }
+
+// With the margin; bits as those of shaders/sim/collision/update_boxes.comp.
+Bounds edge_bounds(vec3 a, vec3 b) {
+    return Bounds(min(a - margin_at(a), b - margin_at(b)), max(a + margin_at(a), b + margin_at(b)));
+}
+
+// A leaf's skip, first face, number of faces.
+uvec3 fetch_leaf(uint leaf) { return texelFetch(tree_nodes, int(texelFetch(leaf_nodes, int(leaf)).x)).xyz; }
+
+// The nodes (x) or edges (y) that faces first ... end - 1 own.
+uvec2 first_parts(uint face) { return texelFetch(face_starts, int(face)).xy; }
+
+const uint kLeavesATask = 8u;

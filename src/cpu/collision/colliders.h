@@ -1,0 +1,114 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <span>
+
+#include "cpu/nodes.h"
+#include "model/layouts.h"
+#include "model/solver.h"
+
+namespace gelatin::cpu {
+
+/// How far a point is outside a collider (negative inside) [m], and the way out (unit).
+template <class Real>
+struct SurfaceDistance {
+    Real distance;
+    Vec3<Real> normal;
+};
+
+template <class Real>
+SurfaceDistance<Real> distance_from_center(const Vec3<Real>& from_center, Real radius) {
+    const Real length = glm::length(from_center);
+    return {length - radius, length > Real(0) ? from_center / length : Vec3<Real>(0, 1, 0)};
+}
+
+template <class Real>
+SurfaceDistance<Real> distance_to_box(const Vec3<Real>& p, const Vec3<Real>& half_extents) {
+    const Vec3<Real> q = glm::abs(p) - half_extents;
+    const Vec3<Real> side(p.x < 0 ? -1 : 1, p.y < 0 ? -1 : 1, p.z < 0 ? -1 : 1);
+    const Vec3<Real> outside = glm::max(q, Vec3<Real>(0));
+    const Real length = glm::length(outside);
+    if (length > Real(0)) return {length, side * outside / length};
+    // Inside: out through the nearest side.
+    if (q.x >= q.y && q.x >= q.z) return {q.x, Vec3<Real>(side.x, 0, 0)};
+    if (q.y >= q.z) return {q.y, Vec3<Real>(0, side.y, 0)};
+    return {q.z, Vec3<Real>(0, 0, side.z)};
+}
+
+/// True if the collider is a plane and the point outside or on it.
+template <class Real>
+bool is_above_plane(const Collider& collider, const Vec3<Real>& p) {
+    return collider.kind == 0 &&
+           glm::dot(Vec3<Real>(collider.center), p) >= static_cast<Real>(collider.center.w);
+}
+
+template <class Real>
+SurfaceDistance<Real> surface_distance(const Collider& collider, const Vec3<Real>& p) {
+    const Vec3<Real> center(collider.center);
+    const auto radius = static_cast<Real>(collider.center.w);
+    if (collider.kind == 0) return {glm::dot(center, p) - radius, center};
+    if (collider.kind == 2) return distance_from_center(p - center, radius);
+    const Vec3<Real> axis(collider.axis);
+    if (collider.kind == 3) {
+        const Real along = glm::clamp(glm::dot(p - center, axis) / glm::dot(axis, axis), Real(-1), Real(1));
+        return distance_from_center(p - center - along * axis, radius);
+    }
+    const glm::qua<Real> q(
+        static_cast<Real>(collider.orientation.w), static_cast<Real>(collider.orientation.x),
+        static_cast<Real>(collider.orientation.y), static_cast<Real>(collider.orientation.z));
+    const SurfaceDistance<Real> local = distance_to_box(glm::inverse(q) * (p - center), axis);
+    return {local.distance, q * local.normal};
+}
+
+/// The velocity after a node at `velocity` has met a surface: the normal part is reversed and scaled by the
+/// restitution, the tangential part slowed by at most friction times the normal change (Coulomb). Slower than
+/// `resting_speed` [m/s], what gravity alone adds in a step or two, a node does not bounce.
+template <class Real>
+Vec3<Real> bounce(const Vec3<Real>& velocity, const Vec3<Real>& normal, Real friction, Real restitution,
+                  Real resting_speed) {
+    const Real approach = -glm::dot(velocity, normal);
+    if (approach <= Real(0)) return velocity;
+    const Real rebound = approach > resting_speed ? restitution * approach : Real(0);
+    const Vec3<Real> tangential = velocity + approach * normal;
+    const Real speed = glm::length(tangential);
+    const Real slowing = friction * (approach + rebound);
+    const Real kept = speed > slowing ? Real(1) - slowing / speed : Real(0);
+    return kept * tangential + rebound * normal;
+}
+
+/// Moves a node that is inside a collider to its surface and lets it bounce; the fourth components stay as
+/// they are. GLSL twin: sim/collision/colliders.glsl.
+template <class Real>
+void resolve_colliders(std::span<const Collider> colliders, Real resting_speed, Vec4<Real>& position,
+                       Vec4<Real>& velocity) {
+    for (const Collider& collider : colliders) {
+        const SurfaceDistance<Real> surface = surface_distance(collider, Vec3<Real>(position));
+        if (surface.distance >= Real(0)) continue;
+        position -= Vec4<Real>(surface.distance * surface.normal, 0);
+        velocity =
+            Vec4<Real>(bounce(Vec3<Real>(velocity), surface.normal, static_cast<Real>(collider.friction),
+                              static_cast<Real>(collider.restitution), resting_speed),
+                       velocity.w);
+    }
+}
+
+/// For solvers whose steps end on the surface of a collider, without a bounce: a node that touches one, and
+/// would have gone into it with `unhindered` velocity, gets the normal speed of its rebound.
+template <class Real>
+void rebound(std::span<const Collider> colliders, const Vec3<Real>& position, const Vec3<Real>& unhindered,
+             Real resting_speed, Vec3<Real>& velocity) {
+    for (const Collider& collider : colliders) {
+        const SurfaceDistance<Real> surface = surface_distance(collider, position);
+        const Real approach = -glm::dot(unhindered, surface.normal);
+        if (surface.distance > static_cast<Real>(kContactDistance) || approach <= resting_speed) continue;
+        const Real lacking =
+            static_cast<Real>(collider.restitution) * approach - glm::dot(velocity, surface.normal);
+        velocity += std::max(lacking, Real(0)) * surface.normal;
+    }
+}
+
+}  // namespace gelatin::cpu

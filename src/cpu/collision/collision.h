@@ -1,0 +1,86 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cpu/collision/axis_box.h"
+#include "cpu/collision/object_tree.h"
+#include "cpu/collision/touch.h"
+#include "gelatin/scene.h"
+#include "model/model.h"
+
+namespace gelatin::cpu {
+
+/// Objects that may touch, as one of the two sees it; each pair is there twice, once in either object's row.
+struct ObjectPair {
+    std::uint32_t object, other;
+    std::uint32_t mirror;      ///< index of the same pair as the other sees it
+    std::uint32_t first_word;  ///< of its bits in the Face Collision Result
+};
+
+/// Finds which faces of which objects touch (paper 2.4 and 3.1), stage by stage. The same result for any
+/// number of threads. GPU twins: gpu::UpdateBoxes, gpu::FindObjectPairs, gpu::FindFaceCollisions.
+template <class Real>
+class Collision {
+public:
+    /// @param margin of the boxes; it changes what is tested, not which faces touch
+    explicit Collision(std::shared_ptr<const Model> model, BroadPhase broad_phase = BroadPhase::hierarchy,
+                       CollisionDetection detection = CollisionDetection::discrete,
+                       const BoxMargin<Real>& margin = {});
+
+    /// The box of each face, and of each object; with continuous detection over the whole step.
+    /// @param previous the positions at its start, which discrete detection does not read
+    void update_boxes(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> previous = {});
+
+    /// The pairs of objects that may touch, row by row, in the order of the others' indices.
+    void find_object_pairs();
+
+    /// Face against face in these pairs.
+    void find_face_collisions(std::span<const Vec4<Real>> positions,
+                              std::span<const Vec4<Real>> previous = {});
+
+    const std::vector<AxisBox<Real>>& bounding_boxes() const { return bounding_boxes_; }
+    const std::vector<AxisBox<Real>>& face_boxes() const { return face_boxes_; }
+    /// Of the nodes of Model::face_trees.
+    const std::vector<AxisBox<Real>>& tree_boxes() const { return tree_boxes_; }
+    const std::vector<ObjectPair>& pairs() const { return pairs_; }
+    /// An object's pairs.
+    Range row(std::uint32_t object) const;
+
+    /// How a face of the pair's object touches the other object.
+    Touch touch(const ObjectPair& pair, std::uint32_t face) const;
+    bool collides(const ObjectPair& pair, std::uint32_t face) const {
+        return touch(pair, face) != Touch::none;
+    }
+    /// True if it touches any other object.
+    bool collides(std::uint32_t face) const;
+    /// True if the objects of the pair touch at all.
+    bool collide(const ObjectPair& pair) const;
+
+private:
+    void update_tree(std::uint32_t object);
+    void find_partners(std::uint32_t object);
+    bool starts_tests(const ObjectPair& pair) const;
+    std::vector<std::uint32_t> find_candidates(const ObjectPair& pair) const;
+    template <class Found>
+    void for_faces_near(const ObjectPair& pair, std::uint32_t face, const Found& found) const;
+    template <class Test>
+    void test_candidates(const ObjectPair& pair, const Test& test);
+    void set_touch(const ObjectPair& pair, std::uint32_t face, Touch touch);
+
+    std::shared_ptr<const Model> model_;
+    BroadPhase broad_phase_;
+    CollisionDetection detection_;
+    BoxMargin<Real> margin_;
+    std::vector<AxisBox<Real>> face_boxes_;      // shape [faces]
+    std::vector<AxisBox<Real>> tree_boxes_;      // of Model::face_trees; shape [nodes]
+    std::vector<AxisBox<Real>> bounding_boxes_;  // shape [objects]
+    ObjectTree<Real> object_tree_;
+    std::vector<std::vector<std::uint32_t>> partners_;  // of each object, ascending
+    std::vector<ObjectPair> pairs_;
+    std::vector<std::uint32_t> row_starts_;       // shape [objects + 1]
+    std::vector<std::uint32_t> face_collisions_;  // two bits a face of its object, by pair: a Touch
+};
+
+}  // namespace gelatin::cpu

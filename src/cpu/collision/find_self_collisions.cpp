@@ -1,0 +1,131 @@
+#include "cpu/collision/find_self_collisions.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
+namespace gelatin::cpu {
+namespace {
+
+constexpr std::uint32_t kFacesATask = 2048;
+constexpr std::size_t kWalksATask = 64;
+
+}  // namespace
+
+template <class Real>
+SelfCollision<Real>::SelfCollision(std::shared_ptr<const Model> model, const Collision<Real>& boxes)
+    : model_(std::move(model)),
+      boxes_(boxes),
+      fits_(model_->objects.size()),
+      is_object_calm_(model_->objects.size()),
+      is_calm_(model_->faces.size()),
+      contact_counts_(model_->faces.size()) {}
+
+template <class Real>
+void SelfCollision<Real>::find(std::span<const Vec4<Real>> positions) {
+    if (any_) std::fill(contact_counts_.begin(), contact_counts_.end(), 0u);
+    find_restless(positions);
+    // Counts of faces that several threads may find; two restless faces find one another, and one counts.
+    std::atomic<bool> any = false;
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, restless_.size(), kWalksATask), [&](const auto& range) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                const std::uint32_t face = restless_[i];
+                for_faces_near(face, [&](std::uint32_t other) {
+                    if (other < face && !is_calm_[other]) return;
+                    if (!touch(positions, face, other)) return;
+                    for (const std::uint32_t f : {face, other})
+                        std::atomic_ref(contact_counts_[f]).fetch_add(1, std::memory_order_relaxed);
+                    any.store(true, std::memory_order_relaxed);
+                });
+            }
+        });
+    any_ = any;
+}
+
+template <class Real>
+void SelfCollision<Real>::find_restless(std::span<const Vec4<Real>> positions) {
+    const auto objects = static_cast<std::uint32_t>(model_->objects.size());
+    tbb::parallel_for(std::uint32_t(0), objects, [&](std::uint32_t o) {
+        is_object_calm_[o] = renew_fit(o, positions);
+        if (is_object_calm_[o]) return;
+        const Range& faces = model_->objects[o].faces;
+        tbb::parallel_for(tbb::blocked_range<std::uint32_t>(faces.first, faces.end(), kFacesATask),
+                          [&](const auto& range) {
+                              for (std::uint32_t f = range.begin(); f < range.end(); ++f)
+                                  is_calm_[f] = is_face_calm(f, positions);
+                          });
+    });
+    restless_.clear();
+    for (std::uint32_t o = 0; o < objects; ++o) {
+        const Range& faces = model_->objects[o].faces;
+        for (std::uint32_t f = faces.first; f < faces.end() && !is_object_calm_[o]; ++f)
+            if (!is_calm_[f]) restless_.push_back(f);
+    }
+}
+
+// Any map will do. So the last one does, moved along with the object, until it no longer explains where its
+// nodes are.
+template <class Real>
+bool SelfCollision<Real>::renew_fit(std::uint32_t object, std::span<const Vec4<Real>> positions) {
+    AffineFit<Real>& fit = fits_[object];
+    const AxisBox<Real>& box = boxes_.bounding_boxes()[object];
+    const Vec3<Real> first(positions[model_->objects[object].nodes.first]);
+    fit = fit.moved(first, model_->rest_shapes.objects[object], box);
+    if (is_calm_all_over(object, positions)) return true;
+    fit = fit_rest_shape(*model_, object, positions, box);
+    return is_calm_all_over(object, positions);
+}
+
+// Sooner told than face by face.
+template <class Real>
+bool SelfCollision<Real>::is_calm_all_over(std::uint32_t object,
+                                           std::span<const Vec4<Real>> positions) const {
+    const RestShapes& rest = model_->rest_shapes;
+    const AffineFit<Real>& fit = fits_[object];
+    const Real limit = fit.half_stretch * static_cast<Real>(rest.objects[object].inverse_moment_y.w);
+    const Range& nodes = model_->objects[object].nodes;
+    bool is_calm = true;  // what is not a number is not
+    for (std::uint32_t n = nodes.first; n < nodes.end() && is_calm; ++n)
+        is_calm = fit.deviation(Vec3<Real>(positions[n]), Vec3<Real>(rest.offsets[n])) < limit;
+    return is_calm;
+}
+
+template <class Real>
+bool SelfCollision<Real>::is_face_calm(std::uint32_t index, std::span<const Vec4<Real>> positions) const {
+    const RestShapes& rest = model_->rest_shapes;
+    const Face& face = model_->faces[index];
+    const AffineFit<Real>& fit = fits_[face.object];
+    const Real limit = fit.half_stretch * static_cast<Real>(rest.clearances[index]);
+    bool is_calm = true;  // what is not a number is not
+    for (const std::uint32_t n : {face.a, face.b, face.c})
+        is_calm &= fit.deviation(Vec3<Real>(positions[n]), Vec3<Real>(rest.offsets[n])) < limit;
+    return is_calm;
+}
+
+template <class Real>
+bool SelfCollision<Real>::share_corner(std::uint32_t face, std::uint32_t other) const {
+    const Face &a = model_->faces[face], &b = model_->faces[other];
+    const auto is_corner = [&b](std::uint32_t n) { return n == b.a || n == b.b || n == b.c; };
+    return is_corner(a.a) || is_corner(a.b) || is_corner(a.c);
+}
+
+template <class Real>
+bool SelfCollision<Real>::touch(std::span<const Vec4<Real>> positions, std::uint32_t face,
+                                std::uint32_t other) const {
+    const auto triangle = [&](const Face& f) {
+        return Triangle<Real>{Vec3<Real>(positions[f.a]), Vec3<Real>(positions[f.b]),
+                              Vec3<Real>(positions[f.c])};
+    };
+    // In one order, so that both faces are told the same.
+    const auto [first, second] = std::minmax(face, other);
+    return triangles_overlap(triangle(model_->faces[first]), triangle(model_->faces[second]));
+}
+
+template class SelfCollision<float>;
+template class SelfCollision<double>;
+
+}  // namespace gelatin::cpu

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cpu/collision/affine_fit.h"
+#include "cpu/collision/collision.h"
+#include "cpu/collision/triangle_overlap.h"
+#include "cpu/collision/walk_tree.h"
+#include "model/model.h"
+
+namespace gelatin::cpu {
+
+/// Finds which faces of an object touch others of the same object; those that share a corner are left out.
+///
+/// Two faces cannot touch while both are calm: nearer to where an affine map of the rest shape puts them than
+/// half of what that map leaves of their clearance at rest (docs/collision.md). Only faces that are not walk
+/// through their object's tree, and only objects that their last map does not explain are looked at by face.
+/// GPU twin: gpu::FindSelfCollisions.
+template <class Real>
+class SelfCollision {
+public:
+    /// @pre the model has rest shapes @param boxes must outlive this
+    SelfCollision(std::shared_ptr<const Model> model, const Collision<Real>& boxes);
+
+    /// @pre the boxes are those of `positions`
+    void find(std::span<const Vec4<Real>> positions);
+
+    /// How many faces of its own object a face touches.
+    std::uint32_t contact_count(std::uint32_t face) const { return contact_counts_[face]; }
+    bool collides(std::uint32_t face) const { return contact_counts_[face] > 0; }
+    /// True if any face does.
+    bool any() const { return any_; }
+    /// Faces that were not calm.
+    std::size_t restless_count() const { return restless_.size(); }
+
+    /// found(other) for each of the faces that `face` touches, in a fixed order. @pre as they were found
+    template <class Found>
+    void for_contacts(std::span<const Vec4<Real>> positions, std::uint32_t face, const Found& found) const {
+        if (!collides(face)) return;
+        for_faces_near(face, [&](std::uint32_t other) {
+            if (collides(other) && touch(positions, face, other)) found(other);
+        });
+    }
+
+private:
+    void find_restless(std::span<const Vec4<Real>> positions);
+    bool renew_fit(std::uint32_t object, std::span<const Vec4<Real>> positions);
+    bool is_calm_all_over(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
+    bool is_face_calm(std::uint32_t index, std::span<const Vec4<Real>> positions) const;
+    bool share_corner(std::uint32_t face, std::uint32_t other) const;
+    bool touch(std::span<const Vec4<Real>> positions, std::uint32_t face, std::uint32_t other) const;
+
+    // found(other) for each face of the same object whose box meets that of `face`, and that is no neighbour.
+    template <class Found>
+    void for_faces_near(std::uint32_t face, const Found& found) const {
+        const AxisBox<Real> box = boxes_.face_boxes()[face];
+        const std::uint32_t root = model_->face_trees.roots[model_->faces[face].object];
+        for_items_near<Real>(model_->face_trees, boxes_.tree_boxes(), root, box, [&](std::uint32_t other) {
+            if (meet(box, boxes_.face_boxes()[other]) && !share_corner(face, other)) found(other);
+        });
+    }
+
+    std::shared_ptr<const Model> model_;
+    const Collision<Real>& boxes_;
+    std::vector<AffineFit<Real>> fits_;          // shape [objects]
+    std::vector<std::uint8_t> is_object_calm_;   // all over, shape [objects]
+    std::vector<std::uint8_t> is_calm_;          // of objects that are not, shape [faces]
+    std::vector<std::uint32_t> restless_;        // faces, ascending
+    std::vector<std::uint32_t> contact_counts_;  // shape [faces]
+    bool any_ = false;
+};
+
+}  // namespace gelatin::cpu

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cpu/descent/coarse_correction.h"
+#include "cpu/descent/node_touches.h"
+#include "cpu/descent/step_objective.h"
+#include "cpu/nodes.h"
+#include "model/model.h"
+
+namespace gelatin::cpu {
+
+/// Moves all nodes at once along the motions of clusters (cpu/descent/coarse_correction.h), as far as the
+/// objective falls.
+template <class Real>
+class CoarseStep {
+public:
+    explicit CoarseStep(std::shared_ptr<const Model> model);
+
+    bool is_empty() const { return coarse_.is_empty(); }  ///< there is nothing for it to move
+
+    /// To be called before others of a step of `step` seconds.
+    void begin(Real step, std::span<const Vec4<Real>> positions) { coarse_.begin(step, positions); }
+
+    void run(const StepObjective<Real>& objective, const NodeTouches<Real>& touches,
+             std::vector<Vec4<Real>>& positions);
+
+private:
+    Real way_factor(std::size_t object) const;
+
+    std::shared_ptr<const Model> model_;
+    CoarseCorrection<Real> coarse_;
+    std::vector<Vec4<Real>> ahead_;                         // where ways would lead [m]
+    std::vector<Vec3<Real>> ways_, forces_, forces_ahead_;  // [m], [N]
+};
+
+}  // namespace gelatin::cpu

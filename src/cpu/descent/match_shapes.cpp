@@ -1,0 +1,94 @@
+#include "cpu/descent/match_shapes.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <glm/matrix.hpp>
+#include <utility>
+
+#include "cpu/descent/nearest_rotation.h"
+#include "model/descent/descent_rows.h"
+#include "model/for_each_index.h"
+
+namespace gelatin::cpu {
+namespace {
+
+double trace(const glm::dmat3& m) {
+    return m[0][0] + m[1][1] + m[2][2];
+}
+
+}  // namespace
+
+template <class Real>
+ShapeMatcher<Real>::ShapeMatcher(std::shared_ptr<const Model> model)
+    : model_(std::move(model)),
+      shapes_(make_match_shapes(*model_)),
+      object_of_(objects_of_nodes(*model_)),
+      inverted_(model_->objects.size()) {}
+
+template <class Real>
+void ShapeMatcher<Real>::run(Nodes<Real>& nodes) {
+    count_inverted_tets(nodes.positions);
+    tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
+        if (static_cast<float>(inverted_[o]) > shapes_.objects[o].inverse_y.w)
+            match(static_cast<std::uint32_t>(o), nodes);
+    });
+}
+
+template <class Real>
+void ShapeMatcher<Real>::count_inverted_tets(const std::vector<Vec4<Real>>& positions) {
+    std::fill(inverted_.begin(), inverted_.end(), 0u);
+    for_each_index(model_->tets.size(), [&](std::size_t t) {
+        const glm::uvec4& tet = model_->tets[t];
+        const Vec3<Real> a(positions[tet.x]);
+        const Vec3<Real> u = Vec3<Real>(positions[tet.y]) - a, v = Vec3<Real>(positions[tet.z]) - a,
+                         w = Vec3<Real>(positions[tet.w]) - a;
+        if (glm::dot(glm::cross(u, v), w) > Real(0)) return;
+        std::atomic_ref(inverted_[object_of_[tet.x]]).fetch_add(1, std::memory_order_relaxed);
+    });
+}
+
+template <class Real>
+void ShapeMatcher<Real>::match(std::uint32_t object, Nodes<Real>& nodes) const {
+    const Range& range = model_->objects[object].nodes;
+    const glm::dvec3 origin(nodes.positions[range.first]);
+    glm::dmat3 moment(0.0);  // m x X^T
+    glm::dvec3 center(0.0), momentum(0.0), spin(0.0);
+    double square = 0.0;
+    for (std::uint32_t n = range.first; n < range.end(); ++n) {
+        const glm::vec4& rest = shapes_.offsets[n];
+        const auto m = static_cast<double>(rest.w);
+        const glm::dvec3 x = glm::dvec3(nodes.positions[n]) - origin, v(nodes.velocities[n]);
+        moment += m * glm::outerProduct(x, glm::dvec3(rest));
+        center += m * x;
+        momentum += m * v;
+        spin += m * glm::cross(x, v);
+        square += m * glm::dot(x, x);
+    }
+    const RestMoment& rest = shapes_.objects[object];
+    const auto mass = static_cast<double>(rest.inverse_x.w);
+    const glm::dmat3 inverse(glm::dvec3(rest.inverse_x), glm::dvec3(rest.inverse_y),
+                             glm::dvec3(rest.inverse_z));
+    center /= mass;
+    square -= mass * glm::dot(center, center);
+    if (trace(moment * inverse * glm::transpose(moment)) > kLeastExplained * square) return;
+
+    const glm::dmat3 turn = nearest_rotation(moment), square_at_rest = glm::inverse(inverse);
+    const glm::dmat3 inertia = trace(square_at_rest) * glm::dmat3(1.0) - square_at_rest;
+    const glm::dvec3 velocity = momentum / mass;
+    spin -= glm::cross(center, momentum);
+    spin = turn * (glm::inverse(inertia) * (glm::transpose(turn) * spin));
+    for (std::uint32_t n = range.first; n < range.end(); ++n) {
+        Vec4<Real>&position = nodes.positions[n], &velocity_of_node = nodes.velocities[n];
+        if (position.w == Real(0)) continue;
+        const glm::dvec3 r = turn * glm::dvec3(shapes_.offsets[n]);
+        position = Vec4<Real>(Vec3<Real>(origin + center + r), position.w);
+        velocity_of_node = Vec4<Real>(Vec3<Real>(velocity + glm::cross(spin, r)), velocity_of_node.w);
+    }
+}
+
+template class ShapeMatcher<float>;
+template class ShapeMatcher<double>;
+
+}  // namespace gelatin::cpu

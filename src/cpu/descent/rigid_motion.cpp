@@ -1,0 +1,99 @@
+#include "cpu/descent/rigid_motion.h"
+
+#include <algorithm>
+#include <glm/matrix.hpp>
+
+namespace gelatin::cpu {
+namespace {
+
+// Of the mean moment of inertia, added to all three: nodes in one line or place have none about it.
+constexpr double kLeastInertia = 1e-6;
+
+glm::dmat3 full(const SymmetricMatrix<double>& m) {
+    return {m.diagonal.x, m.beside.z, m.beside.y, m.beside.z,  m.diagonal.y,
+            m.beside.x,   m.beside.y, m.beside.x, m.diagonal.z};
+}
+
+// [radians] Beyond that w x r is no turn any more, and the shift that goes with it on a surface leads
+// anywhere.
+constexpr double kLargestTurn = 1.0;
+
+// cross(v) x = v x x
+glm::dmat3 cross(const glm::dvec3& v) {
+    return {0.0, v.z, -v.y, -v.z, 0.0, v.x, v.y, -v.x, 0.0};
+}
+
+}  // namespace
+
+void RigidSums::add(const glm::dvec3& r, double k, const glm::dvec3& f) {
+    stiffness += k;
+    arm += k * r;
+    square.add_outer(k, r);
+    force += f;
+    moment += glm::cross(r, f);
+}
+
+void RigidSums::add(const RigidSums& other, double factor) {
+    stiffness += factor * other.stiffness;
+    arm += factor * other.arm;
+    square.diagonal += factor * other.square.diagonal;
+    square.beside += factor * other.square.beside;
+    force += factor * other.force;
+    moment += factor * other.moment;
+}
+
+// What slides is resisted along the normal by a little more than that, which spares sums.
+void RigidStep::add(const glm::dvec3& r, const RigidTouch& touch) {
+    const bool slides = touch.across < touch.along;
+    const glm::dvec3 pressing = touch.pressing * touch.normal;
+    sums_.add(r, slides ? 0.0 : touch.across, slides ? pressing : pressing + touch.friction);
+    add_along(r, touch.normal, slides ? touch.along : touch.along - touch.across);
+    if (slides) sliding_.add(r, touch.across, touch.friction);
+    pressing_ += touch.pressing;
+    pressing_shift_ += touch.along * touch.normal;
+    pressing_turn_ += touch.along * glm::cross(r, touch.normal);
+}
+
+void RigidStep::add_along(const glm::dvec3& r, const glm::dvec3& normal, double stiffness) {
+    const glm::dvec3 turned = glm::cross(r, normal);
+    shifts_.add_outer(stiffness, normal);
+    turns_.add_outer(stiffness, turned);
+    mixed_ += stiffness * glm::outerProduct(normal, turned);
+}
+
+// [A B; B^T C] (s, w) = (force, moment) by elimination of s.
+RigidStep::Way RigidStep::way(const RigidSums& sums) const {
+    const glm::dmat3 identity(1.0);
+    const double trace = sums.square.diagonal.x + sums.square.diagonal.y + sums.square.diagonal.z;
+    // About the centre of stiffness, which is that of mass where nothing is touched.
+    const double about_center = trace - glm::dot(sums.arm, sums.arm) / sums.stiffness;
+    const glm::dmat3 a = sums.stiffness * identity + full(shifts_);
+    const glm::dmat3 b = mixed_ - cross(sums.arm);
+    const glm::dmat3 c =
+        (trace + kLeastInertia * 2.0 / 3.0 * about_center) * identity - full(sums.square) + full(turns_);
+    const glm::dmat3 a_inverse = glm::inverse(a);
+    const glm::dmat3 rest = c - glm::transpose(b) * a_inverse * b;
+    const glm::dvec3 left = sums.moment - glm::transpose(b) * (a_inverse * sums.force);
+    SymmetricMatrix<double> inertia;
+    inertia.diagonal = {rest[0][0], rest[1][1], rest[2][2]};
+    inertia.beside = {rest[1][2], rest[2][0], rest[0][1]};
+    glm::dvec3 w = cpu::solve(inertia, left);
+    w *= std::min(1.0, kLargestTurn / glm::length(w));
+    return {a_inverse * (sums.force - b * w), w};
+}
+
+RigidMotion RigidStep::solve(const glm::dvec3& origin) const {
+    RigidSums sums = sums_;
+    sums.add(sliding_);
+    Way found = way(sums);
+    if (sliding_.stiffness > 0.0 && pressing_ > 0.0) {
+        const double fall = glm::dot(pressing_shift_, found.shift) + glm::dot(pressing_turn_, found.turn);
+        sums.add(sliding_, std::clamp(1.0 - fall / pressing_, 0.0, 1.0) - 1.0);
+        found = way(sums);
+    }
+    // A turn about the centre of mass does not move it, however large.
+    const glm::dvec3 center = sums.arm / sums.stiffness;
+    return {origin + center, found.shift + glm::cross(found.turn, center), cayley_turn(found.turn)};
+}
+
+}  // namespace gelatin::cpu

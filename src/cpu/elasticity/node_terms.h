@@ -1,0 +1,147 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "cpu/nodes.h"
+
+namespace gelatin::cpu {
+
+/// A symmetric matrix [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]].
+template <class Real>
+struct SymmetricMatrix {
+    Vec3<Real> diagonal{0};  ///< xx, yy, zz
+    Vec3<Real> beside{0};    ///< yz, zx, xy
+
+    void add_identity(Real factor) { diagonal += factor; }
+    /// factor v v^T
+    void add_outer(Real factor, const Vec3<Real>& v) {
+        diagonal += factor * v * v;
+        beside += factor * Vec3<Real>(v.y * v.z, v.z * v.x, v.x * v.y);
+    }
+};
+
+/// What elements of a body add to a node's part of the objective of a step: minus its gradient, which is a
+/// force [N], and a positive semi-definite second derivative [N/m]. GLSL twin:
+/// shaders/sim/elasticity/node_terms.glsl.
+template <class Real>
+struct NodeTerms {
+    Vec3<Real> force{0};
+    SymmetricMatrix<Real> hessian;
+};
+
+/// The way out for a node that is where a neighbour is; not the same for all nodes.
+template <class Real>
+Vec3<Real> any_direction(std::uint32_t node) {
+    std::uint32_t bits = (node + 1) * 0x9E3779B9u;
+    Vec3<Real> v;
+    for (int k = 0; k < 3; ++k) {
+        bits ^= bits << 13;
+        bits ^= bits >> 17;
+        bits ^= bits << 5;
+        v[k] = static_cast<Real>(static_cast<std::int32_t>(bits & 0xFFFFu) - 0x8000) + Real(0.5);
+    }
+    return v / glm::length(v);
+}
+
+/// The spring to a node `apart` from this one. With l the length of that, n its direction, L the rest length,
+/// k the stiffness, t the damping time, h the step and l_0 how long the spring was when it began, the damper
+///   k t / (2 h) (l - l_0)^2
+/// makes it a spring of stiffness K = k (1 + t / h) and rest length M = (L + t / h l_0) / (1 + t / h):
+///   force   K (l - M) n
+///   hessian K (n n^T + max(0, 1 - M / l) (1 - n n^T)).
+/// The second term of the energy's own Hessian is negative where the spring is shorter than M, and is left
+/// out there. @param damping t / h @param if_coincident minus n where l is zero
+template <class Real>
+void add_spring(const Vec3<Real>& apart, const Vec3<Real>& if_coincident, Real start_length, Real rest_length,
+                Real stiffness, Real damping, NodeTerms<Real>& terms) {
+    const Real length = glm::length(apart);
+    const Vec3<Real> n = length > Real(0) ? apart / length : -if_coincident;
+    const Real damped = stiffness * (Real(1) + damping);
+    const Real rest = (rest_length + damping * start_length) / (Real(1) + damping);
+    terms.force += damped * (length - rest) * n;
+    const Real across = length > rest ? damped * (Real(1) - rest / length) : Real(0);
+    terms.hessian.add_outer(damped - across, n);
+    terms.hessian.add_identity(across);
+}
+
+/// Flatter than this, over its volume at rest, a tet resists.
+constexpr double kFlattest = 0.5;
+
+/// A tet as one of its corners sees it, with v its volume, V that at rest, J = v / V, J_0 = kFlattest and K
+/// its modulus: W = V K / 2 (J_0 - J)^2 where J < J_0, and nothing else. v is linear in one corner, so
+///   force   V K (J_0 - J) dJ/dx,   hessian V K dJ/dx dJ/dx^T.
+/// It takes springs out of the mirrored and tangled shapes in which they would rest as well.
+/// @param face the other corners, counter-clockwise as the corner at `position` sees them
+template <class Real>
+void add_flat_tet(const Vec3<Real>& position, const std::array<Vec3<Real>, 3>& face, Real rest_volume,
+                  Real modulus, NodeTerms<Real>& terms) {
+    const Vec3<Real> slope = glm::cross(face[1] - face[0], face[2] - face[0]) / (Real(6) * rest_volume);
+    const Real lack = static_cast<Real>(kFlattest) - glm::dot(position - face[0], slope);
+    if (!(lack > Real(0))) return;
+    terms.force += rest_volume * modulus * lack * slope;
+    terms.hessian.add_outer(rest_volume * modulus, slope);
+}
+
+/// kappa phi'(J - 1) of the volume term [Pa], J being the volume round a node over that at rest: phi(u) = u^2
+/// / 2 where kappa > 0. Where it is negative, the term takes energy out of a body that grows, and must end
+/// somewhere: phi'(u) = u (1 - (u / a)^2)^2 up to |u| = a = 1/2, and nothing beyond.
+template <class Real>
+Real volume_stress(Real ratio, Real kappa) {
+    const Real u = ratio - Real(1);
+    if (kappa >= Real(0)) return kappa * u;
+    const Real left = std::max(Real(1) - Real(4) * u * u, Real(0));
+    return kappa * u * left * left;
+}
+
+/// Of a tet's part of the volume term p - k J_0 and k, below [Pa].
+template <class Real>
+struct VolumeBound {
+    Real offset{0}, modulus{0};
+};
+
+/// A tet's part of the volume term as one of its corners sees it. With p the mean of volume_stress at its
+/// corners and J_0 its own J, both at the last look, and k the mean |kappa| of its corners, the term is at
+/// most
+///   W = V (p (J - J_0) + k / 2 (J - J_0)^2) and what it was then.
+/// @param face as in add_flat_tet
+template <class Real>
+void add_tet_volume(const Vec3<Real>& position, const std::array<Vec3<Real>, 3>& face, Real rest_volume,
+                    const VolumeBound<Real>& bound, NodeTerms<Real>& terms) {
+    const Vec3<Real> slope = glm::cross(face[1] - face[0], face[2] - face[0]) / (Real(6) * rest_volume);
+    const Real ratio = glm::dot(position - face[0], slope);
+    terms.force -= rest_volume * (bound.offset + bound.modulus * ratio) * slope;
+    terms.hessian.add_outer(rest_volume * bound.modulus, slope);
+}
+
+/// matrix^-1 v by the square-root-free Cholesky decomposition; zero along what has no stiffness. Pivots that
+/// drown in the rounding of what they are left over from count as that: the way may come out too short then,
+/// never too long.
+template <class Real>
+Vec3<Real> solve(const SymmetricMatrix<Real>& matrix, const Vec3<Real>& v) {
+    const auto inverse = [](Real pivot, Real diagonal) {
+        const Real d = std::max(pivot, Real(8) * std::numeric_limits<Real>::epsilon() * diagonal);
+        return d > Real(0) ? Real(1) / d : Real(0);
+    };
+    const Vec3<Real>&d = matrix.diagonal, &b = matrix.beside;
+    const Real i0 = inverse(d.x, d.x);
+    const Real l10 = b.z * i0, l20 = b.y * i0;
+    const Real i1 = inverse(d.y - l10 * b.z, d.y);
+    const Real rest = b.x - l20 * b.z, l21 = rest * i1;
+    const Real i2 = inverse(d.z - l20 * b.y - l21 * rest, d.z);
+    const Real y1 = v.y - l10 * v.x, y2 = v.z - l20 * v.x - l21 * y1;
+    const Real z = y2 * i2, y = y1 * i1 - l21 * z;
+    return {v.x * i0 - l10 * y - l20 * z, y, z};
+}
+
+/// A node's Newton step [m].
+template <class Real>
+Vec3<Real> solve(const NodeTerms<Real>& terms) {
+    return solve(terms.hessian, terms.force);
+}
+
+}  // namespace gelatin::cpu

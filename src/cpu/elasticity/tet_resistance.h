@@ -1,0 +1,70 @@
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "cpu/elasticity/node_terms.h"
+#include "cpu/nodes.h"
+#include "model/descent/descent_rows.h"
+#include "model/elasticity/node_tets.h"
+#include "model/model.h"
+
+namespace gelatin::cpu {
+
+/// Volumes over those at rest between which a first guess is taken for sound.
+constexpr double kLeastSound = -0.5, kMostSound = 4.0;
+
+/// Where a step of vertex block descent began.
+template <class Real>
+struct StepStart {
+    const Vec4<Real>* nodes;  ///< xyz [m], damping time [s], shape [nodes]
+    Real inverse_step;        ///< [1/s]
+};
+
+/// What tets add to vertex block descent. Neo-Hookean ones are all that their bodies have; those of springs
+/// resist being flat; and both, where the material asks for another Poisson's ratio than they have, changes
+/// of the volume round each node (docs/physics.md).
+template <class Real>
+class TetResistance {
+public:
+    /// @param batches of bodies that are looked at one by one
+    TetResistance(std::shared_ptr<const Model> model, std::size_t batches);
+
+    /// True if a tet of the object is far from its volume at rest (kLeastSound, kMostSound).
+    bool is_tangled(const ModelObject& object, const std::vector<Vec4<Real>>& positions) const;
+
+    /// Looks which tets of a batch are flat and how far the volumes are from those at rest.
+    void look(std::size_t index, const DescentBatch& batch, const std::vector<Vec4<Real>>& positions);
+
+    /// False if no node of the batch has anything to add.
+    bool any_resist(std::size_t batch) const { return any_flat_[batch] != 0 || resist_always_; }
+    bool any_resist() const {
+        return resist_always_ ||
+               std::any_of(any_flat_.begin(), any_flat_.end(), [](auto flat) { return flat != 0; });
+    }
+
+    /// Adds the resistance of the node's tets, with the volumes round other nodes as they were at the last
+    /// look.
+    void add(std::uint32_t node, const std::vector<Vec4<Real>>& positions, const StepStart<Real>& start,
+             NodeTerms<Real>& terms) const;
+
+private:
+    void look_at(const Range& tets, std::uint8_t& any_flat, const std::vector<Vec4<Real>>& positions);
+    void add_neo_hookean_tets(std::uint32_t node, const std::vector<Vec4<Real>>& positions,
+                              const StepStart<Real>& start, NodeTerms<Real>& terms) const;
+    VolumeBound<Real> volume_bound(std::uint32_t tet) const;
+    Real ratio_of(std::uint32_t tet, const std::vector<Vec4<Real>>& positions) const;
+
+    std::shared_ptr<const Model> model_;
+    NodeTets node_tets_;
+    std::vector<std::uint32_t> object_of_;    // by node
+    std::vector<Real> ratios_;                // J, by tet
+    std::vector<std::uint8_t> is_near_flat_;  // nodes of tets that resist
+    std::vector<std::uint8_t> any_flat_;      // by batch
+    bool resist_always_;                      // whatever their shapes
+    std::vector<Real> node_pressures_;        // [Pa]
+    std::vector<Real> offsets_;               // q [Pa], by tet
+};
+
+}  // namespace gelatin::cpu

@@ -1,0 +1,85 @@
+// A tet a lane, compiled once for each instruction set.
+#include "cpu/elasticity/volume_ratios.h"
+
+#include <algorithm>
+#include <array>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "cpu/elasticity/volume_ratios.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include "cpu/simd_columns-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gelatin::cpu::HWY_NAMESPACE {
+
+// det (b - a, c - a, e - a)
+HWY_INLINE Vector six_volumes(const Columns& a, const Columns& b, const Columns& c, const Columns& e) {
+    const Vector ux = hn::Sub(b.x, a.x), uy = hn::Sub(b.y, a.y), uz = hn::Sub(b.z, a.z);
+    const Vector vx = hn::Sub(c.x, a.x), vy = hn::Sub(c.y, a.y), vz = hn::Sub(c.z, a.z);
+    const Vector wx = hn::Sub(e.x, a.x), wy = hn::Sub(e.y, a.y), wz = hn::Sub(e.z, a.z);
+    const Vector x = hn::NegMulAdd(uz, vy, hn::Mul(uy, vz));
+    const Vector y = hn::NegMulAdd(ux, vz, hn::Mul(uz, vx));
+    const Vector z = hn::NegMulAdd(uy, vx, hn::Mul(ux, vy));
+    return hn::MulAdd(x, wx, hn::MulAdd(y, wy, hn::Mul(z, wz)));
+}
+
+// Of kLanes tets.
+HWY_INLINE Vector ratios_of(Lanes d, const glm::uvec4* tets, const TetRest* rests,
+                            const glm::vec4* positions) {
+    const auto corner = [&](int k) HWY_ATTR {
+        return load_columns(d, [&](std::size_t l) { return &positions[tets[l][k]].x; });
+    };
+    HWY_ALIGN float volumes[kLanes];
+    for (std::size_t l = 0; l < kLanes; ++l) volumes[l] = rests[l].volume;
+    return hn::Div(six_volumes(corner(0), corner(1), corner(2), corner(3)),
+                   hn::Mul(hn::Set(d, 6.0f), hn::Load(d, volumes)));
+}
+
+bool are_within(float least, float most, const Model& model, const Range& tets, const glm::vec4* positions,
+                float* ratios) {
+    const Lanes d;
+    const Vector low = hn::Set(d, least), high = hn::Set(d, most);
+    const auto within = [&](Vector v)
+                            HWY_ATTR { return hn::AllTrue(d, hn::And(hn::Gt(v, low), hn::Lt(v, high))); };
+    bool all = true;
+    std::size_t t = tets.first;
+    for (; t + kLanes <= tets.end(); t += kLanes) {
+        const Vector ratio = ratios_of(d, &model.tets[t], &model.tet_rests[t], positions);
+        all = within(ratio) && all;
+        if (ratios != nullptr) hn::StoreU(ratio, d, ratios + t);
+    }
+    if (t == tets.end()) return all;
+    // The last ones, filled up with one of them.
+    const std::size_t count = tets.end() - t;
+    std::array<glm::uvec4, kLanes> last;
+    std::array<TetRest, kLanes> rests;
+    for (std::size_t l = 0; l < kLanes; ++l) {
+        last[l] = model.tets[t + std::min(l, count - 1)];
+        rests[l] = model.tet_rests[t + std::min(l, count - 1)];
+    }
+    const Vector ratio = ratios_of(d, last.data(), rests.data(), positions);
+    if (ratios != nullptr) {
+        HWY_ALIGN float values[kLanes];
+        hn::Store(ratio, d, values);
+        std::copy_n(values, count, ratios + t);
+    }
+    return within(ratio) && all;
+}
+
+}  // namespace gelatin::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gelatin::cpu {
+
+HWY_EXPORT(are_within);
+
+bool volumes_are_within(float least, float most, const Model& model, const Range& tets,
+                        const glm::vec4* positions, float* ratios) {
+    return HWY_DYNAMIC_DISPATCH(are_within)(least, most, model, tets, positions, ratios);
+}
+
+}  // namespace gelatin::cpu
+#endif

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <glm/geometric.hpp>
+
+#include "cpu/elasticity/node_terms.h"
+#include "cpu/explicit/advance_nodes.h"
+#include "cpu/nodes.h"
+#include "model/model.h"
+
+/// The volume term (model/elasticity/volume_term.h) as it is, not as block descent bounds it
+/// (cpu/elasticity/node_terms.h). GLSL twins: shaders/sim/elasticity/volume_term.glsl, volume_force.glsl.
+namespace gelatin::cpu {
+
+/// phi(J - 1), whose slope is volume_stress over kappa.
+template <class Real>
+Real volume_potential(Real ratio, Real kappa) {
+    const Real u = ratio - Real(1);
+    if (kappa >= Real(0)) return Real(0.5) * u * u;
+    const Real s = std::min(Real(4) * u * u, Real(1));
+    return s * (Real(3) - Real(3) * s + s * s) / Real(24);
+}
+
+/// J_n: the volume round node n over that at rest; 1 where there is none.
+/// @param position of a node, as a Vec3<Real>
+template <class Real, class Position>
+Real volume_ratio_round(const VolumeTerm& term, std::uint32_t n, const Position& position) {
+    const auto rest = static_cast<Real>(term.nodes[n].x);
+    if (!(rest > Real(0))) return Real(1);
+    const Vec3<Real> at = position(n);
+    Real sum(0);  // 24 times the volume
+    term.corners.for_row(n, [&](const TetCorner& tet) {
+        const Vec3<Real> a = position(tet.a);
+        sum += glm::dot(at - a, glm::cross(position(tet.b) - a, position(tet.c) - a));
+    });
+    return sum / (Real(24) * rest);
+}
+
+/// p_n = kappa phi'(J_n - 1) [Pa].
+template <class Real>
+Real volume_stress_round(const VolumeTerm& term, std::uint32_t n, const Vec4<Real>* positions) {
+    const Real ratio =
+        volume_ratio_round<Real>(term, n, [&](std::uint32_t k) { return Vec3<Real>(positions[k]); });
+    return volume_stress(ratio, static_cast<Real>(term.nodes[n].y));
+}
+
+/// The term's force on node n [N]: each tet of volume v pulls with -p dv/dx, p the mean stress of its
+/// corners.
+template <class Real>
+Vec3<Real> gather_volume_forces(const Pass<Real>& pass, std::uint32_t n) {
+    Vec3<Real> sum(0);  // -24 times the force
+    if (pass.volume_stresses == nullptr) return sum;
+    pass.model.volume_term.corners.for_row(n, [&](const TetCorner& tet) {
+        const Vec3<Real> a(pass.positions[tet.a]), b(pass.positions[tet.b]), c(pass.positions[tet.c]);
+        const Real* p = pass.volume_stresses;
+        sum += (p[n] + p[tet.a] + p[tet.b] + p[tet.c]) * glm::cross(b - a, c - a);
+    });
+    return Real(-1) / Real(24) * sum;
+}
+
+}  // namespace gelatin::cpu

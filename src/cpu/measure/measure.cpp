@@ -1,0 +1,127 @@
+#include "cpu/measure/measure.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "cpu/collision/colliders.h"
+#include "cpu/elasticity/neo_hookean.h"
+#include "cpu/explicit/volume_forces.h"
+
+namespace gelatin::cpu {
+namespace {
+
+constexpr std::uint32_t kChunk = 1024;
+
+struct Chunk {
+    std::uint32_t object;
+    Range nodes, springs, tets, faces;
+};
+
+// Runs of nodes, springs, neo-Hookean tets and faces of one object each; summed in parallel, added up in
+// order.
+std::vector<Chunk> make_chunks(const Model& model) {
+    std::vector<Chunk> chunks;
+    for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
+        const ModelObject& object = model.objects[o];
+        const auto part = [](const Range& range, std::uint32_t offset) {
+            return offset < range.count ? Range{range.first + offset, std::min(kChunk, range.count - offset)}
+                                        : Range{};
+        };
+        const std::uint32_t most = std::max(
+            {object.nodes.count, object.springs.count, object.neo_hookean_tets.count, object.faces.count});
+        for (std::uint32_t offset = 0; offset < most; offset += kChunk) {
+            chunks.push_back({o, part(object.nodes, offset), part(object.springs, offset),
+                              part(object.neo_hookean_tets, offset), part(object.faces, offset)});
+        }
+    }
+    return chunks;
+}
+
+template <class Real>
+void add_node(const Model& model, const Nodes<Real>& nodes, std::uint32_t n, ObjectMeasure& sums) {
+    const glm::dvec3 position(nodes.positions[n]);
+    const glm::dvec3 velocity(nodes.velocities[n]);
+    if (nodes.positions[n].w > Real(0)) {
+        const double mass = 1.0 / static_cast<double>(nodes.positions[n].w);  // as the integration has it
+        sums.momentum += mass * velocity;
+        sums.kinetic_energy += 0.5 * mass * glm::dot(velocity, velocity);
+        sums.potential_energy -= mass * glm::dot(glm::dvec3(model.gravity), position);
+    }
+    bool touches = false;
+    for (const Collider& collider : model.colliders) {
+        const double distance = surface_distance(collider, position).distance;
+        sums.deepest_penetration = std::max(sums.deepest_penetration, -distance);
+        touches = touches || distance < kContactDistance;
+    }
+    sums.contacts += touches ? 1 : 0;
+}
+
+// Of the volume term, round one node [J].
+template <class Position>
+double volume_energy(const VolumeTerm& term, std::uint32_t n, const Position& position) {
+    const glm::dvec2 node(term.nodes[n]);
+    return node.x * node.y * volume_potential(volume_ratio_round<double>(term, n, position), node.y);
+}
+
+template <class Real>
+ObjectMeasure sum_chunk(const Model& model, const Nodes<Real>& nodes, const Chunk& chunk) {
+    const auto position = [&](std::uint32_t n) { return glm::dvec3(nodes.positions[n]); };
+    ObjectMeasure sums;
+    for (std::uint32_t n = chunk.nodes.first; n < chunk.nodes.end(); ++n) {
+        add_node(model, nodes, n, sums);
+        if (!model.volume_term.is_empty())
+            sums.elastic_energy += volume_energy(model.volume_term, n, position);
+    }
+    for (std::uint32_t s = chunk.springs.first; s < chunk.springs.end(); ++s) {
+        const Spring& spring = model.springs[s];
+        const double stretch =
+            glm::distance(position(spring.i), position(spring.j)) - static_cast<double>(spring.rest_length);
+        sums.elastic_energy += 0.5 * static_cast<double>(spring.stiffness) * stretch * stretch;
+    }
+    for (std::uint32_t t = chunk.tets.first; t < chunk.tets.end(); ++t) {
+        const NeoHookeanTet& tet = model.neo_hookean_tets[t];
+        const Mat3<double> f = gradient_of<double>(
+            tet, {position(tet.node_0), position(tet.node_1), position(tet.node_2), position(tet.node_3)});
+        sums.elastic_energy += static_cast<double>(tet.gradient_1.w) *
+                               neo_hookean_energy(f, static_cast<double>(tet.gradient_2.w),
+                                                  static_cast<double>(tet.gradient_3.w));
+    }
+    const glm::dvec3 origin = position(model.objects[chunk.object].nodes.first);
+    for (std::uint32_t f = chunk.faces.first; f < chunk.faces.end(); ++f) {
+        const Face& face = model.faces[f];
+        const glm::dvec3 a = position(face.a) - origin, b = position(face.b) - origin,
+                         c = position(face.c) - origin;
+        sums.volume += glm::dot(a, glm::cross(b, c)) / 6.0;
+    }
+    return sums;
+}
+
+void add(const ObjectMeasure& part, ObjectMeasure& sums) {
+    sums.momentum += part.momentum;
+    sums.kinetic_energy += part.kinetic_energy;
+    sums.elastic_energy += part.elastic_energy;
+    sums.potential_energy += part.potential_energy;
+    sums.volume += part.volume;
+    sums.deepest_penetration = std::max(sums.deepest_penetration, part.deepest_penetration);
+    sums.contacts += part.contacts;
+}
+
+}  // namespace
+
+template <class Real>
+std::vector<ObjectMeasure> measure(const Model& model, const Nodes<Real>& nodes) {
+    const std::vector<Chunk> chunks = make_chunks(model);
+    std::vector<ObjectMeasure> parts(chunks.size());
+    tbb::parallel_for(std::size_t(0), chunks.size(),
+                      [&](std::size_t c) { parts[c] = sum_chunk(model, nodes, chunks[c]); });
+    std::vector<ObjectMeasure> objects(model.objects.size());
+    for (std::size_t c = 0; c < chunks.size(); ++c) add(parts[c], objects[chunks[c].object]);
+    return objects;
+}
+
+template std::vector<ObjectMeasure> measure<float>(const Model&, const Nodes<float>&);
+template std::vector<ObjectMeasure> measure<double>(const Model&, const Nodes<double>&);
+
+}  // namespace gelatin::cpu

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "gelatin/scene.h"
+#include "gpu/collision/collision_buffers.h"
+#include "gpu/node_buffers.h"
+
+namespace gelatin::gpu {
+
+/// Face against face in the pairs of objects: shaders/sim/collision/list_candidates.comp, scan_tests.comp,
+/// walk_trees.comp or cull_face_pairs.comp, test_face_pairs.comp. All dispatches are indirect: nothing runs
+/// where nothing is near.
+class FindFaceCollisions {
+public:
+    explicit FindFaceCollisions(const CollisionSettings& settings);
+    /// Ends with the barrier that the next stage needs.
+    /// @param previous the nodes at the start of the step, which discrete detection does not read
+    void run(const ModelBuffers& model, const CollisionBuffers& collision, const NodeBuffers& previous,
+             const NodeBuffers& nodes) const;
+
+private:
+    bool walks_;  // through trees
+    gl::Program list_program_, scan_program_, cull_program_, test_program_;
+};
+
+}  // namespace gelatin::gpu

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+
+#include "gelatin/scene.h"
+#include "gpu/collision/collision_buffers.h"
+#include "gpu/collision/object_tree.h"
+#include "gpu/depth/cull_by_depth.h"
+
+namespace gelatin::gpu {
+
+/// The pairs of objects that may touch, each object's in a row:
+/// shaders/sim/collision/count_object_pairs.comp, scan_pair_rows.comp, list_object_pairs.comp.
+class FindObjectPairs {
+public:
+    FindObjectPairs(const Model& model, BroadPhase broad_phase);
+    /// Ends with the barriers that the next stage needs.
+    void run(const ModelBuffers& model, const CollisionBuffers& collision, const NodeBuffers& nodes);
+
+private:
+    BroadPhase broad_phase_;
+    std::optional<ObjectTree> tree_;            // with hierarchy
+    std::optional<CullByDepth> cull_by_depth_;  // with depth
+    gl::Program count_program_, scan_program_, list_program_;
+};
+
+}  // namespace gelatin::gpu

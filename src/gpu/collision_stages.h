@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+
+#include "gpu/collision/find_face_collisions.h"
+#include "gpu/collision/find_object_pairs.h"
+#include "gpu/collision/find_self_collisions.h"
+#include "gpu/collision/respond.h"
+#include "gpu/collision/respond_to_self.h"
+#include "gpu/collision/update_boxes.h"
+#include "gpu/proximity/find_proximities.h"
+
+namespace gelatin::gpu {
+
+/// The collision level of a step (paper 3.1): its buffers, and its stages in their order. Nothing waits for
+/// the GPU: what a stage finds drives the dispatches of the next.
+struct Collision {
+    CollisionBuffers buffers;
+    UpdateBoxes update_boxes;
+    FindObjectPairs find_object_pairs;
+    FindFaceCollisions find_face_collisions;
+    Respond respond;
+
+    /// The same for faces of one object.
+    struct Self {
+        SelfCollisionBuffers buffers;
+        FindSelfCollisions find;
+        RespondToSelf respond;
+    };
+    std::optional<Self> self;
+
+    /// What is near.
+    struct Near {
+        ProximityBuffers buffers;
+        FindProximities find;
+    };
+    std::optional<Near> near;
+
+    Collision(const Model& model, const CollisionSettings& settings)
+        : buffers(model),
+          update_boxes(settings.detection, settings.proximity_radius.value_or(0.0)),
+          find_object_pairs(model, settings.broad_phase),
+          find_face_collisions(settings),
+          respond(model, buffers, settings) {
+        if (settings.self_collision) {
+            self.emplace(
+                Self{SelfCollisionBuffers(model), FindSelfCollisions(model), RespondToSelf(model, settings)});
+        }
+        if (settings.proximity_radius) {
+            near.emplace(Near{ProximityBuffers(model, buffers),
+                              FindProximities(*settings.proximity_radius, settings.self_collision)});
+        }
+    }
+};
+
+}  // namespace gelatin::gpu

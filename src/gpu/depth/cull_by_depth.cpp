@@ -1,0 +1,109 @@
+#include "gpu/depth/cull_by_depth.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+#include <string>
+
+#include "gl/debug.h"
+#include "gl/draw_state.h"
+
+namespace gelatin::gpu {
+namespace {
+
+constexpr int kResolution = 256;  // [pixels a side]
+constexpr std::uint32_t kBeginLanes = 256;
+
+gl::Program make_pass(const char* fragment_file) {
+    return gl::Program::graphics_with_geometry("sim/depth/draw_face.vert", "sim/depth/face_footprint.geom",
+                                               fragment_file);
+}
+
+gl::Buffer<std::uint32_t> count_up(std::size_t size) {
+    std::vector<std::uint32_t> numbers(size);
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    return gl::Buffer<std::uint32_t>(std::span<const std::uint32_t>(numbers));
+}
+
+}  // namespace
+
+gl::Defines CullByDepth::defines() {
+    return {"VIEW_COUNT " + std::to_string(kViews)};
+}
+
+CullByDepth::CullByDepth(const Model& model)
+    : begin_program_(gl::Program::compute("sim/depth/begin_views.comp", defines())),
+      nearest_program_(make_pass("sim/depth/nearest_surface.frag")),
+      other_program_(make_pass("sim/depth/nearest_other_surface.frag")),
+      hidden_program_(make_pass("sim/depth/find_hidden_faces.frag")),
+      layers_(kResolution),
+      all_faces_(count_up(model.faces.size())),
+      hidden_faces_{gl::Buffer<std::uint32_t>(model.faces.size()),
+                    gl::Buffer<std::uint32_t>(model.faces.size())},
+      draws_(kViews + 1),
+      view_space_(2),
+      all_face_texels_(all_faces_, gl::TexelFormat::r32ui),
+      hidden_face_texels_{{hidden_faces_[0], gl::TexelFormat::r32ui},
+                          {hidden_faces_[1], gl::TexelFormat::r32ui}},
+      view_space_texels_(view_space_, gl::TexelFormat::rgba32f) {
+    glGenVertexArrays(1, &vertex_array_);
+}
+
+CullByDepth::~CullByDepth() {
+    glDeleteVertexArrays(1, &vertex_array_);
+}
+
+void CullByDepth::run(const ModelBuffers& model, const CollisionBuffers& collision,
+                      const NodeBuffers& nodes) const {
+    begin(collision);
+    const gl::DrawStateGuard guard;
+    glViewport(0, 0, kResolution, kResolution);
+    glBindVertexArray(vertex_array_);
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, draws_.id());
+    nodes.position_texels.bind(1);
+    model.face_texels.bind(2);
+    view_space_texels_.bind(3);
+    layers_.bind_textures();
+    for (unsigned view = 0; view < kViews; ++view) draw_view(view);
+    gl::check_errors("culling by depth");
+}
+
+void CullByDepth::begin(const CollisionBuffers& collision) const {
+    const auto faces = static_cast<std::uint32_t>(collision.face_views.size());
+    collision.bounding_boxes.bind_storage(0);
+    collision.face_views.bind_storage(1);
+    collision.object_views.bind_storage(2);
+    draws_.bind_storage(3);
+    view_space_.bind_storage(4);
+    begin_program_.set("face_count", faces);
+    begin_program_.set("object_count", collision.object_count);
+    begin_program_.dispatch(std::max({faces, collision.object_count, kViews + 1}), kBeginLanes);
+    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch | gl::Barrier::command);
+}
+
+void CullByDepth::draw_view(unsigned view) const {
+    (view == 0 ? all_face_texels_ : hidden_face_texels_[(view - 1) % 2]).bind(0);
+    hidden_faces_[view % 2].bind_storage(4);
+    glEnable(GL_DEPTH_TEST);
+    layers_.begin_nearest();
+    draw_faces(nearest_program_, view);
+    layers_.begin_nearest_other();
+    draw_faces(other_program_, view);
+    glDisable(GL_DEPTH_TEST);
+    layers_.begin_comparison();
+    hidden_program_.set("view", view + 1);
+    draw_faces(hidden_program_, view);
+    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch | gl::Barrier::command);
+}
+
+void CullByDepth::draw_faces(const gl::Program& program, unsigned view) const {
+    program.set("axis", view % 3);
+    program.set("from_behind", view / 3);
+    program.set("resolution", static_cast<float>(kResolution));
+    program.use();
+    glDrawArraysIndirect(GL_POINTS, std::bit_cast<const void*>(view * sizeof(Draw)));
+}
+
+}  // namespace gelatin::gpu

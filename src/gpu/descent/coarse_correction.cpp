@@ -1,0 +1,149 @@
+#include "gpu/descent/coarse_correction.h"
+
+#include <bit>
+#include <utility>
+
+namespace gelatin::gpu {
+namespace {
+
+std::vector<glm::uvec2> packed(const std::vector<CoarseBasis::Part>& parts) {
+    std::vector<glm::uvec2> result;
+    for (const CoarseBasis::Part& part : parts)
+        result.emplace_back(part.index, std::bit_cast<std::uint32_t>(part.weight));
+    return result;
+}
+
+std::vector<ClusterRest> rests_of(const CoarseBasis& basis) {
+    std::vector<ClusterRest> rests;
+    for (std::uint32_t o = 0; o < basis.objects.size(); ++o) {
+        const Range& clusters = basis.objects[o];
+        for (std::uint32_t k = clusters.first; k < clusters.end(); ++k) {
+            rests.push_back({glm::vec4(glm::vec3(basis.middles[k]), 0.0f), o, basis.core_starts[k],
+                             basis.core_starts[k + 1], 6 * (k - clusters.first)});
+        }
+    }
+    return rests;
+}
+
+std::vector<CoarseBody> bodies_of(const CoarseBasis& basis) {
+    std::vector<CoarseBody> bodies;
+    std::uint32_t matrix = 0;
+    for (std::size_t o = 0; o < basis.objects.size(); ++o) {
+        const Range& clusters = basis.objects[o];
+        bodies.push_back({clusters.first, clusters.count, matrix, static_cast<float>(basis.lengths[o])});
+        matrix += 36 * clusters.count * clusters.count;
+    }
+    return bodies;
+}
+
+std::vector<float> inverses_of(const std::vector<CoarseMatrices>& matrices, double step) {
+    std::vector<float> result;
+    for (const CoarseMatrices& m : matrices) {
+        if (m.inertia.size() == 0) continue;
+        const Eigen::MatrixXf inverse = m.inverse(step).cast<float>();
+        result.insert(result.end(), inverse.data(), inverse.data() + inverse.size());
+    }
+    return result;
+}
+
+}  // namespace
+
+CoarseCorrection::CoarseCorrection(const Model& model, const CoarseBasis& basis)
+    : turn_program_(gl::Program::compute("sim/descent/rotate_clusters.comp")),
+      load_program_(gl::Program::compute("sim/descent/load_clusters.comp")),
+      move_program_(gl::Program::compute("sim/descent/move_clusters.comp")),
+      way_program_(gl::Program::compute("sim/descent/find_displacements.comp")),
+      sum_program_(gl::Program::compute("sim/descent/apply_displacements.comp", {"SUMS"})),
+      factor_program_(gl::Program::compute("sim/descent/apply_displacements.comp", {"OBJECTS"})),
+      follow_program_(gl::Program::compute("sim/descent/apply_displacements.comp")),
+      node_count_(model.node_count()),
+      cluster_count_(basis.cluster_count()),
+      object_count_(static_cast<std::uint32_t>(model.objects.size())) {
+    matrices_ = make_coarse_matrices(model, basis);
+    rests_ = gl::Buffer<ClusterRest>(rests_of(basis));
+    clusters_ = gl::Buffer<Cluster>(cluster_count_);
+    bodies_ = gl::Buffer<CoarseBody>(bodies_of(basis));
+    core_nodes_ = {basis.core_nodes, gl::TexelFormat::r32ui};
+    cluster_starts_ = {basis.cluster_starts, gl::TexelFormat::r32ui};
+    node_starts_ = {basis.node_starts, gl::TexelFormat::r32ui};
+    cluster_parts_ = {packed(basis.cluster_parts), gl::TexelFormat::rg32ui};
+    node_parts_ = {packed(basis.node_parts), gl::TexelFormat::rg32ui};
+    rest_positions_ = {model.positions, gl::TexelFormat::rgba32f};
+    for (gl::Buffer<glm::vec4>* by_node : {&forces_, &forces_ahead_, &ways_, &ahead_})
+        *by_node = gl::Buffer<glm::vec4>(node_count_);
+    loads_ = gl::Buffer<float>(std::size_t{6} * cluster_count_);
+    factors_ = gl::Buffer<float>(object_count_);
+    ahead_texels_ = {ahead_, gl::TexelFormat::rgba32f};
+}
+
+void CoarseCorrection::begin(double step) {
+    if (step != step_) {
+        inverses_ = gl::Buffer<float>(inverses_of(matrices_, step));
+        step_ = step;
+    }
+    core_nodes_.bind(3);
+    rest_positions_.bind(4);
+    rests_.bind_storage(3);
+    clusters_.bind_storage(4);
+    turn_program_.set("cluster_count", cluster_count_);
+    turn_program_.dispatch(std::size_t{64} * cluster_count_);
+    gl::barrier(gl::Barrier::storage);
+}
+
+void CoarseCorrection::bind_forces(bool is_ahead) const {
+    ways_.bind_storage(4);
+    (is_ahead ? forces_ahead_ : forces_).bind_storage(5);
+}
+
+void CoarseCorrection::find_ways() const {
+    cluster_starts_.bind(3);
+    cluster_parts_.bind(4);
+    forces_.bind_storage(3);
+    clusters_.bind_storage(4);
+    loads_.bind_storage(5);
+    load_program_.set("cluster_count", cluster_count_);
+    load_program_.dispatch(std::size_t{64} * cluster_count_);
+    gl::barrier(gl::Barrier::storage);
+
+    rests_.bind_storage(3);
+    inverses_.bind_storage(6);
+    bodies_.bind_storage(7);
+    move_program_.set("cluster_count", cluster_count_);
+    move_program_.dispatch(cluster_count_);
+    gl::barrier(gl::Barrier::storage);
+
+    node_starts_.bind(3);
+    node_parts_.bind(4);
+    ways_.bind_storage(5);
+    ahead_.bind_storage(6);
+    way_program_.set("node_count", node_count_);
+    way_program_.dispatch(node_count_);
+    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
+}
+
+void CoarseCorrection::follow_ways(const gl::Buffer<Chunk>& chunks,
+                                   const gl::TexelTable<std::uint32_t>& chunk_starts) {
+    const auto chunk_count = static_cast<std::uint32_t>(chunks.size());
+    if (sums_.size() != chunks.size()) sums_ = gl::Buffer<glm::vec4>(chunks.size());
+    chunks.bind_storage(3);
+    sums_.bind_storage(4);
+    ways_.bind_storage(5);
+    forces_.bind_storage(6);
+    forces_ahead_.bind_storage(7);
+    sum_program_.set("element_count", chunk_count);
+    sum_program_.dispatch(64 * chunks.size());
+    gl::barrier(gl::Barrier::storage);
+
+    chunk_starts.bind(3);
+    factors_.bind_storage(6);
+    bodies_.bind_storage(7);
+    factor_program_.set("element_count", object_count_);
+    factor_program_.dispatch(object_count_);
+    gl::barrier(gl::Barrier::storage);
+
+    follow_program_.set("element_count", chunk_count);
+    follow_program_.dispatch(64 * chunks.size());
+    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
+}
+
+}  // namespace gelatin::gpu

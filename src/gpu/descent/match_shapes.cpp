@@ -1,0 +1,75 @@
+#include "gpu/descent/match_shapes.h"
+
+#include <span>
+
+#include "gpu/chunks.h"
+#include "model/descent/descent_rows.h"
+#include "model/descent/match_shapes.h"
+
+namespace gelatin::gpu {
+namespace {
+
+std::vector<glm::vec4> volumes_of(const Model& model) {
+    std::vector<glm::vec4> volumes;
+    for (const TetRest& rest : model.tet_rests) volumes.emplace_back(rest.volume, 0.0f, 0.0f, 0.0f);
+    return volumes;
+}
+
+}  // namespace
+
+ShapeMatcher::ShapeMatcher(const Model& model)
+    : count_program_(gl::Program::compute("sim/descent/count_inverted_tets.comp")),
+      sum_program_(gl::Program::compute("sim/descent/match_shapes.comp")),
+      match_program_(gl::Program::compute("sim/descent/match_shapes.comp", {"OBJECTS"})),
+      place_program_(gl::Program::compute("sim/descent/place_shapes.comp")),
+      node_count_(model.node_count()),
+      tet_count_(static_cast<std::uint32_t>(model.tets.size())),
+      object_count_(static_cast<std::uint32_t>(model.objects.size())),
+      tets_(model.tets, gl::TexelFormat::rgba32ui),
+      tet_rests_(volumes_of(model), gl::TexelFormat::rgba32f),
+      node_objects_(objects_of_nodes(model), gl::TexelFormat::r32ui),
+      inverted_(model.objects.size()),
+      places_(model.objects.size()) {
+    const MatchShapes shapes = make_match_shapes(model);
+    rest_offsets_ = {shapes.offsets, gl::TexelFormat::rgba32f};
+    rest_moments_ = gl::Buffer<RestMoment>(shapes.objects);
+    const std::vector<Chunk> chunks = make_chunks(model, &ModelObject::nodes);
+    chunks_ = gl::Buffer<Chunk>(chunks);
+    chunk_starts_ = {chunk_starts(chunks, model.objects.size()), gl::TexelFormat::r32ui};
+    sums_ = gl::Buffer<ShapeSums>(chunks.size());
+    inverted_.fill(0);
+}
+
+void ShapeMatcher::run(const NodeBuffers& nodes) const {
+    nodes.position_texels.bind(0);
+    tets_.bind(9);
+    tet_rests_.bind(10);
+    node_objects_.bind(12);
+    inverted_.bind_storage(4);
+    count_program_.set("tet_count", tet_count_);
+    count_program_.dispatch(tet_count_);
+    gl::barrier(gl::Barrier::storage);
+
+    nodes.velocity_texels.bind(2);
+    chunk_starts_.bind(3);
+    rest_offsets_.bind(4);
+    rest_moments_.bind_storage(2);
+    chunks_.bind_storage(3);
+    sums_.bind_storage(5);
+    places_.bind_storage(6);
+    sum_program_.set("element_count", static_cast<std::uint32_t>(chunks_.size()));
+    sum_program_.dispatch(64 * chunks_.size());
+    gl::barrier(gl::Barrier::storage);
+
+    match_program_.set("element_count", object_count_);
+    match_program_.dispatch(object_count_);
+    gl::barrier(gl::Barrier::storage);
+
+    nodes.positions.bind_storage(0);
+    nodes.velocities.bind_storage(1);
+    place_program_.set("node_count", node_count_);
+    place_program_.dispatch(node_count_);
+    gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::storage);
+}
+
+}  // namespace gelatin::gpu

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+
+#include "gl/buffer.h"
+#include "gl/program.h"
+#include "gpu/node_buffers.h"
+#include "model/model.h"
+
+namespace gelatin::gpu {
+
+/// Moves what handles hold: shaders/sim/drive/apply_kinematics.comp. CPU twin: cpu::apply_kinematics.
+class ApplyKinematics {
+public:
+    /// @pre the model has pins or handles
+    explicit ApplyKinematics(const Model& model);
+
+    /// Ends with the barrier that whoever gathers the nodes as textures or storage needs.
+    void run(std::span<const HandleMotion> motions, const NodeBuffers& nodes);
+
+private:
+    gl::Program program_;
+    gl::Buffer<HandleNode> handle_nodes_;
+    gl::Buffer<HandleMotion> motions_;
+};
+
+}  // namespace gelatin::gpu

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "gpu/explicit/integration.h"
+
+namespace gelatin::gpu {
+
+/// Forces and integration fused: shaders/sim/explicit/advance_nodes.comp.
+class AdvanceNodes {
+public:
+    AdvanceNodes(const Model& model, const ExplicitScheme& scheme, bool pulled = false)
+        : program_(gl::Program::compute("sim/explicit/advance_nodes.comp",
+                                        integration_defines(model, scheme, pulled))) {}
+
+    /// Ends with the barrier that the next pass, and whoever gathers the nodes as textures, needs.
+    void run(const ModelBuffers& model, const Pass& pass) const;
+
+private:
+    gl::Program program_;
+};
+
+}  // namespace gelatin::gpu

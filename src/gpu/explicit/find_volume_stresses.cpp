@@ -1,0 +1,20 @@
+#include "gpu/explicit/find_volume_stresses.h"
+
+namespace gelatin::gpu {
+
+FindVolumeStresses::FindVolumeStresses(const Model& model)
+    : program_(gl::Program::compute("sim/explicit/find_volume_stresses.comp")),
+      stresses_(model.positions.size()),
+      stress_texels_(stresses_, gl::TexelFormat::r32f) {}
+
+void FindVolumeStresses::run(const ModelBuffers& model, const NodeBuffers& at) const {
+    at.position_texels.bind(0);
+    model.volume_term.bind();
+    stresses_.bind_storage(0);
+    program_.set("node_count", model.node_count);
+    program_.dispatch(model.node_count);
+    gl::barrier(gl::Barrier::texture_fetch);
+    stress_texels_.bind(11);
+}
+
+}  // namespace gelatin::gpu

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "gl/program.h"
+#include "gpu/model_buffers.h"
+#include "gpu/node_buffers.h"
+#include "model/explicit/explicit_scheme.h"
+
+namespace gelatin::gpu {
+
+/// What one pass of an explicit scheme reads and writes on the GPU (cpu::Pass is its twin).
+struct Pass {
+    const ExplicitScheme& scheme;
+    int index;
+    double step;              ///< h [s]
+    const NodeBuffers& base;  ///< at the step's start
+    const NodeBuffers& at;    ///< where forces are evaluated
+    NodeBuffers& out;
+    NodeBuffers& sums;  ///< empty for schemes of one pass
+
+    bool is_last() const { return index + 1 == scheme.pass_count; }
+};
+
+/// Defines for a shader that includes sim/explicit/integrate_node.glsl.
+/// @param pulled nodes may be held by a hand
+gl::Defines integration_defines(const Model& model, const ExplicitScheme& scheme, bool pulled = false);
+
+/// Binds and sets what sim/explicit/integrate_node.glsl reads and writes, but for what SumLoads::run and
+/// FindVolumeStresses::run bind.
+void bind_integration(const gl::Program& program, const ModelBuffers& model, const Pass& pass);
+
+}  // namespace gelatin::gpu

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "gl/program.h"
+#include "gl/readback.h"
+#include "gpu/collision/collision_buffers.h"
+#include "gpu/collision/self_collision_buffers.h"
+#include "gpu/model_buffers.h"
+#include "gpu/node_buffers.h"
+#include "gpu/proximity/proximity_buffers.h"
+#include "model/solver.h"
+
+namespace gelatin::gpu {
+
+/// Sums over each object without stalling the GPU: shaders/sim/measure/measure_nodes.comp and
+/// measure_faces.comp make partial sums that come back through a fence; the host adds them up in double
+/// precision.
+class Measure {
+public:
+    explicit Measure(const Model& model);
+
+    /// @param collision null where nothing can collide
+    /// @param self null where nothing collides with itself
+    /// @param near null where nothing near is sought
+    void begin(const ModelBuffers& model, const NodeBuffers& nodes,
+               const CollisionBuffers* collision = nullptr, const SelfCollisionBuffers* self = nullptr,
+               const ProximityBuffers* near = nullptr);
+    /// The oldest that is under way; waits for it if need be.
+    std::vector<ObjectMeasure> end();
+    /// As of the last `end`.
+    std::uint32_t lost_pairs() const { return lost_pairs_; }
+    ProximityMeasure proximities() const { return proximities_; }
+
+private:
+    void count_colliding_faces(const CollisionBuffers& collision, const SelfCollisionBuffers* self);
+
+    gl::Program node_program_, face_program_, colliding_program_;
+    std::vector<Chunk> node_chunks_, face_chunks_;
+    gl::Buffer<Chunk> node_chunk_buffer_, face_chunk_buffer_;
+    gl::Buffer<NodeSums> node_sums_;
+    gl::Buffer<float> volumes_;
+    gl::Buffer<std::uint32_t> colliding_;
+    gl::Readback readback_;
+    std::uint32_t lost_pairs_ = 0;
+    ProximityMeasure proximities_;
+    std::deque<std::uint32_t> proximity_capacities_;  // of the measurements under way; 0: none are sought
+    std::size_t object_count_;
+};
+
+}  // namespace gelatin::gpu

@@ -1,0 +1,37 @@
+#include "gpu/measure/watch_nodes.h"
+
+#include <cstring>
+
+namespace gelatin::gpu {
+
+WatchNodes::WatchNodes()
+    : program_(gl::Program::compute("sim/measure/watch_nodes.comp")),
+      alarm_(std::span<const Alarm>(&kNoAlarm, 1)) {}
+
+void WatchNodes::run(const ModelBuffers& model, const NodeBuffers& nodes, std::uint32_t step_number,
+                     double most_energy) const {
+    nodes.position_texels.bind(0);
+    nodes.velocity_texels.bind(1);
+    alarm_.bind_storage(0);
+    program_.set("node_count", model.node_count);
+    program_.set("step_number", step_number);
+    program_.set("most_energy", static_cast<float>(most_energy));
+    program_.dispatch(model.node_count);
+    gl::barrier(gl::Barrier::storage);
+}
+
+Alarm WatchNodes::alarm(bool wait) {
+    constexpr std::size_t kMostUnderWay = 2;  // a GPU that is far behind is not asked again
+    if (wait || readback_.pending() < kMostUnderWay) readback_.begin(alarm_.id(), sizeof(Alarm));
+    while (readback_.pending() > 0 && (wait || readback_.ready()))
+        std::memcpy(&known_, readback_.take().data(), sizeof(Alarm));
+    return known_;
+}
+
+void WatchNodes::forget() {
+    alarm(true);  // so that no old answer is under way
+    alarm_.upload(std::span<const Alarm>(&kNoAlarm, 1));
+    known_ = kNoAlarm;
+}
+
+}  // namespace gelatin::gpu

@@ -1,0 +1,48 @@
+#include "gpu/view/update_normals.h"
+
+namespace gelatin::gpu {
+
+UpdateNormals::UpdateNormals(const Model& model)
+    : face_program_(gl::Program::compute("sim/view/update_face_normals.comp")),
+      vertex_program_(gl::Program::compute("sim/view/update_vertex_normals.comp")),
+      faces_(std::span(model.faces)),
+      vertices_(std::span(model.surface.vertices)),
+      vertex_faces_(std::span(model.surface.vertex_faces)),
+      triangles_(std::span(model.surface.triangles)),
+      face_normals_(model.faces.size()),
+      vertex_normals_(model.surface.vertices.size()),
+      vertex_face_texels_(vertex_faces_, gl::TexelFormat::r32ui),
+      face_normal_texels_(face_normals_, gl::TexelFormat::rgba32f),
+      object_count_(static_cast<std::uint32_t>(model.objects.size())) {}
+
+void UpdateNormals::run(const gl::BufferTexture& position_texels) const {
+    position_texels.bind(0);
+    faces_.bind_storage(0);
+    face_normals_.bind_storage(1);
+    face_program_.set("face_count", static_cast<std::uint32_t>(faces_.size()));
+    face_program_.dispatch(faces_.size());
+    gl::barrier(gl::Barrier::texture_fetch);
+
+    face_normal_texels_.bind(0);
+    vertex_face_texels_.bind(1);
+    vertices_.bind_storage(0);
+    vertex_normals_.bind_storage(1);
+    vertex_program_.set("vertex_count", static_cast<std::uint32_t>(vertices_.size()));
+    vertex_program_.dispatch(vertices_.size());
+    gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::vertex_pull | gl::Barrier::storage);
+}
+
+RenderView UpdateNormals::view(const gl::Buffer<glm::vec4>& positions) const {
+    RenderView view;
+    view.node_positions = positions.id();
+    view.surface_vertices = vertices_.id();
+    view.vertex_normals = vertex_normals_.id();
+    view.triangles = triangles_.id();
+    view.node_count = static_cast<std::uint32_t>(positions.size());
+    view.vertex_count = static_cast<std::uint32_t>(vertices_.size());
+    view.face_count = static_cast<std::uint32_t>(faces_.size());
+    view.object_count = object_count_;
+    return view;
+}
+
+}  // namespace gelatin::gpu

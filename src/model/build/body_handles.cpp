@@ -1,0 +1,80 @@
+#include "model/build/body_handles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "model/build/build_model.h"
+#include "model/drive/drags.h"
+#include "model/region.h"
+#include "model/transform.h"
+
+namespace gelatin {
+namespace {
+
+double diagonal_of(const std::vector<glm::dvec3>& points) {
+    glm::dvec3 low = points.front(), high = low;
+    for (const glm::dvec3& point : points) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+    return glm::distance(low, high);
+}
+
+// A body whose end moves at a part of the speed of waves in it is strained by that part. Hard ones could be
+// dragged faster than anybody wants to: across themselves in the time that a drag lags behind, no faster.
+double most_drag_speed(const Body& body, const std::vector<glm::dvec3>& positions) {
+    const auto wave_speed = [](const Material& m) { return std::sqrt(m.youngs_modulus / m.density); };
+    double speed = wave_speed(body.material);
+    for (const Material& part : body.part_materials) speed = std::min(speed, wave_speed(part));
+    return std::min(speed / 3.0, kDragRate * diagonal_of(positions));
+}
+
+void append_handle(const HandleDescription& description, Handle handle,
+                   const std::vector<glm::dvec3>& positions, std::uint32_t first_node, Model& model) {
+    std::vector<std::uint32_t> nodes = find_inside(description.region, positions);
+    std::erase_if(nodes, [&](std::uint32_t n) { return model.positions[first_node + n].w == 0.0f; });
+    glm::dvec3 center(0.0);
+    for (const std::uint32_t n : nodes) center += positions[n] / static_cast<double>(nodes.size());
+
+    handle.pivot = description.pivot.value_or(center);
+    handle.interpolation = description.interpolation;
+    handle.keyframes = description.keyframes;
+    if (description.release) handle.release = *description.release;
+    handle.count = nodes.size();
+    handle.middle = center - handle.pivot;
+    handle.drag = {description.drag.move, rotation_from_degrees(description.drag.turn)};
+    const auto index = static_cast<std::uint32_t>(model.handles.size());
+    for (const std::uint32_t n : nodes) {
+        const std::uint32_t node = first_node + n;
+        const glm::dvec3 arm = positions[n] - handle.pivot;
+        handle.radius = std::max(handle.radius, glm::length(arm));
+        glm::vec4& position = model.positions[node];
+        model.handle_nodes.push_back({glm::vec4(glm::vec3(arm), position.w), node, index, 0, 0});
+        position.w = 0.0f;
+        model.velocities[node] = glm::vec4(0.0f, 0.0f, 0.0f, model.velocities[node].w);
+    }
+    model.handles.push_back(std::move(handle));
+}
+
+}  // namespace
+
+void append_handles(const Body& body, const std::vector<glm::dvec3>& positions, std::uint32_t first_node,
+                    Model& model) {
+    if (body.handles.empty() && body.pins.empty()) return;
+    Handle handle;
+    handle.object = model.objects.size();
+    handle.most_speed = most_drag_speed(body, positions);
+    for (handle.index = 0; handle.index < body.handles.size(); ++handle.index)
+        append_handle(body.handles[handle.index], handle, positions, first_node, model);
+    handle.is_pin = true;
+    for (handle.index = 0; handle.index < body.pins.size(); ++handle.index) {
+        HandleDescription rests;
+        rests.region = body.pins[handle.index];
+        append_handle(rests, handle, positions, first_node, model);
+    }
+}
+
+}  // namespace gelatin

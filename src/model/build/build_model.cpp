@@ -1,0 +1,340 @@
+#include "model/build/build_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "gelatin/error.h"
+#include "mesh/topology.h"
+#include "model/build/body_handles.h"
+#include "model/build/draw_surface.h"
+#include "model/build/object_mesh.h"
+#include "model/build/tet_materials.h"
+#include "model/collision/box_tree.h"
+#include "model/collision/node_faces.h"
+#include "model/collision/pack_colliders.h"
+#include "model/collision/surface_parts.h"
+#include "model/drive/check_regions.h"
+#include "model/elasticity/neo_hookean.h"
+#include "model/elasticity/volume_term.h"
+#include "model/region.h"
+#include "model/spring_packing.h"
+#include "model/springs/spring_moduli.h"
+#include "model/springs/springs.h"
+
+namespace gelatin {
+namespace {
+
+// Sorting all of a small object by degree evens out the slices; in a large one that would undo its locality.
+constexpr std::size_t kSmallObject = 8192;
+constexpr std::uint32_t kSortWindow = 256;
+constexpr double kCreaseAngle = 0.7;  // 40 degrees: flatter edges are drawn smooth
+
+// Faces in the order of the tree that is built over them.
+void arrange_faces(TetMesh& mesh) {
+    std::vector<glm::dvec3> centers;
+    for (const glm::uvec3& f : mesh.faces)
+        centers.push_back((mesh.positions[f.x] + mesh.positions[f.y] + mesh.positions[f.z]) / 3.0);
+    const std::vector<glm::uvec3> faces = mesh.faces;
+    std::size_t place = 0;
+    for (const std::uint32_t face : box_tree_order(centers)) mesh.faces[place++] = faces[face];
+}
+
+// A body's mesh with its nodes in an order that keeps neighbours near each other.
+struct Arranged {
+    TetMesh mesh;
+    std::vector<std::uint32_t> new_index;  // by the index that a node had
+    std::vector<std::size_t> old_tets;     // the index that each tet had
+};
+
+Arranged arranged(const TetMesh& mesh, const std::vector<glm::uvec2>& edges) {
+    const Graph graph = make_graph(mesh.positions.size(), edges);
+    const auto count = static_cast<std::uint32_t>(mesh.positions.size());
+    const std::vector<std::uint32_t> order =
+        locality_order(graph, count <= kSmallObject ? count : kSortWindow);
+
+    std::vector<std::uint32_t> new_index(count);
+    for (std::uint32_t n = 0; n < count; ++n) new_index[order[n]] = n;
+    TetMesh result;
+    for (const std::uint32_t old : order) result.positions.push_back(mesh.positions[old]);
+    const auto renamed = [&](const glm::uvec4& t) {
+        return glm::uvec4(new_index[t.x], new_index[t.y], new_index[t.z], new_index[t.w]);
+    };
+    const auto least_node = [&](std::size_t tet) {
+        const glm::uvec4 t = renamed(mesh.tets[tet]);
+        return std::min(std::min(t.x, t.y), std::min(t.z, t.w));
+    };
+    std::vector<std::size_t> old_tets(mesh.tets.size());
+    std::iota(old_tets.begin(), old_tets.end(), std::size_t{0});
+    std::stable_sort(old_tets.begin(), old_tets.end(),
+                     [&](std::size_t a, std::size_t b) { return least_node(a) < least_node(b); });
+    for (const std::size_t old : old_tets) result.tets.push_back(renamed(mesh.tets[old]));
+    for (const glm::uvec3& f : mesh.faces)
+        result.faces.emplace_back(new_index[f.x], new_index[f.y], new_index[f.z]);
+    arrange_faces(result);
+    return {std::move(result), std::move(new_index), std::move(old_tets)};
+}
+
+float checked_float(double value, const std::string& object, const char* what) {
+    if (value > 0.0 && value >= std::numeric_limits<float>::min() &&
+        value <= std::numeric_limits<float>::max()) {
+        return static_cast<float>(value);
+    }
+    throw InvalidInput(
+        {{},
+         0,
+         "object '" + object + "'",
+         {},
+         fmt::format("{} is {:.3g}, beyond what single precision holds; check density, scale and stiffness",
+                     what, value)});
+}
+
+void append_nodes(Model& model, const Body& body, const Arranged& arranged) {
+    const TetMesh& mesh = arranged.mesh;
+    std::vector<double> masses(mesh.positions.size(), 0.0), damping(masses);
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        const Material& material = body.material_of(arranged.old_tets[t]);
+        const double quarter = 0.25 * material.density * tet_volume(mesh, mesh.tets[t]);
+        for (int k = 0; k < 4; ++k) {
+            masses[mesh.tets[t][k]] += quarter;
+            damping[mesh.tets[t][k]] += quarter * material.damping;
+        }
+    }
+    glm::dvec3 center(0.0);  // of mass
+    double sum = 0.0;
+    for (std::size_t n = 0; n < masses.size(); ++n) {
+        center += masses[n] * mesh.positions[n];
+        sum += masses[n];
+    }
+    center /= sum;
+    const bool has_parts = !body.tet_materials.empty();
+    for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
+        const float mass = checked_float(masses[n], body.name, "a node's mass [kg]");
+        const glm::dvec3 velocity = body.velocity + glm::cross(body.spin, mesh.positions[n] - center);
+        model.positions.emplace_back(glm::vec3(mesh.positions[n]), 1.0f / mass);
+        model.velocities.emplace_back(
+            glm::vec3(velocity),
+            static_cast<float>(has_parts ? damping[n] / masses[n] : body.material.damping));
+        model.masses.push_back(mass);
+    }
+}
+
+bool has_springs(const Body& body) {
+    return body.material.model == MaterialModel::mass_spring;
+}
+
+// Pairs of nodes that pull at each other, as the body's mesh counts them.
+std::vector<glm::uvec2> joined_nodes(const Body& body, const FittedSprings* fitted) {
+    if (!has_springs(body)) return tet_edges(body.mesh.tets);
+    std::vector<glm::uvec2> nodes;
+    if (fitted != nullptr) {
+        for (const UnitSpring& spring : fitted->springs) nodes.push_back(spring.nodes);
+    } else {
+        for (const Spring& spring : make_springs(body.mesh, *body.material.springs, 1.0))
+            nodes.emplace_back(spring.i, spring.j);
+    }
+    return nodes;
+}
+
+// Fitted springs for the body's material and size, in ascending order of nodes.
+std::vector<Spring> scaled_springs(const Body& body, const Arranged& arranged, const FittedSprings& fitted) {
+    const double mu = shear_modulus(body.material);
+    std::vector<Spring> springs;
+    for (const UnitSpring& unit : fitted.springs) {
+        const std::uint32_t a = arranged.new_index[unit.nodes.x], b = arranged.new_index[unit.nodes.y];
+        const double length = glm::distance(arranged.mesh.positions[a], arranged.mesh.positions[b]);
+        const double stiffness = mu * body.scale * unit.stiffness;
+        springs.push_back(
+            {std::min(a, b), std::max(a, b), static_cast<float>(length), static_cast<float>(stiffness)});
+    }
+    std::sort(springs.begin(), springs.end(),
+              [](const Spring& a, const Spring& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
+    return springs;
+}
+
+// From springs as stiff as the body's own material makes them to those that its parts make.
+void adapt_to_parts(const Body& body, const Arranged& arranged, std::vector<Spring>& springs) {
+    if (body.tet_materials.empty()) return;
+    std::vector<double> tet_moduli;
+    for (const std::size_t old : arranged.old_tets)
+        tet_moduli.push_back(shear_modulus(body.material_of(old)));
+    std::vector<glm::uvec2> nodes;
+    for (const Spring& spring : springs) nodes.emplace_back(spring.i, spring.j);
+    const std::vector<double> moduli = spring_moduli(arranged.mesh, tet_moduli, nodes);
+    for (std::size_t s = 0; s < springs.size(); ++s) {
+        const double factor = moduli[s] / shear_modulus(body.material);
+        springs[s].stiffness = static_cast<float>(factor * static_cast<double>(springs[s].stiffness));
+    }
+}
+
+std::vector<Spring> springs_of(const Body& body, const Arranged& arranged, const FittedSprings* fitted) {
+    std::vector<Spring> springs = fitted != nullptr
+                                      ? scaled_springs(body, arranged, *fitted)
+                                      : make_springs(arranged.mesh, *body.material.springs,
+                                                     shear_modulus(body.material) / kShearOverYoungs);
+    adapt_to_parts(body, arranged, springs);
+    return springs;
+}
+
+void append_springs(Model& model, const std::vector<Spring>& springs, const std::string& object,
+                    std::uint32_t first_node) {
+    for (Spring spring : springs) {
+        checked_float(static_cast<double>(spring.stiffness), object, "a spring's stiffness [N/m]");
+        spring.i += first_node;
+        spring.j += first_node;
+        model.springs.push_back(spring);
+    }
+}
+
+NeoHookeanModuli moduli_of(const Material& material) {
+    return neo_hookean_moduli(material.youngs_modulus, material.poisson_ratio);
+}
+
+void append_neo_hookean_tets(Model& model, const Body& body, const Arranged& arranged,
+                             std::uint32_t first_node) {
+    const std::vector<glm::dvec3>& positions = arranged.mesh.positions;
+    for (std::size_t t = 0; t < arranged.mesh.tets.size(); ++t) {
+        const NeoHookeanModuli moduli = moduli_of(body.material_of(arranged.old_tets[t]));
+        checked_float(moduli.mu, body.name, "a tet's mu [Pa]");
+        checked_float(moduli.lambda + moduli.kappa, body.name, "a tet's lambda [Pa]");
+        const glm::uvec4& tet = arranged.mesh.tets[t];
+        model.neo_hookean_tets.push_back(make_neo_hookean_tet(
+            tet + first_node, {positions[tet.x], positions[tet.y], positions[tet.z], positions[tet.w]},
+            moduli));
+    }
+}
+
+NodeTets make_neo_hookean_corners(const Model& model) {
+    std::vector<glm::uvec4> nodes;
+    for (const NeoHookeanTet& tet : model.neo_hookean_tets) nodes.push_back(nodes_of(tet));
+    return nodes.empty() ? NodeTets() : make_node_tets(model.node_count(), nodes);
+}
+
+// Null where the material names the paper's springs, or has none.
+std::shared_ptr<const FittedSprings> fitted_springs(const Body& body) {
+    if (!has_springs(body) || body.material.springs) return nullptr;
+    return body.fitted ? body.fitted : std::make_shared<const FittedSprings>(fit_springs(body.mesh));
+}
+
+void append_body(Model& model, const Body& body) {
+    const auto size = [](const auto& array) { return static_cast<std::uint32_t>(array.size()); };
+    const std::shared_ptr<const FittedSprings> fitted = fitted_springs(body);
+    const Arranged order = arranged(body.mesh, joined_nodes(body, fitted.get()));
+    const TetMesh& mesh = order.mesh;
+
+    ModelObject object;
+    object.name = body.name;
+    object.color = body.color;
+    object.nodes = {size(model.positions), size(mesh.positions)};
+    object.tets = {size(model.tets), size(mesh.tets)};
+    object.faces = {size(model.faces), size(mesh.faces)};
+    object.springs.first = size(model.springs);
+
+    const std::uint32_t first = object.nodes.first;
+    append_nodes(model, body, order);
+    object.handle_nodes.first = size(model.handle_nodes);
+    append_handles(body, mesh.positions, first, model);
+    object.handle_nodes.count = size(model.handle_nodes) - object.handle_nodes.first;
+    append_loads(body.loads, mesh, std::span(model.masses).subspan(first), first, model.loads);
+    if (has_springs(body)) append_springs(model, springs_of(body, order, fitted.get()), body.name, first);
+    object.springs.count = size(model.springs) - object.springs.first;
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        const Material& material = body.material_of(order.old_tets[t]);
+        const double volume = tet_volume(mesh, mesh.tets[t]);
+        object.rest_volume += volume;
+        object.mass += volume * material.density;
+        model.tets.push_back(mesh.tets[t] + first);
+        model.shear_moduli.push_back(static_cast<float>(shear_modulus(material)));
+        const double kappa = has_springs(body) ? lacking_modulus(material) : moduli_of(material).kappa;
+        model.tet_rests.push_back({checked_float(volume, body.name, "a tet's volume [m^3]"),
+                                   has_springs(body) ? static_cast<float>(material.youngs_modulus) : 0.0f,
+                                   static_cast<float>(bulk_modulus(material) - kappa),
+                                   static_cast<float>(kappa)});
+    }
+    object.neo_hookean_tets.first = size(model.neo_hookean_tets);
+    if (!has_springs(body)) append_neo_hookean_tets(model, body, order, first);
+    object.neo_hookean_tets.count = size(model.neo_hookean_tets) - object.neo_hookean_tets.first;
+    for (const glm::uvec3& f : mesh.faces) {
+        model.faces.push_back({f.x + first, f.y + first, f.z + first, size(model.objects)});
+    }
+    append_box_tree(object.faces, model.face_trees);
+    append_draw_surface(model.positions, model.faces, object.faces, kCreaseAngle, model.surface);
+    model.objects.push_back(std::move(object));
+}
+
+const Material& find_material(const Scene& scene, const ObjectDescription& object, const std::string& name,
+                              int line) {
+    const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                    [&](const Material& m) { return m.name == name; });
+    if (found != scene.materials.end()) return *found;
+    throw InvalidInput(
+        {scene.file.string(), line, "object." + object.name + ".material", name, "no such material"});
+}
+
+void add_parts(const Scene& scene, const ObjectDescription& object, Body& body) {
+    for (const PartDescription& part : object.parts) {
+        const Material& material = find_material(scene, object, part.material, part.line);
+        body.part_materials.push_back(material);
+        if (material.model != body.material.model || material.springs != body.material.springs) {
+            throw InvalidInput({scene.file.string(), part.line, "object." + object.name + ".part.material",
+                                part.material,
+                                fmt::format("must have the same model and springs as the object's own, '{}'",
+                                            object.material)});
+        }
+    }
+    body.tet_materials = choose_tet_materials(object, body.mesh, scene.file.string());
+}
+
+Body make_body(const Scene& scene, const ObjectDescription& object, ObjectMesher& mesher) {
+    Body body;
+    body.name = object.name;
+    body.mesh = mesher.make(object);
+    body.material = find_material(scene, object, object.material, object.line);
+    add_parts(scene, object, body);
+    body.velocity = object.velocity;
+    body.spin = glm::radians(object.spin);
+    body.pins = object.pins;
+    body.handles = object.handles;
+    body.loads = object.loads;
+    if (has_springs(body) && !body.material.springs) body.fitted = mesher.fit(object);
+    body.scale = object.scale;
+    if (object.color) body.color = glm::vec3(*object.color);
+    check_regions(scene.file, object, body.mesh);
+    return body;
+}
+
+}  // namespace
+
+Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDescription>& colliders,
+                  const glm::dvec3& gravity) {
+    Model model;
+    for (const Body& body : bodies) append_body(model, body);
+    model.colliders = pack_colliders(colliders);
+    model.gravity = glm::vec3(gravity);
+    model.half_springs = pack_half_springs(model.node_count(), model.springs);
+    model.incidence = make_incidence(model.node_count(), model.springs);
+    model.neo_hookean_corners = make_neo_hookean_corners(model);
+    model.node_faces = make_node_faces(model.node_count(), model.faces);
+    model.surface_parts = make_surface_parts(model.faces, model.node_faces);
+    model.volume_term =
+        make_volume_term(model.tets, model.tet_rests, make_node_tets(model.node_count(), model.tets));
+    return model;
+}
+
+Model build_model(const Scene& scene) {
+    std::vector<Body> bodies;
+    ObjectMesher mesher;
+    for (const ObjectDescription& object : scene.objects) bodies.push_back(make_body(scene, object, mesher));
+    Model model = pack_bodies(bodies, scene.colliders, scene.simulation.gravity);
+    if (scene.collision.self_collision) model.rest_shapes = make_rest_shapes(model);
+    return model;
+}
+
+}  // namespace gelatin

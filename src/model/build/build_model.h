@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+
+#include "gelatin/scene.h"
+#include "mesh/tet_mesh.h"
+#include "model/model.h"
+#include "model/springs/fit_springs.h"
+
+namespace gelatin {
+
+/// One body ready to be packed: tets in world coordinates and what they are made of.
+struct Body {
+    std::string name;
+    TetMesh mesh;
+    Material material;
+    glm::dvec3 velocity{0.0};  ///< [m/s]
+    glm::dvec3 spin{0.0};      ///< about the centre of mass [rad/s]
+    std::vector<Region> pins;
+    std::vector<HandleDescription> handles;
+    std::vector<LoadDescription> loads;
+    glm::vec3 color{-1.0f};  ///< linear RGB; negative: the renderer's palette
+
+    /// Materials of parts, with springs of the same kinds as `material`'s, and which each tet has: 0 is
+    /// `material`, m part_materials[m - 1], shape [tets]; empty: `material` alone.
+    std::vector<Material> part_materials;
+    std::vector<std::uint32_t> tet_materials;
+
+    /// Of a material without kinds of springs: those fitted to the mesh before it was scaled; empty:
+    /// pack_bodies fits.
+    std::shared_ptr<const FittedSprings> fitted;
+    double scale = 1.0;  ///< of the mesh, since `fitted`
+
+    /// Of a tet of `mesh`.
+    const Material& material_of(std::size_t tet) const {
+        const std::uint32_t m = tet_materials.empty() ? 0 : tet_materials[tet];
+        return m == 0 ? material : part_materials[m - 1];
+    }
+};
+
+/// Packs bodies into the arrays of a model: nodes in an order that keeps neighbours near, lumped masses (a
+/// quarter of each tet's), springs, what is drawn.
+/// @throws InvalidInput if a number does not fit into float (stiffness, mass), or the model exceeds 2^31
+/// elements.
+Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDescription>& colliders,
+                  const glm::dvec3& gravity);
+
+/// Makes the mesh of each of the scene's objects and packs them.
+/// @throws InvalidInput as pack_bodies, ObjectMesher::make and check_regions.
+Model build_model(const Scene& scene);
+
+}  // namespace gelatin

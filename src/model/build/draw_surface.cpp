@@ -1,0 +1,108 @@
+#include "model/build/draw_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numeric>
+
+#include "mesh/topology.h"
+
+namespace gelatin {
+namespace {
+
+// Union-find over corners; corner 3 f + k is vertex k of face f.
+class CornerGroups {
+public:
+    explicit CornerGroups(std::size_t faces) : parent_(3 * faces) {
+        std::iota(parent_.begin(), parent_.end(), 0u);
+    }
+
+    std::uint32_t find(std::uint32_t corner) {
+        while (parent_[corner] != corner) corner = parent_[corner] = parent_[parent_[corner]];
+        return corner;
+    }
+    // The smaller corner becomes the root, so that groups do not depend on the order of merging.
+    void merge(std::uint32_t a, std::uint32_t b) {
+        a = find(a);
+        b = find(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<std::uint32_t> parent_;
+};
+
+std::uint32_t corner_of(const glm::uvec3& face, std::uint32_t face_index, std::uint32_t node) {
+    for (int k = 0; k < 3; ++k) {
+        if (face[k] == node) return 3 * face_index + static_cast<std::uint32_t>(k);
+    }
+    return 3 * face_index;
+}
+
+glm::dvec3 unit_normal(std::span<const glm::vec4> positions, const glm::uvec3& face) {
+    const glm::dvec3 a(positions[face.x]), b(positions[face.y]), c(positions[face.z]);
+    const glm::dvec3 n = glm::cross(b - a, c - a);
+    const double length = glm::length(n);
+    return length > 0.0 ? n / length : glm::dvec3(0.0);
+}
+
+CornerGroups group_smooth_corners(std::span<const glm::vec4> positions, const std::vector<glm::uvec3>& faces,
+                                  double crease_angle) {
+    CornerGroups groups(faces.size());
+    const double smooth_cosine = std::cos(crease_angle);
+    for (const SurfaceEdge& edge : surface_edges(faces)) {
+        const auto [f, g] = edge.faces;
+        if (glm::dot(unit_normal(positions, faces[f]), unit_normal(positions, faces[g])) < smooth_cosine)
+            continue;
+        for (const std::uint32_t node : {edge.nodes.x, edge.nodes.y}) {
+            groups.merge(corner_of(faces[f], f, node), corner_of(faces[g], g, node));
+        }
+    }
+    return groups;
+}
+
+}  // namespace
+
+void append_draw_surface(std::span<const glm::vec4> positions, std::span<const Face> all_faces, Range range,
+                         double crease_angle, DrawSurface& surface) {
+    // Nodes are counted from the object's first, or a thousand objects would each look through the nodes of
+    // all.
+    const std::span<const Face> own_faces = all_faces.subspan(range.first, range.count);
+    std::uint32_t first_node = std::numeric_limits<std::uint32_t>::max();
+    for (const Face& face : own_faces) first_node = std::min({first_node, face.a, face.b, face.c});
+    std::vector<glm::uvec3> faces;
+    for (const Face& face : own_faces) faces.push_back(glm::uvec3(face.a, face.b, face.c) - first_node);
+    CornerGroups groups =
+        group_smooth_corners(positions.subspan(range.count > 0 ? first_node : 0), faces, crease_angle);
+
+    // Number the groups by their nodes, so that drawing walks through memory as the simulation does.
+    std::vector<std::uint32_t> corners(3 * faces.size());
+    std::iota(corners.begin(), corners.end(), 0u);
+    const auto node_of = [&](std::uint32_t corner) {
+        return faces[corner / 3][static_cast<int>(corner % 3)];
+    };
+    std::vector<std::uint32_t> root(corners.size());
+    for (const std::uint32_t c : corners) root[c] = groups.find(c);
+    std::sort(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
+        if (node_of(a) != node_of(b)) return node_of(a) < node_of(b);
+        return root[a] != root[b] ? root[a] < root[b] : a < b;
+    });
+
+    const std::size_t first_triangle = surface.triangles.size();
+    surface.triangles.resize(first_triangle + faces.size());
+    for (std::size_t n = 0; n < corners.size(); ++n) {
+        const std::uint32_t corner = corners[n];
+        if (n == 0 || root[corner] != root[corners[n - 1]]) {
+            surface.vertices.push_back({first_node + node_of(corner), all_faces[range.first].object,
+                                        static_cast<std::uint32_t>(surface.vertex_faces.size()), 0});
+        }
+        SurfaceVertex& vertex = surface.vertices.back();
+        ++vertex.face_count;
+        surface.vertex_faces.push_back(range.first + corner / 3);
+        surface.triangles[first_triangle + corner / 3][static_cast<int>(corner % 3)] =
+            static_cast<std::uint32_t>(surface.vertices.size() - 1);
+    }
+}
+
+}  // namespace gelatin

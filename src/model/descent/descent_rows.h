@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "model/model.h"
+#include "model/spring_packing.h"
+
+namespace gelatin {
+
+/// After so many sweeps bodies move as rigid ones, and before them tets are looked at. With fewer motions
+/// stiff bodies that slide are held back by what they lie on; with fewer looks bodies gain energy that turn
+/// inside out.
+constexpr int kSweepsAMotion = 2;
+
+/// Of so many sweeps the first is followed by a coarse correction (model/descent/coarse_basis.h), which has
+/// the tets as they were looked at before it.
+constexpr int kSweepsACorrection = 6;
+static_assert(kSweepsACorrection % kSweepsAMotion == 0);
+
+/// How many corrections a step of `sweeps` has: none after the last.
+constexpr int correction_count(int sweeps) {
+    return sweeps < 2 ? 0 : (sweeps - 2) / kSweepsACorrection + 1;
+}
+
+/// How many sweeps lie between the last correction and sweep `sweep` of a step, from 0.
+constexpr int sweeps_since_correction(int sweep) {
+    return sweep == 0 ? 0 : (sweep - 1) % kSweepsACorrection;
+}
+
+/// Bodies that descend together. Bodies do not meet within a step, so batches need not wait for each other.
+struct DescentBatch {
+    Range objects, nodes, tets;
+    std::vector<Range> colors;  ///< rows
+};
+
+/// Nodes in the order in which block descent moves them: by batch, then colour, each colour filled up to
+/// whole slices of HalfSprings::kSlice rows with rows that have no node.
+struct DescentRows {
+    std::vector<std::uint32_t> nodes;  ///< kNoNode where there is none, shape [rows]
+    std::vector<DescentBatch> batches;
+    HalfSprings springs;  ///< of each row's node
+};
+
+/// @param nodes_a_batch at most, but for bodies of more
+DescentRows make_descent_rows(const Model& model,
+                              std::uint32_t nodes_a_batch = std::numeric_limits<std::uint32_t>::max());
+
+/// The object of each node, shape [nodes].
+std::vector<std::uint32_t> objects_of_nodes(const Model& model);
+
+}  // namespace gelatin

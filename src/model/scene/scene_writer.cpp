@@ -1,0 +1,264 @@
+#include "model/scene/scene_writer.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <string>
+#include <string_view>
+
+#include "core/file.h"
+#include "model/explicit/explicit_scheme.h"
+#include "model/setting_names.h"
+
+namespace gelatin {
+namespace {
+
+std::string text_of(double value) {
+    return fmt::format("{}", value);
+}
+std::string text_of(int value) {
+    return fmt::format("{}", value);
+}
+std::string text_of(bool value) {
+    return value ? "true" : "false";
+}
+template <class Vector>
+std::string list_of(const Vector& v) {
+    return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
+}
+std::string text_of(const glm::dvec3& v) {
+    return list_of(v);
+}
+std::string text_of(const glm::ivec3& v) {
+    return list_of(v);
+}
+std::string text_of(std::string_view text) {
+    std::string quoted = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') quoted += '\\';
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) {
+            quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+        } else {
+            quoted += c;
+        }
+    }
+    return quoted + "\"";
+}
+std::string text_of(const char* text) {
+    return text_of(std::string_view(text));
+}
+
+/// Keys and values, what is as usual left out: the lines of a table, or an inline one.
+class Table {
+public:
+    template <class T>
+    Table& add(const char* key, const T& value) {
+        return add_text(key, text_of(value));
+    }
+    template <class T>
+    Table& add(const char* key, const std::optional<T>& value) {
+        return value ? add(key, *value) : *this;
+    }
+    template <class T>
+    Table& add_unless(const T& usual, const char* key, const T& value) {
+        return value == usual ? *this : add(key, value);
+    }
+    Table& add_text(const char* key, const std::string& text) {
+        texts_.push_back(fmt::format("{} = {}", key, text));
+        return *this;
+    }
+
+    bool is_empty() const { return texts_.empty(); }
+    std::string lines() const { return texts_.empty() ? "" : fmt::format("{}\n", fmt::join(texts_, "\n")); }
+    std::string in_line() const { return fmt::format("{{ {} }}", fmt::join(texts_, ", ")); }
+
+private:
+    std::vector<std::string> texts_;
+};
+
+struct ShapeTable {
+    std::filesystem::path folder;  // of the file that is written
+
+    Table operator()(const SphereShape& s) const {
+        return Table().add("sphere", s.radius).add("frequency", s.frequency);
+    }
+    Table operator()(const BoxShape& s) const {
+        return Table().add("box", s.size).add("segments", s.segments);
+    }
+    Table operator()(const CapsuleShape& s) const {
+        return Table().add("capsule", s.radius).add("length", s.length).add("frequency", s.frequency);
+    }
+    Table operator()(const TextShape& s) const {
+        return Table().add("text", s.text).add("depth", s.depth).add("size", s.size).add("font", s.font);
+    }
+    // From the new file's place.
+    Table operator()(const FileShape& s) const {
+        return Table().add("file", std::filesystem::proximate(s.file, folder).string());
+    }
+};
+
+Table table_of(const Region& region) {
+    if (const auto* box = std::get_if<BoxRegion>(&region)) {
+        return Table().add_text("box", fmt::format("[{}, {}]", text_of(box->min), text_of(box->max)));
+    }
+    if (const auto* sphere = std::get_if<SphereRegion>(&region))
+        return Table().add("sphere", sphere->center).add("radius", sphere->radius);
+    const auto& half_space = std::get<HalfSpaceRegion>(region);
+    return Table().add("plane", half_space.normal).add("offset", half_space.offset);
+}
+
+Table table_of(const MesherSettings& mesher) {
+    const MesherSettings usual;
+    Table table;
+    if (mesher.kind == MesherKind::tetgen) table.add("kind", "tetgen");
+    table.add_unless(usual.quality, "quality", mesher.quality);
+    table.add("max_volume", mesher.max_volume);
+    return table.add_unless(usual.time_limit, "time_limit", mesher.time_limit);
+}
+
+Table table_of(const Keyframe& keyframe) {
+    const Keyframe usual;
+    return Table()
+        .add("time", keyframe.time)
+        .add_unless(usual.move, "move", keyframe.move)
+        .add_unless(usual.turn, "turn", keyframe.turn)
+        .add_unless(usual.scale, "scale", keyframe.scale);
+}
+
+// [{ ... }, { ... }]
+template <class Item>
+std::string list_of_tables(const std::vector<Item>& items) {
+    std::vector<std::string> texts;
+    for (const Item& item : items) texts.push_back(table_of(item).in_line());
+    return fmt::format("[{}]", fmt::join(texts, ", "));
+}
+
+Table table_of(const HandleDescription& handle) {
+    Table table;
+    table.add_text("region", table_of(handle.region).in_line()).add("pivot", handle.pivot);
+    if (handle.interpolation == Interpolation::smooth) table.add("interpolation", "smooth");
+    table.add("release", handle.release);
+    if (!handle.keyframes.empty()) table.add_text("keyframes", list_of_tables(handle.keyframes));
+    const DragDescription usual;
+    Table drag;
+    drag.add_unless(usual.move, "move", handle.drag.move).add_unless(usual.turn, "turn", handle.drag.turn);
+    if (!drag.is_empty()) table.add_text("drag", drag.in_line());
+    return table;
+}
+
+Table table_of(const LoadDescription& load) {
+    Table table;
+    table.add_text("region", table_of(load.region).in_line());
+    if (const auto* force = std::get_if<ForceLoad>(&load.kind)) table.add("force", force->sum);
+    if (const auto* traction = std::get_if<TractionLoad>(&load.kind)) table.add("traction", traction->stress);
+    if (const auto* pressure = std::get_if<PressureLoad>(&load.kind))
+        table.add("pressure", pressure->pressure);
+    return table.add("from", load.from).add("until", load.until);
+}
+
+Table table_of(const PartDescription& part) {
+    Table table;
+    if (const auto* region = std::get_if<Region>(&part.where)) {
+        table.add_text("region", table_of(*region).in_line());
+    } else {
+        table.add("attribute", std::get<TetAttribute>(part.where).number);
+    }
+    return table.add("material", part.material);
+}
+
+Table table_of(const ObjectDescription& object, const std::filesystem::path& folder) {
+    const ObjectDescription usual;
+    Table table;
+    table.add("name", object.name);
+    table.add_text("shape", std::visit(ShapeTable{folder}, object.shape).in_line());
+    if (const Table mesher = table_of(object.mesher); !mesher.is_empty())
+        table.add_text("mesher", mesher.in_line());
+    table.add("material", object.material)
+        .add_unless(usual.scale, "scale", object.scale)
+        .add_unless(usual.rotation, "rotation", object.rotation)
+        .add_unless(usual.position, "position", object.position)
+        .add_unless(usual.velocity, "velocity", object.velocity)
+        .add_unless(usual.spin, "spin", object.spin);
+    Table start;
+    start.add_unless(usual.start.scale, "scale", object.start.scale)
+        .add_unless(usual.start.scatter, "scatter", object.start.scatter);
+    if (!start.is_empty()) table.add_text("start", start.in_line());
+    if (!object.pins.empty()) table.add_text("pins", list_of_tables(object.pins));
+    return table.add("color", object.color);
+}
+
+Table table_of(const SimulationSettings& s) {
+    Table table;
+    table.add("solver", solver_name(s.solver)).add("forces", name_of(s.forces));
+    table.add("frame_rate", s.frame_rate).add("substeps", s.substeps);
+    table.add("iterations", s.iterations).add("chebyshev", s.chebyshev);
+    return table.add("gravity", s.gravity).add("frames", s.frames);
+}
+
+Table table_of(const CollisionSettings& c) {
+    Table table;
+    table.add("broad_phase", name_of(c.broad_phase)).add("detection", name_of(c.detection));
+    table.add("response", name_of(c.response)).add("self_collision", c.self_collision);
+    table.add("proximity_radius", c.proximity_radius);
+    return table.add("friction", c.friction).add("restitution", c.restitution);
+}
+
+Table table_of(const Material& material) {
+    Table table;
+    table.add("name", material.name);
+    if (material.model == MaterialModel::neo_hookean) table.add("model", "neo_hookean");
+    table.add("youngs_modulus", material.youngs_modulus).add("density", material.density);
+    table.add("poisson_ratio", material.poisson_ratio).add("damping", material.damping);
+    if (material.springs) {
+        std::vector<std::string> names;
+        if (material.springs->structural) names.push_back(text_of("structural"));
+        if (material.springs->shear) names.push_back(text_of("shear"));
+        if (material.springs->flex) names.push_back(text_of("flex"));
+        table.add_text("springs", fmt::format("[{}]", fmt::join(names, ", ")));
+    }
+    return table;
+}
+
+Table table_of(const ColliderDescription& collider) {
+    Table shape, table;
+    const bool is_plane = std::holds_alternative<PlaneCollider>(collider.shape);
+    if (const auto* plane = std::get_if<PlaneCollider>(&collider.shape))
+        shape.add("plane", plane->normal).add("offset", plane->offset);
+    if (const auto* box = std::get_if<BoxCollider>(&collider.shape)) shape.add("box", box->size);
+    if (const auto* sphere = std::get_if<SphereCollider>(&collider.shape))
+        shape.add("sphere", sphere->radius);
+    if (const auto* capsule = std::get_if<CapsuleCollider>(&collider.shape))
+        shape.add("capsule", capsule->radius).add("length", capsule->length);
+    table.add_text("shape", shape.in_line());
+    if (!is_plane) table.add("position", collider.position).add("rotation", collider.rotation);
+    return table.add("friction", collider.friction).add("restitution", collider.restitution);
+}
+
+}  // namespace
+
+void save_scene(const std::filesystem::path& file, const Scene& scene) {
+    const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+    std::string text;
+    const auto add = [&](const char* head, const Table& table) {
+        text += fmt::format("{}{}\n{}", text.empty() ? "" : "\n", head, table.lines());
+    };
+    add("[simulation]", table_of(scene.simulation));
+    add("[collision]", table_of(scene.collision));
+    if (const auto& camera = scene.camera) {
+        add("[camera]", Table()
+                            .add("eye", camera->eye)
+                            .add("target", camera->target)
+                            .add("field_of_view", camera->field_of_view));
+    }
+    for (const Material& material : scene.materials) add("[[material]]", table_of(material));
+    for (const ObjectDescription& object : scene.objects) {
+        add("[[object]]", table_of(object, folder));
+        for (const PartDescription& part : object.parts) add("[[object.part]]", table_of(part));
+        for (const HandleDescription& handle : object.handles) add("[[object.handle]]", table_of(handle));
+        for (const LoadDescription& load : object.loads) add("[[object.load]]", table_of(load));
+    }
+    for (const ColliderDescription& collider : scene.colliders) add("[[collider]]", table_of(collider));
+    write_file(file, text);
+}
+
+}  // namespace gelatin

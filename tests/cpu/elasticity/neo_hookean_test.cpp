@@ -1,0 +1,287 @@
+#include "cpu/elasticity/neo_hookean.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <functional>
+#include <glm/gtc/quaternion.hpp>
+#include <random>
+
+#include "model/elasticity/neo_hookean.h"
+
+namespace gelatin {
+namespace {
+
+using V = cpu::Vec3<double>;
+using M = cpu::Mat3<double>;
+using Corners = std::array<V, 4>;
+
+constexpr NeoHookeanModuli kModuli{3e4, 2e5, 0.0};  // [Pa]
+
+class Random {
+public:
+    double number() { return unit_(random_); }
+    V point() { return {number(), number(), number()}; }
+    M matrix() { return {point(), point(), point()}; }
+    M rotation() {
+        return glm::mat3_cast(glm::normalize(glm::dquat(number(), number(), number(), number())));
+    }
+
+private:
+    std::mt19937 random_{11};
+    std::uniform_real_distribution<double> unit_{-1.0, 1.0};
+};
+
+const Corners kRest{V(0.1, 0, 0), V(0.9, 0.1, 0), V(0.2, 0.8, -0.1), V(0.3, 0.2, 0.7)};
+
+NeoHookeanTet make_tet() {
+    return make_neo_hookean_tet({0, 1, 2, 3}, kRest, kModuli);
+}
+double volume_of(const NeoHookeanTet& tet) {
+    return static_cast<double>(tet.gradient_1.w);
+}
+double mu_of(const NeoHookeanTet& tet) {
+    return static_cast<double>(tet.gradient_2.w);
+}
+double lambda_of(const NeoHookeanTet& tet) {
+    return static_cast<double>(tet.gradient_3.w);
+}
+
+double energy_of(const NeoHookeanTet& tet, const Corners& x) {
+    return volume_of(tet) * cpu::neo_hookean_energy(cpu::gradient_of(tet, x), mu_of(tet), lambda_of(tet));
+}
+
+V force_on(const NeoHookeanTet& tet, std::uint32_t corner, const Corners& x, const Corners& v = {},
+           double damping_time = 0.0) {
+    glm::dvec4 positions[4], velocities[4];
+    for (std::size_t k = 0; k < 4; ++k) {
+        positions[k] = glm::dvec4(x[k], 1.0);
+        velocities[k] = glm::dvec4(v[k], damping_time);
+    }
+    return cpu::neo_hookean_force(tet, corner, positions, velocities);
+}
+
+cpu::NodeTerms<double> terms_of(const NeoHookeanTet& tet, std::uint32_t corner, const Corners& x) {
+    cpu::NodeTerms<double> terms;
+    cpu::add_neo_hookean(cpu::shape_gradient<double>(tet, corner), cpu::gradient_of(tet, x), volume_of(tet),
+                         mu_of(tet), lambda_of(tet), {}, terms);
+    return terms;
+}
+
+Eigen::Matrix3d full(const cpu::SymmetricMatrix<double>& s) {
+    Eigen::Matrix3d m;
+    m << s.diagonal.x, s.beside.z, s.beside.y, s.beside.z, s.diagonal.y, s.beside.x, s.beside.y, s.beside.x,
+        s.diagonal.z;
+    return m;
+}
+
+double least_eigenvalue(const Eigen::Matrix3d& m) {
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m).eigenvalues()[0];
+}
+
+// Shapes of all kinds: anything, inverted, flat, a line.
+std::vector<Corners> make_shapes() {
+    Random random;
+    std::vector<Corners> shapes;
+    for (int i = 0; i < 40; ++i) {
+        Corners any{random.point(), random.point(), random.point(), random.point()}, mirrored = kRest,
+                                                                                     flat = any, line = any;
+        for (V& p : mirrored) p.x *= -1.0 + 0.3 * random.number();
+        for (V& p : flat) p.y = 0.5;
+        for (V& p : line) p = V(0.3, p.y, 0.2);
+        shapes.insert(shapes.end(), {any, mirrored, flat, line});
+    }
+    return shapes;
+}
+
+V central_difference(const std::function<double(const V&)>& value) {
+    const double h = 1e-5;
+    V slope;
+    for (int k = 0; k < 3; ++k) {
+        V e(0);
+        e[k] = h;
+        slope[k] = (value(e) - value(-e)) / (2 * h);
+    }
+    return slope;
+}
+
+TEST(NeoHookean, IsAtRestAtRest) {
+    const NeoHookeanTet tet = make_tet();
+    EXPECT_NEAR(energy_of(tet, kRest), 0.0, 1e-4);  // rest in single precision: 1e-7 of mu
+    for (std::uint32_t k = 0; k < 4; ++k) EXPECT_LT(glm::length(force_on(tet, k, kRest)), 0.05);
+}
+
+TEST(NeoHookean, ForcesAreTheGradientOfTheEnergyForAnyShape) {
+    const NeoHookeanTet tet = make_tet();
+    int inverted = 0;
+    for (const Corners& x : make_shapes()) {
+        inverted += glm::determinant(cpu::gradient_of(tet, x)) < 0.0 ? 1 : 0;
+        V sum(0), torque(0);
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            const V force = force_on(tet, k, x);
+            const V slope = central_difference([&](const V& d) {
+                Corners moved = x;
+                moved[k] += d;
+                return energy_of(tet, moved);
+            });
+            const double scale = glm::length(slope) + mu_of(tet);
+            EXPECT_LT(glm::distance(force, -slope), 1e-7 * scale);
+            EXPECT_LT(glm::distance(force, terms_of(tet, k, x).force), 1e-11 * scale);
+            sum += force;
+            torque += glm::cross(x[k], force);
+        }
+        EXPECT_LT(glm::length(sum), 1e-10 * mu_of(tet) + 1e-12 * energy_of(tet, x));
+        EXPECT_LT(glm::length(torque), 1e-10 * mu_of(tet) + 1e-12 * energy_of(tet, x));
+    }
+    EXPECT_GT(inverted, 50);
+}
+
+TEST(NeoHookean, HessiansAreExactAndPositiveForAnyShape) {
+    const NeoHookeanTet tet = make_tet();
+    for (const Corners& x : make_shapes()) {
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            const Eigen::Matrix3d hessian = full(terms_of(tet, k, x).hessian);
+            for (int axis = 0; axis < 3; ++axis) {
+                const V slope = central_difference([&](const V& d) {
+                    Corners moved = x;
+                    moved[k] += d;
+                    return -force_on(tet, k, moved)[axis];
+                });
+                const Eigen::Vector3d row(slope.x, slope.y, slope.z);
+                EXPECT_LT((hessian.row(axis).transpose() - row).norm(), 1e-7 * hessian.norm() + 1e-4);
+            }
+            EXPECT_GE(least_eigenvalue(hessian), -1e-12 * hessian.norm());
+        }
+    }
+}
+
+TEST(NeoHookean, DoesNotSeeRotations) {
+    const NeoHookeanTet tet = make_tet();
+    Random random;
+    for (int i = 0; i < 50; ++i) {
+        const M turn = random.rotation(), f = random.matrix();
+        const double energy = cpu::neo_hookean_energy(f, mu_of(tet), lambda_of(tet));
+        EXPECT_NEAR(cpu::neo_hookean_energy(turn * f, mu_of(tet), lambda_of(tet)), energy,
+                    1e-11 * kModuli.lambda);
+        EXPECT_NEAR(cpu::neo_hookean_energy(f * turn, mu_of(tet), lambda_of(tet)), energy,
+                    1e-11 * kModuli.lambda);
+    }
+}
+
+// Small strains: stress 2 mu_L e + lambda_L tr e, to second order in e.
+TEST(NeoHookean, IsHookesLawAtSmallStrains) {
+    Random random;
+    for (const double nu : {0.0, 0.25, 0.45}) {
+        const double youngs = 1e5, shear = youngs / (2 * (1 + nu)), lame = 2 * shear * nu / (1 - 2 * nu);
+        const NeoHookeanModuli moduli = neo_hookean_moduli(youngs, nu);
+        for (int i = 0; i < 20; ++i) {
+            const double size = 1e-5;
+            const M change = size * random.matrix(), f = M(1.0) + change;
+            const M strain = 0.5 * (change + glm::transpose(change));
+            const M hooke = 2.0 * shear * strain + M(lame * (strain[0].x + strain[1].y + strain[2].z));
+            const M cofactors = cpu::cofactor(f);
+            const cpu::NeoHookeanStress<double> s(cpu::sum_of_squares(f), glm::determinant(f), moduli.mu,
+                                                  moduli.lambda);
+            const double averaged = moduli.kappa * (glm::determinant(f) - 1.0);
+            const M stress = s.shear * f + (s.pressure + averaged) * cofactors;
+            for (int c = 0; c < 3; ++c)
+                EXPECT_LT(glm::distance(stress[c], hooke[c]),
+                          20.0 * size * size * (moduli.lambda + moduli.kappa));
+        }
+    }
+}
+
+// A point has no stress; the tet opens the way it lies at rest.
+TEST(NeoHookean, APointOpensAsItWas) {
+    const NeoHookeanTet tet = make_tet();
+    const Corners point{V(2.0), V(2.0), V(2.0), V(2.0)};
+    for (std::uint32_t k = 0; k < 4; ++k) {
+        const V expected = volume_of(tet) * mu_of(tet) * cpu::shape_gradient<double>(tet, k);
+        EXPECT_LT(glm::distance(force_on(tet, k, point), expected), 1e-9);
+        EXPECT_LT(glm::distance(terms_of(tet, k, point).force, expected), 1e-9);
+    }
+}
+
+Corners turned(const Corners& x, const M& turn, const V& shift) {
+    Corners result;
+    for (std::size_t k = 0; k < 4; ++k) result[k] = turn * x[k] + shift;
+    return result;
+}
+
+TEST(NeoHookeanViscosity, LeavesRigidMotionAlone) {
+    const NeoHookeanTet tet = make_tet();
+    Random random;
+    for (int i = 0; i < 20; ++i) {
+        const Corners x{random.point(), random.point(), random.point(), random.point()};
+        const V spin = 10.0 * random.point(), drift = random.point();
+        Corners v;
+        for (std::size_t k = 0; k < 4; ++k) v[k] = drift + glm::cross(spin, x[k]);
+        const Corners later = turned(x, random.rotation(), random.point());
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            const V still = force_on(tet, k, x);
+            EXPECT_LT(glm::distance(force_on(tet, k, x, v, 0.1), still),
+                      1e-10 * (glm::length(still) + mu_of(tet)));
+            cpu::NodeTerms<double> terms;
+            cpu::add_viscosity(cpu::shape_gradient<double>(tet, k), cpu::gradient_of(tet, later),
+                               cpu::gradient_of(tet, x), volume_of(tet), mu_of(tet), lambda_of(tet), 5.0,
+                               terms);
+            EXPECT_LT(glm::length(terms.force), 1e-9 * mu_of(tet));
+        }
+    }
+}
+
+// Its power is never positive; at rest it is t times the elastic force of a displacement that is the
+// velocity.
+TEST(NeoHookeanViscosity, TakesEnergyAndIsKelvinVoigts) {
+    const NeoHookeanTet tet = make_tet();
+    Random random;
+    const double damping_time = 0.02, size = 1e-5;
+    for (int i = 0; i < 50; ++i) {
+        const Corners x{random.point(), random.point(), random.point(), random.point()};
+        const Corners v{random.point(), random.point(), random.point(), random.point()};
+        double power = 0.0;
+        Corners moved;
+        for (std::size_t k = 0; k < 4; ++k) moved[k] = kRest[k] + size * v[k];
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            power += glm::dot(v[k], force_on(tet, k, x, v, damping_time) - force_on(tet, k, x));
+            const V viscous = force_on(tet, k, kRest, v, damping_time) - force_on(tet, k, kRest);
+            const V elastic = (force_on(tet, k, moved) - force_on(tet, k, kRest)) / size;
+            EXPECT_LT(glm::distance(viscous, damping_time * elastic), 2e-3 * glm::length(viscous) + 1.0);
+        }
+        EXPECT_LT(power, 0.0);
+    }
+}
+
+// In block descent its force is minus the gradient of V t / (2 h) dE : C : dE, and its Hessian never negative
+// nor less than that part of the exact one that is kept.
+TEST(NeoHookeanViscosity, DescendsAlongItsDissipation) {
+    const NeoHookeanTet tet = make_tet();
+    const double shear = 0.75 * mu_of(tet), lame = lambda_of(tet) - 0.625 * mu_of(tet), damping = 1.7;
+    Random random;
+    for (int i = 0; i < 50; ++i) {
+        const Corners x{random.point(), random.point(), random.point(), random.point()};
+        const M start = random.matrix();
+        const auto dissipation = [&](const Corners& p) {
+            const M f = cpu::gradient_of(tet, p);
+            const M strain = 0.5 * (glm::transpose(f) * f - glm::transpose(start) * start);
+            const double trace = strain[0].x + strain[1].y + strain[2].z;
+            return 0.5 * volume_of(tet) * damping * 4.0 / (cpu::sum_of_squares(start) + 1.0) *
+                   (2 * shear * cpu::sum_of_squares(strain) + lame * trace * trace);
+        };
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            cpu::NodeTerms<double> terms;
+            cpu::add_viscosity(cpu::shape_gradient<double>(tet, k), cpu::gradient_of(tet, x), start,
+                               volume_of(tet), mu_of(tet), lambda_of(tet), damping, terms);
+            const V slope = central_difference([&](const V& d) {
+                Corners moved = x;
+                moved[k] += d;
+                return dissipation(moved);
+            });
+            EXPECT_LT(glm::distance(terms.force, -slope), 1e-6 * (glm::length(slope) + mu_of(tet)));
+            EXPECT_GE(least_eigenvalue(full(terms.hessian)), -1e-9 * mu_of(tet));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace gelatin

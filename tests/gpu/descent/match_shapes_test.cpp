@@ -1,0 +1,35 @@
+#include "gpu/descent/match_shapes.h"
+
+#include <gtest/gtest.h>
+
+#include "support/gl_fixture.h"
+#include "support/lost_shapes.h"
+
+namespace gelatin {
+namespace {
+
+class ShapeMatcherOnGpuTest : public test::GlTest {};
+
+TEST_F(ShapeMatcherOnGpuTest, MatchesTheDoubleReference) {
+    const Model model = test::make_bodies_to_lose();
+    ASSERT_NE(model.node_count() % 64, 0u);
+    ASSERT_GT(model.objects[0].nodes.count, 256u);
+    for (const double scale : {1e-3, 1.0, 1e2}) EXPECT_LE(test::worst_matching_error(scale), 1.0) << scale;
+}
+
+TEST_F(ShapeMatcherOnGpuTest, LeavesOthersAsTheyAre) {
+    const Model model = test::make_bodies_to_lose();
+    const cpu::Nodes<float> before = test::lose_shapes(model, false);
+    std::vector<cpu::Nodes<float>> runs = {before};
+    test::match_on_gpu(model, runs);
+    for (const std::size_t kept : {1, 3}) {
+        const Range& nodes = model.objects[kept].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            EXPECT_EQ(runs[0].positions[n], before.positions[n]);
+            EXPECT_EQ(runs[0].velocities[n], before.velocities[n]);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace gelatin

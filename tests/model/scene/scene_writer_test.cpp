@@ -1,0 +1,190 @@
+#include "model/scene/scene_writer.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/file.h"
+#include "model/build/build_model.h"
+#include "support/source_path.h"
+
+namespace gelatin {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Everything that a scene file can say, nothing of it as usual.
+constexpr const char* kEverything = R"([simulation]
+solver = "vbd"
+forces = "divide_and_merge"
+frame_rate = 50.5
+substeps = 3
+iterations = 7
+chebyshev = 0.25
+gravity = [0.5, -1.5, 0.125]
+frames = 11
+
+[collision]
+broad_phase = "boxes"
+detection = "continuous"
+response = "restore"
+self_collision = true
+proximity_radius = 0.01
+friction = 0.7
+restitution = 0.1
+
+[camera]
+eye = [1, 2, 3]
+target = [0, 1, 0]
+field_of_view = 40
+
+[[material]]
+name = "a \"soft\" \\ one"
+youngs_modulus = 12345.678
+density = 900
+poisson_ratio = 0.4
+damping = 0.001
+springs = ["structural", "flex"]
+
+[[material]]
+name = "neo"
+model = "neo_hookean"
+youngs_modulus = 1000000
+density = 1100
+poisson_ratio = 0.45
+damping = 0
+
+[[object]]
+name = "ball"
+shape = { sphere = 0.3, frequency = 3 }
+mesher = { kind = "tetgen", quality = 1.8, max_volume = 0.001, time_limit = 60 }
+material = "a \"soft\" \\ one"
+scale = 1.5
+rotation = [10, 20, 30]
+position = [0, 2, 0]
+velocity = [1, 0, 0]
+spin = [0, 90, 0]
+start = { scale = [1, 0.5, 1], scatter = 0.01 }
+pins = [{ box = [[-1, 0, -1], [1, 1.7, 1]] }, { sphere = [0, 3, 0], radius = 0.1 }]
+color = [0.1, 0.2, 0.3]
+
+[[object.part]]
+region = { plane = [0, 1, 0], offset = 1.9 }
+material = "a \"soft\" \\ one"
+
+[[object.part]]
+attribute = 4
+material = "a \"soft\" \\ one"
+
+[[object.handle]]
+region = { plane = [0, -1, 0], offset = -2.3 }
+pivot = [0, 2, 0]
+interpolation = "smooth"
+release = 3
+keyframes = [{ time = 0 }, { time = 1.5, move = [0, 0.5, 0], turn = [720, 0, 0], scale = 1.25 }]
+drag = { move = [0, 0, 0.5], turn = [0, 30, 0] }
+
+[[object.load]]
+region = { sphere = [0, 2, 0], radius = 9 }
+force = [0, 1, 0]
+from = 0.5
+until = 1
+
+[[object.load]]
+region = { sphere = [0, 2, 0], radius = 9 }
+traction = [10, 0, 0]
+
+[[object.load]]
+region = { sphere = [0, 2, 0], radius = 9 }
+pressure = -250
+until = 2
+
+[[object]]
+name = "box"
+shape = { box = [1, 2, 3], segments = [2, 3, 4] }
+material = "neo"
+
+[[object]]
+name = "capsule"
+shape = { capsule = 0.2, length = 0.6, frequency = 4 }
+material = "neo"
+
+[[object]]
+name = "letter"
+shape = { text = "\u00e9\"", depth = 0.4, size = 2, font = "DejaVu Sans" }
+material = "neo"
+
+[[object]]
+name = "file"
+shape = { file = "meshes/some mesh.obj" }
+material = "neo"
+
+[[collider]]
+shape = { plane = [0, 1, 0], offset = -0.5 }
+friction = 0.1
+restitution = 0.2
+
+[[collider]]
+shape = { box = [1, 2, 3] }
+position = [5, 0, 0]
+rotation = [0, 45, 0]
+friction = 0.7
+restitution = 0.1
+
+[[collider]]
+shape = { sphere = 0.4 }
+position = [0, 0, 5]
+rotation = [0, 0, 0]
+friction = 0.7
+restitution = 0.1
+
+[[collider]]
+shape = { capsule = 0.3, length = 0.8 }
+position = [0, 0, 9]
+rotation = [0, 0, 0]
+friction = 0.7
+restitution = 0.1
+)";
+
+TEST(SceneWriter, WritesEverythingThatWasRead) {
+    const TemporaryFolder folder;
+    write_file(folder.path() / "scene.toml", kEverything);
+    save_scene(folder.path() / "copy.toml", load_scene(folder.path() / "scene.toml"));
+    std::string expected = kEverything;
+    const std::size_t letter = expected.find("\\u00e9");
+    expected.replace(letter, 6, "\u00e9");  // as UTF-8
+    EXPECT_EQ(read_file(folder.path() / "copy.toml"), expected);
+}
+
+TEST(SceneWriter, MeshFilesAreFoundFromWhereItIsWritten) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder.path() / "elsewhere");
+    write_file(folder.path() / "scene.toml",
+               "material = [{name = 'm'}]\nobject = [{name = 'o', shape = {file = 'a.obj'}}]\n");
+    const fs::path copy = folder.path() / "elsewhere" / "copy.toml";
+    save_scene(copy, load_scene(folder.path() / "scene.toml"));
+    const Scene scene = load_scene(copy);
+    EXPECT_EQ(fs::weakly_canonical(std::get<FileShape>(scene.objects[0].shape).file),
+              fs::weakly_canonical(folder.path() / "a.obj"));
+}
+
+// The scenes that come with Gelatin, among them copies and text.
+TEST(SceneWriter, ScenesStayWhatTheyAre) {
+    const TemporaryFolder folder;
+    for (const auto& entry : fs::directory_iterator(fs::path(test::source_path()) / "scenes")) {
+        if (entry.path().extension() != ".toml") continue;
+        const fs::path once = folder.path() / "once.toml", twice = folder.path() / "twice.toml";
+        save_scene(once, load_scene(entry.path()));
+        save_scene(twice, load_scene(once));
+        EXPECT_EQ(read_file(twice), read_file(once)) << entry.path();
+    }
+    const Scene squash = load_scene(fs::path(test::source_path()) / "scenes" / "squash.toml");
+    save_scene(folder.path() / "squash.toml", squash);
+    const Model before = build_model(squash), after = build_model(load_scene(folder.path() / "squash.toml"));
+    EXPECT_EQ(after.positions, before.positions);
+    EXPECT_EQ(after.velocities, before.velocities);
+    EXPECT_EQ(after.tets, before.tets);
+}
+
+}  // namespace
+}  // namespace gelatin
