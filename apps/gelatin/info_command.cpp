@@ -14,8 +14,8 @@
 #include "mesh/surface_file.h"
 #include "mesh/tet_file.h"
 #include "mesh_report.h"
-#include "model/explicit/explicit_scheme.h"
 #include "model/model.h"
+#include "model/setting_names.h"
 #include "sim/report.h"
 
 namespace gelatin {
@@ -54,7 +54,7 @@ Json describe_scene(const std::filesystem::path& file) {
     const SimulationSettings& settings = simulator.scene().simulation;
     const Counts counts = simulator.counts();
     Json description = {{"kind", "scene"},
-                        {"solver", solver_name(settings.solver)},
+                        {"solver", name_of(settings.solver)},
                         {"frame_rate", settings.frame_rate},
                         {"frames", settings.frames},
                         {"substeps", simulator.substeps()},

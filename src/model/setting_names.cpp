@@ -2,6 +2,22 @@
 
 namespace gelatin {
 
+const char* name_of(SolverKind solver) {
+    switch (solver) {
+        case SolverKind::explicit_euler:
+            return "explicit_euler";
+        case SolverKind::midpoint:
+            return "midpoint";
+        case SolverKind::rk4:
+            return "rk4";
+        case SolverKind::vbd:
+            return "vbd";
+        case SolverKind::semi_implicit_euler:
+            break;
+    }
+    return "semi_implicit_euler";
+}
+
 const char* name_of(ForceMethod forces) {
     return forces == ForceMethod::fused ? "fused" : "divide_and_merge";
 }

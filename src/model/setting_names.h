@@ -5,6 +5,7 @@
 namespace gelatin {
 
 /// The names that scene files use.
+const char* name_of(SolverKind solver);
 const char* name_of(ForceMethod forces);
 const char* name_of(BroadPhase broad_phase);
 const char* name_of(CollisionDetection detection);

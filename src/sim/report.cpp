@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "gelatin/version.h"
-#include "model/explicit/explicit_scheme.h"
 #include "model/model.h"
+#include "model/setting_names.h"
 
 namespace gelatin {
 namespace {
@@ -17,7 +17,7 @@ Json settings_json(const RunReport& report) {
     const SimulationSettings& settings = report.settings;
     const std::optional<double>& proximity_radius = report.collision.proximity_radius;
     const Json radius = proximity_radius ? Json(*proximity_radius) : Json();
-    return {{"solver", solver_name(settings.solver)},
+    return {{"solver", name_of(settings.solver)},
             {"forces", name_of(settings.forces)},
             {"frame_rate", settings.frame_rate},
             {"substeps", report.substeps},

@@ -30,6 +30,11 @@ GOOD_TREE = {
     "src/gl/buffer.h": '#include "core/file.h"\n',
     "src/gpu/solver.h": '#include "gl/buffer.h"\n#include "model/layouts.h"\n',
     "src/sim/simulator.cpp": '#include "gelatin/simulator.h"\n#include "cpu/solver.h"\n',
+    "src/cpu/collision/boxes.h": '#include "cpu/solver.h"\n',
+    "src/cpu/descent/sweep.cpp": '#include "cpu/collision/boxes.h"\n',
+    "src/gpu/collision/boxes.h": "",
+    "shaders/sim/collision/boxes.glsl": "",
+    "shaders/sim/descent/sweep.comp": '#include "sim/collision/boxes.glsl"\n',
     "shaders/layouts/spring.glsl": "",
     "shaders/sim/step.comp": '#include "layouts/spring.glsl"\n',
     "shaders/render/light.glsl": "",
@@ -88,6 +93,15 @@ class CheckLayers(unittest.TestCase):
     def test_shaders_include_files_that_are_there_and_their_own(self):
         self.assert_refused("shaders/sim/bad.comp", '#include "include/nowhere.glsl"\n', "nowhere.glsl")
         self.assert_refused("shaders/sim/bad.comp", '#include "render/light.glsl"\n', "drawing")
+
+    def test_capabilities_include_those_that_they_may(self):
+        self.assert_refused("src/cpu/drive/bad.h", '#include "cpu/collision/boxes.h"\n', "drive", "collision")
+        self.assert_refused("src/cpu/elasticity/bad.h", '#include "cpu/collision/boxes.h"\n', "none only")
+        self.assert_refused("shaders/sim/drive/bad.comp", '#include "sim/collision/boxes.glsl"\n', "drive")
+
+    def test_a_folder_that_is_no_capability_is_named(self):
+        self.assert_refused("src/gpu/stray/a.cpp", "", "stray is no capability")
+        self.assert_refused("shaders/sim/stray/a.comp", "", "stray is no capability")
 
     def test_only_the_viewer_includes_the_windows_libraries(self):
         self.assert_refused("src/sim/bad.cpp", "#include <GLFW/glfw3.h>\n", "viewer")

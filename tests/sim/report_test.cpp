@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gelatin/version.h"
-#include "model/explicit/explicit_scheme.h"
+#include "model/setting_names.h"
 
 namespace gelatin {
 namespace {
@@ -119,10 +119,10 @@ TEST(Report, PercentileIsTheNearestRank) {
 }
 
 TEST(Report, NamesSolversAsSceneFilesDo) {
-    EXPECT_STREQ(solver_name(SolverKind::explicit_euler), "explicit_euler");
-    EXPECT_STREQ(solver_name(SolverKind::semi_implicit_euler), "semi_implicit_euler");
-    EXPECT_STREQ(solver_name(SolverKind::midpoint), "midpoint");
-    EXPECT_STREQ(solver_name(SolverKind::rk4), "rk4");
+    EXPECT_STREQ(name_of(SolverKind::explicit_euler), "explicit_euler");
+    EXPECT_STREQ(name_of(SolverKind::semi_implicit_euler), "semi_implicit_euler");
+    EXPECT_STREQ(name_of(SolverKind::midpoint), "midpoint");
+    EXPECT_STREQ(name_of(SolverKind::rk4), "rk4");
     EXPECT_STREQ(name_of(ForceMethod::fused), "fused");
     EXPECT_STREQ(name_of(ForceMethod::divide_and_merge), "divide_and_merge");
 }

@@ -43,7 +43,7 @@ TEST(FreeFlight, IsExactToTheSchemesOrder) {
             static_cast<double>(model->positions[7].y) + v * time - 0.5 * g * time * time + lead;
         // Rest lengths are rounded to float, so the body is strained by 1e-7 and trembles by that much, more
         // and more with explicit Euler; the lead is 2.5 mm.
-        EXPECT_NEAR(solver.nodes().positions[7].y, expected, 5e-6) << solver_name(kind);
+        EXPECT_NEAR(solver.nodes().positions[7].y, expected, 5e-6) << name_of(kind);
     }
 }
 

@@ -68,7 +68,7 @@ TEST(Handle, CarriesItsNodesAtAnyStep) {
                 const int steps = std::min(5, count - s);
                 advance(solver, *model, step, steps, s);
                 EXPECT_LT(largest_lag(*model, solver.read_state().positions, (s + steps) * step), 1e-6)
-                    << solver_name(kind) << " of " << step << " s, step " << s;
+                    << name_of(kind) << " of " << step << " s, step " << s;
             }
         }
     }
@@ -84,7 +84,7 @@ TEST_F(HandleOnGpuTest, CarriesItsNodesAtAnyStep) {
         for (int s = 0; s < 100; s += 10) {
             advance(solver, *model, step, 10, s);
             EXPECT_LT(largest_lag(*model, solver.read_state().positions, (s + 10) * step), 1e-6)
-                << solver_name(kind);
+                << name_of(kind);
         }
     }
 }
@@ -125,11 +125,11 @@ TEST(Handle, ReleasedBodiesKeepTheirMomentum) {
             EXPECT_EQ(solver.read_state().positions[held.node].w, held.arm.w);
         const double size = model->objects[0].mass * 0.4;  // at 0.4 m/s
         EXPECT_GT(glm::length(before.momentum), 0.5 * size);
-        EXPECT_LT(glm::distance(after.momentum, before.momentum), 1e-6 * size) << solver_name(kind);
+        EXPECT_LT(glm::distance(after.momentum, before.momentum), 1e-6 * size) << name_of(kind);
         // Implicit Euler damps turning, by some per cent over such steps.
         const double share = kind == SolverKind::vbd ? 0.1 : 0.005;
         EXPECT_LT(glm::distance(after.angular_momentum, before.angular_momentum), share * size)
-            << solver_name(kind);
+            << name_of(kind);
     }
 }
 

@@ -40,7 +40,7 @@ void expect_newtons_second_law(const MakeSolver& make_solver, double tolerance) 
             50.0 * step * (force / model->objects[0].mass + glm::dvec3(0.0, -9.81, 0.0));
         EXPECT_LT(glm::distance(mean_velocity(*model, solver->read_state()), expected),
                   tolerance * glm::length(expected))
-            << solver_name(kind);
+            << name_of(kind);
     }
 }
 

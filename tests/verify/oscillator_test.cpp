@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, ConvergenceTest,
                          ::testing::Values(Order{SolverKind::explicit_euler, 1},
                                            Order{SolverKind::semi_implicit_euler, 1},
                                            Order{SolverKind::midpoint, 2}, Order{SolverKind::rk4, 4}),
-                         [](const auto& test) { return solver_name(test.param.solver); });
+                         [](const auto& test) { return name_of(test.param.solver); });
 
 // Halving the step divides the error by 2^order.
 TEST_P(ConvergenceTest, HasTheOrderOfItsScheme) {

@@ -8,6 +8,7 @@
 #include "gpu/gpu_solver.h"
 #include "model/explicit/explicit_scheme.h"
 #include "model/explicit/stability.h"
+#include "model/setting_names.h"
 #include "support/gl_fixture.h"
 #include "support/test_models.h"
 
@@ -67,13 +68,13 @@ void expect_critical_damping(const MakeSolver& make_solver) {
         const Center center = center_of(*model, solver->read_state());
         EXPECT_LT(glm::distance(center.position - start, way * (1.0 - (1.0 + phase) * std::exp(-phase))),
                   (2.0 * kRate * step + 1e-4) * glm::length(way))
-            << solver_name(kind);
+            << name_of(kind);
 
         solver->set_pull({});
         for (int s = 0; s < 20; ++s) solver->advance_nodes(step);
         EXPECT_LT(glm::distance(center_of(*model, solver->read_state()).velocity, center.velocity),
                   1e-3 * glm::length(center.velocity))
-            << solver_name(kind);
+            << name_of(kind);
     }
 }
 

@@ -1,5 +1,5 @@
 // The volume round each node, for the volume term (src/model/elasticity/volume_term.h). At `positions`, a buffer texture that is
-// declared before. CPU twin: src/cpu/explicit/volume_forces.h.
+// declared before. CPU twin: src/cpu/elasticity/volume_term.h.
 
 layout(binding = 8) uniform usamplerBuffer volume_corners;  // TetCorner, in slices of 64 nodes
 layout(binding = 9) uniform usamplerBuffer volume_starts;   // of the slices

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "cpu/elasticity/spring_terms.h"
+#include "cpu/descent/spring_terms.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {

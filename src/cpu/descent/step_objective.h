@@ -6,8 +6,8 @@
 
 #include "cpu/descent/descend_groups.h"
 #include "cpu/descent/spring_blocks.h"
+#include "cpu/descent/tet_resistance.h"
 #include "cpu/elasticity/node_terms.h"
-#include "cpu/elasticity/tet_resistance.h"
 #include "cpu/nodes.h"
 #include "model/descent/descent_rows.h"
 #include "model/model.h"
@@ -32,7 +32,7 @@ public:
     bool is_tangled(const ModelObject& object, const std::vector<Vec4<Real>>& positions) const {
         return tets_.is_tangled(object, positions);
     }
-    /// Looks how the tets of a batch of rows() are (cpu/elasticity/tet_resistance.h).
+    /// Looks how the tets of a batch of rows() are (cpu/descent/tet_resistance.h).
     void look(std::size_t batch, const std::vector<Vec4<Real>>& positions) {
         tets_.look(batch, rows_.batches[batch], positions);
     }

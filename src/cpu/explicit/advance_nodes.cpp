@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "cpu/elasticity/volume_term.h"
 #include "cpu/explicit/gather_forces.h"
 #include "cpu/explicit/integrate_node.h"
-#include "cpu/explicit/volume_forces.h"
 #include "model/solver.h"
 
 namespace gelatin::cpu {

@@ -6,9 +6,9 @@
 // times as long, without it 20 times).
 #include "cpu/explicit/advance_nodes.h"
 
+#include "cpu/elasticity/volume_term.h"
 #include "cpu/explicit/gather_forces.h"
 #include "cpu/explicit/integrate_node.h"
-#include "cpu/explicit/volume_forces.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "cpu/explicit/advance_nodes_simd.cpp"

@@ -2,8 +2,8 @@
 
 #include "cpu/elasticity/neo_hookean.h"
 #include "cpu/elasticity/spring_force.h"
+#include "cpu/elasticity/volume_term.h"
 #include "cpu/explicit/advance_nodes.h"
-#include "cpu/explicit/volume_forces.h"
 
 namespace gelatin::cpu {
 
@@ -45,6 +45,20 @@ inline Vec3<Real> gather_spring_forces(const Pass<Real>& pass, std::uint32_t n) 
         force += force_of(pair.node_1, pair.rest_length_1, springs.stiffness[p].y);
     }
     return force;
+}
+
+/// The term's force on node n [N]: each tet of volume v pulls with -p dv/dx, p the mean stress of its
+/// corners.
+template <class Real>
+Vec3<Real> gather_volume_forces(const Pass<Real>& pass, std::uint32_t n) {
+    Vec3<Real> sum(0);  // -24 times the force
+    if (pass.volume_stresses == nullptr) return sum;
+    pass.model.volume_term.corners.for_row(n, [&](const TetCorner& tet) {
+        const Vec3<Real> a(pass.positions[tet.a]), b(pass.positions[tet.b]), c(pass.positions[tet.c]);
+        const Real* p = pass.volume_stresses;
+        sum += (p[n] + p[tet.a] + p[tet.b] + p[tet.c]) * glm::cross(b - a, c - a);
+    });
+    return Real(-1) / Real(24) * sum;
 }
 
 /// The elastic force on node n [N].

@@ -7,7 +7,7 @@
 
 #include "cpu/collision/colliders.h"
 #include "cpu/elasticity/neo_hookean.h"
-#include "cpu/explicit/volume_forces.h"
+#include "cpu/elasticity/volume_term.h"
 
 namespace gelatin::cpu {
 namespace {

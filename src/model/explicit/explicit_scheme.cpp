@@ -22,20 +22,4 @@ const ExplicitScheme& explicit_scheme(SolverKind solver) {
     return kSemiImplicitEuler;
 }
 
-const char* solver_name(SolverKind solver) {
-    switch (solver) {
-        case SolverKind::explicit_euler:
-            return "explicit_euler";
-        case SolverKind::midpoint:
-            return "midpoint";
-        case SolverKind::rk4:
-            return "rk4";
-        case SolverKind::vbd:
-            return "vbd";
-        case SolverKind::semi_implicit_euler:
-            break;
-    }
-    return "semi_implicit_euler";
-}
-
 }  // namespace gelatin

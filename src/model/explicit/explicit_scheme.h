@@ -24,7 +24,4 @@ struct ExplicitScheme {
 
 const ExplicitScheme& explicit_scheme(SolverKind solver);
 
-/// "semi_implicit_euler", as scene files write it.
-const char* solver_name(SolverKind solver);
-
 }  // namespace gelatin

@@ -12,6 +12,7 @@
 #include "gelatin/error.h"
 #include "model/elasticity/neo_hookean.h"
 #include "model/explicit/explicit_scheme.h"
+#include "model/setting_names.h"
 
 namespace gelatin {
 namespace {
@@ -240,7 +241,7 @@ int choose_substeps(const Scene& scene, const Model& model) {
         throw InvalidInput(
             {scene.file.string(), 0, "simulation.substeps", "\"auto\"",
              fmt::format("{} would need steps of {:.3g} s, {:.3g} a frame; at most {} are allowed{}",
-                         solver_name(settings.solver), kSafety * largest, needed, kMostSubsteps, advice)});
+                         name_of(settings.solver), kSafety * largest, needed, kMostSubsteps, advice)});
     }
     return std::max(1, static_cast<int>(needed));
 }

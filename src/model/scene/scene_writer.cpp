@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "core/file.h"
-#include "model/explicit/explicit_scheme.h"
 #include "model/setting_names.h"
 
 namespace gelatin {
@@ -189,7 +188,7 @@ Table table_of(const ObjectDescription& object, const std::filesystem::path& fol
 
 Table table_of(const SimulationSettings& s) {
     Table table;
-    table.add("solver", solver_name(s.solver)).add("forces", name_of(s.forces));
+    table.add("solver", name_of(s.solver)).add("forces", name_of(s.forces));
     table.add("frame_rate", s.frame_rate).add("substeps", s.substeps);
     table.add("iterations", s.iterations).add("chebyshev", s.chebyshev);
     return table.add("gravity", s.gravity).add("frames", s.frames);

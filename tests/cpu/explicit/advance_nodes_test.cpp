@@ -20,7 +20,7 @@ class AdvanceNodesTest : public ::testing::TestWithParam<SolverKind> {};
 INSTANTIATE_TEST_SUITE_P(Solvers, AdvanceNodesTest,
                          ::testing::Values(SolverKind::explicit_euler, SolverKind::semi_implicit_euler,
                                            SolverKind::midpoint, SolverKind::rk4),
-                         [](const auto& test) { return solver_name(test.param); });
+                         [](const auto& test) { return name_of(test.param); });
 
 // SIMD against the double oracle: wrong lanes, tails or transposes would be off by far more than rounding.
 TEST_P(AdvanceNodesTest, FloatWithSimdMatchesTheOracle) {

@@ -17,7 +17,7 @@ class NeoHookeanStepTest : public ::testing::TestWithParam<SolverKind> {};
 INSTANTIATE_TEST_SUITE_P(Solvers, NeoHookeanStepTest,
                          ::testing::Values(SolverKind::explicit_euler, SolverKind::semi_implicit_euler,
                                            SolverKind::midpoint, SolverKind::rk4),
-                         [](const auto& test) { return solver_name(test.param); });
+                         [](const auto& test) { return name_of(test.param); });
 
 TEST_P(NeoHookeanStepTest, FloatWithSimdMatchesTheOracle) {
     for (const double damping : {0.0, 2e-3}) {

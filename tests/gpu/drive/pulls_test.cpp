@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "model/explicit/explicit_scheme.h"
+#include "model/setting_names.h"
 #include "support/descend_on_gpu.h"
 #include "support/gl_fixture.h"
 #include "support/pull_on_gpu.h"
@@ -17,7 +18,7 @@ TEST_F(PullsOnGpuTest, MatchTheDoubleReferenceInExplicitSchemes) {
         for (const SolverKind kind : {SolverKind::explicit_euler, SolverKind::semi_implicit_euler,
                                       SolverKind::midpoint, SolverKind::rk4}) {
             for (const ForceMethod forces : {ForceMethod::fused, ForceMethod::divide_and_merge})
-                EXPECT_LE(test::worst_pull_error(model, kind, forces, 2e-4), 1.0) << solver_name(kind);
+                EXPECT_LE(test::worst_pull_error(model, kind, forces, 2e-4), 1.0) << name_of(kind);
         }
     }
 }

@@ -29,7 +29,7 @@ INSTANTIATE_TEST_SUITE_P(All, NeoHookeanStepOnGpuTest,
                                                 ForceMethod::divide_and_merge, 0.0},
                                            Case{SolverKind::rk4, ForceMethod::divide_and_merge, 2e-3}),
                          [](const auto& test) {
-                             return std::string(solver_name(test.param.solver)) +
+                             return std::string(name_of(test.param.solver)) +
                                     (test.param.forces == ForceMethod::fused ? "_fused"
                                                                              : "_divide_and_merge") +
                                     (test.param.damping > 0.0 ? "_damped" : "");

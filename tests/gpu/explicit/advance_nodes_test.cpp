@@ -30,7 +30,7 @@ INSTANTIATE_TEST_SUITE_P(All, AdvanceNodesOnGpuTest,
                                            Case{SolverKind::midpoint, ForceMethod::divide_and_merge},
                                            Case{SolverKind::rk4, ForceMethod::divide_and_merge}),
                          [](const auto& test) {
-                             return std::string(solver_name(test.param.solver)) +
+                             return std::string(name_of(test.param.solver)) +
                                     (test.param.forces == ForceMethod::fused ? "_fused"
                                                                              : "_divide_and_merge");
                          });

@@ -1,4 +1,4 @@
-#include "cpu/elasticity/spring_terms.h"
+#include "cpu/descent/spring_terms.h"
 
 #include <gtest/gtest.h>
 

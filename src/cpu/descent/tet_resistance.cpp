@@ -1,4 +1,4 @@
-#include "cpu/elasticity/tet_resistance.h"
+#include "cpu/descent/tet_resistance.h"
 
 #include <tbb/parallel_for.h>
 

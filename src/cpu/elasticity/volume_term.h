@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 
 #include "cpu/elasticity/node_terms.h"
-#include "cpu/explicit/advance_nodes.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
 
@@ -43,20 +42,6 @@ Real volume_stress_round(const VolumeTerm& term, std::uint32_t n, const Vec4<Rea
     const Real ratio =
         volume_ratio_round<Real>(term, n, [&](std::uint32_t k) { return Vec3<Real>(positions[k]); });
     return volume_stress(ratio, static_cast<Real>(term.nodes[n].y));
-}
-
-/// The term's force on node n [N]: each tet of volume v pulls with -p dv/dx, p the mean stress of its
-/// corners.
-template <class Real>
-Vec3<Real> gather_volume_forces(const Pass<Real>& pass, std::uint32_t n) {
-    Vec3<Real> sum(0);  // -24 times the force
-    if (pass.volume_stresses == nullptr) return sum;
-    pass.model.volume_term.corners.for_row(n, [&](const TetCorner& tet) {
-        const Vec3<Real> a(pass.positions[tet.a]), b(pass.positions[tet.b]), c(pass.positions[tet.c]);
-        const Real* p = pass.volume_stresses;
-        sum += (p[n] + p[tet.a] + p[tet.b] + p[tet.c]) * glm::cross(b - a, c - a);
-    });
-    return Real(-1) / Real(24) * sum;
 }
 
 }  // namespace gelatin::cpu

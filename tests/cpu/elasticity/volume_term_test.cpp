@@ -1,5 +1,5 @@
 // The volume term in explicit solvers.
-#include "cpu/explicit/volume_forces.h"
+#include "cpu/elasticity/volume_term.h"
 
 #include <gtest/gtest.h>
 
@@ -73,7 +73,7 @@ class VolumeForcesTest : public ::testing::TestWithParam<SolverKind> {};
 INSTANTIATE_TEST_SUITE_P(Solvers, VolumeForcesTest,
                          ::testing::Values(SolverKind::explicit_euler, SolverKind::semi_implicit_euler,
                                            SolverKind::midpoint, SolverKind::rk4),
-                         [](const auto& test) { return solver_name(test.param); });
+                         [](const auto& test) { return name_of(test.param); });
 
 TEST_P(VolumeForcesTest, FloatWithSimdMatchesTheOracle) {
     for (const double poisson_ratio : {0.0, 0.45}) {
