@@ -284,9 +284,7 @@ void Program::bind_input(std::string_view input, const Buffer<std::uint32_t>& co
 
 int Program::location(std::string_view name) const {
     const ProgramInterface::Uniform* uniform = state_->interface.find_uniform(name);
-    if (uniform != nullptr) return uniform->location;
-    check_declared(name);
-    return -1;  // which OpenGL ignores
+    return uniform != nullptr ? uniform->location : -1;  // which OpenGL ignores
 }
 
 void Program::set(std::string_view uniform, float value) const {

@@ -46,8 +46,9 @@ public:
     unsigned id() const;
 
     /// @name What the program reads and writes
-    /// The program need not be in use. A name that the linker optimised away is ignored, which no std430
-    /// block is; one that is nowhere in the source asserts.
+    /// The program need not be in use. A uniform that it does not have is ignored, since programs share what
+    /// sets them. So is a block or sampler that the linker optimised away, which no std430 block is; one that
+    /// is nowhere in the source asserts.
     /// @{
     void set(std::string_view uniform, float value) const;
     void set(std::string_view uniform, int value) const;

@@ -31,8 +31,7 @@ void Respond::run(const ModelBuffers& model, const CollisionBuffers& collision, 
         collision.bind_node_faces(*program);
         program->bind("faces", model.face_texels);
     }
-    for (const gl::Program* program :
-         {&patch_program_, &approach_program_, &plan_program_, &respond_program_})
+    for (const gl::Program* program : {&patch_program_, &approach_program_, &plan_program_})
         program->bind("ContactPatches", patches_);
 
     share_program_.bind("NodeShares", node_shares_);

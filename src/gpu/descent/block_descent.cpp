@@ -286,8 +286,8 @@ void BlockDescent::run(const ModelBuffers& model, const SumLoads* loads, const N
     for (const gl::Program* program :
          {&start_program_, &sweep_program_, &sum_program_, &move_program_, &last_move_program_}) {
         program->set("time_step", static_cast<float>(step));
-        program->set("gravity", model.gravity);
     }
+    start_program_.set("gravity", model.gravity);
     last_move_program_.set("contact_distance", static_cast<float>(kContactDistance));
     last_move_program_.set("resting_speed", static_cast<float>(resting_speed(model.gravity, step)));
     bind_nodes(previous, current);
