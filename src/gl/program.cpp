@@ -2,11 +2,17 @@
 
 #include <epoxy/gl.h>
 
+#include <atomic>
+#include <bit>
+#include <bitset>
 #include <cassert>
 #include <glm/gtc/type_ptr.hpp>
+#include <initializer_list>
+#include <utility>
 
 #include "gelatin/error.h"
 #include "gl/debug.h"
+#include "gl/program_interface.h"
 #include "gl/shader_source.h"
 
 namespace gelatin::gl {
@@ -35,6 +41,7 @@ public:
     ~Shader() { glDeleteShader(id_); }
 
     GLuint id() const { return id_; }
+    const std::string& text() const { return source_.text; }
 
 private:
     std::string log() const {
@@ -60,6 +67,63 @@ std::string program_log(GLuint program) {
     return text;
 }
 
+// The serial number of the program that is in use on this thread with all that is bound to it; 0: unknown.
+thread_local std::uint64_t applied_program = 0;
+
+thread_local std::bitset<32> units_with_samplers;
+
+std::uint64_t next_serial() {
+    static std::atomic<std::uint64_t> last = 0;
+    return ++last;
+}
+
+GLenum mode_of(Primitive primitive) {
+    switch (primitive) {
+        case Primitive::points:
+            return GL_POINTS;
+        case Primitive::triangles:
+            return GL_TRIANGLES;
+        case Primitive::triangle_strip:
+            break;
+    }
+    return GL_TRIANGLE_STRIP;
+}
+
+void apply(const ProgramInterface::Block& block) {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block.index, id_of(block.buffer));
+}
+
+void apply(const ProgramInterface::Sampler& sampler) {
+    glActiveTexture(GL_TEXTURE0 + sampler.unit);
+    glBindTexture(sampler.target, sampler.id());
+    if (sampler.target == GL_TEXTURE_BUFFER) return;
+    glBindSampler(sampler.unit, sampler.sampler_id);
+    units_with_samplers[sampler.unit] = sampler.sampler_id != 0;
+}
+
+// Feeds a program's vertex inputs while it lives, from the vertex array object that is bound.
+class VertexInputs {
+public:
+    explicit VertexInputs(const std::vector<ProgramInterface::Input>& inputs) : inputs_(inputs) {
+        if (inputs_.empty()) return;
+        for (const ProgramInterface::Input& input : inputs_) {
+            glBindBuffer(GL_ARRAY_BUFFER, id_of(input.buffer));
+            glVertexAttribPointer(input.location, 4, input.is_color ? GL_UNSIGNED_BYTE : GL_FLOAT,
+                                  input.is_color ? GL_TRUE : GL_FALSE, 0, nullptr);
+            glEnableVertexAttribArray(input.location);
+        }
+        glBindBuffer(GL_ARRAY_BUFFER, 0);
+    }
+    VertexInputs(const VertexInputs&) = delete;
+    VertexInputs& operator=(const VertexInputs&) = delete;
+    ~VertexInputs() {
+        for (const ProgramInterface::Input& input : inputs_) glDisableVertexAttribArray(input.location);
+    }
+
+private:
+    const std::vector<ProgramInterface::Input>& inputs_;
+};
+
 GLuint link(std::initializer_list<const Shader*> shaders, const std::string& name) {
     const GLuint program = glCreateProgram();
     for (const Shader* shader : shaders) glAttachShader(program, shader->id());
@@ -73,18 +137,56 @@ GLuint link(std::initializer_list<const Shader*> shaders, const std::string& nam
     throw GlError(message);
 }
 
-[[maybe_unused]] std::uint32_t group_size_of(GLuint program) {
+std::size_t group_size_of(GLuint compute_program) {
     GLint size[3] = {};
-    glGetProgramiv(program, GL_COMPUTE_WORK_GROUP_SIZE, size);
-    return static_cast<std::uint32_t>(size[0] * size[1] * size[2]);
+    glGetProgramiv(compute_program, GL_COMPUTE_WORK_GROUP_SIZE, size);
+    return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
+           static_cast<std::size_t>(size[2]);
+}
+}  // namespace
+
+void forget_state() {
+    applied_program = 0;
 }
 
-}  // namespace
+struct Program::State {
+    State(std::initializer_list<const Shader*> shaders, std::string files)
+        : name(std::move(files)), id(link(shaders, name)) {
+        std::string source;
+        for (const Shader* shader : shaders) source += shader->text();
+        try {
+            interface = ProgramInterface(id, std::move(source));
+        } catch (const GlError& error) {
+            glDeleteProgram(id);
+            throw GlError(name + ": " + error.what());
+        }
+    }
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State() {
+        glDeleteProgram(id);
+        if (is_applied()) forget_state();
+    }
+
+    bool is_applied() const { return applied_program == serial; }
+
+    std::string name;  // of its files
+    GLuint id;
+    std::uint64_t serial = next_serial();
+    ProgramInterface interface;
+    std::size_t group_size = 0;  // invocations of a work group; 0 for programs that draw
+};
+
+Program::Program() = default;
+Program::Program(Program&& other) noexcept = default;
+Program& Program::operator=(Program&& other) noexcept = default;
+Program::~Program() = default;
 
 Program Program::compute(const std::string& file, const Defines& defines) {
     const Shader shader(GL_COMPUTE_SHADER, file, defines);
     Program program;
-    program.id_ = link({&shader}, file);
+    program.state_ = std::make_unique<State>(std::initializer_list<const Shader*>{&shader}, file);
+    program.state_->group_size = group_size_of(program.id());
     return program;
 }
 
@@ -93,7 +195,8 @@ Program Program::graphics(const std::string& vertex_file, const std::string& fra
     const Shader vertex(GL_VERTEX_SHADER, vertex_file, defines);
     const Shader fragment(GL_FRAGMENT_SHADER, fragment_file, defines);
     Program program;
-    program.id_ = link({&vertex, &fragment}, vertex_file + " with " + fragment_file);
+    program.state_ = std::make_unique<State>(std::initializer_list<const Shader*>{&vertex, &fragment},
+                                             vertex_file + " with " + fragment_file);
     return program;
 }
 
@@ -103,57 +206,124 @@ Program Program::graphics_with_geometry(const std::string& vertex_file, const st
     const Shader geometry(GL_GEOMETRY_SHADER, geometry_file, defines);
     const Shader fragment(GL_FRAGMENT_SHADER, fragment_file, defines);
     Program program;
-    program.id_ =
-        link({&vertex, &geometry, &fragment}, vertex_file + ", " + geometry_file + " and " + fragment_file);
+    program.state_ =
+        std::make_unique<State>(std::initializer_list<const Shader*>{&vertex, &geometry, &fragment},
+                                vertex_file + ", " + geometry_file + " and " + fragment_file);
     return program;
 }
 
-Program& Program::operator=(Program&& other) noexcept {
-    std::swap(id_, other.id_);
-    Program old(std::move(other));  // frees what this one held now, not when `other` ends
-    return *this;
-}
-
-Program::~Program() {
-    if (id_ != 0) glDeleteProgram(id_);
+unsigned Program::id() const {
+    return state_ == nullptr ? 0 : state_->id;
 }
 
 void Program::use() const {
-    glUseProgram(id_);
+    assert(state_ != nullptr);
+    if (state_->is_applied()) return;
+    forget_state();
+    if (const std::string what = state_->interface.unbound(); !what.empty())
+        throw GlError(state_->name + ": nothing is bound to " + what);
+    glUseProgram(state_->id);
+    for (const ProgramInterface::Block& block : state_->interface.blocks()) apply(block);
+    for (const ProgramInterface::Sampler& sampler : state_->interface.samplers()) apply(sampler);
+    applied_program = state_->serial;
 }
 
-void Program::set(const char* name, float value) const {
-    glProgramUniform1f(id_, glGetUniformLocation(id_, name), value);
-}
-void Program::set(const char* name, int value) const {
-    glProgramUniform1i(id_, glGetUniformLocation(id_, name), value);
-}
-void Program::set(const char* name, std::uint32_t value) const {
-    glProgramUniform1ui(id_, glGetUniformLocation(id_, name), value);
-}
-void Program::set(const char* name, const glm::ivec2& value) const {
-    glProgramUniform2iv(id_, glGetUniformLocation(id_, name), 1, glm::value_ptr(value));
-}
-void Program::set(const char* name, const glm::vec2& value) const {
-    glProgramUniform2fv(id_, glGetUniformLocation(id_, name), 1, glm::value_ptr(value));
-}
-void Program::set(const char* name, const glm::vec3& value) const {
-    glProgramUniform3fv(id_, glGetUniformLocation(id_, name), 1, glm::value_ptr(value));
-}
-void Program::set(const char* name, const glm::vec4& value) const {
-    glProgramUniform4fv(id_, glGetUniformLocation(id_, name), 1, glm::value_ptr(value));
-}
-void Program::set(const char* name, const glm::uvec4& value) const {
-    glProgramUniform4uiv(id_, glGetUniformLocation(id_, name), 1, glm::value_ptr(value));
-}
-void Program::set(const char* name, const glm::mat4& value) const {
-    glProgramUniformMatrix4fv(id_, glGetUniformLocation(id_, name), 1, GL_FALSE, glm::value_ptr(value));
+void Program::check_declared([[maybe_unused]] std::string_view name) const {
+    assert(state_->interface.declares(name));
 }
 
-void Program::dispatch(std::size_t invocations, std::uint32_t group_size) const {
-    if (invocations == 0) return;
-    assert(group_size == group_size_of(id_));
-    const std::size_t groups = (invocations + group_size - 1) / group_size;
+void Program::bind_block(std::string_view name, const ObjectName& buffer) const {
+    ProgramInterface::Block* block = state_->interface.find_block(name);
+    if (block == nullptr) return check_declared(name);
+    if (block->buffer == buffer) return;
+    block->buffer = buffer;
+    if (id_of(buffer) == 0) {
+        forget_state();
+    } else if (state_->is_applied()) {
+        apply(*block);
+    }
+}
+
+void Program::bind_texels(std::string_view name, const ObjectName& texture) const {
+    ProgramInterface::Sampler* sampler = state_->interface.find_sampler(name);
+    if (sampler == nullptr) return check_declared(name);
+    assert(sampler->target == GL_TEXTURE_BUFFER);
+    if (sampler->texture == texture) return;
+    sampler->texture = texture;
+    if (id_of(texture) == 0) {
+        forget_state();
+    } else if (state_->is_applied()) {
+        apply(*sampler);
+    }
+}
+
+void Program::bind_texture(std::string_view name, unsigned texture, unsigned sampler_id) const {
+    ProgramInterface::Sampler* sampler = state_->interface.find_sampler(name);
+    if (sampler == nullptr) return check_declared(name);
+    sampler->texture = nullptr;
+    sampler->texture_id = texture;
+    sampler->sampler_id = sampler_id;
+    if (state_->is_applied()) forget_state();
+}
+
+void Program::bind_vertices(std::string_view name, const ObjectName& buffer, bool is_color) const {
+    ProgramInterface::Input* input = state_->interface.find_input(name);
+    if (input == nullptr) return check_declared(name);
+    input->buffer = buffer;
+    input->is_color = is_color;
+    if (state_->is_applied()) forget_state();
+}
+
+void Program::bind_input(std::string_view input, const Buffer<glm::vec4>& vertices) const {
+    bind_vertices(input, vertices.name(), false);
+}
+
+void Program::bind_input(std::string_view input, const Buffer<std::uint32_t>& colors) const {
+    bind_vertices(input, colors.name(), true);
+}
+
+int Program::location(std::string_view name) const {
+    const ProgramInterface::Uniform* uniform = state_->interface.find_uniform(name);
+    if (uniform != nullptr) return uniform->location;
+    check_declared(name);
+    return -1;  // which OpenGL ignores
+}
+
+void Program::set(std::string_view uniform, float value) const {
+    glProgramUniform1f(id(), location(uniform), value);
+}
+void Program::set(std::string_view uniform, int value) const {
+    glProgramUniform1i(id(), location(uniform), value);
+}
+void Program::set(std::string_view uniform, std::uint32_t value) const {
+    glProgramUniform1ui(id(), location(uniform), value);
+}
+void Program::set(std::string_view uniform, const glm::ivec2& value) const {
+    glProgramUniform2iv(id(), location(uniform), 1, glm::value_ptr(value));
+}
+void Program::set(std::string_view uniform, const glm::vec2& value) const {
+    glProgramUniform2fv(id(), location(uniform), 1, glm::value_ptr(value));
+}
+void Program::set(std::string_view uniform, const glm::vec3& value) const {
+    glProgramUniform3fv(id(), location(uniform), 1, glm::value_ptr(value));
+}
+void Program::set(std::string_view uniform, const glm::vec4& value) const {
+    glProgramUniform4fv(id(), location(uniform), 1, glm::value_ptr(value));
+}
+void Program::set(std::string_view uniform, const glm::uvec4& value) const {
+    glProgramUniform4uiv(id(), location(uniform), 1, glm::value_ptr(value));
+}
+void Program::set(std::string_view uniform, const glm::mat4& value) const {
+    glProgramUniformMatrix4fv(id(), location(uniform), 1, GL_FALSE, glm::value_ptr(value));
+}
+
+void Program::dispatch(std::size_t invocations) const {
+    const std::size_t group_size = state_->group_size;
+    dispatch_groups((invocations + group_size - 1) / group_size);
+}
+
+void Program::dispatch_groups(std::size_t groups) const {
+    if (groups == 0) return;
     const std::size_t rows = (groups + kMaxGroups - 1) / kMaxGroups;
     if (rows > kMaxGroups) {
         throw GlError("a dispatch of " + std::to_string(groups) +
@@ -162,16 +332,39 @@ void Program::dispatch(std::size_t invocations, std::uint32_t group_size) const 
     }
     // Rows of equal length leave fewer groups over than full rows and a rest.
     const std::size_t columns = (groups + rows - 1) / rows;
-    glUseProgram(id_);
+    use();
     glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(rows), 1);
     check_errors("glDispatchCompute");
 }
 
 void Program::dispatch_indirect(unsigned arguments, std::size_t offset) const {
-    glUseProgram(id_);
+    use();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, arguments);
     glDispatchComputeIndirect(static_cast<GLintptr>(offset));
     check_errors("glDispatchComputeIndirect");
+}
+
+void Program::draw_arrays(Primitive primitive, std::size_t count) const {
+    if (count == 0) return;
+    use();
+    const VertexInputs inputs(state_->interface.inputs());
+    glDrawArrays(mode_of(primitive), 0, static_cast<GLsizei>(count));
+}
+
+void Program::draw_elements(Primitive primitive, unsigned indices, std::size_t count) const {
+    if (count == 0) return;
+    use();
+    const VertexInputs inputs(state_->interface.inputs());
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices);
+    glDrawElements(mode_of(primitive), static_cast<GLsizei>(count), GL_UNSIGNED_INT, nullptr);
+}
+
+void Program::draw_arrays_indirect(Primitive primitive, unsigned arguments, std::size_t offset) const {
+    use();
+    const VertexInputs inputs(state_->interface.inputs());
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, arguments);
+    glDrawArraysIndirect(mode_of(primitive), std::bit_cast<const void*>(offset));
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
 }
 
 void barrier(Barrier next_use) {
@@ -186,6 +379,13 @@ void barrier(Barrier next_use) {
     if (asks(Barrier::command)) bits |= GL_COMMAND_BARRIER_BIT;
     if (asks(Barrier::pixel_unpack)) bits |= GL_PIXEL_BUFFER_BARRIER_BIT;
     glMemoryBarrier(bits);
+}
+
+void release_samplers() {
+    for (unsigned unit = 0; unit < units_with_samplers.size(); ++unit)
+        if (units_with_samplers[unit]) glBindSampler(unit, 0);
+    units_with_samplers.reset();
+    forget_state();
 }
 
 void finish() {

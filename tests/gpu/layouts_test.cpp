@@ -21,11 +21,10 @@ protected:
         std::string sum;
         for (const auto& [field, offset] : fields) sum += " + vec4(items[1]." + field + ")";
         const gl::ShaderOverride probe(
-            "probe.comp",
-            "#include \"layouts/" + file +
-                "\"\nlayout(local_size_x = 1) in;\nlayout(std430, binding = 0) buffer Items { " + type +
-                " items[]; };\nlayout(std430, binding = 1) buffer Out { vec4 result; };\n" +
-                "void main() { result = vec4(0.0)" + sum + "; }\n");
+            "probe.comp", "#include \"layouts/" + file +
+                              "\"\nlayout(local_size_x = 1) in;\nlayout(std430) buffer Items { " + type +
+                              " items[]; };\nlayout(std430) buffer Out { vec4 result; };\n" +
+                              "void main() { result = vec4(0.0)" + sum + "; }\n");
         const gl::Program program = gl::Program::compute("probe.comp");
         for (const auto& [field, offset] : fields) {
             EXPECT_EQ(query(program, "items[0]." + field, GL_OFFSET), static_cast<int>(offset))

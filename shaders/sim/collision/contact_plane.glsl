@@ -1,7 +1,7 @@
 // The plane in which two objects meet: it moves with the common velocity of their patches, or with the mean one of the
 // corners that are pinned. CPU twin: src/cpu/collision/contact.h.
 #include "layouts/contact.glsl"
-layout(std430, binding = 5) buffer ContactPatches { ContactPatch contact_patches[]; };
+layout(std430) buffer ContactPatches { ContactPatch contact_patches[]; };
 
 struct ContactPlane {
     vec3 normal;    // unit, from the pair's object to the other

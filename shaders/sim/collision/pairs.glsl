@@ -4,13 +4,12 @@
 #include "layouts/box.glsl"
 #include "layouts/object_pair.glsl"
 
-layout(std430, binding = 0) buffer BoundingBoxes { BoundingBox bounding_boxes[]; };
-layout(std430, binding = 1) buffer PairRows { PairRow pair_rows[]; };
-layout(std430, binding = 2) buffer ObjectPairs { ObjectPair object_pairs[]; };
+layout(std430) buffer BoundingBoxes { BoundingBox bounding_boxes[]; };
+layout(std430) buffer PairRows { PairRow pair_rows[]; };
+layout(std430) buffer ObjectPairs { ObjectPair object_pairs[]; };
 
 const uint kAllFaces = 0xFFFFFFFFu;  // ObjectPair::first_candidate
 
-const uint kFacesAWord = 16u;        // of the Face Collision Result
 
 uint word_count(uint object) { return (bounding_boxes[object].face_count + kFacesAWord - 1u) / kFacesAWord; }
 

@@ -28,8 +28,8 @@ constexpr const char* kProbe = R"(
 #include "include/global_index.glsl"
 #include "sim/collision/time_of_impact.glsl"
 layout(local_size_x = 64) in;
-layout(std430, binding = 0) readonly buffer Corners { vec4 corners[]; };
-layout(std430, binding = 1) writeonly buffer Times { float times[]; };
+layout(std430) readonly buffer Corners { vec4 corners[]; };
+layout(std430) writeonly buffer Times { float times[]; };
 uniform uint pair_count;
 mat3 face(uint k) { return mat3(corners[k].xyz, corners[k + 1u].xyz, corners[k + 2u].xyz); }
 void main() {
@@ -53,8 +53,8 @@ std::vector<float> times_on_gpu(const Pairs& pairs) {
     const gl::Buffer<glm::vec4> corners{std::span<const glm::vec4>(points)};
     std::vector<float> times(pairs.size() + kGuard, kPoison);
     const gl::Buffer<float> results{std::span<const float>(times)};
-    corners.bind_storage(0);
-    results.bind_storage(1);
+    program.bind("Corners", corners);
+    program.bind("Times", results);
     program.set("pair_count", static_cast<std::uint32_t>(pairs.size()));
     program.dispatch(pairs.size());
     gl::barrier(gl::Barrier::buffer_update);
@@ -108,10 +108,10 @@ TEST_P(TimeOfImpactParityTest, MissesNothingAndMatchesTheCpu) {
 
 // Broken in these ways, the shader misses impacts or sees what is far away touch.
 constexpr test::Mutant kMutants[] = {
-    {"rounding_is_forgotten", "sim/collision/time_of_impact.glsl", "kRoundingBound = 9.5367432e-7",
-     "kRoundingBound = 0.0"},
+    {"rounding_is_forgotten", "sim/collision/time_of_impact.glsl",
+     "kRoundingBound = float(kImpactRounding) * kEpsilon", "kRoundingBound = 0.0"},
     {"a_corner_is_forgotten", "sim/collision/time_of_impact.glsl", "low_end = low_end.yzx;", ""},
-    {"planes_are_not_renewed", "sim/collision/time_of_impact.glsl", "kMostPlanes = 32", "kMostPlanes = 1"},
+    {"planes_are_not_renewed", "layouts/predicates.glsl", "kMostPlanes = 32", "kMostPlanes = 1"},
     {"the_end_is_not_looked_at", "sim/collision/time_of_impact.glsl", "max(first.y, first.z)));",
      "max(first.y, first.z))); window.y = 1.0;"},
     {"the_frame_stands_still", "sim/collision/time_of_impact.glsl", "t.end));\n    vec3 reach",

@@ -27,8 +27,8 @@ constexpr const char* kProbe = R"(
 #include "include/global_index.glsl"
 #include "sim/collision/triangle_overlap.glsl"
 layout(local_size_x = 64) in;
-layout(std430, binding = 0) readonly buffer Corners { vec4 corners[]; };
-layout(std430, binding = 1) writeonly buffer Overlaps { uint overlaps[]; };
+layout(std430) readonly buffer Corners { vec4 corners[]; };
+layout(std430) writeonly buffer Overlaps { uint overlaps[]; };
 uniform uint pair_count;
 void main() {
     uint n = global_index();
@@ -52,8 +52,8 @@ std::vector<std::uint32_t> overlaps_on_gpu(const Pairs& pairs) {
     const gl::Buffer<glm::vec4> corners{std::span<const glm::vec4>(points)};
     std::vector<std::uint32_t> overlaps(pairs.size() + kGuard, kPoison);
     const gl::Buffer<std::uint32_t> results{std::span<const std::uint32_t>(overlaps)};
-    corners.bind_storage(0);
-    results.bind_storage(1);
+    program.bind("Corners", corners);
+    program.bind("Overlaps", results);
     program.set("pair_count", static_cast<std::uint32_t>(pairs.size()));
     program.dispatch(pairs.size());
     gl::barrier(gl::Barrier::buffer_update);
@@ -148,11 +148,12 @@ TEST_F(TriangleOverlapHeavyTest, DegeneratePairsInAnyOrder) {
 // Broken in these ways, the shader is told from its twin.
 constexpr test::Mutant kMutants[] = {
     {"the_order_of_vertices_matters", "sim/collision/triangle_overlap.glsl", "comes_before(b, a)", "false"},
-    {"float_is_trusted", "sim/collision/triangle_overlap.glsl", "9.5367432e-7", "0.0"},
+    {"float_is_trusted", "sim/collision/triangle_overlap.glsl", "float(kOverlapRounding) * kEpsilon", "0.0"},
     {"float_is_not_settled_in_double", "sim/collision/triangle_overlap.glsl", "rest = zero_signs(signs)",
      "rest = 0u"},
     {"double_is_trusted", "sim/collision/triangle_overlap.glsl", "1.7763568394002505e-15lf", "0.0lf"},
-    {"underflow_is_forgotten", "sim/collision/triangle_overlap.glsl", "1.5777218e-30", "0.0"},
+    {"underflow_is_forgotten", "sim/collision/rounding.glsl", "float(kUnderflowRounding) * kLeastNormal",
+     "0.0"},
     {"an_edge_is_forgotten", "sim/collision/triangle_overlap.glsl", "open_edges |= 8u << i;", ""},
     {"turns_are_shifted", "sim/collision/triangle_overlap.glsl", "turns = kEdgeOfT << i",
      "turns = kEdgeOfT << (i + 1)"},
