@@ -37,7 +37,7 @@ public:
     StagePlayer(const std::shared_ptr<const Model>& model, const CollisionSettings& collision,
                 const StageSystem& system, std::vector<BenchStage> stages);
 
-    /// How long a step takes [ms], and how many take about a fiftieth of a second. Compiles shaders and
+    /// How long time of a step [ms], and how many take about a fiftieth of a second. Compiles shaders and
     /// faults pages in.
     struct Trial {
         double ms;

@@ -104,7 +104,7 @@ void add_info_command(CLI::App& app) {
         bool json = false;
     };
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("info", "Tell about this machine, a scene or a mesh");
+    CLI::App* command = app.add_subcommand("info", "Describe this machine, a scene or a mesh");
     command->add_option("FILE", options->file,
                         "A scene (.toml) or a mesh; none: this program and its devices");
     command->add_flag("--json", options->json, "Print one JSON object");

@@ -110,7 +110,7 @@ void run_mesh(MeshOptions& options) {
 
 void add_mesh_command(CLI::App& app) {
     auto options = std::make_shared<MeshOptions>();
-    CLI::App* command = app.add_subcommand("mesh", "Make tets of a surface, or convert between mesh files");
+    CLI::App* command = app.add_subcommand("mesh", "Fill a surface with tets, or convert between mesh files");
     command
         ->add_option("IN", options->input,
                      "A surface (.obj, .stl, .ply, .off) or tets (.node, .ele, .mesh, .msh)")

@@ -101,7 +101,8 @@ void Run::advance() {
 }
 
 void Run::introduce() const {
-    std::fprintf(stderr, "gelatin: %zu nodes, %zu springs, %zu faces; %d steps of %.4g s a frame; %s on %s\n",
+    std::fprintf(stderr,
+                 "gelatin: %zu nodes, %zu springs, %zu faces; %d steps of %.4g s per frame; %s on %s\n",
                  report_.counts.nodes, report_.counts.springs, report_.counts.faces, report_.substeps,
                  report_.step_size, report_.backend.c_str(), report_.device.c_str());
 }

@@ -46,7 +46,7 @@ bool edit_simulation(SimulationSettings& simulation) {
     bool changed = choose_solver(simulation.solver);
     if (changed) simulation.substeps.reset();  // what was chosen for another solver need not be stable
     int substeps = simulation.substeps.value_or(0);
-    if (ImGui::InputInt("steps a frame", &substeps)) {
+    if (ImGui::InputInt("steps per frame", &substeps)) {
         simulation.substeps = substeps > 0 ? std::optional(substeps) : std::nullopt;
         changed = true;
     }

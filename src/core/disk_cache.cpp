@@ -84,10 +84,10 @@ void DiskCache::store(const std::string& key, const std::string& content) const 
         fs::create_directories(folder_);
         write_file(entry(key), whole);
     } catch (const fs::filesystem_error& error) {
-        spdlog::warn("{} are not kept for the next run: {}: {}", what_, folder_.string(),
+        spdlog::warn("{} cannot be cached for the next run: {}: {}", what_, folder_.string(),
                      error.code().message());
     } catch (const SystemError& error) {
-        spdlog::warn("{} are not kept for the next run: {}", what_, error.what());
+        spdlog::warn("{} cannot be cached for the next run: {}", what_, error.what());
     }
 }
 

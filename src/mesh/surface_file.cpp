@@ -125,7 +125,7 @@ SurfaceMesh read_obj(const fs::path& file, const std::string& content, Notes& no
             fmt::format("merged vertices with the same position: {}", vertices.used - mesh.positions.size()));
     }
     if (vertices.count > vertices.used) {
-        notes.push_back(fmt::format("dropped vertices without faces: {}", vertices.count - vertices.used));
+        notes.push_back(fmt::format("discarded vertices without faces: {}", vertices.count - vertices.used));
     }
     return mesh;
 }

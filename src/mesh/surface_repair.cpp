@@ -90,12 +90,13 @@ void repair_surface(SurfaceMesh& mesh, Notes& notes) {
     };
     const std::size_t merged = merge_vertices(mesh);
     note(merged, "merged vertices that coincide: {}");
-    note(drop_degenerate_faces(mesh), "dropped faces without area: {}");
-    note(drop_repeated_faces(mesh), "dropped repeated faces: {}");
-    note(drop_unused_vertices(mesh) - merged, "dropped vertices without faces: {}");
+    note(drop_degenerate_faces(mesh), "discarded faces without area: {}");
+    note(drop_repeated_faces(mesh), "discarded duplicate faces: {}");
+    note(drop_unused_vertices(mesh) - merged, "discarded vertices without faces: {}");
     const WindingRepair winding = turn_faces_outward(mesh);
-    note(winding.turned_faces, "turned faces that wound the wrong way: {}");
-    note(winding.contrary_edges, "edges whose two faces cannot wind alike, as on a one-sided surface: {}");
+    note(winding.turned_faces, "flipped faces with the wrong orientation: {}");
+    note(winding.contrary_edges,
+         "edges whose two faces cannot have the same orientation, as on a one-sided surface: {}");
 }
 
 Openness measure_openness(const SurfaceMesh& mesh) {

@@ -32,7 +32,7 @@ void note_nearly_flat(const TetMesh& mesh, Notes& notes) {
     }
     if (count == 0) return;
     notes.push_back(
-        fmt::format("nearly flat tets, which make an explicit solver's steps short: {} (the flattest is tet "
+        fmt::format("nearly flat tets, which shorten the steps of explicit solvers: {} (the flattest is tet "
                     "{}, with {:.1g} of "
                     "the volume of a regular one)",
                     count, worst + 1, least));

@@ -55,7 +55,7 @@ void orient_tets(const fs::path& file, TetMesh& mesh, Notes& notes) {
         std::swap(tet[2], tet[3]);
         ++turned;
     }
-    if (turned > 0) notes.push_back(fmt::format("turned tets that were inside out: {}", turned));
+    if (turned > 0) notes.push_back(fmt::format("flipped inverted tets: {}", turned));
 }
 
 // Gmsh writes a tet of several physical groups once for each.
@@ -76,7 +76,7 @@ void drop_repeated_tets(TetMesh& mesh, Notes& notes) {
     std::vector<bool> keep(mesh.tets.size(), true);
     for (std::size_t k = 1; k < keys.size(); ++k) keep[keys[k].tet] = keys[k].nodes != keys[k - 1].nodes;
     const std::size_t dropped = keep_tets(mesh, keep);
-    if (dropped > 0) notes.push_back(fmt::format("dropped repeated tets: {}", dropped));
+    if (dropped > 0) notes.push_back(fmt::format("discarded duplicate tets: {}", dropped));
 }
 
 // Drops nodes that have no tets. Returns how many.
@@ -152,7 +152,7 @@ TetMesh read_tets(const fs::path& file, Notes& notes) {
     const auto is_zero = [](int attribute) { return attribute == 0; };
     if (std::all_of(mesh.attributes.begin(), mesh.attributes.end(), is_zero)) mesh.attributes.clear();
     if (const std::size_t dropped = drop_unused_nodes(mesh); dropped > 0)
-        notes.push_back(fmt::format("dropped nodes without tets: {}", dropped));
+        notes.push_back(fmt::format("discarded nodes without tets: {}", dropped));
     merge_nodes(mesh, notes);
     orient_tets(file, mesh, notes);
     drop_repeated_tets(mesh, notes);

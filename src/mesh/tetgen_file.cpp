@@ -51,7 +51,7 @@ Nodes read_nodes(const fs::path& file) {
         for (std::uint64_t k = 0; k < attributes + markers; ++k) scanner.number({"attributes of node", row});
     }
     if (!scanner.at_end())
-        scanner.fail("node", scanner.word("node"), "there are more rows than the file says");
+        scanner.fail("node", scanner.word("node"), "there are more rows than the header says");
     return nodes;
 }
 
@@ -62,7 +62,7 @@ void keep_whole(const std::vector<double>& attributes, TetMesh& mesh, Notes& not
     if (std::all_of(attributes.begin(), attributes.end(), is_whole)) {
         for (const double attribute : attributes) mesh.attributes.push_back(static_cast<int>(attribute));
     } else {
-        notes.emplace_back("left out attributes of tets: they are not whole numbers");
+        notes.emplace_back("ignored attributes of tets that are not integers");
     }
 }
 
@@ -95,7 +95,8 @@ void read_rows_of_tets(const fs::path& file, const Nodes& nodes, TetMesh& mesh, 
         }
         mesh.tets.push_back(tet);
     }
-    if (!scanner.at_end()) scanner.fail("tet", scanner.word("tet"), "there are more rows than the file says");
+    if (!scanner.at_end())
+        scanner.fail("tet", scanner.word("tet"), "there are more rows than the header says");
     if (corners == 10) notes.push_back(fmt::format("kept the corners only of tets with 10 nodes: {}", count));
     keep_whole(regions, mesh, notes);
 }

@@ -120,7 +120,7 @@ void check_surface(const SurfaceMesh& surface, const MesherSettings& settings, c
     const double least_tets = std::abs(signed_volume(surface)) / *settings.max_volume;
     if (least_tets > kMostTets) {
         throw InvalidInput({name, 0, "mesher.max_volume", fmt::format("{} m^3", *settings.max_volume),
-                            fmt::format("asks for {:.2g} tetrahedra or more; at most {:.0e} are allowed",
+                            fmt::format("would give {:.2g} tetrahedra or more; at most {:.0e} are allowed",
                                         least_tets, kMostTets)});
     }
 }
@@ -142,8 +142,8 @@ std::size_t count_crossings(const std::filesystem::path& folder, double time_lim
     if (result.timed_out) {
         throw InvalidInput(
             {name, 0, "mesher.time_limit", fmt::format("{} s", settings.time_limit),
-             fmt::format("TetGen was stopped at this limit, after saying {}; raise the limit, or ask for "
-                         "fewer tetrahedra with a larger max_volume or quality",
+             fmt::format("TetGen was stopped at this limit; its last output was {}; raise the limit, or "
+                         "allow a larger max_volume or quality",
                          words)});
     }
     const std::size_t crossings = count_crossings(folder, settings.time_limit);
@@ -186,7 +186,11 @@ TetMesh run_mesher(const SurfaceMesh& surface, const MesherSettings& settings, c
         return read_result(tets);
     } catch (const InvalidInput& error) {
         throw InvalidInput(
-            {name, 0, {}, {}, "what TetGen made of this surface cannot be used: " + error.problem().problem});
+            {name,
+             0,
+             {},
+             {},
+             "the mesh that TetGen made of this surface cannot be used: " + error.problem().problem});
     }
 }
 

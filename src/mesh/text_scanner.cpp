@@ -103,7 +103,7 @@ int TextScanner::signed_integer(const FieldName& field) {
     int value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size())
-        fail(field, text, "must be a whole number that 32 bits can hold");
+        fail(field, text, "must be a whole number that fits into 32 bits");
     return value;
 }
 

@@ -64,7 +64,7 @@ std::vector<std::string> check_starts(const Model& model, const Scene& scene,
             }
             first = fmt::format(
                 "object '{}': starts {:.3g} m deep inside collider {} (a {}), which may tear it as its nodes "
-                "are pushed out; at most {:.3g} m, half of its thickness there, are allowed for",
+                "are pushed out; up to {:.3g} m, half of its thickness there, is safe",
                 object.name, found.depth, c + 1, name_of(collider), allowed);
         }
         if (first.empty()) continue;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kArrows = 400;
 
-// The nodes of trees down to a number of levels below their roots, or of that level alone: index, level below
+// The nodes of trees down to a number of levels below their roots, or of only that level: index, level below
 // the first one listed.
 std::vector<glm::uvec2> list_boxes(const BoxTree& trees, int levels, bool is_alone) {
     const auto last = static_cast<std::size_t>(levels), first = is_alone ? last : std::size_t{0};

@@ -16,7 +16,7 @@ struct RunReport {
     std::string device;
     SimulationSettings settings;
     CollisionSettings collision;
-    int substeps = 1;        ///< steps a frame, as chosen
+    int substeps = 1;        ///< steps per frame, as chosen
     double step_size = 0.0;  ///< [s]
     Counts counts;
     std::vector<std::string> objects;  ///< names, in the order of FrameStatistics::volume_ratio

@@ -73,7 +73,7 @@ struct Simulator::Impl {
         const ProximityMeasure measure = solver->proximities();
         if (measure.lost > 0 && !lost_proximities) {
             spdlog::warn(
-                "{} proximities are not kept: too many for the GPU's buffers; choose a smaller "
+                "{} proximities were not stored: too many for the GPU's buffers; choose a smaller "
                 "proximity_radius",
                 measure.lost);
             lost_proximities = true;
@@ -322,7 +322,7 @@ HostFrame Simulator::read_frame() const {
 RenderView Simulator::render_view(const Overlays& overlays) {
     Impl& d = *impl_;
     if (!d.context)
-        throw NoOpenGl("drawing needs an OpenGL context: ask for it in SimulatorOptions::need_gl");
+        throw NoOpenGl("drawing needs an OpenGL context: request it with SimulatorOptions::need_gl");
     if (!d.draw_source) d.draw_source.emplace(d.model);
     RenderView view;
     if (d.gpu_solver != nullptr) {

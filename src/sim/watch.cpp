@@ -73,7 +73,7 @@ void Watch::fail(const Alarm& alarm, std::uint64_t step, const Moment& now) cons
     const std::string others = alarm.count > 1 ? fmt::format(" and {} more", alarm.count - 1) : "";
     const glm::vec4& rest = model_->positions[alarm.node];
     throw Diverged(
-        fmt::format("the simulation diverged in step {} (on the way to frame {}, {:.6g} s): node {} of "
+        fmt::format("the simulation diverged in step {} (of frame {}, {:.6g} s): node {} of "
                     "object '{}', at ({:.4g}, {:.4g}, {:.4g}) at rest,{} {}; likely cause: {}",
                     where.step, where.frame, where.time, where.node, where.object, rest.x, rest.y, rest.z,
                     others, symptom, likely_cause(*model_, scene_, alarm.node, step_size())),
@@ -91,7 +91,7 @@ void Watch::check(const std::vector<ObjectMeasure>& objects, const Moment& momen
     throw Diverged(
         fmt::format(
             "the simulation diverged before frame {} ({:.6g} s): the bodies' kinetic and elastic energy is "
-            "{:.3g} J, most of it object '{}''s, while start, gravity and loads explain {:.3g} J at most; "
+            "{:.3g} J, most of it in object '{}', but start, gravity and loads explain at most {:.3g} J; "
             "likely "
             "cause: {}",
             moment.frame, moment.time, now.energy, object.name, most,

@@ -158,9 +158,9 @@ TEST_F(SurfaceFileTest, ReportsRepairs) {
     obj.replace(obj.find("f 2 3 4"), 7,
                 "v 0 1 0\nv 9 9 9\nf 2 4 5");  // wound the wrong way, with a vertex of its own
     expect_tetrahedron(read("a.obj", obj));
-    EXPECT_THAT(notes_,
-                ElementsAre("merged vertices with the same position: 1", "dropped vertices without faces: 1",
-                            "turned faces that wound the wrong way: 1"));
+    EXPECT_THAT(notes_, ElementsAre("merged vertices with the same position: 1",
+                                    "discarded vertices without faces: 1",
+                                    "flipped faces with the wrong orientation: 1"));
 }
 
 TEST_F(SurfaceFileTest, KeepsSmallMeshesApart) {

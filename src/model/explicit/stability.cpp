@@ -240,7 +240,7 @@ int choose_substeps(const Scene& scene, const Model& model) {
     if (needed > kMostSubsteps) {
         throw InvalidInput(
             {scene.file.string(), 0, "simulation.substeps", "\"auto\"",
-             fmt::format("{} would need steps of {:.3g} s, {:.3g} a frame; at most {} are allowed{}",
+             fmt::format("{} would need steps of {:.3g} s, {:.3g} per frame; at most {} are allowed{}",
                          name_of(settings.solver), kSafety * largest, needed, kMostSubsteps, advice)});
     }
     return std::max(1, static_cast<int>(needed));

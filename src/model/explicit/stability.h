@@ -33,7 +33,7 @@ double largest_stable_step(SolverKind solver, const Model& model,
 /// (the rest is for springs that stiffen as the body deforms).
 /// @throws InvalidInput if the scene's own number makes steps larger than the largest stable one, naming it,
 /// or if
-///   more than 100,000 steps a frame were needed.
+///   more than 100,000 steps per frame were needed.
 int choose_substeps(const Scene& scene, const Model& model);
 
 }  // namespace gelatin
