@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint32_t kNone = ~0u;
 
-// Points the faces at the first of the vertices that coincide. Returns how many others there are.
+// Replaces coincident vertices in the faces by the first of them. Returns the number of the others.
 std::size_t merge_vertices(SurfaceMesh& mesh) {
     const MergedPoints merged = merge_points(mesh.positions, 1e-9);
     for (glm::uvec3& face : mesh.faces) {

@@ -38,10 +38,10 @@ void note_nearly_flat(const TetMesh& mesh, Notes& notes) {
                     count, worst + 1, least));
 }
 
-// A face as one of its tets sees it.
+// A face of one of its tets.
 struct Side {
     std::array<std::uint32_t, 3> nodes;  // ascending
-    bool is_turned;                      // an odd permutation leads there from the way seen from outside
+    bool is_turned;                      // an odd permutation, relative to the orientation seen from outside
     std::uint32_t tet;
 };
 
@@ -76,7 +76,7 @@ void note_overlaps(const TetMesh& mesh, Notes& notes) {
     for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
         for (end = begin + 1; end < sides.size() && sides[end].nodes == sides[begin].nodes;) ++end;
         crowded += end - begin > 2 ? 1 : 0;
-        // Neighbours see their face from either side.
+        // Neighbours see their common face from opposite sides.
         if (end - begin != 2 || sides[begin].is_turned != sides[begin + 1].is_turned) continue;
         ++overlapping;
         if (first == nullptr) first = &sides[begin];

@@ -16,13 +16,13 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostAttributes = 1000;
 
-// What the first line may leave out at its end.
+// What the first line may omit at its end.
 std::uint64_t optional_integer(TextScanner& scanner, const char* field, std::uint64_t otherwise,
                                std::uint64_t high) {
     return scanner.at_line_end() ? otherwise : scanner.integer(field, 0, high);
 }
 
-// Numbers begin with that of the first row, 0 or 1, and go up by one.
+// Numbers begin with that of the first row, 0 or 1, and increase by one.
 struct Nodes {
     std::vector<glm::dvec3> positions;
     std::uint64_t first_number = 0;
@@ -55,7 +55,7 @@ Nodes read_nodes(const fs::path& file) {
     return nodes;
 }
 
-// Numbers of regions; TetGen writes them as real numbers.
+// Numbers of regions, which TetGen writes as real numbers.
 void keep_whole(const std::vector<double>& attributes, TetMesh& mesh, Notes& notes) {
     constexpr double kMost = 2147483647.0;
     const auto is_whole = [](double a) { return std::abs(a) <= kMost && a == std::round(a); };

@@ -26,14 +26,14 @@ namespace gelatin {
 
 namespace {
 
-// Part of the key: to be raised when this file makes something else of TetGen's result.
+// Part of the key. Increase it when this file processes TetGen's result differently.
 constexpr const char* kCacheFormat = "gelatin tets 2";
 constexpr const char* kSurfaceFile = "surface.smesh";
 constexpr const char* kTetFile = "surface.1.ele";  // the name that TetGen derives
-constexpr double kMostTets = 1e8;                  // more would fill the memory long before they are done
+constexpr double kMostTets = 1e8;  // more would exhaust the memory long before they are complete
 
-/// Runs TetGen. Through stdbuf, because TetGen ends by abort() where it fails, and what it said last would be
-/// lost in its buffer.
+/// Runs TetGen, through stdbuf: TetGen ends by abort() when it fails, and its last output would be lost in
+/// its buffer.
 ProcessResult run_tetgen(std::vector<std::string> arguments, const std::filesystem::path& folder,
                          double time_limit) {
     constexpr int kNoSuchProgram = 127;  // stdbuf's exit code
@@ -58,7 +58,7 @@ std::string make_switches(const MesherSettings& settings) {
     return switches;
 }
 
-/// A hash of everything that the tets depend on. The version stands in what `tetgen -h` prints.
+/// A hash of everything that the tets depend on. `tetgen -h` prints the version.
 std::string make_key(const SurfaceMesh& surface, const std::string& switches) {
     const TemporaryFolder folder;
     const std::string help = run_tetgen({"-h"}, folder.path(), 10.0).output;
@@ -86,7 +86,7 @@ std::string format_smesh(const SurfaceMesh& surface) {
     return fmt::to_string(text);
 }
 
-/// The last lines that TetGen itself wrote, in one.
+/// The last lines that TetGen itself wrote, joined to one.
 std::string last_words(const std::string& output) {
     constexpr std::size_t kLines = 3, kLength = 160;  // an assertion of TetGen is far longer
     std::vector<std::string> lines;
@@ -125,7 +125,7 @@ void check_surface(const SurfaceMesh& surface, const MesherSettings& settings, c
     }
 }
 
-/// Pairs of faces that cross, by TetGen's own check of its input; 0 if it finds none.
+/// The number of pairs of intersecting faces, by TetGen's own check of its input; 0 if it finds none.
 std::size_t count_crossings(const std::filesystem::path& folder, double time_limit) {
     std::istringstream lines(run_tetgen({"-dz", kSurfaceFile}, folder, time_limit).output);
     constexpr const char* kVerdict = "!! Found %zu pairs of faces are intersecting";
@@ -158,7 +158,7 @@ std::size_t count_crossings(const std::filesystem::path& folder, double time_lim
     throw InvalidInput({name, 0, {}, {}, problem});
 }
 
-/// TetGen's tets, the right way out. It writes no nodes without tets.
+/// TetGen's tets, with positive volumes. TetGen writes no nodes without tets.
 TetMesh read_result(const std::filesystem::path& file) {
     Notes notes;
     TetMesh mesh = read_tetgen(file, notes);
