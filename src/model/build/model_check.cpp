@@ -81,7 +81,7 @@ std::optional<std::string> uneven_masses(const Model& model) {
         heavy->name, heavy->mass / light->mass, light->name, heavy->mass, light->mass, kMuch);
 }
 
-// The first object's line; copies of it would all say the same.
+// The first object's line; the lines of its copies would be the same.
 template <class Check>
 void add_first(const Model& model, const Check& check, std::vector<std::string>& lines) {
     std::optional<std::string> first;

@@ -58,7 +58,7 @@ std::shared_ptr<const FittedSprings> ObjectMesher::fit(const ObjectDescription& 
     return known.springs;
 }
 
-// Searched from the last one on: copies follow one another.
+// Searched from the last one, because copies are consecutive.
 ObjectMesher::Known& ObjectMesher::local(const ObjectDescription& object) {
     const auto same = std::find_if(known_.rbegin(), known_.rend(), [&](const Known& known) {
         return known.shape == object.shape && known.mesher == object.mesher;

@@ -8,7 +8,7 @@ namespace gelatin {
 /// shaders/sim/collision/pairs.glsl.
 constexpr std::uint32_t kFacesAWord = 16;
 
-/// Words of one pair for an object of so many faces.
+/// The number of words of one pair, for an object with this many faces.
 constexpr std::uint32_t face_collision_words(std::uint32_t face_count) {
     return (face_count + kFacesAWord - 1) / kFacesAWord;
 }

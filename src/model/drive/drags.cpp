@@ -11,7 +11,8 @@
 namespace gelatin {
 namespace {
 
-constexpr double kLeastSpeed = 1e-3;  // of the most: what is left to go then would never be gone
+constexpr double kLeastSpeed =
+    1e-3;  // fraction of the largest speed; otherwise the remaining displacement would never reach zero
 
 double angle_between(const glm::dquat& a, const glm::dquat& b) {
     const glm::dquat turn = b * glm::conjugate(a);
@@ -23,8 +24,8 @@ glm::dvec3 mean(std::span<const glm::dvec3> points) {
            static_cast<double>(points.size());
 }
 
-// The unit quaternion q that makes the sum of (q from_i) . to_i greatest is the eigenvector of its matrix of
-// the greatest eigenvalue.
+// The unit quaternion q that maximises the sum of (q from_i) . to_i is the eigenvector of this matrix with
+// the largest eigenvalue.
 glm::dquat nearest_turn(std::span<const glm::dvec3> from, const glm::dvec3& from_center,
                         std::span<const glm::dvec3> to, const glm::dvec3& to_center) {
     glm::dmat3 s(0.0);  // s[b][a] = sum from_a to_b
@@ -36,7 +37,7 @@ glm::dquat nearest_turn(std::span<const glm::dvec3> from, const glm::dvec3& from
         0.0, 0.0, s[1][1] - s[0][0] - s[2][2], s[2][1] + s[1][2],                                    //
         0.0, 0.0, 0.0, s[2][2] - s[0][0] - s[1][1];
     matrix.triangularView<Eigen::StrictlyLower>() = matrix.transpose();
-    // Nodes on a line, or one alone, turn no more than they need to.
+    // If the nodes are on a line, or there is only one, the smallest rotation is used.
     matrix(0, 0) += 1e-12 * matrix.norm() + std::numeric_limits<double>::min();
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(matrix);
     const Eigen::Vector4d q = solver.eigenvectors().col(3);
@@ -47,7 +48,7 @@ glm::dquat nearest_turn(std::span<const glm::dvec3> from, const glm::dvec3& from
 
 Drag follow(const Drag& drag, const Drag& target, const Handle& handle, double step) {
     const glm::dvec3 way = target.move - drag.move;
-    // The way that a node has to go at most.
+    // The largest displacement of any node.
     const double left = glm::length(way) + angle_between(drag.turn, target.turn) * handle.radius;
     const double speed = std::clamp(kDragRate * left, kLeastSpeed * handle.most_speed, handle.most_speed);
     if (left <= speed * step) return target;
