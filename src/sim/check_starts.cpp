@@ -19,7 +19,7 @@ struct Depth {
 Depth deepest(const Collider& collider, std::span<const glm::vec4> nodes) {
     Depth result;
     for (const glm::vec4& p : nodes) {
-        if (p.w == 0.0f) continue;  // held nodes are where they are told to be
+        if (p.w == 0.0f) continue;  // held nodes are not pushed out
         const cpu::SurfaceDistance<double> surface = cpu::surface_distance(collider, glm::dvec3(p));
         if (-surface.distance > result.depth) result = {-surface.distance, surface.normal};
     }

@@ -33,7 +33,8 @@ std::string flat_tet_at(const Model& model, const ModelObject& object, std::uint
     return {};
 }
 
-// Of each node of an object, the square of a frequency: what its springs and its mass make of it [1/s^2].
+// For each node of an object, the square of a frequency: stiffness of its springs divided by its mass
+// [1/s^2].
 std::vector<double> stiffness_over_mass(const Model& model, const ModelObject& object) {
     std::vector<double> result(object.nodes.count, 0.0);
     for (std::uint32_t s = object.springs.first; s < object.springs.end(); ++s) {

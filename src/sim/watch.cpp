@@ -23,7 +23,7 @@ EnergyBudget::Account add_up(const std::vector<ObjectMeasure>& objects, double t
     return sum;
 }
 
-// The object with the most energy; one whose energy is not finite has more than any other.
+// The object with the most energy. One whose energy is not finite has more than any other.
 std::size_t most_lively(const std::vector<ObjectMeasure>& objects) {
     const auto energy = [](const ObjectMeasure& object) {
         const double sum = object.kinetic_energy + object.elastic_energy + object.potential_energy;
@@ -84,7 +84,7 @@ void Watch::check(const std::vector<ObjectMeasure>& objects, const Moment& momen
     const EnergyBudget::Account now = add_up(objects, moment.time);
     const bool is_moved = somebody_acts(now.time);
     const double most = is_moved ? kAnyEnergy : budget_.most_for(now);
-    // A comparison with what is not a number is false, too.
+    // A comparison with NaN is false, too.
     if (now.energy <= most && std::isfinite(now.potential))
         return is_moved ? budget_.restart(now) : budget_.note(now);
     const ModelObject& object = model_->objects[most_lively(objects)];
