@@ -21,7 +21,7 @@
 namespace gelatin {
 namespace {
 
-// What a context on this device (or on none in particular) says about itself, or why there is none.
+// The properties of a context on this device (or on any), or why there is none.
 Json describe_device(std::optional<int> index) {
     try {
         const gl::DeviceInfo device = gl::Context::headless({index, false}).device();
@@ -49,7 +49,7 @@ Json describe_scene(const std::filesystem::path& file) {
     SimulatorOptions options;
     options.backend = Backend::cpu;
     Scene scene = load_scene(file);
-    scene.collision = {};  // some ways need OpenGL; what is described does not depend on them
+    scene.collision = {};  // some values need OpenGL; the description does not depend on them
     const Simulator simulator(scene, options);
     const SimulationSettings& settings = simulator.scene().simulation;
     const Counts counts = simulator.counts();

@@ -36,7 +36,7 @@ bool is_surface_file(const fs::path& file) {
     return std::find(kSurfaceEndings.begin(), kSurfaceEndings.end(), ending) != kSurfaceEndings.end();
 }
 
-// The boundary faces over the nodes that they use, in their order.
+// The boundary faces over the nodes that they use, in the nodes' order.
 SurfaceMesh boundary_of(const TetMesh& tets) {
     constexpr std::uint32_t kUnused = ~0u;
     SurfaceMesh surface;

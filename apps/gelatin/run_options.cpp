@@ -14,8 +14,8 @@
 namespace gelatin {
 namespace {
 
-constexpr int kLeastSide = 16, kLargestSide = 8192;  // pixels; OpenGL 4.3 promises 16384
-constexpr double kFilmRate = 60.0;                   // pictures a second
+constexpr int kLeastSide = 16, kLargestSide = 8192;  // pixels; OpenGL 4.3 guarantees 16384
+constexpr double kFilmRate = 60.0;                   // pictures per second
 
 }  // namespace
 

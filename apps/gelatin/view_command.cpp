@@ -9,7 +9,7 @@
 namespace gelatin {
 namespace {
 
-/// What the user asked `gelatin view` for, as it was written.
+/// The options of `gelatin view`, as written.
 struct ViewOptions {
     viewer::ViewerOptions viewer;
     std::string backend = "auto", quality = "auto", size = "1280x720";

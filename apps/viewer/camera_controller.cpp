@@ -9,10 +9,10 @@
 namespace gelatin::viewer {
 namespace {
 
-constexpr float kHighest = glm::radians(89.0f);      // short of the poles, where right has no direction
-constexpr float kNotch = 0.88f;                      // of the distance is left
+constexpr float kHighest = glm::radians(89.0f);      // away from the poles, where right has no direction
+constexpr float kNotch = 0.88f;                      // factor on the distance
 constexpr float kNearest = 1e-4f, kFarthest = 1e5f;  // [m]
-constexpr float kMargin = 1.1f;                      // picture over what it frames
+constexpr float kMargin = 1.1f;                      // margin: size of the picture relative to its content
 
 }  // namespace
 
@@ -55,7 +55,7 @@ void CameraController::pan(const glm::vec2& way) {
     target_ -= 2.0f * slope() * distance_ * (way.x * right() + way.y * up());
 }
 
-// What is under the pointer at the target's depth stays there.
+// What is under the pointer, at the target's depth, stays there.
 void CameraController::zoom(float notches, const glm::vec2& place) {
     const float before = distance_;
     distance_ = std::clamp(before * std::pow(kNotch, notches), kNearest, kFarthest);

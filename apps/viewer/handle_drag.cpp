@@ -8,8 +8,8 @@
 namespace gelatin::viewer {
 namespace {
 
-constexpr float kNotch = 1.05f;                   // takes it so much farther away
-constexpr double kNotchTurn = glm::radians(5.0);  // about the line of sight
+constexpr float kNotch = 1.05f;                   // factor of the distance
+constexpr double kNotchTurn = glm::radians(5.0);  // rotation about the line of sight
 
 }  // namespace
 

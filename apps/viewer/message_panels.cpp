@@ -14,7 +14,7 @@ constexpr ImGuiWindowFlags kMessage =
     (kPlain & ~(ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar)) |
     ImGuiWindowFlags_HorizontalScrollbar;
 
-// Room for what is in the middle: the window's, but for a margin.
+// The room for panels in the middle: the window without a margin.
 ImVec2 room(float scale) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float margin = 20.0f * scale;
@@ -39,7 +39,7 @@ void row(const char* what, const char* meaning) {
 
 void draw_help(float scale, Requests& requests) {
     put_in_the_middle(scale);
-    ImGui::SetNextWindowBgAlpha(1.0f);  // there may be another panel behind it
+    ImGui::SetNextWindowBgAlpha(1.0f);  // another panel may be behind it
     bool is_open = true;
     ImGui::Begin("Keys and mouse", &is_open, kMessage);
     if (ImGui::BeginTable("shortcuts", 2, ImGuiTableFlags_SizingFixedFit)) {

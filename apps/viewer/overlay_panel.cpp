@@ -12,7 +12,7 @@ namespace {
 
 constexpr ImGuiSliderFlags kLogarithmic = ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp;
 
-// What bodies are coloured by, and between which values that is meant to end.
+// The quantities that colour bodies, and the limits of their range.
 struct ColorChoice {
     const char* name;
     std::optional<Quantity> quantity;

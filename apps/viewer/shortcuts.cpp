@@ -9,7 +9,7 @@ namespace {
 
 using With = Shortcut::With;
 
-// A key that is held down makes steps, but does not play and pause in turns.
+// A key that is held down repeats steps, but does not alternate between play and pause.
 bool may_repeat(Command command) {
     return command == Command::step || command == Command::step_frame;
 }
@@ -57,7 +57,7 @@ std::optional<Command> find_command(const KeyPress& press) {
     int key = press.key;
     if (key == GLFW_KEY_KP_ADD) key = GLFW_KEY_EQUAL;
     if (key == GLFW_KEY_KP_SUBTRACT) key = GLFW_KEY_MINUS;
-    // '+' takes a Shift on most keyboards.
+    // '+' needs Shift on most keyboards.
     const bool with_shift = press.with_shift && key != GLFW_KEY_EQUAL;
     const With with = press.with_control ? With::control : with_shift ? With::shift : With::nothing;
     for (const Shortcut& shortcut : shortcuts()) {

@@ -1,4 +1,4 @@
-// ViewerApp: what a user asks for by keys and panels, and the files that come of it.
+// ViewerApp: the commands of keys and panels, and the files that they write.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ render::Bounds bounds_of_bodies(const RenderView& view) {
             {view.box_max[0], view.box_max[1], view.box_max[2]}};
 }
 
-// The first of NAME-1.png, NAME-2.png, ... that is not there yet.
+// The first of NAME-1.png, NAME-2.png, ... that does not exist yet.
 std::filesystem::path free_name(const std::string& stem, const char* ending) {
     for (int i = 1;; ++i) {
         std::filesystem::path file = fmt::format("{}-{}{}", stem, i, ending);
@@ -98,7 +98,8 @@ void ViewerApp::obey(const Requests& requests) {
     }
 }
 
-// The scene's own bodies in turns. While one is being made, no other is: it would need that one's model.
+// Cycles through the scene's own bodies. While one is being built, no other can be: it would need that one's
+// model.
 void ViewerApp::throw_body() {
     if (loader_.is_busy()) return;
     Scene scene = panels_.edited;
@@ -111,7 +112,7 @@ void ViewerApp::throw_body() {
     loader_.rebuild(panels_.edited);
 }
 
-// Seen from where the camera is, and dragged as it is.
+// With the present camera and drags.
 void ViewerApp::save_scene() {
     if (loader_.is_busy()) return tell("the scene is still being made");
     const std::filesystem::path file = free_name(options_.scene.stem().string(), ".toml");

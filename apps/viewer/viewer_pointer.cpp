@@ -1,4 +1,4 @@
-// ViewerApp: what keys and the mouse do.
+// ViewerApp: keys and mouse.
 #include <GLFW/glfw3.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace gelatin::viewer {
 namespace {
 
-constexpr float kHandNotch = 1.05f;  // a notch of the wheel takes what is held so much farther away
+constexpr float kHandNotch = 1.05f;  // a notch of the wheel multiplies the distance by this
 
 }  // namespace
 
@@ -28,8 +28,8 @@ void ViewerApp::handle(const Event& event) {
     }
 }
 
-// A drag that begins at a marker moves what is held there; one that begins on a body is a hand's, one beside
-// turns the view. Which of these it is shows once the simulation can be asked.
+// A drag that begins at a mark moves what is held there. One that begins on a body pulls it. One beside the
+// bodies rotates the view. Which of these it is is known only when the simulation can be queried.
 void ViewerApp::handle(const ButtonChange& button) {
     pointer_ = button.place;
     if (button.is_down && !dragging_) {
@@ -63,7 +63,7 @@ void ViewerApp::handle(const PointerMove& move) {
     }
 }
 
-// With something in hand the wheel takes it away or brings it here.
+// While something is held, the wheel moves it away or nearer.
 void ViewerApp::handle(const WheelTurn& wheel) {
     if (handle_drag_) {
         handle_drag_->turn_wheel(camera_, wheel.notches);
