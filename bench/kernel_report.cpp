@@ -31,8 +31,8 @@ const KernelTime& find_time(const std::vector<KernelTime>& times, const std::str
     });
 }
 
-// What a sweep of block descent costs in explicit steps, by differences. Of shortest times: medians of times
-// that others have disturbed differ by more than a sweep.
+// The cost of a sweep of block descent in explicit steps, by differences of shortest times. Medians of times
+// that other programs have disturbed differ by more than a sweep.
 void add_sweep_ratios(const std::vector<KernelTime>& times, const std::string& backend, int scale,
                       std::vector<BenchRatio>& ratios) {
     const auto least = [&](const std::string& stage) {

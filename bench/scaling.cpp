@@ -18,9 +18,9 @@ namespace gelatin {
 namespace {
 
 constexpr double kSlow = 300.0;  // a step that takes longer [ms] ...
-constexpr int kSlowRuns = 3;     // ... is sampled so often
+constexpr int kSlowRuns = 3;     // ... is sampled this many times
 
-// A measurement under way.
+// A measurement in progress.
 struct Entry {
     ScalingResult result;
     std::unique_ptr<StagePlayer> player;
@@ -34,7 +34,7 @@ public:
         bench_.options = options;
         bench_.machine = describe_bench_machine(context != nullptr ? &context->device() : nullptr);
     }
-    /// Makes its model, if anything of it is wanted, and samples all systems in turn.
+    /// Builds its model, if any measurement of it is requested, and samples all systems alternately.
     void measure(const ScalingCase& scaling_case);
     ScalingBench take_result() { return std::move(bench_); }
 

@@ -24,7 +24,7 @@ std::string per(const BenchSummary& time, double unit, std::size_t count) {
 }
 constexpr double kNanoseconds = 1e6, kMicroseconds = 1e3;  // in a millisecond
 
-// Of one part; empty if nothing of it was measured.
+// Of one part; empty if none of it was measured.
 std::vector<const ScalingResult*> results_of(const ScalingBench& bench, ScalingPart part) {
     std::vector<const ScalingResult*> results;
     for (const ScalingResult& result : bench.results)

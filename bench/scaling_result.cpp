@@ -46,7 +46,7 @@ void compare_faces(const std::vector<const ScalingResult*>& results, std::vector
     add("query", small.query(), large.query());
 }
 
-// The two largest sizes of each row: among few objects, most have neighbours on one side alone.
+// The two largest sizes of each row: with few objects, most have neighbours on one side only.
 void compare_objects(const std::vector<const ScalingResult*>& results, std::vector<BenchRatio>& ratios) {
     const auto ends_row = [&](std::size_t r) {
         return r + 1 == results.size() || results[r + 1]->objects <= results[r]->objects;

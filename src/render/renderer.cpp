@@ -38,7 +38,7 @@ RendererOptions checked(RendererOptions options) {
     return options;
 }
 
-// Empty where the bodies' box is of another time.
+// Empty if the bodies' box is that of an earlier time.
 std::optional<Bounds> exact_bounds(const RenderView& bodies, const RenderView& props) {
     if (bodies.box_is_late) return {};
     const auto point = [](const float* p) { return glm::vec3(p[0], p[1], p[2]); };
@@ -87,7 +87,7 @@ void Renderer::set_surroundings(const Surroundings& surroundings) {
     body_colors_ = {};
 }
 
-// The maps follow the bodies, with room for what they move in a frame, but not to the end of the world.
+// The maps follow the bodies, with room for their motion in a frame, but within limits.
 void Renderer::aim_shadows(const RenderView& bodies, const View& view) {
     const Bounds& usual = view.bounds;
     const glm::vec3 farthest(kShadowReach * view.extent()), room(0.05f * view.extent());

@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kFloorRadius = 11.0f;  // of the scene's extent
 
-// 1, 2 or 5 times a power of ten, so that some ten lines cross the scene.
+// 1, 2 or 5 times a power of ten, so that about ten lines cross the scene.
 float grid_spacing(float extent) {
     const float wanted = extent / 10.0f;
     const float decade = std::pow(10.0f, std::floor(std::log10(wanted)));
@@ -41,7 +41,7 @@ void Scenery::draw(const View& view, const Shadows* shadows) const {
         if (shadows != nullptr) {
             shadows->set_uniforms(floor_program_);
         } else {
-            floor_program_.set("floor_patch", glm::vec4(0.0f));  // all of the floor lies outside
+            floor_program_.set("floor_patch", glm::vec4(0.0f));  // all of the floor is outside
         }
         floor_program_.use();
         glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);

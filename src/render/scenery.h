@@ -6,18 +6,18 @@
 
 namespace gelatin::render {
 
-/// The floor and the backdrop round the bodies.
+/// The floor and the backdrop around the bodies.
 class Scenery {
 public:
-    /// @param occlusion of what is drawn; null: that of the shadows alone
+    /// @param occlusion of the surfaces drawn; null: only that of the shadows
     explicit Scenery(const AmbientOcclusion* occlusion = nullptr);
 
-    /// Draws the floor, if the view shows one, and the backdrop behind all that has been drawn.
-    /// @param shadows null: on a floor without any @pre a vertex array object and the shadows' textures are
-    /// bound
+    /// Draws the floor, if the view has one, and the backdrop behind everything drawn before.
+    /// @param shadows null: a floor without shadows @pre a vertex array object and the shadows' textures are
+    ///   bound
     void draw(const View& view, const Shadows* shadows) const;
 
-    /// The place of the floor, for shaders/render/include/floor_color.glsl.
+    /// The position of the floor, for shaders/render/include/floor_color.glsl.
     static void set_floor_uniforms(const gl::Program& program, const View& view);
 
 private:

@@ -7,7 +7,7 @@
 
 namespace gelatin::render {
 
-/// The buffers of a RenderView made ready for shaders/render/include/surface_fetch.glsl; as long-lived as the
+/// The buffers of a RenderView, prepared for shaders/render/include/surface_fetch.glsl; valid as long as the
 /// view.
 class SurfaceDraw {
 public:
@@ -16,19 +16,19 @@ public:
     std::uint32_t vertex_count() const { return view_.vertex_count; }
     std::uint32_t face_count() const { return view_.face_count; }
 
-    /// Where an overlay cuts the surfaces open: what is on the plane's positive side is not drawn.
+    /// Where an overlay cuts the surfaces open: the plane's positive side is not drawn.
     bool is_cut() const { return view_.overlay.cut.has_value(); }
-    /// All 0 where nothing is cut.
+    /// All 0 without a cut.
     glm::vec4 cut_plane() const;
 
     /// For shaders that fetch points: units 0 to 2.
     void bind_textures() const;
-    /// The triangles as a usamplerBuffer, a texel of three vertices each.
+    /// The triangles as a usamplerBuffer, one texel of three vertices each.
     void bind_triangles(unsigned unit) const { triangles_.bind(unit); }
 
-    /// Draws all faces with the program in use, which fetches points. @pre a vertex array object is bound
+    /// Draws all faces with the program in use, which fetches vertices. @pre a vertex array object is bound
     void draw() const;
-    /// The same with a program that takes what it needs from the vertex array object that is bound.
+    /// The same with a program that gets its input from the bound vertex array object.
     void draw_triangles() const;
 
 private:
@@ -39,8 +39,8 @@ private:
     gl::BufferTexture triangles_;
 };
 
-/// While it lives, programs that tell their distance from the plane do not draw beyond it, where there is
-/// one.
+/// During its lifetime, programs that write their distance from the plane draw only one side of it, if there
+/// is a cut.
 class Clipping {
 public:
     explicit Clipping(const SurfaceDraw& surfaces);
