@@ -1,4 +1,4 @@
-// Surfaces as light_vertices.comp left them.
+// Surfaces as computed by light_vertices.comp.
 layout(location = 0) in vec4 clip_position;
 layout(location = 1) in vec4 display_color;
 

@@ -1,4 +1,4 @@
-// A drawn surface, pulled straight from the simulation's buffers (RenderView).
+// A surface, fetched directly from the simulation's buffers (RenderView).
 layout(binding = 0) uniform samplerBuffer node_positions;     // xyz [m]
 layout(binding = 1) uniform usamplerBuffer surface_vertices;  // SurfaceVertex: node, object, ...
 layout(binding = 2) uniform samplerBuffer vertex_normals;     // unit xyz

@@ -1,4 +1,4 @@
-// The colliding ones among the faces round a node.
+// The colliding faces among those around a node.
 layout(binding = 2) uniform usamplerBuffer node_face_starts;
 layout(binding = 3) uniform usamplerBuffer node_faces;
 

@@ -16,7 +16,7 @@ layout(binding = 1) uniform usamplerBuffer object_tree_nodes;  // TreeNode
 layout(binding = 2) uniform samplerBuffer object_tree_boxes;   // Box
 layout(binding = 3) uniform usamplerBuffer object_order;
 
-// A walk through the tree over all objects: the next node, and what is left of the leaf before it.
+// A walk through the tree over all objects: the next node, and what remains of the previous leaf.
 struct Search {
     uint object;
     uint node;

@@ -1,7 +1,7 @@
-// One invocation owns one node: it gathers the forces of its springs and tets and moves, and writes the node once. No atomics, a fixed
-// order of summation, so the same input gives the same bits on one driver. A work group is a slice of HalfSprings
-// (src/model/model.h): all its lanes run the same number of times, over neighbouring texels.
-// CPU twin: gelatin::cpu::advance_nodes. Parity: tests/gpu/explicit/advance_nodes_test.cpp.
+// One invocation owns one node: it gathers the forces of its springs and tets, moves the node, and writes it once. No atomics,
+// a fixed order of summation, so the same input gives the same bits on one driver. A work group is a slice of HalfSprings
+// (src/model/model.h): all its invocations run the same number of iterations, over neighbouring texels. CPU twin:
+// gelatin::cpu::advance_nodes. Parity: tests/gpu/explicit/advance_nodes_test.cpp.
 #include "include/global_index.glsl"
 #include "sim/explicit/integrate_node.glsl"
 #include "sim/elasticity/spring_force.glsl"

@@ -1,6 +1,6 @@
-// Running sums of how many each query has found: where what it found begins. Three dispatches: sums within each work group
-// of queries; with GROUPS one work group sums up the groups' sums; with STARTS both are added up.
-// CPU twin: gelatin::cpu::FindProximities. Parity: tests/gpu/proximity/find_proximities_test.cpp.
+// Prefix sums of the number of results of each query: where its results begin. Three dispatches: sums within each work group of
+// queries; with GROUPS one work group adds up the groups' sums; with STARTS both are added. CPU twin:
+// gelatin::cpu::FindProximities. Parity: tests/gpu/proximity/find_proximities_test.cpp.
 #include "include/global_index.glsl"
 #include "layouts/proximity.glsl"
 layout(local_size_x = 256) in;
@@ -16,7 +16,7 @@ const uint kGroupQueries = 256u * kLaneQueries;
 
 shared uint parts[256];
 
-// The sum of the lanes' values before this one.
+// The sum of the values of the invocations before this one.
 uint sum_before(uint value) {
     uint lane = gl_LocalInvocationID.x;
     parts[lane] = value;

@@ -1,6 +1,6 @@
-// What colours show of each tet, one invocation a tet (docs/physics.md, "What colours show"): with STRETCH its largest
-// principal stretch, with STRESS von Mises' stress [Pa], else the mean speed of its corners [m/s]. Counts them by their
-// size, too, so that the range of colours can follow. Test: tests/gpu/view/tet_values_test.cpp.
+// The value that colours show of each tet, one invocation for each tet (docs/physics.md, "What colours show"): with STRETCH its
+// largest principal stretch, with STRESS von Mises' stress [Pa], else the mean speed of its corners [m/s]. Also counts them in
+// a histogram, so that the range of colours can adapt. Test: tests/gpu/view/tet_values_test.cpp.
 #include "include/global_index.glsl"
 #include "sim/view/principal_stretches.glsl"
 layout(local_size_x = 64) in;
@@ -15,7 +15,7 @@ layout(std430, binding = 1) buffer Histogram { uint histogram[]; };
 uniform uint tet_count;
 uniform float least;  // what is counted from
 
-// Of the bits of a float as many as tell numbers apart that differ by a sixteenth; as in src/gpu/view/tet_values.h.
+// The number of a float's upper bits that distinguish numbers which differ by a sixteenth; as in src/gpu/view/tet_values.h.
 const uint kShift = 19u, kLastBin = 4095u;
 
 vec3 corner(samplerBuffer places, uint node) { return texelFetch(places, int(node)).xyz; }
