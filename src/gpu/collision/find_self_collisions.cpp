@@ -10,8 +10,7 @@ namespace {
 
 constexpr std::uint32_t kObjectLanes = 32;  // of find_restless_objects.comp
 constexpr std::size_t kMostGroups = 65535;
-constexpr std::size_t kMostFaces =
-    kMostGroups * 64;  // of a list that is gone through by one row of work groups
+constexpr std::size_t kMostFaces = kMostGroups * 64;  // of a list that one row of work groups processes
 
 void check_size(const Model& model, std::size_t node_chunks, std::size_t face_chunks) {
     if (model.faces.size() <= kMostFaces && node_chunks <= kMostGroups && face_chunks <= kMostGroups) return;

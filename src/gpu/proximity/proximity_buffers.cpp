@@ -5,7 +5,7 @@
 namespace gelatin::gpu {
 namespace {
 
-// How many elements a buffer has: for what usually happens, and within limits of memory.
+// The number of elements of each buffer: for usual cases, and within limits of memory.
 struct Capacity {
     std::size_t each, least, most;
 
@@ -18,7 +18,7 @@ constexpr Capacity kTasks{8, 1u << 18, kMostInvocations};        // a node or ed
 constexpr Capacity kProximities{8, 1u << 17, 1u << 20};          // a node or edge; 6 to 50 MB
 constexpr std::size_t kGroup = 4096;  // of shaders/sim/proximity/sum_proximities.comp
 
-constexpr ProximityCounts kNothing{0, 0, 0x7F800000, 0};  // nearest at infinity, until it is sought
+constexpr ProximityCounts kNothing{0, 0, 0x7F800000, 0};  // nearest at infinity, until a search has run
 
 }  // namespace
 
