@@ -56,7 +56,8 @@ TEST(LikelyCause, NamesSpringsThatAreOddlyStiff) {
     for (Spring& spring : model.springs)
         spring.stiffness *= spring.i == node || spring.j == node ? 1e4f : 1.0f;
     EXPECT_EQ(stiffest_node(model, model.objects[0]), node);
-    EXPECT_THAT(likely_cause(model, {}, node, 1e-9), StartsWith("for its mass the node's springs are "));
+    EXPECT_THAT(likely_cause(model, {}, node, 1e-9),
+                StartsWith("relative to its mass, the node's springs are "));
 }
 
 TEST(LikelyCause, NamesAStepThatIsTooLongForSomeShapes) {
