@@ -112,8 +112,8 @@ TEST_F(SurfaceFileTest, ReadsWhatItWrites) {
         EXPECT_THAT(notes_, IsEmpty()) << name;
         ASSERT_EQ(back.positions.size(), mesh.positions.size()) << name;
         ASSERT_EQ(back.faces.size(), mesh.faces.size()) << name;
-        // Assimp and STL number vertices anew: faces are compared by where their corners lie, to a float's
-        // rounding.
+        // Assimp and STL renumber vertices, so faces are compared by the positions of their corners, to a
+        // float's rounding.
         for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
             for (int corner = 0; corner < 3; ++corner) {
                 const glm::dvec3 expected = mesh.positions[mesh.faces[f][corner]];

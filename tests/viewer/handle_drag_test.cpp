@@ -55,7 +55,7 @@ TEST(HandleDrag, TheWheelTakesItAway) {
     EXPECT_LT(drag.target().move.z, 0.0);
 }
 
-// What faces the eye follows the pointer, as it does when the view is turned.
+// What faces the eye follows the pointer, as it does when the view is rotated.
 TEST(HandleDrag, TurnsWithThePointer) {
     const glm::dvec3 front(0.0, 0.0, 1.0);
     HandleDrag sideways(0, pin_at({0.0, 0.0, 0.0}), Kind::turn, camera(), {0.0f, 0.0f});
