@@ -123,10 +123,10 @@ std::vector<ScalingCase> scaling_cases(const ScalingBenchOptions& options) {
     return cases;
 }
 
-std::string scaling_label(const ScalingCase& scaling_case, const CollisionSettings& way,
+std::string scaling_label(const ScalingCase& scaling_case, const CollisionSettings& method,
                           const StageSystem& system) {
     return fmt::format("{}, {}, {}, {}", name_of(scaling_case.part), scaling_case.scene,
-                       name_of(way.broad_phase), system.name);
+                       name_of(method.broad_phase), system.name);
 }
 
 }  // namespace gelatin

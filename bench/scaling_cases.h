@@ -21,7 +21,7 @@ struct ScalingCase {
     ScalingPart part;
     std::string scene;  ///< "touching", "1000 apart"
     std::function<std::shared_ptr<const Model>()> make_model;
-    std::vector<CollisionSettings> ways;
+    std::vector<CollisionSettings> methods;
     std::vector<BenchStage> stages;
 };
 
@@ -29,7 +29,7 @@ struct ScalingCase {
 std::vector<ScalingCase> scaling_cases(const ScalingBenchOptions& options);
 
 /// "two bodies, touching, hierarchy, CPU, 1 thread": the text that `--only` searches.
-std::string scaling_label(const ScalingCase& scaling_case, const CollisionSettings& way,
+std::string scaling_label(const ScalingCase& scaling_case, const CollisionSettings& method,
                           const StageSystem& system);
 
 }  // namespace gelatin

@@ -18,9 +18,9 @@ public:
     render::Camera camera() const;
 
     /// Rotates about the target, never over the poles.
-    void orbit(const glm::vec2& way);
+    void orbit(const glm::vec2& motion);
     /// Moves so that what is at the target's depth follows the pointer.
-    void pan(const glm::vec2& way);
+    void pan(const glm::vec2& motion);
     /// Zooms by `notches` of a wheel (outwards, if negative), towards what is under the pointer at `place`.
     void zoom(float notches, const glm::vec2& place);
     /// Moves along the line of sight until all of `bounds` is visible.

@@ -28,7 +28,7 @@ public:
 
     void move_pointer(const CameraController& camera, const glm::vec2& place);
     /// Moves it away from the eye or nearer; or rotates it about the line of sight.
-    void turn_wheel(const CameraController& camera, float notches);
+    void scroll(const CameraController& camera, float notches);
 
 private:
     void move(const CameraController& camera);

@@ -104,10 +104,10 @@ bool choose_cut(const RenderView& bodies, const render::Camera& camera, Overlays
     bool changed = ImGui::Checkbox("cut open", &is_shown);
     if (changed) overlays.cut = is_shown ? std::optional(cut_towards(camera, bodies)) : std::nullopt;
     if (!overlays.cut) return changed;
-    const bool is_turned = choose_direction(*overlays.cut);
+    const bool is_changed = choose_direction(*overlays.cut);
     const OffsetRange range = offsets_through(bodies, *overlays.cut);
     float offset = overlays.cut->offset.value_or(0.0f);
-    if (is_turned) {
+    if (is_changed) {
         overlays.cut->offset = offset = std::clamp(offset, range.least, range.most);
         changed = true;
     }

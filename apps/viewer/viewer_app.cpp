@@ -140,7 +140,7 @@ void ViewerApp::reload_shaders() {
         if (renderer_) make_renderer(renderer_->width(), renderer_->height());
         if (session_ && session_->simulator().uses_gl()) loader_.rebuild(panels_.edited);
         problem_.clear();
-        tell("shaders read again");
+        notify("shaders read again");
     } catch (const GlError& error) {
         fail(error.what());
     }
@@ -172,7 +172,7 @@ Requests ViewerApp::draw_panels() {
     return requests;
 }
 
-void ViewerApp::tell(const std::string& notice) {
+void ViewerApp::notify(const std::string& notice) {
     notice_ = notice;
     notice_until_ = window_.now() + kNoticeTime;
 }

@@ -70,7 +70,7 @@ private:
     Requests draw_panels();
     void save_pictures();
     void save_picture(unsigned framebuffer, int width, int height);
-    void tell(const std::string& notice);
+    void notify(const std::string& notice);
     void fail(const std::string& problem);
     void update_title();
     double patience() const;
@@ -100,7 +100,7 @@ private:
     glm::vec2 pointer_{0.0f};
     std::size_t own_bodies_ = 0;  // number of objects of the scene as read; the others were thrown in
     bool is_hand_asked_ = false;  // whether the drag has met a body is not known yet
-    glm::vec2 way_since_asked_{0.0f};
+    glm::vec2 motion_since_asked_{0.0f};
     std::optional<float> hand_depth_;  // in front of the eye, while a body is held [m]
     std::optional<HandleDrag> handle_drag_;
 };

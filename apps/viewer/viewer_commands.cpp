@@ -114,7 +114,7 @@ void ViewerApp::throw_body() {
 
 // With the present camera and drags.
 void ViewerApp::save_scene() {
-    if (loader_.is_busy()) return tell("the scene is still being made");
+    if (loader_.is_busy()) return notify("the scene is still being built");
     const std::filesystem::path file = free_name(options_.scene.stem().string(), ".toml");
     Scene scene = dragged_scene(panels_.edited, session_->held_nodes());
     const render::Camera camera = camera_.camera();
@@ -122,7 +122,7 @@ void ViewerApp::save_scene() {
                                      static_cast<double>(camera.field_of_view)};
     try {
         gelatin::save_scene(file, scene);
-        tell("saved " + file.string());
+        notify("saved " + file.string());
     } catch (const Error& error) {
         fail(error.what());
     }
@@ -156,7 +156,7 @@ void ViewerApp::film_picture() {
 void ViewerApp::end_film() {
     try {
         film_->finish();
-        tell("saved " + film_->file().string());
+        notify("saved " + film_->file().string());
     } catch (const Error& error) {
         fail(error.what());
     }
@@ -176,7 +176,7 @@ void ViewerApp::save_picture(unsigned framebuffer, int width, int height) {
         render::FrameGrabber grabber(width, height);
         grabber.grab(framebuffer);
         if (const auto picture = grabber.flush()) render::write_png(file, *picture);
-        tell("saved " + file.string());
+        notify("saved " + file.string());
     } catch (const Error& error) {
         fail(error.what());
     }

@@ -59,21 +59,21 @@ bool ViewerApp::take_handle(bool turns) {
 // over. A pin or handle at the pointer is removed. While a scene is being built none is changed, so that
 // their order stays the same.
 void ViewerApp::pin() {
-    if (loader_.is_busy()) return tell("the scene is still being made");
+    if (loader_.is_busy()) return notify("the scene is still being built");
     const std::vector<Marker> all = markers();
     if (const Marker* marker = pointed(all)) {
         panels_.edited = released_scene(std::move(panels_.edited), session_->held_nodes()[marker->held]);
     } else if (hand_depth_) {
         const SphereRegion region = session_->held_region();
         const std::size_t object = object_of(session_->model(), session_->held_node());
-        if (is_taken(session_->model(), object, region)) return tell("there is a pin already");
+        if (is_taken(session_->model(), object, region)) return notify("there is a pin already");
         HandleDescription handle;
         handle.region = region;
         panels_.edited.objects[object].handles.push_back(handle);
         hand_depth_.reset();
         dragging_.reset();
     } else {
-        return tell("drag a body and press P to pin it, or point at a pin to free it");
+        return notify("drag a body and press P to pin it, or point at a pin to remove it");
     }
     loader_.rebuild(panels_.edited);
 }

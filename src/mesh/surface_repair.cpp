@@ -93,8 +93,8 @@ void repair_surface(SurfaceMesh& mesh, Notes& notes) {
     note(drop_degenerate_faces(mesh), "discarded faces without area: {}");
     note(drop_repeated_faces(mesh), "discarded duplicate faces: {}");
     note(drop_unused_vertices(mesh) - merged, "discarded vertices without faces: {}");
-    const WindingRepair winding = turn_faces_outward(mesh);
-    note(winding.turned_faces, "flipped faces with the wrong orientation: {}");
+    const WindingRepair winding = orient_faces_outward(mesh);
+    note(winding.flipped_faces, "flipped faces with the wrong orientation: {}");
     note(winding.contrary_edges,
          "edges whose two faces cannot have the same orientation, as on a one-sided surface: {}");
 }

@@ -178,7 +178,7 @@ std::vector<bool> find_cavities(const SurfaceMesh& mesh, const Parts& parts) {
 
 }  // namespace
 
-WindingRepair turn_faces_outward(SurfaceMesh& mesh) {
+WindingRepair orient_faces_outward(SurfaceMesh& mesh) {
     WindingRepair repair;
     std::vector<bool> turn(mesh.faces.size(), false);
     const std::vector<EdgeUse> uses = sorted_edge_uses(mesh.faces);
@@ -192,7 +192,7 @@ WindingRepair turn_faces_outward(SurfaceMesh& mesh) {
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         if (!turn[f]) continue;
         std::swap(mesh.faces[f][1], mesh.faces[f][2]);
-        ++repair.turned_faces;
+        ++repair.flipped_faces;
     }
     return repair;
 }

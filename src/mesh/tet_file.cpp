@@ -38,7 +38,7 @@ double longest_edge(const TetMesh& mesh, const glm::uvec4& tet) {
 // Flips inverted tets; flat ones have no orientation.
 void orient_tets(const fs::path& file, TetMesh& mesh, Notes& notes) {
     constexpr double kFlat = 1e-12;  // of the longest edge cubed
-    std::size_t turned = 0;
+    std::size_t flipped = 0;
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
         glm::uvec4& tet = mesh.tets[t];
         const double volume = tet_volume(mesh, tet);
@@ -53,9 +53,9 @@ void orient_tets(const fs::path& file, TetMesh& mesh, Notes& notes) {
         }
         if (volume > 0.0) continue;
         std::swap(tet[2], tet[3]);
-        ++turned;
+        ++flipped;
     }
-    if (turned > 0) notes.push_back(fmt::format("flipped inverted tets: {}", turned));
+    if (flipped > 0) notes.push_back(fmt::format("flipped inverted tets: {}", flipped));
 }
 
 // Gmsh writes a tet with several physical groups once for each of them.

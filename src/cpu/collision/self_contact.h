@@ -9,18 +9,18 @@ namespace gelatin::cpu {
 /// twice, and responses add up.
 template <class Real>
 struct FaceLump {
-    Real mass = 0;           ///< of the corners that are not pinned [kg]
-    Vec3<Real> velocity{0};  ///< of the same; of all corners if all are pinned [m/s]
-    Vec3<Real> way{0};       ///< their displacement in this step [m]
-    Vec3<Real> center{0};    ///< centre of all corners [m]
-    Vec3<Real> normal{0};    ///< outward, unit; 0 for a flat face
+    Real mass = 0;               ///< of the corners that are not pinned [kg]
+    Vec3<Real> velocity{0};      ///< of the same; of all corners if all are pinned [m/s]
+    Vec3<Real> displacement{0};  ///< their displacement in this step [m]
+    Vec3<Real> center{0};        ///< centre of all corners [m]
+    Vec3<Real> normal{0};        ///< outward, unit; 0 for a flat face
 };
 
 /// The change of a face's corners.
 template <class Real>
 struct LumpResponse {
-    Vec3<Real> velocity{0};  ///< [m/s]
-    Vec3<Real> way{0};       ///< [m]
+    Vec3<Real> velocity{0};      ///< [m/s]
+    Vec3<Real> displacement{0};  ///< [m]
 };
 
 /// The response of a face to another face of its own object that it touches: an inelastic impact of two point
@@ -53,8 +53,8 @@ LumpResponse<Real> self_response(const FaceLump<Real>& face, const FaceLump<Real
     const Real braking = std::min(speed / both, most);  // Coulomb [N s]
     response.velocity = -ours * (impulse * normal + braking / length_or_one(sliding) * sliding);
 
-    const Real advance = glm::dot(face.way - other.way, normal);
-    response.way = -ours / both * std::max(advance, Real(0)) * normal;
+    const Real advance = glm::dot(face.displacement - other.displacement, normal);
+    response.displacement = -ours / both * std::max(advance, Real(0)) * normal;
     return response;
 }
 

@@ -23,8 +23,8 @@ public:
                      Real step) const {
         const Vec4<Real>& pull = by_node_[node];
         const Real time = step + damping_time_;
-        const Vec3<Real> way = target_ + Vec3<Real>(pull) - Vec3<Real>(position);
-        return pull.w / (Real(1) + pull.w * position.w * step * time) * (way - time * velocity);
+        const Vec3<Real> offset = target_ + Vec3<Real>(pull) - Vec3<Real>(position);
+        return pull.w / (Real(1) + pull.w * position.w * step * time) * (offset - time * velocity);
     }
 
     /// For block descent: combines the target of a node [m] and its weight [N/m] with those of the spring,
