@@ -1,4 +1,4 @@
-// A calm floor with a faint grid, which goes over into the backdrop before its end.
+// A plain floor with a faint grid, which blends into the backdrop before its end.
 #include "render/include/backdrop.glsl"
 #include "render/include/dither.glsl"
 #include "render/include/floor_color.glsl"
@@ -13,7 +13,7 @@ uniform float grid_spacing;  // [m]
 in vec2 xz;
 layout(location = 0) out vec4 pixel;
 
-// Coverage of the grid's lines, about 1.5 pixels wide, faded where they would crowd.
+// Coverage of the grid's lines, about 1.5 pixels wide, faded where they would be crowded.
 float grid() {
     vec2 at = xz / grid_spacing;
     vec2 width = fwidth(at);

@@ -19,7 +19,7 @@ void clear(const Target& target) {
     glClearBufferfv(GL_COLOR, 0, open);
 }
 
-// The pixels of the half picture in which something within reach of bodies shows.
+// The pixels of the half-size picture in which anything within the radius of bodies is visible.
 void scissor(const Frame& frame, float reach) {
     if (!frame.bounds) return;
     const glm::vec3 room(reach);

@@ -6,7 +6,7 @@
 
 namespace gelatin::render {
 
-/// The floor and the backdrop round the bodies.
+/// The floor and the backdrop around the bodies.
 class Scenery {
 public:
     /// Of a floor without shadows.
@@ -18,7 +18,7 @@ public:
     /// @param shadows null for a floor without @pre a vertex array object is bound
     void draw(const View& view, const Shadows* shadows) const;
 
-    /// The place of the floor, for shaders/render/include/floor_color.glsl.
+    /// The position of the floor, for shaders/render/include/floor_color.glsl.
     static void set_floor_uniforms(const gl::Program& program, const View& view);
 
 private:

@@ -6,7 +6,7 @@ uniform usamplerBuffer volume_corners;  // TetCorner, in slices of 64 nodes
 uniform usamplerBuffer volume_starts;   // of the slices
 uniform samplerBuffer node_volumes;    // V_i [m^3], kappa_i [Pa]
 
-// J_n, over the volume at rest; 1 where there is none. Slices are padded with tets without volume.
+// J_n, relative to the volume at rest; 1 if there is none. Slices are padded with tets without volume.
 float volume_ratio_round(uint n) {
     vec3 at = texelFetch(positions, int(n)).xyz;
     float sum = 0.0;  // 24 times the volume

@@ -16,7 +16,7 @@ const uint kLaneQueries = kQueriesAGroup / 256u;
 
 shared uint parts[256];
 
-// The sum of the lanes' values before this one.
+// The sum of the values of the invocations before this one.
 uint sum_before(uint value) {
     uint lane = gl_LocalInvocationID.x;
     parts[lane] = value;

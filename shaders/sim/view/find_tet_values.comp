@@ -1,6 +1,6 @@
-// What colours show of each tet, one invocation a tet (docs/physics.md, "What colours show"): with STRETCH its largest
-// principal stretch, with STRESS von Mises' stress [Pa], else the mean speed of its corners [m/s]. Counts them by their
-// size, too, so that the range of colours can follow. Test: tests/gpu/view/tet_values_test.cpp.
+// The value that colours show of each tet, one invocation for each tet (docs/physics.md, "What colours show"): with STRETCH its
+// largest principal stretch, with STRESS von Mises' stress [Pa], else the mean speed of its corners [m/s]. Also counts them in
+// a histogram, so that the range of colours can adapt. Test: tests/gpu/view/tet_values_test.cpp.
 #include "include/global_index.glsl"
 #include "layouts/packing.glsl"
 #include "sim/view/principal_stretches.glsl"
