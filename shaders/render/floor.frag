@@ -25,7 +25,7 @@ float grid() {
 void main() {
     vec2 visible = vec2(1.0);
 #ifdef SHADOWED
-    // Of two estimates of the same: the patch knows what is hidden from the eye, the picture what stands upright.
+    // Two estimates of the same: the patch knows what is hidden from the eye, the picture what stands upright.
     visible = floor_visibility(xz);
     visible.y = min(visible.y, pixel_openness(-1.0));
 #endif

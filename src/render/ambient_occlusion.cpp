@@ -9,10 +9,10 @@
 namespace gelatin::render {
 namespace {
 
-constexpr float kSameSurface = 0.15f;  // of the reach
-constexpr int kBlur = 2;               // how far the blur looks [pixels]
+constexpr float kSameSurface = 0.15f;  // fraction of the radius
+constexpr int kBlur = 2;               // radius of the blur [pixels]
 
-// Open and far away, where nothing more is worked out.
+// Fully open and far away, where nothing else is computed.
 void clear(const Target& target) {
     target.bind();
     const float open[] = {1.0f, 6e4f, 0.0f, 0.0f};  // half floats end at 65,504

@@ -79,7 +79,7 @@ void FastPipeline::draw_floor_shadow(const Frame& frame) const {
     shadow_program_.bind_texture("floor_shade", floor_shade_.texture());
     frame.view.set_uniforms(shadow_program_);
     frame.shadows.set_uniforms(shadow_program_);
-    glEnable(GL_POLYGON_OFFSET_FILL);  // over the floor, which is of other triangles
+    glEnable(GL_POLYGON_OFFSET_FILL);  // above the floor, which consists of other triangles
     glPolygonOffset(-1.0f, -4.0f);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);

@@ -9,13 +9,13 @@ namespace gelatin::render {
 /// The floor and the backdrop around the bodies.
 class Scenery {
 public:
-    /// Of a floor without shadows.
+    /// A floor without shadows.
     Scenery();
-    /// Of a floor with shadows. @param occlusion of what is drawn
+    /// A floor with shadows. @param occlusion of the surfaces drawn
     explicit Scenery(const AmbientOcclusion& occlusion);
 
-    /// Draws the floor, if the view shows one, and the backdrop behind all that has been drawn.
-    /// @param shadows null for a floor without @pre a vertex array object is bound
+    /// Draws the floor, if the view has one, and the backdrop behind everything drawn before.
+    /// @param shadows null: a floor without shadows @pre a vertex array object is bound
     void draw(const View& view, const Shadows* shadows) const;
 
     /// The position of the floor, for shaders/render/include/floor_color.glsl.

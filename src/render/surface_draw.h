@@ -24,10 +24,10 @@ public:
 
     /// For programs that include render/include/surface_fetch.glsl.
     void bind(const gl::Program& program) const;
-    /// "triangles" of the program: a texel of three vertices each.
+    /// For "triangles" of the program: one texel of three vertices each.
     void bind_triangles(const gl::Program& program) const { program.bind("triangles", triangles_); }
 
-    /// Draws all faces with a program that fetches points. @pre a vertex array object is bound
+    /// Draws all faces with a program that fetches vertices. @pre a vertex array object is bound
     void draw(const gl::Program& program) const;
     /// The same with a program that has vertex inputs.
     void draw_triangles(const gl::Program& program) const;

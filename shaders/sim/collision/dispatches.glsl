@@ -12,7 +12,8 @@ Dispatch make_dispatch(uint count, uint groups) {
 }
 Dispatch dispatch_invocations(uint count) { return make_dispatch(count, count / 64u + uint(count % 64u != 0u)); }
 
-// The place of one more element in a list that a dispatch will go through, or kNone where it is full: a loss.
+// Allocates one more element in a list that a dispatch will process. Returns its index, or kNone if the list is full, which
+// counts as a loss.
 uint take_slot(uint work, uint capacity) {
     uint slot = atomicAdd(dispatches[work].count, 1u);
     if (slot >= capacity) {

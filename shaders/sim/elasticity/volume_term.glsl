@@ -1,5 +1,5 @@
-// The volume round each node, for the volume term (src/model/elasticity/volume_term.h). At `positions`, a buffer texture that is
-// declared before. CPU twin: src/cpu/elasticity/volume_term.h.
+// The volume around each node, for the volume term (src/model/elasticity/volume_term.h). At `positions`, a buffer texture that
+// must be declared before. CPU twin: src/cpu/elasticity/volume_term.h.
 #include "layouts/packing.glsl"
 
 uniform usamplerBuffer volume_corners;  // TetCorner, in slices of 64 nodes

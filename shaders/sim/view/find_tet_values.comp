@@ -14,9 +14,9 @@ uniform samplerBuffer tet_materials;   // volume at rest [m^3], shear modulus [P
 layout(std430) writeonly buffer TetValues { float tet_values[]; };
 layout(std430) buffer Histogram { uint histogram[]; };
 uniform uint tet_count;
-uniform float least;  // what is counted from
+uniform float least;  // smallest value of the histogram
 
-// Of the bits of a float as many as tell numbers apart that differ by a sixteenth; as in src/gpu/view/tet_values.h.
+// The number of a float's upper bits that distinguish numbers which differ by a sixteenth; as in src/gpu/view/tet_values.h.
 
 vec3 corner(samplerBuffer places, uint node) { return texelFetch(places, int(node)).xyz; }
 

@@ -44,8 +44,8 @@ constexpr Real kUnderflowBound =
 template <class Real>
 constexpr Real kRootBound = predicates::kRootRounding* std::numeric_limits<Real>::epsilon();
 
-/// Two or three planes do as a rule. What comes so near to touching that these are not enough, or turns so
-/// fast, counts as touching.
+/// Two or three planes are usually enough. Faces that come so near to touching that these are not enough, or
+/// rotate so fast, count as touching.
 inline constexpr int kMostPlanes = predicates::kMostPlanes;
 
 /// Times of a step, from 0 at its start to 1 at its end; none if first > last.

@@ -50,7 +50,7 @@ struct CollisionBuffers {
     /// For programs that include sim/depth/hidden.glsl.
     void bind_hidden(const gl::Program& program) const;
 
-    /// Runs `program` over what the GPU itself has counted. @param slot one of dispatch_slots
+    /// Runs `program` over a list that the GPU has counted. @param slot one of dispatch_slots
     void run(const gl::Program& program, std::uint32_t slot) const;
 };
 

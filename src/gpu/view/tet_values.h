@@ -15,7 +15,8 @@ namespace gelatin::gpu {
 /// average_tet_values.comp. For both backends, since only pictures need it.
 class TetValues {
 public:
-    /// Values are counted by the upper bits of their difference from `least`, a float: a bin each sixteenth.
+    /// Values are counted by the upper bits of their difference from `least`, a float: one bin for each
+    /// sixteenth.
     static constexpr int kBinShift = packing::kBinShift;
     static constexpr std::size_t kBins = packing::kBins;
 
