@@ -11,7 +11,7 @@
 namespace gelatin {
 namespace {
 
-// Grey, blue and orange of Okabe and Ito (2008), which colour-blind people tell apart.
+// Grey, blue and orange of Okabe and Ito (2008), which colour-blind people can distinguish.
 constexpr std::array<const char*, 3> kColors{"#9a9a9a", "#0072b2", "#e69f00"};
 
 // Pixels.

@@ -11,7 +11,7 @@ struct BarChart {
     struct Bar {
         std::size_t series;
         double value;      ///< > 0
-        double low, high;  ///< of the whisker; equal for none
+        double low, high;  ///< ends of the whisker; equal for none
     };
     struct Group {
         std::string label;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kInnerRadius = 0.8;  // of the outer one
 
-// Every 2^-32 of [-1, 1), whatever the standard library: its distributions differ.
+// A multiple of 2^-32 in [-1, 1), the same for every standard library, whose distributions differ.
 double next_offset(std::mt19937& random) {
     return static_cast<double>(random()) * 0x1p-31 - 1.0;
 }
@@ -29,7 +29,7 @@ TetMesh make_hollow_ball(double radius, int frequency) {
     for (glm::uvec3 f : sphere.faces) {
         mesh.faces.push_back(f);
         mesh.faces.emplace_back(f.x + count, f.z + count, f.y + count);
-        // With its corners in ascending order, a prism cuts the sides that it shares as its neighbours do.
+        // With its corners in ascending order, a prism divides its sides in the same way as its neighbours.
         std::sort(&f[0], &f[0] + 3);
         const glm::uvec3 inner = f + count;
         for (glm::uvec4 tet : {glm::uvec4(f.x, f.y, f.z, inner.z), glm::uvec4(f.x, f.y, inner.y, inner.z),
@@ -46,7 +46,7 @@ std::shared_ptr<const Model> make_copies(const TetMesh& mesh, const std::vector<
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         bodies[b].name = "body " + std::to_string(b);
         bodies[b].mesh = mesh;
-        bodies[b].material.springs = SpringKinds{};  // the paper's: what collides does not care
+        bodies[b].material.springs = SpringKinds{};  // the paper's: collision does not depend on it
         for (glm::dvec3& p : bodies[b].mesh.positions) p += places[b];
     }
     return std::make_shared<const Model>(pack_bodies(bodies, {}, glm::dvec3(0.0)));

@@ -7,7 +7,7 @@
 namespace gelatin {
 namespace {
 
-using Json = nlohmann::ordered_json;  // keys stay in the order of the documentation
+using Json = nlohmann::ordered_json;  // keys stay in the documented order
 
 Json settings_json(const PaperBench& bench) {
     return {{"runs", bench.options.runs},

@@ -13,13 +13,13 @@
 namespace gelatin {
 namespace {
 
-constexpr double kFrame = 1.0 / 60.0;  // [s], what vertex block descent steps over
+constexpr double kFrame = 1.0 / 60.0;  // [s], the step of vertex block descent
 
 constexpr std::array kDescentCases{kFewSweeps, kManySweeps, kWholeStep};
 
 constexpr double kNodeBytes = 2 * sizeof(glm::vec4);
 
-// What each stage reads and writes once, gathers counted once a node.
+// What each stage reads and writes once, with gathers counted once for each node.
 double fused_bytes(const Model& m) {
     return static_cast<double>(m.half_springs.pairs.size()) * (sizeof(HalfSpringPair) + sizeof(glm::vec2)) +
            2 * kNodeBytes * m.node_count();
@@ -35,7 +35,7 @@ double merge_bytes(const Model& m) {
 double integrate_bytes(const Model& m) {
     return (2 * kNodeBytes + sizeof(glm::vec4)) * m.node_count();
 }
-// A sweep reads springs, with their dampers in them, and positions and targets; the step makes the springs.
+// A sweep reads springs with their dampers, and positions and targets; the step computes the springs.
 double descent_bytes(const Model& m, int sweeps) {
     return (sweeps + 1) * fused_bytes(m);
 }
@@ -163,7 +163,7 @@ void add_gl_cases(const std::shared_ptr<const Model>& model, double step, std::v
         cases.push_back({kOpenGl, descent.stage, descent_bytes(m, descent.settings.iterations),
                          [solver] { solver->advance_nodes(kFrame); }, finish});
     }
-    // One a colour, and half of the four that come with every second sweep.
+    // One for each colour, and half of the four that come with every second sweep.
     const std::size_t dispatches = rows.batches.front().colors.size() + 2,
                       invocations = rows.nodes.size() / rows.batches.front().colors.size();
     cases.push_back({kOpenGl, kDispatchStage, 0.0,
@@ -198,7 +198,7 @@ std::shared_ptr<const Model> make_sphere_grid(const TetMesh& sphere, int scale) 
         body.material.springs = SpringKinds{};  // the paper's
         bodies.push_back(std::move(body));
     }
-    // Nothing lands while it is timed: what touches or is crushed costs more.
+    // Nothing collides during the measurement: bodies that touch or are crushed cost more.
     const glm::dvec3 gravity(0.0, -0.01, 0.0);
     return std::make_shared<const Model>(pack_bodies(bodies, {ColliderDescription{}}, gravity));
 }

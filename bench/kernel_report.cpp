@@ -17,11 +17,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const char* const kMethod = R"(
-Medians of samples that are taken in turn; spread is (90th - 10th percentile) / median. 1x is three spheres of 4,581 nodes,
-22,638 springs and 8,000 faces each, damped, above a plane; MB is what a stage reads and writes at least once. What is told of
-block descent are differences of the shortest times of steps: a sweep with its half of what comes with every second one (a
-look at all tets, a rigid motion of all bodies), a correction by the coarse level, which comes with every sixth, and the
-rest of a step.
+Medians of samples; the stages are sampled alternately. Spread is (90th - 10th percentile) / median. 1x is three spheres of 4,581
+nodes, 22,638 springs and 8,000 faces each, damped, above a plane. MB is what a stage reads and writes at least once. The figures of
+block descent are differences of the shortest times of steps: a sweep with half the cost of what every second sweep adds (a check of
+all tets, a rigid motion of all bodies), a correction by the coarse level, which every sixth sweep adds, and the rest of a step.
 )";
 
 const KernelTime& find_time(const std::vector<KernelTime>& times, const std::string& backend,
@@ -31,8 +30,8 @@ const KernelTime& find_time(const std::vector<KernelTime>& times, const std::str
     });
 }
 
-// What a sweep of block descent costs in explicit steps, by differences. Of shortest times: medians of times
-// that others have disturbed differ by more than a sweep.
+// The cost of a sweep of block descent in explicit steps, by differences of shortest times. Medians of times
+// that other programs have disturbed differ by more than a sweep.
 void add_sweep_ratios(const std::vector<KernelTime>& times, const std::string& backend, int scale,
                       std::vector<BenchRatio>& ratios) {
     const auto least = [&](const std::string& stage) {

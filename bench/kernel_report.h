@@ -10,7 +10,7 @@
 
 namespace gelatin {
 
-/// What `gelatin bench kernels` has measured of one stage on one backend at one size.
+/// The measurement of one stage on one backend at one size.
 struct KernelTime {
     std::string backend, stage;
     int scale;
@@ -25,17 +25,17 @@ struct KernelBench {
     BenchMachine machine;
     std::vector<KernelTime> times;
 
-    /// The ratios that matter.
+    /// The important ratios.
     std::vector<BenchRatio> ratios() const;
 };
 
-/// All times, and the ratios, as Markdown that is also read well as it is.
+/// All times, and the ratios, as Markdown that is also legible as plain text.
 std::string kernel_tables(const KernelBench& bench);
 
 /// One JSON object; docs/command-line.md lists its keys.
 std::string kernel_json(const KernelBench& bench);
 
-/// Writes the tables with all that they depend on, but no date, to `file` (.md). @throws SystemError
+/// Writes the tables with everything that they depend on, but no date, to `file` (.md). @throws SystemError
 void write_kernel_report(const std::filesystem::path& file, const KernelBench& bench);
 
 }  // namespace gelatin

@@ -27,7 +27,7 @@ double time_once(const KernelCase& c, int repeats) {
     return elapsed.count() / repeats;
 }
 
-// Samples every case in turn, so that a machine that slows down slows all of them.
+// Samples the cases alternately, so that a machine that slows down affects all of them.
 std::vector<KernelTime> time_cases(const std::vector<KernelCase>& cases, int scale, int runs,
                                    double springs) {
     std::vector<int> repeats;

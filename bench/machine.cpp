@@ -25,7 +25,7 @@ std::string cpu_name() {
 std::string describe_opengl(const gl::DeviceInfo* device) {
     if (device == nullptr) return "none";
     std::string text = device->renderer + ", OpenGL " + device->version;
-    const char* threads = std::getenv("LP_NUM_THREADS");  // llvmpipe's; it takes all where nothing is set
+    const char* threads = std::getenv("LP_NUM_THREADS");  // llvmpipe's; it uses all if nothing is set
     if (device->is_software && threads != nullptr) text += std::string(", LP_NUM_THREADS=") + threads;
     return text;
 }

@@ -10,7 +10,7 @@ MarkdownTable::MarkdownTable(std::vector<std::string> header, std::set<std::size
     : rows_{std::move(header)}, figures_(std::move(figures)) {}
 
 std::string MarkdownTable::text() const {
-    std::vector<std::size_t> widths(rows_.front().size(), 3);  // of the rule below the header, at least
+    std::vector<std::size_t> widths(rows_.front().size(), 3);  // smallest width of the rule below the header
     for (const auto& row : rows_) {
         for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
     }

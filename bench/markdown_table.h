@@ -6,13 +6,13 @@
 
 namespace gelatin {
 
-/// A Markdown table whose columns are padded, so that a terminal shows it as well.
+/// A Markdown table whose columns are padded, so that it is legible in a terminal too.
 class MarkdownTable {
 public:
-    /// @param figures the columns that are set to the right
+    /// @param figures the columns that are right-aligned
     MarkdownTable(std::vector<std::string> header, std::set<std::size_t> figures);
 
-    /// @pre as many cells as the header has
+    /// @pre as many cells as the header
     void add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
 
     std::string text() const;

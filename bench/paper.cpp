@@ -19,10 +19,10 @@
 namespace gelatin {
 namespace {
 
-// As many of a sample's windows, evenly spread, foretell how long a whole run takes.
+// This many of a sample's windows, evenly distributed, are used to estimate the duration of a whole run.
 constexpr std::size_t kProbes = 10;
 
-// A measurement under way.
+// A measurement in progress.
 struct Entry {
     BenchResult result;
     BenchPlayer* player;
@@ -56,7 +56,7 @@ private:
     void add_entry(std::size_t scene, const BenchSystem& system, bool drawn, const BenchWindows& windows);
 
     PaperBench bench_;
-    gl::Context context_;  // before everything that owns GL objects
+    gl::Context context_;  // declared before everything that owns GL objects
     std::vector<BenchSystem> systems_;
     std::vector<std::unique_ptr<TemporaryFolder>> folders_;  // of the windows' states, by scene
     std::vector<std::unique_ptr<BenchPlayer>> players_;
@@ -103,7 +103,7 @@ void PaperBenchRun::prepare_scene(std::size_t scene_index) {
         for (const bool drawn : wanted_drawn(scene_index, system))
             add_entry(scene_index, system, drawn, windows);
     }
-    if (players_.size() == first_player) return;  // no frame before contact, and nothing else wanted
+    if (players_.size() == first_player) return;  // no frame before contact, and nothing else requested
     bench_.scenes.push_back({scene_index, players_.back()->simulator().counts(), frames,
                              windows.frames(BenchPart::until_contact)});
 }
@@ -136,7 +136,7 @@ void PaperBenchRun::add_entry(std::size_t scene, const BenchSystem& system, bool
     entries_.push_back(std::move(entry));
 }
 
-// In turn, so that a machine that slows down slows all of them.
+// Alternately, so that a machine that slows down affects all of them.
 void PaperBenchRun::time_entries() {
     for (int run = 1; run <= bench_.options.runs; ++run) {
         std::fprintf(stderr, "gelatin: run %d of %d\n", run, bench_.options.runs);

@@ -20,7 +20,7 @@ struct BenchScene {
 };
 const std::array<BenchScene, kBenchScenes>& bench_scenes();
 
-/// One way to simulate: of the paper or of today.
+/// One system: a combination of algorithms and backend, the paper's or a fast one.
 struct BenchSystem {
     std::string name;
     Backend backend;
@@ -28,16 +28,18 @@ struct BenchSystem {
     BroadPhase broad_phase;
     int threads;  ///< of the simulation; 0: all
     BenchPart part;
-    std::array<double, kBenchScenes> paper_fps;  ///< as published; of the paper's nearest for our own ways
+    std::array<double, kBenchScenes>
+        paper_fps;  ///< as published; for our own systems that of the nearest one in the paper
 
     /// `scene` as this system simulates it.
     Scene configure(Scene scene) const;
 };
 
-/// In the order of the report. Without a software driver, `fast` is on OpenGL itself and has no twin.
+/// In the order of the report. Without a software driver, `fast` runs on OpenGL itself and has no
+/// counterpart.
 std::vector<BenchSystem> bench_systems(bool software_gl);
 
-/// How much faster one system is than another.
+/// The speed of one system relative to another.
 struct BenchComparison {
     const char* name;
     const char* fast;  ///< systems

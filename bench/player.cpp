@@ -54,7 +54,7 @@ void BenchPlayer::play(int frames, bool drawn) {
             simulator_.advance_frame();
             if (!simulator_.uses_gl()) continue;
         }
-        // One frame may be under way while the next is told; a queue of many would show the user old
+        // One frame may be pending while the next is submitted; a long queue would show the user old
         // pictures.
         gl::Fence this_frame = gl::Fence::insert();
         last_frame.wait();

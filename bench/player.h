@@ -15,7 +15,7 @@ class BenchPlayer {
 public:
     BenchPlayer(const Scene& scene, const BenchSystem& system);
 
-    /// Wall-clock seconds that the frames of a window take, all included: steps, and if `drawn` normals,
+    /// Wall-clock seconds for the frames of a window, everything included: steps, and if `drawn` normals,
     /// light and picture; until the GPU has done the last one. Loading the window's state does not count.
     double time_window(const BenchWindow& window, bool drawn);
 

@@ -72,25 +72,25 @@ std::string machine_table(const PaperBench& bench) {
 constexpr const char* kMethod = R"(
 ## How it was measured
 
-A figure is the mean of all runs; each run's is frames over wall-clock seconds, all included: steps and, where drawn,
-normals, light and picture, until the last one is finished. At most one frame is under way while the next is told to the
-driver. Loading a scene and compiling shaders do not count. The runs of the systems take turns.
+A figure is the mean of all runs. Each run's is frames divided by wall-clock seconds, everything included: steps and, if drawn,
+normals, light and picture, until the last one is finished. At most one frame is pending while the next is submitted to the
+driver. Loading a scene and compiling shaders do not count. The systems are measured alternately.
 
 Systems that would take longer than `--whole-limit` seconds for a whole run are sampled: a fast run saves its state at
-evenly spread frames, and a run times the next few frames from each of these states, so that frames in contact have the
-same share as in a whole run. "Until contact" leaves out all from the first frame with colliding faces on.
+evenly distributed frames, and a run times the next few frames from each of these states, so that frames in contact have the
+same share as in a whole run. "Until contact" excludes all frames from the first one with colliding faces on.
 
 - **paper, CPU single core**: spring forces divided and merged, boxes, one thread; drawn with OpenGL, one after the other.
 - **paper, GPU**: the same in compute shaders. The paper's Table 4 compares boxes and none up to the first contact.
-- **fast**: fused kernels and a hierarchy of boxes, on the backend that `auto` chooses. Where that is the CPU, a frame is
-  simulated by all threads while the one before is drawn. Its figures stand beside those of the paper's GPU.
-- **fast, GL**: the same in compute shaders, where OpenGL is a software driver.
+- **fast**: fused kernels and a hierarchy of boxes, on the backend that `auto` selects. If that is the CPU, a frame is
+  simulated by all threads while the previous one is drawn. Its figures are compared with those of the paper's GPU.
+- **fast, GL**: the same in compute shaders, if OpenGL is a software driver.
 
 The paper's machine: GeForce GTX 760 Ti, Core i7-3770K; all its frames are drawn.
 )";
 
 BarChart chart_of(const PaperBench& bench) {
-    BarChart chart{"Frames a second, more is better", {"published", "here, drawn", "here, undrawn"}, {}};
+    BarChart chart{"Frames per second, more is better", {"published", "here, drawn", "here, undrawn"}, {}};
     for (const BenchSceneFacts& facts : bench.scenes) {
         BarChart::Panel panel{name_of_scene(facts.scene), {}};
         for (const BenchResult& result : bench.results) {
@@ -126,7 +126,7 @@ void write_bench_report(const std::filesystem::path& file, const PaperBench& ben
     write_file(chart, to_svg(chart_of(bench)));
     write_file(file,
                fmt::format("# The paper's benchmark\n\n`gelatin bench paper`\n\n{}\n"
-                           "![Frames a second]({})\n\n{}{}",
+                           "![Frames per second]({})\n\n{}{}",
                            machine_table(bench), chart.filename().string(), bench_tables(bench), kMethod));
 }
 

@@ -7,14 +7,14 @@
 
 namespace gelatin {
 
-/// Frames a second of every system, a table a scene, and the ratios, as Markdown that is also read well as it
-/// is.
+/// Frames per second of every system, one table for each scene, and the ratios, as Markdown that is also
+/// legible as plain text.
 std::string bench_tables(const PaperBench& bench);
 
 /// One JSON object; docs/command-line.md lists its keys.
 std::string bench_json(const PaperBench& bench);
 
-/// Writes the tables with all that they depend on, but no date, to `file` (.md), and beside it a chart
+/// Writes the tables with everything that they depend on, but no date, to `file` (.md), and a chart beside it
 /// (.svg).
 /// @throws SystemError
 void write_bench_report(const std::filesystem::path& file, const PaperBench& bench);

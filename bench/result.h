@@ -15,21 +15,21 @@ struct BenchSpread {
     double mean, standard_deviation, least, most;
 };
 
-/// What was measured of one system with one scene.
+/// The measurement of one system with one scene.
 struct BenchResult {
     std::size_t scene;  ///< index of bench_scenes()
     BenchSystem system;
     bool drawn;
-    std::string backend, device;  ///< that simulated
+    std::string backend, device;  ///< the device that simulated
     bool sampled = false;
-    int window_count = 1, window_frames = 0;  ///< one window of all frames where it was not sampled
+    int window_count = 1, window_frames = 0;  ///< one window of all frames if it was not sampled
     std::vector<double> fps;                  ///< of each run [frames/s]
 
     BenchSpread spread() const;
     double paper_fps() const { return system.paper_fps[scene]; }
 };
 
-/// "free fall, paper, GPU, drawn": what `--only` looks into.
+/// "free fall, paper, GPU, drawn": the text that `--only` searches.
 std::string bench_label(std::size_t scene, const BenchSystem& system, bool drawn);
 
 struct BenchSceneFacts {
@@ -49,7 +49,7 @@ struct PaperBench {
 
     const BenchResult* find(std::size_t scene, const std::string& system, bool drawn) const;
 
-    /// How many times faster, by the means; empty where one was not measured.
+    /// The ratio of the means; empty if one was not measured.
     std::optional<double> ratio(std::size_t scene, const BenchComparison& comparison, bool drawn) const;
 };
 

@@ -5,7 +5,7 @@
 
 namespace gelatin {
 
-/// What samples of one figure say together.
+/// A summary of the samples of one figure.
 struct BenchSummary {
     double median, low, high;  ///< of the samples; their 10th and 90th percentile
 
@@ -14,11 +14,11 @@ struct BenchSummary {
 /// @pre samples is not empty
 BenchSummary summarise(std::vector<double> samples);
 
-/// A figure beside what is wanted of it.
+/// A figure, and its wanted value.
 struct BenchRatio {
     std::string what;
     double value;
-    std::string wanted;  ///< ">= 2"; empty where nothing is
+    std::string wanted;  ///< ">= 2"; empty for none
 };
 
 }  // namespace gelatin

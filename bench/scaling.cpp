@@ -18,9 +18,9 @@ namespace gelatin {
 namespace {
 
 constexpr double kSlow = 300.0;  // a step that takes longer [ms] ...
-constexpr int kSlowRuns = 3;     // ... is sampled so often
+constexpr int kSlowRuns = 3;     // ... is sampled this many times
 
-// A measurement under way.
+// A measurement in progress.
 struct Entry {
     ScalingResult result;
     std::unique_ptr<StagePlayer> player;
@@ -34,32 +34,32 @@ public:
         bench_.options = options;
         bench_.machine = describe_bench_machine(context != nullptr ? &context->device() : nullptr);
     }
-    /// Makes its model, if anything of it is wanted, and samples all systems in turn.
+    /// Builds its model, if any measurement of it is requested, and samples all systems alternately.
     void measure(const ScalingCase& scaling_case);
     ScalingBench take_result() { return std::move(bench_); }
 
 private:
-    bool is_wanted(const ScalingCase& scaling_case, const CollisionSettings& way,
+    bool is_wanted(const ScalingCase& scaling_case, const CollisionSettings& method,
                    const StageSystem& system) const {
-        return scaling_label(scaling_case, way, system).find(bench_.options.only) != std::string::npos;
+        return scaling_label(scaling_case, method, system).find(bench_.options.only) != std::string::npos;
     }
-    Entry make_entry(const ScalingCase& scaling_case, const CollisionSettings& way, const StageSystem& system,
-                     const std::shared_ptr<const Model>& model) const;
+    Entry make_entry(const ScalingCase& scaling_case, const CollisionSettings& method,
+                     const StageSystem& system, const std::shared_ptr<const Model>& model) const;
 
     ScalingBench bench_;
     std::vector<StageSystem> systems_;
 };
 
-Entry ScalingBenchRun::make_entry(const ScalingCase& scaling_case, const CollisionSettings& way,
+Entry ScalingBenchRun::make_entry(const ScalingCase& scaling_case, const CollisionSettings& method,
                                   const StageSystem& system,
                                   const std::shared_ptr<const Model>& model) const {
-    std::fprintf(stderr, "gelatin: %s\n", scaling_label(scaling_case, way, system).c_str());
+    std::fprintf(stderr, "gelatin: %s\n", scaling_label(scaling_case, method, system).c_str());
     Entry entry;
-    entry.player = std::make_unique<StagePlayer>(model, way, system, scaling_case.stages);
+    entry.player = std::make_unique<StagePlayer>(model, method, system, scaling_case.stages);
     ScalingResult& result = entry.result;
     result.part = scaling_case.part;
     result.scene = scaling_case.scene;
-    result.broad_phase = way.broad_phase;
+    result.broad_phase = method.broad_phase;
     result.system = system.name;
     result.objects = model->objects.size();
     result.faces = model->faces.size();
@@ -73,15 +73,15 @@ void ScalingBenchRun::measure(const ScalingCase& scaling_case) {
     std::shared_ptr<const Model> model;
     double loading = 0.0;
     std::vector<Entry> entries;
-    for (const CollisionSettings& way : scaling_case.ways) {
+    for (const CollisionSettings& method : scaling_case.methods) {
         for (const StageSystem& system : systems_) {
-            if (!is_wanted(scaling_case, way, system)) continue;
+            if (!is_wanted(scaling_case, method, system)) continue;
             if (!model) {
                 const auto start = std::chrono::steady_clock::now();
                 model = scaling_case.make_model();
                 loading = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
             }
-            entries.push_back(make_entry(scaling_case, way, system, model));
+            entries.push_back(make_entry(scaling_case, method, system, model));
             entries.back().result.loading = loading;
         }
     }
@@ -115,7 +115,7 @@ void bench_scaling(const ScalingBenchOptions& options) {
              "--only",
              options.only,
              "is part of no measurement's name, such as \"" +
-                 scaling_label(cases.front(), cases.front().ways.front(), stage_systems(false).front()) +
+                 scaling_label(cases.front(), cases.front().methods.front(), stage_systems(false).front()) +
                  "\""});
     }
     fmt::print("{}", scaling_tables(bench));

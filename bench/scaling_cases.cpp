@@ -21,10 +21,10 @@ constexpr double kRadius = 0.5;  // [m]
 constexpr int kFrequency = 20;   // of the paper's Sphere 1: 8,000 faces
 constexpr int kBallFrequency = 2;
 
-// Between the middles of two balls, in radii.
+// Distance between the centres of two balls, in radii.
 constexpr double kTouching = 1.99, kDeep = 1.0, kApart = 2.5;
 
-// Of a lattice in which a ball inside touches about half of its six neighbours, in radii.
+// Spacing of a lattice in which an inner ball touches about half of its six neighbours, in radii.
 constexpr double kSpacing = 1.97, kJitter = 0.04;
 
 TetMesh make_ball(int frequency) {
@@ -123,10 +123,10 @@ std::vector<ScalingCase> scaling_cases(const ScalingBenchOptions& options) {
     return cases;
 }
 
-std::string scaling_label(const ScalingCase& scaling_case, const CollisionSettings& way,
+std::string scaling_label(const ScalingCase& scaling_case, const CollisionSettings& method,
                           const StageSystem& system) {
     return fmt::format("{}, {}, {}, {}", name_of(scaling_case.part), scaling_case.scene,
-                       name_of(way.broad_phase), system.name);
+                       name_of(method.broad_phase), system.name);
 }
 
 }  // namespace gelatin

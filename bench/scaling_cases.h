@@ -16,20 +16,20 @@ namespace gelatin {
 enum class ScalingPart { two_bodies, faces, objects, self_collision };
 const char* name_of(ScalingPart part);
 
-/// A model, and the ways in which its collisions are found.
+/// A model, and the methods by which its collisions are found.
 struct ScalingCase {
     ScalingPart part;
     std::string scene;  ///< "touching", "1000 apart"
     std::function<std::shared_ptr<const Model>()> make_model;
-    std::vector<CollisionSettings> ways;
+    std::vector<CollisionSettings> methods;
     std::vector<BenchStage> stages;
 };
 
-/// In the order of the report. Makes no model yet.
+/// In the order of the report. Builds no model yet.
 std::vector<ScalingCase> scaling_cases(const ScalingBenchOptions& options);
 
-/// "two bodies, touching, hierarchy, CPU, 1 thread": what `--only` looks into.
-std::string scaling_label(const ScalingCase& scaling_case, const CollisionSettings& way,
+/// "two bodies, touching, hierarchy, CPU, 1 thread": the text that `--only` searches.
+std::string scaling_label(const ScalingCase& scaling_case, const CollisionSettings& method,
                           const StageSystem& system);
 
 }  // namespace gelatin

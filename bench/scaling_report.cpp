@@ -24,7 +24,7 @@ std::string per(const BenchSummary& time, double unit, std::size_t count) {
 }
 constexpr double kNanoseconds = 1e6, kMicroseconds = 1e3;  // in a millisecond
 
-// Of one part; empty if nothing of it was measured.
+// Of one part; empty if none of it was measured.
 std::vector<const ScalingResult*> results_of(const ScalingBench& bench, ScalingPart part) {
     std::vector<const ScalingResult*> results;
     for (const ScalingResult& result : bench.results)
@@ -127,7 +127,7 @@ PartReport report_of(ScalingPart part) {
 }
 
 BarChart chart_of(const ScalingBench& bench) {
-    BarChart chart{"What collision costs by size, less is better", bench.systems(), {}};
+    BarChart chart{"Cost of collision by size, less is better", bench.systems(), {}};
     for (const ScalingPart part : kParts) {
         BarChart::Panel panel{report_of(part).chart_title, {}};
         for (const ScalingResult* result : results_of(bench, part)) {
@@ -148,16 +148,16 @@ BarChart chart_of(const ScalingBench& bench) {
 constexpr const char* kMethod = R"(
 ## How it was measured
 
-Stages are timed by the clock of the device that they run on, GL_TIMESTAMP with OpenGL. A sample is the mean of a step over
-as many steps as take a fiftieth of a second, at least one, from the same state; a figure is the median of all samples; the
-spread is (90th - 10th percentile) / median. The systems of a scene take turns. Steps above 0.3 s are sampled three times.
+Stages are timed by the clock of the device on which they run, GL_TIMESTAMP with OpenGL. A sample is the mean of a step over
+as many steps as take 1/50 s, at least one, from the same state. A figure is the median of all samples. The
+spread is (90th - 10th percentile) / median. The systems of a scene are measured alternately. Steps above 0.3 s are sampled three times.
 
-- Refit is `update_boxes`, the query `find_object_pairs` and `find_face_collisions`. By `boxes` every face of one body is
-  held against every face of the other.
+- Refit is `update_boxes`, the query `find_object_pairs` and `find_face_collisions`. With `boxes` every face of one body is
+  tested against every face of the other.
 - **Two bodies**: spheres of the paper's size, 1.99 radii apart (touching) and one (deep).
-- **By number of faces**: balls with a hole, so that they need no mesher, 1.99 radii apart. Loading is making the model,
+- **By number of faces**: balls with a hole, so that they need no mesher, 1.99 radii apart. Loading is building the model,
   meshing included.
-- **By number of objects**: balls of a jittered lattice in which they touch, and in which nothing does. Lost are pairs for
+- **By number of objects**: balls of a jittered lattice in which they touch, and of one in which they do not. Lost are pairs for
   which a device's buffers had no room.
 - **With themselves**: `free_fall.toml` and `rain.toml` with `self_collision = true`, as they start to fall.
 )";

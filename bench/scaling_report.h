@@ -7,13 +7,13 @@
 
 namespace gelatin {
 
-/// A table a part, and the ratios, as Markdown that is also read well as it is.
+/// One table for each part, and the ratios, as Markdown that is also legible as plain text.
 std::string scaling_tables(const ScalingBench& bench);
 
 /// One JSON object; docs/command-line.md lists its keys.
 std::string scaling_json(const ScalingBench& bench);
 
-/// Writes the tables with all that they depend on, but no date, to `file` (.md), and beside it a chart
+/// Writes the tables with everything that they depend on, but no date, to `file` (.md), and a chart beside it
 /// (.svg).
 /// @throws SystemError
 void write_scaling_report(const std::filesystem::path& file, const ScalingBench& bench);

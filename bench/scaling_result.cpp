@@ -23,7 +23,7 @@ std::vector<const ScalingResult*> select(const ScalingBench& bench, ScalingPart 
     return selected;
 }
 
-void compare_ways(const std::vector<const ScalingResult*>& results, std::vector<BenchRatio>& ratios) {
+void compare_methods(const std::vector<const ScalingResult*>& results, std::vector<BenchRatio>& ratios) {
     for (const ScalingResult* slow : results) {
         if (slow->broad_phase != BroadPhase::boxes) continue;
         for (const ScalingResult* fast : results) {
@@ -46,7 +46,7 @@ void compare_faces(const std::vector<const ScalingResult*>& results, std::vector
     add("query", small.query(), large.query());
 }
 
-// The two largest sizes of each row: among few objects, most have neighbours on one side alone.
+// The two largest sizes of each row: with few objects, most have neighbours on one side only.
 void compare_objects(const std::vector<const ScalingResult*>& results, std::vector<BenchRatio>& ratios) {
     const auto ends_row = [&](std::size_t r) {
         return r + 1 == results.size() || results[r + 1]->objects <= results[r]->objects;
@@ -88,7 +88,7 @@ std::vector<std::string> ScalingBench::systems() const {
 std::vector<BenchRatio> ScalingBench::ratios() const {
     std::vector<BenchRatio> ratios;
     for (const std::string& system : systems())
-        compare_ways(select(*this, ScalingPart::two_bodies, system), ratios);
+        compare_methods(select(*this, ScalingPart::two_bodies, system), ratios);
     for (const std::string& system : systems())
         compare_faces(select(*this, ScalingPart::faces, system), ratios);
     for (const std::string& system : systems())

@@ -11,20 +11,20 @@
 
 namespace gelatin {
 
-/// What was measured of one scene on one system.
+/// The measurement of one scene on one system.
 struct ScalingResult {
     ScalingPart part;
     std::string scene;
     BroadPhase broad_phase;
     std::string system;
-    std::size_t objects, faces;       ///< of the scene
-    double loading;                   ///< making the model took so long, without its meshes [s]
-    std::size_t colliding_faces = 0;  ///< after the last sample
-    std::uint32_t lost_pairs = 0;     ///< that were not tested for want of room
-    int steps = 0;                    ///< a sample
-    std::vector<std::map<std::string, double>> samples;  ///< of each stage [ms a step]
+    std::size_t objects, faces;                          ///< of the scene
+    double loading;                                      ///< time to build the model, without its meshes [s]
+    std::size_t colliding_faces = 0;                     ///< after the last sample
+    std::uint32_t lost_pairs = 0;                        ///< pairs that were not tested for lack of room
+    int steps = 0;                                       ///< in a sample
+    std::vector<std::map<std::string, double>> samples;  ///< of each stage [ms per step]
 
-    /// Of these stages together [ms a step].
+    /// Of these stages together [ms per step].
     BenchSummary time(const std::vector<std::string>& stages) const;
     BenchSummary refit() const { return time({"update_boxes"}); }
     BenchSummary query() const { return time({"find_object_pairs", "find_face_collisions"}); }

@@ -15,14 +15,14 @@ struct BenchStage {
     void (*run)(Solver& solver, double step);
 };
 
-/// Moves nothing: refit of the boxes, and the query for faces that touch.
+/// Without motion: refit of the boxes, and the query for faces that touch.
 std::vector<BenchStage> query_stages();
 /// A step of objects that collide with each other.
 std::vector<BenchStage> step_stages();
-/// Forces, and collisions of objects with themselves alone.
+/// Forces, and collisions of objects with themselves only.
 std::vector<BenchStage> self_stages();
 
-/// A backend, with so many threads if it is the CPU's.
+/// A backend, with this number of threads if it is the CPU's.
 struct StageSystem {
     std::string name;  ///< "CPU, 1 thread", "OpenGL"
     bool uses_gl;
@@ -30,25 +30,24 @@ struct StageSystem {
 };
 std::vector<StageSystem> stage_systems(bool use_gl);
 
-/// Steps one model on one system, always from the state that it starts with, and tells how long each stage
-/// takes by the clock of the device that it runs on.
+/// Runs steps of one model on one system, always from its initial state, and measures each stage by the clock
+/// of the device on which it runs.
 class StagePlayer {
 public:
     StagePlayer(const std::shared_ptr<const Model>& model, const CollisionSettings& collision,
                 const StageSystem& system, std::vector<BenchStage> stages);
 
-    /// How long a step takes [ms], and how many take about a fiftieth of a second. Compiles shaders and
-    /// faults pages in.
+    /// The time of a step [ms], and how many steps take about 1/50 s. Compiles shaders and faults pages in.
     struct Trial {
         double ms;
         int steps;
     };
     Trial try_out();
 
-    /// Milliseconds a step, by stage: the means over so many steps.
+    /// Milliseconds per step, by stage: the means over this many steps.
     std::map<std::string, double> sample(int steps);
 
-    /// Of the state that the last sample ended with: what was found of each object.
+    /// For the state at the end of the last sample: the results for each object.
     std::vector<ObjectMeasure> measure();
     /// Pairs that did not fit into a device's buffers, as of the last measure().
     std::uint32_t lost_pairs() const { return solver_->lost_pairs(); }

@@ -8,7 +8,7 @@
 
 namespace gelatin {
 
-/// While it lives, no more threads than these simulate; 0: all.
+/// During its lifetime, at most this many threads simulate; 0: all.
 class ThreadLimit {
 public:
     explicit ThreadLimit(int threads) {
@@ -20,7 +20,7 @@ private:
     std::optional<tbb::global_control> limit_;
 };
 
-/// What the CPU backend is measured with: one thread, and all of the machine's where it has more.
+/// The thread counts with which the CPU backend is measured: one, and all of the machine's if it has more.
 std::vector<int> measured_thread_counts();
 
 /// "CPU, 2 threads".

@@ -9,16 +9,16 @@
 
 namespace gelatin {
 
-/// Frames that are timed in one go.
+/// Frames that are timed together.
 struct BenchWindow {
-    std::filesystem::path start;  ///< checkpoint of the state before the first
+    std::filesystem::path start;  ///< checkpoint of the state before the first frame
     int frames;
 };
 
-/// The frames of a scene that a benchmark times: a whole run, or windows spread evenly over it, so that
+/// The frames of a scene that a benchmark times: a whole run, or windows distributed evenly over it, so that
 /// frames in contact have the same share as in the whole.
 ///
-/// The windows' first states are saved by a run of the fastest way there is, for the slow ones would take
+/// The windows' first states are saved by a run of the fastest system, because the slow ones would take
 /// hours.
 class BenchWindows {
 public:
@@ -43,8 +43,8 @@ private:
     std::filesystem::path folder_;
 };
 
-/// Where `count` windows of `length` frames begin that divide `frames` evenly, each in the middle of its
-/// part; fewer where so many do not fit.
+/// The first frames of `count` windows of `length` frames that divide `frames` evenly, each in the centre of
+/// its part; fewer if there is not enough room.
 std::vector<int> window_starts(int frames, int count, int length);
 
 }  // namespace gelatin

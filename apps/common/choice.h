@@ -9,8 +9,8 @@
 
 namespace gelatin {
 
-/// The meaning of `name` among `choices`. @throws InvalidInput naming the option, what is allowed and the
-/// nearest.
+/// The value that `name` stands for. @throws InvalidInput naming the option, what is allowed and the nearest
+/// choice.
 template <class Meaning>
 Meaning choose(const std::string& option, const std::string& name,
                const std::vector<std::pair<std::string, Meaning>>& choices) {

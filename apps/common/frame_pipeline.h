@@ -8,15 +8,15 @@ namespace gelatin {
 
 /// Draws one frame while the next is simulated.
 ///
-/// Where the CPU simulates, its threads advance the frame beside the calling thread, which draws: a step of
-/// that backend makes no OpenGL call. A GPU needs no such help, for drawing only tells it what to do. What is
-/// computed stays the same bit for bit, with one thread too, which does one after the other.
+/// If the CPU simulates, its threads advance the frame while the calling thread draws: a step of that backend
+/// makes no OpenGL call. On a GPU this is not necessary, because drawing only submits commands. The results
+/// stay the same bit for bit, also with a single thread, which does one after the other.
 class FramePipeline {
 public:
     explicit FramePipeline(Simulator& simulator) : simulator_(simulator) {}
 
-    /// Runs `draw`, on this thread, and Simulator::advance_frame; returns when both are done.
-    /// @pre `draw` uses a RenderView taken before, and nothing of the simulator
+    /// Runs `draw` on this thread, and Simulator::advance_frame; returns when both are done.
+    /// @pre `draw` uses an earlier RenderView, and nothing of the simulator
     void advance_beside(const std::function<void()>& draw);
 
 private:

@@ -5,15 +5,15 @@
 
 namespace gelatin {
 
-/// Tells on stderr how far a run is: a bar with percent, frames a second and the time left where stderr is a
-/// terminal, else one line every tenth.
+/// Reports the progress of a run on stderr: a bar with percent, frames per second and the time left if stderr
+/// is a terminal, otherwise a line after every tenth.
 class Progress {
 public:
-    /// @param first frames that were done before (a resumed run)
+    /// @param first frames that were done before (of a resumed run)
     Progress(int first, int total, bool quiet);
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
-    ~Progress();  ///< leaves the terminal on a line of its own
+    ~Progress();  ///< ends the line on a terminal
 
     void update(int done);
 

@@ -12,7 +12,7 @@ namespace gelatin {
 /// Needs the simulator's context, which must outlive it.
 class ScenePainter {
 public:
-    /// Frames the picture for the present state where the scene has no camera.
+    /// Sets the camera to show the present state, if the scene has none.
     ScenePainter(Simulator& simulator, const PictureSize& size, render::Quality quality,
                  const Overlays& overlays = {});
 
@@ -22,7 +22,7 @@ public:
     /// Draws the present state.
     void draw() { draw(view()); }
 
-    /// Draws what `view` gave, without a look at the simulator.
+    /// Draws `view`, without access to the simulator.
     void draw(const RenderView& bodies) { renderer_.draw(bodies, camera_); }
 
     unsigned framebuffer() const { return renderer_.framebuffer(); }

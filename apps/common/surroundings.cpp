@@ -14,7 +14,7 @@ render::Surroundings describe_surroundings(const Simulator& simulator) {
         render::make_collider_props(simulator.scene().colliders, surroundings.bounds);
     surroundings.floor_height = colliders.floor_height;
     surroundings.props = std::move(colliders.props);
-    if (surroundings.floor_height) {  // what falls ends there
+    if (surroundings.floor_height) {  // falling bodies end there
         glm::vec3 below = surroundings.bounds.center();
         below.y = *surroundings.floor_height;
         surroundings.bounds.add(below);

@@ -5,12 +5,12 @@
 
 namespace gelatin {
 
-/// A scene's floor, colliders and colours, for a renderer; its scale is that of the bodies as they lie now.
-/// The highest level plane is the floor.
+/// A scene's floor, colliders and colours, for a renderer; its scale is that of the bodies' present
+/// positions. The highest level plane is the floor.
 render::Surroundings describe_surroundings(const Simulator& simulator);
 
-/// The scene's own camera, or one that shows all of it.
-/// @param aspect width over height of the picture
+/// The scene's own camera, or one that shows the whole scene.
+/// @param aspect width divided by height of the picture
 render::Camera choose_camera(const Scene& scene, const render::Surroundings& surroundings, float aspect);
 
 }  // namespace gelatin

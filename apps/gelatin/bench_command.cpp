@@ -19,18 +19,18 @@ void add_kernels(CLI::App& bench) {
     kernels->add_option("--runs", options->runs, "Samples of each stage; the median counts")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    kernels->add_option("--scales", options->scales, "Sizes, times three spheres of 4,580 nodes")
+    kernels->add_option("--scales", options->scales, "Sizes, as multiples of three spheres of 4,580 nodes")
         ->delimiter(',')
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    kernels->add_flag("!--no-gl", options->use_gl, "Leave OpenGL out");
+    kernels->add_flag("!--no-gl", options->use_gl, "Without OpenGL");
     kernels->callback([options] { bench_kernels(*options); });
 }
 
 void add_paper(CLI::App& bench) {
     auto options = std::make_shared<PaperBenchOptions>();
-    CLI::App* paper =
-        bench.add_subcommand("paper", "Frames a second of the paper's two simulations, beside the paper's");
+    CLI::App* paper = bench.add_subcommand(
+        "paper", "Frames per second of the paper's two simulations, compared with the paper");
     paper->add_option("--json", options->json, "Also write the figures to this file")->type_name("FILE.json");
     paper->add_option("--report", options->report, "Also write a report, and a chart beside it (.svg)")
         ->type_name("FILE.md");
@@ -66,7 +66,7 @@ void add_paper(CLI::App& bench) {
 void add_scaling(CLI::App& bench) {
     auto options = std::make_shared<ScalingBenchOptions>();
     CLI::App* scaling = bench.add_subcommand(
-        "scaling", "What collision costs by number of faces and objects, by trees and by brute force");
+        "scaling", "Cost of collision by number of faces and objects, with trees and by brute force");
     scaling->add_option("--json", options->json, "Also write the figures to this file")
         ->type_name("FILE.json");
     scaling->add_option("--report", options->report, "Also write a report, and a chart beside it (.svg)")
@@ -90,7 +90,7 @@ void add_scaling(CLI::App& bench) {
         ->add_option("--scenes", options->scenes,
                      "Folder of free_fall.toml and rain.toml; default: scenes here, or of the sources")
         ->type_name("DIR");
-    scaling->add_flag("!--no-gl", options->use_gl, "Leave OpenGL out");
+    scaling->add_flag("!--no-gl", options->use_gl, "Without OpenGL");
     scaling->callback([options] { bench_scaling(*options); });
 }
 

@@ -6,7 +6,7 @@ class App;
 
 namespace gelatin {
 
-/// Each adds its subcommand, with all its options, to `app`; the subcommand's callback does the work and
+/// Each adds its subcommand, with all its options, to `app`. The subcommand's callback does the work and
 /// throws gelatin::Error. main() turns exceptions into one line on stderr and the exit codes of
 /// docs/command-line.md.
 void add_run_command(CLI::App& app);

@@ -21,7 +21,7 @@
 namespace gelatin {
 namespace {
 
-// What a context on this device (or on none in particular) says about itself, or why there is none.
+// The properties of a context on this device (or on any), or why there is none.
 Json describe_device(std::optional<int> index) {
     try {
         const gl::DeviceInfo device = gl::Context::headless({index, false}).device();
@@ -49,7 +49,7 @@ Json describe_scene(const std::filesystem::path& file) {
     SimulatorOptions options;
     options.backend = Backend::cpu;
     Scene scene = load_scene(file);
-    scene.collision = {};  // some ways need OpenGL; what is described does not depend on them
+    scene.collision = {};  // some values need OpenGL; the description does not depend on them
     const Simulator simulator(scene, options);
     const SimulationSettings& settings = simulator.scene().simulation;
     const Counts counts = simulator.counts();
@@ -104,7 +104,7 @@ void add_info_command(CLI::App& app) {
         bool json = false;
     };
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("info", "Tell about this machine, a scene or a mesh");
+    CLI::App* command = app.add_subcommand("info", "Describe this machine, a scene or a mesh");
     command->add_option("FILE", options->file,
                         "A scene (.toml) or a mesh; none: this program and its devices");
     command->add_flag("--json", options->json, "Print one JSON object");

@@ -14,7 +14,7 @@ Interrupt::Interrupt() {
     asked = false;
     struct sigaction action {};
     action.sa_handler = [](int) { asked = true; };
-    // The handler is gone after the first signal: the second takes the system's own way.
+    // The handler is removed by the first signal: the second one has the system's default effect.
     action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, &old_interrupt_);

@@ -4,8 +4,7 @@
 
 namespace gelatin {
 
-/// While one lives, the first Ctrl-C (or SIGTERM) asks the program to come to an end by itself; the second
-/// ends it.
+/// During its lifetime, the first Ctrl-C (or SIGTERM) asks the program to finish; the second one ends it.
 class Interrupt {
 public:
     Interrupt();

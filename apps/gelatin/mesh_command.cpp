@@ -36,7 +36,7 @@ bool is_surface_file(const fs::path& file) {
     return std::find(kSurfaceEndings.begin(), kSurfaceEndings.end(), ending) != kSurfaceEndings.end();
 }
 
-// The boundary faces over the nodes that they use, in their order.
+// The boundary faces over the nodes that they use, in the nodes' order.
 SurfaceMesh boundary_of(const TetMesh& tets) {
     constexpr std::uint32_t kUnused = ~0u;
     SurfaceMesh surface;
@@ -110,7 +110,7 @@ void run_mesh(MeshOptions& options) {
 
 void add_mesh_command(CLI::App& app) {
     auto options = std::make_shared<MeshOptions>();
-    CLI::App* command = app.add_subcommand("mesh", "Make tets of a surface, or convert between mesh files");
+    CLI::App* command = app.add_subcommand("mesh", "Fill a surface with tets, or convert between mesh files");
     command
         ->add_option("IN", options->input,
                      "A surface (.obj, .stl, .ply, .off) or tets (.node, .ele, .mesh, .msh)")

@@ -10,17 +10,17 @@ namespace gelatin {
 
 using Json = nlohmann::ordered_json;
 
-/// Radius of a tet's circumscribed sphere over its shortest edge: 0.61 for a regular one, TetGen's -q.
+/// Radius of a tet's circumscribed sphere divided by its shortest edge: 0.61 for a regular tet; TetGen's -q.
 double radius_edge_ratio(const TetMesh& mesh, const glm::uvec4& tet);
 
 /// Counts, extent, closedness and volume of a surface; counts, extent, volume and quality of tets. SI units.
 Json describe_surface(const SurfaceMesh& mesh);
 Json describe_tets(const TetMesh& mesh);
 
-/// One "key: value" a line, nested keys indented, for people.
+/// Human-readable: one "key: value" in each line, nested keys indented.
 std::string to_text(const Json& description);
 
-/// To stderr, a line each, as "gelatin: note: ...".
+/// Prints to stderr, one line each, as "gelatin: note: ...".
 void print_notes(const Notes& notes);
 
 }  // namespace gelatin

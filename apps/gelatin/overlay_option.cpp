@@ -28,7 +28,7 @@ constexpr const char* kCutForms =
 
 enum class Kind { boxes, faces, springs, stretch, stress, speed, cut, velocity, objects, wireframe };
 
-// "NAME", or with fields behind it, "NAME:FIELD:FIELD".
+// "NAME", or with fields "NAME:FIELD:FIELD".
 struct Request {
     explicit Request(const std::string& whole) : text(whole) {
         std::size_t begin = 0;
@@ -62,7 +62,7 @@ struct Request {
             refuse(fmt::format("the number must be {}", limit.allowed));
         return value;
     }
-    // The one number that there may be.
+    // The only number that is allowed.
     double number_or(double usual, const Limit& limit) const {
         allow(1);
         return fields.empty() ? usual : number(0, limit);
@@ -90,7 +90,7 @@ void show_boxes(const Request& request, Overlays& overlays) {
     overlays.lowest_boxes_alone = request.fields.size() == 2;
 }
 
-// Springs and the quantities each colour the bodies in their own way.
+// Springs and the quantities both colour the bodies, so they exclude each other.
 void check_colors(const Request& request, const Overlays& overlays) {
     if (overlays.full_strain || overlays.color_map)
         request.refuse("of springs, stretch, stress and speed one can be shown");

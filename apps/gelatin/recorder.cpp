@@ -8,9 +8,9 @@
 namespace gelatin {
 namespace {
 
-// Pictures a second of a film in real time.
+// Pictures per second of a film in real time.
 render::FrameRate film_rate(double frame_rate, int interval) {
-    constexpr double kLargest = 1e6;  // beyond, numerator or denominator leave int
+    constexpr double kLargest = 1e6;  // beyond this, numerator or denominator overflow int
     const render::FrameRate rounded = render::FrameRate::from(frame_rate / interval);
     if (frame_rate > kLargest || interval > kLargest) return rounded;
     const render::FrameRate all = render::FrameRate::from(frame_rate);
@@ -69,7 +69,7 @@ void Recorder::finish() {
     if (!options_.image.empty()) write_image();
 }
 
-// No frame of numbers that are of no use.
+// No frame with invalid numbers is recorded.
 void Recorder::export_frame() {
     simulator_.check();
     exporter_->write(simulator_.read_frame());

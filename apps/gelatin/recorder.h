@@ -13,19 +13,19 @@
 
 namespace gelatin {
 
-/// Keeps what a run shows: the film, the exported frames, the picture of the last frame.
+/// Records the pictures of a run: the film, the exported frames, the picture of the last frame.
 ///
-/// Needs the simulator's context. Without `finish` there is no film, not half of one.
+/// Needs the simulator's context. Without `finish` there is no film at all.
 class Recorder {
 public:
-    /// @throws InvalidInput for a film whose rate no player can hold; SystemError if ffmpeg cannot be
-    /// started.
+    /// @throws InvalidInput for a film whose rate no player supports; SystemError if ffmpeg cannot be
+    ///   started.
     Recorder(const RunOptions& options, Simulator& simulator);
 
-    /// Records the present frame if its turn has come.
+    /// Records the present frame if it is due.
     void record();
 
-    /// The same, and advances the simulator by a frame: beside the drawing where that is possible.
+    /// The same, and advances the simulator by a frame, concurrently with drawing if possible.
     void record_and_advance();
 
     /// Ends the film and draws the image.

@@ -21,7 +21,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Without --stats, how often the state is looked at, so that a simulation that diverged does not run on
+// How often the state is checked without --stats, so that a simulation that diverged does not run on
 // [frames].
 constexpr int kCheckInterval = 30;
 
@@ -35,7 +35,7 @@ public:
           recorder_(options, simulator),
           frames_(simulator.scene().simulation.frames) {}
 
-    /// @throws Diverged, naming the last good checkpoint, once what was recorded until then is safe.
+    /// @throws Diverged, naming the last good checkpoint, after the recordings until then are saved.
     void go();
 
 private:
@@ -95,18 +95,19 @@ void Run::advance() {
     interrupted_ = simulator_.frame() < frames_;
     recorder_.record();  // the last frame, after which none comes
     look();
-    take_statistics(0);  // waits for the device, so that the time is the whole time
+    take_statistics(0);  // waits for the device, so that the measured time is complete
     report_.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     if (!options_.checkpoint.empty() && saved_frame_ != simulator_.frame()) save_checkpoint();
 }
 
 void Run::introduce() const {
-    std::fprintf(stderr, "gelatin: %zu nodes, %zu springs, %zu faces; %d steps of %.4g s a frame; %s on %s\n",
+    std::fprintf(stderr,
+                 "gelatin: %zu nodes, %zu springs, %zu faces; %d steps of %.4g s per frame; %s on %s\n",
                  report_.counts.nodes, report_.counts.springs, report_.counts.faces, report_.substeps,
                  report_.step_size, report_.backend.c_str(), report_.device.c_str());
 }
 
-// The statistics of a frame come while the next one is computed.
+// The statistics of a frame arrive while the next one is computed.
 void Run::measure() {
     if (options_.stats.empty() && simulator_.frame() % kCheckInterval != 0) return;
     look();
@@ -126,12 +127,12 @@ void Run::take_statistics(std::size_t leave) {
     }
 }
 
-// Of a run that diverged: what was measured before it did.
+// For a run that diverged: the measurements before that.
 void Run::take_good_statistics() {
     try {
         take_statistics(0);
     } catch (const Diverged&) {
-        return;  // told already
+        return;  // reported already
     }
 }
 
@@ -149,7 +150,7 @@ std::string Run::tell_last_checkpoint() const {
         start);
 }
 
-// Only a state that was looked at and found sound becomes a checkpoint.
+// Only a state that was checked and found valid becomes a checkpoint.
 void Run::save_checkpoint() {
     look();
     take_statistics(0);

@@ -14,8 +14,8 @@
 namespace gelatin {
 namespace {
 
-constexpr int kLeastSide = 16, kLargestSide = 8192;  // pixels; OpenGL 4.3 promises 16384
-constexpr double kFilmRate = 60.0;                   // pictures a second
+constexpr int kLeastSide = 16, kLargestSide = 8192;  // pixels; OpenGL 4.3 guarantees 16384
+constexpr double kFilmRate = 60.0;                   // pictures per second
 
 }  // namespace
 
@@ -39,36 +39,36 @@ void add_run_options(CLI::App& command, RunOptions& options) {
         .add_option("--device", options.device, "Index of the EGL device to use (gelatin info lists them)")
         ->check(CLI::NonNegativeNumber)
         ->group(computing);
-    command.add_option("--threads", options.threads, "Let the CPU backend use no more than N")
+    command.add_option("--threads", options.threads, "Largest number of threads of the CPU backend")
         ->type_name("N")
         ->check(CLI::PositiveNumber)
         ->group(computing);
-    command.add_flag("--gl-debug", options.gl_debug, "Ask the driver for messages and show them")
+    command.add_flag("--gl-debug", options.gl_debug, "Show the OpenGL driver's debug messages")
         ->group(computing);
 
     const char* outputs = "Outputs";
-    command.add_option("--stats", options.stats, "Write energies, contacts and times here")
+    command.add_option("--stats", options.stats, "Write energies, contacts and times to this file")
         ->type_name("FILE.json")
         ->group(outputs);
     command.add_option("--image", options.image, "Draw the last frame")
         ->type_name("FILE.png")
         ->group(outputs);
-    command.add_option("--video", options.video, "Film the run, in real time unless --every says otherwise")
+    command.add_option("--video", options.video, "Film the run; in real time without --every")
         ->type_name("FILE.mp4")
         ->group(outputs);
-    command.add_option("--size", options.size, "Of the image and the film, in pixels")
+    command.add_option("--size", options.size, "Size of image and film in pixels")
         ->type_name("WIDTHxHEIGHT")
         ->capture_default_str()
         ->group(outputs);
     command
         .add_option("--quality", options.quality,
-                    "Of the same: auto, high or fast; auto is fast on software drivers, else high")
+                    "Of image and film: auto, high or fast; auto is fast on software drivers, else high")
         ->capture_default_str()
         ->group(outputs);
     command
         .add_option(
             "--overlay", options.overlays,
-            "Show in the same: boxes (boxes:3 with three levels of the trees below), faces that touch, "
+            "Show in image and film: boxes (boxes:3 with three levels of the trees below), faces that touch, "
             "springs by strain (springs:0.02 colours fully at 2%), stretch, stress or speed (stress:2e4 "
             "colours "
             "fully at 20 kPa), cut (cut:z, cut:x:0.2, cut:1:0:1), velocity, objects, wireframe")
@@ -93,15 +93,15 @@ void add_run_options(CLI::App& command, RunOptions& options) {
 
     const char* checkpoints = "Checkpoints";
     CLI::Option* checkpoint =
-        command.add_option("--checkpoint", options.checkpoint, "Save the state here at the end")
+        command.add_option("--checkpoint", options.checkpoint, "Save the state to this file at the end")
             ->type_name("FILE")
             ->group(checkpoints);
-    command.add_option("--checkpoint-every", options.checkpoint_every, "Save it every N frames too")
+    command.add_option("--checkpoint-every", options.checkpoint_every, "Also save it every N frames")
         ->type_name("N")
         ->check(CLI::PositiveNumber)
         ->needs(checkpoint)
         ->group(checkpoints);
-    command.add_option("--resume", options.resume, "Go on from this checkpoint")
+    command.add_option("--resume", options.resume, "Continue from this checkpoint")
         ->type_name("FILE")
         ->group(checkpoints);
 }

@@ -16,7 +16,7 @@ class App;
 
 namespace gelatin {
 
-/// What the user asked `gelatin run` for; empty paths are not wanted.
+/// The options of `gelatin run`; empty paths mean that an output is not requested.
 struct RunOptions {
     std::filesystem::path scene;
     std::vector<std::string> overrides;  ///< --set
@@ -24,7 +24,7 @@ struct RunOptions {
 
     std::string backend = "auto";
     std::optional<int> device;
-    std::optional<int> threads;  ///< of the CPU backend; empty: as many as the machine runs at a time
+    std::optional<int> threads;  ///< of the CPU backend; empty: as many as the machine has
     bool gl_debug = false;
 
     std::filesystem::path stats, image, video, export_folder;
@@ -44,23 +44,23 @@ struct RunOptions {
 
 void add_run_options(CLI::App& command, RunOptions& options);
 
-/// Refuses, before anything is simulated, outputs that cannot be written; makes the export folder.
+/// Refuses outputs that cannot be written, before anything is simulated; creates the export folder.
 /// @throws InvalidInput
 void check_outputs(const RunOptions& options);
 
-/// @throws InvalidInput for an unknown backend, as the others for theirs.
+/// @throws InvalidInput for an unknown backend; the other functions for their values.
 SimulatorOptions simulator_options(const RunOptions& options);
 ExportFormat export_format(const RunOptions& options);
 PictureSize picture_size(const RunOptions& options);
 render::Quality picture_quality(const RunOptions& options);
 
-/// What options say, of any command. @throws InvalidInput naming what is allowed
+/// The values of options of all commands. @throws InvalidInput naming what is allowed
 Backend parse_backend(const std::string& text);
 PictureSize parse_size(const std::string& text);
 render::Quality parse_quality(const std::string& text);
 
-/// Frames from one recorded frame to the next: as asked, or so that a film in real time has about 60 pictures
-/// a second.
+/// Frames from one recorded frame to the next: as requested, or so that a film in real time has about 60
+/// pictures per second.
 int record_interval(const RunOptions& options, double frame_rate);
 
 }  // namespace gelatin

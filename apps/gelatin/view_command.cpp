@@ -9,7 +9,7 @@
 namespace gelatin {
 namespace {
 
-/// What the user asked `gelatin view` for, as it was written.
+/// The options of `gelatin view`, as written.
 struct ViewOptions {
     viewer::ViewerOptions viewer;
     std::string backend = "auto", quality = "auto", size = "1280x720";
@@ -28,7 +28,7 @@ void view(ViewOptions options) {
 
 void add_view_command(CLI::App& app) {
     auto options = std::make_shared<ViewOptions>();
-    CLI::App* command = app.add_subcommand("view", "Watch a scene in a window and play with it");
+    CLI::App* command = app.add_subcommand("view", "Show a scene in a window and interact with it");
     command->add_option("SCENE", options->viewer.scene, "A scene file, or a mesh to drop onto a floor")
         ->type_name("FILE");
     command
@@ -46,7 +46,7 @@ void add_view_command(CLI::App& app) {
     command->add_option("--size", options->size, "Of the window")
         ->type_name("WIDTHxHEIGHT")
         ->capture_default_str();
-    command->add_flag("--gl-debug", options->viewer.gl_debug, "Ask the driver for messages and show them");
+    command->add_flag("--gl-debug", options->viewer.gl_debug, "Show the OpenGL driver's debug messages");
     command->callback([options] { view(*options); });
 }
 

@@ -9,10 +9,10 @@
 namespace gelatin::viewer {
 namespace {
 
-constexpr float kHighest = glm::radians(89.0f);      // short of the poles, where right has no direction
-constexpr float kNotch = 0.88f;                      // of the distance is left
+constexpr float kHighest = glm::radians(89.0f);      // away from the poles, where right has no direction
+constexpr float kNotch = 0.88f;                      // factor on the distance
 constexpr float kNearest = 1e-4f, kFarthest = 1e5f;  // [m]
-constexpr float kMargin = 1.1f;                      // picture over what it frames
+constexpr float kMargin = 1.1f;                      // margin: size of the picture relative to its content
 
 }  // namespace
 
@@ -46,16 +46,16 @@ float CameraController::slope() const {
     return std::tan(glm::radians(0.5f * field_of_view_));
 }
 
-void CameraController::orbit(const glm::vec2& way) {
-    azimuth_ -= kTurn * way.x;
-    elevation_ = std::clamp(elevation_ - kTurn * way.y, -kHighest, kHighest);
+void CameraController::orbit(const glm::vec2& motion) {
+    azimuth_ -= kTurn * motion.x;
+    elevation_ = std::clamp(elevation_ - kTurn * motion.y, -kHighest, kHighest);
 }
 
-void CameraController::pan(const glm::vec2& way) {
-    target_ -= 2.0f * slope() * distance_ * (way.x * right() + way.y * up());
+void CameraController::pan(const glm::vec2& motion) {
+    target_ -= 2.0f * slope() * distance_ * (motion.x * right() + motion.y * up());
 }
 
-// What is under the pointer at the target's depth stays there.
+// What is under the pointer, at the target's depth, stays there.
 void CameraController::zoom(float notches, const glm::vec2& place) {
     const float before = distance_;
     distance_ = std::clamp(before * std::pow(kNotch, notches), kNearest, kFarthest);
@@ -90,10 +90,10 @@ glm::vec3 CameraController::at_depth(const glm::vec2& place, float depth) const 
 }
 
 std::optional<glm::vec2> CameraController::place_of(const glm::vec3& point) const {
-    const glm::vec3 way = point - camera().eye;
-    const float depth = glm::dot(way, forward());
+    const glm::vec3 offset = point - camera().eye;
+    const float depth = glm::dot(offset, forward());
     if (depth <= 0.0f) return {};
-    return glm::vec2(glm::dot(way, right()), glm::dot(way, up())) / (2.0f * slope() * depth);
+    return glm::vec2(glm::dot(offset, right()), glm::dot(offset, up())) / (2.0f * slope() * depth);
 }
 
 }  // namespace gelatin::viewer

@@ -9,39 +9,39 @@
 
 namespace gelatin::viewer {
 
-/// Turns the pointer's ways into a camera's. Ways and places are in heights of the picture, from its centre,
-/// x to the right, y up: the same for every size and density of screen.
+/// Moves the camera with the pointer. Positions and displacements of the pointer are in heights of the
+/// picture, from its centre, x to the right, y up: the same for every size and density of screen.
 class CameraController {
 public:
-    /// Takes over how this camera looks; `frame` zooms come from it.
+    /// Starts from this camera; `frame` zooms from there.
     void set(const render::Camera& camera);
     render::Camera camera() const;
 
-    /// Turns about the target, never over the poles.
-    void orbit(const glm::vec2& way);
+    /// Rotates about the target, never over the poles.
+    void orbit(const glm::vec2& motion);
     /// Moves so that what is at the target's depth follows the pointer.
-    void pan(const glm::vec2& way);
-    /// Comes nearer by `notches` of a wheel (away, if negative), to what is under the pointer at `place`.
+    void pan(const glm::vec2& motion);
+    /// Zooms by `notches` of a wheel (outwards, if negative), towards what is under the pointer at `place`.
     void zoom(float notches, const glm::vec2& place);
-    /// Moves back or forth until all of `bounds` shows, looking in the same direction.
-    /// @param aspect width over height of the picture
+    /// Moves along the line of sight until all of `bounds` is visible.
+    /// @param aspect width divided by height of the picture
     void frame(const render::Bounds& bounds, float aspect);
 
-    /// What lies under `place`.
+    /// The ray through `place`.
     Ray ray(const glm::vec2& place) const;
-    /// How far in front of the eye a point lies, along the view [m].
+    /// The depth of a point in front of the eye, along the line of sight [m].
     float depth_of(const glm::vec3& point) const;
-    /// The point under `place` that lies so far in front.
+    /// The point at `place` with this depth.
     glm::vec3 at_depth(const glm::vec2& place, float depth) const;
-    /// Where a point shows, in the picture or beside it; nothing of one that is not in front of the eye.
+    /// Where a point appears, in the picture or outside it; nothing if it is not in front of the eye.
     std::optional<glm::vec2> place_of(const glm::vec3& point) const;
 
-    /// The view's axes, unit.
+    /// The view's axes, unit vectors.
     glm::vec3 forward() const;
     glm::vec3 right() const;
     glm::vec3 up() const;
 
-    /// Of a drag over the picture's height [radians].
+    /// Angle of a drag over the picture's height [radians].
     static constexpr float kTurn = 3.5f;
 
 private:
@@ -49,7 +49,7 @@ private:
 
     glm::vec3 target_{0.0f};
     float distance_ = 5.0f;        // [m]
-    float azimuth_ = 0.0f;         // of the eye seen from the target, about +y from +z [radians]
+    float azimuth_ = 0.0f;         // direction of the eye as seen from the target, about +y from +z [radians]
     float elevation_ = 0.0f;       // [radians]
     float field_of_view_ = 35.0f;  // [degrees]
 };

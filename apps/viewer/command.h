@@ -2,7 +2,7 @@
 
 namespace gelatin::viewer {
 
-/// What a user can ask for by a key or a button.
+/// The commands of keys and buttons.
 enum class Command {
     toggle_play,
     step,

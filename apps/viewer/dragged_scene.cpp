@@ -15,7 +15,8 @@ void remove_pin(ObjectDescription& object, std::size_t index) {
 }  // namespace
 
 Scene dragged_scene(Scene scene, const std::vector<HeldNodes>& held) {
-    // Handles before pins, which become handles behind them; of pins the last first, which moves no other.
+    // Handles before pins, because pins become handles and are appended; of pins the last first, so that the
+    // indices of the others do not change.
     std::vector<HeldNodes> ordered = held;
     std::sort(ordered.begin(), ordered.end(), [](const HeldNodes& a, const HeldNodes& b) {
         return a.is_pin != b.is_pin ? b.is_pin : a.index > b.index;

@@ -7,11 +7,11 @@
 
 namespace gelatin::viewer {
 
-/// The scene with what is held dragged there from the start on; a pin that was dragged becomes a handle.
-/// @param held the simulation's of this scene
+/// The scene with the present drags as drags from the start on; a pin that was dragged becomes a handle.
+/// @param held from the simulation of this scene
 Scene dragged_scene(Scene scene, const std::vector<HeldNodes>& held);
 
-/// Without one of its pins or handles.
+/// The scene without one of its pins or handles.
 Scene released_scene(Scene scene, const HeldNodes& held);
 
 }  // namespace gelatin::viewer

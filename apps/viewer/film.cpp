@@ -5,8 +5,8 @@
 namespace gelatin::viewer {
 namespace {
 
-constexpr int kRate = 60;            // pictures a second
-constexpr double kLongestGap = 0.5;  // of simulated time; what is longer was not watched [s]
+constexpr int kRate = 60;            // pictures per second
+constexpr double kLongestGap = 0.5;  // of simulated time; longer gaps were not watched [s]
 
 }  // namespace
 
@@ -23,7 +23,7 @@ void Film::add(unsigned framebuffer, double time, double speed) {
     int pictures = 0;
     for (; *next_ <= time + 1e-9; *next_ += interval) ++pictures;
     if (pictures == 0) return;
-    // The grabber gives the picture before.
+    // The grabber returns the previous picture.
     const std::optional<render::Image> before = grabber_.grab(framebuffer);
     write(before);
     repeats_ = pictures;

@@ -8,8 +8,8 @@
 
 namespace gelatin::viewer {
 
-/// A film of the picture without the panels, which goes by simulated time: a computer that is too slow for
-/// real time does not show in it.
+/// A film of the picture without the panels. It uses simulated time, so a computer that is too slow for real
+/// time does not affect it.
 class Film {
 public:
     /// @param width, height of all pictures [pixels]
@@ -20,9 +20,9 @@ public:
     int width() const { return width_; }
     int height() const { return height_; }
 
-    /// The picture as of simulated time `time` [s], which takes its place in the film where it follows the
-    /// one before by a sixtieth of a second at `speed`, or as often as that goes into it. After a step back
-    /// in time the film goes on from there.
+    /// Adds the picture at simulated time `time` [s]. It is written if it follows the previous one by a
+    /// sixtieth of a second at `speed`, as often as that fits. After a step back in time the film continues
+    /// from there.
     /// @throws SystemError if the film cannot be written
     void add(unsigned framebuffer, double time, double speed);
 
@@ -36,8 +36,8 @@ private:
     int width_, height_;
     render::FrameGrabber grabber_;
     render::VideoWriter writer_;
-    std::optional<double> next_;  // when a picture is due [s]
-    int repeats_ = 0;             // of the picture that the grabber still has
+    std::optional<double> next_;  // when the next picture is due [s]
+    int repeats_ = 0;             // of the picture that the grabber still holds
     bool is_empty_ = true;
 };
 

@@ -8,8 +8,8 @@
 namespace gelatin::viewer {
 namespace {
 
-constexpr float kNotch = 1.05f;                   // takes it so much farther away
-constexpr double kNotchTurn = glm::radians(5.0);  // about the line of sight
+constexpr float kNotch = 1.05f;                   // factor of the distance
+constexpr double kNotchTurn = glm::radians(5.0);  // rotation about the line of sight
 
 }  // namespace
 
@@ -29,15 +29,15 @@ HandleDrag::HandleDrag(std::size_t held, const HeldNodes& nodes, Kind kind, cons
       target_(nodes.target) {}
 
 void HandleDrag::move_pointer(const CameraController& camera, const glm::vec2& place) {
-    const glm::vec2 way = place - std::exchange(place_, place);
+    const glm::vec2 motion = place - std::exchange(place_, place);
     if (kind_ == Kind::move) return move(camera);
     const double rate = CameraController::kTurn;
-    const glm::dquat turn = glm::angleAxis(rate * static_cast<double>(way.x), glm::dvec3(camera.up())) *
-                            glm::angleAxis(-rate * static_cast<double>(way.y), glm::dvec3(camera.right()));
+    const glm::dquat turn = glm::angleAxis(rate * static_cast<double>(motion.x), glm::dvec3(camera.up())) *
+                            glm::angleAxis(-rate * static_cast<double>(motion.y), glm::dvec3(camera.right()));
     target_.turn = glm::normalize(turn * target_.turn);
 }
 
-void HandleDrag::turn_wheel(const CameraController& camera, float notches) {
+void HandleDrag::scroll(const CameraController& camera, float notches) {
     if (kind_ == Kind::move) {
         depth_ *= std::pow(kNotch, notches);
         return move(camera);

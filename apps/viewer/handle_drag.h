@@ -9,11 +9,11 @@
 
 namespace gelatin::viewer {
 
-/// Where a user has what is held on its way to [m]: HeldNodes::center once it is there.
+/// Where a user has dragged a pin or handle to [m]: HeldNodes::center once it has arrived.
 glm::dvec3 target_center(const HeldNodes& nodes);
 
-/// The mouse drags what a pin or a handle holds: in the plane that faces the eye, or about its pivot, as a
-/// drag beside the bodies turns the view. Places are CameraController's.
+/// Drags a pin or a handle with the mouse: in the plane that faces the eye, or about its pivot, as a drag
+/// beside the bodies rotates the view. Positions are CameraController's.
 class HandleDrag {
 public:
     enum class Kind { move, turn };
@@ -23,12 +23,12 @@ public:
                const glm::vec2& place);
 
     std::size_t held() const { return held_; }
-    /// Where it shall be.
+    /// The target.
     const Drag& target() const { return target_; }
 
     void move_pointer(const CameraController& camera, const glm::vec2& place);
-    /// Takes it away from the eye or brings it nearer; turns it about the line of sight.
-    void turn_wheel(const CameraController& camera, float notches);
+    /// Moves it away from the eye or nearer; or rotates it about the line of sight.
+    void scroll(const CameraController& camera, float notches);
 
 private:
     void move(const CameraController& camera);
@@ -37,7 +37,7 @@ private:
     Kind kind_;
     glm::vec2 place_;
     float depth_;             // in front of the eye [m]
-    glm::dvec3 grip_, move_;  // where it was taken hold of, and how far it was moved then [m]
+    glm::dvec3 grip_, move_;  // where it was grabbed, and its displacement then [m]
     Drag target_;
 };
 

@@ -5,7 +5,7 @@
 
 namespace gelatin::viewer {
 
-/// The latest values of one quantity, as a graph wants them: oldest first from `start()` on, round and round.
+/// The latest values of one quantity, for a graph: a ring buffer whose oldest value is at `start()`.
 class History {
 public:
     static constexpr std::size_t kLength = 240;

@@ -14,7 +14,7 @@ struct KeyPress {
     bool is_repeat = false;
 };
 
-/// Places of the pointer are in heights of the window from its centre, x to the right, y up.
+/// Positions of the pointer are in heights of the window from its centre, x to the right, y up.
 struct ButtonChange {
     int button = 0;  ///< GLFW's
     bool is_down = false;
@@ -35,7 +35,7 @@ struct FileDrop {
     std::vector<std::filesystem::path> files;
 };
 
-/// What the user did, one after the other: nothing is lost where pictures are slow.
+/// The user's events, one by one, so that none is lost when pictures are slow.
 using Event = std::variant<KeyPress, ButtonChange, PointerMove, WheelTurn, FileDrop>;
 
 }  // namespace gelatin::viewer

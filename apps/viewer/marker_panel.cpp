@@ -13,7 +13,7 @@ ImVec2 on_screen(const glm::vec2& place) {
     return {0.5f * size.x + place.x * size.y, 0.5f * size.y - place.y * size.y};
 }
 
-// A pin is round, a handle stands on a corner, as large as it looks.
+// A pin is a disc, a handle a diamond that appears equally large.
 void draw_mark(ImDrawList& list, const ImVec2& at, float radius, bool is_pin, ImU32 color) {
     const int corners = is_pin ? 16 : 4;
     if (!is_pin) radius *= 1.3f;

@@ -12,16 +12,17 @@
 
 namespace gelatin::viewer {
 
-/// Shows what a pin or a handle holds, by its centre in the picture. Places are CameraController's.
+/// The mark of a pin or a handle, at the centre of its nodes in the picture. Positions are
+/// CameraController's.
 struct Marker {
     std::size_t held = 0;    ///< index in Simulator::held_nodes
-    bool is_pin = false;     ///< it stays where it is, for as long as nobody drags it
-    glm::vec2 place{0.0f};   ///< where it is
-    glm::vec2 target{0.0f};  ///< where a user has dragged it
+    bool is_pin = false;     ///< it stays where it is, unless somebody drags it
+    glm::vec2 place{0.0f};   ///< present position
+    glm::vec2 target{0.0f};  ///< target of a user's drag
     std::string name;
 };
 
-/// Those in front of the eye that hold something.
+/// The marks of those in front of the eye that hold nodes.
 std::vector<Marker> make_markers(const std::vector<HeldNodes>& held, const Scene& scene,
                                  const CameraController& camera);
 

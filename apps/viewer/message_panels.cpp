@@ -14,7 +14,7 @@ constexpr ImGuiWindowFlags kMessage =
     (kPlain & ~(ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar)) |
     ImGuiWindowFlags_HorizontalScrollbar;
 
-// Room for what is in the middle: the window's, but for a margin.
+// The room for panels in the middle: the window without a margin.
 ImVec2 room(float scale) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float margin = 20.0f * scale;
@@ -39,7 +39,7 @@ void row(const char* what, const char* meaning) {
 
 void draw_help(float scale, Requests& requests) {
     put_in_the_middle(scale);
-    ImGui::SetNextWindowBgAlpha(1.0f);  // there may be another panel behind it
+    ImGui::SetNextWindowBgAlpha(1.0f);  // another panel may be behind it
     bool is_open = true;
     ImGui::Begin("Keys and mouse", &is_open, kMessage);
     if (ImGui::BeginTable("shortcuts", 2, ImGuiTableFlags_SizingFixedFit)) {
@@ -59,7 +59,7 @@ void draw_start_screen(float scale, const std::vector<std::filesystem::path>& sa
     const float across = room(scale).x / (kButton * scale + ImGui::GetStyle().ItemSpacing.x);
     const auto columns = static_cast<std::size_t>(std::clamp(across, 1.0f, 3.0f));
     ImGui::PushTextWrapPos(static_cast<float>(columns) * kButton * scale);
-    ImGui::TextDisabled("Drop a scene or a mesh onto this window, or begin with:");
+    ImGui::TextDisabled("Drop a scene or a mesh onto this window, or start with:");
     ImGui::PopTextWrapPos();
     ImGui::Spacing();
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -86,7 +86,7 @@ bool draw_problem(float scale, const std::string& text) {
     put_in_the_middle(scale);
     ImGui::SetNextWindowBgAlpha(1.0f);
     bool is_open = true;
-    ImGui::Begin("Something is wrong", &is_open, kMessage);
+    ImGui::Begin("Error", &is_open, kMessage);
     ImGui::PushTextWrapPos(std::min(560.0f * scale, room(scale).x));
     ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();

@@ -12,7 +12,7 @@ namespace {
 
 constexpr ImGuiSliderFlags kLogarithmic = ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp;
 
-// What bodies are coloured by, and between which values that is meant to end.
+// The quantities that colour bodies, and the limits of their range.
 struct ColorChoice {
     const char* name;
     std::optional<Quantity> quantity;
@@ -20,7 +20,7 @@ struct ColorChoice {
     const char* format;
 };
 constexpr std::array kColors{
-    ColorChoice{"as they are", {}, 0.0f, 0.0f, ""},
+    ColorChoice{"own colours", {}, 0.0f, 0.0f, ""},
     ColorChoice{"stretch", Quantity::stretch, 1.001f, 10.0f, "%.3f"},
     ColorChoice{"stress", Quantity::stress, 1.0f, 1e9f, "%.3g Pa"},
     ColorChoice{"speed", Quantity::speed, 0.001f, 100.0f, "%.3g m/s"},
@@ -47,7 +47,7 @@ bool choose_colors(const RenderView& bodies, Overlays& overlays) {
     if (!present.quantity || !overlays.color_map) return changed;
     std::optional<float>& full = overlays.color_map->full;
     bool follows = !full;
-    if (ImGui::Checkbox("range follows", &follows)) {
+    if (ImGui::Checkbox("range adapts", &follows)) {
         full = follows || !bodies.overlay.color_map ? std::nullopt
                                                     : std::optional(bodies.overlay.color_map->full);
         changed = true;
@@ -104,10 +104,10 @@ bool choose_cut(const RenderView& bodies, const render::Camera& camera, Overlays
     bool changed = ImGui::Checkbox("cut open", &is_shown);
     if (changed) overlays.cut = is_shown ? std::optional(cut_towards(camera, bodies)) : std::nullopt;
     if (!overlays.cut) return changed;
-    const bool is_turned = choose_direction(*overlays.cut);
+    const bool is_changed = choose_direction(*overlays.cut);
     const OffsetRange range = offsets_through(bodies, *overlays.cut);
     float offset = overlays.cut->offset.value_or(0.0f);
-    if (is_turned) {
+    if (is_changed) {
         overlays.cut->offset = offset = std::clamp(offset, range.least, range.most);
         changed = true;
     }
@@ -123,8 +123,8 @@ bool choose_arrows(Overlays& overlays) {
     bool changed = ImGui::Checkbox("velocities", &is_shown);
     if (changed) overlays.arrow_time = is_shown ? std::optional(kUsualArrowTime) : std::nullopt;
     if (overlays.arrow_time)
-        changed |=
-            ImGui::SliderFloat("length", &*overlays.arrow_time, 0.001f, 1.0f, "%.3f s of way", kLogarithmic);
+        changed |= ImGui::SliderFloat("length", &*overlays.arrow_time, 0.001f, 1.0f, "%.3f s of motion",
+                                      kLogarithmic);
     return changed;
 }
 
@@ -134,7 +134,7 @@ bool choose_boxes(Overlays& overlays) {
     if (changed) overlays.box_levels = is_shown ? std::optional(0) : std::nullopt;
     if (!overlays.box_levels) return changed;
     changed |= ImGui::SliderInt("level", &*overlays.box_levels, 0, 8, "%d", ImGuiSliderFlags_AlwaysClamp);
-    changed |= ImGui::Checkbox("that level alone", &overlays.lowest_boxes_alone);
+    changed |= ImGui::Checkbox("only that level", &overlays.lowest_boxes_alone);
     return changed;
 }
 

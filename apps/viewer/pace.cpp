@@ -7,9 +7,9 @@ namespace gelatin::viewer {
 namespace {
 
 constexpr double kBudget = 1.0 / 30.0;  // for the steps between two pictures [s]
-constexpr double kLongest = 0.1;        // a window that was held up does not make up for more [s]
-constexpr double kMemory = 0.5;         // over which achieved speed is looked at [s]
-constexpr double kCostMemory = 0.2;     // share of the newest cost in the mean
+constexpr double kLongest = 0.1;        // largest delay of the window that is made up for [s]
+constexpr double kMemory = 0.5;         // interval over which the achieved speed is averaged [s]
+constexpr double kCostMemory = 0.2;     // weight of the newest cost in the mean
 
 }  // namespace
 
@@ -23,7 +23,7 @@ int Pace::most_steps() const {
 
 int Pace::steps_for(double elapsed) {
     due_ += speed_ * std::min(elapsed, kLongest);
-    // The sum of many frames' times may end a rounding error short of a step.
+    // The sum of many frames' times may be a rounding error short of a step.
     const double wanted = std::floor(due_ / step_size_ + 1e-9);
     const double steps = std::min(wanted, static_cast<double>(most_steps()));
     due_ = std::clamp(due_ - steps * step_size_, 0.0, step_size_);
@@ -39,7 +39,7 @@ void Pace::restart() {
 }
 
 double Pace::achieved_speed() const {
-    // Before some steps were due there is nothing to judge by.
+    // Before some steps were due there is no estimate.
     const bool is_known = elapsed_ > 0.5 * kMemory && elapsed_ * speed_ > 2.0 * step_size_;
     return is_known ? std::min(simulated_ / elapsed_, speed_) : speed_;
 }

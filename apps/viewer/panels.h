@@ -14,7 +14,7 @@
 
 namespace gelatin::viewer {
 
-/// What panels know of the window.
+/// What panels know about the window.
 struct PanelState {
     float scale = 1.0f;            ///< of the screen's density
     double picture_rate = 0.0;     ///< pictures a second
@@ -22,10 +22,10 @@ struct PanelState {
     Overlays overlays;
     render::Camera camera;      ///< of the picture
     bool shows_markers = true;  ///< of pins and handles
-    Scene edited;               ///< the session's scene as the user wants it by now
+    Scene edited;               ///< the session's scene with the user's edits
 };
 
-/// What the user asked for in the panels while one picture was drawn.
+/// The user's requests in the panels during one picture.
 struct Requests {
     std::vector<Command> commands;
     std::optional<double> speed;
@@ -35,10 +35,10 @@ struct Requests {
     std::optional<std::filesystem::path> opened;
 };
 
-/// The panels draw themselves with Dear ImGui and say what was asked for. @pre between Window::begin_frame
-/// and Window::draw_panels
+/// The panels are drawn with Dear ImGui and return requests. @pre between Window::begin_frame and
+/// Window::draw_panels
 ///
-/// All that concerns a session, at the right edge: the lower left corner is for the legends of overlays.
+/// All that concerns a session, at the right edge. The lower left corner is for the legends of overlays.
 void draw_session_panel(const Session& session, const PanelState& state, Requests& requests);
 void draw_playback(const Session& session, const PanelState& state, Requests& requests);
 void draw_settings(const PanelState& state, Requests& requests);
@@ -48,13 +48,13 @@ void draw_overlay_choices(const Session& session, const PanelState& state, Reque
 /// Over the picture and under the panels. @param pointed the one at the pointer; null: none
 void draw_markers(float scale, const std::vector<Marker>& markers, const Marker* pointed);
 
-/// What keys and mouse do.
+/// The list of keys and mouse gestures.
 void draw_help(float scale, Requests& requests);
-/// Where to begin: the scenes that come with Gelatin.
+/// The start screen with the scenes that come with Gelatin.
 void draw_start_screen(float scale, const std::vector<std::filesystem::path>& samples, Requests& requests);
 /// A line at the lower edge.
 void draw_notice(float scale, const std::string& text);
-/// Something went wrong, in the middle. @return false once the user has seen it
+/// An error message, in the middle. @return false once the user has closed it
 bool draw_problem(float scale, const std::string& text);
 
 }  // namespace gelatin::viewer

@@ -13,7 +13,7 @@
 
 namespace gelatin::viewer {
 
-/// Where a ray meets a body first.
+/// The first face of a body that a ray meets.
 struct Pick {
     std::uint32_t face = 0;    ///< index in Model::faces
     std::uint32_t object = 0;  ///< index in Model::objects
@@ -21,20 +21,20 @@ struct Pick {
     float distance = 0.0f;     ///< along the ray [m]
 };
 
-/// Every face is tried, from both sides, but those that the ray lies in.
+/// Tests every face, from both sides, except those parallel to the ray.
 /// @param positions x, y, z of each node [m]
 std::optional<Pick> pick(const Ray& ray, std::span<const float> positions, std::span<const Face> faces);
 
-/// A hand that takes hold of what was picked: of the object's nodes round there, the nearest the firmest, and
-/// of the face's own three whatever the mesh is like. So much that the body as a whole would follow the hand
-/// as a critically damped oscillator of kHandRate.
-/// @param positions as they are now
+/// A pull at the picked point. It holds the object's nodes around it, the nearest most firmly, and always the
+/// three of the face. The springs are as stiff as would make the whole body follow like a critically damped
+/// oscillator of kHandRate.
+/// @param positions present ones
 Pull take_hold(const Model& model, std::span<const float> positions, const Pick& pick);
 
-/// Where at rest the nodes are that a hand holds the most firmly: half as far as it reaches.
+/// The region at rest of the nodes that a pull holds most firmly: half as large as its reach.
 SphereRegion region_of(const Pull& pull, const Model& model);
 
-/// How fast a body follows the hand: its angular frequency [1/s].
+/// How fast a body follows the pull: its angular frequency [1/s].
 constexpr double kHandRate = 14.0;
 
 }  // namespace gelatin::viewer

@@ -7,10 +7,10 @@
 namespace gelatin::viewer {
 namespace {
 
-constexpr double kStart = 0.25;  // of the way to where it is thrown
+constexpr double kStart = 0.25;  // fraction of the distance to the target
 constexpr double kFlight = 0.6;  // [s]
 
-// Of the nodes at the start: shapes need not have their centre at their origin.
+// Centre of the nodes at the start: shapes need not be centred on their origin.
 glm::dvec3 start_center(const Model& model, std::size_t object) {
     const Range& nodes = model.objects[object].nodes;
     glm::dvec3 sum(0.0);

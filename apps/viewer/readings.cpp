@@ -7,7 +7,7 @@
 namespace gelatin::viewer {
 namespace {
 
-constexpr double kNewest = 0.1;  // share of the newest value in a smoothed one
+constexpr double kNewest = 0.1;  // weight of the newest value in a smoothed one
 
 }  // namespace
 
@@ -37,7 +37,7 @@ double Readings::add_stages(const std::vector<std::pair<std::string, std::vector
         } else {
             known->second += kNewest * (mean - known->second);
         }
-        // What is done once a picture is no part of a step.
+        // Stages that run once a picture are not part of a step.
         if (name != "measure" && name != "update_normals" && name != "update_overlays") step_sum += mean;
     }
     step_ms.add(static_cast<float>(step_sum));

@@ -9,18 +9,18 @@
 
 namespace gelatin::viewer {
 
-/// What the panels show of a simulation: the latest measurement, and how it went before.
+/// What the panels show of a simulation: the latest measurement, and earlier ones.
 struct Readings {
     FrameStatistics latest;
     History kinetic, elastic, potential, momentum;
-    /// Of each stage, a step, smoothed [ms].
+    /// For each stage, time in a step, smoothed [ms].
     std::vector<std::pair<std::string, double>> stages;
     History step_ms;  ///< all stages of a step together
 
     void add(const FrameStatistics& statistics);
 
-    /// @param times as Simulator::take_stage_times gives them. @return all stages of a step
-    ///   together [ms]; 0 if there are none
+    /// @param times from Simulator::take_stage_times. @return all stages of a step together [ms]; 0 if there
+    ///   are none
     double add_stages(const std::vector<std::pair<std::string, std::vector<double>>>& times);
 
     void clear() { *this = Readings(); }

@@ -35,13 +35,13 @@ void draw_readings(const Session& session, const PanelState& state) {
     ImGui::Text("%zu bodies, %zu nodes, %zu springs", counts.objects, counts.nodes, counts.springs);
     ImGui::Text("%zu tets, %zu faces, %zu of them touch", counts.tets, counts.faces, latest.colliding_faces);
     const int steps = session.simulator().substeps();
-    ImGui::Text("%d step%s of %.3g ms a frame", steps, steps == 1 ? "" : "s",
+    ImGui::Text("%d step%s of %.3g ms per frame", steps, steps == 1 ? "" : "s",
                 1e3 * session.simulator().step_size());
     draw_graph("kinetic", readings.kinetic, "J", state.scale);
     draw_graph("elastic", readings.elastic, "J", state.scale);
     draw_graph("potential", readings.potential, "J", state.scale);
     draw_graph("momentum", readings.momentum, "kg m/s", state.scale);
-    draw_graph("a step takes", readings.step_ms, "ms", state.scale);
+    draw_graph("time of a step", readings.step_ms, "ms", state.scale);
     draw_stages(readings, state.scale);
 }
 

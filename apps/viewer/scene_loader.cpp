@@ -13,7 +13,7 @@ void SceneLoader::rebuild(const Scene& scene) {
 }
 
 void SceneLoader::ask_for(Job job) {
-    // What was to be edited is gone once another scene is on its way.
+    // An edit is discarded when another scene is requested.
     const bool another =
         next_ ? next_->purpose == Purpose::show : current_.work && current_.purpose == Purpose::show;
     if (job.purpose == Purpose::go_on && another) return;
@@ -36,7 +36,7 @@ std::optional<SceneLoader::Result> SceneLoader::take() {
     const bool is_outdated = next_.has_value();
     if (next_) start(std::exchange(next_, {}).value());
     if (is_outdated) {
-        // Nobody waits for it any more, nor for what was wrong with it.
+        // Nobody waits for it any more, nor for its errors.
         return {};
     }
     worker_.rethrow();

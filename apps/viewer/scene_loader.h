@@ -10,14 +10,14 @@
 
 namespace gelatin::viewer {
 
-/// Opens and rebuilds scenes while the window goes on: one at a time, and of those asked for meanwhile the
-/// last.
+/// Opens and rebuilds scenes in the background, one at a time. Of several requests in the meantime the last
+/// counts.
 class SceneLoader {
 public:
-    /// What to do with a scene when it comes.
+    /// How a loaded scene starts.
     enum class Purpose {
         show,   ///< from its start
-        go_on,  ///< from where the scene is that was edited
+        go_on,  ///< from the state of the scene that was edited
     };
     struct Result {
         LoadedScene loaded;
@@ -34,7 +34,7 @@ public:
     const std::filesystem::path& file() const { return current_.file; }
     Purpose purpose() const { return current_.purpose; }
 
-    /// What has come since the last call, if anything. @throws what went wrong with it
+    /// What has been loaded since the last call, if anything. @throws its error
     std::optional<Result> take();
 
 private:
@@ -48,7 +48,7 @@ private:
 
     Job current_;
     std::optional<Job> next_;
-    LoadedScene loaded_;  // the worker's, while it is busy
+    LoadedScene loaded_;  // used by the worker while it is busy
     Worker worker_;
 };
 

@@ -15,7 +15,7 @@
 namespace gelatin::viewer {
 namespace {
 
-constexpr double kSmall = 0.1, kLarge = 3.0;  // left as they are in between [m]
+constexpr double kSmall = 0.1, kLarge = 3.0;  // between these sizes meshes keep their size [m]
 constexpr double kDrop = 0.25;                // of the body's height
 
 std::vector<glm::dvec3> read_positions(const std::filesystem::path& file) {
@@ -23,12 +23,12 @@ std::vector<glm::dvec3> read_positions(const std::filesystem::path& file) {
     return is_tet_file(file) ? read_tets(file, notes).positions : read_surface(file, notes).positions;
 }
 
-// Whatever may be dropped onto a window.
+// A dropped file may be anything.
 void check_kind(const std::filesystem::path& file) {
     constexpr std::array kKinds = {".toml", ".obj", ".stl", ".ply", ".off"};
     if (is_tet_file(file) || std::find(kKinds.begin(), kKinds.end(), lower_case_ending(file)) != kKinds.end())
         return;
-    if (!std::filesystem::is_regular_file(file)) read_file(file);  // says what it is instead
+    if (!std::filesystem::is_regular_file(file)) read_file(file);  // its message names the problem
     throw InvalidInput(
         {file.string(),
          0,

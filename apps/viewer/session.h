@@ -17,20 +17,20 @@
 
 namespace gelatin::viewer {
 
-/// A scene that runs beside the window.
+/// A simulation that runs beside the window.
 ///
-/// Steps are made in batches: by a thread of their own where the CPU simulates, told to the GPU and followed
-/// by a fence where that does. While a batch is under way the window goes on drawing what the one before has
-/// left; what is wanted meanwhile waits until it is done. Use it from one thread, with the context current in
-/// which it was made.
+/// Steps are made in batches: on a separate thread if the CPU simulates; submitted to the GPU and followed by
+/// a fence if the GPU does. While a batch runs, the window draws the result of the previous one, and requests
+/// wait until the batch is done. Use it from one thread, with the context current in which it was made.
 class Session {
 public:
-    /// @param earlier goes on from where that is, at its speed; null: from the start. @pre that is not
-    /// computing
+    /// @param earlier continues from its state, at its speed; null: from the start. @pre that is not
+    ///   computing
     /// @throws as Simulator
     Session(LoadedScene loaded, Backend backend, const Session* earlier = nullptr);
 
-    /// Once for each picture: takes over what was computed and goes on. Never waits for the simulation.
+    /// Once for each picture: takes the results of a batch and starts the next. Never waits for the
+    /// simulation.
     /// @param now real time [s]. @return true if there is something new to draw
     bool update(double now);
 
@@ -43,45 +43,44 @@ public:
     const Pace& pace() const { return pace_; }
     void show(const Overlays& overlays);
 
-    /// A hand takes hold of the body that the ray meets first, once the batch under way is done: if it meets
-    /// any.
+    /// Starts a pull at the body that the ray meets first, if it meets any, once the running batch is done.
     void reach(const Ray& ray);
     enum class Hand { free, reaching, holding };
     Hand hand() const { return hand_; }
-    /// Where it took hold [m]. @pre it holds something
+    /// The point where the pull holds the body [m]. @pre it holds something
     const glm::vec3& held_point() const { return held_point_; }
     void move_hand(const glm::vec3& target) { hand_target_ = target; }
-    /// What was held keeps its momentum.
+    /// Ends the pull; the body keeps its momentum.
     void let_go();
-    /// What would be pinned of it, and one of the nodes there. @pre a hand holds something
+    /// The region that would be pinned, and one of its nodes. @pre a pull holds something
     SphereRegion held_region() const { return region_of(pull_, model()); }
     std::uint32_t held_node() const { return pull_.nodes.front().node; }
 
-    /// What pins and handles hold, as of the last batch that is done.
+    /// What pins and handles hold, as of the last completed batch.
     const std::vector<HeldNodes>& held_nodes() const { return held_nodes_; }
-    /// Drags one of them there, from the next batch on.
+    /// Drags one of them to a target, from the next batch on.
     void drag(std::size_t held, const Drag& target);
 
-    /// True where a batch is under way: nothing of the simulator may be touched.
+    /// True while a batch is running: the simulator must not be accessed.
     bool is_computing() const { return worker_.is_busy() || !fence_.is_passed(); }
 
     /// True while there is something to wait for.
     bool is_busy() const { return is_playing_ || steps_asked_ > 0 || is_computing(); }
 
-    /// As of the last batch that is done.
+    /// As of the last completed batch.
     double time() const { return time_; }
     int frame() const { return frame_; }
     const RenderView& view() const { return view_; }
     const Readings& readings() const { return readings_; }
-    /// What stopped it; empty while all is well. reset() goes on.
+    /// The error that stopped it; empty if there is none. reset() continues.
     const std::string& problem() const { return problem_; }
 
     const std::string& device() const { return device_; }
 
-    /// What never changes.
+    /// Constant properties.
     const Scene& scene() const { return simulator_.scene(); }
     const Model& model() const { return simulator_.model(); }
-    /// @pre !is_computing(), for what changes
+    /// @pre !is_computing(), for properties that change
     const Simulator& simulator() const { return simulator_; }
 
 private:
@@ -114,8 +113,8 @@ private:
     double time_ = 0.0;
     int frame_ = 0;
     std::string problem_;
-    std::vector<FrameStatistics> measured_;  // by the batch under way
-    gl::Fence fence_;                        // of the batch, where the GPU simulates
+    std::vector<FrameStatistics> measured_;  // of the running batch
+    gl::Fence fence_;                        // of the batch, if the GPU simulates
     Worker worker_;                          // last: its thread uses the others
 };
 

@@ -12,7 +12,7 @@ bool button(const char* label, float width) {
     return ImGui::Button(label, {width, 0.0f});
 }
 
-void tell(const std::string& text) {
+void print(const std::string& text) {
     ImGui::TextUnformatted(text.c_str());
 }
 
@@ -54,7 +54,7 @@ void draw_playback(const Session& session, const PanelState& state, Requests& re
     if (ImGui::SliderFloat("speed", &speed, 1.0f / 64.0f, 1.0f, "%.3f x real time",
                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
         requests.speed = static_cast<double>(speed);
-    tell(fmt::format("{:.3f} s, frame {}", session.time(), session.frame()));
+    print(fmt::format("{:.3f} s, frame {}", session.time(), session.frame()));
     ImGui::SameLine(ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize("F1: help").x);
     ImGui::TextDisabled("F1: help");
     if (session.is_playing() && session.pace().is_behind()) {

@@ -44,9 +44,9 @@ bool slide(const char* label, double& value, double least, double most, const ch
 
 bool edit_simulation(SimulationSettings& simulation) {
     bool changed = choose_solver(simulation.solver);
-    if (changed) simulation.substeps.reset();  // what was chosen for another solver need not be stable
+    if (changed) simulation.substeps.reset();  // the number for another solver need not be stable
     int substeps = simulation.substeps.value_or(0);
-    if (ImGui::InputInt("steps a frame", &substeps)) {
+    if (ImGui::InputInt("steps per frame", &substeps)) {
         simulation.substeps = substeps > 0 ? std::optional(substeps) : std::nullopt;
         changed = true;
     }

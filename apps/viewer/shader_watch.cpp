@@ -23,7 +23,7 @@ bool ShaderWatch::has_changed(double now) {
     return true;
 }
 
-// Editors replace files while they are looked at: what cannot be read now is read next time.
+// Editors may be replacing a file just now: what cannot be read is read next time.
 ShaderWatch::Times ShaderWatch::read_times() const {
     Times times;
     if (folder_.empty()) return times;

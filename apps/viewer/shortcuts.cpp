@@ -9,7 +9,7 @@ namespace {
 
 using With = Shortcut::With;
 
-// A key that is held down makes steps, but does not play and pause in turns.
+// A key that is held down repeats steps, but does not alternate between play and pause.
 bool may_repeat(Command command) {
     return command == Command::step || command == Command::step_frame;
 }
@@ -26,7 +26,7 @@ std::span<const Shortcut> shortcuts() {
         Shortcut{GLFW_KEY_T, With::nothing, Command::throw_body, "T",
                  "throw a copy of a body to the pointer"},
         Shortcut{GLFW_KEY_P, With::nothing, Command::pin, "P",
-                 "pin the body in hand; free the pin at the pointer"},
+                 "pin the held body; remove the pin at the pointer"},
         Shortcut{GLFW_KEY_MINUS, With::nothing, Command::slower, "-", "half the speed"},
         Shortcut{GLFW_KEY_EQUAL, With::nothing, Command::faster, "+", "twice the speed, up to real time"},
         Shortcut{GLFW_KEY_F, With::nothing, Command::frame_all, "F", "show all bodies"},
@@ -40,12 +40,12 @@ std::span<const Shortcut> shortcuts() {
         Shortcut{GLFW_KEY_8, With::nothing, Command::toggle_arrows, "8", "velocities as arrows"},
         Shortcut{GLFW_KEY_9, With::nothing, Command::toggle_wireframe, "9", "edges of the surfaces"},
         Shortcut{GLFW_KEY_0, With::nothing, Command::toggle_objects, "0", "objects by colour and name"},
-        Shortcut{GLFW_KEY_TAB, With::nothing, Command::toggle_panels, "Tab", "hide the panels, show them"},
+        Shortcut{GLFW_KEY_TAB, With::nothing, Command::toggle_panels, "Tab", "hide or show the panels"},
         Shortcut{GLFW_KEY_F12, With::nothing, Command::screenshot, "F12", "save the picture as PNG"},
         Shortcut{GLFW_KEY_F12, With::shift, Command::screenshot_of_window, "Shift+F12",
                  "the same with the panels"},
-        Shortcut{GLFW_KEY_F9, With::nothing, Command::toggle_film, "F9", "begin a film, end it"},
-        Shortcut{GLFW_KEY_S, With::control, Command::save_scene, "Ctrl+S", "save the scene as it now is"},
+        Shortcut{GLFW_KEY_F9, With::nothing, Command::toggle_film, "F9", "start a film, stop it"},
+        Shortcut{GLFW_KEY_S, With::control, Command::save_scene, "Ctrl+S", "save the scene with its changes"},
         Shortcut{GLFW_KEY_F1, With::nothing, Command::toggle_help, "F1", "this list"},
         Shortcut{GLFW_KEY_ESCAPE, With::nothing, Command::dismiss, "Esc", "close a message or this list"},
         Shortcut{GLFW_KEY_Q, With::control, Command::quit, "Ctrl+Q", "quit"},
@@ -57,7 +57,7 @@ std::optional<Command> find_command(const KeyPress& press) {
     int key = press.key;
     if (key == GLFW_KEY_KP_ADD) key = GLFW_KEY_EQUAL;
     if (key == GLFW_KEY_KP_SUBTRACT) key = GLFW_KEY_MINUS;
-    // '+' takes a Shift on most keyboards.
+    // '+' needs Shift on most keyboards.
     const bool with_shift = press.with_shift && key != GLFW_KEY_EQUAL;
     const With with = press.with_control ? With::control : with_shift ? With::shift : With::nothing;
     for (const Shortcut& shortcut : shortcuts()) {
@@ -70,12 +70,12 @@ std::optional<Command> find_command(const KeyPress& press) {
 
 std::span<const Gesture> gestures() {
     static constexpr std::array kGestures{
-        Gesture{"drag a body", "pull at it; the wheel takes it away"},
-        Gesture{"drag a pin or handle", "move it; the wheel takes it away"},
-        Gesture{"Ctrl+drag it", "turn it; the wheel about the line of sight"},
-        Gesture{"drag beside", "turn the view"},
+        Gesture{"drag a body", "pull at it; the wheel: away or nearer"},
+        Gesture{"drag a pin or handle", "move it; the wheel: away or nearer"},
+        Gesture{"Ctrl+drag it", "rotate it; the wheel: about the line of sight"},
+        Gesture{"drag beside the bodies", "rotate the view"},
         Gesture{"right or middle drag", "move the view"},
-        Gesture{"wheel", "come nearer, go away"},
+        Gesture{"wheel", "zoom"},
     };
     return kGestures;
 }

@@ -12,18 +12,18 @@ struct Shortcut {
     enum class With { nothing, control, shift };
 
     int key;    ///< GLFW's
-    With with;  ///< what is held down too
+    With with;  ///< the modifier that is held down
     Command command;
-    const char* keys;     ///< as the list of shortcuts shows them
-    const char* meaning;  ///< what happens
+    const char* keys;     ///< as shown in the list of shortcuts
+    const char* meaning;  ///< its effect
 };
 
-/// All shortcuts, in the order of the list that F1 shows. The one table that keys are looked up in, too.
+/// All shortcuts, in the order of the list that F1 shows. Keys are looked up in the same table.
 std::span<const Shortcut> shortcuts();
 
 std::optional<Command> find_command(const KeyPress& press);
 
-/// What the mouse does, for the same list: {gesture, meaning}.
+/// The mouse gestures, for the same list: {gesture, meaning}.
 struct Gesture {
     const char* gesture;
     const char* meaning;

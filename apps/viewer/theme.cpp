@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kFontSize = 15.0f;
 
-// Where the usual font is not installed, Dear ImGui's own does.
+// If the usual font is not installed, Dear ImGui's own is used.
 void load_font(float scale) {
     ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
     fonts.Clear();

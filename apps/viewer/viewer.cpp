@@ -9,7 +9,7 @@ void run_viewer(const ViewerOptions& options) {
     Window window({options.width, options.height, options.gl_debug});
     ViewerApp app(window, options);
     while (!window.is_asked_to_close()) app.draw_frame();
-    window.hide();  // what is under way in the background may take a while to end
+    window.hide();  // background work may take a while to end
 }
 
 }  // namespace gelatin::viewer

@@ -9,7 +9,7 @@
 
 namespace gelatin::viewer {
 
-/// What the user asked `gelatin view` for.
+/// The options of `gelatin view`.
 struct ViewerOptions {
     std::filesystem::path scene;         ///< or a mesh; empty: the start screen
     std::vector<std::string> overrides;  ///< as load_scene's
@@ -20,9 +20,8 @@ struct ViewerOptions {
 };
 
 /// Opens a window and returns when the user has closed it.
-/// @throws SystemError if there is no display; NoOpenGl if it has no OpenGL 4.3. What is wrong with a scene
-/// is
-///   shown in the window and logged.
+/// @throws SystemError if there is no display; NoOpenGl if it has no OpenGL 4.3. Errors in a scene are shown
+///   in the window and logged.
 void run_viewer(const ViewerOptions& options);
 
 }  // namespace gelatin::viewer

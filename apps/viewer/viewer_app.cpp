@@ -13,7 +13,7 @@ namespace gelatin::viewer {
 namespace {
 
 constexpr double kNoticeTime = 4.0;  // [s]
-constexpr double kLong = 3.0;        // to wait without a sign of life [s]
+constexpr double kLong = 3.0;        // longest wait without an event [s]
 constexpr double kIdle = 0.1;        // between pictures when nothing moves [s]
 
 }  // namespace
@@ -57,7 +57,7 @@ void ViewerApp::draw_frame() {
     obey(requests);
 }
 
-// Panels take a picture or two to follow what happened.
+// Panels need a picture or two to show what happened.
 double ViewerApp::patience() const {
     return loader_.is_busy() || (session_ && session_->is_busy()) ? 0.0 : kIdle;
 }
@@ -68,14 +68,14 @@ float ViewerApp::aspect() const {
 }
 
 void ViewerApp::take_loaded_scene() {
-    // A scene that goes on takes over what is under way once that is done.
+    // A scene that continues takes over the state when the running batch is done.
     if (session_ && session_->is_computing()) return;
     try {
         if (auto result = loader_.take()) show_scene(std::move(*result));
     } catch (const Error& error) {
         fail(error.what());
         if (!session_) return;
-        panels_.edited = session_->scene();  // what was wished for cannot be
+        panels_.edited = session_->scene();  // the request is impossible
         if (!hand_depth_) session_->let_go();
     }
 }
@@ -86,7 +86,7 @@ void ViewerApp::show_scene(SceneLoader::Result result) {
                                              goes_on ? session_.get() : nullptr);
     session->show(panels_.overlays);
     session_ = std::move(session);
-    // The hand was the old one's.
+    // The pull belonged to the old simulator.
     hand_depth_.reset();
     is_hand_asked_ = false;
     handle_drag_.reset();
@@ -114,14 +114,14 @@ void ViewerApp::draw_picture(bool is_new) {
         try {
             if (session_->view().node_count > 0) renderer_->draw(session_->view(), camera);
         } catch (const GlError& error) {
-            fail(error.what());  // overlays make their programs when they are first drawn
+            fail(error.what());  // overlays compile their programs when they are first drawn
         }
         if (film_ && is_new) film_picture();
     }
     window_.show_picture(renderer_->framebuffer());
 }
 
-// Where something is wrong the one before stays.
+// On an error the previous one stays.
 void ViewerApp::make_renderer(int width, int height) {
     render::RendererOptions options;
     options.width = width;
@@ -134,13 +134,13 @@ void ViewerApp::make_renderer(int width, int height) {
     drawn_camera_.reset();
 }
 
-// Programs are made where a renderer and a simulation are: new ones take the place of the old.
+// Renderers and simulations compile programs when they are constructed, so new ones replace the old.
 void ViewerApp::reload_shaders() {
     try {
         if (renderer_) make_renderer(renderer_->width(), renderer_->height());
         if (session_ && session_->simulator().uses_gl()) loader_.rebuild(panels_.edited);
         problem_.clear();
-        tell("shaders read again");
+        notify("shaders read again");
     } catch (const GlError& error) {
         fail(error.what());
     }
@@ -152,7 +152,7 @@ Requests ViewerApp::draw_panels() {
     const std::vector<Marker> marked = markers();
     draw_markers(scale, marked, pointed(marked));
     if (session_ && shows_panels_) draw_session_panel(*session_, panels_, requests);
-    // One thing in the middle at a time.
+    // One panel in the middle at a time.
     if (!problem_.empty()) {
         if (!draw_problem(scale, problem_)) problem_.clear();
     } else if (shows_help_) {
@@ -172,7 +172,7 @@ Requests ViewerApp::draw_panels() {
     return requests;
 }
 
-void ViewerApp::tell(const std::string& notice) {
+void ViewerApp::notify(const std::string& notice) {
     notice_ = notice;
     notice_until_ = window_.now() + kNoticeTime;
 }

@@ -17,27 +17,27 @@
 
 namespace gelatin::viewer {
 
-/// What happens in the window. docs/viewer.md tells how its parts work together.
+/// Everything that happens in the window. docs/viewer.md describes its parts.
 class ViewerApp {
 public:
     /// @param window must outlive it
     ViewerApp(Window& window, const ViewerOptions& options);
     ViewerApp(const ViewerApp&) = delete;
     ViewerApp& operator=(const ViewerApp&) = delete;
-    /// A film under way is ended.
+    /// Ends a running film.
     ~ViewerApp();
 
-    /// One picture: what the user did, what was simulated, panels.
+    /// One picture: the user's events, the simulation's results, panels.
     void draw_frame();
 
     void open(const std::filesystem::path& file);
 
-    /// Null before a scene is there.
+    /// Null before a scene is loaded.
     const Session* session() const { return session_.get(); }
     const CameraController& camera() const { return camera_; }
     const PanelState& panels() const { return panels_; }
     bool shows_help() const { return shows_help_; }
-    /// What is shown as wrong; empty while nothing is.
+    /// The error that is shown; empty if there is none.
     const std::string& problem() const { return problem_; }
     bool is_filming() const { return film_.has_value(); }
     /// The last line at the lower edge.
@@ -70,7 +70,7 @@ private:
     Requests draw_panels();
     void save_pictures();
     void save_picture(unsigned framebuffer, int width, int height);
-    void tell(const std::string& notice);
+    void notify(const std::string& notice);
     void fail(const std::string& problem);
     void update_title();
     double patience() const;
@@ -85,7 +85,7 @@ private:
     ShaderWatch shader_watch_;
     render::Surroundings surroundings_;
     CameraController camera_;
-    std::optional<render::Camera> drawn_camera_;  // of the picture; empty: there is none yet
+    std::optional<render::Camera> drawn_camera_;  // of the picture; 0 before the first
 
     PanelState panels_;
     std::vector<std::filesystem::path> samples_;
@@ -94,13 +94,13 @@ private:
     std::string problem_, notice_, told_problem_;
     double notice_until_ = 0.0;  // [s]
     double last_frame_ = 0.0;    // [s]
-    double opened_at_ = 0.0;     // what is being opened [s]
+    double opened_at_ = 0.0;     // start of the present loading [s]
 
     std::optional<int> dragging_;  // the button
     glm::vec2 pointer_{0.0f};
-    std::size_t own_bodies_ = 0;  // of the scene as it was read; the others were thrown in
+    std::size_t own_bodies_ = 0;  // number of objects of the scene as read; the others were thrown in
     bool is_hand_asked_ = false;  // whether the drag has met a body is not known yet
-    glm::vec2 way_since_asked_{0.0f};
+    glm::vec2 motion_since_asked_{0.0f};
     std::optional<float> hand_depth_;  // in front of the eye, while a body is held [m]
     std::optional<HandleDrag> handle_drag_;
 };

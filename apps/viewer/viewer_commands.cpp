@@ -1,4 +1,4 @@
-// ViewerApp: what a user asks for by keys and panels, and the files that come of it.
+// ViewerApp: the commands of keys and panels, and the files that they write.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ render::Bounds bounds_of_bodies(const RenderView& view) {
             {view.box_max[0], view.box_max[1], view.box_max[2]}};
 }
 
-// The first of NAME-1.png, NAME-2.png, ... that is not there yet.
+// The first of NAME-1.png, NAME-2.png, ... that does not exist yet.
 std::filesystem::path free_name(const std::string& stem, const char* ending) {
     for (int i = 1;; ++i) {
         std::filesystem::path file = fmt::format("{}-{}{}", stem, i, ending);
@@ -98,7 +98,8 @@ void ViewerApp::obey(const Requests& requests) {
     }
 }
 
-// The scene's own bodies in turns. While one is being made, no other is: it would need that one's model.
+// Cycles through the scene's own bodies. While one is being built, no other can be: it would need that one's
+// model.
 void ViewerApp::throw_body() {
     if (loader_.is_busy()) return;
     Scene scene = panels_.edited;
@@ -111,9 +112,9 @@ void ViewerApp::throw_body() {
     loader_.rebuild(panels_.edited);
 }
 
-// Seen from where the camera is, and dragged as it is.
+// With the present camera and drags.
 void ViewerApp::save_scene() {
-    if (loader_.is_busy()) return tell("the scene is still being made");
+    if (loader_.is_busy()) return notify("the scene is still being built");
     const std::filesystem::path file = free_name(options_.scene.stem().string(), ".toml");
     Scene scene = dragged_scene(panels_.edited, session_->held_nodes());
     const render::Camera camera = camera_.camera();
@@ -121,7 +122,7 @@ void ViewerApp::save_scene() {
                                      static_cast<double>(camera.field_of_view)};
     try {
         gelatin::save_scene(file, scene);
-        tell("saved " + file.string());
+        notify("saved " + file.string());
     } catch (const Error& error) {
         fail(error.what());
     }
@@ -155,7 +156,7 @@ void ViewerApp::film_picture() {
 void ViewerApp::end_film() {
     try {
         film_->finish();
-        tell("saved " + film_->file().string());
+        notify("saved " + film_->file().string());
     } catch (const Error& error) {
         fail(error.what());
     }
@@ -175,7 +176,7 @@ void ViewerApp::save_picture(unsigned framebuffer, int width, int height) {
         render::FrameGrabber grabber(width, height);
         grabber.grab(framebuffer);
         if (const auto picture = grabber.flush()) render::write_png(file, *picture);
-        tell("saved " + file.string());
+        notify("saved " + file.string());
     } catch (const Error& error) {
         fail(error.what());
     }

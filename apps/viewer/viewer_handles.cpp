@@ -1,4 +1,4 @@
-// ViewerApp: pins and handles that are dragged, set and taken away.
+// ViewerApp: dragging, setting and removing pins and handles.
 #include <algorithm>
 #include <utility>
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kReach = 12.0f;  // of the pointer [pixels of a usual screen]
 
-// True if something already holds a node that the region would.
+// True if something holds a node of the region already.
 bool is_taken(const Model& model, std::size_t object, const Region& region) {
     const Range& nodes = model.objects[object].handle_nodes;
     for (std::uint32_t h = nodes.first; h < nodes.end(); ++h) {
@@ -55,25 +55,25 @@ bool ViewerApp::take_handle(bool turns) {
     return true;
 }
 
-// With a body in hand it is pinned there: the hand holds on until the simulation that has the pin takes over.
-// With the pointer at a pin or a handle that is taken away. While a scene is being made none is changed, so
-// that they stay in the same order.
+// A body that the user holds is pinned there: the pull continues until the simulation with the pin takes
+// over. A pin or handle at the pointer is removed. While a scene is being built none is changed, so that
+// their order stays the same.
 void ViewerApp::pin() {
-    if (loader_.is_busy()) return tell("the scene is still being made");
+    if (loader_.is_busy()) return notify("the scene is still being built");
     const std::vector<Marker> all = markers();
     if (const Marker* marker = pointed(all)) {
         panels_.edited = released_scene(std::move(panels_.edited), session_->held_nodes()[marker->held]);
     } else if (hand_depth_) {
         const SphereRegion region = session_->held_region();
         const std::size_t object = object_of(session_->model(), session_->held_node());
-        if (is_taken(session_->model(), object, region)) return tell("there is a pin already");
+        if (is_taken(session_->model(), object, region)) return notify("there is a pin already");
         HandleDescription handle;
         handle.region = region;
         panels_.edited.objects[object].handles.push_back(handle);
         hand_depth_.reset();
         dragging_.reset();
     } else {
-        return tell("drag a body and press P to pin it, or point at a pin to free it");
+        return notify("drag a body and press P to pin it, or point at a pin to remove it");
     }
     loader_.rebuild(panels_.edited);
 }

@@ -1,4 +1,4 @@
-// ViewerApp: what keys and the mouse do.
+// ViewerApp: keys and mouse.
 #include <GLFW/glfw3.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace gelatin::viewer {
 namespace {
 
-constexpr float kHandNotch = 1.05f;  // a notch of the wheel takes what is held so much farther away
+constexpr float kHandNotch = 1.05f;  // a notch of the wheel multiplies the distance by this
 
 }  // namespace
 
@@ -28,8 +28,8 @@ void ViewerApp::handle(const Event& event) {
     }
 }
 
-// A drag that begins at a marker moves what is held there; one that begins on a body is a hand's, one beside
-// turns the view. Which of these it is shows once the simulation can be asked.
+// A drag that begins at a mark moves what is held there. One that begins on a body pulls it. One beside the
+// bodies rotates the view. Which of these it is is known only when the simulation can be queried.
 void ViewerApp::handle(const ButtonChange& button) {
     pointer_ = button.place;
     if (button.is_down && !dragging_) {
@@ -39,7 +39,7 @@ void ViewerApp::handle(const ButtonChange& button) {
         if (!session_ || !is_left || handle_drag_) return;
         session_->reach(camera_.ray(button.place));
         is_hand_asked_ = true;
-        way_since_asked_ = glm::vec2(0.0f);
+        motion_since_asked_ = glm::vec2(0.0f);
     } else if (!button.is_down && dragging_ == button.button) {
         dragging_.reset();
         if (std::exchange(handle_drag_, {})) return;
@@ -48,25 +48,25 @@ void ViewerApp::handle(const ButtonChange& button) {
 }
 
 void ViewerApp::handle(const PointerMove& move) {
-    const glm::vec2 way = move.place - std::exchange(pointer_, move.place);
+    const glm::vec2 motion = move.place - std::exchange(pointer_, move.place);
     if (!dragging_ || hand_depth_) return;
     if (handle_drag_) {
         handle_drag_->move_pointer(camera_, move.place);
         return session_->drag(handle_drag_->held(), handle_drag_->target());
     }
     if (*dragging_ != GLFW_MOUSE_BUTTON_LEFT) {
-        camera_.pan(way);
+        camera_.pan(motion);
     } else if (is_hand_asked_) {
-        way_since_asked_ += way;
+        motion_since_asked_ += motion;
     } else {
-        camera_.orbit(way);
+        camera_.orbit(motion);
     }
 }
 
-// With something in hand the wheel takes it away or brings it here.
+// While something is held, the wheel moves it away or nearer.
 void ViewerApp::handle(const WheelTurn& wheel) {
     if (handle_drag_) {
-        handle_drag_->turn_wheel(camera_, wheel.notches);
+        handle_drag_->scroll(camera_, wheel.notches);
         session_->drag(handle_drag_->held(), handle_drag_->target());
     } else if (hand_depth_) {
         *hand_depth_ *= std::pow(kHandNotch, wheel.notches);
@@ -84,7 +84,7 @@ void ViewerApp::follow_hand() {
     if (is_hand_asked_ && session_ && session_->hand() != Session::Hand::reaching) {
         is_hand_asked_ = false;
         if (session_->hand() == Session::Hand::free) {
-            camera_.orbit(way_since_asked_);
+            camera_.orbit(motion_since_asked_);
         } else if (dragging_) {
             hand_depth_ = camera_.depth_of(session_->held_point());
         } else {

@@ -1,7 +1,7 @@
 #include "window.h"
 
 #include <epoxy/gl.h>
-// After the functions of OpenGL, which it would declare itself.
+// After OpenGL's functions, which GLFW would otherwise declare itself.
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
@@ -21,9 +21,9 @@
 namespace gelatin::viewer {
 namespace {
 
-constexpr double kMostPictures = 60.0;  // a second, where the driver does not wait for the screen
+constexpr double kMostPictures = 60.0;  // pictures per second, if the driver does not wait for the screen
 
-// GLFW says why something failed by a callback alone.
+// GLFW reports the cause of an error through a callback only.
 std::string last_glfw_problem() {
     const char* description = nullptr;
     glfwGetError(&description);
@@ -34,11 +34,11 @@ std::string last_glfw_problem() {
 
 }  // namespace
 
-/// What GLFW calls while events are polled.
+/// GLFW's callbacks while events are polled.
 struct WindowCallbacks {
     static Window& of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
 
-    // Where the pointer is when an event is heard of may be another place than where it happened.
+    // The pointer may have moved between an event and its callback.
     static glm::vec2 pointer(GLFWwindow* window) { return of(window).pointer_; }
     static void key(GLFWwindow* window, int key, int, int action, int modifiers) {
         if (action == GLFW_RELEASE) return;
@@ -72,7 +72,7 @@ Window::Window(const WindowSettings& settings) {
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, settings.gl_debug ? GLFW_TRUE : GLFW_FALSE);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-    glfwWindowHint(GLFW_DEPTH_BITS, 0);  // pictures come with depth of their own
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);  // pictures have their own depth buffers
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     glfwWindowHint(GLFW_FOCUS_ON_SHOW, GLFW_TRUE);
     title_ = "Gelatin";
@@ -87,7 +87,7 @@ Window::Window(const WindowSettings& settings) {
     glfwSwapInterval(1);
     if (settings.gl_debug) gl::enable_debug_output();
 
-    // Before Dear ImGui, which passes on what it gets.
+    // Before Dear ImGui, which chains to earlier callbacks.
     glfwSetWindowUserPointer(window_, this);
     glfwSetKeyCallback(window_, WindowCallbacks::key);
     glfwSetMouseButtonCallback(window_, WindowCallbacks::button);
@@ -97,7 +97,7 @@ Window::Window(const WindowSettings& settings) {
     glfwSetWindowContentScaleCallback(window_, WindowCallbacks::rescale);
 
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
+    ImGui::GetIO().IniFilename = nullptr;  // writes no settings file
     ImGui_ImplGlfw_InitForOpenGL(window_, true);
     ImGui_ImplOpenGL3_Init("#version 430 core");
     float x = 1.0f, y = 1.0f;
@@ -156,7 +156,7 @@ std::vector<Event> Window::take_events() {
         const auto* button = std::get_if<ButtonChange>(&event);
         const bool begins =
             (button != nullptr && button->is_down) || std::holds_alternative<WheelTurn>(event);
-        return begins && io.WantCaptureMouse;  // what ends a drag is for whoever began it
+        return begins && io.WantCaptureMouse;  // the end of a drag belongs to whoever began it
     });
     return events;
 }
@@ -188,7 +188,7 @@ void Window::draw_panels() {
 
 void Window::present() {
     glfwSwapBuffers(window_);
-    // Software drivers do not wait for a screen, and would keep the simulation from its cores.
+    // Software drivers do not wait for a screen, and would take processor time from the simulation.
     if (const double early = next_frame_ - now(); early > 0.0)
         std::this_thread::sleep_for(std::chrono::duration<double>(early));
     next_frame_ = std::max(next_frame_ + 1.0 / kMostPictures, now());

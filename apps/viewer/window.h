@@ -13,7 +13,7 @@ namespace gelatin::viewer {
 
 struct WindowSettings {
     int width = 1280, height = 720;  ///< in units of a screen of usual density
-    bool gl_debug = false;           ///< messages of the driver go to gl::debug
+    bool gl_debug = false;           ///< the driver's messages go to gl::debug
 };
 
 /// A window with an OpenGL 4.3 context, current on the calling thread, and Dear ImGui over it. One at a time.
@@ -29,22 +29,22 @@ public:
     void ask_to_close();
     void hide();
 
-    /// Takes in what happened and begins a picture; panels may be drawn until draw_panels. Waits for what
-    /// happens, but no longer than `patience` [s].
+    /// Collects events and begins a picture; panels may be drawn until draw_panels. Waits for events, but at
+    /// most `patience` [s].
     void begin_frame(double patience);
 
-    /// What happened since the last call, less what panels take for themselves.
+    /// The events since the last call, except those that panels use.
     std::vector<Event> take_events();
 
-    /// True if the pointer is over a panel, or the mouse is a panel's.
+    /// True if the pointer is over a panel, or a panel is using the mouse.
     bool is_over_panel() const;
 
     /// Copies a framebuffer of the window's size behind the panels; 0: a plain colour.
     void show_picture(unsigned framebuffer);
 
-    /// Draws the panels over it: all is then in framebuffer 0.
+    /// Draws the panels over it: then everything is in framebuffer 0.
     void draw_panels();
-    /// Shows it.
+    /// Shows the picture.
     void present();
 
     glm::ivec2 pixels() const;              ///< of the picture; 0 while the window is hidden
@@ -60,7 +60,7 @@ private:
     GLFWwindow* window_ = nullptr;
     std::string title_;
     float scale_ = 1.0f;
-    float new_scale_ = 1.0f;  // what the screen has asked for since
+    float new_scale_ = 1.0f;  // events from the screen since
     std::vector<Event> events_;
     glm::vec2 pointer_{0.0f};  // after the last of them
     double next_frame_ = 0.0;  // [s]

@@ -19,7 +19,7 @@ struct InputProblem {
     int line = 0;
     std::string field;    ///< dotted key, or the part of a mesh file ("vertex 12")
     std::string value;    ///< as the user wrote it
-    std::string problem;  ///< what is wrong and what is allowed
+    std::string problem;  ///< what is wrong, and what is allowed
 };
 
 /// The input or the call is wrong (exit code 2).
@@ -34,16 +34,16 @@ private:
     InputProblem problem_;
 };
 
-/// Where a simulation left what physics allows.
+/// When and where a simulation diverged.
 struct Divergence {
-    std::uint64_t step = 0;  ///< the first one after which it had, counted from frame 0; 0: not known
-    int frame = 0;           ///< that it was on the way to
+    std::uint64_t step = 0;  ///< the first step with an invalid state, counted from frame 0; 0: unknown
+    int frame = 0;           ///< the frame that this step belongs to
     double time = 0.0;       ///< [s]
     std::string object;
-    std::uint32_t node = 0;  ///< index in the object; of no meaning where the step is not known
+    std::uint32_t node = 0;  ///< index in the object; undefined if the step is unknown
 };
 
-/// The simulation produced numbers that are not finite, or energy from nothing (exit code 3).
+/// The simulation produced numbers that are not finite, or energy without a cause (exit code 3).
 class Diverged : public Error {
 public:
     explicit Diverged(const std::string& message, Divergence where = {})
@@ -55,7 +55,7 @@ private:
     Divergence where_;
 };
 
-/// OpenGL failed; carries the driver's own words (exit code 1).
+/// OpenGL failed; contains the driver's messages (exit code 1).
 class GlError : public Error {
 public:
     using Error::Error;

@@ -6,17 +6,18 @@
 
 namespace gelatin {
 
-/// A hand that holds nodes: a damped spring draws each of them to its own place beside `target`, for as long
-/// as somebody holds on. A body that is let go keeps its momentum.
+/// Damped springs by which a user pulls at nodes. Each spring joins a node to a fixed offset from `target`.
+/// When the pull ends, the body keeps its momentum.
 struct Pull {
     struct Node {
         std::uint32_t node;
-        glm::vec3 arm;    ///< its place, from the target [m]
-        float stiffness;  ///< of its spring [N/m], > 0
+        glm::vec3 arm;    ///< offset from the target to the spring's other end [m]
+        float stiffness;  ///< [N/m], > 0
     };
-    std::vector<Node> nodes;    ///< each once
-    glm::dvec3 target{0.0};     ///< [m]
-    double damping_time = 0.0;  ///< damping over stiffness [s]; critical for a mass m on k: 2 sqrt(m / k)
+    std::vector<Node> nodes;  ///< distinct
+    glm::dvec3 target{0.0};   ///< [m]
+    double damping_time =
+        0.0;  ///< damping divided by stiffness [s]; critical for mass m, stiffness k: 2 sqrt(m / k)
 };
 
 }  // namespace gelatin

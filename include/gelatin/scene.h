@@ -33,39 +33,40 @@ struct SimulationSettings {
     double frame_time() const { return 1.0 / frame_rate; }  ///< [s]
 };
 
-/// How faces that cannot touch are left out before face is tested against face (docs/collision.md).
+/// How faces that cannot touch are excluded before face is tested against face (docs/collision.md).
 enum class BroadPhase {
     none,       ///< not at all: every face of every object against every face of every other
-    boxes,      ///< the paper's: objects whose bounding boxes meet, every face against every face
-    hierarchy,  ///< of those objects, the faces that trees of boxes lead to
-    depth,      ///< of those objects, the faces that are hidden from all sides by others; needs OpenGL
+    boxes,      ///< the paper's: all faces of objects whose bounding boxes meet
+    hierarchy,  ///< of these objects, the faces that trees of boxes find
+    depth,      ///< of these objects, the faces that the depth buffer does not exclude; needs OpenGL
 };
 
-/// When faces are looked at: as they lie at the end of a step, or all the way there.
+/// Whether faces are tested at the end of a step only, or during the whole step.
 enum class CollisionDetection {
     discrete,    ///< the paper's: faces that overlap at the end of the step
-    continuous,  ///< and those that touch on the way, each node moving straight
+    continuous,  ///< also those that touch during the step, each node moving along a straight line
 };
 
-/// What happens to objects whose faces meet: `restore` is the paper's (2.4), nodes return to where they were
-/// and their velocities respond.
+/// What happens to objects whose faces touch. `restore` is the paper's (2.4): nodes return to their previous
+/// positions, and their velocities respond.
 enum class CollisionResponse { restore };
 
 struct CollisionSettings {
     BroadPhase broad_phase = BroadPhase::hierarchy;
     CollisionDetection detection = CollisionDetection::discrete;
     CollisionResponse response = CollisionResponse::restore;
-    bool self_collision = false;  ///< faces of one object against one another too
-    /// Nodes and faces, and edges, nearer than this are found [m], > 0; empty: none are sought.
+    bool self_collision = false;  ///< test faces of one object against each other too
+    /// Find nodes and faces, and pairs of edges, nearer than this [m], > 0; empty: off.
     std::optional<double> proximity_radius = std::nullopt;
     double friction = 0.4;     ///< Coulomb's coefficient, >= 0
-    double restitution = 0.3;  ///< normal speed after over before, in [0, 1]
+    double restitution = 0.3;  ///< normal speed after a contact relative to before, in [0, 1]
 };
 
-/// What a material's elasticity is made of.
+/// How a material's elasticity is modelled.
 enum class MaterialModel {
-    mass_spring,  ///< the paper's: springs between nodes
-    neo_hookean,  ///< the tets' own, stable neo-Hookean: any Poisson's ratio (docs/physics.md)
+    mass_spring,  ///< the paper's: springs between nodes (docs/springs.md)
+    neo_hookean,  ///< linear finite elements, stable neo-Hookean: any Poisson's ratio
+                  ///< (docs/finite-elements.md)
 };
 
 /// Which of the paper's springs a material has (2.2). At least one.
@@ -81,18 +82,18 @@ struct Material {
     MaterialModel model = MaterialModel::mass_spring;
     double youngs_modulus = 5e4;  ///< [Pa], > 0
     double density = 1000.0;      ///< [kg/m^3], > 0
-    double poisson_ratio = 0.25;  ///< in [0, 0.49]; springs alone answer with 1/4, a volume term does the
-                                  ///< rest. Neo-Hookean: in [0, 0.5)
+    double poisson_ratio = 0.25;  ///< in [0, 0.49]: springs alone give 1/4, other values add a volume term.
+                                  ///< Neo-Hookean: in [0, 0.5)
     double damping =
         0.0;  ///< Kelvin-Voigt relaxation time [s], >= 0: a spring's damping is damping * stiffness
-    /// Of mass_spring alone. Empty: springs whose stiffnesses are fitted to each mesh, so that the body
-    /// answers with youngs_modulus. With kinds: the paper's, not fitted, which answer softer.
+    /// For mass_spring only. Empty: springs fitted to each mesh, so that the body has youngs_modulus. With
+    /// kinds: the paper's springs, which are softer.
     std::optional<SpringKinds> springs;
 };
 
 struct SphereShape {
     double radius = 0.5;  ///< [m], > 0
-    int frequency = 10;   ///< pieces an edge of the icosahedron is cut into, >= 1: 20 frequency^2 faces
+    int frequency = 10;   ///< number of pieces of each edge of an icosahedron, >= 1: 20 frequency^2 faces
     bool operator==(const SphereShape&) const = default;
 };
 struct BoxShape {
@@ -103,7 +104,7 @@ struct BoxShape {
 struct CapsuleShape {
     double radius = 0.25;  ///< [m], > 0
     double length = 0.5;   ///< of the straight part, along y [m], > 0
-    int frequency = 8;     ///< rings over a quarter turn, >= 2
+    int frequency = 8;     ///< rings on a hemisphere, >= 2
     bool operator==(const CapsuleShape&) const = default;
 };
 struct TextShape {
@@ -114,8 +115,7 @@ struct TextShape {
     bool operator==(const TextShape&) const = default;
 };
 struct FileShape {
-    std::filesystem::path
-        file;  ///< a surface, or ready tets; relative paths are resolved from the scene file
+    std::filesystem::path file;  ///< a surface or a tet mesh; a relative path is relative to the scene file
     bool operator==(const FileShape&) const = default;
 };
 using Shape = std::variant<SphereShape, BoxShape, CapsuleShape, TextShape, FileShape>;
@@ -126,11 +126,11 @@ struct MesherSettings {
     MesherKind kind = MesherKind::automatic;
     double quality = 2.0;              ///< largest radius-edge ratio of a tet, > 1 (TetGen's -q)
     std::optional<double> max_volume;  ///< of a tet [m^3], > 0 (TetGen's -a)
-    double time_limit = 120.0;         ///< for the mesher's process [s], > 0
+    double time_limit = 120.0;         ///< of the mesher's process [s], > 0
     bool operator==(const MesherSettings&) const = default;
 };
 
-/// Parts of space that choose nodes, in world coordinates at the start.
+/// Parts of space that select nodes, faces or tets, in world coordinates at the start.
 struct BoxRegion {
     glm::dvec3 min, max;  ///< [m]
 };
@@ -144,44 +144,45 @@ struct HalfSpaceRegion {
 };
 using Region = std::variant<BoxRegion, SphereRegion, HalfSpaceRegion>;
 
-/// Where a handle is at a time, relative to where it starts.
+/// The placement of a handle at one time, relative to the start.
 struct Keyframe {
     double time = 0.0;     ///< [s], >= 0
-    glm::dvec3 move{0.0};  ///< of the pivot [m]
-    glm::dvec3 turn{0.0};  ///< about x, then y, then z [degrees]; 720 is two turns
-    double scale = 1.0;    ///< away from the pivot, > 0
+    glm::dvec3 move{0.0};  ///< displacement of the pivot [m]
+    glm::dvec3 turn{0.0};  ///< rotation about x, then y, then z [degrees]; 720 is two full rotations
+    double scale = 1.0;    ///< about the pivot, > 0
 };
 
-/// How a handle goes from one keyframe to the next: evenly, or slowly at both ends.
+/// How a handle moves between keyframes: at constant speed, or starting and ending at rest.
 enum class Interpolation { linear, smooth };
 
-/// How far a handle is dragged away from its keyframes, from the start on: no faster than its body can
-/// follow.
+/// A drag in addition to a handle's keyframes. The handle approaches it from the start on, no faster than its
+/// body can follow.
 struct DragDescription {
-    glm::dvec3 move{0.0};  ///< [m]
-    glm::dvec3 turn{0.0};  ///< about x, then y, then z [degrees]
+    glm::dvec3 move{0.0};  ///< displacement [m]
+    glm::dvec3 turn{0.0};  ///< rotation about x, then y, then z [degrees]
 };
 
-/// Nodes that follow keyframes, and rest before the first and after the last.
+/// Nodes that follow keyframes. They are at rest before the first and after the last.
 struct HandleDescription {
     Region region;
-    std::optional<glm::dvec3> pivot;  ///< about which it turns and scales [m]; empty: its nodes' centre
+    std::optional<glm::dvec3>
+        pivot;  ///< point about which it rotates and scales [m]; empty: its nodes' centre
     Interpolation interpolation = Interpolation::linear;
-    std::optional<double> release;    ///< from then on the nodes are free [s], > 0
-    std::vector<Keyframe> keyframes;  ///< times ascend; the first is where the nodes start; none: they rest
+    std::optional<double> release;    ///< time from which the nodes are free [s], > 0
+    std::vector<Keyframe> keyframes;  ///< in ascending order of time; the first is the start; none: a pin
     int line = 0;                     ///< in the scene file, for later messages
-    DragDescription drag = {};        ///< on top of them
+    DragDescription drag = {};        ///< in addition to the keyframes
 };
 
-/// What a load pulls or presses with.
+/// The kinds of load.
 struct ForceLoad {
-    glm::dvec3 sum{0.0};  ///< [N], shared among the region's nodes by mass
+    glm::dvec3 sum{0.0};  ///< [N], distributed over the region's nodes by mass
 };
 struct TractionLoad {
-    glm::dvec3 stress{0.0};  ///< [Pa], on the faces at rest whose three nodes are in the region
+    glm::dvec3 stress{0.0};  ///< [Pa], on the rest area of faces whose three nodes are in the region
 };
 struct PressureLoad {
-    double pressure = 0.0;  ///< [Pa], inwards across the same faces as they lie now
+    double pressure = 0.0;  ///< [Pa], inwards, perpendicular to the same faces as deformed
 };
 
 struct LoadDescription {
@@ -198,17 +199,17 @@ struct TetAttribute {
     int number;
 };
 
-/// A part of an object that is of a material of its own.
+/// A part of an object with its own material.
 struct PartDescription {
-    std::variant<Region, TetAttribute> where;  ///< of a region, the tets whose centroid it holds
+    std::variant<Region, TetAttribute> where;  ///< a region selects the tets whose centroid is in it
     std::string material;                      ///< a name in Scene::materials
     int line = 0;                              ///< in the scene file, for later messages
 };
 
-/// How an object is out of shape when it starts; pinned nodes are not.
+/// The deformation of an object at the start; pinned nodes stay at rest.
 struct StartDescription {
-    glm::dvec3 scale{1.0};  ///< along the world's axes, about the centre of mass, >= 0: 0 squashes it flat
-    double scatter = 0.0;   ///< then each coordinate of a node moves by up to this, at random [m], >= 0
+    glm::dvec3 scale{1.0};  ///< along the world's axes, about the centre of mass, >= 0; 0 flattens it
+    double scatter = 0.0;   ///< then a random displacement of each coordinate by up to this [m], >= 0
 };
 
 struct ObjectDescription {

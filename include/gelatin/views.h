@@ -7,7 +7,7 @@
 
 namespace gelatin {
 
-/// What colours can tell about a body (docs/physics.md, "What colours show").
+/// What colours can show of a body (docs/physics.md, "What colours show").
 enum class Quantity {
     stretch,  ///< the largest principal stretch, 1 at rest
     stress,   ///< von Mises' stress [Pa]
@@ -16,29 +16,30 @@ enum class Quantity {
 
 struct ColorMap {
     Quantity quantity = Quantity::stress;
-    std::optional<float> full = {};  ///< what has the last colour; empty: follows what there is
+    std::optional<float> full = {};  ///< the value with the last colour; empty: adapts to the values
 };
 
-/// Cuts all bodies open: what lies on the side that the normal points to is taken away.
+/// Cuts all bodies open: removes what lies on the side to which the normal points.
 struct CutPlane {
     float normal[3] = {0.0f, 0.0f, 1.0f};  ///< of any length but 0
-    /// From the origin along the normal [m]; empty: through the middle of where the bodies start.
+    /// Distance from the origin along the normal [m]; empty: through the centre of the bodies at the start.
     std::optional<float> offset = {};
 };
 
-/// What to show of the simulation beside the bodies.
+/// What to show of the simulation in addition to the bodies.
 struct Overlays {
-    /// Boxes of the objects, and of so many levels below them in the trees over their faces; empty: none.
+    /// Boxes of the objects, and this many levels below them in the trees over their faces; empty: none.
     std::optional<int> box_levels = {};
-    bool lowest_boxes_alone = false;  ///< of these the last level and no other
+    bool lowest_boxes_alone = false;  ///< only the last of these levels
     bool faces = false;               ///< faces that touch another object
-    /// Springs, coloured by strain; this strain, either way, has the full colour, > 0; empty: none.
+    /// Springs, coloured by strain. This strain, compressed or stretched, has the full colour, > 0; empty:
+    /// none.
     std::optional<float> full_strain = {};
-    std::optional<ColorMap> color_map = {};  ///< not together with springs, which have colours of their own
+    std::optional<ColorMap> color_map = {};  ///< not together with springs, which have their own colours
     std::optional<CutPlane> cut = {};
-    /// Arrows as long as surface nodes go in this time [s], > 0; empty: none.
+    /// Arrows, as long as the displacement of a surface node in this time [s], > 0; empty: none.
     std::optional<float> arrow_time = {};
-    bool objects = false;    ///< each object in a colour of its own, and its name
+    bool objects = false;    ///< each object in its own colour, with its name
     bool wireframe = false;  ///< the edges of the surfaces
 
     bool any() const {
@@ -46,9 +47,10 @@ struct Overlays {
     }
 };
 
-/// What a renderer needs for a plane that cuts bodies open. Names are of GL buffer objects, as in RenderView.
+/// What a renderer needs for a plane that cuts bodies open. Integers are names of GL buffer objects, as in
+/// RenderView.
 struct CutView {
-    float plane[4] = {};       ///< unit normal, minus the offset [m]: positive where bodies are cut away
+    float plane[4] = {};       ///< unit normal, minus the offset [m]: positive where bodies are removed
     unsigned tets = 0;         ///< four uint indices of nodes; shape [tet_count]
     unsigned tet_objects = 0;  ///< uint; shape [tet_count]
     std::uint32_t tet_count = 0;
@@ -58,7 +60,7 @@ struct ColorMapView {
     Quantity quantity = Quantity::stress;
     unsigned node_values = 0;       ///< float; shape [nodes]
     unsigned tet_values = 0;        ///< float, the tets being those of CutView; shape [tets]
-    float low = 0.0f, full = 1.0f;  ///< what has the first colour, and the last
+    float low = 0.0f, full = 1.0f;  ///< the values with the first and the last colour
 };
 
 struct ArrowView {
@@ -73,15 +75,15 @@ struct ObjectView {
     std::span<const std::string> names;
 };
 
-/// What a renderer needs for overlays: GL buffer objects as in RenderView; 0 or empty where it was not asked
-/// for.
+/// What a renderer needs for overlays: GL buffer objects as in RenderView; 0 or empty for overlays that were
+/// not requested.
 struct OverlayView {
     unsigned boxes = 0;  ///< two vec4: lower and upper corner xyz [m]; shape [box_count]
     unsigned shown_boxes =
         0;  ///< two uint: index into boxes, levels below the first shown; shape [shown_box_count]
     std::uint32_t box_count = 0;
     std::uint32_t shown_box_count = 0;
-    unsigned face_marks = 0;  ///< uint: 1 for a face to be marked, else 0; shape [faces]
+    unsigned face_marks = 0;  ///< uint: 1 for a marked face, else 0; shape [faces]
     unsigned springs = 0;     ///< Spring (two nodes, rest length [m], stiffness); shape [spring_count]
     std::uint32_t spring_count = 0;
     float full_strain = 0.0f;
@@ -92,9 +94,9 @@ struct OverlayView {
     bool wireframe = false;
 };
 
-/// What a renderer needs to draw the deformable bodies straight from the simulation's buffers: names of GL
+/// What a renderer needs to draw the deformable bodies directly from the simulation's buffers: names of GL
 /// buffer objects (std430) in the simulator's context, and counts. Valid until the simulator's next frame;
-/// with the CPU backend, which simulates elsewhere, until the next view.
+/// with the CPU backend, whose state is in host memory, until the next view.
 struct RenderView {
     unsigned node_positions = 0;    ///< vec4: xyz [m], inverse mass; shape [nodes]
     unsigned surface_vertices = 0;  ///< SurfaceVertex (node, object, ...); shape [vertices]
@@ -104,9 +106,9 @@ struct RenderView {
     std::uint32_t vertex_count = 0;
     std::uint32_t face_count = 0;
     std::uint32_t object_count = 0;
-    float box_min[3] = {};  ///< what holds all nodes [m]
+    float box_min[3] = {};  ///< bounding box of all nodes [m]
     float box_max[3] = {};
-    bool box_is_late = false;  ///< the box is that of a view before: from a GPU it comes without a wait
+    bool box_is_late = false;  ///< the box is that of an earlier view, because reading a GPU's would wait
     OverlayView overlay{};
 };
 

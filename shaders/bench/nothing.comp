@@ -1,4 +1,4 @@
-// Nothing: what a dispatch costs that has no work (gelatin bench kernels).
+// Does nothing: measures the cost of a dispatch without work (gelatin bench kernels).
 layout(local_size_x = 64) in;
 
 void main() {}

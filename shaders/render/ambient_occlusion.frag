@@ -1,7 +1,7 @@
-// How much of the ambient light reaches what a pixel shows: the cosine-weighted part of the hemisphere above the
-// horizons that the depth map has round it (Jimenez, Wu, Pesce and Jarabo 2016, ground-truth ambient occlusion). Each
-// pixel of a tile of 4 x 4 looks in directions of its own; blur_occlusion.frag takes the mean of such a tile. The tiles
-// stay where they are from frame to frame. Bodies are what occludes; the floor does not, for it gives light back.
+// The fraction of the ambient light that reaches the surface in a pixel: the cosine-weighted part of the hemisphere above the
+// horizons in the depth map around it (Jimenez, Wu, Pesce and Jarabo 2016, ground-truth ambient occlusion). Each pixel of a
+// tile of 4 x 4 uses different directions; blur_occlusion.frag averages over such a tile. The tiles stay fixed from frame to
+// frame. Bodies occlude; the floor does not, because it reflects light.
 #include "render/include/seen_points.glsl"
 
 uniform float reach;  // how far away something is still felt [m]
@@ -22,7 +22,7 @@ int tile_index(ivec2 pixel) {
     return kOrder[4 * (pixel.y & 3) + (pixel.x & 3)];
 }
 
-// From the point to the next one on the same surface: of both neighbours the one less far behind or before.
+// From the point to the next one on the same surface: of both neighbours the one whose depth differs less.
 vec3 along_surface(vec3 point, ivec2 pixel, ivec2 side) {
     ivec2 last = textureSize(body_depths, 0) - 1;
     vec3 after = body_point(min(pixel + side, last)) - point;
@@ -50,7 +50,7 @@ float find_horizon(vec3 point, vec3 normal, vec3 to_eye, ivec2 pixel, vec2 direc
         ivec2 inside = clamp(at, ivec2(0), last);
         vec3 offset = body_point(inside) - point;
         float distance = max(length(offset), 1e-15);
-        // All of what rises above the tangent is felt up to half the reach.
+        // Everything that rises above the tangent has full effect up to half the radius.
         float nearness = at == inside ? clamp(2.0 - 2.0 * distance / reach, 0.0, 1.0) : 0.0;
         nearness *= smoothstep(0.0, kFlat, dot(offset, normal) / distance);
         horizon = max(horizon, mix(lowest, dot(offset, to_eye) / distance, nearness));
@@ -58,8 +58,8 @@ float find_horizon(vec3 point, vec3 normal, vec3 to_eye, ivec2 pixel, vec2 direc
     return min(horizon, 1.0);
 }
 
-// The integral over one half of a slice up to a horizon at angle h from the direction to the eye, where the normal
-// stands at angle n: the paper's eq. 7, cosines and sines given.
+// The integral over one half of a slice up to a horizon at angle h from the direction to the eye, where the normal is at angle
+// n: the paper's eq. 7, with cosines and sines as arguments.
 float arc(float h, float cos_h, float sin_h, float cos_n, float sin_n) {
     float cos_difference = (2.0 * cos_h * cos_h - 1.0) * cos_n + 2.0 * sin_h * cos_h * sin_n;  // of 2 h - n
     return 0.25 * (cos_n + 2.0 * h * sin_n - cos_difference);
@@ -87,12 +87,12 @@ void main() {
     float shift = fract(float(index) * 0.61803399 + 0.25);
     float open = 0.0, all = 0.0;
     for (int i = 0; i < kSlices; ++i) {
-        // Into the slice, which holds the direction to the eye and this one at right angles to it.
+        // The slice contains the direction to the eye and this one, which is perpendicular to it.
         vec3 side = normalize(vec3(direction, 0.0) - dot(direction, to_eye.xy) * to_eye);
         vec2 in_slice = vec2(dot(normal, to_eye), dot(normal, side));
         float part = max(length(in_slice), 1e-6);
         float cos_n = min(in_slice.x / part, 1.0), sin_n = in_slice.y / part;
-        // A surface sees nothing below its own tangent.
+        // A surface sees nothing below its own tangent plane.
         float ahead = find_horizon(point, normal, to_eye, pixel, direction, pixels, shift, -sin_n, steps);
         float behind = find_horizon(point, normal, to_eye, pixel, -direction, pixels, shift, sin_n, steps);
         open += part * (arc_ahead(ahead, cos_n, sin_n) + arc_ahead(behind, cos_n, -sin_n));

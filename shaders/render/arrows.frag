@@ -1,4 +1,4 @@
-// An arrow by how far each pixel is from it: dark, with a light rim that sets it off from whatever lies behind.
+// An arrow, drawn by the distance of each pixel from it: dark, with a light outline that makes it visible on any background.
 uniform float opacity;
 uniform float line_scale;
 
@@ -6,7 +6,7 @@ noperspective in vec2 place;
 flat in float arrow_length;
 layout(location = 0) out vec4 pixel;
 
-// In widths of the shaft. Short arrows are all head, and get smaller with it.
+// In widths of the shaft. Short arrows consist of the head only, and it shrinks with them.
 const float kHeadLength = 5.0, kHeadHalfWidth = 2.0, kShaftHalfWidth = 0.5, kRim = 0.6;
 const float kFaded = 1.5;  // shorter ones fade
 const vec3 kInk = vec3(0.05, 0.07, 0.20), kRimColor = vec3(1.0, 1.0, 0.97);

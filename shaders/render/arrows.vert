@@ -1,5 +1,5 @@
-// Velocities as arrows from nodes of the surface to where they will be after some time: each a rectangle round it that
-// faces the screen, six vertices; render/arrows.frag draws the arrow in it.
+// Velocities as arrows from nodes of the surface to where they will be after some time: each a rectangle around it that faces
+// the screen, six vertices; render/arrows.frag draws the arrow in it.
 #include "render/include/cut.glsl"
 #include "render/include/near_plane.glsl"
 

@@ -1,4 +1,4 @@
-// What is seen where there is nothing.
+// The background.
 #include "render/include/backdrop.glsl"
 #include "render/include/dither.glsl"
 #include "render/include/tone.glsl"

@@ -10,7 +10,7 @@ flat out vec4 line_color;
 const vec3 kInk = vec3(0.05, 0.09, 0.20);
 const float kFade = 0.6;  // from one level to the next
 
-// Edges 4 k to 4 k + 3 go along axis k.
+// Edges 4 k to 4 k + 3 are parallel to axis k.
 vec3 corner_of(int edge, float along) {
     vec2 across = vec2(edge & 1, edge >> 1 & 1);
     int axis = edge / 4;

@@ -1,4 +1,4 @@
-// Bodies in the colours of a quantity, with so little shade that the legend's colours are found again.
+// Bodies in the colours of a quantity, shaded so lightly that they can be compared with the legend's colours.
 #include "render/include/color_map.glsl"
 #include "render/include/studio.glsl"
 #include "render/include/tone.glsl"

@@ -22,7 +22,7 @@ const float kLeft = 0.5;  // what lines leave of the colour
 void main() {
     vec4 distances = side_distances / max(fwidth(side_distances), vec4(1e-30));  // [pixels]
     float nearest = min(min(distances.x, distances.y), min(distances.z, distances.w));
-    // Tets of few pixels would be all line.
+    // In tets of few pixels the lines would cover everything.
     float ink = clamp(0.5 * line_width + 0.5 - nearest, 0.0, 1.0) * clamp((polygon_size - 2.0) / 12.0, 0.0, 1.0);
 #ifdef COLOR_MAP
     vec3 color = color_of(value);

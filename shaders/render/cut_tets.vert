@@ -1,5 +1,5 @@
-// The polygon in which a plane cuts a tet, three or four corners, as two triangles of the corners 0 1 2 and 0 2 3; of
-// three corners the last is the first once more. Needs find_cut_tets.comp.
+// The polygon in which a plane intersects a tet, three or four corners, as two triangles of the corners 0 1 2 and 0 2 3; of
+// three corners the last repeats the first. Needs find_cut_tets.comp.
 #include "render/include/cut.glsl"
 
 uniform samplerBuffer node_positions;  // xyz [m]
@@ -20,12 +20,12 @@ out vec4 side_distances;       // from the polygon's sides [m]
 flat out float polygon_size;  // [pixels], about
 
 const float kNoSide = 1e30;
-// Bodies that are in one another are cut at the same depth: one of them comes before the other by what rounding of
-// depths does not reach.
+// Bodies that are inside each other are cut at the same depth. An offset larger than the rounding of depths puts one of them in
+// front.
 const uint kRanks = 16u;
 const float kRankDepth = 2e-6;
-// By which of the tet's corners are cut away, a bit each: the edges that the polygon's corners lie on, in order, four
-// bits each, which are two corners of the tet. Only the first eight: the others are the first ones turned round.
+// Indexed by which of the tet's corners are cut away, one bit each: the edges with the polygon's corners, in order, four bits
+// each, which are two corners of the tet. Only the first eight: the others are the first ones in reverse order.
 const uint kEdges[8] = uint[8](0x0000u, 0x1321u, 0x1761u, 0x6732u, 0x2b62u, 0x6b31u, 0x2b71u, 0x3b73u);
 
 vec3 corner_on(uint edge, vec3 positions[4], float depths[4]) {

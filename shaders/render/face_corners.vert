@@ -1,4 +1,4 @@
-// Faces with their corners told apart; with MARKED those that are marked, while all others collapse to nothing.
+// Faces with distinct corners; with MARKED only those that are marked, while all others collapse to a point.
 #include "render/include/cut.glsl"
 #include "render/include/surface_fetch.glsl"
 

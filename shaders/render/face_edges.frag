@@ -1,5 +1,5 @@
-// The edges of faces over what is drawn of them, each half by either face. Where faces are of few pixels edges fade, or
-// all would be edge.
+// The edges of faces over their surface, each half drawn by either face. Where faces have few pixels the edges fade; otherwise
+// they would cover everything.
 uniform float line_width;  // [pixels]
 
 in vec3 corner;

@@ -1,4 +1,4 @@
-// White with a dark outline: that stands out by its lightness on any colour.
+// White with a dark outline, whose lightness contrasts with any colour.
 uniform float opacity;
 
 in vec3 corner;

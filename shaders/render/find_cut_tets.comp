@@ -1,5 +1,5 @@
-// Lists the tets that a plane cuts, one invocation a tet, as an indirect draw of six vertices each. Their order
-// differs from run to run, which pictures hardly show: the tets of a body share no place, unless some are inside out.
+// Lists the tets that a plane intersects, one invocation for each tet, as an indirect draw of six vertices each. Their order
+// differs from run to run. This is hardly visible: the tets of a body do not overlap, unless some are inverted.
 #include "render/include/cut.glsl"
 #include "include/global_index.glsl"
 #include "layouts/draw.glsl"

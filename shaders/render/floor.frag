@@ -1,4 +1,4 @@
-// A calm floor with a faint grid, which goes over into the backdrop before its end.
+// A plain floor with a faint grid, which blends into the backdrop before its end.
 #include "render/include/backdrop.glsl"
 #include "render/include/dither.glsl"
 #include "render/include/floor_color.glsl"
@@ -13,7 +13,7 @@ uniform float grid_spacing;  // [m]
 in vec2 xz;
 layout(location = 0) out vec4 pixel;
 
-// Coverage of the grid's lines, about 1.5 pixels wide, faded where they would crowd.
+// Coverage of the grid's lines, about 1.5 pixels wide, faded where they would be crowded.
 float grid() {
     vec2 at = xz / grid_spacing;
     vec2 width = fwidth(at);
@@ -25,7 +25,7 @@ float grid() {
 void main() {
     vec2 visible = vec2(1.0);
 #ifdef SHADOWED
-    // Of two estimates of the same: the patch knows what is hidden from the eye, the picture what stands upright.
+    // Two estimates of the same: the patch knows what is hidden from the eye, the picture what stands upright.
     visible = floor_visibility(xz);
     visible.y = min(visible.y, pixel_openness(-1.0));
 #endif

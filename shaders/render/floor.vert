@@ -1,4 +1,4 @@
-// The floor: a square round the scene, far larger than it.
+// The floor: a square around the scene, far larger than it.
 uniform mat4 world_to_clip;
 uniform vec3 floor_center;  // [m]
 uniform float floor_radius; // [m]

@@ -1,5 +1,5 @@
-// The light on a patch of floor, once a frame in a small texture, so that the floor's many pixels need one look
-// each: the mean of 4 x 4 pixels of floor_visibility.frag.
+// The light on a patch of floor, once a frame in a small texture, so that each of the floor's many pixels needs one look-up:
+// the mean of 4 x 4 pixels of floor_visibility.frag.
 uniform sampler2D visibility;
 uniform vec2 pixel_size;  // in texture coordinates
 

@@ -1,5 +1,5 @@
-// By how much shadows darken a floor that was drawn without them, as a factor of displayed values: once a frame in a
-// small texture, so that the floor's many pixels need one look each.
+// How much shadows darken a floor that was drawn without them, as a factor on displayed values: once a frame in a small
+// texture, so that each of the floor's many pixels needs one look-up.
 #include "render/include/floor_color.glsl"
 #include "render/include/floor_light.glsl"
 #include "render/include/tone.glsl"

@@ -1,4 +1,4 @@
-// Darkens the floor that is in the picture already.
+// Darkens the floor that has been drawn already.
 uniform sampler2D floor_shade;
 
 in vec2 uv;

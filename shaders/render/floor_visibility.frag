@@ -1,5 +1,5 @@
-// How much of the key light (red) and of the sky (green) reaches a patch of floor. Each pixel turns the pattern of its
-// samples; floor_blend.frag evens that out.
+// How much of the key light (red) and of the sky (green) reaches a patch of floor. Each pixel rotates the pattern of its
+// samples; floor_blend.frag averages over the pixels.
 #include "render/include/floor_key.glsl"
 #include "render/include/floor_sky.glsl"
 

@@ -1,4 +1,4 @@
-// Bodies as if of glass: what is inside shows, their outline too.
+// Transparent bodies: their outlines and their inside are visible.
 uniform vec3 eye;  // [m]
 
 in vec3 position;

@@ -1,4 +1,4 @@
-// Light letters with a dark rim.
+// Light letters with a dark outline.
 uniform sampler2D atlas;
 
 flat in ivec2 from_picture_to_atlas;

@@ -1,4 +1,4 @@
-// Names of objects, each centred in the middle of its box: a label is two triangles, pixel on pixel.
+// Names of objects, each centred on its box: a label is two triangles, with one texel for each pixel.
 uniform samplerBuffer boxes;    // lower and upper corner [m]
 uniform usamplerBuffer roots;   // of each object, its box
 uniform usamplerBuffer labels;  // object; lower left corner in the atlas, width [pixels]

@@ -1,4 +1,4 @@
-// A picture in the lower left corner of the other, pixel on pixel.
+// A picture in the lower left corner of the other, with one texel for each pixel.
 uniform sampler2D legend;
 
 layout(location = 0) out vec4 pixel;

@@ -1,4 +1,4 @@
-// A picture in the lower left corner of the other, pixel on pixel.
+// A picture in the lower left corner of the other, with one texel for each pixel.
 uniform sampler2D legend;
 uniform vec2 picture_size;  // [pixels]
 

@@ -1,5 +1,5 @@
-// The paper's light (3.1): one invocation lights one surface vertex and carries it into the picture, so that drawing
-// fetches a place and a finished colour and works out nothing. Test: tests/render/vertex_light_test.cpp.
+// The paper's light (3.1): one invocation lights one surface vertex and computes its clip coordinates, so that drawing only
+// fetches a position and a finished colour. Test: tests/render/vertex_light_test.cpp.
 #include "include/global_index.glsl"
 #include "render/include/light.glsl"
 #include "render/include/surface_fetch.glsl"

@@ -1,4 +1,4 @@
-// Colour alone.
+// Only the colour.
 noperspective in vec3 color;
 layout(location = 0) out vec4 pixel;
 

@@ -1,8 +1,8 @@
-// Surfaces as light_vertices.comp left them.
+// Surfaces as computed by light_vertices.comp.
 in vec4 clip_position;
 in vec4 display_color;
 
-noperspective out vec3 color;  // over faces of a few pixels perspective does not show
+noperspective out vec3 color;  // on faces of a few pixels perspective is not visible
 
 void main() {
     gl_Position = clip_position;

@@ -1,6 +1,6 @@
-// Smooths the steps of edges in a finished picture, where several samples a pixel cost too much: finds the run of
-// pixels along which an edge stays in its row or column, and blends across it by the place within the run (the idea
-// of Reshetov's MLAA and Lottes' FXAA, 2009).
+// Smooths the steps of edges in a finished picture, where multisampling costs too much: finds the run of pixels along which an
+// edge stays in its row or column, and blends across it depending on the position within the run (the idea of Reshetov's MLAA
+// and Lottes' FXAA, 2009).
 uniform sampler2D picture;  // alpha: see render/include/tone.glsl
 uniform vec2 pixel_size;                        // in texture coordinates
 
@@ -15,7 +15,7 @@ const float kGrowth = 1.5;
 
 float key(vec2 at) { return textureLod(picture, at, 0.0).a; }
 
-// How far the edge goes from `start` in a direction [pixels], and whether its end turns to the brighter side.
+// The length of the edge from `start` in a direction [pixels], and whether it ends towards the brighter side.
 struct End {
     float distance;
     float key_change;
@@ -33,7 +33,7 @@ End find_end(vec2 start, vec2 direction, float edge_key, float threshold, int st
 }
 
 void main() {
-    // Two looks at 2 x 2 pixels that share this one.
+    // Two look-ups of 2 x 2 pixels that share this one.
     vec4 low = textureGather(picture, uv - 0.5 * pixel_size, 3);
     vec4 high = textureGather(picture, uv + 0.5 * pixel_size, 3);
     float self = low.y, west = low.x, south = low.z, north = high.x, east = high.z;
@@ -66,7 +66,7 @@ void main() {
     End forth = find_end(start, along, edge_key, threshold, steps);
     End nearest = back.distance < forth.distance ? back : forth;
     float run = back.distance + forth.distance;
-    // Only at the end where the edge steps over to this pixel's side is there something to blend.
+    // Only at the end where the edge steps to this pixel's side is there something to blend.
     bool steps_here = (nearest.key_change < 0.0) != (self < edge_key);
     float shift = steps > 0 && steps_here ? 0.5 - nearest.distance / run : 0.0;
     pixel = vec4(textureLod(picture, uv + shift * across, 0.0).rgb, 1.0);

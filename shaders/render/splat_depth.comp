@@ -1,7 +1,7 @@
-// Small depth maps of a surface, each seen from a light of its own: one invocation fills one face into all of them.
-// Faces are hardly larger than the maps' texels, where a rasteriser spends all its time on setting triangles up, on one
-// thread in software drivers. Minima do not depend on the order, so the maps have the same bits each time. CUT: surfaces
-// are cut open by the plane of an overlay, and faces seen from within count too.
+// Small depth maps of a surface, each seen from its own light: one invocation draws one face into all of them. Faces are hardly
+// larger than the maps' texels. There a rasteriser spends all its time on setting up triangles, on one thread in software
+// drivers. Minima do not depend on the order, so the maps have the same bits each time. CUT: surfaces are cut open by the plane
+// of an overlay, and back faces count too.
 #include "include/global_index.glsl"
 #include "render/include/surface_fetch.glsl"
 #ifdef CUT
@@ -25,10 +25,10 @@ vec3 corner(uint vertex) { return fetch_point(int(vertex)).position; }
 
 float cross_2d(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
-// The texels whose centres lie in the face; corners in texels. @param kept how deep each corner is below the cut [m]
+// The texels whose centres are in the face; corners in texels. @param kept depth of each corner below the cut [m]
 void fill_face(vec3 a, vec3 b, vec3 c, vec3 kept, ivec2 size, int start) {
     float area = cross_2d(b.xy - a.xy, c.xy - a.xy);  // twice; > 0 for faces that look at the light
-    // Those in the face's bounding rectangle; a loop of no turns is left sooner than a branch.
+    // The texels in the face's bounding rectangle; leaving a loop is cheaper than a branch.
     ivec2 first = ivec2(clamp(ceil(min(a.xy, min(b.xy, c.xy)) - 0.5), vec2(0.0), vec2(size)));
     ivec2 end = ivec2(clamp(ceil(max(a.xy, max(b.xy, c.xy)) - 0.5), vec2(0.0), vec2(size)));
 #ifdef CUT

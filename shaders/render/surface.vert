@@ -1,4 +1,4 @@
-// Bodies and colliders, straight from their buffers. CUT: by the plane of an overlay.
+// Bodies and colliders, directly from their buffers. CUT: by the plane of an overlay.
 #include "render/include/surface_fetch.glsl"
 #ifdef CUT
 #include "render/include/cut.glsl"

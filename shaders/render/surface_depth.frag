@@ -1,2 +1,2 @@
-// Depth alone.
+// Only the depth.
 void main() {}

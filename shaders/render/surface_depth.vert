@@ -1,4 +1,4 @@
-// Bodies and colliders as the light, or the floor, sees them: depth alone. CUT: by the plane of an overlay.
+// Bodies and colliders as seen from the light, or from above the floor: only depth. CUT: by the plane of an overlay.
 #include "render/include/surface_fetch.glsl"
 #ifdef CUT
 #include "render/include/cut.glsl"

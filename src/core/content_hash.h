@@ -10,13 +10,13 @@ struct XXH3_state_s;
 
 namespace gelatin {
 
-/// A 128-bit hash (XXH3) of all that was added, in its order: a name for content.
+/// A 128-bit hash (XXH3) of everything that was added, in order: an identifier of the content.
 class ContentHash {
 public:
     ContentHash();
 
     void add(const void* data, std::size_t bytes);
-    /// The text and its length, so that no two lists of texts run together into the same bytes.
+    /// The text and its length, so that different lists of texts never have the same bytes.
     void add(const std::string& text);
     /// The values and their number. @pre T has no padding
     template <class T>

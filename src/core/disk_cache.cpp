@@ -18,12 +18,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// An entry is this header, then the content. It is a cache for one machine, so its byte order is the
-/// machine's; the magic number fails on another.
+/// An entry is this header, followed by the content. The cache belongs to one machine, so its byte order is
+/// the machine's; on another the magic number does not match.
 struct Header {
     std::uint64_t magic;
     std::uint64_t bytes;        // of the content
-    std::uint64_t checksum[2];  // of the key and the content: a renamed entry is a damaged one
+    std::uint64_t checksum[2];  // of the key and the content: a renamed entry counts as damaged
 };
 constexpr std::uint64_t kMagic = 0x3248'4341'434c'4701;  // "GLCACH2" and the format's version
 static_assert(sizeof(Header) == 32 && std::is_trivially_copyable_v<Header>);
@@ -66,7 +66,7 @@ std::optional<std::string> DiskCache::find(const std::string& key) const {
         if (std::memcmp(&header, &right, sizeof(Header)) != 0) return std::nullopt;
         content.erase(0, sizeof(Header));
         return content;
-    } catch (const InvalidInput&) {  // unreadable, or gone since: as good as not there
+    } catch (const InvalidInput&) {  // unreadable, or removed meanwhile: a miss
         return std::nullopt;
     }
 }
@@ -77,17 +77,17 @@ void DiskCache::store(const std::string& key, const std::string& content) const 
     std::string whole(sizeof(Header), '\0');
     std::memcpy(whole.data(), &header, sizeof(Header));
     whole += content;
-    // The name an entry is written under is unique to a process, not to its threads.
+    // The temporary name of an entry is unique to a process, but not to its threads.
     static std::mutex one_at_a_time;
     const std::lock_guard lock(one_at_a_time);
     try {
         fs::create_directories(folder_);
         write_file(entry(key), whole);
     } catch (const fs::filesystem_error& error) {
-        spdlog::warn("{} are not kept for the next run: {}: {}", what_, folder_.string(),
+        spdlog::warn("{} cannot be cached for the next run: {}: {}", what_, folder_.string(),
                      error.code().message());
     } catch (const SystemError& error) {
-        spdlog::warn("{} are not kept for the next run: {}", what_, error.what());
+        spdlog::warn("{} cannot be cached for the next run: {}", what_, error.what());
     }
 }
 

@@ -6,16 +6,16 @@
 
 namespace gelatin {
 
-/// Bytes kept on disk by a key of everything they depend on. Several processes may share it: entries appear
-/// by rename, whole or not at all; a damaged entry is a miss. A folder that cannot be written is a warning,
-/// not an error.
+/// Bytes stored on disk under a key of everything that they depend on. Several processes may share the cache:
+/// an entry appears by a rename, complete or not at all. A damaged entry is a miss. A folder that cannot be
+/// written causes a warning, not an error.
 class DiskCache {
 public:
     /// GELATIN_CACHE_DIR, else XDG_CACHE_HOME/gelatin, else ~/.cache/gelatin.
     static std::filesystem::path default_folder();
 
-    /// @param folder made where it is first written to; empty: nothing is kept
-    /// @param what the entries are, for the warning, and the ending of their names: "tets"
+    /// @param folder created at the first write; empty: nothing is stored
+    /// @param what the kind of entries, for the warning and as their file extension: "tets"
     DiskCache(std::filesystem::path folder, std::string what);
 
     std::optional<std::string> find(const std::string& key) const;

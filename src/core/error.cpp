@@ -5,7 +5,7 @@
 namespace gelatin {
 namespace {
 
-// "file:line: field = value: problem", each part only where it is known.
+// "file:line: field = value: problem", with the parts that are known.
 std::string describe(const InputProblem& p) {
     std::string text;
     if (!p.file.empty()) {

@@ -6,18 +6,19 @@
 
 namespace gelatin {
 
-/// The whole of a file.
+/// Returns the whole content of a file.
 /// @throws InvalidInput if it is missing, a folder, or cannot be read.
 std::string read_file(const std::filesystem::path& file);
 
-/// Writes `file` whole or not at all: under a temporary name beside it, flushed to disk, then renamed.
+/// Writes `file` completely or not at all: under a temporary name in the same folder, flushed to disk, then
+/// renamed.
 /// @throws SystemError with the system's reason (no such folder, disk full, ...); nothing is left behind.
 void write_file(const std::filesystem::path& file, const std::string& content);
 
-/// A name beside `file` for writing it under, unique to this process: ".NAME.PID.partial.EXT".
+/// A temporary name in the folder of `file`, unique to this process: ".NAME.PID.partial.EXT".
 std::filesystem::path partial_name(const std::filesystem::path& file);
 
-/// A private folder (mode 0700) below the system's temporary one; removed with its content by the destructor.
+/// A private folder (mode 0700) in the system's temporary one. The destructor removes it with its content.
 class TemporaryFolder {
 public:
     /// @throws SystemError

@@ -4,8 +4,8 @@
 
 namespace gelatin {
 
-/// Sends spdlog's default logger to stderr as "gelatin: warning: ...", one line a message, warnings and
-/// above; `verbose` shows information too. The library itself only logs; programs call this once.
+/// Sends spdlog's default logger to stderr as "gelatin: warning: ...", one line for each message, warnings
+/// and above; with `verbose` also information. The library itself only logs; programs call this once.
 void set_up_log(bool verbose);
 
 }  // namespace gelatin

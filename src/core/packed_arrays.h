@@ -8,8 +8,7 @@
 
 namespace gelatin {
 
-/// Appends arrays to bytes, each behind its number of elements, as they lie in memory: for what one machine
-/// writes and reads again.
+/// Appends arrays to bytes, each preceded by its number of elements, in this machine's representation.
 class ArrayWriter {
 public:
     template <class T>
@@ -28,7 +27,7 @@ private:
     std::string bytes_;
 };
 
-/// Takes arrays from bytes, in the order they were added.
+/// Extracts arrays from bytes, in the order in which they were added.
 class ArrayReader {
 public:
     explicit ArrayReader(const std::string& bytes) : bytes_(bytes) {}

@@ -28,7 +28,7 @@ constexpr std::size_t kOutputLimit = 64 * 1024;
     throw SystemError(program + ": cannot be started: " + std::strerror(reason));
 }
 
-// A file descriptor that closes itself.
+// A file descriptor that is closed by its destructor.
 class Descriptor {
 public:
     explicit Descriptor(int value = -1) : value_(value) {}
@@ -46,9 +46,9 @@ private:
     int value_;
 };
 
-// Starts `command` in a process group of its own; its stdout and stderr go to `output`, its stdin comes from
-// `input`, or from /dev/null where that is -1. Signals that this process ignores or blocks reach the child as
-// usual. Returns its id.
+// Starts `command` in its own process group. Its stdout and stderr go to `output`; its stdin comes from
+// `input`, or from /dev/null if that is -1. Signals that this process ignores or blocks reach the child as
+// usual. Returns the child's process id.
 int spawn(const std::vector<std::string>& command, const std::string& folder, int input, int output) {
     assert(!command.empty());
     std::vector<char*> arguments;
@@ -100,8 +100,8 @@ void store_status(ProcessResult& result, int status) {
     }
 }
 
-// Appends what a non-blocking pipe holds, which is one pipe's capacity at most: a program that writes without
-// end must not keep its caller from looking at the clock. False at the end of the output.
+// Appends what a non-blocking pipe holds, at most one pipe's capacity: a program that writes endlessly must
+// not keep its caller from checking the time. Returns false at the end of the output.
 bool drain(int pipe, std::string& output) {
     std::vector<char> chunk(kOutputLimit);
     const ssize_t n = ::read(pipe, chunk.data(), chunk.size());
@@ -144,13 +144,13 @@ ProcessResult run_process(const std::vector<std::string>& command, const std::fi
     if (::pipe2(ends, O_CLOEXEC) != 0) fail(command[0], errno);
     const Descriptor reading(ends[0]);
     Descriptor writing(ends[1]);
-    ::fcntl(reading.get(), F_SETFL, O_NONBLOCK);  // ours alone: the child's end keeps blocking
+    ::fcntl(reading.get(), F_SETFL, O_NONBLOCK);  // only this end: the child's end stays blocking
     const auto start = Clock::now();
     const int pid = spawn(command, folder.string(), -1, writing.get());
     writing.close();
 
-    // The output's end and the child's end come in either order: a child may close its output and go on, or
-    // leave a grandchild behind that keeps it open.
+    // The end of the output and the end of the child come in either order: a child may close its output and
+    // continue, or leave a grandchild behind that keeps it open.
     ProcessResult result;
     bool open = true;
     int status = 0;

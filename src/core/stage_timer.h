@@ -7,7 +7,7 @@
 
 namespace gelatin {
 
-/// Durations of a stage, in the order they were measured [ms].
+/// Durations of a stage, in the order of measurement [ms].
 using StageTimes = std::map<std::string, std::vector<double>>;
 
 /// Times named stages of a step, one at a time.
@@ -17,11 +17,11 @@ public:
     virtual void begin(const std::string& stage) = 0;
     virtual void end() = 0;
 
-    /// What was measured since the last call; may lag behind where a device measures.
+    /// The measurements since the last call; for a device these may lag behind.
     virtual StageTimes take() = 0;
 };
 
-/// Times on the host's clock: for work that is done when the call returns.
+/// Times by the host's clock, for work that is complete when the call returns.
 class HostStageTimer : public StageTimer {
 public:
     void begin(const std::string& stage) override;

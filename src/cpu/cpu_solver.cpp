@@ -17,7 +17,7 @@
 namespace gelatin::cpu {
 namespace {
 
-// Cuts [0, count) into ranges for the threads; what a range computes never depends on the cuts.
+// Divides [0, count) into ranges for the threads; results never depend on the division.
 template <class Work>
 void for_ranges(std::uint32_t count, std::uint32_t grain, const Work& work) {
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, grain), [&](const auto& range) {
@@ -97,7 +97,7 @@ void CpuSolver<Real>::clear_pulled_forces() {
     for (const std::uint32_t n : pulls_->nodes()) load_forces_[n] = Vec4<Real>(0);
 }
 
-// To the loads, for explicit schemes.
+// Adds to the loads, for explicit schemes.
 template <class Real>
 void CpuSolver<Real>::add_pulls(const Nodes<Real>& nodes, Real step) {
     for (const std::uint32_t n : pulls_->nodes()) {
@@ -173,7 +173,7 @@ void CpuSolver<Real>::run_pass(const Pass<Real>& pass) {
 
 template <class Real>
 void CpuSolver<Real>::respond(double step) {
-    // An object's own contacts first: they are sought for anew, where they were found.
+    // An object's own contacts come first: they are computed for the positions at which they were found.
     if (self_) self_->response.run(self_->collision, static_cast<Real>(step), previous_, current_);
     cpu::respond(*model_, collision_, contact_, static_cast<Real>(step), previous_, current_);
 }

@@ -18,8 +18,8 @@
 
 namespace gelatin::cpu {
 
-/// The solver on the processor. `double` is the oracle that every kernel is held against; `float`, with SIMD
-/// and all cores, is the product's CPU backend. The same bits for any number of threads.
+/// The solver on the processor. `double` is the reference for the tests of every kernel. `float`, with SIMD
+/// and all cores, is the CPU backend. The same bits for any number of threads.
 template <class Real>
 class CpuSolver : public Solver {
 public:
@@ -55,9 +55,9 @@ public:
     const Collision<Real>& collision() const { return collision_; }
     /// True if a face touches another object, or another part of its own.
     bool collides(std::uint32_t face) const;
-    /// Null where objects do not collide with themselves.
+    /// Null if objects do not collide with themselves.
     const SelfCollision<Real>* self_collision() const { return self_ ? &self_->collision : nullptr; }
-    /// Null where the scene has no proximity radius.
+    /// Null if the scene has no proximity radius.
     const FindProximities<Real>* found_proximities() const { return proximities_ ? &*proximities_ : nullptr; }
 
 private:
@@ -72,15 +72,15 @@ private:
     std::optional<BlockDescent<Real>> block_descent_;  // instead of the scheme
     std::optional<ShapeMatcher<Real>> shape_matcher_;  // before block descent
     ForceMethod forces_;
-    Nodes<Real> current_, previous_;  // swapped by each step: where it ended, and where it started
+    Nodes<Real> current_, previous_;  // swapped by each step: its end, and its start
     bool has_earlier_ = false;        // previous_ is one step earlier: vbd looks back
     Nodes<Real> stage_[2];            // between the passes of one step
     Nodes<Real> sums_;
     std::vector<Vec4<Real>> spring_forces_, node_forces_;
     std::vector<float> load_factors_;
-    std::vector<Vec4<Real>> load_forces_;  // [N], shape [nodes]; empty where there are no loads
-    std::optional<Pulls<Real>> pulls_;     // while a hand holds something
-    std::vector<Real> volume_stresses_;    // [Pa], shape [nodes]; empty where no explicit scheme needs them
+    std::vector<Vec4<Real>> load_forces_;  // [N], shape [nodes]; empty without loads
+    std::optional<Pulls<Real>> pulls_;     // while a user pulls
+    std::vector<Real> volume_stresses_;    // [Pa], shape [nodes]; empty if no explicit scheme needs them
     Collision<Real> collision_;
     ContactProperties contact_;
     struct SelfStages {

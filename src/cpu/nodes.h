@@ -11,7 +11,7 @@ using Vec3 = glm::vec<3, Real>;
 template <class Real>
 using Vec4 = glm::vec<4, Real>;
 
-/// Positions and velocities of all nodes in the precision of a backend; laid out as on the GPU.
+/// Positions and velocities of all nodes in the precision of a backend; the same layout as on the GPU.
 template <class Real>
 struct Nodes {
     std::vector<Vec4<Real>> positions;   ///< xyz [m], inverse mass [1/kg], shape [nodes]

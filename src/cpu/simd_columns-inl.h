@@ -1,5 +1,5 @@
-// Rows of four floats turned into columns, a lane each. Included once for each instruction set by the files
-// that Highway compiles for several (its foreach_target.h): so the guard is a toggle.
+// Rows of four floats transposed to columns, one row in each lane. Included once for each instruction set by
+// the files that Highway compiles for several (its foreach_target.h), so the guard is a toggle.
 #if defined(GELATIN_CPU_SIMD_COLUMNS) == defined(HWY_TARGET_TOGGLE)
 #ifdef GELATIN_CPU_SIMD_COLUMNS
 #undef GELATIN_CPU_SIMD_COLUMNS
@@ -62,7 +62,7 @@ HWY_INLINE Columns load_columns(D d, const Row& row) {
 #endif
 }
 
-// Those of nodes, a lane each.
+// For nodes, one in each lane.
 HWY_INLINE Columns load_nodes(Lanes d, const float* values, const std::uint32_t* nodes) {
     return load_columns(d, [&](std::size_t l) { return values + 4 * std::size_t(nodes[l]); });
 }

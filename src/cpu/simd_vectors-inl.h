@@ -1,4 +1,5 @@
-// Vectors of three components, a lane each. Compiled once for each instruction set, as simd_columns-inl.h is.
+// Vectors of three components, one in each lane. Compiled once for each instruction set, like
+// simd_columns-inl.h.
 #if defined(GELATIN_CPU_SIMD_VECTORS) == defined(HWY_TARGET_TOGGLE)
 #ifdef GELATIN_CPU_SIMD_VECTORS
 #undef GELATIN_CPU_SIMD_VECTORS

@@ -46,7 +46,7 @@ RawBuffer::RawBuffer(std::size_t bytes, const void* data, Use use) : bytes_(byte
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
     if (use == Use::storage && bytes > static_cast<std::size_t>(limit)) {
         throw GlError("a buffer of " + std::to_string(bytes) + " bytes is more than this driver's limit of " +
-                      std::to_string(limit) + " bytes a storage block (GL_MAX_SHADER_STORAGE_BLOCK_SIZE)");
+                      std::to_string(limit) + " bytes per storage block (GL_MAX_SHADER_STORAGE_BLOCK_SIZE)");
     }
     check_errors("before a buffer's allocation");
     GLuint id = 0;

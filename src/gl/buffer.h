@@ -15,7 +15,7 @@ namespace gelatin::gl {
 class RawBuffer {
 public:
     RawBuffer() = default;
-    /// What shaders reach it through: a storage block, whose size the driver limits, or a BufferTexture.
+    /// How shaders access it: as a storage block, whose size the driver limits, or through a BufferTexture.
     enum class Use { storage, texels };
 
     /// @throws GlError if the driver cannot give `bytes`, or its limit of storage blocks is less than these
@@ -40,9 +40,9 @@ private:
 
 /// Owns one GL buffer object holding `size()` elements of `T` (a std430 array).
 ///
-/// Move-only; a default-made or moved-from buffer is no GL object, and no program runs with it bound. One of
-/// no elements is a GL object that programs can have bound as long as they do not read it. Every call needs
-/// the context that created the buffer to be current on the calling thread.
+/// Move-only. A default-made or moved-from buffer is no GL object, and no program runs with it bound. A
+/// buffer without elements is a GL object that may be bound to programs as long as they do not read it. Every
+/// call needs the context that created the buffer to be current on the calling thread.
 template <class T>
 class Buffer {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -84,10 +84,10 @@ private:
     std::size_t size_ = 0;
 };
 
-/// How a shader's samplerBuffer sees a buffer's bytes.
+/// How a shader's samplerBuffer interprets a buffer's bytes.
 enum class TexelFormat { r32ui, rg32ui, rgb32ui, rgba32ui, r32f, rg32f, rgba32f };
 
-/// A buffer seen through a samplerBuffer or usamplerBuffer: gathers through it are faster than storage reads
+/// A buffer read through a samplerBuffer or usamplerBuffer. Gathers through it are faster than storage reads
 /// on software drivers and no slower elsewhere. Owns the texture, not the buffer, which must outlive it.
 class BufferTexture {
 public:
@@ -108,8 +108,8 @@ private:
     ObjectName name_;
 };
 
-/// A table that shaders read through a samplerBuffer and nobody writes: a buffer and its texture in one. It
-/// may be larger than a storage block.
+/// A read-only table that shaders read through a samplerBuffer: a buffer and its texture in one. It may be
+/// larger than a storage block.
 ///
 /// Move-only; one that was default-made or moved from is no GL object.
 template <class T>
@@ -119,7 +119,7 @@ class TexelTable {
 public:
     TexelTable() = default;
 
-    /// One of no values holds a T{}: textures are never empty.
+    /// A table without values contains one T{}, because textures are never empty.
     /// @throws GlError if the driver cannot give the bytes, or has textures of fewer texels.
     TexelTable(std::span<const T> values, TexelFormat format)
         : TexelTable(values.empty() ? &kNothing : values.data(), std::max<std::size_t>(values.size(), 1),

@@ -59,7 +59,7 @@ DeviceInfo describe_device() {
     return info;
 }
 
-// Asks GLX only where the host application has loaded it, so that Gelatin needs no X11 libraries.
+// Queries GLX only if the host application has loaded it, so that Gelatin needs no X11 libraries.
 bool has_glx_context() {
     for (const char* library : {"libGLX.so.0", "libGL.so.1"}) {
         void* handle = ::dlopen(library, RTLD_LAZY | RTLD_NOLOAD);
@@ -112,12 +112,12 @@ std::optional<int> device_index_from_environment() {
 
 }  // namespace
 
-// The display stays initialised until the process ends: EGL hands out one display for one platform and
-// device, and eglTerminate would end it for other contexts of ours and of the host application too.
+// The display stays initialised until the process ends. EGL returns the same display for one platform and
+// device, and eglTerminate would end it for our other contexts and for the host application too.
 struct Context::Handle {
     EGLDisplay display = EGL_NO_DISPLAY;
     EGLContext context = EGL_NO_CONTEXT;
-    EGLSurface surface = EGL_NO_SURFACE;  // a 1x1 pbuffer where the driver needs one
+    EGLSurface surface = EGL_NO_SURFACE;  // a 1x1 pbuffer if the driver needs one
 
     Handle() = default;
     Handle(const Handle&) = delete;
@@ -138,7 +138,7 @@ Context::Handle::~Handle() {
     if (surface != EGL_NO_SURFACE) eglDestroySurface(display, surface);
 }
 
-// False if this display has no OpenGL 4.3; what was made until then goes with the handle.
+// False if this display has no OpenGL 4.3; the handle releases what was created until then.
 bool Context::Handle::create(EGLDisplay from, bool debug) {
     if (from == EGL_NO_DISPLAY || !eglInitialize(from, nullptr, nullptr)) return false;
     display = from;
@@ -205,7 +205,7 @@ Context Context::headless(const ContextOptions& options) {
             throw NoOpenGl("EGL device " + std::to_string(*index) + " has no OpenGL 4.3: " + kWhatToInstall);
         }
     } else {
-        // The default display may be a software driver beside a GPU: a GPU that works is preferred.
+        // The default display may be a software driver although there is a GPU: a working GPU is preferred.
         best = open(surfaceless_display());
         for (EGLDeviceEXT device : devices) {
             if (best && !best->device_.is_software) break;

@@ -6,7 +6,7 @@
 
 namespace gelatin::gl {
 
-/// What the driver said about itself when the context was made.
+/// The driver's description of itself when the context was created.
 struct DeviceInfo {
     std::string vendor, renderer, version;
     bool is_software = false;  ///< llvmpipe, softpipe, swrast and the like
@@ -16,18 +16,19 @@ struct DeviceInfo {
 };
 
 struct ContextOptions {
-    std::optional<int> device_index;  ///< EGL device to use; empty: GELATIN_EGL_DEVICE, else see below
+    std::optional<int> device_index;  ///< EGL device to use; empty: GELATIN_EGL_DEVICE, otherwise see below
     bool debug = false;               ///< a debug context whose messages go to gl::debug (debug.h)
 };
 
 /// An OpenGL 4.3 core context without a window, made current on the calling thread by the constructor
-/// (through EGL), or a view of the one that the host application has made current.
+/// (through EGL), or a view of the context that the host application has made current.
 ///
-/// Move-only; the destructor releases what it made and leaves a host's context alone.
+/// Move-only; the destructor releases what it created and does not change a host's context.
 class Context {
 public:
-    /// Makes a headless context: on the device asked for, else on the surfaceless default, else on the first
-    /// EGL device that works. Where the default is a software driver, a device that is not goes first.
+    /// Creates a headless context: on the requested device, otherwise on the surfaceless default, otherwise
+    /// on the first EGL device that works. If the default is a software driver, a device that is not has
+    /// priority.
     /// @throws NoOpenGl if there is no EGL, no such device, or no OpenGL 4.3; InvalidInput for a
     ///   GELATIN_EGL_DEVICE that is no index.
     static Context headless(const ContextOptions& options = {});
@@ -40,7 +41,7 @@ public:
     Context& operator=(Context&&) noexcept;
     ~Context();
 
-    /// EGL devices that ContextOptions::device_index may name; 0 where EGL cannot list them.
+    /// The number of EGL devices that ContextOptions::device_index may name; 0 if EGL cannot list them.
     static int device_count();
 
     const DeviceInfo& device() const { return device_; }

@@ -11,7 +11,7 @@
 namespace gelatin::gl {
 namespace {
 
-// A driver may repeat itself every frame; beyond this nobody learns anything new.
+// A driver may repeat itself every frame; more messages than this give no new information.
 constexpr std::size_t kMaxMessages = 1000;
 
 std::mutex messages_mutex;
@@ -80,7 +80,7 @@ std::vector<std::string> take_debug_messages() {
 void check_errors(const char* what) {
     const GLenum first = glGetError();
     if (first == GL_NO_ERROR) return;
-    // Several flags may be set; a lost context would report for ever.
+    // Several flags may be set; a lost context would report forever.
     for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) continue;
     throw GlError(std::string(what) + ": " + error_name(first));
 }

@@ -7,7 +7,7 @@
 namespace gelatin::gl {
 namespace {
 
-// Each can drop, move or change fragments where an application has it on.
+// Each can discard, move or change fragments if an application has enabled it.
 constexpr GLenum kSwitches[] = {
     GL_BLEND,          GL_COLOR_LOGIC_OP,      GL_CULL_FACE,      GL_DEPTH_CLAMP,
     GL_DEPTH_TEST,     GL_POLYGON_OFFSET_FILL, GL_POLYGON_SMOOTH, GL_SCISSOR_TEST,
@@ -34,7 +34,7 @@ FramebufferGuard::~FramebufferGuard() {
 DrawStateGuard::DrawStateGuard() {
     glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &vertex_array_);
     glGetIntegerv(GL_DRAW_INDIRECT_BUFFER_BINDING, &indirect_buffer_);
-    GLint polygon_modes[2] = {};  // some drivers answer for both sides
+    GLint polygon_modes[2] = {};  // some drivers return both sides
     glGetIntegerv(GL_POLYGON_MODE, polygon_modes);
     polygon_mode_ = polygon_modes[0];
     glGetIntegerv(GL_DEPTH_FUNC, &depth_function_);

@@ -4,7 +4,7 @@
 
 namespace gelatin::gl {
 
-/// Puts back the framebuffers and the viewport of the application that draws around this library.
+/// Restores the framebuffers and the viewport of the application that uses this library.
 class FramebufferGuard {
 public:
     FramebufferGuard();
@@ -18,10 +18,9 @@ private:
     int viewport_[4] = {};
 };
 
-/// Sets what decides which fragments of filled triangles are written, whatever the application around this
-/// library has set, and puts the application's settings back: framebuffers, viewport, vertex array, the
-/// source of indirect draws, masks, depth range and function, and the switches of all tests, which are off in
-/// between.
+/// Sets the state that decides which fragments of filled triangles are written, whatever the application has
+/// set, and restores the application's settings: framebuffers, viewport, vertex array, the source of indirect
+/// draws, masks, depth range and function, and the switches of all tests, which are off in between.
 class DrawStateGuard {
 public:
     DrawStateGuard();

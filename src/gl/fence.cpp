@@ -9,7 +9,7 @@ namespace {
 
 constexpr GLuint64 kNanosecondsPerSecond = 1'000'000'000;
 
-// Flushes, for a fence that is still in the client's queue would never be signalled.
+// Flushes, because a fence that is still in the client's queue would never be signalled.
 GLenum poll(void* sync, GLuint64 timeout) {
     return glClientWaitSync(static_cast<GLsync>(sync), GL_SYNC_FLUSH_COMMANDS_BIT, timeout);
 }

@@ -4,7 +4,8 @@
 
 namespace gelatin::gl {
 
-/// A mark among the commands to the GPU, to be asked or waited for. Move-only; a moved-from fence is passed.
+/// A mark among the commands to the GPU that can be queried or waited for. Move-only; a moved-from fence
+/// counts as passed.
 class Fence {
 public:
     Fence() = default;
@@ -20,10 +21,10 @@ public:
     }
     ~Fence();
 
-    /// True once the GPU has done what was before the mark.
+    /// True once the GPU has completed everything before the mark.
     bool is_passed() const;
 
-    /// Waits until then. @throws GlError if the context is lost.
+    /// Waits for that. @throws GlError if the context is lost.
     void wait() const;
 
 private:

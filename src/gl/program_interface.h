@@ -8,9 +8,9 @@
 
 namespace gelatin::gl {
 
-/// What a linked program takes from outside, found by name: uniforms, storage blocks, samplers and vertex
-/// inputs; and the resources that are bound to these. Blocks have a binding point each and samplers a
-/// texture unit each, numbered from 0 within the program.
+/// The external resources of a linked program, found by name: uniforms, storage blocks, samplers and vertex
+/// inputs; and what is bound to these. Blocks have one binding point each and samplers one texture unit each,
+/// numbered from 0 within the program.
 ///
 /// Internal to this layer: Program is its interface.
 class ProgramInterface {
@@ -29,7 +29,7 @@ public:
         unsigned unit;
         unsigned target;  // GL_TEXTURE_2D, for example
         ObjectName texture = nullptr;
-        unsigned texture_id = 0;  // where there is no `texture`
+        unsigned texture_id = 0;  // if there is no `texture`
         unsigned sampler_id = 0;  // a sampler object; 0: the texture's own parameters
 
         unsigned id() const { return texture != nullptr ? *texture : texture_id; }
@@ -38,14 +38,14 @@ public:
         std::string name;
         unsigned location;
         ObjectName buffer = nullptr;
-        bool is_color = false;  // four bytes that stand for 0 to 1, else four floats
+        bool is_color = false;  // four bytes that represent 0 to 1, else four floats
     };
 
     ProgramInterface() = default;
     /// Reflects `program`. @param source the text of all its shaders, includes expanded
     ProgramInterface(unsigned program, std::string source);
 
-    /// Null where the program does not use the name.
+    /// Null if the program does not use the name.
     const Uniform* find_uniform(std::string_view name) const;
     Block* find_block(std::string_view name);
     Sampler* find_sampler(std::string_view name);
@@ -56,12 +56,12 @@ public:
     const std::vector<Sampler>& samplers() const { return samplers_; }
     const std::vector<Input>& inputs() const { return inputs_; }
 
-    /// "storage block Positions" for the first of which nothing, or something deleted, is bound to; empty
-    /// where all have a resource.
+    /// "storage block Positions" for the first to which nothing, or something deleted, is bound; empty if all
+    /// have a resource.
     std::string unbound() const;
 
-    /// True if the source has `name` as a word, whether the linker kept it or not; always true in release
-    /// builds, which do not keep the source.
+    /// True if the source contains `name` as a word, whether the linker kept it or not; always true in
+    /// release builds, which do not keep the source.
     bool declares(std::string_view name) const;
 
 private:
@@ -69,7 +69,7 @@ private:
     void reflect_blocks(unsigned program);
     void reflect_inputs(unsigned program);
 
-    std::vector<Uniform> uniforms_;  // these four in the order of their names
+    std::vector<Uniform> uniforms_;  // these four are sorted by their names
     std::vector<Block> blocks_;
     std::vector<Sampler> samplers_;
     std::vector<Input> inputs_;

@@ -24,7 +24,7 @@ public:
     bool ready() const;
     std::size_t pending() const { return pending_.size(); }
 
-    /// The oldest copy's bytes; waits for its fence if need be. @pre pending() > 0
+    /// The oldest copy's bytes; waits for its fence if necessary. @pre pending() > 0
     std::vector<std::byte> take();
 
 private:

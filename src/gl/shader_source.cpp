@@ -1,9 +1,11 @@
 #include "gl/shader_source.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <regex>
 #include <sstream>
@@ -15,7 +17,13 @@
 namespace gelatin::gl {
 namespace {
 
+std::map<std::string, std::string>& overrides() {
+    static std::map<std::string, std::string> texts;  // by file
+    return texts;
+}
+
 std::optional<std::string> read_shader(const std::string& file) {
+    if (const auto found = overrides().find(file); found != overrides().end()) return found->second;
     if (const char* folder = std::getenv("GELATIN_SHADER_DIR"); folder != nullptr && *folder != '\0') {
         std::ifstream stream(std::string(folder) + "/" + file, std::ios::binary);
         if (!stream) return {};
@@ -34,6 +42,12 @@ std::string where_shaders_are() {
     return std::string("GELATIN_SHADER_DIR = ") + folder;
 }
 
+std::string text_of(const std::string& file, const std::string& included_from) {
+    std::optional<std::string> text = read_shader(file);
+    if (!text) throw GlError(included_from + "no shader " + file + " in " + where_shaders_are());
+    return *std::move(text);
+}
+
 // The path of `#include "path"`; empty for any other line.
 std::string included_path(const std::string& line) {
     static const std::regex pattern(R"(^\s*#\s*include\s*"([^"]+)\"\s*(//.*)?\r?$)");
@@ -49,14 +63,13 @@ public:
     ShaderSource source;
 
     void expand(const std::string& file, const std::string& included_from) {
-        const std::optional<std::string> text = read_shader(file);
-        if (!text) throw GlError(included_from + "no shader " + file + " in " + where_shaders_are());
+        const std::string text = text_of(file, included_from);
         const std::size_t number = source.files.size();
         source.files.push_back(file);
         open_.push_back(file);
         append_line_directive(1, number);
 
-        std::istringstream lines(*text);
+        std::istringstream lines(text);
         int line_number = 0;
         for (std::string line; std::getline(lines, line);) {
             ++line_number;
@@ -108,12 +121,25 @@ std::string ShaderSource::translate_log(const std::string& log) const {
     return translated;
 }
 
+std::string shader_text(const std::string& file) {
+    return text_of(file, "");
+}
+
 ShaderSource load_shader(const std::string& file, const std::vector<std::string>& defines) {
     Expander expander;
     expander.source.text = "#version 430 core\n";
     for (const std::string& define : defines) expander.source.text += "#define " + define + "\n";
     expander.expand(file, "");
     return std::move(expander.source);
+}
+
+ShaderOverride::ShaderOverride(std::string file, std::string text) : file_(std::move(file)) {
+    [[maybe_unused]] const bool is_new = overrides().emplace(file_, std::move(text)).second;
+    assert(is_new);
+}
+
+ShaderOverride::~ShaderOverride() {
+    overrides().erase(file_);
 }
 
 }  // namespace gelatin::gl

@@ -15,10 +15,28 @@ struct ShaderSource {
     std::string translate_log(const std::string& log) const;
 };
 
-/// Loads `file` (a path below shaders/), from GELATIN_SHADER_DIR if set, else as embedded, puts
-/// "#version 430 core" and the defines before it, and expands `#include "path"` (relative to shaders/, once
-/// each).
+/// The text of `file`, a path below shaders/: that of a ShaderOverride, else from GELATIN_SHADER_DIR if set,
+/// else as embedded.
+/// @throws GlError if there is no such file.
+std::string shader_text(const std::string& file);
+
+/// Loads `file` as shader_text does, puts "#version 430 core" and the defines before it, and expands
+/// `#include "path"` (relative to shaders/, once each).
 /// @throws GlError if a file is missing or includes go round in a circle, naming the including file and line.
 ShaderSource load_shader(const std::string& file, const std::vector<std::string>& defines = {});
+
+/// Replaces the text of one file below shaders/, or adds a file, for as long as the object lives: tests make
+/// and break shaders with it. At most one for each file; no other thread may load shaders while one is made
+/// or ends.
+class ShaderOverride {
+public:
+    ShaderOverride(std::string file, std::string text);
+    ShaderOverride(const ShaderOverride&) = delete;
+    ShaderOverride& operator=(const ShaderOverride&) = delete;
+    ~ShaderOverride();
+
+private:
+    std::string file_;
+};
 
 }  // namespace gelatin::gl

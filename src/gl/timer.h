@@ -23,7 +23,7 @@ public:
     void end() override;
     StageTimes take() override;
 
-    /// Waits for all that is under way; then `take` has everything.
+    /// Waits for all pending queries; then `take` has everything.
     void finish();
 
 private:

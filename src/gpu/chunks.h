@@ -6,8 +6,8 @@
 
 namespace gelatin::gpu {
 
-/// Runs of up to 256 nodes or faces (`range` says which) of one object each, in the objects' order: what a
-/// work group sums up.
+/// Ranges of up to 256 nodes or faces (selected by `range`) of one object each, in the objects' order: what
+/// one work group sums.
 std::vector<Chunk> make_chunks(const Model& model, Range ModelObject::*range);
 
 /// The first of each object's chunks, and the end, shape [objects + 1].

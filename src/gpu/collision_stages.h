@@ -13,7 +13,7 @@
 namespace gelatin::gpu {
 
 /// The collision level of a step (paper 3.1): its buffers, and its stages in their order. Nothing waits for
-/// the GPU: what a stage finds drives the dispatches of the next.
+/// the GPU: the results of a stage determine the dispatches of the next.
 struct Collision {
     CollisionBuffers buffers;
     UpdateBoxes update_boxes;
@@ -29,7 +29,7 @@ struct Collision {
     };
     std::optional<Self> self;
 
-    /// What is near.
+    /// The proximities.
     struct Near {
         ProximityBuffers buffers;
         FindProximities find;

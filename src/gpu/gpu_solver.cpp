@@ -111,7 +111,7 @@ void GpuSolver::find_proximities() {
 }
 
 void GpuSolver::respond(double step) {
-    // An object's own contacts first: they are sought for anew, where they were found.
+    // An object's own contacts come first: they are computed for the positions at which they were found.
     if (collision_->self) {
         collision_->self->respond.run(buffers_, collision_->buffers, collision_->self->buffers, previous_,
                                       current_, step);

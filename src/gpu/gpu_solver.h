@@ -20,7 +20,7 @@
 
 namespace gelatin::gpu {
 
-/// The solver in OpenGL compute shaders. Needs the context it was made in to be current.
+/// The solver in OpenGL compute shaders. The context in which it was made must be current.
 class GpuSolver : public Solver {
 public:
     GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces,
@@ -50,7 +50,7 @@ public:
     StageTimer& stage_timer() override { return timer_; }
     std::string device() const override { return device_; }
 
-    /// Where the nodes are now; another buffer after each step.
+    /// The present nodes; another buffer after each step.
     const NodeBuffers& nodes() const { return current_; }
     const ModelBuffers& model_buffers() const { return buffers_; }
     /// @pre the scene has collisions, of two objects or of one with itself, or update_boxes was called
@@ -68,17 +68,17 @@ private:
     DescentSettings descent_settings_;
     CollisionSettings collision_settings_;
     ModelBuffers buffers_;
-    NodeBuffers current_, previous_;             // swapped by each step: where it ended, and where it started
-    NodeBuffers stage_[2], sums_;                // between the passes of one step
-    std::optional<BlockDescent> block_descent_;  // instead of the scheme
-    std::optional<ShapeMatcher> shape_matcher_;  // before block descent
-    bool has_earlier_ = false;                   // previous_ is one step earlier: vbd looks back
-    std::optional<ApplyKinematics> apply_kinematics_;         // once something held moves
-    std::optional<SumLoads> sum_loads_;                       // where it has loads
-    std::optional<FindVolumeStresses> find_volume_stresses_;  // where an explicit scheme needs them
+    NodeBuffers current_, previous_;                          // swapped by each step: its end, and its start
+    NodeBuffers stage_[2], sums_;                             // between the passes of one step
+    std::optional<BlockDescent> block_descent_;               // instead of the scheme
+    std::optional<ShapeMatcher> shape_matcher_;               // before block descent
+    bool has_earlier_ = false;                                // previous_ is one step earlier: vbd looks back
+    std::optional<ApplyKinematics> apply_kinematics_;         // once a held node moves
+    std::optional<SumLoads> sum_loads_;                       // if the model has loads
+    std::optional<FindVolumeStresses> find_volume_stresses_;  // if an explicit scheme needs them
     std::optional<AdvanceNodes> fused_;
     std::optional<DivideAndMerge> divide_and_merge_;
-    std::optional<Collision> collision_;  // where something can collide, or somebody asked for boxes
+    std::optional<Collision> collision_;  // if something can collide, or boxes were requested
     WatchNodes watch_nodes_;
     Measure measure_;
     gl::TimestampStageTimer timer_;

@@ -7,7 +7,7 @@
 
 namespace gelatin::gpu {
 
-/// Positions and velocities of all nodes on the GPU, to be written as storage and gathered as textures.
+/// Positions and velocities of all nodes on the GPU, written as storage and gathered as textures.
 struct NodeBuffers {
     gl::Buffer<glm::vec4> positions;   ///< xyz [m], inverse mass [1/kg], shape [nodes]
     gl::Buffer<glm::vec4> velocities;  ///< xyz [m/s], damping time [s], shape [nodes]

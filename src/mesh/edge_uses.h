@@ -8,14 +8,14 @@
 
 namespace gelatin {
 
-/// One side of a face, seen as its edge.
+/// One side of a face, as a use of its edge.
 struct EdgeUse {
     std::uint32_t low, high;  ///< the edge's vertices, low <= high
     std::uint32_t face;
-    bool ascending;  ///< the face runs through it from low to high
+    bool ascending;  ///< the face traverses it from low to high
 };
 
-/// Three uses a face, sorted so that those of one edge lie together, in the order of the faces.
+/// Three uses for each face, sorted so that those of one edge are contiguous, in the order of the faces.
 std::vector<EdgeUse> sorted_edge_uses(std::span<const glm::uvec3> faces);
 
 /// Calls visit(std::span<const EdgeUse>) once for each edge.

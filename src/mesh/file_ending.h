@@ -5,7 +5,7 @@
 
 namespace gelatin {
 
-/// ".obj" of "Bunny.OBJ".
+/// The extension in lower case: ".obj" for "Bunny.OBJ".
 inline std::string lower_case_ending(const std::filesystem::path& file) {
     std::string ending = file.extension().string();
     for (char& c : ending) {

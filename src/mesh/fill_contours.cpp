@@ -15,8 +15,8 @@ namespace gelatin {
 
 namespace {
 
-/// What the tessellator's callbacks write to. It wants the addresses of vertices, which a deque keeps as it
-/// grows.
+/// What the tessellator's callbacks write to. The tessellator keeps addresses of vertices, which stay valid
+/// in a growing deque.
 struct Tessellation {
     struct Vertex {
         double position[3];
@@ -32,14 +32,14 @@ struct Tessellation {
     }
 };
 
-// GLU draws nothing here: its tessellator is arithmetic alone, and needs no context.
+// GLU draws nothing here: its tessellator is pure arithmetic and needs no context.
 void GLAPIENTRY on_vertex(void* vertex, void* data) {
     static_cast<Tessellation*>(data)->corners.push_back(static_cast<Tessellation::Vertex*>(vertex)->index);
 }
 void GLAPIENTRY on_crossing(GLdouble at[3], void**, GLfloat*, void** vertex, void* data) {
     *vertex = static_cast<Tessellation*>(data)->add(at[0], at[1]);
 }
-void GLAPIENTRY on_edge_flag(GLboolean) {}  // its presence alone asks for separate triangles
+void GLAPIENTRY on_edge_flag(GLboolean) {}  // its presence alone requests separate triangles
 void GLAPIENTRY on_error(GLenum error, void* data) {
     static_cast<Tessellation*>(data)->error = error;
 }
@@ -49,7 +49,7 @@ void set_callback(GLUtesselator* tessellator, GLenum which, Callback callback) {
     gluTessCallback(tessellator, which, reinterpret_cast<_GLUfuncptr>(callback));
 }
 
-/// The triangles, and the vertices that they use: points that coincide or lie inside may be left without any.
+/// The triangles, and the vertices that they use: coincident or interior points may not be used by any.
 FlatMesh compact(const Tessellation& tessellation) {
     constexpr std::uint32_t kUnused = ~0u;
     std::vector<std::uint32_t> number(tessellation.vertices.size(), kUnused);
@@ -99,23 +99,24 @@ FlatMesh tessellate(const std::vector<Contour>& contours) {
     return compact(result);
 }
 
-/// Sine of a triangle's smallest angle, about: twice its area over the square of its longest side.
+/// Approximate sine of a triangle's smallest angle: twice its area divided by the square of its longest side.
 double quality(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
     const glm::dvec2 ab = b - a, ac = c - a, bc = c - b;
     const double longest = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
     return longest > 0.0 ? (ab.x * ac.y - ab.y * ac.x) / longest : 0.0;
 }
 
-/// Gives two neighbouring triangles their other diagonal where that makes the worse of them better, until
-/// none is left (Lawson 1977). The tessellator makes triangles of no area between points in a row, and those
-/// go too.
+/// Flips the diagonal of two neighbouring triangles wherever that improves the worse of them, until no flip
+/// does (Lawson 1977). This also removes the triangles of zero area that the tessellator makes between
+/// collinear points.
 void improve(FlatMesh& mesh) {
     constexpr double kGain = 1e-9;  // less is rounding
     const auto& at = mesh.positions;
     bool changed = true;
     for (std::size_t sweep = 0; changed && sweep < mesh.triangles.size() + 1; ++sweep) {
         changed = false;
-        std::vector<bool> is_new(mesh.triangles.size(), false);  // what `edge` knows of these is out of date
+        std::vector<bool> is_new(mesh.triangles.size(),
+                                 false);  // the triangles stored in `edge` are no longer valid
         for (const SurfaceEdge& edge : surface_edges(mesh.triangles)) {
             const auto [first, second] = edge.faces;
             if (is_new[first] || is_new[second]) continue;

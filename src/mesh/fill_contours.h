@@ -14,7 +14,7 @@ struct FlatMesh {
     std::vector<glm::uvec3> triangles;
 };
 
-/// Fills what is inside of `contours` by the nonzero winding rule with well-shaped triangles; where contours
+/// Fills the inside of `contours`, by the nonzero winding rule, with well-shaped triangles. Where contours
 /// cross, points are added.
 /// @throws InvalidInput if they cannot be filled.
 FlatMesh fill_contours(const std::vector<Contour>& contours);

@@ -27,7 +27,7 @@ const FcChar8* family_of(const Pattern& pattern, int n) {
     return FcPatternGetString(pattern.get(), FC_FAMILY, n, &family) == FcResultMatch ? family : nullptr;
 }
 
-/// Names that stand for whatever font the system has of a kind.
+/// Generic names, which stand for any font of a kind.
 bool is_generic(const FcChar8* family) {
     const char* generic[] = {"sans", "sans-serif", "serif",   "monospace",
                              "mono", "cursive",    "fantasy", "system-ui"};
@@ -35,7 +35,7 @@ bool is_generic(const FcChar8* family) {
                        [&](const char* name) { return FcStrCmpIgnoreCase(family, fc_string(name)) == 0; });
 }
 
-/// True if `found` is of one of the families that `wanted` names, or it names none.
+/// True if `found` belongs to one of the families that `wanted` names, or if `wanted` names none.
 bool has_wanted_family(const Pattern& wanted, const Pattern& found) {
     if (family_of(wanted, 0) == nullptr) return true;
     for (int w = 0; const FcChar8* wanted_family = family_of(wanted, w); ++w) {
@@ -71,7 +71,7 @@ FontFile find_font(const std::string& font) {
     }
     FontFile face{reinterpret_cast<const char*>(file), 0};
     FcPatternGetInteger(found.get(), FC_INDEX, 0, &face.index);
-    face.index &= 0xffff;  // the upper half chooses an instance of a variable font
+    face.index &= 0xffff;  // the upper half selects an instance of a variable font
     return face;
 }
 

@@ -11,11 +11,10 @@ struct FontFile {
     int index = 0;
 };
 
-/// Finds an installed font with outlines by a fontconfig pattern ("DejaVu Sans:bold"), or takes `font` as a
-/// file if it names one or has a '/' in it.
-/// @throws InvalidInput if the file is missing, or no installed font is of the pattern's family: fontconfig
-/// would give
-///   another one without a word.
+/// Finds an installed font with outlines by a fontconfig pattern ("DejaVu Sans:bold"). If `font` names a file
+/// or contains a '/', it is used as a file.
+/// @throws InvalidInput if the file is missing, or if no installed font belongs to the pattern's family:
+///   fontconfig would silently return another one.
 FontFile find_font(const std::string& font);
 
 }  // namespace gelatin

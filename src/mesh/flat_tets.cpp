@@ -34,7 +34,8 @@ std::size_t drop_flat_skin(TetMesh& mesh) {
         }
         for (std::size_t t = 0; t < drop.size(); ++t)
             drop[t] = drop[t] && (neighbours[t] == 2 || neighbours[t] == 3);
-        // Of two side by side, the second may lie otherwise once the first is gone.
+        // Of two neighbours, the second may no longer be on the boundary in the same position once the first
+        // is removed.
         for (const InnerFace& face : inner) {
             if (drop[face.tets[0]] && drop[face.tets[1]]) drop[face.tets[1]] = false;
         }

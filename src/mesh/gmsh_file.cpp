@@ -32,12 +32,12 @@ constexpr std::array<ElementType, 34> kElementTypes = {{
     {31, 56, true},  {92, 64, false}, {93, 125, false}, {36, 16, false},
 }};
 
-// From the numbers that a file gives its nodes, which may leave any out, to indices.
+// Maps the numbers that a file gives its nodes, which need not be consecutive, to indices.
 class NodeTags {
 public:
     void add(std::uint64_t tag) { sorted_.emplace_back(tag, static_cast<std::uint32_t>(sorted_.size())); }
 
-    // Returns a tag that two nodes have, if there is one.
+    // Returns a tag that two nodes share, if there is one.
     std::optional<std::uint64_t> sort() {
         std::sort(sorted_.begin(), sorted_.end());
         const auto twin = std::adjacent_find(sorted_.begin(), sorted_.end(),
@@ -48,7 +48,7 @@ public:
 
     std::optional<std::uint32_t> find(std::uint64_t tag) const {
         if (sorted_.empty() || tag < sorted_.front().first) return {};
-        // Where none is left out, the tag tells the place.
+        // If the tags are consecutive, the tag gives the index.
         const std::uint64_t guess = tag - sorted_.front().first;
         if (guess < sorted_.size() && sorted_[guess].first == tag) return sorted_[guess].second;
         const auto found = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair{tag, std::uint32_t{0}});
@@ -60,12 +60,12 @@ private:
     std::vector<std::pair<std::uint64_t, std::uint32_t>> sorted_;
 };
 
-// The numbers of a file, which are words in one of text, and bytes in a binary one.
+// Reads the numbers of a file: words in a text file, bytes in a binary one.
 class Numbers {
 public:
     explicit Numbers(TextScanner& scanner) : scanner_(scanner) {}
 
-    /// Reads the byte order, too, which follows the line of the format.
+    /// Also reads the byte order, which follows the line with the format.
     void set_binary() {
         scanner_.skip_line();
         const auto one = load_bytes<std::int32_t>(scanner_.bytes(4, "byte order"), 0, false);
@@ -82,13 +82,13 @@ public:
         return static_cast<std::uint64_t>(value);
     }
 
-    /// One that has 64 bits in a binary file.
+    /// A number of 64 bits in a binary file.
     std::uint64_t large_integer(const FieldName& field) {
         if (!binary_) return scanner_.integer(field);
         return load_bytes<std::uint64_t>(scanner_.bytes(8, field), 0, swapped_);
     }
 
-    /// One that may be negative.
+    /// A number that may be negative.
     int signed_integer(const FieldName& field) {
         if (!binary_) return scanner_.signed_integer(field);
         return load_bytes<std::int32_t>(scanner_.bytes(4, field), 0, swapped_);
@@ -153,7 +153,7 @@ private:
         scanner_.expect("$EndMeshFormat");
     }
 
-    // Of each volume the first physical group; what its entity is of is not said with an element.
+    // For each volume its first physical group. Elements do not repeat the group of their entity.
     void read_entities() {
         std::array<std::uint64_t, 4> counts{};
         for (std::uint64_t& count : counts) count = numbers_.large_integer("number of entities");
@@ -169,7 +169,7 @@ private:
         for (int k = 0; k < extent; ++k) numbers_.real(field);
         const std::uint64_t groups = numbers_.large_integer(field);
         for (std::uint64_t k = 0; k < groups; ++k) {
-            const int group = std::abs(numbers_.signed_integer(field));  // negative: turned
+            const int group = std::abs(numbers_.signed_integer(field));  // negative: reversed orientation
             if (k == 0 && dimension == 3) group_of_volume_[tag] = group;
         }
         if (dimension == 0) return;
@@ -230,7 +230,8 @@ private:
         if (twin) scanner_.fail("number of node", fmt::format("{}", *twin), "must not be given twice");
     }
 
-    // In text each element names its type; in bytes those of one type stand together behind a header.
+    // In a text file each element names its type. In a binary file elements of one type are contiguous, after
+    // a header.
     void read_elements_2() {
         const std::size_t count = scanner_.count("number of elements", numbers_.binary() ? 8 : 6);
         scanner_.skip_line();

@@ -9,7 +9,7 @@
 
 namespace gelatin {
 
-/// The number whose bytes begin at `offset`, in this machine's order or the other one.
+/// The number whose bytes begin at `offset`, in this machine's byte order or the opposite one.
 template <class T>
 T load_bytes(std::string_view bytes, std::size_t offset, bool swapped) {
     assert(offset + sizeof(T) <= bytes.size());

@@ -7,7 +7,7 @@ namespace gelatin {
 
 namespace {
 
-/// Breadth-first sweeps over a graph, which share their working memory.
+/// Breadth-first sweeps over a graph, with shared working memory.
 class Sweeper {
 public:
     explicit Sweeper(const Graph& graph) : graph_(graph), seen_in_(graph.starts.size() - 1, 0) {}
@@ -15,8 +15,8 @@ public:
     bool was_seen(std::uint32_t node) const { return seen_in_[node] != 0; }
 
     /// Appends the component of `start` to `order`, level by level, the neighbours of each node by ascending
-    /// degree, then index (Cuthill and McKee 1969). Returns where in `order` the last level begins, and the
-    /// number of levels.
+    /// degree, then by index (Cuthill and McKee 1969). Returns where in `order` the last level begins, and
+    /// the number of levels.
     std::pair<std::size_t, std::uint32_t> sweep(std::uint32_t start, std::vector<std::uint32_t>& order) {
         ++sweep_;
         std::size_t level_begin = order.size();
@@ -65,7 +65,7 @@ private:
     }
 
     const Graph& graph_;
-    std::vector<std::uint32_t> seen_in_;  // the last sweep that met the node; 0 for none
+    std::vector<std::uint32_t> seen_in_;  // the last sweep that reached the node; 0 for none
     std::uint32_t sweep_ = 0;
     std::vector<std::uint32_t> component_;
 };
@@ -84,8 +84,8 @@ std::vector<std::uint32_t> locality_order(const Graph& graph, std::uint32_t wind
         std::reverse(order.begin() + begin, order.end());
     }
 
-    // Neighbours in memory with equally long rows keep the lanes of a GPU's subgroup (or of a vector)
-    // together.
+    // If nodes that are adjacent in memory have equally long rows, the invocations of a GPU's subgroup (or
+    // the lanes of a vector) finish together.
     const std::size_t step = std::max(window, 1u);
     for (std::size_t begin = 0; begin < node_count; begin += step) {
         const std::size_t end = std::min<std::size_t>(begin + step, node_count);

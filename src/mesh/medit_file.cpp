@@ -45,7 +45,8 @@ void read_tetrahedra(TextScanner& scanner, TetMesh& mesh) {
     }
 }
 
-// Sections are a keyword, a count, and rows of numbers whose width only the format's manual knows.
+// A section is a keyword, a count, and rows of numbers. Only the format's manual says how many numbers a row
+// has.
 std::uint64_t skip_section(TextScanner& scanner) {
     const std::uint64_t count = scanner.integer("number of elements");
     for (;;) {

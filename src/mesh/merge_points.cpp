@@ -10,8 +10,9 @@ namespace {
 
 constexpr std::uint32_t kNone = ~0u;
 
-// Points that are kept, in cells of a few tolerances, so that one near to a point is found in the cells
-// around it. Kept points lie a tolerance apart, so a cell holds few of them however the mesh is made.
+// The points that are kept, in a grid of cells of a few tolerances, so that a point near to another one is
+// found in the cells around it. Kept points are a tolerance apart, so a cell contains few of them for any
+// mesh.
 class PointGrid {
 public:
     PointGrid(const std::vector<glm::dvec3>& positions, const glm::dvec3& origin, double tolerance)
@@ -50,7 +51,7 @@ private:
                 static_cast<std::int64_t>(cell.z)};
     }
 
-    // Cells that share a hash only cost a few more distances.
+    // Cells with the same hash only cost a few more distances.
     static std::uint64_t hash(const Cell& cell) {
         std::uint64_t h = 0;
         for (const std::int64_t c : cell) {

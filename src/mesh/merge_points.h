@@ -7,12 +7,12 @@
 namespace gelatin {
 
 struct MergedPoints {
-    std::vector<std::uint32_t> into;  ///< of each point, the first that it coincides with, or itself
-    std::size_t count = 0;            ///< of points that are merged into others
+    std::vector<std::uint32_t> into;  ///< for each point, the first point that coincides with it, or itself
+    std::size_t count = 0;            ///< number of points that are merged into others
 };
 
-/// @param tolerance of the diagonal of the box round all points: those that are so near to one another
-/// coincide
+/// @param tolerance relative to the diagonal of the bounding box: points that are nearer to each other
+///   coincide
 MergedPoints merge_points(const std::vector<glm::dvec3>& points, double tolerance);
 
 }  // namespace gelatin

@@ -55,7 +55,7 @@ struct Header {
     std::vector<Element> elements;
 };
 
-// A word of the header; what belongs together stands on one line.
+// A word of the header. What belongs together is on one line.
 std::string_view header_word(TextScanner& scanner, const char* field) {
     if (scanner.at_line_end()) scanner.fail(field, {}, "is missing");
     return scanner.word(field);
@@ -111,7 +111,7 @@ Header read_header(TextScanner& scanner) {
     }
 }
 
-// Walks the rows of one element.
+// Scans the rows of one element.
 class Rows {
 public:
     Rows(TextScanner& scanner, const Header& header, const Element& element, std::uint64_t vertex_count)
@@ -130,7 +130,7 @@ private:
         std::size_t shortest = 0;
         for (const Property& property : element_.properties) {
             const ScalarType& first = property.length_type ? *property.length_type : *property.type;
-            shortest += header_.binary ? first.size : 2;  // a digit and what parts it from the next
+            shortest += header_.binary ? first.size : 2;  // a digit and a separator
         }
         if (shortest > 0) scanner_.require_room({"number of elements"}, element_.count, shortest);
         if (shortest == 0 && element_.count > 0) scanner_.fail("element", element_.name, "has no properties");

@@ -23,7 +23,7 @@ constexpr int kIcosahedronFaces[20][3] = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {
                                           {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
                                           {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
 
-/// Gives each distinct key one vertex, made where the key is first met.
+/// Gives each distinct key one vertex, created when the key first occurs.
 template <class Key>
 class VertexByKey {
 public:
@@ -42,8 +42,7 @@ private:
     std::map<Key, std::uint32_t> vertices_;
 };
 
-/// A horizontal ring of a capsule's vertices: `per_quadrant` in each quarter turn, or the single one of a
-/// pole.
+/// A horizontal ring of a capsule's vertices: `per_quadrant` in each quadrant, or the single one of a pole.
 struct Ring {
     std::uint32_t first, per_quadrant;
 
@@ -69,8 +68,8 @@ Ring add_ring(SurfaceMesh& mesh, double radius, double polar_angle, double cente
     return ring;
 }
 
-/// Fills the band between two rings, of which the larger has as many vertices a quadrant as the smaller or
-/// one more.
+/// Fills the band between two rings. The larger one has as many vertices in a quadrant as the smaller, or one
+/// more.
 void add_band(SurfaceMesh& mesh, const Ring& smaller, const Ring& larger, bool smaller_is_above) {
     const auto add_face = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         if (!smaller_is_above) std::swap(b, c);
@@ -90,7 +89,8 @@ void add_band(SurfaceMesh& mesh, const Ring& smaller, const Ring& larger, bool s
 SurfaceMesh make_sphere(const SphereShape& shape) {
     SurfaceMesh mesh;
     const int n = shape.frequency;
-    // A vertex is known by its weights on the icosahedron's vertices, in `n`ths: at most three are not zero.
+    // A vertex is identified by its weights on the icosahedron's vertices, in `n`ths: at most three are not
+    // zero.
     VertexByKey<std::array<std::pair<int, int>, 3>> vertices(mesh);
 
     for (const auto& corners : kIcosahedronFaces) {
@@ -157,7 +157,8 @@ SurfaceMesh make_capsule(const CapsuleShape& shape) {
     const double ring_angle = 0.5 * std::numbers::pi / shape.frequency;
     const int bands = std::max(1, static_cast<int>(std::lround(shape.length / (shape.radius * ring_angle))));
 
-    // Ring k has k vertices a quadrant: evenly sized triangles, where meridians would crowd at the poles.
+    // Ring k has k vertices in each quadrant. This gives evenly sized triangles, where meridians would be
+    // crowded at the poles.
     Ring previous = add_ring(mesh, shape.radius, 0.0, 0.5 * shape.length, 0);
     for (std::uint32_t k = 1; k <= quarter_rings; ++k) {
         const Ring ring = add_ring(mesh, shape.radius, k * ring_angle, 0.5 * shape.length, k);

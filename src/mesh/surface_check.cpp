@@ -107,14 +107,14 @@ std::size_t obj_vertex(const TextScanner& scanner, std::string_view corner, std:
 ObjVertices check_obj(const fs::path& file, std::string_view content) {
     const std::size_t total = check_obj_vertices(file, content);
     std::vector<bool> used(total, false);
-    std::size_t count = 0;  // so far: negative numbers count back from there
+    std::size_t count = 0;  // so far: negative numbers count back from here
     for (TextScanner scanner(file, content); !scanner.at_end(); scanner.skip_line()) {
         const std::string_view keyword = scanner.word("keyword");
         if (keyword == "v") ++count;
         if (keyword != "f") continue;
         while (!scanner.at_line_end()) {
             const std::string_view corner = scanner.word("face");
-            if (corner == "\\") {  // goes on in the next line
+            if (corner == "\\") {  // continues on the next line
                 scanner.skip_line();
             } else {
                 used[obj_vertex(scanner, corner, count, total)] = true;
@@ -138,7 +138,7 @@ void check_off(const fs::path& file, std::string_view content) {
         scanner.skip_line();
     }
     for (std::uint64_t face = 1; face <= face_count; ++face) {
-        constexpr std::uint64_t kMostCorners = 9;  // Assimp drops larger faces without a word
+        constexpr std::uint64_t kMostCorners = 9;  // Assimp silently discards larger faces
         const std::uint64_t corners = scanner.integer({"corners of face", face}, 1, kMostCorners);
         for (std::uint64_t corner = 0; corner < corners; ++corner) {
             if (scanner.at_line_end()) {
@@ -155,7 +155,7 @@ std::size_t binary_stl_size(const fs::path& file, std::string_view content) {
     const bool has_count = content.size() >= kStlHeader;
     const std::uint64_t facets = has_count ? load_bytes<std::uint32_t>(content, 80, kLittleIsSwapped) : 0;
     const std::uint64_t size = kStlHeader + kStlFacet * facets;
-    // Programs begin the header of binary files with 'solid' too: then the size decides.
+    // Some programs begin the header of binary files with 'solid' too; then the size decides.
     const std::size_t first = content.find_first_not_of(" \t\r\n");
     const bool may_be_text = first != std::string_view::npos && content.substr(first).starts_with("solid");
     if (may_be_text && size != content.size()) return 0;

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Assimp takes comments and blank lines between the rows of an OFF file for rows.
+// Assimp reads comments and blank lines between the rows of an OFF file as rows.
 std::string without_comments(const std::string& content) {
     std::string rows;
     for (std::size_t begin = 0; begin < content.size();) {
@@ -73,7 +73,7 @@ SurfaceMesh import(const fs::path& file, const std::string& ending, const std::s
     const aiScene* scene = nullptr;
     std::string reason;
     try {
-        // Validation first: triangulation trusts the indices.
+        // Validation comes first, because triangulation trusts the indices.
         scene = importer.ReadFileFromMemory(content.data(), content.size(),
                                             aiProcess_ValidateDataStructure | aiProcess_Triangulate,
                                             ending.c_str() + 1);
@@ -87,8 +87,8 @@ SurfaceMesh import(const fs::path& file, const std::string& ending, const std::s
     return mesh;
 }
 
-// Merges vertices with the same position. STL repeats each vertex for every face, and so does Assimp with
-// those of OBJ.
+// Merges vertices with the same position. STL repeats each vertex for every face, and Assimp does the same
+// with those of OBJ.
 void share_vertices(SurfaceMesh& mesh) {
     const auto order = [&](std::uint32_t a, std::uint32_t b) {
         const glm::dvec3 &p = mesh.positions[a], &q = mesh.positions[b];
@@ -125,7 +125,7 @@ SurfaceMesh read_obj(const fs::path& file, const std::string& content, Notes& no
             fmt::format("merged vertices with the same position: {}", vertices.used - mesh.positions.size()));
     }
     if (vertices.count > vertices.used) {
-        notes.push_back(fmt::format("dropped vertices without faces: {}", vertices.count - vertices.used));
+        notes.push_back(fmt::format("discarded vertices without faces: {}", vertices.count - vertices.used));
     }
     return mesh;
 }
@@ -133,7 +133,7 @@ SurfaceMesh read_obj(const fs::path& file, const std::string& content, Notes& no
 SurfaceMesh read_stl(const fs::path& file, std::string content) {
     check_stl(file, content);
     const std::size_t binary_size = binary_stl_size(file, content);
-    if (binary_size > 0) content.resize(binary_size);  // Assimp refuses anything behind it
+    if (binary_size > 0) content.resize(binary_size);  // Assimp refuses anything after it
     SurfaceMesh mesh = import(file, ".stl", content);
     share_vertices(mesh);
     return mesh;
@@ -161,7 +161,7 @@ SurfaceMesh read_surface(const fs::path& file, Notes& notes) {
     }
     std::string content = read_file(file);
     if (content.starts_with("\xef\xbb\xbf"))
-        content.erase(0, 3);  // a byte order mark, which Assimp takes for a word
+        content.erase(0, 3);  // a byte order mark, which Assimp reads as a word
     if (content.empty()) throw InvalidInput({file.string(), 0, {}, {}, "is empty"});
     SurfaceMesh mesh = read_unrepaired(file, ending, content, notes);
     if (mesh.faces.empty()) throw InvalidInput({file.string(), 0, {}, {}, "has no faces"});

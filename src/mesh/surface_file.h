@@ -6,15 +6,16 @@
 
 namespace gelatin {
 
-/// Reads an OBJ, STL, PLY or OFF file through Assimp, in single precision, and mends it (surface_repair.h);
-/// one line a repair goes to `notes`. Vertices that STL repeats by its nature are merged without one.
+/// Reads an OBJ, STL, PLY or OFF file through Assimp, in single precision, and repairs it (surface_repair.h).
+/// Each repair adds one line to `notes`. Merging the vertices that STL always repeats adds none.
 /// @throws InvalidInput for a missing, empty, unreadable or unknown file, coordinates that are not finite,
 ///   indices out of range, counts that the file is too short for (checked before anything of that size is
 ///   allocated), or no faces at all.
 SurfaceMesh read_surface(const std::filesystem::path& file, Notes& notes);
 
-/// Writes by the ending of `file`: .obj, .stl (binary), .ply (binary), .off; whole or not at all.
-/// @throws InvalidInput for an unknown ending; SystemError if it cannot be written.
+/// Writes in the format of the extension of `file`: .obj, .stl (binary), .ply (binary), .off; completely or
+/// not at all.
+/// @throws InvalidInput for an unknown extension; SystemError if it cannot be written.
 void write_surface(const std::filesystem::path& file, const SurfaceMesh& mesh);
 
 }  // namespace gelatin

@@ -12,7 +12,7 @@ struct SurfaceMesh {
     std::vector<glm::uvec3> faces;      ///< vertex indices, shape [faces]
 };
 
-/// One line for each repair that was made on the way in, for the user to read.
+/// One line for the user for each repair of an input.
 using Notes = std::vector<std::string>;
 
 }  // namespace gelatin

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint32_t kNone = ~0u;
 
-// Points the faces at the first of the vertices that coincide. Returns how many others there are.
+// Replaces coincident vertices in the faces by the first of them. Returns the number of the others.
 std::size_t merge_vertices(SurfaceMesh& mesh) {
     const MergedPoints merged = merge_points(mesh.positions, 1e-9);
     for (glm::uvec3& face : mesh.faces) {
@@ -90,12 +90,13 @@ void repair_surface(SurfaceMesh& mesh, Notes& notes) {
     };
     const std::size_t merged = merge_vertices(mesh);
     note(merged, "merged vertices that coincide: {}");
-    note(drop_degenerate_faces(mesh), "dropped faces without area: {}");
-    note(drop_repeated_faces(mesh), "dropped repeated faces: {}");
-    note(drop_unused_vertices(mesh) - merged, "dropped vertices without faces: {}");
-    const WindingRepair winding = turn_faces_outward(mesh);
-    note(winding.turned_faces, "turned faces that wound the wrong way: {}");
-    note(winding.contrary_edges, "edges whose two faces cannot wind alike, as on a one-sided surface: {}");
+    note(drop_degenerate_faces(mesh), "discarded faces without area: {}");
+    note(drop_repeated_faces(mesh), "discarded duplicate faces: {}");
+    note(drop_unused_vertices(mesh) - merged, "discarded vertices without faces: {}");
+    const WindingRepair winding = orient_faces_outward(mesh);
+    note(winding.flipped_faces, "flipped faces with the wrong orientation: {}");
+    note(winding.contrary_edges,
+         "edges whose two faces cannot have the same orientation, as on a one-sided surface: {}");
 }
 
 Openness measure_openness(const SurfaceMesh& mesh) {

@@ -4,13 +4,14 @@
 
 namespace gelatin {
 
-/// Merges vertices that coincide (within 1e-9 of the bounding box' diagonal), drops degenerate and repeated
-/// faces and vertices without faces, makes the winding consistent across shared edges and outward (positive
-/// volume) in each connected component; a closed one that lies wholly inside another is a cavity and winds
-/// inward. Adds one line to `notes` for each kind of repair that changed something.
+/// Merges coincident vertices (within 1e-9 of the bounding box' diagonal), discards degenerate and duplicate
+/// faces and vertices without faces, and makes the winding consistent across shared edges and outward
+/// (positive volume) in each connected component. A closed component that is completely inside another is a
+/// cavity, and its winding is inward. Adds one line to `notes` for each kind of repair that changed
+/// something.
 void repair_surface(SurfaceMesh& mesh, Notes& notes);
 
-/// Edges that do not have exactly two faces.
+/// The edges that do not have exactly two faces.
 struct Openness {
     std::size_t boundary_edges = 0;      ///< edges of one face
     std::size_t non_manifold_edges = 0;  ///< edges of three or more

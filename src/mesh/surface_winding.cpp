@@ -29,7 +29,7 @@ struct Parts {
 // Side k of a face is the edge from its corner k to its corner k + 1.
 struct Neighbour {
     std::uint32_t face = kNone;
-    bool agrees = true;  // runs through the edge the other way, as it should
+    bool agrees = true;  // traverses the edge in the opposite direction, as it should
 };
 using Neighbours = std::vector<std::array<Neighbour, 3>>;
 
@@ -49,7 +49,7 @@ Neighbours find_neighbours(const SurfaceMesh& mesh, std::span<const EdgeUse> use
     return neighbours;
 }
 
-// Floods each part from its first face and decides which faces to turn so that they agree with it.
+// Floods each part from its first face and decides which faces to flip for consistency with it.
 Parts agree_within_parts(const Neighbours& neighbours, std::vector<bool>& turn, std::size_t& contrary_edges) {
     Parts parts;
     parts.part_of_face.assign(neighbours.size(), kNone);
@@ -84,8 +84,8 @@ Parts agree_within_parts(const Neighbours& neighbours, std::vector<bool>& turn, 
     return parts;
 }
 
-// Six times the volume [m^3], about the part's first vertex: a part that is open then does not depend on
-// where it lies.
+// Six times the volume [m^3], relative to the part's first vertex. For an open part the result then does not
+// depend on its position.
 double part_volume(const SurfaceMesh& mesh, std::span<const std::uint32_t> faces,
                    const std::vector<bool>& turn) {
     const glm::dvec3 origin = mesh.positions[mesh.faces[faces[0]][0]];
@@ -99,17 +99,17 @@ double part_volume(const SurfaceMesh& mesh, std::span<const std::uint32_t> faces
     return volume;
 }
 
-// Asks whether a vertex of a part lies inside an odd number of other parts: by the parity of what the ray
-// along +x from it crosses.
+// Finds whether a vertex of a part is inside an odd number of other parts: by the parity of the faces that
+// the ray along +x from it crosses.
 struct Query {
     glm::dvec3 from;
     std::uint32_t part;
     bool odd = false;
 };
 
-// Whether the edge a-b, seen along x, lies across the ray along +y from `from`. Both faces of an edge get the
-// same answer, so that no ray slips through between them; the crossing is clamped so that rounding takes it
-// past neither end.
+// Whether the edge a-b, projected along x, crosses the ray along +y from `from`. Both faces of an edge get
+// the same answer, so that no ray slips through between them. The crossing is clamped to both ends against
+// rounding.
 bool crosses_in_projection(const SurfaceMesh& mesh, std::uint32_t a, std::uint32_t b,
                            const glm::dvec3& from) {
     if (a > b) std::swap(a, b);
@@ -129,7 +129,7 @@ bool ray_crosses(const SurfaceMesh& mesh, const glm::uvec3& face, const glm::dve
     return dot(normal, a - from) * normal.x > 0.0;
 }
 
-// The part's outermost vertices along the axes. Parts that merely overlap have one of these outside.
+// The part's extreme vertices along the axes. If parts merely overlap, one of these is outside.
 std::array<glm::dvec3, 6> extremes(const SurfaceMesh& mesh, std::span<const std::uint32_t> faces) {
     std::array<glm::dvec3, 6> points;
     points.fill(mesh.positions[mesh.faces[faces[0]][0]]);
@@ -155,7 +155,7 @@ std::vector<bool> find_cavities(const SurfaceMesh& mesh, const Parts& parts) {
         cavity[part] = true;
         for (const glm::dvec3& p : extremes(mesh, parts.of(part))) queries.push_back({p, part});
     }
-    // Sorted by y, so that a face meets only the queries in its range.
+    // Sorted by y, so that a face tests only the queries in its range.
     std::sort(queries.begin(), queries.end(),
               [](const Query& a, const Query& b) { return a.from.y < b.from.y; });
     for (const std::uint32_t f : parts.faces) {
@@ -178,7 +178,7 @@ std::vector<bool> find_cavities(const SurfaceMesh& mesh, const Parts& parts) {
 
 }  // namespace
 
-WindingRepair turn_faces_outward(SurfaceMesh& mesh) {
+WindingRepair orient_faces_outward(SurfaceMesh& mesh) {
     WindingRepair repair;
     std::vector<bool> turn(mesh.faces.size(), false);
     const std::vector<EdgeUse> uses = sorted_edge_uses(mesh.faces);
@@ -192,7 +192,7 @@ WindingRepair turn_faces_outward(SurfaceMesh& mesh) {
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         if (!turn[f]) continue;
         std::swap(mesh.faces[f][1], mesh.faces[f][2]);
-        ++repair.turned_faces;
+        ++repair.flipped_faces;
     }
     return repair;
 }

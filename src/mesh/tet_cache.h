@@ -9,7 +9,7 @@
 
 namespace gelatin {
 
-/// Tet meshes kept on disk by a key of everything they depend on (disk_cache.h).
+/// Tet meshes stored on disk under a key of everything that they depend on (disk_cache.h).
 class TetCache {
 public:
     explicit TetCache(std::filesystem::path folder = DiskCache::default_folder());

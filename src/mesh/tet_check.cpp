@@ -32,16 +32,16 @@ void note_nearly_flat(const TetMesh& mesh, Notes& notes) {
     }
     if (count == 0) return;
     notes.push_back(
-        fmt::format("nearly flat tets, which make an explicit solver's steps short: {} (the flattest is tet "
+        fmt::format("nearly flat tets, which shorten the steps of explicit solvers: {} (the flattest is tet "
                     "{}, with {:.1g} of "
                     "the volume of a regular one)",
                     count, worst + 1, least));
 }
 
-// A face as one of its tets sees it.
+// A face of one of its tets.
 struct Side {
     std::array<std::uint32_t, 3> nodes;  // ascending
-    bool is_turned;                      // an odd permutation leads there from the way seen from outside
+    bool is_flipped;                     // an odd permutation, relative to the orientation seen from outside
     std::uint32_t tet;
 };
 
@@ -55,7 +55,7 @@ std::vector<Side> sorted_sides(const TetMesh& mesh) {
             const auto order = [&](int a, int b) {
                 if (side.nodes[a] < side.nodes[b]) return;
                 std::swap(side.nodes[a], side.nodes[b]);
-                side.is_turned = !side.is_turned;
+                side.is_flipped = !side.is_flipped;
             };
             order(0, 1);
             order(1, 2);
@@ -76,8 +76,8 @@ void note_overlaps(const TetMesh& mesh, Notes& notes) {
     for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
         for (end = begin + 1; end < sides.size() && sides[end].nodes == sides[begin].nodes;) ++end;
         crowded += end - begin > 2 ? 1 : 0;
-        // Neighbours see their face from either side.
-        if (end - begin != 2 || sides[begin].is_turned != sides[begin + 1].is_turned) continue;
+        // Neighbours see their common face from opposite sides.
+        if (end - begin != 2 || sides[begin].is_flipped != sides[begin + 1].is_flipped) continue;
         ++overlapping;
         if (first == nullptr) first = &sides[begin];
     }

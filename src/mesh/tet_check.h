@@ -8,11 +8,11 @@
 
 namespace gelatin {
 
-/// Tells in `notes` what is suspicious in tets that are not flat and the right way out: those that are nearly
-/// flat, those that overlap a neighbour, as in a mesh that is tangled, and faces of more than two tets.
+/// Reports in `notes` what is suspicious in tets that are neither flat nor inverted: nearly flat tets, tets
+/// that overlap a neighbour, as in a tangled mesh, and faces of more than two tets.
 void check_tets(const TetMesh& mesh, Notes& notes);
 
-/// Volume over that of a regular tet with the same longest edge, from 0 to 1.
+/// Volume relative to that of a regular tet with the same longest edge, from 0 to 1.
 double roundness(const std::array<glm::dvec3, 4>& corners);
 
 }  // namespace gelatin

@@ -35,10 +35,10 @@ double longest_edge(const TetMesh& mesh, const glm::uvec4& tet) {
     return longest;
 }
 
-// Turns tets that are inside out; flat ones have no side to turn to.
+// Flips inverted tets; flat ones have no orientation.
 void orient_tets(const fs::path& file, TetMesh& mesh, Notes& notes) {
     constexpr double kFlat = 1e-12;  // of the longest edge cubed
-    std::size_t turned = 0;
+    std::size_t flipped = 0;
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
         glm::uvec4& tet = mesh.tets[t];
         const double volume = tet_volume(mesh, tet);
@@ -53,12 +53,12 @@ void orient_tets(const fs::path& file, TetMesh& mesh, Notes& notes) {
         }
         if (volume > 0.0) continue;
         std::swap(tet[2], tet[3]);
-        ++turned;
+        ++flipped;
     }
-    if (turned > 0) notes.push_back(fmt::format("turned tets that were inside out: {}", turned));
+    if (flipped > 0) notes.push_back(fmt::format("flipped inverted tets: {}", flipped));
 }
 
-// Gmsh writes a tet of several physical groups once for each.
+// Gmsh writes a tet with several physical groups once for each of them.
 void drop_repeated_tets(TetMesh& mesh, Notes& notes) {
     struct Key {
         std::array<std::uint32_t, 4> nodes;
@@ -76,10 +76,10 @@ void drop_repeated_tets(TetMesh& mesh, Notes& notes) {
     std::vector<bool> keep(mesh.tets.size(), true);
     for (std::size_t k = 1; k < keys.size(); ++k) keep[keys[k].tet] = keys[k].nodes != keys[k - 1].nodes;
     const std::size_t dropped = keep_tets(mesh, keep);
-    if (dropped > 0) notes.push_back(fmt::format("dropped repeated tets: {}", dropped));
+    if (dropped > 0) notes.push_back(fmt::format("discarded duplicate tets: {}", dropped));
 }
 
-// Drops nodes that have no tets. Returns how many.
+// Discards nodes without tets. Returns how many.
 std::size_t drop_unused_nodes(TetMesh& mesh) {
     std::vector<bool> used(mesh.positions.size(), false);
     for (const glm::uvec4& tet : mesh.tets) {
@@ -100,7 +100,7 @@ std::size_t drop_unused_nodes(TetMesh& mesh) {
     return dropped;
 }
 
-// Without nodes in common tets would fall apart, as those of programs that write each with nodes of its own.
+// Tets without common nodes would fall apart. Some programs write each tet with its own nodes.
 void merge_nodes(TetMesh& mesh, Notes& notes) {
     constexpr double kTolerance = 1e-12;  // of the diagonal
     const MergedPoints merged = merge_points(mesh.positions, kTolerance);
@@ -112,7 +112,7 @@ void merge_nodes(TetMesh& mesh, Notes& notes) {
     notes.push_back(fmt::format("merged nodes that coincide: {}", merged.count));
 }
 
-// The files appear together, as far as renaming can do that: all are written in full first.
+// The files appear together, as far as renaming allows: all are written completely first.
 void write_files(const std::vector<std::pair<fs::path, std::string>>& files) {
     std::vector<fs::path> written;
     try {
@@ -152,7 +152,7 @@ TetMesh read_tets(const fs::path& file, Notes& notes) {
     const auto is_zero = [](int attribute) { return attribute == 0; };
     if (std::all_of(mesh.attributes.begin(), mesh.attributes.end(), is_zero)) mesh.attributes.clear();
     if (const std::size_t dropped = drop_unused_nodes(mesh); dropped > 0)
-        notes.push_back(fmt::format("dropped nodes without tets: {}", dropped));
+        notes.push_back(fmt::format("discarded nodes without tets: {}", dropped));
     merge_nodes(mesh, notes);
     orient_tets(file, mesh, notes);
     drop_repeated_tets(mesh, notes);

@@ -7,22 +7,21 @@
 
 namespace gelatin {
 
-/// True for the endings that read_tets takes: .node, .ele (TetGen), .mesh (Medit), .msh (Gmsh).
+/// True for the extensions that read_tets supports: .node, .ele (TetGen), .mesh (Medit), .msh (Gmsh).
 bool is_tet_file(const std::filesystem::path& file);
 
-/// Reads ready tetrahedra: TetGen's .node with its .ele beside it (either may be named), Medit's ASCII .mesh,
-/// Gmsh's .msh versions 2.2 and 4.1 (ASCII and binary). Other elements are skipped, repeated tets and unused
-/// nodes dropped, and tets turned inside out turned back, each with a note; boundary faces are computed.
-/// Attributes are the first one of TetGen's, Medit's references, and the first of Gmsh's physical groups;
-/// none if all are 0.
-/// @throws InvalidInput naming file, line and field: missing, empty or cut off, an unknown version, indices
+/// Reads a tet mesh: TetGen's .node with its .ele (either may be named), Medit's ASCII .mesh, Gmsh's .msh
+/// versions 2.2 and 4.1 (ASCII and binary). Other elements are ignored, duplicate tets and unused nodes
+/// discarded, and inverted tets flipped, each with a note. Boundary faces are computed. Attributes are the
+/// first one of TetGen's, Medit's references, and the first of Gmsh's physical groups; none if all are 0.
+/// @throws InvalidInput naming file, line and field: missing, empty or truncated, an unknown version, indices
 ///   out of range, coordinates that are not finite, no tets, flat tets (volume below 1e-12 of the longest
 ///   edge cubed), counts that the file is too short for (checked before anything of that size is allocated).
 TetMesh read_tets(const std::filesystem::path& file, Notes& notes);
 
-/// Writes by the ending: .node (and .ele, .face beside it), .mesh, .msh (4.1 ASCII), .vtu. Whole or not at
-/// all.
-/// @throws InvalidInput for an unknown ending; SystemError if it cannot be written.
+/// Writes in the format of the extension: .node (with .ele and .face), .mesh, .msh (4.1 ASCII), .vtu.
+/// Completely or not at all.
+/// @throws InvalidInput for an unknown extension; SystemError if it cannot be written.
 void write_tets(const std::filesystem::path& file, const TetMesh& mesh);
 
 }  // namespace gelatin

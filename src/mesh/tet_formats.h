@@ -8,8 +8,8 @@
 
 namespace gelatin {
 
-/// Nodes and tets as the file has them: every index is in range and every coordinate finite, but tets may be
-/// flat or inside out, nodes unused, and there are no faces yet.
+/// Nodes and tets as the file has them. Every index is in range and every coordinate finite, but tets may be
+/// flat or inverted, nodes unused, and there are no faces yet.
 TetMesh read_tetgen(const std::filesystem::path& file, Notes& notes);
 TetMesh read_medit(const std::filesystem::path& file, Notes& notes);
 TetMesh read_gmsh(const std::filesystem::path& file, Notes& notes);

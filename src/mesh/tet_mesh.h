@@ -11,7 +11,7 @@ struct TetMesh {
     std::vector<glm::dvec3> positions;  ///< [m], shape [nodes]
     std::vector<glm::uvec4> tets;       ///< node indices, shape [tets]
     std::vector<glm::uvec3> faces;      ///< boundary triangles, counter-clockwise from outside, shape [faces]
-    /// The region that each tet is of, by the file's own numbers, shape [tets]; empty where there is but one.
+    /// The region of each tet, by the file's own numbers, shape [tets]; empty if there is only one.
     std::vector<int> attributes = {};
 };
 

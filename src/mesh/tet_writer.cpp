@@ -21,7 +21,7 @@ int attribute_of(const TetMesh& mesh, std::size_t tet) {
     return mesh.attributes.empty() ? 0 : mesh.attributes[tet];
 }
 
-// The numbers are the shortest that read back as the same ones.
+// Numbers are the shortest that are read back exactly.
 void append_positions(std::string& out, const TetMesh& mesh) {
     for (const glm::dvec3& p : mesh.positions) append(out, "{} {} {}\n", p.x, p.y, p.z);
 }
@@ -81,7 +81,7 @@ std::string format_medit(const TetMesh& mesh) {
     return out + "End\n";
 }
 
-// One block of nodes; and a block of tets and a volume for each attribute, which becomes its physical group.
+// One block of nodes. For each attribute one block of tets and one volume, which becomes its physical group.
 std::string format_gmsh(const TetMesh& mesh) {
     std::map<int, std::vector<std::size_t>> tets_of;  // by attribute
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) tets_of[attribute_of(mesh, t)].push_back(t);

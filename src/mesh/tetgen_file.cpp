@@ -16,13 +16,13 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostAttributes = 1000;
 
-// What the first line may leave out at its end.
+// What the first line may omit at its end.
 std::uint64_t optional_integer(TextScanner& scanner, const char* field, std::uint64_t otherwise,
                                std::uint64_t high) {
     return scanner.at_line_end() ? otherwise : scanner.integer(field, 0, high);
 }
 
-// Numbers begin with that of the first row, 0 or 1, and go up by one.
+// Numbers begin with that of the first row, 0 or 1, and increase by one.
 struct Nodes {
     std::vector<glm::dvec3> positions;
     std::uint64_t first_number = 0;
@@ -51,18 +51,18 @@ Nodes read_nodes(const fs::path& file) {
         for (std::uint64_t k = 0; k < attributes + markers; ++k) scanner.number({"attributes of node", row});
     }
     if (!scanner.at_end())
-        scanner.fail("node", scanner.word("node"), "there are more rows than the file says");
+        scanner.fail("node", scanner.word("node"), "there are more rows than the header says");
     return nodes;
 }
 
-// Numbers of regions; TetGen writes them as real numbers.
+// Numbers of regions, which TetGen writes as real numbers.
 void keep_whole(const std::vector<double>& attributes, TetMesh& mesh, Notes& notes) {
     constexpr double kMost = 2147483647.0;
     const auto is_whole = [](double a) { return std::abs(a) <= kMost && a == std::round(a); };
     if (std::all_of(attributes.begin(), attributes.end(), is_whole)) {
         for (const double attribute : attributes) mesh.attributes.push_back(static_cast<int>(attribute));
     } else {
-        notes.emplace_back("left out attributes of tets: they are not whole numbers");
+        notes.emplace_back("ignored attributes of tets that are not integers");
     }
 }
 
@@ -95,7 +95,8 @@ void read_rows_of_tets(const fs::path& file, const Nodes& nodes, TetMesh& mesh, 
         }
         mesh.tets.push_back(tet);
     }
-    if (!scanner.at_end()) scanner.fail("tet", scanner.word("tet"), "there are more rows than the file says");
+    if (!scanner.at_end())
+        scanner.fail("tet", scanner.word("tet"), "there are more rows than the header says");
     if (corners == 10) notes.push_back(fmt::format("kept the corners only of tets with 10 nodes: {}", count));
     keep_whole(regions, mesh, notes);
 }

@@ -26,14 +26,14 @@ namespace gelatin {
 
 namespace {
 
-// Part of the key: to be raised when this file makes something else of TetGen's result.
+// Part of the key. Increase it when this file processes TetGen's result differently.
 constexpr const char* kCacheFormat = "gelatin tets 2";
 constexpr const char* kSurfaceFile = "surface.smesh";
 constexpr const char* kTetFile = "surface.1.ele";  // the name that TetGen derives
-constexpr double kMostTets = 1e8;                  // more would fill the memory long before they are done
+constexpr double kMostTets = 1e8;  // more would exhaust the memory long before they are complete
 
-/// Runs TetGen. Through stdbuf, because TetGen ends by abort() where it fails, and what it said last would be
-/// lost in its buffer.
+/// Runs TetGen, through stdbuf: TetGen ends by abort() when it fails, and its last output would be lost in
+/// its buffer.
 ProcessResult run_tetgen(std::vector<std::string> arguments, const std::filesystem::path& folder,
                          double time_limit) {
     constexpr int kNoSuchProgram = 127;  // stdbuf's exit code
@@ -58,7 +58,7 @@ std::string make_switches(const MesherSettings& settings) {
     return switches;
 }
 
-/// A hash of everything that the tets depend on. The version stands in what `tetgen -h` prints.
+/// A hash of everything that the tets depend on. `tetgen -h` prints the version.
 std::string make_key(const SurfaceMesh& surface, const std::string& switches) {
     const TemporaryFolder folder;
     const std::string help = run_tetgen({"-h"}, folder.path(), 10.0).output;
@@ -86,7 +86,7 @@ std::string format_smesh(const SurfaceMesh& surface) {
     return fmt::to_string(text);
 }
 
-/// The last lines that TetGen itself wrote, in one.
+/// The last lines that TetGen itself wrote, joined to one.
 std::string last_words(const std::string& output) {
     constexpr std::size_t kLines = 3, kLength = 160;  // an assertion of TetGen is far longer
     std::vector<std::string> lines;
@@ -120,12 +120,12 @@ void check_surface(const SurfaceMesh& surface, const MesherSettings& settings, c
     const double least_tets = std::abs(signed_volume(surface)) / *settings.max_volume;
     if (least_tets > kMostTets) {
         throw InvalidInput({name, 0, "mesher.max_volume", fmt::format("{} m^3", *settings.max_volume),
-                            fmt::format("asks for {:.2g} tetrahedra or more; at most {:.0e} are allowed",
+                            fmt::format("would give {:.2g} tetrahedra or more; at most {:.0e} are allowed",
                                         least_tets, kMostTets)});
     }
 }
 
-/// Pairs of faces that cross, by TetGen's own check of its input; 0 if it finds none.
+/// The number of pairs of intersecting faces, by TetGen's own check of its input; 0 if it finds none.
 std::size_t count_crossings(const std::filesystem::path& folder, double time_limit) {
     std::istringstream lines(run_tetgen({"-dz", kSurfaceFile}, folder, time_limit).output);
     constexpr const char* kVerdict = "!! Found %zu pairs of faces are intersecting";
@@ -142,8 +142,8 @@ std::size_t count_crossings(const std::filesystem::path& folder, double time_lim
     if (result.timed_out) {
         throw InvalidInput(
             {name, 0, "mesher.time_limit", fmt::format("{} s", settings.time_limit),
-             fmt::format("TetGen was stopped at this limit, after saying {}; raise the limit, or ask for "
-                         "fewer tetrahedra with a larger max_volume or quality",
+             fmt::format("TetGen was stopped at this limit; its last output was {}; raise the limit, or "
+                         "allow a larger max_volume or quality",
                          words)});
     }
     const std::size_t crossings = count_crossings(folder, settings.time_limit);
@@ -158,7 +158,7 @@ std::size_t count_crossings(const std::filesystem::path& folder, double time_lim
     throw InvalidInput({name, 0, {}, {}, problem});
 }
 
-/// TetGen's tets, the right way out. It writes no nodes without tets.
+/// TetGen's tets, with positive volumes. TetGen writes no nodes without tets.
 TetMesh read_result(const std::filesystem::path& file) {
     Notes notes;
     TetMesh mesh = read_tetgen(file, notes);
@@ -186,7 +186,11 @@ TetMesh run_mesher(const SurfaceMesh& surface, const MesherSettings& settings, c
         return read_result(tets);
     } catch (const InvalidInput& error) {
         throw InvalidInput(
-            {name, 0, {}, {}, "what TetGen made of this surface cannot be used: " + error.problem().problem});
+            {name,
+             0,
+             {},
+             {},
+             "the mesh that TetGen made of this surface cannot be used: " + error.problem().problem});
     }
 }
 

@@ -9,14 +9,14 @@
 
 namespace gelatin {
 
-/// Fills a closed surface with tetrahedra: runs TetGen as a process of its own (`-p -q -a`; paper 2.3) in a
-/// private temporary folder, or takes the result from the cache (tet_cache.h). The surface may be of several
-/// pieces; a piece inside another is filled, too, not a cavity. Faces may be split where the quality needs
-/// it. Flat tets that TetGen leaves on the boundary are dropped.
+/// Fills a closed surface with tetrahedra. Runs TetGen as a separate process (`-p -q -a`; paper 2.3) in a
+/// private temporary folder, or takes the result from the cache (tet_cache.h). The surface may have several
+/// pieces; a piece inside another is filled too, it is not a cavity. Faces may be split where the quality
+/// requires it. Flat tets that TetGen leaves on the boundary are removed.
 /// @param name for messages: the object's or the file's
-/// @throws InvalidInput if the surface is not closed (with the number of open edges), or TetGen fails on it,
-///   crashes, leaves flat tets inside or exceeds `settings.time_limit`, with TetGen's message; SystemError if
-///   there is no `tetgen` program.
+/// @throws InvalidInput if the surface is not closed (with the number of open edges), or if TetGen fails on
+///   it, crashes, leaves flat tets inside or exceeds `settings.time_limit`, with TetGen's message;
+///   SystemError if there is no `tetgen` program.
 TetMesh tetrahedralise(const SurfaceMesh& surface, const MesherSettings& settings, const std::string& name);
 
 }  // namespace gelatin

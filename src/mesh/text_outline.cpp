@@ -19,9 +19,10 @@ namespace gelatin {
 
 namespace {
 
-constexpr double kFlatness = 5e-3;     // largest distance of a polygon from its curve [em]
-constexpr double kLeastLength = 1e-3;  // of a polygon's edge; shorter ones make mesh generators stumble [em]
-constexpr double kLeastHeight = 1e-5;  // of a point above the line between its neighbours [em]
+constexpr double kFlatness = 5e-3;  // largest distance of a polygon from its curve [em]
+constexpr double kLeastLength =
+    1e-3;  // of a polygon's edge; shorter ones cause trouble in mesh generators [em]
+constexpr double kLeastHeight = 1e-5;  // distance of a point from the line between its neighbours [em]
 
 /// @throws InvalidInput at the first byte that is not UTF-8
 std::vector<char32_t> decode(const std::string& text) {
@@ -39,7 +40,7 @@ std::vector<char32_t> decode(const std::string& text) {
     return letters;
 }
 
-/// Takes FreeType's walk along a glyph's outline.
+/// Receives FreeType's traversal of a glyph's outline.
 struct OutlineWalk {
     std::vector<Contour>& contours;
     glm::dvec2 origin;  // [em]
@@ -50,8 +51,8 @@ struct OutlineWalk {
     }
     glm::dvec2 last() const { return contours.back().back(); }
 
-    /// Appends a curve's points behind its first one. A piece of a curve with second derivative below `bend`
-    /// strays from its chord by at most bend h^2 / 8.
+    /// Appends a curve's points after its first one. A piece of a curve with second derivative below `bend`
+    /// deviates from its chord by at most bend h^2 / 8.
     template <class Curve>
     void append(const Curve& curve, double bend) {
         const int pieces = std::max(1, static_cast<int>(std::ceil(std::sqrt(bend / (8.0 * kFlatness)))));
@@ -91,7 +92,7 @@ int cubic_to(const FT_Vector* control1, const FT_Vector* control2, const FT_Vect
     return 0;
 }
 
-/// Drops points that are next to the point before them, then those on the line between their neighbours.
+/// Removes points that are very near the previous point, then those on the line between their neighbours.
 Contour clean(const Contour& contour) {
     Contour apart;
     for (const glm::dvec2& point : contour) {

@@ -16,7 +16,7 @@ bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f';
 }
 
-// What a message can show of a word: files that are not what they claim have long ones, and unprintable ones.
+// The part of a word that a message can show: binary files have long and unprintable ones.
 std::string printable(std::string_view word) {
     constexpr std::size_t kLongest = 40;
     std::string text(word.substr(0, kLongest));
@@ -26,7 +26,7 @@ std::string printable(std::string_view word) {
     return word.size() > kLongest ? text + "..." : text;
 }
 
-// What Windows programs put before a text of UTF-8.
+// The mark with which Windows programs begin a text of UTF-8.
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 }  // namespace
@@ -103,7 +103,7 @@ int TextScanner::signed_integer(const FieldName& field) {
     int value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size())
-        fail(field, text, "must be a whole number that 32 bits can hold");
+        fail(field, text, "must be a whole number that fits into 32 bits");
     return value;
 }
 
@@ -112,7 +112,7 @@ double TextScanner::number(const FieldName& field) {
     const char* const end = text.data() + text.size();
     double value = 0.0;
     const auto [stop, error] = std::from_chars(text.data() + (text[0] == '+' ? 1 : 0), end, value);
-    // Too large or too small for a double: strtod tells the two apart.
+    // Too large or too small for a double: strtod distinguishes them.
     if (error == std::errc::result_out_of_range) return std::strtod(std::string(text).c_str(), nullptr);
     if (error != std::errc() || stop != end) fail(field, text, "must be a number");
     return value;

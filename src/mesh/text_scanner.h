@@ -8,7 +8,7 @@
 
 namespace gelatin {
 
-/// What a value of a mesh file is, for messages: "vertex 12", or just "version".
+/// The meaning of a value in a mesh file, for messages: "vertex 12", or just "version".
 struct FieldName {
     std::string_view name;
     std::uint64_t number = 0;  ///< 0: none
@@ -19,44 +19,44 @@ struct FieldName {
     std::string text() const;
 };
 
-/// Walks a mesh file word by word, and through bytes between them; every problem is an InvalidInput with file
-/// and line. Keeps references to what it is given.
+/// Reads a mesh file word by word, or byte by byte between words. Every problem is an InvalidInput with file
+/// and line. Keeps references to its arguments.
 class TextScanner {
 public:
-    /// @param comment begins a comment that ends with its line; 0 where the format has none
+    /// @param comment the character that begins a comment, which ends with its line; 0 if the format has none
     TextScanner(const std::filesystem::path& file, std::string_view text, char comment = '#');
 
-    /// Skips blanks and comments. True if nothing else is left.
+    /// Skips blanks and comments. True at the end of the file.
     bool at_end();
-    /// Skips blanks and comments of this line. True if nothing else is left on it.
+    /// Skips blanks and comments on this line. True at the end of the line.
     bool at_line_end();
     void skip_line();
 
-    /// The next word, on whatever line it is. @throws InvalidInput if the file ends before it.
+    /// The next word, on any line. @throws InvalidInput at the end of the file.
     std::string_view word(const FieldName& field);
-    /// Takes the next word. @throws InvalidInput if it is another one.
+    /// Reads the next word. @throws InvalidInput if it is another one.
     void expect(const char* expected);
     std::uint64_t integer(const FieldName& field, std::uint64_t low = 0,
                           std::uint64_t high = std::numeric_limits<std::uint64_t>::max());
     int signed_integer(const FieldName& field);
     double number(const FieldName& field);
-    /// A number that a float can hold: mesh files with others are refused.
+    /// A number that fits into a float: mesh files with others are refused.
     double coordinate(const FieldName& field);
 
-    /// Number of things that take at least `bytes_each` each. @throws InvalidInput if the rest of the file is
-    /// too short for them, so that a caller may allocate what the file claims.
+    /// The number of items that take at least `bytes_each` each. @throws InvalidInput if the rest of the file
+    /// is too short for them, so that a caller may allocate what the file claims.
     std::size_t count(const FieldName& field, std::size_t bytes_each);
     void require_room(const FieldName& field, std::uint64_t count, std::size_t bytes_each) const;
 
-    /// The next `size` bytes as they are. Lines are not known from there on.
+    /// The next `size` bytes as they are. From there on, line numbers are unknown.
     std::string_view bytes(std::size_t size, const FieldName& field);
 
-    /// Goes on behind `text`. @throws InvalidInput if it does not come.
+    /// Continues after `text`. @throws InvalidInput if it does not occur.
     void skip_past(std::string_view text, const FieldName& field);
 
     [[noreturn]] void fail(const FieldName& field, std::string_view value, const std::string& problem) const;
     [[noreturn]] void fail_cut_off(const FieldName& field) const;
-    /// @throws InvalidInput unless `value` is finite and a float can hold it.
+    /// @throws InvalidInput unless `value` is finite and fits into a float.
     void require_coordinate(double value, const FieldName& field) const;
 
 private:
@@ -66,7 +66,7 @@ private:
     std::string_view text_;
     char comment_;
     std::size_t position_ = 0;
-    int line_ = 1;  // of what was read last
+    int line_ = 1;  // of the word that was read last
     bool knows_line_ = true;
 };
 

@@ -11,7 +11,7 @@ namespace gelatin {
 
 namespace {
 
-/// Directed edges of triangles that have no triangle on their other side; the region lies on their left.
+/// Directed edges of triangles that have no triangle on their other side; the region is on their left.
 std::vector<glm::uvec2> border(const FlatMesh& mesh) {
     using Edge = std::pair<std::uint32_t, std::uint32_t>;
     std::vector<Edge> edges;
@@ -26,11 +26,11 @@ std::vector<glm::uvec2> border(const FlatMesh& mesh) {
     return result;
 }
 
-/// Caps at z = depth / 2 and -depth / 2, and walls that join the borders of the two: closed by construction.
+/// Caps at z = depth / 2 and -depth / 2, and walls that join the borders of both: closed by construction.
 SurfaceMesh extrude(const FlatMesh& cap, double depth) {
     SurfaceMesh mesh;
-    const auto back =
-        static_cast<std::uint32_t>(cap.positions.size());  // from a front vertex to the one behind it
+    const auto back = static_cast<std::uint32_t>(
+        cap.positions.size());  // from a front vertex to the corresponding back one
     for (const double z : {0.5 * depth, -0.5 * depth}) {
         for (const glm::dvec2& p : cap.positions) mesh.positions.emplace_back(p, z);
     }

@@ -19,8 +19,8 @@ struct Rows {
     std::span<Value> row(std::size_t n) { return {values.data() + starts[n], values.data() + starts[n + 1]}; }
 };
 
-/// Groups what `for_each(visit)` passes to visit(node, value), then sorts each row. A counting sort followed
-/// by many tiny sorts: linear in practice, and the result does not depend on the order of visits.
+/// Groups what `for_each(visit)` passes to visit(node, value), then sorts each row. It is a counting sort
+/// followed by many tiny sorts: linear in practice, and the result does not depend on the order of visits.
 template <class Value, class ForEach>
 Rows<Value> group_by_node(std::size_t node_count, const ForEach& for_each) {
     Rows<Value> rows;
@@ -66,7 +66,7 @@ glm::uvec3 face_of(const glm::uvec4& tet, std::uint32_t corner) {
     return {tet[face[0]], tet[face[1]], tet[face[2]]};
 }
 
-/// A tet's face in the row of its smallest node.
+/// A tet's face, in the row of its smallest node.
 struct FaceOfTet {
     std::uint32_t middle, largest, tet, corner;
 
@@ -90,7 +90,7 @@ Rows<FaceOfTet> group_faces(std::span<const glm::uvec4> tets) {
     });
 }
 
-/// Calls visit(faces_of_tets) with the one or two (in a broken mesh: more) tets of each face.
+/// Calls visit(faces_of_tets) for each face with its one or two tets (in a broken mesh: more).
 template <class Visit>
 void for_each_face(std::span<const glm::uvec4> tets, const Visit& visit) {
     Rows<FaceOfTet> rows = group_faces(tets);
@@ -100,7 +100,7 @@ void for_each_face(std::span<const glm::uvec4> tets, const Visit& visit) {
     }
 }
 
-/// A face's edge in the row of its smaller node.
+/// A face's edge, in the row of its smaller node.
 struct EdgeOfFace {
     std::uint32_t larger, face, corner;
 

@@ -26,7 +26,7 @@ struct Graph {
 /// Signed volume of a tet [m^3], positive for the winding of TetMesh.
 double tet_volume(const TetMesh& mesh, const glm::uvec4& tet);
 
-/// Drops the tets, and their attributes, for which `keep` [tets] is false. Returns how many.
+/// Removes the tets, and their attributes, for which `keep` [tets] is false. Returns how many.
 std::size_t keep_tets(TetMesh& mesh, const std::vector<bool>& keep);
 
 /// The edges of the tets, each once, first node smaller, in ascending order.
@@ -35,7 +35,7 @@ std::vector<glm::uvec2> tet_edges(std::span<const glm::uvec4> tets);
 /// The graph whose edges are `edges`.
 Graph make_graph(std::size_t node_count, std::span<const glm::uvec2> edges);
 
-/// Triangles that belong to one tet only, counter-clockwise seen from outside.
+/// Triangles that belong to one tet only, counter-clockwise as seen from outside.
 std::vector<glm::uvec3> boundary_faces(std::span<const glm::uvec4> tets);
 
 /// Two tets that share a face, and the corner of each opposite to it.
@@ -52,8 +52,8 @@ struct SurfaceEdge {
 /// Edges of exactly two faces.
 std::vector<SurfaceEdge> surface_edges(std::span<const glm::uvec3> faces);
 
-/// Order of nodes for locality: reverse Cuthill-McKee from a node far out in each component, then a stable
-/// sort by degree within windows of `window` nodes. order[new] = old.
+/// An order of nodes for locality: reverse Cuthill-McKee from a peripheral node of each component, then a
+/// stable sort by degree within windows of `window` nodes. order[new] = old.
 std::vector<std::uint32_t> locality_order(const Graph& graph, std::uint32_t window);
 
 }  // namespace gelatin

@@ -24,19 +24,19 @@ struct Range {
     std::uint32_t end() const { return first + count; }
 };
 
-/// One deformable body: its ranges in the packed arrays, and what never changes about it.
+/// One deformable body: its ranges in the packed arrays, and its constant properties.
 struct ModelObject {
     std::string name;
     Range nodes, springs, faces, tets, handle_nodes;
     Range neo_hookean_tets;    ///< all of its tets, or none
     double mass = 0.0;         ///< [kg]
     double rest_volume = 0.0;  ///< [m^3]
-    glm::vec3 color{0.0f};     ///< linear RGB; negative where the scene does not say
+    glm::vec3 color{0.0f};     ///< linear RGB; negative if the scene gives none
 };
 
-/// Spring forces gathered by node, in slices of 64 nodes (sliced ELLPACK, the slice being a work group):
-/// pair p of node 64 s + l is element slice_starts[s] + 64 p + l, so that neighbouring invocations read
-/// neighbouring texels and every lane of a slice runs the same number of times.
+/// Half springs by node, in slices of 64 nodes (sliced ELLPACK; a slice is a work group). Pair p of node 64 s
+/// + l is element slice_starts[s] + 64 p + l. So neighbouring invocations read neighbouring texels, and all
+/// rows of a slice have the same number of iterations.
 struct HalfSprings {
     static constexpr std::uint32_t kSlice = packing::kSlice;
 
@@ -45,19 +45,19 @@ struct HalfSprings {
     std::vector<glm::vec2> stiffness;         ///< [N/m], shape [slice_starts.back()]
 };
 
-/// Springs by node for the paper's merge: entries of node n are starts[n] .. starts[n+1]; an entry is
-/// 2 * spring, plus 1 where the node is the spring's second endpoint.
+/// Springs by node for the paper's merge: entries of node n are starts[n] .. starts[n+1]; an entry is 2 *
+/// spring, plus 1 if the node is the spring's second endpoint.
 struct SpringIncidence {
     std::vector<std::uint32_t> starts;   ///< shape [nodes + 1]
     std::vector<std::uint32_t> entries;  ///< shape [2 * springs]
 };
 
-/// What a tet is at rest.
+/// A tet's properties at rest.
 struct TetRest {
     float volume;   ///< [m^3], > 0
-    float modulus;  ///< of its resistance to being flat [Pa]: Young's; 0 for neo-Hookean tets
+    float modulus;  ///< modulus of its resistance to being flat [Pa]: Young's; 0 for neo-Hookean tets
     float bulk;     ///< bulk modulus of its springs, or of itself [Pa], > 0
-    float kappa;    ///< what the volume term adds to that (model/elasticity/volume_term.h) [Pa]
+    float kappa;    ///< additional stiffness of the volume term (model/elasticity/volume_term.h) [Pa]
 };
 
 /// Faces by node: those of node n are faces[starts[n]] .. faces[starts[n + 1]], ascending; none inside.
@@ -66,18 +66,18 @@ struct NodeFaces {
     std::vector<std::uint32_t> faces;   ///< indices into Model::faces, shape [3 * faces]
 };
 
-/// The surface's nodes and edges, each once, in the order of the faces that own them, the first ones that
-/// have them: so those of a leaf of a tree, of contiguous faces, are contiguous too. An edge may have one
-/// face, two, or more.
+/// The surface's nodes and edges, each once. The first face that has one owns it, and they are in the order
+/// of their owners. So those of a leaf of a tree, whose faces are contiguous, are contiguous too. An edge may
+/// have one face, two, or more.
 struct SurfaceParts {
     std::vector<std::uint32_t> nodes;
     std::vector<FaceEdge> edges;
     std::vector<glm::uvec2> face_starts;  ///< of each face in nodes and in edges, and the ends: [faces + 1]
 };
 
-/// The topology of trees of boxes, which never changes: up to four children a node, up to four items a leaf.
-/// Nodes come before their children, so a walk goes on to the next node, or to `skip` where it does not care
-/// for what is below.
+/// The topology of trees of boxes, which never changes: up to four children for each node, up to four items
+/// in a leaf. Nodes come before their children. A walk continues with the next node, or with `skip` to leave
+/// out the subtree.
 struct BoxTree {
     static constexpr std::uint32_t kLeafItems = 4;
 
@@ -86,7 +86,8 @@ struct BoxTree {
     std::vector<std::vector<std::uint32_t>> levels;  ///< nodes by height; leaves first
 };
 
-/// What is drawn: faces over surface vertices (nodes, split at creases) and the faces round each vertex.
+/// The surface to draw: faces over surface vertices (nodes, split at creases) and the faces around each
+/// vertex.
 struct DrawSurface {
     std::vector<SurfaceVertex> vertices;
     std::vector<std::uint32_t> vertex_faces;  ///< indices into Model::faces

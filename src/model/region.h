@@ -10,7 +10,7 @@ namespace gelatin {
 /// True if `point` is in the region, its boundary included.
 bool holds(const Region& region, const glm::dvec3& point);
 
-/// True if `point` is in any of them.
+/// True if `point` is in one of the regions.
 bool any_holds(const std::vector<Region>& regions, const glm::dvec3& point);
 
 /// The indices of the points in the region, ascending.

@@ -4,7 +4,7 @@
 
 namespace gelatin {
 
-/// The names that scene files use.
+/// The names of settings in scene files.
 const char* name_of(SolverKind solver);
 const char* name_of(ForceMethod forces);
 const char* name_of(BroadPhase broad_phase);

@@ -14,12 +14,12 @@
 
 namespace gelatin {
 
-/// Positions and velocities of all nodes as the host sees them; the fourth components are the model's.
+/// Positions and velocities of all nodes on the host; the fourth components are the model's.
 struct State {
     std::vector<glm::vec4> positions;   ///< xyz [m], inverse mass [1/kg], shape [nodes]
     std::vector<glm::vec4> velocities;  ///< xyz [m/s], damping time [s], shape [nodes]
-    /// The velocities one step before, from which solvers guess how the next one goes; empty before the
-    /// first.
+    /// The velocities one step before, from which solvers guess those of the next step; empty before the
+    /// first step.
     std::vector<glm::vec4> earlier_velocities;
 };
 
@@ -36,7 +36,7 @@ double chebyshev_weight(double spectral_radius, int sweep);
 /// A node nearer to a collider than this [m] counts as a contact.
 constexpr double kContactDistance = 1e-5;
 
-/// Slower than this [m/s], what gravity adds in two steps, nodes that meet something do not bounce.
+/// Below this speed [m/s], which gravity adds in two steps, nodes that collide do not bounce.
 double resting_speed(const glm::vec3& gravity, double step);
 
 /// Sums over one object at one moment.
@@ -51,10 +51,10 @@ struct ObjectMeasure {
     std::uint32_t colliding_faces = 0;  ///< that touch another object, or another part of their own
 };
 
-/// What watch_nodes notes before there is anything to note.
+/// The record of watch_nodes before anything is wrong.
 constexpr Alarm kNoAlarm{0xFFFFFFFFu, 0xFFFFFFFFu, 0, 0};
 
-/// What was near at one moment.
+/// The proximities at one moment.
 struct ProximityMeasure {
     std::uint32_t node_face = 0;  ///< nodes and faces
     std::uint32_t edge_edge = 0;  ///< two edges, each pair seen from both
@@ -62,8 +62,8 @@ struct ProximityMeasure {
     double nearest = std::numeric_limits<double>::infinity();  ///< least distance of all [m]
 };
 
-/// A backend: owns the state where it lives and advances it. The stages are called in the order of
-/// Simulator::step; none of them waits for a device.
+/// A backend: owns the state, in host or device memory, and advances it. The stages are called in the order
+/// of Simulator::step; none of them waits for a device.
 class Solver {
 public:
     virtual ~Solver() = default;
@@ -80,7 +80,7 @@ public:
     /// @pre a hand holds something
     virtual void move_pull(const glm::dvec3& target) = 0;
 
-    /// Forces and integration over one step of `step` seconds, world collisions included.
+    /// Forces and integration over one step of `step` seconds, collisions with colliders included.
     virtual void advance_nodes(double step) = 0;
 
     /// The stages of collision: each object's box; for scenes of at least two objects the pairs that may
@@ -90,23 +90,24 @@ public:
     virtual void find_face_collisions() = 0;
     /// For scenes whose objects collide with themselves: the faces that touch others of their own object.
     virtual void find_self_collisions() = 0;
-    /// For scenes with a proximity radius: the nodes and faces, and the edges, nearer than it.
+    /// For scenes with a proximity radius: finds the nodes and faces, and the pairs of edges, that are nearer
+    /// than it.
     virtual void find_proximities() = 0;
     virtual void respond(double step) = 0;
 
-    /// Looks at all nodes after the step of this number: what is noted of the first step after which nodes
-    /// are not finite, or more than `most_energy` of kinetic energy each [J], stays; pinned nodes may be as
-    /// fast as they like.
+    /// Checks all nodes after the step of this number. Keeps the record of the first step after which nodes
+    /// are not finite, or have more kinetic energy than `most_energy` each [J]; pinned nodes may have any
+    /// speed.
     virtual void watch_nodes(std::uint32_t step_number, double most_energy) = 0;
 
-    /// What watching has found: until now if `wait`, else what a device has told so far. To be asked now and
-    /// then, once a frame, for each question starts bringing the next answer.
+    /// What watching has found: until now if `wait`, otherwise what a device has reported so far. Call it
+    /// regularly, once a frame, because each call starts the transfer for the next one.
     virtual Alarm alarm(bool wait) = 0;
 
-    /// Starts measuring the present state. At most two measurements may be under way.
+    /// Starts measuring the present state. At most two measurements may be pending.
     virtual void begin_measure() = 0;
 
-    /// The oldest measurement under way, one element an object; waits for it if need be.
+    /// The oldest pending measurement, one element for each object; waits for it if necessary.
     virtual std::vector<ObjectMeasure> end_measure() = 0;
 
     /// Pairs of objects or faces that were not tested because they did not fit into a device's buffers: since
@@ -117,7 +118,7 @@ public:
     virtual ProximityMeasure proximities() const = 0;
 
     virtual State read_state() const = 0;
-    /// What watching has found so far is forgotten.
+    /// Discards what watching has found so far.
     virtual void write_state(const State& state) = 0;
 
     /// Times the stages on the clock of the device they run on.

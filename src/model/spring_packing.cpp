@@ -58,7 +58,7 @@ HalfSprings pack_half_springs(std::span<const std::uint32_t> rows, std::span<con
         packed.slice_starts.push_back(start + kSlice * ((most + 1) / 2));
         packed.stiffness.resize(packed.slice_starts.back(), glm::vec2(0.0f));
         for (std::uint32_t p = start; p < packed.slice_starts.back(); ++p) {
-            // Rows without a node, and lanes behind the last one, look at one that exists.
+            // Rows without a node, and the padding after the last row, refer to a node that exists.
             const std::uint32_t self = rows[std::min(first + (p - start) % kSlice, row_count - 1)];
             const std::uint32_t shown = self == kNoNode ? 0 : self;
             packed.pairs.push_back({shown, 0.0f, shown, 0.0f});

@@ -12,7 +12,8 @@ glm::dquat rotation_from_degrees(const glm::dvec3& degrees) {
            glm::angleAxis(angle.x, glm::dvec3(1, 0, 0));
 }
 
-// Of the matrix Rz Ry Rx, m[column][row]. At a right angle about y only the sum of the others is known.
+// For the matrix Rz Ry Rx, m[column][row]. At a right angle about y only the sum of the other two is
+// determined.
 glm::dvec3 degrees_from_rotation(const glm::dquat& rotation) {
     const glm::dmat3 m = glm::mat3_cast(rotation);
     const double y = std::asin(std::clamp(-m[0][2], -1.0, 1.0));

@@ -9,17 +9,17 @@
 namespace gelatin::render {
 namespace {
 
-constexpr float kSameSurface = 0.15f;  // of the reach
-constexpr int kBlur = 2;               // how far the blur looks [pixels]
+constexpr float kSameSurface = 0.15f;  // fraction of the radius
+constexpr int kBlur = 2;               // radius of the blur [pixels]
 
-// Open and far away, where nothing more is worked out.
+// Fully open and far away, where nothing else is computed.
 void clear(const Target& target) {
     target.bind();
     const float open[] = {1.0f, 6e4f, 0.0f, 0.0f};  // half floats end at 65,504
     glClearBufferfv(GL_COLOR, 0, open);
 }
 
-// The pixels of the half picture in which something within reach of bodies shows.
+// The pixels of the half-size picture in which anything within the radius of bodies is visible.
 void scissor(const Frame& frame, float reach) {
     if (!frame.bounds) return;
     const glm::vec3 room(reach);

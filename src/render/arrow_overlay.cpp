@@ -5,13 +5,13 @@
 namespace gelatin::render {
 namespace {
 
-constexpr float kHidden = 0.15f;  // opacity of what lies behind something
+constexpr float kHidden = 0.15f;  // opacity of hidden parts
 
 }  // namespace
 
 ArrowOverlay::ArrowOverlay() : program_(gl::Program::graphics("render/arrows.vert", "render/arrows.frag")) {}
 
-// All of them faintly, then over that what is in front.
+// All of them faintly, then the visible parts over them.
 void ArrowOverlay::draw(const Frame& frame, const RenderView& bodies) const {
     const ArrowView& arrows = *bodies.overlay.arrows;
     const std::size_t node_bytes = std::size_t{16} * bodies.node_count;

@@ -9,8 +9,8 @@
 
 namespace gelatin::render {
 
-/// Bodies in the colours of a quantity, or cut open, in place of the pipeline's own: colours have little
-/// shade, so that the legend's are found again. Programs are made when they are first needed.
+/// Bodies in the colours of a quantity, or cut open, instead of the pipeline's own. Colours are shaded
+/// lightly, so that they can be compared with the legend's. Programs are compiled when they are first needed.
 class BodyOverlay {
 public:
     void prepare(const OverlayView& overlay);

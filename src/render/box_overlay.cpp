@@ -6,13 +6,13 @@ namespace gelatin::render {
 namespace {
 
 constexpr float kWidth = 1.5f;    // of lines [pixels]
-constexpr float kHidden = 0.28f;  // opacity of what lies behind something
+constexpr float kHidden = 0.28f;  // opacity of hidden parts
 
 }  // namespace
 
 BoxOverlay::BoxOverlay() : program_(gl::Program::graphics("render/box_lines.vert", "render/line.frag")) {}
 
-// All of them faintly, then over that what is in front.
+// All of them faintly, then the visible parts over them.
 void BoxOverlay::draw(const View& view, const OverlayView& overlay) const {
     const gl::BufferTexture boxes(overlay.boxes, std::size_t{32} * overlay.box_count,
                                   gl::TexelFormat::rgba32f);

@@ -6,7 +6,7 @@
 
 namespace gelatin::render {
 
-/// Edges of boxes as lines; hidden ones are fainter, not gone.
+/// Edges of boxes as lines; hidden ones are fainter.
 class BoxOverlay {
 public:
     BoxOverlay();

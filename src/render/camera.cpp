@@ -12,19 +12,19 @@
 namespace gelatin::render {
 namespace {
 
-// From the scene to the eye: a third of a quarter turn to the right, and a little above, where a floor still
-// shows what stands on it.
+// The direction from the scene to the eye: 30 degrees to the right and slightly above, so that objects on a
+// floor are seen against it.
 constexpr float kAzimuth = 27.0f;    // [degrees]
 constexpr float kElevation = 15.0f;  // [degrees]
-constexpr float kMargin = 1.16f;     // picture over what it frames
+constexpr float kMargin = 1.16f;     // margin: size of the picture relative to its content
 
-// Looking straight up or down leaves +y without a direction in the picture.
+// When looking straight up or down, +y has no direction in the picture.
 glm::vec3 up_for(const glm::vec3& forward) {
     return std::abs(forward.y) > 0.999f ? glm::vec3(0.0f, 0.0f, -1.0f) : glm::vec3(0.0f, 1.0f, 0.0f);
 }
 
-// The least picture of a set of points along one axis: where the camera stands, and how far off. Points are
-// given across the view and towards the camera; slope is the tangent of half the angle of view.
+// The smallest picture of a set of points along one axis: the position of the camera, and its distance.
+// Points are given across the view and towards the camera; slope is the tangent of half the angle of view.
 class Fit {
 public:
     explicit Fit(float slope) : slope_(slope) {}

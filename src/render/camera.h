@@ -7,7 +7,7 @@
 
 namespace gelatin::render {
 
-/// A part of space with its sides along the axes [m].
+/// An axis-aligned part of space [m].
 struct Bounds {
     glm::vec3 min{0.0f}, max{0.0f};
 
@@ -18,7 +18,7 @@ struct Bounds {
     bool operator==(const Bounds&) const = default;
 };
 
-/// The bounds of points, x, y, z of each one after another; a unit cube round the origin for none.
+/// The bounds of points given as x, y, z one after another; a unit cube around the origin if there are none.
 Bounds bounds_of(std::span<const float> positions);
 
 /// A perspective camera that looks from `eye` at `target`, +y up in the picture.
@@ -28,13 +28,13 @@ struct Camera {
     float field_of_view = 35.0f;      ///< vertical [degrees]
 
     glm::mat4 view() const;
-    /// @param aspect width over height of the picture
+    /// @param aspect width divided by height of the picture
     glm::mat4 projection(float aspect) const;
     bool operator==(const Camera&) const = default;
 };
 
-/// A three-quarter view from the front, somewhat above, as near as it can be while all of `bounds` shows,
-/// with a margin round it.
+/// A three-quarter view from the front, slightly from above, as near as possible with all of `bounds` visible
+/// and a margin around it.
 Camera frame_bounds(const Bounds& bounds, float aspect, float field_of_view = 26.0f);
 
 }  // namespace gelatin::render

@@ -12,7 +12,7 @@
 namespace gelatin::render {
 namespace {
 
-constexpr double kFlat = 0.9999;  // least y of the normal of a plane that is drawn as the floor
+constexpr double kFlat = 0.9999;  // smallest y of the normal of a plane that is drawn as the floor
 
 SurfaceMesh placed(SurfaceMesh mesh, const ColliderDescription& collider) {
     const glm::dvec3 angles = glm::radians(collider.rotation);
@@ -24,7 +24,7 @@ SurfaceMesh placed(SurfaceMesh mesh, const ColliderDescription& collider) {
     return mesh;
 }
 
-// A square of the plane under (or beside) the bodies; seen from behind it is not drawn, and hides nothing.
+// A square of the plane near the bodies. Seen from behind it is not drawn, and hides nothing.
 SurfaceMesh piece_of(const PlaneCollider& plane, const Bounds& bounds) {
     const glm::dvec3 n = plane.normal;
     const glm::dvec3 middle(bounds.center());

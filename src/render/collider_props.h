@@ -9,13 +9,13 @@
 
 namespace gelatin::render {
 
-/// How colliders look.
+/// The surfaces that show colliders.
 struct ColliderProps {
-    std::optional<float> floor_height;  ///< of the highest plane that lies flat and faces up [m]
-    std::vector<SurfaceMesh> props;  ///< boxes, spheres, capsules, and a piece of each plane that is tilted
+    std::optional<float> floor_height;  ///< of the highest plane that is level and faces up [m]
+    std::vector<SurfaceMesh> props;     ///< boxes, spheres, capsules, and a piece of each tilted plane
 };
 
-/// @param bounds where the bodies are: pieces of planes are taken round there
+/// @param bounds of the bodies: pieces of planes are cut out around them
 ColliderProps make_collider_props(const std::vector<ColliderDescription>& colliders, const Bounds& bounds);
 
 }  // namespace gelatin::render

@@ -9,15 +9,15 @@
 
 namespace gelatin::render {
 
-/// Where a plane cuts bodies open: each tet that it meets as the polygon that they share, its sides drawn
-/// thinly.
+/// The cut of a plane through bodies: for each intersected tet the polygon of the intersection, with thin
+/// sides.
 class CutOverlay {
 public:
     CutOverlay();
-    /// Lists the tets that are met. Ends with the barriers that drawing needs.
+    /// Lists the intersected tets. Ends with the barriers that drawing needs.
     void find(const RenderView& bodies);
-    /// In the colours of the bodies, or of a quantity where there is one. @pre find, for the same bodies;
-    /// depths are compared and written
+    /// In the colours of the bodies, or of a quantity if there is one. @pre find, for the same bodies; depths
+    /// are compared and written
     void draw(const Frame& frame, const RenderView& bodies) const;
 
 private:

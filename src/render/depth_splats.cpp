@@ -59,7 +59,7 @@ void DepthSplats::draw(std::span<const DepthMap> maps, std::initializer_list<con
         program.set("face_count", surface->face_count());
         program.dispatch(surface->face_count());
     }
-    // Into the textures now, and filled anew for the next frame.
+    // Copied into the textures now, and cleared for the next frame.
     gl::barrier(gl::Barrier::pixel_unpack | gl::Barrier::buffer_update);
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, depths_.id());
     gl::forget_state();  // a unit's binding changes

@@ -13,13 +13,13 @@
 
 namespace gelatin::render {
 
-/// A depth texture, and how the world is seen in it.
+/// A depth texture, and its view of the world.
 struct DepthMap {
     const Target& target;
     glm::mat4 world_to_clip;  ///< without perspective
 };
 
-/// Makes small depth maps with a compute shader instead of the rasteriser: several times cheaper on software
+/// Draws small depth maps with a compute shader instead of the rasteriser: several times cheaper on software
 /// drivers for surfaces of many small faces (shaders/render/splat_depth.comp).
 class DepthSplats {
 public:
@@ -27,7 +27,7 @@ public:
 
     DepthSplats();
 
-    /// Fills the maps with the faces that look at the light, and what lies before or behind a map clamped.
+    /// Draws the faces that face the light into the maps. Depths in front of or behind a map are clamped.
     /// @pre maps.size() <= kMostMaps
     void draw(std::span<const DepthMap> maps, std::initializer_list<const SurfaceDraw*> surfaces);
 
@@ -36,9 +36,9 @@ private:
     const gl::Program& program_for(const SurfaceDraw& surface);
 
     gl::Program program_;
-    std::optional<gl::Program> cut_program_;  // once something is cut open
+    std::optional<gl::Program> cut_program_;  // only after something was cut open
     gl::Buffer<std::uint32_t>
-        depths_;  // 2^32 - 1 is the far plane, shape [map][row][column], and unused ones
+        depths_;  // 2^32 - 1 is the far plane, shape [map][row][column], and unused maps
 };
 
 }  // namespace gelatin::render

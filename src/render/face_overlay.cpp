@@ -5,7 +5,7 @@
 namespace gelatin::render {
 namespace {
 
-constexpr float kHiddenMarks = 0.6f;  // opacity of what lies behind something
+constexpr float kHiddenMarks = 0.6f;  // opacity of hidden parts
 constexpr float kEdgeWidth = 0.9f;    // [pixels]
 
 void draw_faces(const Frame& frame, const gl::Program& program) {
@@ -19,7 +19,7 @@ void prepare_program(const Frame& frame, const gl::Program& program) {
     program.set("cut_plane", frame.bodies.surfaces.cut_plane());
 }
 
-// Over the bodies' own faces, drawn by another program.
+// Over the bodies' own faces, which another program draws.
 class Raised {
 public:
     Raised() {
@@ -41,7 +41,7 @@ void FaceOverlay::prepare(const OverlayView& overlay) {
         edge_program_ = gl::Program::graphics("render/face_corners.vert", "render/face_edges.frag");
 }
 
-// Faces that touch lie between bodies: they shine through what hides them.
+// Faces that touch are between bodies: they shine through what hides them.
 void FaceOverlay::draw_marks(const Frame& frame, const OverlayView& overlay) const {
     const gl::BufferTexture marks(overlay.face_marks, std::size_t{4} * frame.bodies.surfaces.face_count(),
                                   gl::TexelFormat::r32ui);

@@ -8,8 +8,8 @@
 
 namespace gelatin::render {
 
-/// What is told of faces: those that touch are marked, and all of them have their edges drawn. Programs are
-/// made when they are first needed.
+/// Marks faces that touch, and draws the edges of all faces. Programs are compiled when they are first
+/// needed.
 class FaceOverlay {
 public:
     void prepare(const OverlayView& overlay);

@@ -55,7 +55,7 @@ void FastPipeline::draw_plate(const View& view) {
     drawn_ = drawn_depth_ = plate_.pixels();
 }
 
-// Only what the frame before has changed.
+// Only what the previous frame has changed.
 void FastPipeline::restore_picture(const Frame& frame) {
     plate_.copy_color_to(picture_, drawn_);
     plate_.copy_depth_to(picture_, drawn_depth_);
@@ -74,12 +74,12 @@ void FastPipeline::draw_floor_shade(const Frame& frame) const {
     shade_program_.draw_arrays(gl::Primitive::triangles, 3);
 }
 
-// After all that hides the floor.
+// After everything that hides the floor.
 void FastPipeline::draw_floor_shadow(const Frame& frame) const {
     shadow_program_.bind_texture("floor_shade", floor_shade_.texture());
     frame.view.set_uniforms(shadow_program_);
     frame.shadows.set_uniforms(shadow_program_);
-    glEnable(GL_POLYGON_OFFSET_FILL);  // over the floor, which is of other triangles
+    glEnable(GL_POLYGON_OFFSET_FILL);  // above the floor, which consists of other triangles
     glPolygonOffset(-1.0f, -4.0f);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);

@@ -9,10 +9,10 @@
 
 namespace gelatin::render {
 
-/// Bodies lit at each vertex, for software drivers, which pay for every pixel that is worked out.
+/// Bodies lit at each vertex, for software drivers, which pay for every pixel that they compute.
 ///
-/// The floor and the backdrop are drawn once and copied from then on, until the camera moves; shadows darken
-/// that copy where there are any. Edges are not smoothed.
+/// The floor and the backdrop are drawn once and then copied, until the camera moves. Shadows darken that
+/// copy where there are any. Edges are not smoothed.
 class FastPipeline : public Pipeline {
 public:
     FastPipeline(int width, int height);
@@ -29,14 +29,14 @@ private:
 
     Scenery scenery_;
     VertexLight body_light_;
-    PixelLight prop_light_;  // props have few vertices, too far from one another for shadows
+    PixelLight prop_light_;  // props have few vertices, too far apart for shadows
     gl::Program shade_program_;
     gl::Program shadow_program_;
     Target plate_;                    // floor and backdrop, without shadows
     std::optional<View> plate_view_;  // of the plate
-    Target floor_shade_;              // by how much shadows darken the floor
+    Target floor_shade_;              // factor of the shadows on the floor
     Target picture_;
-    PixelRect drawn_, drawn_depth_;  // what of the picture may differ from the plate
+    PixelRect drawn_, drawn_depth_;  // the part of the picture that may differ from the plate
 };
 
 }  // namespace gelatin::render

@@ -11,26 +11,26 @@
 
 namespace gelatin::render {
 
-/// From where the studio is seen, and what of it stays the same while bodies move.
+/// The view of the studio, and the properties that do not change while bodies move.
 struct View {
     Camera camera;
     int width = 1, height = 1;          ///< [pixels]
-    Bounds bounds;                      ///< what the scale of floor and light goes by [m]
+    Bounds bounds;                      ///< determines the scale of floor and light [m]
     std::optional<float> floor_height;  ///< [m]; empty: no floor
 
     bool operator==(const View&) const = default;
 
-    /// The pixels in which anything inside of `box` shows; all where some of it lies behind the eye.
+    /// The pixels in which anything inside `box` is visible; all if some of it is behind the eye.
     PixelRect pixels_of(const Bounds& box) const;
 
     /// How large the scene is [m], > 0.
     float extent() const;
-    /// How much wider lines are drawn in larger pictures.
+    /// The factor by which lines are wider in larger pictures.
     float line_scale() const;
     int letter_size() const;  ///< [pixels]: an em
     bool shows_floor() const { return floor_height && camera.eye.y > *floor_height; }
 
-    /// The camera and the key light, for programs of the folder shaders/render.
+    /// The camera and the key light, for the programs in shaders/render.
     void set_uniforms(const gl::Program& program) const;
 };
 
@@ -46,11 +46,11 @@ struct Layer {
 
 class Overlay;
 
-/// What is drawn now. @pre the shadows are those of bodies and props
+/// The surfaces to draw. @pre the shadows are those of bodies and props
 struct Frame {
     const View& view;
     Layer bodies, props;
-    std::optional<Bounds> bounds;  ///< of bodies and props; empty: not known
+    std::optional<Bounds> bounds;  ///< of bodies and props; empty: unknown
     const Shadows& shadows;
     const Overlay& overlay;
 };

@@ -10,7 +10,8 @@
 namespace gelatin::render {
 namespace {
 
-// OpenGL's rows go up, a picture's down; drivers copy four components faster than three.
+// OpenGL's rows are ordered from the bottom, a picture's from the top; drivers copy four components faster
+// than three.
 Image to_image(const std::uint8_t* rgba, int width, int height) {
     Image image(width, height);
     const std::size_t columns = static_cast<std::size_t>(width);

@@ -7,7 +7,7 @@
 
 namespace gelatin::render {
 
-/// Brings pictures to the host without stalling: while one frame is copied, the next is drawn.
+/// Reads pictures back without stalling: while one frame is copied, the next is drawn.
 class FrameGrabber {
 public:
     /// @param width, height of all frames [pixels]
@@ -16,10 +16,11 @@ public:
     FrameGrabber& operator=(const FrameGrabber&) = delete;
     ~FrameGrabber();
 
-    /// Starts the copy of a framebuffer's colour and gives the picture of the call before, if there was one.
+    /// Starts the copy of a framebuffer's colour and returns the picture of the previous call, if there was
+    /// one.
     std::optional<Image> grab(unsigned framebuffer);
 
-    /// The last picture under way, if there is one; waits for it.
+    /// The last pending picture, if there is one; waits for it.
     std::optional<Image> flush();
 
 private:

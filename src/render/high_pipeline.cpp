@@ -10,7 +10,7 @@
 namespace gelatin::render {
 namespace {
 
-constexpr int kSamples = 4;  // OpenGL promises as many
+constexpr int kSamples = 4;  // OpenGL guarantees as many
 
 Smoothing chosen(Smoothing smoothing) {
     if (smoothing != Smoothing::automatic) return smoothing;

@@ -7,8 +7,8 @@
 
 namespace gelatin::render {
 
-/// How edges become smooth: by several samples a pixel, or by a filter over the finished picture, which is
-/// cheaper on software drivers. automatic: the filter on software drivers, samples on all others.
+/// How edges are smoothed: by multisampling, or by a filter over the finished picture, which is cheaper on
+/// software drivers. automatic: the filter on software drivers, multisampling on all others.
 enum class Smoothing { automatic, samples, filter, none };
 
 /// Light at each pixel, ambient occlusion, smooth edges.
@@ -28,8 +28,8 @@ private:
     Scenery scenery_{occlusion_};
     PixelLight light_{&occlusion_};
     gl::Program filter_program_;
-    Target canvas_;   // what is drawn into, edges not smoothed yet
-    Target picture_;  // what comes out
+    Target canvas_;   // target before edges are smoothed
+    Target picture_;  // the finished picture
 };
 
 }  // namespace gelatin::render

@@ -26,11 +26,11 @@ private:
     }
 };
 
-/// Writes a PNG file, whole or not at all.
+/// Writes a PNG file, completely or not at all.
 /// @throws SystemError if it cannot be written.
 void write_png(const std::filesystem::path& file, const Image& image);
 
-/// @throws InvalidInput if the file is missing or no PNG.
+/// @throws InvalidInput if the file is missing or is not PNG.
 Image read_png(const std::filesystem::path& file);
 
 }  // namespace gelatin::render

@@ -13,10 +13,10 @@
 namespace gelatin::render {
 namespace {
 
-constexpr int kRim = 1;  // round the letters [pixels]
+constexpr int kRim = 1;  // around the letters [pixels]
 constexpr int kAtlasWidth = 4096, kMostAtlasHeight = 16'384;
 
-using Pixel = glm::u8vec2;  // coverage by the letters, and by them and their rim
+using Pixel = glm::u8vec2;  // coverage by the letters, and by them and their outline
 
 std::uint8_t coverage_with_rim(const TextPicture& text, int x, int y) {
     std::uint8_t most = 0;
@@ -26,13 +26,13 @@ std::uint8_t coverage_with_rim(const TextPicture& text, int x, int y) {
     return most;
 }
 
-// Names beside each other in rows of one height.
+// Places names beside each other in rows of one height.
 struct Atlas {
     int row_height;
     int x = 0, height = 0;
     std::vector<Pixel> pixels = {};
 
-    // The lower left corner of a free place, or nothing where the atlas is full.
+    // The lower left corner of a free place, or nothing if the atlas is full.
     std::optional<glm::ivec2> find_place(int width) {
         if (height == 0 || x + width > kAtlasWidth) {
             if (height + row_height > kMostAtlasHeight) return std::nullopt;

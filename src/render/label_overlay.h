@@ -12,7 +12,7 @@
 
 namespace gelatin::render {
 
-/// Names of objects, each in the middle of its box, over all else.
+/// Names of objects, each at the centre of its box, over everything else.
 class LabelOverlay {
 public:
     LabelOverlay();
@@ -27,7 +27,7 @@ private:
     gl::Program program_;
     std::vector<std::string> names_;
     int letter_size_ = 0, label_height_ = 0;  // [pixels]
-    Target atlas_;                            // all names; red the letters, green the letters and their rim
+    Target atlas_;  // all names; red the letters, green the letters and their outline
     gl::Buffer<glm::uvec4> labels_;
 };
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kLeastBarWidth = 12;  // [em]
 const glm::vec4 kInk(0.1f, 0.12f, 0.16f, 1.0f);
-const glm::vec4 kPlate(1.0f, 1.0f, 1.0f, 0.55f);  // so that numbers are read on whatever lies behind
+const glm::vec4 kPlate(1.0f, 1.0f, 1.0f, 0.55f);  // so that numbers are legible on any background
 
 glm::vec3 color_at(std::span<const glm::vec3> colors, float place) {
     const float at = place * static_cast<float>(colors.size() - 1);
@@ -46,7 +46,7 @@ struct Canvas {
     }
 };
 
-// The title over the numbers over the bar.
+// The title above the numbers above the bar.
 Canvas paint(const ColorScale& scale, int letter_size) {
     const Font font(letter_size);
     const TextPicture low = font.paint(scale.low), middle = font.paint(scale.middle),
@@ -80,7 +80,7 @@ struct Unit {
     float size;
 };
 
-// So that numbers are from 1 to 999 where such a unit is.
+// So that numbers are from 1 to 999 if there is such a unit.
 Unit unit_of(Quantity quantity, float full) {
     if (quantity == Quantity::stretch) return {"", 1.0f};
     if (quantity == Quantity::speed) return full < 1.0f ? Unit{" mm/s", 1e-3f} : Unit{" m/s", 1.0f};

@@ -13,31 +13,30 @@
 
 namespace gelatin::render {
 
-/// Colours that stand for numbers: sRGB values, evenly spaced and interpolated, with what the bar of them
-/// says.
+/// Colours that represent numbers: sRGB values, evenly spaced and interpolated, and the labels of their bar.
 struct ColorScale {
-    std::span<const glm::vec3> colors;  ///< of something that outlives this
+    std::span<const glm::vec3> colors;  ///< must outlive the scale
     std::string title;                  ///< may be empty
-    std::string low, middle, high;      ///< at the bar's ends and in its middle
+    std::string low, middle, high;      ///< at the bar's ends and at its centre
     bool operator==(const ColorScale& other) const {
         return title == other.title && low == other.low && middle == other.middle && high == other.high;
     }
 };
 
-/// Springs: from compressed over none to stretched, blue over light grey to orange.
+/// For springs: from compressed to stretched, blue over light grey to orange.
 const std::array<glm::vec3, 5>& strain_colors();
 ColorScale strain_scale(float full_strain);
 
-/// Quantities that have one end: from dark blue to yellow, ever lighter, as evenly for the colour-blind.
-/// Points of "viridis" (van der Walt and Smith 2015).
+/// For quantities with one end: from dark blue to yellow with increasing lightness, suitable for colour-blind
+/// people. Points of "viridis" (van der Walt and Smith 2015).
 const std::array<glm::vec3, 9>& value_colors();
 ColorScale value_scale(const ColorMapView& map);
 
-/// Sets what spring_lines.vert goes by, and shaders/render/include/color_map.glsl.
+/// Sets the uniforms of spring_lines.vert and shaders/render/include/color_map.glsl.
 void set_strain_colors(const gl::Program& program, float full_strain);
 void set_value_colors(const gl::Program& program, const ColorMapView& map);
 
-/// What colours mean: a bar of them with numbers, in the lower left corner.
+/// The meaning of colours: a bar of them with numbers, in the lower left corner.
 class Legend {
 public:
     Legend();

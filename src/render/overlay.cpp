@@ -49,7 +49,7 @@ void Overlay::draw(const Frame& frame) const {
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);  // alpha is what smooth_edges.frag goes by
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);  // smooth_edges.frag reads alpha
     glDepthMask(GL_FALSE);
     glDisable(GL_CULL_FACE);
     if (has_springs()) springs_->draw(frame, bodies_);

@@ -15,21 +15,21 @@
 
 namespace gelatin::render {
 
-/// Draws what a view shows beside the bodies over a picture, or of the bodies in place of the pipeline.
-/// Nothing is made or drawn before a view asks for it. Needs the context it was made in.
+/// Draws the overlays of a view: over a picture, or the bodies instead of the pipeline. Nothing is compiled
+/// or drawn before a view asks for it. Needs the context in which it was made.
 class Overlay {
 public:
-    /// Takes what the next frame shows; as long-lived as the view.
+    /// Sets what the next frame shows; valid as long as the view.
     void show(const RenderView& bodies, int letter_size);
 
     bool is_empty() const;
-    /// Bodies are drawn here: see-through, coloured or cut open.
+    /// True if this draws the bodies: transparent, coloured or cut open.
     bool replaces_bodies() const { return has_springs() || view().color_map || view().cut; }
 
-    /// The bodies, where they are solid. @pre as Pipeline::draw, the shadows' textures are bound, and
+    /// Draws the bodies, if they are opaque. @pre as Pipeline::draw, the shadows' textures are bound, and
     /// replaces_bodies
     void draw_bodies(const Frame& frame) const;
-    /// Draws over all that is in the picture, by its depth. @pre as Pipeline::draw. Keeps alpha as it is.
+    /// Draws over the picture, using its depth. @pre as Pipeline::draw. Does not change alpha.
     void draw(const Frame& frame) const;
 
 private:

@@ -5,11 +5,11 @@
 
 namespace gelatin::render {
 
-/// The colour of object `index` where the scene gives none, linear RGB: eight hues that people with any
-/// kind of dichromacy tell apart (after Okabe and Ito 2008, softened), repeated.
+/// The colour of object `index` if the scene gives none, linear RGB: eight hues that people with any kind of
+/// dichromacy can distinguish (after Okabe and Ito 2008, softened), repeated.
 glm::vec3 palette_color(std::size_t index);
 
-/// As many colours as possible that tell objects apart: the palette's, then darker ones, then paler ones,
+/// As many colours as possible that distinguish objects: the palette's, then darker ones, then paler ones,
 /// repeated. Linear RGB.
 glm::vec3 object_color(std::size_t index);
 

@@ -5,7 +5,7 @@
 
 namespace gelatin::render {
 
-/// A way to make a picture of a frame: one for each Quality.
+/// A method to make a picture of a frame: one for each Quality.
 class Pipeline {
 public:
     Pipeline() = default;
@@ -16,7 +16,7 @@ public:
     /// @pre faces are culled and depths compared as Renderer::draw sets it; a vertex array object is bound
     virtual void draw(const Frame& frame) = 0;
 
-    /// The pictures from now on are of this size [pixels].
+    /// Sets the size of later pictures [pixels].
     virtual void resize(int width, int height) = 0;
 
     /// Where the finished picture is.

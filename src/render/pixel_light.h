@@ -8,10 +8,10 @@
 
 namespace gelatin::render {
 
-/// Draws surfaces with their light worked out at each pixel.
+/// Draws surfaces lit at each pixel.
 class PixelLight {
 public:
-    /// @param occlusion of what is drawn; null: all of the ambient light reaches everything
+    /// @param occlusion of the surfaces drawn; null: all of the ambient light reaches everything
     /// @param defines CUT: by a plane, "cut_plane" of the program
     explicit PixelLight(const AmbientOcclusion* occlusion = nullptr, const gl::Defines& defines = {});
 

@@ -38,7 +38,7 @@ RendererOptions checked(RendererOptions options) {
     return options;
 }
 
-// Empty where the bodies' box is of another time.
+// Empty if the bodies' box is that of an earlier time.
 std::optional<Bounds> exact_bounds(const RenderView& bodies, const RenderView& props) {
     if (bodies.box_is_late) return {};
     const auto point = [](const float* p) { return glm::vec3(p[0], p[1], p[2]); };
@@ -87,7 +87,7 @@ void Renderer::set_surroundings(const Surroundings& surroundings) {
     body_colors_ = {};
 }
 
-// The maps follow the bodies, with room for what they move in a frame, but not to the end of the world.
+// The maps follow the bodies, with room for their motion in a frame, but within limits.
 void Renderer::aim_shadows(const RenderView& bodies, const View& view) {
     const Bounds& usual = view.bounds;
     const glm::vec3 farthest(kShadowReach * view.extent()), room(0.05f * view.extent());
@@ -101,15 +101,15 @@ void Renderer::aim_shadows(const RenderView& bodies, const View& view) {
 }
 
 const gl::Buffer<glm::vec4>& Renderer::colors_of(const RenderView& bodies) {
-    const bool tells_objects_apart = bodies.overlay.objects.has_value();
-    gl::Buffer<glm::vec4>& buffer = tells_objects_apart ? object_colors_ : body_colors_;
+    const bool distinguishes_objects = bodies.overlay.objects.has_value();
+    gl::Buffer<glm::vec4>& buffer = distinguishes_objects ? object_colors_ : body_colors_;
     const std::size_t count = std::max(bodies.object_count, 1u);
     if (buffer.size() >= count) return buffer;
     std::vector<glm::vec4> colors;
     for (std::size_t i = 0; i < count; ++i) {
         const bool given = i < surroundings_.colors.size() && surroundings_.colors[i].r >= 0.0f;
         const glm::vec3 usual = given ? surroundings_.colors[i] : palette_color(i);
-        colors.emplace_back(tells_objects_apart ? object_color(i) : usual, 1.0f);
+        colors.emplace_back(distinguishes_objects ? object_color(i) : usual, 1.0f);
     }
     buffer = gl::Buffer<glm::vec4>(std::span<const glm::vec4>(colors));
     return buffer;

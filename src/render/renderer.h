@@ -17,30 +17,30 @@
 
 namespace gelatin::render {
 
-/// high: light at each pixel, smooth edges. fast: light at each vertex as in the paper, small shadow maps,
-/// edges as they come; about a tenth of the time on software drivers. automatic: fast on those, high on GPUs.
+/// high: light at each pixel, smooth edges. fast: light at each vertex as in the paper, small shadow maps, no
+/// smoothing; about a tenth of the time on software drivers. automatic: fast on those, high on GPUs.
 enum class Quality { automatic, high, fast };
 
 struct RendererOptions {
     int width = 1280;  ///< [pixels], >= 1
     int height = 720;  ///< [pixels], >= 1
     Quality quality = Quality::automatic;
-    Smoothing smoothing = Smoothing::automatic;  ///< not of Quality::fast
+    Smoothing smoothing = Smoothing::automatic;  ///< ignored by Quality::fast
 };
 
-/// What stays the same from frame to frame.
+/// What does not change from frame to frame.
 struct Surroundings {
     Bounds bounds;  ///< of the bodies at the start: sets the scale of floor and shadows [m]
     std::optional<float> floor_height;  ///< [m]; empty: no floor is drawn
-    std::vector<SurfaceMesh> props;     ///< what stands about and does not move
-    /// Of the bodies, linear RGB; the palette's where one is negative or missing.
+    std::vector<SurfaceMesh> props;     ///< surfaces that do not move
+    /// Of the bodies, linear RGB; the palette's if one is negative or missing.
     std::vector<glm::vec3> colors;
 };
 
-/// Draws bodies from their buffers into a picture of its own: floor, backdrop, soft shadows.
+/// Draws bodies from their buffers into its own picture: floor, backdrop, soft shadows.
 ///
-/// Needs the context that it was made in and that the buffers belong to. Changes the state of OpenGL, but for
-/// the framebuffer and the viewport. Not movable.
+/// Needs the context in which it was made and to which the buffers belong. Changes the state of OpenGL,
+/// except the framebuffer and the viewport. Not movable.
 class Renderer {
 public:
     /// @throws InvalidInput for a picture larger than the driver's limit or empty; GlError for a driver that
@@ -50,13 +50,13 @@ public:
     Renderer& operator=(const Renderer&) = delete;
     ~Renderer();
 
-    /// The pictures from now on are of this size. @throws as the constructor
+    /// Sets the size of later pictures. @throws as the constructor
     void resize(int width, int height);
 
     void set_surroundings(const Surroundings& surroundings);
 
-    /// Draws one frame and what its overlay shows. Orders itself after the dispatches that wrote the buffers;
-    /// does not wait for them.
+    /// Draws one frame and the overlays of its view. Includes the barriers for the dispatches that wrote the
+    /// buffers; does not wait for them.
     void draw(const RenderView& bodies, const Camera& camera);
 
     /// high or fast.
@@ -81,7 +81,7 @@ private:
     Surroundings surroundings_;
     StaticMesh props_;
     gl::Buffer<glm::vec4> body_colors_;
-    gl::Buffer<glm::vec4> object_colors_;  // where the overlay tells objects apart
+    gl::Buffer<glm::vec4> object_colors_;  // if the overlay distinguishes objects
     gl::Buffer<glm::vec4> prop_colors_;
 };
 

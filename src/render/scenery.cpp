@@ -8,7 +8,7 @@ namespace {
 
 constexpr float kFloorRadius = 11.0f;  // of the scene's extent
 
-// 1, 2 or 5 times a power of ten, so that some ten lines cross the scene.
+// 1, 2 or 5 times a power of ten, so that about ten lines cross the scene.
 float grid_spacing(float extent) {
     const float wanted = extent / 10.0f;
     const float decade = std::pow(10.0f, std::floor(std::log10(wanted)));

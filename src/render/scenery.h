@@ -6,19 +6,19 @@
 
 namespace gelatin::render {
 
-/// The floor and the backdrop round the bodies.
+/// The floor and the backdrop around the bodies.
 class Scenery {
 public:
-    /// Of a floor without shadows.
+    /// A floor without shadows.
     Scenery();
-    /// Of a floor with shadows. @param occlusion of what is drawn
+    /// A floor with shadows. @param occlusion of the surfaces drawn
     explicit Scenery(const AmbientOcclusion& occlusion);
 
-    /// Draws the floor, if the view shows one, and the backdrop behind all that has been drawn.
-    /// @param shadows null for a floor without @pre a vertex array object is bound
+    /// Draws the floor, if the view has one, and the backdrop behind everything drawn before.
+    /// @param shadows null: a floor without shadows @pre a vertex array object is bound
     void draw(const View& view, const Shadows* shadows) const;
 
-    /// The place of the floor, for shaders/render/include/floor_color.glsl.
+    /// The position of the floor, for shaders/render/include/floor_color.glsl.
     static void set_floor_uniforms(const gl::Program& program, const View& view);
 
 private:

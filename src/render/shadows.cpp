@@ -22,11 +22,11 @@ constexpr float kFreePath = 0.07f;
 const glm::mat4 kHalf =
     glm::translate(glm::mat4(1.0f), glm::vec3(0.5f)) * glm::scale(glm::mat4(1.0f), glm::vec3(0.5f));
 
-// A patch that no point is inside of.
+// A patch that contains no point.
 const glm::vec4 kNowhere(0.0f);
 
 Target make_depth_map(int resolution, bool splat) {
-    // Splats are uploaded as integers of 32 bits, which need no conversion then.
+    // Splats are uploaded as integers of 32 bits; then no conversion is needed.
     return Target::depth(resolution, resolution, splat ? GL_DEPTH_COMPONENT32 : GL_DEPTH_COMPONENT24);
 }
 
@@ -95,7 +95,7 @@ void Shadows::draw_depths(std::span<const DepthMap> maps, std::initializer_list<
     if (splats_) return splats_->draw(maps, casters);
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
-    glEnable(GL_DEPTH_CLAMP);  // what lies before or behind a map still casts into it
+    glEnable(GL_DEPTH_CLAMP);  // surfaces in front of or behind a map still cast shadows into it
     for (const DepthMap& map : maps) {
         map.target.bind();
         glClear(GL_DEPTH_BUFFER_BIT);
@@ -111,8 +111,8 @@ void Shadows::draw_depths(std::span<const DepthMap> maps, std::initializer_list<
     glDisable(GL_DEPTH_CLAMP);
 }
 
-// Without the cut's own face, which light that falls through would leave by the body's other side: faces seen
-// from within cast its shadow.
+// Without the cut's own face. Light that enters through it would leave on the body's other side, so back
+// faces cast its shadow.
 void Shadows::draw_cut_depth(const DepthMap& map, const SurfaceDraw& caster) {
     if (!cut_depth_program_)
         cut_depth_program_ =

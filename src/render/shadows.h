@@ -17,14 +17,14 @@ namespace gelatin::render {
 
 /// The maps' resolutions [pixels a side].
 struct ShadowDetail {
-    int key_map, undersides;  ///< what stands before the key light, and over the floor
+    int key_map, undersides;  ///< seen from the key light, and from above the floor
     int floor_light;          ///< the light that reaches the floor
     bool few_taps;            ///< half the samples of the maps
-    bool splat;               ///< casters drawn by DepthSplats, which is for small maps
+    bool splat;               ///< casters are drawn by DepthSplats, which is for small maps
 };
 
-/// What stands between the lights and the scene: a depth map seen from the key light, and from it and the
-/// bodies' undersides the light that reaches the floor, as a small texture.
+/// Shadows: a depth map seen from the key light, and, from it and the bodies' undersides, the light that
+/// reaches the floor, as a small texture.
 class Shadows {
 public:
     explicit Shadows(const ShadowDetail& detail);
@@ -32,16 +32,15 @@ public:
     Shadows& operator=(const Shadows&) = delete;
     ~Shadows();
 
-    /// Fits the maps to what casts shadows. @param extent of the scene, which softness goes by [m], > 0
+    /// Fits the maps to what casts shadows. @param extent of the scene, which determines softness [m], > 0
     /// @param to_light unit vector
     void aim(const Bounds& casters, float extent, float floor_height, const glm::vec3& to_light);
 
     /// Draws the casters into the maps. @pre a vertex array object is bound
-    /// @param lights_floor false: where no floor shows, nothing of its light is worked out and all of it is
-    /// lit
+    /// @param lights_floor false if no floor is visible: then its light is not computed, and all of it is lit
     void draw(std::initializer_list<const SurfaceDraw*> casters, bool lights_floor);
 
-    /// The part of the floor that may be darkened.
+    /// The part of the floor that shadows may darken.
     Bounds floor_patch() const;
 
     /// For programs that use shaders/render/include/light.glsl or floor_light.glsl.
@@ -59,7 +58,7 @@ private:
     void draw_floor_light() const;
 
     gl::Program depth_program_;
-    std::optional<gl::Program> cut_depth_program_;  // once something is cut open
+    std::optional<gl::Program> cut_depth_program_;  // only after something was cut open
     gl::Program floor_program_;
     gl::Program blend_program_;
     std::optional<DepthSplats> splats_;
@@ -71,7 +70,7 @@ private:
 
     glm::mat4 world_to_light_{1.0f};  // clip coordinates of the key light's map
     glm::mat4 world_to_floor_{1.0f};  // clip coordinates of the undersides' map
-    glm::vec3 light_size_{1.0f};      // what the key light's map covers, across, up and in depth [m]
+    glm::vec3 light_size_{1.0f};      // extent of the key light's map: across, up and in depth [m]
     glm::vec2 patch_corner_{0.0f};    // [m]
     glm::vec2 patch_size_{1.0f};      // [m]
     float floor_height_ = 0.0f;       // [m]

@@ -15,7 +15,7 @@ SpringOverlay::SpringOverlay()
     : spring_program_(gl::Program::graphics("render/spring_lines.vert", "render/line.frag")),
       glass_program_(gl::Program::graphics("render/surface.vert", "render/glass.frag", {"CUT"})) {}
 
-// Bodies of glass first, whose springs then are seen as if through nothing.
+// Transparent bodies first, through which the springs are then visible.
 void SpringOverlay::draw(const Frame& frame, const RenderView& bodies) const {
     const OverlayView& overlay = bodies.overlay;
     frame.view.set_uniforms(glass_program_);

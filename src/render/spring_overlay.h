@@ -6,11 +6,11 @@
 
 namespace gelatin::render {
 
-/// Springs as lines coloured by strain, inside bodies as if of glass.
+/// Springs as lines coloured by strain, inside transparent bodies.
 class SpringOverlay {
 public:
     SpringOverlay();
-    /// Takes over the nodes of `bodies`.
+    /// Uses the nodes of `bodies`.
     void draw(const Frame& frame, const RenderView& bodies) const;
 
 private:

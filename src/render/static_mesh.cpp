@@ -21,13 +21,13 @@ glm::dvec3 unit_or_zero(const glm::dvec3& v) {
     return length > 0.0 ? v / length : glm::dvec3(0.0);
 }
 
-// A vertex of the surface as one smooth side of it sees it.
+// A vertex of the surface, for one of its smooth sides.
 struct Corner {
     std::uint32_t vertex;
     glm::dvec3 normal;  // not unit
 };
 
-// The corners of all faces, each once; appends the faces over them, numbered from `first`, to `triangles`.
+// The corners of all faces, each once. Appends the faces over them, numbered from `first`, to `triangles`.
 std::vector<Corner> split_at_creases(const SurfaceMesh& surface, std::vector<std::uint32_t>& triangles,
                                      std::uint32_t first) {
     std::vector<glm::dvec3> areas;  // twice the face's area along its normal
@@ -46,7 +46,8 @@ std::vector<Corner> split_at_creases(const SurfaceMesh& surface, std::vector<std
                 const double cosine = glm::dot(unit_or_zero(areas[f]), unit_or_zero(areas[neighbour]));
                 if (cosine > kCosineOfCrease) normal += areas[neighbour];
             }
-            // Faces of one smooth side add up the same neighbours in the same order: the same bits.
+            // Faces of one smooth side add up the same neighbours in the same order, so they get the same
+            // bits.
             auto& known = corners_of[vertex];
             const auto same = std::find_if(known.begin(), known.end(),
                                            [&](std::uint32_t c) { return corners[c].normal == normal; });

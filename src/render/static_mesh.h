@@ -11,13 +11,12 @@
 
 namespace gelatin::render {
 
-/// A surface that does not move, in buffers of its own and in the form in which bodies are drawn. Edges where
-/// faces meet at more than 40 degrees are sharp, all others smooth. Move-only; needs the context it was made
-/// in.
+/// A surface that does not move, in its own buffers, in the same format as bodies. Edges where faces meet at
+/// more than 40 degrees are sharp, all others smooth. Move-only; needs the context in which it was made.
 class StaticMesh {
 public:
     StaticMesh() = default;
-    /// One object a surface, in order.
+    /// One object for each surface, in order.
     explicit StaticMesh(const std::vector<SurfaceMesh>& surfaces);
 
     /// Valid as long as this lives.

@@ -8,7 +8,7 @@
 
 namespace gelatin::render {
 
-/// The buffers of a RenderView made ready for shaders/render/include/surface_fetch.glsl; as long-lived as the
+/// The buffers of a RenderView, prepared for shaders/render/include/surface_fetch.glsl; valid as long as the
 /// view.
 class SurfaceDraw {
 public:
@@ -17,17 +17,17 @@ public:
     std::uint32_t vertex_count() const { return view_.vertex_count; }
     std::uint32_t face_count() const { return view_.face_count; }
 
-    /// Where an overlay cuts the surfaces open: what is on the plane's positive side is not drawn.
+    /// Where an overlay cuts the surfaces open: the plane's positive side is not drawn.
     bool is_cut() const { return view_.overlay.cut.has_value(); }
-    /// All 0 where nothing is cut.
+    /// All 0 without a cut.
     glm::vec4 cut_plane() const;
 
     /// For programs that include render/include/surface_fetch.glsl.
     void bind(const gl::Program& program) const;
-    /// "triangles" of the program: a texel of three vertices each.
+    /// For "triangles" of the program: one texel of three vertices each.
     void bind_triangles(const gl::Program& program) const { program.bind("triangles", triangles_); }
 
-    /// Draws all faces with a program that fetches points. @pre a vertex array object is bound
+    /// Draws all faces with a program that fetches vertices. @pre a vertex array object is bound
     void draw(const gl::Program& program) const;
     /// The same with a program that has vertex inputs.
     void draw_triangles(const gl::Program& program) const;
@@ -40,8 +40,8 @@ private:
     gl::BufferTexture triangles_;
 };
 
-/// While it lives, programs that tell their distance from the plane do not draw beyond it, where there is
-/// one.
+/// During its lifetime, programs that write their distance from the plane draw only one side of it, if there
+/// is a cut.
 class Clipping {
 public:
     explicit Clipping(const SurfaceDraw& surfaces);

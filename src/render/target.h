@@ -13,25 +13,25 @@ struct PixelRect {
     int left = 0, bottom = 0, right = 0, top = 0;
 
     bool is_empty() const { return right <= left || top <= bottom; }
-    /// What holds both.
+    /// The smallest area that contains both.
     PixelRect joined(const PixelRect& other) const;
     bool operator==(const PixelRect&) const = default;
 };
 
-/// Something to draw into: a framebuffer and what is attached to it. Move-only. Making one leaves the
-/// framebuffers that are bound as they were.
+/// A framebuffer to draw into, with its attachments. Move-only. Creating one does not change the bound
+/// framebuffers.
 class Target {
 public:
     Target() = default;
-    /// Colour (RGBA8) and depth with `samples` a pixel, for drawing and resolving alone.
-    /// @throws GlError if the driver cannot make it; the same for the others.
+    /// Colour (RGBA8) and depth with `samples` in each pixel, for drawing and resolving only.
+    /// @throws GlError if the driver cannot create it; the same for the others.
     static Target multisampled(int width, int height, int samples);
     /// A colour texture, sampled linearly, clamped at its edge.
     /// @param internal_format for example GL_RGBA8
     static Target color(int width, int height, unsigned internal_format);
-    /// A colour texture (RGBA8) with depth beside it.
+    /// A colour texture (RGBA8) with depth.
     static Target color_and_depth(int width, int height);
-    /// A depth texture, its values read unfiltered.
+    /// A depth texture, read without filtering.
     static Target depth(int width, int height, unsigned internal_format);
     Target(Target&& other) noexcept { swap(other); }
     Target& operator=(Target&& other) noexcept;
@@ -42,12 +42,12 @@ public:
     unsigned framebuffer() const { return framebuffer_; }
     unsigned texture() const { return texture_; }
 
-    /// Draws go here from now on, with the viewport over all of it.
+    /// Directs later draws here, with the viewport over all of it.
     void bind() const;
 
-    /// Copies to a target of the same size, several samples a pixel becoming one. Draws go there from now on.
+    /// Copies to a target of the same size; several samples of a pixel are averaged. Later draws go there.
     void copy_color_to(const Target& target) const;
-    /// Copies pixels to the same place of another target. @pre both are color_and_depth
+    /// Copies pixels to the same position in another target. @pre both are color_and_depth
     void copy_color_to(const Target& target, const PixelRect& pixels) const;
     void copy_depth_to(const Target& target, const PixelRect& pixels) const;
     /// All pixels.

@@ -9,9 +9,9 @@
 
 namespace gelatin::render {
 
-/// Draws surfaces with their light worked out at each vertex by a compute shader (the paper's light, 3.1),
-/// which carries the vertices into the picture too. Drawing is left with fetching: on software drivers
-/// compute shaders run on all threads, vertex shaders on one.
+/// Draws surfaces lit at each vertex by a compute shader (the paper's light, 3.1), which also computes clip
+/// coordinates. Drawing only fetches the results: on software drivers compute shaders run on all threads,
+/// vertex shaders on one.
 class VertexLight {
 public:
     VertexLight();

@@ -27,7 +27,7 @@ void check_ending(const fs::path& file) {
 std::vector<std::string> encoder_command(const fs::path& file, int width, int height, FrameRate rate) {
     const std::string size = std::to_string(width) + "x" + std::to_string(height);
     const std::string frames = std::to_string(rate.numerator) + "/" + std::to_string(rate.denominator);
-    // -xerror, for ffmpeg would otherwise end well after a write that failed at the film's end.
+    // -xerror, because otherwise ffmpeg reports success after a failed write at the film's end.
     return {"ffmpeg",
             "-nostdin",
             "-hide_banner",
@@ -112,7 +112,7 @@ VideoWriter::~VideoWriter() {
 
 void VideoWriter::discard() {
     if (!encoder_) return;
-    encoder_.reset();  // ends ffmpeg before its file goes
+    encoder_.reset();  // ends ffmpeg before its file is removed
     std::error_code ignored;
     fs::remove(partial_, ignored);
 }
@@ -126,7 +126,7 @@ void VideoWriter::write(const Image& frame) {
     assert(next_even(frame.width) == width_ && next_even(frame.height) == height_);
     const std::uint8_t* pixels = frame.pixels.data();
     if (frame.width != width_ || frame.height != height_) {
-        // 4:2:0 has one colour for 2 x 2 pixels: the last column and row stand twice.
+        // 4:2:0 has one colour for 2 x 2 pixels: the last column and row are repeated.
         padded_.resize(3 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
         std::uint8_t* to = padded_.data();
         for (int y = 0; y < height_; ++y) {
@@ -147,7 +147,7 @@ void VideoWriter::finish() {
         throw InvalidInput({file_.string(), 0, {}, {}, "a film needs at least one frame"});
     }
     const ProcessResult result = encoder_->finish();
-    // At this log level ffmpeg only speaks of what went wrong.
+    // At this log level ffmpeg reports errors only.
     if (!result.succeeded() || !result.output.empty()) fail(describe(result));
     std::error_code error;
     fs::rename(partial_, file_, error);

@@ -11,7 +11,7 @@
 
 namespace gelatin::render {
 
-/// Frames a second, as a fraction.
+/// Frames per second, as a fraction.
 struct FrameRate {
     int numerator = 60;
     int denominator = 1;
@@ -20,20 +20,20 @@ struct FrameRate {
     static FrameRate from(double rate);
 };
 
-/// Writes a film (H.264, 4:2:0, BT.709) by feeding frames to the program ffmpeg. The film appears under its
-/// name when `finish` has returned; the destructor without it leaves nothing behind.
+/// Writes a film (H.264, 4:2:0, BT.709) by sending frames to the program ffmpeg. The film appears under its
+/// name when `finish` has returned; without `finish`, the destructor leaves nothing behind.
 class VideoWriter {
 public:
     /// @param file ends in .mp4, .mov or .mkv
-    /// @param width, height of all frames [pixels]; the film of an odd one is a pixel larger, the last being
-    /// repeated
-    /// @throws InvalidInput for another ending; SystemError if there is no ffmpeg.
+    /// @param width, height of all frames [pixels]; if one is odd the film is a pixel larger, and the last
+    ///   pixel is repeated
+    /// @throws InvalidInput for another extension; SystemError if there is no ffmpeg.
     VideoWriter(std::filesystem::path file, int width, int height, FrameRate rate);
     VideoWriter(const VideoWriter&) = delete;
     VideoWriter& operator=(const VideoWriter&) = delete;
     ~VideoWriter();
 
-    /// @throws SystemError with ffmpeg's last words if it has ended (disk full, no such folder, ...).
+    /// @throws SystemError with ffmpeg's last message if it has ended (disk full, no such folder, ...).
     void write(const Image& frame);
 
     /// Ends the film. @throws SystemError as `write`; InvalidInput if there was no frame.

@@ -9,16 +9,15 @@
 
 namespace gelatin {
 
-/// The options with the backend that the scene needs in place of `automatic`, if it needs one.
-/// @throws InvalidInput if another one is asked for.
+/// The options, with the backend that the scene requires instead of `automatic`.
+/// @throws InvalidInput if the options name another one.
 SimulatorOptions with_needed_backend(SimulatorOptions options, const Scene& scene);
 
-/// The context that the options ask for: the host's, a headless one, or none where nothing needs GL.
+/// The context for the options: the host's, a headless one, or none if nothing needs GL.
 /// @throws NoOpenGl if GL is needed and there is none.
 std::optional<gl::Context> make_context(const SimulatorOptions& options);
 
-/// Whether the GL backend simulates: as asked, or where `automatic` finds a GPU that is not a software
-/// driver.
+/// Whether the GL backend simulates: as requested, or for `automatic` on a GPU that is not a software driver.
 bool choose_gl(const SimulatorOptions& options, const std::optional<gl::Context>& context);
 
 }  // namespace gelatin

@@ -17,7 +17,7 @@ bool have_the_same_tets(const Model& a, const ModelObject& in_a, const Model& b,
     return true;
 }
 
-// xyz alone; the fourth components are the model's.
+// Only xyz; the fourth components are the model's.
 void copy_vectors(const std::vector<glm::vec4>& from, const Range& range, std::vector<glm::vec4>& to,
                   std::uint32_t first) {
     for (std::uint32_t n = 0; n < range.count; ++n)
@@ -31,7 +31,7 @@ const ModelObject* find_same(const Model& from, const Model& to, const ModelObje
     return same == from.objects.end() ? nullptr : &*same;
 }
 
-// Those of a handle, in ascending order, as their object counts them.
+// The nodes of a handle, in ascending order, by their index in the object.
 std::vector<std::uint32_t> nodes_of(const Model& model, std::size_t handle) {
     const ModelObject& object = model.objects[model.handles[handle].object];
     std::vector<std::uint32_t> nodes;

@@ -19,7 +19,7 @@ struct Depth {
 Depth deepest(const Collider& collider, std::span<const glm::vec4> nodes) {
     Depth result;
     for (const glm::vec4& p : nodes) {
-        if (p.w == 0.0f) continue;  // held nodes are where they are told to be
+        if (p.w == 0.0f) continue;  // held nodes are not pushed out
         const cpu::SurfaceDistance<double> surface = cpu::surface_distance(collider, glm::dvec3(p));
         if (-surface.distance > result.depth) result = {-surface.distance, surface.normal};
     }
@@ -64,7 +64,7 @@ std::vector<std::string> check_starts(const Model& model, const Scene& scene,
             }
             first = fmt::format(
                 "object '{}': starts {:.3g} m deep inside collider {} (a {}), which may tear it as its nodes "
-                "are pushed out; at most {:.3g} m, half of its thickness there, are allowed for",
+                "are pushed out; up to {:.3g} m, half of its thickness there, is safe",
                 object.name, found.depth, c + 1, name_of(collider), allowed);
         }
         if (first.empty()) continue;

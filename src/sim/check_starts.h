@@ -10,9 +10,9 @@
 
 namespace gelatin {
 
-/// Objects that start so deep inside a collider that their nodes are not all pushed out on one side, which
-/// tears them, a line for each collider: deeper than half of how thick they are across the collider's
-/// surface. Shallower starts are put outside without harm.
+/// Finds objects that start so deep inside a collider that their nodes are not all pushed out on one side,
+/// which tears them; one line for each collider. The limit is half of the object's thickness across the
+/// collider's surface. Objects that start less deep are pushed out without damage.
 /// @param positions of all nodes at the start: xyz [m]
 std::vector<std::string> check_starts(const Model& model, const Scene& scene,
                                       std::span<const glm::vec4> positions);

@@ -12,7 +12,7 @@
 namespace gelatin {
 namespace {
 
-// The file is this header, then the arrays of the state and those of the drags, one behind the other.
+// The file is this header, then the arrays of the state and those of the drags, one after the other.
 struct Header {
     char magic[8];
     std::uint32_t version;
@@ -20,8 +20,8 @@ struct Header {
     double time;
     std::uint64_t nodes;
     std::uint64_t arrays;    // 2, or 3 with earlier velocities
-    std::uint64_t handles;   // in the arrays of drags; 0 where nothing is dragged
-    std::uint64_t topology;  // hash of what the nodes mean
+    std::uint64_t handles;   // in the arrays of drags; 0 if nothing is dragged
+    std::uint64_t topology;  // hash of the model's topology
     std::uint64_t checksum;  // hash of the arrays
 };
 static_assert(sizeof(Header) == 64 && sizeof(Drag) == 56);
@@ -52,7 +52,8 @@ void append(const std::vector<T>& array, std::string& bytes) {
 template <class T>
 void take(const char*& next, std::size_t count, std::vector<T>& array) {
     array.resize(count);
-    std::copy_n(next, count * sizeof(T), reinterpret_cast<char*>(array.data()));  // none: of no array, too
+    std::copy_n(next, count * sizeof(T),
+                reinterpret_cast<char*>(array.data()));  // none: no array has that many
     next += count * sizeof(T);
 }
 

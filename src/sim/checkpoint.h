@@ -9,7 +9,7 @@
 
 namespace gelatin {
 
-/// A moment of a run, from which it can go on.
+/// A moment of a run, from which it can continue.
 struct Checkpoint {
     int frame = 0;
     double time = 0.0;  ///< [s]
@@ -17,7 +17,8 @@ struct Checkpoint {
     std::vector<Drag> drags = {}, drag_targets = {};  ///< shape [handles], or none
 };
 
-/// Writes the exact bits, with the model's topology and a checksum; whole or not at all. @throws SystemError
+/// Writes the exact bits, with the model's topology and a checksum; completely or not at all. @throws
+/// SystemError
 void write_checkpoint(const std::filesystem::path& file, const Model& model, const Checkpoint& checkpoint);
 
 /// @throws InvalidInput if it is not a checkpoint, is damaged, or was made with other objects than `model`'s.

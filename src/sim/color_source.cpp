@@ -6,7 +6,7 @@
 namespace gelatin {
 namespace {
 
-// Above the least value; smaller differences are rounding, or of no interest.
+// Relative to the smallest value; smaller differences are rounding, or irrelevant.
 float least_range(const Model& model, Quantity quantity) {
     constexpr float kStrain = 1e-3f, kSpeed = 1e-2f;  // [1], [m/s]
     switch (quantity) {

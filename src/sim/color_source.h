@@ -7,8 +7,8 @@
 
 namespace gelatin {
 
-/// Gives a renderer a quantity at tets and nodes, found on the GPU, with the range that colours show of it. A
-/// range that nobody has set follows the values a picture later, which spares a wait; the first picture
+/// Provides a quantity at tets and nodes for a renderer, computed on the GPU, with the range of its colours.
+/// A range that nobody has set follows the values one picture later, which avoids a wait; the first picture
 /// waits.
 class ColorSource {
 public:
@@ -25,7 +25,7 @@ private:
 
     gpu::TetValues values_;
     CalmRange range_;
-    float end_ = 0.0f;  // of the range, above the least value; 0: not known yet
+    float end_ = 0.0f;  // of the range, above the smallest value; 0: unknown
     gl::Readback readback_;
 };
 

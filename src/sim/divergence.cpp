@@ -33,7 +33,8 @@ std::string flat_tet_at(const Model& model, const ModelObject& object, std::uint
     return {};
 }
 
-// Of each node of an object, the square of a frequency: what its springs and its mass make of it [1/s^2].
+// For each node of an object, the square of a frequency: stiffness of its springs divided by its mass
+// [1/s^2].
 std::vector<double> stiffness_over_mass(const Model& model, const ModelObject& object) {
     std::vector<double> result(object.nodes.count, 0.0);
     for (std::uint32_t s = object.springs.first; s < object.springs.end(); ++s) {
@@ -53,8 +54,9 @@ std::string odd_stiffness_at(const Model& model, const ModelObject& object, std:
     const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
     std::nth_element(all.begin(), middle, all.end());
     if (!(here > kOdd * *middle)) return {};
-    return fmt::format("for its mass the node's springs are {:.2g} times as stiff as the object's usual ones",
-                       here / *middle);
+    return fmt::format(
+        "relative to its mass, the node's springs are {:.2g} times as stiff as the object's median",
+        here / *middle);
 }
 
 std::string step_too_long(const Model& model, const Scene& scene, double step_size) {
@@ -63,8 +65,9 @@ std::string step_too_long(const Model& model, const Scene& scene, double step_si
     if (!(step_size > stable)) return {};
     return fmt::format(
         "the step of {:.3g} s is stable for the bodies' shapes at rest (up to {:.3g} s), but not for bodies "
-        "that are crushed or pulled far; simulation.substeps = {:.0f} (steps of {:.3g} s) is for any shape, "
-        "and so is solver = \"vbd\"",
+        "that are strongly compressed or stretched; simulation.substeps = {:.0f} (steps of {:.3g} s) is "
+        "stable "
+        "for any shape, and so is solver = \"vbd\"",
         step_size, largest_stable_step(settings.solver, model), std::ceil(settings.frame_time() / stable),
         stable);
 }
@@ -83,8 +86,7 @@ std::string likely_cause(const Model& model, const Scene& scene, std::uint32_t n
                                     step_too_long(model, scene, step_size)};
     std::erase(causes, std::string());
     if (causes.empty())
-        return "nothing is remarkable about the mesh there or the step; look at velocities, gravity and "
-               "sizes";
+        return "neither the mesh there nor the step size is unusual; check velocities, gravity and sizes";
     return fmt::format("{}", fmt::join(causes, "; "));
 }
 

@@ -11,8 +11,8 @@
 
 namespace gelatin {
 
-/// Gives a renderer the nodes with normals up to date: from the GPU solver's own buffers, or uploaded from
-/// the host once a frame where the CPU simulates.
+/// Provides a renderer with nodes and up-to-date normals: from the GPU solver's own buffers, or, if the CPU
+/// simulates, uploaded from the host once a frame.
 class DrawSource {
 public:
     explicit DrawSource(std::shared_ptr<const Model> model);
@@ -26,9 +26,9 @@ private:
 
     std::shared_ptr<const Model> model_;
     gpu::UpdateNormals normals_;
-    gl::Buffer<glm::vec4> uploaded_;  // xyz [m]; empty where the GPU simulates
+    gl::Buffer<glm::vec4> uploaded_;  // xyz [m]; empty if the GPU simulates
     gl::BufferTexture uploaded_texels_;
-    gl::Readback readback_;                    // of a GPU's positions, so that the box never waits for them
+    gl::Readback readback_;                    // of a GPU's positions, so that the box never needs a wait
     glm::vec3 box_min_{0.0f}, box_max_{0.0f};  // [m]
 };
 

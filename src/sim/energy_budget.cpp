@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSlack = 10.0;
 
-// Of springs and tets at twice their length, and of volumes that are gone.
+// Of springs and tets at twice their length, and of volumes compressed to zero.
 double energy_out_of_shape(const Model& model) {
     double sum = 0.0;
     for (const TetRest& tet : model.tet_rests)
@@ -28,7 +28,7 @@ double energy_out_of_shape(const Model& model) {
     return sum;
 }
 
-// The most that all loads together pull at a node [N].
+// The largest force of all loads together on each node [N].
 double most_load(const Model& model, const LoadedNode& loaded) {
     constexpr double kGrowth = 4.0;  // of a face
     const glm::dvec3 position(model.positions[loaded.node]);
@@ -81,7 +81,7 @@ double EnergyBudget::root_at(double time) const {
     return std::sqrt(latest_.energy + allowance_) + (gravity_drive_ + load_drive_) * since;
 }
 
-// sqrt(E) only grows in the bound, so that the power at the end is the most.
+// sqrt(E) only grows in the bound, so the power is largest at the end.
 double EnergyBudget::work_of_loads(double time) const {
     return given_by_loads_ + 2.0 * load_drive_ * root_at(time) * (time - latest_.time);
 }

@@ -10,15 +10,15 @@ namespace gelatin {
 
 enum class ExportFormat { obj, ply, vtu };
 
-/// Makes `folder` if need be and tries it, so that a run does not fail after hours.
-/// @throws InvalidInput if it cannot be made, is a file, or cannot be written into.
+/// Creates `folder` if necessary and tests it, so that a run does not fail after hours.
+/// @throws InvalidInput if it cannot be created, is a file, or cannot be written into.
 void prepare_export_folder(const std::filesystem::path& folder);
 
-/// Writes frames as frame_000000.obj (.ply, .vtu) and so on, each file whole or not at all; .vtu with
-/// scene.pvd, the list of frames and their times that ParaView opens, complete after every frame.
+/// Writes frames as frame_000000.obj (.ply, .vtu) and so on, each file completely or not at all. With .vtu
+/// also scene.pvd, the list of frames and their times that ParaView opens, complete after every frame.
 class FrameExporter {
 public:
-    /// @param folder one that `prepare_export_folder` took
+    /// @param folder one that `prepare_export_folder` has accepted
     FrameExporter(std::filesystem::path folder, ExportFormat format, const Model& model);
 
     /// @throws SystemError if it cannot be written.

@@ -10,7 +10,7 @@
 
 namespace gelatin {
 
-/// The part of exported frames that stays the same: which nodes are on the surface, and what connects them.
+/// The part of exported frames that does not change: which nodes are on the surface, and the connectivity.
 struct ExportTopology {
     struct Object {
         std::string name;
@@ -24,7 +24,7 @@ struct ExportTopology {
 };
 ExportTopology make_export_topology(const Model& model);
 
-/// Wavefront text: one `o NAME` an object, its vertices, then its faces.
+/// Wavefront text: for each object one `o NAME`, its vertices, then its faces.
 std::string obj_text(const ExportTopology& topology, const HostFrame& frame);
 
 /// Binary little-endian PLY: vertices with velocities, triangles with the index of their object.

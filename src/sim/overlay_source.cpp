@@ -12,12 +12,12 @@ namespace {
 
 constexpr std::size_t kArrows = 400;
 
-// The nodes of trees down to a number of levels below their roots, or of that level alone: index, level below
-// the first one listed.
+// The nodes of trees down to a number of levels below their roots, or of only that level: index, and level
+// below the first one listed.
 std::vector<glm::uvec2> list_boxes(const BoxTree& trees, int levels, bool is_alone) {
     const auto last = static_cast<std::size_t>(levels), first = is_alone ? last : std::size_t{0};
     std::vector<glm::uvec2> list;
-    std::vector<std::uint32_t> ends;  // of the subtrees that the node lies in
+    std::vector<std::uint32_t> ends;  // of the subtrees that contain the node
     for (std::uint32_t n = 0; n < trees.nodes.size(); ++n) {
         while (!ends.empty() && ends.back() <= n) ends.pop_back();
         if (ends.size() >= first && ends.size() <= last) list.emplace_back(n, ends.size() - first);
@@ -131,7 +131,7 @@ void OverlaySource::view_objects(OverlayView& view) {
     view.objects = ObjectView{.roots = roots_.id(), .names = names_};
 }
 
-// Where nothing can collide they stay so.
+// If nothing can collide they never change.
 void OverlaySource::make_marks() {
     if (!marks_.empty()) return;
     marks_ = gl::Buffer<std::uint32_t>(model_->faces.size());

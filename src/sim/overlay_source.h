@@ -14,15 +14,14 @@
 
 namespace gelatin {
 
-/// Gives a renderer what overlays show: from the GPU solver's own buffers, or uploaded from the host once a
-/// frame where the CPU simulates. What is not asked for costs nothing.
+/// Provides a renderer with the data of overlays: from the GPU solver's own buffers, or, if the CPU
+/// simulates, uploaded from the host once a frame. Overlays that are not requested cost nothing.
 class OverlaySource {
 public:
     explicit OverlaySource(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
 
-    /// Brings the solver's boxes up to date where they are asked for. Ends with the barriers that drawing
-    /// needs.
-    /// @param bodies what is drawn of the solver's nodes
+    /// Updates the solver's boxes if they are requested. Ends with the barriers that drawing needs.
+    /// @param bodies the surface of the solver's nodes
     OverlayView update(const Overlays& overlays, const RenderView& bodies, gpu::GpuSolver& solver);
     OverlayView update(const Overlays& overlays, const RenderView& bodies, cpu::CpuSolver<float>& solver);
 

@@ -11,7 +11,7 @@
 namespace gelatin {
 namespace {
 
-using Json = nlohmann::ordered_json;  // keys stay in the order of the documentation
+using Json = nlohmann::ordered_json;  // keys stay in the documented order
 
 Json settings_json(const RunReport& report) {
     const SimulationSettings& settings = report.settings;
@@ -41,7 +41,7 @@ Json counts_json(const Counts& counts) {
             {"tets", counts.tets}};
 }
 
-// Infinity, where nothing is near, becomes null.
+// Infinity, if nothing is near, becomes null.
 void add_proximities(const ProximityStatistics& proximities, Json& frame) {
     frame["proximities"] = {{"node_face", proximities.node_face},
                             {"edge_edge", proximities.edge_edge},
@@ -111,7 +111,7 @@ std::string to_json(const RunReport& report) {
                            {"counts", counts_json(report.counts)},
                            {"frames", std::move(frames)},
                            {"timing", timing_json(report)}};
-    // Names and paths may hold bytes that are not UTF-8, which JSON cannot.
+    // Names and paths may contain bytes that are not UTF-8, which JSON cannot represent.
     return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

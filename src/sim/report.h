@@ -9,20 +9,20 @@
 
 namespace gelatin {
 
-/// What `gelatin run --stats` writes about a run.
+/// The content of `gelatin run --stats`.
 struct RunReport {
     std::string scene;    ///< the file
     std::string backend;  ///< "gl" or "cpu"
     std::string device;
     SimulationSettings settings;
     CollisionSettings collision;
-    int substeps = 1;        ///< steps a frame, as chosen
+    int substeps = 1;        ///< steps per frame, as chosen
     double step_size = 0.0;  ///< [s]
     Counts counts;
     std::vector<std::string> objects;  ///< names, in the order of FrameStatistics::volume_ratio
     std::vector<FrameStatistics> frames;
     double seconds = 0.0;          ///< wall clock over all timed frames [s]
-    std::vector<double> frame_ms;  ///< wall clock of each frame, what is recorded of it included [ms]
+    std::vector<double> frame_ms;  ///< wall clock of each frame, recording included [ms]
     std::vector<std::pair<std::string, std::vector<double>>> stage_ms;  ///< of each run of a stage [ms]
 };
 
@@ -32,7 +32,8 @@ RunReport describe_run(const Simulator& simulator);
 /// One JSON object, SI units; docs/command-line.md lists its keys.
 std::string to_json(const RunReport& report);
 
-/// The value that `fraction` of the sorted values lie below or at (nearest rank); 0 for no values.
+/// The smallest value such that `fraction` of the sorted values are not larger (nearest rank); 0 without
+/// values.
 double percentile(std::vector<double> values, double fraction);
 
 }  // namespace gelatin

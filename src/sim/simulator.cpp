@@ -28,11 +28,11 @@ namespace gelatin {
 struct Simulator::Impl {
     Scene scene;
     SimulatorOptions options;
-    std::optional<gl::Context> context;  // before everything that owns GL objects
+    std::optional<gl::Context> context;  // declared before everything that owns GL objects
     std::shared_ptr<const Model> model;
     int substeps = 1;
     std::unique_ptr<Solver> solver;
-    gpu::GpuSolver* gpu_solver = nullptr;         // solver, if it is one
+    gpu::GpuSolver* gpu_solver = nullptr;         // `solver`, if it has this type
     cpu::CpuSolver<float>* cpu_solver = nullptr;  // the same
     std::optional<DrawSource> draw_source;
     std::optional<OverlaySource> overlay_source;
@@ -44,10 +44,9 @@ struct Simulator::Impl {
     bool is_pulled = false;
     std::deque<Moment> measured;
     std::uint32_t reported_losses = 0;
-    bool lost_proximities = false;  // and told so
+    bool lost_proximities = false;  // and reported
 
-    // From the start on where a checkpoint was saved there too: so that a run that goes on has the very times
-    // of a run in one go.
+    // Counted from the start, so that a resumed run has exactly the times of an uninterrupted one.
     void go_on_from(const Moment& moment) {
         start = moment;
         steps = 0;
@@ -74,7 +73,7 @@ struct Simulator::Impl {
         const ProximityMeasure measure = solver->proximities();
         if (measure.lost > 0 && !lost_proximities) {
             spdlog::warn(
-                "{} proximities are not kept: too many for the GPU's buffers; choose a smaller "
+                "{} proximities were not stored: too many for the GPU's buffers; choose a smaller "
                 "proximity_radius",
                 measure.lost);
             lost_proximities = true;
@@ -87,7 +86,7 @@ struct Simulator::Impl {
         return {model->positions, model->velocities, {}};
     }
 
-    // Goes on from there. What was being measured is of a state that is gone.
+    // Continues from this state. Pending measurements belong to the old one.
     void take_state(const State& state, const Moment& moment) {
         for (; !measured.empty(); measured.pop_front()) solver->end_measure();
         solver->write_state(state);
@@ -95,7 +94,7 @@ struct Simulator::Impl {
         watch->begin(state, now());
     }
 
-    // A user's work is not accounted for.
+    // The work of a user's pull or drag is unknown.
     void move_held_nodes() {
         if (is_pulled || drags->is_under_way()) watch->note_hand(time() + step_size());
         if (!drags->may_move()) return;
@@ -181,7 +180,7 @@ void Simulator::step() {
     d.run_stage("watch_nodes", [&] {
         d.solver->watch_nodes(static_cast<std::uint32_t>(now.steps), d.watch->most_energy(now.time));
     });
-    // A GPU is asked once a frame.
+    // A GPU is queried once a frame.
     if (d.gpu_solver == nullptr || d.steps % static_cast<std::uint64_t>(d.substeps) == 0)
         d.watch->check(d.solver->alarm(false), now, now);
 }
@@ -326,7 +325,7 @@ RenderView Simulator::render_view(const Overlays& overlays) {
     gl::forget_state();  // the application may have used OpenGL since
     Impl& d = *impl_;
     if (!d.context)
-        throw NoOpenGl("drawing needs an OpenGL context: ask for it in SimulatorOptions::need_gl");
+        throw NoOpenGl("drawing needs an OpenGL context: request it with SimulatorOptions::need_gl");
     if (!d.draw_source) d.draw_source.emplace(d.model);
     RenderView view;
     if (d.gpu_solver != nullptr) {

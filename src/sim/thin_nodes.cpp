@@ -23,7 +23,7 @@ double surface_area(const Model& model) {
     return 0.5 * twice;
 }
 
-// Points of one body that keep a distance, in cells as wide as that.
+// Points of one body with a minimum distance, in a grid of cells of that width.
 class SpacedPoints {
 public:
     explicit SpacedPoints(double spacing) : spacing_(spacing) {}
@@ -52,8 +52,8 @@ private:
 
 }  // namespace
 
-// A point that comes first where it finds room keeps 0.7 of a square of the spacing to itself (Rényi's
-// parking, in the plane).
+// If points are placed at random as long as there is room, each occupies 0.7 of a square of the spacing
+// (Rényi's parking problem, in the plane).
 std::vector<std::uint32_t> thin_surface_nodes(const Model& model, std::size_t count) {
     const double spacing = std::sqrt(1.4 * surface_area(model) / static_cast<double>(count));
     std::vector<std::uint32_t> nodes = model.surface_parts.nodes;

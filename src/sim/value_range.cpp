@@ -13,9 +13,9 @@ namespace {
 
 constexpr int kPatience = 120;  // pictures
 constexpr std::size_t kInfinity = std::bit_cast<std::uint32_t>(std::numeric_limits<float>::infinity()) >>
-                                  gpu::TetValues::kBinShift;  // the first bin without a number
+                                  gpu::TetValues::kBinShift;  // the first bin that is no number
 
-// The least of 1, 1.5, 2, 3, 5 and 7 times a power of ten that is not less.
+// The smallest number that is not less, of 1, 1.5, 2, 3, 5 and 7 times a power of ten.
 float round_up(float value) {
     const float power = std::pow(10.0f, std::floor(std::log10(value)));
     for (const float factor : {1.0f, 1.5f, 2.0f, 3.0f, 5.0f, 7.0f}) {
@@ -29,7 +29,7 @@ float round_up(float value) {
 float high_value(std::span<const std::uint32_t> histogram) {
     const std::uint64_t all = std::accumulate(histogram.begin(), histogram.end(), std::uint64_t{0});
     std::uint64_t above = 0;
-    for (std::size_t bin = histogram.size(); bin-- > 1;) {  // the first holds zeros
+    for (std::size_t bin = histogram.size(); bin-- > 1;) {  // the first bin contains zeros
         above += histogram[bin];
         if (100 * above <= all) continue;
         const auto end = static_cast<std::uint32_t>(std::min(bin + 1, kInfinity));

@@ -6,25 +6,24 @@
 
 namespace gelatin {
 
-/// The value, above the least, that 99 of 100 do not pass: the upper end of its bin in a histogram by the
-/// upper bits of floats (gpu::TetValues). 0 where nothing is counted.
+/// The value, above the smallest, that 99 of 100 do not exceed: the upper end of its bin in a histogram by
+/// the upper bits of floats (gpu::TetValues). 0 if nothing is counted.
 float high_value(std::span<const std::uint32_t> histogram);
 
-/// Where a scale of colours ends that follows what it shows and yet stays calm: at 1, 1.5, 2, 3, 5 or 7 times
-/// a power of ten. It grows at once, and gets smaller only when values have been low for two seconds of
-/// pictures.
+/// The end of a scale of colours that adapts to the values without flicker: 1, 1.5, 2, 3, 5 or 7 times a
+/// power of ten. It grows at once, and shrinks only when values have been low for two seconds of pictures.
 class CalmRange {
 public:
-    /// @param least the smallest that it may be, > 0: what is less is noise
+    /// @param least the smallest end, > 0: lower values are noise
     explicit CalmRange(float least);
 
-    /// Takes the next picture's high value. @return the end
+    /// Adds the next picture's high value. @return the end
     float follow(float high);
 
 private:
     float least_;
     std::optional<float> end_;
-    float highest_since_ = 0.0f;  // of the pictures in which a smaller one would have done
+    float highest_since_ = 0.0f;  // number of pictures for which a smaller one would have been enough
     int low_pictures_ = 0;
 };
 

@@ -23,7 +23,7 @@ EnergyBudget::Account add_up(const std::vector<ObjectMeasure>& objects, double t
     return sum;
 }
 
-// The object with the most energy; one whose energy is not finite has more than any other.
+// The object with the most energy. One whose energy is not finite has more than any other.
 std::size_t most_lively(const std::vector<ObjectMeasure>& objects) {
     const auto energy = [](const ObjectMeasure& object) {
         const double sum = object.kinetic_energy + object.elastic_energy + object.potential_energy;
@@ -73,7 +73,7 @@ void Watch::fail(const Alarm& alarm, std::uint64_t step, const Moment& now) cons
     const std::string others = alarm.count > 1 ? fmt::format(" and {} more", alarm.count - 1) : "";
     const glm::vec4& rest = model_->positions[alarm.node];
     throw Diverged(
-        fmt::format("the simulation diverged in step {} (on the way to frame {}, {:.6g} s): node {} of "
+        fmt::format("the simulation diverged in step {} (of frame {}, {:.6g} s): node {} of "
                     "object '{}', at ({:.4g}, {:.4g}, {:.4g}) at rest,{} {}; likely cause: {}",
                     where.step, where.frame, where.time, where.node, where.object, rest.x, rest.y, rest.z,
                     others, symptom, likely_cause(*model_, scene_, alarm.node, step_size())),
@@ -84,14 +84,14 @@ void Watch::check(const std::vector<ObjectMeasure>& objects, const Moment& momen
     const EnergyBudget::Account now = add_up(objects, moment.time);
     const bool is_moved = somebody_acts(now.time);
     const double most = is_moved ? kAnyEnergy : budget_.most_for(now);
-    // A comparison with what is not a number is false, too.
+    // A comparison with NaN is false, too.
     if (now.energy <= most && std::isfinite(now.potential))
         return is_moved ? budget_.restart(now) : budget_.note(now);
     const ModelObject& object = model_->objects[most_lively(objects)];
     throw Diverged(
         fmt::format(
             "the simulation diverged before frame {} ({:.6g} s): the bodies' kinetic and elastic energy is "
-            "{:.3g} J, most of it object '{}''s, while start, gravity and loads explain {:.3g} J at most; "
+            "{:.3g} J, most of it in object '{}', but start, gravity and loads explain at most {:.3g} J; "
             "likely "
             "cause: {}",
             moment.frame, moment.time, now.energy, object.name, most,

@@ -19,27 +19,28 @@ struct Moment {
     std::uint64_t steps = 0;  ///< since frame 0
 };
 
-/// Holds a run against what physics allows, step by step and frame by frame, and says what went wrong.
+/// Checks a run against what physics allows, step by step and frame by frame, and reports violations.
 class Watch {
 public:
     /// @param scene must outlive the watch
     Watch(const Scene& scene, std::shared_ptr<const Model> model, int substeps);
 
-    /// Energy is accounted for from here on.
+    /// Starts the energy balance here.
     void begin(const State& state, const Moment& moment);
 
-    /// A hand pulls or drags something until this time [s]: its work is not accounted for.
+    /// A user pulls or drags something until this time [s]: the work is unknown.
     void note_hand(double until) { handled_until_ = until; }
 
-    /// What Solver::watch_nodes may find with a node at this time [J].
+    /// The largest kinetic energy that Solver::watch_nodes may find in a node at this time [J].
     double most_energy(double time) const { return somebody_acts(time) ? kAnyEnergy : budget_.most_at(time); }
 
-    /// @throws Diverged if the alarm is of the steps until `until`, naming it, the node and the likely cause.
-    /// @param now not before the alarm, of whose step number it knows the upper half
+    /// @throws Diverged if the alarm belongs to the steps until `until`, naming the step, the node and the
+    ///   likely cause.
+    /// @param now not before the alarm; it supplies the upper half of the step number
     void check(const Alarm& alarm, const Moment& until, const Moment& now) const;
 
-    /// @throws Diverged unless start, gravity and loads explain the bodies' energy. After what handles did it
-    /// is as it is, and accounted for from there on.
+    /// @throws Diverged unless start, gravity and loads explain the bodies' energy. After handles have moved,
+    ///   the present energy is accepted and the balance starts from there.
     void check(const std::vector<ObjectMeasure>& objects, const Moment& moment);
 
 private:
@@ -47,7 +48,7 @@ private:
 
     [[noreturn]] void fail(const Alarm& alarm, std::uint64_t step, const Moment& now) const;
 
-    // Their work since the last account is not known.
+    // Their work since the last account is unknown.
     bool somebody_acts(double until) const {
         return budget_.time() < handled_until_ ||
                any_acts(model_->handles, budget_.time(), until, step_size());

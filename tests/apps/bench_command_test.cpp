@@ -143,7 +143,7 @@ TEST_F(BenchPaper, WritesAReportWithAChart) {
     const ProgramResult result = bench({"--runs", "1", "--only", "free fall, fast", "--report", "r.md"}, 10);
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const std::string report = read_file(path("r.md"));
-    EXPECT_THAT(report, HasSubstr("![Frames a second](r.svg)"));
+    EXPECT_THAT(report, HasSubstr("![Frames per second](r.svg)"));
     EXPECT_THAT(report, HasSubstr(result.out));
     EXPECT_THAT(report, HasSubstr("-ffp-contract=off"));
     EXPECT_THAT(report, Not(HasSubstr(path("").string())));

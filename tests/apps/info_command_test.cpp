@@ -74,7 +74,7 @@ TEST_F(InfoCommand, TellsAboutTets) {
     EXPECT_EQ(info["kind"], "tets");
     EXPECT_EQ(info["edges"], 6);
     EXPECT_NEAR(info["volume"].get<double>(), 1.0 / 6.0, 1e-15);
-    EXPECT_EQ(info["notes"].size(), 1u);  // turned back
+    EXPECT_EQ(info["notes"].size(), 1u);  // flipped
 }
 
 TEST_F(InfoCommand, RefusesWhatItCannotRead) {

@@ -216,8 +216,7 @@ TEST_F(RunCommand, StopsWhenTheSimulationDiverges) {
              "simulation.frame_rate=1e-13", "--set", "material.jelly.youngs_modulus=1e-14", "--set",
              "material.jelly.density=1e14", "--set", "simulation.gravity=[0, 1e15, 0]"});
     EXPECT_EQ(result.exit_code, 3) << result.err;
-    EXPECT_THAT(result.err,
-                HasSubstr("gelatin: error: the simulation diverged in step 1 (on the way to frame 1, "));
+    EXPECT_THAT(result.err, HasSubstr("gelatin: error: the simulation diverged in step 1 (of frame 1, "));
     EXPECT_THAT(result.err, HasSubstr("of object 'cube'"));
     EXPECT_THAT(result.err,
                 HasSubstr("; no checkpoint was saved: --checkpoint FILE --checkpoint-every N saves"));

@@ -83,6 +83,21 @@ TEST(ShaderSourceTest, EmbeddedFilesAreThoseOfTheSourceTree) {
     EXPECT_GT(embedded_shaders().size(), 5u);
 }
 
+TEST(ShaderSourceTest, AnOverrideComesBeforeFilesForAsLongAsItLives) {
+    const char* const file = "include/global_index.glsl";
+    const std::string original = shader_text(file);
+    {
+        const ShaderOverride other(file, "another\n"),
+            added("a.comp", "#include \"include/global_index.glsl\"\n");
+        EXPECT_EQ(shader_text(file), "another\n");
+        EXPECT_THAT(load_shader("a.comp").text, HasSubstr("another"));
+        const test::EnvironmentVariable variable("GELATIN_SHADER_DIR", test::source_path("shaders"));
+        EXPECT_EQ(shader_text(file), "another\n");
+    }
+    EXPECT_EQ(shader_text(file), original);
+    EXPECT_THAT(error_of("a.comp"), StartsWith("no shader a.comp"));
+}
+
 TEST(ShaderSourceTest, TranslatesEachVendorsPositions) {
     const ShaderSource source{"", {"a.comp", "b.glsl"}};
     EXPECT_EQ(source.translate_log("1:14(3): error: x\n"), "b.glsl:14(3): error: x\n");         // Mesa

@@ -6,10 +6,9 @@
 #include <string>
 
 #include "gl/program.h"
+#include "gl/shader_source.h"
 #include "model/layouts.h"
 #include "support/gl_fixture.h"
-#include "support/shader_folder.h"
-#include "support/source_path.h"
 
 namespace gelatin {
 namespace {
@@ -19,14 +18,13 @@ protected:
     // A shader that uses every field of struct `type`, so that none is optimised away.
     void check(const std::string& file, const std::string& type, std::size_t size,
                const std::vector<std::pair<std::string, std::size_t>>& fields) {
-        test::ShaderFolder folder;
-        folder.add("layouts/" + file, read_file(test::source_path() + "shaders/layouts/" + file));
         std::string sum;
         for (const auto& [field, offset] : fields) sum += " + vec4(items[1]." + field + ")";
-        folder.add("probe.comp", "#include \"layouts/" + file +
-                                     "\"\nlayout(local_size_x = 1) in;\nlayout(std430) buffer Items { " +
-                                     type + " items[]; };\nlayout(std430) buffer Out { vec4 result; };\n" +
-                                     "void main() { result = vec4(0.0)" + sum + "; }\n");
+        const gl::ShaderOverride probe(
+            "probe.comp", "#include \"layouts/" + file +
+                              "\"\nlayout(local_size_x = 1) in;\nlayout(std430) buffer Items { " + type +
+                              " items[]; };\nlayout(std430) buffer Out { vec4 result; };\n" +
+                              "void main() { result = vec4(0.0)" + sum + "; }\n");
         const gl::Program program = gl::Program::compute("probe.comp");
         for (const auto& [field, offset] : fields) {
             EXPECT_EQ(query(program, "items[0]." + field, GL_OFFSET), static_cast<int>(offset))

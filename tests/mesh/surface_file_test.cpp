@@ -112,8 +112,8 @@ TEST_F(SurfaceFileTest, ReadsWhatItWrites) {
         EXPECT_THAT(notes_, IsEmpty()) << name;
         ASSERT_EQ(back.positions.size(), mesh.positions.size()) << name;
         ASSERT_EQ(back.faces.size(), mesh.faces.size()) << name;
-        // Assimp and STL number vertices anew: faces are compared by where their corners lie, to a float's
-        // rounding.
+        // Assimp and STL renumber vertices, so faces are compared by the positions of their corners, to a
+        // float's rounding.
         for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
             for (int corner = 0; corner < 3; ++corner) {
                 const glm::dvec3 expected = mesh.positions[mesh.faces[f][corner]];
@@ -158,9 +158,9 @@ TEST_F(SurfaceFileTest, ReportsRepairs) {
     obj.replace(obj.find("f 2 3 4"), 7,
                 "v 0 1 0\nv 9 9 9\nf 2 4 5");  // wound the wrong way, with a vertex of its own
     expect_tetrahedron(read("a.obj", obj));
-    EXPECT_THAT(notes_,
-                ElementsAre("merged vertices with the same position: 1", "dropped vertices without faces: 1",
-                            "turned faces that wound the wrong way: 1"));
+    EXPECT_THAT(notes_, ElementsAre("merged vertices with the same position: 1",
+                                    "discarded vertices without faces: 1",
+                                    "flipped faces with the wrong orientation: 1"));
 }
 
 TEST_F(SurfaceFileTest, KeepsSmallMeshesApart) {

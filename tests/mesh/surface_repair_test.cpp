@@ -93,7 +93,7 @@ TEST(RepairSurface, DropsFacesWithoutArea) {
     mesh.positions.emplace_back(0.5, 0, 0);  // on the edge from vertex 0 to vertex 1
     mesh.faces.emplace_back(0, 8, 1);
     EXPECT_THAT(repair(mesh),
-                ElementsAre("dropped faces without area: 2", "dropped vertices without faces: 1"));
+                ElementsAre("discarded faces without area: 2", "discarded vertices without faces: 1"));
     EXPECT_EQ(mesh.faces.size(), 12u);
     EXPECT_EQ(mesh.positions.size(), 8u);
 }
@@ -112,7 +112,7 @@ TEST(RepairSurface, DropsRepeatedFaces) {
     mesh.faces.emplace_back(again[1], again[2], again[0]);
     turn(again);
     mesh.faces.push_back(again);
-    EXPECT_THAT(repair(mesh), ElementsAre("dropped repeated faces: 2"));
+    EXPECT_THAT(repair(mesh), ElementsAre("discarded duplicate faces: 2"));
     EXPECT_EQ(mesh.faces, cube({0, 0, 0}, 1.0).faces);
 }
 
@@ -120,7 +120,7 @@ TEST(RepairSurface, DropsVerticesWithoutFaces) {
     SurfaceMesh mesh = cube({0, 0, 0}, 1.0);
     mesh.positions.insert(mesh.positions.begin(), {7, 7, 7});
     for (glm::uvec3& face : mesh.faces) face += 1u;
-    EXPECT_THAT(repair(mesh), ElementsAre("dropped vertices without faces: 1"));
+    EXPECT_THAT(repair(mesh), ElementsAre("discarded vertices without faces: 1"));
     EXPECT_EQ(mesh.positions, cube({0, 0, 0}, 1.0).positions);
     EXPECT_EQ(mesh.faces, cube({0, 0, 0}, 1.0).faces);
 }
@@ -136,7 +136,7 @@ TEST(RepairSurface, MakesTheWindingConsistent) {
             ++turned;
         }
         EXPECT_THAT(repair(mesh),
-                    ElementsAre("turned faces that wound the wrong way: " + std::to_string(turned)));
+                    ElementsAre("flipped faces with the wrong orientation: " + std::to_string(turned)));
         EXPECT_EQ(mesh.faces, good.faces);
     }
 }
@@ -145,7 +145,7 @@ TEST(RepairSurface, TurnsEachPartOutward) {
     SurfaceMesh mesh = cube({0, 0, 0}, 1.0);
     append(mesh, cube({5, 0, 0}, 2.0));
     for (std::size_t f = 12; f < 24; ++f) turn(mesh.faces[f]);
-    EXPECT_THAT(repair(mesh), ElementsAre("turned faces that wound the wrong way: 12"));
+    EXPECT_THAT(repair(mesh), ElementsAre("flipped faces with the wrong orientation: 12"));
     EXPECT_DOUBLE_EQ(signed_volume(mesh), 9.0);
 }
 

@@ -40,7 +40,7 @@ TEST(TetCheck, NamesTheFlattestTet) {
 TEST_F(TetFileTest, TellsOfTetsThatOverlap) {
     read("a.mesh", replaced(kMedit, "0.1 0.2 -0.3333333333333333", "0.1 0.2 0.6"));
     EXPECT_THAT(notes_,
-                ElementsAre("turned tets that were inside out: 1",
+                ElementsAre("flipped inverted tets: 1",
                             "tets that overlap a neighbour, as in a tangled mesh: 1 pairs (the first is "
                             "tets 1 and 2)"));
 }
@@ -92,14 +92,14 @@ TEST_F(TetFileTest, HasNoAttributesWhereAllAreZeroOrNotWhole) {
     EXPECT_THAT(notes_, IsEmpty());
     const std::string nodes = "5 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 0.1 0.2 -0.3333333333333333\n";
     EXPECT_THAT(read_tetgen(nodes, "2 4 1\n0 0 1 2 3 0.5\n1 0 2 1 4 2\n").attributes, IsEmpty());
-    EXPECT_THAT(notes_, ElementsAre("left out attributes of tets: they are not whole numbers"));
+    EXPECT_THAT(notes_, ElementsAre("ignored attributes of tets that are not integers"));
 }
 
 TEST_F(TetFileTest, AttributesStayWithTheirTets) {
     const std::string twice = replaced(kMedit, "Tetrahedra\n2\n1 2 3 4 1\n1 3 2 5 1\n",
                                        "Tetrahedra\n4\n1 2 3 4 5\n2 3 4 1 6\n1 3 2 5 7\n3 2 5 1 8\n");
     TetMesh mesh = read("a.mesh", twice);
-    EXPECT_THAT(notes_, testing::Contains("dropped repeated tets: 2"));
+    EXPECT_THAT(notes_, testing::Contains("discarded duplicate tets: 2"));
     EXPECT_THAT(mesh.attributes, ElementsAre(5, 7));
     for (const char* name : {"b.node", "b.mesh", "b.msh"}) {
         write_tets(path(name), mesh);

@@ -83,7 +83,7 @@ TEST_F(TetFileTest, KeepsTheCornersOfQuadraticTets) {
     EXPECT_EQ(mesh.positions.size(), 4u);
     EXPECT_EQ(mesh.tets.size(), 1u);
     EXPECT_THAT(notes_, ElementsAre("kept the corners only of tets with 10 nodes: 1",
-                                    "dropped nodes without tets: 6"));
+                                    "discarded nodes without tets: 6"));
 }
 
 TEST_F(TetFileTest, ReadsMedit) {
@@ -140,14 +140,14 @@ TEST_F(TetFileTest, KeepsTheCornersOfQuadraticTetsOfGmsh) {
 TEST_F(TetFileTest, DropsRepeatedTets) {
     const std::string msh = replaced(kGmsh2, "$Elements\n2\n", "$Elements\n3\n7 4 0 20 30 10 5\n");
     const TetMesh mesh = read("a.msh", msh);
-    EXPECT_THAT(notes_, ElementsAre("dropped repeated tets: 1"));
+    EXPECT_THAT(notes_, ElementsAre("discarded duplicate tets: 1"));
     EXPECT_EQ(mesh.tets.size(), 2u);
     EXPECT_EQ(mesh.faces.size(), 6u);
 }
 
 TEST_F(TetFileTest, TurnsTetsThatAreInsideOut) {
     const TetMesh mesh = read("a.mesh", replaced(kMedit, "1 2 3 4 1", "2 1 3 4 1"));
-    EXPECT_THAT(notes_, ElementsAre("turned tets that were inside out: 1"));
+    EXPECT_THAT(notes_, ElementsAre("flipped inverted tets: 1"));
     EXPECT_GT(tet_volume(mesh, mesh.tets[0]), 0.0);
     EXPECT_DOUBLE_EQ(tet_volume(mesh, mesh.tets[0]), 1.0 / 6.0);
 }
@@ -156,7 +156,7 @@ TEST_F(TetFileTest, DropsUnusedNodes) {
     const std::string medit = replaced(replaced(kMedit, "Vertices\n5\n", "Vertices\n7\n9 9 9 0\n8 8 8 0\n"),
                                        "1 2 3 4 1\n1 3 2 5 1", "3 4 5 6 1\n3 5 4 7 1");
     expect_pair(read("a.mesh", medit));
-    EXPECT_THAT(notes_, ElementsAre("dropped nodes without tets: 2"));
+    EXPECT_THAT(notes_, ElementsAre("discarded nodes without tets: 2"));
 }
 
 // Were the counts believed, these would end in std::bad_alloc or take all memory.

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "mutants/break.h"
+#include "support/mutants.h"
 
 namespace gelatin::test {
 
-/// A broken collision level.
-inline constexpr Break kCollisionMutants[] = {
+/// Of detection.
+inline constexpr Mutant kCollisionMutants[] = {
     {"the_last_nodes_of_a_level_have_no_box", "sim/collision/update_boxes.comp", "index >= node_count",
      "index + 1u >= node_count"},
     {"a_box_forgets_a_corner", "sim/collision/update_boxes.comp", "max(a, max(b, c))", "max(a, b)"},
@@ -31,9 +31,32 @@ inline constexpr Break kCollisionMutants[] = {
     {"a_leaf_has_three_faces", "sim/collision/walk_trees.comp", "k < 4u", "k < 3u"},
     {"the_larger_object_starts", "sim/collision/pairs.glsl", "ours == theirs && pair.object < pair.other",
      "false"},
-    {"handles_push_without_velocity", "sim/collision/contact_plane.glsl",
-     "(patch_.held.xyz + other.held.xyz) / pinned", "vec3(0.0)"},
     {"half_a_word_of_tests", "sim/collision/cull_face_pairs.comp", "k < 32u", "k < 16u"},
+    {"culled_faces_are_tested", "sim/collision/list_candidates.comp", "!face_may_collide",
+     "face_may_collide"},
+    {"too_few_groups_of_face_pairs", "sim/collision/dispatches.glsl", "slot % 64u == 0u",
+     "slot % 128u == 0u"},
+    {"one_side_alone_collides", "sim/collision/test_face_pairs.comp",
+     "set_touch(find_pair(b.object, a.object), face_pair.other_face, touches.y);", ""},
+    {"faces_with_boxes_that_meet_collide", "sim/collision/test_face_pairs.comp", "if (touches.x == 0u)",
+     "touches.x |= kTouches; if (false)"},
+};
+
+/// Of continuous detection.
+inline constexpr Mutant kContinuousMutants[] = {
+    {"boxes_hold_the_end_alone", "sim/collision/update_boxes.comp",
+     "box = join(box, box_of_corners(faces[f], previous_positions));", ""},
+    {"one_face_stands_still", "sim/collision/test_face_pairs.comp", "corners(b, previous_positions)",
+     "corners(b, positions)"},
+    {"what_moves_away_enters", "sim/collision/touch.glsl", "dot(way, normal) > 0.0",
+     "dot(way, normal) != 0.0"},
+    {"sides_enter", "sim/collision/touch.glsl", "< kAcross", "< 0.0"},
+    {"planes_lie_anywhere", "sim/collision/time_of_impact.glsl", "ends_apart), vec3(0.0), starts_apart)",
+     "ends_apart), vec3(0.0), not(starts_apart))"},
+};
+
+/// Of broad_phase = "depth".
+inline constexpr Mutant kDepthMutants[] = {
     {"pixels_count_by_their_centers", "sim/depth/face_footprint.geom", "0.5 + 0.0078", "0.0"},
     {"depth_is_that_of_the_center", "sim/depth/face_footprint.geom", "kReach * (abs(slope.x) + abs(slope.y))",
      "0.0"},
@@ -45,25 +68,14 @@ inline constexpr Break kCollisionMutants[] = {
      "texelFetch(nearest_other_depth, pixel, 0).x", "1.0"},
     {"the_last_faces_are_not_drawn", "sim/depth/begin_views.comp", "? face_count :", "? face_count - 12u :"},
     {"the_view_is_of_the_first_object", "sim/depth/begin_views.comp", "other < 256u", "other < 1u"},
-    {"culled_faces_are_tested", "sim/collision/list_candidates.comp", "!face_may_collide",
-     "face_may_collide"},
-    {"too_few_groups_of_face_pairs", "sim/collision/dispatches.glsl", "slot % 64u == 0u",
-     "slot % 128u == 0u"},
-    {"one_side_alone_collides", "sim/collision/test_face_pairs.comp",
-     "set_touch(find_pair(b.object, a.object), face_pair.other_face, touches.y);", ""},
-    {"faces_with_boxes_that_meet_collide", "sim/collision/test_face_pairs.comp", "if (touches.x == 0u)",
-     "touches.x |= kTouches; if (false)"},
-    {"boxes_hold_the_end_alone", "sim/collision/update_boxes.comp",
-     "box = join(box, box_of_corners(faces[f], previous_positions));", ""},
-    {"one_face_stands_still", "sim/collision/test_face_pairs.comp", "corners(b, previous_positions)",
-     "corners(b, positions)"},
-    {"what_moves_away_enters", "sim/collision/touch.glsl", "dot(way, normal) > 0.0",
-     "dot(way, normal) != 0.0"},
-    {"sides_enter", "sim/collision/touch.glsl", "< kAcross", "< 0.0"},
+};
+
+/// Of responses.
+inline constexpr Mutant kResponseMutants[] = {
+    {"handles_push_without_velocity", "sim/collision/contact_plane.glsl",
+     "(patch_.held.xyz + other.held.xyz) / pinned", "vec3(0.0)"},
     {"faces_that_do_not_enter_count_alike", "sim/collision/sum_contacts.comp", "0.5 * kWeightOfOthers",
      "0.5"},
-    {"planes_lie_anywhere", "sim/collision/time_of_impact.glsl", "ends_apart), vec3(0.0), starts_apart)",
-     "ends_apart), vec3(0.0), not(starts_apart))"},
     {"normals_of_the_other_side_add_up", "sim/collision/contact_plane.glsl", "patch_.area_normal.xyz - other",
      "patch_.area_normal.xyz + other"},
     {"shares_are_not_divided", "sim/collision/sum_contacts.comp", "(corners[k].w * shares)", "corners[k].w"},
@@ -80,7 +92,7 @@ inline constexpr Break kCollisionMutants[] = {
 };
 
 // Of the stages of self-collision.
-inline constexpr Break kSelfCollisionMutants[] = {
+inline constexpr Mutant kSelfCollisionMutants[] = {
     {"a_chunk_forgets_lanes", "sim/collision/fit_rest_shapes.comp", "l < 64u", "l < 32u"},
     {"the_map_is_of_the_first_chunk", "sim/collision/fit_rest_shapes.comp", "c < end; ++c",
      "c < first + 1u; ++c"},
@@ -123,11 +135,11 @@ inline constexpr Break kSelfCollisionMutants[] = {
 };
 
 /// A broken search for what is near.
-inline constexpr Break kProximityMutants[] = {
+inline constexpr Mutant kProximityMutants[] = {
     {"the_margin_is_forgotten", "sim/collision/box_margin.glsl", "return box_margin.x +", "return"},
     {"a_box_has_one_end", "sim/proximity/proximities.glsl", "min(a - margin_at(a), b - margin_at(b))",
      "a - margin_at(a)"},
-    {"counts_are_not_cleared", "sim/proximity/begin_proximities.comp", "counts[index] = 0u;", ";"},
+    {"counts_are_not_cleared", "sim/proximity/begin_proximities.comp", "starts[index] = 0u;", ";"},
     {"the_last_leaf_does_not_search", "sim/proximity/list_near_objects.comp", "leaf >= search_count",
      "leaf + 1u >= search_count"},
     {"the_own_object_is_forgotten", "sim/proximity/list_near_objects.comp", "++last;", ""},
@@ -153,7 +165,7 @@ inline constexpr Break kProximityMutants[] = {
      "texelFetch(face_edges, int(min(edge, other))), f = texelFetch(face_edges, int(max(edge, other)))",
      "texelFetch(face_edges, int(edge)), f = texelFetch(face_edges, int(other))"},
     {"a_group_forgets_lanes", "sim/proximity/sum_proximities.comp", "reach < 256u", "reach < 128u"},
-    {"groups_start_anew", "sim/proximity/sum_proximities.comp", "at += group_sums[query / kGroupQueries];",
+    {"groups_start_anew", "sim/proximity/sum_proximities.comp", "at += group_sums[query / kQueriesAGroup];",
      ""},
     {"tasks_write_over_one_another", "sim/proximity/write_proximities.comp", "place += count_hits(before);",
      ";"},
@@ -166,7 +178,7 @@ inline constexpr Break kProximityMutants[] = {
 };
 
 /// A broken marking of faces that touch.
-inline constexpr Break kMarkMutants[] = {
+inline constexpr Mutant kMarkMutants[] = {
     {"the_first_pair_alone_counts", "sim/collision/face_collisions.glsl", "k < row.pair_count",
      "k < min(row.pair_count, 1u)"},
     {"no_guard_behind_the_marks", "sim/view/mark_faces.comp", "if (f >= face_count) return;", ""},

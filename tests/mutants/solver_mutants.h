@@ -1,81 +1,39 @@
 #pragma once
 
-#include "gelatin/scene.h"
-#include "mutants/break.h"
+#include "support/mutants.h"
 
 namespace gelatin::test {
 
-/// A broken step of an explicit solver.
-struct StepMutant : Break {
-    SolverKind solver;
-    ForceMethod forces;
-};
-
-inline constexpr SolverKind kSemiImplicit = SolverKind::semi_implicit_euler;
-inline constexpr ForceMethod kFused = ForceMethod::fused;
-inline constexpr ForceMethod kDivided = ForceMethod::divide_and_merge;
-
-inline constexpr StepMutant kStepMutants[] = {
-    {{"second_spring_of_a_pair_is_left_out", "sim/explicit/advance_nodes.comp", "stiffness.y", "0.0"},
-     kSemiImplicit,
-     kFused},
-    {{"lane_of_a_slice_is_shifted", "sim/explicit/advance_nodes.comp", "+ n % kSlice", "+ (n + 1u) % kSlice"},
-     kSemiImplicit,
-     kFused},
-    {{"last_pair_is_left_out", "sim/explicit/advance_nodes.comp", "p < end", "p + 64u < end"},
-     kSemiImplicit,
-     kFused},
-    {{"no_guard_at_the_end", "sim/explicit/advance_nodes.comp", "if (n >= node_count) return;", ""},
-     kSemiImplicit,
-     kFused},
-    {{"damping_has_the_wrong_sign", "sim/elasticity/spring_force.glsl", "+ damping_time", "- damping_time"},
-     kSemiImplicit,
-     kFused},
-    {{"rest_length_is_forgotten", "sim/elasticity/spring_force.glsl", "inverse_length - rest_length",
-      "inverse_length"},
-     kSemiImplicit,
-     kFused},
-    {{"damping_of_one_end_alone", "sim/elasticity/spring_force.glsl", "0.5 * (velocity_a.w + velocity_b.w)",
-      "0.5 * velocity_a.w"},
-     kSemiImplicit,
-     kFused},
-    {{"pins_are_ignored", "sim/explicit/integrate_node.glsl", "base_position.w == 0.0", "false"},
-     kSemiImplicit,
-     kFused},
-    {{"positions_move_with_the_old_velocity", "sim/explicit/integrate_node.glsl", "semi_implicit != 0u",
-      "false"},
-     kSemiImplicit,
-     kFused},
-    {{"gravity_is_forgotten", "sim/explicit/integrate_node.glsl", "gravity + ", ""}, kSemiImplicit, kFused},
-    {{"sums_start_over", "sim/explicit/integrate_node.glsl", "is_first == 0u", "false"},
-     SolverKind::rk4,
-     kFused},
-    {{"stages_ignore_their_weight", "sim/explicit/integrate_node.glsl", "rate *= weight;", ""},
-     SolverKind::rk4,
-     kFused},
-    {{"colliders_do_nothing", "sim/collision/colliders.glsl", "surface.w >= 0.0", "true"},
-     kSemiImplicit,
-     kFused},
-    {{"friction_is_forgotten", "sim/collision/colliders.glsl",
-      "float kept = speed > slowing ? 1.0 - slowing / speed : 0.0;", "float kept = 1.0;"},
-     kSemiImplicit,
-     kFused},
-    {{"second_ends_are_pulled_the_wrong_way", "sim/explicit/merge_spring_forces.comp", "-on_first",
-      "on_first"},
-     kSemiImplicit,
-     kDivided},
-    {{"first_spring_is_skipped", "sim/explicit/merge_spring_forces.comp", "uint e = starts[n]",
-      "uint e = starts[n] + 1u"},
-     kSemiImplicit,
-     kDivided},
-    {{"the_last_springs_are_not_written", "sim/explicit/write_spring_forces.comp", "s >= spring_count",
-      "s + 64u >= spring_count"},
-     kSemiImplicit,
-     kDivided},
+/// Of explicit steps.
+inline constexpr Mutant kStepMutants[] = {
+    {"second_spring_of_a_pair_is_left_out", "sim/explicit/advance_nodes.comp", "stiffness.y", "0.0"},
+    {"lane_of_a_slice_is_shifted", "sim/explicit/advance_nodes.comp", "+ n % kSlice", "+ (n + 1u) % kSlice"},
+    {"last_pair_is_left_out", "sim/explicit/advance_nodes.comp", "p < end", "p + 64u < end"},
+    {"no_guard_at_the_end", "sim/explicit/advance_nodes.comp", "if (n >= node_count) return;", ""},
+    {"damping_has_the_wrong_sign", "sim/elasticity/spring_force.glsl", "+ damping_time", "- damping_time"},
+    {"rest_length_is_forgotten", "sim/elasticity/spring_force.glsl", "inverse_length - rest_length",
+     "inverse_length"},
+    {"damping_of_one_end_alone", "sim/elasticity/spring_force.glsl", "0.5 * (velocity_a.w + velocity_b.w)",
+     "0.5 * velocity_a.w"},
+    {"pins_are_ignored", "sim/explicit/integrate_node.glsl", "base_position.w == 0.0", "false"},
+    {"positions_move_with_the_old_velocity", "sim/explicit/integrate_node.glsl", "semi_implicit != 0u",
+     "false"},
+    {"gravity_is_forgotten", "sim/explicit/integrate_node.glsl", "gravity + ", ""},
+    {"sums_start_over", "sim/explicit/integrate_node.glsl", "is_first == 0u", "false"},
+    {"stages_ignore_their_weight", "sim/explicit/integrate_node.glsl", "rate *= weight;", ""},
+    {"colliders_do_nothing", "sim/collision/colliders.glsl", "surface.w >= 0.0", "true"},
+    {"friction_is_forgotten", "sim/collision/colliders.glsl",
+     "float kept = speed > slowing ? 1.0 - slowing / speed : 0.0;", "float kept = 1.0;"},
+    {"second_ends_are_pulled_the_wrong_way", "sim/explicit/merge_spring_forces.comp", "-on_first",
+     "on_first"},
+    {"first_spring_is_skipped", "sim/explicit/merge_spring_forces.comp", "uint e = starts[n]",
+     "uint e = starts[n] + 1u"},
+    {"the_last_springs_are_not_written", "sim/explicit/write_spring_forces.comp", "s >= spring_count",
+     "s + 64u >= spring_count"},
 };
 
 /// Broken handles and loads.
-inline constexpr Break kDriveMutants[] = {
+inline constexpr Mutant kDriveMutants[] = {
     {"the_last_held_nodes_stay", "sim/drive/apply_kinematics.comp", "k >= held_count",
      "k + 20u >= held_count"},
     {"released_nodes_stay_heavy", "sim/drive/apply_kinematics.comp", "positions[n].w = held.arm.w;", ";"},
@@ -102,7 +60,7 @@ inline constexpr Break kDriveMutants[] = {
 };
 
 // Of shape matching.
-inline constexpr Break kMatchingMutants[] = {
+inline constexpr Mutant kMatchingMutants[] = {
     {"no_tet_is_inside_out", "sim/descent/count_inverted_tets.comp", "volume_ratio(t) > 0.0", "true"},
     {"all_tets_count", "sim/descent/count_inverted_tets.comp", "|| volume_ratio(t) > 0.0", ""},
     {"counts_stay", "sim/descent/match_shapes.comp", "inverted[object] = 0u;", ""},
@@ -121,7 +79,7 @@ inline constexpr Break kMatchingMutants[] = {
 };
 
 // Of vertex block descent.
-inline constexpr Break kDescentMutants[] = {
+inline constexpr Mutant kDescentMutants[] = {
     {"clusters_do_not_turn", "sim/descent/rotate_clusters.comp", "nearest_rotation(sums.moment)",
      "mat3(1.0)"},
     {"a_core_loses_its_end", "sim/descent/rotate_clusters.comp", "c < rest.core_end",
@@ -162,9 +120,11 @@ inline constexpr Break kDescentMutants[] = {
     {"the_first_look_alone_counts", "sim/descent/descend.comp", "int(n)).x == look", "int(n)).x == 1u"},
     {"the_last_tets_are_not_looked_at", "sim/descent/mark_flat_tets.comp", "t >= tet_count",
      "t + 64u >= tet_count"},
-    {"tets_push_inwards", "sim/elasticity/node_terms.glsl", "cross(b - a, c - a)", "cross(c - a, b - a)"},
+    {"tets_push_inwards", "sim/elasticity/node_terms.glsl",
+     "cross(b - a, c - a) / (6.0 * rest_volume);\n    float lack",
+     "cross(c - a, b - a) / (6.0 * rest_volume);\n    float lack"},
     {"nothing_slides_to_rest", "sim/descent/descend.comp", "position -= min(needed, most) * giving;", ""},
-    {"pinned_nodes_move", "sim/descent/start_descent.comp", "start.w > 0.0 ?", "true ?"},
+    {"pinned_nodes_move", "sim/descent/start_descent.comp", "start.w > 0.0 ? guess", "true ? guess"},
     {"bodies_do_not_move", "sim/descent/sum_rigid_motions.comp", "vec4(origin + vec3(center), 1.0)",
      "vec4(origin + vec3(center), 0.0)"},
     {"bodies_turn_the_other_way", "sim/descent/sum_rigid_motions.comp", "cayley_turn(vec3(turn))",
@@ -184,7 +144,8 @@ inline constexpr Break kDescentMutants[] = {
      "dvec4(dvec3(0.0), friction.z)"},
     {"surfaces_do_not_turn", "sim/descent/rigid_sums.glsl", "sums.turns.xyz += stiffness * turned * turned;",
      "sums.turns.xyz -= stiffness * turned * turned;"},
-    {"half_a_chunk_is_summed_up", "sim/descent/sum_rigid_motions.comp", "k += kLanes", "k += 2u * kLanes"},
+    {"half_a_chunk_is_summed_up", "sim/descent/sum_rigid_motions.comp", "k < chunk.count; k += kLanes",
+     "k < chunk.count; k += 2u * kLanes"},
     {"a_chunk_is_not_moved", "sim/descent/move_bodies.comp", "c >= element_count", "c + 1u >= element_count"},
     {"velocities_are_the_ways", "sim/descent/move_bodies.comp", "(position.xyz - start) / time_step;",
      "(position.xyz - start);"},
@@ -211,7 +172,7 @@ inline constexpr Break kDescentMutants[] = {
 };
 
 /// A broken watch over the nodes.
-inline constexpr Break kWatchMutants[] = {
+inline constexpr Mutant kWatchMutants[] = {
     {"no_guard_behind_the_nodes", "sim/measure/watch_nodes.comp", "if (n >= node_count) return;", ""},
     {"the_last_nodes_are_not_watched", "sim/measure/watch_nodes.comp", "n >= node_count",
      "n + 1u >= node_count"},
@@ -233,7 +194,7 @@ inline constexpr Break kWatchMutants[] = {
 };
 
 // Of neo-Hookean tets: in explicit steps of either kind, in block descent or in what is measured.
-inline constexpr Break kNeoHookeanMutants[] = {
+inline constexpr Mutant kNeoHookeanMutants[] = {
     {"tets_pull_in_fused_steps_alone", "sim/explicit/integrate_nodes.comp", "force += gather_tet_forces(n);",
      ""},
     {"tets_pull_in_divided_steps_alone", "sim/explicit/advance_nodes.comp", "force += gather_tet_forces(n);",
@@ -284,7 +245,7 @@ inline constexpr Break kNeoHookeanMutants[] = {
 };
 
 /// A broken volume term.
-inline constexpr Break kVolumeTermMutants[] = {
+inline constexpr Mutant kVolumeTermMutants[] = {
     {"energy_has_no_volume_term", "sim/measure/measure_nodes.comp", "rest.x * rest.y * volume_potential(",
      "0.0 * ("},
     {"energy_is_not_over_the_volume", "sim/measure/measure_nodes.comp", "rest.x * rest.y * volume_potential",
@@ -314,7 +275,7 @@ inline constexpr Break kVolumeTermMutants[] = {
 };
 
 /// Of what colours show.
-inline constexpr Break kTetValueMutants[] = {
+inline constexpr Mutant kTetValueMutants[] = {
     {"rest_is_forgotten", "sim/view/find_tet_values.comp", " * inverse(edges(rest_positions, tet))", ""},
     {"all_materials_are_one", "sim/view/find_tet_values.comp", "texelFetch(tet_materials, int(t)).y * sqrt",
      "texelFetch(tet_materials, 0).y * sqrt"},
@@ -339,27 +300,17 @@ inline constexpr Break kTetValueMutants[] = {
      "n + 64u >= node_count"},
 };
 
-/// A broken hand that holds nodes.
-struct PullMutant : Break {
-    SolverKind solver;
-};
-
-inline constexpr PullMutant kPullMutants[] = {
-    {{"nothing_is_held", "sim/explicit/integrate_node.glsl", "force += pull_force",
-      "vec3 unused = pull_force"},
-     kSemiImplicit},
-    {{"light_nodes_are_not_spared", "sim/drive/pull.glsl", "1.0 + pull.w * inverse_mass * h * time", "1.0"},
-     kSemiImplicit},
-    {{"damping_is_forgotten", "sim/drive/pull.glsl", "h + pull_damping_time", "h"}, kSemiImplicit},
-    {{"arms_are_forgotten", "sim/drive/pull.glsl", "way = pull_target + pull.xyz", "way = pull_target"},
-     SolverKind::rk4},
-    {{"descent_has_no_damping", "sim/drive/pull.glsl", "pull_damping_time / h", "0.0"}, SolverKind::vbd},
-    {{"descent_has_no_curvature", "sim/drive/pull.glsl", "weight = target.w + stiffness",
-      "weight = target.w"},
-     SolverKind::vbd},
-    {{"descent_is_not_held", "sim/descent/start_descent.comp", "target = with_pull",
-      "vec4 unused = with_pull"},
-     SolverKind::vbd},
+/// Of a hand that holds nodes.
+inline constexpr Mutant kPullMutants[] = {
+    {"nothing_is_held", "sim/explicit/integrate_node.glsl", "force += pull_force",
+     "vec3 unused = pull_force"},
+    {"light_nodes_are_not_spared", "sim/drive/pull.glsl", "1.0 + pull.w * inverse_mass * h * time", "1.0"},
+    {"damping_is_forgotten", "sim/drive/pull.glsl", "h + pull_damping_time", "h"},
+    {"arms_are_forgotten", "sim/drive/pull.glsl", "way = pull_target + pull.xyz", "way = pull_target"},
+    {"descent_has_no_damping", "sim/drive/pull.glsl", "pull_damping_time / h", "0.0"},
+    {"descent_has_no_curvature", "sim/drive/pull.glsl", "weight = target.w + stiffness", "weight = target.w"},
+    {"descent_is_not_held", "sim/descent/start_descent.comp", "target = with_pull",
+     "vec4 unused = with_pull"},
 };
 
 }  // namespace gelatin::test

@@ -54,7 +54,7 @@ TEST(ImageTest, WritingIntoNoFolderIsAnError) {
     }
 }
 
-// In a process of its own: a limit on the size of files stands for a disk that is full.
+// In a separate process: a limit on the size of files simulates a full disk.
 TEST(ImageDeathTest, FullDiskIsAnErrorAndLeavesTheOldPicture) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     const TemporaryFolder folder;

@@ -23,7 +23,7 @@ TEST_F(LightTest, LightFollowsTheNormals) {
 }
 
 TEST_F(LightTest, GivenNormalsAreUsed) {
-    // A ball whose normals all stand at right angles to the light is dark where it was bright.
+    // A ball whose normals are all perpendicular to the light is dark where it was bright.
     const Studio studio;
     const StaticMesh ball(studio.bodies);
     const std::vector<glm::vec4> aside(ball.view().vertex_count, glm::vec4(0.70f, 0.10f, 0.71f, 0.0f));
@@ -42,8 +42,8 @@ TEST_F(LightTest, GivenNormalsAreUsed) {
     EXPECT_GT(brightness_at(lit, pixel), brightness_at(dark, pixel) + 20.0);
 }
 
-// Seen from behind: the floor where the key light's shadow falls, beside the ball where only sky is hidden,
-// and afar.
+// Seen from behind: the floor where the key light's shadow falls, near the ball where only the sky is
+// occluded, and far away.
 TEST_F(LightTest, BallShadesTheFloor) {
     for (const Quality quality : {Quality::high, Quality::fast}) expect_ball_shades_floor(quality);
 }

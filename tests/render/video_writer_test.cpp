@@ -145,7 +145,7 @@ TEST_F(VideoWriterTest, NoFfmpegSaysWhatToInstall) {
     EXPECT_THAT(message, HasSubstr("apt install ffmpeg"));
 }
 
-// In a process of its own: a limit on the size of files stands for a disk that is full.
+// In a separate process: a limit on the size of files simulates a full disk.
 TEST_F(VideoWriterTest, FullDiskIsAnErrorAndLeavesNothing) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     const TemporaryFolder folder;

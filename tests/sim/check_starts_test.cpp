@@ -33,8 +33,8 @@ TEST(CheckStarts, HasNothingToSayOutsideAndNotDeepInside) {
 TEST(CheckStarts, TellsOfObjectsDeepInside) {
     EXPECT_THAT(check(0.25),
                 ElementsAre("object 'jelly': starts 0.25 m deep inside collider 2 (a plane), which "
-                            "may tear it as its nodes are pushed out; at most 0.2 m, half of its "
-                            "thickness there, are allowed for"));
+                            "may tear it as its nodes are pushed out; up to 0.2 m, half of its "
+                            "thickness there, is safe"));
 }
 
 TEST(CheckStarts, LooksAtFreeNodesAlone) {

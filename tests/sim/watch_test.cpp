@@ -171,7 +171,8 @@ TEST_F(WatchTest, FindsAnExplosionAtTheOraclesStepAndKeepsTheLastGoodCheckpoint)
             EXPECT_EQ(error.where().node, oracle.alarm(true).node);
             EXPECT_EQ(error.where().frame, saved + 1);
             EXPECT_THAT(error.what(), HasSubstr("moved at up to "));
-            EXPECT_THAT(error.what(), HasSubstr("but not for bodies that are crushed or pulled far"));
+            EXPECT_THAT(error.what(),
+                        HasSubstr("but not for bodies that are strongly compressed or stretched"));
         }
         EXPECT_GT(saved, 0);
         Simulator again(scene, on(backend));

@@ -1,4 +1,4 @@
-// An oracle of its own: nearest points in extended precision, pair by pair.
+// An independent reference: nearest points in extended precision, pair by pair.
 #include <gtest/gtest.h>
 
 #include <algorithm>

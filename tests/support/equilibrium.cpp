@@ -149,7 +149,7 @@ void Equilibrium::solve() {
         const Eigen::VectorXd way = solver.solve(residual);
         double share = 1.0;
         Eigen::VectorXd next = unbalance(displacements_ + way);
-        // Halved until the forces along the way have not turned round to more than they were.
+        // Halved until the forces along the displacement have not reversed to more than they were.
         while (std::abs(next.dot(way)) > residual.dot(way) && share > 1e-3) {
             share *= 0.5;
             next = unbalance(displacements_ + share * way);
@@ -226,7 +226,7 @@ Eigen::SparseMatrix<double> Equilibrium::stiffness(const Eigen::VectorXd& displa
         add_block(spring.j, spring.i, -block, triplets);
     }
     add_volume_term(model_, nodes, triplets);
-    // Coordinates that are held answer to nothing and to nobody.
+    // Constrained coordinates have no residual.
     Triplets kept;
     for (const auto& entry : triplets) {
         if (free_[entry.row()] > 0.0 && free_[entry.col()] > 0.0) kept.push_back(entry);

@@ -86,6 +86,11 @@ void poke(Model& model) {
 
 }  // namespace
 
+const char* name_of(Deformation deformation) {
+    constexpr const char* kNames[] = {"rigid", "affine", "rolled", "crushed", "poked", "tangled", "flat"};
+    return kNames[static_cast<std::size_t>(deformation)];
+}
+
 Model make_folded(Deformation deformation, unsigned seed) {
     std::vector<Body> bodies;
     for (const glm::ivec3& cells : kBars) {

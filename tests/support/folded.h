@@ -24,6 +24,8 @@ inline constexpr Deformation kDeformations[] = {
     Deformation::rigid, Deformation::affine,  Deformation::rolled, Deformation::crushed,
     Deformation::poked, Deformation::tangled, Deformation::flat};
 
+const char* name_of(Deformation deformation);
+
 /// Three bars of different sizes, the first of more than one chunk of nodes, each in motion, a few nodes of
 /// the first pinned.
 Model make_folded(Deformation deformation, unsigned seed = 1);

@@ -23,7 +23,7 @@ inline std::vector<glm::vec4> poisoned(std::size_t count) {
 /// True if the elements from `count` on are as `poisoned` made them.
 bool guard_is_untouched(const std::vector<glm::vec4>& values, std::size_t count);
 
-/// The double-precision oracle: one step of the plain kernels from the model's start.
+/// The double-precision reference: one step of the plain kernels from the model's start.
 cpu::Nodes<double> oracle_step(const Model& model, SolverKind solver, double step);
 
 /// How far a step in single precision may be from the oracle, to first order: a node's acceleration is off by

@@ -19,7 +19,8 @@ struct Deformed {
 /// some flat, some in a point; the last one drawn out to a line. No multiple of 64 tets or nodes.
 Deformed make_deformed();
 
-/// What colours show, without bounds: the oracle in double precision, by singular value decomposition.
+/// The values that colours show, without bounds: the reference in double precision, by singular value
+/// decomposition.
 struct Values {
     std::vector<double> tets, nodes;
 };

@@ -1,7 +1,6 @@
-// A bar that hangs under its own weight gets longer by rho g L^2 / (2 E) (Hooke's law with a stress that
-// grows linearly from the free end). Fitted springs answer like that; the paper's are softer, for nodes
-// inside leave the affine positions (docs/physics.md), and how much is recorded here, so that nobody changes
-// it unaware.
+// A bar that hangs under its own weight lengthens by rho g L^2 / (2 E) (Hooke's law with a stress that grows
+// linearly from the free end). Fitted springs respond like that. The paper's are softer, because nodes inside
+// leave the affine positions (docs/springs.md). How much is recorded here, so that no change goes unnoticed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +23,7 @@ constexpr double kGravity = 9.81;               // [m/s^2]
 
 constexpr SpringKinds kStructural{true, false, false}, kWithShear{true, true, false}, kAll{true, true, true};
 
-// E that the bar answers with over E that was asked for.
+// The measured E relative to the requested one.
 double answered_modulus(int edges_across, const std::optional<SpringKinds>& springs) {
     BoxShape box;
     box.size = {kWidth, kLength, kWidth};

@@ -171,9 +171,9 @@ TEST(NeoHookeanBar, OfTwoMaterialsAnswersAsRecorded) {
     EXPECT_NEAR(answer_of_two(0, 10.0, 0.49), 0.999, 5e-3);
 }
 
-// E that a bar hung up by its upper end answers with, over E asked for: rho g L^2 / (2 E) longer. The end is
-// held sideways too, which the formula does not know: sides narrow by nu there, and a little more is asked
-// for.
+// The measured E of a bar that hangs by its upper end, relative to the requested one: it lengthens by rho g
+// L^2 / (2 E). The end is also held sideways, which the formula does not include: sides that narrow by nu are
+// prevented from doing so there, and the bar is slightly stiffer.
 double hang(int edges_across, double poisson_ratio) {
     const double length = 1.0, width = 0.25, gravity = 9.81, density = 1000.0;
     Body body = make_body(box_of_tets({width, length, width}, width / edges_across), poisson_ratio);

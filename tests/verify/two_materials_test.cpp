@@ -84,7 +84,7 @@ struct Case {
     TetMesh (*make_bar)(int edges_across);
     int edges_across;
     std::optional<SpringKinds> springs;
-    double bound;  // of what theory says, times what a bar of one material answers with
+    double bound;  // relative to theory, and to the response of a bar of one material
 };
 
 class TwoMaterialsHeavy : public ::testing::TestWithParam<Case> {};

@@ -1,7 +1,6 @@
-// Bodies answer with the Young's modulus that was asked for, and with Poisson's ratio 1/4: a bar pulled at
-// its ends between smooth plates, sides free, is a bar of uniform stress, E = (force / area) / (stretch /
-// length). Measured on the packed model, at rest, to first order. The paper's springs beside it, for what the
-// fit gains.
+// Bodies have the requested Young's modulus, and Poisson's ratio 1/4. A bar pulled at its ends between smooth
+// plates, with free sides, has uniform stress, E = (force / area) / (stretch / length). Measured on the
+// packed model, at rest, to first order. The paper's springs are measured too, to show what the fit gains.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

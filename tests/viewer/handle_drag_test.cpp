@@ -50,12 +50,12 @@ TEST(HandleDrag, GoesOnFromWhereItWasDragged) {
 
 TEST(HandleDrag, TheWheelTakesItAway) {
     HandleDrag drag(0, pin_at({0.0, 0.0, 0.0}), Kind::move, camera(), {0.0f, 0.0f});
-    drag.turn_wheel(camera(), 2.0f);
+    drag.scroll(camera(), 2.0f);
     expect_near(drag.target().move, {0.0, 0.0, 4.0 - 4.0 * 1.05 * 1.05});
     EXPECT_LT(drag.target().move.z, 0.0);
 }
 
-// What faces the eye follows the pointer, as it does when the view is turned.
+// What faces the eye follows the pointer, as it does when the view is rotated.
 TEST(HandleDrag, TurnsWithThePointer) {
     const glm::dvec3 front(0.0, 0.0, 1.0);
     HandleDrag sideways(0, pin_at({0.0, 0.0, 0.0}), Kind::turn, camera(), {0.0f, 0.0f});
@@ -67,7 +67,7 @@ TEST(HandleDrag, TurnsWithThePointer) {
     upwards.move_pointer(camera(), {0.0f, 0.1f});
     expect_near(upwards.target().turn * front, {0.0, std::sin(angle), std::cos(angle)});
     HandleDrag rolled(0, pin_at({0.0, 0.0, 0.0}), Kind::turn, camera(), {0.0f, 0.0f});
-    for (int n = 0; n < 18; ++n) rolled.turn_wheel(camera(), 1.0f);
+    for (int n = 0; n < 18; ++n) rolled.scroll(camera(), 1.0f);
     expect_near(rolled.target().turn * glm::dvec3(0.0, 1.0, 0.0), {1.0, 0.0, 0.0});  // clockwise
 }
 

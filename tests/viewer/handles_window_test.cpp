@@ -1,4 +1,4 @@
-// Pins and handles in the window: dragged, turned, set and taken away with the mouse.
+// Pins and handles in the window: dragged, rotated, set and removed with the mouse.
 #include <glm/geometric.hpp>
 
 #include "gelatin/simulator.h"

@@ -15,8 +15,8 @@ uniform float penumbra_least;  // [m]
 
 const int kTaps = 10;
 
-// The mean over a disc that is the same for all pixels, so that there is no grain. Beside the point its own surface may
-// lie nearer to the light, by its slope.
+// The mean over a disc that is the same for all pixels, so that there is no grain. Beside the point its own surface may be
+// nearer to the light, depending on its slope.
 float key_visibility(vec3 position, vec3 normal) {
     vec3 at = (world_to_shadow * vec4(position + shadow_bias * normal, 1.0)).xyz;
     float facing = clamp(dot(normal, to_key_light), 0.3, 1.0);

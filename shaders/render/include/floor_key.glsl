@@ -1,5 +1,5 @@
-// How much of the key light reaches a patch of floor, through a penumbra that grows with the distance of what
-// casts it (Fernando 2005).
+// How much of the key light reaches a patch of floor, with a penumbra whose width grows with the distance of the occluder
+// (Fernando 2005).
 #include "render/include/disc.glsl"
 
 uniform sampler2D shadow_map;
@@ -16,7 +16,7 @@ const int kSearchTaps = 8, kShadowTaps = 12;
 const int kSearchTaps = 16, kShadowTaps = 20;
 #endif
 
-// 1 where something stands between the light and `at`. An empty map is at depth 1; the floor may lie behind that.
+// 1 if something is between the light and `at`. An empty map has depth 1; the floor may be behind that.
 float blocks(float depth, float at) { return depth < 1.0 ? step(depth, at) : 0.0; }
 
 // @param point of the floor [m]
@@ -35,7 +35,7 @@ float key_visibility(vec3 point, vec2 direction) {
     }
     float distance = (at.z - depth / max(blockers, 1.0)) * shadow_range;
     float radius = clamp(distance * light_size, penumbra_least, penumbra_most);
-    // All or nothing in the way needs no closer look; a loop of no turns is left sooner than a branch.
+    // If all or none of the samples are occluded, no more are needed; leaving a loop is cheaper than a branch.
     int taps = blockers > 0.0 && blockers < float(kSearchTaps) ? kShadowTaps : 0;
     float blocked = 0.0;
     for (int i = 0; i < taps; ++i) {

@@ -1,4 +1,4 @@
-// How much light reaches the floor inside the patch round the scene: red of the key light, green of the sky.
+// How much light reaches the floor inside the patch around the scene: red is the key light, green the sky.
 uniform sampler2D floor_light;
 uniform vec4 floor_patch;  // x, z of its corner [m]; 1 / its size [1/m]
 

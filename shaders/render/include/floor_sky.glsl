@@ -12,10 +12,10 @@ const int kSkyTaps = 32;
 #endif
 const float kLetThrough = 0.15;  // what jelly does not hold back
 
-// The part of the cosine-weighted hemisphere that undersides at height h and distance r cover: the sum of
-// h^2 / (pi (r^2 + h^2)^2) dA over rings of equal width, a point each.
+// The part of the cosine-weighted hemisphere that undersides at height h and distance r cover: the sum of h^2 / (pi (r^2 +
+// h^2)^2) dA over rings of equal width, one sample each.
 // @param uv of the point in the patch of floor, patch_size its size [m]
-// @param direction at random, unit length
+// @param direction random, unit length
 float sky_visibility(vec2 uv, vec2 patch_size, vec2 direction) {
     float ring = sky_radius / float(kSkyTaps);
     float covered = 0.0;

@@ -1,5 +1,5 @@
-// A straight line as two triangles that face the screen, some pixels wide: six vertices, corner 0 to 5. The fragment
-// shader (render/line.frag) softens its sides by its distance from the middle.
+// A straight line as two triangles that face the screen, some pixels wide: six vertices, corner 0 to 5. The fragment shader
+// (render/line.frag) smooths its sides by the distance from its centre.
 #include "render/include/near_plane.glsl"
 
 uniform vec2 picture_size;  // [pixels]

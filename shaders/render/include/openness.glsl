@@ -1,11 +1,11 @@
-// How much of the ambient light reaches the surface that a pixel shows, as AmbientOcclusion found it in a picture of
-// half the size.
+// The fraction of the ambient light that reaches the surface in a pixel, as AmbientOcclusion computed it in a picture of half
+// the size.
 #ifdef AMBIENT_OCCLUSION
 uniform sampler2D occlusion;  // openness, distance [m], < 0 on the floor
 uniform vec2 occlusion_scale;                     // its pixels by those of the picture
 uniform float same_surface;                       // distances that differ by less belong together [m]
 
-// Of the four nearest, those of the same surface.
+// From those of the four nearest pixels that show the same surface.
 // @param side -1 on the floor, else 1
 float pixel_openness(float side) {
     vec2 at = gl_FragCoord.xy * occlusion_scale - 0.5;
@@ -17,7 +17,7 @@ float pixel_openness(float side) {
     return dot(weight, textureGather(occlusion, uv, 0)) / dot(weight, vec4(1.0));
 }
 
-// Light that an occluder of the same colour throws back is not lost (Jimenez et al. 2016, eq. 10).
+// Light that an occluder of the same colour reflects is not lost (Jimenez et al. 2016, eq. 10).
 vec3 with_bounces(float openness, vec3 albedo) {
     vec3 a = 2.0404 * albedo - 0.3324, b = 4.7951 * albedo - 0.6417, c = 2.7552 * albedo + 0.6903;
     return max(vec3(openness), ((openness * a - b) * openness + c) * openness);

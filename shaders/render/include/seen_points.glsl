@@ -1,5 +1,5 @@
-// What each pixel of a small picture shows: points in the eye's coordinates, from a depth map of the bodies and the
-// plane of the floor.
+// The point that each pixel of a small picture shows, in the eye's coordinates, from a depth map of the bodies and the plane of
+// the floor.
 uniform sampler2D body_depths;
 uniform vec2 ray_step;     // from pixel to pixel of the map, 1 m before the eye [m]
 uniform vec2 first_ray;    // through the centre of the first one

@@ -1,5 +1,5 @@
-// The studio that surrounds the scene: a key light, a soft sky, what the floor gives back. Linear RGB; light is that of a
-// white surface that faces it.
+// The studio around the scene: a key light, a soft sky, reflection from the floor. Linear RGB; light is that of a white surface
+// that faces it.
 const vec3 kKeyLight = vec3(1.20, 1.13, 1.03);
 const vec3 kSkyLight = vec3(0.37, 0.405, 0.455);
 const vec3 kFloorLight = vec3(0.33, 0.305, 0.28);  // from a lit floor, upwards

@@ -1,4 +1,4 @@
-// A drawn surface, pulled straight from the simulation's buffers (RenderView).
+// A surface, fetched directly from the simulation's buffers (RenderView).
 uniform samplerBuffer node_positions;     // xyz [m]
 uniform usamplerBuffer surface_vertices;  // SurfaceVertex: node, object, ...
 uniform samplerBuffer vertex_normals;     // unit xyz

@@ -1,4 +1,4 @@
-// How far nodes are from where their object's affine map puts them.
+// How far nodes are from where their object's affine map places them.
 #include "layouts/rest_shape.glsl"
 
 uniform samplerBuffer positions;     // xyz [m]

@@ -1,11 +1,10 @@
-// Bodies against colliders. CPU twin: src/cpu/collision/colliders.h.
-// Colliders come sorted by kind, with a loop for each kind that the scene has (COLLIDER_KINDS, a bit each): software
-// drivers pay for code that never runs.
+// Bodies against colliders. CPU twin: src/cpu/collision/colliders.h. Colliders are sorted by kind, with a loop for each kind in
+// the scene (COLLIDER_KINDS, one bit each), because software drivers pay for code that never runs.
 
 uniform samplerBuffer colliders;  // Collider (layouts/collider.glsl), four texels each
 uniform uvec4 collider_ends;                          // behind the planes, boxes, spheres, capsules
 
-// xyz: the way out (unit); w: how far the point is outside (negative inside) [m].
+// xyz: the direction outwards (unit); w: how far the point is outside (negative inside) [m].
 vec4 distance_from_center(vec3 from_center, float radius) {
     float length_ = length(from_center);
     return vec4(length_ > 0.0 ? from_center / length_ : vec3(0.0, 1.0, 0.0), length_ - radius);
@@ -17,7 +16,7 @@ vec4 distance_to_box(vec3 p, vec3 half_extents) {
     vec3 outside = max(q, vec3(0.0));
     float length_ = length(outside);
     if (length_ > 0.0) return vec4(side * outside / length_, length_);
-    // Inside: out through the nearest side.
+    // Inside: outwards through the nearest side.
     if (q.x >= q.y && q.x >= q.z) return vec4(side.x, 0.0, 0.0, q.x);
     if (q.y >= q.z) return vec4(0.0, side.y, 0.0, q.y);
     return vec4(0.0, 0.0, side.z, q.z);
@@ -52,8 +51,8 @@ vec4 distance_to_capsule(uint c, vec3 p) {
     return distance_from_center(p - center.xyz - along * axis, center.w);
 }
 
-// The velocity after a node has met a surface: the normal part is reversed and scaled by the restitution, the
-// tangential part slowed by at most friction times the normal change (Coulomb). Below resting_speed no bounce.
+// The velocity after a node has hit a surface. The normal part is reversed and scaled by the restitution. The tangential part
+// is reduced by at most friction times the normal change (Coulomb). Below resting_speed there is no bounce.
 vec3 bounce(vec3 velocity, vec3 normal, float friction, float restitution, float resting_speed) {
     float approach = -dot(velocity, normal);
     if (approach <= 0.0) return velocity;
@@ -65,7 +64,7 @@ vec3 bounce(vec3 velocity, vec3 normal, float friction, float restitution, float
     return kept * tangential + rebound * normal;
 }
 
-// Where a node is inside collider c, by `surface`, it moves to the surface and bounces.
+// If a node is inside collider c, by `surface`, it moves to the surface and bounces.
 void resolve_collider(uint c, vec4 surface, float resting_speed, inout vec3 position, inout vec3 velocity) {
     if (surface.w >= 0.0) return;
     vec4 properties = texelFetch(colliders, int(4u * c + 3u));  // kind, friction, restitution
@@ -97,7 +96,7 @@ void resolve_colliders(float resting_speed, inout vec3 position, inout vec3 velo
 #endif
 }
 
-// How far a point is outside the nearest collider (negative inside) [m]; far where there is none.
+// How far a point is outside the nearest collider (negative inside) [m]; a large number if there is none.
 float distance_to_colliders(vec3 p) {
     float nearest = 1e30;
     uint c = 0u;
@@ -116,8 +115,8 @@ float distance_to_colliders(vec3 p) {
     return nearest;
 }
 
-// For solvers whose steps end on the surface of a collider, without a bounce: a node that touches one, and would have
-// gone into it with `unhindered` velocity, gets the normal speed of its rebound.
+// For solvers whose steps end on the surface of a collider, without a bounce: a node that touches one, and would have entered
+// it with the velocity `unhindered`, gets the normal speed of its rebound.
 void rebound_from(uint c, vec4 surface, vec3 unhindered, float contact_distance, float resting_speed,
                   inout vec3 velocity) {
     float approach = -dot(unhindered, surface.xyz);

@@ -1,5 +1,5 @@
-// The plane in which two objects meet: it moves with the common velocity of their patches, or with the mean one of the
-// corners that are pinned. CPU twin: src/cpu/collision/contact.h.
+// The plane in which two objects touch. It moves with the common velocity of their patches, or with the mean velocity of the
+// pinned corners. CPU twin: src/cpu/collision/contact.h.
 #include "layouts/contact.glsl"
 layout(std430) buffer ContactPatches { ContactPatch contact_patches[]; };
 

@@ -1,5 +1,5 @@
-// How many colliding faces a node has, over all objects that its own touches: the shares that its mass is cut into.
-// CPU twin: gelatin::cpu::respond. Parity: tests/gpu/collision/respond_test.cpp.
+// The number of a node's colliding faces, over all objects that its own touches: the shares into which its mass is divided. CPU
+// twin: gelatin::cpu::respond. Parity: tests/gpu/collision/respond_test.cpp.
 #include "sim/collision/pairs.glsl"
 #include "sim/collision/face_collisions.glsl"
 #include "sim/collision/node_faces.glsl"

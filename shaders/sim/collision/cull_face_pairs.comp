@@ -1,5 +1,5 @@
-// Brute force: the pairs of faces whose boxes meet, in no particular order. CPU twin: gelatin::cpu::Collision.
-// Parity: tests/gpu/collision/collision_test.cpp.
+// Brute force: the pairs of faces whose boxes meet, in no particular order. CPU twin: gelatin::cpu::Collision. Parity:
+// tests/gpu/collision/collision_test.cpp.
 #include "sim/collision/pairs.glsl"
 #include "sim/collision/face_pairs.glsl"
 #include "sim/collision/face_tests.glsl"
@@ -19,7 +19,7 @@ void main() {
 
     Box box = face_boxes[face];
     for (uint start = first; start < last; start += 32u) {
-        // Tests first, without branches, then what they found.
+        // Tests first, without branches, then the list of those that passed.
         uint found = 0u;
         for (uint k = 0u; k < 32u; ++k) {
             bool near = meets_face(box, other.first_face + min(start + k, last - 1u));

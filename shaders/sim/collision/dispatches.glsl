@@ -1,4 +1,4 @@
-// What the GPU itself has counted, as the arguments of indirect dispatches (src/gpu/collision/collision_buffers.h).
+// What the GPU has counted, as arguments of indirect dispatches (src/gpu/collision/collision_buffers.h).
 #include "layouts/dispatch.glsl"
 #include "layouts/dispatch_slots.glsl"
 #include "layouts/packing.glsl"
@@ -12,7 +12,8 @@ Dispatch make_dispatch(uint count, uint groups) {
 }
 Dispatch dispatch_invocations(uint count) { return make_dispatch(count, count / 64u + uint(count % 64u != 0u)); }
 
-// The place of one more element in a list that a dispatch will go through, or kNone where it is full: a loss.
+// Allocates one more element in a list that a dispatch will process. Returns its index, or kNone if the list is full, which
+// counts as a loss.
 uint take_slot(uint work, uint capacity) {
     uint slot = atomicAdd(dispatches[work].count, 1u);
     if (slot >= capacity) {
@@ -23,12 +24,12 @@ uint take_slot(uint work, uint capacity) {
     return slot;
 }
 
-// The first of `count` more places in a list, or kNone where they do not fit: losses. Places that are left over then, the
-// last `left_over` ones, are for the caller to mark as empty.
+// Allocates `count` more elements in a list. Returns the first, or kNone if they do not fit, which counts as losses. The caller
+// must then mark the remaining places, the last `left_over` ones, as empty.
 uint take_slots(uint work, uint count, uint capacity, out uint left_over) {
     left_over = 0u;
     if (count == 0u) return kNone;
-    // A list that is full is not added to, so that its count does not run over.
+    // Nothing is added to a full list, so that its count does not overflow.
     uint first = max(dispatches[work].count, count) > capacity ? kNone : atomicAdd(dispatches[work].count, count);
     if (first > capacity - min(count, capacity)) {
         atomicAdd(dispatches[kLosses].count, count);

@@ -1,10 +1,10 @@
-// Who tests what, and the list of pairs of faces whose boxes meet.
+// Which invocation tests what, and the list of pairs of faces whose boxes meet.
 layout(std430) readonly buffer FaceBoxes { Box face_boxes[]; };
 layout(std430) readonly buffer Candidates { uint candidates[]; };
 layout(std430) writeonly buffer FacePairs { FacePair face_pairs[]; };
 uniform uint face_pair_capacity;
 
-// The last pair whose tests do not start behind `test`: pairs without tests are passed over.
+// The last pair whose tests start at or before `test`; pairs without tests are skipped.
 uint pair_of_test(uint test) {
     uint first = 0u;
     uint last = dispatches[kScan].count;
@@ -34,7 +34,7 @@ bool meets_face(Box box, uint face) {
     return meet(box.min.xyz, box.max.xyz, other.min.xyz, other.max.xyz);
 }
 
-// Faces first, first + 1, ... whose bits are set in `found`.
+// The faces first, first + 1, ... whose bits are set in `found`.
 void add_face_pairs(uint p, uint face, uint first, uint found) {
     while (found != 0u) {
         add_face_pair(FacePair(p, face, first + uint(findLSB(found)), 0u));

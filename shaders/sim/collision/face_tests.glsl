@@ -1,8 +1,8 @@
-// How the tests of pairs are dealt out, and where the pairs of faces go whose boxes meet. With hierarchy a test is a walk of
-// a candidate through the other object's tree, else a candidate and a block of the other object's faces.
+// How tests of pairs are assigned to invocations, and the list of pairs of faces whose boxes meet. With hierarchy a test is a
+// walk of a candidate through the other object's tree; otherwise it is a candidate and a block of the other object's faces.
 uniform uint walk_trees;
 
-// Long blocks for large objects, so that tests can be counted.
+// Longer blocks for large objects, so that the number of tests does not overflow.
 uint block_size(ObjectPair pair) {
     uint other_count = bounding_boxes[pair.other].face_count;
     uint size = 64u;

@@ -1,7 +1,7 @@
-// The objects of which some face may be restless: a node is not as near to where the object's affine map puts it as half
-// of what the map leaves of the least clearance. Any map will do, so the last one that was made does, moved along with
-// the object; a new one is made for the objects that this one does not explain. One work group a chunk of nodes.
-// CPU twin: gelatin::cpu::SelfCollision. Parity: tests/gpu/collision/find_self_collisions_test.cpp.
+// The objects that may have restless faces: some node is farther from where the object's affine map places it than half of the
+// smallest clearance after the map. Any map is valid, so the last one is used, displaced with the object; a new one is made for
+// the objects that it does not explain. One work group for each chunk of nodes. CPU twin: gelatin::cpu::SelfCollision. Parity:
+// tests/gpu/collision/find_self_collisions_test.cpp.
 #include "sim/collision/affine_fit.glsl"
 #include "sim/collision/dispatches.glsl"
 #include "sim/collision/rounding.glsl"

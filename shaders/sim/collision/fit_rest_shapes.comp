@@ -1,6 +1,6 @@
-// The affine map of each restless object's rest shape that comes nearest to where its nodes are. Without OBJECTS: sums
-// over a chunk's nodes, one work group a chunk; with it: the map, one invocation an object.
-// CPU twin: gelatin::cpu::AffineFit. Parity: tests/gpu/collision/find_self_collisions_test.cpp.
+// The affine map of each restless object's rest shape that is nearest to its nodes. Without OBJECTS: sums over a chunk's nodes,
+// one work group for each chunk; with it: the map, one invocation for each object. CPU twin: gelatin::cpu::AffineFit. Parity:
+// tests/gpu/collision/find_self_collisions_test.cpp.
 #include "sim/collision/dispatches.glsl"
 #include "sim/collision/rounding.glsl"
 #include "include/global_index.glsl"
@@ -43,7 +43,7 @@ void main() {
     vec3 origin = texelFetch(positions, int(chunks[first].origin)).xyz;
     vec3 sum = vec3(sums.column_x.w, sums.column_y.w, sums.column_z.w);
     vec3 center = origin + sum / float(box.node_count);
-    // The least singular value is at least |det| 2 / |map|^2 (Frobenius), by the means of the other two.
+    // The smallest singular value is at least |det| 2 / |map|^2 (Frobenius), by the means of the other two.
     float square = dot(map[0], map[0]) + dot(map[1], map[1]) + dot(map[2], map[2]);
     float half_stretch = square > 0.0 ? abs(determinant(map)) / square : 0.0;
     vec3 farthest = max(abs(box.min.xyz), abs(box.max.xyz));

@@ -1,7 +1,6 @@
-// The faces of each pair's object that reach into the other's box, in no particular order, where its tests start; with
-// VIEW_COUNT those of them that may collide at all; and a
-// Face Collision Result without collisions. One invocation an entry: four faces of a pair. CPU twin: gelatin::cpu::Collision.
-// Parity: tests/gpu/collision/collision_test.cpp.
+// The faces of each pair's object that reach into the other's box, in no particular order, and where their tests start; with
+// VIEW_COUNT those of them that may collide at all; and an empty Face Collision Result. One invocation for each entry: four
+// faces of a pair. CPU twin: gelatin::cpu::Collision. Parity: tests/gpu/collision/collision_test.cpp.
 #include "sim/collision/pairs.glsl"
 #include "sim/collision/face_collisions.glsl"
 #include "sim/depth/hidden.glsl"
@@ -11,7 +10,7 @@ layout(std430) readonly buffer FaceBoxes { Box face_boxes[]; };
 layout(std430) writeonly buffer Candidates { uint candidates[]; };
 uniform uint object_count;
 
-// The last object whose entries do not start behind `entry`: rows without entries are passed over.
+// The last object whose entries start at or before `entry`; rows without entries are skipped.
 uint object_of_entry(uint entry) {
     uint first = 0u;
     uint last = object_count;

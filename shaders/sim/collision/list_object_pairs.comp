@@ -1,5 +1,5 @@
-// Each object's row of pairs, in the order of the others' indices. CPU twin: gelatin::cpu::Collision.
-// Parity: tests/gpu/collision/collision_test.cpp.
+// Each object's row of pairs, in the order of the others' indices. CPU twin: gelatin::cpu::Collision. Parity:
+// tests/gpu/collision/collision_test.cpp.
 #include "sim/collision/object_may_touch.glsl"
 layout(local_size_x = 64) in;
 
@@ -13,12 +13,12 @@ void main() {
     uint words = word_count(a);
     uint faces = bounding_boxes[a].face_count;
     uint leaves = leaf_count(a);
-    // Where their candidates do not fit, all faces are.
+    // If their candidates do not fit, all faces are candidates.
     bool all = all_faces != 0u || 4u * (row.first_entry + row.pair_count * leaves) > candidate_capacity;
     Search search = start_search(a);
     for (uint k = 0u; k < row.pair_count; ++k) {
         uint other = next_partner(search);
-        // Into its place among those that were found before.
+        // Inserted in order among those found before.
         uint place = row.first_pair + k;
         while (place > row.first_pair && object_pairs[place - 1u].other > other) {
             object_pairs[place].other = object_pairs[place - 1u].other;

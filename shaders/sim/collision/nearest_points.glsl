@@ -56,7 +56,7 @@ NodeToFace node_to_face(vec3 p, mat3 face) {
     return nearest;
 }
 
-// Infinite where the nearest points of the edges' lines do not lie within them.
+// Infinite if the nearest points of the edges' lines are not within them.
 EdgeToEdge inner_edge_to_edge(vec3 a, vec3 b, vec3 c, vec3 d) {
     vec3 u = b - a, v = d - c, w = c - a;
     vec3 normal = cross(u, v);
@@ -83,8 +83,8 @@ EdgeToEdge edge_to_edge(vec3 a, vec3 b, vec3 c, vec3 d) {
     return nearest;
 }
 
-// The way from one face to another where they are nearest. Loops turn the corners round, as an index that varies would
-// put them into memory.
+// The vector between the nearest points of two faces. Loops rotate the corners, because a variable index would move them to
+// memory.
 vec3 way_between(mat3 s, mat3 t) {
     vec4 way = vec4(0.0, 0.0, 0.0, kInfinity);
     for (int k = 0; k < 3; ++k) {

@@ -1,4 +1,4 @@
-// The colliding ones among the faces round a node.
+// The colliding faces among those around a node.
 uniform usamplerBuffer node_face_starts;
 uniform usamplerBuffer node_faces;
 

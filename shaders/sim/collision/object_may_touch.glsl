@@ -16,7 +16,7 @@ uniform usamplerBuffer object_tree_nodes;  // TreeNode
 uniform samplerBuffer object_tree_boxes;   // Box
 uniform usamplerBuffer object_order;
 
-// A walk through the tree over all objects: the next node, and what is left of the leaf before it.
+// A walk through the tree over all objects: the next node, and what remains of the previous leaf.
 struct Search {
     uint object;
     uint node;

@@ -21,7 +21,7 @@ OwnWalk start_walk(uint face) {
     return OwnWalk(corners, face_boxes[face], root, texelFetch(tree_nodes, int(root)).x);
 }
 
-// The next leaf that is near: its first face, and how many there are; 0 behind the last.
+// The next near leaf: its first face, and the number of faces; 0 after the last.
 uvec2 next_leaf(inout OwnWalk walk) {
     uvec2 leaf = uvec2(0u);
     while (walk.node < walk.end && leaf.y == 0u) {
@@ -34,7 +34,7 @@ uvec2 next_leaf(inout OwnWalk walk) {
     return leaf;
 }
 
-// True for a face whose box meets that of the face that walks, and that shares no corner with it.
+// True for a face whose box meets that of the walking face, and which shares no corner with it.
 bool is_near(OwnWalk walk, uint other) {
     uvec3 corners = texelFetch(faces, int(other)).xyz;
     bool neighbour = any(equal(walk.face.xxx, corners)) || any(equal(walk.face.yyy, corners)) ||

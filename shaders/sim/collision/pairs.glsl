@@ -1,4 +1,4 @@
-// The buffers that the stages of collision share (src/gpu/collision/collision_buffers.h), and what is found through them.
+// The buffers that the stages of collision share (src/gpu/collision/collision_buffers.h), and look-ups in them.
 #include "sim/collision/dispatches.glsl"
 #include "include/global_index.glsl"
 #include "layouts/box.glsl"
@@ -22,7 +22,7 @@ bool starts_tests(ObjectPair pair) {
     return ours < theirs || (ours == theirs && pair.object < pair.other);
 }
 
-// The pair as `object` sees it, or kNone.
+// The same pair as seen from `object`, or kNone.
 uint find_pair(uint object, uint other) {
     PairRow row = pair_rows[object];
     uint first = row.first_pair;

@@ -1,6 +1,6 @@
-// How the corners of each pair answer: they leave the contact plane with the restitution, the impulses of the two sides
-// being equal and opposite, and are slowed by friction (docs/collision.md). CPU twin: src/cpu/collision/contact.h.
-// Parity: tests/gpu/collision/respond_test.cpp.
+// The response of each pair's corners: they leave the contact plane with the restitution, with equal and opposite impulses of
+// the two sides, and are slowed by friction (docs/collision.md). CPU twin: src/cpu/collision/contact.h. Parity:
+// tests/gpu/collision/respond_test.cpp.
 #include "sim/collision/pairs.glsl"
 #include "sim/collision/contact_plane.glsl"
 layout(local_size_x = 64) in;

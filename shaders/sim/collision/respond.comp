@@ -1,6 +1,6 @@
-// The paper's response (2.4): nodes of colliding faces that approach the other object go back to their previous
-// positions, along the normal and as seen from the contact, and their velocities respond. A node that touches several
-// objects answers each by its share of colliding faces. CPU twin: gelatin::cpu::respond. Parity: tests/gpu/collision/respond_test.cpp.
+// The paper's response (2.4): nodes of colliding faces that approach the other object return to their previous positions, along
+// the normal and relative to the contact, and their velocities respond. A node that touches several objects responds to each in
+// proportion to its number of colliding faces. CPU twin: gelatin::cpu::respond. Parity: tests/gpu/collision/respond_test.cpp.
 #include "sim/collision/pairs.glsl"
 #include "sim/collision/face_collisions.glsl"
 #include "sim/collision/node_faces.glsl"

@@ -1,7 +1,7 @@
-// The response to faces of one object that touch one another (docs/collision.md). Without NODES: the mean answer of a face
-// to those that it touches, one invocation a face that touches any; with it: a node takes the mean of its faces' answers.
-// Sums go in the order of the tree and of the node's faces: the same bits each time.
-// CPU twins: gelatin::cpu::RespondToSelf, src/cpu/collision/self_contact.h. Parity: tests/gpu/collision/find_self_collisions_test.cpp.
+// The response to faces of one object that touch one another (docs/collision.md). Without NODES: the mean response of a face to
+// those that it touches, one invocation for each face that touches any; with it: a node takes the mean of its faces' responses.
+// Sums are in the order of the tree and of the node's faces: the same bits each time. CPU twins: gelatin::cpu::RespondToSelf,
+// src/cpu/collision/self_contact.h. Parity: tests/gpu/collision/find_self_collisions_test.cpp.
 #include "sim/collision/dispatches.glsl"
 #include "include/global_index.glsl"
 layout(local_size_x = 64) in;
@@ -46,7 +46,7 @@ uniform float friction;
 uniform float restitution;
 uniform float resting_speed;  // [m/s]
 
-// A face as one lump: see FaceLump in src/cpu/collision/self_contact.h.
+// A face as one point mass: see FaceLump in src/cpu/collision/self_contact.h.
 struct Lump {
     float mass;
     vec3 velocity, way, center, normal;

@@ -1,5 +1,5 @@
-// Where each object's row of pairs lies, and its words and entries: running sums over the objects by one work group.
-// Rows behind the end of a buffer are left out and counted as losses.
+// The offsets of each object's row of pairs, and of its words and entries: prefix sums over the objects by one work group. Rows
+// beyond the end of a buffer are omitted and counted as losses.
 #include "sim/collision/pairs.glsl"
 layout(local_size_x = 256) in;
 
@@ -11,7 +11,7 @@ uniform uint word_capacity;
 shared uvec3 parts[256];
 shared uint kept_pairs, kept_entries;
 
-// Pairs, words and entries of a row. Sums stop at the largest number, which no buffer holds.
+// Pairs, words and entries of a row. Sums are clamped to the largest number, which no buffer can hold.
 uvec3 size_of_row(uint object) {
     uint pairs = pair_rows[object].pair_count;
     return pairs * uvec3(1u, word_count(object), leaf_count(object));

@@ -1,4 +1,4 @@
-// How many tests come before each pair: running sums over the pairs by one work group.
+// The number of tests before each pair: prefix sums over the pairs by one work group.
 #include "sim/collision/pairs.glsl"
 #include "sim/collision/face_tests.glsl"
 layout(local_size_x = 256) in;

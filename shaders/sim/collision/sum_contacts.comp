@@ -1,6 +1,6 @@
-// Sums over the corners of the colliding faces of each pair: one work group a pair, a fixed order of summation.
-// Without APPROACHING the ContactPatch; with it the ApproachSums of the corners that move towards the other object.
-// CPU twin: gelatin::cpu::respond. Parity: tests/gpu/collision/respond_test.cpp.
+// Sums over the corners of the colliding faces of each pair: one work group for each pair, a fixed order of summation. Without
+// APPROACHING the ContactPatch; with it the ApproachSums of the corners that approach the other object. CPU twin:
+// gelatin::cpu::respond. Parity: tests/gpu/collision/respond_test.cpp.
 #include "sim/collision/pairs.glsl"
 #include "sim/collision/face_collisions.glsl"
 #include "sim/collision/contact_plane.glsl"
@@ -19,7 +19,7 @@ const float kWeightOfOthers = 1e-3;  // see src/cpu/collision/contact.h
 
 shared vec4 parts[3][64];
 
-// Adds what corner `node` of a colliding face contributes; `share` is its mass [kg], 0 where it is pinned.
+// Adds the contribution of corner `node` of a colliding face; `share` is its mass [kg], 0 if it is pinned.
 #ifdef APPROACHING
 void add_corner(uint node, float share, ContactPlane plane, inout vec4 a, inout vec4 b, inout vec4 c) {
     vec3 velocity = texelFetch(velocities, int(node)).xyz;

@@ -1,6 +1,6 @@
-// Face against face (paper 2.4): notes in the Face Collision Result how both faces touch; with CONTINUOUS at any time of
-// the step, each node moving straight.
-// CPU twin: gelatin::cpu::Collision. Parity: tests/gpu/collision/collision_test.cpp.
+// Face against face (paper 2.4): records in the Face Collision Result how both faces touch; with CONTINUOUS at any time of the
+// step, each node moving along a straight line. CPU twin: gelatin::cpu::Collision. Parity:
+// tests/gpu/collision/collision_test.cpp.
 #include "sim/collision/pairs.glsl"
 #include "sim/collision/face_collisions.glsl"
 #include "sim/collision/rounding.glsl"
@@ -22,7 +22,7 @@ mat3 corners(Face face, samplerBuffer at) {
     return mat3(texelFetch(at, int(face.a)).xyz, texelFetch(at, int(face.b)).xyz, texelFetch(at, int(face.c)).xyz);
 }
 
-// How each touches the other; 0 where they do not.
+// How each touches the other; 0 if they do not.
 uvec2 test(Face a, Face b) {
 #ifdef CONTINUOUS
     MovingFace face = MovingFace(corners(a, previous_positions), corners(a, positions));

@@ -1,5 +1,5 @@
-// Face against face of one object: counts how many others each touches, and lists those that touch any, in no particular
-// order. CPU twin: gelatin::cpu::SelfCollision. Parity: tests/gpu/collision/find_self_collisions_test.cpp.
+// Face against face of one object: counts how many others each touches, and lists those that touch any, in no particular order.
+// CPU twin: gelatin::cpu::SelfCollision. Parity: tests/gpu/collision/find_self_collisions_test.cpp.
 #include "sim/collision/dispatches.glsl"
 #include "include/global_index.glsl"
 #include "sim/collision/triangle_overlap.glsl"
@@ -29,7 +29,7 @@ void main() {
     uint k = global_index();
     if (k >= min(dispatches[kSelfPairs].count, face_pair_capacity)) return;
     FacePair face_pair = face_pairs[k];
-    // In one order, so that both faces are told the same.
+    // In a fixed order, so that both faces get the same result.
     uvec3 a = texelFetch(faces, int(min(face_pair.face, face_pair.other_face))).xyz;
     uvec3 b = texelFetch(faces, int(max(face_pair.face, face_pair.other_face))).xyz;
     if (!triangles_overlap(position(a.x), position(a.y), position(a.z), position(b.x), position(b.y), position(b.z))) {

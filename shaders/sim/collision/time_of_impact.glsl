@@ -12,7 +12,8 @@ struct MovingFace {
     mat3 end;
 };
 
-// When a plane across `normal` certainly lies between s and t, t on its upper side: from x to y, never if x > y.
+// The time during which a plane across `normal` certainly separates s and t, with t on its upper side: from x to y, never if x
+// > y.
 vec2 separating_window(MovingFace s, MovingFace t, vec3 normal, vec3 reach) {
     precise float bound = kRoundingBound * (dot(abs(normal), reach) + kUnderflowBound);
     precise vec3 low_start = normal * s.start, low_end = normal * s.end;  // of the three corners
@@ -41,7 +42,7 @@ vec3 largest(mat3 face) { return max(abs(face[0]), max(abs(face[1]), abs(face[2]
 
 // From 0 at the start of the step to 1 at its end, or kNever.
 float time_of_impact(MovingFace s, MovingFace t) {
-    // As seen from a corner that moves along: only motion relative to one another counts.
+    // Relative to a corner that moves along: only relative motion counts.
     vec3 start = s.start[0], end = s.end[0];
     s = MovingFace(relative_to(start, s.start), relative_to(end, s.end));
     t = MovingFace(relative_to(start, t.start), relative_to(end, t.end));

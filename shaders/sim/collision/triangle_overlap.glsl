@@ -30,7 +30,7 @@ uvec2 determinant_sign(dvec3 u, dvec3 v, dvec3 w) {
     return uvec2(value > bound, value < -bound);
 }
 
-// p[i] for an i that varies: an array indexed so would live in memory.
+// p[i] for a variable i: an array with a variable index would be moved to memory.
 vec3 corner(vec3 p[6], uint i) {
     return i < 3u ? (i == 0u ? p[0] : i == 1u ? p[1] : p[2]) : (i == 3u ? p[3] : i == 4u ? p[4] : p[5]);
 }
@@ -50,7 +50,7 @@ bool all_alike(uvec2 signs, uint bits) { return any(equal(signs & bits, uvec2(bi
 bool mixed(uvec2 signs, uint bits) { return all(notEqual(signs & bits, uvec2(0u))); }
 uint zero_signs(uvec2 signs) { return kAllSigns & ~(signs.x | signs.y); }
 
-// The sides of line ab that p is on in the projections along the axes.
+// The sides of line ab on which p is, in the projections along the axes.
 ivec3 sides_of_line(dvec3 a, dvec3 b, dvec3 p) {
     dvec3 u = b - a, v = p - a;
     precise dvec3 plus = u.yzx * v.zxy, minus = u.zxy * v.yzx;
@@ -93,7 +93,7 @@ void sort(inout vec3 a, inout vec3 b) {
     a = first;
 }
 
-// By their bits, since compilers may take it that there is no NaN.
+// By the bits, since compilers may assume that there is no NaN.
 bool is_finite(vec3 a, vec3 b, vec3 c) {
     const uvec3 exponent = uvec3(0x7f800000u);
     return all(notEqual(floatBitsToUint(a) & exponent, exponent)) &&

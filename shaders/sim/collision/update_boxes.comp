@@ -1,6 +1,7 @@
-// Boxes of the nodes of trees, one level a dispatch, leaves first. LEAVES: those over faces, whose boxes they make too.
-// CONTINUOUS: their boxes over the whole step; MARGIN: larger than the faces. OBJECTS: those over objects. Neither: inner nodes. The box of a face tree's root is its object's bounding box.
-// CPU twin: gelatin::cpu::Collision. Parity: tests/gpu/collision/collision_test.cpp.
+// Boxes of the nodes of trees, one level in each dispatch, leaves first. LEAVES: nodes over faces, whose boxes are computed
+// too. CONTINUOUS: boxes over the whole step; MARGIN: larger than the faces. OBJECTS: nodes over objects. Neither: inner nodes.
+// The box of a face tree's root is its object's bounding box. CPU twin: gelatin::cpu::Collision. Parity:
+// tests/gpu/collision/collision_test.cpp.
 #include "layouts/packing.glsl"
 #include "include/global_index.glsl"
 #include "layouts/box.glsl"

@@ -19,7 +19,7 @@ void main() {
     uint n = texelFetch(roots, int(pair.other)).x;
     uint end = texelFetch(tree_nodes, int(n)).x;
     while (n < end) {
-        // To the next leaf that is near: a loop of its own, lean, for all that it passes by.
+        // To the next near leaf: a small separate loop, because most nodes are only passed.
         uvec4 node = uvec4(0u);
         bool at_leaf = false;
         while (n < end && !at_leaf) {

@@ -1,5 +1,5 @@
-// Before the views of gpu::CullByDepth: nothing was hidden yet, the first view draws all faces, and the box that it sees
-// is that of all objects. The first work group finds the box.
+// Before the views of gpu::CullByDepth: nothing is hidden yet, the first view draws all faces, and its box is that of all
+// objects. The first work group computes the box.
 #include "include/global_index.glsl"
 #include "layouts/box.glsl"
 #include "layouts/draw.glsl"

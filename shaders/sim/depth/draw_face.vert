@@ -1,4 +1,4 @@
-// A point a face, which face_footprint.geom turns into what the face covers.
+// One point for each face, which face_footprint.geom turns into the rectangle that the face covers.
 uniform usamplerBuffer drawn_faces;
 
 flat out uint drawn_face;

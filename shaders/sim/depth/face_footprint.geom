@@ -1,8 +1,8 @@
-// The rectangle of pixels round a face, seen along an axis, with what the fragment shaders need to keep to the pixels that
-// the face touches: no centre of a pixel need lie in it. Rounding is covered, so that nothing that touches a pixel's square
-// is lost: pixels are moved over by 2^-7, depths by 2^-20 and, along a slope, by 2^-8 of the face's range.
-// After Govindaraju, Lin, Manocha: Fast and reliable collision culling using graphics hardware, VRST 2004.
-// Test: tests/gpu/depth/cull_by_depth_test.cpp.
+// The rectangle of pixels around a face, seen along an axis, with the data by which the fragment shaders restrict it to the
+// pixels that the face touches; it need not cover the centre of any pixel. Rounding is covered, so that nothing that touches a
+// pixel's square is lost: pixels are enlarged by 2^-7, depths by 2^-20 and, along a slope, by 2^-8 of the face's range. After
+// Govindaraju, Lin, Manocha: Fast and reliable collision culling using graphics hardware, VRST 2004. Test:
+// tests/gpu/depth/cull_by_depth_test.cpp.
 #define FOOTPRINT out
 #include "sim/depth/footprint.glsl"
 layout(points) in;
@@ -20,7 +20,7 @@ flat in uint drawn_face[];
 const float kDeepest = 0.98;        // before the depth of nothing, 1
 const float kReach = 0.5 + 0.0078;  // from a pixel's centre to its edge [pixels]
 
-// Pixels and depth. Rounded the same way in each program that draws a view, and never back and forth along an axis.
+// Pixels and depth. Rounded in the same way in each program that draws a view; monotone along each axis.
 vec3 project(uint node) {
     vec3 lower = texelFetch(view_space, 0).xyz;
     vec3 scale = texelFetch(view_space, 1).xyz;
@@ -29,8 +29,8 @@ vec3 project(uint node) {
     return vec3(resolution * vec2(place[(axis + 1u) % 3u], place[(axis + 2u) % 3u]), depth);
 }
 
-// Turned towards the third corner. Where rounding turns it the wrong way the face is thinner than rounding, and reaches no
-// pixel that this loses.
+// The normal points to the third corner. If rounding reverses it, the face is thinner than the rounding error, and this loses
+// no pixel.
 vec3 inner_side(vec2 from, vec2 to, vec2 third) {
     vec2 normal = vec2(from.y - to.y, to.x - from.x);
     if (dot(normal, third - from) < 0.0) normal = -normal;
@@ -43,7 +43,7 @@ void emit(vec2 pixel, vec3 a, vec3 b, vec3 c, uvec4 nodes) {
     float shallowest = min(a.z, min(b.z, c.z));
     float deepest = max(a.z, max(b.z, c.z));
     vec3 normal = cross(b - a, c - a);
-    // Seen from the side, or smaller than a pixel: its slope is lost in rounding, and its whole depth is in a pixel.
+    // Seen from the side, or smaller than a pixel: its slope is lost in rounding, and the pixel contains its whole depth range.
     float size = max(squared_length((b - a).xy), max(squared_length((c - b).xy), squared_length((a - c).xy)));
     bool is_steep = size < 1.0 || abs(normal.z) * 1024.0 < size;
     vec2 slope = is_steep ? vec2(0.0) : -normal.xy / normal.z;

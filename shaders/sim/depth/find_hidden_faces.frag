@@ -1,7 +1,6 @@
-// Lists the faces that are not wholly before all surfaces of other objects: what the next view draws. A face that is cannot
-// touch any other object (Govindaraju, Redon, Lin, Manocha: CULLIDE, Graphics Hardware 2003). The order in which fragments
-// come changes the order of the list alone.
-// Test: tests/gpu/depth/cull_by_depth_test.cpp.
+// Lists the faces that are not completely in front of all surfaces of other objects: the next view draws these. A face that is
+// completely in front cannot touch any other object (Govindaraju, Redon, Lin, Manocha: CULLIDE, Graphics Hardware 2003). The
+// order of fragments only changes the order of the list. Test: tests/gpu/depth/cull_by_depth_test.cpp.
 #include "sim/depth/footprint_pixel.glsl"
 #include "layouts/draw.glsl"
 

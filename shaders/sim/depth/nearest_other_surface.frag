@@ -1,4 +1,4 @@
-// The nearest depth in a pixel of any surface that is not of the object with the nearest one.
+// The nearest depth in a pixel of any surface of another object than the one with the nearest depth.
 #include "sim/depth/footprint_pixel.glsl"
 
 uniform usampler2D nearest_object;

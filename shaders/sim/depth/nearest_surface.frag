@@ -1,4 +1,4 @@
-// The nearest depth of any surface in a pixel, and whose it is.
+// The nearest depth of any surface in a pixel, and its object.
 #include "sim/depth/footprint_pixel.glsl"
 
 layout(location = 0) out uint nearest_object;

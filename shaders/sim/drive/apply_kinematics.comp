@@ -1,6 +1,6 @@
-// Puts the nodes of handles where a step begins, with the velocities that take them to where it ends; gives released
-// ones their mass back. One invocation a node.
-// CPU twin: gelatin::cpu::apply_kinematics. Parity: tests/gpu/drive/apply_kinematics_test.cpp.
+// Sets the nodes of handles to their positions at the start of a step, with the velocities that take them to those at its end;
+// gives released nodes their mass back. One invocation for each node. CPU twin: gelatin::cpu::apply_kinematics. Parity:
+// tests/gpu/drive/apply_kinematics_test.cpp.
 #include "include/global_index.glsl"
 #include "layouts/handle.glsl"
 layout(local_size_x = 64) in;

@@ -1,4 +1,4 @@
-// What loads pull at a node [N]; for programs of scenes that have any (LOADED).
+// The force of loads on a node [N], for programs of scenes with loads (LOADED).
 #ifdef LOADED
 uniform samplerBuffer load_forces;
 

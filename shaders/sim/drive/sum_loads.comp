@@ -1,5 +1,5 @@
-// The force of all loads on each node that has any. One invocation a node, a fixed order of summation.
-// CPU twin: gelatin::cpu::sum_loads. Parity: tests/gpu/drive/sum_loads_test.cpp.
+// The force of all loads on each node that has any. One invocation for each node, a fixed order of summation. CPU twin:
+// gelatin::cpu::sum_loads. Parity: tests/gpu/drive/sum_loads_test.cpp.
 #include "include/global_index.glsl"
 #include "layouts/load.glsl"
 layout(local_size_x = 64) in;

@@ -32,7 +32,7 @@ vec3 shape_gradient(NeoHookeanTet tet, uint corner) {
     return -(tet.gradient_1 + tet.gradient_2 + tet.gradient_3);
 }
 
-// The gradient, over the shape at rest, of what has these values at the corners.
+// The gradient, over the rest shape, of a field with these values at the corners.
 mat3 gradient_of(NeoHookeanTet tet, vec3 at_0, vec3 at_1, vec3 at_2, vec3 at_3) {
     return outerProduct(at_1 - at_0, tet.gradient_1) + outerProduct(at_2 - at_0, tet.gradient_2) +
            outerProduct(at_3 - at_0, tet.gradient_3);
@@ -50,7 +50,7 @@ float neo_hookean_energy(mat3 f, float mu, float lambda) {
     return 0.5 * mu * (squares - 3.0 - log(0.25 * (squares + 1.0))) + (0.5 * lambda * dilation - 0.75 * mu) * dilation;
 }
 
-// What stress has in the direction of F, of cof F, and against being collapsed [Pa].
+// The factors of F and cof F in the stress, and the pressure against collapse [Pa].
 struct NeoHookeanStress {
     float shear, pressure, opening;
 };
@@ -60,10 +60,10 @@ NeoHookeanStress neo_hookean_stress(float squares, float volume_ratio, float mu,
                             squares < kCollapsed ? mu : 0.0);
 }
 
-// By how much less a tet is damped that is stretched.
+// The factor on the damping of a stretched tet.
 float viscous_share(float squares) { return 4.0 / (squares + 1.0); }
 
-// Viscous stress by the strain rate sym(F^T change), with Lame's moduli [Pa].
+// Viscous stress from the strain rate sym(F^T change), with Lame's moduli [Pa].
 mat3 viscous_stress(mat3 f, mat3 change, float mu, float lambda) {
     mat3 product = transpose(f) * change;
     float trace = product[0].x + product[1].y + product[2].z;

@@ -1,5 +1,5 @@
-// Forces of neo-Hookean tets where explicit solvers need them: at `positions` with `velocities`, buffer textures that are
-// declared before. DAMPED: some damping time is not zero. CPU twin: cpu::gather_tet_forces, src/cpu/explicit/gather_forces.h.
+// Forces of neo-Hookean tets for explicit solvers, at `positions` with `velocities`, buffer textures that must be declared
+// before. DAMPED: some damping time is not zero. CPU twin: cpu::gather_tet_forces, src/cpu/explicit/gather_forces.h.
 #include "sim/elasticity/neo_hookean.glsl"
 
 // The force of one tet on one of its corners [N].
@@ -22,7 +22,7 @@ vec3 neo_hookean_force(uint entry) {
     return -tet.volume * traction;
 }
 
-// Of all its tets on the node of a row of slices [N].
+// The force of all its tets on the node of a row of slices [N].
 vec3 gather_tet_forces(uint row) {
     vec3 force = vec3(0.0);
     uint end = texelFetch(neo_hookean_starts, int(row / kSlice) + 1).x;

@@ -1,11 +1,11 @@
-// What neo-Hookean tets add to a node's part of the objective of a step of block descent. After sim/elasticity/node_terms.glsl,
-// sim/descent/descent_step.glsl, and `positions`. DAMPED: some damping time is not zero. VOLUME: there is a volume term; after
-// `tet_rests` and `offsets`.
-// CPU twin: add_neo_hookean, add_viscosity, src/cpu/elasticity/neo_hookean.h.
+// The contribution of neo-Hookean tets to a node's part of the objective of a step of block descent. To be included after
+// sim/elasticity/node_terms.glsl, sim/descent/descent_step.glsl, and `positions`. DAMPED: some damping time is not zero.
+// VOLUME: there is a volume term; after `tet_rests` and `offsets`. CPU twin: add_neo_hookean, add_viscosity,
+// src/cpu/elasticity/neo_hookean.h.
 #include "sim/elasticity/neo_hookean.glsl"
 
-// The elastic energy as the corner with the shape gradient g sees it, and the tet's part of the volume term as
-// add_tet_volume has it. @param bound its offset and modulus [Pa]
+// The elastic energy as a function of the corner with the shape gradient g, and the tet's part of the volume term as in
+// add_tet_volume. @param bound its offset and modulus [Pa]
 void add_neo_hookean(NeoHookeanTet tet, vec2 bound, vec3 g, mat3 f, inout NodeTerms terms) {
     mat3 cofactors = cofactor(f);
     float squares = sum_of_squares(f), over = 1.0 / (squares + 1.0), ratio = dot(f[0], cofactors[0]);
@@ -18,7 +18,7 @@ void add_neo_hookean(NeoHookeanTet tet, vec2 bound, vec3 g, mat3 f, inout NodeTe
     add_outer(tet.volume * (tet.lambda + bound.y), slope, terms);
 }
 
-// Its viscosity over a step that brings the gradient from `start` to f. `damping`: damping time over time step.
+// Its viscosity over a step that changes the gradient from `start` to f. `damping`: damping time divided by time step.
 void add_viscosity(NeoHookeanTet tet, vec3 g, mat3 f, mat3 start, float damping, inout NodeTerms terms) {
     float scale = tet.volume * damping * viscous_share(sum_of_squares(start));
     float shear = 0.75 * tet.mu, dilation = tet.lambda - 0.625 * tet.mu;
@@ -55,7 +55,7 @@ void add_neo_hookean_corner(uint entry, uint first_tet, inout NodeTerms terms) {
 #endif
 }
 
-// Of all its tets to the node of a row of slices. @param first_tet as DescentRow has it
+// The contribution of all its tets to the node of a row of slices. @param first_tet as in DescentRow
 void add_neo_hookean_tets(uint row, uint first_tet, inout NodeTerms terms) {
     uint end = texelFetch(neo_hookean_starts, int(row / kSlice) + 1).x;
     for (uint e = texelFetch(neo_hookean_starts, int(row / kSlice)).x + row % kSlice; e < end; e += kSlice) {

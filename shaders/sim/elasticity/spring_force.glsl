@@ -1,6 +1,6 @@
-// Force on endpoint a of the spring a-b [N]: k (l - rest_length + t l') towards b, with the damping time t [s] (the mean
-// of the ends', kept in velocity.w) and l' the rate at which the spring gets longer. Damping along the spring after
-// Nealen et al. 2006, eq. 5. Coincident endpoints give zero, not NaN. CPU twin: src/cpu/elasticity/spring_force.h.
+// Force on endpoint a of the spring a-b [N]: k (l - rest_length + t l') towards b, with the damping time t [s] (the mean of
+// both nodes', stored in velocity.w) and l' the rate of change of the length. Damping along the spring after Nealen et al.
+// 2006, eq. 5. Coincident endpoints give zero, not NaN. CPU twin: src/cpu/elasticity/spring_force.h.
 vec3 spring_force(vec4 a, vec4 b, vec4 velocity_a, vec4 velocity_b, float rest_length, float stiffness) {
     vec3 d = b.xyz - a.xyz;
     float length_squared = max(dot(d, d), 1e-30);

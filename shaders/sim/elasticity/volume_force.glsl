@@ -1,10 +1,10 @@
-// Forces of the volume term where explicit solvers need them, after sim/explicit/find_volume_stresses.comp. CPU twin:
+// Forces of the volume term for explicit solvers, after sim/explicit/find_volume_stresses.comp. CPU twin:
 // cpu::gather_volume_forces.
 #include "sim/elasticity/volume_term.glsl"
 
 uniform samplerBuffer volume_stresses;  // [Pa], of each node
 
-// On node n [N]: each tet of volume v pulls with -p dv/dx, p the mean stress of its corners.
+// The force on node n [N]: each tet of volume v acts with -p dv/dx, p the mean stress of its corners.
 vec3 gather_volume_forces(uint n) {
     float own = texelFetch(volume_stresses, int(n)).x;
     vec3 sum = vec3(0.0);  // -24 times the force

@@ -1,12 +1,12 @@
-// The volume round each node, for the volume term (src/model/elasticity/volume_term.h). At `positions`, a buffer texture that is
-// declared before. CPU twin: src/cpu/elasticity/volume_term.h.
+// The volume around each node, for the volume term (src/model/elasticity/volume_term.h). At `positions`, a buffer texture that
+// must be declared before. CPU twin: src/cpu/elasticity/volume_term.h.
 #include "layouts/packing.glsl"
 
 uniform usamplerBuffer volume_corners;  // TetCorner, in slices of 64 nodes
 uniform usamplerBuffer volume_starts;   // of the slices
 uniform samplerBuffer node_volumes;    // V_i [m^3], kappa_i [Pa]
 
-// J_n, over the volume at rest; 1 where there is none. Slices are padded with tets without volume.
+// J_n, relative to the volume at rest; 1 if there is none. Slices are padded with tets without volume.
 float volume_ratio_round(uint n) {
     vec3 at = texelFetch(positions, int(n)).xyz;
     float sum = 0.0;  // 24 times the volume

@@ -1,5 +1,5 @@
-// The volume term's stress round each node, before a pass of an explicit scheme.
-// CPU twin: gelatin::cpu::find_volume_stresses. Parity: tests/gpu/elasticity/volume_term_test.cpp.
+// The volume term's stress around each node, before a pass of an explicit scheme. CPU twin: gelatin::cpu::find_volume_stresses.
+// Parity: tests/gpu/elasticity/volume_term_test.cpp.
 #include "include/global_index.glsl"
 #include "sim/elasticity/node_terms.glsl"
 layout(local_size_x = 64) in;

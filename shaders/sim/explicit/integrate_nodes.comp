@@ -1,6 +1,5 @@
-// The paper's way, third kernel (3.3): each node moves by the forces that were merged for it, and those of its
-// tets.
-// CPU twin: gelatin::cpu::integrate_nodes. Parity: tests/gpu/explicit/divide_and_merge_test.cpp.
+// The paper's third kernel (3.3): each node moves by its merged forces, and those of its tets. CPU twin:
+// gelatin::cpu::integrate_nodes. Parity: tests/gpu/explicit/divide_and_merge_test.cpp.
 #include "layouts/packing.glsl"
 #include "include/global_index.glsl"
 #include "sim/explicit/integrate_node.glsl"

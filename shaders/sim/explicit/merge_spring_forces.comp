@@ -1,5 +1,5 @@
-// The paper's way, second kernel (3.3): each node adds up the forces of its springs.
-// CPU twin: gelatin::cpu::merge_spring_forces. Parity: tests/gpu/explicit/divide_and_merge_test.cpp.
+// The paper's second kernel (3.3): each node adds up the forces of its springs. CPU twin: gelatin::cpu::merge_spring_forces.
+// Parity: tests/gpu/explicit/divide_and_merge_test.cpp.
 #include "include/global_index.glsl"
 layout(local_size_x = 64) in;
 

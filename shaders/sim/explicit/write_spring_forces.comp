@@ -1,6 +1,6 @@
-// The paper's way, first kernel (3.3): each spring writes the force on its first endpoint. As in the paper, everything
-// is a storage buffer; the fused kernel gathers through textures instead.
-// CPU twin: gelatin::cpu::write_spring_forces. Parity: tests/gpu/explicit/divide_and_merge_test.cpp.
+// The paper's first kernel (3.3): each spring writes the force on its first endpoint. As in the paper, everything is a storage
+// buffer; the fused kernel gathers through textures instead. CPU twin: gelatin::cpu::write_spring_forces. Parity:
+// tests/gpu/explicit/divide_and_merge_test.cpp.
 #include "include/global_index.glsl"
 #include "sim/elasticity/spring_force.glsl"
 #include "layouts/spring.glsl"

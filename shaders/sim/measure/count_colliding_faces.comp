@@ -1,6 +1,5 @@
-// Faces of each chunk that touch another object, or with SELF_COLLISION their own, one work group a chunk, and behind
-// them the pairs that were lost.
-// Parity: tests/gpu/collision/collision_test.cpp.
+// The number of faces of each chunk that touch another object, or with SELF_COLLISION their own, one work group for each chunk;
+// after them the number of lost pairs. Parity: tests/gpu/collision/collision_test.cpp.
 #include "sim/collision/pairs.glsl"
 #include "sim/collision/face_collisions.glsl"
 #include "layouts/chunk.glsl"

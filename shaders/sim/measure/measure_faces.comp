@@ -1,5 +1,5 @@
-// Volume under the faces of a chunk, about a node of the object (divergence theorem), one work group a chunk; the host
-// adds the chunks up in double precision. CPU twin: gelatin::cpu::measure. Parity: tests/gpu/measure/measure_test.cpp.
+// Volume under the faces of a chunk, relative to a node of the object (divergence theorem), one work group for each chunk; the
+// host adds up the chunks in double precision. CPU twin: gelatin::cpu::measure. Parity: tests/gpu/measure/measure_test.cpp.
 #include "include/global_index.glsl"
 #include "layouts/chunk.glsl"
 #include "layouts/face.glsl"

@@ -1,6 +1,5 @@
-// Sums over nodes, one work group a chunk; the host adds the chunks up in double precision.
-// Pinned nodes (inverse mass 0) count for contacts and elastic energy alone. CPU twin: gelatin::cpu::measure.
-// Parity: tests/gpu/measure/measure_test.cpp.
+// Sums over nodes, one work group for each chunk; the host adds up the chunks in double precision. Pinned nodes (inverse mass
+// 0) count for contacts and elastic energy only. CPU twin: gelatin::cpu::measure. Parity: tests/gpu/measure/measure_test.cpp.
 #include "layouts/packing.glsl"
 #include "sim/collision/colliders.glsl"
 #include "include/global_index.glsl"
@@ -88,7 +87,7 @@ NodeSums add(NodeSums a, NodeSums b) {
 
 void main() {
     uint group = group_index();
-    if (group >= chunk_count) return;  // the whole group leaves, so no one waits at the barrier
+    if (group >= chunk_count) return;  // the whole group leaves, so none waits at the barrier
     Chunk chunk = chunks[group];
     uint lane = gl_LocalInvocationID.x;
     NodeSums sums = NodeSums(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0u);

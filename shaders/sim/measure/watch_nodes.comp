@@ -1,6 +1,5 @@
-// Notes the first step after which nodes are not finite, or have more energy each than all bodies together can have.
-// Steps come one after the other: where an earlier one is noted, its note stays. Atomics are met by bad nodes alone, and
-// least, number and greatest do not depend on their order.
+// Records the first step after which nodes are not finite, or have more energy each than all bodies together can have. A record
+// of an earlier step stays. Only invalid nodes use the atomics, and minimum, number and maximum do not depend on their order.
 // CPU twin: gelatin::cpu::watch_nodes. Parity: tests/gpu/measure/watch_nodes_test.cpp.
 #include "include/global_index.glsl"
 #include "layouts/alarm.glsl"
@@ -15,7 +14,7 @@ uniform float most_energy;  // kinetic, of one node [J]; may be infinite
 
 const uint kNotANumber = 0x7FC00000u;
 
-// By the bits: drivers may take isnan and isinf for false.
+// By the bits: drivers may assume that isnan and isinf are false.
 bool is_finite(vec3 v) {
     return all(notEqual(floatBitsToUint(v) & 0x7F800000u, uvec3(0x7F800000u)));
 }

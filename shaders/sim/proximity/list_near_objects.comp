@@ -1,5 +1,5 @@
-// The objects that each leaf may be near to, in ascending order, its own among them if OWN: their boxes meet the leaf's.
-// CPU twin: gelatin::cpu::FindProximities. Parity: tests/gpu/proximity/find_proximities_test.cpp.
+// The objects that each leaf may be near, in ascending order, its own among them if OWN: their boxes meet the leaf's. CPU twin:
+// gelatin::cpu::FindProximities. Parity: tests/gpu/proximity/find_proximities_test.cpp.
 #include "sim/collision/pairs.glsl"
 #include "sim/proximity/proximities.glsl"
 layout(local_size_x = 64) in;
@@ -9,7 +9,7 @@ layout(std430) writeonly buffer NearObjects { NearObject near_objects[]; };
 uniform uint search_count;
 uniform uint near_object_capacity;
 
-// The k-th object that the leaf's one may touch, in ascending order; with OWN itself at its place.
+// The k-th object that the leaf's object may touch, in ascending order; with OWN it is among them.
 uint nth_object(PairRow row, uint own, uint place_of_own, uint k) {
     if (k == place_of_own) return own;
     return object_pairs[row.first_pair + k - uint(k > place_of_own)].other;

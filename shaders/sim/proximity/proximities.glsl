@@ -1,4 +1,4 @@
-// What the kernels of gpu::FindProximities read: leaves of the face trees, whose nodes and edges search together.
+// Input of the kernels of gpu::FindProximities: leaves of the face trees, whose nodes and edges search together.
 #include "sim/collision/box_margin.glsl"
 #include "sim/collision/dispatches.glsl"
 #include "include/global_index.glsl"

@@ -1,5 +1,5 @@
-// A task: a node, or with EDGES an edge, and up to eight leaves. What it has found are bits in four words, two leaves a
-// word, sixteen bits a leaf, by the leaf's faces or edges.
+// A task: a node, or with EDGES an edge, and up to eight leaves. Its results are bits in four words, two leaves in each word,
+// sixteen bits for each leaf, by the leaf's faces or edges.
 #include "sim/collision/nearest_points.glsl"
 #include "sim/proximity/proximities.glsl"
 
@@ -45,7 +45,7 @@ uint first_of_leaf(Task task, uint k) {
 #endif
 }
 
-// Takes the lowest bit out of four words: 32 times the word's number, and the bit's.
+// Removes the lowest bit from four words. Returns 32 times the word's index plus the bit's.
 uint take_bit(inout uvec4 words) {
     uint w = words.x != 0u ? 0u : words.y != 0u ? 1u : words.z != 0u ? 2u : 3u;
     uint word = words[w];
@@ -54,7 +54,7 @@ uint take_bit(inout uvec4 words) {
 }
 bool any_bit(uvec4 words) { return (words.x | words.y | words.z | words.w) != 0u; }
 
-// What is nearest, as CPU and GPU compute it; edges in the order of their numbers, so that both are told the same.
+// The nearest points, as CPU and GPU compute them; edges in the order of their numbers, so that both get the same result.
 #ifdef EDGES
 struct Nearest {
     EdgeToEdge points;

@@ -1,6 +1,6 @@
-// Running sums of how many each query has found: where what it found begins. Three dispatches: sums within each work group
-// of queries; with GROUPS one work group sums up the groups' sums; with STARTS both are added up.
-// CPU twin: gelatin::cpu::FindProximities. Parity: tests/gpu/proximity/find_proximities_test.cpp.
+// Prefix sums of the number of results of each query: where its results begin. Three dispatches: sums within each work group of
+// queries; with GROUPS one work group adds up the groups' sums; with STARTS both are added. CPU twin:
+// gelatin::cpu::FindProximities. Parity: tests/gpu/proximity/find_proximities_test.cpp.
 #include "layouts/packing.glsl"
 #include "include/global_index.glsl"
 #include "layouts/proximity.glsl"
@@ -16,7 +16,7 @@ const uint kLaneQueries = kQueriesAGroup / 256u;
 
 shared uint parts[256];
 
-// The sum of the lanes' values before this one.
+// The sum of the values of the invocations before this one.
 uint sum_before(uint value) {
     uint lane = gl_LocalInvocationID.x;
     parts[lane] = value;
@@ -55,7 +55,7 @@ void main() {
     if (query == node_count) found.node_face = at;
     if (query == query_count) found.all = at;
 #else
-    if (kQueriesAGroup * group_index() >= query_count) return;  // the whole group leaves, so no one waits at the barrier
+    if (kQueriesAGroup * group_index() >= query_count) return;  // the whole group leaves, so none waits at the barrier
     uint first = min(kLaneQueries * global_index(), query_count);
     uint last = min(first + kLaneQueries, query_count);
     uint sum = 0u;

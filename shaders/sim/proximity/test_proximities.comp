@@ -1,6 +1,6 @@
 // Which faces of a task's leaves are nearer to its node than the radius, or with EDGES which edges to its edge: the bits of
-// `hits`, and how many in all of a node's or an edge's tasks.
-// CPU twin: gelatin::cpu::FindProximities. Parity: tests/gpu/proximity/find_proximities_test.cpp.
+// `hits`, and their number over all tasks of a node or an edge. CPU twin: gelatin::cpu::FindProximities. Parity:
+// tests/gpu/proximity/find_proximities_test.cpp.
 #include "sim/proximity/proximity_task.glsl"
 layout(local_size_x = 64) in;
 

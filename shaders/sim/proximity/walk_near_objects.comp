@@ -1,5 +1,6 @@
-// A leaf's walk through the tree of an object that may be near: how many of its leaves are, or with LIST which, in their
-// order. One invocation a walk. CPU twin: gelatin::cpu::for_leaves_near. Parity: tests/gpu/proximity/find_proximities_test.cpp.
+// A leaf's walk through the tree of an object that may be near: the number of near leaves, or with LIST these leaves, in their
+// order. One invocation for each walk. CPU twin: gelatin::cpu::for_leaves_near. Parity:
+// tests/gpu/proximity/find_proximities_test.cpp.
 #include "sim/proximity/proximities.glsl"
 layout(local_size_x = 64) in;
 

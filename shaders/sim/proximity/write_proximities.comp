@@ -1,5 +1,5 @@
-// Writes what a task has found behind what the tasks before it have found for the same node, or with EDGES edge: in the
-// order of the faces or edges. CPU twin: gelatin::cpu::FindProximities. Parity: tests/gpu/proximity/find_proximities_test.cpp.
+// Writes the results of a task after those of the previous tasks of the same node, or with EDGES edge: in the order of the
+// faces or edges. CPU twin: gelatin::cpu::FindProximities. Parity: tests/gpu/proximity/find_proximities_test.cpp.
 #include "sim/proximity/proximity_task.glsl"
 layout(local_size_x = 64) in;
 

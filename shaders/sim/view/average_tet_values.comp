@@ -1,5 +1,5 @@
-// What colours show at each node, one invocation a node: the mean over its tets, weighted by their volumes at rest; with
-// SPEED the node's own speed [m/s]. Test: tests/gpu/view/tet_values_test.cpp.
+// The value that colours show at each node, one invocation for each node: the mean over its tets, weighted by their volumes at
+// rest; with SPEED the node's own speed [m/s]. Test: tests/gpu/view/tet_values_test.cpp.
 #include "layouts/packing.glsl"
 #include "include/global_index.glsl"
 layout(local_size_x = 64) in;

@@ -1,6 +1,6 @@
-// What colours show of each tet, one invocation a tet (docs/physics.md, "What colours show"): with STRETCH its largest
-// principal stretch, with STRESS von Mises' stress [Pa], else the mean speed of its corners [m/s]. Counts them by their
-// size, too, so that the range of colours can follow. Test: tests/gpu/view/tet_values_test.cpp.
+// The value that colours show of each tet, one invocation for each tet (docs/physics.md, "What colours show"): with STRETCH its
+// largest principal stretch, with STRESS von Mises' stress [Pa], else the mean speed of its corners [m/s]. Also counts them in
+// a histogram, so that the range of colours can adapt. Test: tests/gpu/view/tet_values_test.cpp.
 #include "include/global_index.glsl"
 #include "layouts/packing.glsl"
 #include "sim/view/principal_stretches.glsl"
@@ -14,9 +14,9 @@ uniform samplerBuffer tet_materials;   // volume at rest [m^3], shear modulus [P
 layout(std430) writeonly buffer TetValues { float tet_values[]; };
 layout(std430) buffer Histogram { uint histogram[]; };
 uniform uint tet_count;
-uniform float least;  // what is counted from
+uniform float least;  // smallest value of the histogram
 
-// Of the bits of a float as many as tell numbers apart that differ by a sixteenth; as in src/gpu/view/tet_values.h.
+// The number of a float's upper bits that distinguish numbers which differ by a sixteenth; as in src/gpu/view/tet_values.h.
 
 vec3 corner(samplerBuffer places, uint node) { return texelFetch(places, int(node)).xyz; }
 

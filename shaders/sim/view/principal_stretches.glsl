@@ -2,8 +2,8 @@
 // of the determinant. Jacobi's method on F^T F (Golub and Van Loan, Matrix Computations, 8.5) for the first two; the
 // third by the determinant, which keeps it exact where it is small.
 
-// Turns the first two axes so that the symmetric matrix of this diagonal, and of these elements opposite it, has no
-// element between them; then names the axes anew, so that after three calls they are as they were.
+// Rotates the first two axes so that the symmetric matrix with this diagonal, and these elements opposite to it, has no element
+// between them; then permutes the axes, so that after three calls their order is the original one.
 void turn_axes(inout vec3 diagonal, inout vec3 opposite) {
     float difference = diagonal.y - diagonal.x, twice = 2.0 * opposite.z;
     float size = abs(difference) + sqrt(difference * difference + twice * twice);
@@ -27,7 +27,7 @@ vec3 principal_stretches(mat3 f) {
     float first = sqrt(max(most, 0.0));
     float second = sqrt(max(diagonal.x + diagonal.y + diagonal.z - most - least, 0.0));
     float volume = dot(scaled[0], cross(scaled[1], scaled[2]));
-    // Where nothing but rounding is left of the second, nothing else is of the volume.
+    // If the second is only rounding, so is the volume.
     float third = clamp(volume / max(first * second, 1e-30), -second, second);
     return size * vec3(first, second, third);
 }

@@ -1,5 +1,5 @@
-// Unit normal of each surface vertex: the area-weighted mean of its faces', which lie on one side of a crease.
-// Where the faces cancel out it points up rather than being NaN. Parity: tests/gpu/view/update_normals_test.cpp.
+// Unit normal of each surface vertex: the area-weighted mean of the normals of its faces, which are on one side of a crease. If
+// the normals cancel, it points up rather than being NaN. Parity: tests/gpu/view/update_normals_test.cpp.
 #include "include/global_index.glsl"
 #include "layouts/surface_vertex.glsl"
 layout(local_size_x = 64) in;

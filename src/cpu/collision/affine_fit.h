@@ -19,16 +19,16 @@ template <class Real>
 struct AffineFit {
     glm::mat<3, 3, Real> map{0};
     Vec3<Real> center{0};   ///< [m]
-    Vec3<Real> origin{0};   ///< where the object's first node is [m]
-    Real half_stretch = 0;  ///< half of a lower bound of the least that the map stretches anything
-    Real rounding = 0;      ///< of a distance [m]
+    Vec3<Real> origin{0};   ///< present position of the object's first node [m]
+    Real half_stretch = 0;  ///< half of a lower bound of the map's smallest stretch
+    Real rounding = 0;      ///< rounding error of a distance [m]
 
-    /// How far from where the map puts it a node is, and no less for rounding [m].
+    /// The distance of a node from where the map places it, rounded up [m].
     Real deviation(const Vec3<Real>& position, const Vec3<Real>& rest_offset) const {
         return glm::distance(position - center, map * rest_offset) + rounding;
     }
 
-    /// The same map of the object when its first node has moved to `now`. @param box of the object
+    /// The same map, displaced with the object's first node, which is now at `now`. @param box of the object
     AffineFit moved(const Vec3<Real>& now, const RestShape& rest, const AxisBox<Real>& box) const {
         AffineFit fit = *this;
         fit.center += now - origin;
@@ -40,8 +40,7 @@ struct AffineFit {
     }
 };
 
-/// The one that comes nearest to where the nodes are, in the sense of least squares. GPU twin:
-/// shaders/sim/collision/fit_rest_shapes.comp.
+/// The least-squares fit to the nodes. GPU twin: shaders/sim/collision/fit_rest_shapes.comp.
 /// @param box of the object
 template <class Real>
 AffineFit<Real> fit_rest_shape(const Model& model, std::uint32_t object,
@@ -61,7 +60,7 @@ AffineFit<Real> fit_rest_shape(const Model& model, std::uint32_t object,
         moment * glm::mat<3, 3, Real>(Vec3<Real>(rest.inverse_moment_x), Vec3<Real>(rest.inverse_moment_y),
                                       Vec3<Real>(rest.inverse_moment_z));
     fit.center = origin + sum / static_cast<Real>(nodes.count);
-    // The least singular value is at least |det| 2 / |map|^2 (Frobenius), by the means of the other two.
+    // The smallest singular value is at least |det| 2 / |map|^2 (Frobenius), by the means of the other two.
     const Real square = glm::dot(fit.map[0], fit.map[0]) + glm::dot(fit.map[1], fit.map[1]) +
                         glm::dot(fit.map[2], fit.map[2]);
     fit.half_stretch = square > Real(0) ? std::abs(glm::determinant(fit.map)) / square : Real(0);

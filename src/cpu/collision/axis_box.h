@@ -8,13 +8,13 @@
 
 namespace gelatin::cpu {
 
-/// By how much boxes are larger than what they hold, so that those of things nearer than a distance meet:
-/// half of it on every side, and more than rounding takes away. `slack` is a power of two, which rounds
-/// nothing.
+/// How much larger boxes are than their content, so that the boxes of things nearer than a distance meet:
+/// half of that distance on every side, plus a bound of the rounding error. `slack` is a power of two, whose
+/// products are exact.
 template <class Real>
 struct BoxMargin {
     Real width = 0;  ///< [m]
-    Real slack = 0;  ///< of the coordinate
+    Real slack = 0;  ///< relative to the coordinate
 
     static BoxMargin for_distance(double distance) {
         return {static_cast<Real>(0.5 * distance) * (1 + 8 * std::numeric_limits<Real>::epsilon()),
@@ -22,11 +22,11 @@ struct BoxMargin {
     }
     Vec3<Real> at(const Vec3<Real>& point) const {
         return slack > Real(0) ? width + slack * glm::abs(point)
-                               : Vec3<Real>(width);  // 0 inf is not a number
+                               : Vec3<Real>(width);  // 0 * inf is not a number
     }
 };
 
-/// An axis-aligned box; empty, and meeting nothing, until something is added.
+/// An axis-aligned box. It is empty, and meets nothing, until something is added.
 template <class Real>
 struct AxisBox {
     Vec3<Real> min{std::numeric_limits<Real>::infinity()};   ///< [m]
@@ -47,7 +47,7 @@ struct AxisBox {
     Vec3<Real> center() const { return Real(0.5) * (min + max); }
 };
 
-/// True if they share a point: boxes are closed. Without branches, for loops over many.
+/// True if they share a point: boxes are closed. Without branches, for long loops.
 template <class Real>
 bool meet(const AxisBox<Real>& a, const AxisBox<Real>& b) {
     return static_cast<bool>((a.min.x <= b.max.x) & (b.min.x <= a.max.x) & (a.min.y <= b.max.y) &

@@ -13,7 +13,7 @@
 
 namespace gelatin::cpu {
 
-/// How far a point is outside a collider (negative inside) [m], and the way out (unit).
+/// How far a point is outside a collider (negative inside) [m], and the direction outwards (unit).
 template <class Real>
 struct SurfaceDistance {
     Real distance;
@@ -33,7 +33,7 @@ SurfaceDistance<Real> distance_to_box(const Vec3<Real>& p, const Vec3<Real>& hal
     const Vec3<Real> outside = glm::max(q, Vec3<Real>(0));
     const Real length = glm::length(outside);
     if (length > Real(0)) return {length, side * outside / length};
-    // Inside: out through the nearest side.
+    // Inside: outwards through the nearest side.
     if (q.x >= q.y && q.x >= q.z) return {q.x, Vec3<Real>(side.x, 0, 0)};
     if (q.y >= q.z) return {q.y, Vec3<Real>(0, side.y, 0)};
     return {q.z, Vec3<Real>(0, 0, side.z)};
@@ -64,9 +64,9 @@ SurfaceDistance<Real> surface_distance(const Collider& collider, const Vec3<Real
     return {local.distance, q * local.normal};
 }
 
-/// The velocity after a node at `velocity` has met a surface: the normal part is reversed and scaled by the
-/// restitution, the tangential part slowed by at most friction times the normal change (Coulomb). Slower than
-/// `resting_speed` [m/s], what gravity alone adds in a step or two, a node does not bounce.
+/// The velocity after a node at `velocity` has hit a surface. The normal part is reversed and scaled by the
+/// restitution. The tangential part is reduced by at most friction times the normal change (Coulomb). Below
+/// `resting_speed` [m/s], which gravity alone adds in a step or two, a node does not bounce.
 template <class Real>
 Vec3<Real> bounce(const Vec3<Real>& velocity, const Vec3<Real>& normal, Real friction, Real restitution,
                   Real resting_speed) {
@@ -80,8 +80,8 @@ Vec3<Real> bounce(const Vec3<Real>& velocity, const Vec3<Real>& normal, Real fri
     return kept * tangential + rebound * normal;
 }
 
-/// Moves a node that is inside a collider to its surface and lets it bounce; the fourth components stay as
-/// they are. GLSL twin: sim/collision/colliders.glsl.
+/// Moves a node that is inside a collider to its surface and lets it bounce; the fourth components do not
+/// change. GLSL twin: sim/collision/colliders.glsl.
 template <class Real>
 void resolve_colliders(std::span<const Collider> colliders, Real resting_speed, Vec4<Real>& position,
                        Vec4<Real>& velocity) {
@@ -97,7 +97,7 @@ void resolve_colliders(std::span<const Collider> colliders, Real resting_speed, 
 }
 
 /// For solvers whose steps end on the surface of a collider, without a bounce: a node that touches one, and
-/// would have gone into it with `unhindered` velocity, gets the normal speed of its rebound.
+/// would have entered it with the velocity `unhindered`, gets the normal speed of its rebound.
 template <class Real>
 void rebound(std::span<const Collider> colliders, const Vec3<Real>& position, const Vec3<Real>& unhindered,
              Real resting_speed, Vec3<Real>& velocity) {

@@ -64,7 +64,7 @@ void Collision<Real>::update_boxes(std::span<const Vec4<Real>> positions,
     tbb::parallel_for(std::uint32_t(0), objects, [&](std::uint32_t o) { update_tree(o); });
 }
 
-// From the last node to the first: children come behind their parents.
+// From the last node to the first, because children come after their parents.
 template <class Real>
 void Collision<Real>::update_tree(std::uint32_t object) {
     const BoxTree& tree = model_->face_trees;
@@ -98,7 +98,7 @@ void Collision<Real>::find_object_pairs() {
     }
     row_starts_[count] = static_cast<std::uint32_t>(pairs_.size());
 
-    // Pairs come in the order of (object, other), so those that name an object as the other one come in the
+    // Pairs are in the order of (object, other). So those that name an object as the other one are in the
     // order of its own row.
     std::vector<std::uint32_t> next(row_starts_.begin(), row_starts_.end() - 1);
     for (ObjectPair& pair : pairs_) pair.mirror = next[pair.other]++;

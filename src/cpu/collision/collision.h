@@ -12,11 +12,12 @@
 
 namespace gelatin::cpu {
 
-/// Objects that may touch, as one of the two sees it; each pair is there twice, once in either object's row.
+/// A pair of objects that may touch, as seen from the first; each pair exists twice, once in either object's
+/// row.
 struct ObjectPair {
     std::uint32_t object, other;
-    std::uint32_t mirror;      ///< index of the same pair as the other sees it
-    std::uint32_t first_word;  ///< of its bits in the Face Collision Result
+    std::uint32_t mirror;      ///< index of the same pair as seen from the other object
+    std::uint32_t first_word;  ///< index of its first bit in the Face Collision Result
 };
 
 /// Finds which faces of which objects touch (paper 2.4 and 3.1), stage by stage. The same result for any
@@ -24,7 +25,7 @@ struct ObjectPair {
 template <class Real>
 class Collision {
 public:
-    /// @param margin of the boxes; it changes what is tested, not which faces touch
+    /// @param margin of the boxes; it affects what is tested, not which faces touch
     explicit Collision(std::shared_ptr<const Model> model, BroadPhase broad_phase = BroadPhase::hierarchy,
                        CollisionDetection detection = CollisionDetection::discrete,
                        const BoxMargin<Real>& margin = {});
@@ -42,7 +43,7 @@ public:
 
     const std::vector<AxisBox<Real>>& bounding_boxes() const { return bounding_boxes_; }
     const std::vector<AxisBox<Real>>& face_boxes() const { return face_boxes_; }
-    /// Of the nodes of Model::face_trees.
+    /// For the nodes of Model::face_trees.
     const std::vector<AxisBox<Real>>& tree_boxes() const { return tree_boxes_; }
     const std::vector<ObjectPair>& pairs() const { return pairs_; }
     /// An object's pairs.
@@ -55,7 +56,7 @@ public:
     }
     /// True if it touches any other object.
     bool collides(std::uint32_t face) const;
-    /// True if the objects of the pair touch at all.
+    /// True if any faces of the pair's objects touch.
     bool collide(const ObjectPair& pair) const;
 
 private:
@@ -77,10 +78,10 @@ private:
     std::vector<AxisBox<Real>> tree_boxes_;      // of Model::face_trees; shape [nodes]
     std::vector<AxisBox<Real>> bounding_boxes_;  // shape [objects]
     ObjectTree<Real> object_tree_;
-    std::vector<std::vector<std::uint32_t>> partners_;  // of each object, ascending
+    std::vector<std::vector<std::uint32_t>> partners_;  // for each object, ascending
     std::vector<ObjectPair> pairs_;
     std::vector<std::uint32_t> row_starts_;       // shape [objects + 1]
-    std::vector<std::uint32_t> face_collisions_;  // two bits a face of its object, by pair: a Touch
+    std::vector<std::uint32_t> face_collisions_;  // two bits for each of its object's faces, by pair: a Touch
 };
 
 }  // namespace gelatin::cpu

@@ -14,16 +14,16 @@ template <class Real>
 struct ContactPatch {
     Vec3<Real> area_normal{0};  ///< sum of the colliding faces' weighted area normals [m^2]
     Real mass = 0;              ///< of the corners that are not pinned [kg]
-    Vec3<Real> momentum{0};     ///< of the same [kg m/s]
-    std::uint32_t pinned = 0;   ///< corners that are
-    Vec3<Real> held{0};         ///< sum of these' velocities [m/s]
+    Vec3<Real> momentum{0};     ///< of the same corners [kg m/s]
+    std::uint32_t pinned = 0;   ///< number of pinned corners
+    Vec3<Real> held{0};         ///< sum of their velocities [m/s]
 };
 
 /// The weight in a patch's normal of faces that do not enter the other object (src/cpu/collision/touch.h):
 /// they count where none does.
 constexpr double kWeightOfOthers = 1e-3;
 
-/// The corners of a patch that move towards the other object.
+/// The corners of a patch that approach the other object.
 template <class Real>
 struct ApproachSums {
     Vec3<Real> momentum{0};  ///< [kg m/s]
@@ -31,17 +31,17 @@ struct ApproachSums {
     Real impulse = 0;        ///< sum of mass times speed of approach [kg m/s]
 };
 
-/// The plane in which two patches meet, moving along.
+/// The moving plane in which two patches touch.
 template <class Real>
 struct ContactPlane {
     Vec3<Real> normal;    ///< unit, from the first patch's object to the second's
     Vec3<Real> velocity;  ///< [m/s]
-    bool pinned;          ///< it moves as it does, and takes any impulse
+    bool pinned;          ///< a side is pinned: the plane has its velocity and takes any impulse
 };
 
-/// It moves with the patches' common velocity, or with the mean one of the corners that are pinned, which
-/// handles move.
-/// @param between from the first object's middle to the second's: the normal where the faces' cancel out [m]
+/// It moves with the patches' common velocity, or with the mean velocity of the pinned corners, which handles
+/// may move.
+/// @param between from the first object's centre to the second's: the normal if those of the faces cancel [m]
 template <class Real>
 ContactPlane<Real> contact_plane(const ContactPatch<Real>& patch, const ContactPatch<Real>& other,
                                  const Vec3<Real>& between) {
@@ -61,11 +61,11 @@ ContactPlane<Real> contact_plane(const ContactPatch<Real>& patch, const ContactP
     return {direction(patch.area_normal - other.area_normal, middle), velocity, pinned > 0};
 }
 
-/// What a corner's velocity v changes by: -factor u normal + slowing, where u = (v - velocity) . normal > 0.
+/// A corner's velocity v changes by -factor u normal + slowing, where u = (v - velocity) . normal > 0.
 template <class Real>
 struct ContactResponse {
     Vec3<Real> normal{0};    ///< unit, towards the other object
-    Real factor = 0;         ///< (1 + restitution), less where the other side brings less momentum
+    Real factor = 0;         ///< (1 + restitution), less if the other side has less momentum
     Vec3<Real> velocity{0};  ///< of the contact plane [m/s]
     Vec3<Real> slowing{0};   ///< by friction [m/s]
 };
@@ -74,10 +74,10 @@ struct ContactProperties {
     double friction, restitution;
 };
 
-/// The answer of the side `patch` to a contact with the side `other`: both sides' corners that approach the
-/// contact plane leave it with the restitution, and the impulses of the two sides are equal and opposite.
-/// See docs/collision.md. A pinned side takes any impulse.
-/// @param resting_speed slower than this [m/s], nothing bounces
+/// The response of the side `patch` to a contact with the side `other`. The corners of both sides that
+/// approach the contact plane leave it with the restitution, and the impulses of the two sides are equal and
+/// opposite. See docs/collision.md. A pinned side takes any impulse.
+/// @param resting_speed below this speed [m/s], nothing bounces
 template <class Real>
 ContactResponse<Real> contact_response(const ContactPlane<Real>& plane, const ApproachSums<Real>& approach,
                                        const ApproachSums<Real>& other, const ContactProperties& properties,

@@ -28,7 +28,8 @@ template <class Real>
 void SelfCollision<Real>::find(std::span<const Vec4<Real>> positions) {
     if (any_) std::fill(contact_counts_.begin(), contact_counts_.end(), 0u);
     find_restless(positions);
-    // Counts of faces that several threads may find; two restless faces find one another, and one counts.
+    // Counts for faces that several threads may find. Two restless faces find one another; one of them
+    // counts.
     std::atomic<bool> any = false;
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, restless_.size(), kWalksATask), [&](const auto& range) {
@@ -67,8 +68,8 @@ void SelfCollision<Real>::find_restless(std::span<const Vec4<Real>> positions) {
     }
 }
 
-// Any map will do. So the last one does, moved along with the object, until it no longer explains where its
-// nodes are.
+// Any affine map is valid. So the last one is used, displaced with the object, until it no longer explains
+// the positions of the nodes.
 template <class Real>
 bool SelfCollision<Real>::renew_fit(std::uint32_t object, std::span<const Vec4<Real>> positions) {
     AffineFit<Real>& fit = fits_[object];
@@ -80,7 +81,7 @@ bool SelfCollision<Real>::renew_fit(std::uint32_t object, std::span<const Vec4<R
     return is_calm_all_over(object, positions);
 }
 
-// Sooner told than face by face.
+// Faster than face by face.
 template <class Real>
 bool SelfCollision<Real>::is_calm_all_over(std::uint32_t object,
                                            std::span<const Vec4<Real>> positions) const {
@@ -88,7 +89,7 @@ bool SelfCollision<Real>::is_calm_all_over(std::uint32_t object,
     const AffineFit<Real>& fit = fits_[object];
     const Real limit = fit.half_stretch * static_cast<Real>(rest.objects[object].inverse_moment_y.w);
     const Range& nodes = model_->objects[object].nodes;
-    bool is_calm = true;  // what is not a number is not
+    bool is_calm = true;  // not for NaN
     for (std::uint32_t n = nodes.first; n < nodes.end() && is_calm; ++n)
         is_calm = fit.deviation(Vec3<Real>(positions[n]), Vec3<Real>(rest.offsets[n])) < limit;
     return is_calm;
@@ -100,7 +101,7 @@ bool SelfCollision<Real>::is_face_calm(std::uint32_t index, std::span<const Vec4
     const Face& face = model_->faces[index];
     const AffineFit<Real>& fit = fits_[face.object];
     const Real limit = fit.half_stretch * static_cast<Real>(rest.clearances[index]);
-    bool is_calm = true;  // what is not a number is not
+    bool is_calm = true;  // not for NaN
     for (const std::uint32_t n : {face.a, face.b, face.c})
         is_calm &= fit.deviation(Vec3<Real>(positions[n]), Vec3<Real>(rest.offsets[n])) < limit;
     return is_calm;
@@ -120,7 +121,7 @@ bool SelfCollision<Real>::touch(std::span<const Vec4<Real>> positions, std::uint
         return Triangle<Real>{Vec3<Real>(positions[f.a]), Vec3<Real>(positions[f.b]),
                               Vec3<Real>(positions[f.c])};
     };
-    // In one order, so that both faces are told the same.
+    // In a fixed order, so that both faces get the same result.
     const auto [first, second] = std::minmax(face, other);
     return triangles_overlap(triangle(model_->faces[first]), triangle(model_->faces[second]));
 }

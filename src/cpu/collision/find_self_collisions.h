@@ -12,11 +12,11 @@
 
 namespace gelatin::cpu {
 
-/// Finds which faces of an object touch others of the same object; those that share a corner are left out.
+/// Finds which faces of an object touch other faces of the same object, except those that share a corner.
 ///
-/// Two faces cannot touch while both are calm: nearer to where an affine map of the rest shape puts them than
-/// half of what that map leaves of their clearance at rest (docs/collision.md). Only faces that are not walk
-/// through their object's tree, and only objects that their last map does not explain are looked at by face.
+/// Two faces cannot touch while both are calm: nearer to where an affine map of the rest shape places them
+/// than half of their clearance at rest after that map (docs/collision.md). Only faces that are not calm walk
+/// through their object's tree. Only objects that their last map does not explain are tested face by face.
 /// GPU twin: gpu::FindSelfCollisions.
 template <class Real>
 class SelfCollision {
@@ -27,15 +27,15 @@ public:
     /// @pre the boxes are those of `positions`
     void find(std::span<const Vec4<Real>> positions);
 
-    /// How many faces of its own object a face touches.
+    /// The number of faces of its own object that a face touches.
     std::uint32_t contact_count(std::uint32_t face) const { return contact_counts_[face]; }
     bool collides(std::uint32_t face) const { return contact_counts_[face] > 0; }
-    /// True if any face does.
+    /// True if any face touches another one.
     bool any() const { return any_; }
     /// Faces that were not calm.
     std::size_t restless_count() const { return restless_.size(); }
 
-    /// found(other) for each of the faces that `face` touches, in a fixed order. @pre as they were found
+    /// found(other) for each of the faces that `face` touches, in a fixed order. @pre `face` touches some
     template <class Found>
     void for_contacts(std::span<const Vec4<Real>> positions, std::uint32_t face, const Found& found) const {
         if (!collides(face)) return;
@@ -52,7 +52,8 @@ private:
     bool share_corner(std::uint32_t face, std::uint32_t other) const;
     bool touch(std::span<const Vec4<Real>> positions, std::uint32_t face, std::uint32_t other) const;
 
-    // found(other) for each face of the same object whose box meets that of `face`, and that is no neighbour.
+    // found(other) for each face of the same object whose box meets that of `face`, and which shares no
+    // corner with it.
     template <class Found>
     void for_faces_near(std::uint32_t face, const Found& found) const {
         const AxisBox<Real> box = boxes_.face_boxes()[face];
@@ -65,8 +66,8 @@ private:
     std::shared_ptr<const Model> model_;
     const Collision<Real>& boxes_;
     std::vector<AffineFit<Real>> fits_;          // shape [objects]
-    std::vector<std::uint8_t> is_object_calm_;   // all over, shape [objects]
-    std::vector<std::uint8_t> is_calm_;          // of objects that are not, shape [faces]
+    std::vector<std::uint8_t> is_object_calm_;   // all faces are calm, shape [objects]
+    std::vector<std::uint8_t> is_calm_;          // for objects that are not, shape [faces]
     std::vector<std::uint32_t> restless_;        // faces, ascending
     std::vector<std::uint32_t> contact_counts_;  // shape [faces]
     bool any_ = false;

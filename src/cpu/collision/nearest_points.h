@@ -10,34 +10,35 @@
 
 namespace gelatin::cpu {
 
-/// Where two things come nearest to one another. `apart` leads from the first one's nearest point to the
-/// second's, and keeps its direction to rounding however short it is: it is made of normals and of what is
-/// left over along edges, not of the difference of two points. Edges and faces may be degenerate: they are
-/// the points or segments that they cover. GLSL twin: shaders/sim/collision/nearest_points.glsl.
+/// The nearest points of two faces, edges or nodes. `apart` points from the first one's nearest point to the
+/// second's. Its direction is accurate to rounding however short it is, because it is computed from normals
+/// and from residuals along edges, not as the difference of two points. Edges and faces may be degenerate:
+/// then they are the points or segments that they cover. GLSL twin:
+/// shaders/sim/collision/nearest_points.glsl.
 
 template <class Real>
 struct NodeToEdge {
-    Real fraction;          ///< of the way from the edge's first end to its second, in [0, 1]
+    Real fraction;          ///< fraction of the edge from its first end, in [0, 1]
     Vec3<Real> apart;       ///< from the node to the edge [m]
     Real squared_distance;  ///< [m^2]
 };
 
 template <class Real>
 struct NodeToFace {
-    Vec3<Real> weights;     ///< barycentric, of the face's corners; from 0 to 1 each, 1 in all
+    Vec3<Real> weights;     ///< barycentric, for the face's corners; from 0 to 1 each, with sum 1
     Vec3<Real> apart;       ///< from the node to the face [m]
     Real squared_distance;  ///< [m^2]
 };
 
 template <class Real>
 struct EdgeToEdge {
-    Real fraction, other_fraction;  ///< of the way from each edge's first end to its second, in [0, 1]
+    Real fraction, other_fraction;  ///< fraction of each edge from its first end, in [0, 1]
     Vec3<Real> apart;               ///< from the first edge to the second [m]
     Real squared_distance;          ///< [m^2]
 };
 
-/// Two directions u, v whose sine is below the root of this, |u x v|^2 <= this u^2 v^2, count as parallel:
-/// rounding turns their common normal by as much as taking them for parallel would.
+/// Two directions u, v with |u x v|^2 <= this u^2 v^2 count as parallel. Then rounding rotates their common
+/// normal by as much as assuming that they are parallel would.
 template <class Real>
 constexpr Real kParallel = predicates::kParallelRounding* std::numeric_limits<Real>::epsilon();
 
@@ -48,7 +49,7 @@ NodeToEdge<Real> nearest_points(const Vec3<Real>& p, const Vec3<Real>& a, const 
     const Real along = squared_length > Real(0) ? -glm::dot(way, edge) / squared_length : Real(0);
     const Real fraction = std::clamp(along, Real(0), Real(1));
     Vec3<Real> apart = way + fraction * edge;
-    // What rounding has left along the edge would turn a short way by much.
+    // The rounding error along the edge would rotate a short vector by a large angle.
     if (along > Real(0) && along < Real(1)) apart -= glm::dot(apart, edge) / squared_length * edge;
     return {fraction, apart, glm::dot(apart, apart)};
 }
@@ -76,8 +77,8 @@ NodeToFace<Real> nearest_points(const Vec3<Real>& p, const std::array<Vec3<Real>
     return nearest;
 }
 
-/// The nearest points of two edges' lines where they lie within the edges; at an infinite distance else, and
-/// where the edges are parallel: an end is nearest then.
+/// The nearest points of two edges' lines, if they are within the edges; otherwise, and if the edges are
+/// parallel, at an infinite distance: then an end is nearest.
 template <class Real>
 EdgeToEdge<Real> nearest_inner_points(const std::array<Vec3<Real>, 2>& edge,
                                       const std::array<Vec3<Real>, 2>& other) {
@@ -108,8 +109,8 @@ EdgeToEdge<Real> nearest_points(const std::array<Vec3<Real>, 2>& edge,
     return nearest;
 }
 
-/// The way from one face to another where they are nearest [m]: from a corner to the other face, or between
-/// two edges. Somewhere on their line, where they do not touch, a plane across it lies between the faces.
+/// The vector between the nearest points of two faces [m]: from a corner to the other face, or between two
+/// edges. If they do not touch, a plane perpendicular to it separates the faces.
 template <class Real>
 Vec3<Real> way_between(const std::array<Vec3<Real>, 3>& face, const std::array<Vec3<Real>, 3>& other) {
     Vec3<Real> way(0);

@@ -10,14 +10,14 @@
 namespace gelatin::cpu {
 
 /// Finds the boxes that meet a box, among the bounding boxes of all objects. The tree over them keeps its
-/// topology; which object stands where is decided anew from time to time, for objects move about. GPU twin:
-/// gpu::ObjectTree.
+/// topology. The order of the objects in it is renewed from time to time, because objects move about. GPU
+/// twin: gpu::ObjectTree.
 template <class Real>
 class ObjectTree {
 public:
     explicit ObjectTree(std::uint32_t object_count);
 
-    /// Takes the objects' boxes, which must live as long as they are sought in.
+    /// Sets the objects' boxes, which must exist as long as they are searched.
     void update(std::span<const AxisBox<Real>> boxes);
 
     /// found(object) for each whose box meets `box`, in no particular order.
@@ -35,7 +35,7 @@ private:
     std::vector<std::uint32_t> order_;       // of the objects in the tree
     std::vector<AxisBox<Real>> node_boxes_;  // shape [nodes of the tree]
     std::span<const AxisBox<Real>> boxes_;
-    int age_ = 0;  // of the order, in updates
+    int age_ = 0;  // age of the order, in updates
 };
 
 }  // namespace gelatin::cpu

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kNodesATask = 1024;
 
-// What all stages of a response read.
+// The input of all stages of a response.
 template <class Real>
 struct Contacts {
     const Model& model;
@@ -52,7 +52,7 @@ struct Contacts {
         return count;
     }
 
-    // work(node, share of its mass [kg]; 0 where it is pinned) for each corner of the pair's colliding faces.
+    // work(node, share of its mass [kg]; 0 if it is pinned) for each corner of the pair's colliding faces.
     template <class Work>
     void for_corners(const ObjectPair& pair, const Work& work) const {
         const Range& faces = model.objects[pair.object].faces;
@@ -137,9 +137,9 @@ std::vector<ContactResponse<Real>> plan_responses(const Contacts<Real>& contacts
     return responses;
 }
 
-// A node that touches several objects answers each by its share of colliding faces. It goes back along the
-// normal alone, as seen from the contact: held in all directions and at rest, it would gather speed without
-// moving.
+// A node that touches several objects responds to each in proportion to its number of colliding faces. It
+// returns along the normal only, relative to the contact. If it were held in all directions in a frame at
+// rest, its velocity would grow without motion.
 template <class Real>
 void respond_at_node(const Contacts<Real>& contacts, const std::vector<ContactResponse<Real>>& responses,
                      std::uint32_t node, const Range& row, Real step, const Vec4<Real>& previous_position,

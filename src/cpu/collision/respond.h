@@ -5,9 +5,9 @@
 
 namespace gelatin::cpu {
 
-/// The paper's response to colliding faces (2.4): their nodes that approach the other object go back to
-/// their `previous` positions, along the normal and as seen from the contact, and their velocities respond,
-/// the momentum of two objects that touch being kept (docs/physics.md). The same bits for any number of
+/// The paper's response to colliding faces (2.4): nodes that approach the other object return to their
+/// `previous` positions, along the normal and relative to the contact, and their velocities respond. The
+/// momentum of two objects that touch is conserved (docs/collision.md). The same bits for any number of
 /// threads. GPU twins: shaders/sim/collision/sum_contacts.comp, plan_responses.comp, respond.comp.
 /// @param step from `previous` to `current` [s]
 template <class Real>

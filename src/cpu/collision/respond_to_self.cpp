@@ -42,15 +42,15 @@ FaceLump<Real> make_lump(const Model& model, const SelfCollision<Real>& collisio
         const Real mass = Real(1) / (position.w * shares);
         lump.mass += mass;
         lump.velocity += mass * Vec3<Real>(current.velocities[n]);
-        lump.way += mass * Vec3<Real>(position - previous.positions[n]);
+        lump.displacement += mass * Vec3<Real>(position - previous.positions[n]);
     }
     if (lump.mass > Real(0)) {
         lump.velocity /= lump.mass;
-        lump.way /= lump.mass;
+        lump.displacement /= lump.mass;
     } else {
         for (const std::uint32_t n : {face.a, face.b, face.c}) {
             lump.velocity += Vec3<Real>(current.velocities[n]) / Real(3);
-            lump.way += Vec3<Real>(current.positions[n] - previous.positions[n]) / Real(3);
+            lump.displacement += Vec3<Real>(current.positions[n] - previous.positions[n]) / Real(3);
         }
     }
     lump.mass /= static_cast<Real>(collision.contact_count(f));
@@ -85,10 +85,10 @@ void RespondToSelf<Real>::run(const SelfCollision<Real>& collision, Real step, c
         collision.for_contacts(current.positions, f, [&](std::uint32_t other) {
             const LumpResponse<Real> response = self_response(lumps_[f], lumps_[other], properties_, resting);
             sum.velocity += response.velocity;
-            sum.way += response.way;
+            sum.displacement += response.displacement;
         });
         const auto count = static_cast<Real>(collision.contact_count(f));
-        responses_[f] = {sum.velocity / count, sum.way / count};
+        responses_[f] = {sum.velocity / count, sum.displacement / count};
     });
     const NodeFaces& around = model_->node_faces;
     for_all(current.positions.size(), [&](std::uint32_t n) {
@@ -98,10 +98,10 @@ void RespondToSelf<Real>::run(const SelfCollision<Real>& collision, Real step, c
         for (std::uint32_t k = around.starts[n]; k < around.starts[n + 1]; ++k) {
             if (!collision.collides(around.faces[k])) continue;
             sum.velocity += responses_[around.faces[k]].velocity;
-            sum.way += responses_[around.faces[k]].way;
+            sum.displacement += responses_[around.faces[k]].displacement;
         }
         current.velocities[n] += Vec4<Real>(sum.velocity / static_cast<Real>(shares), 0);
-        current.positions[n] += Vec4<Real>(sum.way / static_cast<Real>(shares), 0);
+        current.positions[n] += Vec4<Real>(sum.displacement / static_cast<Real>(shares), 0);
     });
 }
 

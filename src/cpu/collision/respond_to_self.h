@@ -6,9 +6,9 @@
 
 namespace gelatin::cpu {
 
-/// The response to faces of one object that touch one another: as cpu::respond, but face by face, for a body
-/// that folds touches itself in several places and directions (docs/collision.md). Momentum is kept; the same
-/// bits for any number of threads. GPU twin: shaders/sim/collision/respond_to_self.comp.
+/// The response to faces of one object that touch one another: as cpu::respond, but face by face, because a
+/// body that folds touches itself in several places and directions (docs/collision.md). Momentum is
+/// conserved; the same bits for any number of threads. GPU twin: shaders/sim/collision/respond_to_self.comp.
 /// @param step from `previous` to `current` [s]
 template <class Real>
 class RespondToSelf {
@@ -21,7 +21,7 @@ public:
 private:
     std::shared_ptr<const Model> model_;
     ContactProperties properties_;
-    std::vector<FaceLump<Real>> lumps_;          // shape [faces], of those that collide
+    std::vector<FaceLump<Real>> lumps_;          // of colliding faces, shape [faces]
     std::vector<LumpResponse<Real>> responses_;  // the same
 };
 

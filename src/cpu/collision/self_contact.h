@@ -4,29 +4,29 @@
 
 namespace gelatin::cpu {
 
-/// A face as one of those sees it that it touches: as one lump. A node's mass is divided evenly among its
-/// colliding faces, and a face's among those that it touches, so that no mass is there twice and answers add
-/// up.
+/// A face in a contact with another face of its object, treated as one point mass. A node's mass is divided
+/// evenly among its colliding faces, and a face's mass among the faces that it touches. So no mass counts
+/// twice, and responses add up.
 template <class Real>
 struct FaceLump {
-    Real mass = 0;           ///< of the corners that are not pinned [kg]
-    Vec3<Real> velocity{0};  ///< of the same; of all where all are pinned [m/s]
-    Vec3<Real> way{0};       ///< that they went in this step [m]
-    Vec3<Real> center{0};    ///< of all corners [m]
-    Vec3<Real> normal{0};    ///< outward, unit; 0 of a flat face
+    Real mass = 0;               ///< of the corners that are not pinned [kg]
+    Vec3<Real> velocity{0};      ///< of the same; of all corners if all are pinned [m/s]
+    Vec3<Real> displacement{0};  ///< their displacement in this step [m]
+    Vec3<Real> center{0};        ///< centre of all corners [m]
+    Vec3<Real> normal{0};        ///< outward, unit; 0 for a flat face
 };
 
-/// What a face's corners change by.
+/// The change of a face's corners.
 template <class Real>
 struct LumpResponse {
-    Vec3<Real> velocity{0};  ///< [m/s]
-    Vec3<Real> way{0};       ///< [m]
+    Vec3<Real> velocity{0};      ///< [m/s]
+    Vec3<Real> displacement{0};  ///< [m]
 };
 
-/// The answer of a face to another of its own object that it touches: an inelastic impact of two lumps along
-/// the mean of their normals, with friction; and back to where they have come from, along the normal. With
-/// the faces exchanged it is the opposite, to the last bit of the impulse.
-/// @param resting_speed slower than this [m/s], nothing bounces
+/// The response of a face to another face of its own object that it touches: an inelastic impact of two point
+/// masses along the mean of their normals, with friction; and a return to their previous positions along the
+/// normal. With the faces exchanged the impulse is the opposite, to the last bit.
+/// @param resting_speed below this speed [m/s], nothing bounces
 template <class Real>
 LumpResponse<Real> self_response(const FaceLump<Real>& face, const FaceLump<Real>& other,
                                  const ContactProperties& properties, Real resting_speed) {
@@ -36,7 +36,7 @@ LumpResponse<Real> self_response(const FaceLump<Real>& face, const FaceLump<Real
         return length > Real(0) ? length : Real(1);
     };
     Vec3<Real> normal = face.normal - other.normal;
-    if (glm::dot(normal, normal) < Real(1e-4)) normal = other.center - face.center;  // they face the same way
+    if (glm::dot(normal, normal) < Real(1e-4)) normal = other.center - face.center;  // their normals coincide
     normal /= length_or_one(normal);
 
     LumpResponse<Real> response;
@@ -53,8 +53,8 @@ LumpResponse<Real> self_response(const FaceLump<Real>& face, const FaceLump<Real
     const Real braking = std::min(speed / both, most);  // Coulomb [N s]
     response.velocity = -ours * (impulse * normal + braking / length_or_one(sliding) * sliding);
 
-    const Real advance = glm::dot(face.way - other.way, normal);
-    response.way = -ours / both * std::max(advance, Real(0)) * normal;
+    const Real advance = glm::dot(face.displacement - other.displacement, normal);
+    response.displacement = -ours / both * std::max(advance, Real(0)) * normal;
     return response;
 }
 

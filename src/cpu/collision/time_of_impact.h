@@ -11,8 +11,8 @@
 
 namespace gelatin::cpu {
 
-/// Corners that move straight from `start` to `end` in a step [m], and all between them: one is a node, two
-/// are an edge, three a face.
+/// Corners that move along straight lines from `start` to `end` in a step [m], and all points between them:
+/// one is a node, two are an edge, three a face.
 template <class Real, std::size_t N>
 struct Moving {
     std::array<Vec3<Real>, N> start, end;
@@ -27,24 +27,25 @@ struct Moving {
 namespace impact {
 
 // The rounding bound of a gap. With r = epsilon / 2 and the size |n| . reach, where reach bounds the
-// coordinates: a coordinate carries r, its product another and the sums two more, so that a projection is off
-// by less than 4 r size (1 + 2 r); a gap is the difference of two of them, 8 r size, rounded by at most
-// 2 r size, and 2 r size more where the bound is taken off. That makes 12 r size, and the bound is 16 r size.
+// coordinates: a coordinate has an error of r, its product another and the sums two more, so that a
+// projection is off by less than 4 r size (1 + 2 r). A gap is the difference of two of them, 8 r size,
+// rounded by at most 2 r size, and subtracting the bound adds 2 r size. That is 12 r size, and the bound is
+// 16 r size.
 template <class Real>
 constexpr Real kRoundingBound = predicates::kImpactRounding* std::numeric_limits<Real>::epsilon();
 
-// Added to the size it pays for products that underflow, even where they are flushed to zero.
+// Added to the size, it covers products that underflow, even if they are flushed to zero.
 template <class Real>
 constexpr Real kUnderflowBound =
     predicates::kUnderflowRounding* std::numeric_limits<Real>::min() / std::numeric_limits<Real>::epsilon();
 
 // The root of a linear function with ends of different signs is a quotient of sums without cancellation: off
-// by less than two roundings of the CPU, four of GLSL, which divides to within 2.5 units.
+// by less than two roundings on the CPU, four in GLSL, which divides to within 2.5 units.
 template <class Real>
 constexpr Real kRootBound = predicates::kRootRounding* std::numeric_limits<Real>::epsilon();
 
-/// Two or three planes do as a rule. What comes so near to touching that these are not enough, or turns so
-/// fast, counts as touching.
+/// Two or three planes are usually enough. Faces that come so near to touching that these are not enough, or
+/// rotate so fast, count as touching.
 inline constexpr int kMostPlanes = predicates::kMostPlanes;
 
 /// Times of a step, from 0 at its start to 1 at its end; none if first > last.
@@ -53,9 +54,9 @@ struct Window {
     Real first = 0, last = 1;
 };
 
-/// When a plane across `normal`, wherever it is then, certainly lies between a and b, b on its upper side.
-/// The gap of two corners along the normal is linear in time: it is positive between its ends, or from one of
-/// them to its root.
+/// The time during which a plane across `normal`, at any offset, certainly separates a and b, with b on its
+/// upper side. The gap of two corners along the normal is linear in time: it is positive between its ends, or
+/// from one of them to its root.
 /// @param reach bound of the coordinates' magnitudes
 template <class Real, std::size_t N, std::size_t M>
 Window<Real> separating_window(const Moving<Real, N>& a, const Moving<Real, M>& b, const Vec3<Real>& normal,
@@ -95,8 +96,8 @@ Vec3<Real> way_between(const std::array<Vec3<Real>, 2>& edge, const std::array<V
 }
 using cpu::way_between;  // of faces
 
-/// Positions as seen from a's first corner, which moves along: only motion relative to one another counts.
-/// Returns the largest magnitudes of coordinates.
+/// Positions relative to a's first corner, which moves along, so that only relative motion counts. Returns
+/// the largest magnitudes of coordinates.
 template <class Real, std::size_t N, std::size_t M>
 Vec3<Real> make_relative(Moving<Real, N>& a, Moving<Real, M>& b) {
     const Vec3<Real> start = a.start[0], end = a.end[0];
@@ -116,21 +117,22 @@ Vec3<Real> make_relative(Moving<Real, N>& a, Moving<Real, M>& b) {
 
 }  // namespace impact
 
-/// When a and b first touch in a step, from 0 at its start to 1 at its end, each corner moving straight;
-/// empty if they never do. A node and a face, two edges, or two faces.
+/// The time at which a and b first touch in a step, from 0 at its start to 1 at its end, if each corner moves
+/// along a straight line; empty if they do not touch. For a node and a face, two edges, or two faces.
 ///
-/// Conservative advancement with planes (Mirtich, "Impulse-based dynamic simulation of rigid body systems",
-/// 1996, advances by bounds of speed along the way between nearest points; along a fixed normal, straight
-/// motion needs no bound): the plane across the way between the nearest points lies between a and b until two
-/// corners meet along its normal. From that time on another plane is sought, and so on; if there is none, or
-/// if kMostPlanes do not reach the end of the step, a and b touch.
+/// Conservative advancement with planes. Mirtich ("Impulse-based dynamic simulation of rigid body systems",
+/// 1996) advances by bounds on speed along the line between nearest points; along a fixed normal, straight
+/// motion needs no bound. The plane perpendicular to the line between the nearest points separates a and b
+/// until two corners meet along its normal. From that time on another plane is searched for, and so on. If
+/// there is none, or if kMostPlanes do not reach the end of the step, a and b touch.
 ///
-/// They are apart on proof alone: gaps count less their rounding bound, and the proof does not depend on how
-/// well the nearest points are found. So no impact is missed, and the time is not late. False alarms need a
-/// and b to come near: in float to some 1e-6 of their extent, for pairs whose normals are ill-conditioned
-/// (kParallel) 1e-3; only pairs that turn over or stretch to several times their size within the step may be
-/// farther apart, as planes hold shortly then. Measured in docs/collision.md. Extents from 1e-9 to 1e9 m;
-/// what is not finite touches. GLSL twin: shaders/sim/collision/time_of_impact.glsl.
+/// They are apart only if that is proven: the rounding bound is subtracted from gaps, and the proof does not
+/// depend on the accuracy of the nearest points. So no impact is missed, and the time is not late. False
+/// positives need a and b to be near: in float within about 1e-6 of their extent, for pairs whose normals are
+/// ill-conditioned (kParallel) 1e-3. Only pairs that turn over or stretch to several times their size within
+/// the step may be farther apart, because each plane is valid for a short time. Measured in
+/// docs/collision.md. Extents from 1e-9 to 1e9 m; what is not finite touches. GLSL twin:
+/// shaders/sim/collision/time_of_impact.glsl.
 template <class Real, std::size_t N, std::size_t M>
 std::optional<Real> time_of_impact(Moving<Real, N> a, Moving<Real, M> b) {
     const Vec3<Real> reach = impact::make_relative(a, b);

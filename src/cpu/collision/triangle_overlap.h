@@ -38,7 +38,8 @@ template <class Real>
 constexpr Real kUnderflowBound =
     predicates::kUnderflowRounding* std::numeric_limits<Real>::min() / std::numeric_limits<Real>::epsilon();
 
-/// The sign of `value`, or 0 where rounding may have chosen it or has overflowed; `size` is the permanent.
+/// The sign of `value`, or 0 if rounding may have determined it or it has overflowed; `size` is the
+/// permanent.
 template <class Real>
 int certain_sign(Real value, Real size) {
     const Real bound = kRoundingBound<Real> * size;
@@ -77,14 +78,16 @@ Cross<Real> normal_of(const Triangle<Real>& t) {
     return {t[1] - t[0], t[2] - t[0]};
 }
 
-/// The way the line of edge i of s turns round that of edge j of t, as a sign; 0 where both are in one plane.
+/// The orientation in which the line of edge i of s passes edge j of t, as a sign; 0 if both are in one
+/// plane.
 template <class Real>
 int turn_of_edges(const Triangle<Real>& s, int i, const Triangle<Real>& t, int j) {
     return Cross<Real>(s[(i + 1) % 3] - s[i], t[(j + 1) % 3] - t[j]).dot_sign(t[j] - s[i]);
 }
 
-/// The signs that tell how two triangles lie, a bit each: i is the side of t's plane that vertex i of s is
-/// on, 3 + j the side of s's plane for vertex j of t, 6 + 3 i + j how edge i of s turns round edge j of t.
+/// The signs that determine how two triangles lie, one bit each: i is the side of t's plane on which vertex i
+/// of s is, 3 + j the side of s's plane for vertex j of t, 6 + 3 i + j the orientation of edge i of s and
+/// edge j of t.
 struct Signs {
     std::uint32_t positive = 0, negative = 0;
 
@@ -192,20 +195,20 @@ bool sorted_triangles_overlap(const Triangle<Real>& s, const Triangle<Real>& t) 
 
 }  // namespace overlap
 
-/// True if the closed triangles have a point in common: they cross, touch, or lie in one another. A triangle
-/// without area is the segment or the point that it covers.
+/// True if the closed triangles have a point in common: they cross, touch, or overlap in one plane. A
+/// triangle without area is the segment or the point that it covers.
 ///
 /// Two triangles meet if and only if an edge of one meets the other. Edge pq misses triangle abc if p and q
-/// are on one side of its plane, or if line pq turns one way round one edge and the other way round another:
-/// 15 signs of determinants, as in Segura and Feito, "Algorithms to test ray-triangle intersection", WSCG
-/// 2001, with the planes first as in Guigue and Devillers, "Fast and robust triangle-triangle overlap test
-/// using orientation predicates", Journal of Graphics Tools 8(1), 2003. Where a sign is zero, projections
-/// along the axes may still tell.
+/// are on one side of its plane, or if line pq passes two edges in opposite orientations: 15 signs of
+/// determinants, as in Segura and Feito, "Algorithms to test ray-triangle intersection", WSCG 2001, with the
+/// planes first as in Guigue and Devillers, "Fast and robust triangle-triangle overlap test using orientation
+/// predicates", Journal of Graphics Tools 8(1), 2003. If a sign is zero, projections along the axes may still
+/// decide.
 ///
-/// False on proof alone: a sign that is not certain in float is taken in double, and what is not certain
-/// there counts as zero, which separates nothing. So no overlap is missed. Triangles may count as touching if
-/// they are apart by less than double's rounding shows: some 1e-14 of their extent, for slivers up to its
-/// root, 4e-8. The order of the triangles and of their vertices changes nothing. Coordinates are 0 or of
+/// False only if that is proven: a sign that is not certain in float is computed in double, and what is not
+/// certain there counts as zero, which separates nothing. So no overlap is missed. Triangles may count as
+/// touching if their distance is lost in double's rounding: about 1e-14 of their extent, for slivers up to
+/// its root, 4e-8. The order of the triangles and of their vertices changes nothing. Coordinates are 0 or of
 /// 1e-30 to 1e30 in magnitude; infinities and NaN overlap nothing. GLSL twin:
 /// shaders/sim/collision/triangle_overlap.glsl.
 template <class Real>

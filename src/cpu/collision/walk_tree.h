@@ -8,8 +8,8 @@
 
 namespace gelatin::cpu {
 
-/// found(leaf) for each leaf whose box meets `box`, in the order of the items, in the tree at node `root`.
-/// `boxes` are those of all nodes of `trees`. GLSL twins: shaders/sim/collision/walk_trees.comp,
+/// found(leaf) for each leaf whose box meets `box`, in the order of the items, in the tree with the root
+/// `root`. `boxes` are those of all nodes of `trees`. GLSL twins: shaders/sim/collision/walk_trees.comp,
 /// sim/collision/own_tree.glsl.
 template <class Real, class Found>
 void for_leaves_near(const BoxTree& trees, std::span<const AxisBox<Real>> boxes, std::uint32_t root,

@@ -5,7 +5,7 @@
 namespace gelatin::cpu {
 namespace {
 
-// map arm + center, of three columns.
+// map arm + center, with the map in three columns.
 template <class Real>
 Vec3<Real> place(const glm::vec4& x, const glm::vec4& y, const glm::vec4& z, const glm::vec4& center,
                  const Vec3<Real>& arm) {

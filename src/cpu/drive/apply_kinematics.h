@@ -7,9 +7,9 @@
 
 namespace gelatin::cpu {
 
-/// Puts the nodes of handles where a step begins, with the velocities that take them to where it ends: from
-/// the handles' motions alone, so that nothing adds up over many steps. Released ones get their mass back,
-/// and keep place and velocity. GLSL twin: sim/drive/apply_kinematics.comp.
+/// Sets the nodes of handles to their positions at the start of a step, with the velocities that take them to
+/// those at its end. They follow from the handles' motions only, so no error accumulates. Released nodes get
+/// their mass back, and keep position and velocity. GLSL twin: sim/drive/apply_kinematics.comp.
 template <class Real>
 void apply_kinematics(const Model& model, std::span<const HandleMotion> motions, Nodes<Real>& nodes);
 

@@ -7,7 +7,7 @@
 
 namespace gelatin::cpu {
 
-/// Nodes that a hand holds. GLSL twin: sim/drive/pull.glsl.
+/// Nodes that a user pulls. GLSL twin: sim/drive/pull.glsl.
 template <class Real>
 class Pulls {
 public:
@@ -17,19 +17,19 @@ public:
     const std::vector<std::uint32_t>& nodes() const { return nodes_; }
     void move(const glm::dvec3& target) { target_ = Vec3<Real>(target); }
 
-    /// The force [N] over a step of `step` seconds, as implicit Euler has it for this node on its spring
-    /// alone: light nodes on strong springs stay stable in explicit schemes too.
+    /// The force [N] over a step of `step` seconds, as implicit Euler would find it for this node on its
+    /// spring alone: light nodes on strong springs stay stable in explicit schemes too.
     Vec3<Real> force(std::uint32_t node, const Vec4<Real>& position, const Vec3<Real>& velocity,
                      Real step) const {
         const Vec4<Real>& pull = by_node_[node];
         const Real time = step + damping_time_;
-        const Vec3<Real> way = target_ + Vec3<Real>(pull) - Vec3<Real>(position);
-        return pull.w / (Real(1) + pull.w * position.w * step * time) * (way - time * velocity);
+        const Vec3<Real> offset = target_ + Vec3<Real>(pull) - Vec3<Real>(position);
+        return pull.w / (Real(1) + pull.w * position.w * step * time) * (offset - time * velocity);
     }
 
-    /// For block descent: the target of a node [m] and its weight [N/m] with the spring's own beside them, as
-    /// of a step of `step` seconds from `start`. A damped spring pulls as a stiffer one to a place between
-    /// the hand's and the start.
+    /// For block descent: combines the target of a node [m] and its weight [N/m] with those of the spring,
+    /// for a step of `step` seconds from `start`. A damped spring acts like a stiffer one to a point between
+    /// its other end and the start.
     Vec4<Real> with_target(std::uint32_t node, const Vec4<Real>& target, const Vec3<Real>& start,
                            Real step) const {
         const Vec4<Real>& pull = by_node_[node];
@@ -41,7 +41,7 @@ public:
 
 private:
     std::vector<std::uint32_t> nodes_;
-    std::vector<Vec4<Real>> by_node_;  // place from the target [m], stiffness [N/m]; 0: not held
+    std::vector<Vec4<Real>> by_node_;  // offset from the pull's target [m], stiffness [N/m]; 0: not held
     Vec3<Real> target_{0};
     Real damping_time_ = 0;
 };

@@ -8,8 +8,8 @@
 
 namespace gelatin::cpu {
 
-/// The force of all loads on each node that has any [N], pressures on faces as they lie at `positions`;
-/// leaves the other nodes alone. GLSL twin: sim/drive/sum_loads.comp.
+/// The force of all loads on each node that has any [N], with pressures on faces as deformed at `positions`.
+/// Other nodes do not change. GLSL twin: sim/drive/sum_loads.comp.
 /// @param factors of each load @param forces shape [nodes]
 template <class Real>
 void sum_loads(const Loads& loads, std::span<const float> factors, const std::vector<Vec4<Real>>& positions,

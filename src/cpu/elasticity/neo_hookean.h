@@ -15,15 +15,15 @@
 /// Graphics 37(2), 2018). With F the deformation gradient, I = F : F, J = det F, the energy over the volume
 /// at rest V is
 ///   W / V = mu/2 (I - 3 - log((I + 1) / 4)) - 3/4 mu (J - 1) + lambda/2 (J - 1)^2,
-/// the paper's (eq. 14) but for a constant that makes it zero at rest. It is defined for flat and inverted
-/// tets, and has no other minimum than the shape at rest. GLSL twin: shaders/sim/elasticity/neo_hookean.glsl.
+/// their eq. 14 except for a constant that makes it zero at rest. It is defined for flat and inverted tets,
+/// and the rest shape is its only minimum. GLSL twin: shaders/sim/elasticity/neo_hookean.glsl.
 namespace gelatin::cpu {
 
 template <class Real>
 using Mat3 = glm::mat<3, 3, Real>;
 
-/// A tet this small, I = F : F below this, is nearly a point: it has no stress that would open it, nor a
-/// direction to open in, and gets the pressure mu in that of its rest.
+/// A tet with I = F : F below this is nearly a point. It has no stress that would open it, and no direction
+/// to open in, so it gets the pressure mu in its rest orientation.
 constexpr double kCollapsed = 0.03;
 
 /// The gradient of a corner's shape function at rest [1/m].
@@ -42,7 +42,7 @@ Vec3<Real> shape_gradient(const NeoHookeanTet& tet, std::uint32_t corner) {
     }
 }
 
-/// The gradient, over the shape at rest, of what has these values at the corners: F of positions, dF/dt of
+/// The gradient, over the rest shape, of a field with these values at the corners: F for positions, dF/dt for
 /// velocities.
 template <class Real>
 Mat3<Real> gradient_of(const NeoHookeanTet& tet, const std::array<Vec3<Real>, 4>& values) {
@@ -57,7 +57,7 @@ std::array<Vec3<Real>, 4> at_corners(const NeoHookeanTet& tet, const Vec4<Real>*
             Vec3<Real>(values[tet.node_3])};
 }
 
-/// The damping time of a tet [s]: the mean of its corners', kept in velocity.w.
+/// The damping time of a tet [s]: the mean of its corners', which velocity.w stores.
 template <class Real>
 Real mean_damping_time(const NeoHookeanTet& tet, const Vec4<Real>* velocities) {
     return Real(0.25) * (velocities[tet.node_0].w + velocities[tet.node_1].w + velocities[tet.node_2].w +
@@ -97,9 +97,9 @@ struct NeoHookeanStress {
           opening(squares < static_cast<Real>(kCollapsed) ? mu : Real(0)) {}
 };
 
-/// Viscous stress by the strain rate, as Lamé's [Pa]: 2 mu_L E + lambda_L tr E with mu_L = 3/4 mu, lambda_L =
-/// lambda - 5/8 mu and Green's strain E changing by sym(F^T change). Rotation changes none, so it is not
-/// damped.
+/// Viscous stress from the strain rate, with Lamé's moduli [Pa]: 2 mu_L E + lambda_L tr E, with mu_L = 3/4
+/// mu, lambda_L = lambda - 5/8 mu, and sym(F^T change) the rate E of Green's strain. Rotation has no rate, so
+/// it is not damped.
 template <class Real>
 Mat3<Real> viscous_stress(const Mat3<Real>& f, const Mat3<Real>& change, Real mu, Real lambda) {
     const Mat3<Real> product = glm::transpose(f) * change;
@@ -108,15 +108,16 @@ Mat3<Real> viscous_stress(const Mat3<Real>& f, const Mat3<Real>& change, Real mu
     return Real(0.75) * mu * twice_strain + Mat3<Real>((lambda - Real(0.625) * mu) * trace);
 }
 
-/// By how much less a tet is damped that is stretched: 4 / (I + 1), 1 at rest. F S grows with the square of
-/// F, elastic stress with F: what takes t at rest would take forever.
+/// The factor on the damping of a stretched tet: 4 / (I + 1), 1 at rest. F S grows with the square of F,
+/// elastic stress with F. Without it a relaxation that takes t at rest would take forever in a tet that is
+/// stretched far.
 template <class Real>
 Real viscous_share(Real squares) {
     return Real(4) / (squares + Real(1));
 }
 
-/// The force of a tet on one of its corners [N]: -V (dW/dF / V + t a F S) g with the damping time t, a the
-/// viscous share, S the viscous stress by dF/dt, and g the corner's shape gradient.
+/// The force of a tet on one of its corners [N]: -V (dW/dF / V + t a F S) g with the damping time t, the
+/// viscous share a, the viscous stress S for dF/dt, and the corner's shape gradient g.
 template <class Real>
 Vec3<Real> neo_hookean_force(const NeoHookeanTet& tet, std::uint32_t corner, const Vec4<Real>* positions,
                              const Vec4<Real>* velocities) {
@@ -136,11 +137,12 @@ Vec3<Real> neo_hookean_force(const NeoHookeanTet& tet, std::uint32_t corner, con
     return -volume * traction;
 }
 
-/// The elastic energy as one corner sees it, g being its shape gradient and s = cof F g the slope of J:
+/// The elastic energy as a function of one corner, with g its shape gradient and s = cof F g the gradient of
+/// J:
 ///   force   -V (shear F g + pressure s)
 ///   hessian V (shear |g|^2 + 2 mu / (I + 1)^2 (F g) (F g)^T + lambda s s^T),
-/// which is the energy's own, for J is linear in one corner, and positive semi-definite for any F.
-/// @param bound of the tet's part of the volume term, which is added as add_tet_volume does
+/// which is exact, because J is linear in one corner, and positive semi-definite for any F.
+/// @param bound of the tet's part of the volume term, which is added as in add_tet_volume
 template <class Real>
 void add_neo_hookean(const Vec3<Real>& g, const Mat3<Real>& f, Real volume, Real mu, Real lambda,
                      const VolumeBound<Real>& bound, NodeTerms<Real>& terms) {
@@ -156,10 +158,10 @@ void add_neo_hookean(const Vec3<Real>& g, const Mat3<Real>& f, Real volume, Real
     terms.hessian.add_outer(volume * (lambda + bound.modulus), slope);
 }
 
-/// Its viscosity over a step that brings the gradient from `start` to `f`: the dissipation
+/// Its viscosity over a step that changes the gradient from `start` to `f`: the dissipation
 ///   V t a / (2 h) dE : C : dE,   dE = (F^T F - start^T start) / 2,
 /// with C the stiffness of viscous_stress, and a the viscous share at the start. The part of the Hessian that
-/// is negative where the tet gets shorter is left out. @param damping t / h
+/// is negative where the tet gets shorter is omitted. @param damping t / h
 template <class Real>
 void add_viscosity(const Vec3<Real>& g, const Mat3<Real>& f, const Mat3<Real>& start, Real volume, Real mu,
                    Real lambda, Real damping, NodeTerms<Real>& terms) {

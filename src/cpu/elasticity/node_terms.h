@@ -25,8 +25,8 @@ struct SymmetricMatrix {
     }
 };
 
-/// What elements of a body add to a node's part of the objective of a step: minus its gradient, which is a
-/// force [N], and a positive semi-definite second derivative [N/m]. GLSL twin:
+/// The contribution of a body's elements to a node's part of the objective of a step: minus its gradient,
+/// which is a force [N], and a positive semi-definite second derivative [N/m]. GLSL twin:
 /// shaders/sim/elasticity/node_terms.glsl.
 template <class Real>
 struct NodeTerms {
@@ -34,7 +34,7 @@ struct NodeTerms {
     SymmetricMatrix<Real> hessian;
 };
 
-/// The way out for a node that is where a neighbour is; not the same for all nodes.
+/// The direction in which a node leaves a neighbour that coincides with it; it differs between nodes.
 template <class Real>
 Vec3<Real> any_direction(std::uint32_t node) {
     std::uint32_t bits = (node + 1) * 0x9E3779B9u;
@@ -48,14 +48,15 @@ Vec3<Real> any_direction(std::uint32_t node) {
     return v / glm::length(v);
 }
 
-/// The spring to a node `apart` from this one. With l the length of that, n its direction, L the rest length,
-/// k the stiffness, t the damping time, h the step and l_0 how long the spring was when it began, the damper
+/// The spring to a node at the offset `apart` from this one. With l its length, n its direction, L the rest
+/// length, k the stiffness, t the damping time, h the step and l_0 the length at the start of the step, the
+/// damper
 ///   k t / (2 h) (l - l_0)^2
 /// makes it a spring of stiffness K = k (1 + t / h) and rest length M = (L + t / h l_0) / (1 + t / h):
 ///   force   K (l - M) n
 ///   hessian K (n n^T + max(0, 1 - M / l) (1 - n n^T)).
-/// The second term of the energy's own Hessian is negative where the spring is shorter than M, and is left
-/// out there. @param damping t / h @param if_coincident minus n where l is zero
+/// The second term of the energy's own Hessian is negative where the spring is shorter than M, and is omitted
+/// there. @param damping t / h @param if_coincident minus n if l is zero
 template <class Real>
 void add_spring(const Vec3<Real>& apart, const Vec3<Real>& if_coincident, Real start_length, Real rest_length,
                 Real stiffness, Real damping, NodeTerms<Real>& terms) {
@@ -69,14 +70,14 @@ void add_spring(const Vec3<Real>& apart, const Vec3<Real>& if_coincident, Real s
     terms.hessian.add_identity(across);
 }
 
-/// Flatter than this, over its volume at rest, a tet resists.
+/// Below this fraction of its rest volume, a tet resists.
 constexpr double kFlattest = 0.5;
 
-/// A tet as one of its corners sees it, with v its volume, V that at rest, J = v / V, J_0 = kFlattest and K
-/// its modulus: W = V K / 2 (J_0 - J)^2 where J < J_0, and nothing else. v is linear in one corner, so
+/// A tet as seen from one of its corners, with v its volume, V that at rest, J = v / V, J_0 = kFlattest and K
+/// its modulus: W = V K / 2 (J_0 - J)^2 where J < J_0, otherwise 0. v is linear in one corner, so
 ///   force   V K (J_0 - J) dJ/dx,   hessian V K dJ/dx dJ/dx^T.
-/// It takes springs out of the mirrored and tangled shapes in which they would rest as well.
-/// @param face the other corners, counter-clockwise as the corner at `position` sees them
+/// It moves springs out of mirrored and tangled shapes, in which they would also be at rest.
+/// @param face the other corners, counter-clockwise as seen from the corner at `position`
 template <class Real>
 void add_flat_tet(const Vec3<Real>& position, const std::array<Vec3<Real>, 3>& face, Real rest_volume,
                   Real modulus, NodeTerms<Real>& terms) {
@@ -87,9 +88,9 @@ void add_flat_tet(const Vec3<Real>& position, const std::array<Vec3<Real>, 3>& f
     terms.hessian.add_outer(rest_volume * modulus, slope);
 }
 
-/// kappa phi'(J - 1) of the volume term [Pa], J being the volume round a node over that at rest: phi(u) = u^2
-/// / 2 where kappa > 0. Where it is negative, the term takes energy out of a body that grows, and must end
-/// somewhere: phi'(u) = u (1 - (u / a)^2)^2 up to |u| = a = 1/2, and nothing beyond.
+/// kappa phi'(J - 1) of the volume term [Pa], with J the volume around a node relative to that at rest.
+/// phi(u) = u^2 / 2 if kappa > 0. If it is negative, the term takes energy out of a body that grows, and must
+/// be bounded: phi'(u) = u (1 - (u / a)^2)^2 up to |u| = a = 1/2, and 0 beyond.
 template <class Real>
 Real volume_stress(Real ratio, Real kappa) {
     const Real u = ratio - Real(1);
@@ -98,16 +99,17 @@ Real volume_stress(Real ratio, Real kappa) {
     return kappa * u * left * left;
 }
 
-/// Of a tet's part of the volume term p - k J_0 and k, below [Pa].
+/// For a tet's part of the volume term: p - k J_0, and k, as below [Pa].
 template <class Real>
 struct VolumeBound {
     Real offset{0}, modulus{0};
 };
 
-/// A tet's part of the volume term as one of its corners sees it. With p the mean of volume_stress at its
-/// corners and J_0 its own J, both at the last look, and k the mean |kappa| of its corners, the term is at
-/// most
-///   W = V (p (J - J_0) + k / 2 (J - J_0)^2) and what it was then.
+/// A tet's part of the volume term, as seen from one of its corners. With p the mean of volume_stress at its
+/// corners and J_0 its own J, both at the last evaluation, and k the mean |kappa| of its corners, the term is
+/// at most
+///   W = V (p (J - J_0) + k / 2 (J - J_0)^2)
+/// plus its value then.
 /// @param face as in add_flat_tet
 template <class Real>
 void add_tet_volume(const Vec3<Real>& position, const std::array<Vec3<Real>, 3>& face, Real rest_volume,
@@ -118,9 +120,9 @@ void add_tet_volume(const Vec3<Real>& position, const std::array<Vec3<Real>, 3>&
     terms.hessian.add_outer(rest_volume * bound.modulus, slope);
 }
 
-/// matrix^-1 v by the square-root-free Cholesky decomposition; zero along what has no stiffness. Pivots that
-/// drown in the rounding of what they are left over from count as that: the way may come out too short then,
-/// never too long.
+/// matrix^-1 v by the square-root-free Cholesky decomposition; zero along directions without stiffness.
+/// Pivots that are smaller than the rounding error of their operands count as zero stiffness: the result may
+/// then be too short, never too long.
 template <class Real>
 Vec3<Real> solve(const SymmetricMatrix<Real>& matrix, const Vec3<Real>& v) {
     const auto inverse = [](Real pivot, Real diagonal) {

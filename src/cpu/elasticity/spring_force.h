@@ -8,9 +8,8 @@
 namespace gelatin::cpu {
 
 /// Force on endpoint a of the spring a-b [N]: k (l - rest_length + t l') towards b, with the damping time t
-/// [s] and l' the rate at which the spring gets longer (damping along the spring: Nealen et al. 2006, eq. 5,
-/// with k_d = k t). Coincident endpoints give zero, not NaN. GLSL twin:
-/// shaders/sim/elasticity/spring_force.glsl.
+/// [s] and l' the rate of change of the length (damping along the spring: Nealen et al. 2006, eq. 5, with k_d
+/// = k t). Coincident endpoints give zero, not NaN. GLSL twin: shaders/sim/elasticity/spring_force.glsl.
 template <class Real>
 Vec3<Real> spring_force(const Vec3<Real>& a, const Vec3<Real>& b, const Vec3<Real>& velocity_a,
                         const Vec3<Real>& velocity_b, Real rest_length, Real stiffness, Real damping_time) {
@@ -22,7 +21,8 @@ Vec3<Real> spring_force(const Vec3<Real>& a, const Vec3<Real>& b, const Vec3<Rea
     return n * (stiffness * (length - rest_length + damping_time * rate));
 }
 
-/// The same from the nodes' own fourth components: the damping time of a spring is the mean of its ends'.
+/// The same with the damping time from the nodes' fourth components: a spring uses the mean of its two
+/// nodes'.
 template <class Real>
 Vec3<Real> spring_force(const Vec4<Real>& a, const Vec4<Real>& b, const Vec4<Real>& velocity_a,
                         const Vec4<Real>& velocity_b, Real rest_length, Real stiffness) {

@@ -1,4 +1,4 @@
-// A tet a lane, compiled once for each instruction set.
+// One tet in each lane; compiled once for each instruction set.
 #include "cpu/elasticity/volume_ratios.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ HWY_INLINE Vector six_volumes(const Columns& a, const Columns& b, const Columns&
     return hn::MulAdd(x, wx, hn::MulAdd(y, wy, hn::Mul(z, wz)));
 }
 
-// Of kLanes tets.
+// For kLanes tets.
 HWY_INLINE Vector ratios_of(Lanes d, const glm::uvec4* tets, const TetRest* rests,
                             const glm::vec4* positions) {
     const auto corner = [&](int k) HWY_ATTR {
@@ -51,7 +51,7 @@ bool are_within(float least, float most, const Model& model, const Range& tets, 
         if (ratios != nullptr) hn::StoreU(ratio, d, ratios + t);
     }
     if (t == tets.end()) return all;
-    // The last ones, filled up with one of them.
+    // The last tets, padded with one of them.
     const std::size_t count = tets.end() - t;
     std::array<glm::uvec4, kLanes> last;
     std::array<TetRest, kLanes> rests;

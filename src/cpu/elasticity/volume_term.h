@@ -8,11 +8,11 @@
 #include "cpu/nodes.h"
 #include "model/model.h"
 
-/// The volume term (model/elasticity/volume_term.h) as it is, not as block descent bounds it
+/// The exact volume term (model/elasticity/volume_term.h), not the bound that block descent uses
 /// (cpu/elasticity/node_terms.h). GLSL twins: shaders/sim/elasticity/volume_term.glsl, volume_force.glsl.
 namespace gelatin::cpu {
 
-/// phi(J - 1), whose slope is volume_stress over kappa.
+/// phi(J - 1), whose derivative is volume_stress divided by kappa.
 template <class Real>
 Real volume_potential(Real ratio, Real kappa) {
     const Real u = ratio - Real(1);
@@ -21,7 +21,7 @@ Real volume_potential(Real ratio, Real kappa) {
     return s * (Real(3) - Real(3) * s + s * s) / Real(24);
 }
 
-/// J_n: the volume round node n over that at rest; 1 where there is none.
+/// J_n: the volume around node n relative to that at rest; 1 if there is none.
 /// @param position of a node, as a Vec3<Real>
 template <class Real, class Position>
 Real volume_ratio_round(const VolumeTerm& term, std::uint32_t n, const Position& position) {

@@ -19,8 +19,8 @@ void prefetch(const T* first, std::size_t count) {
     }
 }
 
-// Nodes walk through their slice in strides, and gather all over their object: the hardware's prefetching
-// follows neither.
+// Nodes read their slice with a stride, and gather from their whole object: the hardware's prefetching
+// handles neither.
 void prefetch_springs(const HalfSprings& springs, std::uint32_t slice) {
     if (slice + 1 >= springs.slice_starts.size()) return;
     const std::uint32_t start = springs.slice_starts[slice], count = springs.slice_starts[slice + 1] - start;

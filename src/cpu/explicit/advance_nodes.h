@@ -8,7 +8,7 @@
 
 namespace gelatin::cpu {
 
-/// What one pass of an explicit scheme (model/explicit/explicit_scheme.h) reads and writes; arrays of shape
+/// Input and output of one pass of an explicit scheme (model/explicit/explicit_scheme.h); arrays of shape
 /// [nodes].
 template <class Real>
 struct Pass {
@@ -17,13 +17,13 @@ struct Pass {
     Real resting_speed;  ///< below which nodes do not bounce off colliders [m/s]
     Real step;           ///< h [s]
     Real weight;         ///< of this pass in the sum
-    Real next_step;      ///< where the next pass evaluates: h next [s]
-    bool first;          ///< the sums start here
-    bool last;           ///< writes the step's result
+    Real next_step;      ///< offset of the next pass: h next [s]
+    bool first;          ///< the first pass: it initialises the sums
+    bool last;           ///< the last pass: it writes the step's result
     bool semi_implicit;
 
-    const Vec4<Real>* load_forces;                      ///< of loads [N]; null where there are none
-    const Real* volume_stresses;                        ///< of the volume term [Pa]; null where there is none
+    const Vec4<Real>* load_forces;                      ///< of loads [N]; null without loads
+    const Real* volume_stresses;                        ///< of the volume term [Pa]; null without it
     const Vec4<Real>*base_positions, *base_velocities;  ///< at the step's start
     const Vec4<Real>*positions, *velocities;            ///< where forces are evaluated
     Vec4<Real>*sum_positions, *sum_velocities;          ///< null for schemes of one pass
@@ -36,7 +36,7 @@ template <class Real>
 Pass<Real> make_pass(const Model& model, const ExplicitScheme& scheme, int index, double step,
                      const Nodes<Real>& base, const Nodes<Real>& at, Nodes<Real>& out, Nodes<Real>& sums);
 
-/// Before the pass, where the model has a volume term: its stress round each node of `slices` [Pa].
+/// Runs before the pass, if the model has a volume term: its stress around each node of `slices` [Pa].
 template <class Real>
 void find_volume_stresses(const Model& model, const Nodes<Real>& at, std::span<Real> stresses, Range slices);
 
@@ -49,13 +49,13 @@ void find_volume_stresses_simd(const Model& model, const Nodes<float>& at, std::
 template <class Real>
 void advance_nodes(const Pass<Real>& pass, Range slices);
 
-/// The same in float with SIMD, for the processor it runs on; differs from the plain one by rounding alone.
+/// The same in float with SIMD, for the present processor; differs from the plain one by rounding only.
 void advance_nodes_simd(const Pass<float>& pass, Range slices);
 
 /// The instruction set that advance_nodes_simd uses here: "AVX3_ZEN4".
 const char* simd_target();
 
-/// The paper's way, first loop: each spring writes the force on its first endpoint [N].
+/// The paper's method, first loop: each spring writes the force on its first endpoint [N].
 template <class Real>
 void write_spring_forces(const Pass<Real>& pass, std::span<Vec4<Real>> spring_forces, Range springs);
 

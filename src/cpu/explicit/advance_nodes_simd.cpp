@@ -1,9 +1,9 @@
-// Eight nodes at a time, one a lane; compiled once for each instruction set and chosen at run time by
-// Highway. The lanes are neighbours in a slice of HalfSprings, so springs are read in order and only the
-// other ends are gathered: as rows (one 16-byte load a node) that are turned into columns in registers. What
-// large models wait for is memory: strides within slices and gathers defeat the hardware's prefetching, so it
-// is done by hand, a slice and a small object ahead (with it, a step of 10 times as many springs takes 10
-// times as long, without it 20 times).
+// Eight nodes at a time, one in each lane; compiled once for each instruction set and selected at run time by
+// Highway. The lanes are neighbours in a slice of HalfSprings. So springs are read in order and only the
+// other ends are gathered: as rows (one 16-byte load for each node) that are transposed to columns in
+// registers. Large models are limited by memory: strides within slices and gathers defeat the hardware's
+// prefetching, so it is done explicitly, one slice and one small object ahead (with it, a step of 10 times as
+// many springs takes 10 times as long, without it 20 times).
 #include "cpu/explicit/advance_nodes.h"
 
 #include "cpu/elasticity/volume_term.h"
@@ -23,7 +23,7 @@ HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR
 
-// Below SSSE3 there is nothing to gain.
+// Below SSSE3 SIMD gains nothing.
 void advance_slices(const Pass<float>& pass, Range slices) {
     advance_nodes<float>(pass, slices);
 }
@@ -38,7 +38,7 @@ struct Node {
     Columns position, velocity;
 };
 
-// cpu::spring_force for a lane each, added to `force`.
+// cpu::spring_force for each lane, added to `force`.
 HWY_INLINE void add_spring_force(Lanes d, const Node& a, const Node& b, Vector rest_length, Vector stiffness,
                                  Vector3& force) {
     const Vector dx = hn::Sub(b.position.x, a.position.x);

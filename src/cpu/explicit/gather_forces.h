@@ -7,8 +7,8 @@
 
 namespace gelatin::cpu {
 
-/// How far ahead of a node others are fetched into the cache: nodes of a small object are gathered from all
-/// over it, of a large one from a narrower band.
+/// How far ahead of a node other nodes are prefetched: nodes of a small object gather from all of it, nodes
+/// of a large one from a narrower band.
 constexpr std::uint32_t kNodesAhead = 4096;
 
 /// The force of all neo-Hookean tets of node n [N], in their order.
@@ -47,8 +47,7 @@ inline Vec3<Real> gather_spring_forces(const Pass<Real>& pass, std::uint32_t n) 
     return force;
 }
 
-/// The term's force on node n [N]: each tet of volume v pulls with -p dv/dx, p the mean stress of its
-/// corners.
+/// The term's force on node n [N]: each tet of volume v acts with -p dv/dx, p the mean stress of its corners.
 template <class Real>
 Vec3<Real> gather_volume_forces(const Pass<Real>& pass, std::uint32_t n) {
     Vec3<Real> sum(0);  // -24 times the force

@@ -5,9 +5,9 @@
 
 namespace gelatin::cpu {
 
-/// One node's part of a pass, given the force of its springs [N]. A node without inverse mass moves with the
-/// velocity that it has. GLSL twin: sim/explicit/integrate_node.glsl.
-/// Written on four components, the last one carried along, so that compilers make one vector of them.
+/// One node's part of a pass, given the force of its springs [N]. A node without inverse mass moves with its
+/// velocity. GLSL twin: sim/explicit/integrate_node.glsl. Written for four components, of which the last is
+/// passed through, so that compilers use one vector.
 template <class Real>
 inline void integrate_node(const Pass<Real>& pass, std::uint32_t n, const Vec3<Real>& force) {
     using V4 = Vec4<Real>;

@@ -1,4 +1,5 @@
-// cpu::gather_tet_forces for a node a lane. Compiled once for each instruction set, as simd_columns-inl.h is.
+// cpu::gather_tet_forces with one node in each lane. Compiled once for each instruction set, like
+// simd_columns-inl.h.
 #if defined(GELATIN_CPU_TET_FORCES) == defined(HWY_TARGET_TOGGLE)
 #ifdef GELATIN_CPU_TET_FORCES
 #undef GELATIN_CPU_TET_FORCES
@@ -23,7 +24,7 @@ HWY_INLINE Vector3 multiply(const Matrix3& m, const Vector3& v) {
     return add_scaled(add_scaled(scaled(v.x, m.x), v.y, m.y), v.z, m.z);
 }
 
-// A tet a lane, and the gradient of the corner that the lane's node is.
+// One tet in each lane, and the gradient of the corner that is the lane's node.
 struct TetLanes {
     const NeoHookeanTet* tets[kLanes];
     Columns gradients[3];  // w: volume, mu, lambda
@@ -56,7 +57,7 @@ struct TetLanes {
         return load_columns(d, [&](std::size_t l) { return &values[tets[l]->*node].x; });
     }
 
-    // As cpu::gradient_of; adds the values' fourth components up.
+    // As cpu::gradient_of; also adds up the fourth components of the values.
     HWY_INLINE Matrix3 gradient_of(Lanes d, const Vec4<float>* values, Vector& sum_of_w) const {
         const Columns at_0 = at_corner(d, values, &NeoHookeanTet::node_0),
                       at_1 = at_corner(d, values, &NeoHookeanTet::node_1),
@@ -87,7 +88,7 @@ HWY_INLINE Vector3 viscous_traction(Lanes d, const Matrix3& f, const Matrix3& ra
     return add_scaled(scaled(shear, multiply(twice_strain, tet.own)), dilation, tet.own);
 }
 
-// As cpu::neo_hookean_force, over minus the volume.
+// As cpu::neo_hookean_force, divided by minus the volume.
 HWY_INLINE Vector3 traction(Lanes d, const Pass<float>& pass, const TetLanes& tet, bool is_damped) {
     const Vector one = hn::Set(d, 1.0f), mu = tet.gradients[1].w, lambda = tet.gradients[2].w;
     Vector unused;
@@ -119,7 +120,7 @@ HWY_INLINE void add_tet_forces(Lanes d, const Pass<float>& pass, std::uint32_t f
     }
     for (std::uint32_t k = 0; k < most; ++k) {
         std::uint32_t entries[kLanes];
-        HWY_ALIGN float share[kLanes];  // 0 where the lane's node has no more tets
+        HWY_ALIGN float share[kLanes];  // 0 if the lane's node has no more tets
         for (std::uint32_t l = 0; l < kLanes; ++l) {
             const std::uint32_t e = corners.starts[first + l] + k;
             const bool exists = e < corners.starts[first + l + 1];

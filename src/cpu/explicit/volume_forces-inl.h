@@ -1,5 +1,5 @@
-// cpu::volume_stress_round and gather_volume_forces for a node a lane. Compiled once for each instruction
-// set, as simd_columns-inl.h is.
+// cpu::volume_stress_round and gather_volume_forces with one node in each lane. Compiled once for each
+// instruction set, like simd_columns-inl.h.
 #if defined(GELATIN_CPU_VOLUME_FORCES) == defined(HWY_TARGET_TOGGLE)
 #ifdef GELATIN_CPU_VOLUME_FORCES
 #undef GELATIN_CPU_VOLUME_FORCES
@@ -14,8 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {
 #if HWY_TARGET != HWY_SCALAR
 
-// Twice the area of the face that is opposite each lane's node in its tet, outwards as that sees it; `corner`
-// is where it begins.
+// Twice the area of the face opposite to each lane's node in its tet, outwards as seen from the node;
+// `corner` is the face's first corner.
 HWY_INLINE Vector3 opposite_area(Lanes d, const Vec4<float>* positions, const TetCorner* tets,
                                  Columns& corner) {
     corner = load_columns(d, [&](std::size_t l) { return &positions[tets[l].a].x; });

@@ -19,7 +19,7 @@ struct Chunk {
     Range nodes, springs, tets, faces;
 };
 
-// Runs of nodes, springs, neo-Hookean tets and faces of one object each; summed in parallel, added up in
+// Ranges of nodes, springs, neo-Hookean tets and faces of one object each; summed in parallel, added up in
 // order.
 std::vector<Chunk> make_chunks(const Model& model) {
     std::vector<Chunk> chunks;
@@ -44,7 +44,7 @@ void add_node(const Model& model, const Nodes<Real>& nodes, std::uint32_t n, Obj
     const glm::dvec3 position(nodes.positions[n]);
     const glm::dvec3 velocity(nodes.velocities[n]);
     if (nodes.positions[n].w > Real(0)) {
-        const double mass = 1.0 / static_cast<double>(nodes.positions[n].w);  // as the integration has it
+        const double mass = 1.0 / static_cast<double>(nodes.positions[n].w);  // as in the integration
         sums.momentum += mass * velocity;
         sums.kinetic_energy += 0.5 * mass * glm::dot(velocity, velocity);
         sums.potential_energy -= mass * glm::dot(glm::dvec3(model.gravity), position);
@@ -58,7 +58,7 @@ void add_node(const Model& model, const Nodes<Real>& nodes, std::uint32_t n, Obj
     sums.contacts += touches ? 1 : 0;
 }
 
-// Of the volume term, round one node [J].
+// The energy of the volume term around one node [J].
 template <class Position>
 double volume_energy(const VolumeTerm& term, std::uint32_t n, const Position& position) {
     const glm::dvec2 node(term.nodes[n]);

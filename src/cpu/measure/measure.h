@@ -7,8 +7,8 @@
 
 namespace gelatin::cpu {
 
-/// Sums over each object, in double whatever the precision of the nodes; the same bits for any number of
-/// threads. GLSL twins: shaders/sim/measure/measure_nodes.comp and measure_faces.comp.
+/// Sums over each object, in double for any precision of the nodes; the same bits for any number of threads.
+/// GLSL twins: shaders/sim/measure/measure_nodes.comp and measure_faces.comp.
 template <class Real>
 std::vector<ObjectMeasure> measure(const Model& model, const Nodes<Real>& nodes);
 

@@ -12,7 +12,7 @@
 namespace gelatin::cpu {
 namespace {
 
-// What a part of the nodes has to say.
+// The result for a range of nodes.
 struct Found {
     std::uint32_t node = kNoAlarm.node, count = 0, speed = 0;
 };
@@ -26,13 +26,13 @@ bool is_finite(const Vec4<Real>& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// Half the square of its speed: the kinetic energy of a kilogram.
+// Half the square of its speed: the kinetic energy of one kilogram.
 template <class Real>
 Real specific_energy(const Vec4<Real>& velocity) {
     return Real(0.5) * glm::dot(Vec3<Real>(velocity), Vec3<Real>(velocity));
 }
 
-// For nearly all nodes true, and without a branch. What is not finite fails the comparison, for zero times
+// True for nearly all nodes, without a branch. What is not finite fails the comparison, because zero times
 // infinity is not a number.
 template <class Real>
 bool is_well(const Vec4<Real>& position, const Vec4<Real>& velocity, Real most_energy) {

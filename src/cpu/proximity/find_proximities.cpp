@@ -30,7 +30,7 @@ Proximity<Real> make_proximity(std::uint32_t first, std::uint32_t second, const 
     return {first, second, std::sqrt(nearest.squared_distance), nearest.apart, {1 - s, s, 1 - t, t}};
 }
 
-// The same as the other edge sees it.
+// The same as seen from the other edge.
 template <class Real>
 Proximity<Real> mirrored(const Proximity<Real>& p) {
     return {p.second, p.first, p.distance, -p.apart, {p.weights.z, p.weights.w, p.weights.x, p.weights.y}};
@@ -85,7 +85,7 @@ void FindProximities<Real>::search(std::uint32_t leaf, std::span<const Vec4<Real
     for (std::uint32_t edge = first.y; edge < end.y; ++edge) test_edge(edge, positions, found);
 }
 
-// Objects in ascending order, the own one at its place among them: so leaves, and what is in them, ascend.
+// Objects in ascending order, the own one among them. So leaves, and what is in them, are ascending too.
 template <class Real>
 void FindProximities<Real>::find_near(std::uint32_t leaf, Found& found) const {
     const std::uint32_t object = model_->faces[model_->face_trees.nodes[leaf].first_item].object;
@@ -151,7 +151,7 @@ void FindProximities<Real>::test_edge(std::uint32_t edge, std::span<const Vec4<R
     };
     for (const Near& near : found.edges) {
         if (!meet(box, near.box) || share_node(parts.edges[edge], parts.edges[near.index])) continue;
-        // In one order, so that both edges are told the same.
+        // In a fixed order, so that both edges get the same result.
         const auto [first, second] = std::minmax(edge, near.index);
         const EdgeToEdge<Real> nearest = nearest_points<Real>(ends(first), ends(second));
         if (!(nearest.squared_distance < squared_radius_)) continue;

@@ -11,10 +11,10 @@
 
 namespace gelatin::cpu {
 
-/// Finds what is near: for each surface node the faces, for each surface edge the edges, nearer than a
-/// radius, of the objects that may touch and, with `own`, of the same object; faces that have the node and
-/// edges that share a node are left out (docs/collision.md). The same result, in the same order, for any
-/// number of threads. GPU twin: gpu::FindProximities.
+/// Finds proximities: for each surface node the faces, and for each surface edge the edges, that are nearer
+/// than a radius, in the objects that may touch and, with `own`, in the same object. Faces that have the
+/// node, and edges that share a node, are excluded (docs/collision.md). The same result, in the same order,
+/// for any number of threads. GPU twin: gpu::FindProximities.
 template <class Real>
 class FindProximities {
 public:
@@ -25,8 +25,8 @@ public:
     /// @pre the boxes and pairs of objects are those of `positions`
     void run(std::span<const Vec4<Real>> positions);
 
-    /// All that was found: nodes and faces, then edges. Those of query q, node q of SurfaceParts::nodes or
-    /// edge q - nodes, are starts()[q] .. starts()[q + 1], in ascending order of `second`.
+    /// All results: nodes and faces, then edges. Those of query q, node q of SurfaceParts::nodes or edge q -
+    /// nodes, are starts()[q] .. starts()[q + 1], in ascending order of `second`.
     const std::vector<Proximity<Real>>& proximities() const { return proximities_; }
     const std::vector<std::uint32_t>& starts() const { return starts_; }  ///< shape [nodes + edges + 1]
     ProximityMeasure measure() const;
@@ -37,9 +37,9 @@ private:
         std::uint32_t index;
         AxisBox<Real> box;
     };
-    // What the nodes and edges of a few leaves have found.
+    // The results of the nodes and edges of a few leaves.
     struct Found {
-        std::vector<Near> faces, edges;  // near the present leaf, ascending
+        std::vector<Near> faces, edges;  // near the current leaf, ascending
         std::vector<Proximity<Real>> node_face, edge_edge;
     };
     void search(std::uint32_t leaf, std::span<const Vec4<Real>> positions, Found& found);
@@ -55,8 +55,8 @@ private:
     Real squared_radius_;  // [m^2]
     bool own_;
     std::vector<AxisBox<Real>> edge_boxes_;  // shape [edges]
-    std::vector<Found> found_;               // of leaves in their order, kLeavesATask each
-    std::vector<std::uint32_t> starts_;      // counts, until they are summed up
+    std::vector<Found> found_;               // in the leaves' order, kLeavesATask in each
+    std::vector<std::uint32_t> starts_;      // counts, until they are summed
     std::vector<Proximity<Real>> proximities_;
 };
 

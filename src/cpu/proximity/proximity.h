@@ -16,13 +16,14 @@ struct Proximity {
     std::uint32_t second;  ///< face, or index into SurfaceParts::edges
     Real distance;         ///< [m], >= 0
     Vec3<Real> apart;      ///< from the first one's nearest point to the second's [m]
-    Vec4<Real> weights;  ///< node and face: of the face's corners, 0; edges: 1 - s, s, 1 - t, t of their ends
+    Vec4<Real> weights;    ///< node and face: weights of the face's corners, 0; edges: 1 - s, s, 1 - t, t of
+                           ///< their ends
 
     bool operator==(const Proximity&) const = default;
 };
 
-/// The nearest points of the two [m], first and second. Taken from corners on, far from the origin too:
-/// weights add up to 1 but for rounding.
+/// The nearest points of the two [m], first and second. They are computed relative to corners, so that they
+/// are accurate far from the origin too: weights add up to 1 only up to rounding.
 template <class Real>
 using NearestPoints = std::array<Vec3<Real>, 2>;
 

@@ -63,7 +63,8 @@ CollisionBuffers::CollisionBuffers(const Model& model)
     const std::vector<BoundingBox> boxes = describe_objects(model);
     bounding_boxes = gl::Buffer<BoundingBox>(std::span(boxes));
 
-    const std::vector<PairRow> no_pairs(model.objects.size(), PairRow{0, 0, 0, 0});  // until they are sought
+    const std::vector<PairRow> no_pairs(model.objects.size(),
+                                        PairRow{0, 0, 0, 0});  // until they are searched for
     pair_rows = gl::Buffer<PairRow>(std::span(no_pairs));
     const AllPairs all(model);
     const std::uint64_t faces = model.faces.size();

@@ -12,13 +12,13 @@
 
 namespace gelatin::gpu {
 
-/// True where faces are sought in trees, else by brute force.
+/// True if faces are found in trees, false for brute force.
 constexpr bool walks_trees(BroadPhase broad_phase) {
     return broad_phase == BroadPhase::hierarchy || broad_phase == BroadPhase::depth;
 }
 
-/// What the stages of collision hand to one another, for any number of objects. Sizes are for what
-/// may happen, up to limits of memory; what does not fit is counted, never forgotten in silence.
+/// The buffers that the stages of collision pass to one another, for any number of objects. Sizes are
+/// estimates within limits of memory; what does not fit is counted and reported.
 struct CollisionBuffers {
     TreeBuffers face_trees;                  ///< one an object
     gl::Buffer<Box> face_boxes;              ///< shape [faces]
@@ -28,8 +28,8 @@ struct CollisionBuffers {
     gl::Buffer<ObjectPair> object_pairs;
     gl::Buffer<std::uint32_t> candidates;       ///< faces
     gl::Buffer<FacePair> face_pairs;            ///< whose boxes meet
-    gl::Buffer<std::uint32_t> face_collisions;  ///< two bits a face, by pair: a Touch
-    gl::Buffer<Dispatch> dispatches;            ///< by dispatch_slots
+    gl::Buffer<std::uint32_t> face_collisions;  ///< two bits for each face, by pair: a Touch
+    gl::Buffer<Dispatch> dispatches;            ///< see shaders/sim/collision/pairs.glsl
 
     gl::Buffer<std::uint32_t> face_views, object_views;  ///< see shaders/sim/depth/hidden.glsl
     gl::BufferTexture face_view_texels, object_view_texels;
@@ -50,7 +50,7 @@ struct CollisionBuffers {
     /// For programs that include sim/depth/hidden.glsl.
     void bind_hidden(const gl::Program& program) const;
 
-    /// Runs `program` over what the GPU itself has counted. @param slot one of dispatch_slots
+    /// Runs `program` over a list that the GPU has counted. @param slot one of dispatch_slots
     void run(const gl::Program& program, std::uint32_t slot) const;
 };
 

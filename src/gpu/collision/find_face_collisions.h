@@ -8,7 +8,7 @@ namespace gelatin::gpu {
 
 /// Face against face in the pairs of objects: shaders/sim/collision/list_candidates.comp, scan_tests.comp,
 /// walk_trees.comp or cull_face_pairs.comp, test_face_pairs.comp. All dispatches are indirect: nothing runs
-/// where nothing is near.
+/// if no faces are near.
 class FindFaceCollisions {
 public:
     explicit FindFaceCollisions(const CollisionSettings& settings);

@@ -9,7 +9,7 @@
 
 namespace gelatin::gpu {
 
-/// The pairs of objects that may touch, each object's in a row:
+/// The pairs of objects that may touch, one row for each object:
 /// shaders/sim/collision/count_object_pairs.comp, scan_pair_rows.comp, list_object_pairs.comp.
 class FindObjectPairs {
 public:

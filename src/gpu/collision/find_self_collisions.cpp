@@ -9,8 +9,7 @@ namespace gelatin::gpu {
 namespace {
 
 constexpr std::size_t kMostGroups = 65535;
-constexpr std::size_t kMostFaces =
-    kMostGroups * 64;  // of a list that is gone through by one row of work groups
+constexpr std::size_t kMostFaces = kMostGroups * 64;  // of a list that one row of work groups processes
 
 void check_size(const Model& model, std::size_t node_chunks, std::size_t face_chunks) {
     if (model.faces.size() <= kMostFaces && node_chunks <= kMostGroups && face_chunks <= kMostGroups) return;

@@ -7,12 +7,12 @@
 
 namespace gelatin::gpu {
 
-/// The faces that touch others of their own object: shaders/sim/collision/find_restless_objects.comp, which
-/// is all that runs over bodies that are hardly deformed, list_restless_chunks.comp, fit_rest_shapes.comp,
+/// The faces that touch others of their own object. Only shaders/sim/collision/find_restless_objects.comp
+/// runs for bodies that are hardly deformed; then list_restless_chunks.comp, fit_rest_shapes.comp,
 /// list_restless_faces.comp, walk_own_trees.comp, test_own_face_pairs.comp. CPU twin: cpu::SelfCollision.
 class FindSelfCollisions {
 public:
-    /// @throws InvalidInput for more faces or chunks than one dispatch goes through
+    /// @throws InvalidInput for more faces or chunks than one dispatch can process
     explicit FindSelfCollisions(const Model& model);
 
     /// Ends with the barriers that the next stage needs. @pre the boxes are those of `nodes`

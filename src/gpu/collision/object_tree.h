@@ -9,8 +9,9 @@
 namespace gelatin::gpu {
 
 /// A tree over the bounding boxes of all objects: shaders/sim/collision/update_boxes.comp with OBJECTS. Its
-/// topology stays; which object stands where is decided anew from time to time on the host, from boxes that
-/// come back without a wait. That changes how fast objects are found, not which. CPU twin: cpu::ObjectTree.
+/// topology does not change. The order of the objects in it is renewed from time to time on the host, from
+/// boxes that are read back without waiting. The order affects how fast objects are found, not which. CPU
+/// twin: cpu::ObjectTree.
 class ObjectTree {
 public:
     explicit ObjectTree(const Model& model);
@@ -29,7 +30,7 @@ private:
     gl::Buffer<std::uint32_t> order_;  // of the objects in the tree
     gl::BufferTexture order_texels_;
     gl::Readback readback_;  // of bounding boxes
-    int age_ = 0;            // of the order, in updates
+    int age_ = 0;            // age of the order, in updates
 };
 
 }  // namespace gelatin::gpu

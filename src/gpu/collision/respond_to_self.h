@@ -21,7 +21,7 @@ public:
 
 private:
     gl::Program face_program_, node_program_;
-    gl::Buffer<glm::vec4> answers_;  // change of velocity [m/s] and way [m], shape [faces][2]
+    gl::Buffer<glm::vec4> answers_;  // change of velocity [m/s] and displacement [m], shape [faces][2]
 };
 
 }  // namespace gelatin::gpu

@@ -17,7 +17,7 @@ void update_level(const gl::Program& program, const TreeBuffers& trees, std::siz
 void set_margin(const gl::Program& program, double reach);
 
 /// The box of each face and of each object, over the whole step with continuous detection:
-/// shaders/sim/collision/update_boxes.comp, a dispatch for each level of the trees.
+/// shaders/sim/collision/update_boxes.comp, one dispatch for each level of the trees.
 class UpdateBoxes {
 public:
     /// @param reach objects and faces nearer than this have boxes that meet [m]

@@ -10,12 +10,12 @@ namespace gelatin::gpu {
 
 /// Finds the faces that may touch another object, the potentially colliding set, by drawing all faces.
 ///
-/// A face that is wholly before all surfaces of other objects, as seen from some direction, touches none of
-/// them (Govindaraju, Redon, Lin, Manocha: CULLIDE, Graphics Hardware 2003). Six views follow one another,
-/// along the axes and back; each draws what was hidden in all views before it, so that they peel off layer
-/// after layer. A view draws three times, however many objects there are:
-/// shaders/sim/depth/nearest_surface.frag, nearest_other_surface.frag and find_hidden_faces.frag, each over
-/// the pixels that face_footprint.geom says a face touches.
+/// A face that is completely in front of all surfaces of other objects, seen from some direction, touches
+/// none of them (Govindaraju, Redon, Lin, Manocha: CULLIDE, Graphics Hardware 2003). There are six views,
+/// along the axes and back. Each draws what was hidden in all previous ones, so that they remove layer after
+/// layer. A view draws three times, however many objects there are: shaders/sim/depth/nearest_surface.frag,
+/// nearest_other_surface.frag and find_hidden_faces.frag, each over the pixels that a face touches according
+/// to face_footprint.geom.
 class CullByDepth {
 public:
     static constexpr std::uint32_t kViews = 6;
@@ -26,8 +26,7 @@ public:
     ~CullByDepth();
 
     /// Writes CollisionBuffers::face_views and object_views. Ends with the barriers that the next stage
-    /// needs. What an application has set for its own drawing stays, but for the textures, buffers and
-    /// programs that are bound.
+    /// needs. Restores the drawing state of an application, except the bound textures, buffers and programs.
     void run(const ModelBuffers& model, const CollisionBuffers& collision, const NodeBuffers& nodes) const;
 
     /// Defines for shaders that include sim/depth/hidden.glsl.
@@ -41,8 +40,8 @@ private:
     gl::Program begin_program_, nearest_program_, other_program_, hidden_program_;
     DepthLayers layers_;
     gl::Buffer<std::uint32_t> all_faces_, hidden_faces_[2];  // views read one of them and write another
-    gl::Buffer<Draw> draws_;            // what each view draws, and what is left by the last
-    gl::Buffer<glm::vec4> view_space_;  // lower corner [m] and scale [1/m] of what is seen
+    gl::Buffer<Draw> draws_;            // what each view draws, and what the last one keeps
+    gl::Buffer<glm::vec4> view_space_;  // lower corner [m] and scale [1/m] of the view's box
     gl::BufferTexture all_face_texels_, hidden_face_texels_[2], view_space_texels_;
     unsigned vertex_array_ = 0;  // empty, as drawing needs one
 };

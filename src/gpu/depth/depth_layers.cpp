@@ -21,7 +21,7 @@ void check_complete(int resolution) {
 
 }  // namespace
 
-// Made empty first, so that what follows may throw.
+// Constructed empty first, so that the following calls may throw.
 DepthLayers::DepthLayers(int resolution) : DepthLayers() {
     make_textures(resolution);
     make_framebuffers(resolution);
@@ -59,7 +59,7 @@ void DepthLayers::make_framebuffers(int resolution) {
     draw_no_color();
     check_complete(resolution);
 
-    // No pictures: the textures are read then.
+    // No pictures, because the textures are being read.
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffers_[comparison]);
     glFramebufferParameteri(GL_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_WIDTH, resolution);
     glFramebufferParameteri(GL_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_HEIGHT, resolution);

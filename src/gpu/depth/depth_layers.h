@@ -4,8 +4,8 @@
 
 namespace gelatin::gpu {
 
-/// Pictures of what is nearest along a direction of sight: the depth of the nearest surface and the object
-/// that it belongs to, and the depth of the nearest surface of any other object.
+/// Pictures of the nearest surfaces along a line of sight: the depth of the nearest surface and its object,
+/// and the depth of the nearest surface of any other object.
 class DepthLayers {
 public:
     /// @param resolution [pixels a side]
@@ -15,12 +15,12 @@ public:
     DepthLayers& operator=(const DepthLayers&) = delete;
     ~DepthLayers();
 
-    /// Draws go into the emptied pictures of the nearest surface from now on.
-    /// @pre the masks let them be written; the same for the others
+    /// Directs later draws into the cleared pictures of the nearest surface.
+    /// @pre the write masks allow it; the same for the others
     void begin_nearest() const;
-    /// Draws go into the emptied picture of the nearest other surface.
+    /// Directs later draws into the cleared picture of the nearest other surface.
     void begin_nearest_other() const;
-    /// Draws go nowhere: only what fragments store by themselves stays.
+    /// Directs later draws nowhere: only what fragments store themselves has an effect.
     void begin_comparison() const;
 
     void bind_nearest_object(const gl::Program& program) const;

@@ -9,13 +9,14 @@
 
 namespace gelatin::gpu {
 
-/// Moves what handles hold: shaders/sim/drive/apply_kinematics.comp. CPU twin: cpu::apply_kinematics.
+/// Moves the nodes that handles hold: shaders/sim/drive/apply_kinematics.comp. CPU twin:
+/// cpu::apply_kinematics.
 class ApplyKinematics {
 public:
     /// @pre the model has pins or handles
     explicit ApplyKinematics(const Model& model);
 
-    /// Ends with the barrier that whoever gathers the nodes as textures or storage needs.
+    /// Ends with the barrier for gathering the nodes as textures or storage.
     void run(std::span<const HandleMotion> motions, const NodeBuffers& nodes);
 
 private:

@@ -11,10 +11,10 @@
 
 namespace gelatin::gpu {
 
-/// Adds up what loads pull at the nodes: shaders/sim/drive/sum_loads.comp. CPU twin: cpu::sum_loads.
+/// Adds up the forces of loads on the nodes: shaders/sim/drive/sum_loads.comp. CPU twin: cpu::sum_loads.
 class SumLoads {
 public:
-    /// Every load acts until set_factors. @pre the model has loads
+    /// Every load acts until set_factors is called. @pre the model has loads
     explicit SumLoads(const Model& model);
 
     /// @param factors of each load

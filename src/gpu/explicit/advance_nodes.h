@@ -11,7 +11,7 @@ public:
         : program_(gl::Program::compute("sim/explicit/advance_nodes.comp",
                                         integration_defines(model, scheme, pulled))) {}
 
-    /// Ends with the barrier that the next pass, and whoever gathers the nodes as textures, needs.
+    /// Ends with the barrier for the next pass, and for gathering the nodes as textures.
     void run(const ModelBuffers& model, const Pass& pass) const;
 
 private:

@@ -4,14 +4,14 @@
 
 namespace gelatin::gpu {
 
-/// The paper's way (3.3): springs write forces, nodes add them up, nodes move; three kernels, shaders/sim/
-/// write_spring_forces.comp, merge_spring_forces.comp, integrate_nodes.comp, all on storage buffers as in the
-/// paper.
+/// The paper's method (3.3): springs write forces, nodes add them up, nodes move; three kernels,
+/// shaders/sim/explicit/write_spring_forces.comp, merge_spring_forces.comp, integrate_nodes.comp, all on
+/// storage buffers as in the paper.
 class DivideAndMerge {
 public:
     DivideAndMerge(const Model& model, const ExplicitScheme& scheme, bool pulled = false);
 
-    /// Ends with the barrier that the next pass, and whoever gathers the nodes as textures, needs.
+    /// Ends with the barrier for the next pass, and for gathering the nodes as textures.
     void run(const ModelBuffers& model, const Pass& pass) const;
 
     void write_spring_forces(const NodeBuffers& nodes) const;

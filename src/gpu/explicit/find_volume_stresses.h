@@ -7,7 +7,7 @@
 
 namespace gelatin::gpu {
 
-/// The volume term's stress round each node, for explicit solvers:
+/// The volume term's stress around each node, for explicit solvers:
 /// shaders/sim/explicit/find_volume_stresses.comp. CPU twin: cpu::find_volume_stresses.
 class FindVolumeStresses {
 public:

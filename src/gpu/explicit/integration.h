@@ -9,7 +9,7 @@
 
 namespace gelatin::gpu {
 
-/// What one pass of an explicit scheme reads and writes on the GPU (cpu::Pass is its twin).
+/// Input and output of one pass of an explicit scheme on the GPU (cpu::Pass is its counterpart).
 struct Pass {
     const ExplicitScheme& scheme;
     int index;

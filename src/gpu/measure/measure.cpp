@@ -71,7 +71,7 @@ void Measure::begin(const ModelBuffers& model, const NodeBuffers& nodes, const C
                                                     : 0);
 }
 
-// One element a chunk, and the pairs that were lost.
+// One element for each chunk, and the lost pairs.
 void Measure::count_colliding_faces(const CollisionBuffers& collision, const SelfCollisionBuffers* self) {
     collision.bind_pairs(colliding_program_);
     colliding_program_.bind("FaceCollisions", collision.face_collisions);

@@ -15,19 +15,19 @@
 namespace gelatin::gpu {
 
 /// Sums over each object without stalling the GPU: shaders/sim/measure/measure_nodes.comp and
-/// measure_faces.comp make partial sums that come back through a fence; the host adds them up in double
-/// precision.
+/// measure_faces.comp compute partial sums, which are read back through a fence; the host adds them up in
+/// double precision.
 class Measure {
 public:
     explicit Measure(const Model& model);
 
-    /// @param collision null where nothing can collide
-    /// @param self null where nothing collides with itself
-    /// @param near null where nothing near is sought
+    /// @param collision null if nothing can collide
+    /// @param self null if nothing collides with itself
+    /// @param near null without a proximity radius
     void begin(const ModelBuffers& model, const NodeBuffers& nodes,
                const CollisionBuffers* collision = nullptr, const SelfCollisionBuffers* self = nullptr,
                const ProximityBuffers* near = nullptr);
-    /// The oldest that is under way; waits for it if need be.
+    /// The oldest pending measurement; waits for it if necessary.
     std::vector<ObjectMeasure> end();
     /// As of the last `end`.
     std::uint32_t lost_pairs() const { return lost_pairs_; }
@@ -45,7 +45,7 @@ private:
     gl::Readback readback_;
     std::uint32_t lost_pairs_ = 0;
     ProximityMeasure proximities_;
-    std::deque<std::uint32_t> proximity_capacities_;  // of the measurements under way; 0: none are sought
+    std::deque<std::uint32_t> proximity_capacities_;  // of the pending measurements; 0: no proximities
     std::size_t object_count_;
 };
 

@@ -21,7 +21,7 @@ void WatchNodes::run(const ModelBuffers& model, const NodeBuffers& nodes, std::u
 }
 
 Alarm WatchNodes::alarm(bool wait) {
-    constexpr std::size_t kMostUnderWay = 2;  // a GPU that is far behind is not asked again
+    constexpr std::size_t kMostUnderWay = 2;  // no new query if a GPU is far behind
     if (wait || readback_.pending() < kMostUnderWay) readback_.begin(alarm_.id(), sizeof(Alarm));
     while (readback_.pending() > 0 && (wait || readback_.ready()))
         std::memcpy(&known_, readback_.take().data(), sizeof(Alarm));
@@ -29,7 +29,7 @@ Alarm WatchNodes::alarm(bool wait) {
 }
 
 void WatchNodes::forget() {
-    alarm(true);  // so that no old answer is under way
+    alarm(true);  // so that no old result is pending
     alarm_.upload(std::span<const Alarm>(&kNoAlarm, 1));
     known_ = kNoAlarm;
 }

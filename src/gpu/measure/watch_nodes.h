@@ -8,7 +8,7 @@
 
 namespace gelatin::gpu {
 
-/// Watches over the nodes: shaders/sim/measure/watch_nodes.comp. What it finds comes back through a fence.
+/// Watches the nodes: shaders/sim/measure/watch_nodes.comp. Its results are read back through a fence.
 class WatchNodes {
 public:
     WatchNodes();
@@ -17,7 +17,7 @@ public:
     void run(const ModelBuffers& model, const NodeBuffers& nodes, std::uint32_t step_number,
              double most_energy) const;
 
-    /// What was found until now if `wait`, else as far as the GPU has told; starts bringing what is new.
+    /// The result until now if `wait`, otherwise as far as it has arrived; starts reading back newer results.
     Alarm alarm(bool wait);
     void forget();
 

@@ -12,7 +12,7 @@ std::uint32_t capacity(const gl::Buffer<T>& buffer) {
     return static_cast<std::uint32_t>(buffer.size());
 }
 
-// The tasks of nodes, then those of edges, whose queries come behind the nodes'.
+// The tasks of nodes, then those of edges, whose queries come after the nodes'.
 void run_tasks(const gl::Program& of_nodes, const gl::Program& of_edges, const CollisionBuffers& collision,
                const ProximityBuffers& buffers) {
     const auto run = [&](const gl::Program& program, const ProximityBuffers::Tasks& tasks, std::uint32_t slot,

@@ -6,14 +6,14 @@
 
 namespace gelatin::gpu {
 
-/// What is near: nodes and faces, edges and edges. The leaves of the face trees walk through the trees of the
-/// objects that they may be near to (shaders/sim/proximity/list_near_objects.comp, walk_near_objects.comp);
-/// their nodes and edges are tested against the leaves that this finds (list_proximity_tasks.comp,
-/// test_proximities.comp); what is found is counted, summed up and written in order (sum_proximities.comp,
-/// write_proximities.comp). Nothing is read back. CPU twin: cpu::FindProximities.
+/// Proximities: nodes and faces, pairs of edges. The leaves of the face trees walk through the trees of the
+/// objects that they may be near (shaders/sim/proximity/list_near_objects.comp, walk_near_objects.comp).
+/// Their nodes and edges are tested against the leaves found (list_proximity_tasks.comp,
+/// test_proximities.comp). The results are counted, their offsets summed, and written in order
+/// (sum_proximities.comp, write_proximities.comp). Nothing is read back. CPU twin: cpu::FindProximities.
 class FindProximities {
 public:
-    /// @param radius [m] @param own also of one object
+    /// @param radius [m] @param own also within one object
     FindProximities(double radius, bool own);
     /// @pre the boxes, with the margin for the radius, and pairs of objects are those of `nodes`
     /// Ends with the barrier that the next stage needs.

@@ -5,7 +5,7 @@
 namespace gelatin::gpu {
 namespace {
 
-// How many elements a buffer has: for what usually happens, and within limits of memory.
+// The number of elements of each buffer: for usual cases, and within limits of memory.
 struct Capacity {
     std::size_t each, least, most;
 
@@ -17,7 +17,7 @@ constexpr Capacity kNearLeaves{64, 1u << 20, 1u << 24};          // a leaf; 4 to
 constexpr Capacity kTasks{8, 1u << 18, kMostInvocations};        // a node or edge; 5 to 84 MB
 constexpr Capacity kProximities{8, 1u << 17, 1u << 20};          // a node or edge; 6 to 50 MB
 
-constexpr ProximityCounts kNothing{0, 0, 0x7F800000, 0};  // nearest at infinity, until it is sought
+constexpr ProximityCounts kNothing{0, 0, 0x7F800000, 0};  // nearest at infinity, until a search has run
 
 }  // namespace
 

@@ -10,14 +10,14 @@
 
 namespace gelatin::gpu {
 
-/// What the stages of gpu::FindProximities hand to one another, beside CollisionBuffers, and what they find.
-/// Sizes are for what may happen, up to limits of memory; what does not fit is counted.
+/// The buffers that the stages of gpu::FindProximities pass to one another, in addition to CollisionBuffers,
+/// and their results. Sizes are estimates within limits of memory; what does not fit is counted.
 struct ProximityBuffers {
-    /// Those of query q, node q of SurfaceParts::nodes or edge q - nodes, are starts[q] .. starts[q + 1] of
-    /// `proximities`, in ascending order of `second`; what lies behind its end is lost.
+    /// The results of query q, node q of SurfaceParts::nodes or edge q - nodes, are starts[q] .. starts[q +
+    /// 1] of `proximities`, in ascending order of `second`; those beyond its end are lost.
     gl::Buffer<std::uint32_t> starts;  ///< shape [nodes + edges + 1]
     gl::Buffer<Proximity> proximities;
-    gl::Buffer<ProximityCounts> found;  ///< one: exact, whatever was lost of it
+    gl::Buffer<ProximityCounts> found;  ///< one element: exact, including what was lost
 
     gl::Buffer<std::uint32_t> surface_nodes;
     gl::Buffer<FaceEdge> face_edges;

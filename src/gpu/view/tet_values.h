@@ -11,21 +11,22 @@
 
 namespace gelatin::gpu {
 
-/// What colours show of tets and nodes: shaders/sim/view/find_tet_values.comp, average_tet_values.comp. For
-/// either backend, since pictures alone need it.
+/// The values that colours show of tets and nodes: shaders/sim/view/find_tet_values.comp,
+/// average_tet_values.comp. For both backends, since only pictures need it.
 class TetValues {
 public:
-    /// Values are counted by the upper bits of their difference from `least`, a float: a bin each sixteenth.
+    /// Values are counted by the upper bits of their difference from `least`, a float: one bin for each
+    /// sixteenth.
     static constexpr int kBinShift = packing::kBinShift;
     static constexpr std::size_t kBins = packing::kBins;
 
     TetValues(const Model& model, Quantity quantity);
 
     Quantity quantity() const { return quantity_; }
-    /// The least value there is: 1 of stretches, 0 of all else.
+    /// The smallest possible value: 1 for stretches, 0 for all others.
     float least() const { return quantity_ == Quantity::stretch ? 1.0f : 0.0f; }
 
-    /// Finds all values. Ends with the barriers that drawing and copies need.
+    /// Computes all values. Ends with the barriers that drawing and copies need.
     /// @param positions xyz [m] @param velocities xyz [m/s], of all nodes as texels
     void run(const gl::BufferTexture& positions, const gl::BufferTexture& velocities);
 

@@ -8,7 +8,7 @@
 
 namespace gelatin::gpu {
 
-/// The drawn surface on the GPU and the stage that keeps its normals (paper 3.1):
+/// The surface to draw, on the GPU, and the stage that updates its normals (paper 3.1):
 /// shaders/sim/view/update_face_normals.comp and update_vertex_normals.comp.
 class UpdateNormals {
 public:
@@ -29,7 +29,7 @@ private:
     gl::Buffer<SurfaceVertex> vertices_;
     gl::Buffer<std::uint32_t> vertex_faces_;
     gl::Buffer<glm::uvec3> triangles_;
-    gl::Buffer<glm::vec4> face_normals_;    // as long as twice the area [m^2]
+    gl::Buffer<glm::vec4> face_normals_;    // length: twice the area [m^2]
     gl::Buffer<glm::vec4> vertex_normals_;  // unit
     gl::BufferTexture vertex_face_texels_, face_normal_texels_;
     std::uint32_t object_count_;

@@ -23,8 +23,9 @@ double diagonal_of(const std::vector<glm::dvec3>& points) {
     return glm::distance(low, high);
 }
 
-// A body whose end moves at a part of the speed of waves in it is strained by that part. Hard ones could be
-// dragged faster than anybody wants to: across themselves in the time that a drag lags behind, no faster.
+// If the end of a body moves at a fraction of its wave speed, the body is strained by that fraction. Stiff
+// bodies could be dragged faster than is useful, so they are limited to their own size in the time by which a
+// drag lags behind.
 double most_drag_speed(const Body& body, const std::vector<glm::dvec3>& positions) {
     const auto wave_speed = [](const Material& m) { return std::sqrt(m.youngs_modulus / m.density); };
     double speed = wave_speed(body.material);

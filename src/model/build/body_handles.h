@@ -10,8 +10,8 @@ struct Body;
 struct Model;
 
 /// Adds a body's handles to the model, and its pins, which are handles without keyframes. Their nodes get the
-/// inverse mass 0 and rest; one that is in two of them belongs to the first.
-/// @param positions at the start, of the body's nodes, which are those from `first_node` on [m]
+/// inverse mass 0 and velocity 0. A node that is in two of them belongs to the first.
+/// @param positions at the start, of the body's nodes, which begin at `first_node` [m]
 void append_handles(const Body& body, const std::vector<glm::dvec3>& positions, std::uint32_t first_node,
                     Model& model);
 

@@ -32,7 +32,8 @@
 namespace gelatin {
 namespace {
 
-// Sorting all of a small object by degree evens out the slices; in a large one that would undo its locality.
+// Sorting all nodes of a small object by degree evens out the slices. In a large object it would destroy
+// locality.
 constexpr std::size_t kSmallObject = 8192;
 constexpr std::uint32_t kSortWindow = 256;
 constexpr double kCreaseAngle = 0.7;  // 40 degrees: flatter edges are drawn smooth
@@ -50,8 +51,8 @@ void arrange_faces(TetMesh& mesh) {
 // A body's mesh with its nodes in an order that keeps neighbours near each other.
 struct Arranged {
     TetMesh mesh;
-    std::vector<std::uint32_t> new_index;  // by the index that a node had
-    std::vector<std::size_t> old_tets;     // the index that each tet had
+    std::vector<std::uint32_t> new_index;  // by the node's previous index
+    std::vector<std::size_t> old_tets;     // each tet's previous index
 };
 
 Arranged arranged(const TetMesh& mesh, const std::vector<glm::uvec2>& edges) {
@@ -130,7 +131,7 @@ bool has_springs(const Body& body) {
     return body.material.model == MaterialModel::mass_spring;
 }
 
-// Pairs of nodes that pull at each other, as the body's mesh counts them.
+// Pairs of nodes that exert forces on each other, by the body mesh's indices.
 std::vector<glm::uvec2> joined_nodes(const Body& body, const FittedSprings* fitted) {
     if (!has_springs(body)) return tet_edges(body.mesh.tets);
     std::vector<glm::uvec2> nodes;
@@ -159,7 +160,7 @@ std::vector<Spring> scaled_springs(const Body& body, const Arranged& arranged, c
     return springs;
 }
 
-// From springs as stiff as the body's own material makes them to those that its parts make.
+// Scales springs from the stiffness of the body's own material to that of its parts.
 void adapt_to_parts(const Body& body, const Arranged& arranged, std::vector<Spring>& springs) {
     if (body.tet_materials.empty()) return;
     std::vector<double> tet_moduli;
@@ -217,7 +218,7 @@ NodeTets make_neo_hookean_corners(const Model& model) {
     return nodes.empty() ? NodeTets() : make_node_tets(model.node_count(), nodes);
 }
 
-// Null where the material names the paper's springs, or has none.
+// Null if the material names the paper's springs, or has none.
 std::shared_ptr<const FittedSprings> fitted_springs(const Body& body) {
     if (!has_springs(body) || body.material.springs) return nullptr;
     return body.fitted ? body.fitted : std::make_shared<const FittedSprings>(fit_springs(body.mesh));

@@ -9,7 +9,7 @@
 
 namespace gelatin {
 
-/// One body ready to be packed: tets in world coordinates and what they are made of.
+/// One body ready to be packed: tets in world coordinates, and their materials.
 struct Body {
     std::string name;
     TetMesh mesh;
@@ -21,15 +21,15 @@ struct Body {
     std::vector<LoadDescription> loads;
     glm::vec3 color{-1.0f};  ///< linear RGB; negative: the renderer's palette
 
-    /// Materials of parts, with springs of the same kinds as `material`'s, and which each tet has: 0 is
-    /// `material`, m part_materials[m - 1], shape [tets]; empty: `material` alone.
+    /// Materials of parts, with the same kinds of springs as `material`, and the material of each tet: 0 is
+    /// `material`, m is part_materials[m - 1], shape [tets]; empty: only `material`.
     std::vector<Material> part_materials;
     std::vector<std::uint32_t> tet_materials;
 
-    /// Of a material without kinds of springs: those fitted to the mesh before it was scaled; empty:
-    /// pack_bodies fits.
+    /// For a material without kinds of springs: those fitted to the mesh before it was scaled; empty:
+    /// pack_bodies fits them.
     std::shared_ptr<const FittedSprings> fitted;
-    double scale = 1.0;  ///< of the mesh, since `fitted`
+    double scale = 1.0;  ///< scale of the mesh relative to the one that `fitted` belongs to
 
     /// Of a tet of `mesh`.
     const Material& material_of(std::size_t tet) const {
@@ -38,10 +38,10 @@ struct Body {
     }
 };
 
-/// Packs bodies into the arrays of a model: nodes in an order that keeps neighbours near, lumped masses (a
-/// quarter of each tet's), springs, what is drawn.
+/// Packs bodies into the arrays of a model: nodes in an order that keeps neighbours close, lumped masses (a
+/// quarter of each tet's mass), springs, and the surface to draw.
 /// @throws InvalidInput if a number does not fit into float (stiffness, mass), or the model exceeds 2^31
-/// elements.
+///   elements.
 Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDescription>& colliders,
                   const glm::dvec3& gravity);
 

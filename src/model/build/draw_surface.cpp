@@ -66,8 +66,8 @@ CornerGroups group_smooth_corners(std::span<const glm::vec4> positions, const st
 
 void append_draw_surface(std::span<const glm::vec4> positions, std::span<const Face> all_faces, Range range,
                          double crease_angle, DrawSurface& surface) {
-    // Nodes are counted from the object's first, or a thousand objects would each look through the nodes of
-    // all.
+    // Nodes are counted from the object's first. Otherwise each of a thousand objects would search the nodes
+    // of all.
     const std::span<const Face> own_faces = all_faces.subspan(range.first, range.count);
     std::uint32_t first_node = std::numeric_limits<std::uint32_t>::max();
     for (const Face& face : own_faces) first_node = std::min({first_node, face.a, face.b, face.c});
@@ -76,7 +76,7 @@ void append_draw_surface(std::span<const glm::vec4> positions, std::span<const F
     CornerGroups groups =
         group_smooth_corners(positions.subspan(range.count > 0 ? first_node : 0), faces, crease_angle);
 
-    // Number the groups by their nodes, so that drawing walks through memory as the simulation does.
+    // Numbers the groups by their nodes, so that drawing reads memory in the same order as the simulation.
     std::vector<std::uint32_t> corners(3 * faces.size());
     std::iota(corners.begin(), corners.end(), 0u);
     const auto node_of = [&](std::uint32_t corner) {

@@ -7,8 +7,8 @@
 
 namespace gelatin {
 
-/// Appends an object's surface to `surface`: each corner of its faces becomes part of a surface vertex, and
-/// corners of one node share a vertex as long as the faces between them meet at less than `crease_angle` in
+/// Appends an object's surface to `surface`. Each corner of its faces becomes part of a surface vertex.
+/// Corners of one node share a vertex as long as the faces between them meet at less than `crease_angle` in
 /// the rest shape.
 /// @param positions of all nodes at rest, xyz [m]
 /// @param faces all faces packed so far; the object's are `range`

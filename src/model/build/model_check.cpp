@@ -31,8 +31,7 @@ std::optional<std::string> far_from_origin(const Model& model, const ModelObject
     if (!(strain > kLargestStrain)) return {};
     return fmt::format(
         "object '{}': at coordinates of {:.3g} m single precision rounds its shortest spring, of {:.3g} m, "
-        "by {:.1g} "
-        "of its length; nearer to the origin, below {:.3g} m, it is below {}",
+        "by {:.1g} of its length; at coordinates below {:.3g} m the error is below {}",
         object.name, farthest, shortest, strain, kLargestStrain * shortest / kEpsilon, kLargestStrain);
 }
 
@@ -46,8 +45,7 @@ std::optional<std::string> uneven_materials(const Model& model, const ModelObjec
     if (!(stiffest > kMuch * softest)) return {};
     return fmt::format(
         "object '{}': its parts have youngs_modulus from {:.3g} to {:.3g} Pa; where they meet, single "
-        "precision does "
-        "not feel what is more than {:.0g} times softer",
+        "precision loses the forces of a part that is more than {:.0g} times softer",
         object.name, softest, stiffest, kMuch);
 }
 
@@ -65,8 +63,8 @@ std::optional<std::string> lost_inertia(const Model& model, const ModelObject& o
     if (!(worst > 1.0 / kEpsilon)) return {};
     return fmt::format(
         "object '{}': a node's springs are {:.2g} times as stiff as its inertia over a step (stiffness h^2 / "
-        "mass); "
-        "above {:.2g} single precision loses the inertia: shorter steps (simulation.substeps) or a smaller "
+        "mass); above {:.2g} single precision loses the inertia: shorter steps (simulation.substeps) or a "
+        "smaller "
         "youngs_modulus help",
         object.name, worst, 1.0 / kEpsilon);
 }
@@ -79,12 +77,11 @@ std::optional<std::string> uneven_masses(const Model& model) {
     if (!(heavy->mass > kMuch * light->mass)) return {};
     return fmt::format(
         "object '{}' has {:.2g} times the mass of '{}' ({:.3g} and {:.3g} kg); where they touch, single "
-        "precision "
-        "keeps less than a digit of what the lighter one does to the heavier above {:.0g}",
+        "precision keeps less than a digit of the lighter one's effect on the heavier above {:.0g}",
         heavy->name, heavy->mass / light->mass, light->name, heavy->mass, light->mass, kMuch);
 }
 
-// The first object's line; copies of it would all say the same.
+// The first object's line; the lines of its copies would be the same.
 template <class Check>
 void add_first(const Model& model, const Check& check, std::vector<std::string>& lines) {
     std::optional<std::string> first;

@@ -8,10 +8,10 @@
 
 namespace gelatin {
 
-/// What single precision will not do justice to, a line each: objects so far from the origin that their
-/// springs' lengths are coarse, springs at one node or masses of objects that may touch of very different
-/// sizes, and with vertex block descent springs beside which a node's inertia is lost. Simulation goes on,
-/// less exactly.
+/// Reports what single precision represents badly, one line each: objects so far from the origin that their
+/// springs' lengths are coarse; springs at one node, or masses of objects that may touch, of very different
+/// sizes; and with vertex block descent springs so stiff that a node's inertia is lost. The simulation
+/// continues with less accuracy.
 /// @param step_size [s]
 std::vector<std::string> check_model(const Model& model, const Scene& scene, double step_size);
 

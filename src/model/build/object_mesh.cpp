@@ -35,7 +35,7 @@ void warn_of_a_poor_fit(const FittedSprings& springs, const std::string& name) {
     constexpr double kMuch = 0.2;
     if (springs.softest > 1.0 - kMuch && springs.stiffest < 1.0 + kMuch) return;
     spdlog::warn(
-        "object '{}': its mesh lets springs answer with {:.2f} to {:.2f} of youngs_modulus, by direction; "
+        "object '{}': on its mesh springs give {:.2f} to {:.2f} of youngs_modulus, depending on direction; "
         "more nodes across it, or tets of more even shape (mesher.max_volume, mesher.quality), help",
         name, springs.softest, springs.stiffest);
 }
@@ -58,7 +58,7 @@ std::shared_ptr<const FittedSprings> ObjectMesher::fit(const ObjectDescription& 
     return known.springs;
 }
 
-// Searched from the last one on: copies follow one another.
+// Searched from the last one, because copies are consecutive.
 ObjectMesher::Known& ObjectMesher::local(const ObjectDescription& object) {
     const auto same = std::find_if(known_.rbegin(), known_.rend(), [&](const Known& known) {
         return known.shape == object.shape && known.mesher == object.mesher;

@@ -9,17 +9,17 @@
 
 namespace gelatin {
 
-/// Makes the tets of objects and fits springs to them, once for all that have the same shape and mesher.
+/// Makes the tets of objects and fits springs to them, once for all objects with the same shape and mesher.
 class ObjectMesher {
 public:
-    /// The tets of an object where the scene puts it: its shape or file, through the mesher where it is a
-    /// surface, then scaled, turned and moved. Repairs go to the log, one line each.
+    /// The tets of an object in the scene: its shape or file, filled by the mesher if it is a surface, then
+    /// scaled, rotated and moved to its position. Repairs go to the log, one line each.
     /// @throws InvalidInput for files that cannot be read, surfaces that cannot be filled, flat or inverted
-    /// results.
+    ///   results.
     TetMesh make(const ObjectDescription& object);
 
-    /// The springs fitted to the object's tets before it is scaled; from the cache on disk where they are
-    /// there. Where the mesh lets no fit be good, that goes to the log.
+    /// The springs fitted to the object's tets before scaling, from the cache on disk if they are there. If
+    /// the mesh allows no good fit, the log says so.
     /// @throws as make
     std::shared_ptr<const FittedSprings> fit(const ObjectDescription& object);
 
@@ -27,8 +27,8 @@ private:
     struct Known {
         Shape shape;
         MesherSettings mesher;
-        TetMesh mesh;                                  // as the shape says, not placed yet
-        std::shared_ptr<const FittedSprings> springs;  // empty until somebody asks
+        TetMesh mesh;                                  // as the shape defines it, not placed yet
+        std::shared_ptr<const FittedSprings> springs;  // empty until they are requested
     };
     Known& local(const ObjectDescription& object);
 

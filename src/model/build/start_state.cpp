@@ -30,7 +30,7 @@ std::optional<State> deformed_start(const Scene& scene, const Model& model) {
         const Range& nodes = model.objects[o].nodes;
         const glm::dvec3 center = center_of_mass(model, nodes);
         std::mt19937 random(static_cast<std::uint32_t>(o));
-        // Uniform in [-1, 1). The standard's distributions differ from library to library.
+        // Uniform in [-1, 1). The standard library's distributions differ between implementations.
         const auto number = [&] { return static_cast<double>(random()) * 0x1p-31 - 1.0; };
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
             const double x = number(), y = number(), z = number();

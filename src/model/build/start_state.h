@@ -8,8 +8,8 @@
 
 namespace gelatin {
 
-/// The nodes when a run begins, where objects start out of shape (ObjectDescription::start); nothing where
-/// none does: the model's own positions then are the start. The same in every run.
+/// The positions at which a run begins if objects start deformed (ObjectDescription::start); empty if none
+/// does, and then the model's own positions are the start. The same in every run.
 std::optional<State> deformed_start(const Scene& scene, const Model& model);
 
 }  // namespace gelatin

@@ -8,9 +8,9 @@
 
 namespace gelatin {
 
-/// Which part of the object each tet is of: 0 where none, p + 1 for parts[p]; of several the last. Empty if
-/// there are no parts.
-/// @param mesh where the scene puts it
+/// The part of the object that each tet belongs to: 0 for none, p + 1 for parts[p]; the last one if there are
+/// several. Empty if there are no parts.
+/// @param mesh as placed in the scene
 /// @param file the scene's, for messages
 /// @throws InvalidInput for a part without tets
 std::vector<std::uint32_t> choose_tet_materials(const ObjectDescription& object, const TetMesh& mesh,

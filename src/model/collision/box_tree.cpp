@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::uint32_t kNoRoot = 0xFFFFFFFFu;
 
-// Items in each part that `count` items are divided into: four times a power of four, so that all leaves but
-// the last are full.
+// The number of items in each part that `count` items are divided into: four times a power of four, so that
+// all leaves but the last are full.
 std::size_t part_size(std::size_t count) {
     std::size_t size = BoxTree::kLeafItems;
     while (size * 4 < count) size *= 4;
@@ -52,7 +52,7 @@ private:
     std::span<const glm::dvec3> centers_;
 };
 
-// @return how many levels of nodes lie below
+// @return the number of levels of nodes below
 std::uint32_t append_node(const Range& items, BoxTree& trees) {
     const auto node = static_cast<std::uint32_t>(trees.nodes.size());
     const bool is_leaf = items.count <= BoxTree::kLeafItems;

@@ -9,14 +9,15 @@
 
 namespace gelatin {
 
-/// An order of items in which those near one another are neighbours: recursively in up to four parts of
-/// nearly equal size, by medians of the items' centres, down to four items. order[place] = item.
+/// An order of items in which items that are near each other are neighbours: they are divided recursively
+/// into up to four parts of nearly equal size, by medians of the items' centres, down to four items.
+/// order[place] = item.
 std::vector<std::uint32_t> box_tree_order(std::span<const glm::dvec3> centers);
 
-/// For how many steps an order of moving items is kept before it is made anew.
+/// The number of steps after which an order of moving items is renewed.
 constexpr int kOrderLifetime = 64;
 
-/// Appends a tree over items in that order, which have the numbers `items`.
+/// Appends a tree over items in that order, whose numbers are `items`.
 void append_box_tree(const Range& items, BoxTree& trees);
 
 }  // namespace gelatin

@@ -9,7 +9,7 @@ namespace gelatin {
 /// Faces in a word of the Face Collision Result, two bits each (src/cpu/collision/touch.h).
 constexpr std::uint32_t kFacesAWord = packing::kFacesAWord;
 
-/// Words of one pair for an object of so many faces.
+/// The number of words of one pair, for an object with this many faces.
 constexpr std::uint32_t face_collision_words(std::uint32_t face_count) {
     return (face_count + kFacesAWord - 1) / kFacesAWord;
 }

@@ -7,7 +7,7 @@
 
 namespace gelatin {
 
-/// The faces round each node, in the faces' order.
+/// The faces around each node, in the faces' order.
 NodeFaces make_node_faces(std::uint32_t node_count, std::span<const Face> faces);
 
 }  // namespace gelatin

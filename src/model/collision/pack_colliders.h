@@ -7,7 +7,7 @@
 
 namespace gelatin {
 
-/// Colliders as every backend has them, in the order of their kinds.
+/// Colliders in the form that all backends use, sorted by kind.
 std::vector<Collider> pack_colliders(const std::vector<ColliderDescription>& colliders);
 
 }  // namespace gelatin

@@ -27,7 +27,7 @@ struct RestBox {
 
 using Corners = std::array<glm::dvec3, 3>;
 
-// A direction's length does not matter, and 0 tells nothing.
+// The length of a direction does not matter; a direction of length 0 gives no information.
 double gap_along(const glm::dvec3& direction, const Corners& a, const Corners& b) {
     const double length = glm::length(direction);
     if (!(length > 0.0)) return 0.0;
@@ -38,8 +38,8 @@ double gap_along(const glm::dvec3& direction, const Corners& a, const Corners& b
     return std::max(low_a - high_b, low_b - high_a) / length;
 }
 
-// The widest gap between two triangles that the usual separating directions show: no more than their
-// distance. Looks no further once it is `enough`.
+// The widest gap between two triangles along the usual separating directions, a lower bound of their
+// distance. Stops once it is `enough`.
 double least_distance(const Corners& a, const Corners& b, double enough) {
     const glm::dvec3 edges_a[] = {a[1] - a[0], a[2] - a[1], a[0] - a[2]};
     const glm::dvec3 edges_b[] = {b[1] - b[0], b[2] - b[1], b[0] - b[2]};
@@ -87,7 +87,7 @@ public:
         }
     }
 
-    // Not looked for farther away than the face is long.
+    // Not searched for at larger distances than the face's length.
     double of(std::uint32_t face) const {
         const Face& own = model_.faces[face];
         const Corners own_corners = corners(own);

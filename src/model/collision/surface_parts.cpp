@@ -41,7 +41,7 @@ public:
 
 private:
     std::uint32_t first_face(std::uint32_t node) const { return around_.faces[around_.starts[node]]; }
-    // No face before this one has the edge: those that may are round its ends.
+    // Whether no earlier face has the edge: all faces with the edge are around its ends.
     bool owns(std::uint32_t face, const Edge& edge) const {
         for (std::uint32_t k = around_.starts[edge[0]]; around_.faces[k] < face; ++k) {
             const auto others = edges_of(faces_[around_.faces[k]]);

@@ -14,7 +14,8 @@ constexpr double kMostInverted = 0.25;
 /// ... and the affine map of its shape at rest that comes nearest to its nodes explains less than this of how
 /// they are spread: flat, squashed and twisted bodies keep to one, nodes at random do not.
 constexpr double kLeastExplained = 0.75;
-/// The objects' shapes at rest, to be matched with where their nodes are (docs/physics.md, "Lost shapes").
+/// The objects' shapes at rest, to be matched with where their nodes are (docs/block-descent.md, "Lost
+/// shapes").
 struct MatchShapes {
     std::vector<glm::vec4> offsets;  ///< from the object's centre of mass [m], mass [kg], shape [nodes]
     std::vector<RestMoment> objects;

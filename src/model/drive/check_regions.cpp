@@ -11,7 +11,7 @@
 namespace gelatin {
 namespace {
 
-// One that is like a pin: which of them holds a node makes no difference until somebody drags one.
+// Whether it acts like a pin: then it does not matter which of them holds a node, until somebody drags one.
 bool rests(const HandleDescription& handle) {
     return handle.keyframes.empty() && !handle.release;
 }
@@ -76,7 +76,7 @@ private:
     const std::filesystem::path& file_;
     const ObjectDescription& object_;
     const TetMesh& mesh_;
-    std::vector<Holder> holders_;  // of each node: what already holds it
+    std::vector<Holder> holders_;  // for each node, what holds it already
 };
 
 }  // namespace

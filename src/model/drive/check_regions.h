@@ -7,10 +7,10 @@
 
 namespace gelatin {
 
-/// Holds an object's pins, handles and loads against its mesh.
+/// Checks an object's pins, handles and loads against its mesh.
 /// @param file of the scene, for messages
-/// @throws InvalidInput for a region without nodes, or without faces where a load acts on faces, and for a
-/// node that two handles hold, or a handle and a pin, unless both rest for ever.
+/// @throws InvalidInput for a region without nodes, or without faces if a load acts on faces; and for a node
+///   that two handles hold, or a handle and a pin, unless both rest for ever.
 void check_regions(const std::filesystem::path& file, const ObjectDescription& object, const TetMesh& mesh);
 
 }  // namespace gelatin

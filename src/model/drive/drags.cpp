@@ -11,7 +11,8 @@
 namespace gelatin {
 namespace {
 
-constexpr double kLeastSpeed = 1e-3;  // of the most: what is left to go then would never be gone
+constexpr double kLeastSpeed =
+    1e-3;  // fraction of the largest speed; otherwise the remaining displacement would never reach zero
 
 double angle_between(const glm::dquat& a, const glm::dquat& b) {
     const glm::dquat turn = b * glm::conjugate(a);
@@ -23,10 +24,10 @@ glm::dvec3 mean(std::span<const glm::dvec3> points) {
            static_cast<double>(points.size());
 }
 
-// The unit quaternion q that makes the sum of (q from_i) . to_i greatest is the eigenvector of its matrix of
-// the greatest eigenvalue.
-glm::dquat nearest_turn(std::span<const glm::dvec3> from, const glm::dvec3& from_center,
-                        std::span<const glm::dvec3> to, const glm::dvec3& to_center) {
+// The unit quaternion q that maximises the sum of (q from_i) . to_i is the eigenvector of this matrix with
+// the largest eigenvalue.
+glm::dquat nearest_rotation(std::span<const glm::dvec3> from, const glm::dvec3& from_center,
+                            std::span<const glm::dvec3> to, const glm::dvec3& to_center) {
     glm::dmat3 s(0.0);  // s[b][a] = sum from_a to_b
     for (std::size_t i = 0; i < from.size(); ++i)
         s += glm::outerProduct(from[i] - from_center, to[i] - to_center);
@@ -36,7 +37,7 @@ glm::dquat nearest_turn(std::span<const glm::dvec3> from, const glm::dvec3& from
         0.0, 0.0, s[1][1] - s[0][0] - s[2][2], s[2][1] + s[1][2],                                    //
         0.0, 0.0, 0.0, s[2][2] - s[0][0] - s[1][1];
     matrix.triangularView<Eigen::StrictlyLower>() = matrix.transpose();
-    // Nodes on a line, or one alone, turn no more than they need to.
+    // If the nodes are on a line, or there is only one, the smallest rotation is used.
     matrix(0, 0) += 1e-12 * matrix.norm() + std::numeric_limits<double>::min();
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(matrix);
     const Eigen::Vector4d q = solver.eigenvectors().col(3);
@@ -46,13 +47,13 @@ glm::dquat nearest_turn(std::span<const glm::dvec3> from, const glm::dvec3& from
 }  // namespace
 
 Drag follow(const Drag& drag, const Drag& target, const Handle& handle, double step) {
-    const glm::dvec3 way = target.move - drag.move;
-    // The way that a node has to go at most.
-    const double left = glm::length(way) + angle_between(drag.turn, target.turn) * handle.radius;
+    const glm::dvec3 displacement = target.move - drag.move;
+    // The largest displacement of any node.
+    const double left = glm::length(displacement) + angle_between(drag.turn, target.turn) * handle.radius;
     const double speed = std::clamp(kDragRate * left, kLeastSpeed * handle.most_speed, handle.most_speed);
     if (left <= speed * step) return target;
     const double part = speed * step / left;
-    return {drag.move + part * way, glm::normalize(glm::slerp(drag.turn, target.turn, part))};
+    return {drag.move + part * displacement, glm::normalize(glm::slerp(drag.turn, target.turn, part))};
 }
 
 Drag nearest_drag(const HandlePose& pose, std::span<const glm::dvec3> arms,
@@ -60,7 +61,7 @@ Drag nearest_drag(const HandlePose& pose, std::span<const glm::dvec3> arms,
     std::vector<glm::dvec3> from;
     for (const glm::dvec3& arm : arms) from.push_back(pose.map * arm);
     const glm::dvec3 from_center = mean(from), to_center = mean(places);
-    const glm::dquat turn = nearest_turn(from, from_center, places, to_center);
+    const glm::dquat turn = nearest_rotation(from, from_center, places, to_center);
     return {to_center - turn * from_center - pose.center, turn};
 }
 

@@ -9,29 +9,29 @@
 
 namespace gelatin {
 
-/// How fast a dragged handle follows: its distance from where it shall be shrinks at this rate [1/s].
+/// How fast a dragged handle follows: its distance from the target decreases at this rate [1/s].
 constexpr double kDragRate = 14.0;
 
-/// Where `drag` is a step of `step` seconds nearer to `target`: as fast as kDragRate says, but no node faster
-/// than Handle::most_speed, so that the body can follow, and never so slow that it does not arrive.
+/// The drag after a step of `step` seconds from `drag` towards `target`: at the rate kDragRate, but with no
+/// node faster than Handle::most_speed, so that the body can follow, and fast enough to arrive.
 Drag follow(const Drag& drag, const Drag& target, const Handle& handle, double step);
 
-/// The drag that brings the nodes of a handle, at `arms` from its pivot when they start, nearest to `places`
+/// The drag that brings the nodes of a handle, at `arms` from its pivot at the start, nearest to `places`
 /// (least squares; B. K. P. Horn, Journal of the Optical Society of America A 4, 1987).
 /// @pre one place for each arm, > 0
 Drag nearest_drag(const HandlePose& pose, std::span<const glm::dvec3> arms,
                   std::span<const glm::dvec3> places);
 
-/// How far a run's handles and pins have been dragged, and are to be. What nobody has dragged is where the
+/// The present drags of a run's handles and pins, and their targets. What nobody has dragged is where the
 /// scene has it, and costs nothing.
 class Drags {
 public:
     explicit Drags(std::shared_ptr<const Model> model);
 
-    /// Back to the start, where scenes drag what their handles say.
+    /// Returns to the start, with the drags that the scene's handles have.
     void restart();
 
-    /// Goes on with drags of shape [handles], and their targets.
+    /// Continues with drags of shape [handles], and their targets.
     void go_on_with(std::vector<Drag> drags, std::vector<Drag> targets);
 
     const std::vector<Drag>& drags() const { return drags_; }
@@ -39,19 +39,19 @@ public:
 
     void set_target(std::size_t handle, const Drag& target);
 
-    /// False where no node of a pin or a handle has ever moved or will, as long as nobody drags one.
+    /// False if no node of a pin or a handle has ever moved or will move, unless somebody drags one.
     bool may_move() const { return has_moving_ || is_dragged_; }
-    /// True if something is on its way, and the next advance() moves it.
+    /// True if a drag has not reached its target, so that the next advance() changes it.
     bool is_under_way() const { return drags_ != targets_; }
 
-    /// The motions of all handles over the step of `step` seconds that begins at `time`, during which they
-    /// follow their targets.
+    /// The motions of all handles over the step of `step` seconds that begins at `time`, in which they
+    /// approach their targets.
     std::vector<HandleMotion> advance(double time, double step);
 
 private:
     std::shared_ptr<const Model> model_;
-    bool has_moving_;          // handles that move or let go by themselves
-    bool is_dragged_ = false;  // some, since the run began
+    bool has_moving_;          // whether handles move or release their nodes by themselves
+    bool is_dragged_ = false;  // whether any was dragged since the run began
     std::vector<Drag> drags_, targets_;
 };
 

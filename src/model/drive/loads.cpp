@@ -10,9 +10,9 @@
 namespace gelatin {
 namespace {
 
-using Entries = std::vector<std::pair<std::uint32_t, NodeLoad>>;  // by node of the model
+using Entries = std::vector<std::pair<std::uint32_t, NodeLoad>>;  // by the model's node index
 
-// What one load does to the nodes of one object.
+// The effect of one load on the nodes of one object.
 struct LoadPacker {
     const Region& region;
     const TetMesh& mesh;
@@ -28,7 +28,7 @@ struct LoadPacker {
     }
 
     void operator()(const TractionLoad& traction) const {
-        std::map<std::uint32_t, double> areas;  // a third of a face's to each of its nodes [m^2]
+        std::map<std::uint32_t, double> areas;  // for each of its nodes a third of the face's [m^2]
         for (const glm::uvec3& face : find_faces_inside(region, mesh)) {
             const glm::dvec3 a = mesh.positions[face.x];
             const double twice =

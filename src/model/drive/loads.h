@@ -12,13 +12,13 @@
 
 namespace gelatin {
 
-/// The loads of all objects, by node: node k's are entries[nodes[k].first] .. entries[nodes[k].end].
+/// The loads of all objects, by node: those of node k are entries[nodes[k].first] .. entries[nodes[k].end].
 struct Loads {
     struct Span {
         double from = 0.0, until = std::numeric_limits<double>::infinity();  ///< when it acts [s]
     };
-    std::vector<Span> spans;        ///< of each load
-    std::vector<LoadedNode> nodes;  ///< each once, ascending
+    std::vector<Span> spans;        ///< for each load
+    std::vector<LoadedNode> nodes;  ///< distinct, ascending
     std::vector<NodeLoad> entries;
 
     bool empty() const { return spans.empty(); }
@@ -27,13 +27,13 @@ struct Loads {
 /// The faces of the mesh whose three nodes are in the region.
 std::vector<glm::uvec3> find_faces_inside(const Region& region, const TetMesh& mesh);
 
-/// Adds the loads of an object whose nodes follow all others so far.
+/// Adds the loads of an object whose nodes follow all previous ones.
 /// @param mesh at rest @param masses of its nodes [kg] @param first_node of the object in the model
 void append_loads(const std::vector<LoadDescription>& descriptions, const TetMesh& mesh,
                   std::span<const float> masses, std::uint32_t first_node, Loads& loads);
 
-/// The share of the step of `step` seconds from `time` in which each load acts, from 0 to 1: so that what it
-/// gives in all is its force times its time.
+/// The fraction of the step of `step` seconds from `time` during which each load acts, from 0 to 1. So a
+/// load's total impulse is its force times its duration.
 std::vector<float> load_factors(const Loads& loads, double time, double step);
 
 }  // namespace gelatin

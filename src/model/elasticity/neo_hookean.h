@@ -11,31 +11,31 @@ namespace gelatin {
 
 struct Model;
 
-/// The two constants of a tet's own energy (cpu/elasticity/neo_hookean.h), and that of the volume term, which
-/// is averaged over nodes (model/elasticity/volume_term.h): each tet by itself would lock.
+/// The two constants of a single tet's energy (cpu/elasticity/neo_hookean.h), and that of the volume term,
+/// which is averaged over nodes (model/elasticity/volume_term.h), because single tets would lock.
 struct NeoHookeanModuli {
     double mu;      ///< [Pa], > 0
     double lambda;  ///< [Pa], > 0
     double kappa;   ///< [Pa], >= 0
 };
 
-/// Those with which small strains are answered as by Hooke's law. With Lamé's
+/// The constants for which small strains obey Hooke's law. With Lamé's
 ///   mu_L = E / (2 (1 + nu)),   lambda_L = E nu / ((1 + nu) (1 - 2 nu)),
-/// tets keep as much of lambda_L as mu_L is, which is all of it up to nu = 1/4, and kappa is the rest. Of
-/// what they keep, mu and lambda are 4/3 mu_L and lambda_L + 5/6 mu_L (Smith, de Goes, Kim: "Stable
-/// Neo-Hookean Flesh Simulation", ACM Transactions on Graphics 37(2), 2018, 3.4).
+/// tets take min(lambda_L, mu_L), which is all of lambda_L up to nu = 1/4, and kappa is the rest. For the
+/// tets' part, mu = 4/3 mu_L and lambda = lambda_t + 5/6 mu_L (Smith, de Goes, Kim: "Stable Neo-Hookean Flesh
+/// Simulation", ACM Transactions on Graphics 37(2), 2018, 3.4).
 /// @param youngs_modulus [Pa], > 0 @param poisson_ratio in [0, 0.5)
 NeoHookeanModuli neo_hookean_moduli(double youngs_modulus, double poisson_ratio);
 
 /// A tet at rest. @param corners positions of `nodes` [m], wound as those of TetMesh
-/// @pre what it is made of fits into single precision
+/// @pre its properties fit into single precision
 NeoHookeanTet make_neo_hookean_tet(const glm::uvec4& nodes, const std::array<glm::dvec3, 4>& corners,
                                    const NeoHookeanModuli& moduli);
 
 /// The gradients of the corners' shape functions [1/m].
 std::array<glm::dvec3, 4> shape_gradients(const NeoHookeanTet& tet);
 
-/// True for the nodes of bodies that are made of such tets.
+/// True for the nodes of bodies of such tets.
 bool has_neo_hookean_tets(const Model& model, std::uint32_t node);
 
 inline glm::uvec4 nodes_of(const NeoHookeanTet& tet) {

@@ -21,7 +21,7 @@ constexpr double kLargestGrowth = 0.01;  // of a mode's amplitude, per second
 constexpr double kSafety = 0.8;          // of the largest stable step that `auto` uses
 constexpr int kMostSubsteps = 100'000;
 
-// Largest eigenvalue, in modulus, of what one step of h does to (x, v) of x'' = -w^2 x - damping w^2 x'.
+// Largest modulus of the eigenvalues of one step h applied to (x, v) of x'' = -w^2 x - damping w^2 x'.
 double spectral_radius(const ExplicitScheme& scheme, double frequency, double damping, double h) {
     const double w2 = frequency * frequency;
     const auto advance = [&](double x0, double v0) {
@@ -37,7 +37,8 @@ double spectral_radius(const ExplicitScheme& scheme, double frequency, double da
         const double new_v = v0 + h * sum_v;
         return std::pair(x0 + h * (scheme.semi_implicit ? new_v : sum_x), new_v);
     };
-    // In the basis (x, v / w) both columns are of one size, which keeps trace and determinant accurate.
+    // In the basis (x, v / w) both columns have the same magnitude, which keeps trace and determinant
+    // accurate.
     const auto [a, c] = advance(1.0, 0.0);
     const auto [b, d] = advance(0.0, frequency);
     const double half_trace = 0.5 * (a + d / frequency);
@@ -56,7 +57,7 @@ bool is_stable(const ExplicitScheme& scheme, double frequency, double damping, d
     return true;
 }
 
-// Stiffness over mass [1/s^2], a block for each node of an object.
+// Stiffness divided by mass [1/s^2], a block for each node of an object.
 using Blocks = std::vector<Eigen::Matrix3d>;
 
 void add_springs(const Model& model, const ModelObject& object, Deformation deformation,
@@ -104,7 +105,7 @@ void add_neo_hookean_tets(const Model& model, const ModelObject& object,
     }
 }
 
-// How the volume round a node changes with the places of the nodes round it, itself among them [m^2].
+// The derivative of the volume around a node by the positions of the nodes around it, itself included [m^2].
 std::vector<std::pair<std::uint32_t, glm::dvec3>> slopes_of_volume(const Model& model, std::uint32_t node) {
     std::vector<std::pair<std::uint32_t, glm::dvec3>> slopes;
     const auto add = [&](std::uint32_t n, const glm::dvec3& slope) {
@@ -137,7 +138,7 @@ void add_volume_term(const Model& model, const ModelObject& object, Deformation 
     const auto inverse_mass = [&](std::uint32_t n) { return inverse_masses[n - object.nodes.first]; };
     for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
         const glm::dvec2 rest(model.volume_term.nodes[n]);
-        if (!(rest.y > 0.0)) continue;  // it takes stiffness away
+        if (!(rest.y > 0.0)) continue;  // it reduces the stiffness
         const auto slopes = slopes_of_volume(model, n);
         double scale = 0.0;  // kappa / V sum |s|^2 / m
         for (const auto& [k, slope] : slopes)
@@ -153,8 +154,8 @@ void add_volume_term(const Model& model, const ModelObject& object, Deformation 
     }
 }
 
-// What is damped of a mode's stiffness at least: all but the volume term, which is at most what it would be
-// in every tet by itself.
+// The smallest damped fraction of a mode's stiffness. The volume term is not damped; it is at most what it
+// would be with each tet by itself.
 double least_damped_share(const Model& model, const ModelObject& object) {
     if (model.volume_term.is_empty()) return 1.0;
     double least = 1.0;
@@ -170,7 +171,7 @@ double least_damped_share(const Model& model, const ModelObject& object) {
 }  // namespace
 
 double frequency_bound(const Model& model, const ModelObject& object, Deformation deformation) {
-    // What a handle releases will be free; until then, held, it makes no frequency higher.
+    // Nodes that a handle will release count as free. Held nodes do not make any frequency higher.
     const std::vector<double> inverse_masses = free_inverse_masses(model, object);
     Blocks blocks(object.nodes.count, Eigen::Matrix3d::Zero());
     add_springs(model, object, deformation, inverse_masses, blocks);
@@ -189,7 +190,7 @@ double largest_stable_step(SolverKind solver, double frequency, double damping) 
     if (frequency <= 0.0 || solver == SolverKind::vbd) return std::numeric_limits<double>::infinity();
     const ExplicitScheme& scheme = explicit_scheme(solver);
     double stable = 0.0;
-    double unstable = 4.0 / frequency;  // beyond what any of the schemes holds
+    double unstable = 4.0 / frequency;  // above the limit of all schemes
     for (int i = 0; i < 60; ++i) {
         const double middle = stable > 0.0 ? 0.5 * (stable + unstable) : unstable / 16.0;
         if (is_stable(scheme, frequency, damping, middle)) {
@@ -203,7 +204,7 @@ double largest_stable_step(SolverKind solver, double frequency, double damping) 
 
 double largest_stable_step(SolverKind solver, const Model& model, Deformation deformation) {
     if (solver == SolverKind::vbd) return std::numeric_limits<double>::infinity();
-    // Of bodies with the same damping the one with the highest frequency decides.
+    // Of bodies with the same damping, the one with the highest frequency determines the step.
     std::map<double, double> frequencies;
     for (const ModelObject& object : model.objects) {
         double damping = 0.0;
@@ -240,7 +241,7 @@ int choose_substeps(const Scene& scene, const Model& model) {
     if (needed > kMostSubsteps) {
         throw InvalidInput(
             {scene.file.string(), 0, "simulation.substeps", "\"auto\"",
-             fmt::format("{} would need steps of {:.3g} s, {:.3g} a frame; at most {} are allowed{}",
+             fmt::format("{} would need steps of {:.3g} s, {:.3g} per frame; at most {} are allowed{}",
                          name_of(settings.solver), kSafety * largest, needed, kMostSubsteps, advice)});
     }
     return std::max(1, static_cast<int>(needed));

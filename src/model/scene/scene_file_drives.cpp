@@ -26,7 +26,7 @@ std::vector<Keyframe> read_keyframes(const std::vector<TableReader>& tables) {
             keyframe.move == glm::dvec3(0.0) && keyframe.turn == glm::dvec3(0.0) && keyframe.scale == 1.0;
         if (keyframes.empty() && !rests)
             reader.fail("",
-                        "the first keyframe is where the body starts: it must not move, turn or scale it");
+                        "the first keyframe is where the body starts: it must not move, rotate or scale it");
         if (!keyframes.empty() && keyframe.time <= keyframes.back().time) {
             reader.fail("time", fmt::format("must be greater than that of the keyframe before, {}",
                                             keyframes.back().time));

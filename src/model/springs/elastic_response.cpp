@@ -38,7 +38,7 @@ Columns dot(const Field& a, const Field& b) {
     return sum;
 }
 
-// a / b, and 0 where nothing is left to search for.
+// a / b, and 0 once the residual is zero.
 Columns ratio(const Columns& a, const Columns& b) {
     return (b > 0.0).select(a / b, Columns::Zero());
 }
@@ -54,13 +54,13 @@ public:
                 const std::uint32_t s = net.ends.entries[e] / 2;
                 block += stiffness[s] * net.directions[s] * net.directions[s].transpose();
             }
-            const double floor = 1e-9 * block.trace();  // springs in a plane hold nothing across it
+            const double floor = 1e-9 * block.trace();  // springs in one plane do not resist forces across it
             block.diagonal().array() += floor;
             inverse_blocks_[n] = floor > 0.0 ? Eigen::Matrix3d(block.inverse()) : Eigen::Matrix3d::Zero();
         });
     }
 
-    // Improves `displacements` until they answer `forces`.
+    // Improves `displacements` until they are in equilibrium with `forces`.
     void run(const Field& forces, double tolerance, Field& displacements) const {
         Field residual(forces.size()), search(forces.size()), image(forces.size()), z(forces.size());
         apply(displacements, image);
@@ -88,7 +88,7 @@ public:
     }
 
 private:
-    // The springs' forces against `displacements`, to first order.
+    // The springs' forces for `displacements`, to first order.
     void apply(const Field& displacements, Field& forces) const {
         for_each_index(displacements.size(), [&](std::size_t n) {
             Six sum = Six::Zero();

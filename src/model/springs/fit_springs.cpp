@@ -13,11 +13,12 @@
 namespace gelatin {
 namespace {
 
-constexpr double kLinkShare = 0.4;  // of the continuum's stiffness before the fit; edges have the rest
-constexpr double kShortest = 0.3;   // of the cube root of the volume behind it: shorter links are left out
+constexpr double kLinkShare = 0.4;  // share of the continuum's stiffness before the fit; edges have the rest
+constexpr double kShortest =
+    0.3;  // relative to the cube root of the volume that it represents; shorter links are omitted
 constexpr double kYoungsOverShear = 1.0 / kShearOverYoungs;
 
-// Springs before and while they are fitted, with their stiffness for a shear modulus of 1 [m].
+// Springs before and during the fit, with their stiffness for a shear modulus of 1 [m].
 struct Springs {
     std::vector<Link> links;
     std::vector<double> stiffness;
@@ -57,9 +58,9 @@ std::vector<Link> links_beside(const TetMesh& mesh, const std::vector<double>& v
     return links;
 }
 
-// Each spring's part of `energy`, the sum of k l^2, goes with the volume behind it. In the length of a link
-// counts that volume's, too: the two tets of a link across a sliver's face are nearly one, and so are its
-// ends.
+// Each spring's share of `energy`, the sum of k l^2, is proportional to the volume that it represents. The
+// length of a link is increased by that volume's: the two tets of a link across a sliver's face nearly
+// coincide, and so do its ends.
 void append_start(const TetMesh& mesh, const std::vector<Link>& links, double energy, double bluntness,
                   Springs& springs) {
     double sum = 0.0;
@@ -72,7 +73,7 @@ void append_start(const TetMesh& mesh, const std::vector<Link>& links, double en
     }
 }
 
-// Van Gelder's stiffnesses, shared out between edges and links; in ascending order of nodes.
+// Van Gelder's stiffnesses, distributed over edges and links; in ascending order of nodes.
 Springs start_of_fit(const TetMesh& mesh, const std::vector<double>& volumes, double volume) {
     const std::vector<Link> edges = edge_links(mesh, volumes);
     const std::vector<Link> links = links_beside(mesh, volumes, edges);
@@ -101,16 +102,16 @@ MomentTargets make_targets(const TetMesh& mesh, const std::vector<double>& volum
     return targets;
 }
 
-// sum k l^2, which is 15 V where the energy of dilation is the continuum's.
+// sum k l^2, which is 15 V if the energy of dilation is the continuum's.
 double dilation_energy(const RestNet& net, const std::vector<double>& stiffness) {
     double sum = 0.0;
     for (std::size_t s = 0; s < stiffness.size(); ++s) sum += stiffness[s] * net.lengths[s] * net.lengths[s];
     return sum;
 }
 
-// What to multiply stiffnesses by, so that 1 / E has the right mean over the three axes. Over all directions
-// it would be too much for bars, which are mostly stretched along an axis: on coarse meshes the skin is
-// softer in shear than in tension, which shows in between.
+// The factor for all stiffnesses that gives 1 / E the right mean over the three axes. A mean over all
+// directions would make bars too stiff. They are mostly stretched along an axis, and on coarse meshes the
+// surface layer is softer in shear than in tension, which affects the other directions.
 double missing_factor(const ElasticResponse& response) {
     double sum = 0.0;
     for (int axis = 0; axis < 3; ++axis) sum += response.compliance(axis, axis);

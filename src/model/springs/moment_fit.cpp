@@ -12,9 +12,9 @@ constexpr double kLeastFactor = 0.05;
 constexpr double kStayNearOne = 0.01;  // of a spring's k l^2
 constexpr int kSteps = 40;
 
-// Symmetric tensors of third and of fourth order, one entry for each set of equal ones, times the root of
-// their number: the scalar product of two such vectors is that of the tensors. That of n n n with m m m is (n
-// . m)^3.
+// Symmetric tensors of third and of fourth order, with one entry for each set of equal components, times the
+// square root of their number. The scalar product of two such vectors is that of the tensors. That of n n n
+// with m m m is (n . m)^3.
 using Third = Eigen::Matrix<double, 10, 1>;
 using Fourth = Eigen::Matrix<double, 15, 1>;
 const double kRoot3 = std::sqrt(3.0), kRoot6 = std::sqrt(6.0), kRoot12 = std::sqrt(12.0);
@@ -53,14 +53,14 @@ Fourth isotropic_fourth() {
     return m;
 }
 
-// A node's two sets of equations, or what they miss.
+// A node's two sets of equations, or their residuals.
 struct Moments {
     Third force;
     Fourth energy;
 };
 
-// Minimises 1/2 |A s - b|^2 + 1/2 kStayNearOne sum k l^2 (s - 1)^2, two sets of rows a node. Rows are divided
-// by the root of a stiffness, so that their squares are energies.
+// Minimises 1/2 |A s - b|^2 + 1/2 kStayNearOne sum k l^2 (s - 1)^2, with two sets of rows for each node. Rows
+// are divided by the root of a stiffness, so that their squares are energies.
 class Problem {
 public:
     Problem(const RestNet& net, const std::vector<double>& stiffness, const MomentTargets& targets)
@@ -79,7 +79,7 @@ public:
             for (int end = 0; end < 2; ++end) force_weights_[net.nodes[s][end]] += stiffness[s];
         }
         for (std::size_t n = 0; n < net.node_count(); ++n) {
-            if (force_weights_[n] == 0.0) continue;  // a node of no tet
+            if (force_weights_[n] == 0.0) continue;  // a node without tets
             force_weights_[n] = 1.0 / force_weights_[n];
             energy_weights_[n] = 1.0 / (3.0 * targets.node_volumes[n]);
         }
@@ -99,8 +99,8 @@ public:
         });
     }
 
-    // A diagonal matrix C such that C - A^T A - pull is positive semi-definite: steps of its inverse never
-    // overshoot. With H_st what springs s and t have to do with each other in a node's equations, and d_s =
+    // A diagonal matrix C such that C - A^T A - kStayNearOne k l^2 is positive semi-definite: steps with its
+    // inverse never overshoot. With H_st the coupling of springs s and t in a node's equations, and d_s =
     // H_ss, |H_st x_s x_t| <= |H_st| (x_s^2 (d_s / d_t)^1/2 + x_t^2 (d_t / d_s)^1/2) / 2.
     Eigen::VectorXd curvature_bound() const {
         Eigen::VectorXd bound = pull_;
@@ -131,7 +131,7 @@ private:
         return force_weights_[node] * force_[s] * force_[s] + energy_weights_[node] * energy_[s] * energy_[s];
     }
 
-    // What the springs of node n lack or have too much of, times the squares of the rows' weights.
+    // The residual of the springs of node n, times the squares of the rows' weights.
     Moments weighted_miss(std::size_t n, const Eigen::VectorXd& s) const {
         static const Fourth isotropic = isotropic_fourth();
         Moments sum{-isotropic_third(targets_.boundary_areas[n]), -targets_.node_volumes[n] * isotropic};
@@ -159,7 +159,7 @@ private:
 }  // namespace
 
 // Accelerated projected gradient (Beck, Teboulle, "A fast iterative shrinkage-thresholding algorithm for
-// linear inverse problems", SIAM J. Imaging Sciences 2(1), 2009), each spring with a step of its own.
+// linear inverse problems", SIAM J. Imaging Sciences 2(1), 2009), with a separate step size for each spring.
 std::vector<double> fit_to_moments(const RestNet& net, const std::vector<double>& stiffness,
                                    const MomentTargets& targets) {
     Problem problem(net, stiffness, targets);

@@ -11,7 +11,7 @@
 
 namespace gelatin {
 
-/// Springs at rest, in double precision, as the linear theory of small strains sees them.
+/// Springs at rest, in double precision, for the linear theory of small strains.
 struct RestNet {
     std::vector<glm::uvec2> nodes;            ///< of each spring, shape [springs]
     std::vector<Eigen::Vector3d> directions;  ///< from the first node to the second, unit, shape [springs]
@@ -25,8 +25,8 @@ struct RestNet {
 /// @pre no link's nodes coincide
 RestNet make_rest_net(const TetMesh& mesh, const std::vector<Link>& links);
 
-/// The part of the boundary that each node stands for: a third of the area normals of the boundary faces
-/// round it, outwards [m^2], shape [nodes]. A uniform stress sigma pulls at node i with the force sigma g_i.
+/// The part of the boundary that each node represents: a third of the area normals of the boundary faces
+/// around it, outwards [m^2], shape [nodes]. A uniform stress sigma acts on node i with the force sigma g_i.
 std::vector<Eigen::Vector3d> boundary_areas(const TetMesh& mesh);
 
 }  // namespace gelatin

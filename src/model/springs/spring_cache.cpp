@@ -9,7 +9,7 @@
 namespace gelatin {
 namespace {
 
-// Part of the key: to be raised when fit_springs gives something else.
+// Part of the key. Increase it when the results of fit_springs change.
 constexpr const char* kFormat = "gelatin springs 1";
 
 static_assert(sizeof(UnitSpring) == 16);

@@ -7,12 +7,12 @@
 
 namespace gelatin {
 
-/// Fitted springs, kept on disk with the mesh they were fitted to as their key (disk_cache.h).
+/// Fitted springs, stored on disk with the mesh to which they were fitted as the key (disk_cache.h).
 class SpringCache {
 public:
     explicit SpringCache(std::filesystem::path folder = DiskCache::default_folder());
 
-    /// fit_springs(mesh), or what it gave before.
+    /// fit_springs(mesh), or its stored result.
     FittedSprings fit(const TetMesh& mesh) const;
 
 private:

@@ -9,7 +9,7 @@
 namespace gelatin {
 namespace {
 
-// A pair of nodes and what a spring between them stands for.
+// A pair of nodes, with sums over the tets that a spring between them represents.
 struct Known {
     glm::uvec2 nodes;
     double modulus;  // [Pa]
@@ -32,14 +32,14 @@ std::vector<double> combined(const std::vector<double>& a, const std::vector<dou
     return result;
 }
 
-// Quotients of the values that two lists give the same pairs.
+// Quotients of the values that two lists have for the same pairs.
 std::vector<Known> quotients(const std::vector<Link>& a, const std::vector<Link>& b) {
     std::vector<Known> result;
     for (std::size_t k = 0; k < a.size(); ++k) result.push_back({a[k].nodes, a[k].volume / b[k].volume});
     return result;
 }
 
-// The tets round a surface edge are what lies between the corners across it.
+// The tets around a surface edge are those between the corners across it.
 std::vector<Known> across_surface(const TetMesh& mesh, const std::vector<Known>& fans) {
     std::vector<Known> result;
     for (const SurfaceEdge& edge : surface_edges(mesh.faces)) {
@@ -51,7 +51,7 @@ std::vector<Known> across_surface(const TetMesh& mesh, const std::vector<Known>&
     return result;
 }
 
-// Sums over the tets round each node.
+// Sums over the tets around each node.
 std::vector<double> sums_at_nodes(const TetMesh& mesh, const std::vector<double>& tet_values) {
     std::vector<double> sums(mesh.positions.size(), 0.0);
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {

@@ -11,16 +11,15 @@
 namespace gelatin {
 namespace {
 
-// Shares of the continuum's stiffness before they are scaled to the kinds that a material has; 3 : 2 between
-// edges and links is what keeps irregular nets closest to isotropy.
+// Shares of the continuum's stiffness before they are scaled to the kinds that a material has. The ratio 3 :
+// 2 between edges and links keeps irregular nets closest to isotropy.
 constexpr double kStructuralShare = 3.0;
 constexpr double kShearShare = 2.0;
 constexpr double kFlexShare = 1.0;
 
 constexpr double kStraightestCosine = 0.8660254;  // 30 degrees
 
-// From `node` over `middle`: the neighbour of `middle` that goes on the straightest, or `node` if none is
-// straight.
+// The neighbour of `middle` that continues the line from `node` most nearly straight, or `node` if none does.
 std::uint32_t straight_continuation(const TetMesh& mesh, const Graph& graph, std::uint32_t node,
                                     std::uint32_t middle) {
     const glm::dvec3 along = glm::normalize(mesh.positions[middle] - mesh.positions[node]);

@@ -18,7 +18,7 @@ using test::TrianglePair;
 template <class Real>
 class TriangleOverlap : public ::testing::Test {
 protected:
-    // Every case stands for all orders of the vertices and of the triangles.
+    // Every case represents all orders of the vertices and of the triangles.
     static bool overlap(Triangle<Real> s, Triangle<Real> t) {
         const bool result = cpu::triangles_overlap<Real>(s, t);
         constexpr int kSwaps[] = {0, 1, 0, 1, 0, 1};  // of vertices k and k + 1: all six orders, and back

@@ -126,8 +126,8 @@ const Start kStarts[] = {
 };
 
 // The softest bodies take ten seconds to swing out, damped. Bodies that hardly change their volume may end in
-// another minimum, where the tets round an edge go round it twice, none of them inverted (docs/physics.md):
-// they are only flattened here.
+// another minimum, where the tets around an edge wind around it twice, none of them inverted
+// (docs/finite-elements.md): they are only flattened here.
 TEST(NeoHookeanDescentHeavy, RecoversFromAnyStart) {
     for (const double nu : {0.3, 0.45}) {
         for (const double modulus : {1e3, 1e6, 1e9}) {

@@ -6,6 +6,7 @@
 
 #include "cpu/collision/collision.h"
 #include "gpu/gpu_solver.h"
+#include "support/collision_scenarios.h"
 #include "support/crowd.h"
 #include "support/gl_fixture.h"
 #include "support/test_models.h"
@@ -47,29 +48,20 @@ TEST_F(CollisionOnGpuTest, BoxesAreThoseOfTheCpu) {
         expect_boxes_of_the_cpu(model, detection);
 }
 
-class CrowdOnGpuTest : public test::GlTest, public ::testing::WithParamInterface<int> {};
-INSTANTIATE_TEST_SUITE_P(Objects, CrowdOnGpuTest, ::testing::Values(2, 3, 7, 30, 200));
+class CollisionParityTest : public test::ParityTest {};
+INSTANTIATE_TEST_SUITE_P(All, CollisionParityTest, ::testing::ValuesIn(test::collision_scenarios()),
+                         test::name_of_scenario);
 
-TEST_P(CrowdOnGpuTest, CollidesAsOnTheCpu) {
-    const Model model = test::make_crowd(GetParam(), static_cast<unsigned>(GetParam()));
-    const test::FaceCollisions expected =
-        test::find_collisions_on_cpu<float>(model, {.broad_phase = BroadPhase::none});
-    EXPECT_FALSE(expected.empty()) << "the crowd is not dense enough to test anything";
-    for (const BroadPhase broad_phase : kBroadPhases) {
-        EXPECT_EQ(test::find_collisions_on_gpu(model, {.broad_phase = broad_phase}), expected);
-    }
+TEST_P(CollisionParityTest, CollidesAsOnTheCpu) {
+    EXPECT_LE(GetParam().error(), 1.0);
 }
 
-TEST_P(CrowdOnGpuTest, CollidesOnTheWayAsOnTheCpu) {
-    constexpr double kStep = 0.1;  // [s]
-    const Model model = test::make_crowd(GetParam(), static_cast<unsigned>(GetParam()));
-    CollisionSettings settings{.detection = CollisionDetection::continuous};
-    const test::FaceCollisions expected = test::find_collisions_on_cpu<double>(model, settings, kStep);
-    EXPECT_GT(expected.size(), test::find_collisions_on_cpu<float>(model, {}).size());
-    for (const BroadPhase broad_phase : {BroadPhase::none, BroadPhase::boxes, BroadPhase::hierarchy}) {
-        settings.broad_phase = broad_phase;
-        EXPECT_EQ(test::find_collisions_on_gpu(model, settings, kStep), expected);
-    }
+class ContinuousCollisionParityTest : public test::ParityTest {};
+INSTANTIATE_TEST_SUITE_P(All, ContinuousCollisionParityTest,
+                         ::testing::ValuesIn(test::continuous_collision_scenarios()), test::name_of_scenario);
+
+TEST_P(ContinuousCollisionParityTest, CollidesOnTheWayAsOnTheCpu) {
+    EXPECT_LE(GetParam().error(), 1.0);
 }
 
 // A body as large as the paper's against many small ones: blocks of candidates longer than one.

@@ -4,18 +4,20 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "gl/buffer.h"
 #include "gl/program.h"
-#include "support/gl_fixture.h"
+#include "gl/shader_source.h"
 #include "support/moving_pairs.h"
-#include "support/shader_folder.h"
-#include "support/source_path.h"
+#include "support/mutants.h"
+#include "support/scenario.h"
 
 namespace gelatin {
 namespace {
 
+using test::MutantsTest;
 using test::PairOf;
 using Pairs = std::vector<test::MovingPair<float>>;
 
@@ -38,27 +40,8 @@ void main() {
 }
 )";
 
-struct Change {
-    const char* name = "none";
-    const char* file = "sim/collision/time_of_impact.glsl";
-    std::string from, to;
-};
-
-std::string changed_include(const std::string& file, const Change& change) {
-    std::string text = read_file(test::source_path("shaders/") + file);
-    if (file != change.file) return text;
-    const std::size_t at = text.find(change.from);
-    EXPECT_NE(at, std::string::npos) << "the shader no longer has: " << change.from;
-    return at == std::string::npos ? text : text.replace(at, change.from.size(), change.to);
-}
-
-std::vector<float> times_on_gpu(const Pairs& pairs, const Change& change = {}) {
-    test::ShaderFolder folder;
-    folder.add("probe.comp", kProbe);
-    for (const char* file :
-         {"include/global_index.glsl", "layouts/predicates.glsl", "sim/collision/rounding.glsl",
-          "sim/collision/nearest_points.glsl", "sim/collision/time_of_impact.glsl"})
-        folder.add(file, changed_include(file, change));
+std::vector<float> times_on_gpu(const Pairs& pairs) {
+    const gl::ShaderOverride probe("probe.comp", kProbe);
     const gl::Program program = gl::Program::compute("probe.comp");
 
     std::vector<glm::vec4> points;
@@ -79,57 +62,52 @@ std::vector<float> times_on_gpu(const Pairs& pairs, const Change& change = {}) {
     return times;
 }
 
-struct Differences {
-    std::size_t touching = 0;    // on either
-    std::size_t misses = 0;      // that double finds and comes_near confirms
-    std::size_t verdicts = 0;    // that differ
-    std::size_t times = 0;       // that differ by more than rounding
-    std::size_t far_alarms = 0;  // impacts at a time when faces are apart
-    bool guard_is_untouched = true;
-};
-
-Differences compare_with_cpu(const Pairs& pairs, const Change& change = {}) {
-    const std::vector<float> times = times_on_gpu(pairs, change);
-    Differences differences;
+// Rounding differs by driver, so that what nearly touches may be told otherwise: one verdict may differ, and
+// one time in a thousand.
+double cpu_disagreement(PairOf what) {
+    const Pairs pairs = test::random_moving_pairs<float>(what, 20'001, 40);
+    const std::vector<float> times = times_on_gpu(pairs);
+    std::size_t touching = 0, verdicts = 0, differing_times = 0;
     for (std::size_t n = 0; n < pairs.size(); ++n) {
         const std::optional<float> expected = test::impact(PairOf::faces, pairs[n]);
         const bool touches = times[n] != kNever;
-        differences.touching += touches || expected;
-        differences.verdicts += touches != expected.has_value();
-        if (touches && expected) differences.times += !(std::abs(times[n] - *expected) < 1e-3f);
+        touching += touches || expected;
+        verdicts += touches != expected.has_value();
+        if (touches && expected) differing_times += !(std::abs(times[n] - *expected) < 1e-3f);
     }
-    for (std::size_t n = pairs.size(); n < times.size(); ++n)
-        differences.guard_is_untouched = differences.guard_is_untouched && times[n] == kPoison;
-    return differences;
+    for (std::size_t n = pairs.size(); n < times.size(); ++n) {
+        if (times[n] != kPoison) return test::error_if(true);
+    }
+    if (touching <= pairs.size() / 100) return test::error_if(true);  // nothing to compare
+    return std::max(double(verdicts), double(differing_times) / double(pairs.size() / 1000));
 }
 
-class TimeOfImpactTest : public test::GlTest {};
-
-// Rounding differs by driver, so that what nearly touches may be told otherwise.
-TEST_F(TimeOfImpactTest, RandomPairs) {
-    for (const auto& [what, name] : test::kPairsOf) {
-        SCOPED_TRACE(name);
-        const Pairs pairs = test::random_moving_pairs<float>(what, 20'001, 40);
-        const Differences differences = compare_with_cpu(pairs);
-        EXPECT_GT(differences.touching, pairs.size() / 100);
-        EXPECT_LE(differences.verdicts, 1u);
-        EXPECT_LE(differences.times, pairs.size() / 1000);
-        EXPECT_TRUE(differences.guard_is_untouched);
-    }
+double missed_impacts(PairOf what) {
+    const std::vector<float> times = times_on_gpu(test::touching_pairs<float>(what, 50'001, 41));
+    return test::error_if(std::count(times.begin(), times.end(), kNever) > 0);
 }
 
-TEST_F(TimeOfImpactTest, NoImpactIsMissed) {
+test::Scenarios impact_scenarios() {
+    test::Scenarios scenarios;
     for (const auto& [what, name] : test::kPairsOf) {
-        SCOPED_TRACE(name);
-        std::size_t misses = 0;
-        for (const float time : times_on_gpu(test::touching_pairs<float>(what, 50'001, 41)))
-            misses += time == kNever;
-        EXPECT_EQ(misses, 0u);
+        scenarios.push_back(
+            {name + std::string("_that_touch"), [what = what] { return missed_impacts(what); }});
+        scenarios.push_back(
+            {name + std::string("_at_random"), [what = what] { return cpu_disagreement(what); }});
     }
+    return scenarios;
+}
+
+class TimeOfImpactParityTest : public test::ParityTest {};
+INSTANTIATE_TEST_SUITE_P(All, TimeOfImpactParityTest, ::testing::ValuesIn(impact_scenarios()),
+                         test::name_of_scenario);
+
+TEST_P(TimeOfImpactParityTest, MissesNothingAndMatchesTheCpu) {
+    EXPECT_LE(GetParam().error(), 1.0);
 }
 
 // Broken in these ways, the shader misses impacts or sees what is far away touch.
-const Change kMutants[] = {
+constexpr test::Mutant kMutants[] = {
     {"rounding_is_forgotten", "sim/collision/time_of_impact.glsl",
      "kRoundingBound = float(kImpactRounding) * kEpsilon", "kRoundingBound = 0.0"},
     {"a_corner_is_forgotten", "sim/collision/time_of_impact.glsl", "low_end = low_end.yzx;", ""},
@@ -147,22 +125,8 @@ const Change kMutants[] = {
     {"the_way_back", "sim/collision/nearest_points.glsl",
      "-to.apart, to.squared_distance);\n        s =", "to.apart, to.squared_distance);\n        s ="},
 };
-class TimeOfImpactMutantsTest : public test::GlTest, public ::testing::WithParamInterface<Change> {};
-INSTANTIATE_TEST_SUITE_P(All, TimeOfImpactMutantsTest, ::testing::ValuesIn(kMutants),
-                         [](const auto& test) { return std::string(test.param.name); });
-
-TEST_P(TimeOfImpactMutantsTest, IsCaught) {
-    Pairs touching;
-    for (const auto& [what, name] : test::kPairsOf) {
-        for (const auto& pair : test::touching_pairs<float>(what, 20'000, 42)) touching.push_back(pair);
-    }
-    std::size_t misses = 0;
-    for (const float time : times_on_gpu(touching, GetParam())) misses += time == kNever;
-    const Differences differences =
-        compare_with_cpu(test::random_moving_pairs<float>(PairOf::faces, 20'001, 40), GetParam());
-    EXPECT_TRUE(misses > 0 || differences.verdicts > 1 || differences.times > 20)
-        << "the broken shader passes";
-}
+INSTANTIATE_TEST_SUITE_P(TimeOfImpact, MutantsTest,
+                         ::testing::ValuesIn(test::cases(kMutants, impact_scenarios())), test::name_of_case);
 
 }  // namespace
 }  // namespace gelatin

@@ -9,14 +9,15 @@
 
 #include "gl/buffer.h"
 #include "gl/program.h"
-#include "support/gl_fixture.h"
-#include "support/shader_folder.h"
-#include "support/source_path.h"
+#include "gl/shader_source.h"
+#include "support/mutants.h"
+#include "support/scenario.h"
 #include "support/triangle_pairs.h"
 
 namespace gelatin {
 namespace {
 
+using test::MutantsTest;
 using Pairs = std::vector<test::TrianglePair<float>>;
 
 constexpr std::uint32_t kPoison = 7;
@@ -38,25 +39,8 @@ void main() {
 }
 )";
 
-struct Change {
-    const char* name = "none";
-    std::string from, to;
-};
-
-std::string changed_include(const Change& change) {
-    std::string text = read_file(test::source_path("shaders/sim/collision/triangle_overlap.glsl"));
-    const std::size_t at = text.find(change.from);
-    EXPECT_NE(at, std::string::npos) << "the shader no longer has: " << change.from;
-    return at == std::string::npos ? text : text.replace(at, change.from.size(), change.to);
-}
-
-std::vector<std::uint32_t> overlaps_on_gpu(const Pairs& pairs, const Change& change = {}) {
-    test::ShaderFolder folder;
-    folder.add("probe.comp", kProbe);
-    for (const std::string file :
-         {"include/global_index.glsl", "layouts/predicates.glsl", "sim/collision/rounding.glsl"})
-        folder.add(file, read_file(test::source_path("shaders/" + file)));
-    folder.add("sim/collision/triangle_overlap.glsl", changed_include(change));
+std::vector<std::uint32_t> overlaps_on_gpu(const Pairs& pairs) {
+    const gl::ShaderOverride probe("probe.comp", kProbe);
     const gl::Program program = gl::Program::compute("probe.comp");
 
     std::vector<glm::vec4> points;
@@ -84,10 +68,8 @@ std::vector<std::uint32_t> overlaps_on_cpu(const Pairs& pairs) {
     return overlaps;
 }
 
-std::size_t difference_count(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
-    std::size_t count = 0;
-    for (std::size_t n = 0; n < a.size(); ++n) count += a[n] != b[n];
-    return count;
+double cpu_disagreement(const Pairs& pairs) {
+    return test::error_if(overlaps_on_gpu(pairs) != overlaps_on_cpu(pairs));
 }
 
 // The same pairs again with other orders of triangles and vertices.
@@ -110,31 +92,7 @@ Pairs pairs_of_all_kinds(std::size_t count) {
     return pairs;
 }
 
-class TriangleOverlapTest : public test::GlTest {
-protected:
-    static void expect_equal_to_cpu(const Pairs& pairs) {
-        EXPECT_EQ(difference_count(overlaps_on_gpu(pairs), overlaps_on_cpu(pairs)), 0u);
-    }
-};
-
-TEST_F(TriangleOverlapTest, RandomPairs) {
-    const Pairs pairs = test::random_pairs<float>(20'001, 30);
-    ASSERT_NE(pairs.size() % 64, 0u);
-    expect_equal_to_cpu(pairs);
-}
-
-TEST_F(TriangleOverlapTest, DegeneratePairsInAnyOrder) {
-    expect_equal_to_cpu(and_in_other_orders(pairs_of_all_kinds(500)));
-}
-
-// Drivers may flush to zero what is subnormal in float.
-TEST_F(TriangleOverlapTest, ProductsThatUnderflowOrOverflow) {
-    Pairs pairs = pairs_of_all_kinds(100);
-    for (const auto& pair : test::random_pairs<float>(2000, 32)) pairs.push_back(pair);
-    for (const int exponent : {-45, -40, 70}) expect_equal_to_cpu(test::scaled(pairs, exponent));
-}
-
-TEST_F(TriangleOverlapTest, WhatIsNotFiniteOverlapsNothing) {
+double worst_of_pairs_that_are_not_finite() {
     using Limits = std::numeric_limits<float>;
     Pairs pairs;
     for (const float bad : {Limits::infinity(), -Limits::infinity(), Limits::quiet_NaN()}) {
@@ -147,47 +105,69 @@ TEST_F(TriangleOverlapTest, WhatIsNotFiniteOverlapsNothing) {
     }
     std::vector<std::uint32_t> expected(pairs.size(), 0);
     expected.resize(pairs.size() + kGuard, kPoison);
-    EXPECT_EQ(overlaps_on_gpu(pairs), expected);
+    return test::error_if(overlaps_on_gpu(pairs) != expected);
 }
 
-class TriangleOverlapHeavyTest : public TriangleOverlapTest {};
+test::Scenarios triangle_scenarios() {
+    test::Scenarios scenarios{
+        {"degenerate_in_any_order",
+         [] { return cpu_disagreement(and_in_other_orders(pairs_of_all_kinds(3000))); }},
+        {"not_finite", worst_of_pairs_that_are_not_finite},
+        {"random", [] { return cpu_disagreement(test::random_pairs<float>(20'001, 30)); }}};
+    // Drivers may flush to zero what is subnormal in float.
+    for (const auto& [name, exponent] :
+         {std::pair{"small", -20}, {"tiny", -40}, {"underflowing", -45}, {"overflowing", 70}}) {
+        scenarios.push_back({name, [exponent = exponent] {
+                                 Pairs pairs = pairs_of_all_kinds(500);
+                                 for (const auto& pair : test::random_pairs<float>(2000, 32))
+                                     pairs.push_back(pair);
+                                 return cpu_disagreement(test::scaled(pairs, exponent));
+                             }});
+    }
+    return scenarios;
+}
+
+class TriangleOverlapParityTest : public test::ParityTest {};
+INSTANTIATE_TEST_SUITE_P(All, TriangleOverlapParityTest, ::testing::ValuesIn(triangle_scenarios()),
+                         test::name_of_scenario);
+
+TEST_P(TriangleOverlapParityTest, MatchesTheCpu) {
+    EXPECT_LE(GetParam().error(), 1.0);
+}
+
+class TriangleOverlapHeavyTest : public test::GlTest {};
 
 TEST_F(TriangleOverlapHeavyTest, RandomPairs) {
-    expect_equal_to_cpu(test::random_pairs<float>(150'000, 33));
+    EXPECT_EQ(cpu_disagreement(test::random_pairs<float>(150'000, 33)), 0.0);
 }
 
 TEST_F(TriangleOverlapHeavyTest, DegeneratePairsInAnyOrder) {
-    expect_equal_to_cpu(and_in_other_orders(pairs_of_all_kinds(5000)));
+    EXPECT_EQ(cpu_disagreement(and_in_other_orders(pairs_of_all_kinds(5000))), 0.0);
 }
 
 // Broken in these ways, the shader is told from its twin.
-const Change kMutants[] = {
-    {"the_order_of_vertices_matters", "comes_before(b, a)", "false"},
-    {"float_is_trusted", "9.5367432e-7", "0.0"},
-    {"float_is_not_settled_in_double", "rest = zero_signs(signs)", "rest = 0u"},
-    {"double_is_trusted", "1.7763568394002505e-15lf", "0.0lf"},
-    {"underflow_is_forgotten", "1.5777218e-30", "0.0"},
-    {"an_edge_is_forgotten", "open_edges |= 8u << i;", ""},
-    {"turns_are_shifted", "turns = kEdgeOfT << i", "turns = kEdgeOfT << (i + 1)"},
-    {"projections_are_not_asked", "line < 4", "line < 0"},
-    {"a_line_is_not_asked", "line < 4", "line < 3"},
-    {"boxes_are_not_asked", "bool misses = ", "bool misses = false && "},
-    {"own_corner_is_ignored", "outer * (outer - own)", "3 * abs(outer)"},
-    {"nan_is_taken", "uvec3(0x7f800000u)", "uvec3(0u, 0u, 0u) - 1u"},
+constexpr test::Mutant kMutants[] = {
+    {"the_order_of_vertices_matters", "sim/collision/triangle_overlap.glsl", "comes_before(b, a)", "false"},
+    {"float_is_trusted", "sim/collision/triangle_overlap.glsl", "float(kOverlapRounding) * kEpsilon", "0.0"},
+    {"float_is_not_settled_in_double", "sim/collision/triangle_overlap.glsl", "rest = zero_signs(signs)",
+     "rest = 0u"},
+    {"double_is_trusted", "sim/collision/triangle_overlap.glsl", "1.7763568394002505e-15lf", "0.0lf"},
+    {"underflow_is_forgotten", "sim/collision/rounding.glsl", "float(kUnderflowRounding) * kLeastNormal",
+     "0.0"},
+    {"an_edge_is_forgotten", "sim/collision/triangle_overlap.glsl", "open_edges |= 8u << i;", ""},
+    {"turns_are_shifted", "sim/collision/triangle_overlap.glsl", "turns = kEdgeOfT << i",
+     "turns = kEdgeOfT << (i + 1)"},
+    {"projections_are_not_asked", "sim/collision/triangle_overlap.glsl", "line < 4", "line < 0"},
+    {"a_line_is_not_asked", "sim/collision/triangle_overlap.glsl", "line < 4", "line < 3"},
+    {"boxes_are_not_asked", "sim/collision/triangle_overlap.glsl",
+     "bool misses = ", "bool misses = false && "},
+    {"own_corner_is_ignored", "sim/collision/triangle_overlap.glsl", "outer * (outer - own)",
+     "3 * abs(outer)"},
+    {"nan_is_taken", "sim/collision/triangle_overlap.glsl", "uvec3(0x7f800000u)", "uvec3(0u, 0u, 0u) - 1u"},
 };
-class TriangleOverlapMutantsTest : public test::GlTest, public ::testing::WithParamInterface<Change> {};
-INSTANTIATE_TEST_SUITE_P(All, TriangleOverlapMutantsTest, ::testing::ValuesIn(kMutants),
-                         [](const auto& test) { return std::string(test.param.name); });
-
-TEST_P(TriangleOverlapMutantsTest, IsCaught) {
-    Pairs pairs = and_in_other_orders(pairs_of_all_kinds(3000));
-    for (const auto& pair : test::scaled(pairs_of_all_kinds(500), -20)) pairs.push_back(pair);
-    pairs.push_back(pairs.front());
-    pairs.back().s[1].y = std::numeric_limits<float>::quiet_NaN();
-    const std::vector<std::uint32_t> expected = overlaps_on_cpu(pairs);
-    ASSERT_EQ(difference_count(overlaps_on_gpu(pairs), expected), 0u);
-    EXPECT_GT(difference_count(overlaps_on_gpu(pairs, GetParam()), expected), 0u);
-}
+INSTANTIATE_TEST_SUITE_P(TriangleOverlap, MutantsTest,
+                         ::testing::ValuesIn(test::cases(kMutants, triangle_scenarios())),
+                         test::name_of_case);
 
 }  // namespace
 }  // namespace gelatin

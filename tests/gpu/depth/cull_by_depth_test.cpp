@@ -10,6 +10,7 @@
 #include <random>
 
 #include "gpu/collision_stages.h"
+#include "support/collision_scenarios.h"
 #include "support/crowd.h"
 #include "support/gl_fixture.h"
 #include "support/test_models.h"
@@ -61,6 +62,14 @@ Left find_left(const Model& model, BroadPhase broad_phase = BroadPhase::depth) {
     return left;
 }
 
+class FarPairParityTest : public test::ParityTest {};
+INSTANTIATE_TEST_SUITE_P(All, FarPairParityTest, ::testing::ValuesIn(test::far_pair_scenarios()),
+                         test::name_of_scenario);
+
+TEST_P(FarPairParityTest, LosesNothing) {
+    EXPECT_LE(GetParam().error(), 1.0);
+}
+
 class CullByDepthTest : public test::GlTest {
 protected:
     static void expect_nothing_lost(const Model& model, std::size_t least = 1) {
@@ -96,15 +105,6 @@ TEST_P(CullHardPlacesTest, LosesNothing) {
     Model model = test::make_crowd(GetParam().objects, 5);
     for (glm::vec4& p : model.positions) p = glm::vec4(GetParam().move(glm::dvec3(p)), p.w);
     expect_nothing_lost(model, 50);
-}
-
-// Cubes from a hundredth of a pixel to some pixels: often no centre of a pixel lies in a face, or in what
-// touches.
-TEST_F(CullByDepthTest, LosesNothingThatIsNearThePixelsSize) {
-    for (const double extent : {1000.0, 20.0, 8.0, 4.0, 2.0}) {
-        SCOPED_TRACE(extent);
-        expect_nothing_lost(test::make_far_pairs(200, extent), 400);
-    }
 }
 
 TEST_F(CullByDepthTest, LosesNothingBetweenLargeAndSmall) {

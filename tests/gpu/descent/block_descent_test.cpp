@@ -5,77 +5,32 @@
 #include "cpu/descent/block_descent.h"
 #include "support/descend_on_gpu.h"
 #include "support/gl_fixture.h"
-#include "support/parity.h"
+#include "support/solver_scenarios.h"
 #include "support/test_models.h"
 
 namespace gelatin {
 namespace {
 
+class BlockDescentParityTest : public test::ParityTest {};
+INSTANTIATE_TEST_SUITE_P(All, BlockDescentParityTest, ::testing::ValuesIn(test::descent_scenarios()),
+                         test::name_of_scenario);
+
+TEST_P(BlockDescentParityTest, MatchesTheDoubleReference) {
+    EXPECT_LE(GetParam().error(), 1.0);
+}
+
+class DrivenDescentParityTest : public test::ParityTest {};
+INSTANTIATE_TEST_SUITE_P(All, DrivenDescentParityTest, ::testing::ValuesIn(test::driven_descent_scenarios()),
+                         test::name_of_scenario);
+
+TEST_P(DrivenDescentParityTest, MatchesTheDoubleReference) {
+    EXPECT_LE(GetParam().error(), 1.0);
+}
+
 class BlockDescentOnGpuTest : public test::GlTest {};
 
-TEST_F(BlockDescentOnGpuTest, MatchesTheDoubleReference) {
-    for (const double damping : {0.0, 0.01}) {
-        const Model model = test::make_bodies_to_descend(damping);
-        ASSERT_NE(model.node_count() % 64, 0u);
-        for (const double step : {1e-3, 1.0 / 60.0}) {
-            for (const int iterations : {1, 2, 3, 10}) {
-                const test::Descent descent{step, {iterations}};
-                const test::NodeArrays actual = test::descend_on_gpu(model, descent);
-                EXPECT_LE(test::worst_descent_error(model, descent, actual), 1.0)
-                    << damping << " s, " << step << " s, " << iterations << " sweeps";
-                EXPECT_TRUE(test::guard_is_untouched(actual.positions, model.node_count()));
-                EXPECT_TRUE(test::guard_is_untouched(actual.velocities, model.node_count()));
-            }
-        }
-    }
-}
-
-TEST_F(BlockDescentOnGpuTest, MatchesTheDoubleReferenceWithLoadsAndHandles) {
-    for (const double poisson_ratio : {0.25, 0.4}) {
-        const Model model =
-            test::make_bodies_to_descend(0.01, poisson_ratio, MaterialModel::mass_spring, true);
-        ASSERT_FALSE(model.loads.empty() || model.handles.empty());
-        for (const double step : {1e-3, 1.0 / 60.0}) {
-            const test::Descent descent{step, {3}};
-            EXPECT_LE(test::worst_descent_error(model, descent, test::descend_on_gpu(model, descent)), 1.0)
-                << poisson_ratio << ", " << step << " s";
-        }
-    }
-}
-
-TEST_F(BlockDescentOnGpuTest, KeepsVolumesAsTheDoubleReference) {
-    for (const double poisson_ratio : {0.1, 0.4}) {
-        const Model model = test::make_bodies_to_descend(0.0, poisson_ratio);
-        const test::Descent descent{1.0 / 60.0, {5}};
-        const test::NodeArrays actual = test::descend_on_gpu(model, descent);
-        EXPECT_LE(test::worst_descent_error(model, descent, actual), 1.0) << poisson_ratio;
-    }
-}
-
-TEST_F(BlockDescentOnGpuTest, AcceleratesAsTheDoubleReference) {
-    const Model model = test::make_bodies_to_descend(0.01);
-    const test::Descent descent{1.0 / 60.0, {6, 0.8}};
-    EXPECT_LE(test::worst_descent_error(model, descent, test::descend_on_gpu(model, descent)), 1.0);
-}
-
-// Earlier velocities from which some nodes have gained less than nothing, some a part of gravity, some more
-// than all.
-TEST_F(BlockDescentOnGpuTest, LooksBackAsTheDoubleReference) {
-    const Model model = test::make_bodies_to_descend(0.0);
-    test::Descent descent{1.0 / 60.0, {1}, model.velocities};
-    for (std::uint32_t n = 0; n < model.node_count(); ++n)
-        descent.earlier_velocities[n].y += 0.1f * static_cast<float>(n % 8) - 0.25f;
-    EXPECT_LE(test::worst_descent_error(model, descent, test::descend_on_gpu(model, descent)), 1.0);
-}
-
-TEST_F(BlockDescentOnGpuTest, MatchesTheDoubleReferenceOfTurnedBodies) {
-    const Model model = test::make_bodies_to_descend(0.01);
-    const test::Descent descent{1.0 / 60.0, {3}, {}, test::turned_start(model)};
-    EXPECT_LE(test::worst_descent_error(model, descent, test::descend_on_gpu(model, descent)), 1.0);
-}
-
-TEST_F(BlockDescentOnGpuTest, SlidesAsTheDoubleReference) {
-    EXPECT_LE(test::sliding_descent_error(), 1.0);
+TEST_F(BlockDescentOnGpuTest, HasNodesBeyondTheLastFullGroup) {
+    EXPECT_NE(test::make_bodies_to_descend(0.0).node_count() % 64, 0u);
 }
 
 TEST_F(BlockDescentOnGpuTest, RepeatsBitForBit) {
@@ -87,11 +42,6 @@ TEST_F(BlockDescentOnGpuTest, RepeatsBitForBit) {
         EXPECT_EQ(one.positions[n], two.positions[n]);
         EXPECT_EQ(one.velocities[n], two.velocities[n]);
     }
-}
-
-TEST_F(BlockDescentOnGpuTest, SurvivesDegenerateSprings) {
-    for (const int iterations : {1, 5})
-        EXPECT_LE(test::degenerate_descent_error(iterations), 1.0) << iterations;
 }
 
 }  // namespace

@@ -2,28 +2,33 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/gl_fixture.h"
+#include "support/solver_scenarios.h"
 #include "support/test_models.h"
 #include "support/watched_runs.h"
 
 namespace gelatin {
 namespace {
 
+class WatchParityTest : public test::ParityTest {};
+INSTANTIATE_TEST_SUITE_P(All, WatchParityTest, ::testing::ValuesIn(test::watch_scenarios()),
+                         test::name_of_scenario);
+
+TEST_P(WatchParityTest, MatchesTheCpu) {
+    EXPECT_LE(GetParam().error(), 1.0);
+}
+
 class WatchNodesOnGpuTest : public test::GlTest {};
 
-TEST_F(WatchNodesOnGpuTest, MatchesTheCpu) {
+TEST_F(WatchNodesOnGpuTest, HasRunsWithAlarmsAndNodesBeyondTheLastFullGroup) {
     const Model model = test::make_lively_model();
-    ASSERT_NE(model.node_count() % 64, 0u);
-    int alarms = 0;
-    for (const test::WatchedRun& run : test::watched_runs(model)) {
-        const Alarm actual = test::watch_on_gpu(model, run), expected = test::watch_on_cpu(model, run);
-        EXPECT_EQ(actual.step, expected.step);
-        EXPECT_EQ(actual.node, expected.node);
-        EXPECT_EQ(actual.count, expected.count);
-        EXPECT_TRUE(test::agree(actual, expected)) << actual.speed << " " << expected.speed;
-        alarms += expected.count > 0 ? 1 : 0;
-    }
-    EXPECT_EQ(alarms, 7);
+    EXPECT_NE(model.node_count() % 64, 0u);
+    const auto runs = test::watched_runs(model);
+    EXPECT_EQ(std::count_if(runs.begin(), runs.end(),
+                            [&](const auto& run) { return test::watch_on_cpu(model, run).count > 0; }),
+              7);
 }
 
 TEST_F(WatchNodesOnGpuTest, TellsWithoutWaitingAndForgets) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "gpu/collision_stages.h"
+#include "support/collision_scenarios.h"
 #include "support/crowd.h"
 #include "support/gl_fixture.h"
 #include "support/proximities.h"
@@ -13,27 +14,18 @@
 namespace gelatin {
 namespace {
 
+class ProximityParityTest : public test::ParityTest {};
+INSTANTIATE_TEST_SUITE_P(All, ProximityParityTest, ::testing::ValuesIn(test::proximity_scenarios()),
+                         test::name_of_scenario);
+
+TEST_P(ProximityParityTest, FindsWhatBruteForceFinds) {
+    EXPECT_LE(GetParam().error(), 1.0);
+}
+
 class FindProximitiesOnGpuTest : public test::GlTest,
                                  public ::testing::WithParamInterface<test::ProximityScene> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, FindProximitiesOnGpuTest, ::testing::ValuesIn(test::kProximityScenes),
                          [](const auto& test) { return std::string(test.param.name); });
-
-TEST_P(FindProximitiesOnGpuTest, FindsWhatBruteForceFinds) {
-    const Model model = GetParam().make();
-    for (const bool own : {true, false}) {
-        const CollisionSettings settings{.self_collision = own, .proximity_radius = GetParam().radius};
-        const test::FoundOnGpu found = test::find_proximities_on_gpu(model, settings);
-        ASSERT_EQ(found.lost_pairs + found.measure.lost, 0u);
-        test::expect_none(test::check_proximities<float>(model, settings, found));
-        const std::uint32_t node_face = found.starts[model.surface_parts.nodes.size()];
-        EXPECT_TRUE(found.is_guarded);
-        EXPECT_EQ(found.measure.node_face, node_face);
-        EXPECT_EQ(found.measure.edge_edge, found.starts.back() - node_face);
-        double nearest = std::numeric_limits<double>::infinity();
-        for (const auto& proximity : found.proximities) nearest = std::min(nearest, proximity.distance);
-        EXPECT_EQ(found.measure.nearest, nearest);
-    }
-}
 
 TEST_P(FindProximitiesOnGpuTest, RepeatsBitForBitByAnyBroadPhase) {
     const Model model = GetParam().make();

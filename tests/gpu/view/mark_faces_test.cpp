@@ -3,35 +3,35 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
+#include "support/collision_scenarios.h"
 #include "support/crowd.h"
 #include "support/folded.h"
-#include "support/gl_fixture.h"
 
 namespace gelatin {
 namespace {
 
-class MarkFacesTest : public test::GlTest {};
+class MarkFacesParityTest : public test::ParityTest {};
+INSTANTIATE_TEST_SUITE_P(All, MarkFacesParityTest, ::testing::ValuesIn(test::mark_scenarios()),
+                         test::name_of_scenario);
 
-TEST_F(MarkFacesTest, MarksThoseThatTheCpuFinds) {
-    const Model model = test::make_crowd(30);
-    ASSERT_NE(model.faces.size() % 64, 0u);
-    std::vector<std::uint32_t> expected(model.faces.size(), 0);
-    for (const auto& [face, other, touch] : test::find_collisions_on_cpu<float>(model, {}))
-        expected[face] = 1;
-    const auto marked = static_cast<std::size_t>(std::count(expected.begin(), expected.end(), 1u));
-    EXPECT_GT(marked, 50u);
-    EXPECT_LT(marked, expected.size() - 50);
-    EXPECT_EQ(test::mark_faces_on_gpu(model), expected);
+TEST_P(MarkFacesParityTest, MarksWhatTheCpuFinds) {
+    EXPECT_LE(GetParam().error(), 1.0);
 }
 
-TEST_F(MarkFacesTest, MarksThoseThatTouchTheirOwnObject) {
-    const Model model = test::make_folded(test::Deformation::rolled);
-    std::vector<std::uint32_t> expected = test::find_self_contacts_by_brute_force(model);
-    for (std::uint32_t& mark : expected) mark = mark > 0 ? 1 : 0;
-    EXPECT_GT(std::count(expected.begin(), expected.end(), 1u), 50);
-    for (const auto& [face, other, touch] : test::find_collisions_by_brute_force(model)) expected[face] = 1;
-    EXPECT_EQ(test::mark_faces_on_gpu(model, {.self_collision = true}), expected);
+// Many faces of either kind, and some beyond the last full group.
+TEST(MarkFaces, HasFacesToMarkAndOthers) {
+    const Model crowd = test::make_crowd(30), rolled = test::make_folded(test::Deformation::rolled);
+    EXPECT_NE(crowd.faces.size() % 64, 0u);
+    std::set<std::uint32_t> marked;
+    for (const auto& collision : test::find_collisions_on_cpu<float>(crowd, {}))
+        marked.insert(collision.face);
+    EXPECT_GT(marked.size(), 50u);
+    EXPECT_LT(marked.size(), crowd.faces.size() - 50);
+    const test::SelfContacts contacts = test::find_self_contacts_by_brute_force(rolled);
+    EXPECT_GT(std::count_if(contacts.begin(), contacts.end(), [](std::uint32_t count) { return count > 0; }),
+              50);
 }
 
 }  // namespace

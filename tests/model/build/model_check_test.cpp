@@ -38,7 +38,7 @@ TEST(CheckModel, TellsOfObjectsFarFromTheOriginOnce) {
         check({cube(), cube({1e5, 0, 0}), cube({2e5, 0, 0})}),
         ElementsAre(
             "object 'body': at coordinates of 1e+05 m single precision rounds its shortest spring, of "
-            "0.5 m, by 0.01 of its length; nearer to the origin, below 8.39e+04 m, it is below 0.01 "
+            "0.5 m, by 0.01 of its length; at coordinates below 8.39e+04 m the error is below 0.01 "
             "(and 1 more objects)"));
 }
 

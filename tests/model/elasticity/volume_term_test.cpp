@@ -48,7 +48,7 @@ TEST(VolumeTerm, SharesTheVolumeAmongTheNodes) {
     }
 }
 
-// Materials a and b, one beside the other, meet at some nodes.
+// Two adjacent materials a and b meet at some nodes.
 Model two_materials(const Material& a, const Material& b) {
     Body body = test::make_body(test::make_block({4, 3, 3}, {0.4, 0.3, 0.3}), a);
     body.part_materials = {b};

@@ -40,7 +40,7 @@ TEST(FrequencyBound, LooksBeyondTheRelease) {
     EXPECT_DOUBLE_EQ(bound(block), free);
 }
 
-// Three springs at right angles: they can all be turned into one direction.
+// Three springs at right angles: they can all be rotated into one direction.
 TEST(FrequencyBound, OfAnyShapeAddsUpAllSprings) {
     test::Net net;
     net.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

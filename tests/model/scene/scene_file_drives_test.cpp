@@ -128,7 +128,7 @@ TEST_F(SceneFileDrives, RefusesWrongKeyframes) {
     EXPECT_EQ(
         keyframes("{time = 0, move = [1, 0, 0]}"),
         "scene.toml:7: object.bar.handle[0].keyframes[0]: the first keyframe is where the body starts: it "
-        "must not move, turn or scale it");
+        "must not move, rotate or scale it");
     EXPECT_EQ(keyframes("{time = 0, turn = 90}"),
               "scene.toml:7: object.bar.handle[0].keyframes[0].turn = 90: must be a list of 3 numbers, is a "
               "whole number");

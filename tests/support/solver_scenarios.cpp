@@ -1,0 +1,319 @@
+#include "support/solver_scenarios.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "model/setting_names.h"
+#include "support/descend_on_gpu.h"
+#include "support/drive_on_gpu.h"
+#include "support/lost_shapes.h"
+#include "support/measure_on_gpu.h"
+#include "support/parity.h"
+#include "support/pull_on_gpu.h"
+#include "support/step_on_gpu.h"
+#include "support/test_models.h"
+#include "support/tet_values.h"
+#include "support/watched_runs.h"
+
+namespace gelatin::test {
+namespace {
+
+constexpr double kStep = 2e-4;         // [s]
+constexpr double kFrame = 1.0 / 60.0;  // [s]
+constexpr SolverKind kIntegrators[] = {SolverKind::semi_implicit_euler, SolverKind::rk4,
+                                       SolverKind::explicit_euler, SolverKind::midpoint};
+constexpr ForceMethod kForceMethods[] = {ForceMethod::fused, ForceMethod::divide_and_merge};
+
+std::string name_of_step(SolverKind solver, ForceMethod forces) {
+    return fmt::format("{}_{}", name_of(solver), forces == ForceMethod::fused ? "fused" : "divide_and_merge");
+}
+
+bool guards_are_untouched(const Model& model, const NodeArrays& nodes) {
+    return guard_is_untouched(nodes.positions, model.node_count()) &&
+           guard_is_untouched(nodes.velocities, model.node_count());
+}
+
+double step_error(const Model& model, SolverKind solver, ForceMethod forces) {
+    const NodeArrays actual = step_on_gpu(model, solver, forces, kStep);
+    if (!guards_are_untouched(model, actual)) return error_if(true);
+    return worst_error(model, rounding_bounds(model, solver, kStep), oracle_step(model, solver, kStep),
+                       actual.positions, actual.velocities);
+}
+
+double descent_error(const Model& model, const Descent& descent) {
+    const NodeArrays actual = descend_on_gpu(model, descent);
+    if (!guards_are_untouched(model, actual)) return error_if(true);
+    return worst_descent_error(model, descent, actual);
+}
+
+// Of long and short steps with few sweeps and many.
+void add_descents(Scenarios& scenarios, const std::string& name, double damping, double poisson_ratio,
+                  MaterialModel material) {
+    for (const int iterations : {3, 1, 2, 10}) {
+        for (const double step : {kFrame, 1e-3}) {
+            scenarios.push_back(
+                {fmt::format("{}_{}_{}_sweeps", name, step == kFrame ? "long" : "short", iterations), [=] {
+                     return descent_error(make_bodies_to_descend(damping, poisson_ratio, material),
+                                          {step, {iterations}});
+                 }});
+        }
+    }
+}
+
+// At rest and then set in motion, so that bounds are tight.
+Model make_calm_tets(double damping) {
+    Material material;
+    material.model = MaterialModel::neo_hookean;
+    material.damping = damping;
+    Model model = make_model(make_body(make_block({6, 5, 4}, {0.6, 0.5, 0.4}, 0.2), material));
+    for (std::uint32_t n = 0; n < model.node_count(); ++n)
+        model.velocities[n].x = 0.5f * static_cast<float>(n % 7) - 1.5f;
+    return model;
+}
+
+// Its third body lies in one point.
+Model make_fallen_in_tets(double damping) {
+    Model model = make_bodies_to_descend(damping, 0.45, MaterialModel::neo_hookean);
+    const Range& point = model.objects[2].nodes;
+    for (std::uint32_t n = point.first; n < point.end(); ++n)
+        model.positions[n] = glm::vec4(0.0f, 1.0f, 1.0f, model.positions[n].w);
+    return model;
+}
+
+// No body is at rest.
+Model make_stretched_bodies(double damping, double poisson_ratio, MaterialModel material) {
+    Model model = make_bodies_to_descend(damping, poisson_ratio, material);
+    for (glm::vec4& p : model.positions) p.x *= 1.02f;
+    return model;
+}
+
+double energy_error(const Model& model) {
+    return worst_energy_error(model, measure_on_gpu(model));
+}
+
+}  // namespace
+
+Scenarios joined(const std::vector<Scenarios>& lists) {
+    Scenarios all;
+    for (const Scenarios& list : lists) all.insert(all.end(), list.begin(), list.end());
+    return all;
+}
+
+Scenarios step_scenarios() {
+    Scenarios scenarios;
+    for (const SolverKind solver : kIntegrators) {
+        for (const ForceMethod forces : kForceMethods) {
+            const std::string name = name_of_step(solver, forces);
+            scenarios.push_back({name, [=] { return step_error(make_lively_model(), solver, forces); }});
+            scenarios.push_back(
+                {name + "_driven", [=] { return step_error(make_driven_model(), solver, forces); }});
+        }
+    }
+    return scenarios;
+}
+
+Scenarios kinematics_scenarios() {
+    Scenarios scenarios;
+    for (const double time : {0.3, 1.1, 0.0, 0.49, 0.9, 5.0}) {
+        scenarios.push_back({fmt::format("at_{:.0f}_hundredths", 100.0 * time), [=] {
+                                 const Model model = make_driven_model();
+                                 const auto motions = handle_motions(model.handles, time, kFrame);
+                                 const NodeArrays actual = apply_kinematics_on_gpu(model, motions);
+                                 if (!guards_are_untouched(model, actual)) return error_if(true);
+                                 return worst_kinematics_error(model, motions, actual);
+                             }});
+    }
+    return scenarios;
+}
+
+Scenarios load_scenarios() {
+    Scenarios scenarios;
+    const auto add = [&](const char* name, const std::vector<float>& factors) {
+        scenarios.push_back({name, [=] {
+                                 const Model model = make_driven_model();
+                                 return worst_load_error(model, factors, sum_loads_on_gpu(model, factors));
+                             }});
+    };
+    add("some", {0.3f, 0.0f, 0.7f, 1.0f});
+    add("all", {1.0f, 1.0f, 1.0f, 1.0f});
+    add("none", {0.0f, 0.0f, 0.0f, 0.0f});
+    return scenarios;
+}
+
+Scenarios pull_scenarios() {
+    Scenarios scenarios;
+    for (const bool driven : {false, true}) {
+        const std::string beside = driven ? "_beside_loads" : "";
+        for (const SolverKind solver : kIntegrators) {
+            for (const ForceMethod forces : kForceMethods) {
+                scenarios.push_back({name_of_step(solver, forces) + beside, [=] {
+                                         const Model model =
+                                             driven ? make_driven_model() : make_lively_model();
+                                         return worst_pull_error(model, solver, forces, kStep);
+                                     }});
+            }
+        }
+        scenarios.push_back({"vbd" + beside, [=] {
+                                 const Model model =
+                                     make_bodies_to_descend(0.01, 0.25, MaterialModel::mass_spring, driven);
+                                 return worst_pull_error(model, SolverKind::vbd, ForceMethod::fused, kFrame);
+                             }});
+    }
+    return scenarios;
+}
+
+Scenarios descent_scenarios() {
+    Scenarios scenarios;
+    add_descents(scenarios, "free", 0.0, 0.25, MaterialModel::mass_spring);
+    add_descents(scenarios, "damped", 0.01, 0.25, MaterialModel::mass_spring);
+    for (const double poisson_ratio : {0.1, 0.4}) {
+        scenarios.push_back(
+            {fmt::format("poisson_ratio_{:.0f}_tenths", 10.0 * poisson_ratio), [=] {
+                 return descent_error(make_bodies_to_descend(0.0, poisson_ratio), {kFrame, {5}});
+             }});
+    }
+    for (const double damping : {0.0, 0.01}) {
+        scenarios.push_back({damping > 0.0 ? "accelerated_damped" : "accelerated", [=] {
+                                 return descent_error(make_bodies_to_descend(damping), {kFrame, {6, 0.8}});
+                             }});
+    }
+    // Earlier velocities from which some nodes have gained less than nothing, some a part of gravity, some
+    // more than all.
+    scenarios.push_back({"looking_back", [] {
+                             const Model model = make_bodies_to_descend(0.0);
+                             Descent descent{kFrame, {1}, model.velocities};
+                             for (std::uint32_t n = 0; n < model.node_count(); ++n)
+                                 descent.earlier_velocities[n].y += 0.1f * static_cast<float>(n % 8) - 0.25f;
+                             return descent_error(model, descent);
+                         }});
+    scenarios.push_back({"turned", [] {
+                             const Model model = make_bodies_to_descend(0.01);
+                             return descent_error(model, {kFrame, {3}, {}, turned_start(model)});
+                         }});
+    scenarios.push_back({"sliding", sliding_descent_error});
+    for (const int iterations : {1, 5}) {
+        scenarios.push_back({fmt::format("degenerate_{}_sweeps", iterations),
+                             [=] { return degenerate_descent_error(iterations); }});
+    }
+    return scenarios;
+}
+
+Scenarios driven_descent_scenarios() {
+    Scenarios scenarios;
+    for (const double poisson_ratio : {0.25, 0.4}) {
+        for (const double step : {kFrame, 1e-3}) {
+            scenarios.push_back(
+                {fmt::format("{}_poisson_ratio_{:.0f}_hundredths", step == kFrame ? "long" : "short",
+                             100.0 * poisson_ratio),
+                 [=] {
+                     return descent_error(
+                         make_bodies_to_descend(0.01, poisson_ratio, MaterialModel::mass_spring, true),
+                         {step, {3}});
+                 }});
+        }
+    }
+    return scenarios;
+}
+
+Scenarios matching_scenarios() {
+    return {{"usual", [] { return worst_matching_error(1.0); }},
+            {"tiny", [] { return worst_matching_error(1e-3); }},
+            {"huge", [] { return worst_matching_error(1e2); }}};
+}
+
+Scenarios neo_hookean_step_scenarios() {
+    Scenarios scenarios;
+    for (const SolverKind solver : {SolverKind::semi_implicit_euler, SolverKind::rk4}) {
+        for (const double damping : {0.0, 2e-3}) {
+            for (const ForceMethod forces : kForceMethods) {
+                scenarios.push_back({name_of_step(solver, forces) + (damping > 0.0 ? "_damped" : ""),
+                                     [=] { return step_error(make_lively_tets(damping), solver, forces); }});
+            }
+        }
+    }
+    return scenarios;
+}
+
+Scenarios neo_hookean_descent_scenarios() {
+    Scenarios scenarios;
+    for (const double damping : {0.0, 0.01}) {
+        const std::string name = damping > 0.0 ? "damped" : "free";
+        scenarios.push_back({name + "_calm", [=] {
+                                 return descent_error(make_calm_tets(damping), {kFrame, {2}});
+                             }});
+        scenarios.push_back({name + "_point", [=] {
+                                 return descent_error(make_fallen_in_tets(damping), {kFrame, {2}});
+                             }});
+        add_descents(scenarios, name, damping, 0.45, MaterialModel::neo_hookean);
+    }
+    return scenarios;
+}
+
+Scenarios neo_hookean_energy_scenarios() {
+    return {{"lively", [] { return energy_error(make_lively_tets(0.0)); }},
+            {"at_rest", [] {
+                 Material material;
+                 material.model = MaterialModel::neo_hookean;
+                 return energy_error(make_model(make_body(make_block({5, 5, 5}, {1, 1, 1}, 0.2), material)));
+             }}};
+}
+
+Scenarios volume_step_scenarios() {
+    Scenarios scenarios;
+    for (const SolverKind solver : {SolverKind::semi_implicit_euler, SolverKind::rk4}) {
+        for (const ForceMethod forces : kForceMethods) {
+            for (const MaterialModel most : {MaterialModel::mass_spring, MaterialModel::neo_hookean}) {
+                for (const double poisson_ratio : {0.0, 0.45}) {
+                    scenarios.push_back(
+                        {fmt::format("{}{}_poisson_ratio_{:.0f}_hundredths", name_of_step(solver, forces),
+                                     most == MaterialModel::neo_hookean ? "_beside_tets" : "",
+                                     100.0 * poisson_ratio),
+                         [=] {
+                             return step_error(make_stretched_bodies(2e-3, poisson_ratio, most), solver,
+                                               forces);
+                         }});
+                }
+            }
+        }
+    }
+    return scenarios;
+}
+
+// With tets inside out, where what the term gives below 1/4 has ended.
+Scenarios volume_energy_scenarios() {
+    Scenarios scenarios;
+    for (const double poisson_ratio : {0.0, 0.45}) {
+        scenarios.push_back({fmt::format("poisson_ratio_{:.0f}_hundredths", 100.0 * poisson_ratio), [=] {
+                                 return energy_error(
+                                     make_stretched_bodies(0.0, poisson_ratio, MaterialModel::mass_spring));
+                             }});
+    }
+    return scenarios;
+}
+
+Scenarios watch_scenarios() {
+    return {{"runs", [] {
+                 const Model model = make_lively_model();
+                 const std::vector<WatchedRun> runs = watched_runs(model);
+                 return error_if(std::any_of(runs.begin(), runs.end(), [&](const WatchedRun& run) {
+                     return !agree(watch_on_gpu(model, run), watch_on_cpu(model, run));
+                 }));
+             }}};
+}
+
+Scenarios tet_value_scenarios() {
+    Scenarios scenarios;
+    const auto add = [&](const char* name, Quantity quantity) {
+        scenarios.push_back({name, [=] {
+                                 const Deformed bodies = make_deformed();
+                                 return worst_value_error(bodies, quantity, values_on_gpu(bodies, quantity));
+                             }});
+    };
+    add("stretch", Quantity::stretch);
+    add("stress", Quantity::stress);
+    add("speed", Quantity::speed);
+    return scenarios;
+}
+
+}  // namespace gelatin::test
