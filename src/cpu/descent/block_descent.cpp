@@ -33,7 +33,6 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
     if (settings_.coarse_level) coarse_.emplace(model_);
     if (coarse_ && coarse_->is_empty()) coarse_.reset();
     if (!model_->colliders.empty()) touches_.nodes.resize(model_->node_count());
-    if (settings_.chebyshev > 0.0) last_ = before_last_ = std::vector<Vec3<Real>>(model_->node_count());
     if constexpr (kIsFloat<Real>) collider_bounds_ = make_collider_bounds(model_->colliders);
 }
 
@@ -65,8 +64,6 @@ int BlockDescent<Real>::end_of_run(int first) const {
 template <class Real>
 void BlockDescent<Real>::make_sweep(int index, std::size_t batch, std::vector<Vec4<Real>>& positions) {
     const DescentBatch& bodies = objective_.rows().batches[batch];
-    if (settings_.chebyshev > 0.0)
-        accelerate(coarse_ ? sweeps_since_correction(index) : index, bodies.nodes, positions);
     if (index % kSweepsAMotion == 0) objective_.look(batch, positions);
     sweep(batch, positions);
     const bool is_last = index + 1 == settings_.iterations;
@@ -125,23 +122,6 @@ void BlockDescent<Real>::take_back_tangled(std::vector<Vec4<Real>>& positions) c
             if (positions[n].w == Real(0)) continue;  // held ones are where their handle takes them
             positions[n] = Vec4<Real>(Vec3<Real>(objective_.starts[n]), positions[n].w);
         }
-    });
-}
-
-// Chebyshev's semi-iterative method (Golub, Varga 1961; for nonlinear sweeps Wang 2015): sweep k starts at
-//   x_k = w_k (x - x_(k-2)) + x_(k-2),  w_1 = 1,  w_2 = 2 / (2 - rho^2),  w_k = 4 / (4 - rho^2 w_(k-1)),
-// with x what the last one has found, so that what comes last is a sweep, which colliders have seen. Bodies
-// that touch one are left alone: what holds them changes from sweep to sweep. A coarse correction is no
-// sweep: the method begins anew behind it.
-template <class Real>
-void BlockDescent<Real>::accelerate(int sweep, const Range& nodes, std::vector<Vec4<Real>>& positions) {
-    const auto weight = static_cast<Real>(chebyshev_weight(settings_.chebyshev, sweep));
-    for_each_index(nodes, [&](std::uint32_t n) {
-        Vec3<Real> x(positions[n]);
-        if (sweep > 1 && !touches_.is_touched(n)) x = weight * (x - before_last_[n]) + before_last_[n];
-        before_last_[n] = last_[n];
-        last_[n] = x;
-        positions[n] = Vec4<Real>(x, positions[n].w);
     });
 }
 

@@ -49,7 +49,6 @@ private:
     void take_back_tangled(std::vector<Vec4<Real>>& positions) const;
     int end_of_run(int first) const;
     void make_sweep(int index, std::size_t batch, std::vector<Vec4<Real>>& positions);
-    void accelerate(int sweep, const Range& nodes, std::vector<Vec4<Real>>& positions);
     void sweep(std::size_t batch, std::vector<Vec4<Real>>& positions);
     void move_node(std::uint32_t node, const NodeTerms<Real>& terms, std::vector<Vec4<Real>>& positions);
     template <class Groups>  // DescentGroups: a template, for there is none but in float
@@ -68,7 +67,6 @@ private:
     std::optional<CoarseStep<Real>> coarse_;  // where there are clusters
     NodeTouches<Real> touches_;
     std::vector<ColliderBound> collider_bounds_;  // in float
-    std::vector<Vec3<Real>> last_, before_last_;  // from where the last two sweeps went [m], for acceleration
 };
 
 }  // namespace gelatin::cpu

@@ -117,7 +117,6 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
     : start_program_(gl::Program::compute("sim/descent/start_descent.comp", start_defines(model, pulled))),
       find_tangled_program_(gl::Program::compute("sim/descent/take_back_tangled.comp", {"TETS"})),
       take_back_program_(gl::Program::compute("sim/descent/take_back_tangled.comp")),
-      accelerate_program_(gl::Program::compute("sim/descent/accelerate_descent.comp")),
       mark_program_(gl::Program::compute("sim/descent/mark_flat_tets.comp", volume_defines(model))),
       sweep_program_(gl::Program::compute("sim/descent/descend.comp", sweep_defines(model))),
       sum_program_(
@@ -136,7 +135,6 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
       is_tangled_(model.objects.size()),
       motions_(model.objects.size()) {
     if (!model.volume_term.is_empty()) pressures_.emplace(model);
-    if (settings_.chebyshev > 0.0) sweep_starts_ = gl::Buffer<glm::vec4>(2 * model.positions.size());
     const DescentRows rows = make_descent_rows(model);
     colors_ = rows.batches.front().colors;
     const std::vector<std::uint32_t> objects = objects_of_nodes(model);
@@ -210,7 +208,6 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
     if (coarse_) coarse_->begin(step);
     std::uint32_t looks = 0;
     for (int i = 0; i < settings_.iterations; ++i) {
-        if (settings_.chebyshev > 0.0) accelerate(coarse_ ? sweeps_since_correction(i) : i);
         if (i % kSweepsAMotion == 0) look_at_tets(++looks);
         sweep(model);
         const bool is_last = i + 1 == settings_.iterations;
@@ -241,17 +238,6 @@ void BlockDescent::take_back_tangled(const NodeBuffers& current) const {
     current.positions.bind_storage(0);
     take_back_program_.set("element_count", node_count_);
     take_back_program_.dispatch(node_count_);
-    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
-}
-
-void BlockDescent::accelerate(int sweep) const {
-    sweep_starts_.bind_storage(3);
-    object_touches_.bind_storage(2);
-    node_objects_.bind(12);
-    accelerate_program_.set("node_count", node_count_);
-    accelerate_program_.set("sweep", static_cast<std::uint32_t>(sweep));
-    accelerate_program_.set("weight", static_cast<float>(chebyshev_weight(settings_.chebyshev, sweep)));
-    accelerate_program_.dispatch(node_count_);
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 }
 

@@ -16,7 +16,7 @@
 namespace gelatin::gpu {
 
 /// Vertex block descent: shaders/sim/descent/start_descent.comp, take_back_tangled.comp,
-/// damp_springs.comp, accelerate_descent.comp, mark_flat_tets.comp,
+/// damp_springs.comp, mark_flat_tets.comp,
 /// find_pressures.comp, descend.comp, sum_rigid_motions.comp, move_bodies.comp. CPU twin: cpu::BlockDescent.
 class BlockDescent {
 public:
@@ -52,20 +52,18 @@ private:
 
     void damp_springs(double step) const;
     void take_back_tangled(const NodeBuffers& current) const;
-    void accelerate(int sweep) const;
     void look_at_tets(std::uint32_t look) const;
     void sweep(const ModelBuffers& model) const;
     void descend(const gl::Program& program, const ModelBuffers& model, std::span<const Range> rows) const;
     void correct(const ModelBuffers& model, const NodeBuffers& current, double step);
     void move_bodies(const ModelBuffers& model, const NodeBuffers& current, bool is_last) const;
 
-    gl::Program start_program_, find_tangled_program_, take_back_program_, accelerate_program_, mark_program_,
-        sweep_program_, sum_program_, motion_program_, move_program_, last_move_program_;
+    gl::Program start_program_, find_tangled_program_, take_back_program_, mark_program_, sweep_program_,
+        sum_program_, motion_program_, move_program_, last_move_program_;
     DescentSettings settings_;
     std::uint32_t node_count_, tet_count_, object_count_, row_count_;
     std::optional<Pressures> pressures_;
     std::optional<DampedSprings> damped_springs_;  // where the model has dampers
-    gl::Buffer<glm::vec4> sweep_starts_;           // empty without acceleration
     std::vector<Range> colors_;                    // rows
     gl::TexelTable<DescentRow> rows_;
     NeoHookeanBuffers::Corners neo_hookean_corners_;

@@ -24,11 +24,6 @@ constexpr int correction_count(int sweeps) {
     return sweeps < 2 ? 0 : (sweeps - 2) / kSweepsACorrection + 1;
 }
 
-/// How many sweeps lie between the last correction and sweep `sweep` of a step, from 0.
-constexpr int sweeps_since_correction(int sweep) {
-    return sweep == 0 ? 0 : (sweep - 1) % kSweepsACorrection;
-}
-
 /// Bodies that descend together. Bodies do not meet within a step, so batches need not wait for each other.
 struct DescentBatch {
     Range objects, nodes, tets;

@@ -52,12 +52,6 @@ TEST_F(BlockDescentOnGpuTest, KeepsVolumesAsTheDoubleReference) {
     }
 }
 
-TEST_F(BlockDescentOnGpuTest, AcceleratesAsTheDoubleReference) {
-    const Model model = test::make_bodies_to_descend(0.01);
-    const test::Descent descent{1.0 / 60.0, {6, 0.8}};
-    EXPECT_LE(test::worst_descent_error(model, descent, test::descend_on_gpu(model, descent)), 1.0);
-}
-
 // Earlier velocities from which some nodes have gained less than nothing, some a part of gravity, some more
 // than all.
 TEST_F(BlockDescentOnGpuTest, LooksBackAsTheDoubleReference) {
@@ -80,7 +74,7 @@ TEST_F(BlockDescentOnGpuTest, SlidesAsTheDoubleReference) {
 
 TEST_F(BlockDescentOnGpuTest, RepeatsBitForBit) {
     const Model model = test::make_bodies_to_descend(0.0, 0.4);
-    const test::Descent descent{1.0 / 60.0, {10, 0.7}};
+    const test::Descent descent{1.0 / 60.0, {10}};
     const test::NodeArrays one = test::descend_on_gpu(model, descent),
                            two = test::descend_on_gpu(model, descent);
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
