@@ -31,8 +31,10 @@ void run_detection(gpu::Collision& collision, const gpu::ModelBuffers& model,
     gpu::CollisionBuffers& buffers = collision.buffers;
     poison(buffers.face_boxes);
     poison(buffers.face_trees.boxes);
-    poison(buffers.face_views);
-    poison(buffers.object_views);
+    if (collision.cull_by_depth) {
+        poison(collision.cull_by_depth->face_views);
+        poison(collision.cull_by_depth->object_views);
+    }
     poison(buffers.pair_rows);
     poison(buffers.object_pairs);
     poison(buffers.candidates);

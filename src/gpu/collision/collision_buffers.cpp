@@ -51,10 +51,6 @@ std::vector<BoundingBox> describe_objects(const Model& model) {
 CollisionBuffers::CollisionBuffers(const Model& model)
     : face_trees(model.face_trees),
       face_boxes(model.faces.size()),
-      face_views(model.faces.size()),
-      object_views(model.objects.size()),
-      face_view_texels(face_views, gl::TexelFormat::r32ui),
-      object_view_texels(object_views, gl::TexelFormat::r32ui),
       node_face_starts(std::span(model.node_faces.starts)),
       node_faces(std::span(model.node_faces.faces)),
       node_face_start_texels(node_face_starts, gl::TexelFormat::r32ui),
@@ -86,11 +82,6 @@ void CollisionBuffers::bind_pairs() const {
 void CollisionBuffers::bind_node_faces() const {
     node_face_start_texels.bind(2);
     node_face_texels.bind(3);
-}
-
-void CollisionBuffers::bind_hidden() const {
-    face_view_texels.bind(4);
-    object_view_texels.bind(5);
 }
 
 void CollisionBuffers::run(const gl::Program& program, Work work) const {

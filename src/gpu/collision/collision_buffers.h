@@ -30,9 +30,6 @@ struct CollisionBuffers {
     gl::Buffer<std::uint32_t> face_collisions;  ///< two bits a face, by pair: a Touch
     gl::Buffer<Dispatch> dispatches;            ///< see shaders/sim/collision/pairs.glsl
 
-    gl::Buffer<std::uint32_t> face_views, object_views;  ///< see shaders/sim/depth/hidden.glsl
-    gl::BufferTexture face_view_texels, object_view_texels;
-
     gl::Buffer<std::uint32_t> node_face_starts, node_faces;
     gl::BufferTexture node_face_start_texels, node_face_texels;
     std::uint32_t object_count = 0;
@@ -44,9 +41,6 @@ struct CollisionBuffers {
     void bind_pairs() const;
     /// Binds what sim/collision/node_faces.glsl reads: texture units 2 and 3.
     void bind_node_faces() const;
-
-    /// Binds what sim/depth/hidden.glsl reads: texture units 4 and 5.
-    void bind_hidden() const;
 
     /// The dispatches of sim/collision/pairs.glsl.
     enum class Work : unsigned {

@@ -21,6 +21,10 @@ gl::Program make_pass(const char* fragment_file) {
                                                fragment_file);
 }
 
+gl::Defines view_defines() {
+    return {"VIEW_COUNT " + std::to_string(CullByDepth::kViews)};
+}
+
 gl::Buffer<std::uint32_t> count_up(std::size_t size) {
     std::vector<std::uint32_t> numbers(size);
     std::iota(numbers.begin(), numbers.end(), 0u);
@@ -29,12 +33,10 @@ gl::Buffer<std::uint32_t> count_up(std::size_t size) {
 
 }  // namespace
 
-gl::Defines CullByDepth::defines() {
-    return {"VIEW_COUNT " + std::to_string(kViews)};
-}
-
 CullByDepth::CullByDepth(const Model& model)
-    : begin_program_(gl::Program::compute("sim/depth/begin_views.comp", defines())),
+    : face_views(model.faces.size()),
+      object_views(model.objects.size()),
+      begin_program_(gl::Program::compute("sim/depth/begin_views.comp", view_defines())),
       nearest_program_(make_pass("sim/depth/nearest_surface.frag")),
       other_program_(make_pass("sim/depth/nearest_other_surface.frag")),
       hidden_program_(make_pass("sim/depth/find_hidden_faces.frag")),
@@ -44,6 +46,8 @@ CullByDepth::CullByDepth(const Model& model)
                     gl::Buffer<std::uint32_t>(model.faces.size())},
       draws_(kViews + 1),
       view_space_(2),
+      face_view_texels_(face_views, gl::TexelFormat::r32ui),
+      object_view_texels_(object_views, gl::TexelFormat::r32ui),
       all_face_texels_(all_faces_, gl::TexelFormat::r32ui),
       hidden_face_texels_{{hidden_faces_[0], gl::TexelFormat::r32ui},
                           {hidden_faces_[1], gl::TexelFormat::r32ui}},
@@ -55,8 +59,17 @@ CullByDepth::~CullByDepth() {
     glDeleteVertexArrays(1, &vertex_array_);
 }
 
+gl::Program CullByDepth::compile(const std::string& file) const {
+    return gl::Program::compute("sim/depth/" + file, view_defines());
+}
+
+void CullByDepth::bind() const {
+    face_view_texels_.bind(4);
+    object_view_texels_.bind(5);
+}
+
 void CullByDepth::run(const ModelBuffers& model, const CollisionBuffers& collision,
-                      const NodeBuffers& nodes) const {
+                      const NodeBuffers& nodes) {
     begin(collision);
     const gl::DrawStateGuard guard;
     glViewport(0, 0, kResolution, kResolution);
@@ -71,10 +84,10 @@ void CullByDepth::run(const ModelBuffers& model, const CollisionBuffers& collisi
 }
 
 void CullByDepth::begin(const CollisionBuffers& collision) const {
-    const auto faces = static_cast<std::uint32_t>(collision.face_views.size());
+    const auto faces = static_cast<std::uint32_t>(face_views.size());
     collision.bounding_boxes.bind_storage(0);
-    collision.face_views.bind_storage(1);
-    collision.object_views.bind_storage(2);
+    face_views.bind_storage(1);
+    object_views.bind_storage(2);
     draws_.bind_storage(3);
     view_space_.bind_storage(4);
     begin_program_.set("face_count", faces);

@@ -2,7 +2,7 @@
 
 #include <glm/vec4.hpp>
 
-#include "gpu/collision/collision_buffers.h"
+#include "gpu/collision/face_filter.h"
 #include "gpu/depth/depth_layers.h"
 #include "gpu/node_buffers.h"
 
@@ -16,22 +16,24 @@ namespace gelatin::gpu {
 /// after layer. A view draws three times, however many objects there are:
 /// shaders/sim/depth/nearest_surface.frag, nearest_other_surface.frag and find_hidden_faces.frag, each over
 /// the pixels that face_footprint.geom says a face touches.
-class CullByDepth {
+class CullByDepth : public FaceFilter {
 public:
     static constexpr std::uint32_t kViews = 6;
 
     explicit CullByDepth(const Model& model);
     CullByDepth(const CullByDepth&) = delete;
     CullByDepth& operator=(const CullByDepth&) = delete;
-    ~CullByDepth();
+    ~CullByDepth() override;
 
-    /// Writes CollisionBuffers::face_views and object_views. Ends with the barriers that the next stage
-    /// needs. What an application has set for its own drawing stays, but for the textures, buffers and
-    /// programs that are bound.
-    void run(const ModelBuffers& model, const CollisionBuffers& collision, const NodeBuffers& nodes) const;
+    /// Writes face_views and object_views. What an application has set for its own drawing stays, but for the
+    /// textures, buffers and programs that are bound.
+    void run(const ModelBuffers& model, const CollisionBuffers& collision, const NodeBuffers& nodes) override;
 
-    /// Defines for shaders that include sim/depth/hidden.glsl.
-    static gl::Defines defines();
+    gl::Program compile(const std::string& file) const override;
+    void bind() const override;  ///< texture units 4 and 5
+
+    /// The last view that each face, and any face of each object, was hidden in, from 1; 0: none.
+    gl::Buffer<std::uint32_t> face_views, object_views;
 
 private:
     void begin(const CollisionBuffers& collision) const;
@@ -43,7 +45,8 @@ private:
     gl::Buffer<std::uint32_t> all_faces_, hidden_faces_[2];  // views read one of them and write another
     gl::Buffer<Draw> draws_;            // what each view draws, and what is left by the last
     gl::Buffer<glm::vec4> view_space_;  // lower corner [m] and scale [1/m] of what is seen
-    gl::BufferTexture all_face_texels_, hidden_face_texels_[2], view_space_texels_;
+    gl::BufferTexture face_view_texels_, object_view_texels_, all_face_texels_, hidden_face_texels_[2],
+        view_space_texels_;
     unsigned vertex_array_ = 0;  // empty, as drawing needs one
 };
 
