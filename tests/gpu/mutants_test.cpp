@@ -188,7 +188,7 @@ TEST_P(DescentMutantsTest, IsCaught) {
     look(model, {kFrame, {3}});
     look(model, {kFrame, {5}});
     look(model, {kFrame, {1}, model.velocities});
-    look(model, {kFrame, {2}, {}, test::turned_start(model)});
+    look(model, {kFrame, {2}, {}, test::rotated_start(model)});
     caught = caught || test::degenerate_descent_error(1) > 1.0 || test::sliding_descent_error() > 1.0;
     EXPECT_TRUE(caught) << "the broken kernel passes";
 }

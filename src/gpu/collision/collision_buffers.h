@@ -27,7 +27,7 @@ struct CollisionBuffers {
     gl::Buffer<ObjectPair> object_pairs;
     gl::Buffer<std::uint32_t> candidates;       ///< faces
     gl::Buffer<FacePair> face_pairs;            ///< whose boxes meet
-    gl::Buffer<std::uint32_t> face_collisions;  ///< two bits a face, by pair: a Touch
+    gl::Buffer<std::uint32_t> face_collisions;  ///< two bits a face, by pair: a FaceContact
     gl::Buffer<Dispatch> dispatches;            ///< see shaders/sim/collision/pairs.glsl
 
     gl::Buffer<std::uint32_t> node_face_starts, node_faces;

@@ -131,7 +131,7 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
       tet_count_(static_cast<std::uint32_t>(model.tets.size())),
       object_count_(static_cast<std::uint32_t>(model.objects.size())),
       near_flat_(model.positions.size()),
-      object_touches_(model.objects.size()),
+      object_contacts_(model.objects.size()),
       is_tangled_(model.objects.size()),
       motions_(model.objects.size()) {
     if (!model.volume_term.is_empty()) pressures_.emplace(model);
@@ -161,7 +161,7 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
     target_texels_ = {targets_, gl::TexelFormat::rgba32f};
     near_flat_texels_ = {near_flat_, gl::TexelFormat::r32ui};
     rigid_sums_ = gl::Buffer<glm::dvec4>(kRigidSums * chunks.size());
-    if (!model.colliders.empty()) touches_ = gl::Buffer<Touch>(model.positions.size());
+    if (!model.colliders.empty()) contacts_ = gl::Buffer<ColliderContact>(model.positions.size());
 
     if (!settings_.coarse_level) return;
     const CoarseBasis basis = make_coarse_basis(model);
@@ -183,12 +183,12 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
     previous.velocity_texels.bind(2);
     current.positions.bind_storage(0);
     near_flat_.bind_storage(1);
-    object_touches_.bind_storage(2);
+    object_contacts_.bind_storage(2);
     current.velocities.bind_storage(3);
     is_tangled_.bind_storage(4);
     starts_.bind_storage(5);
     targets_.bind_storage(6);
-    if (touches_.size() > 0) touches_.bind_storage(7);
+    if (contacts_.size() > 0) contacts_.bind_storage(7);
     model.bind_colliders(start_program_);
     if (model.pulls) model.pulls->bind(start_program_);
     start_program_.set("node_count", node_count_);
@@ -206,9 +206,9 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
     if (damped_springs_) damp_springs(step);
     take_back_tangled(current);
     if (coarse_) coarse_->begin(step);
-    std::uint32_t looks = 0;
+    std::uint32_t marks = 0;
     for (int i = 0; i < settings_.iterations; ++i) {
-        if (i % kSweepsAMotion == 0) look_at_tets(++looks);
+        if (i % kSweepsAMotion == 0) mark_flat_tets(++marks);
         sweep(model);
         const bool is_last = i + 1 == settings_.iterations;
         if (coarse_ && !is_last && i % kSweepsACorrection == 0) correct(model, current, step);
@@ -241,11 +241,11 @@ void BlockDescent::take_back_tangled(const NodeBuffers& current) const {
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 }
 
-// Marks of earlier looks count no more.
-void BlockDescent::look_at_tets(std::uint32_t look) const {
-    sweep_program_.set("look", look);
-    if (coarse_) force_program_.set("look", look);
-    mark_program_.set("look", look);
+// Earlier marks count no more.
+void BlockDescent::mark_flat_tets(std::uint32_t mark) const {
+    sweep_program_.set("mark", mark);
+    if (coarse_) force_program_.set("mark", mark);
+    mark_program_.set("mark", mark);
     tets_.bind(9);
     tet_rests_.bind(10);
     near_flat_.bind_storage(1);
@@ -291,7 +291,7 @@ void BlockDescent::descend(const gl::Program& program, const ModelBuffers& model
     if (pressures_) pressures_->offset_texels.bind(11);
     model.neo_hookean.bind_tets();
     neo_hookean_corners_.bind();
-    if (touches_.size() > 0) touches_.bind_storage(3);
+    if (contacts_.size() > 0) contacts_.bind_storage(3);
     for (const Range& range : rows) {
         program.set("first_row", range.first);
         program.set("row_count", range.count);
@@ -307,14 +307,14 @@ void BlockDescent::correct(const ModelBuffers& model, const NodeBuffers& current
     force_program_.set("time_step", static_cast<float>(step));
     force_program_.set("is_ahead", 0u);
     descend(force_program_, model, {&all, 1});
-    coarse_->find_ways();
+    coarse_->find_displacements();
 
     coarse_->bind_forces(true);
     coarse_->ahead_texels().bind(0);
     force_program_.set("is_ahead", 1u);
     descend(force_program_, model, {&all, 1});
     current.position_texels.bind(0);
-    coarse_->follow_ways(chunks_, chunk_starts_);
+    coarse_->apply_displacements(chunks_, chunk_starts_);
 }
 
 void BlockDescent::move_bodies(const ModelBuffers& model, const NodeBuffers& current, bool is_last) const {
@@ -322,7 +322,7 @@ void BlockDescent::move_bodies(const ModelBuffers& model, const NodeBuffers& cur
     chunks_.bind_storage(3);
     rigid_sums_.bind_storage(4);
     motions_.bind_storage(5);
-    if (touches_.size() > 0) touches_.bind_storage(6);
+    if (contacts_.size() > 0) contacts_.bind_storage(6);
     const auto chunks = static_cast<std::uint32_t>(chunks_.size());
     sum_program_.set("element_count", chunks);
     sum_program_.dispatch(kLanesAChunk * chunks_.size());

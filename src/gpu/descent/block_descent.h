@@ -52,7 +52,7 @@ private:
 
     void damp_springs(double step) const;
     void take_back_tangled(const NodeBuffers& current) const;
-    void look_at_tets(std::uint32_t look) const;
+    void mark_flat_tets(std::uint32_t mark) const;
     void sweep(const ModelBuffers& model) const;
     void descend(const gl::Program& program, const ModelBuffers& model, std::span<const Range> rows) const;
     void correct(const ModelBuffers& model, const NodeBuffers& current, double step);
@@ -78,9 +78,9 @@ private:
     gl::TexelTable<std::uint32_t> chunk_starts_, node_objects_;  // by object; by node
     gl::Buffer<glm::vec4> starts_;   // xyz, outside colliders [m], inverse mass [1/kg]
     gl::Buffer<glm::vec4> targets_;  // y [m], m / h^2 [N/m]
-    gl::Buffer<std::uint32_t> near_flat_, object_touches_, is_tangled_;
+    gl::Buffer<std::uint32_t> near_flat_, object_contacts_, is_tangled_;
     gl::BufferTexture start_texels_, target_texels_, near_flat_texels_;
-    gl::Buffer<Touch> touches_;  // of nodes in the last sweep; empty without colliders
+    gl::Buffer<ColliderContact> contacts_;  // of nodes in the last sweep; empty without colliders
     gl::Buffer<glm::dvec4> rigid_sums_;
     gl::Buffer<RigidMotion> motions_;
     std::optional<CoarseCorrection> coarse_;  // where there are clusters

@@ -49,13 +49,13 @@ std::vector<float> inverses_of(const std::vector<CoarseMatrices>& matrices, doub
 }  // namespace
 
 CoarseCorrection::CoarseCorrection(const Model& model, const CoarseBasis& basis)
-    : turn_program_(gl::Program::compute("sim/descent/rotate_clusters.comp")),
+    : rotate_program_(gl::Program::compute("sim/descent/rotate_clusters.comp")),
       load_program_(gl::Program::compute("sim/descent/load_clusters.comp")),
       move_program_(gl::Program::compute("sim/descent/move_clusters.comp")),
-      way_program_(gl::Program::compute("sim/descent/find_displacements.comp")),
+      displacement_program_(gl::Program::compute("sim/descent/find_displacements.comp")),
       sum_program_(gl::Program::compute("sim/descent/apply_displacements.comp", {"SUMS"})),
       factor_program_(gl::Program::compute("sim/descent/apply_displacements.comp", {"OBJECTS"})),
-      follow_program_(gl::Program::compute("sim/descent/apply_displacements.comp")),
+      apply_program_(gl::Program::compute("sim/descent/apply_displacements.comp")),
       node_count_(model.node_count()),
       cluster_count_(basis.cluster_count()),
       object_count_(static_cast<std::uint32_t>(model.objects.size())) {
@@ -69,7 +69,7 @@ CoarseCorrection::CoarseCorrection(const Model& model, const CoarseBasis& basis)
     cluster_parts_ = {packed(basis.cluster_parts), gl::TexelFormat::rg32ui};
     node_parts_ = {packed(basis.node_parts), gl::TexelFormat::rg32ui};
     rest_positions_ = {model.positions, gl::TexelFormat::rgba32f};
-    for (gl::Buffer<glm::vec4>* by_node : {&forces_, &forces_ahead_, &ways_, &ahead_})
+    for (gl::Buffer<glm::vec4>* by_node : {&forces_, &forces_ahead_, &displacements_, &ahead_})
         *by_node = gl::Buffer<glm::vec4>(node_count_);
     loads_ = gl::Buffer<float>(std::size_t{6} * cluster_count_);
     factors_ = gl::Buffer<float>(object_count_);
@@ -85,17 +85,17 @@ void CoarseCorrection::begin(double step) {
     rest_positions_.bind(4);
     rests_.bind_storage(3);
     clusters_.bind_storage(4);
-    turn_program_.set("cluster_count", cluster_count_);
-    turn_program_.dispatch(std::size_t{64} * cluster_count_);
+    rotate_program_.set("cluster_count", cluster_count_);
+    rotate_program_.dispatch(std::size_t{64} * cluster_count_);
     gl::barrier(gl::Barrier::storage);
 }
 
 void CoarseCorrection::bind_forces(bool is_ahead) const {
-    ways_.bind_storage(4);
+    displacements_.bind_storage(4);
     (is_ahead ? forces_ahead_ : forces_).bind_storage(5);
 }
 
-void CoarseCorrection::find_ways() const {
+void CoarseCorrection::find_displacements() const {
     cluster_starts_.bind(3);
     cluster_parts_.bind(4);
     forces_.bind_storage(3);
@@ -114,20 +114,20 @@ void CoarseCorrection::find_ways() const {
 
     node_starts_.bind(3);
     node_parts_.bind(4);
-    ways_.bind_storage(5);
+    displacements_.bind_storage(5);
     ahead_.bind_storage(6);
-    way_program_.set("node_count", node_count_);
-    way_program_.dispatch(node_count_);
+    displacement_program_.set("node_count", node_count_);
+    displacement_program_.dispatch(node_count_);
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 }
 
-void CoarseCorrection::follow_ways(const gl::Buffer<Chunk>& chunks,
-                                   const gl::TexelTable<std::uint32_t>& chunk_starts) {
+void CoarseCorrection::apply_displacements(const gl::Buffer<Chunk>& chunks,
+                                           const gl::TexelTable<std::uint32_t>& chunk_starts) {
     const auto chunk_count = static_cast<std::uint32_t>(chunks.size());
     if (sums_.size() != chunks.size()) sums_ = gl::Buffer<glm::vec4>(chunks.size());
     chunks.bind_storage(3);
     sums_.bind_storage(4);
-    ways_.bind_storage(5);
+    displacements_.bind_storage(5);
     forces_.bind_storage(6);
     forces_ahead_.bind_storage(7);
     sum_program_.set("element_count", chunk_count);
@@ -141,8 +141,8 @@ void CoarseCorrection::follow_ways(const gl::Buffer<Chunk>& chunks,
     factor_program_.dispatch(object_count_);
     gl::barrier(gl::Barrier::storage);
 
-    follow_program_.set("element_count", chunk_count);
-    follow_program_.dispatch(64 * chunks.size());
+    apply_program_.set("element_count", chunk_count);
+    apply_program_.dispatch(64 * chunks.size());
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 }
 

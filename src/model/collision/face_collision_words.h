@@ -4,7 +4,7 @@
 
 namespace gelatin {
 
-/// Faces in a word of the Face Collision Result, two bits each (src/cpu/collision/touch.h). GLSL twin:
+/// Faces in a word of the Face Collision Result, two bits each (src/cpu/collision/face_contact.h). GLSL twin:
 /// shaders/sim/collision/pairs.glsl.
 constexpr std::uint32_t kFacesAWord = 16;
 

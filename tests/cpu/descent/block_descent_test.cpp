@@ -248,14 +248,14 @@ TEST(BlockDescent, FrictionIsCoulombs) {
     const Model model = make_model(
         {.youngs_modulus = 1e6, .damping = 0.01, .velocity = {speed, 0.0, 0.0}, .colliders = {floor}});
     const cpu::Nodes<double> nodes = run_steps<double>(model, kFrame, 120, 30);
-    glm::dvec3 way(0.0);
+    glm::dvec3 displacement(0.0);
     double mass = 0.0;
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
         const double m = static_cast<double>(model.masses[n]);
-        way += m * (glm::dvec3(nodes.positions[n]) - glm::dvec3(model.positions[n]));
+        displacement += m * (glm::dvec3(nodes.positions[n]) - glm::dvec3(model.positions[n]));
         mass += m;
     }
-    EXPECT_NEAR(way.x / mass, speed * speed / (2 * 0.3 * 9.81), 0.03);
+    EXPECT_NEAR(displacement.x / mass, speed * speed / (2 * 0.3 * 9.81), 0.03);
     EXPECT_LT(glm::length(momenta_of(nodes).linear) / mass, 0.01);
 }
 
@@ -299,7 +299,7 @@ TEST(BlockDescent, InFloatIsTheDoubleReference) {
     }
 }
 
-// Each body by itself, some together, all of them; over corrections, rigid motions and touches.
+// Each body by itself, some together, all of them; over corrections, rigid motions and contacts.
 TEST(BlockDescent, IsTheSameInAnyBatches) {
     for (const double poisson_ratio : {0.25, 0.4}) {
         const auto model = std::make_shared<const Model>(test::make_bodies_to_descend(0.01, poisson_ratio));

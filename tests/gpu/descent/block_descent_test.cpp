@@ -62,9 +62,9 @@ TEST_F(BlockDescentOnGpuTest, LooksBackAsTheDoubleReference) {
     EXPECT_LE(test::worst_descent_error(model, descent, test::descend_on_gpu(model, descent)), 1.0);
 }
 
-TEST_F(BlockDescentOnGpuTest, MatchesTheDoubleReferenceOfTurnedBodies) {
+TEST_F(BlockDescentOnGpuTest, MatchesTheDoubleReferenceOfRotatedBodies) {
     const Model model = test::make_bodies_to_descend(0.01);
-    const test::Descent descent{1.0 / 60.0, {3}, {}, test::turned_start(model)};
+    const test::Descent descent{1.0 / 60.0, {3}, {}, test::rotated_start(model)};
     EXPECT_LE(test::worst_descent_error(model, descent, test::descend_on_gpu(model, descent)), 1.0);
 }
 
