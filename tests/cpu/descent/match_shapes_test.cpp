@@ -27,7 +27,7 @@ double difference(const glm::dmat3& a, const glm::dmat3& b) {
     return worst;
 }
 
-TEST(NearestRotation, IsTheTurnThatWasMade) {
+TEST(NearestRotation, IsTheRotationThatWasMade) {
     const glm::dmat3 spread(glm::dvec3(3, 0.5, 0), glm::dvec3(0.5, 2, 0.1), glm::dvec3(0, 0.1, 1));
     for (const glm::dvec3& w : {glm::dvec3(0.3, -0.2, 0.1), glm::dvec3(5, 40, -7), glm::dvec3(1e9, 0, 0)}) {
         const glm::dmat3 rotation = cpu::cayley_rotation(w);

@@ -45,11 +45,12 @@ TEST(RigidMotion, FindsAMotionThatWasMade) {
     std::vector<V3> targets;
     for (const V4& p : nodes) targets.push_back(made.move(V3(p)));
     const cpu::RigidMotion found = nearest_motion(nodes, targets);
-    // The rotation is off by its second order, and by a millionth for what keeps thin bodies from rotating wildly.
+    // The rotation is off by its second order, and by a millionth for what keeps thin bodies from rotating
+    // wildly.
     for (const V4& p : nodes) EXPECT_LT(glm::distance(found.move(V3(p)), made.move(V3(p))), 3e-8);
 }
 
-TEST(RigidMotion, CayleysTurnIsATurn) {
+TEST(RigidMotion, CayleysRotationIsARotation) {
     for (const double size : {1e-6, 0.1, 1.0, 100.0}) {
         const V3 w = size * glm::normalize(V3(3, -1, 2));
         const glm::dmat3 rotation = cpu::cayley_rotation(w);
