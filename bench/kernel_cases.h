@@ -35,8 +35,8 @@ struct DescentCase {
     const char* stage;
     DescentSettings settings;
 };
-inline constexpr DescentCase kFewSweeps{"vbd (2 sweeps alone)", {2, 0.0, false}};
-inline constexpr DescentCase kManySweeps{"vbd (26 sweeps alone)", {26, 0.0, false}};
+inline constexpr DescentCase kFewSweeps{"vbd (2 sweeps alone)", {2, false}};
+inline constexpr DescentCase kManySweeps{"vbd (26 sweeps alone)", {26, false}};
 inline constexpr DescentCase kWholeStep{"vbd (26 sweeps)", {26}};
 
 /// Three times `scale` of this sphere in a grid, slightly damped so that both terms of the force count.

@@ -21,12 +21,9 @@ enum class ForceMethod { divide_and_merge, fused };
 struct SimulationSettings {
     SolverKind solver = SolverKind::vbd;
     ForceMethod forces = ForceMethod::fused;
-    double frame_rate = 60.0;     ///< frames a second of simulated time [1/s], > 0
-    std::optional<int> substeps;  ///< steps a frame, >= 1; empty: the fewest that are stable
-    int iterations = 10;          ///< of vbd, a step, >= 1
-    /// Of vbd: the factor by which a sweep is taken to leave the slowest error, in [0, 1); Chebyshev's method
-    /// goes further by it. 0: not at all.
-    double chebyshev = 0.0;
+    double frame_rate = 60.0;             ///< frames a second of simulated time [1/s], > 0
+    std::optional<int> substeps;          ///< steps a frame, >= 1; empty: the fewest that are stable
+    int iterations = 10;                  ///< of vbd, a step, >= 1
     glm::dvec3 gravity{0.0, -9.81, 0.0};  ///< [m/s^2]
     int frames = 600;                     ///< length of a run, >= 0
 

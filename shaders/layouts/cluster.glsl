@@ -9,11 +9,11 @@ struct ClusterRest {     // 32 bytes
 };
 struct Cluster {         // 96 bytes
     vec4  middle;        // of its core [m]
-    vec4  turn_x;        // columns
-    vec4  turn_y;
-    vec4  turn_z;
-    vec4  shift;         // [m]
-    vec4  spin;          // [radians]
+    vec4  orientation_x; // columns
+    vec4  orientation_y;
+    vec4  orientation_z;
+    vec4  translation;   // [m]
+    vec4  rotation;      // [radians]
 };
 // The clusters of an object, and its matrix.
 struct CoarseBody {      // 16 bytes

@@ -14,15 +14,16 @@ struct DescentRow {      // 16 bytes
     uint  first_tet;     // of the object's, less its first neo-Hookean one
 };
 // How a collider holds a node.
-struct Touch {           // 32 bytes
-    vec4  force;         // [N]; w: how it falls as the body comes away from the surface [N/m], 0 where nothing is touched
-    vec4  normal;        // unit; w: and as it slides [N/m]
+struct ColliderContact { // 32 bytes
+    vec4  force;         // [N]; w: how it falls as the body comes away from the surface [N/m], 0 without a contact
+    vec4  normal;        // unit; w: how it falls as the body slides [N/m]
 };
-// x becomes center + shift + turn (x - center).
+// x becomes x + translation + rotation (x - center), rotation being less the identity: what a motion adds is small, and
+// rounded as such.
 struct RigidMotion {     // 80 bytes
     vec4  center;        // [m]; w: 1 if the body moves, else 0
-    vec4  shift;         // [m]
-    vec4  turn_x;        // columns
-    vec4  turn_y;
-    vec4  turn_z;
+    vec4  translation;   // [m]
+    vec4  rotation_x;    // columns
+    vec4  rotation_y;
+    vec4  rotation_z;
 };

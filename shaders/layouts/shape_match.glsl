@@ -13,12 +13,12 @@ struct ShapeSums {       // 80 bytes
     vec4  momentum;      // m v [kg m/s]; w: m |x|^2 [kg m^2]
     vec4  spin;          // m x cross v [kg m^2/s]
 };
-// A rigid placement of the shape at rest, center + turn X, and how it moves.
+// A rigid placement of the shape at rest, center + rotation X, and how it moves.
 struct ShapePlace {      // 96 bytes
     vec4  center;        // [m]; w: 1 if the object is put there, else 0
-    vec4  turn_x;        // columns
-    vec4  turn_y;
-    vec4  turn_z;
+    vec4  rotation_x;    // columns
+    vec4  rotation_y;
+    vec4  rotation_z;
     vec4  velocity;      // of the center [m/s]
     vec4  spin;          // [1/s]
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "gpu/collision/find_face_collisions.h"
@@ -8,6 +9,7 @@
 #include "gpu/collision/respond.h"
 #include "gpu/collision/respond_to_self.h"
 #include "gpu/collision/update_boxes.h"
+#include "gpu/depth/cull_by_depth.h"
 #include "gpu/proximity/find_proximities.h"
 
 namespace gelatin::gpu {
@@ -17,6 +19,7 @@ namespace gelatin::gpu {
 struct Collision {
     CollisionBuffers buffers;
     UpdateBoxes update_boxes;
+    std::unique_ptr<CullByDepth> cull_by_depth;  // with BroadPhase::depth
     FindObjectPairs find_object_pairs;
     FindFaceCollisions find_face_collisions;
     Respond respond;
@@ -39,8 +42,10 @@ struct Collision {
     Collision(const Model& model, const CollisionSettings& settings)
         : buffers(model),
           update_boxes(settings.detection, settings.proximity_radius.value_or(0.0)),
-          find_object_pairs(model, settings.broad_phase),
-          find_face_collisions(settings),
+          cull_by_depth(settings.broad_phase == BroadPhase::depth ? std::make_unique<CullByDepth>(model)
+                                                                  : nullptr),
+          find_object_pairs(model, settings.broad_phase, cull_by_depth.get()),
+          find_face_collisions(settings, cull_by_depth.get()),
           respond(model, buffers, settings) {
         if (settings.self_collision) {
             self.emplace(

@@ -26,12 +26,8 @@ struct State {
 /// Of vertex block descent.
 struct DescentSettings {
     int iterations = 10;       ///< sweeps over all nodes in a step, >= 1
-    double chebyshev = 0.0;    ///< see SimulationSettings::chebyshev
     bool coarse_level = true;  ///< model/descent/coarse_basis.h; off to compare
 };
-
-/// What sweep `sweep` of a step, from 0, is accelerated by; 1 for the first two.
-double chebyshev_weight(double spectral_radius, int sweep);
 
 /// A node nearer to a collider than this [m] counts as a contact.
 constexpr double kContactDistance = 1e-5;

@@ -22,7 +22,6 @@ Json settings_json(const RunReport& report) {
             {"frame_rate", settings.frame_rate},
             {"substeps", report.substeps},
             {"iterations", settings.iterations},
-            {"chebyshev", settings.chebyshev},
             {"step_size", report.step_size},
             {"frames", settings.frames},
             {"broad_phase", name_of(report.collision.broad_phase)},

@@ -132,7 +132,7 @@ Simulator::Simulator(const Scene& scene, std::shared_ptr<const Model> model, con
     d.substeps = choose_substeps(scene, *d.model);
     d.context = make_context(d.options);
     const SimulationSettings& settings = scene.simulation;
-    const DescentSettings descent{settings.iterations, settings.chebyshev};
+    const DescentSettings descent{settings.iterations};
     if (choose_gl(d.options, d.context)) {
         auto solver = std::make_unique<gpu::GpuSolver>(d.model, settings.solver, settings.forces,
                                                        scene.collision, descent);

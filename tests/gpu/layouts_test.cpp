@@ -55,8 +55,8 @@ TEST_F(LayoutsTest, Spring) {
 }
 TEST_F(LayoutsTest, Clusters) {
     check("cluster.glsl", "Cluster", sizeof(Cluster),
-          {FIELD(Cluster, middle), FIELD(Cluster, turn_x), FIELD(Cluster, turn_y), FIELD(Cluster, turn_z),
-           FIELD(Cluster, shift), FIELD(Cluster, spin)});
+          {FIELD(Cluster, middle), FIELD(Cluster, orientation_x), FIELD(Cluster, orientation_y),
+           FIELD(Cluster, orientation_z), FIELD(Cluster, translation), FIELD(Cluster, rotation)});
     check("cluster.glsl", "ClusterRest", sizeof(ClusterRest),
           {FIELD(ClusterRest, middle), FIELD(ClusterRest, object), FIELD(ClusterRest, core_first),
            FIELD(ClusterRest, core_end), FIELD(ClusterRest, row)});
@@ -71,8 +71,8 @@ TEST_F(LayoutsTest, ShapeMatching) {
           {FIELD(ShapeSums, column_x), FIELD(ShapeSums, column_y), FIELD(ShapeSums, column_z),
            FIELD(ShapeSums, momentum), FIELD(ShapeSums, spin)});
     check("shape_match.glsl", "ShapePlace", sizeof(ShapePlace),
-          {FIELD(ShapePlace, center), FIELD(ShapePlace, turn_x), FIELD(ShapePlace, turn_y),
-           FIELD(ShapePlace, turn_z), FIELD(ShapePlace, velocity), FIELD(ShapePlace, spin)});
+          {FIELD(ShapePlace, center), FIELD(ShapePlace, rotation_x), FIELD(ShapePlace, rotation_y),
+           FIELD(ShapePlace, rotation_z), FIELD(ShapePlace, velocity), FIELD(ShapePlace, spin)});
 }
 TEST_F(LayoutsTest, Alarm) {
     check("alarm.glsl", "Alarm", sizeof(Alarm),
@@ -196,10 +196,11 @@ TEST_F(LayoutsTest, Descent) {
            FIELD(DescentRow, first_tet)});
     check("descent.glsl", "TetCorner", sizeof(TetCorner),
           {FIELD(TetCorner, a), FIELD(TetCorner, b), FIELD(TetCorner, c), FIELD(TetCorner, tet)});
-    check("descent.glsl", "Touch", sizeof(Touch), {FIELD(Touch, force), FIELD(Touch, normal)});
+    check("descent.glsl", "ColliderContact", sizeof(ColliderContact),
+          {FIELD(ColliderContact, force), FIELD(ColliderContact, normal)});
     check("descent.glsl", "RigidMotion", sizeof(RigidMotion),
-          {FIELD(RigidMotion, center), FIELD(RigidMotion, shift), FIELD(RigidMotion, turn_x),
-           FIELD(RigidMotion, turn_y), FIELD(RigidMotion, turn_z)});
+          {FIELD(RigidMotion, center), FIELD(RigidMotion, translation), FIELD(RigidMotion, rotation_x),
+           FIELD(RigidMotion, rotation_y), FIELD(RigidMotion, rotation_z)});
 }
 
 }  // namespace

@@ -48,9 +48,9 @@ inline constexpr Mutant kContinuousMutants[] = {
      "box = join(box, box_of_corners(faces[f], previous_positions));", ""},
     {"one_face_stands_still", "sim/collision/test_face_pairs.comp", "corners(b, previous_positions)",
      "corners(b, positions)"},
-    {"what_moves_away_enters", "sim/collision/touch.glsl", "dot(way, normal) > 0.0",
-     "dot(way, normal) != 0.0"},
-    {"sides_enter", "sim/collision/touch.glsl", "< kAcross", "< 0.0"},
+    {"what_moves_away_enters", "sim/collision/face_contact.glsl", "dot(relative, normal) > 0.0",
+     "dot(relative, normal) != 0.0"},
+    {"sides_enter", "sim/collision/face_contact.glsl", "< kAcross", "< 0.0"},
     {"planes_lie_anywhere", "sim/collision/time_of_impact.glsl", "ends_apart), vec3(0.0), starts_apart)",
      "ends_apart), vec3(0.0), not(starts_apart))"},
 };

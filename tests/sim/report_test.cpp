@@ -69,7 +69,6 @@ TEST(Report, HasTheDocumentedKeys) {
                       {"frame_rate", 50.0},
                       {"substeps", 4},
                       {"iterations", 10},
-                      {"chebyshev", 0.0},
                       {"step_size", 0.005},
                       {"frames", 2},
                       {"broad_phase", "hierarchy"},

@@ -10,21 +10,22 @@
 
 namespace gelatin::test {
 
-/// Where a body's nodes go from rest by motions of its clusters, each a shift and a turn: d = P q [m], shape
-/// [nodes of the model].
-inline std::vector<glm::dvec3> coarse_ways(const Model& model, const CoarseBasis& basis,
-                                           const Range& clusters, const Eigen::VectorXd& motions) {
-    std::vector<glm::dvec3> ways(model.node_count(), glm::dvec3(0.0));
+/// How far a body's nodes go from rest by motions of its clusters, each a translation and a rotation: d = P q
+/// [m], shape [nodes of the model].
+inline std::vector<glm::dvec3> coarse_displacements(const Model& model, const CoarseBasis& basis,
+                                                    const Range& clusters, const Eigen::VectorXd& motions) {
+    std::vector<glm::dvec3> displacements(model.node_count(), glm::dvec3(0.0));
     for (std::uint32_t k = 0; k < clusters.count; ++k) {
         const Eigen::VectorXd q = motions.segment(6 * static_cast<Eigen::Index>(k), 6);
-        const glm::dvec3 shift(q[0], q[1], q[2]), turn(q[3], q[4], q[5]);
+        const glm::dvec3 translation(q[0], q[1], q[2]), rotation(q[3], q[4], q[5]);
         for (const CoarseBasis::Part& part : basis.nodes_of(clusters.first + k)) {
             const glm::dvec3 arm =
                 glm::dvec3(model.positions[part.index]) - basis.middles[clusters.first + k];
-            ways[part.index] += static_cast<double>(part.weight) * (shift + glm::cross(turn, arm));
+            displacements[part.index] +=
+                static_cast<double>(part.weight) * (translation + glm::cross(rotation, arm));
         }
     }
-    return ways;
+    return displacements;
 }
 
 /// Reproducible, of the order of `size`.

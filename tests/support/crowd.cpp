@@ -31,8 +31,10 @@ void run_detection(gpu::Collision& collision, const gpu::ModelBuffers& model,
     gpu::CollisionBuffers& buffers = collision.buffers;
     poison(buffers.face_boxes);
     poison(buffers.face_trees.boxes);
-    poison(buffers.face_views);
-    poison(buffers.object_views);
+    if (collision.cull_by_depth) {
+        poison(collision.cull_by_depth->face_views);
+        poison(collision.cull_by_depth->object_views);
+    }
     poison(buffers.pair_rows);
     poison(buffers.object_pairs);
     poison(buffers.candidates);
@@ -129,7 +131,7 @@ FaceCollisions find_collisions_by_brute_force(const Model& model) {
             if (other == model.faces[f].object) continue;
             if (!found.empty() && found.back().face == f && found.back().other == other) continue;
             if (cpu::triangles_overlap(triangle(model, model.faces[f]), triangle(model, model.faces[g])))
-                found.push_back({f, other, cpu::Touch::enters});
+                found.push_back({f, other, cpu::FaceContact::enters});
         }
     }
     return found;
@@ -143,7 +145,7 @@ FaceCollisions find_collisions_on_cpu(const Model& model, const CollisionSetting
     for (const cpu::ObjectPair& pair : collision.pairs()) {
         const Range& faces = model.objects[pair.object].faces;
         for (std::uint32_t f = faces.first; f < faces.end(); ++f) {
-            if (collision.collides(pair, f)) found.push_back({f, pair.other, collision.touch(pair, f)});
+            if (collision.collides(pair, f)) found.push_back({f, pair.other, collision.contact(pair, f)});
         }
     }
     std::sort(found.begin(), found.end());
@@ -168,9 +170,10 @@ FaceCollisions find_collisions_on_gpu(const Model& model, const CollisionSetting
         for (std::uint32_t p = row.first_pair; p < row.first_pair + row.pair_count; ++p) {
             const Range& faces = model.objects[pairs[p].object].faces;
             for (std::uint32_t k = 0; k < faces.count; ++k) {
-                const auto touch =
-                    cpu::Touch(words[pairs[p].first_word + k / kFacesAWord] >> (2 * (k % kFacesAWord)) & 3u);
-                if (touch != cpu::Touch::none) found.push_back({faces.first + k, pairs[p].other, touch});
+                const auto touch = cpu::FaceContact(
+                    words[pairs[p].first_word + k / kFacesAWord] >> (2 * (k % kFacesAWord)) & 3u);
+                if (touch != cpu::FaceContact::none)
+                    found.push_back({faces.first + k, pairs[p].other, touch});
             }
         }
     }

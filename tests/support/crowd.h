@@ -26,7 +26,7 @@ Model make_far_pairs(int count, double extent, unsigned seed = 1);
 /// A face, the object that it touches, and how.
 struct FaceCollision {
     std::uint32_t face, other;
-    cpu::Touch touch;
+    cpu::FaceContact touch;
 
     bool operator==(const FaceCollision&) const = default;
     bool operator<(const FaceCollision& o) const { return std::tie(face, other) < std::tie(o.face, o.other); }

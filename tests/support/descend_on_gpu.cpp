@@ -22,8 +22,8 @@ const std::vector<glm::vec4>& start_of(const Model& model, const Descent& descen
 
 }  // namespace
 
-// By a third of a whole turn about the diagonal the axes change places.
-std::vector<glm::vec4> turned_start(const Model& model) {
+// By 120 degrees about the diagonal the axes change places.
+std::vector<glm::vec4> rotated_start(const Model& model) {
     std::vector<glm::vec4> positions = model.positions;
     for (const ModelObject& object : model.objects) {
         glm::vec3 middle(0.0f);

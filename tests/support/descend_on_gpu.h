@@ -14,8 +14,8 @@ struct Descent {
     std::vector<glm::vec4> positions{};           ///< at the start; empty: the model's
 };
 
-/// The model's positions with every body turned about its middle by two thirds of half a turn.
-std::vector<glm::vec4> turned_start(const Model& model);
+/// The model's positions with every body rotated about its middle by 120 degrees.
+std::vector<glm::vec4> rotated_start(const Model& model);
 
 /// A step of vertex block descent on the GPU from the model's start, positions and velocities poisoned first
 /// and guarded behind their end.

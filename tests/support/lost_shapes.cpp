@@ -55,7 +55,7 @@ cpu::Nodes<float> lose_shapes(const Model& model, bool bar_is_lost, float scale)
 }
 
 void match_on_gpu(const Model& model, std::vector<cpu::Nodes<float>>& runs) {
-    const gpu::ShapeMatcher matcher(model);
+    gpu::ShapeMatcher matcher(model);
     for (cpu::Nodes<float>& run : runs) {
         const gpu::NodeBuffers nodes(run.positions, run.velocities);
         matcher.run(nodes);

@@ -11,7 +11,7 @@ namespace gelatin::test {
 namespace {
 
 constexpr double kEps = std::numeric_limits<float>::epsilon();
-constexpr DescentSettings kSweeps{4, 0.0};
+constexpr DescentSettings kSweeps{4};
 
 double largest(const std::vector<glm::vec4>& values) {
     double most = 0.0;

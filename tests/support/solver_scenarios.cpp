@@ -173,11 +173,6 @@ Scenarios descent_scenarios() {
                  return descent_error(make_bodies_to_descend(0.0, poisson_ratio), {kFrame, {5}});
              }});
     }
-    for (const double damping : {0.0, 0.01}) {
-        scenarios.push_back({damping > 0.0 ? "accelerated_damped" : "accelerated", [=] {
-                                 return descent_error(make_bodies_to_descend(damping), {kFrame, {6, 0.8}});
-                             }});
-    }
     // Earlier velocities from which some nodes have gained less than nothing, some a part of gravity, some
     // more than all.
     scenarios.push_back({"looking_back", [] {

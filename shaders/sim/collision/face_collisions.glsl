@@ -1,5 +1,5 @@
 // The paper's Face Collision Result: for each pair of objects two bits a face of the pair's object, how it touches the
-// other (src/cpu/collision/touch.h).
+// other (src/cpu/collision/face_contact.h).
 const uint kTouches = 1u;
 const uint kEnters = 3u;
 layout(std430) buffer FaceCollisions { uint face_collisions[]; };

@@ -1,9 +1,9 @@
-// The faces of each pair's object that reach into the other's box, in no particular order, and where their tests start; with
-// VIEW_COUNT those of them that may collide at all; and an empty Face Collision Result. One invocation for each entry: four
-// faces of a pair. CPU twin: gelatin::cpu::Collision. Parity: tests/gpu/collision/collision_test.cpp.
+// The faces of each pair's object that may collide and reach into the other's box, in no particular order, where its tests
+// start; and a Face Collision Result without collisions. One invocation an entry: four faces of a pair. CPU twin: gelatin::cpu::Collision.
+// Parity: tests/gpu/collision/collision_test.cpp.
 #include "sim/collision/pairs.glsl"
 #include "sim/collision/face_collisions.glsl"
-#include "sim/depth/hidden.glsl"
+#include "sim/collision/may_collide.glsl"
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer FaceBoxes { Box face_boxes[]; };

@@ -1,5 +1,5 @@
 // The paper's first test (2.4): bounding box against bounding box; and a search for all objects that pass it.
-#include "sim/depth/hidden.glsl"
+#include "sim/collision/may_collide.glsl"
 #include "sim/collision/pairs.glsl"
 uniform uint object_count;
 uniform uint ignore_boxes;  // 1: every object may touch every other

@@ -5,7 +5,7 @@
 #include "sim/collision/face_collisions.glsl"
 #include "sim/collision/rounding.glsl"
 #ifdef CONTINUOUS
-#include "sim/collision/touch.glsl"
+#include "sim/collision/face_contact.glsl"
 #else
 #include "sim/collision/triangle_overlap.glsl"
 #endif
@@ -27,7 +27,7 @@ uvec2 test(Face a, Face b) {
 #ifdef CONTINUOUS
     MovingFace face = MovingFace(corners(a, previous_positions), corners(a, positions));
     MovingFace other = MovingFace(corners(b, previous_positions), corners(b, positions));
-    return time_of_impact(face, other) != kNever ? touches_on_the_way(face, other) : uvec2(0u);
+    return time_of_impact(face, other) != kNever ? face_contacts(face, other) : uvec2(0u);
 #else
     mat3 s = corners(a, positions), t = corners(b, positions);
     return triangles_overlap(s[0], s[1], s[2], t[0], t[1], t[2]) ? uvec2(kEnters) : uvec2(0u);

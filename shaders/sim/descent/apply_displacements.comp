@@ -1,5 +1,6 @@
-// Bodies go as far along their nodes' ways as the objective falls. With SUMS: what acts along the ways of a chunk's nodes,
-// one work group a chunk. With OBJECTS: the part of the ways at which that is nothing, by the secant through its values
+// Bodies go as far along their nodes' displacements as the objective falls. With SUMS: the work of the forces along the
+// displacements of a chunk's nodes, one work group a chunk. With OBJECTS: the part of the displacements at which that is
+// zero, by the secant through its values
 // here and at their ends, one invocation an object. With neither: all nodes of a chunk go.
 // CPU twin: gelatin::cpu::CoarseStep. Parity: tests/gpu/descent/block_descent_test.cpp.
 #include "include/global_index.glsl"
@@ -9,7 +10,7 @@ layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Chunks { Chunk chunks[]; };
 layout(std430) buffer Sums { vec4 sums[]; };        // of chunks: here, ahead [J], square of the longest [m^2]
-layout(std430) readonly buffer Ways { vec4 ways[]; };  // [m]
+layout(std430) readonly buffer Displacements { vec4 displacements[]; };  // [m]
 #ifndef SUMS
 layout(std430) buffer Factors { float factors[]; };    // by object
 #endif
@@ -28,9 +29,9 @@ void main() {
     vec3 sum = vec3(0.0);
     for (uint k = lane; k < chunk.count; k += 64u) {
         uint n = chunk.first + k;
-        vec3 way = ways[n].xyz;
-        sum.xy += vec2(dot(forces_here[n].xyz, way), dot(forces_ahead[n].xyz, way));
-        sum.z = max(sum.z, dot(way, way));
+        vec3 displacement = displacements[n].xyz;
+        sum.xy += vec2(dot(forces_here[n].xyz, displacement), dot(forces_ahead[n].xyz, displacement));
+        sum.z = max(sum.z, dot(displacement, displacement));
     }
     parts[lane] = sum;
     barrier();
@@ -41,7 +42,7 @@ void main() {
 #elif defined(OBJECTS)
 uniform usamplerBuffer chunk_starts;  // of each object, and the end
 layout(std430) readonly buffer Bodies { CoarseBody bodies[]; };
-const float kFarthest = 2.0;  // ways are made longer by no more
+const float kFarthest = 2.0;  // displacements are made longer by no more
 
 bool is_finite(float x) { return !(isinf(x) || isnan(x)); }
 
@@ -67,6 +68,6 @@ void main() {
     float factor = factors[chunk.object];
     if (factor == 0.0) return;
     for (uint k = gl_LocalInvocationID.x; k < chunk.count; k += 64u)
-        positions[chunk.first + k].xyz += factor * ways[chunk.first + k].xyz;
+        positions[chunk.first + k].xyz += factor * displacements[chunk.first + k].xyz;
 }
 #endif

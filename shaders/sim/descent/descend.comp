@@ -1,7 +1,7 @@
 // Vertex block descent (Chen et al. 2024): each node of one colour makes a Newton step on its own part of the objective.
 // One invocation a row; rows are nodes by colour, in slices of 64 as advance_nodes has them. Neighbours have other
 // colours, so that what is gathered is not written here.
-// With FORCES nodes stay, and what acts on each is written, touches included: rows of all colours at once.
+// With FORCES nodes stay, and the force on each is written, contacts included: rows of all colours at once.
 // CPU twin: gelatin::cpu::BlockDescent. Parity: tests/gpu/descent/block_descent_test.cpp.
 #include "include/global_index.glsl"
 #include "sim/collision/colliders.glsl"
@@ -15,7 +15,7 @@ uniform usamplerBuffer rows;          // DescentRow
 uniform usamplerBuffer spring_ends;   // of two half springs, the nodes at their other ends
 uniform samplerBuffer springs;        // their rest length [m], stiffness [N/m], dampers in them
 uniform usamplerBuffer slice_starts;
-uniform usamplerBuffer near_flat;    // of nodes, the look at which they were
+uniform usamplerBuffer near_flat;    // of nodes, the number of the marking that they were marked in
 uniform usamplerBuffer tet_corners;   // TetCorner, of bodies of springs
 uniform usamplerBuffer corner_starts;
 uniform samplerBuffer tet_rests;     // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
@@ -24,27 +24,27 @@ uniform samplerBuffer offsets;       // q [Pa], of each tet
 #endif
 layout(std430) writeonly buffer OutPositions { vec4 out_positions[]; };
 #ifdef FORCES
-layout(std430) readonly buffer Ways { vec4 ways[]; };       // [m]
+layout(std430) readonly buffer Displacements { vec4 displacements[]; };       // [m]
 layout(std430) writeonly buffer Forces { vec4 forces[]; };  // [N]
-uniform uint is_ahead;  // positions are those at the ways' ends
+uniform uint is_ahead;  // positions are those after the displacements
 #endif
-layout(std430) buffer ObjectTouches { uint object_touches[]; };
+layout(std430) buffer ObjectContacts { uint object_contacts[]; };
 #ifdef NEO_HOOKEAN
 #include "sim/elasticity/neo_hookean_terms.glsl"
 #endif
 uniform uint first_row;
 uniform uint row_count;
-uniform uint look;         // the last
+uniform uint mark;         // number of the last marking
 
 vec3 position_of(uint node) { return texelFetch(positions, int(node)).xyz; }
 
 #if COLLIDER_KINDS != 0
-layout(std430) buffer Touches { Touch touches[]; };  // of nodes
+layout(std430) buffer Contacts { ColliderContact contacts[]; };  // of nodes
 
 // Where the node's own objective, to second order, is least outside the collider's tangent plane, behind which all of it
 // lies: the normal force is what that takes. Friction then takes back what the node has slid along the plane, with as much
 // force as Coulomb's law allows.
-void push_out(uint c, vec4 surface, vec3 start, NodeTerms terms, inout vec3 position, inout Touch touch) {
+void push_out(uint c, vec4 surface, vec3 start, NodeTerms terms, inout vec3 position, inout ColliderContact contact) {
     if (surface.w >= 0.0) return;
     vec3 n = surface.xyz;
     vec3 yielding = solve(terms, n);  // to a force along n
@@ -56,11 +56,11 @@ void push_out(uint c, vec4 surface, vec3 start, NodeTerms terms, inout vec3 posi
     float stiffness = 1.0 / compliance;
     float pressing = -surface.w * stiffness;
     position += pressing * yielding;
-    touch.force = vec4(touch.force.xyz + pressing * n, stiffness);
-    touch.normal = vec4(n, 0.0);
+    contact.force = vec4(contact.force.xyz + pressing * n, stiffness);
+    contact.normal = vec4(n, 0.0);
 
-    vec3 way = position - start;
-    vec3 slid = way - dot(way, n) * n;
+    vec3 displacement = position - start;
+    vec3 slid = displacement - dot(displacement, n) * n;
     float length_ = length(slid);
     if (length_ == 0.0) return;
     vec3 t = slid / length_;
@@ -71,30 +71,30 @@ void push_out(uint c, vec4 surface, vec3 start, NodeTerms terms, inout vec3 posi
     float needed = length_ / sliding_compliance;
     float most = texelFetch(colliders, int(4u * c + 3u)).y * pressing;
     position -= min(needed, most) * giving;
-    touch.force.xyz -= min(needed, most) * t;
-    // It falls to nothing where all of the way is taken back.
+    contact.force.xyz -= min(needed, most) * t;
+    // It falls to nothing where all sliding is taken back.
     float left = length_ - min(needed, most) * sliding_compliance;
-    touch.normal.w = most < stiffness * left ? most / left : stiffness;
+    contact.normal.w = most < stiffness * left ? most / left : stiffness;
 }
 
-// @param ends of the colliders of each kind, all zero for nodes that are outside: software drivers run all that is not in
-// a loop, and loops that no node of a group has a turn of they leave out
-Touch push_outside_colliders(uvec4 ends, vec3 start, NodeTerms terms, inout vec3 position) {
-    Touch touch = Touch(vec4(0.0), vec4(0.0));
+// @param ends of the colliders of each kind, all zero for nodes that are outside: software drivers run all code that is not in
+// a loop, but skip loops that no node of a group enters
+ColliderContact push_outside_colliders(uvec4 ends, vec3 start, NodeTerms terms, inout vec3 position) {
+    ColliderContact contact = ColliderContact(vec4(0.0), vec4(0.0));
     uint c = 0u;
 #if (COLLIDER_KINDS & 1) != 0
-    for (; c < ends.x; ++c) push_out(c, distance_to_plane(c, position), start, terms, position, touch);
+    for (; c < ends.x; ++c) push_out(c, distance_to_plane(c, position), start, terms, position, contact);
 #endif
 #if (COLLIDER_KINDS & 2) != 0
-    for (; c < ends.y; ++c) push_out(c, distance_to_turned_box(c, position), start, terms, position, touch);
+    for (; c < ends.y; ++c) push_out(c, distance_to_turned_box(c, position), start, terms, position, contact);
 #endif
 #if (COLLIDER_KINDS & 4) != 0
-    for (; c < ends.z; ++c) push_out(c, distance_to_sphere(c, position), start, terms, position, touch);
+    for (; c < ends.z; ++c) push_out(c, distance_to_sphere(c, position), start, terms, position, contact);
 #endif
 #if (COLLIDER_KINDS & 8) != 0
-    for (; c < ends.w; ++c) push_out(c, distance_to_capsule(c, position), start, terms, position, touch);
+    for (; c < ends.w; ++c) push_out(c, distance_to_capsule(c, position), start, terms, position, contact);
 #endif
-    return touch;
+    return contact;
 }
 #endif
 
@@ -116,16 +116,16 @@ void main() {
     NodeTerms terms = NodeTerms(target.w * (target.xyz - position.xyz), vec3(target.w), vec3(0.0));
     int slice = int(row / 64u);
     uint first = texelFetch(slice_starts, slice).x + row % 64u, end = first + 64u * entry.z;
-    vec3 way_in = -any_short_way(n);
+    vec3 if_coincident = -any_short_offset(n);
     for (uint p = first; p < end; p += 64u) {
         uvec2 ends = texelFetch(spring_ends, int(p)).xy;
         vec4 two = texelFetch(springs, int(p));
         vec3 apart = position_of(ends.x) - position.xyz;
-        add_spring(apart == vec3(0.0) ? way_in : apart, two.x, two.y, terms);
+        add_spring(apart == vec3(0.0) ? if_coincident : apart, two.x, two.y, terms);
         apart = position_of(ends.y) - position.xyz;
-        add_spring(apart == vec3(0.0) ? way_in : apart, two.z, two.w, terms);
+        add_spring(apart == vec3(0.0) ? if_coincident : apart, two.z, two.w, terms);
     }
-    bool resists = texelFetch(near_flat, int(n)).x == look;
+    bool resists = texelFetch(near_flat, int(n)).x == mark;
 #ifndef VOLUME
     if (resists)
 #endif
@@ -149,11 +149,11 @@ void main() {
 #ifdef FORCES
     vec3 force = terms.force;
 #if COLLIDER_KINDS != 0
-    if (object_touches[entry.y] != 0u) {
-        Touch touch = touches[n];
-        vec3 way = is_ahead != 0u ? ways[n].xyz : vec3(0.0);
-        float across = touch.normal.w, along = touch.force.w;
-        force += touch.force.xyz - across * way - (along - across) * dot(touch.normal.xyz, way) * touch.normal.xyz;
+    if (object_contacts[entry.y] != 0u) {
+        ColliderContact contact = contacts[n];
+        vec3 displacement = is_ahead != 0u ? displacements[n].xyz : vec3(0.0);
+        float across = contact.normal.w, along = contact.force.w;
+        force += contact.force.xyz - across * displacement - (along - across) * dot(contact.normal.xyz, displacement) * contact.normal.xyz;
     }
 #endif
     forces[n] = vec4(force, 0.0);
@@ -161,11 +161,11 @@ void main() {
     vec3 moved = position.xyz + solve(terms, terms.force);
 #if COLLIDER_KINDS != 0
     bool is_inside = distance_to_colliders(moved) < 0.0;
-    Touch touch = push_outside_colliders(is_inside ? collider_ends : uvec4(0u), texelFetch(start_positions, int(n)).xyz,
+    ColliderContact contact = push_outside_colliders(is_inside ? collider_ends : uvec4(0u), texelFetch(start_positions, int(n)).xyz,
                                          terms, moved);
-    // As long as nothing of a body touches, it has no touches to forget.
-    if (is_inside || object_touches[entry.y] != 0u) touches[n] = touch;
-    if (touch.force.w != 0.0) object_touches[entry.y] = 1u;
+    // A body that has touched nothing in this step has no contacts to clear.
+    if (is_inside || object_contacts[entry.y] != 0u) contacts[n] = contact;
+    if (contact.force.w != 0.0) object_contacts[entry.y] = 1u;
 #endif
     out_positions[n] = vec4(moved, position.w);
 #endif

@@ -35,9 +35,9 @@ void main() {
         force += part_forces[l];
         moment += part_moments[l];
     }
-    mat3 turn = mat3(cluster.turn_x.xyz, cluster.turn_y.xyz, cluster.turn_z.xyz);
-    force = force * turn;
-    moment = moment * turn;
+    mat3 orientation = mat3(cluster.orientation_x.xyz, cluster.orientation_y.xyz, cluster.orientation_z.xyz);
+    force = force * orientation;
+    moment = moment * orientation;
     for (uint c = 0u; c < 3u; ++c) {
         loads[6u * k + c] = force[c];
         loads[6u * k + 3u + c] = moment[c];

@@ -1,4 +1,5 @@
-// Looks at each tet: marks the nodes of those so flat that they resist with the number of the look; VOLUME: and keeps how much of its volume is there.
+// Marks the nodes of all tets so flat that they resist, with the number of this marking, so that earlier marks need no
+// clearing. VOLUME: keeps the share of its volume that each tet has, too.
 // CPU twin: gelatin::cpu::TetResistance. Parity: tests/gpu/descent/block_descent_test.cpp.
 #include "include/global_index.glsl"
 #include "sim/elasticity/node_terms.glsl"
@@ -10,7 +11,7 @@ layout(std430) writeonly buffer NearFlat { uint near_flat[]; };
 layout(std430) writeonly buffer Ratios { float ratios[]; };  // J
 #endif
 uniform uint tet_count;
-uniform uint look;  // from 1
+uniform uint mark;  // from 1
 
 void main() {
     uint t = global_index();
@@ -21,5 +22,5 @@ void main() {
 #endif
     if (ratio >= kFlattest) return;
     uvec4 tet = texelFetch(tets, int(t));
-    for (int k = 0; k < 4; ++k) near_flat[tet[k]] = look;
+    for (int k = 0; k < 4; ++k) near_flat[tet[k]] = mark;
 }

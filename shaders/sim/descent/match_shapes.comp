@@ -4,16 +4,14 @@
 // CPU twin: gelatin::cpu::ShapeMatcher. Parity: tests/gpu/descent/match_shapes_test.cpp.
 #include "include/global_index.glsl"
 #include "layouts/chunk.glsl"
-#include "layouts/shape_match.glsl"
+#include "sim/descent/inverted_tets.glsl"
 layout(local_size_x = 64) in;
 
 uniform samplerBuffer positions;      // xyz [m]
 uniform samplerBuffer velocities;     // xyz [m/s]
 uniform usamplerBuffer chunk_starts;  // of each object, and the end
 uniform samplerBuffer rest_offsets;   // from the centre of mass [m], mass [kg]
-layout(std430) readonly buffer RestMoments { RestMoment rest_moments[]; };
 layout(std430) readonly buffer Chunks { Chunk chunks[]; };
-layout(std430) buffer Inverted { uint inverted[]; };  // tets, by object
 layout(std430) buffer Sums { ShapeSums shape_sums[]; };
 layout(std430) writeonly buffer Places { ShapePlace places[]; };
 uniform uint element_count;
@@ -25,7 +23,7 @@ ShapeSums add(ShapeSums a, ShapeSums b) {
 
 const ShapeSums kNothing = ShapeSums(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
 
-bool has_too_many_inverted(uint object) { return float(inverted[object]) > rest_moments[object].inverse_y.w; }
+bool may_be_lost(uint object) { return inverted[object] > most_inverted(object); }
 
 #ifdef OBJECTS
 #include "sim/descent/nearest_rotation.glsl"
@@ -37,10 +35,8 @@ float trace(mat3 m) { return m[0][0] + m[1][1] + m[2][2]; }
 void main() {
     uint object = global_index();
     if (object >= element_count) return;
-    bool is_lost = has_too_many_inverted(object);
-    inverted[object] = 0u;  // for the next step
     places[object].center.w = 0.0;
-    if (!is_lost) return;
+    if (!may_be_lost(object)) return;
     uint first = texelFetch(chunk_starts, int(object)).x, end = texelFetch(chunk_starts, int(object) + 1).x;
     ShapeSums sums = kNothing;
     for (uint c = first; c < end; ++c) sums = add(sums, shape_sums[c]);
@@ -55,13 +51,13 @@ void main() {
 
     // Moments of inertia in units of the object's own: determinants have three of them.
     float unit = trace(inverse_);
-    mat3 turn = nearest_rotation(moment), square_at_rest = inverse(inverse_ / unit);
+    mat3 rotation = nearest_rotation(moment), square_at_rest = inverse(inverse_ / unit);
     mat3 inertia = trace(square_at_rest) * mat3(1.0) - square_at_rest;
     vec3 spin = sums.spin.xyz - cross(center, sums.momentum.xyz);
-    spin = turn * (inverse(inertia) * (transpose(turn) * (unit * spin)));
+    spin = rotation * (inverse(inertia) * (transpose(rotation) * (unit * spin)));
     vec3 origin = texelFetch(positions, int(chunks[first].origin)).xyz;
-    places[object] = ShapePlace(vec4(origin + center, 1.0), vec4(turn[0], 0.0), vec4(turn[1], 0.0),
-                                vec4(turn[2], 0.0), vec4(sums.momentum.xyz / mass, 0.0), vec4(spin, 0.0));
+    places[object] = ShapePlace(vec4(origin + center, 1.0), vec4(rotation[0], 0.0), vec4(rotation[1], 0.0),
+                                vec4(rotation[2], 0.0), vec4(sums.momentum.xyz / mass, 0.0), vec4(spin, 0.0));
 }
 #else
 shared ShapeSums parts[64];
@@ -70,7 +66,7 @@ void main() {
     uint c = group_index();
     if (c >= element_count) return;
     Chunk chunk = chunks[c];
-    if (!has_too_many_inverted(chunk.object)) return;
+    if (!may_be_lost(chunk.object)) return;
     vec3 origin = texelFetch(positions, int(chunk.origin)).xyz;
     uint lane = gl_LocalInvocationID.x;
     ShapeSums sums = kNothing;

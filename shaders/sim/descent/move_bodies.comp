@@ -1,5 +1,5 @@
-// Moves bodies as rigid ones. LAST: the velocity is the way over the step, and nodes that a collider has stopped go back
-// with restitution times the speed that they would have had without it.
+// Moves bodies as rigid ones. LAST: the velocity is the displacement over the step, and nodes that a collider has stopped go
+// back with restitution times the speed that they would have had without it.
 // CPU twin: gelatin::cpu::BlockDescent. Parity: tests/gpu/descent/block_descent_test.cpp.
 #include "include/global_index.glsl"
 #include "sim/descent/descent_step.glsl"
@@ -17,7 +17,7 @@ layout(std430) readonly buffer Chunks { Chunk chunks[]; };
 layout(std430) readonly buffer Motions { RigidMotion motions[]; };
 uniform uint element_count;
 #ifdef LAST
-layout(std430) readonly buffer ObjectTouches { uint object_touches[]; };
+layout(std430) readonly buffer ObjectContacts { uint object_contacts[]; };
 uniform float contact_distance;  // [m]
 uniform float resting_speed;     // [m/s]
 #endif
@@ -27,19 +27,19 @@ void main() {
     if (c >= element_count) return;
     Chunk chunk = chunks[c];
     RigidMotion motion = motions[chunk.object];
-    mat3 turn = mat3(motion.turn_x.xyz, motion.turn_y.xyz, motion.turn_z.xyz);
+    mat3 rotation = mat3(motion.rotation_x.xyz, motion.rotation_y.xyz, motion.rotation_z.xyz);  // less the identity
     for (uint k = gl_LocalInvocationID.x; k < chunk.count; k += 64u) {
         uint n = chunk.first + k;
         vec4 position = texelFetch(positions, int(n));
         if (motion.center.w != 0.0) {
-            position.xyz = motion.center.xyz + motion.shift.xyz + turn * (position.xyz - motion.center.xyz);
+            position.xyz += motion.translation.xyz + rotation * (position.xyz - motion.center.xyz);
             out_positions[n] = position;
         }
 #ifdef LAST
         vec4 before = texelFetch(start_velocities, int(n));
         vec3 start = texelFetch(start_positions, int(n)).xyz;
         vec3 velocity = (position.xyz - start) / time_step;
-        if (object_touches[chunk.object] != 0u) {
+        if (object_contacts[chunk.object] != 0u) {
             rebound(position.xyz, (target_of(n) - start) / time_step, contact_distance, resting_speed, velocity);
         }
         velocities[n] = vec4(position.w > 0.0 ? velocity : before.xyz, before.w);

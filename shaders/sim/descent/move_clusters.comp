@@ -16,14 +16,14 @@ void main() {
     if (k >= cluster_count) return;
     CoarseBody body = bodies[rests[k].object];
     uint size = 6u * body.count, first = body.matrix + rests[k].row;
-    vec3 shift = vec3(0.0), spin = vec3(0.0);
+    vec3 translation = vec3(0.0), rotation = vec3(0.0);
     for (uint c = 0u; c < size; ++c) {
         float load = loads[6u * body.first + c];
         uint e = first + c * size;
-        shift += load * vec3(inverses[e], inverses[e + 1u], inverses[e + 2u]);
-        spin += load * vec3(inverses[e + 3u], inverses[e + 4u], inverses[e + 5u]);
+        translation += load * vec3(inverses[e], inverses[e + 1u], inverses[e + 2u]);
+        rotation += load * vec3(inverses[e + 3u], inverses[e + 4u], inverses[e + 5u]);
     }
-    mat3 turn = mat3(clusters[k].turn_x.xyz, clusters[k].turn_y.xyz, clusters[k].turn_z.xyz);
-    clusters[k].shift = vec4(turn * shift, 0.0);
-    clusters[k].spin = vec4(turn * spin, 0.0);
+    mat3 orientation = mat3(clusters[k].orientation_x.xyz, clusters[k].orientation_y.xyz, clusters[k].orientation_z.xyz);
+    clusters[k].translation = vec4(orientation * translation, 0.0);
+    clusters[k].rotation = vec4(orientation * rotation, 0.0);
 }

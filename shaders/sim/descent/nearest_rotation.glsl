@@ -5,11 +5,11 @@
 mat3 nearest_rotation(mat3 moment) {
     const int kSquarings = 20;
     vec3 a = moment[0], b = moment[1], c = moment[2];  // x X_x, x X_y, x X_z
-    vec3 turned = vec3(b.z - c.y, c.x - a.z, a.y - b.x);
-    mat4 m = mat4(a.x + b.y + c.z, turned.x, turned.y, turned.z,
-                  turned.x, a.x - b.y - c.z, a.y + b.x, c.x + a.z,
-                  turned.y, a.y + b.x, b.y - a.x - c.z, b.z + c.y,
-                  turned.z, c.x + a.z, b.z + c.y, c.z - a.x - b.y);
+    vec3 rotated = vec3(b.z - c.y, c.x - a.z, a.y - b.x);
+    mat4 m = mat4(a.x + b.y + c.z, rotated.x, rotated.y, rotated.z,
+                  rotated.x, a.x - b.y - c.z, a.y + b.x, c.x + a.z,
+                  rotated.y, a.y + b.x, b.y - a.x - c.z, b.z + c.y,
+                  rotated.z, c.x + a.z, b.z + c.y, c.z - a.x - b.y);
     vec4 sums = abs(m[0]) + abs(m[1]) + abs(m[2]) + abs(m[3]);
     float size = sums.x + sums.y + sums.z + sums.w;
     m = mat4(1.0) + m * (size > 0.0 ? 1.0 / size : 0.0);  // none of its eigenvalues is negative

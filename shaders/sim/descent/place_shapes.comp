@@ -16,7 +16,7 @@ void main() {
     if (n >= node_count) return;
     ShapePlace place = places[texelFetch(node_objects, int(n)).x];
     if (place.center.w == 0.0 || positions[n].w == 0.0) return;
-    vec3 r = mat3(place.turn_x.xyz, place.turn_y.xyz, place.turn_z.xyz) * texelFetch(rest_offsets, int(n)).xyz;
+    vec3 r = mat3(place.rotation_x.xyz, place.rotation_y.xyz, place.rotation_z.xyz) * texelFetch(rest_offsets, int(n)).xyz;
     positions[n].xyz = place.center.xyz + r;
     velocities[n].xyz = place.velocity.xyz + cross(place.spin.xyz, r);
 }

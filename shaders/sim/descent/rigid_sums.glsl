@@ -6,10 +6,10 @@ struct RigidSums {      // 512 bytes
     dvec4 product;      // k r_y r_z, k r_z r_x, k r_x r_y
     dvec4 force;        // f
     dvec4 moment;       // r x f
-    dvec4 shifts;       // of surfaces, along n, with t = r x n: k n_x n_x, k n_y n_y, k n_z n_z; w: what they press with
-    dvec4 shift_pairs;  // k n_y n_z, k n_z n_x, k n_x n_y; w: k n_x, by which that falls
-    dvec4 turns;        // k t_x t_x, ...; w: k n_y
-    dvec4 turn_pairs;   // k t_y t_z, ...; w: k n_z
+    dvec4 translations;       // of surfaces, along n, with t = r x n: k n_x n_x, k n_y n_y, k n_z n_z; w: what they press with
+    dvec4 translation_pairs;  // k n_y n_z, k n_z n_x, k n_x n_y; w: k n_x, by which that falls
+    dvec4 rotations;        // k t_x t_x, ...; w: k n_y
+    dvec4 rotation_pairs;   // k t_y t_z, ...; w: k n_z
     dvec4 mixed_x;      // k t_x n; w: k t_x
     dvec4 mixed_y;
     dvec4 mixed_z;
@@ -26,8 +26,8 @@ const RigidSums kNothing = RigidSums(kZero, kZero, kZero, kZero, kZero, kZero, k
 
 RigidSums add(RigidSums a, RigidSums b) {
     return RigidSums(a.arm + b.arm, a.square + b.square, a.product + b.product, a.force + b.force, a.moment + b.moment,
-                     a.shifts + b.shifts, a.shift_pairs + b.shift_pairs, a.turns + b.turns,
-                     a.turn_pairs + b.turn_pairs, a.mixed_x + b.mixed_x, a.mixed_y + b.mixed_y, a.mixed_z + b.mixed_z,
+                     a.translations + b.translations, a.translation_pairs + b.translation_pairs, a.rotations + b.rotations,
+                     a.rotation_pairs + b.rotation_pairs, a.mixed_x + b.mixed_x, a.mixed_y + b.mixed_y, a.mixed_z + b.mixed_z,
                      a.sliding_arm + b.sliding_arm, a.sliding_square + b.sliding_square,
                      a.sliding_product + b.sliding_product, a.sliding_moment + b.sliding_moment);
 }
@@ -41,32 +41,32 @@ void add_node(dvec3 r, double stiffness, dvec3 force, inout RigidSums sums) {
 }
 
 void add_along(dvec3 r, dvec3 normal, double stiffness, inout RigidSums sums) {
-    dvec3 turned = cross(r, normal);
-    sums.shifts.xyz += stiffness * normal * normal;
-    sums.shift_pairs.xyz += stiffness * normal.yzx * normal.zxy;
-    sums.turns.xyz += stiffness * turned * turned;
-    sums.turn_pairs.xyz += stiffness * turned.yzx * turned.zxy;
-    sums.mixed_x.xyz += stiffness * turned.x * normal;
-    sums.mixed_y.xyz += stiffness * turned.y * normal;
-    sums.mixed_z.xyz += stiffness * turned.z * normal;
+    dvec3 rotated = cross(r, normal);
+    sums.translations.xyz += stiffness * normal * normal;
+    sums.translation_pairs.xyz += stiffness * normal.yzx * normal.zxy;
+    sums.rotations.xyz += stiffness * rotated * rotated;
+    sums.rotation_pairs.xyz += stiffness * rotated.yzx * rotated.zxy;
+    sums.mixed_x.xyz += stiffness * rotated.x * normal;
+    sums.mixed_y.xyz += stiffness * rotated.y * normal;
+    sums.mixed_z.xyz += stiffness * rotated.z * normal;
 }
 
 // A surface that presses a node with a force along its normal, which falls by `along` as the node comes away, and holds
 // it back with friction, which falls by `across` as the node slides back; alike where it does not let the node slide.
 // What slides is resisted along the normal by a little more than that, which spares sums.
-void add_touch(dvec3 r, dvec3 normal, double pressing, dvec3 friction, double along, double across,
+void add_contact(dvec3 r, dvec3 normal, double pressing, dvec3 friction, double along, double across,
                inout RigidSums sums) {
     bool slides = across < along;
     add_node(r, slides ? 0.0 : across, pressing * normal + (slides ? dvec3(0.0) : friction), sums);
     add_along(r, normal, slides ? along : along - across, sums);
-    dvec3 fall = along * normal, fall_by_turn = along * cross(r, normal);
-    sums.shifts.w += pressing;
-    sums.shift_pairs.w += fall.x;
-    sums.turns.w += fall.y;
-    sums.turn_pairs.w += fall.z;
-    sums.mixed_x.w += fall_by_turn.x;
-    sums.mixed_y.w += fall_by_turn.y;
-    sums.mixed_z.w += fall_by_turn.z;
+    dvec3 fall = along * normal, fall_by_rotation = along * cross(r, normal);
+    sums.translations.w += pressing;
+    sums.translation_pairs.w += fall.x;
+    sums.rotations.w += fall.y;
+    sums.rotation_pairs.w += fall.z;
+    sums.mixed_x.w += fall_by_rotation.x;
+    sums.mixed_y.w += fall_by_rotation.y;
+    sums.mixed_z.w += fall_by_rotation.z;
     if (!slides) return;
     sums.sliding_arm += dvec4(across * r, across);
     sums.sliding_square += dvec4(across * r * r, friction.x);
@@ -106,31 +106,31 @@ dvec3 solve(dmat3 m, dvec3 f) {
 }
 
 const double kLeastInertia = 1e-6lf;
-const double kLargestTurn = 1.0;  // [radians]
+const double kLargestRotation = 1.0;  // [radians]
 
-// [A B; B^T C] (shift, turn) = (force, moment) by elimination of the shift.
-void find_way(RigidSums sums, out dvec3 shift, out dvec3 turn) {
+// [A B; B^T C] (translation, rotation) = (force, moment) by elimination of the translation.
+void find_displacement(RigidSums sums, out dvec3 translation, out dvec3 rotation) {
     dmat3 identity = dmat3(1.0);
     double trace = sums.square.x + sums.square.y + sums.square.z;
     double about_center = trace - dot(sums.arm.xyz, sums.arm.xyz) / sums.arm.w;
-    dmat3 a = sums.arm.w * identity + symmetric(sums.shifts.xyz, sums.shift_pairs.xyz);
+    dmat3 a = sums.arm.w * identity + symmetric(sums.translations.xyz, sums.translation_pairs.xyz);
     dmat3 b = dmat3(sums.mixed_x.xyz, sums.mixed_y.xyz, sums.mixed_z.xyz) - cross_matrix(sums.arm.xyz);
     dmat3 c = (trace + kLeastInertia * 2.0 / 3.0 * about_center) * identity -
-              symmetric(sums.square.xyz, sums.product.xyz) + symmetric(sums.turns.xyz, sums.turn_pairs.xyz);
+              symmetric(sums.square.xyz, sums.product.xyz) + symmetric(sums.rotations.xyz, sums.rotation_pairs.xyz);
     dmat3 a_inverse = inverse(a);
-    turn = solve(c - transpose(b) * a_inverse * b, sums.moment.xyz - transpose(b) * (a_inverse * sums.force.xyz));
-    turn *= min(1.0, kLargestTurn / max(length(turn), 1e-300lf));
-    shift = a_inverse * (sums.force.xyz - b * turn);
+    rotation = solve(c - transpose(b) * a_inverse * b, sums.moment.xyz - transpose(b) * (a_inverse * sums.force.xyz));
+    rotation *= min(1.0, kLargestRotation / max(length(rotation), 1e-300lf));
+    translation = a_inverse * (sums.force.xyz - b * rotation);
 }
 
 // Friction of nodes that slide is taken times what that leaves of all pressing forces, of which few sweeps find far too
 // much in stiff bodies. Adds it to the sums.
-void solve_rigid_step(inout RigidSums sums, out dvec3 shift, out dvec3 turn) {
+void solve_rigid_step(inout RigidSums sums, out dvec3 translation, out dvec3 rotation) {
     add_sliding(1.0, sums);
-    find_way(sums, shift, turn);
-    if (!(sums.sliding_arm.w > 0.0 && sums.shifts.w > 0.0)) return;
-    double fall = dot(dvec3(sums.shift_pairs.w, sums.turns.w, sums.turn_pairs.w), shift) +
-                  dot(dvec3(sums.mixed_x.w, sums.mixed_y.w, sums.mixed_z.w), turn);
-    add_sliding(clamp(1.0 - fall / sums.shifts.w, 0.0lf, 1.0lf) - 1.0, sums);
-    find_way(sums, shift, turn);
+    find_displacement(sums, translation, rotation);
+    if (!(sums.sliding_arm.w > 0.0 && sums.translations.w > 0.0)) return;
+    double fall = dot(dvec3(sums.translation_pairs.w, sums.rotations.w, sums.rotation_pairs.w), translation) +
+                  dot(dvec3(sums.mixed_x.w, sums.mixed_y.w, sums.mixed_z.w), rotation);
+    add_sliding(clamp(1.0 - fall / sums.translations.w, 0.0lf, 1.0lf) - 1.0, sums);
+    find_displacement(sums, translation, rotation);
 }

@@ -1,4 +1,4 @@
-// How each cluster is turned, and where its middle is; one work group a cluster.
+// The orientation of each cluster, and where its middle is; one work group a cluster.
 // CPU twin: gelatin::cpu::CoarseCorrection::begin. Parity: tests/gpu/descent/block_descent_test.cpp.
 #include "include/global_index.glsl"
 #include "sim/descent/nearest_rotation.glsl"
@@ -40,9 +40,9 @@ void main() {
         sums.moved += parts[l].moved;
         sums.moment += parts[l].moment;
     }
-    mat3 turn = nearest_rotation(sums.moment);
+    mat3 orientation = nearest_rotation(sums.moment);
     clusters[k].middle = vec4(origin + sums.moved.xyz / sums.moved.w, 0.0);
-    clusters[k].turn_x = vec4(turn[0], 0.0);
-    clusters[k].turn_y = vec4(turn[1], 0.0);
-    clusters[k].turn_z = vec4(turn[2], 0.0);
+    clusters[k].orientation_x = vec4(orientation[0], 0.0);
+    clusters[k].orientation_y = vec4(orientation[1], 0.0);
+    clusters[k].orientation_z = vec4(orientation[2], 0.0);
 }

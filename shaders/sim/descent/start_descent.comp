@@ -12,13 +12,13 @@ layout(local_size_x = 64) in;
 
 layout(std430) writeonly buffer Positions { vec4 positions[]; };
 layout(std430) writeonly buffer NearFlat { uint near_flat[]; };
-layout(std430) writeonly buffer ObjectTouches { uint object_touches[]; };
+layout(std430) writeonly buffer ObjectContacts { uint object_contacts[]; };
 layout(std430) readonly buffer EarlierVelocities { vec4 earlier_velocities[]; };
 layout(std430) writeonly buffer Tangled { uint is_tangled[]; };  // by object
 layout(std430) writeonly buffer Starts { vec4 starts[]; };        // xyz [m], inverse mass [1/kg]
 layout(std430) writeonly buffer Targets { vec4 targets[]; };      // y [m], m / h^2 [N/m], 0 where held
 #if COLLIDER_KINDS != 0
-layout(std430) writeonly buffer Touches { Touch touches[]; };  // of nodes
+layout(std430) writeonly buffer Contacts { ColliderContact contacts[]; };  // of nodes
 #endif
 
 uniform samplerBuffer start_positions;   // as the last step has left them
@@ -55,10 +55,10 @@ void main() {
     targets[n] = target;
     near_flat[n] = 0u;
 #if COLLIDER_KINDS != 0
-    touches[n] = Touch(vec4(0.0), vec4(0.0));
+    contacts[n] = ColliderContact(vec4(0.0), vec4(0.0));
 #endif
     if (n < object_count) {
-        object_touches[n] = 0u;
+        object_contacts[n] = 0u;
         is_tangled[n] = 0u;
     }
 }

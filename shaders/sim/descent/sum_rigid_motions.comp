@@ -10,7 +10,7 @@ layout(local_size_x = 64) in;
 
 uniform samplerBuffer positions;      // xyz [m], inverse mass [1/kg]
 uniform usamplerBuffer chunk_starts;  // of each object, and the end
-layout(std430) readonly buffer ObjectTouches { uint object_touches[]; };
+layout(std430) readonly buffer ObjectContacts { uint object_contacts[]; };
 layout(std430) readonly buffer Chunks { Chunk chunks[]; };
 #ifdef OBJECTS
 layout(std430) readonly buffer Sums { RigidSums rigid_sums[]; };
@@ -19,16 +19,17 @@ layout(std430) writeonly buffer Sums { dvec4 sum_members[]; };  // of RigidSums
 #endif
 layout(std430) writeonly buffer Motions { RigidMotion motions[]; };
 #if COLLIDER_KINDS != 0
-layout(std430) readonly buffer Touches { Touch touches[]; };  // of nodes
+layout(std430) readonly buffer Contacts { ColliderContact contacts[]; };  // of nodes
 #endif
 uniform uint element_count;
 
 #ifdef OBJECTS
-uniform uint is_last;  // the last sweep has left nodes outside colliders: bodies that touch one do not move after it
+uniform uint is_last;  // bodies in contact with a collider do not move then: the last sweep has left their nodes outside
 
-mat3 cayley_turn(vec3 w) {
+// The rotation about w by 2 atan(|w| / 2), less the identity.
+mat3 cayley_rotation(vec3 w) {
     mat3 cross_ = mat3(0.0, w.z, -w.y, -w.z, 0.0, w.x, w.y, -w.x, 0.0);
-    return mat3(1.0) + 4.0 / (4.0 + dot(w, w)) * (cross_ + 0.5 * cross_ * cross_);
+    return 4.0 / (4.0 + dot(w, w)) * (cross_ + 0.5 * cross_ * cross_);
 }
 
 void main() {
@@ -38,17 +39,17 @@ void main() {
     RigidSums sums = kNothing;
     for (uint c = first; c < end; ++c) sums = add(sums, rigid_sums[c]);
     bool is_held = sums.square.w > 0.0;
-    if (is_held || (is_last != 0u && object_touches[object] != 0u)) {
+    if (is_held || (is_last != 0u && object_contacts[object] != 0u)) {
         motions[object].center.w = 0.0;
         return;
     }
-    dvec3 shift, turn;
-    solve_rigid_step(sums, shift, turn);
-    mat3 matrix = cayley_turn(vec3(turn));
-    // A turn about the centre of mass does not move it, however large.
+    dvec3 translation, rotation;
+    solve_rigid_step(sums, translation, rotation);
+    mat3 matrix = cayley_rotation(vec3(rotation));
+    // A rotation about the centre of mass does not move it, however large.
     dvec3 center = sums.arm.xyz / sums.arm.w;
     vec3 origin = texelFetch(positions, int(chunks[first].origin)).xyz;
-    motions[object] = RigidMotion(vec4(origin + vec3(center), 1.0), vec4(vec3(shift + cross(turn, center)), 0.0),
+    motions[object] = RigidMotion(vec4(origin + vec3(center), 1.0), vec4(vec3(translation + cross(rotation, center)), 0.0),
                                   vec4(matrix[0], 0.0), vec4(matrix[1], 0.0), vec4(matrix[2], 0.0));
 }
 #else
@@ -62,10 +63,10 @@ void share(uint lane, RigidSums sums) {
     parts[128u + lane] = sums.product;
     parts[192u + lane] = sums.force;
     parts[256u + lane] = sums.moment;
-    parts[320u + lane] = sums.shifts;
-    parts[384u + lane] = sums.shift_pairs;
-    parts[448u + lane] = sums.turns;
-    parts[512u + lane] = sums.turn_pairs;
+    parts[320u + lane] = sums.translations;
+    parts[384u + lane] = sums.translation_pairs;
+    parts[448u + lane] = sums.rotations;
+    parts[512u + lane] = sums.rotation_pairs;
     parts[576u + lane] = sums.mixed_x;
     parts[640u + lane] = sums.mixed_y;
     parts[704u + lane] = sums.mixed_z;
@@ -90,17 +91,17 @@ RigidSums sum_nodes(Chunk chunk, uint lane) {
         add_node(dvec3(position.xyz - origin), stiffness, stiffness * dvec3(target.xyz - position.xyz), sums);
     }
 #if COLLIDER_KINDS != 0
-    // A loop of its own, which most bodies have no turn of.
-    uint touched_count = object_touches[chunk.object] != 0u ? chunk.count : 0u;
-    for (uint k = lane; k < touched_count; k += kLanes) {
+    // A loop of its own, which bodies without contacts do not enter.
+    uint contact_count = object_contacts[chunk.object] != 0u ? chunk.count : 0u;
+    for (uint k = lane; k < contact_count; k += kLanes) {
         uint n = chunk.first + k;
-        Touch touch = touches[n];
+        ColliderContact contact = contacts[n];
         vec4 position = texelFetch(positions, int(n));
-        if (position.w == 0.0 || touch.force.w == 0.0) continue;
-        dvec3 force = dvec3(touch.force.xyz), normal = dvec3(touch.normal.xyz);
+        if (position.w == 0.0 || contact.force.w == 0.0) continue;
+        dvec3 force = dvec3(contact.force.xyz), normal = dvec3(contact.normal.xyz);
         double pressing = dot(force, normal);
-        add_touch(dvec3(position.xyz - origin), normal, pressing, force - pressing * normal, double(touch.force.w),
-                  double(touch.normal.w), sums);
+        add_contact(dvec3(position.xyz - origin), normal, pressing, force - pressing * normal, double(contact.force.w),
+                  double(contact.normal.w), sums);
     }
 #endif
     return sums;

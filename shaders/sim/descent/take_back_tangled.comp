@@ -1,5 +1,5 @@
 // Bodies that the first guess tangles start where they were: it can hold any energy, which few sweeps would not take out
-// again. TETS: looks for them; without: takes their nodes back.
+// again. TETS: finds them; without: puts their nodes back.
 // CPU twin: gelatin::cpu::BlockDescent. Parity: tests/gpu/descent/block_descent_test.cpp.
 #include "include/global_index.glsl"
 layout(local_size_x = 64) in;

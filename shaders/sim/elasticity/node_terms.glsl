@@ -13,7 +13,7 @@ void add_outer(float factor, vec3 v, inout NodeTerms terms) {
 }
 
 // For a node that is where a neighbour is: out of there, too short to show in a position [m].
-vec3 any_short_way(uint node) {
+vec3 any_short_offset(uint node) {
     uint bits = (node + 1u) * 0x9E3779B9u;
     vec3 v;
     for (int k = 0; k < 3; ++k) {

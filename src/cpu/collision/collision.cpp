@@ -128,12 +128,12 @@ void Collision<Real>::find_face_collisions(std::span<const Vec4<Real>> positions
                                            std::span<const Vec4<Real>> previous) {
     const auto overlap = [&](const Face& a, const Face& b) {
         const bool touch = triangles_overlap(triangle(positions, a), triangle(positions, b));
-        return touch ? Touches{Touch::enters, Touch::enters} : Touches{};
+        return touch ? FaceContacts{FaceContact::enters, FaceContact::enters} : FaceContacts{};
     };
     const auto touch_on_the_way = [&](const Face& a, const Face& b) {
         const Moving<Real, 3> face{triangle(previous, a), triangle(positions, a)},
             other{triangle(previous, b), triangle(positions, b)};
-        return time_of_impact(face, other) ? touches_on_the_way(face, other) : Touches{};
+        return time_of_impact(face, other) ? face_contacts(face, other) : FaceContacts{};
     };
     tbb::parallel_for(std::size_t(0), pairs_.size(), [&](std::size_t p) {
         if (!starts_tests(pairs_[p])) return;
@@ -191,10 +191,10 @@ void Collision<Real>::test_candidates(const ObjectPair& pair, const Test& test) 
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
             const Face& face = model_->faces[candidates[i]];
             for_faces_near(pair, candidates[i], [&](std::uint32_t other) {
-                const Touches touches = test(face, model_->faces[other]);
-                if (touches.ours == Touch::none) return;
-                set_touch(pair, candidates[i], touches.ours);
-                set_touch(pairs_[pair.mirror], other, touches.theirs);
+                const FaceContacts touches = test(face, model_->faces[other]);
+                if (touches.ours == FaceContact::none) return;
+                set_contact(pair, candidates[i], touches.ours);
+                set_contact(pairs_[pair.mirror], other, touches.theirs);
             });
         }
     });
@@ -202,7 +202,7 @@ void Collision<Real>::test_candidates(const ObjectPair& pair, const Test& test) 
 
 // Bits of one word belong to faces that several threads may find.
 template <class Real>
-void Collision<Real>::set_touch(const ObjectPair& pair, std::uint32_t face, Touch touch) {
+void Collision<Real>::set_contact(const ObjectPair& pair, std::uint32_t face, FaceContact touch) {
     const std::uint32_t index = face - model_->objects[pair.object].faces.first;
     std::atomic_ref(face_collisions_[pair.first_word + index / kFacesAWord])
         .fetch_or(static_cast<std::uint32_t>(touch) << (2 * (index % kFacesAWord)),
@@ -210,9 +210,10 @@ void Collision<Real>::set_touch(const ObjectPair& pair, std::uint32_t face, Touc
 }
 
 template <class Real>
-Touch Collision<Real>::touch(const ObjectPair& pair, std::uint32_t face) const {
+FaceContact Collision<Real>::contact(const ObjectPair& pair, std::uint32_t face) const {
     const std::uint32_t index = face - model_->objects[pair.object].faces.first;
-    return Touch(face_collisions_[pair.first_word + index / kFacesAWord] >> (2 * (index % kFacesAWord)) & 3u);
+    return FaceContact(
+        face_collisions_[pair.first_word + index / kFacesAWord] >> (2 * (index % kFacesAWord)) & 3u);
 }
 
 template <class Real>

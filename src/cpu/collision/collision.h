@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "cpu/collision/axis_box.h"
+#include "cpu/collision/face_contact.h"
 #include "cpu/collision/object_tree.h"
-#include "cpu/collision/touch.h"
 #include "gelatin/scene.h"
 #include "model/model.h"
 
@@ -50,9 +50,9 @@ public:
     Range row(std::uint32_t object) const;
 
     /// How a face of the pair's object touches the other object.
-    Touch touch(const ObjectPair& pair, std::uint32_t face) const;
+    FaceContact contact(const ObjectPair& pair, std::uint32_t face) const;
     bool collides(const ObjectPair& pair, std::uint32_t face) const {
-        return touch(pair, face) != Touch::none;
+        return contact(pair, face) != FaceContact::none;
     }
     /// True if it touches any other object.
     bool collides(std::uint32_t face) const;
@@ -68,7 +68,7 @@ private:
     void for_faces_near(const ObjectPair& pair, std::uint32_t face, const Found& found) const;
     template <class Test>
     void test_candidates(const ObjectPair& pair, const Test& test);
-    void set_touch(const ObjectPair& pair, std::uint32_t face, Touch touch);
+    void set_contact(const ObjectPair& pair, std::uint32_t face, FaceContact touch);
 
     std::shared_ptr<const Model> model_;
     BroadPhase broad_phase_;
@@ -81,7 +81,7 @@ private:
     std::vector<std::vector<std::uint32_t>> partners_;  // for each object, ascending
     std::vector<ObjectPair> pairs_;
     std::vector<std::uint32_t> row_starts_;       // shape [objects + 1]
-    std::vector<std::uint32_t> face_collisions_;  // two bits for each of its object's faces, by pair: a Touch
+    std::vector<std::uint32_t> face_collisions_;  // two bits a face of its object, by pair: a FaceContact
 };
 
 }  // namespace gelatin::cpu

@@ -19,8 +19,8 @@ struct ContactPatch {
     Vec3<Real> held{0};         ///< sum of their velocities [m/s]
 };
 
-/// The weight in a patch's normal of faces that do not enter the other object (src/cpu/collision/touch.h):
-/// they count where none does.
+/// The weight in a patch's normal of faces that do not enter the other object
+/// (src/cpu/collision/face_contact.h): they count where none does.
 constexpr double kWeightOfOthers = 1e-3;
 
 /// The corners of a patch that approach the other object.

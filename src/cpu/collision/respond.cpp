@@ -80,8 +80,9 @@ ContactPatch<Real> sum_patch(const Contacts<Real>& contacts, const ObjectPair& p
     const Range& faces = contacts.model.objects[pair.object].faces;
     for (std::uint32_t f = faces.first; f < faces.end(); ++f) {
         if (!contacts.collision.collides(pair, f)) continue;
-        const Real weight =
-            contacts.collision.touch(pair, f) == Touch::enters ? Real(1) : static_cast<Real>(kWeightOfOthers);
+        const Real weight = contacts.collision.contact(pair, f) == FaceContact::enters
+                                ? Real(1)
+                                : static_cast<Real>(kWeightOfOthers);
         patch.area_normal += weight * contacts.area_normal(contacts.model.faces[f]);
     }
     contacts.for_corners(pair, [&](std::uint32_t n, Real mass) {

@@ -29,11 +29,10 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
     : model_(std::move(model)),
       settings_(settings),
       objective_(model_, nodes_a_batch),
-      touches_{objects_of_nodes(*model_), std::vector<std::uint8_t>(model_->objects.size()), {}} {
+      contacts_{objects_of_nodes(*model_), std::vector<std::uint8_t>(model_->objects.size()), {}} {
     if (settings_.coarse_level) coarse_.emplace(model_);
     if (coarse_ && coarse_->is_empty()) coarse_.reset();
-    if (!model_->colliders.empty()) touches_.nodes.resize(model_->node_count());
-    if (settings_.chebyshev > 0.0) last_ = before_last_ = std::vector<Vec3<Real>>(model_->node_count());
+    if (!model_->colliders.empty()) contacts_.nodes.resize(model_->node_count());
     if constexpr (kIsFloat<Real>) collider_bounds_ = make_collider_bounds(model_->colliders);
 }
 
@@ -48,7 +47,7 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
         tbb::parallel_for(std::size_t(0), objective_.rows().batches.size(), [&](std::size_t batch) {
             for (int i = first; i < end; ++i) make_sweep(i, batch, current.positions);
         });
-        if (end < settings_.iterations) coarse_->run(objective_, touches_, current.positions);
+        if (end < settings_.iterations) coarse_->run(objective_, contacts_, current.positions);
         first = end;
     }
     finish(step, previous, current);
@@ -65,9 +64,7 @@ int BlockDescent<Real>::end_of_run(int first) const {
 template <class Real>
 void BlockDescent<Real>::make_sweep(int index, std::size_t batch, std::vector<Vec4<Real>>& positions) {
     const DescentBatch& bodies = objective_.rows().batches[batch];
-    if (settings_.chebyshev > 0.0)
-        accelerate(coarse_ ? sweeps_since_correction(index) : index, bodies.nodes, positions);
-    if (index % kSweepsAMotion == 0) objective_.look(batch, positions);
+    if (index % kSweepsAMotion == 0) objective_.update(batch, positions);
     sweep(batch, positions);
     const bool is_last = index + 1 == settings_.iterations;
     if (is_last || (index + 1) % kSweepsAMotion == 0) move_bodies(bodies.objects, is_last, positions);
@@ -92,7 +89,7 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
             resolve_colliders<Real>(model_->colliders, Real(0), from, none);
         }
         objective_.starts[n] = Vec4<Real>(Vec3<Real>(from), previous.velocities[n].w);
-        if (touches_.is_touched(n)) touches_.nodes[n] = {};  // of the last step
+        if (contacts_.has_contact(n)) contacts_.nodes[n] = {};  // of the last step
         if (from.w == Real(0)) {
             objective_.targets[n] = Vec4<Real>(Vec3<Real>(from) + step * velocity, Real(0));
             current.positions[n] = objective_.targets[n];
@@ -110,7 +107,7 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
         const Vec3<Real> guess = Vec3<Real>(from) + step * (velocity + step * felt * gravity);
         current.positions[n] = Vec4<Real>(guess, from.w);
     });
-    std::fill(touches_.objects.begin(), touches_.objects.end(), std::uint8_t(0));
+    std::fill(contacts_.objects.begin(), contacts_.objects.end(), std::uint8_t(0));
     objective_.begin(step);
 }
 
@@ -128,23 +125,6 @@ void BlockDescent<Real>::take_back_tangled(std::vector<Vec4<Real>>& positions) c
     });
 }
 
-// Chebyshev's semi-iterative method (Golub, Varga 1961; for nonlinear sweeps Wang 2015): sweep k starts at
-//   x_k = w_k (x - x_(k-2)) + x_(k-2),  w_1 = 1,  w_2 = 2 / (2 - rho^2),  w_k = 4 / (4 - rho^2 w_(k-1)),
-// with x what the last one has found, so that what comes last is a sweep, which colliders have seen. Bodies
-// that touch one are left alone: what holds them changes from sweep to sweep. A coarse correction is no
-// sweep: the method begins anew behind it.
-template <class Real>
-void BlockDescent<Real>::accelerate(int sweep, const Range& nodes, std::vector<Vec4<Real>>& positions) {
-    const auto weight = static_cast<Real>(chebyshev_weight(settings_.chebyshev, sweep));
-    for_each_index(nodes, [&](std::uint32_t n) {
-        Vec3<Real> x(positions[n]);
-        if (sweep > 1 && !touches_.is_touched(n)) x = weight * (x - before_last_[n]) + before_last_[n];
-        before_last_[n] = last_[n];
-        last_[n] = x;
-        positions[n] = Vec4<Real>(x, positions[n].w);
-    });
-}
-
 template <class Real>
 void BlockDescent<Real>::sweep(std::size_t batch, std::vector<Vec4<Real>>& positions) {
     const DescentRows& rows = objective_.rows();
@@ -152,11 +132,12 @@ void BlockDescent<Real>::sweep(std::size_t batch, std::vector<Vec4<Real>>& posit
     if constexpr (kIsFloat<Real>) {
         const DescentGroups groups = objective_.groups(collider_bounds_);
         const bool any_tets = objective_.any_tets(batch);
-        const std::span touched(touches_.objects.data() + bodies.objects.first, bodies.objects.count);
-        const bool any_touch = std::any_of(touched.begin(), touched.end(), [](auto t) { return t != 0; });
+        const std::span in_contact(contacts_.objects.data() + bodies.objects.first, bodies.objects.count);
+        const bool any_contact =
+            std::any_of(in_contact.begin(), in_contact.end(), [](auto t) { return t != 0; });
         for (const Range& color : bodies.colors) {
             for_each_index(color.first / kGroup, color.end() / kGroup, kGroupsATask, [&](std::size_t group) {
-                move_group(groups, group, any_tets, any_touch, positions);
+                move_group(groups, group, any_tets, any_contact, positions);
             });
         }
     } else {
@@ -174,7 +155,7 @@ void BlockDescent<Real>::sweep(std::size_t batch, std::vector<Vec4<Real>>& posit
 // sweep
 template <class Real>
 template <class Groups>
-void BlockDescent<Real>::move_group(const Groups& groups, std::size_t group, bool any_tets, bool any_touch,
+void BlockDescent<Real>::move_group(const Groups& groups, std::size_t group, bool any_tets, bool any_contact,
                                     std::vector<Vec4<Real>>& positions) {
     TermColumns terms;
     if (any_tets) {
@@ -187,15 +168,15 @@ void BlockDescent<Real>::move_group(const Groups& groups, std::size_t group, boo
         }
     }
     const std::uint32_t near_colliders = descend_group(groups, group, terms, positions);
-    if (near_colliders == 0 && !any_touch) return;
+    if (near_colliders == 0 && !any_contact) return;
     for (std::uint32_t row = 0; row < kGroup; ++row) {
         const std::uint32_t node = groups.nodes[group * kGroup + row];
         if ((near_colliders >> row & 1u) != 0) {
             const NodeTerms<Real> own = terms.row(row);
             const Vec3<Real> moved = outside_colliders(node, own.hessian, Vec3<Real>(positions[node]));
             positions[node] = Vec4<Real>(moved, positions[node].w);
-        } else if (any_touch && node != kNoNode) {
-            touches_.nodes[node] = {};
+        } else if (any_contact && node != kNoNode) {
+            contacts_.nodes[node] = {};
         }
     }
 }
@@ -214,8 +195,8 @@ void BlockDescent<Real>::move_node(std::uint32_t node, const NodeTerms<Real>& te
 template <class Real>
 Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, const SymmetricMatrix<Real>& hessian,
                                                  Vec3<Real> position) {
-    if (touches_.nodes.empty()) return position;
-    NodeTouch<Real> touch;
+    if (contacts_.nodes.empty()) return position;
+    ColliderContact<Real> contact;
     for (const Collider& collider : model_->colliders) {
         if (is_above_plane(collider, position)) continue;  // as most nodes are
         const SurfaceDistance<Real> surface = surface_distance(collider, position);
@@ -230,14 +211,14 @@ Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, const Symme
         const Real stiffness = Real(1) / compliance;
         const Real pressing = -surface.distance * stiffness;
         position += pressing * yielding;
-        touch.force += pressing * n;
-        touch.normal = n;
-        touch.along = stiffness;
-        touch.across = Real(0);
-        std::atomic_ref(touches_.objects[touches_.object_of[node]]).store(1, std::memory_order_relaxed);
+        contact.force += pressing * n;
+        contact.normal = n;
+        contact.along = stiffness;
+        contact.across = Real(0);
+        std::atomic_ref(contacts_.objects[contacts_.object_of[node]]).store(1, std::memory_order_relaxed);
 
-        const Vec3<Real> way = position - Vec3<Real>(objective_.starts[node]);
-        const Vec3<Real> slid = way - glm::dot(way, n) * n;
+        const Vec3<Real> displacement = position - Vec3<Real>(objective_.starts[node]);
+        const Vec3<Real> slid = displacement - glm::dot(displacement, n) * n;
         const Real length = glm::length(slid);
         if (length == Real(0)) continue;
         const Vec3<Real> t = slid / length;
@@ -248,12 +229,12 @@ Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, const Symme
         const Real needed = length / sliding_compliance;
         const Real most = static_cast<Real>(collider.friction) * pressing;
         position -= std::min(needed, most) * giving;
-        touch.force -= std::min(needed, most) * t;
-        // It falls to nothing where all of the way is taken back.
+        contact.force -= std::min(needed, most) * t;
+        // It falls to nothing where all sliding is taken back.
         const Real left = length - std::min(needed, most) * sliding_compliance;
-        touch.across = most < stiffness * left ? most / left : stiffness;
+        contact.across = most < stiffness * left ? most / left : stiffness;
     }
-    if (touch.along > Real(0) || touches_.nodes[node].along > Real(0)) touches_.nodes[node] = touch;
+    if (contact.along > Real(0) || contacts_.nodes[node].along > Real(0)) contacts_.nodes[node] = contact;
     return position;
 }
 
@@ -266,7 +247,7 @@ void BlockDescent<Real>::move_bodies(const Range& objects, bool is_last,
         const std::span body_nodes(positions.data() + nodes.first, nodes.count);
         const bool is_held = std::any_of(body_nodes.begin(), body_nodes.end(),
                                          [](const Vec4<Real>& p) { return p.w == Real(0); });
-        if (is_held || (is_last && touches_.objects[o] != 0)) return;
+        if (is_held || (is_last && contacts_.objects[o] != 0)) return;
         const glm::dvec3 origin(positions[nodes.first]);
         const std::span targets(objective_.targets.data() + nodes.first, nodes.count);
         RigidStep body;
@@ -278,8 +259,8 @@ void BlockDescent<Real>::move_bodies(const Range& objects, bool is_last,
                 body.add(position - origin, targets[n].w, targets[n].w * (glm::dvec3(targets[n]) - position));
             }
         }
-        if (touches_.objects[o] != 0) {
-            for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) add_touch(n, origin, positions, body);
+        if (contacts_.objects[o] != 0) {
+            for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) add_contact(n, origin, positions, body);
         }
         const RigidMotion motion = body.solve(origin);
         if constexpr (kIsFloat<Real>) {
@@ -291,15 +272,15 @@ void BlockDescent<Real>::move_bodies(const Range& objects, bool is_last,
 }
 
 template <class Real>
-void BlockDescent<Real>::add_touch(std::uint32_t node, const glm::dvec3& origin,
-                                   const std::vector<Vec4<Real>>& positions, RigidStep& body) const {
-    const NodeTouch<Real>& touch = touches_.nodes[node];
-    if (touch.along == Real(0)) return;
-    const glm::dvec3 force(touch.force), normal(touch.normal);
+void BlockDescent<Real>::add_contact(std::uint32_t node, const glm::dvec3& origin,
+                                     const std::vector<Vec4<Real>>& positions, RigidStep& body) const {
+    const ColliderContact<Real>& contact = contacts_.nodes[node];
+    if (contact.along == Real(0)) return;
+    const glm::dvec3 force(contact.force), normal(contact.normal);
     const double pressing = glm::dot(force, normal);
     body.add(glm::dvec3(positions[node]) - origin,
-             {normal, pressing, force - pressing * normal, static_cast<double>(touch.along),
-              static_cast<double>(touch.across)});
+             {normal, pressing, force - pressing * normal, static_cast<double>(contact.along),
+              static_cast<double>(contact.across)});
 }
 
 // Nodes that a collider has stopped go back with restitution times the speed they would have had without it.
@@ -312,7 +293,7 @@ void BlockDescent<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Re
         if (current.positions[n].w == Real(0)) return;
         const Vec3<Real> position(current.positions[n]), start(objective_.starts[n]);
         Vec3<Real> velocity = (position - start) / step;
-        if (touches_.is_touched(n))
+        if (contacts_.has_contact(n))
             rebound<Real>(model_->colliders, position, (Vec3<Real>(objective_.targets[n]) - start) / step,
                           least, velocity);
         current.velocities[n] = Vec4<Real>(velocity, old.w);

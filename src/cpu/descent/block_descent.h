@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cpu/descent/coarse_step.h"
+#include "cpu/descent/collider_contacts.h"
 #include "cpu/descent/descend_groups.h"
-#include "cpu/descent/node_touches.h"
 #include "cpu/descent/rigid_motion.h"
 #include "cpu/descent/step_objective.h"
 #include "cpu/drive/pulls.h"
@@ -49,26 +49,24 @@ private:
     void take_back_tangled(std::vector<Vec4<Real>>& positions) const;
     int end_of_run(int first) const;
     void make_sweep(int index, std::size_t batch, std::vector<Vec4<Real>>& positions);
-    void accelerate(int sweep, const Range& nodes, std::vector<Vec4<Real>>& positions);
     void sweep(std::size_t batch, std::vector<Vec4<Real>>& positions);
     void move_node(std::uint32_t node, const NodeTerms<Real>& terms, std::vector<Vec4<Real>>& positions);
     template <class Groups>  // DescentGroups: a template, for there is none but in float
-    void move_group(const Groups& groups, std::size_t group, bool any_tets, bool any_touch,
+    void move_group(const Groups& groups, std::size_t group, bool any_tets, bool any_contact,
                     std::vector<Vec4<Real>>& positions);
     Vec3<Real> outside_colliders(std::uint32_t node, const SymmetricMatrix<Real>& hessian,
                                  Vec3<Real> position);
     void move_bodies(const Range& objects, bool is_last, std::vector<Vec4<Real>>& positions) const;
-    void add_touch(std::uint32_t node, const glm::dvec3& origin, const std::vector<Vec4<Real>>& positions,
-                   RigidStep& body) const;
+    void add_contact(std::uint32_t node, const glm::dvec3& origin, const std::vector<Vec4<Real>>& positions,
+                     RigidStep& body) const;
     void finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current) const;
 
     std::shared_ptr<const Model> model_;
     DescentSettings settings_;
     StepObjective<Real> objective_;
     std::optional<CoarseStep<Real>> coarse_;  // where there are clusters
-    NodeTouches<Real> touches_;
+    ColliderContacts<Real> contacts_;
     std::vector<ColliderBound> collider_bounds_;  // in float
-    std::vector<Vec3<Real>> last_, before_last_;  // from where the last two sweeps went [m], for acceleration
 };
 
 }  // namespace gelatin::cpu

@@ -40,13 +40,14 @@ void CoarseCorrection<Real>::begin(Real step, std::span<const Vec4<Real>> positi
             mass += m;
         }
         clusters_[k].middle = origin + sum / mass;
-        clusters_[k].turn = glm::mat<3, 3, Real>(nearest_rotation(glm::dmat3(moment)));
+        clusters_[k].orientation = glm::mat<3, 3, Real>(nearest_rotation(glm::dmat3(moment)));
     });
 }
 
 template <class Real>
-void CoarseCorrection<Real>::find_ways(std::span<const Vec4<Real>> positions,
-                                       std::span<const Vec3<Real>> forces, std::span<Vec3<Real>> ways) {
+void CoarseCorrection<Real>::find_displacements(std::span<const Vec4<Real>> positions,
+                                                std::span<const Vec3<Real>> forces,
+                                                std::span<Vec3<Real>> displacements) {
     tbb::parallel_for(std::uint32_t(0), basis_.cluster_count(),
                       [&](std::uint32_t k) { gather(k, positions, forces); });
     tbb::parallel_for(std::size_t(0), inverses_.size(), [&](std::size_t o) {
@@ -54,13 +55,13 @@ void CoarseCorrection<Real>::find_ways(std::span<const Vec4<Real>> positions,
     });
     for_each_index(positions.size(), [&](std::size_t n) {
         const Vec3<Real> position(positions[n]);
-        Vec3<Real> way(0);
+        Vec3<Real> displacement(0);
         for (const CoarseBasis::Part& part : basis_.clusters_of(static_cast<std::uint32_t>(n))) {
             const Cluster& cluster = clusters_[part.index];
-            way += static_cast<Real>(part.weight) *
-                   (cluster.shift + glm::cross(cluster.spin, position - cluster.middle));
+            displacement += static_cast<Real>(part.weight) *
+                            (cluster.translation + glm::cross(cluster.rotation, position - cluster.middle));
         }
-        ways[n] = way;
+        displacements[n] = displacement;
     });
 }
 
@@ -75,8 +76,8 @@ void CoarseCorrection<Real>::gather(std::uint32_t index, std::span<const Vec4<Re
         force += f;
         moment += glm::cross(Vec3<Real>(positions[part.index]) - cluster.middle, f);
     }
-    cluster.force = force * cluster.turn;
-    cluster.moment = moment * cluster.turn;
+    cluster.force = force * cluster.orientation;
+    cluster.moment = moment * cluster.orientation;
 }
 
 template <class Real>
@@ -92,8 +93,8 @@ void CoarseCorrection<Real>::solve(std::size_t object) {
     for (std::uint32_t k = 0; k < range.count; ++k) {
         Cluster& c = clusters_[range.first + k];
         const auto m = motions.template segment<6>(6 * k);
-        c.shift = c.turn * Vec3<Real>(m[0], m[1], m[2]);
-        c.spin = c.turn * Vec3<Real>(m[3], m[4], m[5]);
+        c.translation = c.orientation * Vec3<Real>(m[0], m[1], m[2]);
+        c.rotation = c.orientation * Vec3<Real>(m[3], m[4], m[5]);
     }
 }
 

@@ -13,8 +13,9 @@
 namespace gelatin::cpu {
 
 /// The coarse level of block descent (model/descent/coarse_basis.h): where all nodes go at once along the
-/// motions of clusters, by one Newton step whose matrix is that of the bodies at rest, turned as each cluster
-/// is now (docs/physics.md). Without a factorisation in a step, and the same bits for any number of threads.
+/// motions of clusters, by one Newton step whose matrix is that of the bodies at rest, rotated as each
+/// cluster is now (docs/physics.md). Without a factorisation in a step, and the same bits for any number of
+/// threads.
 template <class Real>
 class CoarseCorrection {
 public:
@@ -25,20 +26,20 @@ public:
     double length(std::size_t object) const { return basis_.lengths[object]; }  ///< [m]
     bool is_empty() const { return basis_.cluster_count() == 0; }
 
-    /// Looks how clusters are turned. To be called before the ways of a step of `step` seconds are asked for.
+    /// Finds the clusters' orientations. Once a step of `step` seconds, before find_displacements.
     void begin(Real step, std::span<const Vec4<Real>> positions);
 
     /// Where nodes go that `forces` act on [N]; not written for bodies without clusters.
-    /// @param forces, ways shape [nodes], [m]
-    void find_ways(std::span<const Vec4<Real>> positions, std::span<const Vec3<Real>> forces,
-                   std::span<Vec3<Real>> ways);
+    /// @param forces, displacements shape [nodes], [m]
+    void find_displacements(std::span<const Vec4<Real>> positions, std::span<const Vec3<Real>> forces,
+                            std::span<Vec3<Real>> displacements);
 
 private:
     struct Cluster {
         Vec3<Real> middle{0};  // [m]
-        glm::mat<3, 3, Real> turn{1};
-        Vec3<Real> force{0}, moment{0};  // [N], [N m]; as the cluster is turned
-        Vec3<Real> shift{0}, spin{0};    // [m], [radians]
+        glm::mat<3, 3, Real> orientation{1};
+        Vec3<Real> force{0}, moment{0};          // [N], [N m]; in the cluster's orientation at rest
+        Vec3<Real> translation{0}, rotation{0};  // [m], [radians]
     };
 
     void gather(std::uint32_t index, std::span<const Vec4<Real>> positions,

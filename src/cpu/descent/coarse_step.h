@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cpu/descent/coarse_correction.h"
-#include "cpu/descent/node_touches.h"
+#include "cpu/descent/collider_contacts.h"
 #include "cpu/descent/step_objective.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
@@ -24,16 +24,16 @@ public:
     /// To be called before others of a step of `step` seconds.
     void begin(Real step, std::span<const Vec4<Real>> positions) { coarse_.begin(step, positions); }
 
-    void run(const StepObjective<Real>& objective, const NodeTouches<Real>& touches,
+    void run(const StepObjective<Real>& objective, const ColliderContacts<Real>& contacts,
              std::vector<Vec4<Real>>& positions);
 
 private:
-    Real way_factor(std::size_t object) const;
+    Real displacement_factor(std::size_t object) const;
 
     std::shared_ptr<const Model> model_;
     CoarseCorrection<Real> coarse_;
-    std::vector<Vec4<Real>> ahead_;                         // where ways would lead [m]
-    std::vector<Vec3<Real>> ways_, forces_, forces_ahead_;  // [m], [N]
+    std::vector<Vec4<Real>> ahead_;                                  // positions after the displacements [m]
+    std::vector<Vec3<Real>> displacements_, forces_, forces_ahead_;  // [m], [N]
 };
 
 }  // namespace gelatin::cpu

@@ -23,8 +23,8 @@ struct SpringSums {
     Vector force_x, force_y, force_z, xx, yy, zz, yz, zx, xy, across;
 };
 
-// cpu::add_spring for a lane each, by what multiplies the way to the other end: with d that way and l its
-// length, s = K (1 - M / l), the force is s d, and the Hessian max(0, s) + (K - max(0, s)) d d^T / l^2.
+// cpu::add_spring for a lane each, by what multiplies the vector to the other end: with d that vector and l
+// its length, s = K (1 - M / l), the force is s d, and the Hessian max(0, s) + (K - max(0, s)) d d^T / l^2.
 // A spring of no length adds nothing.
 HWY_INLINE void add_spring_lanes(Lanes d, Vector dx, Vector dy, Vector dz, Vector squared, Vector rest_length,
                                  Vector stiffness, SpringSums& sums) {
@@ -48,7 +48,7 @@ HWY_INLINE void add_spring_lanes(Lanes d, Vector dx, Vector dy, Vector dz, Vecto
     sums.xy = hn::MulAdd(along_x, ny, sums.xy);
 }
 
-// Where nodes coincide, lane by lane: each has a way out of its own.
+// Where nodes coincide, lane by lane: each has a direction of its own.
 void add_coincident(const SpringBlock& block, const std::uint32_t* nodes, std::uint32_t first,
                     std::span<const glm::vec4> positions, TermColumns& terms) {
     for (std::uint32_t r = first; r < first + kLanes; ++r) {

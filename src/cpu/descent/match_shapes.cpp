@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <atomic>
 #include <glm/matrix.hpp>
+#include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "cpu/descent/nearest_rotation.h"
+#include "cpu/elasticity/volume_ratios.h"
 #include "model/descent/descent_rows.h"
-#include "model/for_each_index.h"
 
 namespace gelatin::cpu {
 namespace {
@@ -39,13 +41,22 @@ void ShapeMatcher<Real>::run(Nodes<Real>& nodes) {
 template <class Real>
 void ShapeMatcher<Real>::count_inverted_tets(const std::vector<Vec4<Real>>& positions) {
     std::fill(inverted_.begin(), inverted_.end(), 0u);
-    for_each_index(model_->tets.size(), [&](std::size_t t) {
-        const glm::uvec4& tet = model_->tets[t];
-        const Vec3<Real> a(positions[tet.x]);
-        const Vec3<Real> u = Vec3<Real>(positions[tet.y]) - a, v = Vec3<Real>(positions[tet.z]) - a,
-                         w = Vec3<Real>(positions[tet.w]) - a;
-        if (glm::dot(glm::cross(u, v), w) > Real(0)) return;
-        std::atomic_ref(inverted_[object_of_[tet.x]]).fetch_add(1, std::memory_order_relaxed);
+    constexpr std::uint32_t kTetsATask = 512;
+    const auto tet_count = static_cast<std::uint32_t>(model_->tets.size());
+    tbb::parallel_for(0u, (tet_count + kTetsATask - 1) / kTetsATask, [&](std::uint32_t task) {
+        const Range tets{task * kTetsATask, std::min(kTetsATask, tet_count - task * kTetsATask)};
+        if constexpr (std::is_same_v<Real, float>) {
+            constexpr float kAny = std::numeric_limits<float>::infinity();
+            if (volumes_are_within(0.0f, kAny, *model_, tets, positions.data(), nullptr)) return;
+        }
+        for (std::uint32_t t = tets.first; t < tets.end(); ++t) {
+            const glm::uvec4& tet = model_->tets[t];
+            const Vec3<Real> a(positions[tet.x]);
+            const Vec3<Real> u = Vec3<Real>(positions[tet.y]) - a, v = Vec3<Real>(positions[tet.z]) - a,
+                             w = Vec3<Real>(positions[tet.w]) - a;
+            if (glm::dot(glm::cross(u, v), w) > Real(0)) continue;
+            std::atomic_ref(inverted_[object_of_[tet.x]]).fetch_add(1, std::memory_order_relaxed);
+        }
     });
 }
 
@@ -74,15 +85,15 @@ void ShapeMatcher<Real>::match(std::uint32_t object, Nodes<Real>& nodes) const {
     square -= mass * glm::dot(center, center);
     if (trace(moment * inverse * glm::transpose(moment)) > kLeastExplained * square) return;
 
-    const glm::dmat3 turn = nearest_rotation(moment), square_at_rest = glm::inverse(inverse);
+    const glm::dmat3 rotation = nearest_rotation(moment), square_at_rest = glm::inverse(inverse);
     const glm::dmat3 inertia = trace(square_at_rest) * glm::dmat3(1.0) - square_at_rest;
     const glm::dvec3 velocity = momentum / mass;
     spin -= glm::cross(center, momentum);
-    spin = turn * (glm::inverse(inertia) * (glm::transpose(turn) * spin));
+    spin = rotation * (glm::inverse(inertia) * (glm::transpose(rotation) * spin));
     for (std::uint32_t n = range.first; n < range.end(); ++n) {
         Vec4<Real>&position = nodes.positions[n], &velocity_of_node = nodes.velocities[n];
         if (position.w == Real(0)) continue;
-        const glm::dvec3 r = turn * glm::dvec3(shapes_.offsets[n]);
+        const glm::dvec3 r = rotation * glm::dvec3(shapes_.offsets[n]);
         position = Vec4<Real>(Vec3<Real>(origin + center + r), position.w);
         velocity_of_node = Vec4<Real>(Vec3<Real>(velocity + glm::cross(spin, r)), velocity_of_node.w);
     }

@@ -16,11 +16,11 @@ namespace gelatin::cpu {
 inline glm::dmat3 nearest_rotation(const glm::dmat3& moment) {
     constexpr int kSquarings = 20;
     const glm::dvec3 &a = moment[0], &b = moment[1], &c = moment[2];  // x X_x, x X_y, x X_z
-    const glm::dvec3 turned(b.z - c.y, c.x - a.z, a.y - b.x);
-    glm::dmat4 m(a.x + b.y + c.z, turned.x, turned.y, turned.z,    //
-                 turned.x, a.x - b.y - c.z, a.y + b.x, c.x + a.z,  //
-                 turned.y, a.y + b.x, b.y - a.x - c.z, b.z + c.y,  //
-                 turned.z, c.x + a.z, b.z + c.y, c.z - a.x - b.y);
+    const glm::dvec3 rotated(b.z - c.y, c.x - a.z, a.y - b.x);
+    glm::dmat4 m(a.x + b.y + c.z, rotated.x, rotated.y, rotated.z,  //
+                 rotated.x, a.x - b.y - c.z, a.y + b.x, c.x + a.z,  //
+                 rotated.y, a.y + b.x, b.y - a.x - c.z, b.z + c.y,  //
+                 rotated.z, c.x + a.z, b.z + c.y, c.z - a.x - b.y);
     const glm::dvec4 sums = glm::abs(m[0]) + glm::abs(m[1]) + glm::abs(m[2]) + glm::abs(m[3]);
     const double size = sums.x + sums.y + sums.z + sums.w;
     m = glm::dmat4(1.0) + m * (size > 0.0 ? 1.0 / size : 0.0);  // none of its eigenvalues is negative

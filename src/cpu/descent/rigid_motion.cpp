@@ -14,9 +14,9 @@ glm::dmat3 full(const SymmetricMatrix<double>& m) {
             m.beside.x,   m.beside.y, m.beside.x, m.diagonal.z};
 }
 
-// [radians] Beyond that w x r is no turn any more, and the shift that goes with it on a surface leads
-// anywhere.
-constexpr double kLargestTurn = 1.0;
+// [radians] Beyond that w x r is far from a rotation, and the translation that goes with it on a surface
+// leads anywhere.
+constexpr double kLargestRotation = 1.0;
 
 // cross(v) x = v x x
 glm::dmat3 cross(const glm::dvec3& v) {
@@ -43,34 +43,34 @@ void RigidSums::add(const RigidSums& other, double factor) {
 }
 
 // What slides is resisted along the normal by a little more than that, which spares sums.
-void RigidStep::add(const glm::dvec3& r, const RigidTouch& touch) {
-    const bool slides = touch.across < touch.along;
-    const glm::dvec3 pressing = touch.pressing * touch.normal;
-    sums_.add(r, slides ? 0.0 : touch.across, slides ? pressing : pressing + touch.friction);
-    add_along(r, touch.normal, slides ? touch.along : touch.along - touch.across);
-    if (slides) sliding_.add(r, touch.across, touch.friction);
-    pressing_ += touch.pressing;
-    pressing_shift_ += touch.along * touch.normal;
-    pressing_turn_ += touch.along * glm::cross(r, touch.normal);
+void RigidStep::add(const glm::dvec3& r, const RigidContact& contact) {
+    const bool slides = contact.across < contact.along;
+    const glm::dvec3 pressing = contact.pressing * contact.normal;
+    sums_.add(r, slides ? 0.0 : contact.across, slides ? pressing : pressing + contact.friction);
+    add_along(r, contact.normal, slides ? contact.along : contact.along - contact.across);
+    if (slides) sliding_.add(r, contact.across, contact.friction);
+    pressing_ += contact.pressing;
+    pressing_translation_ += contact.along * contact.normal;
+    pressing_rotation_ += contact.along * glm::cross(r, contact.normal);
 }
 
 void RigidStep::add_along(const glm::dvec3& r, const glm::dvec3& normal, double stiffness) {
-    const glm::dvec3 turned = glm::cross(r, normal);
-    shifts_.add_outer(stiffness, normal);
-    turns_.add_outer(stiffness, turned);
-    mixed_ += stiffness * glm::outerProduct(normal, turned);
+    const glm::dvec3 rotated = glm::cross(r, normal);
+    translations_.add_outer(stiffness, normal);
+    rotations_.add_outer(stiffness, rotated);
+    mixed_ += stiffness * glm::outerProduct(normal, rotated);
 }
 
 // [A B; B^T C] (s, w) = (force, moment) by elimination of s.
-RigidStep::Way RigidStep::way(const RigidSums& sums) const {
+RigidStep::Displacement RigidStep::displacement(const RigidSums& sums) const {
     const glm::dmat3 identity(1.0);
     const double trace = sums.square.diagonal.x + sums.square.diagonal.y + sums.square.diagonal.z;
     // About the centre of stiffness, which is that of mass where nothing is touched.
     const double about_center = trace - glm::dot(sums.arm, sums.arm) / sums.stiffness;
-    const glm::dmat3 a = sums.stiffness * identity + full(shifts_);
+    const glm::dmat3 a = sums.stiffness * identity + full(translations_);
     const glm::dmat3 b = mixed_ - cross(sums.arm);
     const glm::dmat3 c =
-        (trace + kLeastInertia * 2.0 / 3.0 * about_center) * identity - full(sums.square) + full(turns_);
+        (trace + kLeastInertia * 2.0 / 3.0 * about_center) * identity - full(sums.square) + full(rotations_);
     const glm::dmat3 a_inverse = glm::inverse(a);
     const glm::dmat3 rest = c - glm::transpose(b) * a_inverse * b;
     const glm::dvec3 left = sums.moment - glm::transpose(b) * (a_inverse * sums.force);
@@ -78,22 +78,24 @@ RigidStep::Way RigidStep::way(const RigidSums& sums) const {
     inertia.diagonal = {rest[0][0], rest[1][1], rest[2][2]};
     inertia.beside = {rest[1][2], rest[2][0], rest[0][1]};
     glm::dvec3 w = cpu::solve(inertia, left);
-    w *= std::min(1.0, kLargestTurn / glm::length(w));
+    w *= std::min(1.0, kLargestRotation / glm::length(w));
     return {a_inverse * (sums.force - b * w), w};
 }
 
 RigidMotion RigidStep::solve(const glm::dvec3& origin) const {
     RigidSums sums = sums_;
     sums.add(sliding_);
-    Way found = way(sums);
+    Displacement found = displacement(sums);
     if (sliding_.stiffness > 0.0 && pressing_ > 0.0) {
-        const double fall = glm::dot(pressing_shift_, found.shift) + glm::dot(pressing_turn_, found.turn);
+        const double fall =
+            glm::dot(pressing_translation_, found.translation) + glm::dot(pressing_rotation_, found.rotation);
         sums.add(sliding_, std::clamp(1.0 - fall / pressing_, 0.0, 1.0) - 1.0);
-        found = way(sums);
+        found = displacement(sums);
     }
-    // A turn about the centre of mass does not move it, however large.
+    // A rotation about the centre of mass does not move it, however large.
     const glm::dvec3 center = sums.arm / sums.stiffness;
-    return {origin + center, found.shift + glm::cross(found.turn, center), cayley_turn(found.turn)};
+    return {origin + center, found.translation + glm::cross(found.rotation, center),
+            cayley_rotation(found.rotation)};
 }
 
 }  // namespace gelatin::cpu

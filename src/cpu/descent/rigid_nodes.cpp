@@ -63,22 +63,22 @@ RigidSums sum_nodes(std::span<const glm::vec4> positions, std::span<const glm::v
     for (; n + kLanes <= positions.size(); n += kLanes) {
         const Columns p = load_columns(d, [&](std::size_t l) { return &positions[n + l].x; });
         const Columns y = load_columns(d, [&](std::size_t l) { return &targets[n + l].x; });
-        HWY_ALIGN float r[3][kLanes], way[3][kLanes], k[kLanes];
+        HWY_ALIGN float r[3][kLanes], displacement[3][kLanes], k[kLanes];
         hn::Store(hn::Sub(p.x, ox), d, r[0]);
         hn::Store(hn::Sub(p.y, oy), d, r[1]);
         hn::Store(hn::Sub(p.z, oz), d, r[2]);
-        hn::Store(hn::Sub(y.x, p.x), d, way[0]);
-        hn::Store(hn::Sub(y.y, p.y), d, way[1]);
-        hn::Store(hn::Sub(y.z, p.z), d, way[2]);
+        hn::Store(hn::Sub(y.x, p.x), d, displacement[0]);
+        hn::Store(hn::Sub(y.y, p.y), d, displacement[1]);
+        hn::Store(hn::Sub(y.z, p.z), d, displacement[2]);
         hn::Store(y.w, d, k);
         for (std::size_t l = 0; l < kLanes; l += hn::MaxLanes(dd)) {
             const auto load = [&](const float* from)
                                   HWY_ATTR { return hn::PromoteTo(dd, hn::Load(df, from + l)); };
             const DoubleVector stiffness = load(k);
             const DoubleVector arms[3] = {load(r[0]), load(r[1]), load(r[2])};
-            const DoubleVector forces[3] = {hn::Mul(stiffness, load(way[0])),
-                                            hn::Mul(stiffness, load(way[1])),
-                                            hn::Mul(stiffness, load(way[2]))};
+            const DoubleVector forces[3] = {hn::Mul(stiffness, load(displacement[0])),
+                                            hn::Mul(stiffness, load(displacement[1])),
+                                            hn::Mul(stiffness, load(displacement[2]))};
             lanes.add(arms, stiffness, forces);
         }
     }
@@ -91,26 +91,27 @@ RigidSums sum_nodes(std::span<const glm::vec4> positions, std::span<const glm::v
     return sums;
 }
 
-// x + (shift + (turn - 1) (x - center)): what a step adds is small, and rounded as such.
+// x + (translation + (rotation - 1) (x - center)): what a step adds is small, and rounded as such.
 void move_nodes(const RigidMotion& motion, std::span<glm::vec4> positions) {
     const Lanes d;
-    const glm::mat3 turned(motion.turn - glm::dmat3(1.0));
-    const glm::vec3 center(motion.center), shift(motion.shift);
+    const glm::mat3 rotated(motion.rotation - glm::dmat3(1.0));
+    const glm::vec3 center(motion.center), translation(motion.translation);
     std::size_t n = 0;
     for (; n + kLanes <= positions.size(); n += kLanes) {
         const Columns p = load_columns(d, [&](std::size_t l) { return &positions[n + l].x; });
         const Vector x = hn::Sub(p.x, hn::Set(d, center.x)), y = hn::Sub(p.y, hn::Set(d, center.y)),
                      z = hn::Sub(p.z, hn::Set(d, center.z));
         const auto row = [&](int c) HWY_ATTR {
-            return hn::MulAdd(hn::Set(d, turned[0][c]), x,
-                              hn::MulAdd(hn::Set(d, turned[1][c]), y,
-                                         hn::MulAdd(hn::Set(d, turned[2][c]), z, hn::Set(d, shift[c]))));
+            return hn::MulAdd(
+                hn::Set(d, rotated[0][c]), x,
+                hn::MulAdd(hn::Set(d, rotated[1][c]), y,
+                           hn::MulAdd(hn::Set(d, rotated[2][c]), z, hn::Set(d, translation[c]))));
         };
         hn::StoreInterleaved4(hn::Add(p.x, row(0)), hn::Add(p.y, row(1)), hn::Add(p.z, row(2)), p.w, d,
                               &positions[n].x);
     }
     for (; n < positions.size(); ++n)
-        positions[n] += glm::vec4(shift + turned * (glm::vec3(positions[n]) - center), 0.0f);
+        positions[n] += glm::vec4(translation + rotated * (glm::vec3(positions[n]) - center), 0.0f);
 }
 
 }  // namespace gelatin::cpu::HWY_NAMESPACE

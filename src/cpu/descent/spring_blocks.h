@@ -37,7 +37,7 @@ struct SpringBlocks {
 SpringBlocks make_spring_blocks(const DescentRows& rows);
 
 /// Springs with their dampers as springs without: what cpu::add_spring makes of them, which is the same for a
-/// whole step. So sweeps need not look at where nodes started.
+/// whole step. So sweeps do not read where nodes started.
 /// @param nodes of the rows @param starts xyz when the step began [m], damping time [s], shape [nodes]
 /// @param inverse_step [1/s] @param damped as `springs`; its stiffnesses and rest lengths are written
 void damp_springs(const SpringBlocks& springs, std::span<const std::uint32_t> nodes, const glm::vec4* starts,

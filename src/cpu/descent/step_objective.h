@@ -32,9 +32,9 @@ public:
     bool is_tangled(const ModelObject& object, const std::vector<Vec4<Real>>& positions) const {
         return tets_.is_tangled(object, positions);
     }
-    /// Looks how the tets of a batch of rows() are (cpu/descent/tet_resistance.h).
-    void look(std::size_t batch, const std::vector<Vec4<Real>>& positions) {
-        tets_.look(batch, rows_.batches[batch], positions);
+    /// Updates the state of the tets of a batch of rows() (cpu/descent/tet_resistance.h).
+    void update(std::size_t batch, const std::vector<Vec4<Real>>& positions) {
+        tets_.update(batch, rows_.batches[batch], positions);
     }
 
     /// Rows of nodes by batch and colour; their springs are in groups().

@@ -52,8 +52,8 @@ bool TetResistance<Real>::is_tangled(const ModelObject& object,
 }
 
 template <class Real>
-void TetResistance<Real>::look(std::size_t index, const DescentBatch& batch,
-                               const std::vector<Vec4<Real>>& positions) {
+void TetResistance<Real>::update(std::size_t index, const DescentBatch& batch,
+                                 const std::vector<Vec4<Real>>& positions) {
     const Model& model = *model_;
     std::uint8_t& any_flat = any_flat_[index];
     if (any_flat != 0)
@@ -62,8 +62,8 @@ void TetResistance<Real>::look(std::size_t index, const DescentBatch& batch,
     constexpr std::uint32_t kTetsATask = 512;
     tbb::parallel_for(0u, (batch.tets.count + kTetsATask - 1) / kTetsATask, [&](std::uint32_t task) {
         const std::uint32_t first = task * kTetsATask;
-        look_at({batch.tets.first + first, std::min(kTetsATask, batch.tets.count - first)}, any_flat,
-                positions);
+        update_range({batch.tets.first + first, std::min(kTetsATask, batch.tets.count - first)}, any_flat,
+                     positions);
     });
     const VolumeTerm& term = model.volume_term;
     if (term.is_empty()) return;
@@ -86,8 +86,8 @@ void TetResistance<Real>::look(std::size_t index, const DescentBatch& batch,
 }
 
 template <class Real>
-void TetResistance<Real>::look_at(const Range& tets, std::uint8_t& any_flat,
-                                  const std::vector<Vec4<Real>>& positions) {
+void TetResistance<Real>::update_range(const Range& tets, std::uint8_t& any_flat,
+                                       const std::vector<Vec4<Real>>& positions) {
     constexpr auto kLeast = static_cast<Real>(kFlattest), kMost = std::numeric_limits<Real>::infinity();
     if constexpr (std::is_same_v<Real, float>) {
         if (volumes_are_within(kLeast, kMost, *model_, tets, positions.data(), ratios_.data())) return;

@@ -28,14 +28,14 @@ struct StepStart {
 template <class Real>
 class TetResistance {
 public:
-    /// @param batches of bodies that are looked at one by one
+    /// @param batches of bodies that are updated one by one
     TetResistance(std::shared_ptr<const Model> model, std::size_t batches);
 
     /// True if a tet of the object is far from its volume at rest (kLeastSound, kMostSound).
     bool is_tangled(const ModelObject& object, const std::vector<Vec4<Real>>& positions) const;
 
-    /// Looks which tets of a batch are flat and how far the volumes are from those at rest.
-    void look(std::size_t index, const DescentBatch& batch, const std::vector<Vec4<Real>>& positions);
+    /// Finds which tets of a batch are flat and how far the volumes are from those at rest.
+    void update(std::size_t index, const DescentBatch& batch, const std::vector<Vec4<Real>>& positions);
 
     /// False if no node of the batch has anything to add.
     bool any_resist(std::size_t batch) const { return any_flat_[batch] != 0 || resist_always_; }
@@ -45,12 +45,12 @@ public:
     }
 
     /// Adds the resistance of the node's tets, with the volumes round other nodes as they were at the last
-    /// look.
+    /// update.
     void add(std::uint32_t node, const std::vector<Vec4<Real>>& positions, const StepStart<Real>& start,
              NodeTerms<Real>& terms) const;
 
 private:
-    void look_at(const Range& tets, std::uint8_t& any_flat, const std::vector<Vec4<Real>>& positions);
+    void update_range(const Range& tets, std::uint8_t& any_flat, const std::vector<Vec4<Real>>& positions);
     void add_neo_hookean_tets(std::uint32_t node, const std::vector<Vec4<Real>>& positions,
                               const StepStart<Real>& start, NodeTerms<Real>& terms) const;
     VolumeBound<Real> volume_bound(std::uint32_t tet) const;

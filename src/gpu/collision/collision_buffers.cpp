@@ -51,10 +51,6 @@ std::vector<BoundingBox> describe_objects(const Model& model) {
 CollisionBuffers::CollisionBuffers(const Model& model)
     : face_trees(model.face_trees),
       face_boxes(model.faces.size()),
-      face_views(model.faces.size()),
-      object_views(model.objects.size()),
-      face_view_texels(face_views, gl::TexelFormat::r32ui),
-      object_view_texels(object_views, gl::TexelFormat::r32ui),
       node_face_starts(std::span(model.node_faces.starts)),
       node_faces(std::span(model.node_faces.faces)),
       node_face_start_texels(node_face_starts, gl::TexelFormat::r32ui),
@@ -93,11 +89,6 @@ void CollisionBuffers::bind_own_trees(const gl::Program& program, const ModelBuf
     face_trees.bind(program);
     program.bind("faces", model.face_texels);
     program.bind("FaceBoxes", face_boxes);
-}
-
-void CollisionBuffers::bind_hidden(const gl::Program& program) const {
-    program.bind("face_views", face_view_texels);
-    program.bind("object_views", object_view_texels);
 }
 
 void CollisionBuffers::run(const gl::Program& program, std::uint32_t slot) const {

@@ -28,11 +28,8 @@ struct CollisionBuffers {
     gl::Buffer<ObjectPair> object_pairs;
     gl::Buffer<std::uint32_t> candidates;       ///< faces
     gl::Buffer<FacePair> face_pairs;            ///< whose boxes meet
-    gl::Buffer<std::uint32_t> face_collisions;  ///< two bits for each face, by pair: a Touch
+    gl::Buffer<std::uint32_t> face_collisions;  ///< two bits a face, by pair: a FaceContact
     gl::Buffer<Dispatch> dispatches;            ///< see shaders/sim/collision/pairs.glsl
-
-    gl::Buffer<std::uint32_t> face_views, object_views;  ///< see shaders/sim/depth/hidden.glsl
-    gl::BufferTexture face_view_texels, object_view_texels;
 
     gl::Buffer<std::uint32_t> node_face_starts, node_faces;
     gl::BufferTexture node_face_start_texels, node_face_texels;
@@ -47,8 +44,6 @@ struct CollisionBuffers {
     void bind_node_faces(const gl::Program& program) const;
     /// For programs that include sim/collision/own_tree.glsl.
     void bind_own_trees(const gl::Program& program, const ModelBuffers& model) const;
-    /// For programs that include sim/depth/hidden.glsl.
-    void bind_hidden(const gl::Program& program) const;
 
     /// Runs `program` over a list that the GPU has counted. @param slot one of dispatch_slots
     void run(const gl::Program& program, std::uint32_t slot) const;

@@ -1,13 +1,7 @@
 #include "gpu/collision/find_face_collisions.h"
 
-#include "gpu/depth/cull_by_depth.h"
-
 namespace gelatin::gpu {
 namespace {
-
-gl::Defines list_defines(BroadPhase broad_phase) {
-    return broad_phase == BroadPhase::depth ? CullByDepth::defines() : gl::Defines{};
-}
 
 gl::Defines test_defines(CollisionDetection detection) {
     return detection == CollisionDetection::continuous ? gl::Defines{"CONTINUOUS"} : gl::Defines{};
@@ -15,10 +9,10 @@ gl::Defines test_defines(CollisionDetection detection) {
 
 }  // namespace
 
-FindFaceCollisions::FindFaceCollisions(const CollisionSettings& settings)
+FindFaceCollisions::FindFaceCollisions(const CollisionSettings& settings, const FaceFilter* filter)
     : walks_(walks_trees(settings.broad_phase)),
-      list_program_(
-          gl::Program::compute("sim/collision/list_candidates.comp", list_defines(settings.broad_phase))),
+      filter_(filter),
+      list_program_(compile_filtered(filter, "list_candidates.comp")),
       scan_program_(gl::Program::compute("sim/collision/scan_tests.comp")),
       cull_program_(gl::Program::compute(walks_ ? "sim/collision/walk_trees.comp"
                                                 : "sim/collision/cull_face_pairs.comp")),
@@ -31,7 +25,7 @@ void FindFaceCollisions::run(const ModelBuffers& model, const CollisionBuffers& 
     for (const gl::Program* program : {&list_program_, &scan_program_, &cull_program_, &test_program_})
         collision.bind_pairs(*program);
 
-    collision.bind_hidden(list_program_);
+    if (filter_ != nullptr) filter_->bind(list_program_);
     list_program_.bind("FaceBoxes", collision.face_boxes);
     list_program_.bind("FaceCollisions", collision.face_collisions);
     list_program_.bind("Candidates", collision.candidates);

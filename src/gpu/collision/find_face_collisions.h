@@ -2,6 +2,7 @@
 
 #include "gelatin/scene.h"
 #include "gpu/collision/collision_buffers.h"
+#include "gpu/collision/face_filter.h"
 #include "gpu/node_buffers.h"
 
 namespace gelatin::gpu {
@@ -11,7 +12,8 @@ namespace gelatin::gpu {
 /// if no faces are near.
 class FindFaceCollisions {
 public:
-    explicit FindFaceCollisions(const CollisionSettings& settings);
+    /// @param filter that FindObjectPairs has, or null. Has to outlive this.
+    explicit FindFaceCollisions(const CollisionSettings& settings, const FaceFilter* filter = nullptr);
     /// Ends with the barrier that the next stage needs.
     /// @param previous the nodes at the start of the step, which discrete detection does not read
     void run(const ModelBuffers& model, const CollisionBuffers& collision, const NodeBuffers& previous,
@@ -19,6 +21,7 @@ public:
 
 private:
     bool walks_;  // through trees
+    const FaceFilter* filter_;
     gl::Program list_program_, scan_program_, cull_program_, test_program_;
 };
 

@@ -10,30 +10,27 @@ std::uint32_t capacity(const gl::Buffer<T>& buffer) {
 
 gl::Defines search_defines(BroadPhase broad_phase) {
     if (broad_phase == BroadPhase::hierarchy) return {"OBJECT_TREE"};
-    if (broad_phase == BroadPhase::depth) return CullByDepth::defines();
     return {};
 }
 
 }  // namespace
 
-FindObjectPairs::FindObjectPairs(const Model& model, BroadPhase broad_phase)
+FindObjectPairs::FindObjectPairs(const Model& model, BroadPhase broad_phase, FaceFilter* filter)
     : broad_phase_(broad_phase),
-      count_program_(
-          gl::Program::compute("sim/collision/count_object_pairs.comp", search_defines(broad_phase))),
+      filter_(filter),
+      count_program_(compile_filtered(filter, "count_object_pairs.comp", search_defines(broad_phase))),
       scan_program_(gl::Program::compute("sim/collision/scan_pair_rows.comp")),
-      list_program_(
-          gl::Program::compute("sim/collision/list_object_pairs.comp", search_defines(broad_phase))) {
+      list_program_(compile_filtered(filter, "list_object_pairs.comp", search_defines(broad_phase))) {
     if (broad_phase == BroadPhase::hierarchy) tree_.emplace(model);
-    if (broad_phase == BroadPhase::depth) cull_by_depth_.emplace(model);
 }
 
 void FindObjectPairs::run(const ModelBuffers& model, const CollisionBuffers& collision,
                           const NodeBuffers& nodes) {
-    if (cull_by_depth_) cull_by_depth_->run(model, collision, nodes);
+    if (filter_ != nullptr) filter_->run(model, collision, nodes);
     if (tree_) tree_->update(collision);
     for (const gl::Program* program : {&count_program_, &list_program_}) {
         if (tree_) tree_->bind(*program);
-        collision.bind_hidden(*program);
+        if (filter_ != nullptr) filter_->bind(*program);
         collision.bind_pairs(*program);
         program->set("object_count", collision.object_count);
         program->set("ignore_boxes", broad_phase_ == BroadPhase::none ? 1u : 0u);

@@ -4,8 +4,8 @@
 
 #include "gelatin/scene.h"
 #include "gpu/collision/collision_buffers.h"
+#include "gpu/collision/face_filter.h"
 #include "gpu/collision/object_tree.h"
-#include "gpu/depth/cull_by_depth.h"
 
 namespace gelatin::gpu {
 
@@ -13,14 +13,15 @@ namespace gelatin::gpu {
 /// shaders/sim/collision/count_object_pairs.comp, scan_pair_rows.comp, list_object_pairs.comp.
 class FindObjectPairs {
 public:
-    FindObjectPairs(const Model& model, BroadPhase broad_phase);
+    /// @param filter null: all faces may touch others. Has to outlive this.
+    FindObjectPairs(const Model& model, BroadPhase broad_phase, FaceFilter* filter = nullptr);
     /// Ends with the barriers that the next stage needs.
     void run(const ModelBuffers& model, const CollisionBuffers& collision, const NodeBuffers& nodes);
 
 private:
     BroadPhase broad_phase_;
-    std::optional<ObjectTree> tree_;            // with hierarchy
-    std::optional<CullByDepth> cull_by_depth_;  // with depth
+    FaceFilter* filter_;
+    std::optional<ObjectTree> tree_;  // with hierarchy
     gl::Program count_program_, scan_program_, list_program_;
 };
 

@@ -20,6 +20,10 @@ gl::Program make_pass(const char* fragment_file) {
                                                fragment_file);
 }
 
+gl::Defines view_defines() {
+    return {"VIEW_COUNT " + std::to_string(CullByDepth::kViews)};
+}
+
 gl::Buffer<std::uint32_t> count_up(std::size_t size) {
     std::vector<std::uint32_t> numbers(size);
     std::iota(numbers.begin(), numbers.end(), 0u);
@@ -28,12 +32,10 @@ gl::Buffer<std::uint32_t> count_up(std::size_t size) {
 
 }  // namespace
 
-gl::Defines CullByDepth::defines() {
-    return {"VIEW_COUNT " + std::to_string(kViews)};
-}
-
 CullByDepth::CullByDepth(const Model& model)
-    : begin_program_(gl::Program::compute("sim/depth/begin_views.comp", defines())),
+    : face_views(model.faces.size()),
+      object_views(model.objects.size()),
+      begin_program_(gl::Program::compute("sim/depth/begin_views.comp", view_defines())),
       nearest_program_(make_pass("sim/depth/nearest_surface.frag")),
       other_program_(make_pass("sim/depth/nearest_other_surface.frag")),
       hidden_program_(make_pass("sim/depth/find_hidden_faces.frag")),
@@ -43,6 +45,8 @@ CullByDepth::CullByDepth(const Model& model)
                     gl::Buffer<std::uint32_t>(model.faces.size())},
       draws_(kViews + 1),
       view_space_(2),
+      face_view_texels_(face_views, gl::TexelFormat::r32ui),
+      object_view_texels_(object_views, gl::TexelFormat::r32ui),
       all_face_texels_(all_faces_, gl::TexelFormat::r32ui),
       hidden_face_texels_{{hidden_faces_[0], gl::TexelFormat::r32ui},
                           {hidden_faces_[1], gl::TexelFormat::r32ui}},
@@ -54,8 +58,17 @@ CullByDepth::~CullByDepth() {
     glDeleteVertexArrays(1, &vertex_array_);
 }
 
+gl::Program CullByDepth::compile(const std::string& file) const {
+    return gl::Program::compute("sim/depth/" + file, view_defines());
+}
+
+void CullByDepth::bind(const gl::Program& program) const {
+    program.bind("face_views", face_view_texels_);
+    program.bind("object_views", object_view_texels_);
+}
+
 void CullByDepth::run(const ModelBuffers& model, const CollisionBuffers& collision,
-                      const NodeBuffers& nodes) const {
+                      const NodeBuffers& nodes) {
     begin(collision);
     const gl::DrawStateGuard guard;
     glViewport(0, 0, kResolution, kResolution);
@@ -67,18 +80,18 @@ void CullByDepth::run(const ModelBuffers& model, const CollisionBuffers& collisi
     }
     layers_.bind_nearest_object(other_program_);
     layers_.bind_all(hidden_program_);
-    hidden_program_.bind("FaceViews", collision.face_views);
-    hidden_program_.bind("ObjectViews", collision.object_views);
+    hidden_program_.bind("FaceViews", face_views);
+    hidden_program_.bind("ObjectViews", object_views);
     hidden_program_.bind("Draws", draws_);
     for (unsigned view = 0; view < kViews; ++view) draw_view(view);
     gl::check_errors("culling by depth");
 }
 
 void CullByDepth::begin(const CollisionBuffers& collision) const {
-    const auto faces = static_cast<std::uint32_t>(collision.face_views.size());
+    const auto faces = static_cast<std::uint32_t>(face_views.size());
     begin_program_.bind("BoundingBoxes", collision.bounding_boxes);
-    begin_program_.bind("FaceViews", collision.face_views);
-    begin_program_.bind("ObjectViews", collision.object_views);
+    begin_program_.bind("FaceViews", face_views);
+    begin_program_.bind("ObjectViews", object_views);
     begin_program_.bind("Draws", draws_);
     begin_program_.bind("ViewSpace", view_space_);
     begin_program_.set("face_count", faces);

@@ -2,7 +2,7 @@
 
 #include <glm/vec4.hpp>
 
-#include "gpu/collision/collision_buffers.h"
+#include "gpu/collision/face_filter.h"
 #include "gpu/depth/depth_layers.h"
 #include "gpu/node_buffers.h"
 
@@ -16,21 +16,24 @@ namespace gelatin::gpu {
 /// layer. A view draws three times, however many objects there are: shaders/sim/depth/nearest_surface.frag,
 /// nearest_other_surface.frag and find_hidden_faces.frag, each over the pixels that a face touches according
 /// to face_footprint.geom.
-class CullByDepth {
+class CullByDepth : public FaceFilter {
 public:
     static constexpr std::uint32_t kViews = 6;
 
     explicit CullByDepth(const Model& model);
     CullByDepth(const CullByDepth&) = delete;
     CullByDepth& operator=(const CullByDepth&) = delete;
-    ~CullByDepth();
+    ~CullByDepth() override;
 
-    /// Writes CollisionBuffers::face_views and object_views. Ends with the barriers that the next stage
-    /// needs. Restores the drawing state of an application, except the bound textures, buffers and programs.
-    void run(const ModelBuffers& model, const CollisionBuffers& collision, const NodeBuffers& nodes) const;
+    /// Writes face_views and object_views. Restores the drawing state of an application, except the bound
+    /// textures, buffers and programs.
+    void run(const ModelBuffers& model, const CollisionBuffers& collision, const NodeBuffers& nodes) override;
 
-    /// Defines for shaders that include sim/depth/hidden.glsl.
-    static gl::Defines defines();
+    gl::Program compile(const std::string& file) const override;
+    void bind(const gl::Program& program) const override;
+
+    /// The last view in which each face, and any face of each object, was hidden, from 1; 0: none.
+    gl::Buffer<std::uint32_t> face_views, object_views;
 
 private:
     void begin(const CollisionBuffers& collision) const;
@@ -42,7 +45,8 @@ private:
     gl::Buffer<std::uint32_t> all_faces_, hidden_faces_[2];  // views read one of them and write another
     gl::Buffer<Draw> draws_;            // what each view draws, and what the last one keeps
     gl::Buffer<glm::vec4> view_space_;  // lower corner [m] and scale [1/m] of the view's box
-    gl::BufferTexture all_face_texels_, hidden_face_texels_[2], view_space_texels_;
+    gl::BufferTexture face_view_texels_, object_view_texels_, all_face_texels_, hidden_face_texels_[2],
+        view_space_texels_;
     unsigned vertex_array_ = 0;  // empty, as drawing needs one
 };
 

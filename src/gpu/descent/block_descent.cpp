@@ -119,7 +119,6 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
     : start_program_(gl::Program::compute("sim/descent/start_descent.comp", start_defines(model, pulled))),
       find_tangled_program_(gl::Program::compute("sim/descent/take_back_tangled.comp", {"TETS"})),
       take_back_program_(gl::Program::compute("sim/descent/take_back_tangled.comp")),
-      accelerate_program_(gl::Program::compute("sim/descent/accelerate_descent.comp")),
       mark_program_(gl::Program::compute("sim/descent/mark_flat_tets.comp", volume_defines(model))),
       sweep_program_(gl::Program::compute("sim/descent/descend.comp", sweep_defines(model))),
       sum_program_(
@@ -134,11 +133,10 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
       tet_count_(static_cast<std::uint32_t>(model.tets.size())),
       object_count_(static_cast<std::uint32_t>(model.objects.size())),
       near_flat_(model.positions.size()),
-      object_touches_(model.objects.size()),
+      object_contacts_(model.objects.size()),
       is_tangled_(model.objects.size()),
       motions_(model.objects.size()) {
     if (!model.volume_term.is_empty()) pressures_.emplace(model);
-    if (settings_.chebyshev > 0.0) sweep_starts_ = gl::Buffer<glm::vec4>(2 * model.positions.size());
     const DescentRows rows = make_descent_rows(model);
     colors_ = rows.batches.front().colors;
     const std::vector<std::uint32_t> objects = objects_of_nodes(model);
@@ -165,7 +163,7 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
     target_texels_ = {targets_, gl::TexelFormat::rgba32f};
     near_flat_texels_ = {near_flat_, gl::TexelFormat::r32ui};
     rigid_sums_ = gl::Buffer<glm::dvec4>(kRigidSums * chunks.size());
-    if (!model.colliders.empty()) touches_ = gl::Buffer<Touch>(model.positions.size());
+    if (!model.colliders.empty()) contacts_ = gl::Buffer<ColliderContact>(model.positions.size());
 
     if (settings_.coarse_level) make_coarse_level(model);
     bind_buffers();
@@ -187,11 +185,11 @@ std::vector<const gl::Program*> BlockDescent::sweep_programs() const {
 // What never changes.
 void BlockDescent::bind_buffers() const {
     start_program_.bind("NearFlat", near_flat_);
-    start_program_.bind("ObjectTouches", object_touches_);
+    start_program_.bind("ObjectContacts", object_contacts_);
     start_program_.bind("Tangled", is_tangled_);
     start_program_.bind("Starts", starts_);
     start_program_.bind("Targets", targets_);
-    start_program_.bind("Touches", touches_);
+    start_program_.bind("Contacts", contacts_);
     find_tangled_program_.bind("tets", tets_);
     find_tangled_program_.bind("tet_rests", tet_rests_);
     take_back_program_.bind("start_positions", start_texels_);
@@ -199,9 +197,6 @@ void BlockDescent::bind_buffers() const {
         program->bind("node_objects", node_objects_);
         program->bind("Tangled", is_tangled_);
     }
-    accelerate_program_.bind("Starts", sweep_starts_);
-    accelerate_program_.bind("ObjectTouches", object_touches_);
-    accelerate_program_.bind("node_objects", node_objects_);
     mark_program_.bind("tets", tets_);
     mark_program_.bind("tet_rests", tet_rests_);
     mark_program_.bind("NearFlat", near_flat_);
@@ -215,15 +210,15 @@ void BlockDescent::bind_buffers() const {
         program->bind("tet_corners", tet_corners_);
         program->bind("corner_starts", corner_starts_);
         program->bind("tet_rests", tet_rests_);
-        program->bind("ObjectTouches", object_touches_);
-        program->bind("Touches", touches_);
+        program->bind("ObjectContacts", object_contacts_);
+        program->bind("Contacts", contacts_);
         neo_hookean_corners_.bind(*program);
     }
     for (const gl::Program* program : {&sum_program_, &motion_program_}) {
         program->bind("chunk_starts", chunk_starts_);
-        program->bind("ObjectTouches", object_touches_);
+        program->bind("ObjectContacts", object_contacts_);
         program->bind("Sums", rigid_sums_);
-        program->bind("Touches", touches_);
+        program->bind("Contacts", contacts_);
     }
     for (const gl::Program* program :
          {&sum_program_, &motion_program_, &move_program_, &last_move_program_}) {
@@ -232,7 +227,7 @@ void BlockDescent::bind_buffers() const {
         program->bind("Chunks", chunks_);
         program->bind("Motions", motions_);
     }
-    last_move_program_.bind("ObjectTouches", object_touches_);
+    last_move_program_.bind("ObjectContacts", object_contacts_);
 }
 
 void BlockDescent::bind_springs(const gl::Program& program) const {
@@ -265,7 +260,6 @@ void BlockDescent::bind_nodes(const NodeBuffers& previous, const NodeBuffers& cu
     start_program_.bind("Positions", current.positions);
     start_program_.bind("EarlierVelocities", current.velocities);
     take_back_program_.bind("Positions", current.positions);
-    accelerate_program_.bind("Positions", current.positions);
     find_tangled_program_.bind("positions", current.position_texels);
     mark_program_.bind("positions", current.position_texels);
     if (damped_springs_) damped_springs_->program.bind("start_velocities", previous.velocity_texels);
@@ -308,10 +302,9 @@ void BlockDescent::run(const ModelBuffers& model, const SumLoads* loads, const N
     if (damped_springs_) damp_springs(step);
     take_back_tangled();
     if (coarse_) coarse_->begin(current, step);
-    std::uint32_t looks = 0;
+    std::uint32_t marks = 0;
     for (int i = 0; i < settings_.iterations; ++i) {
-        if (settings_.chebyshev > 0.0) accelerate(coarse_ ? sweeps_since_correction(i) : i);
-        if (i % kSweepsAMotion == 0) look_at_tets(++looks);
+        if (i % kSweepsAMotion == 0) mark_flat_tets(++marks);
         sweep();
         const bool is_last = i + 1 == settings_.iterations;
         if (coarse_ && !is_last && i % kSweepsACorrection == 0) correct(current, step);
@@ -336,19 +329,11 @@ void BlockDescent::take_back_tangled() const {
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 }
 
-void BlockDescent::accelerate(int sweep) const {
-    accelerate_program_.set("node_count", node_count_);
-    accelerate_program_.set("sweep", static_cast<std::uint32_t>(sweep));
-    accelerate_program_.set("weight", static_cast<float>(chebyshev_weight(settings_.chebyshev, sweep)));
-    accelerate_program_.dispatch(node_count_);
-    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
-}
-
-// Marks of earlier looks count no more.
-void BlockDescent::look_at_tets(std::uint32_t look) const {
-    sweep_program_.set("look", look);
-    if (coarse_) force_program_.set("look", look);
-    mark_program_.set("look", look);
+// Earlier marks count no more.
+void BlockDescent::mark_flat_tets(std::uint32_t mark) const {
+    sweep_program_.set("mark", mark);
+    if (coarse_) force_program_.set("mark", mark);
+    mark_program_.set("mark", mark);
     mark_program_.set("tet_count", tet_count_);
     mark_program_.dispatch(tet_count_);
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
@@ -384,14 +369,14 @@ void BlockDescent::correct(const NodeBuffers& current, double step) {
     force_program_.set("time_step", static_cast<float>(step));
     force_program_.set("is_ahead", 0u);
     descend(force_program_, {&all, 1});
-    coarse_->find_ways();
+    coarse_->find_displacements();
 
     coarse_->bind_forces(force_program_, true);
     force_program_.bind("positions", coarse_->ahead_texels());
     force_program_.set("is_ahead", 1u);
     descend(force_program_, {&all, 1});
     force_program_.bind("positions", current.position_texels);
-    coarse_->follow_ways(chunks_, chunk_starts_);
+    coarse_->apply_displacements(chunks_, chunk_starts_);
 }
 
 void BlockDescent::move_bodies(bool is_last) const {

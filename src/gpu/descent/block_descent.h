@@ -18,7 +18,7 @@
 namespace gelatin::gpu {
 
 /// Vertex block descent: shaders/sim/descent/start_descent.comp, take_back_tangled.comp,
-/// damp_springs.comp, accelerate_descent.comp, mark_flat_tets.comp,
+/// damp_springs.comp, mark_flat_tets.comp,
 /// find_pressures.comp, descend.comp, sum_rigid_motions.comp, move_bodies.comp. CPU twin: cpu::BlockDescent.
 class BlockDescent {
 public:
@@ -60,20 +60,18 @@ private:
     void bind_nodes(const NodeBuffers& previous, const NodeBuffers& current) const;
     void damp_springs(double step) const;
     void take_back_tangled() const;
-    void accelerate(int sweep) const;
-    void look_at_tets(std::uint32_t look) const;
+    void mark_flat_tets(std::uint32_t mark) const;
     void sweep() const;
     void descend(const gl::Program& program, std::span<const Range> rows) const;
     void correct(const NodeBuffers& current, double step);
     void move_bodies(bool is_last) const;
 
-    gl::Program start_program_, find_tangled_program_, take_back_program_, accelerate_program_, mark_program_,
-        sweep_program_, sum_program_, motion_program_, move_program_, last_move_program_;
+    gl::Program start_program_, find_tangled_program_, take_back_program_, mark_program_, sweep_program_,
+        sum_program_, motion_program_, move_program_, last_move_program_;
     DescentSettings settings_;
     std::uint32_t node_count_, tet_count_, object_count_, row_count_;
     std::optional<Pressures> pressures_;
     std::optional<DampedSprings> damped_springs_;  // where the model has dampers
-    gl::Buffer<glm::vec4> sweep_starts_;           // empty without acceleration
     std::vector<Range> colors_;                    // rows
     gl::TexelTable<DescentRow> rows_;
     NeoHookeanBuffers::Corners neo_hookean_corners_;
@@ -88,9 +86,9 @@ private:
     gl::TexelTable<std::uint32_t> chunk_starts_, node_objects_;  // by object; by node
     gl::Buffer<glm::vec4> starts_;   // xyz, outside colliders [m], inverse mass [1/kg]
     gl::Buffer<glm::vec4> targets_;  // y [m], m / h^2 [N/m]
-    gl::Buffer<std::uint32_t> near_flat_, object_touches_, is_tangled_;
+    gl::Buffer<std::uint32_t> near_flat_, object_contacts_, is_tangled_;
     gl::BufferTexture start_texels_, target_texels_, near_flat_texels_;
-    gl::Buffer<Touch> touches_;  // of nodes in the last sweep; empty without colliders
+    gl::Buffer<ColliderContact> contacts_;  // of nodes in the last sweep; empty without colliders
     gl::Buffer<glm::dvec4> rigid_sums_;
     gl::Buffer<RigidMotion> motions_;
     std::optional<CoarseCorrection> coarse_;  // where there are clusters

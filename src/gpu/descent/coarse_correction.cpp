@@ -49,13 +49,13 @@ std::vector<float> inverses_of(const std::vector<CoarseMatrices>& matrices, doub
 }  // namespace
 
 CoarseCorrection::CoarseCorrection(const Model& model, const CoarseBasis& basis)
-    : turn_program_(gl::Program::compute("sim/descent/rotate_clusters.comp")),
+    : rotate_program_(gl::Program::compute("sim/descent/rotate_clusters.comp")),
       load_program_(gl::Program::compute("sim/descent/load_clusters.comp")),
       move_program_(gl::Program::compute("sim/descent/move_clusters.comp")),
-      way_program_(gl::Program::compute("sim/descent/find_displacements.comp")),
+      displacement_program_(gl::Program::compute("sim/descent/find_displacements.comp")),
       sum_program_(gl::Program::compute("sim/descent/apply_displacements.comp", {"SUMS"})),
       factor_program_(gl::Program::compute("sim/descent/apply_displacements.comp", {"OBJECTS"})),
-      follow_program_(gl::Program::compute("sim/descent/apply_displacements.comp")),
+      apply_program_(gl::Program::compute("sim/descent/apply_displacements.comp")),
       node_count_(model.node_count()),
       cluster_count_(basis.cluster_count()),
       object_count_(static_cast<std::uint32_t>(model.objects.size())) {
@@ -69,7 +69,7 @@ CoarseCorrection::CoarseCorrection(const Model& model, const CoarseBasis& basis)
     cluster_parts_ = {packed(basis.cluster_parts), gl::TexelFormat::rg32ui};
     node_parts_ = {packed(basis.node_parts), gl::TexelFormat::rg32ui};
     rest_positions_ = {model.positions, gl::TexelFormat::rgba32f};
-    for (gl::Buffer<glm::vec4>* by_node : {&forces_, &forces_ahead_, &ways_, &ahead_})
+    for (gl::Buffer<glm::vec4>* by_node : {&forces_, &forces_ahead_, &displacements_, &ahead_})
         *by_node = gl::Buffer<glm::vec4>(node_count_);
     loads_ = gl::Buffer<float>(std::size_t{6} * cluster_count_);
     factors_ = gl::Buffer<float>(object_count_);
@@ -78,25 +78,26 @@ CoarseCorrection::CoarseCorrection(const Model& model, const CoarseBasis& basis)
 }
 
 void CoarseCorrection::bind_buffers() const {
-    turn_program_.bind("core_nodes", core_nodes_);
-    turn_program_.bind("rest_positions", rest_positions_);
-    for (const gl::Program* program : {&turn_program_, &move_program_}) program->bind("Rests", rests_);
-    for (const gl::Program* program : {&turn_program_, &load_program_, &move_program_, &way_program_})
+    rotate_program_.bind("core_nodes", core_nodes_);
+    rotate_program_.bind("rest_positions", rest_positions_);
+    for (const gl::Program* program : {&rotate_program_, &move_program_}) program->bind("Rests", rests_);
+    for (const gl::Program* program :
+         {&rotate_program_, &load_program_, &move_program_, &displacement_program_})
         program->bind("Clusters", clusters_);
     load_program_.bind("cluster_starts", cluster_starts_);
     load_program_.bind("cluster_parts", cluster_parts_);
     load_program_.bind("Forces", forces_);
     for (const gl::Program* program : {&load_program_, &move_program_}) program->bind("Loads", loads_);
     for (const gl::Program* program : {&move_program_, &factor_program_}) program->bind("Bodies", bodies_);
-    way_program_.bind("node_starts", node_starts_);
-    way_program_.bind("node_parts", node_parts_);
-    way_program_.bind("Ahead", ahead_);
-    for (const gl::Program* program : {&way_program_, &sum_program_, &factor_program_, &follow_program_})
-        program->bind("Ways", ways_);
+    displacement_program_.bind("node_starts", node_starts_);
+    displacement_program_.bind("node_parts", node_parts_);
+    displacement_program_.bind("Ahead", ahead_);
+    for (const gl::Program* program :
+         {&displacement_program_, &sum_program_, &factor_program_, &apply_program_})
+        program->bind("Displacements", displacements_);
     sum_program_.bind("ForcesHere", forces_);
     sum_program_.bind("ForcesAhead", forces_ahead_);
-    for (const gl::Program* program : {&factor_program_, &follow_program_})
-        program->bind("Factors", factors_);
+    for (const gl::Program* program : {&factor_program_, &apply_program_}) program->bind("Factors", factors_);
 }
 
 void CoarseCorrection::begin(const NodeBuffers& nodes, double step) {
@@ -105,20 +106,20 @@ void CoarseCorrection::begin(const NodeBuffers& nodes, double step) {
         move_program_.bind("Inverses", inverses_);
         step_ = step;
     }
-    for (const gl::Program* program : {&turn_program_, &load_program_, &way_program_})
+    for (const gl::Program* program : {&rotate_program_, &load_program_, &displacement_program_})
         program->bind("positions", nodes.position_texels);
-    follow_program_.bind("Positions", nodes.positions);
-    turn_program_.set("cluster_count", cluster_count_);
-    turn_program_.dispatch_groups(cluster_count_);
+    apply_program_.bind("Positions", nodes.positions);
+    rotate_program_.set("cluster_count", cluster_count_);
+    rotate_program_.dispatch_groups(cluster_count_);
     gl::barrier(gl::Barrier::storage);
 }
 
 void CoarseCorrection::bind_forces(const gl::Program& program, bool is_ahead) const {
-    program.bind("Ways", ways_);
+    program.bind("Displacements", displacements_);
     program.bind("Forces", is_ahead ? forces_ahead_ : forces_);
 }
 
-void CoarseCorrection::find_ways() const {
+void CoarseCorrection::find_displacements() const {
     load_program_.set("cluster_count", cluster_count_);
     load_program_.dispatch_groups(cluster_count_);
     gl::barrier(gl::Barrier::storage);
@@ -127,16 +128,16 @@ void CoarseCorrection::find_ways() const {
     move_program_.dispatch(cluster_count_);
     gl::barrier(gl::Barrier::storage);
 
-    way_program_.set("node_count", node_count_);
-    way_program_.dispatch(node_count_);
+    displacement_program_.set("node_count", node_count_);
+    displacement_program_.dispatch(node_count_);
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 }
 
-void CoarseCorrection::follow_ways(const gl::Buffer<Chunk>& chunks,
-                                   const gl::TexelTable<std::uint32_t>& chunk_starts) {
+void CoarseCorrection::apply_displacements(const gl::Buffer<Chunk>& chunks,
+                                           const gl::TexelTable<std::uint32_t>& chunk_starts) {
     const auto chunk_count = static_cast<std::uint32_t>(chunks.size());
     if (sums_.size() != chunks.size()) sums_ = gl::Buffer<glm::vec4>(chunks.size());
-    for (const gl::Program* program : {&sum_program_, &factor_program_, &follow_program_}) {
+    for (const gl::Program* program : {&sum_program_, &factor_program_, &apply_program_}) {
         program->bind("Chunks", chunks);
         program->bind("Sums", sums_);
     }
@@ -149,8 +150,8 @@ void CoarseCorrection::follow_ways(const gl::Buffer<Chunk>& chunks,
     factor_program_.dispatch(object_count_);
     gl::barrier(gl::Barrier::storage);
 
-    follow_program_.set("element_count", chunk_count);
-    follow_program_.dispatch_groups(chunks.size());
+    apply_program_.set("element_count", chunk_count);
+    apply_program_.dispatch_groups(chunks.size());
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 }
 

@@ -8,14 +8,14 @@
 
 namespace gelatin::gpu {
 
-/// Gives objects that have lost their shape it back: shaders/sim/descent/count_inverted_tets.comp,
-/// match_shapes.comp, place_shapes.comp. CPU twin: cpu::ShapeMatcher.
+/// Gives objects that have lost their shape it back: shaders/sim/descent/count_inverted_tets.comp, and where
+/// that finds too many, match_shapes.comp and place_shapes.comp. CPU twin: cpu::ShapeMatcher.
 class ShapeMatcher {
 public:
     explicit ShapeMatcher(const Model& model);
 
     /// Ends with the barrier that whoever gathers the nodes as textures or storage needs.
-    void run(const NodeBuffers& nodes) const;
+    void run(const NodeBuffers& nodes);
 
 private:
     gl::Program count_program_, sum_program_, match_program_, place_program_;
@@ -27,7 +27,7 @@ private:
     gl::TexelTable<std::uint32_t> node_objects_, chunk_starts_;  // by object
     gl::Buffer<RestMoment> rest_moments_;
     gl::Buffer<Chunk> chunks_;
-    gl::Buffer<std::uint32_t> inverted_;  // tets, by object; all 0 between runs
+    gl::Buffer<std::uint32_t> inverted_;  // see shaders/sim/descent/inverted_tets.glsl
     gl::Buffer<ShapeSums> sums_;          // by chunk
     gl::Buffer<ShapePlace> places_;       // by object
 };

@@ -6,7 +6,7 @@
 
 namespace gelatin {
 
-/// Faces in a word of the Face Collision Result, two bits each (src/cpu/collision/touch.h).
+/// Faces in a word of the Face Collision Result, two bits each (src/cpu/collision/face_contact.h).
 constexpr std::uint32_t kFacesAWord = packing::kFacesAWord;
 
 /// The number of words of one pair, for an object with this many faces.

@@ -48,7 +48,7 @@ public:
         const std::uint32_t most = std::min(free_count_ / kNodesPerCluster, kMostClusters);
         if (most < 2) return {};
         const std::uint32_t count = spread_centers(most);
-        // The way that smoothing carries grows with the square root of its rounds.
+        // How far smoothing carries grows with the square root of its rounds.
         const double width = kSmoothed * std::cbrt(static_cast<double>(nodes_.count) / count);
         const int rounds = static_cast<int>(std::ceil(std::min(width * width, kMostRounds)));
         std::vector<Weights> weights(count);

@@ -10,8 +10,8 @@
 namespace gelatin {
 
 /// The coarse level of block descent: a few motions of each body that reach far, where sweeps carry what they
-/// find from neighbour to neighbour. Clusters of nodes overlap and move as rigid ones, by a shift s and a
-/// turn r each, so that node i goes
+/// find from neighbour to neighbour. Clusters of nodes overlap and move as rigid ones, by a translation s and
+/// a rotation r each, so that node i goes
 ///   d_i = sum_k w_ik (s_k + r_k x (x_i - c_k)),
 /// with c_k the middle of the cluster's core, the nodes that are nearest to it. A node's weights sum to one,
 /// less near pinned nodes, whose own are zero (aggregates with smoothed edges: Vanek, Mandel, Brezina 1996;

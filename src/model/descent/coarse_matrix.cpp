@@ -15,7 +15,8 @@
 namespace gelatin {
 namespace {
 
-// Of the diagonal, added to it: a cluster whose nodes are in one line turns about it without any resistance.
+// Of the diagonal, added to it: a cluster whose nodes are in one line rotates about it without any
+// resistance.
 constexpr double kLeastStiffness = 1e-8;
 
 // Of the stiffness of a body's clusters against each other, over their inertia.
@@ -56,10 +57,13 @@ private:
         for (const Slope& part : form) {
             const glm::dvec3 position(model_.positions[part.node]);
             for (const CoarseBasis::Part& cluster : basis_.clusters_of(part.node)) {
-                const glm::dvec3 shift = static_cast<double>(cluster.weight) * part.slope;
-                const glm::dvec3 turn = glm::cross(position - basis_.middles[cluster.index], shift);
+                const glm::dvec3 translation = static_cast<double>(cluster.weight) * part.slope;
+                const glm::dvec3 orientation =
+                    glm::cross(position - basis_.middles[cluster.index], translation);
                 row_of(cluster.index - clusters_.first).slope +=
-                    (Vector6() << shift.x, shift.y, shift.z, turn.x, turn.y, turn.z).finished();
+                    (Vector6() << translation.x, translation.y, translation.z, orientation.x, orientation.y,
+                     orientation.z)
+                        .finished();
             }
         }
     }

@@ -8,7 +8,7 @@
 namespace gelatin {
 
 /// What resists the motions of a body's clusters about its shape at rest: P^T M P and so on, with P the
-/// coarse basis there. Six rows a cluster: shift [m], then turn [radians].
+/// coarse basis there. Six rows a cluster: translation [m], then rotation [radians].
 struct CoarseMatrices {
     Eigen::MatrixXd inertia;  ///< of the masses
     Eigen::MatrixXd elastic;  ///< of springs, volume term and neo-Hookean tets

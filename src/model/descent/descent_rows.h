@@ -9,24 +9,19 @@
 
 namespace gelatin {
 
-/// After so many sweeps bodies move as rigid ones, and before them tets are looked at. With fewer motions
-/// stiff bodies that slide are held back by what they lie on; with fewer looks bodies gain energy that turn
+/// After so many sweeps bodies move as rigid ones, and before them flat tets are found. With fewer motions
+/// stiff bodies that slide are held back by what they lie on; with fewer updates bodies gain energy that turn
 /// inside out.
 constexpr int kSweepsAMotion = 2;
 
 /// Of so many sweeps the first is followed by a coarse correction (model/descent/coarse_basis.h), which has
-/// the tets as they were looked at before it.
+/// the tets as the last update found them.
 constexpr int kSweepsACorrection = 6;
 static_assert(kSweepsACorrection % kSweepsAMotion == 0);
 
 /// How many corrections a step of `sweeps` has: none after the last.
 constexpr int correction_count(int sweeps) {
     return sweeps < 2 ? 0 : (sweeps - 2) / kSweepsACorrection + 1;
-}
-
-/// How many sweeps lie between the last correction and sweep `sweep` of a step, from 0.
-constexpr int sweeps_since_correction(int sweep) {
-    return sweep == 0 ? 0 : (sweep - 1) % kSweepsACorrection;
 }
 
 /// Bodies that descend together. Bodies do not meet within a step, so batches need not wait for each other.

@@ -18,7 +18,6 @@ constexpr Limit kIterations{"from 1 to 1000", [](double v) { return v >= 1.0 && 
 constexpr Limit kPoissonRatio{"from 0 to 0.49", [](double v) { return v >= 0.0 && v <= 0.49; }};
 constexpr Limit kNeoHookeanPoissonRatio{"0 or more and less than 0.5 with model = \"neo_hookean\"",
                                         [](double v) { return v >= 0.0 && v < 0.5; }};
-constexpr Limit kSpectralRadius{"from 0 to less than 1", [](double v) { return v >= 0.0 && v < 1.0; }};
 constexpr Limit kFieldOfView{"greater than 0 and less than 180",
                              [](double v) { return v > 0.0 && v < 180.0; }};
 
@@ -50,7 +49,6 @@ SimulationSettings read_simulation(TableReader reader) {
         settings.substeps = count;
     }
     reader.read("iterations", settings.iterations, kIterations);
-    reader.read("chebyshev", settings.chebyshev, kSpectralRadius);
     reader.read("gravity", settings.gravity);
     reader.read("frames", settings.frames, kNotNegative);
     reader.finish();

@@ -190,7 +190,7 @@ Table table_of(const SimulationSettings& s) {
     Table table;
     table.add("solver", name_of(s.solver)).add("forces", name_of(s.forces));
     table.add("frame_rate", s.frame_rate).add("substeps", s.substeps);
-    table.add("iterations", s.iterations).add("chebyshev", s.chebyshev);
+    table.add("iterations", s.iterations);
     return table.add("gravity", s.gravity).add("frames", s.frames);
 }
 

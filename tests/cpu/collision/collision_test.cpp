@@ -81,9 +81,9 @@ TEST(Collision, ContinuousDetectionFindsWhatComesNear) {
             if (!test::comes_near(test::MovingPair<float>{face, other_face}, 1e-9)) continue;
             const bool is_new =
                 expected.empty() || expected.back().face != f || expected.back().other != other;
-            if (is_new) expected.push_back({f, other, cpu::Touch::touches});
-            if (cpu::touches_on_the_way(face, other_face).ours == cpu::Touch::enters)
-                expected.back().touch = cpu::Touch::enters;
+            if (is_new) expected.push_back({f, other, cpu::FaceContact::touches});
+            if (cpu::face_contacts(face, other_face).ours == cpu::FaceContact::enters)
+                expected.back().touch = cpu::FaceContact::enters;
         }
     }
     EXPECT_EQ(test::find_collisions_on_cpu<float>(model, continuous(), kStep), expected);

@@ -21,15 +21,16 @@ Model held_bar() {
     return test::make_model(body);
 }
 
-// What the implicit step's inertia and springs would need to go `ways` from rest [N].
-std::vector<glm::dvec3> forces_for(const Model& model, const std::vector<glm::dvec3>& ways) {
+// What the implicit step's inertia and springs would need to go `displacements` from rest [N].
+std::vector<glm::dvec3> forces_for(const Model& model, const std::vector<glm::dvec3>& displacements) {
     std::vector<glm::dvec3> forces(model.node_count(), glm::dvec3(0.0));
     for (std::uint32_t n = 0; n < model.node_count(); ++n)
-        forces[n] = static_cast<double>(model.masses[n]) / (kStep * kStep) * ways[n];
+        forces[n] = static_cast<double>(model.masses[n]) / (kStep * kStep) * displacements[n];
     for (const Spring& s : model.springs) {
         const glm::dvec3 n =
             glm::normalize(glm::dvec3(model.positions[s.j]) - glm::dvec3(model.positions[s.i]));
-        const glm::dvec3 force = static_cast<double>(s.stiffness) * glm::dot(n, ways[s.j] - ways[s.i]) * n;
+        const glm::dvec3 force =
+            static_cast<double>(s.stiffness) * glm::dot(n, displacements[s.j] - displacements[s.i]) * n;
         forces[s.i] -= force;
         forces[s.j] += force;
     }
@@ -37,40 +38,40 @@ std::vector<glm::dvec3> forces_for(const Model& model, const std::vector<glm::dv
 }
 
 // Newton's step within the motions of clusters is exact where the objective is the one at rest: what it takes
-// to go along them, clusters answer by going there. So they do when the whole body is turned.
+// to go along them, clusters answer by going there. So they do when the whole body is rotated.
 TEST(CoarseCorrection, IsNewtonsStepAlongItsMotions) {
     const Model model = held_bar();
     const CoarseBasis basis = make_coarse_basis(model);
-    const std::vector<glm::dvec3> expected =
-        test::coarse_ways(model, basis, basis.objects[0], test::random_motions(basis.objects[0], 0.01, 5));
+    const std::vector<glm::dvec3> expected = test::coarse_displacements(
+        model, basis, basis.objects[0], test::random_motions(basis.objects[0], 0.01, 5));
     const std::vector<glm::dvec3> forces = forces_for(model, expected);
     cpu::CoarseCorrection<double> correction(std::make_shared<const Model>(model));
-    for (const glm::dvec3& turned : {glm::dvec3(0.0), glm::dvec3(0.4, -1.0, 2.0)}) {
-        const glm::dmat3 turn = cpu::cayley_turn(turned);
+    for (const glm::dvec3& rotated : {glm::dvec3(0.0), glm::dvec3(0.4, -1.0, 2.0)}) {
+        const glm::dmat3 orientation = cpu::cayley_rotation(rotated);
         std::vector<glm::dvec4> positions;
-        std::vector<glm::dvec3> turned_forces, ways(model.node_count());
+        std::vector<glm::dvec3> rotated_forces, displacements(model.node_count());
         for (std::uint32_t n = 0; n < model.node_count(); ++n) {
-            positions.emplace_back(turn * glm::dvec3(model.positions[n]), model.positions[n].w);
-            turned_forces.push_back(turn * forces[n]);
+            positions.emplace_back(orientation * glm::dvec3(model.positions[n]), model.positions[n].w);
+            rotated_forces.push_back(orientation * forces[n]);
         }
         correction.begin(kStep, positions);
-        correction.find_ways(positions, turned_forces, ways);
+        correction.find_displacements(positions, rotated_forces, displacements);
         double worst = 0.0, longest = 0.0;
         for (std::uint32_t n = 0; n < model.node_count(); ++n) {
-            worst = std::max(worst, glm::distance(ways[n], turn * expected[n]));
+            worst = std::max(worst, glm::distance(displacements[n], orientation * expected[n]));
             longest = std::max(longest, glm::length(expected[n]));
         }
         EXPECT_LT(worst, 1e-4 * longest);
     }
 }
 
-// A body whose parts are turned unlike each other still has forces pull nodes their way.
+// A body whose parts are rotated unlike each other still has forces pull nodes their way.
 TEST(CoarseCorrection, GoesDownhillWhateverTheShape) {
     const Model model = held_bar();
     cpu::CoarseCorrection<float> correction(std::make_shared<const Model>(model));
     for (const double bend : {0.0, 1.0, 4.0}) {
         std::vector<glm::vec4> positions;
-        std::vector<glm::vec3> forces, ways(model.node_count());
+        std::vector<glm::vec3> forces, displacements(model.node_count());
         for (std::uint32_t n = 0; n < model.node_count(); ++n) {
             const glm::vec4& p = model.positions[n];
             const auto angle = static_cast<float>(bend) * p.x;
@@ -80,12 +81,12 @@ TEST(CoarseCorrection, GoesDownhillWhateverTheShape) {
                                         : glm::vec3(0.0f));
         }
         correction.begin(static_cast<float>(kStep), positions);
-        correction.find_ways(positions, forces, ways);
+        correction.find_displacements(positions, forces, displacements);
         double work = 0.0;
         for (std::uint32_t n = 0; n < model.node_count(); ++n) {
-            work += static_cast<double>(glm::dot(forces[n], ways[n]));
+            work += static_cast<double>(glm::dot(forces[n], displacements[n]));
             if (model.positions[n].w == 0.0f) {
-                EXPECT_EQ(ways[n], glm::vec3(0.0f));
+                EXPECT_EQ(displacements[n], glm::vec3(0.0f));
             }
         }
         EXPECT_GT(work, 0.0);

@@ -27,20 +27,20 @@ double difference(const glm::dmat3& a, const glm::dmat3& b) {
     return worst;
 }
 
-TEST(NearestRotation, IsTheTurnThatWasMade) {
+TEST(NearestRotation, IsTheRotationThatWasMade) {
     const glm::dmat3 spread(glm::dvec3(3, 0.5, 0), glm::dvec3(0.5, 2, 0.1), glm::dvec3(0, 0.1, 1));
     for (const glm::dvec3& w : {glm::dvec3(0.3, -0.2, 0.1), glm::dvec3(5, 40, -7), glm::dvec3(1e9, 0, 0)}) {
-        const glm::dmat3 turn = cpu::cayley_turn(w);
-        EXPECT_LT(difference(cpu::nearest_rotation(turn * spread), turn), 1e-12);
+        const glm::dmat3 rotation = cpu::cayley_rotation(w);
+        EXPECT_LT(difference(cpu::nearest_rotation(rotation * spread), rotation), 1e-12);
     }
 }
 
 TEST(NearestRotation, IsProperForAnyMoment) {
     const glm::dmat3 mirrored(glm::dvec3(1, 0, 0), glm::dvec3(0, -2, 0), glm::dvec3(0, 0, 3));
     for (const glm::dmat3& moment : {mirrored, glm::dmat3(0.0), -glm::dmat3(1.0)}) {
-        const glm::dmat3 turn = cpu::nearest_rotation(moment);
-        EXPECT_NEAR(glm::determinant(turn), 1.0, 1e-12);
-        EXPECT_LT(difference(turn * glm::transpose(turn), glm::dmat3(1.0)), 1e-12);
+        const glm::dmat3 rotation = cpu::nearest_rotation(moment);
+        EXPECT_NEAR(glm::determinant(rotation), 1.0, 1e-12);
+        EXPECT_LT(difference(rotation * glm::transpose(rotation), glm::dmat3(1.0)), 1e-12);
     }
 }
 
@@ -111,7 +111,7 @@ TEST(ShapeMatcher, LeavesHeldNodes) {
 TEST(ShapeMatcher, LeavesWhatIsOnlyDeformed) {
     const Model model = test::make_bodies_to_lose();
     constexpr auto kPi = std::numbers::pi;
-    const auto turned = [](const glm::dvec3& p, double angle) {
+    const auto rotated = [](const glm::dvec3& p, double angle) {
         const double y = p.y - 1.05, z = p.z - 0.05, c = std::cos(angle), s = std::sin(angle);
         return glm::dvec3(p.x, c * y - s * z, s * y + c * z);
     };
@@ -130,7 +130,7 @@ TEST(ShapeMatcher, LeavesWhatIsOnlyDeformed) {
         for (glm::dvec4& p : nodes.positions) p = glm::dvec4(map(glm::dvec3(p)), p.w);
     }
     cpu::Nodes<double>& twisted = shapes.emplace_back(in_double({model.positions, model.velocities}));
-    for (glm::dvec4& p : twisted.positions) p = glm::dvec4(turned(glm::dvec3(p), 2.0 * kPi * p.x), p.w);
+    for (glm::dvec4& p : twisted.positions) p = glm::dvec4(rotated(glm::dvec3(p), 2.0 * kPi * p.x), p.w);
     for (std::size_t k = 0; k < shapes.size(); ++k)
         EXPECT_EQ(matched(model, shapes[k]).positions, shapes[k].positions) << "shape " << k;
 }

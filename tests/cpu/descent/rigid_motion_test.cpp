@@ -41,23 +41,24 @@ V3 sum_of_momenta(const std::vector<V4>& nodes, const std::vector<V3>& targets) 
 TEST(RigidMotion, FindsAMotionThatWasMade) {
     const std::vector<V4> nodes = make_nodes(V3(1));
     const cpu::RigidMotion made{V3(10, 20, 30), V3(0.1, -0.2, 0.3),
-                                cpu::cayley_turn(1e-4 * glm::normalize(V3(1, 2, 3)))};
+                                cpu::cayley_rotation(1e-4 * glm::normalize(V3(1, 2, 3)))};
     std::vector<V3> targets;
     for (const V4& p : nodes) targets.push_back(made.move(V3(p)));
     const cpu::RigidMotion found = nearest_motion(nodes, targets);
-    // The turn is off by its second order, and by a millionth for what keeps thin bodies from turning wildly.
+    // The rotation is off by its second order, and by a millionth for what keeps thin bodies from rotating
+    // wildly.
     for (const V4& p : nodes) EXPECT_LT(glm::distance(found.move(V3(p)), made.move(V3(p))), 3e-8);
 }
 
-TEST(RigidMotion, CayleysTurnIsATurn) {
+TEST(RigidMotion, CayleysRotationIsARotation) {
     for (const double size : {1e-6, 0.1, 1.0, 100.0}) {
         const V3 w = size * glm::normalize(V3(3, -1, 2));
-        const glm::dmat3 turn = cpu::cayley_turn(w);
-        const glm::dmat3 error = glm::transpose(turn) * turn - glm::dmat3(1.0);
+        const glm::dmat3 rotation = cpu::cayley_rotation(w);
+        const glm::dmat3 error = glm::transpose(rotation) * rotation - glm::dmat3(1.0);
         for (int k = 0; k < 3; ++k) EXPECT_LT(glm::length(error[k]), 1e-14);
-        EXPECT_LT(glm::distance(turn * w, w), 1e-14 * size);
+        EXPECT_LT(glm::distance(rotation * w, w), 1e-14 * size);
         const V3 across = glm::normalize(glm::cross(w, V3(1, 0, 0)));
-        EXPECT_NEAR(glm::dot(turn * across, across), std::cos(2.0 * std::atan(size / 2.0)), 1e-14);
+        EXPECT_NEAR(glm::dot(rotation * across, across), std::cos(2.0 * std::atan(size / 2.0)), 1e-14);
     }
 }
 
@@ -74,7 +75,7 @@ TEST(RigidMotion, GivesNodesTheMomentumOfTheirTargets) {
 TEST(RigidMotion, SlidesAlongASurface) {
     const std::vector<V4> nodes = make_nodes(V3(1));
     const V3 origin(nodes[0]), normal(0, 1, 0);
-    const cpu::RigidMotion made{V3(10, 20, 30), V3(0.1, 0, 0.3), cpu::cayley_turn(V3(0, 1e-4, 0))};
+    const cpu::RigidMotion made{V3(10, 20, 30), V3(0.1, 0, 0.3), cpu::cayley_rotation(V3(0, 1e-4, 0))};
     cpu::RigidStep step;
     for (const V4& p : nodes) {
         const double mass = 1.0 / p.w;
@@ -105,8 +106,8 @@ TEST(RigidMotion, SlidesWithTheFrictionOfWhatHoldsIt) {
     const cpu::RigidMotion found = body.solve(origin);
     const double force = (pull - friction * gravity) * inertia * step * step;
     const double expected = force / (inertia + 0.1 * friction_stiffness);
-    EXPECT_NEAR(found.shift.x, expected, 1e-3 * expected);
-    EXPECT_LT(glm::length(found.turn[0] - V3(1, 0, 0)), 1e-2 * expected);
+    EXPECT_NEAR(found.translation.x, expected, 1e-3 * expected);
+    EXPECT_LT(glm::length(found.rotation[0] - V3(1, 0, 0)), 1e-2 * expected);
 }
 
 // Held by friction it stays, but for what that gives way.

@@ -42,11 +42,9 @@ struct Left {
 Left find_left(const Model& model, BroadPhase broad_phase = BroadPhase::depth) {
     const gpu::ModelBuffers model_buffers(model);
     const gpu::NodeBuffers nodes(model.positions, model.velocities);
-    const gpu::CollisionBuffers buffers(model);
-    const gpu::UpdateBoxes update_boxes(CollisionDetection::discrete);
-    gpu::FindObjectPairs stage(model, broad_phase);
-    update_boxes.run(model_buffers, buffers, nodes, nodes);
-    stage.run(model_buffers, buffers, nodes);
+    gpu::Collision collision(model, {.broad_phase = broad_phase});
+    collision.update_boxes.run(model_buffers, collision.buffers, nodes, nodes);
+    collision.find_object_pairs.run(model_buffers, collision.buffers, nodes);
     gl::barrier(gl::Barrier::buffer_update);
     const auto hidden_in_all = [](const gl::Buffer<std::uint32_t>& views) {
         std::vector<std::uint32_t> values(views.size()), found;
@@ -56,8 +54,10 @@ Left find_left(const Model& model, BroadPhase broad_phase = BroadPhase::depth) {
         return found;
     };
     std::vector<PairRow> rows(model.objects.size());
-    buffers.pair_rows.download(rows);
-    Left left{hidden_in_all(buffers.face_views), hidden_in_all(buffers.object_views)};
+    collision.buffers.pair_rows.download(rows);
+    Left left;
+    if (const gpu::CullByDepth* stage = collision.cull_by_depth.get())
+        left = {hidden_in_all(stage->face_views), hidden_in_all(stage->object_views)};
     for (const PairRow& row : rows) left.pairs += row.pair_count;
     return left;
 }
@@ -247,13 +247,13 @@ TEST_F(CullByDepthTest, ForgetsTheStepBefore) {
     gpu::NodeBuffers nodes(model.positions, model.velocities);
     const gpu::CollisionBuffers buffers(model);
     const gpu::UpdateBoxes update_boxes(CollisionDetection::discrete);
-    const gpu::CullByDepth stage(model);
+    gpu::CullByDepth stage(model);
     const auto count_left = [&] {
         update_boxes.run(model_buffers, buffers, nodes, nodes);
         stage.run(model_buffers, buffers, nodes);
         gl::barrier(gl::Barrier::buffer_update);
-        std::vector<std::uint32_t> views(buffers.object_views.size());
-        buffers.object_views.download(views);
+        std::vector<std::uint32_t> views(stage.object_views.size());
+        stage.object_views.download(views);
         return std::count(views.begin(), views.end(), gpu::CullByDepth::kViews);
     };
     EXPECT_EQ(count_left(), 2);

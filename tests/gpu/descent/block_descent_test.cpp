@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "cpu/descent/block_descent.h"
 #include "support/descend_on_gpu.h"
 #include "support/gl_fixture.h"
@@ -35,13 +37,28 @@ TEST_F(BlockDescentOnGpuTest, HasNodesBeyondTheLastFullGroup) {
 
 TEST_F(BlockDescentOnGpuTest, RepeatsBitForBit) {
     const Model model = test::make_bodies_to_descend(0.0, 0.4);
-    const test::Descent descent{1.0 / 60.0, {10, 0.7}};
+    const test::Descent descent{1.0 / 60.0, {10}};
     const test::NodeArrays one = test::descend_on_gpu(model, descent),
                            two = test::descend_on_gpu(model, descent);
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
         EXPECT_EQ(one.positions[n], two.positions[n]);
         EXPECT_EQ(one.velocities[n], two.velocities[n]);
     }
+}
+
+// To the last bit: rigid motions of nothing round no position.
+TEST_F(BlockDescentOnGpuTest, LeavesBodiesAtRestWhereTheyAre) {
+    test::Net net;
+    for (int n = 0; n < 13; ++n) {
+        const float t = static_cast<float>(n);
+        net.positions.emplace_back(0.1f + 0.37f * t, 3.3f / (t + 0.7f), std::sin(t));
+        net.velocities.emplace_back(0.0f);
+        net.masses.push_back(0.3 + 0.1 * n);
+    }
+    net.gravity = {0.0, 0.0, 0.0};
+    const Model model = test::make_model(net);
+    const test::NodeArrays actual = test::descend_on_gpu(model, {1.0 / 60.0, {10}});
+    for (std::uint32_t n = 0; n < model.node_count(); ++n) EXPECT_EQ(actual.positions[n], model.positions[n]);
 }
 
 }  // namespace

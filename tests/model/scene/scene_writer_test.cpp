@@ -20,7 +20,6 @@ forces = "divide_and_merge"
 frame_rate = 50.5
 substeps = 3
 iterations = 7
-chebyshev = 0.25
 gravity = [0.5, -1.5, 0.125]
 frames = 11
 
