@@ -9,7 +9,7 @@ namespace gelatin::gpu {
 /// paper.
 class DivideAndMerge {
 public:
-    DivideAndMerge(const Model& model, const ExplicitScheme& scheme, bool pulled = false);
+    DivideAndMerge(const Model& model, const ExplicitScheme& scheme);
 
     /// Ends with the barrier that the next pass, and whoever gathers the nodes as textures, needs.
     void run(const ModelBuffers& model, const Pass& pass) const;

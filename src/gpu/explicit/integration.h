@@ -21,8 +21,7 @@ struct Pass {
 };
 
 /// Defines for a shader that includes sim/explicit/integrate_node.glsl.
-/// @param pulled nodes may be held by a hand
-gl::Defines integration_defines(const Model& model, const ExplicitScheme& scheme, bool pulled = false);
+gl::Defines integration_defines(const Model& model, const ExplicitScheme& scheme);
 
 /// Binds and sets what sim/explicit/integrate_node.glsl reads and writes, but for what SumLoads::run and
 /// FindVolumeStresses::run bind.
