@@ -39,19 +39,60 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
 
 template <class Real>
 void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current,
-                             std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls) {
-    start(step, has_earlier, previous, load_forces, pulls, current);
-    take_back_tangled(current.positions);
-    if (coarse_) coarse_->begin(step, current.positions);
+                             std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls,
+                             StageTimer* timer) {
+    {
+        const TimedStage part(timer, "advance_nodes.start");
+        start(step, has_earlier, previous, load_forces, pulls, current);
+        take_back_tangled(current.positions);
+        if (coarse_) coarse_->begin(step, current.positions);
+    }
     for (int first = 0; first < settings_.iterations;) {
         const int end = end_of_run(first);
-        tbb::parallel_for(std::size_t(0), objective_.rows().batches.size(), [&](std::size_t batch) {
-            for (int i = first; i < end; ++i) make_sweep(i, batch, current.positions);
-        });
-        if (end < settings_.iterations) coarse_->run(objective_, touches_, current.positions);
+        make_sweeps(first, end, current.positions, timer);
+        if (end < settings_.iterations) {
+            const TimedStage part(timer, "advance_nodes.correct");
+            coarse_->run(objective_, touches_, current.positions);
+        }
         first = end;
     }
+    const TimedStage part(timer, "advance_nodes.move_bodies");
     finish(step, previous, current);
+}
+
+// Sweeps from `first` up to `end`. The bodies of a batch make theirs one after the other, while caches hold
+// them; where parts are timed, all bodies make each part at once, with the same results.
+template <class Real>
+void BlockDescent<Real>::make_sweeps(int first, int end, std::vector<Vec4<Real>>& positions,
+                                     StageTimer* timer) {
+    const std::vector<DescentBatch>& batches = objective_.rows().batches;
+    const auto for_batches = [&](const auto& work) {
+        tbb::parallel_for(std::size_t(0), batches.size(), work);
+    };
+    if (timer == nullptr) {
+        for_batches([&](std::size_t batch) {
+            for (int i = first; i < end; ++i) make_sweep(i, batch, positions);
+        });
+        return;
+    }
+    const auto time = [&](const char* name, const auto& work) {
+        const TimedStage part(timer, name);
+        for_batches(work);
+    };
+    for (int i = first; i < end; ++i) {
+        if (settings_.chebyshev > 0.0) {
+            time("advance_nodes.accelerate", [&](std::size_t batch) {
+                accelerate(coarse_ ? sweeps_since_correction(i) : i, batches[batch].nodes, positions);
+            });
+        }
+        if (updates_tets(i))
+            time("advance_nodes.update_tets", [&](std::size_t batch) { objective_.look(batch, positions); });
+        time("advance_nodes.descend", [&](std::size_t batch) { sweep(batch, positions); });
+        if (!moves_bodies(i)) continue;
+        const bool is_last = i + 1 == settings_.iterations;
+        time("advance_nodes.move_bodies",
+             [&](std::size_t batch) { move_bodies(batches[batch].objects, is_last, positions); });
+    }
 }
 
 // Of sweeps that no correction comes between.
@@ -67,10 +108,9 @@ void BlockDescent<Real>::make_sweep(int index, std::size_t batch, std::vector<Ve
     const DescentBatch& bodies = objective_.rows().batches[batch];
     if (settings_.chebyshev > 0.0)
         accelerate(coarse_ ? sweeps_since_correction(index) : index, bodies.nodes, positions);
-    if (index % kSweepsAMotion == 0) objective_.look(batch, positions);
+    if (updates_tets(index)) objective_.look(batch, positions);
     sweep(batch, positions);
-    const bool is_last = index + 1 == settings_.iterations;
-    if (is_last || (index + 1) % kSweepsAMotion == 0) move_bodies(bodies.objects, is_last, positions);
+    if (moves_bodies(index)) move_bodies(bodies.objects, index + 1 == settings_.iterations, positions);
 }
 
 // As the last step went on: with as much of gravity as was felt in it, from none, where a body rests, to all,

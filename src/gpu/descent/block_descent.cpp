@@ -13,10 +13,9 @@ namespace {
 constexpr std::size_t kRigidSums = 16;    // dvec4s in RigidSums, sim/descent/rigid_sums.glsl
 constexpr std::size_t kLanesAChunk = 16;  // sim/descent/sum_rigid_motions.comp
 
-gl::Defines start_defines(const Model& model, bool pulled) {
+gl::Defines start_defines(const Model& model) {
     gl::Defines defines = ModelBuffers::collider_defines(model);
     if (!model.loads.empty()) defines.emplace_back("LOADED");
-    if (pulled) defines.emplace_back("PULLED");
     return defines;
 }
 
@@ -113,8 +112,8 @@ BlockDescent::Pressures::Pressures(const Model& model)
     offset_texels = {offsets, gl::TexelFormat::r32f};
 }
 
-BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, bool pulled)
-    : start_program_(gl::Program::compute("sim/descent/start_descent.comp", start_defines(model, pulled))),
+BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
+    : start_program_(gl::Program::compute("sim/descent/start_descent.comp", start_defines(model))),
       find_tangled_program_(gl::Program::compute("sim/descent/take_back_tangled.comp", {"TETS"})),
       take_back_program_(gl::Program::compute("sim/descent/take_back_tangled.comp")),
       accelerate_program_(gl::Program::compute("sim/descent/accelerate_descent.comp")),
@@ -173,7 +172,8 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
 }
 
 void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, const NodeBuffers& current,
-                       double step, bool has_earlier) {
+                       double step, bool has_earlier, StageTimer* timer) {
+    std::optional<TimedStage> start(std::in_place, timer, "advance_nodes.start");
     for (const gl::Program* program :
          {&start_program_, &sweep_program_, &sum_program_, &move_program_, &last_move_program_}) {
         program->set("time_step", static_cast<float>(step));
@@ -192,7 +192,7 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
     targets_.bind_storage(6);
     if (touches_.size() > 0) touches_.bind_storage(7);
     model.bind_colliders(start_program_);
-    if (model.pulls) model.pulls->bind(start_program_);
+    model.pulls.bind(start_program_);
     start_program_.set("node_count", node_count_);
     start_program_.set("object_count", object_count_);
     start_program_.set("has_earlier", has_earlier ? 1u : 0u);
@@ -208,14 +208,25 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
     if (damped_springs_) damp_springs(step);
     take_back_tangled(current);
     if (coarse_) coarse_->begin(step);
+    start.reset();
+
+    const auto run_part = [&](const char* name, const auto& work) {
+        const TimedStage part(timer, name);
+        work();
+    };
     std::uint32_t looks = 0;
     for (int i = 0; i < settings_.iterations; ++i) {
-        if (settings_.chebyshev > 0.0) accelerate(coarse_ ? sweeps_since_correction(i) : i);
-        if (i % kSweepsAMotion == 0) look_at_tets(++looks);
-        sweep(model);
+        if (settings_.chebyshev > 0.0) {
+            run_part("advance_nodes.accelerate",
+                     [&] { accelerate(coarse_ ? sweeps_since_correction(i) : i); });
+        }
+        if (i % kSweepsAMotion == 0) run_part("advance_nodes.update_tets", [&] { look_at_tets(++looks); });
+        run_part("advance_nodes.descend", [&] { sweep(model); });
         const bool is_last = i + 1 == settings_.iterations;
-        if (coarse_ && !is_last && i % kSweepsACorrection == 0) correct(model, current, step);
-        if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(model, current, is_last);
+        if (coarse_ && !is_last && i % kSweepsACorrection == 0)
+            run_part("advance_nodes.correct", [&] { correct(model, current, step); });
+        if (is_last || (i + 1) % kSweepsAMotion == 0)
+            run_part("advance_nodes.move_bodies", [&] { move_bodies(model, current, is_last); });
     }
 }
 
