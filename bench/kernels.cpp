@@ -67,7 +67,7 @@ void bench_kernels(const KernelBenchOptions& options) {
             time_cases(cases, scale, options.runs, static_cast<double>(model->springs.size()));
         bench.times.insert(bench.times.end(), times.begin(), times.end());
     }
-    fmt::print("{}", kernel_tables(bench));
+    fmt::print(message_stream({options.json, options.report}), "{}", kernel_tables(bench));
     if (!options.json.empty()) write_file(options.json, kernel_json(bench));
     if (!options.report.empty()) write_kernel_report(options.report, bench);
 }

@@ -165,7 +165,7 @@ void bench_paper(const PaperBenchOptions& options) {
                             "is part of no measurement's name, such as \"" +
                                 bench_label(0, bench_systems(true).front(), true) + "\""});
     }
-    fmt::print("{}", bench_tables(bench));
+    fmt::print(message_stream({options.json, options.report}), "{}", bench_tables(bench));
     if (!options.json.empty()) write_file(options.json, bench_json(bench));
     if (!options.report.empty()) write_bench_report(options.report, bench);
 }

@@ -123,7 +123,7 @@ std::string bench_tables(const PaperBench& bench) {
 void write_bench_report(const std::filesystem::path& file, const PaperBench& bench) {
     std::filesystem::path chart = file;
     chart.replace_extension(".svg");
-    write_file(chart, to_svg(chart_of(bench)));
+    if (!is_stream(file)) write_file(chart, to_svg(chart_of(bench)));
     write_file(file,
                fmt::format("# The paper's benchmark\n\n`gelatin bench paper`\n\n{}\n"
                            "![Frames per second]({})\n\n{}{}",

@@ -118,7 +118,7 @@ void bench_scaling(const ScalingBenchOptions& options) {
                  scaling_label(cases.front(), cases.front().methods.front(), stage_systems(false).front()) +
                  "\""});
     }
-    fmt::print("{}", scaling_tables(bench));
+    fmt::print(message_stream({options.json, options.report}), "{}", scaling_tables(bench));
     if (!options.json.empty()) write_file(options.json, scaling_json(bench));
     if (!options.report.empty()) write_scaling_report(options.report, bench);
 }

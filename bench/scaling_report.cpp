@@ -179,7 +179,7 @@ std::string scaling_tables(const ScalingBench& bench) {
 void write_scaling_report(const std::filesystem::path& file, const ScalingBench& bench) {
     std::filesystem::path chart = file;
     chart.replace_extension(".svg");
-    write_file(chart, to_svg(chart_of(bench)));
+    if (!is_stream(file)) write_file(chart, to_svg(chart_of(bench)));
     MarkdownTable machine({"", ""}, {});
     add_machine_rows(bench.machine, machine);
     machine.add({"settings", fmt::format("`--runs {}`", bench.options.runs)});

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gelatin/error.h"
-#include "model/scene/scene_file_reader.h"
+#include "model/scene/names.h"
 
 namespace gelatin {
 

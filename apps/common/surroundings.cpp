@@ -4,6 +4,7 @@
 
 #include "model/model.h"
 #include "render/collider_props.h"
+#include "sim/simulator_internals.h"
 
 namespace gelatin {
 
@@ -19,7 +20,7 @@ render::Surroundings describe_surroundings(const Simulator& simulator) {
         below.y = *surroundings.floor_height;
         surroundings.bounds.add(below);
     }
-    for (const ModelObject& object : simulator.model().objects) surroundings.colors.push_back(object.color);
+    for (const ModelObject& object : model_of(simulator).objects) surroundings.colors.push_back(object.color);
     return surroundings;
 }
 

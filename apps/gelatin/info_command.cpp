@@ -17,6 +17,7 @@
 #include "model/model.h"
 #include "model/setting_names.h"
 #include "sim/report.h"
+#include "sim/simulator_internals.h"
 
 namespace gelatin {
 namespace {
@@ -65,7 +66,7 @@ Json describe_scene(const std::filesystem::path& file) {
                           {"springs", counts.springs},
                           {"faces", counts.faces},
                           {"tets", counts.tets}}}};
-    for (const ModelObject& object : simulator.model().objects) {
+    for (const ModelObject& object : model_of(simulator).objects) {
         description["objects"][object.name] = {
             {"nodes", object.nodes.count}, {"springs", object.springs.count},
             {"faces", object.faces.count}, {"tets", object.tets.count},

@@ -10,7 +10,7 @@
 #include "core/log.h"
 #include "gelatin/error.h"
 #include "gelatin/version.h"
-#include "model/scene/scene_file_reader.h"
+#include "model/scene/names.h"
 
 namespace gelatin {
 namespace {

@@ -57,12 +57,13 @@ SurfaceMesh boundary_of(const TetMesh& tets) {
 
 void write_tets_and_report(const fs::path& file, const TetMesh& mesh) {
     write_tets(file, mesh);
-    std::printf("%sfile: %s\n", to_text(describe_tets(mesh)).c_str(), file.c_str());
+    std::fprintf(message_stream({file}), "%sfile: %s\n", to_text(describe_tets(mesh)).c_str(), file.c_str());
 }
 
 void write_surface_and_report(const fs::path& file, const SurfaceMesh& mesh) {
     write_surface(file, mesh);
-    std::printf("%sfile: %s\n", to_text(describe_surface(mesh)).c_str(), file.c_str());
+    std::fprintf(message_stream({file}), "%sfile: %s\n", to_text(describe_surface(mesh)).c_str(),
+                 file.c_str());
 }
 
 void check(const char* option, double value, bool holds, const char* allowed) {
@@ -82,7 +83,8 @@ void run_mesh(MeshOptions& options) {
     check_settings(options.settings);
     std::vector<std::string> endings = kTetEndings;
     endings.insert(endings.end(), kSurfaceEndings.begin(), kSurfaceEndings.end());
-    check_output_file("-o", options.output, endings);
+    check_ending("-o", options.output, endings);
+    check_output_file("-o", options.output);
     options.settings.kind = choose<MesherKind>(
         "--mesher", options.mesher, {{"auto", MesherKind::automatic}, {"tetgen", MesherKind::tetgen}});
     const bool to_surface = is_surface_file(options.output);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/choice.h"
+#include "model/scene/limits.h"
 
 namespace gelatin {
 namespace {

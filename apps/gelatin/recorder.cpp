@@ -4,6 +4,7 @@
 
 #include "overlay_option.h"
 #include "render/image.h"
+#include "sim/simulator_internals.h"
 
 namespace gelatin {
 namespace {
@@ -37,8 +38,8 @@ Recorder::Recorder(const RunOptions& options, Simulator& simulator)
             film_rate(simulator.scene().simulation.frame_rate, interval_));
     }
     if (!options.export_folder.empty()) {
-        exporter_ =
-            std::make_unique<FrameExporter>(options.export_folder, export_format(options), simulator.model());
+        exporter_ = std::make_unique<FrameExporter>(options.export_folder, export_format(options),
+                                                    model_of(simulator));
     }
 }
 

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "common/output_file.h"
 #include "common/progress.h"
 #include "core/file.h"
 #include "gelatin/error.h"
@@ -170,12 +171,13 @@ void Run::finish(bool diverged) {
 void Run::print_summary() const {
     const Counts& counts = report_.counts;
     const std::size_t frames = report_.frame_ms.size();
-    std::printf("%zu frames of %zu objects (%zu nodes, %zu springs) in %.2f s: %.1f frames/s on %s\n", frames,
-                counts.objects, counts.nodes, counts.springs, report_.seconds,
-                report_.seconds > 0.0 ? static_cast<double>(frames) / report_.seconds : 0.0,
-                report_.device.c_str());
-    const auto tell = [](const char* what, const std::filesystem::path& file) {
-        if (!file.empty()) std::printf("%s: %s\n", what, file.c_str());
+    std::FILE* out = message_stream({options_.stats, options_.image, options_.video, options_.checkpoint});
+    std::fprintf(out, "%zu frames of %zu objects (%zu nodes, %zu springs) in %.2f s: %.1f frames/s on %s\n",
+                 frames, counts.objects, counts.nodes, counts.springs, report_.seconds,
+                 report_.seconds > 0.0 ? static_cast<double>(frames) / report_.seconds : 0.0,
+                 report_.device.c_str());
+    const auto tell = [out](const char* what, const std::filesystem::path& file) {
+        if (!file.empty()) std::fprintf(out, "%s: %s\n", what, file.c_str());
     };
     tell("film", options_.video);
     tell("picture", options_.image);

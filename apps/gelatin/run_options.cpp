@@ -47,10 +47,11 @@ void add_run_options(CLI::App& command, RunOptions& options) {
         ->group(computing);
 
     const char* outputs = "Outputs";
-    command.add_option("--stats", options.stats, "Write energies, contacts and times to this file")
+    command
+        .add_option("--stats", options.stats, "Write energies, contacts and times to this file; - is stdout")
         ->type_name("FILE.json")
         ->group(outputs);
-    command.add_option("--image", options.image, "Draw the last frame")
+    command.add_option("--image", options.image, "Draw the last frame; - is stdout")
         ->type_name("FILE.png")
         ->group(outputs);
     command.add_option("--video", options.video, "Film the run; in real time without --every")
@@ -124,7 +125,7 @@ SimulatorOptions simulator_options(const RunOptions& options) {
     result.need_gl = options.draws();
     result.gl_debug = options.gl_debug;
     result.gl_device = options.device;
-    result.time_stages = !options.stats.empty();
+    result.time_stages = result.time_parts = !options.stats.empty();
     return result;
 }
 

@@ -21,7 +21,7 @@ SimulatorOptions simulator_options(Backend backend) {
 }  // namespace
 
 Session::Session(LoadedScene loaded, Backend backend, const Session* earlier)
-    : simulator_(loaded.scene, std::move(loaded.model), simulator_options(backend)),
+    : simulator_(SimulatorInternals::make(loaded.scene, std::move(loaded.model), simulator_options(backend))),
       device_(simulator_.device()),
       pace_(simulator_.step_size()),
       held_nodes_(simulator_.held_nodes()) {

@@ -13,6 +13,7 @@
 #include "picking.h"
 #include "readings.h"
 #include "scene_source.h"
+#include "sim/simulator_internals.h"
 #include "worker.h"
 
 namespace gelatin::viewer {
@@ -79,7 +80,7 @@ public:
 
     /// Constant properties.
     const Scene& scene() const { return simulator_.scene(); }
-    const Model& model() const { return simulator_.model(); }
+    const Model& model() const { return model_of(simulator_); }
     /// @pre !is_computing(), for properties that change
     const Simulator& simulator() const { return simulator_; }
 

@@ -9,8 +9,8 @@
 
 namespace gelatin {
 
-/// What the user wrote, checked: every value is in range, every name resolves. SI units, +y is up.
-/// See docs/scene-files.md for the same in TOML.
+/// What the user wants simulated, from a scene file or made by a program. SI units, +y is up. See
+/// docs/scene-files.md for the same in TOML; validate() says whether all of it can be.
 
 /// Four explicit schemes, and vertex block descent on implicit Euler's objective, stable at any step.
 enum class SolverKind { explicit_euler, semi_implicit_euler, midpoint, rk4, vbd };
@@ -86,6 +86,7 @@ struct Material {
     /// For mass_spring only. Empty: springs fitted to each mesh, so that the body has youngs_modulus. With
     /// kinds: the paper's springs, which are softer.
     std::optional<SpringKinds> springs;
+    int line = 0;  ///< in the scene file, for later messages
 };
 
 struct SphereShape {
@@ -272,5 +273,10 @@ struct Scene {
 /// (bare words are taken as strings), applied before the check.
 /// @throws InvalidInput naming file, line, key, value and what is allowed.
 Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// Checks every value of a scene, however it was made: numbers finite and in range, names there and free,
+/// materials that exist, settings that go together. Simulator does so by itself.
+/// @throws InvalidInput naming field, value and what is allowed, as load_scene does
+void validate(const Scene& scene);
 
 }  // namespace gelatin

@@ -16,7 +16,7 @@
 
 namespace gelatin {
 
-struct Model;
+struct Model;  // tets and springs, as the solvers have them; not public
 
 enum class Backend { automatic, gl, cpu };
 
@@ -27,7 +27,8 @@ struct SimulatorOptions {
     bool need_gl = false;              ///< create a GL context for drawing even if the CPU simulates
     bool gl_debug = false;             ///< create a debug context, with messages to the log
     std::optional<int> gl_device;      ///< EGL device index
-    bool time_stages = false;          ///< fill Simulator::stage_times
+    bool time_stages = false;          ///< fill Simulator::take_stage_times
+    bool time_parts = false;           ///< and with the parts of an implicit step; needs time_stages
 };
 
 struct Counts {
@@ -74,11 +75,9 @@ struct HostFrame {
 class Simulator {
 public:
     /// Makes tets, springs and buffers of everything in the scene.
-    /// @throws InvalidInput for scenes that cannot be built, or a fixed step that is not stable (naming the
-    ///   largest stable one); NoOpenGl if GL is requested and there is none.
+    /// @throws InvalidInput as validate(), for scenes that cannot be built, and for a fixed step that is not
+    ///   stable (naming the largest stable one); NoOpenGl if GL is requested and there is none.
     explicit Simulator(const Scene& scene, const SimulatorOptions& options = {});
-    /// The same with a model that exists already. @pre build_model made it from this scene
-    Simulator(const Scene& scene, std::shared_ptr<const Model> model, const SimulatorOptions& options = {});
     Simulator(Simulator&&) noexcept;
     Simulator& operator=(Simulator&&) noexcept;
     ~Simulator();
@@ -126,7 +125,6 @@ public:
     std::string backend() const;  ///< "gl" or "cpu"
     std::string device() const;   ///< name of the GPU, or of the CPU's instruction set
     const Scene& scene() const;
-    const Model& model() const;
     Counts counts() const;
 
     /// Starts measuring the present frame. `take_statistics` returns the results in order; called one frame
@@ -137,7 +135,8 @@ public:
     /// if all bodies together have more energy than the start, gravity and loads explain.
     FrameStatistics take_statistics();
 
-    /// Durations of each stage since the last call [ms]; empty unless `time_stages`.
+    /// Durations of each stage since the last call [ms]; empty unless `time_stages`. With `time_parts` also
+    /// those of the parts of "advance_nodes", as "advance_nodes.descend", one for each time that a part ran.
     std::vector<std::pair<std::string, std::vector<double>>> take_stage_times();
 
     /// Positions and velocities on the host; waits for the GPU.
@@ -154,6 +153,9 @@ public:
     void load_checkpoint(const std::filesystem::path& file);
 
 private:
+    friend struct SimulatorInternals;
+    Simulator(const Scene& scene, std::shared_ptr<const Model> model, const SimulatorOptions& options);
+
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

@@ -4,9 +4,11 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "gelatin/error.h"
@@ -35,30 +37,109 @@ fs::path partial_name(const fs::path& file) {
     return file.parent_path() / name;
 }
 
-void write_file(const fs::path& file, const std::string& content) {
-    const fs::path partial = partial_name(file);
-    const auto fail = [&](int reason) {
-        ::unlink(partial.c_str());
-        throw SystemError(file.string() + ": cannot be written: " + std::strerror(reason));
-    };
-    const int descriptor = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (descriptor < 0) fail(errno);
+namespace {
+
+constexpr int kMostLinks = 40;  // as Linux allows in a row
+constexpr const char* kStandardOutputName = "-";
+
+fs::path folder_of(const fs::path& file) {
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+// What `file` is a link to; empty: it is none.
+std::optional<fs::path> read_link(const fs::path& file) {
+    std::error_code error;
+    const fs::path target = fs::read_symlink(file, error);
+    if (error) return {};
+    return target.is_absolute() ? target : file.parent_path() / target;
+}
+
+// The open descriptor of this process that `file` is a name of, as /dev/stdout is. Such a name cannot be
+// resolved further: what it links to may be no path.
+std::optional<int> descriptor_of(fs::path file) {
+    if (file == kStandardOutputName) return STDOUT_FILENO;
+    const fs::path descriptors = "/proc/" + std::to_string(::getpid()) + "/fd";
+    for (int links = 0; links < kMostLinks; ++links) {
+        std::error_code error;
+        if (fs::canonical(folder_of(file), error) == descriptors) {
+            const std::string name = file.filename().string();
+            const bool is_number = !name.empty() && name.find_first_not_of("0123456789") == name.npos;
+            return is_number && name.size() < 8 ? std::optional(std::stoi(name)) : std::nullopt;
+        }
+        const std::optional<fs::path> target = read_link(file);
+        if (!target) return {};
+        file = *target;
+    }
+    return {};
+}
+
+[[noreturn]] void fail_to_write(const fs::path& file, int reason) {
+    const std::string name = file == kStandardOutputName ? "standard output" : file.string();
+    throw SystemError(name + ": cannot be written: " + std::strerror(reason));
+}
+
+// The system's reason why not all was written; 0: all was.
+int write_all(int descriptor, const std::string& content) {
     std::size_t written = 0;
     while (written < content.size()) {
         const ssize_t n = ::write(descriptor, content.data() + written, content.size() - written);
-        if (n < 0 && errno == EINTR) continue;
-        if (n < 0) {
-            const int reason = errno;
-            ::close(descriptor);
-            fail(reason);
-        }
-        written += static_cast<std::size_t>(n);
+        if (n < 0 && errno != EINTR) return errno;
+        if (n > 0) written += static_cast<std::size_t>(n);
+    }
+    return 0;
+}
+
+void write_through(const fs::path& file, const std::string& content) {
+    std::fflush(stdout);  // what was printed before comes before
+    const std::optional<int> open = descriptor_of(file);
+    const int descriptor = open ? ::dup(*open) : ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0) fail_to_write(file, errno);
+    const int reason = write_all(descriptor, content);
+    if (::close(descriptor) != 0 && reason == 0) fail_to_write(file, errno);
+    if (reason != 0) fail_to_write(file, reason);
+}
+
+}  // namespace
+
+bool is_stream(const fs::path& file) {
+    if (descriptor_of(file)) return true;
+    std::error_code error;
+    const fs::file_status status = fs::status(file, error);
+    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+bool is_standard_output(const fs::path& file) {
+    return descriptor_of(file) == STDOUT_FILENO;
+}
+
+fs::path link_target(const fs::path& file) {
+    fs::path target = file;
+    for (int links = 0; links < kMostLinks; ++links) {
+        const std::optional<fs::path> next = read_link(target);
+        if (!next) return target;
+        target = *next;
+    }
+    fail_to_write(file, ELOOP);
+}
+
+void write_file(const fs::path& file, const std::string& content) {
+    if (is_stream(file)) return write_through(file, content);
+    const fs::path target = link_target(file), partial = partial_name(target);
+    const auto fail = [&](int reason) {
+        ::unlink(partial.c_str());
+        fail_to_write(file, reason);
+    };
+    const int descriptor = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (descriptor < 0) fail(errno);
+    if (const int reason = write_all(descriptor, content); reason != 0) {
+        ::close(descriptor);
+        fail(reason);
     }
     const bool flushed = ::fsync(descriptor) == 0 || errno == EINVAL;
     const int flush_error = errno;
     if (::close(descriptor) != 0) fail(errno);
     if (!flushed) fail(flush_error);
-    if (::rename(partial.c_str(), file.c_str()) != 0) fail(errno);
+    if (::rename(partial.c_str(), target.c_str()) != 0) fail(errno);
 }
 
 TemporaryFolder::TemporaryFolder() {

@@ -5,13 +5,14 @@
 namespace gelatin {
 
 void HostStageTimer::begin(const std::string& stage) {
-    stage_ = stage;
-    start_ = std::chrono::steady_clock::now();
+    open_.push_back({stage, std::chrono::steady_clock::now()});
 }
 
 void HostStageTimer::end() {
-    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start_;
-    times_[stage_].push_back(elapsed.count());
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double, std::milli> elapsed = now - open_.back().start;
+    times_[open_.back().stage].push_back(elapsed.count());
+    open_.pop_back();
 }
 
 StageTimes HostStageTimer::take() {

@@ -55,10 +55,7 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
       contact_{collision.friction, collision.restitution} {
     current_ = {converted<Real>(model_->positions), converted<Real>(model_->velocities)};
     previous_ = current_;
-    if (solver == SolverKind::vbd) {
-        block_descent_.emplace(model_, descent);
-        shape_matcher_.emplace(model_);
-    }
+    if (solver == SolverKind::vbd) descent_.emplace(Descent{{model_, descent}, ShapeMatcher<Real>(model_)});
     if (scheme_.pass_count > 1) sums_ = stage_[0] = stage_[1] = current_;
     if (collision.self_collision) {
         self_ = std::make_unique<SelfStages>(SelfStages{{model_, collision_}, {model_, contact_}});
@@ -70,7 +67,7 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
         node_forces_.resize(model_->node_count());
     }
     load_factors_.assign(model_->loads.spans.size(), 1.0f);
-    if (!model_->volume_term.is_empty() && !block_descent_) volume_stresses_.resize(model_->node_count());
+    if (!model_->volume_term.is_empty() && !descent_) volume_stresses_.resize(model_->node_count());
     if (!model_->loads.empty()) load_forces_.assign(model_->node_count(), Vec4<Real>(0));
 }
 
@@ -108,14 +105,28 @@ void CpuSolver<Real>::add_pulls(const Nodes<Real>& nodes, Real step) {
 
 template <class Real>
 void CpuSolver<Real>::advance_nodes(double step) {
-    if (block_descent_) {
-        std::swap(current_, previous_);
-        shape_matcher_->run(previous_);
-        sum_loads(previous_);
-        block_descent_->run(static_cast<Real>(step), std::exchange(has_earlier_, true), previous_, current_,
-                            load_forces_, pulls_ ? &*pulls_ : nullptr);
-        return;
+    if (descent_) {
+        descend(*descent_, step);
+    } else {
+        run_scheme(step);
     }
+}
+
+template <class Real>
+void CpuSolver<Real>::descend(Descent& descent, double step) {
+    std::swap(current_, previous_);
+    StageTimer* const timer = timer_.for_parts();
+    {
+        const TimedStage part(timer, "advance_nodes.match_shapes");
+        descent.shape_matcher.run(previous_);
+    }
+    sum_loads(previous_);
+    descent.solver.run(static_cast<Real>(step), std::exchange(has_earlier_, true), previous_, current_,
+                       load_forces_, pulls_ ? &*pulls_ : nullptr, timer);
+}
+
+template <class Real>
+void CpuSolver<Real>::run_scheme(double step) {
     const Nodes<Real>* from = &current_;
     for (int p = 0; p < scheme_.pass_count; ++p) {
         Nodes<Real>& to = p + 1 == scheme_.pass_count ? previous_ : stage_[p % 2];

@@ -66,12 +66,19 @@ private:
     void clear_pulled_forces();
     void find_volume_stresses(const Nodes<Real>& nodes);
     void run_pass(const Pass<Real>& pass);
+    void run_scheme(double step);
+
+    // Vertex block descent, and what gives bodies their shape back before it.
+    struct Descent {
+        BlockDescent<Real> solver;
+        ShapeMatcher<Real> shape_matcher;
+    };
+    void descend(Descent& descent, double step);
 
     std::shared_ptr<const Model> model_;
     ExplicitScheme scheme_;
-    std::optional<BlockDescent<Real>> block_descent_;  // instead of the scheme
-    std::optional<ShapeMatcher<Real>> shape_matcher_;  // before block descent
     ForceMethod forces_;
+    std::optional<Descent> descent_;  // instead of the scheme
     Nodes<Real> current_, previous_;  // swapped by each step: its end, and its start
     bool has_earlier_ = false;        // previous_ is one step earlier: vbd looks back
     Nodes<Real> stage_[2];            // between the passes of one step

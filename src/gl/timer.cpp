@@ -23,13 +23,16 @@ unsigned TimestampStageTimer::new_query() {
 }
 
 void TimestampStageTimer::begin(const std::string& stage) {
+    open_.push_back(taken_ + pending_.size());
     pending_.push_back({stage, new_query(), 0});
     glQueryCounter(pending_.back().start, GL_TIMESTAMP);
 }
 
 void TimestampStageTimer::end() {
-    pending_.back().stop = new_query();
-    glQueryCounter(pending_.back().stop, GL_TIMESTAMP);
+    Pending& last = pending_[open_.back() - taken_];
+    open_.pop_back();
+    last.stop = new_query();
+    glQueryCounter(last.stop, GL_TIMESTAMP);
 }
 
 void TimestampStageTimer::collect(bool wait) {
@@ -48,6 +51,7 @@ void TimestampStageTimer::collect(bool wait) {
         free_.push_back(oldest.start);
         free_.push_back(oldest.stop);
         pending_.pop_front();
+        ++taken_;
     }
 }
 

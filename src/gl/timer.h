@@ -34,7 +34,9 @@ private:
     unsigned new_query();
     void collect(bool wait);
     std::vector<unsigned> free_;
-    std::deque<Pending> pending_;
+    std::deque<Pending> pending_;    // in the order in which they began
+    std::size_t taken_ = 0;          // pending ones before pending_
+    std::vector<std::size_t> open_;  // numbers of those that have not ended, the last one at the back
     StageTimes times_;
 };
 

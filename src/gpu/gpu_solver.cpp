@@ -10,14 +10,12 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, Forc
                      const CollisionSettings& collision, const DescentSettings& descent)
     : model_(std::move(model)),
       device_(gl::Context::current().device().renderer),
-      kind_(solver),
       scheme_(explicit_scheme(solver)),
-      forces_(forces),
-      descent_settings_(descent),
       collision_settings_(collision),
       buffers_(*model_),
       current_(model_->positions, model_->velocities),
       previous_(model_->positions, model_->velocities),
+      integrator_(make_integrator(*model_, scheme_, solver, forces, descent)),
       measure_(*model_) {
     if (scheme_.pass_count > 1) {
         for (NodeBuffers* nodes : {&stage_[0], &stage_[1], &sums_}) {
@@ -27,28 +25,14 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, Forc
     if (model_->objects.size() > 1 || collision.self_collision) collision_.emplace(*model_, collision);
     if (!model_->loads.empty()) sum_loads_.emplace(*model_);
     if (!model_->volume_term.is_empty() && solver != SolverKind::vbd) find_volume_stresses_.emplace(*model_);
-    if (solver == SolverKind::vbd) shape_matcher_.emplace(*model_);
-    make_integrator();
 }
 
-void GpuSolver::make_integrator() {
-    const bool pulled = buffers_.pulls.has_value();
-    if (kind_ == SolverKind::vbd) {
-        block_descent_.emplace(*model_, descent_settings_, pulled);
-    } else if (forces_ == ForceMethod::fused) {
-        fused_.emplace(*model_, scheme_, pulled);
-    } else {
-        divide_and_merge_.emplace(*model_, scheme_, pulled);
-    }
-}
-
-void GpuSolver::set_pull(const std::optional<Pull>& pull) {
-    if (!buffers_.pulls) {
-        if (!pull) return;
-        buffers_.pulls.emplace(model_->positions.size());
-        make_integrator();
-    }
-    buffers_.pulls->set(pull);
+GpuSolver::Integrator GpuSolver::make_integrator(const Model& model, const ExplicitScheme& scheme,
+                                                 SolverKind solver, ForceMethod forces,
+                                                 const DescentSettings& descent) {
+    if (solver == SolverKind::vbd) return Descent{{model, descent}, ShapeMatcher(model)};
+    if (forces == ForceMethod::fused) return AdvanceNodes(model, scheme);
+    return DivideAndMerge(model, scheme);
 }
 
 void GpuSolver::apply_kinematics(std::span<const HandleMotion> motions) {
@@ -57,14 +41,26 @@ void GpuSolver::apply_kinematics(std::span<const HandleMotion> motions) {
 }
 
 void GpuSolver::advance_nodes(double step) {
-    if (block_descent_) {
-        std::swap(current_, previous_);
-        shape_matcher_->run(previous_);
-        if (sum_loads_) sum_loads_->run(previous_);
-        block_descent_->run(buffers_, sum_loads_ ? &*sum_loads_ : nullptr, previous_, current_, step,
-                            std::exchange(has_earlier_, true));
-        return;
+    if (auto* descent = std::get_if<Descent>(&integrator_)) {
+        descend(*descent, step);
+    } else {
+        run_scheme(step);
     }
+}
+
+void GpuSolver::descend(Descent& descent, double step) {
+    std::swap(current_, previous_);
+    StageTimer* const timer = timer_.for_parts();
+    {
+        const TimedStage part(timer, "advance_nodes.match_shapes");
+        descent.shape_matcher.run(previous_);
+    }
+    if (sum_loads_) sum_loads_->run(previous_);
+    descent.solver.run(buffers_, sum_loads_ ? &*sum_loads_ : nullptr, previous_, current_, step,
+                       std::exchange(has_earlier_, true), timer);
+}
+
+void GpuSolver::run_scheme(double step) {
     const NodeBuffers* from = &current_;
     for (int p = 0; p < scheme_.pass_count; ++p) {
         NodeBuffers& to = p + 1 == scheme_.pass_count ? previous_ : stage_[p % 2];
@@ -79,11 +75,8 @@ void GpuSolver::advance_nodes(double step) {
                         sums_,
                         sum_loads_ ? &*sum_loads_ : nullptr,
                         find_volume_stresses_ ? &*find_volume_stresses_ : nullptr};
-        if (fused_) {
-            fused_->run(buffers_, pass);
-        } else {
-            divide_and_merge_->run(buffers_, pass);
-        }
+        if (const auto* fused = std::get_if<AdvanceNodes>(&integrator_)) fused->run(buffers_, pass);
+        if (const auto* paper = std::get_if<DivideAndMerge>(&integrator_)) paper->run(buffers_, pass);
         from = &to;
     }
     std::swap(current_, previous_);

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <variant>
 
 #include "gl/timer.h"
 #include "gpu/collision_stages.h"
@@ -28,8 +29,8 @@ public:
 
     void apply_kinematics(std::span<const HandleMotion> motions) override;
     void set_load_factors(std::span<const float> factors) override { sum_loads_->set_factors(factors); }
-    void set_pull(const std::optional<Pull>& pull) override;
-    void move_pull(const glm::dvec3& target) override { buffers_.pulls->move(target); }
+    void set_pull(const std::optional<Pull>& pull) override { buffers_.pulls.set(pull); }
+    void move_pull(const glm::dvec3& target) override { buffers_.pulls.move(target); }
     void advance_nodes(double step) override;
     void update_boxes() override;
     void find_object_pairs() override;
@@ -58,26 +59,30 @@ public:
     bool has_collision() const { return collision_.has_value(); }
 
 private:
-    void make_integrator();
+    // Vertex block descent, and what gives bodies their shape back before it.
+    struct Descent {
+        BlockDescent solver;
+        ShapeMatcher shape_matcher;
+    };
+    // What moves the nodes: an explicit scheme in one kernel or in the paper's three, or block descent.
+    using Integrator = std::variant<AdvanceNodes, DivideAndMerge, Descent>;
+    static Integrator make_integrator(const Model& model, const ExplicitScheme& scheme, SolverKind solver,
+                                      ForceMethod forces, const DescentSettings& descent);
+    void descend(Descent& descent, double step);
+    void run_scheme(double step);
 
     std::shared_ptr<const Model> model_;
     std::string device_;
-    SolverKind kind_;
     ExplicitScheme scheme_;
-    ForceMethod forces_;
-    DescentSettings descent_settings_;
     CollisionSettings collision_settings_;
     ModelBuffers buffers_;
-    NodeBuffers current_, previous_;                          // swapped by each step: its end, and its start
-    NodeBuffers stage_[2], sums_;                             // between the passes of one step
-    std::optional<BlockDescent> block_descent_;               // instead of the scheme
-    std::optional<ShapeMatcher> shape_matcher_;               // before block descent
+    NodeBuffers current_, previous_;  // swapped by each step: its end, and its start
+    NodeBuffers stage_[2], sums_;     // between the passes of one step
+    Integrator integrator_;
     bool has_earlier_ = false;                                // previous_ is one step earlier: vbd looks back
     std::optional<ApplyKinematics> apply_kinematics_;         // once a held node moves
     std::optional<SumLoads> sum_loads_;                       // if the model has loads
     std::optional<FindVolumeStresses> find_volume_stresses_;  // if an explicit scheme needs them
-    std::optional<AdvanceNodes> fused_;
-    std::optional<DivideAndMerge> divide_and_merge_;
     std::optional<Collision> collision_;  // if something can collide, or boxes were requested
     WatchNodes watch_nodes_;
     Measure measure_;

@@ -26,7 +26,8 @@ ModelBuffers::ModelBuffers(const Model& model)
       colliders(model.colliders, gl::TexelFormat::rgba32f),
       node_count(model.node_count()),
       collider_ends(count_up_to_kind(model.colliders)),
-      gravity(model.gravity) {}
+      gravity(model.gravity),
+      pulls(model.positions.size()) {}
 
 gl::Defines ModelBuffers::collider_defines(const Model& model) {
     unsigned kinds = 0;

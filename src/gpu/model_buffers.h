@@ -1,7 +1,6 @@
 #pragma once
 
 #include <glm/vec2.hpp>
-#include <optional>
 
 #include "gl/buffer.h"
 #include "gl/program.h"
@@ -26,7 +25,7 @@ struct ModelBuffers {
     std::uint32_t node_count = 0;
     glm::uvec4 collider_ends{0};  ///< behind the planes, boxes, spheres, capsules
     glm::vec3 gravity{0.0f};      ///< [m/s^2]
-    std::optional<Pulls> pulls;   ///< empty until somebody pulls: programs are then made anew, with PULLED
+    Pulls pulls;
 
     explicit ModelBuffers(const Model& model);
 

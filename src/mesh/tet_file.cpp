@@ -117,10 +117,18 @@ void write_files(const std::vector<std::pair<fs::path, std::string>>& files) {
     std::vector<fs::path> written;
     try {
         for (const auto& [file, content] : files) {
-            write_file(partial_name(file), content);
-            written.push_back(partial_name(file));
+            if (is_stream(file)) continue;
+            const fs::path partial = partial_name(link_target(file));
+            write_file(partial, content);
+            written.push_back(partial);
         }
-        for (const auto& [file, content] : files) fs::rename(partial_name(file), file);
+        for (const auto& [file, content] : files) {
+            if (is_stream(file)) {
+                write_file(file, content);
+            } else {
+                fs::rename(partial_name(link_target(file)), link_target(file));
+            }
+        }
     } catch (const fs::filesystem_error& error) {
         for (const fs::path& partial : written) fs::remove(partial);
         throw SystemError(files.front().first.string() + ": cannot be written: " + error.code().message());

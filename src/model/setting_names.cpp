@@ -1,5 +1,7 @@
 #include "model/setting_names.h"
 
+#include <iterator>
+
 namespace gelatin {
 
 const char* name_of(SolverKind solver) {
@@ -42,6 +44,20 @@ const char* name_of(CollisionDetection detection) {
 
 const char* name_of(CollisionResponse /*response*/) {
     return "restore";
+}
+
+const std::vector<std::string>& spring_kind_names() {
+    static const std::vector<std::string> names{"structural", "shear", "flex"};
+    return names;
+}
+
+std::vector<std::string> kind_names(const SpringKinds& kinds) {
+    std::vector<std::string> names;
+    const bool has[] = {kinds.structural, kinds.shear, kinds.flex};
+    for (std::size_t k = 0; k < std::size(has); ++k) {
+        if (has[k]) names.push_back(spring_kind_names()[k]);
+    }
+    return names;
 }
 
 }  // namespace gelatin

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "gelatin/scene.h"
 
 namespace gelatin {
@@ -10,5 +13,8 @@ const char* name_of(ForceMethod forces);
 const char* name_of(BroadPhase broad_phase);
 const char* name_of(CollisionDetection detection);
 const char* name_of(CollisionResponse response);
+
+const std::vector<std::string>& spring_kind_names();
+std::vector<std::string> kind_names(const SpringKinds& kinds);
 
 }  // namespace gelatin

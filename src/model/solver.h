@@ -71,7 +71,7 @@ public:
     /// For scenes with loads: how much of the next steps each of them acts, 1 until somebody says otherwise.
     virtual void set_load_factors(std::span<const float> factors) = 0;
 
-    /// What a hand holds from now on; empty: nothing. The first one may cost what making the solver has.
+    /// What a hand holds from now on; empty: nothing.
     virtual void set_pull(const std::optional<Pull>& pull) = 0;
     /// @pre a hand holds something
     virtual void move_pull(const glm::dvec3& target) = 0;

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <numeric>
 
-#include "core/file.h"
 #include "gelatin/error.h"
 
 namespace gelatin::render {
@@ -19,6 +18,7 @@ int next_even(int n) {
 }
 
 void check_ending(const fs::path& file) {
+    if (is_stream(file)) return;
     const std::string ending = file.extension().string();
     if (ending == ".mp4" || ending == ".mov" || ending == ".mkv") return;
     throw InvalidInput({file.string(), 0, {}, {}, "a film's name must end in .mp4, .mov or .mkv"});
@@ -93,11 +93,10 @@ FrameRate FrameRate::from(double rate) {
 }
 
 VideoWriter::VideoWriter(fs::path file, int width, int height, FrameRate rate)
-    : file_(std::move(file)),
-      partial_(partial_name(file_)),
-      width_(next_even(width)),
-      height_(next_even(height)) {
+    : file_(std::move(file)), width_(next_even(width)), height_(next_even(height)) {
     check_ending(file_);
+    if (is_stream(file_)) folder_.emplace();
+    partial_ = folder_ ? folder_->path() / "film.mp4" : partial_name(link_target(file_));
     try {
         encoder_ = std::make_unique<FedProcess>(encoder_command(partial_, width_, height_, rate));
     } catch (const SystemError& error) {
@@ -149,9 +148,13 @@ void VideoWriter::finish() {
     const ProcessResult result = encoder_->finish();
     // At this log level ffmpeg reports errors only.
     if (!result.succeeded() || !result.output.empty()) fail(describe(result));
-    std::error_code error;
-    fs::rename(partial_, file_, error);
-    if (error) fail(error.message());
+    if (folder_) {
+        write_file(file_, read_file(partial_));
+    } else {
+        std::error_code error;
+        fs::rename(partial_, link_target(file_), error);
+        if (error) fail(error.message());
+    }
     encoder_.reset();
 }
 

@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/file.h"
 #include "core/process.h"
 #include "render/image.h"
 
@@ -44,6 +46,7 @@ private:
     void discard();
 
     std::filesystem::path file_;
+    std::optional<TemporaryFolder> folder_;  // of a film that goes into a pipe or device: mp4 needs to seek
     std::filesystem::path partial_;
     int width_;  // of the film
     int height_;

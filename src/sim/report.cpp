@@ -7,6 +7,7 @@
 #include "gelatin/version.h"
 #include "model/model.h"
 #include "model/setting_names.h"
+#include "sim/simulator_internals.h"
 
 namespace gelatin {
 namespace {
@@ -95,7 +96,7 @@ RunReport describe_run(const Simulator& simulator) {
     report.substeps = simulator.substeps();
     report.step_size = simulator.step_size();
     report.counts = simulator.counts();
-    for (const ModelObject& object : simulator.model().objects) report.objects.push_back(object.name);
+    for (const ModelObject& object : model_of(simulator).objects) report.objects.push_back(object.name);
     return report;
 }
 

@@ -21,6 +21,7 @@
 #include "sim/checkpoint.h"
 #include "sim/draw_source.h"
 #include "sim/overlay_source.h"
+#include "sim/simulator_internals.h"
 #include "sim/watch.h"
 
 namespace gelatin {
@@ -32,8 +33,6 @@ struct Simulator::Impl {
     std::shared_ptr<const Model> model;
     int substeps = 1;
     std::unique_ptr<Solver> solver;
-    gpu::GpuSolver* gpu_solver = nullptr;         // `solver`, if it has this type
-    cpu::CpuSolver<float>* cpu_solver = nullptr;  // the same
     std::optional<DrawSource> draw_source;
     std::optional<OverlaySource> overlay_source;
 
@@ -45,6 +44,22 @@ struct Simulator::Impl {
     std::deque<Moment> measured;
     std::uint32_t reported_losses = 0;
     bool lost_proximities = false;  // and reported
+
+    void make_solver() {
+        const SimulationSettings& settings = scene.simulation;
+        const DescentSettings descent{settings.iterations};
+        if (choose_gl(options, context)) {
+            solver = std::make_unique<gpu::GpuSolver>(model, settings.solver, settings.forces,
+                                                      scene.collision, descent);
+        } else {
+            solver = std::make_unique<cpu::CpuSolver<float>>(model, settings.solver, settings.forces,
+                                                             scene.collision, descent);
+        }
+        solver->stage_timer().time_parts(options.time_parts);
+    }
+
+    /// The solver in OpenGL; null: the CPU simulates.
+    gpu::GpuSolver* gpu_solver() const { return dynamic_cast<gpu::GpuSolver*>(solver.get()); }
 
     // Counted from the start, so that a resumed run has exactly the times of an uninterrupted one.
     void go_on_from(const Moment& moment) {
@@ -113,10 +128,8 @@ struct Simulator::Impl {
 
     template <class Work>
     void run_stage(const char* name, const Work& work) {
-        if (!options.time_stages) return work();
-        solver->stage_timer().begin(name);
+        const TimedStage timed(options.time_stages ? &solver->stage_timer() : nullptr, name);
         work();
-        solver->stage_timer().end();
     }
 };
 
@@ -125,25 +138,14 @@ Simulator::Simulator(const Scene& scene, const SimulatorOptions& options)
 
 Simulator::Simulator(const Scene& scene, std::shared_ptr<const Model> model, const SimulatorOptions& options)
     : impl_(std::make_unique<Impl>()) {
+    validate(scene);
     Impl& d = *impl_;
     d.scene = scene;
     d.options = with_needed_backend(options, scene);
     d.model = std::move(model);
     d.substeps = choose_substeps(scene, *d.model);
     d.context = make_context(d.options);
-    const SimulationSettings& settings = scene.simulation;
-    const DescentSettings descent{settings.iterations};
-    if (choose_gl(d.options, d.context)) {
-        auto solver = std::make_unique<gpu::GpuSolver>(d.model, settings.solver, settings.forces,
-                                                       scene.collision, descent);
-        d.gpu_solver = solver.get();
-        d.solver = std::move(solver);
-    } else {
-        auto solver = std::make_unique<cpu::CpuSolver<float>>(d.model, settings.solver, settings.forces,
-                                                              scene.collision, descent);
-        d.cpu_solver = solver.get();
-        d.solver = std::move(solver);
-    }
+    d.make_solver();
     const std::optional<State> start = deformed_start(scene, *d.model);
     if (start) d.solver->write_state(*start);
     d.watch.emplace(d.scene, d.model, d.substeps);
@@ -181,7 +183,7 @@ void Simulator::step() {
         d.solver->watch_nodes(static_cast<std::uint32_t>(now.steps), d.watch->most_energy(now.time));
     });
     // A GPU is queried once a frame.
-    if (d.gpu_solver == nullptr || d.steps % static_cast<std::uint64_t>(d.substeps) == 0)
+    if (!uses_gl() || d.steps % static_cast<std::uint64_t>(d.substeps) == 0)
         d.watch->check(d.solver->alarm(false), now, now);
 }
 
@@ -194,8 +196,9 @@ void Simulator::go_on_from(const Simulator& other) {
     Impl& d = *impl_;
     const int frame = static_cast<int>(other.time() * scene().simulation.frame_rate + 1e-6);
     const State state =
-        carried_over(other.model(), other.impl_->solver->read_state(), model(), d.start_state());
-    d.drags = carried_over(other.model(), *other.impl_->drags, model(), state, other.time(), Drags(d.model));
+        carried_over(*other.impl_->model, other.impl_->solver->read_state(), *d.model, d.start_state());
+    d.drags =
+        carried_over(*other.impl_->model, *other.impl_->drags, *d.model, state, other.time(), Drags(d.model));
     d.take_state(state, {frame, other.time(),
                          static_cast<std::uint64_t>(frame) * static_cast<std::uint64_t>(substeps())});
 }
@@ -248,7 +251,7 @@ double Simulator::step_size() const {
     return impl_->step_size();
 }
 bool Simulator::uses_gl() const {
-    return impl_->gpu_solver != nullptr;
+    return impl_->gpu_solver() != nullptr;
 }
 std::string Simulator::backend() const {
     return uses_gl() ? "gl" : "cpu";
@@ -259,12 +262,16 @@ std::string Simulator::device() const {
 const Scene& Simulator::scene() const {
     return impl_->scene;
 }
-const Model& Simulator::model() const {
-    return *impl_->model;
+const Model& SimulatorInternals::model(const Simulator& simulator) {
+    return *simulator.impl_->model;
+}
+Simulator SimulatorInternals::make(const Scene& scene, std::shared_ptr<const Model> model,
+                                   const SimulatorOptions& options) {
+    return {scene, std::move(model), options};
 }
 
 Counts Simulator::counts() const {
-    const Model& m = model();
+    const Model& m = *impl_->model;
     return {m.objects.size(), m.positions.size(), m.springs.size(), m.faces.size(), m.tets.size()};
 }
 
@@ -328,16 +335,19 @@ RenderView Simulator::render_view(const Overlays& overlays) {
         throw NoOpenGl("drawing needs an OpenGL context: request it with SimulatorOptions::need_gl");
     if (!d.draw_source) d.draw_source.emplace(d.model);
     RenderView view;
-    if (d.gpu_solver != nullptr) {
-        d.run_stage("update_normals", [&] { view = d.draw_source->update(*d.gpu_solver); });
+    gpu::GpuSolver* const on_gpu = d.gpu_solver();
+    if (on_gpu != nullptr) {
+        d.run_stage("update_normals", [&] { view = d.draw_source->update(*on_gpu); });
     } else {
         view = d.draw_source->update(d.solver->read_state());
     }
     if (!overlays.any()) return view;
     if (!d.overlay_source) d.overlay_source.emplace(d.model);
     d.run_stage("update_overlays", [&] {
-        view.overlay = d.gpu_solver != nullptr ? d.overlay_source->update(overlays, view, *d.gpu_solver)
-                                               : d.overlay_source->update(overlays, view, *d.cpu_solver);
+        view.overlay =
+            on_gpu != nullptr
+                ? d.overlay_source->update(overlays, view, *on_gpu)
+                : d.overlay_source->update(overlays, view, dynamic_cast<cpu::CpuSolver<float>&>(*d.solver));
     });
     return view;
 }
@@ -345,12 +355,12 @@ RenderView Simulator::render_view(const Overlays& overlays) {
 void Simulator::save_checkpoint(const std::filesystem::path& file) const {
     check();
     const Drags& drags = *impl_->drags;
-    write_checkpoint(file, model(),
+    write_checkpoint(file, *impl_->model,
                      {frame(), time(), impl_->solver->read_state(), drags.drags(), drags.targets()});
 }
 
 void Simulator::load_checkpoint(const std::filesystem::path& file) {
-    const Checkpoint checkpoint = read_checkpoint(file, model());
+    const Checkpoint checkpoint = read_checkpoint(file, *impl_->model);
     impl_->drags->go_on_with(checkpoint.drags, checkpoint.drag_targets);
     impl_->take_state(checkpoint.state, {checkpoint.frame, checkpoint.time,
                                          static_cast<std::uint64_t>(checkpoint.frame) *

@@ -1,10 +1,15 @@
 #include "core/file.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <cstdio>
 #include <fstream>
+#include <iterator>
+#include <thread>
 
 #include "gelatin/error.h"
 
@@ -73,6 +78,96 @@ TEST(WriteFile, LeavesNothingBehindWhereItFails) {
     message_of<SystemError>([&] { write_file(folder.path() / "taken", "x"); });
     EXPECT_TRUE(fs::is_directory(folder.path() / "taken"));
     EXPECT_EQ(entry_count(folder.path()), 1u);
+}
+
+// What is not a regular file
+
+TEST(WriteFile, ReplacesWhatALinkLeadsToAndKeepsTheLink) {
+    const TemporaryFolder folder;
+    const fs::path link = folder.path() / "link", middle = folder.path() / "middle",
+                   inner = folder.path() / "inner";
+    fs::create_directory(inner);
+    write_file(inner / "target", "first");
+    fs::create_symlink("inner/target", middle);  // relative to where the link is
+    fs::create_symlink(middle, link);
+    write_file(link, "second");
+    EXPECT_TRUE(fs::is_symlink(link));
+    EXPECT_TRUE(fs::is_symlink(middle));
+    EXPECT_EQ(read_file(inner / "target"), "second");
+    EXPECT_EQ(entry_count(inner), 1u);
+    EXPECT_EQ(entry_count(folder.path()), 3u);
+}
+
+TEST(WriteFile, MakesWhatADanglingLinkNames) {
+    const TemporaryFolder folder;
+    fs::create_symlink("later", folder.path() / "link");
+    write_file(folder.path() / "link", "content");
+    EXPECT_TRUE(fs::is_symlink(folder.path() / "link"));
+    EXPECT_EQ(read_file(folder.path() / "later"), "content");
+}
+
+TEST(WriteFile, RefusesLinksThatGoInACircle) {
+    const TemporaryFolder folder;
+    fs::create_symlink("b", folder.path() / "a");
+    fs::create_symlink("a", folder.path() / "b");
+    EXPECT_THAT(message_of<SystemError>([&] { write_file(folder.path() / "a", "x"); }),
+                HasSubstr("cannot be written"));
+    EXPECT_EQ(entry_count(folder.path()), 2u);
+}
+
+TEST(WriteFile, WritesThroughAPipe) {
+    const TemporaryFolder folder;
+    const fs::path pipe = folder.path() / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_TRUE(is_stream(pipe));
+    std::string read;
+    std::thread reader([&] {
+        std::ifstream stream(pipe);
+        read.assign(std::istreambuf_iterator<char>(stream), {});
+    });
+    const std::string content(200'000, 'x');  // more than a pipe holds
+    write_file(pipe, content);
+    reader.join();
+    EXPECT_EQ(read, content);
+    EXPECT_TRUE(fs::is_fifo(pipe));
+    EXPECT_EQ(entry_count(folder.path()), 1u);
+}
+
+TEST(WriteFile, WritesThroughADevice) {
+    write_file("/dev/null", "content");
+    EXPECT_TRUE(fs::is_character_file("/dev/null"));
+    EXPECT_EQ(message_of<SystemError>([] { write_file("/dev/full", "content"); }),
+              "/dev/full: cannot be written: No space left on device");
+    EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+// Standard output is a file here, at whose end others have written.
+TEST(WriteFile, WritesStandardOutputWhereItStands) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "out";
+    std::fflush(stdout);
+    const int saved = ::dup(STDOUT_FILENO);
+    const int out = ::open(file.c_str(), O_WRONLY | O_CREAT, 0600);
+    ::dup2(out, STDOUT_FILENO);
+    std::printf("before ");
+    write_file("-", "a ");
+    write_file("/dev/stdout", "b ");
+    std::printf("after");
+    std::fflush(stdout);
+    ::dup2(saved, STDOUT_FILENO);
+    ::close(out);
+    ::close(saved);
+    EXPECT_EQ(read_file(file), "before a b after");
+    EXPECT_EQ(entry_count(folder.path()), 1u);
+}
+
+TEST(IsStandardOutput, KnowsItsNames) {
+    for (const char* name : {"-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"})
+        EXPECT_TRUE(is_standard_output(name)) << name;
+    for (const char* name : {"/dev/stderr", "/dev/null", "./-", "stdout", ""})
+        EXPECT_FALSE(is_standard_output(name)) << name;
+    EXPECT_TRUE(is_stream("/dev/stderr"));
+    EXPECT_FALSE(is_stream("/tmp"));
 }
 
 TEST(PartialName, IsHiddenBesideTheFileAndKeepsItsEnding) {

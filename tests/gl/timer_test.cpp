@@ -48,6 +48,28 @@ TEST_F(TimerTest, ComputeTakesTime) {
     EXPECT_TRUE(timer.take().empty()) << "take gives each measurement once";
 }
 
+// And stages that are taken while others are under way do not confuse which one ends.
+TEST_F(TimerTest, TimesStagesWithinStages) {
+    TimestampStageTimer timer;
+    for (int i = 0; i < 2; ++i) {
+        timer.begin("step");
+        for (int k = 0; k < 3; ++k) {
+            timer.begin("step.sweep");
+            timer.end();
+        }
+        timer.end();
+        timer.begin("other");
+        timer.finish();
+        const StageTimes times = timer.take();
+        EXPECT_EQ(times.at("step").size(), 1u);
+        EXPECT_EQ(times.at("step.sweep").size(), 3u);
+        EXPECT_GE(times.at("step")[0],
+                  times.at("step.sweep")[0] + times.at("step.sweep")[1] + times.at("step.sweep")[2]);
+        EXPECT_EQ(times.count("other"), i == 0 ? 0u : 1u);
+        timer.end();
+    }
+}
+
 TEST_F(TimerTest, AnOpenStageIsNotTaken) {
     TimestampStageTimer timer;
     timer.begin("open");

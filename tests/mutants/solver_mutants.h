@@ -55,7 +55,7 @@ inline constexpr Mutant kDriveMutants[] = {
      ""},
     {"held_nodes_do_not_descend", "sim/descent/start_descent.comp",
      "held = start.xyz + time_step * velocity;", "held = start.xyz;"},
-    {"held_nodes_are_taken_back", "sim/descent/take_back_tangled.comp", "if (start.w > 0.0) positions",
+    {"held_nodes_are_taken_back", "sim/descent/take_back_tangled.comp", "if (positions[n].w > 0.0) positions",
      "positions"},
 };
 

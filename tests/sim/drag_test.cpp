@@ -10,6 +10,7 @@
 #include "gelatin/error.h"
 #include "gelatin/simulator.h"
 #include "model/model.h"
+#include "sim/simulator_internals.h"
 #include "support/gl_fixture.h"
 
 namespace gelatin {
@@ -85,7 +86,7 @@ TEST_F(DragTest, ABodyFollowsItsPin) {
             EXPECT_EQ(after.drag, kDrag) << "it has arrived";
             EXPECT_LT(glm::distance(after.center, dragged(before, kDrag, before.center)), 1e-6);
             const HostFrame frame = simulator.read_frame();
-            const Model& model = simulator.model();
+            const Model& model = model_of(simulator);
             for (std::uint32_t n = 0; n < model.node_count(); ++n) {
                 const glm::dvec3 expected = dragged(before, kDrag, glm::dvec3(model.positions[n]));
                 const bool is_held = model.positions[n].w == 0.0f;
@@ -111,7 +112,7 @@ TEST_F(DragTest, BackendsAgree) {
         }
         const HostFrame a = gl.read_frame(), b = cpu.read_frame();
         double worst = 0.0;
-        for (std::uint32_t n = 0; n < gl.model().node_count(); ++n)
+        for (std::uint32_t n = 0; n < model_of(gl).node_count(); ++n)
             worst = std::max(worst, glm::distance(node(a, n), node(b, n)));
         EXPECT_LT(worst, 1e-4);
     }
@@ -134,7 +135,7 @@ TEST_F(DragTest, AHandleIsDraggedAwayFromItsKeyframes) {
         }
         EXPECT_EQ(simulator.held_nodes()[0].drag, aside);
         const HostFrame frame = simulator.read_frame();
-        const Model& model = simulator.model();
+        const Model& model = model_of(simulator);
         for (const HandleNode& nodes : model.handle_nodes) {
             if (nodes.handle != 0) continue;
             const glm::dvec3 expected = glm::dvec3(0.6, 0.1, 0.2) + kDrag.turn * glm::dvec3(nodes.arm);
@@ -152,7 +153,7 @@ TEST_F(DragTest, DoesNotTearTheBody) {
         for (int f = 0; f < 100; ++f) {
             simulator.advance_frame();
             const HostFrame frame = simulator.read_frame();
-            for (const Spring& spring : simulator.model().springs) {
+            for (const Spring& spring : model_of(simulator).springs) {
                 const double length = glm::distance(node(frame, spring.i), node(frame, spring.j));
                 longest = std::max(longest, length / static_cast<double>(spring.rest_length));
             }
@@ -268,7 +269,7 @@ TEST_F(DragTest, APinThatIsAddedHoldsItsNodesWhereTheyAre) {
         glm::dvec3 mean(0.0);
         double farthest = 0.0, moved = 0.0;
         std::size_t count = 0;
-        for (const HandleNode& held : after.model().handle_nodes) {
+        for (const HandleNode& held : model_of(after).handle_nodes) {
             const glm::dvec3 way = node(here, held.node) - node(there, held.node);
             if (held.handle != 0) {
                 moved = std::max(moved, glm::length(way));
@@ -290,8 +291,8 @@ TEST_F(DragTest, APinThatIsAddedHoldsItsNodesWhereTheyAre) {
         loose.go_on_from(after);
         EXPECT_TRUE(loose.held_nodes().empty());
         advance(loose, 20);
-        EXPECT_GT(glm::distance(node(loose.read_frame(), after.model().handle_nodes[0].node),
-                                node(here, after.model().handle_nodes[0].node)),
+        EXPECT_GT(glm::distance(node(loose.read_frame(), model_of(after).handle_nodes[0].node),
+                                node(here, model_of(after).handle_nodes[0].node)),
                   1e-3);
     }
 }

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "gelatin/simulator.h"
+#include "sim/simulator_internals.h"
 #include "support/gl_fixture.h"
 
 namespace gelatin {
@@ -72,7 +73,7 @@ TEST_P(OverlaySourceTest, BoxesHoldTheirBodiesExactly) {
             const auto shown = download<glm::uvec2>(view.shown_boxes, view.shown_box_count);
             const HostFrame frame = simulator.read_frame();
             for (std::size_t o = 0; o < shown.size(); ++o) {
-                const Range nodes = simulator.model().objects[o].nodes;
+                const Range nodes = model_of(simulator).objects[o].nodes;
                 glm::vec3 low(1e9f), high(-1e9f);
                 for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
                     const glm::vec3 p(frame.positions[3 * n], frame.positions[3 * n + 1],
@@ -186,10 +187,10 @@ TEST_P(OverlaySourceTest, ACutWithoutAnOffsetGoesThroughTheMiddle) {
               -0.3f);
 
     const auto tets = download<glm::uvec4>(view.overlay.cut->tets, view.overlay.cut->tet_count);
-    EXPECT_EQ(tets, simulator.model().tets);
+    EXPECT_EQ(tets, model_of(simulator).tets);
     const auto objects = download<std::uint32_t>(view.overlay.cut->tet_objects, view.overlay.cut->tet_count);
     for (std::uint32_t o = 0; o < 2; ++o) {
-        const Range range = simulator.model().objects[o].tets;
+        const Range range = model_of(simulator).objects[o].tets;
         for (std::uint32_t t = range.first; t < range.end(); ++t) EXPECT_EQ(objects[t], o);
     }
 }
@@ -244,8 +245,8 @@ TEST_P(OverlaySourceTest, SpringsAreTheModels) {
     ASSERT_EQ(view.spring_count, simulator.counts().springs);
     const auto springs = download<Spring>(view.springs, view.spring_count);
     for (std::size_t s = 0; s < springs.size(); ++s) {
-        EXPECT_EQ(springs[s].i, simulator.model().springs[s].i);
-        EXPECT_EQ(springs[s].rest_length, simulator.model().springs[s].rest_length);
+        EXPECT_EQ(springs[s].i, model_of(simulator).springs[s].i);
+        EXPECT_EQ(springs[s].rest_length, model_of(simulator).springs[s].rest_length);
     }
 }
 

@@ -8,6 +8,7 @@
 #include "core/file.h"
 #include "gelatin/error.h"
 #include "model/model.h"
+#include "sim/simulator_internals.h"
 #include "support/gl_fixture.h"
 #include "support/source_path.h"
 
@@ -72,7 +73,7 @@ TEST_F(SimulatorTest, FramesTimesAndCountsAddUp) {
     const Counts counts = simulator.counts();
     EXPECT_EQ(counts.objects, 2u);
     EXPECT_GE(counts.faces, 2u * 320u);
-    EXPECT_EQ(counts.nodes, simulator.model().positions.size());
+    EXPECT_EQ(counts.nodes, model_of(simulator).positions.size());
 }
 
 double largest_difference(const HostFrame& a, const HostFrame& b) {
@@ -174,6 +175,48 @@ TEST_F(SimulatorTest, MeasuresWhatIsNear) {
         for (const auto& [stage, times] : simulator.take_stage_times())
             is_timed |= stage == "find_proximities";
         EXPECT_TRUE(is_timed);
+    }
+}
+
+// Under the same names on both backends, and the step is the same with them as without.
+TEST_F(SimulatorTest, TimesThePartsOfAnImplicitStep) {
+    const std::vector<std::string> parts = {"advance_nodes.descend", "advance_nodes.match_shapes",
+                                            "advance_nodes.move_bodies", "advance_nodes.start",
+                                            "advance_nodes.update_tets"};
+    for (const Backend backend : {Backend::cpu, Backend::gl}) {
+        Scene scene = falling_balls();
+        scene.simulation.solver = SolverKind::vbd;
+        scene.simulation.substeps = 1;
+        scene.simulation.iterations = 4;
+        SimulatorOptions options = on(backend);
+        options.time_stages = true;
+        Simulator plain(scene, options);
+        options.time_parts = true;
+        Simulator timed(scene, options);
+        for (int f = 0; f < 3; ++f) {
+            plain.advance_frame();
+            timed.advance_frame();
+        }
+        EXPECT_EQ(plain.read_frame().positions, timed.read_frame().positions);
+        std::vector<std::string> found;
+        for (const auto& [stage, times] : timed.take_stage_times()) {
+            if (stage.find('.') != stage.npos && stage != "advance_nodes.correct") found.push_back(stage);
+            if (stage == "advance_nodes.descend") EXPECT_EQ(times.size(), 12u);
+            if (stage == "advance_nodes") EXPECT_EQ(times.size(), 3u);
+        }
+        EXPECT_EQ(found, parts);
+        for (const auto& [stage, times] : plain.take_stage_times()) EXPECT_EQ(stage.find('.'), stage.npos);
+    }
+}
+
+TEST_F(SimulatorTest, ChecksScenesMadeInCode) {
+    Scene scene = falling_balls();
+    scene.simulation.substeps = 0;
+    try {
+        Simulator(scene, on(Backend::cpu));
+        FAIL() << "accepted";
+    } catch (const InvalidInput& error) {
+        EXPECT_STREQ(error.what(), "simulation.substeps = 0: must be \"auto\" or from 1 to 1000000");
     }
 }
 
@@ -293,7 +336,7 @@ TEST_F(SimulatorTest, GoesOnFromAnotherSimulation) {
         EXPECT_EQ(after.time(), before.time());
         EXPECT_EQ(after.frame(), 10);
         const HostFrame here = after.read_frame();
-        const std::size_t added = 3 * std::size_t{after.model().objects[0].nodes.count};
+        const std::size_t added = 3 * std::size_t{model_of(after).objects[0].nodes.count};
         EXPECT_EQ(
             std::vector(here.positions.begin() + static_cast<std::ptrdiff_t>(added), here.positions.end()),
             there.positions);

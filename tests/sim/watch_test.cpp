@@ -14,6 +14,7 @@
 #include "model/build/build_model.h"
 #include "model/explicit/stability.h"
 #include "sim/checkpoint.h"
+#include "sim/simulator_internals.h"
 #include "support/gl_fixture.h"
 #include "support/test_models.h"
 
@@ -84,7 +85,7 @@ TEST_F(WatchTest, StopsAtTheFirstStepOnEitherBackend) {
         scene.objects.erase(scene.objects.begin());
         Simulator simulator(scene, on(backend));
         simulator.advance_frame();
-        const Model& model = simulator.model();
+        const Model& model = model_of(simulator);
         simulator.save_checkpoint(file);
         Checkpoint checkpoint = read_checkpoint(file, model);
         checkpoint.state.velocities[30].y = std::numeric_limits<float>::quiet_NaN();
@@ -142,7 +143,7 @@ TEST_F(WatchTest, FindsAnExplosionAtTheOraclesStepAndKeepsTheLastGoodCheckpoint)
         scene.simulation.frame_rate =
             1.0 / (0.99 * largest_stable_step(scene.simulation.solver, build_model(scene)));
         Simulator simulator(scene, on(backend));
-        const auto model = std::make_shared<const Model>(simulator.model());
+        const auto model = std::make_shared<const Model>(model_of(simulator));
         const State start = crushed(*model);
         write_checkpoint(file, *model, {0, 0.0, start});
 
@@ -190,9 +191,9 @@ TEST_F(WatchTest, GoesOnOnceAGoodCheckpointIsLoaded) {
         Simulator simulator(two_balls(), on(backend));
         const std::filesystem::path good = folder.path() / "good", bad = folder.path() / "bad";
         simulator.save_checkpoint(good);
-        Checkpoint checkpoint = read_checkpoint(good, simulator.model());
+        Checkpoint checkpoint = read_checkpoint(good, model_of(simulator));
         checkpoint.state.positions[3].x = std::numeric_limits<float>::infinity();
-        write_checkpoint(bad, simulator.model(), checkpoint);
+        write_checkpoint(bad, model_of(simulator), checkpoint);
         simulator.load_checkpoint(bad);
         EXPECT_THROW(
             {
@@ -227,7 +228,7 @@ TEST_F(WatchTest, LetsFastBodiesFall) {
 TEST_F(WatchTest, DoesNotExplainEnergyFromNothing) {
     const Scene scene = two_balls();
     Simulator simulator(scene, on(Backend::cpu));
-    Watch watch(scene, std::make_shared<const Model>(simulator.model()), simulator.substeps());
+    Watch watch(scene, std::make_shared<const Model>(model_of(simulator)), simulator.substeps());
     std::vector<ObjectMeasure> objects(2);
     watch.check(objects, {1, 0.01, 10});
     objects[1].kinetic_energy = 1e9;
@@ -253,7 +254,7 @@ TEST_F(WatchTest, HandlesExplainEnergyWhileTheyMove) {
     handle.release = 3.0;
     scene.objects[0].handles = {handle};
     const Simulator simulator(scene, on(Backend::cpu));
-    Watch watch(scene, std::make_shared<const Model>(simulator.model()), simulator.substeps());
+    Watch watch(scene, std::make_shared<const Model>(model_of(simulator)), simulator.substeps());
     std::vector<ObjectMeasure> objects(2);
     const auto check_at = [&](double time, double energy) {
         objects[0].kinetic_energy = energy;
@@ -277,7 +278,7 @@ TEST_F(WatchTest, HandlesExplainEnergyWhileTheyMove) {
 TEST_F(WatchTest, AHandExplainsEnergyWhileItHolds) {
     const Scene scene = two_balls();
     const Simulator simulator(scene, on(Backend::cpu));
-    Watch watch(scene, std::make_shared<const Model>(simulator.model()), simulator.substeps());
+    Watch watch(scene, std::make_shared<const Model>(model_of(simulator)), simulator.substeps());
     std::vector<ObjectMeasure> objects(2);
     const auto check_at = [&](double time, double energy) {
         objects[0].kinetic_energy = energy;
@@ -292,7 +293,7 @@ TEST_F(WatchTest, AHandExplainsEnergyWhileItHolds) {
     EXPECT_NO_THROW(check_at(0.35, 1e13)) << "of the time since the last account it held for a part";
     EXPECT_LT(watch.most_energy(0.4), 1e15);
     EXPECT_THROW(check_at(0.4, 1e15), Diverged);
-    watch.begin({simulator.model().positions, simulator.model().velocities, {}}, {});
+    watch.begin({model_of(simulator).positions, model_of(simulator).velocities, {}}, {});
     EXPECT_THROW(check_at(0.1, 1e9), Diverged) << "back at the start it holds nothing";
 }
 
@@ -301,8 +302,8 @@ TEST_F(WatchTest, LoadsExplainWhatTheyCanGive) {
     scene.simulation.gravity = glm::dvec3(0.0);
     scene.objects[0].loads = {{HalfSpaceRegion{{1.0, 0.0, 0.0}, 10.0}, ForceLoad{{0.0, 1e6, 0.0}}}};
     const Simulator simulator(scene, on(Backend::cpu));
-    Watch watch(scene, std::make_shared<const Model>(simulator.model()), simulator.substeps());
-    const double mass = simulator.model().objects[0].mass;
+    Watch watch(scene, std::make_shared<const Model>(model_of(simulator)), simulator.substeps());
+    const double mass = model_of(simulator).objects[0].mass;
     std::vector<ObjectMeasure> objects(2);
     for (const double time : {1.0, 10.0}) {
         objects[0].kinetic_energy = 0.5 * std::pow(1e6 * time, 2) / mass;

@@ -5,6 +5,7 @@
 
 #include "gelatin/simulator.h"
 #include "model/model.h"
+#include "sim/simulator_internals.h"
 #include "support/gl_fixture.h"
 #include "support/source_path.h"
 
@@ -21,8 +22,8 @@ double share_behind_the_plate(const Simulator& simulator) {
     const auto place = [&](std::uint32_t n) {
         return glm::vec3(positions[3 * n], positions[3 * n + 1], positions[3 * n + 2]);
     };
-    const Range &plate = simulator.model().objects[0].nodes, &ball = simulator.model().objects[1].nodes;
-    const std::vector<std::uint32_t>& face_starts = simulator.model().node_faces.starts;
+    const Range &plate = model_of(simulator).objects[0].nodes, &ball = model_of(simulator).objects[1].nodes;
+    const std::vector<std::uint32_t>& face_starts = model_of(simulator).node_faces.starts;
     int behind = 0, count = 0;
     for (std::uint32_t n = ball.first; n < ball.end(); ++n) {
         if (face_starts[n] == face_starts[n + 1]) continue;

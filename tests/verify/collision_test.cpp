@@ -9,6 +9,7 @@
 
 #include "gelatin/simulator.h"
 #include "model/model.h"
+#include "sim/simulator_internals.h"
 #include "support/gl_fixture.h"
 
 namespace gelatin {
@@ -63,7 +64,7 @@ protected:
 // Mean x velocity of an object [m/s].
 double speed_of(const Simulator& simulator, std::size_t object) {
     const HostFrame frame = simulator.read_frame();
-    const Model& model = simulator.model();
+    const Model& model = model_of(simulator);
     const Range& nodes = model.objects[object].nodes;
     double momentum = 0.0, mass = 0.0;
     for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
@@ -78,7 +79,8 @@ TEST_F(BallsTest, PartAgainWithTheirMomentumAndNoMoreEnergy) {
     for (const Backend backend : {Backend::cpu, Backend::gl}) {
         Simulator simulator = simulate(make_meeting(), backend);
         const FrameStatistics start = measure(simulator);
-        const double scale = (simulator.model().objects[0].mass + simulator.model().objects[1].mass) * kSpeed;
+        const double scale =
+            (model_of(simulator).objects[0].mass + model_of(simulator).objects[1].mass) * kSpeed;
         double energy = start.kinetic_energy;
         std::size_t most_colliding = 0;
         FrameStatistics now = start;

@@ -6,6 +6,7 @@
 
 #include "gelatin/simulator.h"
 #include "model/model.h"
+#include "sim/simulator_internals.h"
 #include "support/source_path.h"
 
 namespace gelatin {
@@ -25,7 +26,7 @@ Swing fold(bool self_collision) {
     SimulatorOptions options;
     options.backend = Backend::cpu;
     Simulator simulator(scene, options);
-    const std::vector<glm::vec4>& start = simulator.model().positions;
+    const std::vector<glm::vec4>& start = model_of(simulator).positions;
     Swing swing;
     for (int f = 0; f < kFrames; ++f) {
         simulator.advance_frame();

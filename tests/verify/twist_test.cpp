@@ -8,6 +8,7 @@
 #include "gelatin/scene.h"
 #include "gelatin/simulator.h"
 #include "model/model.h"
+#include "sim/simulator_internals.h"
 #include "support/gl_fixture.h"
 #include "support/source_path.h"
 
@@ -20,7 +21,7 @@ class TwistHeavy : public test::GlTest {};
 class Twist {
 public:
     explicit Twist(const Simulator& simulator) {
-        const Model& model = simulator.model();
+        const Model& model = model_of(simulator);
         for (const HandleNode& held : model.handle_nodes) {
             if (!model.handles[held.handle].is_pin) held_.push_back(held);
         }

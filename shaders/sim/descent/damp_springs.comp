@@ -19,7 +19,8 @@ struct Node {
 };
 
 Node fetch_node(uint n) {
-    return Node(texelFetch(start_positions, int(n)).xyz, texelFetch(start_velocities, int(n)).w);
+    vec4 start = texelFetch(start_positions, int(n));
+    return Node(start.xyz, start.w);
 }
 
 // @param spring rest length, stiffness

@@ -15,7 +15,7 @@ layout(std430) writeonly buffer NearFlat { uint near_flat[]; };
 layout(std430) writeonly buffer ObjectContacts { uint object_contacts[]; };
 layout(std430) readonly buffer EarlierVelocities { vec4 earlier_velocities[]; };
 layout(std430) writeonly buffer Tangled { uint is_tangled[]; };  // by object
-layout(std430) writeonly buffer Starts { vec4 starts[]; };        // xyz [m], inverse mass [1/kg]
+layout(std430) writeonly buffer Starts { vec4 starts[]; };        // xyz [m], damping time [s]
 layout(std430) writeonly buffer Targets { vec4 targets[]; };      // y [m], m / h^2 [N/m], 0 where held
 #if COLLIDER_KINDS != 0
 layout(std430) writeonly buffer Contacts { ColliderContact contacts[]; };  // of nodes
@@ -33,9 +33,10 @@ void main() {
     uint n = global_index();
     if (n >= node_count) return;
     vec4 start = texelFetch(start_positions, int(n));
-    vec3 velocity = texelFetch(start_velocities, int(n)).xyz, none = vec3(0.0);
+    vec4 moving = texelFetch(start_velocities, int(n));
+    vec3 velocity = moving.xyz, none = vec3(0.0);
     if (start.w > 0.0) resolve_colliders(0.0, start.xyz, none);
-    starts[n] = start;
+    starts[n] = vec4(start.xyz, moving.w);
     float squared = dot(gravity, gravity), felt = 1.0;
     if (has_earlier != 0u && squared > 0.0) {
         felt = clamp(dot(velocity - earlier_velocities[n].xyz, gravity) / (time_step * squared), 0.0, 1.0);
@@ -49,9 +50,7 @@ void main() {
 #endif
     vec4 target = vec4(start.xyz + time_step * (velocity + time_step * acceleration),
                        start.w > 0.0 ? 1.0 / (start.w * time_step * time_step) : 0.0);
-#ifdef PULLED
-    if (start.w > 0.0) target = with_pull(n, target, start.xyz, time_step);
-#endif
+    if (is_pulled != 0u && start.w > 0.0) target = with_pull(n, target, start.xyz, time_step);
     targets[n] = target;
     near_flat[n] = 0u;
 #if COLLIDER_KINDS != 0

@@ -22,14 +22,14 @@ void main() {
     is_tangled[texelFetch(node_objects, int(texelFetch(tets, int(t)).x)).x] = 1u;
 }
 #else
-uniform samplerBuffer start_positions;  // xyz [m], inverse mass [1/kg]
-layout(std430) writeonly buffer Positions { vec4 positions[]; };
+uniform samplerBuffer start_positions;  // xyz [m]
+layout(std430) buffer Positions { vec4 positions[]; };
 layout(std430) readonly buffer Tangled { uint is_tangled[]; };  // by object
 
 void main() {
     uint n = global_index();
     if (n >= element_count || is_tangled[texelFetch(node_objects, int(n)).x] == 0u) return;
-    vec4 start = texelFetch(start_positions, int(n));
-    if (start.w > 0.0) positions[n] = start;  // held ones are where their handle takes them
+    vec3 start = texelFetch(start_positions, int(n)).xyz;
+    if (positions[n].w > 0.0) positions[n].xyz = start;  // held ones are where their handle takes them
 }
 #endif

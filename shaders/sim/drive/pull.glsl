@@ -1,7 +1,6 @@
-// Nodes that a hand holds (gelatin/pull.h); for programs of solvers that were told of one (PULLED).
-// CPU twin: gelatin::cpu::Pulls.
-#ifdef PULLED
+// Nodes that a hand holds (gelatin/pull.h). CPU twin: gelatin::cpu::Pulls.
 uniform samplerBuffer pulls;  // by node: its place from the target [m], stiffness [N/m]; 0: not held
+uniform uint is_pulled;       // 0: a hand holds nothing, and pulls is not read
 uniform vec3 pull_target;                          // [m]
 uniform float pull_damping_time;                   // damping over stiffness [s]
 
@@ -23,4 +22,3 @@ vec4 with_pull(uint node, vec4 target, vec3 start, float h) {
     float weight = target.w + stiffness;
     return vec4((target.w * target.xyz + stiffness * place) / weight, weight);
 }
-#endif

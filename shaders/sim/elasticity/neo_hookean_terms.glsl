@@ -47,10 +47,10 @@ void add_neo_hookean_corner(uint entry, uint first_tet, inout NodeTerms terms) {
                              texelFetch(start_positions, int(tet.nodes.y)).xyz,
                              texelFetch(start_positions, int(tet.nodes.z)).xyz,
                              texelFetch(start_positions, int(tet.nodes.w)).xyz);
-    float damping_time = 0.25 * (texelFetch(start_velocities, int(tet.nodes.x)).w +
-                                 texelFetch(start_velocities, int(tet.nodes.y)).w +
-                                 texelFetch(start_velocities, int(tet.nodes.z)).w +
-                                 texelFetch(start_velocities, int(tet.nodes.w)).w);
+    float damping_time = 0.25 * (texelFetch(start_positions, int(tet.nodes.x)).w +
+                                 texelFetch(start_positions, int(tet.nodes.y)).w +
+                                 texelFetch(start_positions, int(tet.nodes.z)).w +
+                                 texelFetch(start_positions, int(tet.nodes.w)).w);
     add_viscosity(tet, g, f, start, damping_time / time_step, terms);
 #endif
 }

@@ -42,9 +42,8 @@ void integrate_node(uint n, vec4 velocity, vec3 force) {
 #ifdef LOADED
     force += load_force(n);
 #endif
-#ifdef PULLED
-    force += pull_force(n, texelFetch(positions, int(n)).xyz, velocity.xyz, base_position.w, time_step);
-#endif
+    if (is_pulled != 0u)
+        force += pull_force(n, texelFetch(positions, int(n)).xyz, velocity.xyz, base_position.w, time_step);
     vec3 rate = velocity.xyz;
     vec3 acceleration = gravity + base_position.w * force;
 #ifdef MULTI_PASS

@@ -38,19 +38,56 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
 
 template <class Real>
 void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current,
-                             std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls) {
-    start(step, has_earlier, previous, load_forces, pulls, current);
-    take_back_tangled(current.positions);
-    if (coarse_) coarse_->begin(step, current.positions);
+                             std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls,
+                             StageTimer* timer) {
+    {
+        const TimedStage part(timer, "advance_nodes.start");
+        start(step, has_earlier, previous, load_forces, pulls, current);
+        take_back_tangled(current.positions);
+        if (coarse_) coarse_->begin(step, current.positions);
+    }
     for (int first = 0; first < settings_.iterations;) {
         const int end = end_of_run(first);
-        tbb::parallel_for(std::size_t(0), objective_.rows().batches.size(), [&](std::size_t batch) {
-            for (int i = first; i < end; ++i) make_sweep(i, batch, current.positions);
-        });
-        if (end < settings_.iterations) coarse_->run(objective_, contacts_, current.positions);
+        make_sweeps(first, end, current.positions, timer);
+        if (end < settings_.iterations) {
+            const TimedStage part(timer, "advance_nodes.correct");
+            coarse_->run(objective_, contacts_, current.positions);
+        }
         first = end;
     }
+    const TimedStage part(timer, "advance_nodes.move_bodies");
     finish(step, previous, current);
+}
+
+// Sweeps from `first` up to `end`. The bodies of a batch make theirs one after the other, while caches hold
+// them; where parts are timed, all bodies make each part at once, with the same results.
+template <class Real>
+void BlockDescent<Real>::make_sweeps(int first, int end, std::vector<Vec4<Real>>& positions,
+                                     StageTimer* timer) {
+    const std::vector<DescentBatch>& batches = objective_.rows().batches;
+    const auto for_batches = [&](const auto& work) {
+        tbb::parallel_for(std::size_t(0), batches.size(), work);
+    };
+    if (timer == nullptr) {
+        for_batches([&](std::size_t batch) {
+            for (int i = first; i < end; ++i) make_sweep(i, batch, positions);
+        });
+        return;
+    }
+    const auto time = [&](const char* name, const auto& work) {
+        const TimedStage part(timer, name);
+        for_batches(work);
+    };
+    for (int i = first; i < end; ++i) {
+        if (updates_tets(i))
+            time("advance_nodes.update_tets",
+                 [&](std::size_t batch) { objective_.update(batch, positions); });
+        time("advance_nodes.descend", [&](std::size_t batch) { sweep(batch, positions); });
+        if (!moves_bodies(i)) continue;
+        const bool is_last = i + 1 == settings_.iterations;
+        time("advance_nodes.move_bodies",
+             [&](std::size_t batch) { move_bodies(batches[batch].objects, is_last, positions); });
+    }
 }
 
 // Of sweeps that no correction comes between.
@@ -64,10 +101,9 @@ int BlockDescent<Real>::end_of_run(int first) const {
 template <class Real>
 void BlockDescent<Real>::make_sweep(int index, std::size_t batch, std::vector<Vec4<Real>>& positions) {
     const DescentBatch& bodies = objective_.rows().batches[batch];
-    if (index % kSweepsAMotion == 0) objective_.update(batch, positions);
+    if (updates_tets(index)) objective_.update(batch, positions);
     sweep(batch, positions);
-    const bool is_last = index + 1 == settings_.iterations;
-    if (is_last || (index + 1) % kSweepsAMotion == 0) move_bodies(bodies.objects, is_last, positions);
+    if (moves_bodies(index)) move_bodies(bodies.objects, index + 1 == settings_.iterations, positions);
 }
 
 // As the last step went on: with as much of gravity as was felt in it, from none, where a body rests, to all,
@@ -151,7 +187,7 @@ void BlockDescent<Real>::sweep(std::size_t batch, std::vector<Vec4<Real>>& posit
     }
 }
 
-// @param any_tets whether tets add anything @param any_touch whether nodes touched a collider in the last
+// @param any_tets whether tets add anything @param any_contact whether nodes touched a collider in the last
 // sweep
 template <class Real>
 template <class Groups>

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/stage_timer.h"
 #include "cpu/descent/coarse_step.h"
 #include "cpu/descent/collider_contacts.h"
 #include "cpu/descent/descend_groups.h"
@@ -40,15 +41,22 @@ public:
     /// A step of `step` seconds from `previous`; writes `current`.
     /// @param current's velocities are those one step before `previous` if `has_earlier`, else not looked at
     /// @param load_forces [N], shape [nodes], or empty @param pulls null: no hand holds anything
+    /// @param timer of the parts of the step; null: none
     void run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current,
-             std::span<const Vec4<Real>> load_forces = {}, const Pulls<Real>* pulls = nullptr);
+             std::span<const Vec4<Real>> load_forces = {}, const Pulls<Real>* pulls = nullptr,
+             StageTimer* timer = nullptr);
 
 private:
     void start(Real step, bool has_earlier, const Nodes<Real>& previous,
                std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls, Nodes<Real>& current);
     void take_back_tangled(std::vector<Vec4<Real>>& positions) const;
     int end_of_run(int first) const;
+    void make_sweeps(int first, int end, std::vector<Vec4<Real>>& positions, StageTimer* timer);
     void make_sweep(int index, std::size_t batch, std::vector<Vec4<Real>>& positions);
+    bool updates_tets(int index) const { return index % kSweepsAMotion == 0; }
+    bool moves_bodies(int index) const {
+        return index + 1 == settings_.iterations || (index + 1) % kSweepsAMotion == 0;
+    }
     void sweep(std::size_t batch, std::vector<Vec4<Real>>& positions);
     void move_node(std::uint32_t node, const NodeTerms<Real>& terms, std::vector<Vec4<Real>>& positions);
     template <class Groups>  // DescentGroups: a template, for there is none but in float

@@ -13,10 +13,9 @@ namespace {
 constexpr std::size_t kRigidSums = 16;    // dvec4s in RigidSums, sim/descent/rigid_sums.glsl
 constexpr std::size_t kLanesAChunk = 16;  // sim/descent/sum_rigid_motions.comp
 
-gl::Defines start_defines(const Model& model, bool pulled) {
+gl::Defines start_defines(const Model& model) {
     gl::Defines defines = ModelBuffers::collider_defines(model);
     if (!model.loads.empty()) defines.emplace_back("LOADED");
-    if (pulled) defines.emplace_back("PULLED");
     return defines;
 }
 
@@ -115,8 +114,8 @@ BlockDescent::Pressures::Pressures(const Model& model)
     offset_texels = {offsets, gl::TexelFormat::r32f};
 }
 
-BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, bool pulled)
-    : start_program_(gl::Program::compute("sim/descent/start_descent.comp", start_defines(model, pulled))),
+BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
+    : start_program_(gl::Program::compute("sim/descent/start_descent.comp", start_defines(model))),
       find_tangled_program_(gl::Program::compute("sim/descent/take_back_tangled.comp", {"TETS"})),
       take_back_program_(gl::Program::compute("sim/descent/take_back_tangled.comp")),
       mark_program_(gl::Program::compute("sim/descent/mark_flat_tets.comp", volume_defines(model))),
@@ -276,7 +275,8 @@ void BlockDescent::bind_nodes(const NodeBuffers& previous, const NodeBuffers& cu
 }
 
 void BlockDescent::run(const ModelBuffers& model, const SumLoads* loads, const NodeBuffers& previous,
-                       const NodeBuffers& current, double step, bool has_earlier) {
+                       const NodeBuffers& current, double step, bool has_earlier, StageTimer* timer) {
+    std::optional<TimedStage> start(std::in_place, timer, "advance_nodes.start");
     for (const gl::Program* program :
          {&start_program_, &sweep_program_, &sum_program_, &move_program_, &last_move_program_}) {
         program->set("time_step", static_cast<float>(step));
@@ -291,7 +291,7 @@ void BlockDescent::run(const ModelBuffers& model, const SumLoads* loads, const N
     }
     model.bind_colliders(last_move_program_);
     model.bind_colliders(start_program_);
-    if (model.pulls) model.pulls->bind(start_program_);
+    model.pulls.bind(start_program_);
     if (loads != nullptr) loads->bind(start_program_);
     start_program_.set("node_count", node_count_);
     start_program_.set("object_count", object_count_);
@@ -302,13 +302,21 @@ void BlockDescent::run(const ModelBuffers& model, const SumLoads* loads, const N
     if (damped_springs_) damp_springs(step);
     take_back_tangled();
     if (coarse_) coarse_->begin(current, step);
+    start.reset();
+
+    const auto run_part = [&](const char* name, const auto& work) {
+        const TimedStage part(timer, name);
+        work();
+    };
     std::uint32_t marks = 0;
     for (int i = 0; i < settings_.iterations; ++i) {
-        if (i % kSweepsAMotion == 0) mark_flat_tets(++marks);
-        sweep();
+        if (i % kSweepsAMotion == 0) run_part("advance_nodes.update_tets", [&] { mark_flat_tets(++marks); });
+        run_part("advance_nodes.descend", [&] { sweep(); });
         const bool is_last = i + 1 == settings_.iterations;
-        if (coarse_ && !is_last && i % kSweepsACorrection == 0) correct(current, step);
-        if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(is_last);
+        if (coarse_ && !is_last && i % kSweepsACorrection == 0)
+            run_part("advance_nodes.correct", [&] { correct(current, step); });
+        if (is_last || (i + 1) % kSweepsAMotion == 0)
+            run_part("advance_nodes.move_bodies", [&] { move_bodies(is_last); });
     }
 }
 

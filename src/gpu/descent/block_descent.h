@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/stage_timer.h"
 #include "gl/program.h"
 #include "gpu/descent/coarse_correction.h"
 #include "gpu/drive/sum_loads.h"
@@ -22,14 +23,15 @@ namespace gelatin::gpu {
 /// find_pressures.comp, descend.comp, sum_rigid_motions.comp, move_bodies.comp. CPU twin: cpu::BlockDescent.
 class BlockDescent {
 public:
-    BlockDescent(const Model& model, const DescentSettings& settings, bool pulled = false);
+    BlockDescent(const Model& model, const DescentSettings& settings);
 
     /// A step of `step` seconds from `previous`; writes `current`. Ends with the barrier that whoever gathers
     /// the nodes as textures or storage needs.
     /// @param loads of this step; null in models without
     /// @param current's velocities are those one step before `previous` if `has_earlier`, else not looked at
+    /// @param timer of the parts of the step, with the names that cpu::BlockDescent has; null: none
     void run(const ModelBuffers& model, const SumLoads* loads, const NodeBuffers& previous,
-             const NodeBuffers& current, double step, bool has_earlier);
+             const NodeBuffers& current, double step, bool has_earlier, StageTimer* timer = nullptr);
 
 private:
     // What the volume term needs, in models that have one.
@@ -84,7 +86,7 @@ private:
     gl::TexelTable<glm::vec4> tet_rests_;  // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
     gl::Buffer<Chunk> chunks_;
     gl::TexelTable<std::uint32_t> chunk_starts_, node_objects_;  // by object; by node
-    gl::Buffer<glm::vec4> starts_;   // xyz, outside colliders [m], inverse mass [1/kg]
+    gl::Buffer<glm::vec4> starts_;   // xyz, outside colliders [m], damping time [s]
     gl::Buffer<glm::vec4> targets_;  // y [m], m / h^2 [N/m]
     gl::Buffer<std::uint32_t> near_flat_, object_contacts_, is_tangled_;
     gl::BufferTexture start_texels_, target_texels_, near_flat_texels_;

@@ -2,11 +2,11 @@
 
 namespace gelatin::gpu {
 
-DivideAndMerge::DivideAndMerge(const Model& model, const ExplicitScheme& scheme, bool pulled)
+DivideAndMerge::DivideAndMerge(const Model& model, const ExplicitScheme& scheme)
     : write_program_(gl::Program::compute("sim/explicit/write_spring_forces.comp")),
       merge_program_(gl::Program::compute("sim/explicit/merge_spring_forces.comp")),
-      integrate_program_(gl::Program::compute("sim/explicit/integrate_nodes.comp",
-                                              integration_defines(model, scheme, pulled))),
+      integrate_program_(
+          gl::Program::compute("sim/explicit/integrate_nodes.comp", integration_defines(model, scheme))),
       springs_(std::span(model.springs)),
       starts_(std::span(model.incidence.starts)),
       entries_(std::span(model.incidence.entries)),

@@ -9,7 +9,7 @@ namespace gelatin::gpu {
 /// storage buffers as in the paper.
 class DivideAndMerge {
 public:
-    DivideAndMerge(const Model& model, const ExplicitScheme& scheme, bool pulled = false);
+    DivideAndMerge(const Model& model, const ExplicitScheme& scheme);
 
     /// Ends with the barrier for the next pass, and for gathering the nodes as textures.
     void run(const ModelBuffers& model, const Pass& pass) const;

@@ -4,11 +4,10 @@
 
 namespace gelatin::gpu {
 
-gl::Defines integration_defines(const Model& model, const ExplicitScheme& scheme, bool pulled) {
+gl::Defines integration_defines(const Model& model, const ExplicitScheme& scheme) {
     gl::Defines defines = ModelBuffers::collider_defines(model);
     if (scheme.pass_count > 1) defines.emplace_back("MULTI_PASS");
     if (!model.loads.empty()) defines.emplace_back("LOADED");
-    if (pulled) defines.emplace_back("PULLED");
     for (const std::string& define : NeoHookeanBuffers::defines(model)) defines.push_back(define);
     for (const std::string& define : VolumeTermBuffers::defines(model)) defines.push_back(define);
     return defines;
@@ -24,7 +23,7 @@ void bind_integration(const gl::Program& program, const ModelBuffers& model, con
     model.bind_colliders(program);
     model.neo_hookean.bind(program);
     model.volume_term.bind(program);
-    if (model.pulls) model.pulls->bind(program);
+    model.pulls.bind(program);
     if (pass.loads != nullptr) pass.loads->bind(program);
     if (pass.volume_stresses != nullptr) pass.volume_stresses->bind(program);
 

@@ -25,8 +25,7 @@ struct Pass {
 };
 
 /// Defines for a shader that includes sim/explicit/integrate_node.glsl.
-/// @param pulled nodes may be held by a hand
-gl::Defines integration_defines(const Model& model, const ExplicitScheme& scheme, bool pulled = false);
+gl::Defines integration_defines(const Model& model, const ExplicitScheme& scheme);
 
 /// For programs that include sim/explicit/integrate_node.glsl.
 void bind_integration(const gl::Program& program, const ModelBuffers& model, const Pass& pass);

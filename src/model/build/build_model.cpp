@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -270,35 +271,21 @@ void append_body(Model& model, const Body& body) {
     model.objects.push_back(std::move(object));
 }
 
-const Material& find_material(const Scene& scene, const ObjectDescription& object, const std::string& name,
-                              int line) {
+const Material& find_material(const Scene& scene, const std::string& name) {
     const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
                                     [&](const Material& m) { return m.name == name; });
-    if (found != scene.materials.end()) return *found;
-    throw InvalidInput(
-        {scene.file.string(), line, "object." + object.name + ".material", name, "no such material"});
-}
-
-void add_parts(const Scene& scene, const ObjectDescription& object, Body& body) {
-    for (const PartDescription& part : object.parts) {
-        const Material& material = find_material(scene, object, part.material, part.line);
-        body.part_materials.push_back(material);
-        if (material.model != body.material.model || material.springs != body.material.springs) {
-            throw InvalidInput({scene.file.string(), part.line, "object." + object.name + ".part.material",
-                                part.material,
-                                fmt::format("must have the same model and springs as the object's own, '{}'",
-                                            object.material)});
-        }
-    }
-    body.tet_materials = choose_tet_materials(object, body.mesh, scene.file.string());
+    assert(found != scene.materials.end());
+    return *found;
 }
 
 Body make_body(const Scene& scene, const ObjectDescription& object, ObjectMesher& mesher) {
     Body body;
     body.name = object.name;
     body.mesh = mesher.make(object);
-    body.material = find_material(scene, object, object.material, object.line);
-    add_parts(scene, object, body);
+    body.material = find_material(scene, object.material);
+    for (const PartDescription& part : object.parts)
+        body.part_materials.push_back(find_material(scene, part.material));
+    body.tet_materials = choose_tet_materials(object, body.mesh, scene.file.string());
     body.velocity = object.velocity;
     body.spin = glm::radians(object.spin);
     body.pins = object.pins;
@@ -330,6 +317,7 @@ Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDes
 }
 
 Model build_model(const Scene& scene) {
+    validate(scene);
     std::vector<Body> bodies;
     ObjectMesher mesher;
     for (const ObjectDescription& object : scene.objects) bodies.push_back(make_body(scene, object, mesher));

@@ -46,7 +46,7 @@ Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDes
                   const glm::dvec3& gravity);
 
 /// Makes the mesh of each of the scene's objects and packs them.
-/// @throws InvalidInput as pack_bodies, ObjectMesher::make and check_regions.
+/// @throws InvalidInput as validate, pack_bodies, ObjectMesher::make and check_regions.
 Model build_model(const Scene& scene);
 
 }  // namespace gelatin

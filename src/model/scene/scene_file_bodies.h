@@ -8,13 +8,16 @@
 
 namespace gelatin {
 
+struct ReadObjects {
+    std::vector<ObjectDescription> objects;
+    std::vector<std::size_t> tables;  ///< of each object, the table that it or its original is in
+};
+
 /// @param tables the [[object]] tables
 /// @param folder where relative mesh files start
-/// @throws InvalidInput for anything wrong in them, names that are there twice, or a material that
-/// `materials` lacks.
-std::vector<ObjectDescription> read_objects(std::vector<TableReader> tables,
-                                            const std::vector<Material>& materials,
-                                            const std::filesystem::path& folder);
+/// @throws InvalidInput for what is no object: keys and types.
+ReadObjects read_objects(std::vector<TableReader> tables, const std::vector<Material>& materials,
+                         const std::filesystem::path& folder);
 
 /// @param tables the [[collider]] tables
 /// @param collision gives friction and restitution where a collider is silent

@@ -24,10 +24,14 @@ struct Copies {
 Copies read_table(TableReader& reader) {
     Copies copies;
     reader.require({"counts", "spacing"});
-    reader.read("counts", copies.counts, kCounts);
-    reader.read("spacing", copies.spacing, kNotNegative);
-    reader.read("jitter", copies.jitter, kNotNegative);
-    reader.read("turn", copies.turn, kTurn);
+    reader.read("counts", copies.counts);
+    reader.check("counts", kCounts);
+    reader.read("spacing", copies.spacing);
+    reader.check("spacing", kNotNegative);
+    reader.read("jitter", copies.jitter);
+    reader.check("jitter", kNotNegative);
+    reader.read("turn", copies.turn);
+    reader.check("turn", kTurn);
     reader.finish();
     if (copies.counts.x > kMost / copies.counts.y || copies.total() > kMost)
         reader.fail("counts", fmt::format("must make at most {} copies, make {}", kMost, copies.total()));

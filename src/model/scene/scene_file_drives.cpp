@@ -1,7 +1,5 @@
 #include "model/scene/scene_file_drives.h"
 
-#include <fmt/format.h>
-
 #include "model/scene/scene_file_region.h"
 
 namespace gelatin {
@@ -10,30 +8,12 @@ namespace {
 Keyframe read_keyframe(TableReader reader) {
     Keyframe keyframe;
     reader.require({"time"});
-    reader.read("time", keyframe.time, kNotNegative);
+    reader.read("time", keyframe.time);
     reader.read("move", keyframe.move);
     reader.read("turn", keyframe.turn);
-    reader.read("scale", keyframe.scale, kPositive);
+    reader.read("scale", keyframe.scale);
     reader.finish();
     return keyframe;
-}
-
-std::vector<Keyframe> read_keyframes(const std::vector<TableReader>& tables) {
-    std::vector<Keyframe> keyframes;
-    for (const TableReader& reader : tables) {
-        const Keyframe keyframe = read_keyframe(reader);
-        const bool rests =
-            keyframe.move == glm::dvec3(0.0) && keyframe.turn == glm::dvec3(0.0) && keyframe.scale == 1.0;
-        if (keyframes.empty() && !rests)
-            reader.fail("",
-                        "the first keyframe is where the body starts: it must not move, rotate or scale it");
-        if (!keyframes.empty() && keyframe.time <= keyframes.back().time) {
-            reader.fail("time", fmt::format("must be greater than that of the keyframe before, {}",
-                                            keyframes.back().time));
-        }
-        keyframes.push_back(keyframe);
-    }
-    return keyframes;
 }
 
 DragDescription read_drag(TableReader reader) {
@@ -58,8 +38,9 @@ HandleDescription read_handle(TableReader reader) {
     if (reader.has("pivot")) reader.read("pivot", handle.pivot.emplace(0.0));
     reader.read("interpolation", handle.interpolation,
                 {{"linear", Interpolation::linear}, {"smooth", Interpolation::smooth}});
-    reader.read("release", handle.release, kPositive);
-    handle.keyframes = read_keyframes(reader.tables("keyframes"));
+    reader.read("release", handle.release);
+    for (const TableReader& keyframe : reader.tables("keyframes"))
+        handle.keyframes.push_back(read_keyframe(keyframe));
     if (auto drag = reader.table("drag")) handle.drag = read_drag(std::move(*drag));
     reader.finish();
     return handle;
@@ -77,10 +58,8 @@ LoadDescription read_load(TableReader reader) {
     } else {
         reader.read("pressure", load.kind.emplace<PressureLoad>().pressure);
     }
-    reader.read("from", load.from, kNotNegative);
-    reader.read("until", load.until, kPositive);
-    if (load.until && *load.until <= load.from.value_or(0.0))
-        reader.fail("until", fmt::format("must be greater than from, {}", load.from.value_or(0.0)));
+    reader.read("from", load.from);
+    reader.read("until", load.until);
     reader.finish();
     return load;
 }

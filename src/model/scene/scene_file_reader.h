@@ -11,17 +11,10 @@
 #include <vector>
 
 #include "gelatin/error.h"
+#include "model/scene/limits.h"
+#include "model/scene/names.h"
 
 namespace gelatin {
-
-/// The candidate closest to `name` by edit distance, if it is close enough to be a slip of the pen.
-std::optional<std::string> nearest_name(std::string_view name, const std::vector<std::string>& candidates);
-
-/// " (did you mean "x"?)" for the nearest candidate, else "".
-std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
-
-/// "a, b and c".
-std::string join_names(const std::vector<std::string>& names, const char* last = "and");
 
 /// The parser's complaint without line breaks, which it quotes from the file.
 std::string describe(const toml::parse_error& error);
@@ -34,21 +27,11 @@ inline constexpr std::string_view kOverridePrefix = "--set ";
 InputProblem problem_at(const toml::node& node, const std::string& file, const std::string& field,
                         const std::string& problem);
 
-/// What a number may be.
-struct Limit {
-    const char* allowed;  ///< completes "must be ..."
-    bool (*holds)(double value);
-};
-inline constexpr Limit kAnyNumber{"a number", [](double) { return true; }};
-inline constexpr Limit kPositive{"greater than 0", [](double v) { return v > 0.0; }};
-inline constexpr Limit kNotNegative{"0 or more", [](double v) { return v >= 0.0; }};
-inline constexpr Limit kFraction{"from 0 to 1", [](double v) { return v >= 0.0 && v <= 1.0; }};
-
 /// Reads one table of a scene file into values that keep their defaults where the table is silent.
 ///
-/// Each getter notes its key as known, checks type and range, and throws InvalidInput naming file, line,
-/// dotted key, value and what is allowed. `finish` then reports keys that nobody asked for. Refers to the
-/// parsed document, which must outlive it.
+/// Each getter notes its key as known, checks its type, and throws InvalidInput naming file, line, dotted
+/// key, value and what is allowed; what values may be is for validate() to say. `finish` then reports keys
+/// that nobody asked for. Refers to the parsed document, which must outlive it.
 class TableReader {
 public:
     /// @param path dotted, for messages ("object.ball"); empty for the whole file
@@ -65,15 +48,19 @@ public:
     /// The one key of `keys` that the table has.
     std::string require_one_of(const std::vector<std::string>& keys);
 
-    void read(const char* key, double& value, const Limit& limit = kAnyNumber);
-    void read(const char* key, std::optional<double>& value, const Limit& limit = kAnyNumber);
-    void read(const char* key, int& value, const Limit& limit);
+    void read(const char* key, double& value);
+    void read(const char* key, std::optional<double>& value);
+    void read(const char* key, int& value);
     void read(const char* key, bool& value);
-    void read(const char* key, std::string& value);  ///< not empty
-    void read(const char* key, glm::dvec3& value, const Limit& limit = kAnyNumber);
-    void read(const char* key, glm::ivec3& value, const Limit& limit);
-    /// A direction of any length but 0, made unit.
+    void read(const char* key, std::string& value);
+    void read(const char* key, glm::dvec3& value);
+    void read(const char* key, glm::ivec3& value);
+    /// A direction of any length, made unit where that can be.
     void read_direction(const char* key, glm::dvec3& value);
+    /// Holds the number at `key`, or each of a list of them, against a limit: for what validate() does not
+    /// see.
+    /// @pre it was read
+    void check(const char* key, const Limit& limit) const;
 
     template <class Enum>
     void read(const char* key, Enum& value, const std::vector<std::pair<std::string, Enum>>& choices) {
@@ -109,8 +96,8 @@ private:
     [[noreturn]] void fail_choice(const char* key, const std::string& name,
                                   const std::vector<std::string>& names) const;
     [[noreturn]] void fail_at(const toml::node& node, std::string_view key, const std::string& problem) const;
-    double number(const toml::node& node, std::string_view key, const Limit& limit) const;
-    int whole_number(const toml::node& node, std::string_view key, const Limit& limit) const;
+    double number(const toml::node& node, std::string_view key) const;
+    int whole_number(const toml::node& node, std::string_view key) const;
     const toml::array& three(const toml::node& node, const char* key) const;
 
     const toml::table* table_;

@@ -1,9 +1,5 @@
 #include "model/scene/scene_file_region.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
-
 namespace gelatin {
 namespace {
 
@@ -17,15 +13,8 @@ BoxRegion read_box_region(TableReader& reader) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::optional<double> x =
                 numbers.size() == 3 ? numbers[axis].value<double>() : std::nullopt;
-            if (!x || !(std::abs(*x) <= 1e15))
-                reader.fail("box", "corners must be three finite numbers each");
+            if (!x) reader.fail("box", kCornersAllowed);
             corner[c][static_cast<int>(axis)] = *x;
-        }
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-        if (corner[0][axis] > corner[1][axis]) {
-            reader.fail("box", fmt::format("the first corner must be the lower one: {} is above {} along {}",
-                                           corner[0][axis], corner[1][axis], "xyz"[axis]));
         }
     }
     return {corner[0], corner[1]};
@@ -42,7 +31,7 @@ Region read_region(TableReader reader) {
         SphereRegion region{};
         reader.require({"radius"});
         reader.read("sphere", region.center);
-        reader.read("radius", region.radius, kPositive);
+        reader.read("radius", region.radius);
         result = region;
     } else {
         HalfSpaceRegion region{{0.0, 1.0, 0.0}, 0.0};

@@ -4,48 +4,13 @@
 
 #include <iterator>
 #include <string>
-#include <string_view>
 
 #include "core/file.h"
+#include "model/scene/value_text.h"
 #include "model/setting_names.h"
 
 namespace gelatin {
 namespace {
-
-std::string text_of(double value) {
-    return fmt::format("{}", value);
-}
-std::string text_of(int value) {
-    return fmt::format("{}", value);
-}
-std::string text_of(bool value) {
-    return value ? "true" : "false";
-}
-template <class Vector>
-std::string list_of(const Vector& v) {
-    return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
-}
-std::string text_of(const glm::dvec3& v) {
-    return list_of(v);
-}
-std::string text_of(const glm::ivec3& v) {
-    return list_of(v);
-}
-std::string text_of(std::string_view text) {
-    std::string quoted = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') quoted += '\\';
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) {
-            quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-        } else {
-            quoted += c;
-        }
-    }
-    return quoted + "\"";
-}
-std::string text_of(const char* text) {
-    return text_of(std::string_view(text));
-}
 
 /// Keys and values, what is as usual left out: the lines of a table, or an inline one.
 class Table {
@@ -210,9 +175,7 @@ Table table_of(const Material& material) {
     table.add("poisson_ratio", material.poisson_ratio).add("damping", material.damping);
     if (material.springs) {
         std::vector<std::string> names;
-        if (material.springs->structural) names.push_back(text_of("structural"));
-        if (material.springs->shear) names.push_back(text_of("shear"));
-        if (material.springs->flex) names.push_back(text_of("flex"));
+        for (const std::string& kind : kind_names(*material.springs)) names.push_back(text_of(kind));
         table.add_text("springs", fmt::format("[{}]", fmt::join(names, ", ")));
     }
     return table;

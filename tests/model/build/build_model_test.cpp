@@ -95,10 +95,10 @@ TEST(BuildModel, RefusesPartsWithOtherKindsOfSprings) {
         build_model(scene);
         FAIL() << "accepted springs of two kinds";
     } catch (const InvalidInput& error) {
-        EXPECT_STREQ(
-            error.what(),
-            "parts.toml:12: object.cube.part.material = bone: must have the same model and springs as the "
-            "object's own, 'flesh'");
+        EXPECT_STREQ(error.what(),
+                     "parts.toml: object.cube.part[0].material = \"bone\": must have the same model and "
+                     "springs as the "
+                     "object's own, 'flesh'");
     }
 }
 

@@ -1,0 +1,172 @@
+#include "model/scene/validate_bodies.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <unordered_map>
+
+#include "model/scene/names.h"
+
+namespace gelatin {
+namespace {
+
+// Meshes past these sizes are slips: 20 * 500^2 faces are five million.
+constexpr Limit kSphereFrequency{"from 1 to 500", [](double v) { return v >= 1.0 && v <= 500.0; }};
+constexpr Limit kCapsuleFrequency{"from 2 to 500", [](double v) { return v >= 2.0 && v <= 500.0; }};
+constexpr Limit kSegments{"from 1 to 1000", [](double v) { return v >= 1.0 && v <= 1000.0; }};
+constexpr Limit kQuality{"greater than 1", [](double v) { return v > 1.0; }};
+
+struct ShapeCheck {
+    const ValueChecks& checks;
+    FieldPath field;
+
+    void operator()(const SphereShape& shape) const {
+        checks.check(field / "sphere", shape.radius, kPositive);
+        checks.check(field / "frequency", shape.frequency, kSphereFrequency);
+    }
+    void operator()(const BoxShape& shape) const {
+        checks.check(field / "box", shape.size, kPositive);
+        checks.check(field / "segments", shape.segments, kSegments);
+    }
+    void operator()(const CapsuleShape& shape) const {
+        checks.check(field / "capsule", shape.radius, kPositive);
+        checks.check(field / "length", shape.length, kPositive);
+        checks.check(field / "frequency", shape.frequency, kCapsuleFrequency);
+    }
+    void operator()(const TextShape& shape) const {
+        checks.check_text(field / "text", shape.text);
+        checks.check(field / "depth", shape.depth, kPositive);
+        checks.check(field / "size", shape.size, kPositive);
+        checks.check_text(field / "font", shape.font);
+    }
+    void operator()(const FileShape& shape) const {
+        checks.check_text(field / "file", shape.file.filename().string());
+    }
+};
+
+struct ColliderShapeCheck {
+    const ValueChecks& checks;
+    FieldPath field;
+
+    void operator()(const PlaneCollider& plane) const {
+        checks.check_direction(field / "plane", plane.normal);
+        checks.check(field / "offset", plane.offset);
+    }
+    void operator()(const BoxCollider& box) const { checks.check(field / "box", box.size, kPositive); }
+    void operator()(const SphereCollider& sphere) const {
+        checks.check(field / "sphere", sphere.radius, kPositive);
+    }
+    void operator()(const CapsuleCollider& capsule) const {
+        checks.check(field / "capsule", capsule.radius, kPositive);
+        checks.check(field / "length", capsule.length, kPositive);
+    }
+};
+
+class ObjectCheck {
+public:
+    ObjectCheck(const ValueChecks& checks, const std::vector<Material>& materials)
+        : checks_(checks), materials_(materials) {}
+
+    void run(const FieldPath& field, const ObjectDescription& object) const {
+        checks_.check_text(field / "name", object.name);
+        std::visit(ShapeCheck{checks_, field / "shape"}, object.shape);
+        check_mesher(field / "mesher", object.mesher);
+        const Material& material = find(field, object.material);
+        for (std::size_t p = 0; p < object.parts.size(); ++p)
+            check_part((field / "part")[p], object.parts[p], material);
+        checks_.check(field / "position", object.position);
+        checks_.check(field / "rotation", object.rotation);
+        checks_.check(field / "scale", object.scale, kPositive);
+        checks_.check(field / "velocity", object.velocity);
+        checks_.check(field / "spin", object.spin);
+        checks_.check(field / "start" / "scale", object.start.scale, kNotNegative);
+        checks_.check(field / "start" / "scatter", object.start.scatter, kNotNegative);
+        for (std::size_t p = 0; p < object.pins.size(); ++p)
+            check_region(checks_, (field / "pins")[p], object.pins[p]);
+        for (std::size_t h = 0; h < object.handles.size(); ++h)
+            check_handle(checks_, (field / "handle")[h], object.handles[h]);
+        for (std::size_t l = 0; l < object.loads.size(); ++l)
+            check_load(checks_, (field / "load")[l], object.loads[l]);
+        checks_.check(field / "color", object.color, kFraction);
+    }
+
+private:
+    void check_mesher(const FieldPath& field, const MesherSettings& mesher) const {
+        checks_.check(field / "quality", mesher.quality, kQuality);
+        checks_.check(field / "max_volume", mesher.max_volume, kPositive);
+        checks_.check(field / "time_limit", mesher.time_limit, kPositive);
+    }
+
+    void check_part(const FieldPath& field, const PartDescription& part, const Material& whole) const {
+        if (const auto* region = std::get_if<Region>(&part.where))
+            check_region(checks_, field / "region", *region);
+        const Material& material = find(field, part.material);
+        if (material.model != whole.model || material.springs != whole.springs) {
+            checks_.fail(
+                field / "material", text_of(part.material),
+                fmt::format("must have the same model and springs as the object's own, '{}'", whole.name));
+        }
+    }
+
+    // The material that the body or part at `field` names.
+    const Material& find(const FieldPath& field, const std::string& name) const {
+        const auto found = std::find_if(materials_.begin(), materials_.end(),
+                                        [&](const Material& material) { return material.name == name; });
+        if (found == materials_.end()) refuse_material(field, name);
+        return *found;
+    }
+
+    void refuse_material(const FieldPath& field, const std::string& name) const {
+        std::vector<std::string> names;
+        for (const Material& material : materials_) names.push_back(material.name);
+        if (name.empty()) {
+            checks_.fail(field, "",
+                         names.empty() ? "needs a material: the scene has no [[material]]"
+                                       : "needs \"material\": one of " + join_names(names, "or"));
+        }
+        checks_.fail(field / "material", text_of(name),
+                     fmt::format("no such material{}; {}", suggestion(name, names),
+                                 names.empty() ? "the scene has none" : "there is " + join_names(names)));
+    }
+
+    const ValueChecks& checks_;
+    const std::vector<Material>& materials_;
+};
+
+}  // namespace
+
+void check_objects(const ValueChecks& checks, const Scene& scene) {
+    const ObjectCheck check(checks, scene.materials);
+    std::unordered_map<std::string_view, int> lines;  // by name
+    for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+        const ObjectDescription& object = scene.objects[o];
+        const FieldPath field("object", o);
+        check.run(field, object);
+        const auto [taken, is_new] = lines.emplace(object.name, object.line);
+        if (!is_new) checks.fail(field / "name", text_of(object.name), name_taken("object", taken->second));
+    }
+    if (scene.objects.empty()) checks.fail({}, "", "has no objects: add an [[object]]");
+}
+
+void check_colliders(const ValueChecks& checks, const Scene& scene) {
+    for (std::size_t c = 0; c < scene.colliders.size(); ++c) {
+        const ColliderDescription& collider = scene.colliders[c];
+        const FieldPath field("collider", c);
+        std::visit(ColliderShapeCheck{checks, field / "shape"}, collider.shape);
+        const bool is_plane = std::holds_alternative<PlaneCollider>(collider.shape);
+        const auto check_place = [&](const char* key, const glm::dvec3& place) {
+            checks.check(field / key, place);
+            if (is_plane && place != glm::dvec3(0.0)) {
+                checks.fail(field / key, text_of(place),
+                            "a plane has none: its shape's normal and offset place it");
+            }
+        };
+        check_place("position", collider.position);
+        check_place("rotation", collider.rotation);
+        checks.check(field / "friction", collider.friction, kNotNegative);
+        checks.check(field / "restitution", collider.restitution, kFraction);
+    }
+}
+
+}  // namespace gelatin

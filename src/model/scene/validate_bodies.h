@@ -1,0 +1,16 @@
+#pragma once
+
+#include "model/scene/value_checks.h"
+
+namespace gelatin {
+
+/// The parts of validate() for objects and colliders.
+void check_objects(const ValueChecks& checks, const Scene& scene);
+void check_colliders(const ValueChecks& checks, const Scene& scene);
+
+/// A region of an object's pin, handle, load or part.
+void check_region(const ValueChecks& checks, const FieldPath& field, const Region& region);
+void check_handle(const ValueChecks& checks, const FieldPath& field, const HandleDescription& handle);
+void check_load(const ValueChecks& checks, const FieldPath& field, const LoadDescription& load);
+
+}  // namespace gelatin

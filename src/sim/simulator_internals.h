@@ -1,0 +1,24 @@
+#pragma once
+
+#include <memory>
+
+#include "gelatin/simulator.h"
+#include "model/model.h"
+
+namespace gelatin {
+
+/// What this repository's own programs and tests need of a simulator beyond its public interface.
+struct SimulatorInternals {
+    static const Model& model(const Simulator& simulator);
+
+    /// A simulator with tets and springs that were made before.
+    /// @param model what build_model made of this very scene
+    static Simulator make(const Scene& scene, std::shared_ptr<const Model> model,
+                          const SimulatorOptions& options);
+};
+
+inline const Model& model_of(const Simulator& simulator) {
+    return SimulatorInternals::model(simulator);
+}
+
+}  // namespace gelatin

@@ -1,0 +1,200 @@
+#include "model/scene/rule_test.h"
+
+namespace gelatin::test {
+namespace {
+
+class SettingRule : public RuleTest {};
+
+TEST_P(SettingRule, HoldsInFilesAndInCode) {
+    EXPECT_EQ(code_error(GetParam()), GetParam().problem);
+    EXPECT_EQ(file_error(std::string(kMaterials) + kObject + GetParam().lines), GetParam().problem);
+}
+
+// Of the material's own table, whose lines follow its name.
+class MaterialRule : public RuleTest {};
+
+TEST_P(MaterialRule, HoldsInFilesAndInCode) {
+    EXPECT_EQ(code_error(GetParam()), GetParam().problem);
+    EXPECT_EQ(file_error(std::string(kObject) + "[[material]]\n" + GetParam().lines), GetParam().problem);
+}
+
+const Rule kSettingRules[] = {
+    {"frame_rate", "[simulation]\nframe_rate = 0", BREAKS(s.simulation.frame_rate = 0),
+     "simulation.frame_rate = 0: must be greater than 0"},
+    {"frame_rate_tiny", "[simulation]\nframe_rate = 1e-20", BREAKS(s.simulation.frame_rate = 1e-20),
+     "simulation.frame_rate = 1e-20: must be 0 or of a magnitude from 1e-15 to 1e15"},
+    {"substeps", "[simulation]\nsubsteps = 0", BREAKS(s.simulation.substeps = 0),
+     "simulation.substeps = 0: must be \"auto\" or from 1 to 1000000"},
+    {"substeps_negative", "[simulation]\nsubsteps = -3", BREAKS(s.simulation.substeps = -3),
+     "simulation.substeps = -3: must be \"auto\" or from 1 to 1000000"},
+    {"iterations", "[simulation]\niterations = 0", BREAKS(s.simulation.iterations = 0),
+     "simulation.iterations = 0: must be from 1 to 1000"},
+    {"gravity", "[simulation]\ngravity = [0, nan, 0]", BREAKS(s.simulation.gravity.y = kNan),
+     "simulation.gravity[1] = nan: must be finite"},
+    {"frames", "[simulation]\nframes = -1", BREAKS(s.simulation.frames = -1),
+     "simulation.frames = -1: must be 0 or more"},
+    {"detection", "[collision]\nbroad_phase = 'depth'\ndetection = 'continuous'",
+     BREAKS(s.collision.broad_phase = BroadPhase::depth;
+            s.collision.detection = CollisionDetection::continuous),
+     "collision.detection = \"continuous\": must be \"discrete\" with broad_phase = \"depth\", which sees "
+     "one "
+     "moment"},
+    {"proximity_radius", "[collision]\nproximity_radius = -1", BREAKS(s.collision.proximity_radius = -1),
+     "collision.proximity_radius = -1: must be greater than 0"},
+    {"proximity_depth", "[collision]\nbroad_phase = 'depth'\nproximity_radius = 0.1",
+     BREAKS(s.collision.broad_phase = BroadPhase::depth; s.collision.proximity_radius = 0.1),
+     "collision.proximity_radius = 0.1: must not be given with broad_phase = \"depth\", which tells what "
+     "touches, "
+     "not what is near"},
+    {"friction", "[collision]\nfriction = -1", BREAKS(s.collision.friction = -1),
+     "collision.friction = -1: must be 0 or more"},
+    {"restitution", "[collision]\nrestitution = 2", BREAKS(s.collision.restitution = 2),
+     "collision.restitution = 2: must be from 0 to 1"},
+    {"camera_eye", "[camera]\neye = [inf, 0, 0]\ntarget = [0, 0, 0]",
+     BREAKS(s.camera = CameraDescription{glm::dvec3(kInfinite, 0, 0), {}}),
+     "camera.eye[0] = inf: must be finite"},
+    {"camera_target", "[camera]\neye = [1, 0, 0]\ntarget = [0, 0, -1e16]",
+     BREAKS(s.camera = CameraDescription{glm::dvec3(1, 0, 0), glm::dvec3(0, 0, -1e16)}),
+     "camera.target[2] = -1e+16: must be 0 or of a magnitude from 1e-15 to 1e15"},
+    {"camera_angle", "[camera]\neye = [1, 0, 0]\ntarget = [0, 0, 0]\nfield_of_view = 180",
+     BREAKS(s.camera = CameraDescription{glm::dvec3(1, 0, 0), glm::dvec3(0), 180.0}),
+     "camera.field_of_view = 180: must be greater than 0 and less than 180"},
+    {"camera_in_target", "[camera]\neye = [1, 0, 0]\ntarget = [1, 0, 0]",
+     BREAKS(s.camera = CameraDescription{glm::dvec3(1, 0, 0), glm::dvec3(1, 0, 0)}),
+     "camera.eye = [1, 0, 0]: must not be the target"},
+    {"plane_zero", "[[collider]]\nshape = {plane = [0, 0, 0]}",
+     BREAKS(add_collider(s).shape = PlaneCollider{glm::dvec3(0), 0}),
+     "collider[0].shape.plane = [0, 0, 0]: must not be zero: a direction"},
+    {"plane_nan", "[[collider]]\nshape = {plane = [0, nan, 0]}",
+     BREAKS(add_collider(s).shape = PlaneCollider{glm::dvec3(0, kNan, 0), 0}),
+     "collider[0].shape.plane[1] = nan: must be finite"},
+    {"plane_offset", "[[collider]]\nshape = {plane = [0, 1, 0], offset = inf}",
+     BREAKS(add_collider(s).shape = PlaneCollider{glm::dvec3(0, 1, 0), kInfinite}),
+     "collider[0].shape.offset = inf: must be finite"},
+    {"plane_position", "[[collider]]\nshape = {plane = [0, 1, 0]}\nposition = [0, 2, 0]",
+     BREAKS(add_collider(s).position.y = 2),
+     "collider[0].position = [0, 2, 0]: a plane has none: its shape's normal and offset place it"},
+    {"plane_rotation", "[[collider]]\nshape = {plane = [0, 1, 0]}\nrotation = [9, 0, 0]",
+     BREAKS(add_collider(s).rotation.x = 9),
+     "collider[0].rotation = [9, 0, 0]: a plane has none: its shape's normal and offset place it"},
+    {"box_collider", "[[collider]]\nshape = {box = [1, -1, 1]}",
+     BREAKS(add_collider(s).shape = BoxCollider{glm::dvec3(1, -1, 1)}),
+     "collider[0].shape.box[1] = -1: must be greater than 0"},
+    {"sphere_collider", "[[collider]]\nshape = {sphere = 0}",
+     BREAKS(add_collider(s).shape = SphereCollider{0}),
+     "collider[0].shape.sphere = 0: must be greater than 0"},
+    {"capsule_collider", "[[collider]]\nshape = {capsule = nan}",
+     BREAKS(add_collider(s).shape = CapsuleCollider{kNan}),
+     "collider[0].shape.capsule = nan: must be finite"},
+    {"capsule_length", "[[collider]]\nshape = {capsule = 1, length = 0}",
+     BREAKS(add_collider(s).shape = (CapsuleCollider{1, 0})),
+     "collider[0].shape.length = 0: must be greater than 0"},
+    {"collider_position", "[[collider]]\nshape = {sphere = 1}\nposition = [0, 0, inf]",
+     BREAKS(add_collider(s).shape = SphereCollider{1}; s.colliders[0].position.z = kInfinite),
+     "collider[0].position[2] = inf: must be finite"},
+    {"collider_rotation", "[[collider]]\nshape = {sphere = 1}\nrotation = [0, 0, inf]",
+     BREAKS(add_collider(s).shape = SphereCollider{1}; s.colliders[0].rotation.z = kInfinite),
+     "collider[0].rotation[2] = inf: must be finite"},
+    {"collider_friction", "[[collider]]\nshape = {sphere = 1}\nfriction = -1",
+     BREAKS(add_collider(s).shape = SphereCollider{1}; s.colliders[0].friction = -1),
+     "collider[0].friction = -1: must be 0 or more"},
+    {"collider_restitution", "[[collider]]\nshape = {sphere = 1}\nrestitution = -1",
+     BREAKS(add_collider(s).shape = SphereCollider{1}; s.colliders[0].restitution = -1),
+     "collider[0].restitution = -1: must be from 0 to 1"},
+};
+
+const Rule kMaterialRules[] = {
+    {"name", "name = ''", BREAKS(s.materials[0].name = ""), "material[0].name = \"\": must not be empty"},
+    {"name_of_lines", "name = \"a\\n\\\"b\\u0001\"", BREAKS(s.materials[0].name = "a\n\"b\x01"),
+     "material[0].name = \"a\\n\\\"b\\u0001\": must not have line breaks or other control characters"},
+    {"youngs_modulus", "name = 'jelly'\nyoungs_modulus = 0", BREAKS(s.materials[0].youngs_modulus = 0),
+     "material.jelly.youngs_modulus = 0: must be greater than 0"},
+    {"density", "name = 'jelly'\ndensity = -2.5", BREAKS(s.materials[0].density = -2.5),
+     "material.jelly.density = -2.5: must be greater than 0"},
+    {"density_huge", "name = 'jelly'\ndensity = 1e16", BREAKS(s.materials[0].density = 1e16),
+     "material.jelly.density = 1e+16: must be 0 or of a magnitude from 1e-15 to 1e15"},
+    {"poisson_ratio", "name = 'jelly'\npoisson_ratio = 0.495", BREAKS(s.materials[0].poisson_ratio = 0.495),
+     "material.jelly.poisson_ratio = 0.495: must be from 0 to 0.49"},
+    {"neo_hookean_ratio", "name = 'jelly'\nmodel = 'neo_hookean'\npoisson_ratio = 0.5",
+     BREAKS(s.materials[0].model = MaterialModel::neo_hookean; s.materials[0].poisson_ratio = 0.5),
+     "material.jelly.poisson_ratio = 0.5: must be 0 or more and less than 0.5 with model = \"neo_hookean\""},
+    {"damping", "name = 'jelly'\ndamping = inf", BREAKS(s.materials[0].damping = kInfinite),
+     "material.jelly.damping = inf: must be finite"},
+    {"springs_of_a_model_without", "name = 'jelly'\nmodel = 'neo_hookean'\nsprings = ['structural', 'flex']",
+     BREAKS(s.materials[0].model = MaterialModel::neo_hookean;
+            s.materials[0].springs = (SpringKinds{true, false, true})),
+     "material.jelly.springs = [\"structural\", \"flex\"]: must not be given with model = \"neo_hookean\", "
+     "which "
+     "has none"},
+    {"no_kind_of_springs", "name = 'jelly'\nsprings = []",
+     BREAKS(s.materials[0].springs = (SpringKinds{false, false, false})),
+     "material.jelly.springs = []: must name at least one of structural, shear or flex"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Settings, SettingRule, testing::ValuesIn(kSettingRules), rule_name);
+INSTANTIATE_TEST_SUITE_P(Materials, MaterialRule, testing::ValuesIn(kMaterialRules), rule_name);
+
+// What files say otherwise, or cannot say
+
+class Validation : public RuleTest {
+protected:
+    static std::string error_of(const std::function<void(Scene&)>& breaks) {
+        return code_error({"", "", breaks, ""});
+    }
+};
+
+TEST_F(Validation, TakesASoundScene) {
+    EXPECT_NO_THROW(validate(scene_of_file()));
+}
+
+TEST_F(Validation, NeedsObjects) {
+    EXPECT_EQ(error_of(BREAKS(s.objects.clear())), "has no objects: add an [[object]]");
+}
+
+TEST_F(Validation, NeedsMaterials) {
+    EXPECT_EQ(error_of(BREAKS(s.materials.clear(); s.objects[0].material = "")),
+              "object.ball: needs a material: the scene has no [[material]]");
+}
+
+TEST_F(Validation, NamesAreFree) {
+    EXPECT_EQ(error_of(BREAKS(s.materials.push_back(s.materials[0]))),
+              "material.jelly.name = \"jelly\": is taken by another material");
+    EXPECT_EQ(error_of(BREAKS(s.objects.push_back(s.objects[0]))),
+              "object.ball.name = \"ball\": is taken by another object");
+}
+
+// A file's directions are made unit as they are read.
+TEST_F(Validation, DirectionsAreUnit) {
+    EXPECT_EQ(error_of(BREAKS(add_collider(s).shape = PlaneCollider{glm::dvec3(0, 2, 0), 0})),
+              "collider[0].shape.plane = [0, 2, 0]: must be of length 1");
+    EXPECT_NO_THROW(load(std::string(kBall) + "[[collider]]\nshape = {plane = [1e-9, 2e5, 0]}"));
+}
+
+// As cosines of right angles are.
+TEST_F(Validation, TakesCoordinatesThatRoundingLeavesOfZero) {
+    EXPECT_EQ(error_of(BREAKS(s.objects[0].position.x = 6e-17)), "no error");
+}
+
+TEST_F(Validation, NamesTheFileOfASceneThatAProgramHasChanged) {
+    Scene scene = load(kBall);
+    scene.simulation.substeps = 0;
+    try {
+        validate(scene);
+        FAIL();
+    } catch (const InvalidInput& problem) {
+        EXPECT_EQ(problem.problem().file, scene.file.string());
+        EXPECT_EQ(problem.problem().field, "simulation.substeps");
+        EXPECT_EQ(problem.problem().value, "0");
+    }
+}
+
+// Copies are placed by their original's table.
+TEST_F(Validation, TellsOfCopiesWhatTheirOwnValueIs) {
+    EXPECT_EQ(file_error("[[material]]\nname = 'jelly'\n[[object]]\nname = 'b'\nshape = {sphere = 1}\n"
+                         "position = [1e15, 0, 0]\ncopies = {counts = [2, 1, 1], spacing = [1e15, 1, 1]}"),
+              "object.b.position[0] = 1000000000000000: 1500000000000000 must be 0 or of a magnitude from "
+              "1e-15 to 1e15");
+}
+
+}  // namespace
+}  // namespace gelatin::test
