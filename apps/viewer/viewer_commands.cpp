@@ -1,5 +1,5 @@
 // ViewerApp: what a user asks for by keys and panels, and the files that come of it.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <glm/geometric.hpp>

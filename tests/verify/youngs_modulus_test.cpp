@@ -2,7 +2,7 @@
 // its ends between smooth plates, sides free, is a bar of uniform stress, E = (force / area) / (stretch /
 // length). Measured on the packed model, at rest, to first order. The paper's springs beside it, for what the
 // fit gains.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

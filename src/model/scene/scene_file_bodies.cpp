@@ -1,6 +1,6 @@
 #include "model/scene/scene_file_bodies.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <unordered_map>
