@@ -1,6 +1,6 @@
 #include "bench/paper.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdio>

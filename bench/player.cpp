@@ -1,6 +1,6 @@
 #include "bench/player.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <chrono>
 

@@ -1,8 +1,7 @@
 #include "bench/report.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
-#include "bench/bar_chart.h"
 #include "bench/markdown_table.h"
 #include "core/file.h"
 
@@ -89,26 +88,6 @@ same share as in a whole run. "Until contact" excludes all frames from the first
 The paper's machine: GeForce GTX 760 Ti, Core i7-3770K; all its frames are drawn.
 )";
 
-BarChart chart_of(const PaperBench& bench) {
-    BarChart chart{"Frames per second, more is better", {"published", "here, drawn", "here, undrawn"}, {}};
-    for (const BenchSceneFacts& facts : bench.scenes) {
-        BarChart::Panel panel{name_of_scene(facts.scene), {}};
-        for (const BenchResult& result : bench.results) {
-            if (result.scene != facts.scene) continue;
-            const std::string& name = result.system.name;
-            if (panel.groups.empty() || panel.groups.back().label != name) {
-                const double paper = result.paper_fps();
-                panel.groups.push_back({name, {{0, paper, paper, paper}}});
-            }
-            const BenchSpread spread = result.spread();
-            panel.groups.back().bars.push_back(
-                {result.drawn ? 1u : 2u, spread.mean, spread.least, spread.most});
-        }
-        chart.panels.push_back(std::move(panel));
-    }
-    return chart;
-}
-
 }  // namespace
 
 std::string bench_tables(const PaperBench& bench) {
@@ -121,13 +100,10 @@ std::string bench_tables(const PaperBench& bench) {
 }
 
 void write_bench_report(const std::filesystem::path& file, const PaperBench& bench) {
-    std::filesystem::path chart = file;
-    chart.replace_extension(".svg");
-    if (!is_stream(file)) write_file(chart, to_svg(chart_of(bench)));
-    write_file(file,
-               fmt::format("# The paper's benchmark\n\n`gelatin bench paper`\n\n{}\n"
-                           "![Frames per second]({})\n\n{}{}",
-                           machine_table(bench), chart.filename().string(), bench_tables(bench), kMethod));
+    const std::string chart = file.stem().string() + ".svg";
+    write_file(file, fmt::format("# The paper's benchmark\n\n`gelatin bench paper`\n\n{}\n"
+                                 "![Frames per second]({})\n\n{}{}",
+                                 machine_table(bench), chart, bench_tables(bench), kMethod));
 }
 
 }  // namespace gelatin

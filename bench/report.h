@@ -14,8 +14,8 @@ std::string bench_tables(const PaperBench& bench);
 /// One JSON object; docs/command-line.md lists its keys.
 std::string bench_json(const PaperBench& bench);
 
-/// Writes the tables with everything that they depend on, but no date, to `file` (.md), and a chart beside it
-/// (.svg).
+/// Writes the tables with all that they depend on, but no date, to `file` (.md). It shows the picture of its
+/// name (.svg), which scripts/plot_bench draws of the JSON file of its name.
 /// @throws SystemError
 void write_bench_report(const std::filesystem::path& file, const PaperBench& bench);
 

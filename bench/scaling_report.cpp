@@ -1,11 +1,9 @@
 #include "bench/scaling_report.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
-#include <algorithm>
 #include <array>
 
-#include "bench/bar_chart.h"
 #include "bench/markdown_table.h"
 #include "core/file.h"
 #include "sim/report.h"
@@ -96,53 +94,20 @@ std::string ratio_table(const std::vector<BenchRatio>& ratios) {
 struct PartReport {
     const char* title;
     std::string (*table)(const std::vector<const ScalingResult*>&);
-    const char* chart_title;
-    double (*chart_value)(const ScalingResult&);
 };
 
 PartReport report_of(ScalingPart part) {
-    const auto per_face = [](const ScalingResult& r) {
-        return kNanoseconds * r.step().median / static_cast<double>(r.faces);
-    };
-    const auto per_object = [](const ScalingResult& r) {
-        return kMicroseconds * r.step().median / static_cast<double>(r.objects);
-    };
     switch (part) {
         case ScalingPart::two_bodies:
-            return {"Two bodies of 8,000 faces", two_bodies_table,
-                    "Two bodies of 8,000 faces: refit and query [ms]",
-                    [](const ScalingResult& r) { return r.step().median; }};
+            return {"Two bodies of 8,000 faces", two_bodies_table};
         case ScalingPart::faces:
-            return {"By number of faces: two bodies that touch", faces_table,
-                    "By number of faces: refit and query [ns a face]", per_face};
+            return {"By number of faces: two bodies that touch", faces_table};
         case ScalingPart::objects:
-            return {"By number of objects of 80 faces", objects_table,
-                    "By number of objects: a step [us an object]", per_object};
+            return {"By number of objects of 80 faces", objects_table};
         case ScalingPart::self_collision:
             break;
     }
-    return {"Undeformed bodies with themselves", self_collision_table,
-            "Undeformed bodies with themselves [% of advance_nodes]",
-            [](const ScalingResult& r) { return 100.0 * self_share(r); }};
-}
-
-BarChart chart_of(const ScalingBench& bench) {
-    BarChart chart{"Cost of collision by size, less is better", bench.systems(), {}};
-    for (const ScalingPart part : kParts) {
-        BarChart::Panel panel{report_of(part).chart_title, {}};
-        for (const ScalingResult* result : results_of(bench, part)) {
-            std::string label = result->scene;
-            if (part == ScalingPart::two_bodies) label += std::string(", ") + name_of(result->broad_phase);
-            if (panel.groups.empty() || panel.groups.back().label != label)
-                panel.groups.push_back({label, {}});
-            const auto series = std::find(chart.series.begin(), chart.series.end(), result->system);
-            const double value = report_of(part).chart_value(*result);
-            panel.groups.back().bars.push_back(
-                {static_cast<std::size_t>(series - chart.series.begin()), value, value, value});
-        }
-        if (!panel.groups.empty()) chart.panels.push_back(std::move(panel));
-    }
-    return chart;
+    return {"Undeformed bodies with themselves", self_collision_table};
 }
 
 constexpr const char* kMethod = R"(
@@ -177,15 +142,13 @@ std::string scaling_tables(const ScalingBench& bench) {
 }
 
 void write_scaling_report(const std::filesystem::path& file, const ScalingBench& bench) {
-    std::filesystem::path chart = file;
-    chart.replace_extension(".svg");
-    if (!is_stream(file)) write_file(chart, to_svg(chart_of(bench)));
+    const std::string chart = file.stem().string() + ".svg";
     MarkdownTable machine({"", ""}, {});
     add_machine_rows(bench.machine, machine);
     machine.add({"settings", fmt::format("`--runs {}`", bench.options.runs)});
     write_file(file, fmt::format("# Collision by size\n\n`gelatin bench scaling`\n\n{}\n"
                                  "![Time by size]({})\n\n{}{}",
-                                 machine.text(), chart.filename().string(), scaling_tables(bench), kMethod));
+                                 machine.text(), chart, scaling_tables(bench), kMethod));
 }
 
 }  // namespace gelatin

@@ -1,6 +1,6 @@
 #include "bench/threads.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <tbb/info.h>
 
 namespace gelatin {

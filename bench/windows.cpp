@@ -1,6 +1,6 @@
 #include "bench/windows.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdint>

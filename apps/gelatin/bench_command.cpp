@@ -32,8 +32,7 @@ void add_paper(CLI::App& bench) {
     CLI::App* paper = bench.add_subcommand(
         "paper", "Frames per second of the paper's two simulations, compared with the paper");
     paper->add_option("--json", options->json, "Also write the figures to this file")->type_name("FILE.json");
-    paper->add_option("--report", options->report, "Also write a report, and a chart beside it (.svg)")
-        ->type_name("FILE.md");
+    paper->add_option("--report", options->report, "Also write a report (.md)")->type_name("FILE.md");
     paper->add_option("--runs", options->runs, "Runs of each system; the mean counts")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
@@ -69,8 +68,7 @@ void add_scaling(CLI::App& bench) {
         "scaling", "Cost of collision by number of faces and objects, with trees and by brute force");
     scaling->add_option("--json", options->json, "Also write the figures to this file")
         ->type_name("FILE.json");
-    scaling->add_option("--report", options->report, "Also write a report, and a chart beside it (.svg)")
-        ->type_name("FILE.md");
+    scaling->add_option("--report", options->report, "Also write a report (.md)")->type_name("FILE.md");
     scaling->add_option("--runs", options->runs, "Samples of each measurement; the median counts")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();

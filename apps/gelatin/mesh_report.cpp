@@ -1,6 +1,6 @@
 #include "mesh_report.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdio>

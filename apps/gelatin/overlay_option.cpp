@@ -1,6 +1,6 @@
 #include "overlay_option.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

@@ -1,6 +1,6 @@
 #include "markers.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <glm/geometric.hpp>
 

@@ -1,6 +1,6 @@
 #include "projectile.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

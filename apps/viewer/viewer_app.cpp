@@ -1,6 +1,6 @@
 #include "viewer_app.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <glm/common.hpp>
 #include <utility>
@@ -179,7 +179,7 @@ void ViewerApp::notify(const std::string& notice) {
 
 void ViewerApp::fail(const std::string& problem) {
     if (problem == problem_) return;
-    spdlog::error("{}", problem.substr(0, problem.find('\n')));
+    log_error(problem.substr(0, problem.find('\n')));
     problem_ = problem;
 }
 

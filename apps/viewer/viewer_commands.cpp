@@ -1,5 +1,5 @@
 // ViewerApp: the commands of keys and panels, and the files that they write.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <glm/geometric.hpp>

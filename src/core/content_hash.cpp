@@ -1,6 +1,6 @@
 #include "core/content_hash.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <xxhash.h>
 
 namespace gelatin {

@@ -1,6 +1,6 @@
 #include "core/disk_cache.h"
 
-#include <spdlog/spdlog.h>
+#include <fmt/core.h>
 
 #include <cstdint>
 #include <cstdlib>
@@ -11,6 +11,7 @@
 
 #include "core/content_hash.h"
 #include "core/file.h"
+#include "core/log.h"
 #include "gelatin/error.h"
 
 namespace gelatin {
@@ -84,10 +85,10 @@ void DiskCache::store(const std::string& key, const std::string& content) const 
         fs::create_directories(folder_);
         write_file(entry(key), whole);
     } catch (const fs::filesystem_error& error) {
-        spdlog::warn("{} cannot be cached for the next run: {}: {}", what_, folder_.string(),
-                     error.code().message());
+        log_warning(fmt::format("{} cannot be cached for the next run: {}: {}", what_, folder_.string(),
+                                error.code().message()));
     } catch (const SystemError& error) {
-        spdlog::warn("{} cannot be cached for the next run: {}", what_, error.what());
+        log_warning(fmt::format("{} cannot be cached for the next run: {}", what_, error.what()));
     }
 }
 

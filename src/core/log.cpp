@@ -1,6 +1,7 @@
 #include "core/log.h"
 
 #include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
 
 namespace gelatin {
 
@@ -10,6 +11,18 @@ void set_up_log(bool verbose) {
     logger->set_pattern("%n: %l: %v");
     logger->set_level(verbose ? spdlog::level::info : spdlog::level::warn);
     spdlog::set_default_logger(std::move(logger));
+}
+
+void log_info(std::string_view message) {
+    spdlog::info(message);
+}
+
+void log_warning(std::string_view message) {
+    spdlog::warn(message);
+}
+
+void log_error(std::string_view message) {
+    spdlog::error(message);
 }
 
 }  // namespace gelatin

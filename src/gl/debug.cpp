@@ -1,11 +1,11 @@
 #include "gl/debug.h"
 
 #include <epoxy/gl.h>
-#include <spdlog/spdlog.h>
 
 #include <mutex>
 #include <utility>
 
+#include "core/log.h"
 #include "gelatin/error.h"
 
 namespace gelatin::gl {
@@ -42,7 +42,7 @@ void APIENTRY receive(GLenum, GLenum type, GLuint, GLenum severity, GLsizei leng
     while (!message.empty() && message.back() == '\n') message.pop_back();
     const std::lock_guard lock(messages_mutex);
     if (messages.size() >= kMaxMessages) return;
-    spdlog::warn("{}", message);
+    log_warning(message);
     messages.push_back(std::move(message));
 }
 

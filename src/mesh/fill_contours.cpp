@@ -1,7 +1,7 @@
 #include "mesh/fill_contours.h"
 
 #include <GL/glu.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <deque>

@@ -1,6 +1,6 @@
 #include "mesh/surface_check.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

@@ -2,7 +2,7 @@
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "mesh/text_outline.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <ft2build.h>
 
 #include <algorithm>

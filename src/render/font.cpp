@@ -24,7 +24,7 @@ std::optional<FontFace> open_face() {
         } catch (const InvalidInput&) {  // the next one, then
         }
     }
-    if (!has_warned) spdlog::warn("no font is installed: pictures have no text");
+    if (!has_warned) log_warning("no font is installed: pictures have no text");
     has_warned = true;
     return std::nullopt;
 }

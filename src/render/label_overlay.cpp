@@ -1,6 +1,7 @@
 #include "render/label_overlay.h"
 
 #include <epoxy/gl.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -78,8 +79,8 @@ void LabelOverlay::paint_names() {
         const int width = std::min(text.width + 2 * kRim, kAtlasWidth);
         const std::optional<glm::ivec2> corner = atlas.find_place(width);
         if (!corner) {
-            spdlog::warn("the names of {} objects do not fit into one texture and are not drawn",
-                         names_.size() - o);
+            log_warning(fmt::format("the names of {} objects do not fit into one texture and are not drawn",
+                                    names_.size() - o));
             break;
         }
         atlas.add(text, *corner, width);

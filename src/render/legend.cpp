@@ -1,7 +1,7 @@
 #include "render/legend.h"
 
 #include <epoxy/gl.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,7 @@
 #include "sim/backend.h"
 
+#include <fmt/core.h>
+
 #include "core/log.h"
 #include "gelatin/error.h"
 #include "gl/debug.h"
@@ -34,7 +36,7 @@ std::optional<gl::Context> make_context(const SimulatorOptions& options) {
         return context;
     } catch (const NoOpenGl& problem) {
         if (needed) throw;
-        spdlog::info("simulating on the CPU: {}", problem.what());
+        log_info(fmt::format("simulating on the CPU: {}", problem.what()));
         return std::nullopt;
     }
 }

@@ -1,6 +1,6 @@
 #include "sim/check_starts.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <glm/geometric.hpp>

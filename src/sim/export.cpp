@@ -1,6 +1,6 @@
 #include "sim/export.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <system_error>

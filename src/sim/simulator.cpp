@@ -1,6 +1,6 @@
 #include "gelatin/simulator.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <deque>
@@ -87,10 +87,10 @@ struct Simulator::Impl {
     ProximityStatistics take_proximities() {
         const ProximityMeasure measure = solver->proximities();
         if (measure.lost > 0 && !lost_proximities) {
-            spdlog::warn(
+            log_warning(fmt::format(
                 "{} proximities were not stored: too many for the GPU's buffers; choose a smaller "
                 "proximity_radius",
-                measure.lost);
+                measure.lost));
             lost_proximities = true;
         }
         return {measure.node_face, measure.edge_edge, measure.lost, measure.nearest};
@@ -120,9 +120,9 @@ struct Simulator::Impl {
     void warn_of_lost_pairs() {
         const std::uint32_t lost = solver->lost_pairs();
         if (lost == reported_losses) return;
-        spdlog::warn(
+        log_warning(fmt::format(
             "{} pairs of objects or faces were not tested for collision: too many for the GPU's buffers",
-            lost - reported_losses);
+            lost - reported_losses));
         reported_losses = lost;
     }
 
@@ -151,10 +151,10 @@ Simulator::Simulator(const Scene& scene, std::shared_ptr<const Model> model, con
     d.watch.emplace(d.scene, d.model, d.substeps);
     d.drags.emplace(d.model);
     if (start) d.watch->begin(*start, {});
-    for (const std::string& line : check_model(*d.model, scene, d.step_size())) spdlog::warn(line);
+    for (const std::string& line : check_model(*d.model, scene, d.step_size())) log_warning(line);
     for (const std::string& line :
          check_starts(*d.model, scene, start ? start->positions : d.model->positions))
-        spdlog::warn(line);
+        log_warning(line);
 }
 
 Simulator::Simulator(Simulator&&) noexcept = default;

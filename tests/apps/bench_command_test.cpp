@@ -139,7 +139,7 @@ TEST_F(BenchPaper, SamplesWhatTakesTooLong) {
     }
 }
 
-TEST_F(BenchPaper, WritesAReportWithAChart) {
+TEST_F(BenchPaper, WritesAReport) {
     const ProgramResult result = bench({"--runs", "1", "--only", "free fall, fast", "--report", "r.md"}, 10);
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const std::string report = read_file(path("r.md"));
@@ -147,14 +147,6 @@ TEST_F(BenchPaper, WritesAReportWithAChart) {
     EXPECT_THAT(report, HasSubstr(result.out));
     EXPECT_THAT(report, HasSubstr("-ffp-contract=off"));
     EXPECT_THAT(report, Not(HasSubstr(path("").string())));
-    const std::string chart = read_file(path("r.svg"));
-    EXPECT_THAT(chart, HasSubstr(">free fall</text>"));
-    EXPECT_THAT(chart, Not(HasSubstr(">collision</text>")));
-    EXPECT_THAT(chart, HasSubstr(">132</text>"));  // the paper's
-    EXPECT_EQ(run_program({"python3", "-c", "import sys, xml.dom.minidom as x; x.parse(sys.argv[1])",
-                           path("r.svg").string()})
-                  .exit_code,
-              0);
 }
 
 TEST_F(BenchPaper, FindsTheScenes) {

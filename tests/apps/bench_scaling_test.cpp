@@ -136,7 +136,7 @@ TEST_F(BenchScaling, ComparesWaysAndSizes) {
                 1e-9);
 }
 
-TEST_F(BenchScaling, WritesAReportWithAChart) {
+TEST_F(BenchScaling, WritesAReport) {
     const ProgramResult result = bench({"--only", "apart, hierarchy, OpenGL", "--report", "r.md"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const std::string report = read_file(path("r.md"));
@@ -145,11 +145,6 @@ TEST_F(BenchScaling, WritesAReportWithAChart) {
     EXPECT_THAT(report, HasSubstr("-ffp-contract=off"));
     EXPECT_THAT(result.out, HasSubstr("| 10 apart | OpenGL |"));
     EXPECT_THAT(result.out, Not(HasSubstr("touching")));
-    EXPECT_THAT(read_file(path("r.svg")), HasSubstr(">10 apart</text>"));
-    EXPECT_EQ(run_program({"python3", "-c", "import sys, xml.dom.minidom as x; x.parse(sys.argv[1])",
-                           path("r.svg").string()})
-                  .exit_code,
-              0);
 }
 
 TEST_F(BenchScaling, RefusesWhatItCannotDo) {

@@ -44,7 +44,8 @@ INSTANTIATE_MUTANTS(ContinuousCollisions, kContinuousMutants, continuous_collisi
 INSTANTIATE_MUTANTS(Depth, kDepthMutants, joined({far_pair_scenarios(), collision_scenarios()}));
 INSTANTIATE_MUTANTS(Responses, kResponseMutants, response_scenarios());
 INSTANTIATE_MUTANTS(SelfCollisions, kSelfCollisionMutants,
-                    joined({self_collision_scenarios(), calm_scenarios(), self_response_scenarios()}));
+                    joined({self_collision_scenarios(), calm_scenarios()}));
+INSTANTIATE_MUTANTS(SelfResponses, kSelfResponseMutants, self_response_scenarios());
 INSTANTIATE_MUTANTS(Proximities, kProximityMutants, proximity_scenarios());
 INSTANTIATE_MUTANTS(Marks, kMarkMutants, mark_scenarios());
 

@@ -91,7 +91,7 @@ inline constexpr Mutant kResponseMutants[] = {
     {"the_contact_stands_still", "sim/collision/respond.comp", " - time_step * response.velocity.xyz", ""},
 };
 
-// Of the stages of self-collision.
+/// Of the detection of self-collision.
 inline constexpr Mutant kSelfCollisionMutants[] = {
     {"a_chunk_forgets_lanes", "sim/collision/fit_rest_shapes.comp", "l < 64u", "l < 32u"},
     {"the_map_is_of_the_first_chunk", "sim/collision/fit_rest_shapes.comp", "c < end; ++c",
@@ -121,6 +121,10 @@ inline constexpr Mutant kSelfCollisionMutants[] = {
     {"walks_skip_too_far", "sim/collision/own_tree.glsl", "near ? walk.node + 1u : node.x", "node.x"},
     {"one_face_of_two_is_told", "sim/collision/test_own_face_pairs.comp",
      "count_contact(face_pair.other_face);", ""},
+};
+
+/// Of responses to self-collision.
+inline constexpr Mutant kSelfResponseMutants[] = {
     {"nodes_keep_their_velocity", "sim/collision/respond_to_self.comp",
      "velocities[n].xyz += velocity / shares;", ""},
     {"nodes_do_not_go_back", "sim/collision/respond_to_self.comp", "positions[n].xyz += way / shares;", ""},

@@ -1,6 +1,6 @@
 #include "support/collision_scenarios.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "support/mutants.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <stdexcept>
 #include <string_view>

@@ -1,6 +1,6 @@
 #include "support/solver_scenarios.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // Vertex block descent comes to the step of implicit Euler that Newton's method finds.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

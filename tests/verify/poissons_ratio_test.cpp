@@ -1,7 +1,7 @@
 // Poisson's ratio in explicit solvers: a free bar of fitted springs, pulled by tractions at its ends and
 // damped until it rests, is one of uniform stress, E = traction / strain. It must come to where statics says,
 // which knows the volume term apart from them.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>

@@ -1,7 +1,7 @@
 // Bodies have the requested Young's modulus, and Poisson's ratio 1/4. A bar pulled at its ends between smooth
 // plates, with free sides, has uniform stress, E = (force / area) / (stretch / length). Measured on the
 // packed model, at rest, to first order. The paper's springs are measured too, to show what the fit gains.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

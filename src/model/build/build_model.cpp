@@ -1,6 +1,6 @@
 #include "model/build/build_model.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cassert>

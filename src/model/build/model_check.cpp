@@ -1,6 +1,6 @@
 #include "model/build/model_check.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <glm/common.hpp>

@@ -1,5 +1,7 @@
 #include "model/build/object_mesh.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -34,10 +36,10 @@ TetMesh make_local_mesh(const ObjectDescription& object, Notes& notes) {
 void warn_of_a_poor_fit(const FittedSprings& springs, const std::string& name) {
     constexpr double kMuch = 0.2;
     if (springs.softest > 1.0 - kMuch && springs.stiffest < 1.0 + kMuch) return;
-    spdlog::warn(
+    log_warning(fmt::format(
         "object '{}': on its mesh springs give {:.2f} to {:.2f} of youngs_modulus, depending on direction; "
         "more nodes across it, or tets of more even shape (mesher.max_volume, mesher.quality), help",
-        name, springs.softest, springs.stiffest);
+        name, springs.softest, springs.stiffest));
 }
 
 }  // namespace
@@ -66,7 +68,7 @@ ObjectMesher::Known& ObjectMesher::local(const ObjectDescription& object) {
     if (same != known_.rend()) return *same;
     Notes notes;
     TetMesh mesh = make_local_mesh(object, notes);
-    for (const std::string& note : notes) spdlog::warn("object '{}': {}", object.name, note);
+    for (const std::string& note : notes) log_warning(fmt::format("object '{}': {}", object.name, note));
     return known_.emplace_back(Known{object.shape, object.mesher, std::move(mesh), nullptr});
 }
 

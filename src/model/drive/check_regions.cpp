@@ -1,6 +1,6 @@
 #include "model/drive/check_regions.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

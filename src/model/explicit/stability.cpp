@@ -1,6 +1,6 @@
 #include "model/explicit/stability.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "model/scene/scene_file_copies.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cstdint>
 #include <random>

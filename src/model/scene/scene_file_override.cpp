@@ -1,6 +1,6 @@
 #include "model/scene/scene_file_override.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cctype>

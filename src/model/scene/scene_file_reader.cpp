@@ -1,6 +1,6 @@
 #include "model/scene/scene_file_reader.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
