@@ -6,6 +6,7 @@
 
 #include "gelatin/error.h"
 #include "gl/debug.h"
+#include "gl/hazards.h"
 
 namespace gelatin::gl {
 namespace {
@@ -47,6 +48,7 @@ RawBuffer::RawBuffer(std::size_t bytes, const void* data, Use use) : bytes_(byte
     }
     check_errors("before a buffer's allocation");
     glGenBuffers(1, &id_);
+    if (hazard_probe != nullptr) hazard_probe->resets(id_);
     glBindBuffer(GL_COPY_WRITE_BUFFER, id_);
     glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_DYNAMIC_COPY);
     if (glGetError() != GL_NO_ERROR) {
@@ -63,11 +65,14 @@ RawBuffer& RawBuffer::operator=(RawBuffer&& other) noexcept {
 }
 
 RawBuffer::~RawBuffer() {
-    if (id_ != 0) glDeleteBuffers(1, &id_);
+    if (id_ == 0) return;
+    if (hazard_probe != nullptr) hazard_probe->resets(id_);
+    glDeleteBuffers(1, &id_);
 }
 
 void RawBuffer::upload(std::size_t offset, std::size_t bytes, const void* data) {
     if (bytes == 0) return;
+    if (hazard_probe != nullptr) hazard_probe->uploads(id_, bytes == bytes_);
     glBindBuffer(GL_COPY_WRITE_BUFFER, id_);
     glBufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
                     data);
@@ -75,6 +80,7 @@ void RawBuffer::upload(std::size_t offset, std::size_t bytes, const void* data) 
 
 void RawBuffer::download(std::size_t offset, std::size_t bytes, void* out) const {
     if (bytes == 0) return;
+    if (hazard_probe != nullptr) hazard_probe->downloads(id_);
     glBindBuffer(GL_COPY_READ_BUFFER, id_);
     glGetBufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
                        out);
@@ -82,6 +88,7 @@ void RawBuffer::download(std::size_t offset, std::size_t bytes, void* out) const
 
 void RawBuffer::fill(std::uint32_t value) {
     if (bytes_ == 0) return;
+    if (hazard_probe != nullptr) hazard_probe->clears(id_);
     glBindBuffer(GL_COPY_WRITE_BUFFER, id_);
     glClearBufferData(GL_COPY_WRITE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &value);
 }

@@ -7,6 +7,7 @@
 
 #include "gelatin/error.h"
 #include "gl/debug.h"
+#include "gl/hazards.h"
 #include "gl/shader_source.h"
 
 namespace gelatin::gl {
@@ -35,6 +36,7 @@ public:
     ~Shader() { glDeleteShader(id_); }
 
     GLuint id() const { return id_; }
+    const ShaderSource& source() const { return source_; }
 
 private:
     std::string log() const {
@@ -60,6 +62,12 @@ std::string program_log(GLuint program) {
     return text;
 }
 
+void note_link(GLuint program, std::initializer_list<const Shader*> shaders, const std::string& name) {
+    std::vector<const ShaderSource*> sources;
+    for (const Shader* shader : shaders) sources.push_back(&shader->source());
+    hazard_probe->linked(program, name, sources);
+}
+
 GLuint link(std::initializer_list<const Shader*> shaders, const std::string& name) {
     const GLuint program = glCreateProgram();
     for (const Shader* shader : shaders) glAttachShader(program, shader->id());
@@ -67,7 +75,10 @@ GLuint link(std::initializer_list<const Shader*> shaders, const std::string& nam
     for (const Shader* shader : shaders) glDetachShader(program, shader->id());
     GLint linked = GL_FALSE;
     glGetProgramiv(program, GL_LINK_STATUS, &linked);
-    if (linked) return program;
+    if (linked) {
+        if (hazard_probe != nullptr) note_link(program, shaders, name);
+        return program;
+    }
     const std::string message = name + " does not link:\n" + program_log(program);
     glDeleteProgram(program);
     throw GlError(message);
@@ -163,6 +174,7 @@ void Program::dispatch(std::size_t invocations, std::uint32_t group_size) const 
     // Rows of equal length leave fewer groups over than full rows and a rest.
     const std::size_t columns = (groups + rows - 1) / rows;
     glUseProgram(id_);
+    if (hazard_probe != nullptr) hazard_probe->dispatches(id_);
     glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(rows), 1);
     check_errors("glDispatchCompute");
 }
@@ -170,22 +182,9 @@ void Program::dispatch(std::size_t invocations, std::uint32_t group_size) const 
 void Program::dispatch_indirect(unsigned arguments, std::size_t offset) const {
     glUseProgram(id_);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, arguments);
+    if (hazard_probe != nullptr) hazard_probe->dispatches_indirectly(id_, arguments);
     glDispatchComputeIndirect(static_cast<GLintptr>(offset));
     check_errors("glDispatchComputeIndirect");
-}
-
-void barrier(Barrier next_use) {
-    const auto asks = [next_use](Barrier use) {
-        return (static_cast<unsigned>(next_use) & static_cast<unsigned>(use)) != 0;
-    };
-    GLbitfield bits = 0;
-    if (asks(Barrier::storage)) bits |= GL_SHADER_STORAGE_BARRIER_BIT;
-    if (asks(Barrier::texture_fetch)) bits |= GL_TEXTURE_FETCH_BARRIER_BIT;
-    if (asks(Barrier::vertex_pull)) bits |= GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT;
-    if (asks(Barrier::buffer_update)) bits |= GL_BUFFER_UPDATE_BARRIER_BIT;
-    if (asks(Barrier::command)) bits |= GL_COMMAND_BARRIER_BIT;
-    if (asks(Barrier::pixel_unpack)) bits |= GL_PIXEL_BUFFER_BARRIER_BIT;
-    glMemoryBarrier(bits);
 }
 
 void finish() {

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "gl/barrier.h"
+
 namespace gelatin::gl {
 
 /// "NAME" or "NAME VALUE", inserted as #define after the version line.
@@ -57,20 +59,6 @@ public:
 private:
     unsigned id_ = 0;
 };
-
-/// What the work after the barrier will do with the data written before it (glMemoryBarrier).
-enum class Barrier : unsigned {
-    storage = 1,        ///< read or write as a storage block
-    texture_fetch = 2,  ///< texelFetch from a samplerBuffer
-    vertex_pull = 4,    ///< element or vertex arrays
-    buffer_update = 8,  ///< copies, mapping, download
-    command = 16,       ///< indirect dispatch or draw
-    pixel_unpack = 32,  ///< upload to a texture
-};
-constexpr Barrier operator|(Barrier a, Barrier b) {
-    return static_cast<Barrier>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
-}
-void barrier(Barrier next_use);
 
 /// Waits until the GPU has done everything it was told.
 void finish();

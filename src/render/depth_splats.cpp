@@ -7,6 +7,8 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <string>
 
+#include "gl/hazards.h"
+
 namespace gelatin::render {
 namespace {
 
@@ -62,6 +64,7 @@ void DepthSplats::draw(std::span<const DepthMap> maps, std::initializer_list<con
     // Into the textures now, and filled anew for the next frame.
     gl::barrier(gl::Barrier::pixel_unpack | gl::Barrier::buffer_update);
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, depths_.id());
+    if (gl::hazard_probe != nullptr) gl::hazard_probe->uploads_to_texture(depths_.id());
     glActiveTexture(GL_TEXTURE0);
     std::size_t start = 0;
     for (const DepthMap& map : maps) {
