@@ -1,4 +1,4 @@
-// The README's example: run a scene and ask where its bodies are.
+// The example in README.md: simulates one second of a scene and prints statistics.
 #include <cstdio>
 
 #include "gelatin/scene.h"
@@ -9,6 +9,6 @@ int main(int argc, char** argv) {
     for (int f = 0; f < 240; ++f) simulator.advance_frame();
     simulator.begin_statistics();
     const gelatin::FrameStatistics now = simulator.take_statistics();
-    std::printf("after %.2f s: %.1f J in motion, %zu nodes touch the floor\n", now.time, now.kinetic_energy,
+    std::printf("after %.2f s: kinetic energy %.1f J, %zu nodes on the floor\n", now.time, now.kinetic_energy,
                 now.contacts);
 }

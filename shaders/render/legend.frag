@@ -1,7 +1,6 @@
 // A picture in the lower left corner of the other, pixel on pixel.
 layout(binding = 7) uniform sampler2D legend;
-uniform int enlargement;
 
 layout(location = 0) out vec4 pixel;
 
-void main() { pixel = texelFetch(legend, ivec2(gl_FragCoord.xy) / enlargement, 0); }
+void main() { pixel = texelFetch(legend, ivec2(gl_FragCoord.xy), 0); }

@@ -6,14 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <memory>
+#include <optional>
 #include <utility>
 
-#include FT_FREETYPE_H
 #include FT_OUTLINE_H
 
+#include "core/utf8.h"
 #include "gelatin/error.h"
-#include "mesh/find_font.h"
+#include "mesh/font_face.h"
 
 namespace gelatin {
 
@@ -23,56 +23,18 @@ constexpr double kFlatness = 5e-3;     // largest distance of a polygon from its
 constexpr double kLeastLength = 1e-3;  // of a polygon's edge; shorter ones make mesh generators stumble [em]
 constexpr double kLeastHeight = 1e-5;  // of a point above the line between its neighbours [em]
 
-using Library = std::unique_ptr<FT_LibraryRec_, decltype(&FT_Done_FreeType)>;
-using Face = std::unique_ptr<FT_FaceRec_, decltype(&FT_Done_Face)>;
-
-Library start_freetype() {
-    FT_Library library = nullptr;
-    if (FT_Init_FreeType(&library) != 0) throw SystemError("FreeType cannot be started");
-    return {library, FT_Done_FreeType};
-}
-
-Face open_face(const Library& library, const std::string& font) {
-    const FontFile found = find_font(font);
-    FT_Face face = nullptr;
-    if (FT_New_Face(library.get(), found.file.c_str(), found.index, &face) != 0) {
-        throw InvalidInput({found.file.string(), 0, {}, {}, "FreeType cannot read this as a font file"});
-    }
-    if (!FT_IS_SCALABLE(face)) {
-        FT_Done_Face(face);
-        throw InvalidInput(
-            {found.file.string(), 0, {}, {}, "this font is made of pixels; one with outlines is needed"});
-    }
-    return {face, FT_Done_Face};
-}
-
-/// @throws InvalidInput at the first byte that is not UTF-8 (overlong forms and surrogates are not).
-std::vector<char32_t> decode_utf8(const std::string& text) {
+/// @throws InvalidInput at the first byte that is not UTF-8
+std::vector<char32_t> decode(const std::string& text) {
     std::vector<char32_t> letters;
     for (std::size_t k = 0; k < text.size();) {
-        const auto first = static_cast<unsigned char>(text[k]);
-        const int more = first < 0x80   ? 0
-                         : first < 0xc0 ? -1
-                         : first < 0xe0 ? 1
-                         : first < 0xf0 ? 2
-                         : first < 0xf8 ? 3
-                                        : -1;
-        char32_t letter = more <= 0 ? first : first & (0x3fu >> more);
-        bool is_valid = more >= 0 && k + static_cast<std::size_t>(more) < text.size();
-        for (int m = 1; is_valid && m <= more; ++m) {
-            const auto next = static_cast<unsigned char>(text[k + static_cast<std::size_t>(m)]);
-            is_valid = (next & 0xc0) == 0x80;
-            letter = letter << 6 | (next & 0x3fu);
-        }
-        constexpr char32_t kSmallest[] = {0, 0x80, 0x800, 0x10000};
-        is_valid = is_valid && letter >= kSmallest[more] && letter <= 0x10ffff &&
-                   (letter < 0xd800 || letter > 0xdfff);
-        if (!is_valid) {
+        const std::size_t begin = k;
+        const std::optional<char32_t> letter = next_code_point(text, k);
+        if (!letter) {
+            const auto byte = static_cast<unsigned char>(text[begin]);
             throw InvalidInput(
-                {{}, 0, "text", {}, fmt::format("byte {} is not UTF-8: {:#04x}", k + 1, first)});
+                {{}, 0, "text", {}, fmt::format("byte {} is not UTF-8: {:#04x}", begin + 1, byte)});
         }
-        letters.push_back(letter);
-        k += 1 + static_cast<std::size_t>(more);
+        letters.push_back(*letter);
     }
     return letters;
 }
@@ -151,9 +113,9 @@ Contour clean(const Contour& contour) {
 }  // namespace
 
 std::vector<Contour> outline_text(const std::string& text, const std::string& font) {
-    const std::vector<char32_t> letters = decode_utf8(text);
-    const Library library = start_freetype();
-    const Face face = open_face(library, font);
+    const std::vector<char32_t> letters = decode(text);
+    const FontFace font_face(font);
+    const FT_Face face = font_face.get();
     const double em = face->units_per_EM;
 
     std::vector<Contour> contours;
@@ -166,8 +128,8 @@ std::vector<Contour> outline_text(const std::string& text, const std::string& fo
             previous = 0;
             continue;
         }
-        const FT_UInt glyph = FT_Get_Char_Index(face.get(), letter);
-        if (glyph == 0 || FT_Load_Glyph(face.get(), glyph, FT_LOAD_NO_SCALE) != 0) {
+        const FT_UInt glyph = FT_Get_Char_Index(face, letter);
+        if (glyph == 0 || FT_Load_Glyph(face, glyph, FT_LOAD_NO_SCALE) != 0) {
             throw InvalidInput({{},
                                 0,
                                 "text",
@@ -175,7 +137,7 @@ std::vector<Contour> outline_text(const std::string& text, const std::string& fo
                                 "the font \"" + font + "\" has no such letter"});
         }
         FT_Vector kerning{0, 0};
-        FT_Get_Kerning(face.get(), previous, glyph, FT_KERNING_UNSCALED, &kerning);
+        FT_Get_Kerning(face, previous, glyph, FT_KERNING_UNSCALED, &kerning);
         walker.origin.x += static_cast<double>(kerning.x) / em;
         FT_Outline_Decompose(&face->glyph->outline, &steps, &walker);
         walker.origin.x += static_cast<double>(face->glyph->metrics.horiAdvance) / em;

@@ -11,8 +11,8 @@ namespace gelatin::render {
 namespace {
 
 constexpr float kKeyDistance = 2.0f;    // of the scene's extent
-constexpr float kUsualHeight = 720.0f;  // of a picture [pixels], whose lines are as wide as they are told
-constexpr int kHeightOfALetterPixel = 540;
+constexpr float kUsualHeight = 720.0f;  // of a picture [pixels], at which lines have their own width
+constexpr int kLeastLetterSize = 10, kPictureHeightOfAnEm = 48;  // [pixels]
 
 }  // namespace
 
@@ -28,8 +28,8 @@ float View::line_scale() const {
     return std::max(1.0f, static_cast<float>(height) / kUsualHeight);
 }
 
-int View::letter_scale() const {
-    return 1 + height / kHeightOfALetterPixel;
+int View::letter_size() const {
+    return std::max(kLeastLetterSize, height / kPictureHeightOfAnEm);
 }
 
 PixelRect View::pixels_of(const Bounds& box) const {

@@ -25,10 +25,9 @@ struct View {
 
     /// How large the scene is [m], > 0.
     float extent() const;
-    /// How much wider lines are than they are told, in larger pictures; and pixels of letters, a whole
-    /// number.
+    /// How much wider lines are drawn in larger pictures.
     float line_scale() const;
-    int letter_scale() const;
+    int letter_size() const;  ///< [pixels]: an em
     bool shows_floor() const { return floor_height && camera.eye.y > *floor_height; }
 
     /// The camera and the key light, for programs of the folder shaders/render.

@@ -3,94 +3,114 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
-#include <glm/vec4.hpp>
+#include <cstdint>
+#include <glm/vec2.hpp>
 #include <span>
 
-#include "render/pixel_font.h"
+#include "core/log.h"
+#include "render/font.h"
 
 namespace gelatin::render {
 namespace {
 
-constexpr char kFirst = ' ', kLast = '~';
-constexpr int kGlyphs = kLast - kFirst + 1;
-// With a pixel all round; as in shaders/render/labels.vert.
-constexpr int kCellWidth = kGlyphWidth + 2, kCellHeight = kGlyphHeight + 2;
+constexpr int kRim = 1;  // round the letters [pixels]
+constexpr int kAtlasWidth = 4096, kMostAtlasHeight = 16'384;
 
-bool is_ink(char letter, int x, int y) {  // from the lower left corner
-    if (x < 0 || y < 0 || x >= kGlyphWidth || y >= kGlyphHeight) return false;
-    const auto row = static_cast<std::size_t>(kGlyphHeight - 1 - y);
-    return (glyph_of(letter)[row] >> (kGlyphWidth - 1 - x) & 1) != 0;
+using Pixel = glm::u8vec2;  // coverage by the letters, and by them and their rim
+
+std::uint8_t coverage_with_rim(const TextPicture& text, int x, int y) {
+    std::uint8_t most = 0;
+    for (int i = -kRim; i <= kRim; ++i) {
+        for (int j = -kRim; j <= kRim; ++j) most = std::max(most, text.at(x + i, y + j));
+    }
+    return most;
 }
 
-bool is_beside_ink(char letter, int x, int y) {
-    for (int i = -1; i <= 1; ++i) {
-        for (int j = -1; j <= 1; ++j) {
-            if (is_ink(letter, x + i, y + j)) return true;
+// Names beside each other in rows of one height.
+struct Atlas {
+    int row_height;
+    int x = 0, height = 0;
+    std::vector<Pixel> pixels = {};
+
+    // The lower left corner of a free place, or nothing where the atlas is full.
+    std::optional<glm::ivec2> find_place(int width) {
+        if (height == 0 || x + width > kAtlasWidth) {
+            if (height + row_height > kMostAtlasHeight) return std::nullopt;
+            height += row_height;
+            pixels.resize(static_cast<std::size_t>(kAtlasWidth) * static_cast<std::size_t>(height));
+            x = 0;
+        }
+        x += width;
+        return glm::ivec2(x - width, height - row_height);
+    }
+
+    void add(const TextPicture& text, const glm::ivec2& corner, int width) {
+        for (int row = 0; row < row_height; ++row) {
+            for (int column = 0; column < width; ++column) {
+                const std::size_t at = static_cast<std::size_t>(corner.y + row) * kAtlasWidth +
+                                       static_cast<std::size_t>(corner.x + column);
+                pixels[at] = {text.at(column - kRim, row - kRim),
+                              coverage_with_rim(text, column - kRim, row - kRim)};
+            }
         }
     }
-    return false;
-}
-
-Target paint_font() {
-    constexpr int kWidth = kGlyphs * kCellWidth;
-    std::vector<glm::vec4> pixels;
-    for (int y = 0; y < kCellHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) {
-            const auto letter = static_cast<char>(kFirst + x / kCellWidth);
-            const int column = x % kCellWidth - 1, row = y - 1;
-            pixels.emplace_back(is_ink(letter, column, row), is_beside_ink(letter, column, row), 0.0f, 1.0f);
-        }
-    }
-    glActiveTexture(GL_TEXTURE7);
-    Target font = Target::color(kWidth, kCellHeight, GL_RGBA8);
-    glBindTexture(GL_TEXTURE_2D, font.texture());
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kWidth, kCellHeight, GL_RGBA, GL_FLOAT, pixels.data());
-    return font;
-}
-
-// Object; glyph in the lower 16 bits, and above them where it stands from the label's left end, and how long
-// that is, each in letters of up to 255.
-std::vector<glm::uvec2> list_letters(std::span<const std::string> names) {
-    std::vector<glm::uvec2> letters;
-    for (std::size_t o = 0; o < names.size(); ++o) {
-        const std::string name = names[o].substr(0, 255);
-        for (std::size_t i = 0; i < name.size(); ++i) {
-            const char letter = name[i] >= kFirst && name[i] <= kLast ? name[i] : '?';
-            letters.emplace_back(o,
-                                 static_cast<std::uint32_t>(letter - kFirst) | i << 16 | name.size() << 24);
-        }
-    }
-    return letters;
-}
+};
 
 }  // namespace
 
-LabelOverlay::LabelOverlay()
-    : program_(gl::Program::graphics("render/labels.vert", "render/labels.frag")), font_(paint_font()) {}
+LabelOverlay::LabelOverlay() : program_(gl::Program::graphics("render/labels.vert", "render/labels.frag")) {}
 
-void LabelOverlay::show(const ObjectView& objects) {
-    if (std::ranges::equal(objects.names, names_)) return;
+void LabelOverlay::show(const ObjectView& objects, int letter_size) {
+    if (letter_size == letter_size_ && std::ranges::equal(objects.names, names_)) return;
     names_.assign(objects.names.begin(), objects.names.end());
-    letters_ = gl::Buffer<glm::uvec2>(std::span<const glm::uvec2>(list_letters(names_)));
+    letter_size_ = letter_size;
+    paint_names();
+}
+
+void LabelOverlay::paint_names() {
+    const Font font(letter_size_);
+    label_height_ = font.line_height() + 2 * kRim;
+    Atlas atlas{label_height_};
+    std::vector<glm::uvec4> labels;
+    for (std::size_t o = 0; o < names_.size(); ++o) {
+        const TextPicture text = font.paint(names_[o]);
+        if (text.width == 0) continue;
+        const int width = std::min(text.width + 2 * kRim, kAtlasWidth);
+        const std::optional<glm::ivec2> corner = atlas.find_place(width);
+        if (!corner) {
+            spdlog::warn("the names of {} objects do not fit into one texture and are not drawn",
+                         names_.size() - o);
+            break;
+        }
+        atlas.add(text, *corner, width);
+        labels.emplace_back(o, corner->x, corner->y, width);
+    }
+    labels_ = gl::Buffer<glm::uvec4>(std::span<const glm::uvec4>(labels));
+    if (labels.empty()) return;
+    glActiveTexture(GL_TEXTURE7);
+    atlas_ = Target::color(kAtlasWidth, atlas.height, GL_RG8);
+    glBindTexture(GL_TEXTURE_2D, atlas_.texture());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kAtlasWidth, atlas.height, GL_RG, GL_UNSIGNED_BYTE,
+                    atlas.pixels.data());
 }
 
 void LabelOverlay::draw(const View& view, const OverlayView& overlay) const {
-    if (letters_.empty()) return;
+    if (labels_.empty()) return;
     const gl::BufferTexture boxes(overlay.boxes, std::size_t{32} * overlay.box_count,
                                   gl::TexelFormat::rgba32f);
     const gl::BufferTexture roots(overlay.objects->roots, std::size_t{4} * names_.size(),
                                   gl::TexelFormat::r32ui);
-    const gl::BufferTexture letters(letters_, gl::TexelFormat::rg32ui);
+    const gl::BufferTexture labels(labels_, gl::TexelFormat::rgba32ui);
     boxes.bind(0);
     roots.bind(1);
-    letters.bind(2);
+    labels.bind(2);
     glActiveTexture(GL_TEXTURE7);
-    glBindTexture(GL_TEXTURE_2D, font_.texture());
+    glBindTexture(GL_TEXTURE_2D, atlas_.texture());
     glBindSampler(7, 0);
     view.set_uniforms(program_);
-    program_.set("enlargement", view.letter_scale());
+    program_.set("label_height", static_cast<float>(label_height_));
     program_.use();
-    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(6 * letters_.size()));
+    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(6 * labels_.size()));
 }
 
 }  // namespace gelatin::render

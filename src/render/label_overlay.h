@@ -1,7 +1,6 @@
 #pragma once
 
-#include <cstdint>
-#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 #include <string>
 #include <vector>
 
@@ -13,19 +12,23 @@
 
 namespace gelatin::render {
 
-/// Names of objects, each in the middle of its box, in letters of pixels over all else.
+/// Names of objects, each in the middle of its box, over all else.
 class LabelOverlay {
 public:
     LabelOverlay();
-    void show(const ObjectView& objects);
+    /// @param letter_size [pixels]
+    void show(const ObjectView& objects, int letter_size);
     /// @pre show
     void draw(const View& view, const OverlayView& overlay) const;
 
 private:
+    void paint_names();
+
     gl::Program program_;
     std::vector<std::string> names_;
-    Target font_;  // one glyph beside the other: red the letter, green what surrounds it
-    gl::Buffer<glm::uvec2> letters_;
+    int letter_size_ = 0, label_height_ = 0;  // [pixels]
+    Target atlas_;                            // all names; red the letters, green the letters and their rim
+    gl::Buffer<glm::uvec4> labels_;
 };
 
 }  // namespace gelatin::render

@@ -7,16 +7,14 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
-#include <string_view>
 
+#include "render/font.h"
 #include "render/palette.h"
-#include "render/pixel_font.h"
 
 namespace gelatin::render {
 namespace {
 
-constexpr int kMargin = 6, kBarHeight = 6, kGap = 3;
-constexpr int kLeastBarWidth = 96;
+constexpr int kLeastBarWidth = 12;  // [em]
 const glm::vec4 kInk(0.1f, 0.12f, 0.16f, 1.0f);
 const glm::vec4 kPlate(1.0f, 1.0f, 1.0f, 0.55f);  // so that numbers are read on whatever lies behind
 
@@ -26,10 +24,6 @@ glm::vec3 color_at(std::span<const glm::vec3> colors, float place) {
     return glm::mix(colors[stop], colors[stop + 1], at - static_cast<float>(stop));
 }
 
-int width_of(std::string_view text) {
-    return text.empty() ? 0 : kGlyphAdvance * static_cast<int>(text.size()) - 1;
-}
-
 // RGBA in [0, 1], rows from the bottom.
 struct Canvas {
     int width, height;
@@ -37,42 +31,43 @@ struct Canvas {
 
     Canvas(int w, int h)
         : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), kPlate) {}
-    void set(int x, int y, const glm::vec4& color) {
-        pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] =
-            color;
+    glm::vec4& pixel(int x, int y) {
+        return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(x)];
     }
-    void write(std::string_view text, int x, int bottom) {
-        for (const char letter : text) {
-            const auto& rows = glyph_of(letter);
-            for (int i = 0; i < kGlyphWidth * kGlyphHeight; ++i) {
-                const int column = i % kGlyphWidth, row = i / kGlyphWidth;
-                if ((rows[static_cast<std::size_t>(row)] >> (kGlyphWidth - 1 - column) & 1) != 0)
-                    set(x + column, bottom + kGlyphHeight - 1 - row, kInk);
+    void write(const TextPicture& text, int left, int bottom) {
+        for (int y = 0; y < text.height; ++y) {
+            for (int x = 0; x < text.width; ++x) {
+                const float covered = static_cast<float>(text.at(x, y)) / 255.0f;
+                glm::vec4& under = pixel(left + x, bottom + y);
+                under = glm::mix(under, kInk, covered);
             }
-            x += kGlyphAdvance;
         }
     }
 };
 
 // The title over the numbers over the bar.
-Canvas paint(const ColorScale& scale) {
-    const int ends = std::max(width_of(scale.low), width_of(scale.high));
-    const int numbers = 2 * ends + width_of(scale.middle) + 4 * kGlyphAdvance;
-    const int bar_width = std::max({kLeastBarWidth, numbers, width_of(scale.title)});
-    const int line = kGap + kGlyphHeight;
-    Canvas canvas(bar_width + 2 * kMargin,
-                  2 * kMargin + kBarHeight + line + (scale.title.empty() ? 0 : line));
-    for (int y = 0; y < kBarHeight; ++y) {
+Canvas paint(const ColorScale& scale, int letter_size) {
+    const Font font(letter_size);
+    const TextPicture low = font.paint(scale.low), middle = font.paint(scale.middle),
+                      high = font.paint(scale.high), title = font.paint(scale.title);
+    const int margin = letter_size / 2, gap = letter_size / 4, bar_height = letter_size / 2;
+    const int ends = std::max(low.width, high.width);
+    const int numbers = 2 * ends + middle.width + 2 * letter_size;
+    const int bar_width = std::max({kLeastBarWidth * letter_size, numbers, title.width});
+    const int line = gap + font.line_height();
+    Canvas canvas(bar_width + 2 * margin, 2 * margin + bar_height + line + (scale.title.empty() ? 0 : line));
+    for (int y = 0; y < bar_height; ++y) {
         for (int x = 0; x < bar_width; ++x) {
             const float place = (static_cast<float>(x) + 0.5f) / static_cast<float>(bar_width);
-            canvas.set(kMargin + x, kMargin + y, glm::vec4(color_at(scale.colors, place), 1.0f));
+            canvas.pixel(margin + x, margin + y) = glm::vec4(color_at(scale.colors, place), 1.0f);
         }
     }
-    const int bottom = kMargin + kBarHeight + kGap;
-    canvas.write(scale.low, kMargin, bottom);
-    canvas.write(scale.middle, kMargin + (bar_width - width_of(scale.middle)) / 2, bottom);
-    canvas.write(scale.high, kMargin + bar_width - width_of(scale.high), bottom);
-    canvas.write(scale.title, kMargin, bottom + line);
+    const int bottom = margin + bar_height + gap;
+    canvas.write(low, margin, bottom);
+    canvas.write(middle, margin + (bar_width - middle.width) / 2, bottom);
+    canvas.write(high, margin + bar_width - high.width, bottom);
+    canvas.write(title, margin, bottom + line);
     return canvas;
 }
 
@@ -152,10 +147,11 @@ void set_value_colors(const gl::Program& program, const ColorMapView& map) {
 
 Legend::Legend() : program_(gl::Program::graphics("render/legend.vert", "render/legend.frag")) {}
 
-void Legend::show(const ColorScale& scale) {
-    if (scale_ == scale && picture_.texture() != 0) return;
+void Legend::show(const ColorScale& scale, int letter_size) {
+    if (scale_ == scale && letter_size_ == letter_size) return;
     scale_ = scale;
-    const Canvas canvas = paint(scale);
+    letter_size_ = letter_size;
+    const Canvas canvas = paint(scale, letter_size);
     glActiveTexture(GL_TEXTURE7);
     picture_ = Target::color(canvas.width, canvas.height, GL_RGBA8);
     glBindTexture(GL_TEXTURE_2D, picture_.texture());
@@ -168,7 +164,6 @@ void Legend::draw(const View& view) const {
     glBindTexture(GL_TEXTURE_2D, picture_.texture());
     glBindSampler(7, 0);
     view.set_uniforms(program_);
-    program_.set("enlargement", view.letter_scale());
     program_.use();
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }

@@ -42,12 +42,14 @@ class Legend {
 public:
     Legend();
 
-    void show(const ColorScale& scale);
+    /// @param letter_size [pixels]
+    void show(const ColorScale& scale, int letter_size);
     /// @pre something is shown; a vertex array object is bound, faces are not culled
     void draw(const View& view) const;
 
 private:
     ColorScale scale_;
+    int letter_size_ = 0;  // [pixels]
     gl::Program program_;
     Target picture_;
 };

@@ -12,7 +12,7 @@ Part& made(std::optional<Part>& part) {
 
 }  // namespace
 
-void Overlay::show(const RenderView& bodies) {
+void Overlay::show(const RenderView& bodies, int letter_size) {
     bodies_ = bodies;
     const OverlayView& shown = bodies.overlay;
     const bool has_solids = !has_springs();
@@ -22,11 +22,11 @@ void Overlay::show(const RenderView& bodies) {
     if (shown.face_marks != 0 || shown.wireframe) made(faces_).prepare(shown);
     if (shown.shown_boxes != 0) made(boxes_);
     if (shown.arrows) made(arrows_);
-    if (shown.objects) made(labels_).show(*shown.objects);
+    if (shown.objects) made(labels_).show(*shown.objects, letter_size);
     if (has_springs()) {
-        made(legend_).show(strain_scale(shown.full_strain));
+        made(legend_).show(strain_scale(shown.full_strain), letter_size);
     } else if (shown.color_map) {
-        made(legend_).show(value_scale(*shown.color_map));
+        made(legend_).show(value_scale(*shown.color_map), letter_size);
     }
 }
 

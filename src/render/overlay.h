@@ -20,7 +20,7 @@ namespace gelatin::render {
 class Overlay {
 public:
     /// Takes what the next frame shows; as long-lived as the view.
-    void show(const RenderView& bodies);
+    void show(const RenderView& bodies, int letter_size);
 
     bool is_empty() const;
     /// Bodies are drawn here: see-through, coloured or cut open.

@@ -132,7 +132,7 @@ void Renderer::draw(const RenderView& bodies, const Camera& camera) {
     const gl::BufferTexture prop_colors(prop_colors_, gl::TexelFormat::rgba32f);
     const View view{camera, width(), height(), surroundings_.bounds, surroundings_.floor_height};
     aim_shadows(bodies, view);
-    overlay_.show(bodies);
+    overlay_.show(bodies, view.letter_size());
     shadows_.draw({&body_draw, &prop_draw}, options_.quality == Quality::high || view.shows_floor());
     pipeline_->draw({.view = view,
                      .bodies = {.surfaces = body_draw, .colors = body_colors, .jelly = 1.0f},

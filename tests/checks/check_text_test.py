@@ -12,24 +12,25 @@ PROGRAM = Path(__file__).resolve().parents[2] / "scripts" / "check_text"
 UNFINISHED, ISSUE, HOME = "TO" + "DO", "iss" + "ue 12", "/ho" + "me/somebody/mesh.obj"
 
 
-def run(name, text):
+def run(name, text, **others):
     with tempfile.TemporaryDirectory() as root:
-        file = Path(root) / name
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(text)
+        for path, content in {name: text, **others}.items():
+            file = Path(root) / path
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(content)
         return subprocess.run([sys.executable, PROGRAM, root], capture_output=True, text=True, check=False)
 
 
 class CheckText(unittest.TestCase):
-    def assert_refused(self, name, text, *words):
-        result = run(name, text)
+    def assert_refused(self, name, text, *words, **others):
+        result = run(name, text, **others)
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertEqual(result.stdout.count("\n"), 1, result.stdout)
         for word in [name, *words]:
             self.assertIn(word, result.stdout)
 
-    def assert_passes(self, name, text):
-        result = run(name, text)
+    def assert_passes(self, name, text, **others):
+        result = run(name, text, **others)
         self.assertEqual((result.returncode, result.stdout), (0, ""), result.stderr)
         return result.stderr
 
@@ -56,6 +57,39 @@ class CheckText(unittest.TestCase):
         self.assert_refused("docs/a.md", "See docs/b.md and docs/a.md.\n", "docs/b.md")
         self.assert_refused("shaders/sim/a.comp", "// Parity: tests/gpu/a_test.cpp.\n", "tests/gpu/a_test.cpp")
         self.assert_passes("CHANGELOG.md", "docs/b.md has gone.\n")
+
+    def test_names_of_shaders_that_are_not_there(self):
+        there = {"shaders/sim/a.comp": "\n"}
+        self.assert_refused("docs/a.md", "`shaders/sim/`: `a`, `b`\n", "'b'", **there)
+        self.assert_refused("src/gpu/a.h", "/// shaders/sim/a.comp, b.comp.\n", "'b.comp'", **there)
+        self.assert_passes("docs/a.md", "`shaders/sim/`: `a`; shaders/sim/a.comp and a.comp\n", **there)
+
+    def test_twins_that_are_not_there(self):
+        there = {
+            "src/cpu/a/a.h": "class Walk {\n    void go();\n};\nvoid run_all(int n);\n// class Gone\nint a = call(1);\n",
+            "src/gpu/a/b.h": "struct Boxes {\n};\n",
+            "shaders/sim/a/a.comp": "\n",
+        }
+
+        def refused(comment, *words):
+            self.assert_refused("shaders/sim/c.glsl", f"// What it does. {comment}\n", "c.glsl:1", "twin", *words, **there)
+
+        def passes(comment):
+            self.assert_passes("shaders/sim/c.glsl", f"// What it does. {comment}\n", **there)
+
+        passes("CPU twin: gelatin::cpu::Walk. More.")
+        passes("CPU twin: cpu::Walk::go, run_all.")
+        passes("CPU twins, which say why: gelatin::cpu::Walk, src/cpu/a/a.h.")
+        passes("GPU twins: gpu::Boxes, shaders/sim/a/a.comp.\n// Parity")
+        passes("GLSL twin:\n// sim/a/a.comp.")
+        refused("CPU twin: gelatin::cpu::Walks.", "'gelatin::cpu::Walks'", "CPU twin")
+        refused("CPU twin: cpu::Walk::stop.", "cpu::Walk::stop")
+        refused("CPU twin: cpu::Boxes.", "cpu::Boxes")
+        refused("CPU twin: gpu::Boxes.", "gpu::Boxes")
+        refused("CPU twin: cpu::Gone.", "cpu::Gone")
+        refused("CPU twins: cpu::Walk, and\n// cpu::Stand.", "cpu::Stand")
+        refused("CPU twin: shaders/sim/a/a.comp.", "CPU twin")
+        refused("GLSL twin: sim/a/walk.", "sim/a/walk")
 
     def test_long_files_are_only_warned_of(self):
         self.assertIn("500 lines", self.assert_passes("src/a.cpp", "int a;\n" * 500))

@@ -218,11 +218,11 @@ INSTANTIATE_TEST_SUITE_P(Qualities, LegendHeavy, kQualities);
 TEST_P(LegendHeavy, HasTheColorsOfTheScale) {
     const auto springs = buffer_of<Spring>({{0, 1, 1.0f, 1.0f}});
     const Image image = draw({.springs = springs.id(), .spring_count = 1, .full_strain = 0.1f});
-    const auto at = [&](int x) { return test::mean_color(image, x, kHeight - 10, 1, 1); };
+    const auto at = [&](int x) { return test::mean_color(image, x, kHeight - 8, 1, 1); };
     for (int channel = 0; channel < 3; ++channel) {
-        EXPECT_NEAR(at(6)[channel], 255.0 * static_cast<double>(strain_colors().front()[channel]), 12.0);
-        EXPECT_NEAR(at(6 + 48)[channel], 255.0 * static_cast<double>(strain_colors()[2][channel]), 12.0);
-        EXPECT_NEAR(at(6 + 95)[channel], 255.0 * static_cast<double>(strain_colors().back()[channel]), 12.0);
+        EXPECT_NEAR(at(5)[channel], 255.0 * static_cast<double>(strain_colors().front()[channel]), 12.0);
+        EXPECT_NEAR(at(5 + 60)[channel], 255.0 * static_cast<double>(strain_colors()[2][channel]), 12.0);
+        EXPECT_NEAR(at(5 + 119)[channel], 255.0 * static_cast<double>(strain_colors().back()[channel]), 12.0);
     }
 }
 

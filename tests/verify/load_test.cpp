@@ -9,6 +9,7 @@
 #include "mesh/shapes.h"
 #include "mesh/tetrahedralise.h"
 #include "model/explicit/stability.h"
+#include "model/setting_names.h"
 #include "support/gl_fixture.h"
 #include "support/test_models.h"
 

@@ -7,6 +7,7 @@
 
 #include "cpu/cpu_solver.h"
 #include "gpu/gpu_solver.h"
+#include "model/setting_names.h"
 #include "support/gl_fixture.h"
 #include "support/test_models.h"
 

@@ -6,7 +6,6 @@
 
 #include "cpu/cpu_solver.h"
 #include "gpu/gpu_solver.h"
-#include "model/explicit/explicit_scheme.h"
 #include "model/explicit/stability.h"
 #include "model/setting_names.h"
 #include "support/gl_fixture.h"

@@ -1,5 +1,5 @@
-// Where two things come nearest to one another. CPU twin: src/cpu/collision/nearest_points.h, which says how and why. `apart` leads
-// from the first one to the second. Parity: tests/gpu/collision/time_of_impact_test.cpp. The columns of a face are its corners.
+// The nearest points of two faces, edges or nodes. CPU twin, which explains the method: src/cpu/collision/nearest_points.h.
+// `apart` points from the first one to the second. Parity: tests/gpu/collision/time_of_impact_test.cpp. The columns of a face are its corners.
 
 const float kParallel = 4.7683716e-7;
 const float kInfinity = 3.4e38;

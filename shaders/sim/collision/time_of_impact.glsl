@@ -1,6 +1,6 @@
-// When do two faces first touch in a step, each corner moving straight? CPU twin: src/cpu/collision/time_of_impact.h, which says how
-// and why. Parity: tests/gpu/collision/time_of_impact_test.cpp. The columns of a face are its corners; one that is there twice or
-// three times makes it an edge or a node.
+// When do two faces first touch in a step, if each corner moves along a straight line? CPU twin, which explains the method:
+// src/cpu/collision/time_of_impact.h. Parity: tests/gpu/collision/time_of_impact_test.cpp. The columns of a face are its corners.
+// A face of which two or three corners coincide is an edge or a node.
 #include "sim/collision/nearest_points.glsl"
 
 const float kRoundingBound = 9.5367432e-7, kUnderflowBound = 1.5777218e-30;

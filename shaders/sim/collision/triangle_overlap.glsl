@@ -1,5 +1,5 @@
-// Do two closed triangles have a point in common? CPU twin: src/cpu/collision/triangle_overlap.h, which says how and why; both
-// give the same answer for every input. Parity: tests/gpu/collision/triangle_overlap_test.cpp.
+// Do two closed triangles have a point in common? CPU twin, which explains the method: src/cpu/collision/triangle_overlap.h.
+// Both give the same answer for every input. Parity: tests/gpu/collision/triangle_overlap_test.cpp.
 //
 // Signs are bits of a uvec2, x for positive, y for negative: bit i is the side of t's plane that vertex i of s is on,
 // 3 + j the side of s's plane for vertex j of t, 6 + 3 i + j how edge i of s turns round edge j of t.

@@ -1,7 +1,7 @@
 // Bodies go as far along their nodes' ways as the objective falls. With SUMS: what acts along the ways of a chunk's nodes,
 // one work group a chunk. With OBJECTS: the part of the ways at which that is nothing, by the secant through its values
 // here and at their ends, one invocation an object. With neither: all nodes of a chunk go.
-// CPU twin: gelatin::cpu::BlockDescent::correct. Parity: tests/gpu/descent/block_descent_test.cpp.
+// CPU twin: gelatin::cpu::CoarseStep. Parity: tests/gpu/descent/block_descent_test.cpp.
 #include "include/global_index.glsl"
 #include "layouts/chunk.glsl"
 #include "layouts/cluster.glsl"

@@ -15,8 +15,8 @@
 namespace gelatin::gpu {
 
 /// The coarse level of block descent (model/descent/coarse_basis.h):
-/// shaders/sim/descent/rotate_clusters.comp, load_clusters.comp, move_clusters.comp, find_ways.comp,
-/// follow_ways.comp. Texture unit 0 has the nodes' positions in all of them; storage 0 to 2 stay as they are.
+/// shaders/sim/descent/rotate_clusters.comp, load_clusters.comp, move_clusters.comp, find_displacements.comp,
+/// apply_displacements.comp. Texture unit 0 has the nodes' positions in all of them; storage 0 to 2 stay as they are.
 /// CPU twin: cpu::CoarseCorrection.
 class CoarseCorrection {
 public:

@@ -8,6 +8,7 @@
 
 #include "cpu/cpu_solver.h"
 #include "model/explicit/stability.h"
+#include "model/setting_names.h"
 #include "support/implicit_euler.h"
 #include "support/parity.h"
 #include "support/test_models.h"

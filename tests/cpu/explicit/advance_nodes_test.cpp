@@ -8,6 +8,7 @@
 
 #include "cpu/cpu_solver.h"
 #include "cpu/elasticity/spring_force.h"
+#include "model/setting_names.h"
 #include "support/parity.h"
 #include "support/test_models.h"
 

@@ -5,6 +5,7 @@
 #include "cpu/explicit/gather_forces.h"
 #include "cpu/measure/measure.h"
 #include "model/explicit/stability.h"
+#include "model/setting_names.h"
 #include "support/parity.h"
 #include "support/test_models.h"
 

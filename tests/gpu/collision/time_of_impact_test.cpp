@@ -11,6 +11,7 @@
 #include "support/gl_fixture.h"
 #include "support/moving_pairs.h"
 #include "support/shader_folder.h"
+#include "support/source_path.h"
 
 namespace gelatin {
 namespace {
@@ -24,7 +25,6 @@ constexpr std::size_t kGuard = 70;
 constexpr const char* kProbe = R"(
 #include "include/global_index.glsl"
 #include "sim/collision/time_of_impact.glsl"
-#include "support/source_path.h"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Corners { vec4 corners[]; };
 layout(std430, binding = 1) writeonly buffer Times { float times[]; };

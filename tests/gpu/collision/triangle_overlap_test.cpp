@@ -11,6 +11,7 @@
 #include "gl/program.h"
 #include "support/gl_fixture.h"
 #include "support/shader_folder.h"
+#include "support/source_path.h"
 #include "support/triangle_pairs.h"
 
 namespace gelatin {
@@ -24,7 +25,6 @@ constexpr std::size_t kGuard = 70;
 constexpr const char* kProbe = R"(
 #include "include/global_index.glsl"
 #include "sim/collision/triangle_overlap.glsl"
-#include "support/source_path.h"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Corners { vec4 corners[]; };
 layout(std430, binding = 1) writeonly buffer Overlaps { uint overlaps[]; };

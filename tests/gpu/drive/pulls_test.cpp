@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "model/explicit/explicit_scheme.h"
 #include "model/setting_names.h"
 #include "support/descend_on_gpu.h"
 #include "support/gl_fixture.h"

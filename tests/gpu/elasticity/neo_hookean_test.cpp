@@ -2,6 +2,7 @@
 // bodies of springs beside them, tets that are inside out, pins, and with damping or without.
 #include <gtest/gtest.h>
 
+#include "model/setting_names.h"
 #include "support/descend_on_gpu.h"
 #include "support/gl_fixture.h"
 #include "support/measure_on_gpu.h"

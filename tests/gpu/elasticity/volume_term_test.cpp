@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "model/setting_names.h"
 #include "support/descend_on_gpu.h"
 #include "support/gl_fixture.h"
 #include "support/parity.h"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "gpu/explicit/divide_and_merge.h"
+#include "model/setting_names.h"
 #include "support/gl_fixture.h"
 #include "support/parity.h"
 #include "support/step_on_gpu.h"
