@@ -48,6 +48,7 @@ void HazardTracker::check(const GpuCommand& command, const BufferAccess& access)
     const BufferState& past = found->second;
     if (past.store.time != 0 && !is_ordered(past.store.time, access.use)) {
         report(command, access, past.store, access.reads ? "reads" : "overwrites", "wrote", access.use);
+        return;
     }
     const bool stores = access.writes && command.kind == GpuCommand::Kind::shader;
     if (stores && past.read.time != 0 && !is_ordered(past.read.time, Barrier::storage)) {

@@ -6,7 +6,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -82,11 +81,6 @@ BufferAccess indirect_arguments(unsigned buffer) {
 void enable_hazard_tracking() {
     static HazardProbe probe;
     hazard_probe = &probe;
-}
-
-void enable_hazard_tracking_as_environment_says() {
-    const char* value = std::getenv("GELATIN_GL_HAZARDS");
-    if (value != nullptr && *value != '\0' && std::string_view(value) != "0") enable_hazard_tracking();
 }
 
 std::vector<std::string> take_hazards() {

@@ -19,9 +19,6 @@ struct ShaderSource;
 /// each context is watched by itself.
 void enable_hazard_tracking();
 
-/// enable_hazard_tracking() if GELATIN_GL_HAZARDS is set, to anything but "" and "0".
-void enable_hazard_tracking_as_environment_says();
-
 /// What was found since the last call, in all contexts. Each is in the log, too.
 std::vector<std::string> take_hazards();
 

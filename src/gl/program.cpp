@@ -21,6 +21,7 @@ class Shader {
 public:
     Shader(GLenum stage, const std::string& file, const Defines& defines)
         : file_(file), source_(load_shader(file, defines)), id_(glCreateShader(stage)) {
+        dump_shader(file_, source_);
         const char* text = source_.text.c_str();
         glShaderSource(id_, 1, &text, nullptr);
         glCompileShader(id_);

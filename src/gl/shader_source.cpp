@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <regex>
@@ -106,6 +107,18 @@ std::string ShaderSource::translate_log(const std::string& log) const {
         translated += line + "\n";
     }
     return translated;
+}
+
+void dump_shader(const std::string& file, const ShaderSource& source) {
+    const char* folder = std::getenv("GELATIN_DUMP_SHADERS");
+    if (folder == nullptr || *folder == '\0') return;
+    std::string stem = file.substr(0, file.rfind('.'));
+    std::replace(stem.begin(), stem.end(), '/', '_');
+    std::ostringstream path;
+    path << folder << '/' << stem << '-' << std::hex << std::hash<std::string>()(source.text)
+         << file.substr(file.rfind('.'));
+    if (std::ofstream stream(path.str(), std::ios::binary); !(stream << source.text).flush())
+        throw GlError("cannot write " + path.str() + " (GELATIN_DUMP_SHADERS)");
 }
 
 ShaderSource load_shader(const std::string& file, const std::vector<std::string>& defines) {

@@ -15,6 +15,11 @@ struct ShaderSource {
     std::string translate_log(const std::string& log) const;
 };
 
+/// Where GELATIN_DUMP_SHADERS names a folder, writes the text there, as other compilers take it:
+/// "sim/view/mark_faces.comp" becomes "sim_view_mark_faces-HASH.comp", one for each set of defines.
+/// @throws GlError if that fails.
+void dump_shader(const std::string& file, const ShaderSource& source);
+
 /// Loads `file` (a path below shaders/), from GELATIN_SHADER_DIR if set, else as embedded, puts
 /// "#version 430 core" and the defines before it, and expands `#include "path"` (relative to shaders/, once
 /// each).

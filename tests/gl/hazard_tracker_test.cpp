@@ -238,7 +238,7 @@ TEST_F(HazardTrackerTest, ABarrierThatOnlyRepeatsItselfIsNeeded) {
 }
 
 TEST(CallSiteText, StartsAtTheSources) {
-    EXPECT_EQ(to_string(CallSite{"/home/me/src/gelatin/src/gl/a.cpp", 3}), "src/gl/a.cpp:3");
+    EXPECT_EQ(to_string(CallSite{"/somewhere/src/gelatin/src/gl/a.cpp", 3}), "src/gl/a.cpp:3");
     EXPECT_EQ(to_string(CallSite{"../../tests/gl/a.cpp", 4}), "tests/gl/a.cpp:4");
     EXPECT_EQ(to_string(CallSite{"a.cpp", 5}), "a.cpp:5");
 }
