@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <string>
 
 #include "gelatin/error.h"
@@ -10,6 +11,9 @@
 
 namespace gelatin::gl {
 namespace {
+
+// What the smallest buffers hold: a texel of the largest format, or an element of most blocks.
+constexpr std::size_t kLeastBytes = 16;
 
 struct TexelLayout {
     GLenum internal_format;
@@ -39,7 +43,6 @@ TexelLayout layout_of(TexelFormat format) {
 }  // namespace
 
 RawBuffer::RawBuffer(std::size_t bytes, const void* data, Use use) : bytes_(bytes) {
-    if (bytes == 0) return;
     GLint64 limit = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
     if (use == Use::storage && bytes > static_cast<std::size_t>(limit)) {
@@ -47,54 +50,62 @@ RawBuffer::RawBuffer(std::size_t bytes, const void* data, Use use) : bytes_(byte
                       std::to_string(limit) + " bytes a storage block (GL_MAX_SHADER_STORAGE_BLOCK_SIZE)");
     }
     check_errors("before a buffer's allocation");
-    glGenBuffers(1, &id_);
-    if (hazard_probe != nullptr) hazard_probe->resets(id_);
-    glBindBuffer(GL_COPY_WRITE_BUFFER, id_);
-    glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_DYNAMIC_COPY);
+    GLuint id = 0;
+    glGenBuffers(1, &id);
+    if (hazard_probe != nullptr) hazard_probe->resets(id);
+    glBindBuffer(GL_COPY_WRITE_BUFFER, id);
+    // A block or texture of no bytes cannot be bound.
+    const std::size_t allocated = std::max(bytes, kLeastBytes);
+    glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(allocated), bytes > 0 ? data : nullptr,
+                 GL_DYNAMIC_COPY);
     if (glGetError() != GL_NO_ERROR) {
-        glDeleteBuffers(1, &id_);
+        glDeleteBuffers(1, &id);
         throw GlError("the driver has no memory for a buffer of " + std::to_string(bytes) + " bytes");
     }
+    name_ = std::make_shared<unsigned>(id);
 }
 
 RawBuffer& RawBuffer::operator=(RawBuffer&& other) noexcept {
-    std::swap(id_, other.id_);
+    std::swap(name_, other.name_);
     std::swap(bytes_, other.bytes_);
     RawBuffer old(std::move(other));  // frees what this one held now, not when `other` ends
     return *this;
 }
 
 RawBuffer::~RawBuffer() {
-    if (id_ == 0) return;
-    if (hazard_probe != nullptr) hazard_probe->resets(id_);
-    glDeleteBuffers(1, &id_);
+    if (id() == 0) return;
+    if (hazard_probe != nullptr) hazard_probe->resets(id());
+    glDeleteBuffers(1, name_.get());
+    *name_ = 0;
+    forget_state();
 }
 
 void RawBuffer::upload(std::size_t offset, std::size_t bytes, const void* data) {
     if (bytes == 0) return;
-    if (hazard_probe != nullptr) hazard_probe->uploads(id_, bytes == bytes_);
-    glBindBuffer(GL_COPY_WRITE_BUFFER, id_);
+    if (hazard_probe != nullptr) hazard_probe->uploads(id(), bytes == bytes_);
+    glBindBuffer(GL_COPY_WRITE_BUFFER, id());
     glBufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
                     data);
 }
 
 void RawBuffer::download(std::size_t offset, std::size_t bytes, void* out) const {
     if (bytes == 0) return;
-    if (hazard_probe != nullptr) hazard_probe->downloads(id_);
-    glBindBuffer(GL_COPY_READ_BUFFER, id_);
+    if (hazard_probe != nullptr) hazard_probe->downloads(id());
+    glBindBuffer(GL_COPY_READ_BUFFER, id());
     glGetBufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
                        out);
 }
 
 void RawBuffer::fill(std::uint32_t value) {
     if (bytes_ == 0) return;
-    if (hazard_probe != nullptr) hazard_probe->clears(id_);
-    glBindBuffer(GL_COPY_WRITE_BUFFER, id_);
+    if (hazard_probe != nullptr) hazard_probe->clears(id());
+    glBindBuffer(GL_COPY_WRITE_BUFFER, id());
     glClearBufferData(GL_COPY_WRITE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &value);
 }
 
 void RawBuffer::bind_storage(unsigned index) const {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, index, id_);
+    forget_state();
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, index, id());
 }
 
 BufferTexture::BufferTexture(unsigned buffer, std::size_t bytes, TexelFormat format) {
@@ -107,24 +118,31 @@ BufferTexture::BufferTexture(unsigned buffer, std::size_t bytes, TexelFormat for
                       " texels is more than this driver's limit of " + std::to_string(limit) +
                       " (GL_MAX_TEXTURE_BUFFER_SIZE)");
     }
-    glGenTextures(1, &id_);
-    glBindTexture(GL_TEXTURE_BUFFER, id_);
+    GLuint id = 0;
+    glGenTextures(1, &id);
+    forget_state();  // the unit's binding changes
+    glBindTexture(GL_TEXTURE_BUFFER, id);
     glTexBuffer(GL_TEXTURE_BUFFER, layout.internal_format, buffer);
+    name_ = std::make_shared<unsigned>(id);
 }
 
 BufferTexture& BufferTexture::operator=(BufferTexture&& other) noexcept {
-    std::swap(id_, other.id_);
+    std::swap(name_, other.name_);
     BufferTexture old(std::move(other));
     return *this;
 }
 
 BufferTexture::~BufferTexture() {
-    if (id_ != 0) glDeleteTextures(1, &id_);
+    if (id() == 0) return;
+    glDeleteTextures(1, name_.get());
+    *name_ = 0;
+    forget_state();
 }
 
 void BufferTexture::bind(unsigned unit) const {
+    forget_state();
     glActiveTexture(GL_TEXTURE0 + unit);
-    glBindTexture(GL_TEXTURE_BUFFER, id_);
+    glBindTexture(GL_TEXTURE_BUFFER, id());
 }
 
 }  // namespace gelatin::gl

@@ -7,6 +7,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "gl/object_name.h"
+
 namespace gelatin::gl {
 
 /// The untyped owner behind Buffer<T>: one GL buffer object of a fixed size.
@@ -20,27 +22,29 @@ public:
     /// of one.
     RawBuffer(std::size_t bytes, const void* data, Use use = Use::storage);
     RawBuffer(RawBuffer&& other) noexcept
-        : id_(std::exchange(other.id_, 0)), bytes_(std::exchange(other.bytes_, 0)) {}
+        : name_(std::exchange(other.name_, nullptr)), bytes_(std::exchange(other.bytes_, 0)) {}
     RawBuffer& operator=(RawBuffer&& other) noexcept;
     ~RawBuffer();
 
-    unsigned id() const { return id_; }
+    const ObjectName& name() const { return name_; }
+    unsigned id() const { return id_of(name_); }
     std::size_t bytes() const { return bytes_; }
     void upload(std::size_t offset, std::size_t bytes, const void* data);
     void download(std::size_t offset, std::size_t bytes, void* out) const;
     void fill(std::uint32_t value);
-    /// Binds to a `layout(std430, binding = index) buffer`. An empty buffer binds nothing.
+    /// Binds to a `layout(std430, binding = index) buffer`.
     void bind_storage(unsigned index) const;
 
 private:
-    unsigned id_ = 0;
+    ObjectName name_;
     std::size_t bytes_ = 0;
 };
 
 /// Owns one GL buffer object holding `size()` elements of `T` (a std430 array).
 ///
-/// Move-only; a moved-from buffer is empty. Every call needs the context that created the
-/// buffer to be current on the calling thread.
+/// Move-only; a default-made or moved-from buffer is no GL object, and no program runs with it bound. One of
+/// no elements is a GL object that programs can have bound as long as they do not read it. Every call needs
+/// the context that created the buffer to be current on the calling thread.
 template <class T>
 class Buffer {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -64,6 +68,7 @@ public:
 
     std::size_t size() const { return size_; }
     bool empty() const { return size_ == 0; }
+    const ObjectName& name() const { return raw_.name(); }
     unsigned id() const { return raw_.id(); }
 
     /// @pre data.size() == size()
@@ -96,21 +101,22 @@ public:
     BufferTexture(const Buffer<T>& buffer, TexelFormat format)
         : BufferTexture(buffer.id(), buffer.size() * sizeof(T), format) {}
     BufferTexture(unsigned buffer, std::size_t bytes, TexelFormat format);
-    BufferTexture(BufferTexture&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+    BufferTexture(BufferTexture&& other) noexcept = default;
     BufferTexture& operator=(BufferTexture&& other) noexcept;
     ~BufferTexture();
 
-    unsigned id() const { return id_; }
+    const ObjectName& name() const { return name_; }
+    unsigned id() const { return id_of(name_); }
     void bind(unsigned unit) const;
 
 private:
-    unsigned id_ = 0;
+    ObjectName name_;
 };
 
 /// A table that shaders read through a samplerBuffer and nobody writes: a buffer and its texture in one. It
 /// may be larger than a storage block.
 ///
-/// Move-only; one that was default-made or moved from binds nothing.
+/// Move-only; one that was default-made or moved from is no GL object.
 template <class T>
 class TexelTable {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -124,6 +130,9 @@ public:
         : TexelTable(values.empty() ? &kNothing : values.data(), std::max<std::size_t>(values.size(), 1),
                      format) {}
 
+    /// True if it was default-made or moved from.
+    bool is_empty() const { return texels_.id() == 0; }
+    const BufferTexture& texels() const { return texels_; }
     void bind(unsigned unit) const {
         if (texels_.id() != 0) texels_.bind(unit);
     }

@@ -14,6 +14,7 @@
 
 #include "gelatin/error.h"
 #include "gl/debug.h"
+#include "gl/object_name.h"
 
 namespace gelatin::gl {
 namespace {
@@ -227,6 +228,7 @@ int Context::device_count() {
 }
 
 Context Context::current() {
+    forget_state();
     const bool has_context =
         (epoxy_has_egl() && eglGetCurrentContext() != EGL_NO_CONTEXT) || has_glx_context();
     if (!has_context) throw NoOpenGl("no OpenGL context is current on this thread");
@@ -240,6 +242,7 @@ Context Context::current() {
 }
 
 void Context::make_current() {
+    forget_state();  // the last one of this thread may have been in another context
     if (handle_ && !handle_->make_current()) {
         throw GlError("the OpenGL context cannot be made current on this thread: is it current on another?");
     }

@@ -128,10 +128,9 @@ std::vector<GpuEvent> take_gpu_events() {
     return std::exchange(current_context().recording, {}).value_or(std::vector<GpuEvent>());
 }
 
-void HazardProbe::linked(unsigned program, const std::string& name,
-                         const std::vector<const ShaderSource*>& stages) {
+void HazardProbe::linked(unsigned program, const std::string& name, const std::string& source) {
     const std::lock_guard lock(mutex);
-    current_context().programs[program] = reflect_accesses(program, name, stages);
+    current_context().programs[program] = reflect_accesses(program, name, source);
 }
 
 void HazardProbe::dispatches(unsigned program) {

@@ -8,8 +8,6 @@
 
 namespace gelatin::gl {
 
-struct ShaderSource;
-
 /// Watches what the GL layer does for accesses to buffers that no barrier orders (hazard_tracker.h). Software
 /// drivers forgive a missing barrier, GPUs do not; this finds it on any driver. Which buffers a command uses
 /// is asked of OpenGL itself: what is bound where the program's active blocks, samplerBuffers and attributes
@@ -39,7 +37,7 @@ std::vector<GpuEvent> take_gpu_events();
 /// What the GL layer tells of its calls, before it makes them.
 class HazardProbe {
 public:
-    void linked(unsigned program, const std::string& name, const std::vector<const ShaderSource*>& stages);
+    void linked(unsigned program, const std::string& name, const std::string& source);
     void dispatches(unsigned program);
     void dispatches_indirectly(unsigned program, unsigned arguments);
     /// With the program and the vertex array in use. `arguments` is 0 for a draw that is not indirect.

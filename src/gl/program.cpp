@@ -2,12 +2,17 @@
 
 #include <epoxy/gl.h>
 
+#include <atomic>
+#include <bit>
 #include <cassert>
 #include <glm/gtc/type_ptr.hpp>
+#include <initializer_list>
+#include <utility>
 
 #include "gelatin/error.h"
 #include "gl/debug.h"
 #include "gl/hazards.h"
+#include "gl/program_interface.h"
 #include "gl/shader_source.h"
 
 namespace gelatin::gl {
@@ -37,7 +42,7 @@ public:
     ~Shader() { glDeleteShader(id_); }
 
     GLuint id() const { return id_; }
-    const ShaderSource& source() const { return source_; }
+    const std::string& text() const { return source_.text; }
 
 private:
     std::string log() const {
@@ -63,11 +68,58 @@ std::string program_log(GLuint program) {
     return text;
 }
 
-void note_link(GLuint program, std::initializer_list<const Shader*> shaders, const std::string& name) {
-    std::vector<const ShaderSource*> sources;
-    for (const Shader* shader : shaders) sources.push_back(&shader->source());
-    hazard_probe->linked(program, name, sources);
+// The serial number of the program that is in use on this thread with all that is bound to it; 0: unknown.
+thread_local std::uint64_t applied_program = 0;
+
+std::uint64_t next_serial() {
+    static std::atomic<std::uint64_t> last = 0;
+    return ++last;
 }
+
+GLenum mode_of(Primitive primitive) {
+    switch (primitive) {
+        case Primitive::points:
+            return GL_POINTS;
+        case Primitive::triangles:
+            return GL_TRIANGLES;
+        case Primitive::triangle_strip:
+            break;
+    }
+    return GL_TRIANGLE_STRIP;
+}
+
+void apply(const ProgramInterface::Block& block) {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block.index, id_of(block.buffer));
+}
+
+void apply(const ProgramInterface::Sampler& sampler) {
+    glActiveTexture(GL_TEXTURE0 + sampler.unit);
+    glBindTexture(sampler.target, sampler.id());
+    if (sampler.target != GL_TEXTURE_BUFFER) glBindSampler(sampler.unit, sampler.sampler_id);
+}
+
+// Feeds a program's vertex inputs while it lives, from the vertex array object that is bound.
+class VertexInputs {
+public:
+    explicit VertexInputs(const std::vector<ProgramInterface::Input>& inputs) : inputs_(inputs) {
+        if (inputs_.empty()) return;
+        for (const ProgramInterface::Input& input : inputs_) {
+            glBindBuffer(GL_ARRAY_BUFFER, id_of(input.buffer));
+            glVertexAttribPointer(input.location, 4, input.is_color ? GL_UNSIGNED_BYTE : GL_FLOAT,
+                                  input.is_color ? GL_TRUE : GL_FALSE, 0, nullptr);
+            glEnableVertexAttribArray(input.location);
+        }
+        glBindBuffer(GL_ARRAY_BUFFER, 0);
+    }
+    VertexInputs(const VertexInputs&) = delete;
+    VertexInputs& operator=(const VertexInputs&) = delete;
+    ~VertexInputs() {
+        for (const ProgramInterface::Input& input : inputs_) glDisableVertexAttribArray(input.location);
+    }
+
+private:
+    const std::vector<ProgramInterface::Input>& inputs_;
+};
 
 GLuint link(std::initializer_list<const Shader*> shaders, const std::string& name) {
     const GLuint program = glCreateProgram();
@@ -76,10 +128,7 @@ GLuint link(std::initializer_list<const Shader*> shaders, const std::string& nam
     for (const Shader* shader : shaders) glDetachShader(program, shader->id());
     GLint linked = GL_FALSE;
     glGetProgramiv(program, GL_LINK_STATUS, &linked);
-    if (linked) {
-        if (hazard_probe != nullptr) note_link(program, shaders, name);
-        return program;
-    }
+    if (linked) return program;
     const std::string message = name + " does not link:\n" + program_log(program);
     glDeleteProgram(program);
     throw GlError(message);
@@ -93,10 +142,47 @@ GLuint link(std::initializer_list<const Shader*> shaders, const std::string& nam
 
 }  // namespace
 
+void forget_state() {
+    applied_program = 0;
+}
+
+struct Program::State {
+    State(std::initializer_list<const Shader*> shaders, std::string files)
+        : name(std::move(files)), id(link(shaders, name)) {
+        std::string source;
+        for (const Shader* shader : shaders) source += shader->text();
+        if (hazard_probe != nullptr) hazard_probe->linked(id, name, source);
+        try {
+            interface = ProgramInterface(id, std::move(source));
+        } catch (const GlError& error) {
+            glDeleteProgram(id);
+            throw GlError(name + ": " + error.what());
+        }
+    }
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State() {
+        glDeleteProgram(id);
+        if (is_applied()) forget_state();
+    }
+
+    bool is_applied() const { return applied_program == serial; }
+
+    std::string name;  // of its files
+    GLuint id;
+    std::uint64_t serial = next_serial();
+    ProgramInterface interface;
+};
+
+Program::Program() = default;
+Program::Program(Program&& other) noexcept = default;
+Program& Program::operator=(Program&& other) noexcept = default;
+Program::~Program() = default;
+
 Program Program::compute(const std::string& file, const Defines& defines) {
     const Shader shader(GL_COMPUTE_SHADER, file, defines);
     Program program;
-    program.id_ = link({&shader}, file);
+    program.state_ = std::make_unique<State>(std::initializer_list<const Shader*>{&shader}, file);
     return program;
 }
 
@@ -105,7 +191,8 @@ Program Program::graphics(const std::string& vertex_file, const std::string& fra
     const Shader vertex(GL_VERTEX_SHADER, vertex_file, defines);
     const Shader fragment(GL_FRAGMENT_SHADER, fragment_file, defines);
     Program program;
-    program.id_ = link({&vertex, &fragment}, vertex_file + " with " + fragment_file);
+    program.state_ = std::make_unique<State>(std::initializer_list<const Shader*>{&vertex, &fragment},
+                                             vertex_file + " with " + fragment_file);
     return program;
 }
 
@@ -115,56 +202,122 @@ Program Program::graphics_with_geometry(const std::string& vertex_file, const st
     const Shader geometry(GL_GEOMETRY_SHADER, geometry_file, defines);
     const Shader fragment(GL_FRAGMENT_SHADER, fragment_file, defines);
     Program program;
-    program.id_ =
-        link({&vertex, &geometry, &fragment}, vertex_file + ", " + geometry_file + " and " + fragment_file);
+    program.state_ =
+        std::make_unique<State>(std::initializer_list<const Shader*>{&vertex, &geometry, &fragment},
+                                vertex_file + ", " + geometry_file + " and " + fragment_file);
     return program;
 }
 
-Program& Program::operator=(Program&& other) noexcept {
-    std::swap(id_, other.id_);
-    Program old(std::move(other));  // frees what this one held now, not when `other` ends
-    return *this;
-}
-
-Program::~Program() {
-    if (id_ != 0) glDeleteProgram(id_);
+unsigned Program::id() const {
+    return state_ == nullptr ? 0 : state_->id;
 }
 
 void Program::use() const {
-    glUseProgram(id_);
+    assert(state_ != nullptr);
+    if (state_->is_applied()) return;
+    forget_state();
+    if (const std::string what = state_->interface.unbound(); !what.empty())
+        throw GlError(state_->name + ": nothing is bound to " + what);
+    glUseProgram(state_->id);
+    for (const ProgramInterface::Block& block : state_->interface.blocks())
+        if (!block.is_numbered) apply(block);
+    for (const ProgramInterface::Sampler& sampler : state_->interface.samplers())
+        if (!sampler.is_numbered) apply(sampler);
+    applied_program = state_->serial;
 }
 
-void Program::set(const char* name, float value) const {
-    glProgramUniform1f(id_, glGetUniformLocation(id_, name), value);
+void Program::check_declared([[maybe_unused]] std::string_view name) const {
+    assert(state_->interface.declares(name));
 }
-void Program::set(const char* name, int value) const {
-    glProgramUniform1i(id_, glGetUniformLocation(id_, name), value);
+
+void Program::bind_block(std::string_view name, const ObjectName& buffer) const {
+    ProgramInterface::Block* block = state_->interface.find_block(name);
+    if (block == nullptr) return check_declared(name);
+    if (block->buffer == buffer) return;
+    block->buffer = buffer;
+    if (id_of(buffer) == 0) {
+        forget_state();
+    } else if (state_->is_applied()) {
+        apply(*block);
+    }
 }
-void Program::set(const char* name, std::uint32_t value) const {
-    glProgramUniform1ui(id_, glGetUniformLocation(id_, name), value);
+
+void Program::bind_texels(std::string_view name, const ObjectName& texture) const {
+    ProgramInterface::Sampler* sampler = state_->interface.find_sampler(name);
+    if (sampler == nullptr) return check_declared(name);
+    assert(sampler->target == GL_TEXTURE_BUFFER);
+    if (sampler->texture == texture) return;
+    sampler->texture = texture;
+    if (id_of(texture) == 0) {
+        forget_state();
+    } else if (state_->is_applied()) {
+        apply(*sampler);
+    }
 }
-void Program::set(const char* name, const glm::ivec2& value) const {
-    glProgramUniform2iv(id_, glGetUniformLocation(id_, name), 1, glm::value_ptr(value));
+
+void Program::bind_texture(std::string_view name, unsigned texture, unsigned sampler_id) const {
+    ProgramInterface::Sampler* sampler = state_->interface.find_sampler(name);
+    if (sampler == nullptr) return check_declared(name);
+    sampler->texture = nullptr;
+    sampler->texture_id = texture;
+    sampler->sampler_id = sampler_id;
+    if (state_->is_applied()) forget_state();
 }
-void Program::set(const char* name, const glm::vec2& value) const {
-    glProgramUniform2fv(id_, glGetUniformLocation(id_, name), 1, glm::value_ptr(value));
+
+void Program::bind_vertices(std::string_view name, const ObjectName& buffer, bool is_color) const {
+    ProgramInterface::Input* input = state_->interface.find_input(name);
+    if (input == nullptr) return check_declared(name);
+    input->buffer = buffer;
+    input->is_color = is_color;
+    if (state_->is_applied()) forget_state();
 }
-void Program::set(const char* name, const glm::vec3& value) const {
-    glProgramUniform3fv(id_, glGetUniformLocation(id_, name), 1, glm::value_ptr(value));
+
+void Program::bind_input(std::string_view input, const Buffer<glm::vec4>& vertices) const {
+    bind_vertices(input, vertices.name(), false);
 }
-void Program::set(const char* name, const glm::vec4& value) const {
-    glProgramUniform4fv(id_, glGetUniformLocation(id_, name), 1, glm::value_ptr(value));
+
+void Program::bind_input(std::string_view input, const Buffer<std::uint32_t>& colors) const {
+    bind_vertices(input, colors.name(), true);
 }
-void Program::set(const char* name, const glm::uvec4& value) const {
-    glProgramUniform4uiv(id_, glGetUniformLocation(id_, name), 1, glm::value_ptr(value));
+
+int Program::location(std::string_view name) const {
+    const ProgramInterface::Uniform* uniform = state_->interface.find_uniform(name);
+    if (uniform != nullptr) return uniform->location;
+    check_declared(name);
+    return -1;  // which OpenGL ignores
 }
-void Program::set(const char* name, const glm::mat4& value) const {
-    glProgramUniformMatrix4fv(id_, glGetUniformLocation(id_, name), 1, GL_FALSE, glm::value_ptr(value));
+
+void Program::set(std::string_view uniform, float value) const {
+    glProgramUniform1f(id(), location(uniform), value);
+}
+void Program::set(std::string_view uniform, int value) const {
+    glProgramUniform1i(id(), location(uniform), value);
+}
+void Program::set(std::string_view uniform, std::uint32_t value) const {
+    glProgramUniform1ui(id(), location(uniform), value);
+}
+void Program::set(std::string_view uniform, const glm::ivec2& value) const {
+    glProgramUniform2iv(id(), location(uniform), 1, glm::value_ptr(value));
+}
+void Program::set(std::string_view uniform, const glm::vec2& value) const {
+    glProgramUniform2fv(id(), location(uniform), 1, glm::value_ptr(value));
+}
+void Program::set(std::string_view uniform, const glm::vec3& value) const {
+    glProgramUniform3fv(id(), location(uniform), 1, glm::value_ptr(value));
+}
+void Program::set(std::string_view uniform, const glm::vec4& value) const {
+    glProgramUniform4fv(id(), location(uniform), 1, glm::value_ptr(value));
+}
+void Program::set(std::string_view uniform, const glm::uvec4& value) const {
+    glProgramUniform4uiv(id(), location(uniform), 1, glm::value_ptr(value));
+}
+void Program::set(std::string_view uniform, const glm::mat4& value) const {
+    glProgramUniformMatrix4fv(id(), location(uniform), 1, GL_FALSE, glm::value_ptr(value));
 }
 
 void Program::dispatch(std::size_t invocations, std::uint32_t group_size) const {
     if (invocations == 0) return;
-    assert(group_size == group_size_of(id_));
+    assert(group_size == group_size_of(id()));
     const std::size_t groups = (invocations + group_size - 1) / group_size;
     const std::size_t rows = (groups + kMaxGroups - 1) / kMaxGroups;
     if (rows > kMaxGroups) {
@@ -174,18 +327,44 @@ void Program::dispatch(std::size_t invocations, std::uint32_t group_size) const 
     }
     // Rows of equal length leave fewer groups over than full rows and a rest.
     const std::size_t columns = (groups + rows - 1) / rows;
-    glUseProgram(id_);
-    if (hazard_probe != nullptr) hazard_probe->dispatches(id_);
+    use();
+    if (hazard_probe != nullptr) hazard_probe->dispatches(id());
     glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(rows), 1);
     check_errors("glDispatchCompute");
 }
 
 void Program::dispatch_indirect(unsigned arguments, std::size_t offset) const {
-    glUseProgram(id_);
+    use();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, arguments);
-    if (hazard_probe != nullptr) hazard_probe->dispatches_indirectly(id_, arguments);
+    if (hazard_probe != nullptr) hazard_probe->dispatches_indirectly(id(), arguments);
     glDispatchComputeIndirect(static_cast<GLintptr>(offset));
     check_errors("glDispatchComputeIndirect");
+}
+
+void Program::draw_arrays(Primitive primitive, std::size_t count) const {
+    if (count == 0) return;
+    use();
+    const VertexInputs inputs(state_->interface.inputs());
+    if (hazard_probe != nullptr) hazard_probe->draws(false);
+    glDrawArrays(mode_of(primitive), 0, static_cast<GLsizei>(count));
+}
+
+void Program::draw_elements(Primitive primitive, unsigned indices, std::size_t count) const {
+    if (count == 0) return;
+    use();
+    const VertexInputs inputs(state_->interface.inputs());
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices);
+    if (hazard_probe != nullptr) hazard_probe->draws(true);
+    glDrawElements(mode_of(primitive), static_cast<GLsizei>(count), GL_UNSIGNED_INT, nullptr);
+}
+
+void Program::draw_arrays_indirect(Primitive primitive, unsigned arguments, std::size_t offset) const {
+    use();
+    const VertexInputs inputs(state_->interface.inputs());
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, arguments);
+    if (hazard_probe != nullptr) hazard_probe->draws(false, arguments);
+    glDrawArraysIndirect(mode_of(primitive), std::bit_cast<const void*>(offset));
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
 }
 
 void finish() {

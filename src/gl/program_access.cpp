@@ -5,7 +5,6 @@
 #include <map>
 
 #include "gl/block_access.h"
-#include "gl/shader_source.h"
 
 namespace gelatin::gl {
 namespace {
@@ -19,18 +18,6 @@ GLint get(GLenum name) {
 // "Lights[0]" is an element of an array of blocks.
 std::string without_index(const std::string& name) {
     return name.substr(0, name.find('['));
-}
-
-std::map<std::string, BlockAccess> accesses_of(const std::vector<const ShaderSource*>& stages) {
-    std::map<std::string, BlockAccess> all;
-    for (const ShaderSource* stage : stages) {
-        for (const auto& [name, access] : block_accesses(stage->text)) {
-            const auto [entry, is_new] = all.try_emplace(name, access);
-            entry->second.reads |= access.reads;
-            entry->second.writes |= access.writes;
-        }
-    }
-    return all;
 }
 
 template <class Use>
@@ -87,11 +74,10 @@ unsigned buffer_of_texture() {
 
 }  // namespace
 
-ProgramAccess reflect_accesses(unsigned program, const std::string& name,
-                               const std::vector<const ShaderSource*>& stages) {
+ProgramAccess reflect_accesses(unsigned program, const std::string& name, const std::string& source) {
     ProgramAccess access;
     access.name = name;
-    const std::map<std::string, BlockAccess> declared = accesses_of(stages);
+    const std::map<std::string, BlockAccess> declared = block_accesses(source);
     for_each_block(program, [&](GLuint index, const std::string& block) {
         const auto found = declared.find(without_index(block));
         const BlockAccess modes = found == declared.end() ? BlockAccess() : found->second;

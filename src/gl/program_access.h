@@ -7,8 +7,6 @@
 
 namespace gelatin::gl {
 
-struct ShaderSource;
-
 /// Where a linked program looks for buffers, and what it does with them.
 struct ProgramAccess {
     struct Block {
@@ -25,10 +23,9 @@ struct ProgramAccess {
     std::vector<Texels> texels;
 };
 
-/// Asks the driver for active blocks and samplers, and the sources of the program's stages for `readonly` and
-/// `writeonly`. A block that no source has may be read and written.
-ProgramAccess reflect_accesses(unsigned program, const std::string& name,
-                               const std::vector<const ShaderSource*>& stages);
+/// Asks the driver for active blocks and samplers, and `source`, that of all stages with includes expanded,
+/// for `readonly` and `writeonly`. A block that the source does not have may be read and written.
+ProgramAccess reflect_accesses(unsigned program, const std::string& name, const std::string& source);
 
 /// A buffer that is bound where a command uses it.
 struct BoundBuffer {

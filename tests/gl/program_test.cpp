@@ -86,12 +86,14 @@ TEST_F(ProgramTest, LinksAGeometryShaderBetweenTheOthers) {
 TEST_F(ProgramTest, SetsUniformsOfEveryType) {
     folder_.add("uniforms.comp", R"(
         layout(local_size_x = 1) in;
-        layout(std430, binding = 0) buffer Out { float values[]; };
+        layout(std430) buffer Out { float values[]; };
         uniform float f; uniform int i; uniform uint u;
-        uniform vec2 v2; uniform vec3 v3; uniform vec4 v4; uniform mat4 m;
+        uniform vec2 v2; uniform vec3 v3; uniform vec4 v4; uniform mat4 m; uniform float a[2];
+        uniform float optimised_away;
         void main() {
             values[0] = f; values[1] = float(i); values[2] = float(u);
             values[3] = v2.y; values[4] = v3.z; values[5] = v4.w; values[6] = m[3][1];
+            values[7] = a[0] + a[1];
         })");
     const Program program = Program::compute("uniforms.comp");
     program.set("f", 1.5f);
@@ -103,15 +105,17 @@ TEST_F(ProgramTest, SetsUniformsOfEveryType) {
     glm::mat4 matrix(0.0f);
     matrix[3][1] = 7.0f;
     program.set("m", matrix);
+    program.set("a[0]", 8.0f);
+    program.set("a[1]", 0.5f);
     program.set("optimised_away", 1.0f);
 
-    const Buffer<float> buffer(7);
-    buffer.bind_storage(0);
+    const Buffer<float> buffer(8);
+    program.bind("Out", buffer);
     program.dispatch(1, 1);
     barrier(Barrier::buffer_update);
-    std::vector<float> out(7);
+    std::vector<float> out(8);
     buffer.download(out);
-    EXPECT_THAT(out, ElementsAre(1.5f, -2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f));
+    EXPECT_THAT(out, ElementsAre(1.5f, -2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f, 8.5f));
 }
 
 // Every invocation counts itself, so that one too few and one too many both show.
@@ -122,7 +126,7 @@ protected:
         program.set("count", static_cast<std::uint32_t>(invocations));
         Buffer<std::uint32_t> buffer(invocations + 1);
         buffer.upload(std::vector<std::uint32_t>(invocations + 1, 0));
-        buffer.bind_storage(0);
+        program.bind("Out", buffer);
         program.dispatch(invocations, group_size);
         barrier(Barrier::buffer_update);
         std::vector<std::uint32_t> out(invocations + 1);
@@ -134,7 +138,7 @@ protected:
         folder_.add("count.comp", R"(
             #include "global_index.glsl"
             layout(local_size_x = GROUP_SIZE) in;
-            layout(std430, binding = 0) buffer Out { uint visits[]; };
+            layout(std430) buffer Out { uint visits[]; };
             uniform uint count;
             void main() { uint i = global_index(); if (i < count) atomicAdd(visits[i], 1u); })");
         folder_.add("global_index.glsl", read_file(test::source_path("shaders/include/global_index.glsl")));

@@ -21,7 +21,7 @@ TEST_F(TimerTest, ComputeTakesTime) {
     test::ShaderFolder folder;
     folder.add("work.comp", R"(
         layout(local_size_x = 64) in;
-        layout(std430, binding = 0) buffer Out { float values[]; };
+        layout(std430) buffer Out { float values[]; };
         void main() {
             float x = float(gl_GlobalInvocationID.x);
             for (int i = 0; i < 1000; ++i) x = sin(x) + 1.0;
@@ -29,7 +29,7 @@ TEST_F(TimerTest, ComputeTakesTime) {
         })");
     const Program program = Program::compute("work.comp");
     const Buffer<float> buffer(6400);
-    buffer.bind_storage(0);
+    program.bind("Out", buffer);
 
     TimestampStageTimer timer;
     for (int i = 0; i < 20; ++i) {
