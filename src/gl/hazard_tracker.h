@@ -78,6 +78,7 @@ public:
 
     /// Barriers made there are not counted, as if the call were removed.
     void suppress_barrier(CallSite where) { suppressed_.insert(where); }
+    void count_all_barriers() { suppressed_.clear(); }
 
     /// A call of barrier() and what it was good for.
     struct BarrierSite {

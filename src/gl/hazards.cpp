@@ -118,6 +118,11 @@ void suppress_barrier(CallSite where) {
     current_context().tracker.suppress_barrier(where);
 }
 
+void count_all_barriers() {
+    const std::lock_guard lock(mutex);
+    current_context().tracker.count_all_barriers();
+}
+
 void record_gpu_events() {
     const std::lock_guard lock(mutex);
     current_context().recording.emplace();

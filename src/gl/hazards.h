@@ -27,8 +27,9 @@ std::vector<HazardTracker::BarrierSite> barrier_sites();
 /// go; two that stand in for each other may not both.
 std::vector<std::string> unneeded_barriers();
 
-/// Barriers made there are not counted from now on.
+/// Barriers made there are not counted in the current context, until count_all_barriers().
 void suppress_barrier(CallSite where);
+void count_all_barriers();
 
 /// Keeps what the current context does from now on; take_gpu_events() ends it.
 void record_gpu_events();

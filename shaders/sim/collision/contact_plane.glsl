@@ -1,7 +1,11 @@
 // The plane in which two objects meet: it moves with the common velocity of their patches, or with the mean one of the
 // corners that are pinned. CPU twin: src/cpu/collision/contact.h.
 #include "layouts/contact.glsl"
+#ifdef WRITES_CONTACT_PATCHES
 layout(std430, binding = 5) buffer ContactPatches { ContactPatch contact_patches[]; };
+#else
+layout(std430, binding = 5) readonly buffer ContactPatches { ContactPatch contact_patches[]; };
+#endif
 
 struct ContactPlane {
     vec3 normal;    // unit, from the pair's object to the other

@@ -1,7 +1,11 @@
 // What the GPU itself has counted, as the arguments of indirect dispatches (src/gpu/collision/collision_buffers.h).
 #include "layouts/dispatch.glsl"
 
+#ifdef WRITES_DISPATCHES
 layout(std430, binding = 6) buffer Dispatches { Dispatch dispatches[]; };
+#else
+layout(std430, binding = 6) readonly buffer Dispatches { Dispatch dispatches[]; };
+#endif
 
 // Indices into dispatches. Losses are no dispatch: its count grows by what did not fit into a buffer.
 const uint kEntries = 0u;    // an invocation four faces of a pair
@@ -33,6 +37,7 @@ Dispatch dispatch_invocations(uint count) { return make_dispatch(count, count / 
 
 const uint kNone = 0xFFFFFFFFu;
 
+#ifdef WRITES_DISPATCHES
 // The place of one more element in a list that a dispatch will go through, or kNone where it is full: a loss.
 uint take_slot(uint work, uint capacity) {
     uint slot = atomicAdd(dispatches[work].count, 1u);
@@ -59,6 +64,7 @@ uint take_slots(uint work, uint count, uint capacity, out uint left_over) {
     atomicMax(dispatches[work].groups_x, (first + count + 63u) / 64u);
     return first;
 }
+#endif
 
 bool meet(vec3 min_a, vec3 max_a, vec3 min_b, vec3 max_b) {
     return all(lessThanEqual(min_a, max_b)) && all(lessThanEqual(min_b, max_a));

@@ -2,7 +2,11 @@
 // other (src/cpu/collision/touch.h).
 const uint kTouches = 1u;
 const uint kEnters = 3u;
+#ifdef WRITES_FACE_COLLISIONS
 layout(std430, binding = 4) buffer FaceCollisions { uint face_collisions[]; };
+#else
+layout(std430, binding = 4) readonly buffer FaceCollisions { uint face_collisions[]; };
+#endif
 
 bool collides(ObjectPair pair, uint face) {
     uint index = face - bounding_boxes[pair.object].first_face;

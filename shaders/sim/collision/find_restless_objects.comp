@@ -2,6 +2,7 @@
 // of what the map leaves of the least clearance. Any map will do, so the last one that was made does, moved along with
 // the object; a new one is made for the objects that this one does not explain. One work group a chunk of nodes.
 // CPU twin: gelatin::cpu::SelfCollision. Parity: tests/gpu/collision/find_self_collisions_test.cpp.
+#define WRITES_DISPATCHES
 #include "sim/collision/affine_fit.glsl"
 #include "sim/collision/dispatches.glsl"
 #include "include/global_index.glsl"

@@ -2,6 +2,8 @@
 // VIEW_COUNT those of them that may collide at all; and a
 // Face Collision Result without collisions. One invocation an entry: four faces of a pair. CPU twin: gelatin::cpu::Collision.
 // Parity: tests/gpu/collision/collision_test.cpp.
+#define WRITES_OBJECT_PAIRS
+#define WRITES_FACE_COLLISIONS
 #include "sim/collision/pairs.glsl"
 #include "sim/collision/face_collisions.glsl"
 #include "sim/depth/hidden.glsl"

@@ -1,5 +1,7 @@
 // Where each object's row of pairs lies, and its words and entries: running sums over the objects by one work group.
 // Rows behind the end of a buffer are left out and counted as losses.
+#define WRITES_PAIR_ROWS
+#define WRITES_DISPATCHES
 #include "sim/collision/pairs.glsl"
 layout(local_size_x = 256) in;
 

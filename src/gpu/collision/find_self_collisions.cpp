@@ -104,7 +104,7 @@ void FindSelfCollisions::fit(const CollisionBuffers& collision, const SelfCollis
     gl::barrier(gl::Barrier::storage);
     objects_.bind_storage(1);
     collision.run(fit_program_, Work::fits);
-    gl::barrier(gl::Barrier::texture_fetch);
+    gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::storage);
 }
 
 void FindSelfCollisions::list_restless_faces(const ModelBuffers& model, const CollisionBuffers& collision,

@@ -56,7 +56,6 @@ void ObjectTree::renew_order(const CollisionBuffers& collision) {
         order_.upload(box_tree_order(centers));
     }
     if (age_ == 0 && readback_.pending() == 0) {
-        gl::barrier(gl::Barrier::buffer_update);
         readback_.begin(collision.bounding_boxes.id(), collision.bounding_boxes.size() * sizeof(BoundingBox));
     }
     age_ = (age_ + 1) % kOrderLifetime;

@@ -36,7 +36,6 @@ void RespondToSelf::run(const ModelBuffers& model, const CollisionBuffers& colli
     current.positions.bind_storage(5);
     current.velocities.bind_storage(7);
     collision.run(node_program_, Work::self_nodes);
-    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 }
 
 }  // namespace gelatin::gpu

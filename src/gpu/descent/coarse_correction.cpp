@@ -87,7 +87,6 @@ void CoarseCorrection::begin(double step) {
     clusters_.bind_storage(4);
     turn_program_.set("cluster_count", cluster_count_);
     turn_program_.dispatch(std::size_t{64} * cluster_count_);
-    gl::barrier(gl::Barrier::storage);
 }
 
 void CoarseCorrection::bind_forces(bool is_ahead) const {

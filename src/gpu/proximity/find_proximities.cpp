@@ -26,6 +26,7 @@ void run_tasks(const gl::Program& of_nodes, const gl::Program& of_edges, const C
         program.set("task_capacity", capacity(tasks.leaves));
         program.set("first_query", first_query);
         collision.run(program, work);
+        gl::barrier(gl::Barrier::storage);  // both add to the same buffers
     };
     run(of_nodes, buffers.node_tasks, Work::node_tasks, 0);
     run(of_edges, buffers.edge_tasks, Work::edge_tasks, buffers.node_count);
@@ -106,14 +107,13 @@ void FindProximities::find_near_leaves(const CollisionBuffers& collision,
     buffers.near_leaves.bind_storage(5);
     list_program_.set("near_object_capacity", capacity(buffers.near_objects));
     collision.run(list_program_, Work::near_objects);
-    gl::barrier(kNext);
+    gl::barrier(gl::Barrier::texture_fetch);
 }
 
 void FindProximities::test(const CollisionBuffers& collision, const ProximityBuffers& buffers) const {
     buffers.near_leaf_texels.bind(9);
     buffers.starts.bind_storage(7);
     run_tasks(test_nodes_program_, test_edges_program_, collision, buffers);
-    gl::barrier(gl::Barrier::storage);
 }
 
 void FindProximities::sum_up(const ProximityBuffers& buffers) const {
@@ -137,7 +137,6 @@ void FindProximities::write(const CollisionBuffers& collision, const ProximityBu
     for (const gl::Program* program : {&write_nodes_program_, &write_edges_program_})
         program->set("proximity_capacity", capacity(buffers.proximities));
     run_tasks(write_nodes_program_, write_edges_program_, collision, buffers);
-    gl::barrier(gl::Barrier::storage);
 }
 
 }  // namespace gelatin::gpu
