@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <regex>
 #include <set>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "core/file.h"
+#include "gelatin/simulator.h"
 #include "gl/hazards.h"
 #include "support/gl_fixture.h"
 #include "support/scenarios.h"
@@ -32,22 +34,31 @@ std::vector<gl::GpuEvent> record(const test::Scenario& scenario) {
     return gl::take_gpu_events();
 }
 
-// "src/gpu/collision/respond.cpp:31" of each call of barrier() in src/, from the sources.
-std::set<std::string> barriers_of_the_sources() {
+// "src/gpu/collision/respond.cpp:31" of each line of src/ that `pattern` is found in, in files whose name and
+// folder `is_left_out` does not hold for.
+std::set<std::string> lines_with(const std::string& pattern,
+                                 const std::function<bool(const std::filesystem::path&)>& is_left_out) {
     std::set<std::string> sites;
-    const std::regex call(R"(\bbarrier\([^)])");
+    const std::regex wanted(pattern);
     for (const auto& entry : std::filesystem::recursive_directory_iterator(test::source_path("src"))) {
-        const std::string name = entry.path().filename().string();
-        if (!name.ends_with(".cpp") || name.starts_with("barrier") || name.starts_with("hazard")) continue;
+        if (entry.path().extension() != ".cpp" || is_left_out(entry.path())) continue;
         std::istringstream lines(read_file(entry.path()));
         int number = 0;
         for (std::string line; std::getline(lines, line);) {
             ++number;
-            if (std::regex_search(line.substr(0, line.find("//")), call))
+            if (std::regex_search(line.substr(0, line.find("//")), wanted))
                 sites.insert(gl::to_string(gl::CallSite{entry.path().c_str(), number}));
         }
     }
     return sites;
+}
+
+// The tracker's own files only speak of barriers.
+std::set<std::string> barriers_of_the_sources() {
+    return lines_with(R"(\bbarrier\([^)])", [](const std::filesystem::path& file) {
+        const std::string name = file.filename().string();
+        return name.starts_with("barrier") || name.starts_with("hazard");
+    });
 }
 
 std::set<gl::CallSite> sites_of(const std::vector<gl::GpuEvent>& events) {
@@ -95,6 +106,29 @@ TEST_F(BarriersHeavy, AreMissedInARun) {
     test::play(scenario);
     gl::count_all_barriers();
     EXPECT_THAT(gl::take_hazards(), Not(IsEmpty()));
+}
+
+TEST_F(BarriersHeavy, AreNotMissingInTheScenesThatComeWithTheProgram) {
+    for (const auto& entry : std::filesystem::directory_iterator(test::source_path("scenes"))) {
+        if (entry.path().extension() != ".toml") continue;
+        SCOPED_TRACE(entry.path().filename());
+        SimulatorOptions options;
+        options.backend = Backend::gl;
+        options.use_current_context = true;
+        Simulator simulator(load_scene(entry.path()), options);
+        for (int i = 0; i < 3; ++i) simulator.step();
+        simulator.begin_statistics();
+        simulator.take_statistics();
+        EXPECT_THAT(gl::take_hazards(), IsEmpty());
+    }
+}
+
+// The tracker knows of what goes through the GL layer.
+TEST(CommandsToTheGpu, AreGivenByTheGlLayerAlone) {
+    const std::set<std::string> lines = lines_with(
+        R"(\bgl(Dispatch|Draw(Arrays|Elements|Range)|MultiDraw|MemoryBarrier|(Copy|Clear|Get)?BufferSubData|ClearBufferData))",
+        [](const std::filesystem::path& file) { return file.parent_path().filename() == "gl"; });
+    EXPECT_THAT(lines, IsEmpty());
 }
 
 }  // namespace
