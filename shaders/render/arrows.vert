@@ -3,9 +3,9 @@
 #include "render/include/cut.glsl"
 #include "render/include/near_plane.glsl"
 
-layout(binding = 0) uniform samplerBuffer node_positions;  // xyz [m]
-layout(binding = 1) uniform samplerBuffer velocities;      // xyz [m/s]
-layout(binding = 2) uniform usamplerBuffer arrow_nodes;
+uniform samplerBuffer node_positions;  // xyz [m]
+uniform samplerBuffer velocities;      // xyz [m/s]
+uniform usamplerBuffer arrow_nodes;
 uniform mat4 world_to_clip;
 uniform vec2 picture_size;  // [pixels]
 uniform float arrow_time;   // [s]

@@ -1,6 +1,6 @@
 // The mean of what a tile of ambient_occlusion.frag found, of those pixels that show the same surface. The outermost
 // rows and columns count half, so that each pixel of a tile counts alike and the middle stays in the middle.
-layout(binding = 8) uniform sampler2D occlusion;  // openness, distance [m], < 0 on the floor
+uniform sampler2D occlusion;  // openness, distance [m], < 0 on the floor
 
 uniform float same_surface;  // distances that differ by less belong together [m]
 

@@ -1,8 +1,8 @@
 // The twelve edges of boxes, as lines that fade from level to level.
 #include "render/include/line.glsl"
 
-layout(binding = 0) uniform samplerBuffer boxes;         // lower and upper corner [m]
-layout(binding = 1) uniform usamplerBuffer shown_boxes;  // index into boxes, level
+uniform samplerBuffer boxes;         // lower and upper corner [m]
+uniform usamplerBuffer shown_boxes;  // index into boxes, level
 uniform mat4 world_to_clip;
 
 flat out vec4 line_color;

@@ -2,7 +2,7 @@
 #include "render/include/cut.glsl"
 #include "render/include/surface_fetch.glsl"
 
-layout(binding = 3) uniform samplerBuffer node_values;
+uniform samplerBuffer node_values;
 uniform mat4 world_to_clip;
 
 out vec3 normal;

@@ -2,13 +2,13 @@
 // three corners the last is the first once more. Needs find_cut_tets.comp.
 #include "render/include/cut.glsl"
 
-layout(binding = 0) uniform samplerBuffer node_positions;  // xyz [m]
-layout(binding = 1) uniform usamplerBuffer tets;           // nodes
-layout(binding = 2) uniform usamplerBuffer met_tets;
-layout(binding = 3) uniform samplerBuffer object_colors;  // linear RGB
-layout(binding = 4) uniform usamplerBuffer tet_objects;
+uniform samplerBuffer node_positions;  // xyz [m]
+uniform usamplerBuffer tets;           // nodes
+uniform usamplerBuffer met_tets;
+uniform samplerBuffer object_colors;  // linear RGB
+uniform usamplerBuffer tet_objects;
 #ifdef COLOR_MAP
-layout(binding = 5) uniform samplerBuffer tet_values;
+uniform samplerBuffer tet_values;
 flat out float value;
 #else
 flat out vec3 albedo;

@@ -2,9 +2,9 @@
 #include "render/include/cut.glsl"
 #include "render/include/surface_fetch.glsl"
 
-layout(binding = 3) uniform usamplerBuffer triangles;  // surface vertices of each face
+uniform usamplerBuffer triangles;  // surface vertices of each face
 #ifdef MARKED
-layout(binding = 6) uniform usamplerBuffer face_marks;  // 1: marked
+uniform usamplerBuffer face_marks;  // 1: marked
 #endif
 uniform mat4 world_to_clip;
 

@@ -5,10 +5,10 @@
 #include "layouts/draw.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer node_positions;  // xyz [m]
-layout(binding = 1) uniform usamplerBuffer tets;           // nodes
-layout(std430, binding = 0) writeonly buffer MetTets { uint met_tets[]; };
-layout(std430, binding = 1) buffer Arguments { Draw met; };
+uniform samplerBuffer node_positions;  // xyz [m]
+uniform usamplerBuffer tets;           // nodes
+layout(std430) writeonly buffer MetTets { uint met_tets[]; };
+layout(std430) buffer Arguments { Draw met; };
 uniform uint tet_count;
 
 void main() {

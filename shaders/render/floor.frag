@@ -2,8 +2,10 @@
 #include "render/include/backdrop.glsl"
 #include "render/include/dither.glsl"
 #include "render/include/floor_color.glsl"
+#ifdef SHADOWED
 #include "render/include/floor_light.glsl"
 #include "render/include/openness.glsl"
+#endif
 #include "render/include/tone.glsl"
 
 uniform float grid_spacing;  // [m]
@@ -21,9 +23,12 @@ float grid() {
 }
 
 void main() {
+    vec2 visible = vec2(1.0);
+#ifdef SHADOWED
     // Of two estimates of the same: the patch knows what is hidden from the eye, the picture what stands upright.
-    vec2 visible = floor_visibility(xz);
+    visible = floor_visibility(xz);
     visible.y = min(visible.y, pixel_openness(-1.0));
+#endif
     vec3 color = floor_color(visible) * (1.0 - 0.05 * grid());
     pixel = surrounding_pixel(to_display(mix(color, backdrop(), floor_fade(xz))) + dither());
 }

@@ -1,6 +1,6 @@
 // The light on a patch of floor, once a frame in a small texture, so that the floor's many pixels need one look
 // each: the mean of 4 x 4 pixels of floor_visibility.frag.
-layout(binding = 6) uniform sampler2D visibility;
+uniform sampler2D visibility;
 uniform vec2 pixel_size;  // in texture coordinates
 
 in vec2 uv;

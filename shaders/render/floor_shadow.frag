@@ -1,5 +1,5 @@
 // Darkens the floor that is in the picture already.
-layout(binding = 5) uniform sampler2D floor_shade;
+uniform sampler2D floor_shade;
 
 in vec2 uv;
 layout(location = 0) out vec4 factor;

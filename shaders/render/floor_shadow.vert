@@ -1,6 +1,6 @@
 // The patch of floor round the scene in kTiles x kTiles tiles of two triangles each; those without shadow vanish, so
 // that their pixels are never looked at.
-layout(binding = 5) uniform sampler2D floor_shade;
+uniform sampler2D floor_shade;
 uniform mat4 world_to_clip;
 uniform vec4 floor_patch;    // x, z of its corner [m]; 1 / its size [1/m]
 uniform float floor_height;  // [m]

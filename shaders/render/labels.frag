@@ -1,5 +1,5 @@
 // Light letters with a dark rim.
-layout(binding = 7) uniform sampler2D atlas;
+uniform sampler2D atlas;
 
 flat in ivec2 from_picture_to_atlas;
 layout(location = 0) out vec4 pixel;

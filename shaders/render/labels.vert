@@ -1,7 +1,7 @@
 // Names of objects, each centred in the middle of its box: a label is two triangles, pixel on pixel.
-layout(binding = 0) uniform samplerBuffer boxes;    // lower and upper corner [m]
-layout(binding = 1) uniform usamplerBuffer roots;   // of each object, its box
-layout(binding = 2) uniform usamplerBuffer labels;  // object; lower left corner in the atlas, width [pixels]
+uniform samplerBuffer boxes;    // lower and upper corner [m]
+uniform usamplerBuffer roots;   // of each object, its box
+uniform usamplerBuffer labels;  // object; lower left corner in the atlas, width [pixels]
 uniform mat4 world_to_clip;
 uniform vec2 picture_size;   // [pixels]
 uniform float label_height;  // [pixels]

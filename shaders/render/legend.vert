@@ -1,5 +1,5 @@
 // A picture in the lower left corner of the other, pixel on pixel.
-layout(binding = 7) uniform sampler2D legend;
+uniform sampler2D legend;
 uniform vec2 picture_size;  // [pixels]
 
 void main() {

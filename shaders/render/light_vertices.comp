@@ -6,9 +6,9 @@
 #include "render/include/tone.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 3) uniform samplerBuffer object_colors;  // linear RGB
-layout(std430, binding = 0) writeonly buffer ClipPositions { vec4 clip_positions[]; };
-layout(std430, binding = 1) writeonly buffer DisplayColors { uint display_colors[]; };  // RGBA8, sRGB values
+uniform samplerBuffer object_colors;  // linear RGB
+layout(std430) writeonly buffer ClipPositions { vec4 clip_positions[]; };
+layout(std430) writeonly buffer DisplayColors { uint display_colors[]; };  // RGBA8, sRGB values
 uniform mat4 world_to_clip;
 uniform uint vertex_count;
 

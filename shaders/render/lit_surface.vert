@@ -1,6 +1,6 @@
 // Surfaces as light_vertices.comp left them.
-layout(location = 0) in vec4 clip_position;
-layout(location = 1) in vec4 display_color;
+in vec4 clip_position;
+in vec4 display_color;
 
 noperspective out vec3 color;  // over faces of a few pixels perspective does not show
 

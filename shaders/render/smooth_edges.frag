@@ -1,7 +1,7 @@
 // Smooths the steps of edges in a finished picture, where several samples a pixel cost too much: finds the run of
 // pixels along which an edge stays in its row or column, and blends across it by the place within the run (the idea
 // of Reshetov's MLAA and Lottes' FXAA, 2009).
-layout(binding = 7) uniform sampler2D picture;  // alpha: see render/include/tone.glsl
+uniform sampler2D picture;  // alpha: see render/include/tone.glsl
 uniform vec2 pixel_size;                        // in texture coordinates
 
 in vec2 uv;

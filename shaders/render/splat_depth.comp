@@ -11,8 +11,8 @@ layout(local_size_x = 64) in;
 
 const int kMostMaps = 2;
 
-layout(binding = 3) uniform usamplerBuffer triangles;  // surface vertices of each face
-layout(std430, binding = 0) buffer DepthMaps { uint depths[]; };  // 2^32 - 1 is the far plane, [map][row][column]
+uniform usamplerBuffer triangles;  // surface vertices of each face
+layout(std430) buffer DepthMaps { uint depths[]; };  // 2^32 - 1 is the far plane, [map][row][column]
 uniform mat4 world_to_map[kMostMaps];  // texels, and depth in [0, 1]; no perspective
 uniform ivec2 map_size[kMostMaps];     // [texels]
 uniform int map_start[kMostMaps];      // of each map in depths

@@ -2,8 +2,8 @@
 #include "render/include/cut.glsl"
 #include "render/include/line.glsl"
 
-layout(binding = 0) uniform samplerBuffer node_positions;  // xyz [m]
-layout(binding = 1) uniform usamplerBuffer springs;        // Spring: two nodes, rest length [m], stiffness
+uniform samplerBuffer node_positions;  // xyz [m]
+uniform usamplerBuffer springs;        // Spring: two nodes, rest length [m], stiffness
 uniform mat4 world_to_clip;
 uniform float full_strain;
 uniform vec3 strain_colors[5];  // from -full_strain to full_strain, sRGB values

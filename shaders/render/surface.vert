@@ -4,7 +4,7 @@
 #include "render/include/cut.glsl"
 #endif
 
-layout(binding = 3) uniform samplerBuffer object_colors;  // linear RGB
+uniform samplerBuffer object_colors;  // linear RGB
 uniform mat4 world_to_clip;
 
 out vec3 position;

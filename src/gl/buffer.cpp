@@ -103,11 +103,6 @@ void RawBuffer::fill(std::uint32_t value) {
     glClearBufferData(GL_COPY_WRITE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &value);
 }
 
-void RawBuffer::bind_storage(unsigned index) const {
-    forget_state();
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, index, id());
-}
-
 BufferTexture::BufferTexture(unsigned buffer, std::size_t bytes, TexelFormat format) {
     const TexelLayout layout = layout_of(format);
     GLint limit = 0;
@@ -137,12 +132,6 @@ BufferTexture::~BufferTexture() {
     glDeleteTextures(1, name_.get());
     *name_ = 0;
     forget_state();
-}
-
-void BufferTexture::bind(unsigned unit) const {
-    forget_state();
-    glActiveTexture(GL_TEXTURE0 + unit);
-    glBindTexture(GL_TEXTURE_BUFFER, id());
 }
 
 }  // namespace gelatin::gl

@@ -32,8 +32,6 @@ public:
     void upload(std::size_t offset, std::size_t bytes, const void* data);
     void download(std::size_t offset, std::size_t bytes, void* out) const;
     void fill(std::uint32_t value);
-    /// Binds to a `layout(std430, binding = index) buffer`.
-    void bind_storage(unsigned index) const;
 
 private:
     ObjectName name_;
@@ -81,8 +79,6 @@ public:
     /// Sets every element, without a copy from the host. @pre barrier(buffer_update) since the last dispatch
     void fill(std::uint32_t value) requires std::is_same_v<T, std::uint32_t> { raw_.fill(value); }
 
-    void bind_storage(unsigned index) const { raw_.bind_storage(index); }
-
 private:
     RawBuffer raw_;
     std::size_t size_ = 0;
@@ -107,7 +103,6 @@ public:
 
     const ObjectName& name() const { return name_; }
     unsigned id() const { return id_of(name_); }
-    void bind(unsigned unit) const;
 
 private:
     ObjectName name_;
@@ -133,9 +128,6 @@ public:
     /// True if it was default-made or moved from.
     bool is_empty() const { return texels_.id() == 0; }
     const BufferTexture& texels() const { return texels_; }
-    void bind(unsigned unit) const {
-        if (texels_.id() != 0) texels_.bind(unit);
-    }
 
 private:
     static constexpr T kNothing{};

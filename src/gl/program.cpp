@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <bit>
+#include <bitset>
 #include <cassert>
 #include <glm/gtc/type_ptr.hpp>
 #include <initializer_list>
@@ -71,6 +72,8 @@ std::string program_log(GLuint program) {
 // The serial number of the program that is in use on this thread with all that is bound to it; 0: unknown.
 thread_local std::uint64_t applied_program = 0;
 
+thread_local std::bitset<32> units_with_samplers;
+
 std::uint64_t next_serial() {
     static std::atomic<std::uint64_t> last = 0;
     return ++last;
@@ -95,7 +98,9 @@ void apply(const ProgramInterface::Block& block) {
 void apply(const ProgramInterface::Sampler& sampler) {
     glActiveTexture(GL_TEXTURE0 + sampler.unit);
     glBindTexture(sampler.target, sampler.id());
-    if (sampler.target != GL_TEXTURE_BUFFER) glBindSampler(sampler.unit, sampler.sampler_id);
+    if (sampler.target == GL_TEXTURE_BUFFER) return;
+    glBindSampler(sampler.unit, sampler.sampler_id);
+    units_with_samplers[sampler.unit] = sampler.sampler_id != 0;
 }
 
 // Feeds a program's vertex inputs while it lives, from the vertex array object that is bound.
@@ -134,12 +139,12 @@ GLuint link(std::initializer_list<const Shader*> shaders, const std::string& nam
     throw GlError(message);
 }
 
-[[maybe_unused]] std::uint32_t group_size_of(GLuint program) {
+std::size_t group_size_of(GLuint compute_program) {
     GLint size[3] = {};
-    glGetProgramiv(program, GL_COMPUTE_WORK_GROUP_SIZE, size);
-    return static_cast<std::uint32_t>(size[0] * size[1] * size[2]);
+    glGetProgramiv(compute_program, GL_COMPUTE_WORK_GROUP_SIZE, size);
+    return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
+           static_cast<std::size_t>(size[2]);
 }
-
 }  // namespace
 
 void forget_state() {
@@ -172,6 +177,7 @@ struct Program::State {
     GLuint id;
     std::uint64_t serial = next_serial();
     ProgramInterface interface;
+    std::size_t group_size = 0;  // invocations of a work group; 0 for programs that draw
 };
 
 Program::Program() = default;
@@ -183,6 +189,7 @@ Program Program::compute(const std::string& file, const Defines& defines) {
     const Shader shader(GL_COMPUTE_SHADER, file, defines);
     Program program;
     program.state_ = std::make_unique<State>(std::initializer_list<const Shader*>{&shader}, file);
+    program.state_->group_size = group_size_of(program.id());
     return program;
 }
 
@@ -219,10 +226,8 @@ void Program::use() const {
     if (const std::string what = state_->interface.unbound(); !what.empty())
         throw GlError(state_->name + ": nothing is bound to " + what);
     glUseProgram(state_->id);
-    for (const ProgramInterface::Block& block : state_->interface.blocks())
-        if (!block.is_numbered) apply(block);
-    for (const ProgramInterface::Sampler& sampler : state_->interface.samplers())
-        if (!sampler.is_numbered) apply(sampler);
+    for (const ProgramInterface::Block& block : state_->interface.blocks()) apply(block);
+    for (const ProgramInterface::Sampler& sampler : state_->interface.samplers()) apply(sampler);
     applied_program = state_->serial;
 }
 
@@ -315,10 +320,13 @@ void Program::set(std::string_view uniform, const glm::mat4& value) const {
     glProgramUniformMatrix4fv(id(), location(uniform), 1, GL_FALSE, glm::value_ptr(value));
 }
 
-void Program::dispatch(std::size_t invocations, std::uint32_t group_size) const {
-    if (invocations == 0) return;
-    assert(group_size == group_size_of(id()));
-    const std::size_t groups = (invocations + group_size - 1) / group_size;
+void Program::dispatch(std::size_t invocations) const {
+    const std::size_t group_size = state_->group_size;
+    dispatch_groups((invocations + group_size - 1) / group_size);
+}
+
+void Program::dispatch_groups(std::size_t groups) const {
+    if (groups == 0) return;
     const std::size_t rows = (groups + kMaxGroups - 1) / kMaxGroups;
     if (rows > kMaxGroups) {
         throw GlError("a dispatch of " + std::to_string(groups) +
@@ -365,6 +373,13 @@ void Program::draw_arrays_indirect(Primitive primitive, unsigned arguments, std:
     if (hazard_probe != nullptr) hazard_probe->draws(false, arguments);
     glDrawArraysIndirect(mode_of(primitive), std::bit_cast<const void*>(offset));
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+}
+
+void release_samplers() {
+    for (unsigned unit = 0; unit < units_with_samplers.size(); ++unit)
+        if (units_with_samplers[unit]) glBindSampler(unit, 0);
+    units_with_samplers.reset();
+    forget_state();
 }
 
 void finish() {

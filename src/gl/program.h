@@ -81,11 +81,12 @@ public:
     void bind_input(std::string_view input, const Buffer<std::uint32_t>& colors) const;
     /// @}
 
-    /// Runs ceil(invocations / group_size) work groups, folded into two dimensions where
-    /// one is not enough; shaders take their index from include/global_index.glsl. Nothing runs for 0
-    /// invocations.
+    /// Runs as many work groups as hold that many invocations. Nothing runs for 0.
     /// @throws GlError if something is not bound, naming program and block; so do all that follow
-    void dispatch(std::size_t invocations, std::uint32_t group_size = 64) const;
+    void dispatch(std::size_t invocations) const;
+    /// Runs `groups` work groups, folded into two dimensions where one is not enough; shaders take their
+    /// index from include/global_index.glsl.
+    void dispatch_groups(std::size_t groups) const;
 
     /// Runs as many work groups as three uints at `offset` [bytes] in GL buffer
     /// `arguments` say, each at most 65,535. Needs barrier(command) since they were written.
@@ -114,6 +115,10 @@ private:
 
     std::unique_ptr<State> state_;  // null for a default-made program
 };
+
+/// Unbinds the sampler objects that programs have left bound to texture units on this thread, where they
+/// would decide how the textures of the application around this library are read.
+void release_samplers();
 
 /// Waits until the GPU has done everything it was told.
 void finish();

@@ -6,8 +6,6 @@
 #include <array>
 #include <cctype>
 #include <optional>
-#include <regex>
-#include <set>
 #include <utility>
 
 #include "gelatin/error.h"
@@ -40,10 +38,10 @@ bool is_unsupported(GLint type) {
     return !is_value && !texture_target(type);
 }
 
-GLint count_of(GLuint program, GLenum interface) {
+GLuint count_of(GLuint program, GLenum interface) {
     GLint count = 0;
     glGetProgramInterfaceiv(program, interface, GL_ACTIVE_RESOURCES, &count);
-    return count;
+    return static_cast<GLuint>(count);
 }
 
 // Without the "[0]" of an array.
@@ -79,35 +77,32 @@ auto* find_in(Vector& sorted, std::string_view name) {
     return found != sorted.end() && found->name == name ? &*found : nullptr;
 }
 
-// Names that the source gives a number to.
-std::set<std::string> numbered_names(const std::string& source) {
-    static const std::regex pattern(R"(binding\s*=\s*\d+[^;{]*?(\w+)\s*(?:\[\w*\])?\s*[;{])");
-    std::set<std::string> names;
-    for (std::sregex_iterator match(source.begin(), source.end(), pattern), end; match != end; ++match)
-        names.insert((*match)[1]);
-    return names;
-}
-
 bool is_word_part(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
 }  // namespace
 
-ProgramInterface::ProgramInterface(unsigned program, std::string source) {
-    const std::set<std::string> numbered = numbered_names(source);
-    for (GLuint u = 0; u < static_cast<GLuint>(count_of(program, GL_UNIFORM)); ++u) {
+ProgramInterface::ProgramInterface(unsigned program, [[maybe_unused]] std::string source) {
+    reflect_uniforms(program);
+    reflect_blocks(program);
+    reflect_inputs(program);
+#ifndef NDEBUG
+    source_ = std::move(source);
+#endif
+}
+
+void ProgramInterface::reflect_uniforms(unsigned program) {
+    for (GLuint u = 0; u < count_of(program, GL_UNIFORM); ++u) {
         const std::string name = name_of(program, GL_UNIFORM, u);
         const auto [type, location, size] = properties_of<3>(
             program, GL_UNIFORM, u, std::array<GLenum, 3>{GL_TYPE, GL_LOCATION, GL_ARRAY_SIZE});
         if (location < 0) continue;  // in a block
         if (is_unsupported(type)) throw GlError("uniform " + name + " is of a type that cannot be bound");
         if (const std::optional<GLenum> target = texture_target(type)) {
-            samplers_.push_back({.name = name,
-                                 .unit = 0,
-                                 .target = *target,
-                                 .texture = nullptr,
-                                 .is_numbered = numbered.contains(name)});
+            const auto unit = static_cast<unsigned>(samplers_.size());
+            glProgramUniform1i(program, location, static_cast<GLint>(unit));
+            samplers_.push_back({name, unit, *target});
             continue;
         }
         uniforms_.push_back({name, location});
@@ -116,58 +111,26 @@ ProgramInterface::ProgramInterface(unsigned program, std::string source) {
             uniforms_.push_back({element, glGetUniformLocation(program, element.c_str())});
         }
     }
-    for (GLuint b = 0; b < static_cast<GLuint>(count_of(program, GL_SHADER_STORAGE_BLOCK)); ++b) {
-        const std::string name = name_of(program, GL_SHADER_STORAGE_BLOCK, b);
-        blocks_.push_back({name, 0, nullptr, numbered.contains(name)});
+    sort_by_name(uniforms_);
+    sort_by_name(samplers_);
+}
+
+void ProgramInterface::reflect_blocks(unsigned program) {
+    for (GLuint b = 0; b < count_of(program, GL_SHADER_STORAGE_BLOCK); ++b) {
+        glShaderStorageBlockBinding(program, b, b);
+        blocks_.push_back({name_of(program, GL_SHADER_STORAGE_BLOCK, b), b});
     }
-    for (GLuint i = 0; i < static_cast<GLuint>(count_of(program, GL_PROGRAM_INPUT)); ++i) {
-        const std::string name = name_of(program, GL_PROGRAM_INPUT, i);
+    sort_by_name(blocks_);
+}
+
+void ProgramInterface::reflect_inputs(unsigned program) {
+    for (GLuint i = 0; i < count_of(program, GL_PROGRAM_INPUT); ++i) {
         const auto [location] =
             properties_of<1>(program, GL_PROGRAM_INPUT, i, std::array<GLenum, 1>{GL_LOCATION});
-        if (location >= 0) inputs_.push_back({name, static_cast<unsigned>(location), nullptr, false});
+        if (location < 0) continue;  // the language's own
+        inputs_.push_back({name_of(program, GL_PROGRAM_INPUT, i), static_cast<unsigned>(location)});
     }
-    sort_by_name(uniforms_);
-    sort_by_name(blocks_);
-    sort_by_name(samplers_);
     sort_by_name(inputs_);
-
-    std::set<GLint> taken;
-    for (Block& block : blocks_) {
-        if (!block.is_numbered) continue;
-        const GLuint index = glGetProgramResourceIndex(program, GL_SHADER_STORAGE_BLOCK, block.name.c_str());
-        const auto [binding] = properties_of<1>(program, GL_SHADER_STORAGE_BLOCK, index,
-                                                std::array<GLenum, 1>{GL_BUFFER_BINDING});
-        block.index = static_cast<unsigned>(binding);
-        taken.insert(binding);
-    }
-    GLint next = 0;
-    for (Block& block : blocks_) {
-        if (block.is_numbered) continue;
-        while (taken.contains(next)) ++next;
-        block.index = static_cast<unsigned>(next++);
-        glShaderStorageBlockBinding(
-            program, glGetProgramResourceIndex(program, GL_SHADER_STORAGE_BLOCK, block.name.c_str()),
-            block.index);
-    }
-    taken.clear();
-    for (Sampler& sampler : samplers_) {
-        if (!sampler.is_numbered) continue;
-        GLint unit = 0;
-        glGetUniformiv(program, glGetUniformLocation(program, sampler.name.c_str()), &unit);
-        sampler.unit = static_cast<unsigned>(unit);
-        taken.insert(unit);
-    }
-    next = 0;
-    for (Sampler& sampler : samplers_) {
-        if (sampler.is_numbered) continue;
-        while (taken.contains(next)) ++next;
-        sampler.unit = static_cast<unsigned>(next++);
-        glProgramUniform1i(program, glGetUniformLocation(program, sampler.name.c_str()),
-                           static_cast<GLint>(sampler.unit));
-    }
-#ifndef NDEBUG
-    source_ = std::move(source);
-#endif
 }
 
 const ProgramInterface::Uniform* ProgramInterface::find_uniform(std::string_view name) const {
@@ -185,10 +148,10 @@ ProgramInterface::Input* ProgramInterface::find_input(std::string_view name) {
 
 std::string ProgramInterface::unbound() const {
     for (const Block& block : blocks_) {
-        if (!block.is_numbered && id_of(block.buffer) == 0) return "storage block " + block.name;
+        if (id_of(block.buffer) == 0) return "storage block " + block.name;
     }
     for (const Sampler& sampler : samplers_) {
-        if (!sampler.is_numbered && sampler.id() == 0) return "sampler " + sampler.name;
+        if (sampler.id() == 0) return "sampler " + sampler.name;
     }
     for (const Input& input : inputs_) {
         if (id_of(input.buffer) == 0) return "vertex input " + input.name;

@@ -22,25 +22,23 @@ public:
     struct Block {
         std::string name;
         unsigned index;  // of its binding point
-        ObjectName buffer;
-        bool is_numbered;  // its binding point is the shader's own
+        ObjectName buffer = nullptr;
     };
     struct Sampler {
         std::string name;
         unsigned unit;
         unsigned target;  // GL_TEXTURE_2D, for example
-        ObjectName texture;
+        ObjectName texture = nullptr;
         unsigned texture_id = 0;  // where there is no `texture`
         unsigned sampler_id = 0;  // a sampler object; 0: the texture's own parameters
-        bool is_numbered;
 
         unsigned id() const { return texture != nullptr ? *texture : texture_id; }
     };
     struct Input {
         std::string name;
         unsigned location;
-        ObjectName buffer;
-        bool is_color;  // four bytes that stand for 0 to 1, else four floats
+        ObjectName buffer = nullptr;
+        bool is_color = false;  // four bytes that stand for 0 to 1, else four floats
     };
 
     ProgramInterface() = default;
@@ -67,6 +65,10 @@ public:
     bool declares(std::string_view name) const;
 
 private:
+    void reflect_uniforms(unsigned program);
+    void reflect_blocks(unsigned program);
+    void reflect_inputs(unsigned program);
+
     std::vector<Uniform> uniforms_;  // these four in the order of their names
     std::vector<Block> blocks_;
     std::vector<Sampler> samplers_;

@@ -61,7 +61,8 @@ void GpuSolver::advance_nodes(double step) {
         std::swap(current_, previous_);
         shape_matcher_->run(previous_);
         if (sum_loads_) sum_loads_->run(previous_);
-        block_descent_->run(buffers_, previous_, current_, step, std::exchange(has_earlier_, true));
+        block_descent_->run(buffers_, sum_loads_ ? &*sum_loads_ : nullptr, previous_, current_, step,
+                            std::exchange(has_earlier_, true));
         return;
     }
     const NodeBuffers* from = &current_;
@@ -69,7 +70,15 @@ void GpuSolver::advance_nodes(double step) {
         NodeBuffers& to = p + 1 == scheme_.pass_count ? previous_ : stage_[p % 2];
         if (sum_loads_) sum_loads_->run(*from);
         if (find_volume_stresses_) find_volume_stresses_->run(buffers_, *from);
-        const Pass pass{scheme_, p, step, current_, *from, to, sums_};
+        const Pass pass{scheme_,
+                        p,
+                        step,
+                        current_,
+                        *from,
+                        to,
+                        sums_,
+                        sum_loads_ ? &*sum_loads_ : nullptr,
+                        find_volume_stresses_ ? &*find_volume_stresses_ : nullptr};
         if (fused_) {
             fused_->run(buffers_, pass);
         } else {

@@ -34,14 +34,14 @@ gl::Defines ModelBuffers::collider_defines(const Model& model) {
     return {"COLLIDER_KINDS " + std::to_string(kinds)};
 }
 
-void ModelBuffers::bind_half_springs() const {
-    half_springs.bind(4);
-    stiffnesses.bind(5);
-    slice_starts.bind(6);
+void ModelBuffers::bind_half_springs(const gl::Program& program) const {
+    program.bind("half_springs", half_springs);
+    program.bind("stiffnesses", stiffnesses);
+    program.bind("slice_starts", slice_starts);
 }
 
 void ModelBuffers::bind_colliders(const gl::Program& program) const {
-    colliders.bind(7);
+    program.bind("colliders", colliders);
     program.set("collider_ends", collider_ends);
 }
 

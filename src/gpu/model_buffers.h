@@ -33,10 +33,10 @@ struct ModelBuffers {
     /// Defines for a shader that includes sim/collision/colliders.glsl.
     static gl::Defines collider_defines(const Model& model);
 
-    /// Binds the half springs to texture units 4 to 6, where the kernels look for them.
-    void bind_half_springs() const;
+    /// For programs that gather the springs of each node.
+    void bind_half_springs(const gl::Program& program) const;
 
-    /// Binds and sets what sim/collision/colliders.glsl reads: texture unit 7.
+    /// For programs that include sim/collision/colliders.glsl.
     void bind_colliders(const gl::Program& program) const;
 };
 

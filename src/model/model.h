@@ -13,6 +13,7 @@
 #include "model/elasticity/node_tets.h"
 #include "model/elasticity/volume_term.h"
 #include "model/layouts.h"
+#include "model/shared_constants.h"
 
 namespace gelatin {
 
@@ -37,7 +38,7 @@ struct ModelObject {
 /// pair p of node 64 s + l is element slice_starts[s] + 64 p + l, so that neighbouring invocations read
 /// neighbouring texels and every lane of a slice runs the same number of times.
 struct HalfSprings {
-    static constexpr std::uint32_t kSlice = 64;
+    static constexpr std::uint32_t kSlice = packing::kSlice;
 
     std::vector<std::uint32_t> slice_starts;  ///< shape [slices + 1]
     std::vector<HalfSpringPair> pairs;        ///< shape [slice_starts.back()]

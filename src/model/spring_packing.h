@@ -8,7 +8,7 @@
 namespace gelatin {
 
 /// A row without a node.
-constexpr std::uint32_t kNoNode = 0xFFFFFFFFu;
+constexpr std::uint32_t kNoNode = packing::kNone;
 
 /// The springs as each node sees them, in slices of 64 rows; a node's springs keep their order.
 /// @param rows nodes, each at most once, or kNoNode

@@ -9,15 +9,8 @@
 namespace gelatin::render {
 namespace {
 
-constexpr unsigned kUnit = 8;
 constexpr float kSameSurface = 0.15f;  // of the reach
 constexpr int kBlur = 2;               // how far the blur looks [pixels]
-
-void bind(const Target& target) {
-    glActiveTexture(GL_TEXTURE0 + kUnit);
-    glBindTexture(GL_TEXTURE_2D, target.texture());
-    glBindSampler(kUnit, 0);
-}
 
 // Open and far away, where nothing more is worked out.
 void clear(const Target& target) {
@@ -63,17 +56,15 @@ void AmbientOcclusion::draw(const Frame& frame, std::initializer_list<const Surf
     glDisable(GL_DEPTH_TEST);
     scissor(frame, reach);
     rough_.bind();
-    bind(depths_);
+    occlusion_program_.bind_texture("body_depths", depths_.texture());
     set_view(frame.view);
     occlusion_program_.set("reach", reach);
-    occlusion_program_.use();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    occlusion_program_.draw_arrays(gl::Primitive::triangles, 3);
 
     smooth_.bind();
-    bind(rough_);
+    blur_program_.bind_texture("occlusion", rough_.texture());
     blur_program_.set("same_surface", same_surface_);
-    blur_program_.use();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    blur_program_.draw_arrays(gl::Primitive::triangles, 3);
     glDisable(GL_SCISSOR_TEST);
 }
 
@@ -84,8 +75,7 @@ void AmbientOcclusion::draw_depths(const View& view,
     glDepthMask(GL_TRUE);
     glClear(GL_DEPTH_BUFFER_BIT);
     view.set_uniforms(depth_program_);
-    depth_program_.use();
-    for (const SurfaceDraw* occluder : occluders) occluder->draw();
+    for (const SurfaceDraw* occluder : occluders) occluder->draw(depth_program_);
 }
 
 void AmbientOcclusion::set_view(const View& view) const {
@@ -112,8 +102,8 @@ void AmbientOcclusion::set_uniforms(const gl::Program& program) const {
     program.set("same_surface", same_surface_);
 }
 
-void AmbientOcclusion::bind_texture() const {
-    bind(smooth_);
+void AmbientOcclusion::bind_texture(const gl::Program& program) const {
+    program.bind_texture("occlusion", smooth_.texture());
 }
 
 }  // namespace gelatin::render

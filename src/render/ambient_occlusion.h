@@ -27,8 +27,8 @@ public:
     /// For programs that use shaders/render/include/openness.glsl: how they are made, and what they need.
     static gl::Defines defines(const AmbientOcclusion* occlusion);
     void set_uniforms(const gl::Program& program) const;
-    /// Openness in [0, 1] and distance [m], < 0 on the floor, at unit 8.
-    void bind_texture() const;
+    void bind_texture(const gl::Program& program) const;
+    unsigned texture() const { return smooth_.texture(); }
 
 private:
     void draw_depths(const View& view, std::initializer_list<const SurfaceDraw*> occluders) const;
@@ -39,7 +39,7 @@ private:
     gl::Program blur_program_;
     Target depths_;
     Target rough_;   // openness and distance, each pixel of a tile by directions of its own
-    Target smooth_;  // their mean
+    Target smooth_;  // their mean: openness in [0, 1], distance [m], < 0 on the floor
     float width_ = 1.0f, height_ = 1.0f;  // of the pictures that are lit [pixels]
     float same_surface_ = 1.0f;           // [m]
 };

@@ -18,20 +18,19 @@ void ArrowOverlay::draw(const Frame& frame, const RenderView& bodies) const {
     const gl::BufferTexture positions(bodies.node_positions, node_bytes, gl::TexelFormat::rgba32f);
     const gl::BufferTexture velocities(arrows.velocities, node_bytes, gl::TexelFormat::rgba32f);
     const gl::BufferTexture nodes(arrows.nodes, std::size_t{4} * arrows.count, gl::TexelFormat::r32ui);
-    positions.bind(0);
-    velocities.bind(1);
-    nodes.bind(2);
+    program_.bind("node_positions", positions);
+    program_.bind("velocities", velocities);
+    program_.bind("arrow_nodes", nodes);
     frame.view.set_uniforms(program_);
     program_.set("cut_plane", frame.bodies.surfaces.cut_plane());
     program_.set("arrow_time", arrows.time);
     program_.set("line_scale", frame.view.line_scale());
-    program_.use();
     glEnable(GL_POLYGON_OFFSET_FILL);  // they begin in the surface
     glPolygonOffset(-1.0f, -16.0f);
     for (const bool in_front : {false, true}) {
         (in_front ? glEnable : glDisable)(GL_DEPTH_TEST);
         program_.set("opacity", in_front ? 1.0f : kHidden);
-        glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(6 * arrows.count));
+        program_.draw_arrays(gl::Primitive::triangles, std::size_t{6} * arrows.count);
     }
     glEnable(GL_DEPTH_TEST);
     glDisable(GL_POLYGON_OFFSET_FILL);

@@ -25,12 +25,11 @@ void BodyOverlay::draw_colored(const Frame& frame, const RenderView& bodies) con
     const ColorMapView& map = *bodies.overlay.color_map;
     const gl::BufferTexture values(map.node_values, std::size_t{4} * bodies.node_count,
                                    gl::TexelFormat::r32f);
-    values.bind(3);
+    colored_program_->bind("node_values", values);
     set_value_colors(*colored_program_, map);
     frame.view.set_uniforms(*colored_program_);
     colored_program_->set("cut_plane", frame.bodies.surfaces.cut_plane());
-    colored_program_->use();
-    frame.bodies.surfaces.draw();
+    frame.bodies.surfaces.draw(*colored_program_);
 }
 
 }  // namespace gelatin::render

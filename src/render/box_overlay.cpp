@@ -18,15 +18,14 @@ void BoxOverlay::draw(const View& view, const OverlayView& overlay) const {
                                   gl::TexelFormat::rgba32f);
     const gl::BufferTexture shown(overlay.shown_boxes, std::size_t{8} * overlay.shown_box_count,
                                   gl::TexelFormat::rg32ui);
-    boxes.bind(0);
-    shown.bind(1);
+    program_.bind("boxes", boxes);
+    program_.bind("shown_boxes", shown);
     view.set_uniforms(program_);
     program_.set("line_width", kWidth * view.line_scale());
-    program_.use();
     for (const bool in_front : {false, true}) {
         (in_front ? glEnable : glDisable)(GL_DEPTH_TEST);
         program_.set("opacity", in_front ? 1.0f : kHidden);
-        glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(72 * overlay.shown_box_count));
+        program_.draw_arrays(gl::Primitive::triangles, std::size_t{72} * overlay.shown_box_count);
     }
     glEnable(GL_DEPTH_TEST);
 }

@@ -33,10 +33,10 @@ void CutOverlay::find(const RenderView& bodies) {
     gl::barrier(gl::Barrier::buffer_update);
     draw_arguments_.upload(std::array<std::uint32_t, 4>{0, 1, 0, 0});  // vertices, instances, first of both
     const gl::BufferTexture positions = positions_of(bodies), tets = tets_of(cut);
-    positions.bind(0);
-    tets.bind(1);
-    met_tets_.bind_storage(0);
-    draw_arguments_.bind_storage(1);
+    find_program_.bind("node_positions", positions);
+    find_program_.bind("tets", tets);
+    find_program_.bind("MetTets", met_tets_);
+    find_program_.bind("Arguments", draw_arguments_);
     find_program_.set("tet_count", cut.tet_count);
     find_program_.set("cut_plane", glm::vec4(cut.plane[0], cut.plane[1], cut.plane[2], cut.plane[3]));
     find_program_.dispatch(cut.tet_count);
@@ -51,26 +51,22 @@ void CutOverlay::draw(const Frame& frame, const RenderView& bodies) const {
     const gl::BufferTexture tet_objects(cut.tet_objects, std::size_t{4} * cut.tet_count,
                                         gl::TexelFormat::r32ui);
     gl::BufferTexture tet_values;
-    positions.bind(0);
-    tets.bind(1);
-    met_tets.bind(2);
-    frame.bodies.colors.bind(3);
-    tet_objects.bind(4);
     const gl::Program& program = map ? colored_program_ : plain_program_;
+    program.bind("node_positions", positions);
+    program.bind("tets", tets);
+    program.bind("met_tets", met_tets);
+    program.bind("object_colors", frame.bodies.colors);
+    program.bind("tet_objects", tet_objects);
     if (map) {
         tet_values = {map->tet_values, std::size_t{4} * cut.tet_count, gl::TexelFormat::r32f};
-        tet_values.bind(5);
+        program.bind("tet_values", tet_values);
         set_value_colors(program, *map);
     }
-    glBindSampler(4, 0);
     frame.view.set_uniforms(program);
     program.set("cut_plane", frame.bodies.surfaces.cut_plane());
     program.set("line_width", kSideWidth * frame.view.line_scale());
-    program.use();
     glDisable(GL_CULL_FACE);
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, draw_arguments_.id());
-    glDrawArraysIndirect(GL_TRIANGLES, nullptr);
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+    program.draw_arrays_indirect(gl::Primitive::triangles, draw_arguments_.id(), 0);
     glEnable(GL_CULL_FACE);
 }
 

@@ -31,9 +31,9 @@ void DepthSplats::set_maps(const gl::Program& program, std::span<const DepthMap>
     for (std::size_t m = 0; m < maps.size(); ++m) {
         const std::string place = "[" + std::to_string(m) + "]";
         const Target& target = maps[m].target;
-        program.set(("world_to_map" + place).c_str(), world_to_texels(maps[m]));
-        program.set(("map_size" + place).c_str(), glm::ivec2(target.width(), target.height()));
-        program.set(("map_start" + place).c_str(), static_cast<int>(start));
+        program.set("world_to_map" + place, world_to_texels(maps[m]));
+        program.set("map_size" + place, glm::ivec2(target.width(), target.height()));
+        program.set("map_start" + place, static_cast<int>(start));
         start += texel_count(maps[m]);
     }
     program.set("map_count", static_cast<int>(maps.size()));
@@ -52,20 +52,20 @@ void DepthSplats::draw(std::span<const DepthMap> maps, std::initializer_list<con
     for (const DepthMap& map : maps) texels += texel_count(map);
     if (depths_.size() < texels) depths_ = gl::Buffer<std::uint32_t>(texels);
     depths_.fill(0xffffffffu);
-    depths_.bind_storage(0);
     for (const SurfaceDraw* surface : surfaces) {
         const gl::Program& program = program_for(*surface);
         set_maps(program, maps);
-        surface->bind_textures();
-        surface->bind_triangles(3);
+        program.bind("DepthMaps", depths_);
+        surface->bind(program);
+        surface->bind_triangles(program);
         program.set("face_count", surface->face_count());
         program.dispatch(surface->face_count());
     }
     // Into the textures now, and filled anew for the next frame.
     gl::barrier(gl::Barrier::pixel_unpack | gl::Barrier::buffer_update);
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, depths_.id());
+    gl::forget_state();  // a unit's binding changes
     if (gl::hazard_probe != nullptr) gl::hazard_probe->uploads_to_texture(depths_.id());
-    glActiveTexture(GL_TEXTURE0);
     std::size_t start = 0;
     for (const DepthMap& map : maps) {
         glBindTexture(GL_TEXTURE_2D, map.target.texture());

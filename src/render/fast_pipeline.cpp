@@ -27,7 +27,6 @@ void FastPipeline::resize(int width, int height) {
 
 void FastPipeline::draw(const Frame& frame) {
     if (plate_view_ != frame.view) draw_plate(frame.view);
-    frame.shadows.bind_textures();
     const bool has_shadows = frame.view.shows_floor();
     if (has_shadows) draw_floor_shade(frame);
     const bool has_bodies = !frame.overlay.replaces_bodies();
@@ -71,24 +70,22 @@ void FastPipeline::draw_floor_shade(const Frame& frame) const {
     frame.view.set_uniforms(shade_program_);
     frame.shadows.set_uniforms(shade_program_);
     Scenery::set_floor_uniforms(shade_program_, frame.view);
-    shade_program_.use();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    frame.shadows.bind_floor_light(shade_program_);
+    shade_program_.draw_arrays(gl::Primitive::triangles, 3);
 }
 
 // After all that hides the floor.
 void FastPipeline::draw_floor_shadow(const Frame& frame) const {
-    glActiveTexture(GL_TEXTURE5);
-    glBindTexture(GL_TEXTURE_2D, floor_shade_.texture());
+    shadow_program_.bind_texture("floor_shade", floor_shade_.texture());
     frame.view.set_uniforms(shadow_program_);
     frame.shadows.set_uniforms(shadow_program_);
-    shadow_program_.use();
     glEnable(GL_POLYGON_OFFSET_FILL);  // over the floor, which is of other triangles
     glPolygonOffset(-1.0f, -4.0f);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE);
     glDepthMask(GL_FALSE);
-    glDrawArrays(GL_TRIANGLES, 0, 6 * kTiles * kTiles);
+    shadow_program_.draw_arrays(gl::Primitive::triangles, 6 * kTiles * kTiles);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
     glDisable(GL_POLYGON_OFFSET_FILL);

@@ -44,8 +44,6 @@ void HighPipeline::draw(const Frame& frame) {
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glClear(GL_DEPTH_BUFFER_BIT);  // the backdrop covers every pixel's colour
-    frame.shadows.bind_textures();
-    occlusion_.bind_texture();
     if (has_bodies) {
         light_.draw(frame, {&frame.bodies});
     } else {
@@ -62,12 +60,9 @@ void HighPipeline::smooth_edges() const {
     if (smoothing_ == Smoothing::filter) {
         picture_.bind();
         glDisable(GL_DEPTH_TEST);
-        glActiveTexture(GL_TEXTURE7);
-        glBindTexture(GL_TEXTURE_2D, canvas_.texture());
-        glBindSampler(7, 0);
+        filter_program_.bind_texture("picture", canvas_.texture());
         filter_program_.set("pixel_size", 1.0f / glm::vec2(width, height));
-        filter_program_.use();
-        glDrawArrays(GL_TRIANGLES, 0, 3);
+        filter_program_.draw_arrays(gl::Primitive::triangles, 3);
         return;
     }
     canvas_.copy_color_to(picture_);

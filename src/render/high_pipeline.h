@@ -25,7 +25,7 @@ private:
 
     Smoothing smoothing_;
     AmbientOcclusion occlusion_;
-    Scenery scenery_{&occlusion_};
+    Scenery scenery_{occlusion_};
     PixelLight light_{&occlusion_};
     gl::Program filter_program_;
     Target canvas_;   // what is drawn into, edges not smoothed yet

@@ -87,8 +87,8 @@ void LabelOverlay::paint_names() {
     }
     labels_ = gl::Buffer<glm::uvec4>(std::span<const glm::uvec4>(labels));
     if (labels.empty()) return;
-    glActiveTexture(GL_TEXTURE7);
     atlas_ = Target::color(kAtlasWidth, atlas.height, GL_RG8);
+    gl::forget_state();  // a unit's binding changes
     glBindTexture(GL_TEXTURE_2D, atlas_.texture());
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kAtlasWidth, atlas.height, GL_RG, GL_UNSIGNED_BYTE,
                     atlas.pixels.data());
@@ -101,16 +101,13 @@ void LabelOverlay::draw(const View& view, const OverlayView& overlay) const {
     const gl::BufferTexture roots(overlay.objects->roots, std::size_t{4} * names_.size(),
                                   gl::TexelFormat::r32ui);
     const gl::BufferTexture labels(labels_, gl::TexelFormat::rgba32ui);
-    boxes.bind(0);
-    roots.bind(1);
-    labels.bind(2);
-    glActiveTexture(GL_TEXTURE7);
-    glBindTexture(GL_TEXTURE_2D, atlas_.texture());
-    glBindSampler(7, 0);
+    program_.bind("boxes", boxes);
+    program_.bind("roots", roots);
+    program_.bind("labels", labels);
+    program_.bind_texture("atlas", atlas_.texture());
     view.set_uniforms(program_);
     program_.set("label_height", static_cast<float>(label_height_));
-    program_.use();
-    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(6 * labels_.size()));
+    program_.draw_arrays(gl::Primitive::triangles, 6 * labels_.size());
 }
 
 }  // namespace gelatin::render

@@ -103,7 +103,7 @@ const char* title_of(Quantity quantity) {
 
 void set_colors(const gl::Program& program, const std::string& name, std::span<const glm::vec3> colors) {
     for (std::size_t i = 0; i < colors.size(); ++i)
-        program.set((name + "[" + std::to_string(i) + "]").c_str(), colors[i]);
+        program.set(name + "[" + std::to_string(i) + "]", colors[i]);
 }
 
 }  // namespace
@@ -152,20 +152,17 @@ void Legend::show(const ColorScale& scale, int letter_size) {
     scale_ = scale;
     letter_size_ = letter_size;
     const Canvas canvas = paint(scale, letter_size);
-    glActiveTexture(GL_TEXTURE7);
     picture_ = Target::color(canvas.width, canvas.height, GL_RGBA8);
+    gl::forget_state();  // a unit's binding changes
     glBindTexture(GL_TEXTURE_2D, picture_.texture());
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, canvas.width, canvas.height, GL_RGBA, GL_FLOAT,
                     canvas.pixels.data());
 }
 
 void Legend::draw(const View& view) const {
-    glActiveTexture(GL_TEXTURE7);
-    glBindTexture(GL_TEXTURE_2D, picture_.texture());
-    glBindSampler(7, 0);
+    program_.bind_texture("legend", picture_.texture());
     view.set_uniforms(program_);
-    program_.use();
-    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    program_.draw_arrays(gl::Primitive::triangle_strip, 4);
 }
 
 }  // namespace gelatin::render

@@ -20,12 +20,15 @@ PixelLight::PixelLight(const AmbientOcclusion* occlusion, const gl::Defines& def
 void PixelLight::draw(const Frame& frame, std::initializer_list<const Layer*> layers) const {
     frame.view.set_uniforms(program_);
     frame.shadows.set_uniforms(program_);
-    if (occlusion_ != nullptr) occlusion_->set_uniforms(program_);
-    program_.use();
+    frame.shadows.bind_textures(program_);
+    if (occlusion_ != nullptr) {
+        occlusion_->set_uniforms(program_);
+        occlusion_->bind_texture(program_);
+    }
     for (const Layer* layer : layers) {
         program_.set("jelly", layer->jelly);
-        layer->colors.bind(3);
-        layer->surfaces.draw();
+        program_.bind("object_colors", layer->colors);
+        layer->surfaces.draw(program_);
     }
 }
 

@@ -15,7 +15,7 @@ public:
     /// @param defines CUT: by a plane, "cut_plane" of the program
     explicit PixelLight(const AmbientOcclusion* occlusion = nullptr, const gl::Defines& defines = {});
 
-    /// @pre a vertex array object and the shadows' textures are bound
+    /// @pre a vertex array object is bound
     void draw(const Frame& frame, std::initializer_list<const Layer*> layers) const;
 
     const gl::Program& program() const { return program_; }

@@ -116,6 +116,7 @@ const gl::Buffer<glm::vec4>& Renderer::colors_of(const RenderView& bodies) {
 }
 
 void Renderer::draw(const RenderView& bodies, const Camera& camera) {
+    gl::forget_state();
     const FramebufferGuard guard;
     gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::vertex_pull | gl::Barrier::storage);
     glBindVertexArray(vertex_array_);
@@ -140,7 +141,7 @@ void Renderer::draw(const RenderView& bodies, const Camera& camera) {
                      .bounds = exact_bounds(bodies, props_.view()),
                      .shadows = shadows_,
                      .overlay = overlay_});
-    glBindSampler(4, 0);
+    gl::release_samplers();
     glBindVertexArray(0);
     gl::check_errors("drawing a frame");
 }

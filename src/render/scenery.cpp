@@ -1,7 +1,6 @@
 #include "render/scenery.h"
 
-#include <epoxy/gl.h>
-
+#include <cassert>
 #include <cmath>
 
 namespace gelatin::render {
@@ -19,11 +18,16 @@ float grid_spacing(float extent) {
 
 }  // namespace
 
-Scenery::Scenery(const AmbientOcclusion* occlusion)
-    : occlusion_(occlusion),
-      floor_program_(gl::Program::graphics("render/floor.vert", "render/floor.frag",
-                                           AmbientOcclusion::defines(occlusion))),
+Scenery::Scenery()
+    : floor_program_(gl::Program::graphics("render/floor.vert", "render/floor.frag")),
       backdrop_program_(gl::Program::graphics("render/whole_picture.vert", "render/backdrop.frag")) {}
+
+Scenery::Scenery(const AmbientOcclusion& occlusion) : Scenery() {
+    occlusion_ = &occlusion;
+    gl::Defines defines = AmbientOcclusion::defines(&occlusion);
+    defines.emplace_back("SHADOWED");
+    floor_program_ = gl::Program::graphics("render/floor.vert", "render/floor.frag", defines);
+}
 
 void Scenery::set_floor_uniforms(const gl::Program& program, const View& view) {
     glm::vec3 center = view.bounds.center();
@@ -37,18 +41,17 @@ void Scenery::draw(const View& view, const Shadows* shadows) const {
         view.set_uniforms(floor_program_);
         set_floor_uniforms(floor_program_, view);
         floor_program_.set("grid_spacing", grid_spacing(view.extent()));
-        if (occlusion_ != nullptr) occlusion_->set_uniforms(floor_program_);
+        assert((shadows != nullptr) == (occlusion_ != nullptr));
         if (shadows != nullptr) {
+            occlusion_->set_uniforms(floor_program_);
+            occlusion_->bind_texture(floor_program_);
             shadows->set_uniforms(floor_program_);
-        } else {
-            floor_program_.set("floor_patch", glm::vec4(0.0f));  // all of the floor lies outside
+            shadows->bind_floor_light(floor_program_);
         }
-        floor_program_.use();
-        glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+        floor_program_.draw_arrays(gl::Primitive::triangle_strip, 4);
     }
     view.set_uniforms(backdrop_program_);
-    backdrop_program_.use();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    backdrop_program_.draw_arrays(gl::Primitive::triangles, 3);
 }
 
 }  // namespace gelatin::render

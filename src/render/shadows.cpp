@@ -25,12 +25,6 @@ const glm::mat4 kHalf =
 // A patch that no point is inside of.
 const glm::vec4 kNowhere(0.0f);
 
-void bind_texture(unsigned unit, const Target& target) {
-    glActiveTexture(GL_TEXTURE0 + unit);
-    glBindTexture(GL_TEXTURE_2D, target.texture());
-    glBindSampler(unit, 0);
-}
-
 Target make_depth_map(int resolution, bool splat) {
     // Splats are uploaded as integers of 32 bits, which need no conversion then.
     return Target::depth(resolution, resolution, splat ? GL_DEPTH_COMPONENT32 : GL_DEPTH_COMPONENT24);
@@ -111,8 +105,7 @@ void Shadows::draw_depths(std::span<const DepthMap> maps, std::initializer_list<
                 continue;
             }
             depth_program_.set("world_to_clip", map.world_to_clip);
-            depth_program_.use();
-            caster->draw();
+            caster->draw(depth_program_);
         }
     }
     glDisable(GL_DEPTH_CLAMP);
@@ -126,10 +119,9 @@ void Shadows::draw_cut_depth(const DepthMap& map, const SurfaceDraw& caster) {
             gl::Program::graphics("render/surface_depth.vert", "render/surface_depth.frag", {"CUT"});
     cut_depth_program_->set("world_to_clip", map.world_to_clip);
     cut_depth_program_->set("cut_plane", caster.cut_plane());
-    cut_depth_program_->use();
     glDisable(GL_CULL_FACE);
     const Clipping clipping(caster);
-    caster.draw();
+    caster.draw(*cut_depth_program_);
     glEnable(GL_CULL_FACE);
 }
 
@@ -144,25 +136,23 @@ void Shadows::set_penumbra(const gl::Program& program) const {
 
 void Shadows::draw_floor_visibility() const {
     floor_visibility_.bind();
-    bind_texture(4, shadow_map_);
-    bind_texture(6, underside_);
     const gl::Program& program = floor_program_;
+    program.bind_texture("shadow_map", shadow_map_.texture());
+    program.bind_texture("underside", underside_.texture());
     set_penumbra(program);
     program.set("underside_range", extent_);
     program.set("sky_radius", kSkyRadius * extent_);
     program.set("patch_corner", patch_corner_);
     program.set("patch_size", patch_size_);
     program.set("floor_height", floor_height_);
-    program.use();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    program.draw_arrays(gl::Primitive::triangles, 3);
 }
 
 void Shadows::draw_floor_light() const {
     floor_light_.bind();
-    bind_texture(6, floor_visibility_);
+    blend_program_.bind_texture("visibility", floor_visibility_.texture());
     blend_program_.set("pixel_size", glm::vec2(1.0f / static_cast<float>(floor_visibility_.width())));
-    blend_program_.use();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    blend_program_.draw_arrays(gl::Primitive::triangles, 3);
 }
 
 void Shadows::draw(std::initializer_list<const SurfaceDraw*> casters, bool lights_floor) {
@@ -192,11 +182,14 @@ Bounds Shadows::floor_patch() const {
     return {{patch_corner_.x, floor_height_, patch_corner_.y}, {far_corner.x, floor_height_, far_corner.y}};
 }
 
-void Shadows::bind_textures() const {
-    bind_texture(4, shadow_map_);
-    glBindSampler(4, compare_sampler_);
-    bind_texture(5, floor_light_);
-    bind_texture(9, shadow_map_);
+void Shadows::bind_textures(const gl::Program& program) const {
+    program.bind_texture("shadow_map", shadow_map_.texture(), compare_sampler_);
+    program.bind_texture("shadow_depths", shadow_map_.texture());
+    bind_floor_light(program);
+}
+
+void Shadows::bind_floor_light(const gl::Program& program) const {
+    program.bind_texture("floor_light", floor_light_.texture());
 }
 
 }  // namespace gelatin::render

@@ -46,7 +46,10 @@ public:
 
     /// For programs that use shaders/render/include/light.glsl or floor_light.glsl.
     void set_uniforms(const gl::Program& program) const;
-    void bind_textures() const;
+    /// For programs that include render/include/light.glsl.
+    void bind_textures(const gl::Program& program) const;
+    /// For programs that include render/include/floor_light.glsl.
+    void bind_floor_light(const gl::Program& program) const;
 
 private:
     void draw_depths(std::span<const DepthMap> maps, std::initializer_list<const SurfaceDraw*> casters);

@@ -18,22 +18,19 @@ glm::vec4 SurfaceDraw::cut_plane() const {
     return {plane[0], plane[1], plane[2], plane[3]};
 }
 
-void SurfaceDraw::bind_textures() const {
-    node_positions_.bind(0);
-    surface_vertices_.bind(1);
-    vertex_normals_.bind(2);
+void SurfaceDraw::bind(const gl::Program& program) const {
+    program.bind("node_positions", node_positions_);
+    program.bind("surface_vertices", surface_vertices_);
+    program.bind("vertex_normals", vertex_normals_);
 }
 
-void SurfaceDraw::draw() const {
-    if (view_.face_count == 0) return;
-    bind_textures();
-    draw_triangles();
+void SurfaceDraw::draw(const gl::Program& program) const {
+    bind(program);
+    draw_triangles(program);
 }
 
-void SurfaceDraw::draw_triangles() const {
-    if (view_.face_count == 0) return;
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, view_.triangles);
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * view_.face_count), GL_UNSIGNED_INT, nullptr);
+void SurfaceDraw::draw_triangles(const gl::Program& program) const {
+    program.draw_elements(gl::Primitive::triangles, view_.triangles, std::size_t{3} * view_.face_count);
 }
 
 Clipping::Clipping(const SurfaceDraw& surfaces) {

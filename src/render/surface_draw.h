@@ -4,6 +4,7 @@
 
 #include "gelatin/views.h"
 #include "gl/buffer.h"
+#include "gl/program.h"
 
 namespace gelatin::render {
 
@@ -21,15 +22,15 @@ public:
     /// All 0 where nothing is cut.
     glm::vec4 cut_plane() const;
 
-    /// For shaders that fetch points: units 0 to 2.
-    void bind_textures() const;
-    /// The triangles as a usamplerBuffer, a texel of three vertices each.
-    void bind_triangles(unsigned unit) const { triangles_.bind(unit); }
+    /// For programs that include render/include/surface_fetch.glsl.
+    void bind(const gl::Program& program) const;
+    /// "triangles" of the program: a texel of three vertices each.
+    void bind_triangles(const gl::Program& program) const { program.bind("triangles", triangles_); }
 
-    /// Draws all faces with the program in use, which fetches points. @pre a vertex array object is bound
-    void draw() const;
-    /// The same with a program that takes what it needs from the vertex array object that is bound.
-    void draw_triangles() const;
+    /// Draws all faces with a program that fetches points. @pre a vertex array object is bound
+    void draw(const gl::Program& program) const;
+    /// The same with a program that has vertex inputs.
+    void draw_triangles(const gl::Program& program) const;
 
 private:
     RenderView view_;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "gelatin/error.h"
+#include "gl/object_name.h"
 
 namespace gelatin::render {
 
@@ -67,6 +68,7 @@ Target Target::depth(int width, int height, unsigned internal_format) {
 
 void Target::attach_texture(unsigned internal_format, unsigned attachment) {
     glGenTextures(1, &texture_);
+    gl::forget_state();  // a unit's binding changes
     glBindTexture(GL_TEXTURE_2D, texture_);
     glTexStorage2D(GL_TEXTURE_2D, 1, internal_format, width_, height_);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
@@ -100,7 +102,10 @@ void Target::swap(Target& other) noexcept {
 
 Target::~Target() {
     if (framebuffer_ != 0) glDeleteFramebuffers(1, &framebuffer_);
-    if (texture_ != 0) glDeleteTextures(1, &texture_);
+    if (texture_ != 0) {
+        glDeleteTextures(1, &texture_);
+        gl::forget_state();
+    }
     if (renderbuffers_[0] != 0) glDeleteRenderbuffers(2, renderbuffers_);
 }
 

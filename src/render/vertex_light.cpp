@@ -1,7 +1,5 @@
 #include "render/vertex_light.h"
 
-#include <epoxy/gl.h>
-
 namespace gelatin::render {
 
 VertexLight::VertexLight()
@@ -18,26 +16,19 @@ void VertexLight::light(const Frame& frame, const Layer& layer) {
     frame.shadows.set_uniforms(light_program_);
     light_program_.set("jelly", layer.jelly);
     light_program_.set("vertex_count", vertex_count);
-    layer.surfaces.bind_textures();
-    layer.colors.bind(3);
-    clip_positions_.bind_storage(0);
-    display_colors_.bind_storage(1);
+    frame.shadows.bind_textures(light_program_);
+    layer.surfaces.bind(light_program_);
+    light_program_.bind("object_colors", layer.colors);
+    light_program_.bind("ClipPositions", clip_positions_);
+    light_program_.bind("DisplayColors", display_colors_);
     light_program_.dispatch(vertex_count);
     gl::barrier(gl::Barrier::vertex_pull);
 }
 
 void VertexLight::draw(const Layer& layer) const {
-    glBindBuffer(GL_ARRAY_BUFFER, clip_positions_.id());
-    glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
-    glBindBuffer(GL_ARRAY_BUFFER, display_colors_.id());
-    glVertexAttribPointer(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, 0, nullptr);
-    glBindBuffer(GL_ARRAY_BUFFER, 0);
-    glEnableVertexAttribArray(0);
-    glEnableVertexAttribArray(1);
-    draw_program_.use();
-    layer.surfaces.draw_triangles();
-    glDisableVertexAttribArray(0);
-    glDisableVertexAttribArray(1);
+    draw_program_.bind_input("clip_position", clip_positions_);
+    draw_program_.bind_input("display_color", display_colors_);
+    layer.surfaces.draw_triangles(draw_program_);
 }
 
 }  // namespace gelatin::render

@@ -9,6 +9,7 @@
 #include "core/log.h"
 #include "cpu/cpu_solver.h"
 #include "gelatin/error.h"
+#include "gl/object_name.h"
 #include "gpu/gpu_solver.h"
 #include "model/build/build_model.h"
 #include "model/build/model_check.h"
@@ -162,6 +163,7 @@ Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 Simulator::~Simulator() = default;
 
 void Simulator::step() {
+    gl::forget_state();  // the application may have used OpenGL since
     Impl& d = *impl_;
     d.move_held_nodes();
     if (!d.model->loads.empty())
@@ -270,6 +272,7 @@ Counts Simulator::counts() const {
 }
 
 void Simulator::begin_statistics() {
+    gl::forget_state();  // the application may have used OpenGL since
     Impl& d = *impl_;
     d.run_stage("measure", [&] { d.solver->begin_measure(); });
     d.measured.push_back(d.now());
@@ -322,6 +325,7 @@ HostFrame Simulator::read_frame() const {
 }
 
 RenderView Simulator::render_view(const Overlays& overlays) {
+    gl::forget_state();  // the application may have used OpenGL since
     Impl& d = *impl_;
     if (!d.context)
         throw NoOpenGl("drawing needs an OpenGL context: ask for it in SimulatorOptions::need_gl");

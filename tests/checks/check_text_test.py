@@ -53,6 +53,13 @@ class CheckText(unittest.TestCase):
         self.assert_refused("CMakeLists.txt", "project(a) \n", "CMakeLists.txt:1", "white space")
         self.assert_refused("scenes/a.toml", "a = 1", "newline")
 
+    def test_numbered_bindings(self):
+        self.assert_refused("shaders/a.comp", "layout(std430, binding = 3) buffer A { uint a[]; };\n", "a.comp:1", "by name")
+        self.assert_refused("src/gpu/a.cpp", "texels.bind(4);\n", "by name")
+        self.assert_refused("src/render/a.cpp", "glActiveTexture(GL_TEXTURE3);\n", "by name")
+        self.assert_passes("src/gl/a.cpp", "glBindBufferBase(target, block.index, id);\n")
+        self.assert_passes("src/gpu/a.cpp", 'program.bind("Positions", nodes.positions);\n')
+
     def test_names_of_files_that_are_not_there(self):
         self.assert_refused("docs/a.md", "See docs/b.md and docs/a.md.\n", "docs/b.md")
         self.assert_refused("shaders/sim/a.comp", "// Parity: tests/gpu/a_test.cpp.\n", "tests/gpu/a_test.cpp")

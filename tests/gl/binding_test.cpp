@@ -59,12 +59,12 @@ protected:
         program_->bind("Out", out_);
     }
     float result() {
-        program_->dispatch(1, 1);
+        program_->dispatch(1);
         return content(out_)[0];
     }
     std::string error() {
         try {
-            program_->dispatch(1, 1);
+            program_->dispatch(1);
         } catch (const GlError& e) {
             return e.what();
         }
@@ -86,7 +86,7 @@ TEST_F(BindingTest, BindingsStayWithTheirProgram) {
     other.bind("Out", out);
     for (int i = 0; i < 2; ++i) {
         EXPECT_EQ(result(), 12.0f);
-        other.dispatch(1, 1);
+        other.dispatch(1);
         EXPECT_EQ(content(out)[0], 72.0f);
     }
 }

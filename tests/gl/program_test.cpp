@@ -111,7 +111,7 @@ TEST_F(ProgramTest, SetsUniformsOfEveryType) {
 
     const Buffer<float> buffer(8);
     program.bind("Out", buffer);
-    program.dispatch(1, 1);
+    program.dispatch(1);
     barrier(Barrier::buffer_update);
     std::vector<float> out(8);
     buffer.download(out);
@@ -127,7 +127,7 @@ protected:
         Buffer<std::uint32_t> buffer(invocations + 1);
         buffer.upload(std::vector<std::uint32_t>(invocations + 1, 0));
         program.bind("Out", buffer);
-        program.dispatch(invocations, group_size);
+        program.dispatch(invocations);
         barrier(Barrier::buffer_update);
         std::vector<std::uint32_t> out(invocations + 1);
         buffer.download(out);
@@ -170,7 +170,7 @@ TEST_F(DispatchTest, NothingRunsForNoInvocations) {
 
 TEST_F(DispatchTest, MoreThanTwoDimensionsHoldIsAnError) {
     const Program program = Program::compute("count.comp", {"GROUP_SIZE 1"});
-    EXPECT_THROW(program.dispatch(std::size_t{65'535} * 65'535 + 1, 1), GlError);
+    EXPECT_THROW(program.dispatch(std::size_t{65'535} * 65'535 + 1), GlError);
 }
 
 TEST_F(DispatchTest, MovedFromProgramIsEmptyAndTheTargetsOldOneIsFreed) {

@@ -23,11 +23,10 @@ protected:
         folder.add("layouts/" + file, read_file(test::source_path() + "shaders/layouts/" + file));
         std::string sum;
         for (const auto& [field, offset] : fields) sum += " + vec4(items[1]." + field + ")";
-        folder.add("probe.comp",
-                   "#include \"layouts/" + file +
-                       "\"\nlayout(local_size_x = 1) in;\nlayout(std430, binding = 0) buffer Items { " +
-                       type + " items[]; };\nlayout(std430, binding = 1) buffer Out { vec4 result; };\n" +
-                       "void main() { result = vec4(0.0)" + sum + "; }\n");
+        folder.add("probe.comp", "#include \"layouts/" + file +
+                                     "\"\nlayout(local_size_x = 1) in;\nlayout(std430) buffer Items { " +
+                                     type + " items[]; };\nlayout(std430) buffer Out { vec4 result; };\n" +
+                                     "void main() { result = vec4(0.0)" + sum + "; }\n");
         const gl::Program program = gl::Program::compute("probe.comp");
         for (const auto& [field, offset] : fields) {
             EXPECT_EQ(query(program, "items[0]." + field, GL_OFFSET), static_cast<int>(offset))

@@ -70,7 +70,7 @@ protected:
                         .shadows = shadows,
                         .overlay = Overlay()},
                        {&surfaces});
-        occlusion.bind_texture();
+        glBindTexture(GL_TEXTURE_2D, occlusion.texture());
         pixels_.assign(kHalfWidth * kHalfHeight, glm::vec2(NAN));
         glGetTexImage(GL_TEXTURE_2D, 0, GL_RG, GL_FLOAT, pixels_.data());
         glBindFramebuffer(GL_FRAMEBUFFER, 0);

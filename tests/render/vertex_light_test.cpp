@@ -115,7 +115,6 @@ protected:
             {.key_map = 64, .undersides = 16, .floor_light = 16, .few_taps = true, .splat = true});
         shadows.aim(view_.bounds, view_.extent(), -0.5f, to_key_light());
         shadows.draw({}, false);
-        shadows.bind_textures();
 
         const Layer layer{.surfaces = surfaces, .colors = colors, .jelly = static_cast<float>(jelly)};
         VertexLight vertex_light;
@@ -131,7 +130,7 @@ protected:
         vertex_light.clip_positions().download(clip_positions_);
         display_colors_.resize(vertex_light.display_colors().size());
         vertex_light.display_colors().download(display_colors_);
-        glBindSampler(4, 0);
+        gl::release_samplers();
     }
 
     std::vector<glm::vec4> clip_positions_;

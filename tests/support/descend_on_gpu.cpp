@@ -48,7 +48,7 @@ NodeArrays descend_on_gpu(const Model& model, const Descent& descent) {
     gpu::BlockDescent program(model, descent.settings);
     std::optional<gpu::SumLoads> loads;
     if (!model.loads.empty()) loads.emplace(model).run(previous);
-    program.run(buffers, previous, current, descent.step, has_earlier);
+    program.run(buffers, loads ? &*loads : nullptr, previous, current, descent.step, has_earlier);
     gl::barrier(gl::Barrier::buffer_update);
     current.positions.download(arrays.positions);
     current.velocities.download(arrays.velocities);

@@ -186,11 +186,11 @@ template SelfContacts find_self_contacts_on_cpu_after<double>(const Model&, cons
 
 namespace {
 
-std::uint32_t count_of(const gpu::Collision& collision, gpu::CollisionBuffers::Work work) {
+std::uint32_t count_of(const gpu::Collision& collision, std::uint32_t slot) {
     gl::barrier(gl::Barrier::buffer_update);
     std::vector<Dispatch> dispatches(collision.buffers.dispatches.size());
     collision.buffers.dispatches.download(dispatches);
-    return dispatches[static_cast<std::size_t>(work)].count;
+    return dispatches[slot].count;
 }
 
 SelfContacts download_contacts(const gpu::Collision& collision) {
@@ -207,7 +207,7 @@ SelfContacts find_self_contacts_on_gpu(const Model& model, std::uint32_t* restle
     const gpu::NodeBuffers nodes(model.positions, model.velocities);
     gpu::Collision collision(model, with_self({}));
     run_self_detection(collision, model_buffers, nodes);
-    if (restless != nullptr) *restless = count_of(collision, gpu::CollisionBuffers::Work::restless);
+    if (restless != nullptr) *restless = count_of(collision, dispatch_slots::kRestless);
     return download_contacts(collision);
 }
 
@@ -221,7 +221,7 @@ SelfContacts find_self_contacts_on_gpu_after(const Model& before, const Model& m
         collision.update_boxes.run(model_buffers, collision.buffers, *now, *now);
         collision.self->find.run(model_buffers, collision.buffers, collision.self->buffers, *now);
     }
-    if (fitted != nullptr) *fitted = count_of(collision, gpu::CollisionBuffers::Work::fits);
+    if (fitted != nullptr) *fitted = count_of(collision, dispatch_slots::kFits);
     return download_contacts(collision);
 }
 

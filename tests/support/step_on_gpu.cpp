@@ -29,7 +29,15 @@ NodeArrays step_on_gpu(const Model& model, SolverKind solver, ForceMethod forces
         gpu::NodeBuffers& to = p + 1 == scheme.pass_count ? result : stage[p % 2];
         if (loads) loads->run(*from);
         if (stresses) stresses->run(buffers, *from);
-        const gpu::Pass pass{scheme, p, step, start, *from, to, sums};
+        const gpu::Pass pass{scheme,
+                             p,
+                             step,
+                             start,
+                             *from,
+                             to,
+                             sums,
+                             loads ? &*loads : nullptr,
+                             stresses ? &*stresses : nullptr};
         if (forces == ForceMethod::fused) {
             fused.run(buffers, pass);
         } else {

@@ -1,8 +1,8 @@
 // How much of the key light reaches a body.
 #include "render/include/studio.glsl"
 
-layout(binding = 4) uniform sampler2DShadow shadow_map;
-layout(binding = 9) uniform sampler2D shadow_depths;  // the same
+uniform sampler2DShadow shadow_map;
+uniform sampler2D shadow_depths;  // the same
 uniform mat4 world_to_shadow;  // to texture coordinates and depth
 uniform float shadow_bias;     // along the normal [m]
 uniform float shadow_range;    // metres a unit of depth

@@ -2,7 +2,7 @@
 // casts it (Fernando 2005).
 #include "render/include/disc.glsl"
 
-layout(binding = 4) uniform sampler2D shadow_map;
+uniform sampler2D shadow_map;
 uniform mat4 world_to_shadow;   // to texture coordinates and depth
 uniform vec2 shadow_scale;      // texture coordinates a metre
 uniform float shadow_range;     // metres a unit of depth

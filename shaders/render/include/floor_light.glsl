@@ -1,5 +1,5 @@
 // How much light reaches the floor inside the patch round the scene: red of the key light, green of the sky.
-layout(binding = 5) uniform sampler2D floor_light;
+uniform sampler2D floor_light;
 uniform vec4 floor_patch;  // x, z of its corner [m]; 1 / its size [1/m]
 
 vec2 floor_visibility(vec2 xz) {

@@ -1,7 +1,7 @@
 // How much of the sky a patch of floor sees, by the form factor of each piece of the bodies' undersides.
 #include "render/include/disc.glsl"
 
-layout(binding = 6) uniform sampler2D underside;  // height of the lowest surface over the floor
+uniform sampler2D underside;  // height of the lowest surface over the floor
 uniform float underside_range;                    // height of 1 [m]
 uniform float sky_radius;                         // how far round a point its sky is looked for [m]
 

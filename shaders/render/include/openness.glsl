@@ -1,7 +1,7 @@
 // How much of the ambient light reaches the surface that a pixel shows, as AmbientOcclusion found it in a picture of
 // half the size.
 #ifdef AMBIENT_OCCLUSION
-layout(binding = 8) uniform sampler2D occlusion;  // openness, distance [m], < 0 on the floor
+uniform sampler2D occlusion;  // openness, distance [m], < 0 on the floor
 uniform vec2 occlusion_scale;                     // its pixels by those of the picture
 uniform float same_surface;                       // distances that differ by less belong together [m]
 

@@ -1,6 +1,6 @@
 // What each pixel of a small picture shows: points in the eye's coordinates, from a depth map of the bodies and the
 // plane of the floor.
-layout(binding = 8) uniform sampler2D body_depths;
+uniform sampler2D body_depths;
 uniform vec2 ray_step;     // from pixel to pixel of the map, 1 m before the eye [m]
 uniform vec2 first_ray;    // through the centre of the first one
 uniform vec2 depth_terms;  // of the projection: distance [m] = depth_terms.x / (depth_terms.y + depth)

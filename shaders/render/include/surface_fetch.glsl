@@ -1,7 +1,7 @@
 // A drawn surface, pulled straight from the simulation's buffers (RenderView).
-layout(binding = 0) uniform samplerBuffer node_positions;     // xyz [m]
-layout(binding = 1) uniform usamplerBuffer surface_vertices;  // SurfaceVertex: node, object, ...
-layout(binding = 2) uniform samplerBuffer vertex_normals;     // unit xyz
+uniform samplerBuffer node_positions;     // xyz [m]
+uniform usamplerBuffer surface_vertices;  // SurfaceVertex: node, object, ...
+uniform samplerBuffer vertex_normals;     // unit xyz
 
 struct SurfacePoint {
     vec3 position;  // [m]

@@ -1,9 +1,9 @@
 // How far nodes are from where their object's affine map puts them.
 #include "layouts/rest_shape.glsl"
 
-layout(binding = 0) uniform samplerBuffer positions;     // xyz [m]
-layout(binding = 1) uniform samplerBuffer rest_offsets;  // xyz [m]
-layout(binding = 2) uniform samplerBuffer fits;          // AffineFit
+uniform samplerBuffer positions;     // xyz [m]
+uniform samplerBuffer rest_offsets;  // xyz [m]
+uniform samplerBuffer fits;          // AffineFit
 
 AffineFit fetch_fit(uint object) {
     int first = 5 * int(object);

@@ -2,7 +2,7 @@
 // Colliders come sorted by kind, with a loop for each kind that the scene has (COLLIDER_KINDS, a bit each): software
 // drivers pay for code that never runs.
 
-layout(binding = 7) uniform samplerBuffer colliders;  // Collider (layouts/collider.glsl), four texels each
+uniform samplerBuffer colliders;  // Collider (layouts/collider.glsl), four texels each
 uniform uvec4 collider_ends;                          // behind the planes, boxes, spheres, capsules
 
 // xyz: the way out (unit); w: how far the point is outside (negative inside) [m].

@@ -2,9 +2,9 @@
 // corners that are pinned. CPU twin: src/cpu/collision/contact.h.
 #include "layouts/contact.glsl"
 #ifdef WRITES_CONTACT_PATCHES
-layout(std430, binding = 5) buffer ContactPatches { ContactPatch contact_patches[]; };
+layout(std430) buffer ContactPatches { ContactPatch contact_patches[]; };
 #else
-layout(std430, binding = 5) readonly buffer ContactPatches { ContactPatch contact_patches[]; };
+layout(std430) readonly buffer ContactPatches { ContactPatch contact_patches[]; };
 #endif
 
 struct ContactPlane {

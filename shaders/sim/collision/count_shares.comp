@@ -5,8 +5,8 @@
 #include "sim/collision/node_faces.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 4) uniform usamplerBuffer faces;  // Face
-layout(std430, binding = 3) writeonly buffer NodeShares { uint node_shares[]; };
+uniform usamplerBuffer faces;  // Face
+layout(std430) writeonly buffer NodeShares { uint node_shares[]; };
 
 void main() {
     uint n = global_index();

@@ -3,9 +3,9 @@
 const uint kTouches = 1u;
 const uint kEnters = 3u;
 #ifdef WRITES_FACE_COLLISIONS
-layout(std430, binding = 4) buffer FaceCollisions { uint face_collisions[]; };
+layout(std430) buffer FaceCollisions { uint face_collisions[]; };
 #else
-layout(std430, binding = 4) readonly buffer FaceCollisions { uint face_collisions[]; };
+layout(std430) readonly buffer FaceCollisions { uint face_collisions[]; };
 #endif
 
 bool collides(ObjectPair pair, uint face) {
@@ -15,7 +15,7 @@ bool collides(ObjectPair pair, uint face) {
 
 // In any pair of its object's row, or with SELF_COLLISION with its own object.
 #ifdef SELF_COLLISION
-layout(std430, binding = 7) readonly buffer ContactCounts { uint contact_counts[]; };
+layout(std430) readonly buffer ContactCounts { uint contact_counts[]; };
 #endif
 bool collides_with_any(PairRow row, uint face) {
 #ifdef SELF_COLLISION

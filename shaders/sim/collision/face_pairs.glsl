@@ -1,7 +1,7 @@
 // Who tests what, and the list of pairs of faces whose boxes meet.
-layout(std430, binding = 3) readonly buffer FaceBoxes { Box face_boxes[]; };
-layout(std430, binding = 5) readonly buffer Candidates { uint candidates[]; };
-layout(std430, binding = 7) writeonly buffer FacePairs { FacePair face_pairs[]; };
+layout(std430) readonly buffer FaceBoxes { Box face_boxes[]; };
+layout(std430) readonly buffer Candidates { uint candidates[]; };
+layout(std430) writeonly buffer FacePairs { FacePair face_pairs[]; };
 uniform uint face_pair_capacity;
 
 // The last pair whose tests do not start behind `test`: pairs without tests are passed over.

@@ -5,15 +5,15 @@
 #define WRITES_DISPATCHES
 #include "sim/collision/affine_fit.glsl"
 #include "sim/collision/dispatches.glsl"
+#include "sim/collision/rounding.glsl"
 #include "include/global_index.glsl"
 layout(local_size_x = 32) in;  // what every lane reads of the object outweighs a node: few lanes, longer loops
 
-layout(binding = 3) uniform usamplerBuffer chunks;  // Chunk, of nodes
-layout(std430, binding = 3) writeonly buffer LastRestless { uint last_restless[]; };  // step, by object
+uniform usamplerBuffer chunks;  // Chunk, of nodes
+layout(std430) writeonly buffer LastRestless { uint last_restless[]; };  // step, by object
 uniform uint chunk_count;
 uniform uint step_number;
 
-const float kEpsilon = 1.1920929e-7;
 
 void main() {
     uint group = group_index(), lane = gl_LocalInvocationID.x;

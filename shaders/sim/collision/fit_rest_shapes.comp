@@ -2,21 +2,21 @@
 // over a chunk's nodes, one work group a chunk; with it: the map, one invocation an object.
 // CPU twin: gelatin::cpu::AffineFit. Parity: tests/gpu/collision/find_self_collisions_test.cpp.
 #include "sim/collision/dispatches.glsl"
+#include "sim/collision/rounding.glsl"
 #include "include/global_index.glsl"
 #include "layouts/box.glsl"
 #include "layouts/chunk.glsl"
 #include "layouts/rest_shape.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer positions;     // xyz [m]
-layout(binding = 1) uniform samplerBuffer rest_offsets;  // xyz [m]
-layout(std430, binding = 0) readonly buffer BoundingBoxes { BoundingBox bounding_boxes[]; };
-layout(std430, binding = 1) readonly buffer Restless { uint restless[]; };  // chunks or objects
-layout(std430, binding = 3) readonly buffer Chunks { Chunk chunks[]; };
-layout(std430, binding = 4) buffer Sums { FitSums fit_sums[]; };
-layout(std430, binding = 5) readonly buffer RestShapes { RestShape rest_shapes[]; };
-layout(std430, binding = 7) writeonly buffer Fits { AffineFit fits[]; };
-layout(binding = 2) uniform usamplerBuffer chunk_starts;  // of each object, and the end
+uniform samplerBuffer positions;     // xyz [m]
+uniform samplerBuffer rest_offsets;  // xyz [m]
+layout(std430) readonly buffer BoundingBoxes { BoundingBox bounding_boxes[]; };
+layout(std430) readonly buffer Chunks { Chunk chunks[]; };
+layout(std430) buffer Sums { FitSums fit_sums[]; };
+layout(std430) readonly buffer RestShapes { RestShape rest_shapes[]; };
+layout(std430) writeonly buffer Fits { AffineFit fits[]; };
+uniform usamplerBuffer chunk_starts;  // of each object, and the end
 
 FitSums add(FitSums a, FitSums b) {
     return FitSums(a.column_x + b.column_x, a.column_y + b.column_y, a.column_z + b.column_z);
@@ -25,12 +25,13 @@ FitSums add(FitSums a, FitSums b) {
 const FitSums kNothing = FitSums(vec4(0.0), vec4(0.0), vec4(0.0));
 
 #ifdef OBJECTS
-const float kEpsilon = 1.1920929e-7;
+layout(std430) readonly buffer RestlessObjects { uint restless_objects[]; };
+
 
 void main() {
     uint k = global_index();
     if (k >= dispatches[kFits].count) return;
-    uint object = restless[k];
+    uint object = restless_objects[k];
     uint first = texelFetch(chunk_starts, int(object)).x, end = texelFetch(chunk_starts, int(object) + 1).x;
     FitSums sums = kNothing;
     for (uint c = first; c < end; ++c) sums = add(sums, fit_sums[c]);
@@ -54,10 +55,12 @@ void main() {
                              vec4(origin, 0.0));
 }
 #else
+layout(std430) readonly buffer RestlessNodeChunks { uint restless_chunks[]; };
+
 shared FitSums parts[64];
 
 void main() {
-    uint c = restless[gl_WorkGroupID.x];
+    uint c = restless_chunks[gl_WorkGroupID.x];
     Chunk chunk = chunks[c];
     vec3 origin = texelFetch(positions, int(chunk.origin)).xyz;
     uint lane = gl_LocalInvocationID.x;

@@ -9,8 +9,8 @@
 #include "sim/depth/hidden.glsl"
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 3) readonly buffer FaceBoxes { Box face_boxes[]; };
-layout(std430, binding = 5) writeonly buffer Candidates { uint candidates[]; };
+layout(std430) readonly buffer FaceBoxes { Box face_boxes[]; };
+layout(std430) writeonly buffer Candidates { uint candidates[]; };
 uniform uint object_count;
 
 // The last object whose entries do not start behind `entry`: rows without entries are passed over.

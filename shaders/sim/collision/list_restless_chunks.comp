@@ -5,11 +5,11 @@
 #include "include/global_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 3) uniform usamplerBuffer chunks;  // Chunk, of nodes and then of faces
-layout(std430, binding = 3) readonly buffer LastRestless { uint last_restless[]; };  // step, by object
-layout(std430, binding = 4) writeonly buffer NodeChunks { uint restless_node_chunks[]; };
-layout(std430, binding = 5) writeonly buffer FaceChunks { uint restless_face_chunks[]; };
-layout(std430, binding = 7) writeonly buffer Objects { uint restless_objects[]; };
+uniform usamplerBuffer chunks;  // Chunk, of nodes and then of faces
+layout(std430) readonly buffer LastRestless { uint last_restless[]; };  // step, by object
+layout(std430) writeonly buffer RestlessNodeChunks { uint restless_node_chunks[]; };
+layout(std430) writeonly buffer RestlessFaceChunks { uint restless_face_chunks[]; };
+layout(std430) writeonly buffer RestlessObjects { uint restless_objects[]; };
 uniform uint node_chunk_count;
 uniform uint chunk_count;
 uniform uint object_count;

@@ -6,13 +6,13 @@
 #include "sim/collision/dispatches.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 3) uniform usamplerBuffer chunks;     // Chunk
-layout(binding = 4) uniform samplerBuffer clearances;  // [m]
-layout(binding = 7) uniform usamplerBuffer faces;      // Face
-layout(std430, binding = 3) readonly buffer RestlessChunks { uint restless_chunks[]; };
-layout(std430, binding = 4) writeonly buffer Restless { uint restless[]; };
-layout(std430, binding = 5) writeonly buffer Calm { uint is_calm[]; };
-layout(std430, binding = 7) writeonly buffer ContactCounts { uint contact_counts[]; };
+uniform usamplerBuffer chunks;     // Chunk
+uniform samplerBuffer clearances;  // [m]
+uniform usamplerBuffer faces;      // Face
+layout(std430) readonly buffer RestlessFaceChunks { uint restless_chunks[]; };
+layout(std430) writeonly buffer RestlessFaces { uint restless[]; };
+layout(std430) writeonly buffer Calm { uint is_calm[]; };
+layout(std430) writeonly buffer ContactCounts { uint contact_counts[]; };
 uniform uint face_count;
 
 void main() {

@@ -1,7 +1,9 @@
 // The nearest points of two faces, edges or nodes. CPU twin, which explains the method: src/cpu/collision/nearest_points.h.
 // `apart` points from the first one to the second. Parity: tests/gpu/collision/time_of_impact_test.cpp. The columns of a face are its corners.
 
-const float kParallel = 4.7683716e-7;
+#include "sim/collision/rounding.glsl"
+
+const float kParallel = float(kParallelRounding) * kEpsilon;
 const float kInfinity = 3.4e38;
 
 struct NodeToEdge {

@@ -1,6 +1,6 @@
 // The colliding ones among the faces round a node.
-layout(binding = 2) uniform usamplerBuffer node_face_starts;
-layout(binding = 3) uniform usamplerBuffer node_faces;
+uniform usamplerBuffer node_face_starts;
+uniform usamplerBuffer node_faces;
 
 uint count_colliding(uint node, ObjectPair pair) {
     uint end = texelFetch(node_face_starts, int(node) + 1).x;

@@ -12,9 +12,9 @@ bool may_touch(uint a, uint b) {
 }
 
 #ifdef OBJECT_TREE
-layout(binding = 1) uniform usamplerBuffer object_tree_nodes;  // TreeNode
-layout(binding = 2) uniform samplerBuffer object_tree_boxes;   // Box
-layout(binding = 3) uniform usamplerBuffer object_order;
+uniform usamplerBuffer object_tree_nodes;  // TreeNode
+uniform samplerBuffer object_tree_boxes;   // Box
+uniform usamplerBuffer object_order;
 
 // A walk through the tree over all objects: the next node, and what is left of the leaf before it.
 struct Search {

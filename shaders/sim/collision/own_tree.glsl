@@ -2,11 +2,11 @@
 #include "sim/collision/dispatches.glsl"
 #include "layouts/box.glsl"
 
-layout(binding = 4) uniform usamplerBuffer tree_nodes;  // TreeNode
-layout(binding = 5) uniform samplerBuffer tree_boxes;   // Box
-layout(binding = 6) uniform usamplerBuffer roots;       // nodes, by object
-layout(binding = 7) uniform usamplerBuffer faces;       // Face
-layout(std430, binding = 3) readonly buffer FaceBoxes { Box face_boxes[]; };
+uniform usamplerBuffer tree_nodes;  // TreeNode
+uniform samplerBuffer tree_boxes;   // Box
+uniform usamplerBuffer roots;       // nodes, by object
+uniform usamplerBuffer faces;       // Face
+layout(std430) readonly buffer FaceBoxes { Box face_boxes[]; };
 
 struct OwnWalk {
     uvec4 face;  // its corners and object

@@ -5,21 +5,20 @@
 #include "layouts/box.glsl"
 #include "layouts/object_pair.glsl"
 
-layout(std430, binding = 0) readonly buffer BoundingBoxes { BoundingBox bounding_boxes[]; };
+layout(std430) readonly buffer BoundingBoxes { BoundingBox bounding_boxes[]; };
 #ifdef WRITES_PAIR_ROWS
-layout(std430, binding = 1) buffer PairRows { PairRow pair_rows[]; };
+layout(std430) buffer PairRows { PairRow pair_rows[]; };
 #else
-layout(std430, binding = 1) readonly buffer PairRows { PairRow pair_rows[]; };
+layout(std430) readonly buffer PairRows { PairRow pair_rows[]; };
 #endif
 #ifdef WRITES_OBJECT_PAIRS
-layout(std430, binding = 2) buffer ObjectPairs { ObjectPair object_pairs[]; };
+layout(std430) buffer ObjectPairs { ObjectPair object_pairs[]; };
 #else
-layout(std430, binding = 2) readonly buffer ObjectPairs { ObjectPair object_pairs[]; };
+layout(std430) readonly buffer ObjectPairs { ObjectPair object_pairs[]; };
 #endif
 
 const uint kAllFaces = 0xFFFFFFFFu;  // ObjectPair::first_candidate
 
-const uint kFacesAWord = 16u;        // of the Face Collision Result
 
 uint word_count(uint object) { return (bounding_boxes[object].face_count + kFacesAWord - 1u) / kFacesAWord; }
 

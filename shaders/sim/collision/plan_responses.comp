@@ -5,8 +5,8 @@
 #include "sim/collision/contact_plane.glsl"
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 3) writeonly buffer Responses { ContactResponse responses[]; };
-layout(std430, binding = 7) readonly buffer Approaches { ApproachSums approaches[]; };
+layout(std430) writeonly buffer Responses { ContactResponse responses[]; };
+layout(std430) readonly buffer Approaches { ApproachSums approaches[]; };
 uniform float friction;
 uniform float restitution;
 uniform float resting_speed;  // [m/s]

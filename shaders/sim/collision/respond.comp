@@ -8,12 +8,12 @@
 #include "layouts/face.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer previous_positions;  // xyz [m], inverse mass [1/kg]
-layout(binding = 4) uniform usamplerBuffer faces;              // Face
-layout(binding = 5) uniform usamplerBuffer node_shares;
-layout(std430, binding = 3) readonly buffer Responses { ContactResponse responses[]; };
-layout(std430, binding = 5) buffer Positions { vec4 positions[]; };    // an invocation reads and writes its own node
-layout(std430, binding = 7) buffer Velocities { vec4 velocities[]; };  // alone
+uniform samplerBuffer previous_positions;  // xyz [m], inverse mass [1/kg]
+uniform usamplerBuffer faces;              // Face
+uniform usamplerBuffer node_shares;
+layout(std430) readonly buffer Responses { ContactResponse responses[]; };
+layout(std430) buffer Positions { vec4 positions[]; };    // an invocation reads and writes its own node
+layout(std430) buffer Velocities { vec4 velocities[]; };  // alone
 uniform float time_step;  // [s]
 
 void main() {

@@ -7,12 +7,12 @@
 layout(local_size_x = 64) in;
 
 #ifdef NODES
-layout(binding = 2) uniform usamplerBuffer node_face_starts;
-layout(binding = 3) uniform usamplerBuffer node_faces;
-layout(std430, binding = 1) readonly buffer ContactCounts { uint contact_counts[]; };
-layout(std430, binding = 2) readonly buffer Answers { vec4 answers[]; };  // of each face: velocity [m/s], way [m]
-layout(std430, binding = 5) buffer Positions { vec4 positions[]; };       // an invocation reads and writes its own
-layout(std430, binding = 7) buffer Velocities { vec4 velocities[]; };     // node alone
+uniform usamplerBuffer node_face_starts;
+uniform usamplerBuffer node_faces;
+layout(std430) readonly buffer ContactCounts { uint contact_counts[]; };
+layout(std430) readonly buffer Answers { vec4 answers[]; };  // of each face: velocity [m/s], way [m]
+layout(std430) buffer Positions { vec4 positions[]; };       // an invocation reads and writes its own
+layout(std430) buffer Velocities { vec4 velocities[]; };     // node alone
 
 void main() {
     uint n = global_index();
@@ -34,14 +34,14 @@ void main() {
 #else
 #include "sim/collision/own_tree.glsl"
 #include "sim/collision/triangle_overlap.glsl"
-layout(binding = 0) uniform samplerBuffer positions;   // xyz [m], inverse mass [1/kg]
-layout(binding = 1) uniform samplerBuffer velocities;  // xyz [m/s]
-layout(binding = 2) uniform usamplerBuffer node_face_starts;
-layout(binding = 3) uniform usamplerBuffer node_faces;
-layout(binding = 8) uniform samplerBuffer previous_positions;  // xyz [m]
-layout(std430, binding = 1) readonly buffer ContactCounts { uint contact_counts[]; };
-layout(std430, binding = 2) writeonly buffer Answers { vec4 answers[]; };  // of each face: velocity [m/s], way [m]
-layout(std430, binding = 4) readonly buffer SelfFaces { uint self_faces[]; };
+uniform samplerBuffer positions;   // xyz [m], inverse mass [1/kg]
+uniform samplerBuffer velocities;  // xyz [m/s]
+uniform usamplerBuffer node_face_starts;
+uniform usamplerBuffer node_faces;
+uniform samplerBuffer previous_positions;  // xyz [m]
+layout(std430) readonly buffer ContactCounts { uint contact_counts[]; };
+layout(std430) writeonly buffer Answers { vec4 answers[]; };  // of each face: velocity [m/s], way [m]
+layout(std430) readonly buffer SelfFaces { uint self_faces[]; };
 uniform float friction;
 uniform float restitution;
 uniform float resting_speed;  // [m/s]

@@ -27,6 +27,6 @@ void main() {
         at = add(at, count_tests(object_pairs[p]));
     }
     if (lane != 255u) return;
-    if (at == 0xFFFFFFFFu) atomicAdd(dispatches[kLosses].count, 1u);
+    if (at == kNone) atomicAdd(dispatches[kLosses].count, 1u);
     dispatches[kTests] = dispatch_invocations(at);
 }

@@ -10,12 +10,12 @@
 #include "layouts/face.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer positions;   // xyz [m], inverse mass [1/kg]
-layout(binding = 1) uniform samplerBuffer velocities;  // xyz [m/s]
-layout(binding = 5) uniform usamplerBuffer node_shares;
-layout(std430, binding = 3) readonly buffer Faces { Face faces[]; };
+uniform samplerBuffer positions;   // xyz [m], inverse mass [1/kg]
+uniform samplerBuffer velocities;  // xyz [m/s]
+uniform usamplerBuffer node_shares;
+layout(std430) readonly buffer Faces { Face faces[]; };
 #ifdef APPROACHING
-layout(std430, binding = 7) writeonly buffer Approaches { ApproachSums approaches[]; };
+layout(std430) writeonly buffer Approaches { ApproachSums approaches[]; };
 #endif
 
 const float kWeightOfOthers = 1e-3;  // see src/cpu/collision/contact.h

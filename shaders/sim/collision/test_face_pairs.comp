@@ -4,6 +4,7 @@
 #define WRITES_FACE_COLLISIONS
 #include "sim/collision/pairs.glsl"
 #include "sim/collision/face_collisions.glsl"
+#include "sim/collision/rounding.glsl"
 #ifdef CONTINUOUS
 #include "sim/collision/touch.glsl"
 #else
@@ -12,10 +13,10 @@
 #include "layouts/face.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer positions;           // xyz [m]
-layout(binding = 1) uniform samplerBuffer previous_positions;  // at the start of the step, xyz [m]
-layout(std430, binding = 3) readonly buffer Faces { Face faces[]; };
-layout(std430, binding = 7) readonly buffer FacePairs { FacePair face_pairs[]; };
+uniform samplerBuffer positions;           // xyz [m]
+uniform samplerBuffer previous_positions;  // at the start of the step, xyz [m]
+layout(std430) readonly buffer Faces { Face faces[]; };
+layout(std430) readonly buffer FacePairs { FacePair face_pairs[]; };
 uniform uint face_pair_capacity;
 
 mat3 corners(Face face, samplerBuffer at) {

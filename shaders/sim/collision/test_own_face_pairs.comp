@@ -8,11 +8,11 @@
 #include "layouts/object_pair.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer positions;  // xyz [m]
-layout(binding = 7) uniform usamplerBuffer faces;     // Face
-layout(std430, binding = 4) writeonly buffer SelfFaces { uint self_faces[]; };
-layout(std430, binding = 5) buffer ContactCounts { uint contact_counts[]; };
-layout(std430, binding = 7) readonly buffer FacePairs { FacePair face_pairs[]; };
+uniform samplerBuffer positions;  // xyz [m]
+uniform usamplerBuffer faces;     // Face
+layout(std430) writeonly buffer SelfFaces { uint self_faces[]; };
+layout(std430) buffer ContactCounts { uint contact_counts[]; };
+layout(std430) readonly buffer FacePairs { FacePair face_pairs[]; };
 uniform uint face_pair_capacity;
 uniform uint face_count;
 uniform uint node_count;

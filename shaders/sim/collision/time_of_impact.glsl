@@ -2,10 +2,9 @@
 // src/cpu/collision/time_of_impact.h. Parity: tests/gpu/collision/time_of_impact_test.cpp. The columns of a face are its corners.
 // A face of which two or three corners coincide is an edge or a node.
 #include "sim/collision/nearest_points.glsl"
+#include "sim/collision/rounding.glsl"
 
-const float kRoundingBound = 9.5367432e-7, kUnderflowBound = 1.5777218e-30;
-const float kRootBound = 9.5367432e-7;
-const int kMostPlanes = 32;
+const float kRoundingBound = float(kImpactRounding) * kEpsilon, kRootBound = float(kRootRounding) * kEpsilon;
 const float kNever = 2.0;
 
 struct MovingFace {

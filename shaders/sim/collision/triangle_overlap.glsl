@@ -5,12 +5,14 @@
 // 3 + j the side of s's plane for vertex j of t, 6 + 3 i + j how edge i of s turns round edge j of t.
 // Software drivers run every branch, and every loop once: what is rarely needed is one turn of a loop.
 
+#include "sim/collision/rounding.glsl"
+
 const uint kVerticesOfS = 7u, kVerticesOfT = 56u, kAllSigns = 32767u;
 const uint kEdgeOfS = 448u, kEdgeOfT = 4672u;  // the turns of the first ones
 
 // Relative rounding bounds: 2^-20, 2^-49. In float 2^-99 pays for products that are flushed to zero; in double there
 // are none, as differences of floats are at least 2^-149.
-const float kFloatBound = 9.5367432e-7, kUnderflowBound = 1.5777218e-30;
+const float kFloatBound = float(kOverlapRounding) * kEpsilon;
 const double kDoubleBound = 1.7763568394002505e-15lf;
 
 // The sign of w . (u x v).

@@ -1,27 +1,29 @@
 // Boxes of the nodes of trees, one level a dispatch, leaves first. LEAVES: those over faces, whose boxes they make too.
 // CONTINUOUS: their boxes over the whole step; MARGIN: larger than the faces. OBJECTS: those over objects. Neither: inner nodes. The box of a face tree's root is its object's bounding box.
 // CPU twin: gelatin::cpu::Collision. Parity: tests/gpu/collision/collision_test.cpp.
+#include "layouts/packing.glsl"
 #include "include/global_index.glsl"
 #include "layouts/box.glsl"
 #include "layouts/face.glsl"
 #include "layouts/tree_node.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer positions;   // xyz [m]
-layout(binding = 1) uniform usamplerBuffer tree_nodes;  // TreeNode
-layout(binding = 2) uniform usamplerBuffer object_order;
-layout(binding = 3) uniform samplerBuffer previous_positions;  // at the start of the step, xyz [m]
-layout(std430, binding = 0) buffer BoundingBoxes { BoundingBox bounding_boxes[]; };
-layout(std430, binding = 1) readonly buffer Faces { Face faces[]; };
-layout(std430, binding = 2) writeonly buffer FaceBoxes { Box face_boxes[]; };
-layout(std430, binding = 3) buffer TreeBoxes { Box tree_boxes[]; };
-layout(std430, binding = 4) readonly buffer LevelNodes { uint level_nodes[]; };
+uniform usamplerBuffer tree_nodes;  // TreeNode
+uniform usamplerBuffer object_order;
+layout(std430) buffer BoundingBoxes { BoundingBox bounding_boxes[]; };
+layout(std430) buffer TreeBoxes { Box tree_boxes[]; };
+layout(std430) readonly buffer LevelNodes { uint level_nodes[]; };
 uniform uint first_node;  // of this level in level_nodes
 uniform uint node_count;
 
 Box join(Box a, Box b) { return Box(min(a.min, b.min), max(a.max, b.max)); }
 
 #ifdef LEAVES
+uniform samplerBuffer positions;           // xyz [m]
+uniform samplerBuffer previous_positions;  // at the start of the step, xyz [m]
+layout(std430) readonly buffer Faces { Face faces[]; };
+layout(std430) writeonly buffer FaceBoxes { Box face_boxes[]; };
+
 #ifdef MARGIN
 #include "sim/collision/box_margin.glsl"
 #endif
@@ -73,7 +75,7 @@ void main() {
     }
 #endif
     tree_boxes[n] = box;
-    if (node.w == 0xFFFFFFFFu) return;
+    if (node.w == kNone) return;
     bounding_boxes[node.w].min = box.min;
     bounding_boxes[node.w].max = box.max;
 }

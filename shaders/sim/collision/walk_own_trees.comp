@@ -7,9 +7,9 @@
 #include "layouts/object_pair.glsl"
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 4) readonly buffer Restless { uint restless[]; };
-layout(std430, binding = 5) readonly buffer Calm { uint is_calm[]; };
-layout(std430, binding = 7) writeonly buffer FacePairs { FacePair face_pairs[]; };
+layout(std430) readonly buffer RestlessFaces { uint restless[]; };
+layout(std430) readonly buffer Calm { uint is_calm[]; };
+layout(std430) writeonly buffer FacePairs { FacePair face_pairs[]; };
 uniform uint face_pair_capacity;
 
 void main() {

@@ -5,9 +5,9 @@
 #include "sim/collision/face_pairs.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 1) uniform usamplerBuffer tree_nodes;  // TreeNode
-layout(binding = 2) uniform samplerBuffer tree_boxes;   // Box
-layout(binding = 3) uniform usamplerBuffer roots;       // nodes, by object
+uniform usamplerBuffer tree_nodes;  // TreeNode
+uniform samplerBuffer tree_boxes;   // Box
+uniform usamplerBuffer roots;       // nodes, by object
 
 void main() {
     uint test = global_index();

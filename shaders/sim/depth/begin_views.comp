@@ -5,11 +5,11 @@
 #include "layouts/draw.glsl"
 layout(local_size_x = 256) in;
 
-layout(std430, binding = 0) readonly buffer BoundingBoxes { BoundingBox bounding_boxes[]; };
-layout(std430, binding = 1) writeonly buffer FaceViews { uint face_views[]; };
-layout(std430, binding = 2) writeonly buffer ObjectViews { uint object_views[]; };
-layout(std430, binding = 3) writeonly buffer Draws { Draw draws[]; };
-layout(std430, binding = 4) writeonly buffer ViewSpace { vec4 view_space[2]; };  // its lower corner [m], its scale [1/m]
+layout(std430) readonly buffer BoundingBoxes { BoundingBox bounding_boxes[]; };
+layout(std430) writeonly buffer FaceViews { uint face_views[]; };
+layout(std430) writeonly buffer ObjectViews { uint object_views[]; };
+layout(std430) writeonly buffer Draws { Draw draws[]; };
+layout(std430) writeonly buffer ViewSpace { vec4 view_space[2]; };  // its lower corner [m], its scale [1/m]
 uniform uint face_count;
 uniform uint object_count;
 

@@ -1,5 +1,5 @@
 // A point a face, which face_footprint.geom turns into what the face covers.
-layout(binding = 0) uniform usamplerBuffer drawn_faces;
+uniform usamplerBuffer drawn_faces;
 
 flat out uint drawn_face;
 

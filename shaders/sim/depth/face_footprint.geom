@@ -8,9 +8,9 @@
 layout(points) in;
 layout(triangle_strip, max_vertices = 4) out;
 
-layout(binding = 1) uniform samplerBuffer positions;    // xyz [m]
-layout(binding = 2) uniform usamplerBuffer faces;       // Face
-layout(binding = 3) uniform samplerBuffer view_space;   // lower corner [m], scale [1/m]
+uniform samplerBuffer positions;    // xyz [m]
+uniform usamplerBuffer faces;       // Face
+uniform samplerBuffer view_space;   // lower corner [m], scale [1/m]
 uniform uint axis;         // of sight: 0, 1, 2
 uniform uint from_behind;  // 1: sight goes down the axis
 uniform float resolution;  // [pixels a side]

@@ -5,13 +5,13 @@
 #include "sim/depth/footprint_pixel.glsl"
 #include "layouts/draw.glsl"
 
-layout(binding = 4) uniform sampler2D nearest_depth;
-layout(binding = 5) uniform usampler2D nearest_object;
-layout(binding = 6) uniform sampler2D nearest_other_depth;
-layout(std430, binding = 1) buffer FaceViews { uint face_views[]; };
-layout(std430, binding = 2) writeonly buffer ObjectViews { uint object_views[]; };
-layout(std430, binding = 3) buffer Draws { Draw draws[]; };
-layout(std430, binding = 4) writeonly buffer HiddenFaces { uint hidden_faces[]; };
+uniform sampler2D nearest_depth;
+uniform usampler2D nearest_object;
+uniform sampler2D nearest_other_depth;
+layout(std430) buffer FaceViews { uint face_views[]; };
+layout(std430) writeonly buffer ObjectViews { uint object_views[]; };
+layout(std430) buffer Draws { Draw draws[]; };
+layout(std430) writeonly buffer HiddenFaces { uint hidden_faces[]; };
 uniform uint view;  // 1 .. VIEW_COUNT
 
 void main() {

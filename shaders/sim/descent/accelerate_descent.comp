@@ -5,10 +5,10 @@
 layout(local_size_x = 64) in;
 
 // An invocation reads and writes its own node.
-layout(std430, binding = 0) buffer Positions { vec4 positions[]; };
-layout(std430, binding = 3) buffer Starts { vec4 sweep_starts[]; };  // of the last two sweeps: all nodes, and again
-layout(std430, binding = 2) readonly buffer ObjectTouches { uint object_touches[]; };
-layout(binding = 12) uniform usamplerBuffer node_objects;
+layout(std430) buffer Positions { vec4 positions[]; };
+layout(std430) buffer Starts { vec4 sweep_starts[]; };  // of the last two sweeps: all nodes, and again
+layout(std430) readonly buffer ObjectTouches { uint object_touches[]; };
+uniform usamplerBuffer node_objects;
 uniform uint node_count;
 uniform uint sweep;    // in this step
 uniform float weight;  // w_k

@@ -7,17 +7,17 @@
 #include "layouts/cluster.glsl"
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 3) readonly buffer Chunks { Chunk chunks[]; };
-layout(std430, binding = 4) buffer Sums { vec4 sums[]; };        // of chunks: here, ahead [J], square of the longest [m^2]
-layout(std430, binding = 5) readonly buffer Ways { vec4 ways[]; };  // [m]
+layout(std430) readonly buffer Chunks { Chunk chunks[]; };
+layout(std430) buffer Sums { vec4 sums[]; };        // of chunks: here, ahead [J], square of the longest [m^2]
+layout(std430) readonly buffer Ways { vec4 ways[]; };  // [m]
 #ifndef SUMS
-layout(std430, binding = 6) buffer Factors { float factors[]; };    // by object
+layout(std430) buffer Factors { float factors[]; };    // by object
 #endif
 uniform uint element_count;
 
 #if defined(SUMS)
-layout(std430, binding = 6) readonly buffer ForcesHere { vec4 forces_here[]; };  // [N]
-layout(std430, binding = 7) readonly buffer ForcesAhead { vec4 forces_ahead[]; };
+layout(std430) readonly buffer ForcesHere { vec4 forces_here[]; };  // [N]
+layout(std430) readonly buffer ForcesAhead { vec4 forces_ahead[]; };
 shared vec3 parts[64];
 
 void main() {
@@ -39,8 +39,8 @@ void main() {
     sums[c] = vec4(sum, 0.0);
 }
 #elif defined(OBJECTS)
-layout(binding = 3) uniform usamplerBuffer chunk_starts;  // of each object, and the end
-layout(std430, binding = 7) readonly buffer Bodies { CoarseBody bodies[]; };
+uniform usamplerBuffer chunk_starts;  // of each object, and the end
+layout(std430) readonly buffer Bodies { CoarseBody bodies[]; };
 const float kFarthest = 2.0;  // ways are made longer by no more
 
 bool is_finite(float x) { return !(isinf(x) || isnan(x)); }
@@ -58,7 +58,7 @@ void main() {
     factors[object] = goes ? min(factor, bodies[object].body_length / sqrt(sum.z)) : 0.0;
 }
 #else
-layout(std430, binding = 0) buffer Positions { vec4 positions[]; };  // an invocation reads and writes its own nodes
+layout(std430) buffer Positions { vec4 positions[]; };  // an invocation reads and writes its own nodes
 
 void main() {
     uint c = group_index();

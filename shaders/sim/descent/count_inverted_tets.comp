@@ -4,8 +4,8 @@
 #include "sim/elasticity/volume_ratio.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 12) uniform usamplerBuffer node_objects;
-layout(std430, binding = 4) buffer Inverted { uint inverted[]; };  // by object
+uniform usamplerBuffer node_objects;
+layout(std430) buffer Inverted { uint inverted[]; };  // by object
 uniform uint tet_count;
 
 void main() {

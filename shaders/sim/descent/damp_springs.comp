@@ -6,11 +6,11 @@
 #include "sim/descent/descent_step.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 3) uniform usamplerBuffer rows;          // DescentRow
-layout(binding = 4) uniform usamplerBuffer spring_ends;   // of two half springs, the nodes at their other ends
-layout(binding = 5) uniform samplerBuffer springs;        // their rest length [m], stiffness [N/m]
-layout(binding = 6) uniform usamplerBuffer slice_starts;
-layout(std430, binding = 0) writeonly buffer DampedSprings { vec4 damped_springs[]; };
+uniform usamplerBuffer rows;          // DescentRow
+uniform usamplerBuffer spring_ends;   // of two half springs, the nodes at their other ends
+uniform samplerBuffer springs;        // their rest length [m], stiffness [N/m]
+uniform usamplerBuffer slice_starts;
+layout(std430) writeonly buffer DampedSprings { vec4 damped_springs[]; };
 uniform uint row_count;
 
 struct Node {

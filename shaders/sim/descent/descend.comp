@@ -10,25 +10,25 @@
 #include "layouts/descent.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer positions;      // xyz [m], inverse mass [1/kg]
-layout(binding = 3) uniform usamplerBuffer rows;          // DescentRow
-layout(binding = 4) uniform usamplerBuffer spring_ends;   // of two half springs, the nodes at their other ends
-layout(binding = 5) uniform samplerBuffer springs;        // their rest length [m], stiffness [N/m], dampers in them
-layout(binding = 6) uniform usamplerBuffer slice_starts;
-layout(binding = 18) uniform usamplerBuffer near_flat;    // of nodes, the look at which they were
-layout(binding = 8) uniform usamplerBuffer tet_corners;   // TetCorner, of bodies of springs
-layout(binding = 9) uniform usamplerBuffer corner_starts;
-layout(binding = 10) uniform samplerBuffer tet_rests;     // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
+uniform samplerBuffer positions;      // xyz [m], inverse mass [1/kg]
+uniform usamplerBuffer rows;          // DescentRow
+uniform usamplerBuffer spring_ends;   // of two half springs, the nodes at their other ends
+uniform samplerBuffer springs;        // their rest length [m], stiffness [N/m], dampers in them
+uniform usamplerBuffer slice_starts;
+uniform usamplerBuffer near_flat;    // of nodes, the look at which they were
+uniform usamplerBuffer tet_corners;   // TetCorner, of bodies of springs
+uniform usamplerBuffer corner_starts;
+uniform samplerBuffer tet_rests;     // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
 #ifdef VOLUME
-layout(binding = 11) uniform samplerBuffer offsets;       // q [Pa], of each tet
+uniform samplerBuffer offsets;       // q [Pa], of each tet
 #endif
-layout(std430, binding = 0) writeonly buffer OutPositions { vec4 out_positions[]; };
+layout(std430) writeonly buffer OutPositions { vec4 out_positions[]; };
 #ifdef FORCES
-layout(std430, binding = 4) readonly buffer Ways { vec4 ways[]; };       // [m]
-layout(std430, binding = 5) writeonly buffer Forces { vec4 forces[]; };  // [N]
+layout(std430) readonly buffer Ways { vec4 ways[]; };       // [m]
+layout(std430) writeonly buffer Forces { vec4 forces[]; };  // [N]
 uniform uint is_ahead;  // positions are those at the ways' ends
 #endif
-layout(std430, binding = 2) buffer ObjectTouches { uint object_touches[]; };
+layout(std430) buffer ObjectTouches { uint object_touches[]; };
 #ifdef NEO_HOOKEAN
 #include "sim/elasticity/neo_hookean_terms.glsl"
 #endif
@@ -39,7 +39,7 @@ uniform uint look;         // the last
 vec3 position_of(uint node) { return texelFetch(positions, int(node)).xyz; }
 
 #if COLLIDER_KINDS != 0
-layout(std430, binding = 3) buffer Touches { Touch touches[]; };  // of nodes
+layout(std430) buffer Touches { Touch touches[]; };  // of nodes
 
 // Where the node's own objective, to second order, is least outside the collider's tangent plane, behind which all of it
 // lies: the normal force is what that takes. Friction then takes back what the node has slid along the plane, with as much

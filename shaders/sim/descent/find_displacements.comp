@@ -4,12 +4,12 @@
 #include "layouts/cluster.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer positions;     // xyz [m], inverse mass [1/kg]
-layout(binding = 3) uniform usamplerBuffer node_starts;  // in node_parts
-layout(binding = 4) uniform usamplerBuffer node_parts;   // cluster, weight
-layout(std430, binding = 4) readonly buffer Clusters { Cluster clusters[]; };
-layout(std430, binding = 5) writeonly buffer Ways { vec4 ways[]; };    // [m]
-layout(std430, binding = 6) writeonly buffer Ahead { vec4 ahead[]; };  // positions at the ways' ends
+uniform samplerBuffer positions;     // xyz [m], inverse mass [1/kg]
+uniform usamplerBuffer node_starts;  // in node_parts
+uniform usamplerBuffer node_parts;   // cluster, weight
+layout(std430) readonly buffer Clusters { Cluster clusters[]; };
+layout(std430) writeonly buffer Ways { vec4 ways[]; };    // [m]
+layout(std430) writeonly buffer Ahead { vec4 ahead[]; };  // positions at the ways' ends
 uniform uint node_count;
 
 void main() {

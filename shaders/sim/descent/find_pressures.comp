@@ -5,16 +5,16 @@
 #include "sim/elasticity/node_terms.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 9) uniform usamplerBuffer tets;        // nodes
-layout(binding = 10) uniform samplerBuffer tet_rests;   // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
-layout(std430, binding = 3) readonly buffer Ratios { float ratios[]; };  // J, of each tet
+uniform usamplerBuffer tets;        // nodes
+uniform samplerBuffer tet_rests;   // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
+layout(std430) readonly buffer Ratios { float ratios[]; };  // J, of each tet
 uniform uint element_count;
 
 #ifdef NODES
-layout(binding = 11) uniform samplerBuffer node_volumes;       // V_i [m^3], kappa_i [Pa]
-layout(binding = 12) uniform usamplerBuffer node_tet_starts;
-layout(binding = 13) uniform usamplerBuffer node_tets;         // 4 tet + corner
-layout(std430, binding = 4) writeonly buffer Pressures { float pressures[]; };  // [Pa], of each node
+uniform samplerBuffer node_volumes;       // V_i [m^3], kappa_i [Pa]
+uniform usamplerBuffer node_tet_starts;
+uniform usamplerBuffer node_tets;         // 4 tet + corner
+layout(std430) writeonly buffer Pressures { float pressures[]; };  // [Pa], of each node
 
 void main() {
     uint n = global_index();
@@ -29,8 +29,8 @@ void main() {
     pressures[n] = rest.x > 0.0 ? volume_stress(volume / rest.x, rest.y) : 0.0;
 }
 #else
-layout(std430, binding = 4) readonly buffer Pressures { float pressures[]; };  // [Pa], of each node
-layout(std430, binding = 5) writeonly buffer Offsets { float offsets[]; };     // q [Pa], of each tet
+layout(std430) readonly buffer Pressures { float pressures[]; };  // [Pa], of each node
+layout(std430) writeonly buffer Offsets { float offsets[]; };     // q [Pa], of each tet
 
 void main() {
     uint t = global_index();

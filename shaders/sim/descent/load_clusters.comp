@@ -4,12 +4,12 @@
 #include "layouts/cluster.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer positions;        // xyz [m]
-layout(binding = 3) uniform usamplerBuffer cluster_starts;  // in cluster_parts
-layout(binding = 4) uniform usamplerBuffer cluster_parts;   // node, weight
-layout(std430, binding = 3) readonly buffer Forces { vec4 forces[]; };  // on nodes [N]
-layout(std430, binding = 4) readonly buffer Clusters { Cluster clusters[]; };
-layout(std430, binding = 5) writeonly buffer Loads { float loads[]; };  // six a cluster: force [N], moment [N m]
+uniform samplerBuffer positions;        // xyz [m]
+uniform usamplerBuffer cluster_starts;  // in cluster_parts
+uniform usamplerBuffer cluster_parts;   // node, weight
+layout(std430) readonly buffer Forces { vec4 forces[]; };  // on nodes [N]
+layout(std430) readonly buffer Clusters { Cluster clusters[]; };
+layout(std430) writeonly buffer Loads { float loads[]; };  // six a cluster: force [N], moment [N m]
 uniform uint cluster_count;
 
 shared vec3 part_forces[64], part_moments[64];

@@ -5,9 +5,9 @@
 #include "sim/elasticity/volume_ratio.glsl"
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 1) writeonly buffer NearFlat { uint near_flat[]; };
+layout(std430) writeonly buffer NearFlat { uint near_flat[]; };
 #ifdef VOLUME
-layout(std430, binding = 3) writeonly buffer Ratios { float ratios[]; };  // J
+layout(std430) writeonly buffer Ratios { float ratios[]; };  // J
 #endif
 uniform uint tet_count;
 uniform uint look;  // from 1

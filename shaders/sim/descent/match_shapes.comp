@@ -7,15 +7,15 @@
 #include "layouts/shape_match.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer positions;      // xyz [m]
-layout(binding = 2) uniform samplerBuffer velocities;     // xyz [m/s]
-layout(binding = 3) uniform usamplerBuffer chunk_starts;  // of each object, and the end
-layout(binding = 4) uniform samplerBuffer rest_offsets;   // from the centre of mass [m], mass [kg]
-layout(std430, binding = 2) readonly buffer RestMoments { RestMoment rest_moments[]; };
-layout(std430, binding = 3) readonly buffer Chunks { Chunk chunks[]; };
-layout(std430, binding = 4) buffer Inverted { uint inverted[]; };  // tets, by object
-layout(std430, binding = 5) buffer Sums { ShapeSums shape_sums[]; };
-layout(std430, binding = 6) writeonly buffer Places { ShapePlace places[]; };
+uniform samplerBuffer positions;      // xyz [m]
+uniform samplerBuffer velocities;     // xyz [m/s]
+uniform usamplerBuffer chunk_starts;  // of each object, and the end
+uniform samplerBuffer rest_offsets;   // from the centre of mass [m], mass [kg]
+layout(std430) readonly buffer RestMoments { RestMoment rest_moments[]; };
+layout(std430) readonly buffer Chunks { Chunk chunks[]; };
+layout(std430) buffer Inverted { uint inverted[]; };  // tets, by object
+layout(std430) buffer Sums { ShapeSums shape_sums[]; };
+layout(std430) writeonly buffer Places { ShapePlace places[]; };
 uniform uint element_count;
 
 ShapeSums add(ShapeSums a, ShapeSums b) {

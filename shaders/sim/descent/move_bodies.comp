@@ -10,14 +10,14 @@
 #endif
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer positions;  // xyz [m], inverse mass [1/kg]; of out_positions
-layout(std430, binding = 0) writeonly buffer OutPositions { vec4 out_positions[]; };  // an invocation has its own nodes
-layout(std430, binding = 1) writeonly buffer Velocities { vec4 velocities[]; };
-layout(std430, binding = 3) readonly buffer Chunks { Chunk chunks[]; };
-layout(std430, binding = 5) readonly buffer Motions { RigidMotion motions[]; };
+uniform samplerBuffer positions;  // xyz [m], inverse mass [1/kg]; of out_positions
+layout(std430) writeonly buffer OutPositions { vec4 out_positions[]; };  // an invocation has its own nodes
+layout(std430) writeonly buffer Velocities { vec4 velocities[]; };
+layout(std430) readonly buffer Chunks { Chunk chunks[]; };
+layout(std430) readonly buffer Motions { RigidMotion motions[]; };
 uniform uint element_count;
 #ifdef LAST
-layout(std430, binding = 2) readonly buffer Touches { uint object_touches[]; };
+layout(std430) readonly buffer ObjectTouches { uint object_touches[]; };
 uniform float contact_distance;  // [m]
 uniform float resting_speed;     // [m/s]
 #endif

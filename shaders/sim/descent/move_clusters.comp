@@ -4,11 +4,11 @@
 #include "layouts/cluster.glsl"
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 3) readonly buffer Rests { ClusterRest rests[]; };
-layout(std430, binding = 4) buffer Clusters { Cluster clusters[]; };
-layout(std430, binding = 5) readonly buffer Loads { float loads[]; };
-layout(std430, binding = 6) readonly buffer Inverses { float inverses[]; };  // symmetric, object by object
-layout(std430, binding = 7) readonly buffer Bodies { CoarseBody bodies[]; };  // by object
+layout(std430) readonly buffer Rests { ClusterRest rests[]; };
+layout(std430) buffer Clusters { Cluster clusters[]; };
+layout(std430) readonly buffer Loads { float loads[]; };
+layout(std430) readonly buffer Inverses { float inverses[]; };  // symmetric, object by object
+layout(std430) readonly buffer Bodies { CoarseBody bodies[]; };  // by object
 uniform uint cluster_count;
 
 void main() {

@@ -4,11 +4,11 @@
 #include "layouts/shape_match.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 4) uniform samplerBuffer rest_offsets;  // from the centre of mass [m], mass [kg]
-layout(binding = 12) uniform usamplerBuffer node_objects;
-layout(std430, binding = 0) buffer Positions { vec4 positions[]; };    // xyz [m], inverse mass [1/kg]
-layout(std430, binding = 1) buffer Velocities { vec4 velocities[]; };  // xyz [m/s], damping time [s]
-layout(std430, binding = 6) readonly buffer Places { ShapePlace places[]; };
+uniform samplerBuffer rest_offsets;  // from the centre of mass [m], mass [kg]
+uniform usamplerBuffer node_objects;
+layout(std430) buffer Positions { vec4 positions[]; };    // xyz [m], inverse mass [1/kg]
+layout(std430) buffer Velocities { vec4 velocities[]; };  // xyz [m/s], damping time [s]
+layout(std430) readonly buffer Places { ShapePlace places[]; };
 uniform uint node_count;
 
 void main() {

@@ -5,11 +5,11 @@
 #include "layouts/cluster.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer positions;        // xyz [m], inverse mass [1/kg]
-layout(binding = 3) uniform usamplerBuffer core_nodes;      // of each cluster
-layout(binding = 4) uniform samplerBuffer rest_positions;   // xyz [m]
-layout(std430, binding = 3) readonly buffer Rests { ClusterRest rests[]; };
-layout(std430, binding = 4) writeonly buffer Clusters { Cluster clusters[]; };
+uniform samplerBuffer positions;        // xyz [m], inverse mass [1/kg]
+uniform usamplerBuffer core_nodes;      // of each cluster
+uniform samplerBuffer rest_positions;   // xyz [m]
+layout(std430) readonly buffer Rests { ClusterRest rests[]; };
+layout(std430) writeonly buffer Clusters { Cluster clusters[]; };
 uniform uint cluster_count;
 
 struct Sums {

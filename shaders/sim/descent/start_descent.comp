@@ -10,19 +10,19 @@
 #include "layouts/descent.glsl"
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 0) writeonly buffer Positions { vec4 positions[]; };
-layout(std430, binding = 1) writeonly buffer NearFlat { uint near_flat[]; };
-layout(std430, binding = 2) writeonly buffer ObjectTouches { uint object_touches[]; };
-layout(std430, binding = 3) readonly buffer EarlierVelocities { vec4 earlier_velocities[]; };
-layout(std430, binding = 4) writeonly buffer Tangled { uint is_tangled[]; };  // by object
-layout(std430, binding = 5) writeonly buffer Starts { vec4 starts[]; };        // xyz [m], inverse mass [1/kg]
-layout(std430, binding = 6) writeonly buffer Targets { vec4 targets[]; };      // y [m], m / h^2 [N/m], 0 where held
+layout(std430) writeonly buffer Positions { vec4 positions[]; };
+layout(std430) writeonly buffer NearFlat { uint near_flat[]; };
+layout(std430) writeonly buffer ObjectTouches { uint object_touches[]; };
+layout(std430) readonly buffer EarlierVelocities { vec4 earlier_velocities[]; };
+layout(std430) writeonly buffer Tangled { uint is_tangled[]; };  // by object
+layout(std430) writeonly buffer Starts { vec4 starts[]; };        // xyz [m], inverse mass [1/kg]
+layout(std430) writeonly buffer Targets { vec4 targets[]; };      // y [m], m / h^2 [N/m], 0 where held
 #if COLLIDER_KINDS != 0
-layout(std430, binding = 7) writeonly buffer Touches { Touch touches[]; };  // of nodes
+layout(std430) writeonly buffer Touches { Touch touches[]; };  // of nodes
 #endif
 
-layout(binding = 1) uniform samplerBuffer start_positions;   // as the last step has left them
-layout(binding = 2) uniform samplerBuffer start_velocities;  // xyz [m/s], damping time [s]
+uniform samplerBuffer start_positions;   // as the last step has left them
+uniform samplerBuffer start_velocities;  // xyz [m/s], damping time [s]
 uniform float time_step;                                     // [s]
 uniform vec3 gravity;                                        // [m/s^2]
 uniform uint node_count;

@@ -8,18 +8,18 @@
 #include "layouts/descent.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer positions;      // xyz [m], inverse mass [1/kg]
-layout(binding = 3) uniform usamplerBuffer chunk_starts;  // of each object, and the end
-layout(std430, binding = 2) readonly buffer ObjectTouches { uint object_touches[]; };
-layout(std430, binding = 3) readonly buffer Chunks { Chunk chunks[]; };
+uniform samplerBuffer positions;      // xyz [m], inverse mass [1/kg]
+uniform usamplerBuffer chunk_starts;  // of each object, and the end
+layout(std430) readonly buffer ObjectTouches { uint object_touches[]; };
+layout(std430) readonly buffer Chunks { Chunk chunks[]; };
 #ifdef OBJECTS
-layout(std430, binding = 4) readonly buffer Sums { RigidSums rigid_sums[]; };
+layout(std430) readonly buffer Sums { RigidSums rigid_sums[]; };
 #else
-layout(std430, binding = 4) writeonly buffer Sums { dvec4 sum_members[]; };  // of RigidSums
+layout(std430) writeonly buffer Sums { dvec4 sum_members[]; };  // of RigidSums
 #endif
-layout(std430, binding = 5) writeonly buffer Motions { RigidMotion motions[]; };
+layout(std430) writeonly buffer Motions { RigidMotion motions[]; };
 #if COLLIDER_KINDS != 0
-layout(std430, binding = 6) readonly buffer Touches { Touch touches[]; };  // of nodes
+layout(std430) readonly buffer Touches { Touch touches[]; };  // of nodes
 #endif
 uniform uint element_count;
 

@@ -4,7 +4,7 @@
 #include "include/global_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 12) uniform usamplerBuffer node_objects;
+uniform usamplerBuffer node_objects;
 uniform uint element_count;
 
 #ifdef TETS
@@ -12,7 +12,7 @@ uniform uint element_count;
 
 const float kLeastSound = -0.5, kMostSound = 4.0;  // volumes over those at rest
 
-layout(std430, binding = 4) writeonly buffer Tangled { uint is_tangled[]; };  // by object
+layout(std430) writeonly buffer Tangled { uint is_tangled[]; };  // by object
 
 void main() {
     uint t = global_index();
@@ -22,9 +22,9 @@ void main() {
     is_tangled[texelFetch(node_objects, int(texelFetch(tets, int(t)).x)).x] = 1u;
 }
 #else
-layout(binding = 1) uniform samplerBuffer start_positions;  // xyz [m], inverse mass [1/kg]
-layout(std430, binding = 0) writeonly buffer Positions { vec4 positions[]; };
-layout(std430, binding = 4) readonly buffer Tangled { uint is_tangled[]; };  // by object
+uniform samplerBuffer start_positions;  // xyz [m], inverse mass [1/kg]
+layout(std430) writeonly buffer Positions { vec4 positions[]; };
+layout(std430) readonly buffer Tangled { uint is_tangled[]; };  // by object
 
 void main() {
     uint n = global_index();

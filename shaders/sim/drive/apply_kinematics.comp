@@ -5,10 +5,10 @@
 #include "layouts/handle.glsl"
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 0) buffer Positions { vec4 positions[]; };    // an invocation reads and writes its own node
-layout(std430, binding = 1) buffer Velocities { vec4 velocities[]; };  // alone
-layout(std430, binding = 2) readonly buffer HandleNodes { HandleNode handle_nodes[]; };
-layout(std430, binding = 3) readonly buffer Motions { HandleMotion motions[]; };
+layout(std430) buffer Positions { vec4 positions[]; };    // an invocation reads and writes its own node
+layout(std430) buffer Velocities { vec4 velocities[]; };  // alone
+layout(std430) readonly buffer HandleNodes { HandleNode handle_nodes[]; };
+layout(std430) readonly buffer Motions { HandleMotion motions[]; };
 uniform uint held_count;
 
 void main() {

@@ -1,6 +1,6 @@
 // What loads pull at a node [N]; for programs of scenes that have any (LOADED).
 #ifdef LOADED
-layout(binding = 16) uniform samplerBuffer load_forces;
+uniform samplerBuffer load_forces;
 
 vec3 load_force(uint node) { return texelFetch(load_forces, int(node)).xyz; }
 #endif

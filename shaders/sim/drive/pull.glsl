@@ -1,7 +1,7 @@
 // Nodes that a hand holds (gelatin/pull.h); for programs of solvers that were told of one (PULLED).
 // CPU twin: gelatin::cpu::Pulls.
 #ifdef PULLED
-layout(binding = 19) uniform samplerBuffer pulls;  // by node: its place from the target [m], stiffness [N/m]; 0: not held
+uniform samplerBuffer pulls;  // by node: its place from the target [m], stiffness [N/m]; 0: not held
 uniform vec3 pull_target;                          // [m]
 uniform float pull_damping_time;                   // damping over stiffness [s]
 

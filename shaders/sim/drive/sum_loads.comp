@@ -4,11 +4,11 @@
 #include "layouts/load.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer positions;                            // xyz [m]
-layout(std430, binding = 0) writeonly buffer LoadForces { vec4 load_forces[]; };  // [N]
-layout(std430, binding = 1) readonly buffer LoadedNodes { LoadedNode loaded_nodes[]; };
-layout(std430, binding = 2) readonly buffer NodeLoads { NodeLoad node_loads[]; };
-layout(std430, binding = 3) readonly buffer Factors { float factors[]; };  // of each load
+uniform samplerBuffer positions;                            // xyz [m]
+layout(std430) writeonly buffer LoadForces { vec4 load_forces[]; };  // [N]
+layout(std430) readonly buffer LoadedNodes { LoadedNode loaded_nodes[]; };
+layout(std430) readonly buffer NodeLoads { NodeLoad node_loads[]; };
+layout(std430) readonly buffer Factors { float factors[]; };  // of each load
 uniform uint loaded_count;
 
 vec3 position_of(uint node) { return texelFetch(positions, int(node)).xyz; }

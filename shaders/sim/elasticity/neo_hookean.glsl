@@ -1,12 +1,12 @@
 // Stable neo-Hookean tets (Smith, de Goes, Kim 2018). With F the deformation gradient, I = F : F, J = det F, the energy
 // over the volume at rest is mu/2 (I - 3 - log((I + 1) / 4)) - 3/4 mu (J - 1) + lambda/2 (J - 1)^2.
 // CPU twin: src/cpu/elasticity/neo_hookean.h.
+#include "layouts/packing.glsl"
 
-layout(binding = 13) uniform usamplerBuffer neo_hookean_tets;     // NeoHookeanTet, four texels each
-layout(binding = 14) uniform usamplerBuffer neo_hookean_corners;  // 4 tet + corner, in slices of 64 rows; 0xFFFFFFFF pads
-layout(binding = 15) uniform usamplerBuffer neo_hookean_starts;   // of the slices
+uniform usamplerBuffer neo_hookean_tets;     // NeoHookeanTet, four texels each
+uniform usamplerBuffer neo_hookean_corners;  // 4 tet + corner, in slices of rows; kNone pads
+uniform usamplerBuffer neo_hookean_starts;   // of the slices
 
-const uint kNoCorner = 0xFFFFFFFFu;
 const float kCollapsed = 0.03;  // of I: a tet nearly a point gets the pressure mu in the direction of its rest
 
 struct NeoHookeanTet {

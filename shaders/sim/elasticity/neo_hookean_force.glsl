@@ -25,10 +25,10 @@ vec3 neo_hookean_force(uint entry) {
 // Of all its tets on the node of a row of slices [N].
 vec3 gather_tet_forces(uint row) {
     vec3 force = vec3(0.0);
-    uint end = texelFetch(neo_hookean_starts, int(row / 64u) + 1).x;
-    for (uint e = texelFetch(neo_hookean_starts, int(row / 64u)).x + row % 64u; e < end; e += 64u) {
+    uint end = texelFetch(neo_hookean_starts, int(row / kSlice) + 1).x;
+    for (uint e = texelFetch(neo_hookean_starts, int(row / kSlice)).x + row % kSlice; e < end; e += kSlice) {
         uint entry = texelFetch(neo_hookean_corners, int(e)).x;
-        if (entry == kNoCorner) break;
+        if (entry == kNone) break;
         force += neo_hookean_force(entry);
     }
     return force;

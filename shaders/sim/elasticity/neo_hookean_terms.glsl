@@ -57,10 +57,10 @@ void add_neo_hookean_corner(uint entry, uint first_tet, inout NodeTerms terms) {
 
 // Of all its tets to the node of a row of slices. @param first_tet as DescentRow has it
 void add_neo_hookean_tets(uint row, uint first_tet, inout NodeTerms terms) {
-    uint end = texelFetch(neo_hookean_starts, int(row / 64u) + 1).x;
-    for (uint e = texelFetch(neo_hookean_starts, int(row / 64u)).x + row % 64u; e < end; e += 64u) {
+    uint end = texelFetch(neo_hookean_starts, int(row / kSlice) + 1).x;
+    for (uint e = texelFetch(neo_hookean_starts, int(row / kSlice)).x + row % kSlice; e < end; e += kSlice) {
         uint entry = texelFetch(neo_hookean_corners, int(e)).x;
-        if (entry == kNoCorner) break;
+        if (entry == kNone) break;
         add_neo_hookean_corner(entry, first_tet, terms);
     }
 }

@@ -1,7 +1,7 @@
 // How much of its volume at rest a tet has; negative where it is inside out. CPU twin: cpu::TetResistance::ratio_of.
-layout(binding = 0) uniform samplerBuffer positions;   // xyz [m]
-layout(binding = 9) uniform usamplerBuffer tets;       // nodes
-layout(binding = 10) uniform samplerBuffer tet_rests;  // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
+uniform samplerBuffer positions;   // xyz [m]
+uniform usamplerBuffer tets;       // nodes
+uniform samplerBuffer tet_rests;  // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
 
 float volume_ratio(uint t) {
     uvec4 tet = texelFetch(tets, int(t));

@@ -2,6 +2,7 @@
 // order of summation, so the same input gives the same bits on one driver. A work group is a slice of HalfSprings
 // (src/model/model.h): all its lanes run the same number of times, over neighbouring texels.
 // CPU twin: gelatin::cpu::advance_nodes. Parity: tests/gpu/explicit/advance_nodes_test.cpp.
+#include "layouts/packing.glsl"
 #include "include/global_index.glsl"
 #include "sim/explicit/integrate_node.glsl"
 #include "sim/elasticity/spring_force.glsl"
@@ -13,19 +14,19 @@
 #endif
 layout(local_size_x = 64) in;
 
-layout(binding = 4) uniform usamplerBuffer half_springs;  // HalfSpringPair
-layout(binding = 5) uniform samplerBuffer stiffnesses;    // of the pair [N/m]
-layout(binding = 6) uniform usamplerBuffer slice_starts;
+uniform usamplerBuffer half_springs;  // HalfSpringPair
+uniform samplerBuffer stiffnesses;    // of the pair [N/m]
+uniform usamplerBuffer slice_starts;
 
 void main() {
     uint n = global_index();
     if (n >= node_count) return;
     vec4 position = texelFetch(positions, int(n));
     vec4 velocity = texelFetch(velocities, int(n));
-    int slice = int(n / 64u);
+    int slice = int(n / kSlice);
     uint end = texelFetch(slice_starts, slice + 1).x;
     vec3 force = vec3(0.0);
-    for (uint p = texelFetch(slice_starts, slice).x + n % 64u; p < end; p += 64u) {
+    for (uint p = texelFetch(slice_starts, slice).x + n % kSlice; p < end; p += kSlice) {
         uvec4 pair = texelFetch(half_springs, int(p));
         vec2 stiffness = texelFetch(stiffnesses, int(p)).xy;
         force += spring_force(position, texelFetch(positions, int(pair.x)), velocity,

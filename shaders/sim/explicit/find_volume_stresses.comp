@@ -4,9 +4,9 @@
 #include "sim/elasticity/node_terms.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer positions;  // xyz [m], inverse mass [1/kg]
+uniform samplerBuffer positions;  // xyz [m], inverse mass [1/kg]
 #include "sim/elasticity/volume_term.glsl"
-layout(std430, binding = 0) writeonly buffer Stresses { float stresses[]; };  // [Pa]
+layout(std430) writeonly buffer Stresses { float stresses[]; };  // [Pa]
 uniform uint node_count;
 
 void main() {

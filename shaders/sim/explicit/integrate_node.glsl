@@ -5,16 +5,16 @@
 #include "sim/drive/load_force.glsl"
 #include "sim/drive/pull.glsl"
 
-layout(binding = 0) uniform samplerBuffer base_positions;   // xyz [m], inverse mass [1/kg]: at the step's start
-layout(binding = 1) uniform samplerBuffer base_velocities;  // xyz [m/s], damping time [s]
-layout(binding = 2) uniform samplerBuffer positions;        // where forces are evaluated
-layout(binding = 3) uniform samplerBuffer velocities;
+uniform samplerBuffer base_positions;   // xyz [m], inverse mass [1/kg]: at the step's start
+uniform samplerBuffer base_velocities;  // xyz [m/s], damping time [s]
+uniform samplerBuffer positions;        // where forces are evaluated
+uniform samplerBuffer velocities;
 
-layout(std430, binding = 0) writeonly buffer OutPositions { vec4 out_positions[]; };
-layout(std430, binding = 1) writeonly buffer OutVelocities { vec4 out_velocities[]; };
+layout(std430) writeonly buffer OutPositions { vec4 out_positions[]; };
+layout(std430) writeonly buffer OutVelocities { vec4 out_velocities[]; };
 #ifdef MULTI_PASS
-layout(std430, binding = 2) buffer SumPositions { vec4 sum_positions[]; };
-layout(std430, binding = 3) buffer SumVelocities { vec4 sum_velocities[]; };
+layout(std430) buffer SumPositions { vec4 sum_positions[]; };
+layout(std430) buffer SumVelocities { vec4 sum_velocities[]; };
 uniform float weight;     // of this pass in the sum
 uniform float next_step;  // where the next pass evaluates: h next [s]
 uniform uint is_first;

@@ -1,6 +1,7 @@
 // The paper's way, third kernel (3.3): each node moves by the forces that were merged for it, and those of its
 // tets.
 // CPU twin: gelatin::cpu::integrate_nodes. Parity: tests/gpu/explicit/divide_and_merge_test.cpp.
+#include "layouts/packing.glsl"
 #include "include/global_index.glsl"
 #include "sim/explicit/integrate_node.glsl"
 #ifdef NEO_HOOKEAN
@@ -11,7 +12,7 @@
 #endif
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 4) readonly buffer NodeForces { vec4 node_forces[]; };  // [N]
+layout(std430) readonly buffer NodeForces { vec4 node_forces[]; };  // [N]
 
 void main() {
     uint n = global_index();

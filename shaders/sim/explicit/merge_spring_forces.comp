@@ -3,10 +3,10 @@
 #include "include/global_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 0) readonly buffer SpringForces { vec4 spring_forces[]; };  // on the first endpoint [N]
-layout(std430, binding = 1) readonly buffer Starts { uint starts[]; };               // SpringIncidence, src/model/model.h
-layout(std430, binding = 2) readonly buffer Entries { uint entries[]; };
-layout(std430, binding = 3) writeonly buffer NodeForces { vec4 node_forces[]; };     // [N]
+layout(std430) readonly buffer SpringForces { vec4 spring_forces[]; };  // on the first endpoint [N]
+layout(std430) readonly buffer Starts { uint starts[]; };               // SpringIncidence, src/model/model.h
+layout(std430) readonly buffer Entries { uint entries[]; };
+layout(std430) writeonly buffer NodeForces { vec4 node_forces[]; };     // [N]
 uniform uint node_count;
 
 void main() {

@@ -6,10 +6,10 @@
 #include "layouts/spring.glsl"
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 0) readonly buffer NodePositions { vec4 node_positions[]; };    // xyz [m], inverse mass [1/kg]
-layout(std430, binding = 1) readonly buffer NodeVelocities { vec4 node_velocities[]; };  // xyz [m/s], damping time [s]
-layout(std430, binding = 2) readonly buffer Springs { Spring springs[]; };
-layout(std430, binding = 3) writeonly buffer SpringForces { vec4 spring_forces[]; };     // [N]
+layout(std430) readonly buffer Positions { vec4 node_positions[]; };    // xyz [m], inverse mass [1/kg]
+layout(std430) readonly buffer Velocities { vec4 node_velocities[]; };  // xyz [m/s], damping time [s]
+layout(std430) readonly buffer Springs { Spring springs[]; };
+layout(std430) writeonly buffer SpringForces { vec4 spring_forces[]; };     // [N]
 uniform uint spring_count;
 
 void main() {

@@ -6,8 +6,8 @@
 #include "layouts/chunk.glsl"
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 3) readonly buffer Chunks { Chunk chunks[]; };
-layout(std430, binding = 5) writeonly buffer Colliding { uint colliding[]; };  // of each chunk, and the losses
+layout(std430) readonly buffer Chunks { Chunk chunks[]; };
+layout(std430) writeonly buffer Colliding { uint colliding[]; };  // of each chunk, and the losses
 uniform uint chunk_count;
 
 shared uint count;

@@ -5,10 +5,10 @@
 #include "layouts/face.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer positions;  // xyz [m]
-layout(std430, binding = 0) readonly buffer Chunks { Chunk chunks[]; };
-layout(std430, binding = 1) writeonly buffer Volumes { float volumes[]; };  // [m^3]
-layout(std430, binding = 2) readonly buffer Faces { Face faces[]; };
+uniform samplerBuffer positions;  // xyz [m]
+layout(std430) readonly buffer Chunks { Chunk chunks[]; };
+layout(std430) writeonly buffer Volumes { float volumes[]; };  // [m^3]
+layout(std430) readonly buffer Faces { Face faces[]; };
 uniform uint chunk_count;
 
 shared float parts[64];

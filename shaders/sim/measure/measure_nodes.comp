@@ -1,18 +1,19 @@
 // Sums over nodes, one work group a chunk; the host adds the chunks up in double precision.
 // Pinned nodes (inverse mass 0) count for contacts and elastic energy alone. CPU twin: gelatin::cpu::measure.
 // Parity: tests/gpu/measure/measure_test.cpp.
+#include "layouts/packing.glsl"
 #include "sim/collision/colliders.glsl"
 #include "include/global_index.glsl"
 #include "layouts/chunk.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer positions;   // xyz [m], inverse mass [1/kg]
-layout(binding = 1) uniform samplerBuffer velocities;  // xyz [m/s]
-layout(binding = 4) uniform usamplerBuffer half_springs;
-layout(binding = 5) uniform samplerBuffer stiffnesses;
-layout(binding = 6) uniform usamplerBuffer slice_starts;
-layout(std430, binding = 0) readonly buffer Chunks { Chunk chunks[]; };
-layout(std430, binding = 1) writeonly buffer Sums { NodeSums node_sums[]; };
+uniform samplerBuffer positions;   // xyz [m], inverse mass [1/kg]
+uniform samplerBuffer velocities;  // xyz [m/s]
+uniform usamplerBuffer half_springs;
+uniform samplerBuffer stiffnesses;
+uniform usamplerBuffer slice_starts;
+layout(std430) readonly buffer Chunks { Chunk chunks[]; };
+layout(std430) writeonly buffer Sums { NodeSums node_sums[]; };
 #ifdef NEO_HOOKEAN
 #include "sim/elasticity/neo_hookean.glsl"
 #endif
@@ -32,8 +33,8 @@ float half_energy(vec3 a, uint other, float rest_length, float stiffness) {
 
 float half_spring_energy(uint n, vec3 position) {
     float energy = 0.0;
-    uint end = texelFetch(slice_starts, int(n / 64u) + 1).x;
-    for (uint p = texelFetch(slice_starts, int(n / 64u)).x + n % 64u; p < end; p += 64u) {
+    uint end = texelFetch(slice_starts, int(n / kSlice) + 1).x;
+    for (uint p = texelFetch(slice_starts, int(n / kSlice)).x + n % kSlice; p < end; p += kSlice) {
         uvec4 pair = texelFetch(half_springs, int(p));
         vec2 stiffness = texelFetch(stiffnesses, int(p)).xy;
         energy += half_energy(position, pair.x, uintBitsToFloat(pair.y), stiffness.x);
@@ -46,10 +47,10 @@ float half_spring_energy(uint n, vec3 position) {
 // A node has a quarter of the energy of each of its tets.
 float quarter_tet_energy(uint n) {
     float energy = 0.0;
-    uint end = texelFetch(neo_hookean_starts, int(n / 64u) + 1).x;
-    for (uint e = texelFetch(neo_hookean_starts, int(n / 64u)).x + n % 64u; e < end; e += 64u) {
+    uint end = texelFetch(neo_hookean_starts, int(n / kSlice) + 1).x;
+    for (uint e = texelFetch(neo_hookean_starts, int(n / kSlice)).x + n % kSlice; e < end; e += kSlice) {
         uint entry = texelFetch(neo_hookean_corners, int(e)).x;
-        if (entry == kNoCorner) break;
+        if (entry == kNone) break;
         NeoHookeanTet tet = fetch_neo_hookean_tet(entry / 4u);
         mat3 f = gradient_of(tet, texelFetch(positions, int(tet.nodes.x)).xyz,
                              texelFetch(positions, int(tet.nodes.y)).xyz, texelFetch(positions, int(tet.nodes.z)).xyz,

@@ -6,9 +6,9 @@
 #include "layouts/alarm.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer positions;   // xyz [m], inverse mass [1/kg]
-layout(binding = 1) uniform samplerBuffer velocities;  // xyz [m/s]
-layout(std430, binding = 0) buffer Alarms { Alarm alarm; };
+uniform samplerBuffer positions;   // xyz [m], inverse mass [1/kg]
+uniform samplerBuffer velocities;  // xyz [m/s]
+layout(std430) buffer Alarms { Alarm alarm; };
 uniform uint node_count;
 uniform uint step_number;
 uniform float most_energy;  // kinetic, of one node [J]; may be infinite

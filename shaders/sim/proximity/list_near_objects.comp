@@ -5,8 +5,8 @@
 #include "sim/proximity/proximities.glsl"
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 3) buffer LeafSearches { LeafSearch searches[]; };
-layout(std430, binding = 4) writeonly buffer NearObjects { NearObject near_objects[]; };
+layout(std430) buffer LeafSearches { LeafSearch searches[]; };
+layout(std430) writeonly buffer NearObjects { NearObject near_objects[]; };
 uniform uint search_count;
 uniform uint near_object_capacity;
 

@@ -4,10 +4,10 @@
 #include "sim/proximity/proximities.glsl"
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 3) buffer LeafSearches { LeafSearch searches[]; };
-layout(std430, binding = 4) buffer NearObjects { NearObject near_objects[]; };
-layout(std430, binding = 5) writeonly buffer NodeTasks { uint node_tasks[]; };  // leaves
-layout(std430, binding = 7) writeonly buffer EdgeTasks { uint edge_tasks[]; };  // the same
+layout(std430) buffer LeafSearches { LeafSearch searches[]; };
+layout(std430) buffer NearObjects { NearObject near_objects[]; };
+layout(std430) writeonly buffer NodeTasks { uint node_tasks[]; };  // leaves
+layout(std430) writeonly buffer EdgeTasks { uint edge_tasks[]; };  // the same
 uniform uint search_count;
 uniform uint near_leaf_capacity;
 uniform uint node_task_capacity;

@@ -4,15 +4,15 @@
 #include "include/global_index.glsl"
 #include "layouts/proximity.glsl"
 
-layout(binding = 0) uniform samplerBuffer positions;     // xyz [m]
-layout(binding = 1) uniform usamplerBuffer tree_nodes;   // TreeNode
-layout(binding = 2) uniform samplerBuffer tree_boxes;    // Box
-layout(binding = 3) uniform usamplerBuffer faces;        // Face
-layout(binding = 4) uniform samplerBuffer face_boxes;    // Box
-layout(binding = 5) uniform usamplerBuffer leaf_nodes;   // of the trees, by leaf
-layout(binding = 6) uniform usamplerBuffer face_starts;  // of each face in surface_nodes and face_edges
-layout(binding = 7) uniform usamplerBuffer surface_nodes;
-layout(binding = 8) uniform usamplerBuffer face_edges;   // FaceEdge
+uniform samplerBuffer positions;     // xyz [m]
+uniform usamplerBuffer tree_nodes;   // TreeNode
+uniform samplerBuffer tree_boxes;    // Box
+uniform usamplerBuffer faces;        // Face
+uniform samplerBuffer face_boxes;    // Box
+uniform usamplerBuffer leaf_nodes;   // of the trees, by leaf
+uniform usamplerBuffer face_starts;  // of each face in surface_nodes and face_edges
+uniform usamplerBuffer surface_nodes;
+uniform usamplerBuffer face_edges;   // FaceEdge
 
 struct Bounds {
     vec3 min;

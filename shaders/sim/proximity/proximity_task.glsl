@@ -3,9 +3,9 @@
 #include "sim/collision/nearest_points.glsl"
 #include "sim/proximity/proximities.glsl"
 
-layout(std430, binding = 3) readonly buffer LeafSearches { LeafSearch searches[]; };
-layout(binding = 9) uniform usamplerBuffer near_leaves;  // nodes of the trees
-layout(std430, binding = 5) readonly buffer Tasks { uint task_leaves[]; };
+layout(std430) readonly buffer LeafSearches { LeafSearch searches[]; };
+uniform usamplerBuffer near_leaves;  // nodes of the trees
+layout(std430) readonly buffer Tasks { uint task_leaves[]; };
 uniform uint task_capacity;
 
 #ifdef EDGES

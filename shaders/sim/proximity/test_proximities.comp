@@ -4,8 +4,8 @@
 #include "sim/proximity/proximity_task.glsl"
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 4) writeonly buffer Hits { uvec4 hits[]; };
-layout(std430, binding = 7) buffer Counts { uint counts[]; };  // of each query: nodes, then edges
+layout(std430) writeonly buffer Hits { uvec4 hits[]; };
+layout(std430) buffer Starts { uint starts[]; };  // counts of the queries: nodes, then edges
 uniform float squared_radius;
 uniform uint first_query;
 
@@ -56,5 +56,5 @@ void main() {
     hits[t] = found;
     ivec4 count = bitCount(found);
     uint sum = uint(count.x + count.y + count.z + count.w);
-    if (sum > 0u) atomicAdd(counts[first_query + task.place], sum);
+    if (sum > 0u) atomicAdd(starts[first_query + task.place], sum);
 }

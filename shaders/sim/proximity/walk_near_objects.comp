@@ -3,10 +3,10 @@
 #include "sim/proximity/proximities.glsl"
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 3) readonly buffer LeafSearches { LeafSearch searches[]; };
-layout(std430, binding = 4) buffer NearObjects { NearObject near_objects[]; };
-layout(std430, binding = 5) writeonly buffer NearLeaves { uint near_leaves[]; };  // nodes of the trees
-layout(binding = 9) uniform usamplerBuffer roots;                                 // nodes, by object
+layout(std430) readonly buffer LeafSearches { LeafSearch searches[]; };
+layout(std430) buffer NearObjects { NearObject near_objects[]; };
+layout(std430) writeonly buffer NearLeaves { uint near_leaves[]; };  // nodes of the trees
+uniform usamplerBuffer roots;                                 // nodes, by object
 uniform uint near_object_capacity;
 
 void main() {

@@ -3,10 +3,10 @@
 #include "sim/proximity/proximity_task.glsl"
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 0) writeonly buffer Proximities { Proximity proximities[]; };
-layout(std430, binding = 1) buffer Found { ProximityCounts found; };
-layout(std430, binding = 4) readonly buffer Hits { uvec4 hits[]; };
-layout(std430, binding = 7) readonly buffer Starts { uint starts[]; };  // of each query: nodes, then edges
+layout(std430) writeonly buffer Proximities { Proximity proximities[]; };
+layout(std430) buffer Found { ProximityCounts found; };
+layout(std430) readonly buffer Hits { uvec4 hits[]; };
+layout(std430) readonly buffer Starts { uint starts[]; };  // of each query: nodes, then edges
 uniform uint proximity_capacity;
 uniform uint first_query;
 

@@ -1,24 +1,24 @@
 // What colours show at each node, one invocation a node: the mean over its tets, weighted by their volumes at rest; with
 // SPEED the node's own speed [m/s]. Test: tests/gpu/view/tet_values_test.cpp.
+#include "layouts/packing.glsl"
 #include "include/global_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer tet_values;
-layout(binding = 1) uniform samplerBuffer velocities;     // xyz [m/s]
-layout(binding = 2) uniform usamplerBuffer node_tets;     // 4 tet + corner, in slices of 64 nodes; 0xFFFFFFFF pads
-layout(binding = 3) uniform usamplerBuffer slice_starts;  // of the slices
-layout(binding = 4) uniform samplerBuffer tet_materials;  // volume at rest [m^3], shear modulus [Pa]
-layout(std430, binding = 0) writeonly buffer NodeValues { float node_values[]; };
+uniform samplerBuffer tet_values;
+uniform samplerBuffer velocities;     // xyz [m/s]
+uniform usamplerBuffer node_tets;     // 4 tet + corner, in slices of nodes; kNone pads
+uniform usamplerBuffer slice_starts;  // of the slices
+uniform samplerBuffer tet_materials;  // volume at rest [m^3], shear modulus [Pa]
+layout(std430) writeonly buffer NodeValues { float node_values[]; };
 uniform uint node_count;
 
-const uint kNoEntry = 0xFFFFFFFFu;
 
 float mean_over_tets(uint n) {
     float sum = 0.0, volume = 0.0;
-    uint end = texelFetch(slice_starts, int(n / 64u) + 1).x;
-    for (uint e = texelFetch(slice_starts, int(n / 64u)).x + n % 64u; e < end; e += 64u) {
+    uint end = texelFetch(slice_starts, int(n / kSlice) + 1).x;
+    for (uint e = texelFetch(slice_starts, int(n / kSlice)).x + n % kSlice; e < end; e += kSlice) {
         uint entry = texelFetch(node_tets, int(e)).x;
-        if (entry == kNoEntry) break;
+        if (entry == kNone) break;
         float weight = texelFetch(tet_materials, int(entry / 4u)).x;
         sum += weight * texelFetch(tet_values, int(entry / 4u)).x;
         volume += weight;

@@ -2,21 +2,21 @@
 // principal stretch, with STRESS von Mises' stress [Pa], else the mean speed of its corners [m/s]. Counts them by their
 // size, too, so that the range of colours can follow. Test: tests/gpu/view/tet_values_test.cpp.
 #include "include/global_index.glsl"
+#include "layouts/packing.glsl"
 #include "sim/view/principal_stretches.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer positions;       // xyz [m]
-layout(binding = 1) uniform samplerBuffer velocities;      // xyz [m/s]
-layout(binding = 2) uniform usamplerBuffer tets;           // nodes
-layout(binding = 3) uniform samplerBuffer rest_positions;  // xyz [m]
-layout(binding = 4) uniform samplerBuffer tet_materials;   // volume at rest [m^3], shear modulus [Pa]
-layout(std430, binding = 0) writeonly buffer TetValues { float tet_values[]; };
-layout(std430, binding = 1) buffer Histogram { uint histogram[]; };
+uniform samplerBuffer positions;       // xyz [m]
+uniform samplerBuffer velocities;      // xyz [m/s]
+uniform usamplerBuffer tets;           // nodes
+uniform samplerBuffer rest_positions;  // xyz [m]
+uniform samplerBuffer tet_materials;   // volume at rest [m^3], shear modulus [Pa]
+layout(std430) writeonly buffer TetValues { float tet_values[]; };
+layout(std430) buffer Histogram { uint histogram[]; };
 uniform uint tet_count;
 uniform float least;  // what is counted from
 
 // Of the bits of a float as many as tell numbers apart that differ by a sixteenth; as in src/gpu/view/tet_values.h.
-const uint kShift = 19u, kLastBin = 4095u;
 
 vec3 corner(samplerBuffer places, uint node) { return texelFetch(places, int(node)).xyz; }
 
@@ -46,5 +46,5 @@ void main() {
     if (t >= tet_count) return;
     float value = value_of(t, texelFetch(tets, int(t)));
     tet_values[t] = value;
-    atomicAdd(histogram[min(floatBitsToUint(max(value - least, 0.0)) >> kShift, kLastBin)], 1u);
+    atomicAdd(histogram[min(floatBitsToUint(max(value - least, 0.0)) >> kBinShift, kBins - 1u)], 1u);
 }

@@ -5,8 +5,8 @@
 #include "layouts/face.glsl"
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 3) readonly buffer Faces { Face faces[]; };
-layout(std430, binding = 5) writeonly buffer Marks { uint marks[]; };
+layout(std430) readonly buffer Faces { Face faces[]; };
+layout(std430) writeonly buffer Marks { uint marks[]; };
 uniform uint face_count;
 
 void main() {

@@ -4,9 +4,9 @@
 #include "layouts/face.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer positions;  // xyz [m]
-layout(std430, binding = 0) readonly buffer Faces { Face faces[]; };
-layout(std430, binding = 1) writeonly buffer FaceNormals { vec4 face_normals[]; };
+uniform samplerBuffer positions;  // xyz [m]
+layout(std430) readonly buffer Faces { Face faces[]; };
+layout(std430) writeonly buffer FaceNormals { vec4 face_normals[]; };
 uniform uint face_count;
 
 void main() {

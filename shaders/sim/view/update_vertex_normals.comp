@@ -4,10 +4,10 @@
 #include "layouts/surface_vertex.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform samplerBuffer face_normals;   // [m^2]
-layout(binding = 1) uniform usamplerBuffer vertex_faces;  // SurfaceVertex's lists
-layout(std430, binding = 0) readonly buffer SurfaceVertices { SurfaceVertex surface_vertices[]; };
-layout(std430, binding = 1) writeonly buffer VertexNormals { vec4 vertex_normals[]; };
+uniform samplerBuffer face_normals;   // [m^2]
+uniform usamplerBuffer vertex_faces;  // SurfaceVertex's lists
+layout(std430) readonly buffer SurfaceVertices { SurfaceVertex surface_vertices[]; };
+layout(std430) writeonly buffer VertexNormals { vec4 vertex_normals[]; };
 uniform uint vertex_count;
 
 void main() {

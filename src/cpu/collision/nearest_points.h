@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "cpu/nodes.h"
+#include "model/shared_constants.h"
 
 namespace gelatin::cpu {
 
@@ -38,7 +39,7 @@ struct EdgeToEdge {
 /// Two directions u, v whose sine is below the root of this, |u x v|^2 <= this u^2 v^2, count as parallel:
 /// rounding turns their common normal by as much as taking them for parallel would.
 template <class Real>
-constexpr Real kParallel = 4 * std::numeric_limits<Real>::epsilon();
+constexpr Real kParallel = predicates::kParallelRounding* std::numeric_limits<Real>::epsilon();
 
 template <class Real>
 NodeToEdge<Real> nearest_points(const Vec3<Real>& p, const Vec3<Real>& a, const Vec3<Real>& b) {

@@ -7,6 +7,7 @@
 
 #include "cpu/collision/nearest_points.h"
 #include "cpu/nodes.h"
+#include "model/shared_constants.h"
 
 namespace gelatin::cpu {
 
@@ -30,20 +31,21 @@ namespace impact {
 // by less than 4 r size (1 + 2 r); a gap is the difference of two of them, 8 r size, rounded by at most
 // 2 r size, and 2 r size more where the bound is taken off. That makes 12 r size, and the bound is 16 r size.
 template <class Real>
-constexpr Real kRoundingBound = 8 * std::numeric_limits<Real>::epsilon();
+constexpr Real kRoundingBound = predicates::kImpactRounding* std::numeric_limits<Real>::epsilon();
 
 // Added to the size it pays for products that underflow, even where they are flushed to zero.
 template <class Real>
-constexpr Real kUnderflowBound = 16 * std::numeric_limits<Real>::min() / std::numeric_limits<Real>::epsilon();
+constexpr Real kUnderflowBound =
+    predicates::kUnderflowRounding* std::numeric_limits<Real>::min() / std::numeric_limits<Real>::epsilon();
 
 // The root of a linear function with ends of different signs is a quotient of sums without cancellation: off
 // by less than two roundings of the CPU, four of GLSL, which divides to within 2.5 units.
 template <class Real>
-constexpr Real kRootBound = 8 * std::numeric_limits<Real>::epsilon();
+constexpr Real kRootBound = predicates::kRootRounding* std::numeric_limits<Real>::epsilon();
 
 /// Two or three planes do as a rule. What comes so near to touching that these are not enough, or turns so
 /// fast, counts as touching.
-inline constexpr int kMostPlanes = 32;
+inline constexpr int kMostPlanes = predicates::kMostPlanes;
 
 /// Times of a step, from 0 at its start to 1 at its end; none if first > last.
 template <class Real>

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "cpu/nodes.h"
+#include "model/shared_constants.h"
 
 namespace gelatin::cpu {
 
@@ -29,12 +30,13 @@ namespace overlap {
 // is at least 7 r of float, which double is always certain of: float is a short cut that cannot change the
 // outcome.
 template <class Real>
-constexpr Real kRoundingBound = 8 * std::numeric_limits<Real>::epsilon();
+constexpr Real kRoundingBound = predicates::kOverlapRounding* std::numeric_limits<Real>::epsilon();
 
 // Added to the factors of a permanent it pays for products that underflow, even where they are flushed to
 // zero.
 template <class Real>
-constexpr Real kUnderflowBound = 16 * std::numeric_limits<Real>::min() / std::numeric_limits<Real>::epsilon();
+constexpr Real kUnderflowBound =
+    predicates::kUnderflowRounding* std::numeric_limits<Real>::min() / std::numeric_limits<Real>::epsilon();
 
 /// The sign of `value`, or 0 where rounding may have chosen it or has overflowed; `size` is the permanent.
 template <class Real>

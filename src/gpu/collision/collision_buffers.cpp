@@ -72,29 +72,35 @@ CollisionBuffers::CollisionBuffers(const Model& model)
     candidates =
         gl::Buffer<std::uint32_t>(std::clamp(all.entries, kOne, std::max(kMostCandidates, 8 * faces)));
     face_pairs = gl::Buffer<FacePair>(std::clamp(kFacePairsAFace * faces, kLeastFacePairs, kMostFacePairs));
-    const std::vector<Dispatch> nothing(static_cast<std::size_t>(Work::count), Dispatch{0, 1, 1, 0});
+    const std::vector<Dispatch> nothing(dispatch_slots::kDispatchSlots, Dispatch{0, 1, 1, 0});
     dispatches = gl::Buffer<Dispatch>(std::span(nothing));
 }
 
-void CollisionBuffers::bind_pairs() const {
-    bounding_boxes.bind_storage(0);
-    pair_rows.bind_storage(1);
-    object_pairs.bind_storage(2);
-    dispatches.bind_storage(6);
+void CollisionBuffers::bind_pairs(const gl::Program& program) const {
+    program.bind("BoundingBoxes", bounding_boxes);
+    program.bind("PairRows", pair_rows);
+    program.bind("ObjectPairs", object_pairs);
+    program.bind("Dispatches", dispatches);
 }
 
-void CollisionBuffers::bind_node_faces() const {
-    node_face_start_texels.bind(2);
-    node_face_texels.bind(3);
+void CollisionBuffers::bind_node_faces(const gl::Program& program) const {
+    program.bind("node_face_starts", node_face_start_texels);
+    program.bind("node_faces", node_face_texels);
 }
 
-void CollisionBuffers::bind_hidden() const {
-    face_view_texels.bind(4);
-    object_view_texels.bind(5);
+void CollisionBuffers::bind_own_trees(const gl::Program& program, const ModelBuffers& model) const {
+    face_trees.bind(program);
+    program.bind("faces", model.face_texels);
+    program.bind("FaceBoxes", face_boxes);
 }
 
-void CollisionBuffers::run(const gl::Program& program, Work work) const {
-    program.dispatch_indirect(dispatches.id(), static_cast<std::size_t>(work) * sizeof(Dispatch));
+void CollisionBuffers::bind_hidden(const gl::Program& program) const {
+    program.bind("face_views", face_view_texels);
+    program.bind("object_views", object_view_texels);
+}
+
+void CollisionBuffers::run(const gl::Program& program, std::uint32_t slot) const {
+    program.dispatch_indirect(dispatches.id(), std::size_t{slot} * sizeof(Dispatch));
 }
 
 }  // namespace gelatin::gpu

@@ -8,6 +8,7 @@
 #include "gpu/collision/tree_buffers.h"
 #include "gpu/model_buffers.h"
 #include "model/model.h"
+#include "model/shared_constants.h"
 
 namespace gelatin::gpu {
 
@@ -28,7 +29,7 @@ struct CollisionBuffers {
     gl::Buffer<std::uint32_t> candidates;       ///< faces
     gl::Buffer<FacePair> face_pairs;            ///< whose boxes meet
     gl::Buffer<std::uint32_t> face_collisions;  ///< two bits a face, by pair: a Touch
-    gl::Buffer<Dispatch> dispatches;            ///< see shaders/sim/collision/pairs.glsl
+    gl::Buffer<Dispatch> dispatches;            ///< by dispatch_slots
 
     gl::Buffer<std::uint32_t> face_views, object_views;  ///< see shaders/sim/depth/hidden.glsl
     gl::BufferTexture face_view_texels, object_view_texels;
@@ -40,39 +41,17 @@ struct CollisionBuffers {
     /// @throws InvalidInput for more objects and faces than their entries can be counted for.
     explicit CollisionBuffers(const Model& model);
 
-    /// Binds what sim/collision/pairs.glsl reads and writes: storage 0, 1, 2 and 6.
-    void bind_pairs() const;
-    /// Binds what sim/collision/node_faces.glsl reads: texture units 2 and 3.
-    void bind_node_faces() const;
+    /// For programs that include sim/collision/pairs.glsl.
+    void bind_pairs(const gl::Program& program) const;
+    /// For programs that include sim/collision/node_faces.glsl.
+    void bind_node_faces(const gl::Program& program) const;
+    /// For programs that include sim/collision/own_tree.glsl.
+    void bind_own_trees(const gl::Program& program, const ModelBuffers& model) const;
+    /// For programs that include sim/depth/hidden.glsl.
+    void bind_hidden(const gl::Program& program) const;
 
-    /// Binds what sim/depth/hidden.glsl reads: texture units 4 and 5.
-    void bind_hidden() const;
-
-    /// The dispatches of sim/collision/pairs.glsl.
-    enum class Work : unsigned {
-        entries,
-        tests,
-        face_pairs,
-        pairs,
-        pair_groups,
-        nodes,
-        scan,
-        losses,
-        restless,
-        self_pairs,
-        self_faces,
-        self_nodes,
-        fit_sums,
-        fits,
-        restless_chunks,
-        near_objects,
-        near_leaves,
-        node_tasks,
-        edge_tasks,
-        count
-    };
-    /// Runs `program` over what the GPU itself has counted.
-    void run(const gl::Program& program, Work work) const;
+    /// Runs `program` over what the GPU itself has counted. @param slot one of dispatch_slots
+    void run(const gl::Program& program, std::uint32_t slot) const;
 };
 
 }  // namespace gelatin::gpu

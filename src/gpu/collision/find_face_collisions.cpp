@@ -27,34 +27,37 @@ FindFaceCollisions::FindFaceCollisions(const CollisionSettings& settings)
 
 void FindFaceCollisions::run(const ModelBuffers& model, const CollisionBuffers& collision,
                              const NodeBuffers& previous, const NodeBuffers& nodes) const {
-    using Work = CollisionBuffers::Work;
     const auto capacity = static_cast<std::uint32_t>(collision.face_pairs.size());
-    collision.bind_pairs();
-    collision.bind_hidden();
-    collision.face_boxes.bind_storage(3);
-    collision.face_collisions.bind_storage(4);
-    collision.candidates.bind_storage(5);
-    collision.face_pairs.bind_storage(7);
+    for (const gl::Program* program : {&list_program_, &scan_program_, &cull_program_, &test_program_})
+        collision.bind_pairs(*program);
+
+    collision.bind_hidden(list_program_);
+    list_program_.bind("FaceBoxes", collision.face_boxes);
+    list_program_.bind("FaceCollisions", collision.face_collisions);
+    list_program_.bind("Candidates", collision.candidates);
     list_program_.set("object_count", collision.object_count);
-    collision.run(list_program_, Work::entries);
+    collision.run(list_program_, dispatch_slots::kEntries);
     gl::barrier(gl::Barrier::storage);
 
     scan_program_.set("walk_trees", walks_ ? 1u : 0u);
-    collision.run(scan_program_, Work::scan);
+    collision.run(scan_program_, dispatch_slots::kScan);
     gl::barrier(gl::Barrier::storage | gl::Barrier::command);
 
-    collision.face_trees.node_texels.bind(1);
-    collision.face_trees.box_texels.bind(2);
-    collision.face_trees.root_texels.bind(3);
+    if (walks_) collision.face_trees.bind(cull_program_);
+    cull_program_.bind("FaceBoxes", collision.face_boxes);
+    cull_program_.bind("Candidates", collision.candidates);
+    cull_program_.bind("FacePairs", collision.face_pairs);
     cull_program_.set("face_pair_capacity", capacity);
-    collision.run(cull_program_, Work::tests);
+    collision.run(cull_program_, dispatch_slots::kTests);
     gl::barrier(gl::Barrier::storage | gl::Barrier::command);
 
-    nodes.position_texels.bind(0);
-    previous.position_texels.bind(1);
-    model.faces.bind_storage(3);
+    test_program_.bind("positions", nodes.position_texels);
+    test_program_.bind("previous_positions", previous.position_texels);
+    test_program_.bind("Faces", model.faces);
+    test_program_.bind("FacePairs", collision.face_pairs);
+    test_program_.bind("FaceCollisions", collision.face_collisions);
     test_program_.set("face_pair_capacity", capacity);
-    collision.run(test_program_, Work::face_pairs);
+    collision.run(test_program_, dispatch_slots::kFacePairs);
     gl::barrier(gl::Barrier::storage);
 }
 

@@ -8,7 +8,6 @@
 namespace gelatin::gpu {
 namespace {
 
-constexpr std::uint32_t kObjectLanes = 32;  // of find_restless_objects.comp
 constexpr std::size_t kMostGroups = 65535;
 constexpr std::size_t kMostFaces =
     kMostGroups * 64;  // of a list that is gone through by one row of work groups
@@ -61,9 +60,14 @@ FindSelfCollisions::FindSelfCollisions(const Model& model)
 void FindSelfCollisions::run(const ModelBuffers& model, const CollisionBuffers& collision,
                              const SelfCollisionBuffers& self, const NodeBuffers& nodes) {
     ++step_number_;
-    nodes.position_texels.bind(0);
-    self.rest_offset_texels.bind(1);
-    collision.dispatches.bind_storage(6);
+    for (const gl::Program* program : {&object_program_, &sum_program_, &fit_program_, &list_program_}) {
+        program->bind("positions", nodes.position_texels);
+        program->bind("rest_offsets", self.rest_offset_texels);
+    }
+    test_program_.bind("positions", nodes.position_texels);
+    for (const gl::Program* program : {&object_program_, &chunk_program_, &sum_program_, &fit_program_,
+                                       &list_program_, &walk_program_, &test_program_})
+        program->bind("Dispatches", collision.dispatches);
     find_restless_objects(collision, self);
     fit(collision, self);
     list_restless_faces(model, collision, self);
@@ -72,17 +76,19 @@ void FindSelfCollisions::run(const ModelBuffers& model, const CollisionBuffers& 
 
 void FindSelfCollisions::find_restless_objects(const CollisionBuffers& collision,
                                                const SelfCollisionBuffers& self) const {
-    self.fit_texels.bind(2);
-    chunk_texels_.bind(3);
-    self.last_restless.bind_storage(3);
+    object_program_.bind("fits", self.fit_texels);
+    object_program_.bind("chunks", chunk_texels_);
+    object_program_.bind("LastRestless", self.last_restless);
     object_program_.set("chunk_count", node_chunk_count_);
     object_program_.set("step_number", step_number_);
-    object_program_.dispatch(kObjectLanes * static_cast<std::size_t>(node_chunk_count_), kObjectLanes);
+    object_program_.dispatch_groups(node_chunk_count_);
     gl::barrier(gl::Barrier::storage);
 
-    node_chunks_.bind_storage(4);
-    face_chunks_.bind_storage(5);
-    objects_.bind_storage(7);
+    chunk_program_.bind("chunks", chunk_texels_);
+    chunk_program_.bind("LastRestless", self.last_restless);
+    chunk_program_.bind("RestlessNodeChunks", node_chunks_);
+    chunk_program_.bind("RestlessFaceChunks", face_chunks_);
+    chunk_program_.bind("RestlessObjects", objects_);
     chunk_program_.set("node_chunk_count", node_chunk_count_);
     chunk_program_.set("chunk_count", static_cast<std::uint32_t>(chunks_.size()));
     chunk_program_.set("object_count", collision.object_count);
@@ -92,54 +98,56 @@ void FindSelfCollisions::find_restless_objects(const CollisionBuffers& collision
 }
 
 void FindSelfCollisions::fit(const CollisionBuffers& collision, const SelfCollisionBuffers& self) const {
-    using Work = CollisionBuffers::Work;
-    collision.bounding_boxes.bind_storage(0);
-    node_chunks_.bind_storage(1);
-    chunks_.bind_storage(3);
-    sums_.bind_storage(4);
-    rest_shapes_.bind_storage(5);
-    self.fits.bind_storage(7);
-    chunk_start_texels_.bind(2);
-    collision.run(sum_program_, Work::fit_sums);
+    for (const gl::Program* program : {&sum_program_, &fit_program_}) {
+        program->bind("BoundingBoxes", collision.bounding_boxes);
+        program->bind("Chunks", chunks_);
+        program->bind("Sums", sums_);
+        program->bind("RestShapes", rest_shapes_);
+        program->bind("Fits", self.fits);
+    }
+    sum_program_.bind("RestlessNodeChunks", node_chunks_);
+    collision.run(sum_program_, dispatch_slots::kFitSums);
     gl::barrier(gl::Barrier::storage);
-    objects_.bind_storage(1);
-    collision.run(fit_program_, Work::fits);
+    fit_program_.bind("RestlessObjects", objects_);
+    fit_program_.bind("chunk_starts", chunk_start_texels_);
+    collision.run(fit_program_, dispatch_slots::kFits);
     gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::storage);
 }
 
 void FindSelfCollisions::list_restless_faces(const ModelBuffers& model, const CollisionBuffers& collision,
                                              const SelfCollisionBuffers& self) const {
-    self.fit_texels.bind(2);
-    self.clearance_texels.bind(4);
-    model.face_texels.bind(7);
-    face_chunks_.bind_storage(3);
-    self.restless.bind_storage(4);
-    self.is_calm.bind_storage(5);
-    self.contact_counts.bind_storage(7);
+    list_program_.bind("fits", self.fit_texels);
+    list_program_.bind("chunks", chunk_texels_);
+    list_program_.bind("clearances", self.clearance_texels);
+    list_program_.bind("faces", model.face_texels);
+    list_program_.bind("RestlessFaceChunks", face_chunks_);
+    list_program_.bind("RestlessFaces", self.restless);
+    list_program_.bind("Calm", self.is_calm);
+    list_program_.bind("ContactCounts", self.contact_counts);
     list_program_.set("face_count", self.face_count);
-    collision.run(list_program_, CollisionBuffers::Work::restless_chunks);
+    collision.run(list_program_, dispatch_slots::kRestlessChunks);
     gl::barrier(gl::Barrier::storage | gl::Barrier::command);
 }
 
 void FindSelfCollisions::find_contacts(const ModelBuffers& model, const CollisionBuffers& collision,
                                        const SelfCollisionBuffers& self) const {
-    using Work = CollisionBuffers::Work;
     const auto capacity = static_cast<std::uint32_t>(collision.face_pairs.size());
-    collision.face_trees.node_texels.bind(4);
-    collision.face_trees.box_texels.bind(5);
-    collision.face_trees.root_texels.bind(6);
-    collision.face_boxes.bind_storage(3);
-    collision.face_pairs.bind_storage(7);
+    collision.bind_own_trees(walk_program_, model);
+    walk_program_.bind("RestlessFaces", self.restless);
+    walk_program_.bind("Calm", self.is_calm);
+    walk_program_.bind("FacePairs", collision.face_pairs);
     walk_program_.set("face_pair_capacity", capacity);
-    collision.run(walk_program_, Work::restless);
+    collision.run(walk_program_, dispatch_slots::kRestless);
     gl::barrier(gl::Barrier::storage | gl::Barrier::command);
 
-    self.colliding.bind_storage(4);
-    self.contact_counts.bind_storage(5);
+    test_program_.bind("faces", model.face_texels);
+    test_program_.bind("FacePairs", collision.face_pairs);
+    test_program_.bind("SelfFaces", self.colliding);
+    test_program_.bind("ContactCounts", self.contact_counts);
     test_program_.set("face_pair_capacity", capacity);
     test_program_.set("face_count", self.face_count);
     test_program_.set("node_count", model.node_count);
-    collision.run(test_program_, Work::self_pairs);
+    collision.run(test_program_, dispatch_slots::kSelfPairs);
     gl::barrier(gl::Barrier::storage | gl::Barrier::command);
 }
 

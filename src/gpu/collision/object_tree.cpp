@@ -37,11 +37,9 @@ ObjectTree::ObjectTree(const Model& model)
 
 void ObjectTree::update(const CollisionBuffers& collision) {
     if (collision.object_count > BoxTree::kLeafItems) renew_order(collision);
-    tree_.node_texels.bind(1);
-    order_texels_.bind(2);
-    collision.bounding_boxes.bind_storage(0);
-    tree_.boxes.bind_storage(3);
-    tree_.level_nodes.bind_storage(4);
+    leaf_program_.bind("object_order", order_texels_);
+    for (const gl::Program* program : {&leaf_program_, &node_program_})
+        bind_levels(*program, tree_, collision.bounding_boxes);
     for (std::size_t level = 0; level < tree_.level_count(); ++level)
         update_level(level == 0 ? leaf_program_ : node_program_, tree_, level);
 }
@@ -61,10 +59,10 @@ void ObjectTree::renew_order(const CollisionBuffers& collision) {
     age_ = (age_ + 1) % kOrderLifetime;
 }
 
-void ObjectTree::bind() const {
-    tree_.node_texels.bind(1);
-    tree_.box_texels.bind(2);
-    order_texels_.bind(3);
+void ObjectTree::bind(const gl::Program& program) const {
+    program.bind("object_tree_nodes", tree_.node_texels);
+    program.bind("object_tree_boxes", tree_.box_texels);
+    program.bind("object_order", order_texels_);
 }
 
 }  // namespace gelatin::gpu

@@ -18,8 +18,8 @@ public:
     /// Ends with the barriers that a walk through the tree needs.
     void update(const CollisionBuffers& collision);
 
-    /// Binds what sim/collision/object_may_touch.glsl reads: texture units 1, 2 and 3.
-    void bind() const;
+    /// For programs that include sim/collision/object_may_touch.glsl, with OBJECT_TREE.
+    void bind(const gl::Program& program) const;
 
 private:
     void renew_order(const CollisionBuffers& collision);

@@ -21,37 +21,50 @@ Respond::Respond(const Model& model, const CollisionBuffers& collision, const Co
 
 void Respond::run(const ModelBuffers& model, const CollisionBuffers& collision, const NodeBuffers& previous,
                   const NodeBuffers& current, double step) const {
-    using Work = CollisionBuffers::Work;
-    collision.bind_pairs();
-    collision.bind_node_faces();
-    collision.face_collisions.bind_storage(4);
-    model.face_texels.bind(4);
-    node_shares_.bind_storage(3);
-    collision.run(share_program_, Work::nodes);
+    for (const gl::Program* program :
+         {&share_program_, &patch_program_, &approach_program_, &plan_program_, &respond_program_})
+        collision.bind_pairs(*program);
+    for (const gl::Program* program :
+         {&share_program_, &patch_program_, &approach_program_, &respond_program_})
+        program->bind("FaceCollisions", collision.face_collisions);
+    for (const gl::Program* program : {&share_program_, &respond_program_}) {
+        collision.bind_node_faces(*program);
+        program->bind("faces", model.face_texels);
+    }
+    for (const gl::Program* program :
+         {&patch_program_, &approach_program_, &plan_program_, &respond_program_})
+        program->bind("ContactPatches", patches_);
+
+    share_program_.bind("NodeShares", node_shares_);
+    collision.run(share_program_, dispatch_slots::kNodes);
     gl::barrier(gl::Barrier::texture_fetch);
 
-    node_share_texels_.bind(5);
-    current.position_texels.bind(0);
-    current.velocity_texels.bind(1);
-    model.faces.bind_storage(3);
-    patches_.bind_storage(5);
-    collision.run(patch_program_, Work::pair_groups);
+    for (const gl::Program* program : {&patch_program_, &approach_program_}) {
+        program->bind("node_shares", node_share_texels_);
+        program->bind("positions", current.position_texels);
+        program->bind("velocities", current.velocity_texels);
+        program->bind("Faces", model.faces);
+    }
+    collision.run(patch_program_, dispatch_slots::kPairGroups);
     gl::barrier(gl::Barrier::storage);
 
-    approaches_.bind_storage(7);
-    collision.run(approach_program_, Work::pair_groups);
+    approach_program_.bind("Approaches", approaches_);
+    collision.run(approach_program_, dispatch_slots::kPairGroups);
     gl::barrier(gl::Barrier::storage);
 
-    responses_.bind_storage(3);
+    plan_program_.bind("Approaches", approaches_);
+    plan_program_.bind("Responses", responses_);
     plan_program_.set("resting_speed", static_cast<float>(resting_speed(model.gravity, step)));
-    collision.run(plan_program_, Work::pairs);
+    collision.run(plan_program_, dispatch_slots::kPairs);
     gl::barrier(gl::Barrier::storage);
 
-    previous.position_texels.bind(0);
-    current.positions.bind_storage(5);
-    current.velocities.bind_storage(7);
+    respond_program_.bind("Responses", responses_);
+    respond_program_.bind("node_shares", node_share_texels_);
+    respond_program_.bind("previous_positions", previous.position_texels);
+    respond_program_.bind("Positions", current.positions);
+    respond_program_.bind("Velocities", current.velocities);
     respond_program_.set("time_step", static_cast<float>(step));
-    collision.run(respond_program_, Work::nodes);
+    collision.run(respond_program_, dispatch_slots::kNodes);
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 }
 

@@ -15,27 +15,24 @@ RespondToSelf::RespondToSelf(const Model& model, const CollisionSettings& settin
 void RespondToSelf::run(const ModelBuffers& model, const CollisionBuffers& collision,
                         const SelfCollisionBuffers& self, const NodeBuffers& previous,
                         const NodeBuffers& current, double step) const {
-    using Work = CollisionBuffers::Work;
-    current.position_texels.bind(0);
-    current.velocity_texels.bind(1);
-    collision.bind_node_faces();
-    collision.face_trees.node_texels.bind(4);
-    collision.face_trees.box_texels.bind(5);
-    collision.face_trees.root_texels.bind(6);
-    model.face_texels.bind(7);
-    previous.position_texels.bind(8);
-    self.contact_counts.bind_storage(1);
-    answers_.bind_storage(2);
-    collision.face_boxes.bind_storage(3);
-    self.colliding.bind_storage(4);
-    collision.dispatches.bind_storage(6);
+    for (const gl::Program* program : {&face_program_, &node_program_}) {
+        collision.bind_node_faces(*program);
+        program->bind("ContactCounts", self.contact_counts);
+        program->bind("Answers", answers_);
+        program->bind("Dispatches", collision.dispatches);
+    }
+    collision.bind_own_trees(face_program_, model);
+    face_program_.bind("positions", current.position_texels);
+    face_program_.bind("velocities", current.velocity_texels);
+    face_program_.bind("previous_positions", previous.position_texels);
+    face_program_.bind("SelfFaces", self.colliding);
     face_program_.set("resting_speed", static_cast<float>(resting_speed(model.gravity, step)));
-    collision.run(face_program_, Work::self_faces);
+    collision.run(face_program_, dispatch_slots::kSelfFaces);
     gl::barrier(gl::Barrier::storage);
 
-    current.positions.bind_storage(5);
-    current.velocities.bind_storage(7);
-    collision.run(node_program_, Work::self_nodes);
+    node_program_.bind("Positions", current.positions);
+    node_program_.bind("Velocities", current.velocities);
+    collision.run(node_program_, dispatch_slots::kSelfNodes);
 }
 
 }  // namespace gelatin::gpu

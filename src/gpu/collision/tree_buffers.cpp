@@ -28,4 +28,10 @@ TreeBuffers::TreeBuffers(const BoxTree& trees)
       box_texels(boxes, gl::TexelFormat::rgba32f),
       root_texels(roots, gl::TexelFormat::r32ui) {}
 
+void TreeBuffers::bind(const gl::Program& program) const {
+    program.bind("tree_nodes", node_texels);
+    program.bind("tree_boxes", box_texels);
+    program.bind("roots", root_texels);
+}
+
 }  // namespace gelatin::gpu

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "gl/buffer.h"
+#include "gl/program.h"
 #include "model/model.h"
 
 namespace gelatin::gpu {
@@ -17,6 +18,9 @@ struct TreeBuffers {
     gl::BufferTexture node_texels, box_texels, root_texels;
 
     explicit TreeBuffers(const BoxTree& trees);
+
+    /// For programs that walk through them.
+    void bind(const gl::Program& program) const;
 
     std::size_t level_count() const { return level_starts.size() - 1; }
 };

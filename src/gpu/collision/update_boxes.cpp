@@ -26,6 +26,14 @@ void set_margin(const gl::Program& program, double reach) {
     program.set("box_margin", glm::vec2(static_cast<float>(0.5 * reach) * (1.0f + 8.0f * kEps), 2.0f * kEps));
 }
 
+void bind_levels(const gl::Program& program, const TreeBuffers& trees,
+                 const gl::Buffer<BoundingBox>& bounding_boxes) {
+    program.bind("tree_nodes", trees.node_texels);
+    program.bind("BoundingBoxes", bounding_boxes);
+    program.bind("TreeBoxes", trees.boxes);
+    program.bind("LevelNodes", trees.level_nodes);
+}
+
 void update_level(const gl::Program& program, const TreeBuffers& trees, std::size_t level) {
     const std::uint32_t first = trees.level_starts[level], count = trees.level_starts[level + 1] - first;
     program.set("first_node", first);
@@ -37,14 +45,12 @@ void update_level(const gl::Program& program, const TreeBuffers& trees, std::siz
 void UpdateBoxes::run(const ModelBuffers& model, const CollisionBuffers& collision,
                       const NodeBuffers& previous, const NodeBuffers& nodes) const {
     const TreeBuffers& trees = collision.face_trees;
-    nodes.position_texels.bind(0);
-    trees.node_texels.bind(1);
-    previous.position_texels.bind(3);
-    collision.bounding_boxes.bind_storage(0);
-    model.faces.bind_storage(1);
-    collision.face_boxes.bind_storage(2);
-    trees.boxes.bind_storage(3);
-    trees.level_nodes.bind_storage(4);
+    for (const gl::Program* program : {&leaf_program_, &node_program_})
+        bind_levels(*program, trees, collision.bounding_boxes);
+    leaf_program_.bind("positions", nodes.position_texels);
+    leaf_program_.bind("previous_positions", previous.position_texels);
+    leaf_program_.bind("Faces", model.faces);
+    leaf_program_.bind("FaceBoxes", collision.face_boxes);
     for (std::size_t level = 0; level < trees.level_count(); ++level)
         update_level(level == 0 ? leaf_program_ : node_program_, trees, level);
 }

@@ -6,7 +6,11 @@
 
 namespace gelatin::gpu {
 
-/// Runs shaders/sim/collision/update_boxes.comp over a level of trees whose buffers are bound.
+/// Binds the trees to a program of shaders/sim/collision/update_boxes.comp.
+void bind_levels(const gl::Program& program, const TreeBuffers& trees,
+                 const gl::Buffer<BoundingBox>& bounding_boxes);
+
+/// Runs that program over a level of the trees.
 void update_level(const gl::Program& program, const TreeBuffers& trees, std::size_t level);
 
 /// Sets what shaders/sim/collision/box_margin.glsl reads. CPU twin: cpu::BoxMargin.

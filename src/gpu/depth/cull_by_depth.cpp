@@ -14,7 +14,6 @@ namespace gelatin::gpu {
 namespace {
 
 constexpr int kResolution = 256;  // [pixels a side]
-constexpr std::uint32_t kBeginLanes = 256;
 
 gl::Program make_pass(const char* fragment_file) {
     return gl::Program::graphics_with_geometry("sim/depth/draw_face.vert", "sim/depth/face_footprint.geom",
@@ -61,31 +60,37 @@ void CullByDepth::run(const ModelBuffers& model, const CollisionBuffers& collisi
     const gl::DrawStateGuard guard;
     glViewport(0, 0, kResolution, kResolution);
     glBindVertexArray(vertex_array_);
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, draws_.id());
-    nodes.position_texels.bind(1);
-    model.face_texels.bind(2);
-    view_space_texels_.bind(3);
-    layers_.bind_textures();
+    for (const gl::Program* program : {&nearest_program_, &other_program_, &hidden_program_}) {
+        program->bind("positions", nodes.position_texels);
+        program->bind("faces", model.face_texels);
+        program->bind("view_space", view_space_texels_);
+    }
+    layers_.bind_nearest_object(other_program_);
+    layers_.bind_all(hidden_program_);
+    hidden_program_.bind("FaceViews", collision.face_views);
+    hidden_program_.bind("ObjectViews", collision.object_views);
+    hidden_program_.bind("Draws", draws_);
     for (unsigned view = 0; view < kViews; ++view) draw_view(view);
     gl::check_errors("culling by depth");
 }
 
 void CullByDepth::begin(const CollisionBuffers& collision) const {
     const auto faces = static_cast<std::uint32_t>(collision.face_views.size());
-    collision.bounding_boxes.bind_storage(0);
-    collision.face_views.bind_storage(1);
-    collision.object_views.bind_storage(2);
-    draws_.bind_storage(3);
-    view_space_.bind_storage(4);
+    begin_program_.bind("BoundingBoxes", collision.bounding_boxes);
+    begin_program_.bind("FaceViews", collision.face_views);
+    begin_program_.bind("ObjectViews", collision.object_views);
+    begin_program_.bind("Draws", draws_);
+    begin_program_.bind("ViewSpace", view_space_);
     begin_program_.set("face_count", faces);
     begin_program_.set("object_count", collision.object_count);
-    begin_program_.dispatch(std::max({faces, collision.object_count, kViews + 1}), kBeginLanes);
+    begin_program_.dispatch(std::max({faces, collision.object_count, kViews + 1}));
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch | gl::Barrier::command);
 }
 
 void CullByDepth::draw_view(unsigned view) const {
-    (view == 0 ? all_face_texels_ : hidden_face_texels_[(view - 1) % 2]).bind(0);
-    hidden_faces_[view % 2].bind_storage(4);
+    for (const gl::Program* program : {&nearest_program_, &other_program_, &hidden_program_})
+        program->bind("drawn_faces", view == 0 ? all_face_texels_ : hidden_face_texels_[(view - 1) % 2]);
+    hidden_program_.bind("HiddenFaces", hidden_faces_[view % 2]);
     glEnable(GL_DEPTH_TEST);
     layers_.begin_nearest();
     draw_faces(nearest_program_, view);
@@ -102,8 +107,7 @@ void CullByDepth::draw_faces(const gl::Program& program, unsigned view) const {
     program.set("axis", view % 3);
     program.set("from_behind", view / 3);
     program.set("resolution", static_cast<float>(kResolution));
-    program.use();
-    glDrawArraysIndirect(GL_POINTS, std::bit_cast<const void*>(view * sizeof(Draw)));
+    program.draw_arrays_indirect(gl::Primitive::points, draws_.id(), view * sizeof(Draw));
 }
 
 }  // namespace gelatin::gpu

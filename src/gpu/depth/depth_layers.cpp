@@ -10,7 +10,6 @@
 namespace gelatin::gpu {
 namespace {
 
-constexpr unsigned kFirstUnit = 4;
 constexpr GLfloat kFarthest = 1.0f;
 constexpr GLuint kNobody = 0xFFFFFFFFu;
 
@@ -31,7 +30,7 @@ DepthLayers::DepthLayers(int resolution) : DepthLayers() {
 void DepthLayers::make_textures(int resolution) {
     constexpr GLenum kFormats[picture_count] = {GL_DEPTH_COMPONENT32F, GL_R32UI, GL_DEPTH_COMPONENT32F};
     glGenTextures(picture_count, textures_);
-    glActiveTexture(GL_TEXTURE0 + kFirstUnit);
+    gl::forget_state();  // a unit's binding changes
     for (unsigned picture = 0; picture < picture_count; ++picture) {
         glBindTexture(GL_TEXTURE_2D, textures_[picture]);
         glTexStorage2D(GL_TEXTURE_2D, 1, kFormats[picture], resolution, resolution);
@@ -71,6 +70,7 @@ void DepthLayers::make_framebuffers(int resolution) {
 DepthLayers::~DepthLayers() {
     glDeleteFramebuffers(pass_count, framebuffers_);  // silent for 0
     glDeleteTextures(picture_count, textures_);
+    gl::forget_state();
 }
 
 void DepthLayers::begin_nearest() const {
@@ -88,12 +88,14 @@ void DepthLayers::begin_comparison() const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffers_[comparison]);
 }
 
-void DepthLayers::bind_textures() const {
-    for (unsigned picture = 0; picture < picture_count; ++picture) {
-        glActiveTexture(GL_TEXTURE0 + kFirstUnit + picture);
-        glBindTexture(GL_TEXTURE_2D, textures_[picture]);
-        glBindSampler(kFirstUnit + picture, 0);
-    }
+void DepthLayers::bind_nearest_object(const gl::Program& program) const {
+    program.bind_texture("nearest_object", textures_[nearest_object]);
+}
+
+void DepthLayers::bind_all(const gl::Program& program) const {
+    bind_nearest_object(program);
+    program.bind_texture("nearest_depth", textures_[nearest_depth]);
+    program.bind_texture("nearest_other_depth", textures_[nearest_other_depth]);
 }
 
 }  // namespace gelatin::gpu

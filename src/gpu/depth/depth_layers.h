@@ -1,5 +1,7 @@
 #pragma once
 
+#include "gl/program.h"
+
 namespace gelatin::gpu {
 
 /// Pictures of what is nearest along a direction of sight: the depth of the nearest surface and the object
@@ -21,8 +23,9 @@ public:
     /// Draws go nowhere: only what fragments store by themselves stays.
     void begin_comparison() const;
 
-    /// Binds nearest depth, nearest object and nearest other depth to texture units 4, 5 and 6.
-    void bind_textures() const;
+    void bind_nearest_object(const gl::Program& program) const;
+    /// Nearest depth, nearest object and nearest other depth.
+    void bind_all(const gl::Program& program) const;
 
 private:
     enum Picture : unsigned { nearest_depth, nearest_object, nearest_other_depth, picture_count };

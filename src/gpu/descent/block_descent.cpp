@@ -98,7 +98,9 @@ TetCorners corners_of(const Model& model, std::vector<std::uint32_t> rows) {
 BlockDescent::DampedSprings::DampedSprings(std::size_t pairs)
     : program(gl::Program::compute("sim/descent/damp_springs.comp")),
       springs(pairs),
-      texels(springs, gl::TexelFormat::rgba32f) {}
+      texels(springs, gl::TexelFormat::rgba32f) {
+    program.bind("DampedSprings", springs);
+}
 
 BlockDescent::Pressures::Pressures(const Model& model)
     : node_program(gl::Program::compute("sim/descent/find_pressures.comp", {"NODES"})),
@@ -165,15 +167,122 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings, 
     rigid_sums_ = gl::Buffer<glm::dvec4>(kRigidSums * chunks.size());
     if (!model.colliders.empty()) touches_ = gl::Buffer<Touch>(model.positions.size());
 
-    if (!settings_.coarse_level) return;
+    if (settings_.coarse_level) make_coarse_level(model);
+    bind_buffers();
+}
+
+void BlockDescent::make_coarse_level(const Model& model) {
     const CoarseBasis basis = make_coarse_basis(model);
     if (basis.cluster_count() == 0) return;
     coarse_.emplace(model, basis);
     force_program_ = gl::Program::compute("sim/descent/descend.comp", with(sweep_defines(model), "FORCES"));
 }
 
-void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, const NodeBuffers& current,
-                       double step, bool has_earlier) {
+std::vector<const gl::Program*> BlockDescent::sweep_programs() const {
+    std::vector<const gl::Program*> programs = {&sweep_program_};
+    if (coarse_) programs.push_back(&force_program_);
+    return programs;
+}
+
+// What never changes.
+void BlockDescent::bind_buffers() const {
+    start_program_.bind("NearFlat", near_flat_);
+    start_program_.bind("ObjectTouches", object_touches_);
+    start_program_.bind("Tangled", is_tangled_);
+    start_program_.bind("Starts", starts_);
+    start_program_.bind("Targets", targets_);
+    start_program_.bind("Touches", touches_);
+    find_tangled_program_.bind("tets", tets_);
+    find_tangled_program_.bind("tet_rests", tet_rests_);
+    take_back_program_.bind("start_positions", start_texels_);
+    for (const gl::Program* program : {&find_tangled_program_, &take_back_program_}) {
+        program->bind("node_objects", node_objects_);
+        program->bind("Tangled", is_tangled_);
+    }
+    accelerate_program_.bind("Starts", sweep_starts_);
+    accelerate_program_.bind("ObjectTouches", object_touches_);
+    accelerate_program_.bind("node_objects", node_objects_);
+    mark_program_.bind("tets", tets_);
+    mark_program_.bind("tet_rests", tet_rests_);
+    mark_program_.bind("NearFlat", near_flat_);
+    if (pressures_) bind_pressures(*pressures_);
+    if (damped_springs_) bind_springs(damped_springs_->program);
+    for (const gl::Program* program : sweep_programs()) {
+        bind_springs(*program);
+        if (damped_springs_) program->bind("springs", damped_springs_->texels);
+        program->bind("targets", target_texels_);
+        program->bind("near_flat", near_flat_texels_);
+        program->bind("tet_corners", tet_corners_);
+        program->bind("corner_starts", corner_starts_);
+        program->bind("tet_rests", tet_rests_);
+        program->bind("ObjectTouches", object_touches_);
+        program->bind("Touches", touches_);
+        neo_hookean_corners_.bind(*program);
+    }
+    for (const gl::Program* program : {&sum_program_, &motion_program_}) {
+        program->bind("chunk_starts", chunk_starts_);
+        program->bind("ObjectTouches", object_touches_);
+        program->bind("Sums", rigid_sums_);
+        program->bind("Touches", touches_);
+    }
+    for (const gl::Program* program :
+         {&sum_program_, &motion_program_, &move_program_, &last_move_program_}) {
+        program->bind("start_positions", start_texels_);
+        program->bind("targets", target_texels_);
+        program->bind("Chunks", chunks_);
+        program->bind("Motions", motions_);
+    }
+    last_move_program_.bind("ObjectTouches", object_touches_);
+}
+
+void BlockDescent::bind_springs(const gl::Program& program) const {
+    program.bind("rows", rows_);
+    program.bind("spring_ends", spring_ends_);
+    program.bind("springs", springs_);
+    program.bind("slice_starts", spring_starts_);
+    program.bind("start_positions", start_texels_);
+}
+
+void BlockDescent::bind_pressures(const Pressures& pressures) const {
+    mark_program_.bind("Ratios", pressures.ratios);
+    for (const gl::Program* program : {&pressures.node_program, &pressures.tet_program}) {
+        program->bind("tets", tets_);
+        program->bind("tet_rests", tet_rests_);
+        program->bind("Ratios", pressures.ratios);
+        program->bind("Pressures", pressures.node_pressures);
+    }
+    pressures.node_program.bind("node_volumes", pressures.node_volumes);
+    pressures.node_program.bind("node_tet_starts", pressures.node_tet_starts);
+    pressures.node_program.bind("node_tets", pressures.node_tets);
+    pressures.tet_program.bind("Offsets", pressures.offsets);
+    for (const gl::Program* program : sweep_programs()) program->bind("offsets", pressures.offset_texels);
+}
+
+// The nodes' two buffers swap places from step to step.
+void BlockDescent::bind_nodes(const NodeBuffers& previous, const NodeBuffers& current) const {
+    start_program_.bind("start_positions", previous.position_texels);
+    start_program_.bind("start_velocities", previous.velocity_texels);
+    start_program_.bind("Positions", current.positions);
+    start_program_.bind("EarlierVelocities", current.velocities);
+    take_back_program_.bind("Positions", current.positions);
+    accelerate_program_.bind("Positions", current.positions);
+    find_tangled_program_.bind("positions", current.position_texels);
+    mark_program_.bind("positions", current.position_texels);
+    if (damped_springs_) damped_springs_->program.bind("start_velocities", previous.velocity_texels);
+    std::vector<const gl::Program*> programs = sweep_programs();
+    programs.insert(programs.end(), {&move_program_, &last_move_program_});
+    for (const gl::Program* program : programs) program->bind("OutPositions", current.positions);
+    programs.insert(programs.end(), {&sum_program_, &motion_program_});
+    for (const gl::Program* program : programs) {
+        program->bind("positions", current.position_texels);
+        program->bind("start_velocities", previous.velocity_texels);
+    }
+    for (const gl::Program* program : {&move_program_, &last_move_program_})
+        program->bind("Velocities", current.velocities);
+}
+
+void BlockDescent::run(const ModelBuffers& model, const SumLoads* loads, const NodeBuffers& previous,
+                       const NodeBuffers& current, double step, bool has_earlier) {
     for (const gl::Program* program :
          {&start_program_, &sweep_program_, &sum_program_, &move_program_, &last_move_program_}) {
         program->set("time_step", static_cast<float>(step));
@@ -181,72 +290,52 @@ void BlockDescent::run(const ModelBuffers& model, const NodeBuffers& previous, c
     }
     last_move_program_.set("contact_distance", static_cast<float>(kContactDistance));
     last_move_program_.set("resting_speed", static_cast<float>(resting_speed(model.gravity, step)));
-    previous.position_texels.bind(1);
-    previous.velocity_texels.bind(2);
-    current.positions.bind_storage(0);
-    near_flat_.bind_storage(1);
-    object_touches_.bind_storage(2);
-    current.velocities.bind_storage(3);
-    is_tangled_.bind_storage(4);
-    starts_.bind_storage(5);
-    targets_.bind_storage(6);
-    if (touches_.size() > 0) touches_.bind_storage(7);
+    bind_nodes(previous, current);
+    for (const gl::Program* program : sweep_programs()) {
+        model.bind_colliders(*program);
+        model.neo_hookean.bind_tets(*program);
+    }
+    model.bind_colliders(last_move_program_);
     model.bind_colliders(start_program_);
     if (model.pulls) model.pulls->bind(start_program_);
+    if (loads != nullptr) loads->bind(start_program_);
     start_program_.set("node_count", node_count_);
     start_program_.set("object_count", object_count_);
     start_program_.set("has_earlier", has_earlier ? 1u : 0u);
     start_program_.dispatch(node_count_);
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 
-    current.position_texels.bind(0);
-    start_texels_.bind(1);
-    target_texels_.bind(17);
-    near_flat_texels_.bind(18);
-    rows_.bind(3);
-    spring_starts_.bind(6);
     if (damped_springs_) damp_springs(step);
-    take_back_tangled(current);
-    if (coarse_) coarse_->begin(step);
+    take_back_tangled();
+    if (coarse_) coarse_->begin(current, step);
     std::uint32_t looks = 0;
     for (int i = 0; i < settings_.iterations; ++i) {
         if (settings_.chebyshev > 0.0) accelerate(coarse_ ? sweeps_since_correction(i) : i);
         if (i % kSweepsAMotion == 0) look_at_tets(++looks);
-        sweep(model);
+        sweep();
         const bool is_last = i + 1 == settings_.iterations;
-        if (coarse_ && !is_last && i % kSweepsACorrection == 0) correct(model, current, step);
-        if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(model, current, is_last);
+        if (coarse_ && !is_last && i % kSweepsACorrection == 0) correct(current, step);
+        if (is_last || (i + 1) % kSweepsAMotion == 0) move_bodies(is_last);
     }
 }
 
 void BlockDescent::damp_springs(double step) const {
-    spring_ends_.bind(4);
-    springs_.bind(5);
-    damped_springs_->springs.bind_storage(0);
     damped_springs_->program.set("time_step", static_cast<float>(step));
     damped_springs_->program.set("row_count", row_count_);
     damped_springs_->program.dispatch(row_count_);
 }
 
-void BlockDescent::take_back_tangled(const NodeBuffers& current) const {
-    tets_.bind(9);
-    tet_rests_.bind(10);
-    node_objects_.bind(12);
-    is_tangled_.bind_storage(4);
+void BlockDescent::take_back_tangled() const {
     find_tangled_program_.set("element_count", tet_count_);
     find_tangled_program_.dispatch(tet_count_);
     gl::barrier(gl::Barrier::storage);
 
-    current.positions.bind_storage(0);
     take_back_program_.set("element_count", node_count_);
     take_back_program_.dispatch(node_count_);
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 }
 
 void BlockDescent::accelerate(int sweep) const {
-    sweep_starts_.bind_storage(3);
-    object_touches_.bind_storage(2);
-    node_objects_.bind(12);
     accelerate_program_.set("node_count", node_count_);
     accelerate_program_.set("sweep", static_cast<std::uint32_t>(sweep));
     accelerate_program_.set("weight", static_cast<float>(chebyshev_weight(settings_.chebyshev, sweep)));
@@ -259,52 +348,26 @@ void BlockDescent::look_at_tets(std::uint32_t look) const {
     sweep_program_.set("look", look);
     if (coarse_) force_program_.set("look", look);
     mark_program_.set("look", look);
-    tets_.bind(9);
-    tet_rests_.bind(10);
-    near_flat_.bind_storage(1);
-    if (pressures_) pressures_->ratios.bind_storage(3);
     mark_program_.set("tet_count", tet_count_);
     mark_program_.dispatch(tet_count_);
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
     if (!pressures_) return;
 
-    pressures_->node_volumes.bind(11);
-    pressures_->node_tet_starts.bind(12);
-    pressures_->node_tets.bind(13);
-    pressures_->node_pressures.bind_storage(4);
     pressures_->node_program.set("element_count", node_count_);
     pressures_->node_program.dispatch(node_count_);
     gl::barrier(gl::Barrier::storage);
 
-    pressures_->offsets.bind_storage(5);
     pressures_->tet_program.set("element_count", tet_count_);
     pressures_->tet_program.dispatch(tet_count_);
     gl::barrier(gl::Barrier::texture_fetch);
 }
 
-void BlockDescent::sweep(const ModelBuffers& model) const {
-    descend(sweep_program_, model, colors_);
+void BlockDescent::sweep() const {
+    descend(sweep_program_, colors_);
 }
 
 // One dispatch after another for each of `rows`.
-void BlockDescent::descend(const gl::Program& program, const ModelBuffers& model,
-                           std::span<const Range> rows) const {
-    rows_.bind(3);
-    spring_ends_.bind(4);
-    if (damped_springs_) {
-        damped_springs_->texels.bind(5);
-    } else {
-        springs_.bind(5);
-    }
-    spring_starts_.bind(6);
-    model.bind_colliders(program);
-    tet_corners_.bind(8);
-    corner_starts_.bind(9);
-    tet_rests_.bind(10);
-    if (pressures_) pressures_->offset_texels.bind(11);
-    model.neo_hookean.bind_tets();
-    neo_hookean_corners_.bind();
-    if (touches_.size() > 0) touches_.bind_storage(3);
+void BlockDescent::descend(const gl::Program& program, std::span<const Range> rows) const {
     for (const Range& range : rows) {
         program.set("first_row", range.first);
         program.set("row_count", range.count);
@@ -314,28 +377,23 @@ void BlockDescent::descend(const gl::Program& program, const ModelBuffers& model
 }
 
 // All nodes at once along the motions of clusters, as far as the objective falls.
-void BlockDescent::correct(const ModelBuffers& model, const NodeBuffers& current, double step) {
+void BlockDescent::correct(const NodeBuffers& current, double step) {
     const Range all{0, row_count_};
-    coarse_->bind_forces(false);
+    coarse_->bind_forces(force_program_, false);
     force_program_.set("time_step", static_cast<float>(step));
     force_program_.set("is_ahead", 0u);
-    descend(force_program_, model, {&all, 1});
+    descend(force_program_, {&all, 1});
     coarse_->find_ways();
 
-    coarse_->bind_forces(true);
-    coarse_->ahead_texels().bind(0);
+    coarse_->bind_forces(force_program_, true);
+    force_program_.bind("positions", coarse_->ahead_texels());
     force_program_.set("is_ahead", 1u);
-    descend(force_program_, model, {&all, 1});
-    current.position_texels.bind(0);
+    descend(force_program_, {&all, 1});
+    force_program_.bind("positions", current.position_texels);
     coarse_->follow_ways(chunks_, chunk_starts_);
 }
 
-void BlockDescent::move_bodies(const ModelBuffers& model, const NodeBuffers& current, bool is_last) const {
-    chunk_starts_.bind(3);
-    chunks_.bind_storage(3);
-    rigid_sums_.bind_storage(4);
-    motions_.bind_storage(5);
-    if (touches_.size() > 0) touches_.bind_storage(6);
+void BlockDescent::move_bodies(bool is_last) const {
     const auto chunks = static_cast<std::uint32_t>(chunks_.size());
     sum_program_.set("element_count", chunks);
     sum_program_.dispatch(kLanesAChunk * chunks_.size());
@@ -347,12 +405,8 @@ void BlockDescent::move_bodies(const ModelBuffers& model, const NodeBuffers& cur
     gl::barrier(gl::Barrier::storage);
 
     const gl::Program& move = is_last ? last_move_program_ : move_program_;
-    if (is_last) {
-        current.velocities.bind_storage(1);
-        model.bind_colliders(move);
-    }
     move.set("element_count", chunks);
-    move.dispatch(64 * chunks_.size());
+    move.dispatch_groups(chunks_.size());
     gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::storage);
 }
 

@@ -4,9 +4,11 @@
 #include <glm/vec4.hpp>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "gl/program.h"
 #include "gpu/descent/coarse_correction.h"
+#include "gpu/drive/sum_loads.h"
 #include "gpu/model_buffers.h"
 #include "gpu/node_buffers.h"
 #include "model/descent/descent_rows.h"
@@ -24,10 +26,10 @@ public:
 
     /// A step of `step` seconds from `previous`; writes `current`. Ends with the barrier that whoever gathers
     /// the nodes as textures or storage needs.
-    /// @pre where the model has loads, SumLoads::run
+    /// @param loads of this step; null in models without
     /// @param current's velocities are those one step before `previous` if `has_earlier`, else not looked at
-    void run(const ModelBuffers& model, const NodeBuffers& previous, const NodeBuffers& current, double step,
-             bool has_earlier);
+    void run(const ModelBuffers& model, const SumLoads* loads, const NodeBuffers& previous,
+             const NodeBuffers& current, double step, bool has_earlier);
 
 private:
     // What the volume term needs, in models that have one.
@@ -50,14 +52,20 @@ private:
         gl::BufferTexture texels;
     };
 
+    void make_coarse_level(const Model& model);
+    std::vector<const gl::Program*> sweep_programs() const;
+    void bind_buffers() const;
+    void bind_springs(const gl::Program& program) const;
+    void bind_pressures(const Pressures& pressures) const;
+    void bind_nodes(const NodeBuffers& previous, const NodeBuffers& current) const;
     void damp_springs(double step) const;
-    void take_back_tangled(const NodeBuffers& current) const;
+    void take_back_tangled() const;
     void accelerate(int sweep) const;
     void look_at_tets(std::uint32_t look) const;
-    void sweep(const ModelBuffers& model) const;
-    void descend(const gl::Program& program, const ModelBuffers& model, std::span<const Range> rows) const;
-    void correct(const ModelBuffers& model, const NodeBuffers& current, double step);
-    void move_bodies(const ModelBuffers& model, const NodeBuffers& current, bool is_last) const;
+    void sweep() const;
+    void descend(const gl::Program& program, std::span<const Range> rows) const;
+    void correct(const NodeBuffers& current, double step);
+    void move_bodies(bool is_last) const;
 
     gl::Program start_program_, find_tangled_program_, take_back_program_, accelerate_program_, mark_program_,
         sweep_program_, sum_program_, motion_program_, move_program_, last_move_program_;

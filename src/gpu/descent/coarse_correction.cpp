@@ -74,47 +74,58 @@ CoarseCorrection::CoarseCorrection(const Model& model, const CoarseBasis& basis)
     loads_ = gl::Buffer<float>(std::size_t{6} * cluster_count_);
     factors_ = gl::Buffer<float>(object_count_);
     ahead_texels_ = {ahead_, gl::TexelFormat::rgba32f};
+    bind_buffers();
 }
 
-void CoarseCorrection::begin(double step) {
+void CoarseCorrection::bind_buffers() const {
+    turn_program_.bind("core_nodes", core_nodes_);
+    turn_program_.bind("rest_positions", rest_positions_);
+    for (const gl::Program* program : {&turn_program_, &move_program_}) program->bind("Rests", rests_);
+    for (const gl::Program* program : {&turn_program_, &load_program_, &move_program_, &way_program_})
+        program->bind("Clusters", clusters_);
+    load_program_.bind("cluster_starts", cluster_starts_);
+    load_program_.bind("cluster_parts", cluster_parts_);
+    load_program_.bind("Forces", forces_);
+    for (const gl::Program* program : {&load_program_, &move_program_}) program->bind("Loads", loads_);
+    for (const gl::Program* program : {&move_program_, &factor_program_}) program->bind("Bodies", bodies_);
+    way_program_.bind("node_starts", node_starts_);
+    way_program_.bind("node_parts", node_parts_);
+    way_program_.bind("Ahead", ahead_);
+    for (const gl::Program* program : {&way_program_, &sum_program_, &factor_program_, &follow_program_})
+        program->bind("Ways", ways_);
+    sum_program_.bind("ForcesHere", forces_);
+    sum_program_.bind("ForcesAhead", forces_ahead_);
+    for (const gl::Program* program : {&factor_program_, &follow_program_})
+        program->bind("Factors", factors_);
+}
+
+void CoarseCorrection::begin(const NodeBuffers& nodes, double step) {
     if (step != step_) {
         inverses_ = gl::Buffer<float>(inverses_of(matrices_, step));
+        move_program_.bind("Inverses", inverses_);
         step_ = step;
     }
-    core_nodes_.bind(3);
-    rest_positions_.bind(4);
-    rests_.bind_storage(3);
-    clusters_.bind_storage(4);
+    for (const gl::Program* program : {&turn_program_, &load_program_, &way_program_})
+        program->bind("positions", nodes.position_texels);
+    follow_program_.bind("Positions", nodes.positions);
     turn_program_.set("cluster_count", cluster_count_);
-    turn_program_.dispatch(std::size_t{64} * cluster_count_);
+    turn_program_.dispatch_groups(cluster_count_);
 }
 
-void CoarseCorrection::bind_forces(bool is_ahead) const {
-    ways_.bind_storage(4);
-    (is_ahead ? forces_ahead_ : forces_).bind_storage(5);
+void CoarseCorrection::bind_forces(const gl::Program& program, bool is_ahead) const {
+    program.bind("Ways", ways_);
+    program.bind("Forces", is_ahead ? forces_ahead_ : forces_);
 }
 
 void CoarseCorrection::find_ways() const {
-    cluster_starts_.bind(3);
-    cluster_parts_.bind(4);
-    forces_.bind_storage(3);
-    clusters_.bind_storage(4);
-    loads_.bind_storage(5);
     load_program_.set("cluster_count", cluster_count_);
-    load_program_.dispatch(std::size_t{64} * cluster_count_);
+    load_program_.dispatch_groups(cluster_count_);
     gl::barrier(gl::Barrier::storage);
 
-    rests_.bind_storage(3);
-    inverses_.bind_storage(6);
-    bodies_.bind_storage(7);
     move_program_.set("cluster_count", cluster_count_);
     move_program_.dispatch(cluster_count_);
     gl::barrier(gl::Barrier::storage);
 
-    node_starts_.bind(3);
-    node_parts_.bind(4);
-    ways_.bind_storage(5);
-    ahead_.bind_storage(6);
     way_program_.set("node_count", node_count_);
     way_program_.dispatch(node_count_);
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
@@ -124,24 +135,21 @@ void CoarseCorrection::follow_ways(const gl::Buffer<Chunk>& chunks,
                                    const gl::TexelTable<std::uint32_t>& chunk_starts) {
     const auto chunk_count = static_cast<std::uint32_t>(chunks.size());
     if (sums_.size() != chunks.size()) sums_ = gl::Buffer<glm::vec4>(chunks.size());
-    chunks.bind_storage(3);
-    sums_.bind_storage(4);
-    ways_.bind_storage(5);
-    forces_.bind_storage(6);
-    forces_ahead_.bind_storage(7);
+    for (const gl::Program* program : {&sum_program_, &factor_program_, &follow_program_}) {
+        program->bind("Chunks", chunks);
+        program->bind("Sums", sums_);
+    }
+    factor_program_.bind("chunk_starts", chunk_starts);
     sum_program_.set("element_count", chunk_count);
-    sum_program_.dispatch(64 * chunks.size());
+    sum_program_.dispatch_groups(chunks.size());
     gl::barrier(gl::Barrier::storage);
 
-    chunk_starts.bind(3);
-    factors_.bind_storage(6);
-    bodies_.bind_storage(7);
     factor_program_.set("element_count", object_count_);
     factor_program_.dispatch(object_count_);
     gl::barrier(gl::Barrier::storage);
 
     follow_program_.set("element_count", chunk_count);
-    follow_program_.dispatch(64 * chunks.size());
+    follow_program_.dispatch_groups(chunks.size());
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 }
 

@@ -16,28 +16,28 @@ namespace gelatin::gpu {
 
 /// The coarse level of block descent (model/descent/coarse_basis.h):
 /// shaders/sim/descent/rotate_clusters.comp, load_clusters.comp, move_clusters.comp, find_displacements.comp,
-/// apply_displacements.comp. Texture unit 0 has the nodes' positions in all of them; storage 0 to 2 stay as they are.
-/// CPU twin: cpu::CoarseCorrection.
+/// apply_displacements.comp. CPU twin: cpu::CoarseCorrection.
 class CoarseCorrection {
 public:
     /// @pre basis, of the model, has clusters
     CoarseCorrection(const Model& model, const CoarseBasis& basis);
 
     /// Looks how clusters are turned. Once a step of `step` seconds, before the rest.
-    void begin(double step);
+    void begin(const NodeBuffers& nodes, double step);
 
-    /// Binds what descend.comp with FORCES has at storage 4 and 5. @param is_ahead for those at the ways'
-    /// ends
-    void bind_forces(bool is_ahead) const;
+    /// For descend.comp with FORCES. @param is_ahead for those at the ways' ends
+    void bind_forces(const gl::Program& program, bool is_ahead) const;
     const gl::BufferTexture& ahead_texels() const { return ahead_texels_; }
 
     /// From the forces here: where nodes go.
     void find_ways() const;
-    /// From those ahead too: how far. Moves the nodes at storage 0; ends with the barrier for whoever gathers
+    /// From those ahead too: how far. Moves the nodes of begin(); ends with the barrier for whoever gathers
     /// them. @param chunks of nodes @param chunk_starts of each object in them, and the end
     void follow_ways(const gl::Buffer<Chunk>& chunks, const gl::TexelTable<std::uint32_t>& chunk_starts);
 
 private:
+    void bind_buffers() const;
+
     gl::Program turn_program_, load_program_, move_program_, way_program_, sum_program_, factor_program_,
         follow_program_;
     std::uint32_t node_count_, cluster_count_, object_count_;

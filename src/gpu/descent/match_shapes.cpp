@@ -38,35 +38,44 @@ ShapeMatcher::ShapeMatcher(const Model& model)
     chunk_starts_ = {chunk_starts(chunks, model.objects.size()), gl::TexelFormat::r32ui};
     sums_ = gl::Buffer<ShapeSums>(chunks.size());
     inverted_.fill(0);
+
+    count_program_.bind("tets", tets_);
+    count_program_.bind("tet_rests", tet_rests_);
+    count_program_.bind("node_objects", node_objects_);
+    count_program_.bind("Inverted", inverted_);
+    for (const gl::Program* program : {&sum_program_, &match_program_}) {
+        program->bind("chunk_starts", chunk_starts_);
+        program->bind("rest_offsets", rest_offsets_);
+        program->bind("RestMoments", rest_moments_);
+        program->bind("Chunks", chunks_);
+        program->bind("Inverted", inverted_);
+        program->bind("Sums", sums_);
+        program->bind("Places", places_);
+    }
+    place_program_.bind("rest_offsets", rest_offsets_);
+    place_program_.bind("node_objects", node_objects_);
+    place_program_.bind("Places", places_);
 }
 
 void ShapeMatcher::run(const NodeBuffers& nodes) const {
-    nodes.position_texels.bind(0);
-    tets_.bind(9);
-    tet_rests_.bind(10);
-    node_objects_.bind(12);
-    inverted_.bind_storage(4);
+    for (const gl::Program* program : {&count_program_, &sum_program_, &match_program_})
+        program->bind("positions", nodes.position_texels);
+    for (const gl::Program* program : {&sum_program_, &match_program_})
+        program->bind("velocities", nodes.velocity_texels);
+    place_program_.bind("Positions", nodes.positions);
+    place_program_.bind("Velocities", nodes.velocities);
     count_program_.set("tet_count", tet_count_);
     count_program_.dispatch(tet_count_);
     gl::barrier(gl::Barrier::storage);
 
-    nodes.velocity_texels.bind(2);
-    chunk_starts_.bind(3);
-    rest_offsets_.bind(4);
-    rest_moments_.bind_storage(2);
-    chunks_.bind_storage(3);
-    sums_.bind_storage(5);
-    places_.bind_storage(6);
     sum_program_.set("element_count", static_cast<std::uint32_t>(chunks_.size()));
-    sum_program_.dispatch(64 * chunks_.size());
+    sum_program_.dispatch_groups(chunks_.size());
     gl::barrier(gl::Barrier::storage);
 
     match_program_.set("element_count", object_count_);
     match_program_.dispatch(object_count_);
     gl::barrier(gl::Barrier::storage);
 
-    nodes.positions.bind_storage(0);
-    nodes.velocities.bind_storage(1);
     place_program_.set("node_count", node_count_);
     place_program_.dispatch(node_count_);
     gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::storage);

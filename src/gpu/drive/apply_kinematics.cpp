@@ -11,10 +11,10 @@ void ApplyKinematics::run(std::span<const HandleMotion> motions, const NodeBuffe
     motions_.upload(motions);
     // Measuring and drawing may still be reading the nodes.
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
-    nodes.positions.bind_storage(0);
-    nodes.velocities.bind_storage(1);
-    handle_nodes_.bind_storage(2);
-    motions_.bind_storage(3);
+    program_.bind("Positions", nodes.positions);
+    program_.bind("Velocities", nodes.velocities);
+    program_.bind("HandleNodes", handle_nodes_);
+    program_.bind("Motions", motions_);
     program_.set("held_count", static_cast<std::uint32_t>(handle_nodes_.size()));
     program_.dispatch(handle_nodes_.size());
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);

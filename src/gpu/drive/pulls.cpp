@@ -22,7 +22,7 @@ void Pulls::set(const std::optional<Pull>& pull) {
 }
 
 void Pulls::bind(const gl::Program& program) const {
-    texels_.bind(19);
+    program.bind("pulls", texels_);
     program.set("pull_target", target_);
     program.set("pull_damping_time", damping_time_);
 }

@@ -11,7 +11,13 @@ SumLoads::SumLoads(const Model& model)
       factors_(model.loads.spans.size(), 1.0f),
       factor_buffer_(std::span<const float>(factors_)),
       forces_(std::vector<glm::vec4>(model.positions.size(), glm::vec4(0.0f))),
-      force_texels_(forces_, gl::TexelFormat::rgba32f) {}
+      force_texels_(forces_, gl::TexelFormat::rgba32f) {
+    program_.bind("LoadForces", forces_);
+    program_.bind("LoadedNodes", loaded_nodes_);
+    program_.bind("NodeLoads", node_loads_);
+    program_.bind("Factors", factor_buffer_);
+    program_.set("loaded_count", static_cast<std::uint32_t>(loaded_nodes_.size()));
+}
 
 void SumLoads::set_factors(std::span<const float> factors) {
     if (std::equal(factors.begin(), factors.end(), factors_.begin(), factors_.end())) return;
@@ -20,15 +26,9 @@ void SumLoads::set_factors(std::span<const float> factors) {
 }
 
 void SumLoads::run(const NodeBuffers& nodes) const {
-    nodes.position_texels.bind(0);
-    forces_.bind_storage(0);
-    loaded_nodes_.bind_storage(1);
-    node_loads_.bind_storage(2);
-    factor_buffer_.bind_storage(3);
-    program_.set("loaded_count", static_cast<std::uint32_t>(loaded_nodes_.size()));
+    program_.bind("positions", nodes.position_texels);
     program_.dispatch(loaded_nodes_.size());
     gl::barrier(gl::Barrier::texture_fetch);
-    force_texels_.bind(16);
 }
 
 }  // namespace gelatin::gpu

@@ -20,10 +20,11 @@ public:
     /// @param factors of each load
     void set_factors(std::span<const float> factors);
 
-    /// Binds the forces to texture unit 16, where sim/drive/load_force.glsl looks for them, pressures on
-    /// faces as they lie in `nodes`; no texture may be made before they are used. Ends with the barrier that
-    /// the next pass needs.
+    /// Pressures act on faces as they lie in `nodes`. Ends with the barrier that the next pass needs.
     void run(const NodeBuffers& nodes) const;
+
+    /// For programs that include sim/drive/load_force.glsl, with LOADED.
+    void bind(const gl::Program& program) const { program.bind("load_forces", force_texels_); }
 
     const gl::Buffer<glm::vec4>& forces() const { return forces_; }  ///< [N], shape [nodes]
 

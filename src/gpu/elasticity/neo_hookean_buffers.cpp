@@ -22,9 +22,10 @@ NeoHookeanBuffers::Corners::Corners(const Model& model, std::span<const std::uin
     slice_starts_ = {slices.slice_starts, gl::TexelFormat::r32ui};
 }
 
-void NeoHookeanBuffers::Corners::bind() const {
-    entries_.bind(14);
-    slice_starts_.bind(15);
+void NeoHookeanBuffers::Corners::bind(const gl::Program& program) const {
+    if (entries_.is_empty()) return;
+    program.bind("neo_hookean_corners", entries_);
+    program.bind("neo_hookean_starts", slice_starts_);
 }
 
 NeoHookeanBuffers::NeoHookeanBuffers(const Model& model) : corners_(model, all_nodes(model)) {
@@ -37,13 +38,13 @@ gl::Defines NeoHookeanBuffers::defines(const Model& model) {
     return {"NEO_HOOKEAN", "DAMPED"};
 }
 
-void NeoHookeanBuffers::bind_tets() const {
-    tets_.bind(13);
+void NeoHookeanBuffers::bind_tets(const gl::Program& program) const {
+    if (!tets_.is_empty()) program.bind("neo_hookean_tets", tets_);
 }
 
-void NeoHookeanBuffers::bind() const {
-    bind_tets();
-    corners_.bind();
+void NeoHookeanBuffers::bind(const gl::Program& program) const {
+    bind_tets(program);
+    corners_.bind(program);
 }
 
 }  // namespace gelatin::gpu

@@ -7,8 +7,7 @@
 namespace gelatin::gpu {
 
 /// Neo-Hookean tets, and by row of nodes the tets that they are corners of, as
-/// shaders/sim/elasticity/neo_hookean.glsl reads them: texture units 13 to 15. All empty, and nothing bound,
-/// in models without.
+/// shaders/sim/elasticity/neo_hookean.glsl reads them. All empty, and nothing bound, in models without.
 class NeoHookeanBuffers {
 public:
     /// Corners in slices of 64 rows.
@@ -18,7 +17,7 @@ public:
         /// @param rows nodes, or kNoNode
         Corners(const Model& model, std::span<const std::uint32_t> rows);
 
-        void bind() const;
+        void bind(const gl::Program& program) const;
 
     private:
         gl::TexelTable<std::uint32_t> entries_, slice_starts_;
@@ -29,9 +28,9 @@ public:
     /// Defines for a shader that includes it only where a model has such tets.
     static gl::Defines defines(const Model& model);
 
-    void bind_tets() const;
+    void bind_tets(const gl::Program& program) const;
     /// The tets, and the corners with a row for each node.
-    void bind() const;
+    void bind(const gl::Program& program) const;
 
 private:
     gl::TexelTable<NeoHookeanTet> tets_;

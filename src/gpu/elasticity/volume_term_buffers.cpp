@@ -15,10 +15,11 @@ gl::Defines VolumeTermBuffers::defines(const Model& model) {
     return {"VOLUME"};
 }
 
-void VolumeTermBuffers::bind() const {
-    corners_.bind(8);
-    slice_starts_.bind(9);
-    nodes_.bind(10);
+void VolumeTermBuffers::bind(const gl::Program& program) const {
+    if (corners_.is_empty()) return;
+    program.bind("volume_corners", corners_);
+    program.bind("volume_starts", slice_starts_);
+    program.bind("node_volumes", nodes_);
 }
 
 }  // namespace gelatin::gpu

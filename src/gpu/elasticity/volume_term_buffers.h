@@ -8,8 +8,8 @@
 
 namespace gelatin::gpu {
 
-/// The volume term as shaders/sim/elasticity/volume_term.glsl reads it: texture units 8 to 10. All empty, and
-/// nothing bound, in models without.
+/// The volume term as shaders/sim/elasticity/volume_term.glsl reads it. All empty, and nothing bound, in
+/// models without.
 class VolumeTermBuffers {
 public:
     explicit VolumeTermBuffers(const Model& model);
@@ -17,7 +17,7 @@ public:
     /// Defines for a shader that includes it only where a model has the term.
     static gl::Defines defines(const Model& model);
 
-    void bind() const;
+    void bind(const gl::Program& program) const;
 
 private:
     gl::TexelTable<TetCorner> corners_;

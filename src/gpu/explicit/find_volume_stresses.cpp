@@ -8,13 +8,12 @@ FindVolumeStresses::FindVolumeStresses(const Model& model)
       stress_texels_(stresses_, gl::TexelFormat::r32f) {}
 
 void FindVolumeStresses::run(const ModelBuffers& model, const NodeBuffers& at) const {
-    at.position_texels.bind(0);
-    model.volume_term.bind();
-    stresses_.bind_storage(0);
+    program_.bind("positions", at.position_texels);
+    model.volume_term.bind(program_);
+    program_.bind("Stresses", stresses_);
     program_.set("node_count", model.node_count);
     program_.dispatch(model.node_count);
     gl::barrier(gl::Barrier::texture_fetch);
-    stress_texels_.bind(11);
 }
 
 }  // namespace gelatin::gpu

@@ -14,9 +14,11 @@ public:
     /// @pre the model has a volume term
     explicit FindVolumeStresses(const Model& model);
 
-    /// Binds the stresses to texture unit 11, where sim/elasticity/volume_force.glsl reads them, after the
-    /// barrier that this needs.
+    /// Ends with the barrier that the next pass needs.
     void run(const ModelBuffers& model, const NodeBuffers& at) const;
+
+    /// For programs that include sim/elasticity/volume_force.glsl.
+    void bind(const gl::Program& program) const { program.bind("volume_stresses", stress_texels_); }
 
 private:
     gl::Program program_;

@@ -15,21 +15,23 @@ gl::Defines integration_defines(const Model& model, const ExplicitScheme& scheme
 }
 
 void bind_integration(const gl::Program& program, const ModelBuffers& model, const Pass& pass) {
-    pass.base.position_texels.bind(0);
-    pass.base.velocity_texels.bind(1);
-    pass.at.position_texels.bind(2);
-    pass.at.velocity_texels.bind(3);
-    pass.out.positions.bind_storage(0);
-    pass.out.velocities.bind_storage(1);
+    program.bind("base_positions", pass.base.position_texels);
+    program.bind("base_velocities", pass.base.velocity_texels);
+    program.bind("positions", pass.at.position_texels);
+    program.bind("velocities", pass.at.velocity_texels);
+    program.bind("OutPositions", pass.out.positions);
+    program.bind("OutVelocities", pass.out.velocities);
     model.bind_colliders(program);
-    model.neo_hookean.bind();
+    model.neo_hookean.bind(program);
+    model.volume_term.bind(program);
     if (model.pulls) model.pulls->bind(program);
-    model.volume_term.bind();
+    if (pass.loads != nullptr) pass.loads->bind(program);
+    if (pass.volume_stresses != nullptr) pass.volume_stresses->bind(program);
 
     const auto h = static_cast<float>(pass.step);
     if (pass.scheme.pass_count > 1) {
-        pass.sums.positions.bind_storage(2);
-        pass.sums.velocities.bind_storage(3);
+        program.bind("SumPositions", pass.sums.positions);
+        program.bind("SumVelocities", pass.sums.velocities);
         const ExplicitScheme::Pass& weights = pass.scheme.passes[static_cast<std::size_t>(pass.index)];
         program.set("weight", static_cast<float>(weights.weight));
         program.set("next_step", h * static_cast<float>(weights.next));

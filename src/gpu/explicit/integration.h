@@ -1,6 +1,8 @@
 #pragma once
 
 #include "gl/program.h"
+#include "gpu/drive/sum_loads.h"
+#include "gpu/explicit/find_volume_stresses.h"
 #include "gpu/model_buffers.h"
 #include "gpu/node_buffers.h"
 #include "model/explicit/explicit_scheme.h"
@@ -15,7 +17,9 @@ struct Pass {
     const NodeBuffers& base;  ///< at the step's start
     const NodeBuffers& at;    ///< where forces are evaluated
     NodeBuffers& out;
-    NodeBuffers& sums;  ///< empty for schemes of one pass
+    NodeBuffers& sums;                                    ///< empty for schemes of one pass
+    const SumLoads* loads = nullptr;                      ///< null in models without
+    const FindVolumeStresses* volume_stresses = nullptr;  ///< the same
 
     bool is_last() const { return index + 1 == scheme.pass_count; }
 };
@@ -24,8 +28,7 @@ struct Pass {
 /// @param pulled nodes may be held by a hand
 gl::Defines integration_defines(const Model& model, const ExplicitScheme& scheme, bool pulled = false);
 
-/// Binds and sets what sim/explicit/integrate_node.glsl reads and writes, but for what SumLoads::run and
-/// FindVolumeStresses::run bind.
+/// For programs that include sim/explicit/integrate_node.glsl.
 void bind_integration(const gl::Program& program, const ModelBuffers& model, const Pass& pass);
 
 }  // namespace gelatin::gpu

@@ -41,24 +41,25 @@ Measure::Measure(const Model& model)
 
 void Measure::begin(const ModelBuffers& model, const NodeBuffers& nodes, const CollisionBuffers* collision,
                     const SelfCollisionBuffers* self, const ProximityBuffers* near) {
-    nodes.position_texels.bind(0);
-    nodes.velocity_texels.bind(1);
-    model.bind_half_springs();
-    model.neo_hookean.bind();
-    model.volume_term.bind();
+    node_program_.bind("positions", nodes.position_texels);
+    node_program_.bind("velocities", nodes.velocity_texels);
+    model.bind_half_springs(node_program_);
+    model.neo_hookean.bind(node_program_);
+    model.volume_term.bind(node_program_);
     model.bind_colliders(node_program_);
-    node_chunk_buffer_.bind_storage(0);
-    node_sums_.bind_storage(1);
+    node_program_.bind("Chunks", node_chunk_buffer_);
+    node_program_.bind("Sums", node_sums_);
     node_program_.set("chunk_count", static_cast<std::uint32_t>(node_chunks_.size()));
     node_program_.set("gravity", model.gravity);
     node_program_.set("contact_distance", static_cast<float>(kContactDistance));
-    node_program_.dispatch(64 * node_chunks_.size());
+    node_program_.dispatch_groups(node_chunks_.size());
 
-    face_chunk_buffer_.bind_storage(0);
-    volumes_.bind_storage(1);
-    model.faces.bind_storage(2);
+    face_program_.bind("positions", nodes.position_texels);
+    face_program_.bind("Chunks", face_chunk_buffer_);
+    face_program_.bind("Volumes", volumes_);
+    face_program_.bind("Faces", model.faces);
     face_program_.set("chunk_count", static_cast<std::uint32_t>(face_chunks_.size()));
-    face_program_.dispatch(64 * face_chunks_.size());
+    face_program_.dispatch_groups(face_chunks_.size());
 
     if (collision != nullptr) count_colliding_faces(*collision, self);
     readback_.begin(node_sums_.id(), node_sums_.size() * sizeof(NodeSums));
@@ -71,13 +72,13 @@ void Measure::begin(const ModelBuffers& model, const NodeBuffers& nodes, const C
 
 // One element a chunk, and the pairs that were lost.
 void Measure::count_colliding_faces(const CollisionBuffers& collision, const SelfCollisionBuffers* self) {
-    collision.bind_pairs();
-    collision.face_collisions.bind_storage(4);
-    face_chunk_buffer_.bind_storage(3);
-    colliding_.bind_storage(5);
-    if (self != nullptr) self->contact_counts.bind_storage(7);
+    collision.bind_pairs(colliding_program_);
+    colliding_program_.bind("FaceCollisions", collision.face_collisions);
+    colliding_program_.bind("Chunks", face_chunk_buffer_);
+    colliding_program_.bind("Colliding", colliding_);
+    if (self != nullptr) colliding_program_.bind("ContactCounts", self->contact_counts);
     colliding_program_.set("chunk_count", static_cast<std::uint32_t>(face_chunks_.size()));
-    colliding_program_.dispatch(64 * face_chunks_.size());
+    colliding_program_.dispatch_groups(face_chunks_.size());
 }
 
 std::vector<ObjectMeasure> Measure::end() {

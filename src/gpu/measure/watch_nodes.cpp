@@ -10,9 +10,9 @@ WatchNodes::WatchNodes()
 
 void WatchNodes::run(const ModelBuffers& model, const NodeBuffers& nodes, std::uint32_t step_number,
                      double most_energy) const {
-    nodes.position_texels.bind(0);
-    nodes.velocity_texels.bind(1);
-    alarm_.bind_storage(0);
+    program_.bind("positions", nodes.position_texels);
+    program_.bind("velocities", nodes.velocity_texels);
+    program_.bind("Alarms", alarm_);
     program_.set("node_count", model.node_count);
     program_.set("step_number", step_number);
     program_.set("most_energy", static_cast<float>(most_energy));

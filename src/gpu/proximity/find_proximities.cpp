@@ -5,10 +5,6 @@
 namespace gelatin::gpu {
 namespace {
 
-using Work = CollisionBuffers::Work;
-
-constexpr std::uint32_t kSumLanes = 256,
-                        kGroupQueries = 16 * kSumLanes;  // of sim/proximity/sum_proximities.comp
 constexpr auto kNext = gl::Barrier::storage | gl::Barrier::texture_fetch | gl::Barrier::command;
 
 template <class T>
@@ -19,17 +15,20 @@ std::uint32_t capacity(const gl::Buffer<T>& buffer) {
 // The tasks of nodes, then those of edges, whose queries come behind the nodes'.
 void run_tasks(const gl::Program& of_nodes, const gl::Program& of_edges, const CollisionBuffers& collision,
                const ProximityBuffers& buffers) {
-    const auto run = [&](const gl::Program& program, const ProximityBuffers::Tasks& tasks, Work work,
+    const auto run = [&](const gl::Program& program, const ProximityBuffers::Tasks& tasks, std::uint32_t slot,
                          std::uint32_t first_query) {
-        tasks.hits.bind_storage(4);
-        tasks.leaves.bind_storage(5);
+        program.bind("LeafSearches", buffers.searches);
+        program.bind("near_leaves", buffers.near_leaf_texels);
+        program.bind("Starts", buffers.starts);
+        program.bind("Hits", tasks.hits);
+        program.bind("Tasks", tasks.leaves);
         program.set("task_capacity", capacity(tasks.leaves));
         program.set("first_query", first_query);
-        collision.run(program, work);
+        collision.run(program, slot);
         gl::barrier(gl::Barrier::storage);  // both add to the same buffers
     };
-    run(of_nodes, buffers.node_tasks, Work::node_tasks, 0);
-    run(of_edges, buffers.edge_tasks, Work::edge_tasks, buffers.node_count);
+    run(of_nodes, buffers.node_tasks, dispatch_slots::kNodeTasks, 0);
+    run(of_edges, buffers.edge_tasks, dispatch_slots::kEdgeTasks, buffers.node_count);
 }
 
 }  // namespace
@@ -57,22 +56,23 @@ FindProximities::FindProximities(double radius, bool own)
 
 void FindProximities::run(const ModelBuffers& model, const CollisionBuffers& collision,
                           const ProximityBuffers& buffers, const NodeBuffers& nodes) const {
-    collision.bind_pairs();
-    buffers.starts.bind_storage(7);
-    buffers.found.bind_storage(1);
+    begin_program_.bind("Dispatches", collision.dispatches);
+    begin_program_.bind("Starts", buffers.starts);
+    begin_program_.bind("Found", buffers.found);
     begin_program_.set("query_count", buffers.query_count);
     begin_program_.dispatch(buffers.query_count + 1);
     gl::barrier(gl::Barrier::storage);
 
-    nodes.position_texels.bind(0);
-    collision.face_trees.node_texels.bind(1);
-    collision.face_trees.box_texels.bind(2);
-    model.face_texels.bind(3);
-    buffers.face_box_texels.bind(4);
-    buffers.leaf_node_texels.bind(5);
-    buffers.face_start_texels.bind(6);
-    buffers.surface_node_texels.bind(7);
-    buffers.face_edge_texels.bind(8);
+    for (const gl::Program* program :
+         {&object_program_, &count_program_, &task_program_, &list_program_, &test_nodes_program_,
+          &test_edges_program_, &write_nodes_program_, &write_edges_program_}) {
+        program->bind("positions", nodes.position_texels);
+        program->bind("tree_nodes", collision.face_trees.node_texels);
+        program->bind("tree_boxes", collision.face_trees.box_texels);
+        program->bind("faces", model.face_texels);
+        program->bind("Dispatches", collision.dispatches);
+        buffers.bind_surface(*program);
+    }
     find_near_leaves(collision, buffers);
     test(collision, buffers);
     sum_up(buffers);
@@ -81,22 +81,26 @@ void FindProximities::run(const ModelBuffers& model, const CollisionBuffers& col
 
 void FindProximities::find_near_leaves(const CollisionBuffers& collision,
                                        const ProximityBuffers& buffers) const {
-    collision.bind_pairs();
-    buffers.searches.bind_storage(3);
-    buffers.near_objects.bind_storage(4);
+    for (const gl::Program* program : {&object_program_, &count_program_, &task_program_, &list_program_}) {
+        program->bind("LeafSearches", buffers.searches);
+        program->bind("NearObjects", buffers.near_objects);
+    }
+    for (const gl::Program* program : {&count_program_, &list_program_}) {
+        program->bind("roots", collision.face_trees.root_texels);
+        program->bind("NearLeaves", buffers.near_leaves);
+    }
+    collision.bind_pairs(object_program_);
     object_program_.set("search_count", buffers.leaf_count);
     object_program_.set("near_object_capacity", capacity(buffers.near_objects));
     object_program_.dispatch(buffers.leaf_count);
     gl::barrier(kNext);
 
-    collision.face_trees.root_texels.bind(9);
-    buffers.near_leaves.bind_storage(5);
     count_program_.set("near_object_capacity", capacity(buffers.near_objects));
-    collision.run(count_program_, Work::near_objects);
+    collision.run(count_program_, dispatch_slots::kNearObjects);
     gl::barrier(kNext);
 
-    buffers.node_tasks.leaves.bind_storage(5);
-    buffers.edge_tasks.leaves.bind_storage(7);
+    task_program_.bind("NodeTasks", buffers.node_tasks.leaves);
+    task_program_.bind("EdgeTasks", buffers.edge_tasks.leaves);
     task_program_.set("search_count", buffers.leaf_count);
     task_program_.set("near_leaf_capacity", capacity(buffers.near_leaves));
     task_program_.set("node_task_capacity", capacity(buffers.node_tasks.leaves));
@@ -104,38 +108,38 @@ void FindProximities::find_near_leaves(const CollisionBuffers& collision,
     task_program_.dispatch(buffers.leaf_count);
     gl::barrier(kNext);
 
-    buffers.near_leaves.bind_storage(5);
     list_program_.set("near_object_capacity", capacity(buffers.near_objects));
-    collision.run(list_program_, Work::near_objects);
+    collision.run(list_program_, dispatch_slots::kNearObjects);
     gl::barrier(gl::Barrier::texture_fetch);
 }
 
 void FindProximities::test(const CollisionBuffers& collision, const ProximityBuffers& buffers) const {
-    buffers.near_leaf_texels.bind(9);
-    buffers.starts.bind_storage(7);
     run_tasks(test_nodes_program_, test_edges_program_, collision, buffers);
 }
 
 void FindProximities::sum_up(const ProximityBuffers& buffers) const {
-    buffers.found.bind_storage(1);
-    buffers.group_sums.bind_storage(2);
     for (const gl::Program* program : {&sum_program_, &sum_groups_program_, &start_program_}) {
+        program->bind("Found", buffers.found);
+        program->bind("GroupSums", buffers.group_sums);
+        program->bind("Starts", buffers.starts);
         program->set("query_count", buffers.query_count);
         program->set("node_count", buffers.node_count);
     }
-    const std::size_t groups = (buffers.query_count + kGroupQueries - 1) / kGroupQueries;
-    sum_program_.dispatch(groups * kSumLanes, kSumLanes);
+    constexpr std::uint32_t kGroup = packing::kQueriesAGroup;
+    sum_program_.dispatch_groups((buffers.query_count + kGroup - 1) / kGroup);
     gl::barrier(gl::Barrier::storage);
-    sum_groups_program_.dispatch(kSumLanes, kSumLanes);
+    sum_groups_program_.dispatch_groups(1);
     gl::barrier(gl::Barrier::storage);
-    start_program_.dispatch(buffers.query_count + 1, kSumLanes);
+    start_program_.dispatch(buffers.query_count + 1);
     gl::barrier(gl::Barrier::storage);
 }
 
 void FindProximities::write(const CollisionBuffers& collision, const ProximityBuffers& buffers) const {
-    buffers.proximities.bind_storage(0);
-    for (const gl::Program* program : {&write_nodes_program_, &write_edges_program_})
+    for (const gl::Program* program : {&write_nodes_program_, &write_edges_program_}) {
+        program->bind("Proximities", buffers.proximities);
+        program->bind("Found", buffers.found);
         program->set("proximity_capacity", capacity(buffers.proximities));
+    }
     run_tasks(write_nodes_program_, write_edges_program_, collision, buffers);
 }
 

@@ -16,7 +16,6 @@ constexpr Capacity kNearObjects{8, 1u << 16, kMostInvocations};  // a leaf; 1 to
 constexpr Capacity kNearLeaves{64, 1u << 20, 1u << 24};          // a leaf; 4 to 64 MB
 constexpr Capacity kTasks{8, 1u << 18, kMostInvocations};        // a node or edge; 5 to 84 MB
 constexpr Capacity kProximities{8, 1u << 17, 1u << 20};          // a node or edge; 6 to 50 MB
-constexpr std::size_t kGroup = 4096;  // of shaders/sim/proximity/sum_proximities.comp
 
 constexpr ProximityCounts kNothing{0, 0, 0x7F800000, 0};  // nearest at infinity, until it is sought
 
@@ -41,9 +40,17 @@ ProximityBuffers::ProximityBuffers(const Model& model, const CollisionBuffers& c
       near_leaf_texels(near_leaves, gl::TexelFormat::r32ui),
       node_tasks(kTasks(surface_nodes.size())),
       edge_tasks(kTasks(face_edges.size())),
-      group_sums(starts.size() / kGroup + 1),
+      group_sums(starts.size() / packing::kQueriesAGroup + 1),
       leaf_count(static_cast<std::uint32_t>(searches.size())),
       node_count(static_cast<std::uint32_t>(surface_nodes.size())),
       query_count(static_cast<std::uint32_t>(starts.size() - 1)) {}
+
+void ProximityBuffers::bind_surface(const gl::Program& program) const {
+    program.bind("face_boxes", face_box_texels);
+    program.bind("leaf_nodes", leaf_node_texels);
+    program.bind("face_starts", face_start_texels);
+    program.bind("surface_nodes", surface_node_texels);
+    program.bind("face_edges", face_edge_texels);
+}
 
 }  // namespace gelatin::gpu

@@ -42,6 +42,10 @@ struct ProximityBuffers {
     /// @param capacity of `proximities`; empty: by the number of nodes and edges
     ProximityBuffers(const Model& model, const CollisionBuffers& collision,
                      std::optional<std::size_t> capacity = {});
+
+    /// For programs that include sim/proximity/proximities.glsl: what of the surface never changes, and the
+    /// boxes of faces.
+    void bind_surface(const gl::Program& program) const;
 };
 
 }  // namespace gelatin::gpu

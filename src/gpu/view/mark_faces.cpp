@@ -7,11 +7,11 @@ MarkFaces::MarkFaces(const Model& model)
 
 void MarkFaces::run(const ModelBuffers& model, const CollisionBuffers& collision,
                     const SelfCollisionBuffers* self, const gl::Buffer<std::uint32_t>& marks) const {
-    collision.bind_pairs();
-    model.faces.bind_storage(3);
-    collision.face_collisions.bind_storage(4);
-    marks.bind_storage(5);
-    if (self != nullptr) self->contact_counts.bind_storage(7);
+    collision.bind_pairs(program_);
+    program_.bind("Faces", model.faces);
+    program_.bind("FaceCollisions", collision.face_collisions);
+    program_.bind("Marks", marks);
+    if (self != nullptr) program_.bind("ContactCounts", self->contact_counts);
     program_.set("face_count", static_cast<std::uint32_t>(model.faces.size()));
     program_.dispatch(model.faces.size());
     gl::barrier(gl::Barrier::texture_fetch);

@@ -44,27 +44,30 @@ TetValues::TetValues(const Model& model, Quantity quantity)
     const NodeTetSlices slices = pack_node_tets(rows, make_node_tets(model.node_count(), model.tets));
     node_tets_ = {slices.entries, gl::TexelFormat::r32ui};
     slice_starts_ = {slices.slice_starts, gl::TexelFormat::r32ui};
+
+    tet_program_.bind("tets", tets_);
+    tet_program_.bind("rest_positions", rest_positions_);
+    tet_program_.bind("tet_materials", materials_);
+    tet_program_.bind("TetValues", tet_values_);
+    tet_program_.bind("Histogram", histogram_);
+    node_program_.bind("tet_values", tet_value_texels_);
+    node_program_.bind("node_tets", node_tets_);
+    node_program_.bind("slice_starts", slice_starts_);
+    node_program_.bind("tet_materials", materials_);
+    node_program_.bind("NodeValues", node_values_);
 }
 
 void TetValues::run(const gl::BufferTexture& positions, const gl::BufferTexture& velocities) {
     gl::barrier(gl::Barrier::buffer_update);
     histogram_.fill(0);
-    positions.bind(0);
-    velocities.bind(1);
-    tets_.bind(2);
-    rest_positions_.bind(3);
-    materials_.bind(4);
-    tet_values_.bind_storage(0);
-    histogram_.bind_storage(1);
+    tet_program_.bind("positions", positions);
+    tet_program_.bind("velocities", velocities);
     tet_program_.set("tet_count", static_cast<std::uint32_t>(tet_values_.size()));
     tet_program_.set("least", least());
     tet_program_.dispatch(tet_values_.size());
     gl::barrier(gl::Barrier::texture_fetch);
 
-    tet_value_texels_.bind(0);
-    node_tets_.bind(2);
-    slice_starts_.bind(3);
-    node_values_.bind_storage(0);
+    node_program_.bind("velocities", velocities);
     node_program_.set("node_count", static_cast<std::uint32_t>(node_values_.size()));
     node_program_.dispatch(node_values_.size());
     gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::buffer_update);

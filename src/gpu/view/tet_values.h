@@ -16,8 +16,8 @@ namespace gelatin::gpu {
 class TetValues {
 public:
     /// Values are counted by the upper bits of their difference from `least`, a float: a bin each sixteenth.
-    static constexpr int kBinShift = 19;
-    static constexpr std::size_t kBins = 4096;
+    static constexpr int kBinShift = packing::kBinShift;
+    static constexpr std::size_t kBins = packing::kBins;
 
     TetValues(const Model& model, Quantity quantity);
 

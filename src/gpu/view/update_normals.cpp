@@ -13,20 +13,21 @@ UpdateNormals::UpdateNormals(const Model& model)
       vertex_normals_(model.surface.vertices.size()),
       vertex_face_texels_(vertex_faces_, gl::TexelFormat::r32ui),
       face_normal_texels_(face_normals_, gl::TexelFormat::rgba32f),
-      object_count_(static_cast<std::uint32_t>(model.objects.size())) {}
+      object_count_(static_cast<std::uint32_t>(model.objects.size())) {
+    face_program_.bind("Faces", faces_);
+    face_program_.bind("FaceNormals", face_normals_);
+    vertex_program_.bind("face_normals", face_normal_texels_);
+    vertex_program_.bind("vertex_faces", vertex_face_texels_);
+    vertex_program_.bind("SurfaceVertices", vertices_);
+    vertex_program_.bind("VertexNormals", vertex_normals_);
+}
 
 void UpdateNormals::run(const gl::BufferTexture& position_texels) const {
-    position_texels.bind(0);
-    faces_.bind_storage(0);
-    face_normals_.bind_storage(1);
+    face_program_.bind("positions", position_texels);
     face_program_.set("face_count", static_cast<std::uint32_t>(faces_.size()));
     face_program_.dispatch(faces_.size());
     gl::barrier(gl::Barrier::texture_fetch);
 
-    face_normal_texels_.bind(0);
-    vertex_face_texels_.bind(1);
-    vertices_.bind_storage(0);
-    vertex_normals_.bind_storage(1);
     vertex_program_.set("vertex_count", static_cast<std::uint32_t>(vertices_.size()));
     vertex_program_.dispatch(vertices_.size());
     gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::vertex_pull | gl::Barrier::storage);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/layouts.h"
+#include "model/shared_constants.h"
 
 namespace gelatin {
 
@@ -21,7 +22,7 @@ NodeTets make_node_tets(std::uint32_t node_count, std::span<const glm::uvec4> te
 /// The entries of each row's node in slices of 64 rows, laid out as HalfSprings' pairs are, padded with
 /// kNoEntry.
 struct NodeTetSlices {
-    static constexpr std::uint32_t kNoEntry = 0xFFFFFFFFu;
+    static constexpr std::uint32_t kNoEntry = packing::kNone;
 
     std::vector<std::uint32_t> slice_starts;  ///< shape [slices + 1]
     std::vector<std::uint32_t> entries;       ///< shape [slice_starts.back()]
@@ -35,7 +36,7 @@ constexpr int kOppositeCorners[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 
 
 /// Those of each row's node in slices of 64 rows, laid out as HalfSprings' pairs are.
 struct TetCorners {
-    static constexpr std::uint32_t kSlice = 64;
+    static constexpr std::uint32_t kSlice = packing::kSlice;
 
     std::vector<std::uint32_t> slice_starts;  ///< shape [slices + 1]
     std::vector<TetCorner> corners;           ///< shape [slice_starts.back()]

@@ -26,8 +26,8 @@ constexpr const char* kProbe = R"(
 #include "include/global_index.glsl"
 #include "sim/collision/time_of_impact.glsl"
 layout(local_size_x = 64) in;
-layout(std430, binding = 0) readonly buffer Corners { vec4 corners[]; };
-layout(std430, binding = 1) writeonly buffer Times { float times[]; };
+layout(std430) readonly buffer Corners { vec4 corners[]; };
+layout(std430) writeonly buffer Times { float times[]; };
 uniform uint pair_count;
 mat3 face(uint k) { return mat3(corners[k].xyz, corners[k + 1u].xyz, corners[k + 2u].xyz); }
 void main() {
@@ -55,8 +55,9 @@ std::string changed_include(const std::string& file, const Change& change) {
 std::vector<float> times_on_gpu(const Pairs& pairs, const Change& change = {}) {
     test::ShaderFolder folder;
     folder.add("probe.comp", kProbe);
-    for (const char* file : {"include/global_index.glsl", "sim/collision/nearest_points.glsl",
-                             "sim/collision/time_of_impact.glsl"})
+    for (const char* file :
+         {"include/global_index.glsl", "layouts/predicates.glsl", "sim/collision/rounding.glsl",
+          "sim/collision/nearest_points.glsl", "sim/collision/time_of_impact.glsl"})
         folder.add(file, changed_include(file, change));
     const gl::Program program = gl::Program::compute("probe.comp");
 
@@ -69,8 +70,8 @@ std::vector<float> times_on_gpu(const Pairs& pairs, const Change& change = {}) {
     const gl::Buffer<glm::vec4> corners{std::span<const glm::vec4>(points)};
     std::vector<float> times(pairs.size() + kGuard, kPoison);
     const gl::Buffer<float> results{std::span<const float>(times)};
-    corners.bind_storage(0);
-    results.bind_storage(1);
+    program.bind("Corners", corners);
+    program.bind("Times", results);
     program.set("pair_count", static_cast<std::uint32_t>(pairs.size()));
     program.dispatch(pairs.size());
     gl::barrier(gl::Barrier::buffer_update);
@@ -129,10 +130,10 @@ TEST_F(TimeOfImpactTest, NoImpactIsMissed) {
 
 // Broken in these ways, the shader misses impacts or sees what is far away touch.
 const Change kMutants[] = {
-    {"rounding_is_forgotten", "sim/collision/time_of_impact.glsl", "kRoundingBound = 9.5367432e-7",
-     "kRoundingBound = 0.0"},
+    {"rounding_is_forgotten", "sim/collision/time_of_impact.glsl",
+     "kRoundingBound = float(kImpactRounding) * kEpsilon", "kRoundingBound = 0.0"},
     {"a_corner_is_forgotten", "sim/collision/time_of_impact.glsl", "low_end = low_end.yzx;", ""},
-    {"planes_are_not_renewed", "sim/collision/time_of_impact.glsl", "kMostPlanes = 32", "kMostPlanes = 1"},
+    {"planes_are_not_renewed", "layouts/predicates.glsl", "kMostPlanes = 32", "kMostPlanes = 1"},
     {"the_end_is_not_looked_at", "sim/collision/time_of_impact.glsl", "max(first.y, first.z)));",
      "max(first.y, first.z))); window.y = 1.0;"},
     {"the_frame_stands_still", "sim/collision/time_of_impact.glsl", "t.end));\n    vec3 reach",

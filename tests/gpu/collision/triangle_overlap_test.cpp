@@ -26,8 +26,8 @@ constexpr const char* kProbe = R"(
 #include "include/global_index.glsl"
 #include "sim/collision/triangle_overlap.glsl"
 layout(local_size_x = 64) in;
-layout(std430, binding = 0) readonly buffer Corners { vec4 corners[]; };
-layout(std430, binding = 1) writeonly buffer Overlaps { uint overlaps[]; };
+layout(std430) readonly buffer Corners { vec4 corners[]; };
+layout(std430) writeonly buffer Overlaps { uint overlaps[]; };
 uniform uint pair_count;
 void main() {
     uint n = global_index();
@@ -53,8 +53,9 @@ std::string changed_include(const Change& change) {
 std::vector<std::uint32_t> overlaps_on_gpu(const Pairs& pairs, const Change& change = {}) {
     test::ShaderFolder folder;
     folder.add("probe.comp", kProbe);
-    folder.add("include/global_index.glsl",
-               read_file(test::source_path("shaders/include/global_index.glsl")));
+    for (const std::string file :
+         {"include/global_index.glsl", "layouts/predicates.glsl", "sim/collision/rounding.glsl"})
+        folder.add(file, read_file(test::source_path("shaders/" + file)));
     folder.add("sim/collision/triangle_overlap.glsl", changed_include(change));
     const gl::Program program = gl::Program::compute("probe.comp");
 
@@ -67,8 +68,8 @@ std::vector<std::uint32_t> overlaps_on_gpu(const Pairs& pairs, const Change& cha
     const gl::Buffer<glm::vec4> corners{std::span<const glm::vec4>(points)};
     std::vector<std::uint32_t> overlaps(pairs.size() + kGuard, kPoison);
     const gl::Buffer<std::uint32_t> results{std::span<const std::uint32_t>(overlaps)};
-    corners.bind_storage(0);
-    results.bind_storage(1);
+    program.bind("Corners", corners);
+    program.bind("Overlaps", results);
     program.set("pair_count", static_cast<std::uint32_t>(pairs.size()));
     program.dispatch(pairs.size());
     gl::barrier(gl::Barrier::buffer_update);

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+
+/// The numbers that C++ and GLSL share: files of shaders/layouts/ compiled as C++. Within the namespaces they
+/// are what shaders have; code that uses them gives them its own names.
+namespace gelatin {
+
+using uint = std::uint32_t;
+
+/// Arguments of the indirect dispatches of collision.
+namespace dispatch_slots {
+#include "layouts/dispatch_slots.glsl"
+}  // namespace dispatch_slots
+
+/// How packed arrays and bit fields are laid out.
+namespace packing {
+#include "layouts/packing.glsl"
+}  // namespace packing
+
+/// What decides in the geometric predicates.
+namespace predicates {
+#include "layouts/predicates.glsl"
+}  // namespace predicates
+
+}  // namespace gelatin
