@@ -149,6 +149,7 @@ TEST_F(HazardsTest, TransfersNeedABufferBarrier) {
 TEST_F(HazardsTest, AReadbackHasABarrierOfItsOwn) {
     Readback readback;
     write();
+    barrier(Barrier::storage);
     readback.begin(buffer_.id(), 64);
     EXPECT_THAT(take_hazards(), IsEmpty());
     write();

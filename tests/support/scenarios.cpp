@@ -169,6 +169,10 @@ void proximities(Scene& scene) {
     scene.collision.proximity_radius = 0.05;
 }
 
+void chebyshev(Scene& scene) {
+    scene.simulation.chebyshev = 0.5;
+}
+
 void nothing(Scene&) {}
 
 void drag(Simulator& simulator) {
@@ -196,6 +200,7 @@ std::vector<Scenario> scenarios() {
         {"block descent", nothing, start_again, true},
         {"block descent, pulled", nothing, pull},
         {"block descent, dragged", nothing, drag},
+        {"block descent, Chebyshev", chebyshev},
         {"block descent, volume term", volume_term, pull},
         {"block descent, neo-Hookean", neo_hookean, pull},
         {"block descent, squashed", squashed, start_again},

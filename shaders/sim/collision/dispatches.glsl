@@ -44,7 +44,6 @@ uint take_slots(uint work, uint count, uint capacity, out uint left_over) {
     return first;
 }
 #endif
-#endif
 
 bool meet(vec3 min_a, vec3 max_a, vec3 min_b, vec3 max_b) {
     return all(lessThanEqual(min_a, max_b)) && all(lessThanEqual(min_b, max_a));
