@@ -77,6 +77,7 @@ std::vector<Overlays> kinds_of_overlays() {
     kinds[4].color_map = ColorMap{Quantity::stretch, {}};
     kinds[5].color_map = ColorMap{Quantity::speed, {}};
     kinds[6].cut = CutPlane{};
+    kinds[7].cut = CutPlane{};  // right after a cut, with nothing between that has a barrier
     kinds[7].arrow_time = 0.1f;
     kinds[8].objects = kinds[8].wireframe = true;
     kinds.push_back(everything());
@@ -99,8 +100,8 @@ public:
     }
 
     void draw(Simulator& simulator) {
-        for (const Overlays& overlays : kinds_of_overlays()) {
-            for (const auto& renderer : renderers_) {
+        for (const auto& renderer : renderers_) {
+            for (const Overlays& overlays : kinds_of_overlays()) {
                 renderer->draw(simulator.render_view(overlays),
                                {.eye = {0.0f, 0.6f, 2.0f}, .target = {0.0f, 0.3f, 0.0f}});
                 grabber_.grab(renderer->framebuffer());
@@ -205,6 +206,7 @@ std::vector<Scenario> scenarios() {
         {"block descent, neo-Hookean", neo_hookean, pull},
         {"block descent, squashed", squashed, start_again},
         {"block descent, squashed neo-Hookean", both(squashed, neo_hookean)},
+        {"drawn from the CPU", nothing, start_again, true, Backend::cpu},
         {"fused", fused, pull},
         {"fused, volume term", both(fused, volume_term), start_again},
         {"fused, neo-Hookean", both(fused, neo_hookean)},
@@ -230,7 +232,7 @@ void play(const Scenario& scenario) {
     Scene scene = load_scene(folder.path() / "scene.toml");
     scenario.change(scene);
     SimulatorOptions options;
-    options.backend = Backend::gl;
+    options.backend = scenario.backend;
     options.use_current_context = true;
     Simulator simulator(scene, options);
     scenario.begin(simulator);

@@ -15,6 +15,7 @@ struct Scenario {
     std::function<void(Scene&)> change = [](Scene&) {};         ///< of the scene that all share
     std::function<void(Simulator&)> begin = [](Simulator&) {};  ///< before the first frame
     bool is_drawn = false;                                      ///< in both qualities, with all overlays
+    Backend backend = Backend::gl;                              ///< the CPU simulates, OpenGL draws
 };
 std::vector<Scenario> scenarios();
 

@@ -336,6 +336,7 @@ void BlockDescent::take_back_tangled() const {
 }
 
 void BlockDescent::accelerate(int sweep) const {
+    gl::barrier(gl::Barrier::storage);  // the coarse level may still read the nodes
     accelerate_program_.set("node_count", node_count_);
     accelerate_program_.set("sweep", static_cast<std::uint32_t>(sweep));
     accelerate_program_.set("weight", static_cast<float>(chebyshev_weight(settings_.chebyshev, sweep)));
