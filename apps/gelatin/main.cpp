@@ -1,15 +1,18 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "commands.h"
 #include "core/log.h"
 #include "gelatin/error.h"
 #include "gelatin/version.h"
+#include "gl/hazards.h"
 #include "model/scene/names.h"
 
 namespace gelatin {
@@ -59,6 +62,24 @@ int run(int argc, char** argv) {
     return kDone;
 }
 
+// GELATIN_GL_HAZARDS: 1 makes an access to a buffer that no barrier orders an error; "unneeded" lists the
+// barriers that none needed, too. docs/command-line.md.
+std::string_view hazard_setting() {
+    const char* value = std::getenv("GELATIN_GL_HAZARDS");
+    return value == nullptr || std::string_view(value) == "0" ? "" : value;
+}
+
+int report_hazards(int code) {
+    if (hazard_setting() == "unneeded") {
+        for (const std::string& line : gl::unneeded_barriers()) std::fprintf(stderr, "%s\n", line.c_str());
+    }
+    const std::vector<std::string> hazards = gl::take_hazards();
+    if (hazards.empty()) return code;
+    std::string message = "accesses to buffers on the GPU that no barrier orders:";
+    for (const std::string& hazard : hazards) message += "\n  " + hazard;
+    return fail(kOtherError, message);
+}
+
 int run_program(int argc, char** argv) {
     set_up_log(false);
     try {
@@ -76,9 +97,15 @@ int run_program(int argc, char** argv) {
     }
 }
 
+int run_with_hazards_tracked(int argc, char** argv) {
+    if (hazard_setting().empty()) return run_program(argc, argv);
+    gl::enable_hazard_tracking();
+    return report_hazards(run_program(argc, argv));
+}
+
 }  // namespace
 }  // namespace gelatin
 
 int main(int argc, char** argv) {
-    return gelatin::run_program(argc, argv);
+    return gelatin::run_with_hazards_tracked(argc, argv);
 }

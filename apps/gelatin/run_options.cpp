@@ -43,7 +43,8 @@ void add_run_options(CLI::App& command, RunOptions& options) {
         ->type_name("N")
         ->check(CLI::PositiveNumber)
         ->group(computing);
-    command.add_flag("--gl-debug", options.gl_debug, "Show the OpenGL driver's debug messages")
+    command
+        .add_flag("--gl-debug", options.gl_debug, "Show the OpenGL driver's messages and missing barriers")
         ->group(computing);
 
     const char* outputs = "Outputs";

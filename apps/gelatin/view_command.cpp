@@ -46,7 +46,8 @@ void add_view_command(CLI::App& app) {
     command->add_option("--size", options->size, "Of the window")
         ->type_name("WIDTHxHEIGHT")
         ->capture_default_str();
-    command->add_flag("--gl-debug", options->viewer.gl_debug, "Show the OpenGL driver's debug messages");
+    command->add_flag("--gl-debug", options->viewer.gl_debug,
+                      "Show the OpenGL driver's messages and missing barriers");
     command->callback([options] { view(*options); });
 }
 

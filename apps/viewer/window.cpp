@@ -16,6 +16,7 @@
 #include "gelatin/error.h"
 #include "gl/context.h"
 #include "gl/debug.h"
+#include "gl/hazards.h"
 #include "theme.h"
 
 namespace gelatin::viewer {
@@ -85,7 +86,10 @@ Window::Window(const WindowSettings& settings) {
     }
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
-    if (settings.gl_debug) gl::enable_debug_output();
+    if (settings.gl_debug) {
+        gl::enable_debug_output();
+        gl::enable_hazard_tracking();
+    }
 
     // Before Dear ImGui, which chains to earlier callbacks.
     glfwSetWindowUserPointer(window_, this);

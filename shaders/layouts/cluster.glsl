@@ -20,5 +20,5 @@ struct CoarseBody {      // 16 bytes
     uint  first;
     uint  count;
     uint  matrix;        // its first element in the array of all
-    float length;        // of the body at rest [m]
+    float body_length;   // at rest [m]
 };

@@ -7,6 +7,7 @@
 
 #include "gelatin/error.h"
 #include "gl/debug.h"
+#include "gl/hazards.h"
 
 namespace gelatin::gl {
 namespace {
@@ -51,6 +52,7 @@ RawBuffer::RawBuffer(std::size_t bytes, const void* data, Use use) : bytes_(byte
     check_errors("before a buffer's allocation");
     GLuint id = 0;
     glGenBuffers(1, &id);
+    if (hazard_probe != nullptr) hazard_probe->resets(id);
     glBindBuffer(GL_COPY_WRITE_BUFFER, id);
     // A block or texture of no bytes cannot be bound.
     const std::size_t allocated = std::max(bytes, kLeastBytes);
@@ -72,6 +74,7 @@ RawBuffer& RawBuffer::operator=(RawBuffer&& other) noexcept {
 
 RawBuffer::~RawBuffer() {
     if (id() == 0) return;
+    if (hazard_probe != nullptr) hazard_probe->resets(id());
     glDeleteBuffers(1, name_.get());
     *name_ = 0;
     forget_state();
@@ -79,6 +82,7 @@ RawBuffer::~RawBuffer() {
 
 void RawBuffer::upload(std::size_t offset, std::size_t bytes, const void* data) {
     if (bytes == 0) return;
+    if (hazard_probe != nullptr) hazard_probe->uploads(id(), bytes == bytes_);
     glBindBuffer(GL_COPY_WRITE_BUFFER, id());
     glBufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
                     data);
@@ -86,6 +90,7 @@ void RawBuffer::upload(std::size_t offset, std::size_t bytes, const void* data) 
 
 void RawBuffer::download(std::size_t offset, std::size_t bytes, void* out) const {
     if (bytes == 0) return;
+    if (hazard_probe != nullptr) hazard_probe->downloads(id());
     glBindBuffer(GL_COPY_READ_BUFFER, id());
     glGetBufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
                        out);
@@ -93,6 +98,7 @@ void RawBuffer::download(std::size_t offset, std::size_t bytes, void* out) const
 
 void RawBuffer::fill(std::uint32_t value) {
     if (bytes_ == 0) return;
+    if (hazard_probe != nullptr) hazard_probe->clears(id());
     glBindBuffer(GL_COPY_WRITE_BUFFER, id());
     glClearBufferData(GL_COPY_WRITE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &value);
 }

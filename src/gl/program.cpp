@@ -12,6 +12,7 @@
 
 #include "gelatin/error.h"
 #include "gl/debug.h"
+#include "gl/hazards.h"
 #include "gl/program_interface.h"
 #include "gl/shader_source.h"
 
@@ -26,6 +27,7 @@ class Shader {
 public:
     Shader(GLenum stage, const std::string& file, const Defines& defines)
         : file_(file), source_(load_shader(file, defines)), id_(glCreateShader(stage)) {
+        dump_shader(file_, source_);
         const char* text = source_.text.c_str();
         glShaderSource(id_, 1, &text, nullptr);
         glCompileShader(id_);
@@ -154,6 +156,7 @@ struct Program::State {
         : name(std::move(files)), id(link(shaders, name)) {
         std::string source;
         for (const Shader* shader : shaders) source += shader->text();
+        if (hazard_probe != nullptr) hazard_probe->linked(id, name, source);
         try {
             interface = ProgramInterface(id, std::move(source));
         } catch (const GlError& error) {
@@ -331,6 +334,7 @@ void Program::dispatch_groups(std::size_t groups) const {
     // Rows of equal length leave fewer groups over than full rows and a rest.
     const std::size_t columns = (groups + rows - 1) / rows;
     use();
+    if (hazard_probe != nullptr) hazard_probe->dispatches(id());
     glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(rows), 1);
     check_errors("glDispatchCompute");
 }
@@ -338,6 +342,7 @@ void Program::dispatch_groups(std::size_t groups) const {
 void Program::dispatch_indirect(unsigned arguments, std::size_t offset) const {
     use();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, arguments);
+    if (hazard_probe != nullptr) hazard_probe->dispatches_indirectly(id(), arguments);
     glDispatchComputeIndirect(static_cast<GLintptr>(offset));
     check_errors("glDispatchComputeIndirect");
 }
@@ -346,6 +351,7 @@ void Program::draw_arrays(Primitive primitive, std::size_t count) const {
     if (count == 0) return;
     use();
     const VertexInputs inputs(state_->interface.inputs());
+    if (hazard_probe != nullptr) hazard_probe->draws(false);
     glDrawArrays(mode_of(primitive), 0, static_cast<GLsizei>(count));
 }
 
@@ -354,6 +360,7 @@ void Program::draw_elements(Primitive primitive, unsigned indices, std::size_t c
     use();
     const VertexInputs inputs(state_->interface.inputs());
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices);
+    if (hazard_probe != nullptr) hazard_probe->draws(true);
     glDrawElements(mode_of(primitive), static_cast<GLsizei>(count), GL_UNSIGNED_INT, nullptr);
 }
 
@@ -361,22 +368,9 @@ void Program::draw_arrays_indirect(Primitive primitive, unsigned arguments, std:
     use();
     const VertexInputs inputs(state_->interface.inputs());
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, arguments);
+    if (hazard_probe != nullptr) hazard_probe->draws(false, arguments);
     glDrawArraysIndirect(mode_of(primitive), std::bit_cast<const void*>(offset));
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
-}
-
-void barrier(Barrier next_use) {
-    const auto asks = [next_use](Barrier use) {
-        return (static_cast<unsigned>(next_use) & static_cast<unsigned>(use)) != 0;
-    };
-    GLbitfield bits = 0;
-    if (asks(Barrier::storage)) bits |= GL_SHADER_STORAGE_BARRIER_BIT;
-    if (asks(Barrier::texture_fetch)) bits |= GL_TEXTURE_FETCH_BARRIER_BIT;
-    if (asks(Barrier::vertex_pull)) bits |= GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT;
-    if (asks(Barrier::buffer_update)) bits |= GL_BUFFER_UPDATE_BARRIER_BIT;
-    if (asks(Barrier::command)) bits |= GL_COMMAND_BARRIER_BIT;
-    if (asks(Barrier::pixel_unpack)) bits |= GL_PIXEL_BUFFER_BARRIER_BIT;
-    glMemoryBarrier(bits);
 }
 
 void release_samplers() {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gl/barrier.h"
 #include "gl/buffer.h"
 
 namespace gelatin::gl {
@@ -115,20 +116,6 @@ private:
 
     std::unique_ptr<State> state_;  // null for a default-made program
 };
-
-/// What the work after the barrier will do with the data written before it (glMemoryBarrier).
-enum class Barrier : unsigned {
-    storage = 1,        ///< read or write as a storage block
-    texture_fetch = 2,  ///< texelFetch from a samplerBuffer
-    vertex_pull = 4,    ///< element or vertex arrays
-    buffer_update = 8,  ///< copies, mapping, download
-    command = 16,       ///< indirect dispatch or draw
-    pixel_unpack = 32,  ///< upload to a texture
-};
-constexpr Barrier operator|(Barrier a, Barrier b) {
-    return static_cast<Barrier>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
-}
-void barrier(Barrier next_use);
 
 /// Unbinds the sampler objects that programs have left bound to texture units on this thread, where they
 /// would decide how the textures of the application around this library are read.

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "gelatin/error.h"
+#include "gl/barrier.h"
 #include "gl/debug.h"
+#include "gl/hazards.h"
 
 namespace gelatin::gl {
 
@@ -25,11 +27,13 @@ void Readback::begin(unsigned source, std::size_t bytes) {
         free_.erase(found);
     } else {
         glGenBuffers(1, &staging.id);
+        if (hazard_probe != nullptr) hazard_probe->resets(staging.id);
         glBindBuffer(GL_COPY_WRITE_BUFFER, staging.id);
         glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_STREAM_READ);
     }
     if (bytes > 0) {
-        glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+        barrier(Barrier::buffer_update);
+        if (hazard_probe != nullptr) hazard_probe->copies(source, staging.id);
         glBindBuffer(GL_COPY_READ_BUFFER, source);
         glBindBuffer(GL_COPY_WRITE_BUFFER, staging.id);
         glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0, static_cast<GLsizeiptr>(bytes));

@@ -17,7 +17,8 @@ public:
     Readback& operator=(const Readback&) = delete;
     ~Readback();
 
-    /// Starts a copy of the first `bytes` of GL buffer `source`, after all GL commands so far.
+    /// Starts a copy of the first `bytes` of GL buffer `source`, after all GL commands so far and with what
+    /// their shaders wrote: no barrier is needed before.
     void begin(unsigned source, std::size_t bytes);
 
     /// True if the oldest copy can be taken without waiting.

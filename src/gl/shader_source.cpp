@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -123,6 +124,18 @@ std::string ShaderSource::translate_log(const std::string& log) const {
 
 std::string shader_text(const std::string& file) {
     return text_of(file, "");
+}
+
+void dump_shader(const std::string& file, const ShaderSource& source) {
+    const char* folder = std::getenv("GELATIN_DUMP_SHADERS");
+    if (folder == nullptr || *folder == '\0') return;
+    std::string stem = file.substr(0, file.rfind('.'));
+    std::replace(stem.begin(), stem.end(), '/', '_');
+    std::ostringstream path;
+    path << folder << '/' << stem << '-' << std::hex << std::hash<std::string>()(source.text)
+         << file.substr(file.rfind('.'));
+    if (std::ofstream stream(path.str(), std::ios::binary); !(stream << source.text).flush())
+        throw GlError("cannot write " + path.str() + " (GELATIN_DUMP_SHADERS)");
 }
 
 ShaderSource load_shader(const std::string& file, const std::vector<std::string>& defines) {

@@ -20,6 +20,11 @@ struct ShaderSource {
 /// @throws GlError if there is no such file.
 std::string shader_text(const std::string& file);
 
+/// Where GELATIN_DUMP_SHADERS names a folder, writes the text there, as other compilers take it:
+/// "sim/view/mark_faces.comp" becomes "sim_view_mark_faces-HASH.comp", one for each set of defines.
+/// @throws GlError if that fails.
+void dump_shader(const std::string& file, const ShaderSource& source);
+
 /// Loads `file` as shader_text does, puts "#version 430 core" and the defines before it, and expands
 /// `#include "path"` (relative to shaders/, once each).
 /// @throws GlError if a file is missing or includes go round in a circle, naming the including file and line.

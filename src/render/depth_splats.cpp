@@ -7,6 +7,8 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <string>
 
+#include "gl/hazards.h"
+
 namespace gelatin::render {
 namespace {
 
@@ -63,6 +65,7 @@ void DepthSplats::draw(std::span<const DepthMap> maps, std::initializer_list<con
     gl::barrier(gl::Barrier::pixel_unpack | gl::Barrier::buffer_update);
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, depths_.id());
     gl::forget_state();  // a unit's binding changes
+    if (gl::hazard_probe != nullptr) gl::hazard_probe->uploads_to_texture(depths_.id());
     std::size_t start = 0;
     for (const DepthMap& map : maps) {
         glBindTexture(GL_TEXTURE_2D, map.target.texture());

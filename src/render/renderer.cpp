@@ -118,7 +118,6 @@ const gl::Buffer<glm::vec4>& Renderer::colors_of(const RenderView& bodies) {
 void Renderer::draw(const RenderView& bodies, const Camera& camera) {
     gl::forget_state();
     const FramebufferGuard guard;
-    gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::vertex_pull | gl::Barrier::storage);
     glBindVertexArray(vertex_array_);
     glDisable(GL_BLEND);
     glEnable(GL_CULL_FACE);

@@ -55,8 +55,8 @@ public:
 
     void set_surroundings(const Surroundings& surroundings);
 
-    /// Draws one frame and the overlays of its view. Includes the barriers for the dispatches that wrote the
-    /// buffers; does not wait for them.
+    /// Draws one frame and what its overlay shows. @pre a barrier for texture fetches, vertices and storage
+    /// lies behind what shaders wrote into the buffers: Simulator::render_view has one
     void draw(const RenderView& bodies, const Camera& camera);
 
     /// high or fast.

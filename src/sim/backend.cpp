@@ -5,6 +5,7 @@
 #include "core/log.h"
 #include "gelatin/error.h"
 #include "gl/debug.h"
+#include "gl/hazards.h"
 
 namespace gelatin {
 
@@ -32,7 +33,10 @@ std::optional<gl::Context> make_context(const SimulatorOptions& options) {
     const bool needed = options.backend == Backend::gl || options.need_gl;
     try {
         gl::Context context = gl::Context::headless({options.gl_device, options.gl_debug});
-        if (options.gl_debug) gl::enable_debug_output();
+        if (options.gl_debug) {
+            gl::enable_debug_output();
+            gl::enable_hazard_tracking();
+        }
         return context;
     } catch (const NoOpenGl& problem) {
         if (needed) throw;

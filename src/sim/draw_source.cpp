@@ -12,7 +12,6 @@ DrawSource::DrawSource(std::shared_ptr<const Model> model) : model_(std::move(mo
 RenderView DrawSource::update(const gpu::GpuSolver& solver) {
     const gpu::NodeBuffers& nodes = solver.nodes();
     normals_.run(nodes.position_texels);
-    gl::barrier(gl::Barrier::buffer_update);
     readback_.begin(nodes.positions.id(), nodes.positions.size() * sizeof(glm::vec4));
     if (readback_.pending() > 1) {
         const std::vector<std::byte> bytes = readback_.take();

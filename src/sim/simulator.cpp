@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <deque>
 
+#include "core/current_stage.h"
 #include "core/log.h"
 #include "cpu/cpu_solver.h"
 #include "gelatin/error.h"
@@ -128,6 +129,7 @@ struct Simulator::Impl {
 
     template <class Work>
     void run_stage(const char* name, const Work& work) {
+        const CurrentStage stage(name);
         const TimedStage timed(options.time_stages ? &solver->stage_timer() : nullptr, name);
         work();
     }

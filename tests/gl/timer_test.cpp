@@ -35,6 +35,7 @@ TEST_F(TimerTest, ComputeTakesTime) {
     for (int i = 0; i < 20; ++i) {
         timer.begin("work");
         program.dispatch(6400);
+        barrier(Barrier::storage);
         timer.end();
     }
     timer.begin("other");

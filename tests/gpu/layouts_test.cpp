@@ -62,7 +62,7 @@ TEST_F(LayoutsTest, Clusters) {
            FIELD(ClusterRest, core_end), FIELD(ClusterRest, row)});
     check("cluster.glsl", "CoarseBody", sizeof(CoarseBody),
           {FIELD(CoarseBody, first), FIELD(CoarseBody, count), FIELD(CoarseBody, matrix),
-           FIELD(CoarseBody, length)});
+           FIELD(CoarseBody, body_length)});
 }
 TEST_F(LayoutsTest, ShapeMatching) {
     check("shape_match.glsl", "RestMoment", sizeof(RestMoment),

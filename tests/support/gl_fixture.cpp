@@ -9,6 +9,7 @@
 
 #include "gelatin/error.h"
 #include "gl/debug.h"
+#include "gl/hazards.h"
 
 namespace gelatin::test {
 namespace {
@@ -22,6 +23,7 @@ SharedContext& shared() {
     static SharedContext instance = [] {
         SharedContext made;
         try {
+            gl::enable_hazard_tracking();
             made.context = gl::Context::headless({.device_index = {}, .debug = true});
         } catch (const NoOpenGl& error) {
             made.why_not = error.what();
@@ -60,12 +62,14 @@ void GlTest::SetUp() {
     }
     context().make_current();
     gl::take_debug_messages();
+    gl::take_hazards();
 }
 
 void GlTest::TearDown() {
     if (!shared().context) return;
     EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
     for (const std::string& message : gl::take_debug_messages()) ADD_FAILURE() << message;
+    for (const std::string& hazard : gl::take_hazards()) ADD_FAILURE() << hazard;
 }
 
 }  // namespace gelatin::test

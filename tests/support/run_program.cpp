@@ -54,6 +54,7 @@ Channel open_terminal() {
     std::vector<char*> arguments;
     for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
     arguments.push_back(nullptr);
+    ::setenv("GELATIN_GL_HAZARDS", "1", 0);  // a missing barrier makes the program fail
     for (const std::string& variable : settings.environment) ::putenv(const_cast<char*>(variable.c_str()));
     ::execvp(arguments[0], arguments.data());
     ::_exit(127);

@@ -1,7 +1,11 @@
 // The plane in which two objects touch. It moves with the common velocity of their patches, or with the mean velocity of the
 // pinned corners. CPU twin: src/cpu/collision/contact.h.
 #include "layouts/contact.glsl"
+#ifdef WRITES_CONTACT_PATCHES
 layout(std430) buffer ContactPatches { ContactPatch contact_patches[]; };
+#else
+layout(std430) readonly buffer ContactPatches { ContactPatch contact_patches[]; };
+#endif
 
 struct ContactPlane {
     vec3 normal;    // unit, from the pair's object to the other

@@ -1,5 +1,6 @@
 // Brute force: the pairs of faces whose boxes meet, in no particular order. CPU twin: gelatin::cpu::Collision. Parity:
 // tests/gpu/collision/collision_test.cpp.
+#define WRITES_DISPATCHES
 #include "sim/collision/pairs.glsl"
 #include "sim/collision/face_pairs.glsl"
 #include "sim/collision/face_tests.glsl"

@@ -3,7 +3,11 @@
 #include "layouts/dispatch_slots.glsl"
 #include "layouts/packing.glsl"
 
+#ifdef WRITES_DISPATCHES
 layout(std430) buffer Dispatches { Dispatch dispatches[]; };
+#else
+layout(std430) readonly buffer Dispatches { Dispatch dispatches[]; };
+#endif
 
 // Work groups of 64 for `count` invocations, folded into two dimensions where one is not enough.
 Dispatch make_dispatch(uint count, uint groups) {
@@ -12,6 +16,7 @@ Dispatch make_dispatch(uint count, uint groups) {
 }
 Dispatch dispatch_invocations(uint count) { return make_dispatch(count, count / 64u + uint(count % 64u != 0u)); }
 
+#ifdef WRITES_DISPATCHES
 // Allocates one more element in a list that a dispatch will process. Returns its index, or kNone if the list is full, which
 // counts as a loss.
 uint take_slot(uint work, uint capacity) {
@@ -39,6 +44,7 @@ uint take_slots(uint work, uint count, uint capacity, out uint left_over) {
     atomicMax(dispatches[work].groups_x, (first + count + 63u) / 64u);
     return first;
 }
+#endif
 
 bool meet(vec3 min_a, vec3 max_a, vec3 min_b, vec3 max_b) {
     return all(lessThanEqual(min_a, max_b)) && all(lessThanEqual(min_b, max_a));

@@ -2,7 +2,11 @@
 // other (src/cpu/collision/face_contact.h).
 const uint kTouches = 1u;
 const uint kEnters = 3u;
+#ifdef WRITES_FACE_COLLISIONS
 layout(std430) buffer FaceCollisions { uint face_collisions[]; };
+#else
+layout(std430) readonly buffer FaceCollisions { uint face_collisions[]; };
+#endif
 
 bool collides(ObjectPair pair, uint face) {
     uint index = face - bounding_boxes[pair.object].first_face;

@@ -2,6 +2,7 @@
 // smallest clearance after the map. Any map is valid, so the last one is used, displaced with the object; a new one is made for
 // the objects that it does not explain. One work group for each chunk of nodes. CPU twin: gelatin::cpu::SelfCollision. Parity:
 // tests/gpu/collision/find_self_collisions_test.cpp.
+#define WRITES_DISPATCHES
 #include "sim/collision/affine_fit.glsl"
 #include "sim/collision/dispatches.glsl"
 #include "sim/collision/rounding.glsl"

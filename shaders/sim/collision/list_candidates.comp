@@ -1,6 +1,8 @@
 // The faces of each pair's object that may collide and reach into the other's box, in no particular order, where its tests
 // start; and a Face Collision Result without collisions. One invocation an entry: four faces of a pair. CPU twin: gelatin::cpu::Collision.
 // Parity: tests/gpu/collision/collision_test.cpp.
+#define WRITES_OBJECT_PAIRS
+#define WRITES_FACE_COLLISIONS
 #include "sim/collision/pairs.glsl"
 #include "sim/collision/face_collisions.glsl"
 #include "sim/collision/may_collide.glsl"

@@ -1,5 +1,6 @@
 // Each object's row of pairs, in the order of the others' indices. CPU twin: gelatin::cpu::Collision. Parity:
 // tests/gpu/collision/collision_test.cpp.
+#define WRITES_OBJECT_PAIRS
 #include "sim/collision/object_may_touch.glsl"
 layout(local_size_x = 64) in;
 

@@ -1,5 +1,6 @@
 // The chunks of nodes and of faces of restless objects, and these objects, in no particular order. An object that was restless
 // in the previous step is listed once more, which clears the results of its faces.
+#define WRITES_DISPATCHES
 #include "sim/collision/dispatches.glsl"
 #include "include/global_index.glsl"
 layout(local_size_x = 64) in;

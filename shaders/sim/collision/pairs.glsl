@@ -1,12 +1,21 @@
-// The buffers that the stages of collision share (src/gpu/collision/collision_buffers.h), and look-ups in them.
+// The buffers that the stages of collision share (src/gpu/collision/collision_buffers.h), and what is found through them.
+// What a shader writes of them it says before: WRITES_PAIR_ROWS, for example. All else is read only.
 #include "sim/collision/dispatches.glsl"
 #include "include/global_index.glsl"
 #include "layouts/box.glsl"
 #include "layouts/object_pair.glsl"
 
-layout(std430) buffer BoundingBoxes { BoundingBox bounding_boxes[]; };
+layout(std430) readonly buffer BoundingBoxes { BoundingBox bounding_boxes[]; };
+#ifdef WRITES_PAIR_ROWS
 layout(std430) buffer PairRows { PairRow pair_rows[]; };
+#else
+layout(std430) readonly buffer PairRows { PairRow pair_rows[]; };
+#endif
+#ifdef WRITES_OBJECT_PAIRS
 layout(std430) buffer ObjectPairs { ObjectPair object_pairs[]; };
+#else
+layout(std430) readonly buffer ObjectPairs { ObjectPair object_pairs[]; };
+#endif
 
 const uint kAllFaces = 0xFFFFFFFFu;  // ObjectPair::first_candidate
 

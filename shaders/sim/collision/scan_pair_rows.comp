@@ -1,5 +1,7 @@
 // The offsets of each object's row of pairs, and of its words and entries: prefix sums over the objects by one work group. Rows
 // beyond the end of a buffer are omitted and counted as losses.
+#define WRITES_PAIR_ROWS
+#define WRITES_DISPATCHES
 #include "sim/collision/pairs.glsl"
 layout(local_size_x = 256) in;
 

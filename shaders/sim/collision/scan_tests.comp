@@ -1,4 +1,6 @@
 // The number of tests before each pair: prefix sums over the pairs by one work group.
+#define WRITES_OBJECT_PAIRS
+#define WRITES_DISPATCHES
 #include "sim/collision/pairs.glsl"
 #include "sim/collision/face_tests.glsl"
 layout(local_size_x = 256) in;

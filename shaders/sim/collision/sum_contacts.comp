@@ -1,6 +1,9 @@
 // Sums over the corners of the colliding faces of each pair: one work group for each pair, a fixed order of summation. Without
 // APPROACHING the ContactPatch; with it the ApproachSums of the corners that approach the other object. CPU twin:
 // gelatin::cpu::respond. Parity: tests/gpu/collision/respond_test.cpp.
+#ifndef APPROACHING
+#define WRITES_CONTACT_PATCHES
+#endif
 #include "sim/collision/pairs.glsl"
 #include "sim/collision/face_collisions.glsl"
 #include "sim/collision/contact_plane.glsl"

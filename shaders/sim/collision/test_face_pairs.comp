@@ -1,6 +1,7 @@
 // Face against face (paper 2.4): records in the Face Collision Result how both faces touch; with CONTINUOUS at any time of the
 // step, each node moving along a straight line. CPU twin: gelatin::cpu::Collision. Parity:
 // tests/gpu/collision/collision_test.cpp.
+#define WRITES_FACE_COLLISIONS
 #include "sim/collision/pairs.glsl"
 #include "sim/collision/face_collisions.glsl"
 #include "sim/collision/rounding.glsl"

@@ -1,5 +1,6 @@
 // The pairs of faces whose boxes meet, in no particular order: each candidate walks through the other object's tree.
 // CPU twin: gelatin::cpu::Collision. Parity: tests/gpu/collision/collision_test.cpp.
+#define WRITES_DISPATCHES
 #include "sim/collision/pairs.glsl"
 #include "sim/collision/face_pairs.glsl"
 layout(local_size_x = 64) in;

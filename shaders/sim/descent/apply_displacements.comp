@@ -56,7 +56,7 @@ void main() {
     float here = sum.x, ahead = sum.y;
     bool goes = here > 0.0 && is_finite(here) && is_finite(ahead);
     float factor = here / max(here - ahead, here / kFarthest);
-    factors[object] = goes ? min(factor, bodies[object].length / sqrt(sum.z)) : 0.0;
+    factors[object] = goes ? min(factor, bodies[object].body_length / sqrt(sum.z)) : 0.0;
 }
 #else
 layout(std430) buffer Positions { vec4 positions[]; };  // an invocation reads and writes its own nodes

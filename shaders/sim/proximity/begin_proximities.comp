@@ -1,4 +1,5 @@
 // Before gpu::FindProximities: nothing is found yet.
+#define WRITES_DISPATCHES
 #include "sim/collision/dispatches.glsl"
 #include "include/global_index.glsl"
 #include "layouts/proximity.glsl"

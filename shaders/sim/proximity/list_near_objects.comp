@@ -1,5 +1,6 @@
 // The objects that each leaf may be near, in ascending order, its own among them if OWN: their boxes meet the leaf's. CPU twin:
 // gelatin::cpu::FindProximities. Parity: tests/gpu/proximity/find_proximities_test.cpp.
+#define WRITES_DISPATCHES
 #include "sim/collision/pairs.glsl"
 #include "sim/proximity/proximities.glsl"
 layout(local_size_x = 64) in;

@@ -1,5 +1,6 @@
 // Where the leaves near each leaf are listed, and the tasks of its nodes and edges: each with eight of these leaves, in this
 // order. CPU twin: gelatin::cpu::FindProximities. Parity: tests/gpu/proximity/find_proximities_test.cpp.
+#define WRITES_DISPATCHES
 #include "sim/proximity/proximities.glsl"
 layout(local_size_x = 64) in;
 

@@ -110,7 +110,7 @@ void FindSelfCollisions::fit(const CollisionBuffers& collision, const SelfCollis
     fit_program_.bind("RestlessObjects", objects_);
     fit_program_.bind("chunk_starts", chunk_start_texels_);
     collision.run(fit_program_, dispatch_slots::kFits);
-    gl::barrier(gl::Barrier::texture_fetch);
+    gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::storage);
 }
 
 void FindSelfCollisions::list_restless_faces(const ModelBuffers& model, const CollisionBuffers& collision,

@@ -36,15 +36,18 @@ ObjectTree::ObjectTree(const Model& model)
       order_texels_(order_, gl::TexelFormat::r32ui) {}
 
 void ObjectTree::update(const CollisionBuffers& collision) {
-    if (collision.object_count > BoxTree::kLeafItems) renew_order(collision);
+    const bool has_choice = collision.object_count > BoxTree::kLeafItems;
+    if (has_choice) renew_order();
     leaf_program_.bind("object_order", order_texels_);
     for (const gl::Program* program : {&leaf_program_, &node_program_})
         bind_levels(*program, tree_, collision.bounding_boxes);
     for (std::size_t level = 0; level < tree_.level_count(); ++level)
         update_level(level == 0 ? leaf_program_ : node_program_, tree_, level);
+    // Behind all that may write boxes in this step: the copy is theirs.
+    if (has_choice) fetch_boxes(collision);
 }
 
-void ObjectTree::renew_order(const CollisionBuffers& collision) {
+void ObjectTree::renew_order() {
     if (readback_.pending() > 0 && readback_.ready()) {
         const std::vector<std::byte> bytes = readback_.take();
         std::vector<BoundingBox> boxes(bytes.size() / sizeof(BoundingBox));
@@ -53,8 +56,10 @@ void ObjectTree::renew_order(const CollisionBuffers& collision) {
         for (const BoundingBox& box : boxes) centers.emplace_back(0.5f * (box.min + box.max));
         order_.upload(box_tree_order(centers));
     }
+}
+
+void ObjectTree::fetch_boxes(const CollisionBuffers& collision) {
     if (age_ == 0 && readback_.pending() == 0) {
-        gl::barrier(gl::Barrier::buffer_update);
         readback_.begin(collision.bounding_boxes.id(), collision.bounding_boxes.size() * sizeof(BoundingBox));
     }
     age_ = (age_ + 1) % kOrderLifetime;

@@ -23,7 +23,8 @@ public:
     void bind(const gl::Program& program) const;
 
 private:
-    void renew_order(const CollisionBuffers& collision);
+    void renew_order();
+    void fetch_boxes(const CollisionBuffers& collision);
 
     TreeBuffers tree_;
     gl::Program leaf_program_, node_program_;

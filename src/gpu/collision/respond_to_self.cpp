@@ -33,7 +33,6 @@ void RespondToSelf::run(const ModelBuffers& model, const CollisionBuffers& colli
     node_program_.bind("Positions", current.positions);
     node_program_.bind("Velocities", current.velocities);
     collision.run(node_program_, dispatch_slots::kSelfNodes);
-    gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
 }
 
 }  // namespace gelatin::gpu

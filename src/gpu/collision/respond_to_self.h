@@ -14,8 +14,8 @@ class RespondToSelf {
 public:
     RespondToSelf(const Model& model, const CollisionSettings& settings);
 
-    /// Writes `current`. Ends with the barriers that whoever reads the nodes needs. @param step from
-    /// `previous` to `current` [s]
+    /// Writes `current`. Respond, which follows, has the barriers that readers of the nodes need. @param step
+    /// from `previous` to `current` [s]
     void run(const ModelBuffers& model, const CollisionBuffers& collision, const SelfCollisionBuffers& self,
              const NodeBuffers& previous, const NodeBuffers& current, double step) const;
 

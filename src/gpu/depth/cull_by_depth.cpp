@@ -112,6 +112,7 @@ void CullByDepth::draw_view(unsigned view) const {
     glDisable(GL_DEPTH_TEST);
     layers_.begin_comparison();
     hidden_program_.set("view", view + 1);
+    gl::barrier(gl::Barrier::storage);  // the next view's arguments are beside those that were just read
     draw_faces(hidden_program_, view);
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch | gl::Barrier::command);
 }

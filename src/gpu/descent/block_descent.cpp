@@ -324,7 +324,6 @@ void BlockDescent::damp_springs(double step) const {
     damped_springs_->program.set("time_step", static_cast<float>(step));
     damped_springs_->program.set("row_count", row_count_);
     damped_springs_->program.dispatch(row_count_);
-    gl::barrier(gl::Barrier::texture_fetch);
 }
 
 void BlockDescent::take_back_tangled() const {

@@ -111,7 +111,6 @@ void CoarseCorrection::begin(const NodeBuffers& nodes, double step) {
     apply_program_.bind("Positions", nodes.positions);
     rotate_program_.set("cluster_count", cluster_count_);
     rotate_program_.dispatch_groups(cluster_count_);
-    gl::barrier(gl::Barrier::storage);
 }
 
 void CoarseCorrection::bind_forces(const gl::Program& program, bool is_ahead) const {

@@ -62,7 +62,6 @@ void Measure::begin(const ModelBuffers& model, const NodeBuffers& nodes, const C
     face_program_.dispatch_groups(face_chunks_.size());
 
     if (collision != nullptr) count_colliding_faces(*collision, self);
-    gl::barrier(gl::Barrier::buffer_update);
     readback_.begin(node_sums_.id(), node_sums_.size() * sizeof(NodeSums));
     readback_.begin(volumes_.id(), volumes_.size() * sizeof(float));
     readback_.begin(colliding_.id(), colliding_.size() * sizeof(std::uint32_t));

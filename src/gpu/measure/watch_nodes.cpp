@@ -17,7 +17,6 @@ void WatchNodes::run(const ModelBuffers& model, const NodeBuffers& nodes, std::u
     program_.set("step_number", step_number);
     program_.set("most_energy", static_cast<float>(most_energy));
     program_.dispatch(model.node_count);
-    gl::barrier(gl::Barrier::storage);
 }
 
 Alarm WatchNodes::alarm(bool wait) {

@@ -13,7 +13,7 @@ class WatchNodes {
 public:
     WatchNodes();
 
-    /// Ends with the barrier that the next run needs.
+    /// The next run needs a storage barrier before it; a step has many.
     void run(const ModelBuffers& model, const NodeBuffers& nodes, std::uint32_t step_number,
              double most_energy) const;
 

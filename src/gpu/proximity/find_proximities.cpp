@@ -25,6 +25,7 @@ void run_tasks(const gl::Program& of_nodes, const gl::Program& of_edges, const C
         program.set("task_capacity", capacity(tasks.leaves));
         program.set("first_query", first_query);
         collision.run(program, slot);
+        gl::barrier(gl::Barrier::storage);  // both add to the same buffers
     };
     run(of_nodes, buffers.node_tasks, dispatch_slots::kNodeTasks, 0);
     run(of_edges, buffers.edge_tasks, dispatch_slots::kEdgeTasks, buffers.node_count);
@@ -109,12 +110,11 @@ void FindProximities::find_near_leaves(const CollisionBuffers& collision,
 
     list_program_.set("near_object_capacity", capacity(buffers.near_objects));
     collision.run(list_program_, dispatch_slots::kNearObjects);
-    gl::barrier(kNext);
+    gl::barrier(gl::Barrier::texture_fetch);
 }
 
 void FindProximities::test(const CollisionBuffers& collision, const ProximityBuffers& buffers) const {
     run_tasks(test_nodes_program_, test_edges_program_, collision, buffers);
-    gl::barrier(gl::Barrier::storage);
 }
 
 void FindProximities::sum_up(const ProximityBuffers& buffers) const {
@@ -141,7 +141,6 @@ void FindProximities::write(const CollisionBuffers& collision, const ProximityBu
         program->set("proximity_capacity", capacity(buffers.proximities));
     }
     run_tasks(write_nodes_program_, write_edges_program_, collision, buffers);
-    gl::barrier(gl::Barrier::storage);
 }
 
 }  // namespace gelatin::gpu

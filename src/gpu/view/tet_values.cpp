@@ -58,7 +58,6 @@ TetValues::TetValues(const Model& model, Quantity quantity)
 }
 
 void TetValues::run(const gl::BufferTexture& positions, const gl::BufferTexture& velocities) {
-    gl::barrier(gl::Barrier::buffer_update);
     histogram_.fill(0);
     tet_program_.bind("positions", positions);
     tet_program_.bind("velocities", velocities);

@@ -26,7 +26,8 @@ void UpdateNormals::run(const gl::BufferTexture& position_texels) const {
     face_program_.bind("positions", position_texels);
     face_program_.set("face_count", static_cast<std::uint32_t>(faces_.size()));
     face_program_.dispatch(faces_.size());
-    gl::barrier(gl::Barrier::texture_fetch);
+    // storage: pictures of the state before may still read what is written next
+    gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::storage);
 
     vertex_program_.set("vertex_count", static_cast<std::uint32_t>(vertices_.size()));
     vertex_program_.dispatch(vertices_.size());

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "gl/debug.h"
+#include "gl/hazards.h"
 #include "render/frame_grabber.h"
 #include "viewer/support/gl_objects.h"
 
@@ -31,6 +32,7 @@ void WindowHeavy::close() {
     EXPECT_EQ(count_gl_objects(), own_objects_);
     EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
     for (const std::string& message : gl::take_debug_messages()) ADD_FAILURE() << message;
+    for (const std::string& hazard : gl::take_hazards()) ADD_FAILURE() << hazard;
     window_.reset();
 }
 
