@@ -17,7 +17,7 @@
 #include "gelatin/simulator.h"
 #include "gl/hazards.h"
 #include "support/gl_fixture.h"
-#include "support/scenarios.h"
+#include "support/short_runs.h"
 #include "support/source_path.h"
 
 namespace gelatin {
@@ -28,9 +28,9 @@ using ::testing::Not;
 
 class BarriersHeavy : public test::GlTest {};
 
-std::vector<gl::GpuEvent> record(const test::Scenario& scenario) {
+std::vector<gl::GpuEvent> record(const test::ShortRun& run) {
     gl::record_gpu_events();
-    test::play(scenario);
+    test::play(run);
     return gl::take_gpu_events();
 }
 
@@ -79,9 +79,9 @@ bool has_hazard_without(gl::CallSite site, const std::vector<gl::GpuEvent>& even
 // The unbroken program has no hazard; without any one of its barriers it has.
 TEST_F(BarriersHeavy, AreAllReachedAndAllNeeded) {
     std::map<std::string, bool> is_needed;  // by site
-    for (const test::Scenario& scenario : test::scenarios()) {
-        SCOPED_TRACE(scenario.name);
-        const std::vector<gl::GpuEvent> events = record(scenario);
+    for (const test::ShortRun& run : test::short_runs()) {
+        SCOPED_TRACE(run.name);
+        const std::vector<gl::GpuEvent> events = record(run);
         EXPECT_THAT(gl::take_hazards(), IsEmpty());
         for (const gl::CallSite site : sites_of(events)) {
             bool& needed = is_needed[gl::to_string(site)];
@@ -91,19 +91,19 @@ TEST_F(BarriersHeavy, AreAllReachedAndAllNeeded) {
     for (const auto& [site, needed] : is_needed)
         EXPECT_TRUE(needed) << site << ": the barrier may be removed without anybody noticing";
     for (const std::string& site : barriers_of_the_sources())
-        EXPECT_TRUE(is_needed.contains(site)) << site << ": no scenario reaches the barrier";
+        EXPECT_TRUE(is_needed.contains(site)) << site << ": no run reaches the barrier";
 }
 
 // What is played back is what happens: a barrier that is not counted in a run is missed there.
 TEST_F(BarriersHeavy, AreMissedInARun) {
-    const test::Scenario scenario = test::scenarios().front();
-    const std::vector<gl::GpuEvent> events = record(scenario);
+    const test::ShortRun run = test::short_runs().front();
+    const std::vector<gl::GpuEvent> events = record(run);
     const std::set<gl::CallSite> sites = sites_of(events);
     const auto found = std::find_if(sites.begin(), sites.end(),
                                     [&](gl::CallSite site) { return has_hazard_without(site, events); });
     ASSERT_NE(found, sites.end());
     gl::suppress_barrier(*found);
-    test::play(scenario);
+    test::play(run);
     gl::count_all_barriers();
     EXPECT_THAT(gl::take_hazards(), Not(IsEmpty()));
 }

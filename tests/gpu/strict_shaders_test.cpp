@@ -11,7 +11,7 @@
 #include "support/environment.h"
 #include "support/gl_fixture.h"
 #include "support/run_program.h"
-#include "support/scenarios.h"
+#include "support/short_runs.h"
 #include "support/source_path.h"
 
 namespace gelatin {
@@ -39,7 +39,7 @@ TEST_F(StrictShadersHeavy, AreGlslToGlslang) {
     const TemporaryFolder folder;
     {
         const test::EnvironmentVariable dump("GELATIN_DUMP_SHADERS", folder.path().string());
-        for (const test::Scenario& scenario : test::scenarios()) test::play(scenario);
+        for (const test::ShortRun& run : test::short_runs()) test::play(run);
     }
     std::set<std::string> missing = shaders_of_the_sources();
     std::vector<std::string> command = {"glslangValidator"};
@@ -48,7 +48,7 @@ TEST_F(StrictShadersHeavy, AreGlslToGlslang) {
         missing.erase(stem.substr(0, stem.rfind('-')) + entry.path().extension().string());
         command.push_back(entry.path().string());
     }
-    for (const std::string& name : missing) ADD_FAILURE() << name << " is compiled by no scenario";
+    for (const std::string& name : missing) ADD_FAILURE() << name << " is compiled by no run";
     const test::ProgramResult result = test::run_program(command);
     ASSERT_NE(result.exit_code, 127) << "glslangValidator is missing (Debian: glslang-tools)";
     EXPECT_EQ(result.exit_code, 0) << result.out << result.err;

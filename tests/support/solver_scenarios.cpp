@@ -182,9 +182,9 @@ Scenarios descent_scenarios() {
                                  descent.earlier_velocities[n].y += 0.1f * static_cast<float>(n % 8) - 0.25f;
                              return descent_error(model, descent);
                          }});
-    scenarios.push_back({"turned", [] {
+    scenarios.push_back({"rotated", [] {
                              const Model model = make_bodies_to_descend(0.01);
-                             return descent_error(model, {kFrame, {3}, {}, turned_start(model)});
+                             return descent_error(model, {kFrame, {3}, {}, rotated_start(model)});
                          }});
     scenarios.push_back({"sliding", sliding_descent_error});
     for (const int iterations : {1, 5}) {

@@ -124,9 +124,10 @@ TEST(RespondToSelf, LeavesPinnedNodesAndOtherFacesAlone) {
 
 // Two lumps of 1 and 3 kg that meet head on, and slide past one another.
 TEST(RespondToSelf, LumpsPartByTheRestitution) {
-    cpu::FaceLump<double> left{.mass = 1.0, .velocity = {2, 1, 0}, .way = {2e-3, 0, 0}, .normal = {1, 0, 0}};
+    cpu::FaceLump<double> left{
+        .mass = 1.0, .velocity = {2, 1, 0}, .displacement = {2e-3, 0, 0}, .normal = {1, 0, 0}};
     cpu::FaceLump<double> right{
-        .mass = 3.0, .velocity = {-1, 0, 0}, .way = {-1e-3, 0, 0}, .normal = {-1, 0, 0}};
+        .mass = 3.0, .velocity = {-1, 0, 0}, .displacement = {-1e-3, 0, 0}, .normal = {-1, 0, 0}};
     const cpu::ContactProperties properties{.friction = 0.1, .restitution = 0.5};
     const auto a = cpu::self_response(left, right, properties, 0.01);
     const auto b = cpu::self_response(right, left, properties, 0.01);
@@ -135,8 +136,8 @@ TEST(RespondToSelf, LumpsPartByTheRestitution) {
     // Reduced mass 3/4 kg: an impulse of 1.5 x 3 x 3/4 N s, of which friction takes a tenth.
     EXPECT_NEAR(a.velocity.y, -0.1 * 1.5 * 3.0 * 0.75, 1e-15);
     EXPECT_EQ(left.mass * a.velocity, -right.mass * b.velocity);
-    EXPECT_NEAR(left.way.x + a.way.x, right.way.x + b.way.x, 1e-18);
-    EXPECT_NEAR(a.way.x, -3e-3 * 0.75, 1e-18);
+    EXPECT_NEAR(left.displacement.x + a.displacement.x, right.displacement.x + b.displacement.x, 1e-18);
+    EXPECT_NEAR(a.displacement.x, -3e-3 * 0.75, 1e-18);
     right.velocity.x = 2.5;  // they part already
     EXPECT_EQ(cpu::self_response(left, right, properties, 0.01).velocity, glm::dvec3(0.0));
 }

@@ -1,4 +1,4 @@
-#include "support/scenarios.h"
+#include "support/short_runs.h"
 
 #include <memory>
 
@@ -170,10 +170,6 @@ void proximities(Scene& scene) {
     scene.collision.proximity_radius = 0.05;
 }
 
-void chebyshev(Scene& scene) {
-    scene.simulation.chebyshev = 0.5;
-}
-
 void nothing(Scene&) {}
 
 void drag(Simulator& simulator) {
@@ -191,7 +187,7 @@ void start_again(Simulator& simulator) {
 
 }  // namespace
 
-std::vector<Scenario> scenarios() {
+std::vector<ShortRun> short_runs() {
     const Change fused = explicit_by(SolverKind::rk4, ForceMethod::fused);
     const Change divided = explicit_by(SolverKind::midpoint, ForceMethod::divide_and_merge);
     const Change continuous = [](Scene& scene) {
@@ -201,7 +197,6 @@ std::vector<Scenario> scenarios() {
         {"block descent", nothing, start_again, true},
         {"block descent, pulled", nothing, pull},
         {"block descent, dragged", nothing, drag},
-        {"block descent, Chebyshev", chebyshev},
         {"block descent, volume term", volume_term, pull},
         {"block descent, neo-Hookean", neo_hookean, pull},
         {"block descent, squashed", squashed, start_again},
@@ -226,18 +221,18 @@ std::vector<Scenario> scenarios() {
     };
 }
 
-void play(const Scenario& scenario) {
+void play(const ShortRun& run) {
     const TemporaryFolder folder;
     write_file(folder.path() / "scene.toml", kScene);
     Scene scene = load_scene(folder.path() / "scene.toml");
-    scenario.change(scene);
+    run.change(scene);
     SimulatorOptions options;
-    options.backend = scenario.backend;
+    options.backend = run.backend;
     options.use_current_context = true;
     Simulator simulator(scene, options);
-    scenario.begin(simulator);
+    run.begin(simulator);
     std::unique_ptr<Painter> painter;
-    if (scenario.is_drawn) painter = std::make_unique<Painter>();
+    if (run.is_drawn) painter = std::make_unique<Painter>();
     for (int frame = 0; frame < 2; ++frame) {
         simulator.advance_frame();
         simulator.begin_statistics();
