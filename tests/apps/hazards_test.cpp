@@ -19,7 +19,7 @@ using ::testing::Not;
 class HazardsOfTheProgram : public ProgramTest {
 protected:
     void SetUp() override {
-        if (!GlTest::is_there()) GTEST_SKIP() << "no OpenGL";
+        if (!GlTest::is_available()) GTEST_SKIP() << "no OpenGL";
         write("two.toml",
               "[[material]]\nname = 'jelly'\n"
               "[[object]]\nname = 'a'\nshape = { box = [1, 1, 1] }\n"

@@ -201,8 +201,12 @@ TEST_F(SimulatorTest, TimesThePartsOfAnImplicitStep) {
         std::vector<std::string> found;
         for (const auto& [stage, times] : timed.take_stage_times()) {
             if (stage.find('.') != stage.npos && stage != "advance_nodes.correct") found.push_back(stage);
-            if (stage == "advance_nodes.descend") EXPECT_EQ(times.size(), 12u);
-            if (stage == "advance_nodes") EXPECT_EQ(times.size(), 3u);
+            if (stage == "advance_nodes.descend") {
+                EXPECT_EQ(times.size(), 12u);
+            }
+            if (stage == "advance_nodes") {
+                EXPECT_EQ(times.size(), 3u);
+            }
         }
         EXPECT_EQ(found, parts);
         for (const auto& [stage, times] : plain.take_stage_times()) EXPECT_EQ(stage.find('.'), stage.npos);
