@@ -40,7 +40,7 @@ void CutOverlay::find(const RenderView& bodies) {
     find_program_.set("tet_count", cut.tet_count);
     find_program_.set("cut_plane", glm::vec4(cut.plane[0], cut.plane[1], cut.plane[2], cut.plane[3]));
     find_program_.dispatch(cut.tet_count);
-    gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::command);
+    gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::command | gl::Barrier::storage);
 }
 
 void CutOverlay::draw(const Frame& frame, const RenderView& bodies) const {
