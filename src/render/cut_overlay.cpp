@@ -30,7 +30,7 @@ CutOverlay::CutOverlay()
 void CutOverlay::find(const RenderView& bodies) {
     const CutView& cut = *bodies.overlay.cut;
     if (met_tets_.size() < cut.tet_count) met_tets_ = gl::Buffer<std::uint32_t>(cut.tet_count);
-    gl::barrier(gl::Barrier::buffer_update);
+    gl::barrier(gl::Barrier::buffer_update | gl::Barrier::storage);  // an earlier picture may still read both
     draw_arguments_.upload(std::array<std::uint32_t, 4>{0, 1, 0, 0});  // vertices, instances, first of both
     const gl::BufferTexture positions = positions_of(bodies), tets = tets_of(cut);
     find_program_.bind("node_positions", positions);
@@ -40,7 +40,7 @@ void CutOverlay::find(const RenderView& bodies) {
     find_program_.set("tet_count", cut.tet_count);
     find_program_.set("cut_plane", glm::vec4(cut.plane[0], cut.plane[1], cut.plane[2], cut.plane[3]));
     find_program_.dispatch(cut.tet_count);
-    gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::command | gl::Barrier::storage);
+    gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::command);
 }
 
 void CutOverlay::draw(const Frame& frame, const RenderView& bodies) const {
