@@ -6,7 +6,7 @@
 #include <string>
 
 #include "apps/program_test.h"
-#include "support/gl_fixture.h"
+#include "support/run_program.h"
 #include "support/source_path.h"
 
 namespace gelatin::test {
@@ -16,10 +16,10 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 // What the program says of accesses to buffers that no barrier orders (GELATIN_GL_HAZARDS).
-class HazardsOfTheProgram : public ProgramTest {
+class HazardsOfTheProgram : public DrawingProgramTest {
 protected:
     void SetUp() override {
-        if (!GlTest::is_there()) GTEST_SKIP() << "no OpenGL";
+        DrawingProgramTest::SetUp();
         write("two.toml",
               "[[material]]\nname = 'jelly'\n"
               "[[object]]\nname = 'a'\nshape = { box = [1, 1, 1] }\n"
@@ -53,7 +53,8 @@ TEST_F(HazardsOfTheProgram, AreAnErrorAtTheEnd) {
     loosen_a_shader();
     const ProgramResult result = run_with("1");
     EXPECT_EQ(result.exit_code, 1);
-    EXPECT_THAT(result.err, HasSubstr("gelatin: error: accesses to buffers on the GPU that no barrier orders:"));
+    EXPECT_THAT(result.err,
+                HasSubstr("gelatin: error: accesses to buffers on the GPU that no barrier orders:"));
     EXPECT_THAT(result.err, HasSubstr("no barrier(command) between"));
 }
 
