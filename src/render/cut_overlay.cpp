@@ -30,7 +30,7 @@ CutOverlay::CutOverlay()
 void CutOverlay::find(const RenderView& bodies) {
     const CutView& cut = *bodies.overlay.cut;
     if (met_tets_.size() < cut.tet_count) met_tets_ = gl::Buffer<std::uint32_t>(cut.tet_count);
-    gl::barrier(gl::Barrier::buffer_update);
+    gl::barrier(gl::Barrier::buffer_update | gl::Barrier::storage);  // an earlier picture may still read both
     draw_arguments_.upload(std::array<std::uint32_t, 4>{0, 1, 0, 0});  // vertices, instances, first of both
     const gl::BufferTexture positions = positions_of(bodies), tets = tets_of(cut);
     find_program_.bind("node_positions", positions);

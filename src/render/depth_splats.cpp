@@ -60,6 +60,7 @@ void DepthSplats::draw(std::span<const DepthMap> maps, std::initializer_list<con
         surface->bind_triangles(program);
         program.set("face_count", surface->face_count());
         program.dispatch(surface->face_count());
+        gl::barrier(gl::Barrier::storage);  // the next one adds to the same maps
     }
     // Copied into the textures now, and cleared for the next frame.
     gl::barrier(gl::Barrier::pixel_unpack | gl::Barrier::buffer_update);

@@ -22,7 +22,7 @@ void VertexLight::light(const Frame& frame, const Layer& layer) {
     light_program_.bind("ClipPositions", clip_positions_);
     light_program_.bind("DisplayColors", display_colors_);
     light_program_.dispatch(vertex_count);
-    gl::barrier(gl::Barrier::vertex_pull);
+    gl::barrier(gl::Barrier::vertex_pull | gl::Barrier::storage);
 }
 
 void VertexLight::draw(const Layer& layer) const {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "apps/program_test.h"
-#include "support/gl_fixture.h"
+#include "support/run_program.h"
 #include "support/source_path.h"
 
 namespace gelatin::test {
@@ -16,10 +16,10 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 // What the program says of accesses to buffers that no barrier orders (GELATIN_GL_HAZARDS).
-class HazardsOfTheProgram : public ProgramTest {
+class HazardsOfTheProgram : public DrawingProgramTest {
 protected:
     void SetUp() override {
-        if (!GlTest::is_available()) GTEST_SKIP() << "no OpenGL";
+        DrawingProgramTest::SetUp();
         write("two.toml",
               "[[material]]\nname = 'jelly'\n"
               "[[object]]\nname = 'a'\nshape = { box = [1, 1, 1] }\n"

@@ -60,11 +60,13 @@ protected:
     }
     float result() {
         program_->dispatch(1);
+        barrier(Barrier::storage);
         return content(out_)[0];
     }
     std::string error() {
         try {
             program_->dispatch(1);
+            barrier(Barrier::storage);
         } catch (const GlError& e) {
             return e.what();
         }
@@ -87,6 +89,7 @@ TEST_F(BindingTest, BindingsStayWithTheirProgram) {
     for (int i = 0; i < 2; ++i) {
         EXPECT_EQ(result(), 12.0f);
         other.dispatch(1);
+        barrier(Barrier::storage);
         EXPECT_EQ(content(out)[0], 72.0f);
     }
 }

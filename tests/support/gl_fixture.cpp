@@ -47,10 +47,6 @@ public:
 
 }  // namespace
 
-bool GlTest::is_available() {
-    return shared().context.has_value();
-}
-
 gl::Context& GlTest::context() {
     return *shared().context;
 }

@@ -9,9 +9,6 @@ namespace gelatin::test {
 /// A test with the process' one headless debug context current. Without OpenGL it is skipped, or fails where
 /// GELATIN_REQUIRE_GL=1. Any debug message or GL error that is left when the test ends fails it.
 class GlTest : public ::testing::Test {
-public:
-    static bool is_available();
-
 protected:
     void SetUp() override;
     void TearDown() override;

@@ -5,6 +5,7 @@
 #include "core/file.h"
 #include "gelatin/pull.h"
 #include "gelatin/views.h"
+#include "mesh/shapes.h"
 #include "render/frame_grabber.h"
 #include "render/renderer.h"
 
@@ -90,7 +91,7 @@ public:
     Painter() {
         const render::Surroundings around{.bounds = {{-1.0f, 0.0f, -1.0f}, {1.0f, 1.0f, 1.0f}},
                                           .floor_height = 0.0f,
-                                          .props = {},
+                                          .props = {make_sphere({0.1, 4})},
                                           .colors = {}};
         for (const render::Quality quality : {render::Quality::high, render::Quality::fast}) {
             renderers_.push_back(std::make_unique<render::Renderer>(
@@ -238,7 +239,8 @@ void play(const ShortRun& run) {
         simulator.begin_statistics();
         if (painter) painter->draw(simulator);
     }
-    simulator.take_statistics();
+    simulator.begin_statistics();  // twice at one time
+    while (simulator.pending_statistics() > 0) simulator.take_statistics();
     simulator.read_frame();
 }
 

@@ -88,6 +88,7 @@ Alarm watch_on_gpu(const Model& model, const WatchedRun& run) {
     gpu::WatchNodes watch;
     std::uint32_t step = kFirstStep;
     for (const NodeArrays& nodes : run.steps) {
+        gl::barrier(gl::Barrier::storage);  // as a step has
         watch.run(buffers, gpu::NodeBuffers(nodes.positions, nodes.velocities), step++,
                   static_cast<double>(run.most_energy));
     }

@@ -28,7 +28,7 @@ void SumLoads::set_factors(std::span<const float> factors) {
 void SumLoads::run(const NodeBuffers& nodes) const {
     program_.bind("positions", nodes.position_texels);
     program_.dispatch(loaded_nodes_.size());
-    gl::barrier(gl::Barrier::texture_fetch);
+    gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::storage);
 }
 
 }  // namespace gelatin::gpu

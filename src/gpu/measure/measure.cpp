@@ -41,6 +41,7 @@ Measure::Measure(const Model& model)
 
 void Measure::begin(const ModelBuffers& model, const NodeBuffers& nodes, const CollisionBuffers* collision,
                     const SelfCollisionBuffers* self, const ProximityBuffers* near) {
+    gl::barrier(gl::Barrier::storage);  // what was measured before may still be on its way to the host
     node_program_.bind("positions", nodes.position_texels);
     node_program_.bind("velocities", nodes.velocity_texels);
     model.bind_half_springs(node_program_);

@@ -69,7 +69,7 @@ void TetValues::run(const gl::BufferTexture& positions, const gl::BufferTexture&
     node_program_.bind("velocities", velocities);
     node_program_.set("node_count", static_cast<std::uint32_t>(node_values_.size()));
     node_program_.dispatch(node_values_.size());
-    gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::buffer_update);
+    gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::buffer_update | gl::Barrier::storage);
 }
 
 }  // namespace gelatin::gpu

@@ -36,12 +36,14 @@ TEST_F(WatchNodesOnGpuTest, TellsWithoutWaitingAndForgets) {
     const gpu::ModelBuffers buffers(model);
     const gpu::NodeBuffers nodes(model.positions, model.velocities);
     gpu::WatchNodes watch;
+    gl::barrier(gl::Barrier::storage);  // as a step has
     watch.run(buffers, nodes, 3, 0.0);  // nothing may move
     Alarm alarm = kNoAlarm;
     for (int asked = 0; alarm.count == 0 && asked < 1'000'000; ++asked) alarm = watch.alarm(false);
     EXPECT_EQ(alarm.step, 3u);
     watch.forget();
     EXPECT_EQ(watch.alarm(true).count, 0u);
+    gl::barrier(gl::Barrier::storage);  // as a step has
     watch.run(buffers, nodes, 8, 0.0);
     EXPECT_EQ(watch.alarm(true).step, 8u);
 }
