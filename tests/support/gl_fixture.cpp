@@ -47,6 +47,11 @@ public:
 
 }  // namespace
 
+// Members of fixtures may be GL objects.
+GlTest::GlTest() {
+    if (shared().context) context().make_current();
+}
+
 gl::Context& GlTest::context() {
     return *shared().context;
 }

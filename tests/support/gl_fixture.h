@@ -10,6 +10,7 @@ namespace gelatin::test {
 /// GELATIN_REQUIRE_GL=1. Any debug message or GL error that is left when the test ends fails it.
 class GlTest : public ::testing::Test {
 protected:
+    GlTest();
     void SetUp() override;
     void TearDown() override;
 

@@ -121,7 +121,8 @@ FoundOnGpu find_proximities_on_gpu(const Model& model, const CollisionSettings& 
     for (int run = 0; run < 2; ++run)  // nothing is left of the step before
         collision.near->find.run(model_buffers, collision.buffers, buffers, nodes);
     gpu::Measure measure(model);
-    measure.begin(model_buffers, nodes, &collision.buffers, nullptr, &buffers);
+    measure.begin(model_buffers, nodes, &collision.buffers,
+                  collision.self ? &collision.self->buffers : nullptr, &buffers);
     measure.end();
 
     FoundOnGpu found;

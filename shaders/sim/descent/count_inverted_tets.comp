@@ -1,6 +1,7 @@
 // How many tets of each object are inside out, or have no volume left. Where there are so many that an object may have lost its
 // shape, the dispatches that match shapes get their work groups; else they stay empty.
 // CPU twin: gelatin::cpu::ShapeMatcher. Parity: tests/gpu/descent/match_shapes_test.cpp.
+#define WRITES_INVERTED
 #include "include/global_index.glsl"
 #include "sim/descent/inverted_tets.glsl"
 #include "sim/elasticity/volume_ratio.glsl"
