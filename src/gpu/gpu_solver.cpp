@@ -16,7 +16,7 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, Forc
       current_(model_->positions, model_->velocities),
       previous_(model_->positions, model_->velocities),
       integrator_(make_integrator(*model_, scheme_, solver, forces, descent)),
-      measure_(*model_) {
+      measure_(*model_, collision.self_collision) {
     if (scheme_.pass_count > 1) {
         for (NodeBuffers* nodes : {&stage_[0], &stage_[1], &sums_}) {
             *nodes = NodeBuffers(model_->positions, model_->velocities);

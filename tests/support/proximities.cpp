@@ -120,7 +120,7 @@ FoundOnGpu find_proximities_on_gpu(const Model& model, const CollisionSettings& 
     if (model.objects.size() > 1) collision.find_object_pairs.run(model_buffers, collision.buffers, nodes);
     for (int run = 0; run < 2; ++run)  // nothing is left of the step before
         collision.near->find.run(model_buffers, collision.buffers, buffers, nodes);
-    gpu::Measure measure(model);
+    gpu::Measure measure(model, settings.self_collision);
     measure.begin(model_buffers, nodes, &collision.buffers,
                   collision.self ? &collision.self->buffers : nullptr, &buffers);
     measure.end();

@@ -25,11 +25,12 @@ std::vector<T> read_as(const std::vector<std::byte>& bytes) {
 
 }  // namespace
 
-Measure::Measure(const Model& model)
+Measure::Measure(const Model& model, bool self_collision)
     : node_program_(gl::Program::compute("sim/measure/measure_nodes.comp", node_defines(model))),
       face_program_(gl::Program::compute("sim/measure/measure_faces.comp")),
       colliding_program_(
-          gl::Program::compute("sim/measure/count_colliding_faces.comp", self_collision_defines(model))),
+          gl::Program::compute("sim/measure/count_colliding_faces.comp",
+                               self_collision ? gl::Defines{"SELF_COLLISION"} : gl::Defines{})),
       node_chunks_(make_chunks(model, &ModelObject::nodes)),
       face_chunks_(make_chunks(model, &ModelObject::faces)),
       node_chunk_buffer_(std::span<const Chunk>(node_chunks_)),

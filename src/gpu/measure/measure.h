@@ -19,7 +19,8 @@ namespace gelatin::gpu {
 /// double precision.
 class Measure {
 public:
-    explicit Measure(const Model& model);
+    /// @param self_collision whether `begin` is given the buffers of self-collision
+    explicit Measure(const Model& model, bool self_collision = false);
 
     /// @param collision null if nothing can collide
     /// @param self null if nothing collides with itself
