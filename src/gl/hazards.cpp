@@ -3,7 +3,6 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <map>
@@ -14,6 +13,7 @@
 #include <utility>
 
 #include "core/current_stage.h"
+#include "core/log.h"
 #include "gl/program_access.h"
 
 namespace gelatin::gl {
@@ -45,7 +45,7 @@ void apply(ContextState& context, const GpuEvent& event) {
     context.tracker.apply(event);
     for (std::string& hazard : context.tracker.take_hazards()) {
         if (std::find(found.begin(), found.end(), hazard) != found.end()) continue;
-        spdlog::warn("hazard: {}", hazard);
+        log_warning("hazard: " + hazard);
         found.push_back(std::move(hazard));
     }
 }
