@@ -176,14 +176,14 @@ void Run::print_summary() const {
                  frames, counts.objects, counts.nodes, counts.springs, report_.seconds,
                  report_.seconds > 0.0 ? static_cast<double>(frames) / report_.seconds : 0.0,
                  report_.device.c_str());
-    const auto tell = [out](const char* what, const std::filesystem::path& file) {
+    const auto report = [out](const char* what, const std::filesystem::path& file) {
         if (!file.empty()) std::fprintf(out, "%s: %s\n", what, file.c_str());
     };
-    tell("film", options_.video);
-    tell("picture", options_.image);
-    tell("frames", options_.export_folder);
-    tell("statistics", options_.stats);
-    if (saved_frame_) tell("checkpoint", options_.checkpoint);
+    report("film", options_.video);
+    report("picture", options_.image);
+    report("frames", options_.export_folder);
+    report("statistics", options_.stats);
+    if (saved_frame_) report("checkpoint", options_.checkpoint);
 }
 
 void run(const RunOptions& options) {

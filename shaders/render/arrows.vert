@@ -24,10 +24,10 @@ void main() {
     bool is_hidden = cut_by_near_plane(a, b) || depth_below_cut(from) < 0.0;
 
     vec2 pixels = 0.5 * picture_size;
-    vec2 way = (b.xy / b.w - a.xy / a.w) * pixels;
+    vec2 arrow = (b.xy / b.w - a.xy / a.w) * pixels;
     float width = 2.0 * line_scale;  // [pixels]
-    arrow_length = length(way) / width;
-    vec2 along = arrow_length > 1e-3 ? normalize(way) : vec2(1.0, 0.0);
+    arrow_length = length(arrow) / width;
+    vec2 along = arrow_length > 1e-3 ? normalize(arrow) : vec2(1.0, 0.0);
     // Triangles of corners 0 2 1 and 1 2 3.
     int corner = gl_VertexID % 6;
     float side = (0x2c >> corner & 1) != 0 ? 1.0 : -1.0;

@@ -12,7 +12,7 @@ struct BlockAccess {
 };
 
 /// The storage blocks of a shader's expanded source, by name, as their `readonly` and `writeonly` say, which
-/// OpenGL's own reflection does not tell. Follows #ifdef, #ifndef and #if with `defined(NAME)` alone; of
+/// OpenGL's own reflection does not report. Follows #ifdef, #ifndef and #if with `defined(NAME)` alone; of
 /// other conditions both branches count. A block declared more than once may do what any declaration allows.
 std::map<std::string, BlockAccess> block_accesses(const std::string& source);
 

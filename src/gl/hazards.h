@@ -35,7 +35,7 @@ void count_all_barriers();
 void record_gpu_events();
 std::vector<GpuEvent> take_gpu_events();
 
-/// What the GL layer tells of its calls, before it makes them.
+/// What the GL layer reports of its calls, before it makes them.
 class HazardProbe {
 public:
     void linked(unsigned program, const std::string& name, const std::string& source);

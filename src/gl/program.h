@@ -121,7 +121,7 @@ private:
 /// would decide how the textures of the application around this library are read.
 void release_samplers();
 
-/// Waits until the GPU has done everything it was told.
+/// Waits until the GPU has completed all commands.
 void finish();
 
 }  // namespace gelatin::gl

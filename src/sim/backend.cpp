@@ -16,7 +16,7 @@ SimulatorOptions with_needed_backend(SimulatorOptions options, const Scene& scen
                             0,
                             "collision.proximity_radius",
                             {},
-                            "must not be given with broad_phase = \"depth\", which tells what touches, not "
+                            "must not be given with broad_phase = \"depth\", which finds what touches, not "
                             "what is near"});
     }
     if (options.backend == Backend::cpu) {

@@ -127,7 +127,8 @@ inline constexpr Mutant kSelfCollisionMutants[] = {
 inline constexpr Mutant kSelfResponseMutants[] = {
     {"nodes_keep_their_velocity", "sim/collision/respond_to_self.comp",
      "velocities[n].xyz += velocity / shares;", ""},
-    {"nodes_do_not_go_back", "sim/collision/respond_to_self.comp", "positions[n].xyz += way / shares;", ""},
+    {"nodes_do_not_go_back", "sim/collision/respond_to_self.comp",
+     "positions[n].xyz += displacement / shares;", ""},
     {"answers_are_not_averaged", "sim/collision/respond_to_self.comp", "velocity / count", "velocity"},
     {"masses_are_not_divided", "sim/collision/respond_to_self.comp",
      "lump.mass /= float(max(contact_counts[f], 1u));", ""},

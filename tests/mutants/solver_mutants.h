@@ -307,7 +307,7 @@ inline constexpr Mutant kPullMutants[] = {
      "vec3 unused = pull_force"},
     {"light_nodes_are_not_spared", "sim/drive/pull.glsl", "1.0 + pull.w * inverse_mass * h * time", "1.0"},
     {"damping_is_forgotten", "sim/drive/pull.glsl", "h + pull_damping_time", "h"},
-    {"arms_are_forgotten", "sim/drive/pull.glsl", "way = pull_target + pull.xyz", "way = pull_target"},
+    {"arms_are_forgotten", "sim/drive/pull.glsl", "offset = pull_target + pull.xyz", "offset = pull_target"},
     {"descent_has_no_damping", "sim/drive/pull.glsl", "pull_damping_time / h", "0.0"},
     {"descent_has_no_curvature", "sim/drive/pull.glsl", "weight = target.w + stiffness", "weight = target.w"},
     {"descent_is_not_held", "sim/descent/start_descent.comp", "target = with_pull",

@@ -32,7 +32,7 @@ vec4 distance_to_plane(uint c, vec3 p) {
     return vec4(plane.xyz, dot(plane.xyz, p) - plane.w);
 }
 
-vec4 distance_to_turned_box(uint c, vec3 p) {
+vec4 distance_to_rotated_box(uint c, vec3 p) {
     vec4 orientation = texelFetch(colliders, int(4u * c + 2u));
     vec3 local = rotate(vec4(-orientation.xyz, orientation.w), p - collider_center(c).xyz);
     vec4 surface = distance_to_box(local, collider_axis(c));
@@ -81,7 +81,7 @@ void resolve_colliders(float resting_speed, inout vec3 position, inout vec3 velo
 #endif
 #if (COLLIDER_KINDS & 2) != 0
     for (; c < collider_ends.y; ++c) {
-        resolve_collider(c, distance_to_turned_box(c, position), resting_speed, position, velocity);
+        resolve_collider(c, distance_to_rotated_box(c, position), resting_speed, position, velocity);
     }
 #endif
 #if (COLLIDER_KINDS & 4) != 0
@@ -104,7 +104,7 @@ float distance_to_colliders(vec3 p) {
     for (; c < collider_ends.x; ++c) nearest = min(nearest, distance_to_plane(c, p).w);
 #endif
 #if (COLLIDER_KINDS & 2) != 0
-    for (; c < collider_ends.y; ++c) nearest = min(nearest, distance_to_turned_box(c, p).w);
+    for (; c < collider_ends.y; ++c) nearest = min(nearest, distance_to_rotated_box(c, p).w);
 #endif
 #if (COLLIDER_KINDS & 4) != 0
     for (; c < collider_ends.z; ++c) nearest = min(nearest, distance_to_sphere(c, p).w);
@@ -134,7 +134,7 @@ void rebound(vec3 p, vec3 unhindered, float contact_distance, float resting_spee
 #endif
 #if (COLLIDER_KINDS & 2) != 0
     for (; c < collider_ends.y; ++c) {
-        rebound_from(c, distance_to_turned_box(c, p), unhindered, contact_distance, resting_speed, velocity);
+        rebound_from(c, distance_to_rotated_box(c, p), unhindered, contact_distance, resting_speed, velocity);
     }
 #endif
 #if (COLLIDER_KINDS & 4) != 0

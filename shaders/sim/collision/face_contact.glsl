@@ -1,7 +1,7 @@
 // How two faces that touch within a step do so, each as it sees the other. CPU twin: src/cpu/collision/face_contact.h.
+#include "layouts/thresholds.glsl"
 #include "sim/collision/time_of_impact.glsl"
 
-const float kAcross = 0.25;
 
 vec3 unit_normal(mat3 corners) {
     vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);

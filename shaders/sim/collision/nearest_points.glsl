@@ -24,11 +24,11 @@ struct EdgeToEdge {
 };
 
 NodeToEdge node_to_edge(vec3 p, vec3 a, vec3 b) {
-    vec3 edge = b - a, way = a - p;
+    vec3 edge = b - a, to_edge = a - p;
     float squared_length = dot(edge, edge);
-    float along = squared_length > 0.0 ? -dot(way, edge) / squared_length : 0.0;
+    float along = squared_length > 0.0 ? -dot(to_edge, edge) / squared_length : 0.0;
     float fraction = clamp(along, 0.0, 1.0);
-    vec3 apart = way + fraction * edge;
+    vec3 apart = to_edge + fraction * edge;
     if (along > 0.0 && along < 1.0) apart -= dot(apart, edge) / squared_length * edge;
     return NodeToEdge(fraction, apart, dot(apart, apart));
 }
@@ -85,20 +85,20 @@ EdgeToEdge edge_to_edge(vec3 a, vec3 b, vec3 c, vec3 d) {
 
 // The vector between the nearest points of two faces. Loops rotate the corners, because a variable index would move them to
 // memory.
-vec3 way_between(mat3 s, mat3 t) {
-    vec4 way = vec4(0.0, 0.0, 0.0, kInfinity);
+vec3 shortest_between(mat3 s, mat3 t) {
+    vec4 shortest = vec4(0.0, 0.0, 0.0, kInfinity);
     for (int k = 0; k < 3; ++k) {
         NodeToFace from = node_to_face(s[0], t), to = node_to_face(t[0], s);
-        if (from.squared_distance < way.w) way = vec4(from.apart, from.squared_distance);
-        if (to.squared_distance < way.w) way = vec4(-to.apart, to.squared_distance);
+        if (from.squared_distance < shortest.w) shortest = vec4(from.apart, from.squared_distance);
+        if (to.squared_distance < shortest.w) shortest = vec4(-to.apart, to.squared_distance);
         s = mat3(s[1], s[2], s[0]);
         t = mat3(t[1], t[2], t[0]);
     }
     for (int k = 0; k < 9; ++k) {  // ends have been compared above
         EdgeToEdge edges = inner_edge_to_edge(s[0], s[1], t[0], t[1]);
-        if (edges.squared_distance < way.w) way = vec4(edges.apart, edges.squared_distance);
+        if (edges.squared_distance < shortest.w) shortest = vec4(edges.apart, edges.squared_distance);
         t = mat3(t[1], t[2], t[0]);
         if (k % 3 == 2) s = mat3(s[1], s[2], s[0]);
     }
-    return way.xyz;
+    return shortest.xyz;
 }

@@ -10,7 +10,7 @@ layout(local_size_x = 64) in;
 uniform usamplerBuffer node_face_starts;
 uniform usamplerBuffer node_faces;
 layout(std430) readonly buffer ContactCounts { uint contact_counts[]; };
-layout(std430) readonly buffer Answers { vec4 answers[]; };  // of each face: velocity [m/s], way [m]
+layout(std430) readonly buffer Answers { vec4 answers[]; };  // of each face: velocity [m/s], displacement [m]
 layout(std430) buffer Positions { vec4 positions[]; };       // an invocation reads and writes its own
 layout(std430) buffer Velocities { vec4 velocities[]; };     // node alone
 
@@ -18,17 +18,17 @@ void main() {
     uint n = global_index();
     if (n >= dispatches[kSelfNodes].count) return;
     uint end = texelFetch(node_face_starts, int(n) + 1).x;
-    vec3 velocity = vec3(0.0), way = vec3(0.0);
+    vec3 velocity = vec3(0.0), displacement = vec3(0.0);
     float shares = 0.0;
     for (uint k = texelFetch(node_face_starts, int(n)).x; k < end; ++k) {
         uint f = texelFetch(node_faces, int(k)).x;
         if (contact_counts[f] == 0u) continue;
         velocity += answers[2u * f].xyz;
-        way += answers[2u * f + 1u].xyz;
+        displacement += answers[2u * f + 1u].xyz;
         shares += 1.0;
     }
     if (shares == 0.0 || positions[n].w == 0.0) return;
-    positions[n].xyz += way / shares;
+    positions[n].xyz += displacement / shares;
     velocities[n].xyz += velocity / shares;
 }
 #else
@@ -40,7 +40,7 @@ uniform usamplerBuffer node_face_starts;
 uniform usamplerBuffer node_faces;
 uniform samplerBuffer previous_positions;  // xyz [m]
 layout(std430) readonly buffer ContactCounts { uint contact_counts[]; };
-layout(std430) writeonly buffer Answers { vec4 answers[]; };  // of each face: velocity [m/s], way [m]
+layout(std430) writeonly buffer Answers { vec4 answers[]; };  // of each face: velocity [m/s], displacement [m]
 layout(std430) readonly buffer SelfFaces { uint self_faces[]; };
 uniform float friction;
 uniform float restitution;
@@ -49,7 +49,7 @@ uniform float resting_speed;  // [m/s]
 // A face as one point mass: see FaceLump in src/cpu/collision/self_contact.h.
 struct Lump {
     float mass;
-    vec3 velocity, way, center, normal;
+    vec3 velocity, displacement, center, normal;
 };
 
 uint count_colliding(uint node) {
@@ -71,16 +71,16 @@ Lump make_lump(uint f, uvec3 corners) {
         float mass = at.w > 0.0 ? 1.0 / (at.w * float(max(count_colliding(corners[k]), 1u))) : 0.0;
         lump.mass += mass;
         lump.velocity += mass * texelFetch(velocities, n).xyz;
-        lump.way += mass * (at.xyz - texelFetch(previous_positions, n).xyz);
+        lump.displacement += mass * (at.xyz - texelFetch(previous_positions, n).xyz);
     }
     if (lump.mass > 0.0) {
         lump.velocity /= lump.mass;
-        lump.way /= lump.mass;
+        lump.displacement /= lump.mass;
     } else {
         for (int k = 0; k < 3; ++k) {
             int n = int(corners[k]);
             lump.velocity += texelFetch(velocities, n).xyz / 3.0;
-            lump.way += (texelFetch(positions, n).xyz - texelFetch(previous_positions, n).xyz) / 3.0;
+            lump.displacement += (texelFetch(positions, n).xyz - texelFetch(previous_positions, n).xyz) / 3.0;
         }
     }
     lump.mass /= float(max(contact_counts[f], 1u));
@@ -97,9 +97,9 @@ float length_or_one(vec3 v) {
     return size > 0.0 ? size : 1.0;
 }
 
-void add_answer(Lump face, Lump other, inout vec3 velocity, inout vec3 way) {
+void add_answer(Lump face, Lump other, inout vec3 velocity, inout vec3 displacement) {
     vec3 normal = face.normal - other.normal;
-    if (dot(normal, normal) < 1e-4) normal = other.center - face.center;  // they face the same way
+    if (dot(normal, normal) < 1e-4) normal = other.center - face.center;  // their normals coincide
     normal /= length_or_one(normal);
     float ours = mobility(face.mass), both = ours + mobility(other.mass);
     vec3 relative = face.velocity - other.velocity;
@@ -110,7 +110,7 @@ void add_answer(Lump face, Lump other, inout vec3 velocity, inout vec3 way) {
     vec3 sliding = relative - approach * normal;
     float braking = min(length(sliding) / both, friction * impulse);  // Coulomb [N s]
     velocity -= ours * (impulse * normal + braking / length_or_one(sliding) * sliding);
-    way -= ours / both * max(dot(face.way - other.way, normal), 0.0) * normal;
+    displacement -= ours / both * max(dot(face.displacement - other.displacement, normal), 0.0) * normal;
 }
 
 bool touch(uvec4 a, uvec4 b) {
@@ -123,7 +123,7 @@ void main() {
     uint face = self_faces[k];
     OwnWalk walk = start_walk(face);
     Lump lump = make_lump(face, walk.face.xyz);
-    vec3 velocity = vec3(0.0), way = vec3(0.0);
+    vec3 velocity = vec3(0.0), displacement = vec3(0.0);
     while (walk.node < walk.end) {
         uvec2 leaf = next_leaf(walk);
         for (uint other = leaf.x; other < leaf.x + leaf.y; ++other) {
@@ -132,11 +132,11 @@ void main() {
             // In the order of the test that found them.
             bool first = face < other;
             if (!touch(first ? walk.face : corners, first ? corners : walk.face)) continue;
-            add_answer(lump, make_lump(other, corners.xyz), velocity, way);
+            add_answer(lump, make_lump(other, corners.xyz), velocity, displacement);
         }
     }
     float count = float(contact_counts[face]);
     answers[2u * face] = vec4(velocity / count, 0.0);
-    answers[2u * face + 1u] = vec4(way / count, 0.0);
+    answers[2u * face + 1u] = vec4(displacement / count, 0.0);
 }
 #endif

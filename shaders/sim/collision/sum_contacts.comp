@@ -1,6 +1,7 @@
 // Sums over the corners of the colliding faces of each pair: one work group for each pair, a fixed order of summation. Without
 // APPROACHING the ContactPatch; with it the ApproachSums of the corners that approach the other object. CPU twin:
 // gelatin::cpu::respond. Parity: tests/gpu/collision/respond_test.cpp.
+#include "layouts/thresholds.glsl"
 #ifndef APPROACHING
 #define WRITES_CONTACT_PATCHES
 #endif
@@ -18,7 +19,6 @@ layout(std430) readonly buffer Faces { Face faces[]; };
 layout(std430) writeonly buffer Approaches { ApproachSums approaches[]; };
 #endif
 
-const float kWeightOfOthers = 1e-3;  // see src/cpu/collision/contact.h
 
 shared vec4 parts[3][64];
 

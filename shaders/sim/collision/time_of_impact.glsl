@@ -50,7 +50,7 @@ float time_of_impact(MovingFace s, MovingFace t) {
 
     float time = 0.0;
     for (int plane = 0; plane < kMostPlanes; ++plane) {
-        vec3 normal = way_between(s.start + time * (s.end - s.start), t.start + time * (t.end - t.start));
+        vec3 normal = shortest_between(s.start + time * (s.end - s.start), t.start + time * (t.end - t.start));
         vec2 window = separating_window(s, t, normal, reach);
         if (!(window.x <= time && time < window.y)) return time;
         if (window.y == 1.0) return kNever;

@@ -2,13 +2,13 @@
 // Both give the same answer for every input. Parity: tests/gpu/collision/triangle_overlap_test.cpp.
 //
 // Signs are bits of a uvec2, x for positive, y for negative: bit i is the side of t's plane that vertex i of s is on,
-// 3 + j the side of s's plane for vertex j of t, 6 + 3 i + j how edge i of s turns round edge j of t.
-// Software drivers run every branch, and every loop once: what is rarely needed is one turn of a loop.
+// 3 + j the side of s's plane for vertex j of t, 6 + 3 i + j the orientation of edge i of s about edge j of t.
+// Software drivers run every branch, and every loop once: what is rarely needed is one iteration of a loop.
 
 #include "sim/collision/rounding.glsl"
 
 const uint kVerticesOfS = 7u, kVerticesOfT = 56u, kAllSigns = 32767u;
-const uint kEdgeOfS = 448u, kEdgeOfT = 4672u;  // the turns of the first ones
+const uint kEdgeOfS = 448u, kEdgeOfT = 4672u;  // orientations of the first ones
 
 // Relative rounding bounds: 2^-20, 2^-49. In float 2^-99 pays for products that are flushed to zero; in double there
 // are none, as differences of floats are at least 2^-149.
@@ -129,15 +129,15 @@ bool triangles_overlap(vec3 s0, vec3 s1, vec3 s2, vec3 t0, vec3 t1, vec3 t2) {
 
     uint open_edges = 0u;  // those of s, then those of t, that neither miss nor certainly meet
     for (int i = 0; i < 3; ++i) {
-        uint ends = 1u << i | 1u << (i + 1) % 3, turns = kEdgeOfS << 3 * i;
-        if (!all_alike(signs, ends) && !mixed(signs, turns)) {
-            if ((zero_signs(signs) & (ends | turns)) == 0u) return true;
+        uint ends = 1u << i | 1u << (i + 1) % 3, orientations = kEdgeOfS << 3 * i;
+        if (!all_alike(signs, ends) && !mixed(signs, orientations)) {
+            if ((zero_signs(signs) & (ends | orientations)) == 0u) return true;
             open_edges |= 1u << i;
         }
         ends <<= 3;
-        turns = kEdgeOfT << i;
-        if (!all_alike(signs, ends) && !mixed(signs, turns)) {
-            if ((zero_signs(signs) & (ends | turns)) == 0u) return true;
+        orientations = kEdgeOfT << i;
+        if (!all_alike(signs, ends) && !mixed(signs, orientations)) {
+            if ((zero_signs(signs) & (ends | orientations)) == 0u) return true;
             open_edges |= 8u << i;
         }
     }

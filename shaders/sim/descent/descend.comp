@@ -86,7 +86,7 @@ ColliderContact push_outside_colliders(uvec4 ends, vec3 start, NodeTerms terms, 
     for (; c < ends.x; ++c) push_out(c, distance_to_plane(c, position), start, terms, position, contact);
 #endif
 #if (COLLIDER_KINDS & 2) != 0
-    for (; c < ends.y; ++c) push_out(c, distance_to_turned_box(c, position), start, terms, position, contact);
+    for (; c < ends.y; ++c) push_out(c, distance_to_rotated_box(c, position), start, terms, position, contact);
 #endif
 #if (COLLIDER_KINDS & 4) != 0
     for (; c < ends.z; ++c) push_out(c, distance_to_sphere(c, position), start, terms, position, contact);

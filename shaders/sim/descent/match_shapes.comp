@@ -2,6 +2,7 @@
 // their momentum and angular momentum (shape matching, Mueller et al. 2005). Without OBJECTS: sums over a chunk's nodes,
 // one work group a chunk; with it: the place, one invocation an object.
 // CPU twin: gelatin::cpu::ShapeMatcher. Parity: tests/gpu/descent/match_shapes_test.cpp.
+#include "layouts/thresholds.glsl"
 #include "include/global_index.glsl"
 #include "layouts/chunk.glsl"
 #include "sim/descent/inverted_tets.glsl"
@@ -27,8 +28,6 @@ bool may_be_lost(uint object) { return inverted[object] > most_inverted(object);
 
 #ifdef OBJECTS
 #include "sim/descent/nearest_rotation.glsl"
-
-const float kLeastExplained = 0.75;
 
 float trace(mat3 m) { return m[0][0] + m[1][1] + m[2][2]; }
 

@@ -1,6 +1,7 @@
 // The motion of each body as a rigid one that takes it to where the objective is least. Without OBJECTS: sums over a
 // chunk's nodes, four chunks a work group; with it: the motion, one invocation an object.
 // CPU twin: gelatin::cpu::RigidStep. Parity: tests/gpu/descent/block_descent_test.cpp.
+#include "layouts/rigid_sums.glsl"
 #include "include/global_index.glsl"
 #include "sim/descent/descent_step.glsl"
 #include "sim/descent/rigid_sums.glsl"
@@ -77,7 +78,7 @@ void share(uint lane, RigidSums sums) {
 }
 
 // Few lanes a chunk: what a lane has to share costs more than a node.
-const uint kLanes = 16u;
+const uint kLanes = kLanesAChunk;
 const uint kChunks = 64u / kLanes;  // a work group
 
 RigidSums sum_nodes(Chunk chunk, uint lane) {

@@ -1,6 +1,7 @@
 // Bodies that the first guess tangles start where they were: it can hold any energy, which few sweeps would not take out
 // again. TETS: finds them; without: puts their nodes back.
 // CPU twin: gelatin::cpu::BlockDescent. Parity: tests/gpu/descent/block_descent_test.cpp.
+#include "layouts/thresholds.glsl"
 #include "include/global_index.glsl"
 layout(local_size_x = 64) in;
 
@@ -9,8 +10,6 @@ uniform uint element_count;
 
 #ifdef TETS
 #include "sim/elasticity/volume_ratio.glsl"
-
-const float kLeastSound = -0.5, kMostSound = 4.0;  // volumes over those at rest
 
 layout(std430) writeonly buffer Tangled { uint is_tangled[]; };  // by object
 

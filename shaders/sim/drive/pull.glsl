@@ -9,8 +9,8 @@ uniform float pull_damping_time;                   // damping over stiffness [s]
 vec3 pull_force(uint node, vec3 position, vec3 velocity, float inverse_mass, float h) {
     vec4 pull = texelFetch(pulls, int(node));
     float time = h + pull_damping_time;
-    vec3 way = pull_target + pull.xyz - position;
-    return pull.w / (1.0 + pull.w * inverse_mass * h * time) * (way - time * velocity);
+    vec3 offset = pull_target + pull.xyz - position;
+    return pull.w / (1.0 + pull.w * inverse_mass * h * time) * (offset - time * velocity);
 }
 
 // For block descent: the target of a node [m] and its weight [N/m] with the spring's own beside them, as of a step of h

@@ -1,13 +1,13 @@
 // Stable neo-Hookean tets (Smith, de Goes, Kim 2018). With F the deformation gradient, I = F : F, J = det F, the energy
 // over the volume at rest is mu/2 (I - 3 - log((I + 1) / 4)) - 3/4 mu (J - 1) + lambda/2 (J - 1)^2.
 // CPU twin: src/cpu/elasticity/neo_hookean.h.
+#include "layouts/thresholds.glsl"
 #include "layouts/packing.glsl"
 
 uniform usamplerBuffer neo_hookean_tets;     // NeoHookeanTet, four texels each
 uniform usamplerBuffer neo_hookean_corners;  // 4 tet + corner, in slices of rows; kNone pads
 uniform usamplerBuffer neo_hookean_starts;   // of the slices
 
-const float kCollapsed = 0.03;  // of I: a tet nearly a point gets the pressure mu in the direction of its rest
 
 struct NeoHookeanTet {
     uvec4 nodes;

@@ -1,6 +1,7 @@
 // What one element of a body adds to a node's part of the objective of a step: a force and a positive semi-definite
 // second derivative. CPU twin: src/cpu/elasticity/node_terms.h.
 
+#include "layouts/thresholds.glsl"
 struct NodeTerms {
     vec3 force;     // [N]
     vec3 diagonal;  // xx, yy, zz of the Hessian [N/m]
@@ -35,7 +36,6 @@ void add_spring(vec3 apart, float rest_length, float stiffness, inout NodeTerms 
     terms.diagonal += across;
 }
 
-const float kFlattest = 0.5;
 
 // A tet flatter than that, as the corner at `position` sees it.
 void add_flat_tet(vec3 position, vec3 a, vec3 b, vec3 c, float rest_volume, float modulus, inout NodeTerms terms) {

@@ -44,11 +44,11 @@ constexpr Real kParallel = predicates::kParallelRounding* std::numeric_limits<Re
 
 template <class Real>
 NodeToEdge<Real> nearest_points(const Vec3<Real>& p, const Vec3<Real>& a, const Vec3<Real>& b) {
-    const Vec3<Real> edge = b - a, way = a - p;
+    const Vec3<Real> edge = b - a, to_edge = a - p;
     const Real squared_length = glm::dot(edge, edge);
-    const Real along = squared_length > Real(0) ? -glm::dot(way, edge) / squared_length : Real(0);
+    const Real along = squared_length > Real(0) ? -glm::dot(to_edge, edge) / squared_length : Real(0);
     const Real fraction = std::clamp(along, Real(0), Real(1));
-    Vec3<Real> apart = way + fraction * edge;
+    Vec3<Real> apart = to_edge + fraction * edge;
     // The rounding error along the edge would rotate a short vector by a large angle.
     if (along > Real(0) && along < Real(1)) apart -= glm::dot(apart, edge) / squared_length * edge;
     return {fraction, apart, glm::dot(apart, apart)};
@@ -112,12 +112,12 @@ EdgeToEdge<Real> nearest_points(const std::array<Vec3<Real>, 2>& edge,
 /// The vector between the nearest points of two faces [m]: from a corner to the other face, or between two
 /// edges. If they do not touch, a plane perpendicular to it separates the faces.
 template <class Real>
-Vec3<Real> way_between(const std::array<Vec3<Real>, 3>& face, const std::array<Vec3<Real>, 3>& other) {
-    Vec3<Real> way(0);
+Vec3<Real> shortest_between(const std::array<Vec3<Real>, 3>& face, const std::array<Vec3<Real>, 3>& other) {
+    Vec3<Real> shortest(0);
     Real least = std::numeric_limits<Real>::infinity();
     const auto take = [&](const Vec3<Real>& apart, Real squared_distance) {
         if (!(squared_distance < least)) return;
-        way = apart;
+        shortest = apart;
         least = squared_distance;
     };
     for (int k = 0; k < 3; ++k) {
@@ -132,7 +132,7 @@ Vec3<Real> way_between(const std::array<Vec3<Real>, 3>& face, const std::array<V
             take(edges.apart, edges.squared_distance);
         }
     }
-    return way;
+    return shortest;
 }
 
 }  // namespace gelatin::cpu

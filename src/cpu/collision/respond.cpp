@@ -148,7 +148,7 @@ void respond_at_node(const Contacts<Real>& contacts, const std::vector<ContactRe
     const std::uint32_t shares = contacts.shares[node];
     if (shares == 0 || current.positions[node].w == Real(0)) return;
     const Vec3<Real> velocity(current.velocities[node]);
-    const Vec3<Real> way(current.positions[node] - previous_position);
+    const Vec3<Real> displacement(current.positions[node] - previous_position);
     Vec3<Real> change(0), way_back(0);
     for (std::uint32_t p = row.first; p < row.end(); ++p) {
         const std::uint32_t faces = contacts.colliding_faces(node, contacts.collision.pairs()[p]);
@@ -157,7 +157,7 @@ void respond_at_node(const Contacts<Real>& contacts, const std::vector<ContactRe
         if (faces == 0 || approach <= Real(0)) continue;
         const Real share = static_cast<Real>(faces) / static_cast<Real>(shares);
         change += share * (response.slowing - response.factor * approach * response.normal);
-        const Real advance = glm::dot(way - step * response.velocity, response.normal);
+        const Real advance = glm::dot(displacement - step * response.velocity, response.normal);
         way_back -= share * std::max(advance, Real(0)) * response.normal;
     }
     current.positions[node] += Vec4<Real>(way_back, 0);

@@ -87,14 +87,14 @@ Window<Real> separating_window(const Moving<Real, N>& a, const Moving<Real, M>& 
 }
 
 template <class Real>
-Vec3<Real> way_between(const std::array<Vec3<Real>, 1>& node, const std::array<Vec3<Real>, 3>& face) {
+Vec3<Real> shortest_between(const std::array<Vec3<Real>, 1>& node, const std::array<Vec3<Real>, 3>& face) {
     return nearest_points(node[0], face).apart;
 }
 template <class Real>
-Vec3<Real> way_between(const std::array<Vec3<Real>, 2>& edge, const std::array<Vec3<Real>, 2>& other) {
+Vec3<Real> shortest_between(const std::array<Vec3<Real>, 2>& edge, const std::array<Vec3<Real>, 2>& other) {
     return nearest_points(edge, other).apart;
 }
-using cpu::way_between;  // of faces
+using cpu::shortest_between;  // of faces
 
 /// Positions relative to a's first corner, which moves along, so that only relative motion counts. Returns
 /// the largest magnitudes of coordinates.
@@ -138,7 +138,7 @@ std::optional<Real> time_of_impact(Moving<Real, N> a, Moving<Real, M> b) {
     const Vec3<Real> reach = impact::make_relative(a, b);
     Real time = 0;
     for (int plane = 0; plane < impact::kMostPlanes; ++plane) {
-        const Vec3<Real> normal = impact::way_between(a.at(time), b.at(time));
+        const Vec3<Real> normal = impact::shortest_between(a.at(time), b.at(time));
         const impact::Window<Real> window = impact::separating_window(a, b, normal, reach);
         if (!(window.first <= time && time < window.last)) return time;
         if (window.last == Real(1)) return std::nullopt;

@@ -81,7 +81,7 @@ Cross<Real> normal_of(const Triangle<Real>& t) {
 /// The orientation in which the line of edge i of s passes edge j of t, as a sign; 0 if both are in one
 /// plane.
 template <class Real>
-int turn_of_edges(const Triangle<Real>& s, int i, const Triangle<Real>& t, int j) {
+int edge_orientation(const Triangle<Real>& s, int i, const Triangle<Real>& t, int j) {
     return Cross<Real>(s[(i + 1) % 3] - s[i], t[(j + 1) % 3] - t[j]).dot_sign(t[j] - s[i]);
 }
 
@@ -108,7 +108,7 @@ inline constexpr std::uint32_t kEdgeOfS = 0b000'000'111'000'000u,
 inline int sign_in_double(int bit, const Triangle<double>& s, const Triangle<double>& t) {
     if (bit < 3) return normal_of(t).dot_sign(s[bit] - t[0]);
     if (bit < 6) return normal_of(s).dot_sign(t[bit - 3] - s[0]);
-    return turn_of_edges(s, (bit - 6) / 3, t, (bit - 6) % 3);
+    return edge_orientation(s, (bit - 6) / 3, t, (bit - 6) % 3);
 }
 
 /// True if in one of the projections along the axes p, q and r are on one side of line ab and c is not on
@@ -171,7 +171,7 @@ bool sorted_triangles_overlap(const Triangle<Real>& s, const Triangle<Real>& t) 
     for (int j = 0; j < 3; ++j) signs.set(3 + j, normal_of_s.dot_sign(t[j] - s[0]));
     if (signs.all_alike(kVerticesOfT)) return false;
     for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) signs.set(6 + 3 * i + j, turn_of_edges(s, i, t, j));
+        for (int j = 0; j < 3; ++j) signs.set(6 + 3 * i + j, edge_orientation(s, i, t, j));
     }
     if constexpr (std::is_same_v<Real, float>) {
         for (std::uint32_t rest = signs.zero(); rest != 0; rest &= rest - 1) {
@@ -179,10 +179,10 @@ bool sorted_triangles_overlap(const Triangle<Real>& s, const Triangle<Real>& t) 
             signs.set(bit, sign_in_double(bit, to_double(s), to_double(t)));
         }
     }
-    const auto edge_meets = [&](std::uint32_t ends, std::uint32_t turns, const Triangle<Real>& own, int i,
-                                const Triangle<Real>& other) {
-        if (signs.all_alike(ends) || signs.mixed(turns)) return false;
-        const bool is_certain = (signs.zero() & (ends | turns)) == 0;
+    const auto edge_meets = [&](std::uint32_t ends, std::uint32_t orientations, const Triangle<Real>& own,
+                                int i, const Triangle<Real>& other) {
+        if (signs.all_alike(ends) || signs.mixed(orientations)) return false;
+        const bool is_certain = (signs.zero() & (ends | orientations)) == 0;
         return is_certain || !misses_in_projection(to_double(own), i, to_double(other));
     };
     for (int i = 0; i < 3; ++i) {

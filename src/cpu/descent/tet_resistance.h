@@ -9,11 +9,12 @@
 #include "model/descent/descent_rows.h"
 #include "model/elasticity/node_tets.h"
 #include "model/model.h"
+#include "model/shared_constants.h"
 
 namespace gelatin::cpu {
 
 /// Volumes over those at rest between which a first guess is taken for sound.
-constexpr double kLeastSound = -0.5, kMostSound = 4.0;
+constexpr double kLeastSound = thresholds::kLeastSound, kMostSound = thresholds::kMostSound;
 
 /// Where a step of vertex block descent began.
 template <class Real>

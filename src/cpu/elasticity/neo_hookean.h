@@ -10,6 +10,7 @@
 #include "cpu/elasticity/node_terms.h"
 #include "cpu/nodes.h"
 #include "model/layouts.h"
+#include "model/shared_constants.h"
 
 /// Stable neo-Hookean tets (Smith, de Goes, Kim: "Stable Neo-Hookean Flesh Simulation", ACM Transactions on
 /// Graphics 37(2), 2018). With F the deformation gradient, I = F : F, J = det F, the energy over the volume
@@ -24,7 +25,7 @@ using Mat3 = glm::mat<3, 3, Real>;
 
 /// A tet with I = F : F below this is nearly a point. It has no stress that would open it, and no direction
 /// to open in, so it gets the pressure mu in its rest orientation.
-constexpr double kCollapsed = 0.03;
+constexpr double kCollapsed = thresholds::kCollapsed;
 
 /// The gradient of a corner's shape function at rest [1/m].
 template <class Real>

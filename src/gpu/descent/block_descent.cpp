@@ -6,12 +6,10 @@
 #include "model/descent/descent_rows.h"
 #include "model/elasticity/neo_hookean.h"
 #include "model/elasticity/node_tets.h"
+#include "model/shared_constants.h"
 
 namespace gelatin::gpu {
 namespace {
-
-constexpr std::size_t kRigidSums = 16;    // dvec4s in RigidSums, sim/descent/rigid_sums.glsl
-constexpr std::size_t kLanesAChunk = 16;  // sim/descent/sum_rigid_motions.comp
 
 gl::Defines start_defines(const Model& model) {
     gl::Defines defines = ModelBuffers::collider_defines(model);
@@ -161,7 +159,7 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
     targets_ = gl::Buffer<glm::vec4>(model.positions.size());
     target_texels_ = {targets_, gl::TexelFormat::rgba32f};
     near_flat_texels_ = {near_flat_, gl::TexelFormat::r32ui};
-    rigid_sums_ = gl::Buffer<glm::dvec4>(kRigidSums * chunks.size());
+    rigid_sums_ = gl::Buffer<glm::dvec4>(rigid_sums::kRigidSums * chunks.size());
     if (!model.colliders.empty()) contacts_ = gl::Buffer<ColliderContact>(model.positions.size());
 
     if (settings_.coarse_level) make_coarse_level(model);
@@ -389,7 +387,7 @@ void BlockDescent::correct(const NodeBuffers& current, double step) {
 void BlockDescent::move_bodies(bool is_last) const {
     const auto chunks = static_cast<std::uint32_t>(chunks_.size());
     sum_program_.set("element_count", chunks);
-    sum_program_.dispatch(kLanesAChunk * chunks_.size());
+    sum_program_.dispatch(rigid_sums::kLanesAChunk * chunks_.size());
     gl::barrier(gl::Barrier::storage);
 
     motion_program_.set("element_count", object_count_);

@@ -39,7 +39,7 @@ void check_collision(const ValueChecks& checks, const CollisionSettings& setting
     if (settings.proximity_radius && sees_one_moment) {
         checks.fail(
             field / "proximity_radius", text_of(*settings.proximity_radius),
-            "must not be given with broad_phase = \"depth\", which tells what touches, not what is near");
+            "must not be given with broad_phase = \"depth\", which finds what touches, not what is near");
     }
     checks.check(field / "friction", settings.friction, kNotNegative);
     checks.check(field / "restitution", settings.restitution, kFraction);

@@ -304,7 +304,7 @@ TEST_F(SceneFile, RefusesValuesOutOfRange) {
     EXPECT_EQ(
         error(std::string(kBall) + "[collision]\nproximity_radius = 0.1\nbroad_phase = 'depth'"),
         "scene.toml:5: collision.proximity_radius = 0.1: must not be given with broad_phase = \"depth\", "
-        "which tells what touches, not what is near");
+        "which finds what touches, not what is near");
     EXPECT_EQ(object_error("shape = {sphere = 1}\nscale = 0"),
               "scene.toml:5: object.ball.scale = 0: must be greater than 0");
     EXPECT_EQ(object_error("shape = {sphere = 1}\ncolor = [0, 255, 0]"),

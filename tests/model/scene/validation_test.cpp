@@ -43,7 +43,7 @@ const Rule kSettingRules[] = {
      "collision.proximity_radius = -1: must be greater than 0"},
     {"proximity_depth", "[collision]\nbroad_phase = 'depth'\nproximity_radius = 0.1",
      BREAKS(s.collision.broad_phase = BroadPhase::depth; s.collision.proximity_radius = 0.1),
-     "collision.proximity_radius = 0.1: must not be given with broad_phase = \"depth\", which tells what "
+     "collision.proximity_radius = 0.1: must not be given with broad_phase = \"depth\", which finds what "
      "touches, "
      "not what is near"},
     {"friction", "[collision]\nfriction = -1", BREAKS(s.collision.friction = -1),
