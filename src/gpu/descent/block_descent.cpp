@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "gpu/chunks.h"
-#include "model/descent/descent_rows.h"
-#include "model/elasticity/neo_hookean.h"
+#include "gpu/descent/descent_tables.h"
 #include "model/elasticity/node_tets.h"
 #include "model/shared_constants.h"
 
@@ -33,61 +32,6 @@ gl::Defines sweep_defines(const Model& model) {
 gl::Defines with(gl::Defines defines, const char* another) {
     defines.emplace_back(another);
     return defines;
-}
-
-std::vector<glm::vec4> rests_of(const Model& model) {
-    const std::vector<float>& stiffnesses = model.volume_term.tets;
-    std::vector<glm::vec4> rests;
-    for (std::size_t t = 0; t < model.tet_rests.size(); ++t) {
-        const TetRest& rest = model.tet_rests[t];
-        rests.emplace_back(rest.volume, rest.modulus, stiffnesses.empty() ? 0.0f : stiffnesses[t], 0.0f);
-    }
-    return rests;
-}
-
-std::vector<glm::uvec2> ends_of(const HalfSprings& springs) {
-    std::vector<glm::uvec2> ends;
-    for (const HalfSpringPair& pair : springs.pairs) ends.emplace_back(pair.node_0, pair.node_1);
-    return ends;
-}
-
-std::vector<glm::vec4> springs_of(const HalfSprings& springs) {
-    std::vector<glm::vec4> result;
-    for (std::size_t p = 0; p < springs.pairs.size(); ++p) {
-        const HalfSpringPair& pair = springs.pairs[p];
-        const glm::vec2& stiffness = springs.stiffness[p];
-        result.emplace_back(pair.rest_length_0, stiffness.x, pair.rest_length_1, stiffness.y);
-    }
-    return result;
-}
-
-// Pairs of half springs that the row's slice has for it.
-std::uint32_t pair_count(const HalfSprings& springs, std::uint32_t row) {
-    constexpr std::uint32_t kSlice = HalfSprings::kSlice;
-    const std::uint32_t slice = row / kSlice, first = springs.slice_starts[slice] + row % kSlice;
-    std::uint32_t count = (springs.slice_starts[slice + 1] - springs.slice_starts[slice]) / kSlice;
-    while (count > 0 && springs.stiffness[first + (count - 1) * kSlice] == glm::vec2(0.0f)) --count;
-    return count;
-}
-
-std::vector<DescentRow> rows_of(const Model& model, const DescentRows& rows,
-                                const std::vector<std::uint32_t>& objects) {
-    std::vector<DescentRow> result;
-    for (std::uint32_t r = 0; r < rows.nodes.size(); ++r) {
-        const std::uint32_t n = rows.nodes[r], o = n == kNoNode ? 0 : objects[n];
-        const ModelObject& object = model.objects[o];
-        result.push_back(
-            {n, o, pair_count(rows.springs, r), object.tets.first - object.neo_hookean_tets.first});
-    }
-    return result;
-}
-
-// Without the nodes of neo-Hookean tets, which have their terms with those.
-TetCorners corners_of(const Model& model, std::vector<std::uint32_t> rows) {
-    for (std::uint32_t& node : rows) {
-        if (node != kNoNode && has_neo_hookean_tets(model, node)) node = kNoNode;
-    }
-    return pack_tet_corners(rows, make_node_tets(model.node_count(), model.tets), model.tets);
 }
 
 }  // namespace
