@@ -22,7 +22,7 @@ struct ContactPatch {
 
 /// The weight in a patch's normal of faces that do not enter the other object
 /// (src/cpu/collision/face_contact.h): they count where none does.
-constexpr double kWeightOfOthers = thresholds::kWeightOfOthers;
+using thresholds::kWeightOfOthers;
 
 /// The corners of a patch that approach the other object.
 template <class Real>

@@ -22,7 +22,7 @@ struct FaceContacts {
 
 /// Faces whose planes meet at less than this from a right angle, by its sine, enter nothing: when a box
 /// slides over another one, its sides are no contact.
-constexpr double kAcross = thresholds::kAcross;
+using thresholds::kAcross;
 
 /// How two faces touch. @pre they do within the step. GLSL twin: shaders/sim/collision/face_contact.glsl
 template <class Real>

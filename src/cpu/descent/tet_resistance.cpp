@@ -88,14 +88,14 @@ void TetResistance<Real>::update(std::size_t index, const DescentBatch& batch,
 template <class Real>
 void TetResistance<Real>::update_range(const Range& tets, std::uint8_t& any_flat,
                                        const std::vector<Vec4<Real>>& positions) {
-    constexpr auto kLeast = static_cast<Real>(kFlattest), kMost = std::numeric_limits<Real>::infinity();
+    const auto least = static_cast<Real>(kFlattest), most = std::numeric_limits<Real>::infinity();
     if constexpr (std::is_same_v<Real, float>) {
-        if (volumes_are_within(kLeast, kMost, *model_, tets, positions.data(), ratios_.data())) return;
+        if (volumes_are_within(least, most, *model_, tets, positions.data(), ratios_.data())) return;
     } else {
         for (std::uint32_t t = tets.first; t < tets.end(); ++t) ratios_[t] = ratio_of(t, positions);
     }
     for (std::uint32_t t = tets.first; t < tets.end(); ++t) {
-        if (ratios_[t] >= kLeast) continue;
+        if (ratios_[t] >= least) continue;
         std::atomic_ref(any_flat).store(1, std::memory_order_relaxed);
         for (int k = 0; k < 4; ++k)
             std::atomic_ref(is_near_flat_[model_->tets[t][k]]).store(1, std::memory_order_relaxed);

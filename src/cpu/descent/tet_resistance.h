@@ -14,7 +14,7 @@
 namespace gelatin::cpu {
 
 /// Volumes over those at rest between which a first guess is taken for sound.
-constexpr double kLeastSound = thresholds::kLeastSound, kMostSound = thresholds::kMostSound;
+using thresholds::kLeastSound, thresholds::kMostSound;
 
 /// Where a step of vertex block descent began.
 template <class Real>

@@ -25,7 +25,7 @@ using Mat3 = glm::mat<3, 3, Real>;
 
 /// A tet with I = F : F below this is nearly a point. It has no stress that would open it, and no direction
 /// to open in, so it gets the pressure mu in its rest orientation.
-constexpr double kCollapsed = thresholds::kCollapsed;
+using thresholds::kCollapsed;
 
 /// The gradient of a corner's shape function at rest [1/m].
 template <class Real>

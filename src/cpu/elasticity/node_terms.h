@@ -72,7 +72,7 @@ void add_spring(const Vec3<Real>& apart, const Vec3<Real>& if_coincident, Real s
 }
 
 /// Below this fraction of its rest volume, a tet resists.
-constexpr double kFlattest = thresholds::kFlattest;
+using thresholds::kFlattest;
 
 /// A tet as seen from one of its corners, with v its volume, V that at rest, J = v / V, J_0 = kFlattest and K
 /// its modulus: W = V K / 2 (J_0 - J)^2 where J < J_0, otherwise 0. v is linear in one corner, so

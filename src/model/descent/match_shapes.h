@@ -14,7 +14,7 @@ struct Model;
 constexpr double kMostInverted = 0.25;
 /// ... and the affine map of its shape at rest that comes nearest to its nodes explains less than this of how
 /// they are spread: flat, squashed and twisted bodies keep to one, nodes at random do not.
-constexpr double kLeastExplained = thresholds::kLeastExplained;
+using thresholds::kLeastExplained;
 /// The objects' shapes at rest, to be matched with where their nodes are (docs/block-descent.md, "Lost
 /// shapes").
 struct MatchShapes {
