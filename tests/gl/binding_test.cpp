@@ -27,8 +27,6 @@ std::vector<float> content(const Buffer<float>& buffer) {
 // Out[0] = 10 A[0] + texel B[0].
 class BindingTest : public test::GlTest {
 protected:
-    static constexpr float kOne = 1.0f;
-
     test::ShaderFolder folder_;
     Buffer<float> a_, b_, out_;
     BufferTexture b_texels_;
