@@ -55,9 +55,11 @@ RawBuffer::RawBuffer(std::size_t bytes, const void* data, Use use) : bytes_(byte
     if (hazard_probe != nullptr) hazard_probe->resets(id);
     glBindBuffer(GL_COPY_WRITE_BUFFER, id);
     // A block or texture of no bytes cannot be bound.
-    const std::size_t allocated = std::max(bytes, kLeastBytes);
-    glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(allocated), bytes > 0 ? data : nullptr,
-                 GL_DYNAMIC_COPY);
+    const bool is_large_enough = bytes >= kLeastBytes;
+    glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(std::max(bytes, kLeastBytes)),
+                 is_large_enough ? data : nullptr, GL_DYNAMIC_COPY);
+    if (!is_large_enough && bytes > 0 && data != nullptr)
+        glBufferSubData(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(bytes), data);
     if (glGetError() != GL_NO_ERROR) {
         glDeleteBuffers(1, &id);
         throw GlError("the driver has no memory for a buffer of " + std::to_string(bytes) + " bytes");
