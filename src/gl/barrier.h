@@ -33,6 +33,7 @@ struct CallSite {
     static constexpr CallSite here(const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
         return {file, line};
     }
+    // NOLINTNEXTLINE(modernize-use-nullptr): a false alarm on comparisons with 0 that are made up
     friend constexpr auto operator<=>(const CallSite&, const CallSite&) = default;
 };
 
