@@ -1,6 +1,6 @@
 // The objects that may have restless faces: some node is farther from where the object's affine map places it than half of the
 // smallest clearance after the map. Any map is valid, so the last one is used, displaced with the object; a new one is made for
-// the objects that it does not explain. One work group for each chunk of nodes. CPU twin: gelatin::cpu::SelfCollision. Parity:
+// the objects that it does not explain. One work group for each chunk of nodes. CPU twin: gelatin::cpu::FindSelfCollisions. Parity:
 // tests/gpu/collision/find_self_collisions_test.cpp.
 #define WRITES_DISPATCHES
 #include "sim/collision/affine_fit.glsl"

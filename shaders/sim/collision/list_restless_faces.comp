@@ -1,6 +1,6 @@
 // The faces that may touch others of their own object, in no particular order: those that are farther from where the object's
 // affine map places them than half of their clearance at rest after the map. One work group for each chunk of a restless
-// object's faces. CPU twin: gelatin::cpu::SelfCollision. Parity: tests/gpu/collision/find_self_collisions_test.cpp.
+// object's faces. CPU twin: gelatin::cpu::FindSelfCollisions. Parity: tests/gpu/collision/find_self_collisions_test.cpp.
 #define WRITES_DISPATCHES
 #include "sim/collision/affine_fit.glsl"
 #include "sim/collision/dispatches.glsl"

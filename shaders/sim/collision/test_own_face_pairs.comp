@@ -1,5 +1,5 @@
 // Face against face of one object: counts how many others each touches, and lists those that touch any, in no particular order.
-// CPU twin: gelatin::cpu::SelfCollision. Parity: tests/gpu/collision/find_self_collisions_test.cpp.
+// CPU twin: gelatin::cpu::FindSelfCollisions. Parity: tests/gpu/collision/find_self_collisions_test.cpp.
 #define WRITES_DISPATCHES
 #include "sim/collision/dispatches.glsl"
 #include "include/global_index.glsl"

@@ -1,5 +1,5 @@
 // The pairs of faces of one object whose boxes meet, in no particular order: each restless face walks through its object's
-// tree. Of two restless faces the first one lists the pair. CPU twin: gelatin::cpu::SelfCollision. Parity:
+// tree. Of two restless faces the first one lists the pair. CPU twin: gelatin::cpu::FindSelfCollisions. Parity:
 // tests/gpu/collision/find_self_collisions_test.cpp.
 #define WRITES_DISPATCHES
 #include "include/global_index.glsl"

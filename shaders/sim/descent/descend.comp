@@ -116,14 +116,11 @@ void main() {
     NodeTerms terms = NodeTerms(target.w * (target.xyz - position.xyz), vec3(target.w), vec3(0.0));
     int slice = int(row / 64u);
     uint first = texelFetch(slice_starts, slice).x + row % 64u, end = first + 64u * entry.z;
-    vec3 if_coincident = -any_short_offset(n);
     for (uint p = first; p < end; p += 64u) {
         uvec2 ends = texelFetch(spring_ends, int(p)).xy;
         vec4 two = texelFetch(springs, int(p));
-        vec3 apart = position_of(ends.x) - position.xyz;
-        add_spring(apart == vec3(0.0) ? if_coincident : apart, two.x, two.y, terms);
-        apart = position_of(ends.y) - position.xyz;
-        add_spring(apart == vec3(0.0) ? if_coincident : apart, two.z, two.w, terms);
+        add_spring(position_of(ends.x) - position.xyz, two.x, two.y, terms);
+        add_spring(position_of(ends.y) - position.xyz, two.z, two.w, terms);
     }
     bool resists = texelFetch(near_flat, int(n)).x == mark;
 #ifndef VOLUME

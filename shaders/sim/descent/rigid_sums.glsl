@@ -105,21 +105,16 @@ dvec3 solve(dmat3 m, dvec3 f) {
     return dvec3(f.x * i0 - l10 * y - l20 * z, y, z);
 }
 
-const double kLeastInertia = 1e-6lf;
-const double kLargestRotation = 1.0;  // [radians]
-
 // [A B; B^T C] (translation, rotation) = (force, moment) by elimination of the translation.
 void find_displacement(RigidSums sums, out dvec3 translation, out dvec3 rotation) {
     dmat3 identity = dmat3(1.0);
     double trace = sums.square.x + sums.square.y + sums.square.z;
-    double about_center = trace - dot(sums.arm.xyz, sums.arm.xyz) / sums.arm.w;
     dmat3 a = sums.arm.w * identity + symmetric(sums.translations.xyz, sums.translation_pairs.xyz);
     dmat3 b = dmat3(sums.mixed_x.xyz, sums.mixed_y.xyz, sums.mixed_z.xyz) - cross_matrix(sums.arm.xyz);
-    dmat3 c = (trace + kLeastInertia * 2.0 / 3.0 * about_center) * identity -
-              symmetric(sums.square.xyz, sums.product.xyz) + symmetric(sums.rotations.xyz, sums.rotation_pairs.xyz);
+    dmat3 c = trace * identity - symmetric(sums.square.xyz, sums.product.xyz) +
+              symmetric(sums.rotations.xyz, sums.rotation_pairs.xyz);
     dmat3 a_inverse = inverse(a);
     rotation = solve(c - transpose(b) * a_inverse * b, sums.moment.xyz - transpose(b) * (a_inverse * sums.force.xyz));
-    rotation *= min(1.0, kLargestRotation / max(length(rotation), 1e-300lf));
     translation = a_inverse * (sums.force.xyz - b * rotation);
 }
 

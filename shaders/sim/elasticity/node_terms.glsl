@@ -2,6 +2,7 @@
 // second derivative. CPU twin: src/cpu/elasticity/node_terms.h.
 
 #include "layouts/thresholds.glsl"
+
 struct NodeTerms {
     vec3 force;     // [N]
     vec3 diagonal;  // xx, yy, zz of the Hessian [N/m]
@@ -13,20 +14,7 @@ void add_outer(float factor, vec3 v, inout NodeTerms terms) {
     terms.beside += factor * v.yzx * v.zxy;
 }
 
-// For a node that is where a neighbour is: out of there, too short to show in a position [m].
-vec3 any_short_offset(uint node) {
-    uint bits = (node + 1u) * 0x9E3779B9u;
-    vec3 v;
-    for (int k = 0; k < 3; ++k) {
-        bits ^= bits << 13;
-        bits ^= bits >> 17;
-        bits ^= bits << 5;
-        v[k] = float(int(bits & 0xFFFFu) - 0x8000) + 0.5;
-    }
-    return 1e-16 * v;
-}
-
-// The spring to a node `apart` from this one, its damper in it (damp_springs.comp).
+// The spring to a node `apart` from this one, its damper in it (damp_springs.comp). One of no length adds nothing.
 void add_spring(vec3 apart, float rest_length, float stiffness, inout NodeTerms terms) {
     float inverse_length = inversesqrt(max(dot(apart, apart), 1e-30));
     float scale = stiffness - stiffness * rest_length * inverse_length;
@@ -35,7 +23,6 @@ void add_spring(vec3 apart, float rest_length, float stiffness, inout NodeTerms 
     add_outer(stiffness - across, inverse_length * apart, terms);
     terms.diagonal += across;
 }
-
 
 // A tet flatter than that, as the corner at `position` sees it.
 void add_flat_tet(vec3 position, vec3 a, vec3 b, vec3 c, float rest_volume, float modulus, inout NodeTerms terms) {

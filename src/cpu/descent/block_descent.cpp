@@ -234,7 +234,6 @@ Vec3<Real> BlockDescent<Real>::outside_colliders(std::uint32_t node, const Symme
     if (contacts_.nodes.empty()) return position;
     ColliderContact<Real> contact;
     for (const Collider& collider : model_->colliders) {
-        if (is_above_plane(collider, position)) continue;  // as most nodes are
         const SurfaceDistance<Real> surface = surface_distance(collider, position);
         if (surface.distance >= Real(0)) continue;
         const Vec3<Real>& n = surface.normal;

@@ -27,7 +27,7 @@ namespace gelatin::cpu {
 /// Between sweeps, clusters of nodes move towards that minimum (cpu/descent/coarse_correction.h), which long
 /// stiff bodies would need thousands of sweeps for. Between sweeps and after the last one, bodies that
 /// nothing holds move as rigid ones to where G is least: that keeps their momentum, which sweeps alone lose
-/// (docs/physics.md). Stable for any step and start. The same bits for any number of threads.
+/// (docs/block-descent.md). Stable for any step and start. The same bits for any number of threads.
 template <class Real>
 class BlockDescent {
 public:

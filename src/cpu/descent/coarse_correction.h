@@ -14,8 +14,8 @@ namespace gelatin::cpu {
 
 /// The coarse level of block descent (model/descent/coarse_basis.h): where all nodes go at once along the
 /// motions of clusters, by one Newton step whose matrix is that of the bodies at rest, rotated as each
-/// cluster is now (docs/physics.md). Without a factorisation in a step, and the same bits for any number of
-/// threads.
+/// cluster is now (docs/block-descent.md). Without a factorisation in a step, and the same bits for any
+/// number of threads.
 template <class Real>
 class CoarseCorrection {
 public:

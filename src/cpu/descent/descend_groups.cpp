@@ -48,26 +48,11 @@ HWY_INLINE void add_spring_lanes(Lanes d, Vector dx, Vector dy, Vector dz, Vecto
     sums.xy = hn::MulAdd(along_x, ny, sums.xy);
 }
 
-// Where nodes coincide, lane by lane: each has a direction of its own.
-void add_coincident(const SpringBlock& block, const std::uint32_t* nodes, std::uint32_t first,
-                    std::span<const glm::vec4> positions, TermColumns& terms) {
-    for (std::uint32_t r = first; r < first + kLanes; ++r) {
-        if (nodes[r] == kNoNode || block.stiffnesses[r] == 0.0f) continue;
-        const Vec3<float> apart(positions[block.nodes[r]] - positions[nodes[r]]);
-        if (glm::dot(apart, apart) > 0.0f) continue;
-        NodeTerms<float> own;
-        add_spring(Vec3<float>(0), any_direction<float>(nodes[r]), 0.0f, block.rest_lengths[r],
-                   block.stiffnesses[r], 0.0f, own);
-        terms.add(r, own);
-    }
-}
-
-// Adds the springs' terms. True if nodes of some springs coincide.
-HWY_INLINE bool gather_lanes(Lanes d, std::span<const SpringBlock> blocks, std::uint32_t row,
+// Adds the springs' terms.
+HWY_INLINE void gather_lanes(Lanes d, std::span<const SpringBlock> blocks, std::uint32_t row,
                              const Columns& self, const float* positions, TermColumns& terms) {
     const Vector zero = hn::Zero(d);
     SpringSums sums{zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
-    auto coincide = hn::Ne(zero, zero);
     for (const SpringBlock& block : blocks) {
         const Columns other = load_nodes(d, positions, &block.nodes[row]);
         const Vector dx = hn::Sub(other.x, self.x), dy = hn::Sub(other.y, self.y),
@@ -75,7 +60,6 @@ HWY_INLINE bool gather_lanes(Lanes d, std::span<const SpringBlock> blocks, std::
         const Vector squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
         const Vector stiffness = hn::LoadU(d, &block.stiffnesses[row]);
         add_spring_lanes(d, dx, dy, dz, squared, hn::LoadU(d, &block.rest_lengths[row]), stiffness, sums);
-        coincide = hn::Or(coincide, hn::And(hn::Eq(squared, zero), hn::Gt(stiffness, zero)));
     }
     const auto add = [&](Vector sum, TermColumns::Column& column)
                          HWY_ATTR { hn::StoreU(hn::Add(sum, hn::LoadU(d, &column[row])), d, &column[row]); };
@@ -88,7 +72,6 @@ HWY_INLINE bool gather_lanes(Lanes d, std::span<const SpringBlock> blocks, std::
     add(sums.yz, terms.beside[0]);
     add(sums.zx, terms.beside[1]);
     add(sums.xy, terms.beside[2]);
-    return !hn::AllFalse(d, coincide);
 }
 
 HWY_INLINE Vector inverse_or_zero(Lanes d, Vector pivot, Vector diagonal) {
@@ -161,10 +144,7 @@ HWY_INLINE std::array<Columns, 2> gather_terms(Lanes d, const DescentGroups& fro
     const Columns self = load_nodes(d, &positions[0].x, &shown[row]);
     const Columns target = load_nodes(d, &from.targets[0].x, &shown[row]);
     add_inertia(d, row, self, target, terms);
-    if (gather_lanes(d, blocks, row, self, &positions[0].x, terms)) {
-        for (const SpringBlock& block : blocks)
-            add_coincident(block, &from.nodes[group * kGroup], row, positions, terms);
-    }
+    gather_lanes(d, blocks, row, self, &positions[0].x, terms);
     return {self, target};
 }
 

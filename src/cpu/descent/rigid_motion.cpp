@@ -6,17 +6,10 @@
 namespace gelatin::cpu {
 namespace {
 
-// Of the mean moment of inertia, added to all three: nodes in one line or place have none about it.
-constexpr double kLeastInertia = 1e-6;
-
 glm::dmat3 full(const SymmetricMatrix<double>& m) {
     return {m.diagonal.x, m.beside.z, m.beside.y, m.beside.z,  m.diagonal.y,
             m.beside.x,   m.beside.y, m.beside.x, m.diagonal.z};
 }
-
-// [radians] Beyond that w x r is far from a rotation, and the translation that goes with it on a surface
-// leads anywhere.
-constexpr double kLargestRotation = 1.0;
 
 // cross(v) x = v x x
 glm::dmat3 cross(const glm::dvec3& v) {
@@ -65,20 +58,16 @@ void RigidStep::add_along(const glm::dvec3& r, const glm::dvec3& normal, double 
 RigidStep::Displacement RigidStep::displacement(const RigidSums& sums) const {
     const glm::dmat3 identity(1.0);
     const double trace = sums.square.diagonal.x + sums.square.diagonal.y + sums.square.diagonal.z;
-    // About the centre of stiffness, which is that of mass where nothing is touched.
-    const double about_center = trace - glm::dot(sums.arm, sums.arm) / sums.stiffness;
     const glm::dmat3 a = sums.stiffness * identity + full(translations_);
     const glm::dmat3 b = mixed_ - cross(sums.arm);
-    const glm::dmat3 c =
-        (trace + kLeastInertia * 2.0 / 3.0 * about_center) * identity - full(sums.square) + full(rotations_);
+    const glm::dmat3 c = trace * identity - full(sums.square) + full(rotations_);
     const glm::dmat3 a_inverse = glm::inverse(a);
     const glm::dmat3 rest = c - glm::transpose(b) * a_inverse * b;
     const glm::dvec3 left = sums.moment - glm::transpose(b) * (a_inverse * sums.force);
     SymmetricMatrix<double> inertia;
     inertia.diagonal = {rest[0][0], rest[1][1], rest[2][2]};
     inertia.beside = {rest[1][2], rest[2][0], rest[0][1]};
-    glm::dvec3 w = cpu::solve(inertia, left);
-    w *= std::min(1.0, kLargestRotation / glm::length(w));
+    const glm::dvec3 w = cpu::solve(inertia, left);
     return {a_inverse * (sums.force - b * w), w};
 }
 

@@ -23,8 +23,8 @@ void add_row_spring(const SpringRows<Real>& from, std::uint32_t node, std::uint3
     const Vec4<Real>&start = from.starts[node], &other_start = from.starts[other];
     const Real damping = Real(0.5) * (start.w + other_start.w) * from.inverse_step;
     const Real start_length = glm::distance(Vec3<Real>(other_start), Vec3<Real>(start));
-    add_spring(Vec3<Real>(other_position - position), any_direction<Real>(node), start_length,
-               static_cast<Real>(rest_length), static_cast<Real>(stiffness), damping, terms);
+    add_spring(Vec3<Real>(other_position - position), start_length, static_cast<Real>(rest_length),
+               static_cast<Real>(stiffness), damping, terms);
 }
 
 /// The terms of all springs of the node in row `row`.

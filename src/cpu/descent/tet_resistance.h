@@ -23,9 +23,11 @@ struct StepStart {
     Real inverse_step;        ///< [1/s]
 };
 
-/// What tets add to vertex block descent. Neo-Hookean ones are all that their bodies have; those of springs
-/// resist being flat; and both, where the material asks for another Poisson's ratio than they have, changes
-/// of the volume round each node (docs/physics.md).
+/// The contributions of tets to vertex block descent:
+/// - neo-Hookean tets, the only elements of their bodies (docs/finite-elements.md);
+/// - the tets of springs, which resist being flat (docs/block-descent.md);
+/// - the volume around each node, if the material's Poisson's ratio is another than its elements have
+///   (docs/springs.md).
 template <class Real>
 class TetResistance {
 public:

@@ -35,20 +35,6 @@ struct NodeTerms {
     SymmetricMatrix<Real> hessian;
 };
 
-/// The direction in which a node leaves a neighbour that coincides with it; it differs between nodes.
-template <class Real>
-Vec3<Real> any_direction(std::uint32_t node) {
-    std::uint32_t bits = (node + 1) * 0x9E3779B9u;
-    Vec3<Real> v;
-    for (int k = 0; k < 3; ++k) {
-        bits ^= bits << 13;
-        bits ^= bits >> 17;
-        bits ^= bits << 5;
-        v[k] = static_cast<Real>(static_cast<std::int32_t>(bits & 0xFFFFu) - 0x8000) + Real(0.5);
-    }
-    return v / glm::length(v);
-}
-
 /// The spring to a node at the offset `apart` from this one. With l its length, n its direction, L the rest
 /// length, k the stiffness, t the damping time, h the step and l_0 the length at the start of the step, the
 /// damper
@@ -57,12 +43,12 @@ Vec3<Real> any_direction(std::uint32_t node) {
 ///   force   K (l - M) n
 ///   hessian K (n n^T + max(0, 1 - M / l) (1 - n n^T)).
 /// The second term of the energy's own Hessian is negative where the spring is shorter than M, and is omitted
-/// there. @param damping t / h @param if_coincident minus n if l is zero
+/// there. A spring of no length has no direction and adds nothing. @param damping t / h
 template <class Real>
-void add_spring(const Vec3<Real>& apart, const Vec3<Real>& if_coincident, Real start_length, Real rest_length,
-                Real stiffness, Real damping, NodeTerms<Real>& terms) {
+void add_spring(const Vec3<Real>& apart, Real start_length, Real rest_length, Real stiffness, Real damping,
+                NodeTerms<Real>& terms) {
     const Real length = glm::length(apart);
-    const Vec3<Real> n = length > Real(0) ? apart / length : -if_coincident;
+    const Vec3<Real> n = length > Real(0) ? apart / length : Vec3<Real>(0);
     const Real damped = stiffness * (Real(1) + damping);
     const Real rest = (rest_length + damping * start_length) / (Real(1) + damping);
     terms.force += damped * (length - rest) * n;
