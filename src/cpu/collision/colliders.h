@@ -39,18 +39,11 @@ SurfaceDistance<Real> distance_to_box(const Vec3<Real>& p, const Vec3<Real>& hal
     return {q.z, Vec3<Real>(0, 0, side.z)};
 }
 
-/// True if the collider is a plane and the point outside or on it.
+/// Of a collider that is no plane.
 template <class Real>
-bool is_above_plane(const Collider& collider, const Vec3<Real>& p) {
-    return collider.kind == 0 &&
-           glm::dot(Vec3<Real>(collider.center), p) >= static_cast<Real>(collider.center.w);
-}
-
-template <class Real>
-SurfaceDistance<Real> surface_distance(const Collider& collider, const Vec3<Real>& p) {
+SurfaceDistance<Real> distance_to_solid(const Collider& collider, const Vec3<Real>& p) {
     const Vec3<Real> center(collider.center);
     const auto radius = static_cast<Real>(collider.center.w);
-    if (collider.kind == 0) return {glm::dot(center, p) - radius, center};
     if (collider.kind == 2) return distance_from_center(p - center, radius);
     const Vec3<Real> axis(collider.axis);
     if (collider.kind == 3) {
@@ -62,6 +55,14 @@ SurfaceDistance<Real> surface_distance(const Collider& collider, const Vec3<Real
         static_cast<Real>(collider.orientation.y), static_cast<Real>(collider.orientation.z));
     const SurfaceDistance<Real> local = distance_to_box(glm::inverse(q) * (p - center), axis);
     return {local.distance, q * local.normal};
+}
+
+/// Small, so that compilers inline it for planes, to which most nodes are compared in each step.
+template <class Real>
+SurfaceDistance<Real> surface_distance(const Collider& collider, const Vec3<Real>& p) {
+    if (collider.kind != 0) return distance_to_solid(collider, p);
+    const Vec3<Real> normal(collider.center);
+    return {glm::dot(normal, p) - static_cast<Real>(collider.center.w), normal};
 }
 
 /// The velocity after a node at `velocity` has hit a surface. The normal part is reversed and scaled by the
