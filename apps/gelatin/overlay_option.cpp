@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/choice.h"
+#include "core/counted.h"
 #include "model/scene/limits.h"
 
 namespace gelatin {
@@ -71,7 +72,7 @@ struct Request {
     void allow(std::size_t most) const {
         if (fields.size() <= most) return;
         refuse(most == 0 ? fmt::format("{} takes no number", name)
-                         : fmt::format("{} takes no more than {} field{}", name, most, most == 1 ? "" : "s"));
+                         : fmt::format("{} takes no more than {}", name, counted(most, "field")));
     }
     [[noreturn]] void refuse(const std::string& problem) const {
         throw InvalidInput({{}, 0, kOption, text, problem});

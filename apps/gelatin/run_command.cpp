@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "common/output_file.h"
 #include "common/progress.h"
+#include "core/counted.h"
 #include "core/file.h"
 #include "gelatin/error.h"
 #include "interrupt.h"
@@ -172,8 +173,9 @@ void Run::print_summary() const {
     const Counts& counts = report_.counts;
     const std::size_t frames = report_.frame_ms.size();
     std::FILE* out = message_stream({options_.stats, options_.image, options_.video, options_.checkpoint});
-    std::fprintf(out, "%zu frames of %zu objects (%zu nodes, %zu springs) in %.2f s: %.1f frames/s on %s\n",
-                 frames, counts.objects, counts.nodes, counts.springs, report_.seconds,
+    std::fprintf(out, "%s of %s (%zu nodes, %zu springs) in %.2f s: %.1f frames/s on %s\n",
+                 counted(frames, "frame").c_str(), counted(counts.objects, "object").c_str(), counts.nodes,
+                 counts.springs, report_.seconds,
                  report_.seconds > 0.0 ? static_cast<double>(frames) / report_.seconds : 0.0,
                  report_.device.c_str());
     const auto report = [out](const char* what, const std::filesystem::path& file) {

@@ -3,6 +3,7 @@
 
 #include <cfloat>
 
+#include "core/counted.h"
 #include "panels.h"
 
 namespace gelatin::viewer {
@@ -32,10 +33,11 @@ void draw_readings(const Session& session, const PanelState& state) {
     const Counts counts = session.simulator().counts();
     const FrameStatistics& latest = readings.latest;
     ImGui::TextDisabled("%s", session.device().c_str());
-    ImGui::Text("%zu bodies, %zu nodes, %zu springs", counts.objects, counts.nodes, counts.springs);
+    ImGui::Text("%s, %zu nodes, %zu springs", counted(counts.objects, "object").c_str(), counts.nodes,
+                counts.springs);
     ImGui::Text("%zu tets, %zu faces, %zu of them touch", counts.tets, counts.faces, latest.colliding_faces);
-    const int steps = session.simulator().substeps();
-    ImGui::Text("%d step%s of %.3g ms per frame", steps, steps == 1 ? "" : "s",
+    const auto steps = static_cast<std::size_t>(session.simulator().substeps());
+    ImGui::Text("%s of %.3g ms per frame", counted(steps, "step").c_str(),
                 1e3 * session.simulator().step_size());
     draw_graph("kinetic", readings.kinetic, "J", state.scale);
     draw_graph("elastic", readings.elastic, "J", state.scale);

@@ -36,7 +36,6 @@ public:
     const Session* session() const { return session_.get(); }
     const CameraController& camera() const { return camera_; }
     const PanelState& panels() const { return panels_; }
-    bool shows_help() const { return shows_help_; }
     /// The error that is shown; empty if there is none.
     const std::string& problem() const { return problem_; }
     bool is_filming() const { return film_.has_value(); }

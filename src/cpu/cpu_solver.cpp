@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/counted.h"
 #include "cpu/collision/respond.h"
 #include "cpu/drive/apply_kinematics.h"
 #include "cpu/drive/sum_loads.h"
@@ -240,7 +241,7 @@ template <class Real>
 std::string CpuSolver<Real>::device() const {
     const std::size_t threads =
         tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-    return fmt::format("CPU, {} thread{}, {}", threads, threads == 1 ? "" : "s",
+    return fmt::format("CPU, {}, {}", counted(threads, "thread"),
                        std::is_same_v<Real, float> ? simd_target() : "double");
 }
 

@@ -36,7 +36,7 @@ public:
     void find_face_collisions() override {
         collision_.find_face_collisions(current_.positions, previous_.positions);
     }
-    void find_self_collisions() override { self_->collision.find(current_.positions); }
+    void find_self_collisions() override { self_->collision.run(current_.positions); }
     void find_proximities() override { proximities_->run(current_.positions); }
     void respond(double step) override;
     void watch_nodes(std::uint32_t step_number, double most_energy) override;
@@ -55,10 +55,6 @@ public:
     const Collision<Real>& collision() const { return collision_; }
     /// True if a face touches another object, or another part of its own.
     bool collides(std::uint32_t face) const;
-    /// Null if objects do not collide with themselves.
-    const SelfCollision<Real>* self_collision() const { return self_ ? &self_->collision : nullptr; }
-    /// Null if the scene has no proximity radius.
-    const FindProximities<Real>* found_proximities() const { return proximities_ ? &*proximities_ : nullptr; }
 
 private:
     void sum_loads(const Nodes<Real>& nodes);
@@ -91,7 +87,7 @@ private:
     Collision<Real> collision_;
     ContactProperties contact_;
     struct SelfStages {
-        SelfCollision<Real> collision;
+        FindSelfCollisions<Real> collision;
         RespondToSelf<Real> response;
     };
     std::unique_ptr<SelfStages> self_;

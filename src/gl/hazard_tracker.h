@@ -53,18 +53,20 @@ using GpuEvent = std::variant<GpuCommand, BarrierCall, BufferReset>;
 /// the commands and barriers of one context in the order of their calls.
 ///
 /// Rules (OpenGL 4.6 core, 7.13.2 "Shader Memory Access Synchronization"; 7.12.2 in 4.3):
-/// - Read after write, write after write: what a shader stored is visible to a later command only if a
-/// barrier
-///   with the bit of that command's use lies between. This holds for dispatches, draws, vertex and index
-///   fetches, indirect arguments, copies, clears, uploads, downloads and uploads to textures alike.
-/// - Write after read: a shader's store waits for earlier accesses (loads, texture and vertex fetches) only
-/// if a
-///   barrier with SHADER_STORAGE lies between; other bits do not hold stores back.
-/// - What GL itself writes (copies, clears, uploads) it orders before all later commands and after all
-/// earlier
-///   reads: no barrier is needed. It is not ordered after earlier stores of shaders: see the first rule.
-/// - A framebuffer's attachments that are sampled later are written by GL, not by shader stores: no barrier.
-/// - A command that has a buffer in two places (a samplerBuffer and a block) orders them itself, or has no
+///
+/// 1. Read after write, write after write. What a shader stored is visible to a later command only if a
+/// barrier with the bit of that command's use lies between. This holds for dispatches, draws, vertex and
+/// index fetches, indirect arguments, copies, clears, uploads, downloads and uploads to textures alike.
+///
+/// 2. Write after read. A shader's store waits for earlier accesses (loads, texture and vertex fetches) only
+/// if a barrier with SHADER_STORAGE lies between. Other bits do not hold stores back.
+///
+/// 3. What GL itself writes (copies, clears, uploads) it orders before all later commands and after all
+/// earlier reads: no barrier is needed. It is not ordered after earlier stores of shaders: see rule 1.
+///
+/// 4. A framebuffer's attachments that are sampled later are written by GL, not by shader stores: no barrier.
+///
+/// 5. A command that has a buffer in two places (a samplerBuffer and a block) orders them itself, or has no
 /// need to.
 ///
 /// A buffer is one thing: two commands that write different elements of it need a barrier between, too.

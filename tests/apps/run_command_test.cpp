@@ -152,7 +152,7 @@ TEST_F(RunCommand, TellsEveryTenthWhereStderrIsNoTerminal) {
         EXPECT_THAT(result.err, HasSubstr(line));
     }
     EXPECT_THAT(result.err, Not(HasSubstr("\r")));
-    EXPECT_THAT(result.out, HasSubstr("20 frames of 1 objects"));
+    EXPECT_THAT(result.out, HasSubstr("20 frames of 1 object ("));
 }
 
 TEST_F(RunCommand, DrawsABarWhereStderrIsATerminal) {

@@ -44,7 +44,7 @@ TEST_F(RunOutputs, StatisticsGoToStandardOutputAlone) {
         const ProgramResult result = run({"run", "cube.toml", "--backend", "cpu", "--stats", name});
         ASSERT_EQ(result.exit_code, 0) << result.err;
         EXPECT_EQ(json::parse(result.out)["frames"].size(), 21u) << name;
-        EXPECT_THAT(result.err, HasSubstr("20 frames of 1 objects")) << "the summary gives way to them";
+        EXPECT_THAT(result.err, HasSubstr("20 frames of 1 object (")) << "the summary gives way to them";
     }
     EXPECT_FALSE(exists("-"));
     EXPECT_TRUE(fs::is_symlink("/dev/stdout"));

@@ -154,7 +154,7 @@ public:
     SelfContacts find(const Model& now) {
         const auto positions = converted<Real>(now.positions);
         boxes_.update_boxes(positions, positions);
-        collision_.find(positions);
+        collision_.run(positions);
         SelfContacts counts;
         for (std::uint32_t f = 0; f < model_->faces.size(); ++f)
             counts.push_back(collision_.contact_count(f));
@@ -165,7 +165,7 @@ public:
 private:
     std::shared_ptr<const Model> model_;
     cpu::Collision<Real> boxes_;
-    cpu::SelfCollision<Real> collision_;
+    cpu::FindSelfCollisions<Real> collision_;
 };
 
 }  // namespace
@@ -236,9 +236,9 @@ cpu::Nodes<Real> respond_to_self_on_cpu(const Model& model, const CollisionSetti
     const cpu::Nodes<Real> previous{converted<Real>(positions_before(model, step)), nodes.velocities};
     const auto shared = std::make_shared<const Model>(model);
     cpu::Collision<Real> boxes(shared, BroadPhase::hierarchy);
-    cpu::SelfCollision<Real> collision(shared, boxes);
+    cpu::FindSelfCollisions<Real> collision(shared, boxes);
     boxes.update_boxes(nodes.positions, nodes.positions);
-    collision.find(nodes.positions);
+    collision.run(nodes.positions);
     cpu::RespondToSelf<Real> response(shared, {settings.friction, settings.restitution});
     response.run(collision, static_cast<Real>(step), previous, nodes);
     return nodes;

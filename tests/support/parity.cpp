@@ -146,4 +146,12 @@ double worst_error(const Model& model, const StepBounds& bounds, const cpu::Node
     return worst;
 }
 
+double worst_simd_error(const Model& model, SolverKind solver, double step) {
+    cpu::CpuSolver<float> simd(std::make_shared<const Model>(model), solver, ForceMethod::fused);
+    simd.advance_nodes(step);
+    const State state = simd.read_state();
+    return worst_error(model, rounding_bounds(model, solver, step), oracle_step(model, solver, step),
+                       state.positions, state.velocities);
+}
+
 }  // namespace gelatin::test

@@ -10,13 +10,11 @@
 #include "model/explicit/stability.h"
 #include "model/setting_names.h"
 #include "support/gl_fixture.h"
+#include "support/solver_kinds.h"
 #include "support/test_models.h"
 
 namespace gelatin {
 namespace {
-
-constexpr SolverKind kSolvers[] = {SolverKind::explicit_euler, SolverKind::semi_implicit_euler,
-                                   SolverKind::midpoint, SolverKind::rk4, SolverKind::vbd};
 
 // Takes the place of the simulator: steps from the start on, `count` of them.
 void advance(Solver& solver, const Model& model, double step, int count, int first = 0) {
@@ -58,7 +56,7 @@ double largest_lag(const Model& model, const std::vector<glm::vec4>& positions, 
 
 TEST(Handle, CarriesItsNodesAtAnyStep) {
     const auto model = std::make_shared<const Model>(carried_bar());
-    for (const SolverKind kind : kSolvers) {
+    for (const SolverKind kind : test::kSolvers) {
         const double most = std::min(0.01, 0.5 * largest_stable_step(kind, *model));
         for (const double fraction : {1.0, 0.37}) {
             const int count = static_cast<int>(std::ceil(0.2 / (fraction * most)));
@@ -113,7 +111,7 @@ TEST(Handle, ReleasedBodiesKeepTheirMomentum) {
     handle.release = 0.2;
     bar.handles = {handle};
     const auto model = std::make_shared<const Model>(test::make_model(bar));
-    for (const SolverKind kind : kSolvers) {
+    for (const SolverKind kind : test::kSolvers) {
         if (kind == SolverKind::explicit_euler) continue;  // amplifies what it is given
         const double most = std::min(0.005, 0.5 * largest_stable_step(kind, *model));
         const int count = static_cast<int>(std::ceil(0.2 / most));

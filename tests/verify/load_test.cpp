@@ -11,6 +11,7 @@
 #include "model/explicit/stability.h"
 #include "model/setting_names.h"
 #include "support/gl_fixture.h"
+#include "support/solver_kinds.h"
 #include "support/test_models.h"
 
 namespace gelatin {
@@ -32,8 +33,7 @@ void expect_newtons_second_law(const MakeSolver& make_solver, double tolerance) 
     const glm::dvec3 force(3.0, 40.0, -20.0);
     block.loads = {{HalfSpaceRegion{{1.0, 0.0, 0.0}, 0.11}, ForceLoad{force}}};
     const auto model = std::make_shared<const Model>(test::make_model(block, {0.0, -9.81, 0.0}));
-    for (const SolverKind kind : {SolverKind::explicit_euler, SolverKind::semi_implicit_euler,
-                                  SolverKind::midpoint, SolverKind::rk4, SolverKind::vbd}) {
+    for (const SolverKind kind : test::kSolvers) {
         const double step = std::min(0.01, 0.5 * largest_stable_step(kind, *model));
         const std::unique_ptr<Solver> solver = make_solver(model, kind);
         for (int s = 0; s < 50; ++s) solver->advance_nodes(step);

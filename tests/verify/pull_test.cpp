@@ -9,15 +9,13 @@
 #include "model/explicit/stability.h"
 #include "model/setting_names.h"
 #include "support/gl_fixture.h"
+#include "support/solver_kinds.h"
 #include "support/test_models.h"
 
 namespace gelatin {
 namespace {
 
 constexpr double kRate = 20.0;  // of the hand [1/s]
-constexpr SolverKind kSolvers[] = {SolverKind::explicit_euler, SolverKind::semi_implicit_euler,
-                                   SolverKind::midpoint, SolverKind::rk4, SolverKind::vbd};
-
 struct Center {
     glm::dvec3 position{0.0}, velocity{0.0};
 };
@@ -55,7 +53,7 @@ template <class MakeSolver>
 void expect_critical_damping(const MakeSolver& make_solver) {
     const auto model = make_block_model(glm::dvec3(0.0));
     const glm::dvec3 way(0.3, 0.2, -0.1);
-    for (const SolverKind kind : kSolvers) {
+    for (const SolverKind kind : test::kSolvers) {
         const double step = std::min(1e-3, 0.5 * largest_stable_step(kind, *model));
         const std::unique_ptr<Solver> solver = make_solver(model, kind);
         const glm::dvec3 start = center_of(*model, solver->read_state()).position;

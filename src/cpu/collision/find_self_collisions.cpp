@@ -16,7 +16,7 @@ constexpr std::size_t kWalksATask = 64;
 }  // namespace
 
 template <class Real>
-SelfCollision<Real>::SelfCollision(std::shared_ptr<const Model> model, const Collision<Real>& boxes)
+FindSelfCollisions<Real>::FindSelfCollisions(std::shared_ptr<const Model> model, const Collision<Real>& boxes)
     : model_(std::move(model)),
       boxes_(boxes),
       fits_(model_->objects.size()),
@@ -25,7 +25,7 @@ SelfCollision<Real>::SelfCollision(std::shared_ptr<const Model> model, const Col
       contact_counts_(model_->faces.size()) {}
 
 template <class Real>
-void SelfCollision<Real>::find(std::span<const Vec4<Real>> positions) {
+void FindSelfCollisions<Real>::run(std::span<const Vec4<Real>> positions) {
     if (any_) std::fill(contact_counts_.begin(), contact_counts_.end(), 0u);
     find_restless(positions);
     // Counts for faces that several threads may find. Two restless faces find one another; one of them
@@ -48,7 +48,7 @@ void SelfCollision<Real>::find(std::span<const Vec4<Real>> positions) {
 }
 
 template <class Real>
-void SelfCollision<Real>::find_restless(std::span<const Vec4<Real>> positions) {
+void FindSelfCollisions<Real>::find_restless(std::span<const Vec4<Real>> positions) {
     const auto objects = static_cast<std::uint32_t>(model_->objects.size());
     tbb::parallel_for(std::uint32_t(0), objects, [&](std::uint32_t o) {
         is_object_calm_[o] = renew_fit(o, positions);
@@ -71,7 +71,7 @@ void SelfCollision<Real>::find_restless(std::span<const Vec4<Real>> positions) {
 // Any affine map is valid. So the last one is used, displaced with the object, until it no longer explains
 // the positions of the nodes.
 template <class Real>
-bool SelfCollision<Real>::renew_fit(std::uint32_t object, std::span<const Vec4<Real>> positions) {
+bool FindSelfCollisions<Real>::renew_fit(std::uint32_t object, std::span<const Vec4<Real>> positions) {
     AffineFit<Real>& fit = fits_[object];
     const AxisBox<Real>& box = boxes_.bounding_boxes()[object];
     const Vec3<Real> first(positions[model_->objects[object].nodes.first]);
@@ -83,8 +83,8 @@ bool SelfCollision<Real>::renew_fit(std::uint32_t object, std::span<const Vec4<R
 
 // Faster than face by face.
 template <class Real>
-bool SelfCollision<Real>::is_calm_all_over(std::uint32_t object,
-                                           std::span<const Vec4<Real>> positions) const {
+bool FindSelfCollisions<Real>::is_calm_all_over(std::uint32_t object,
+                                                std::span<const Vec4<Real>> positions) const {
     const RestShapes& rest = model_->rest_shapes;
     const AffineFit<Real>& fit = fits_[object];
     const Real limit = fit.half_stretch * static_cast<Real>(rest.objects[object].inverse_moment_y.w);
@@ -96,7 +96,8 @@ bool SelfCollision<Real>::is_calm_all_over(std::uint32_t object,
 }
 
 template <class Real>
-bool SelfCollision<Real>::is_face_calm(std::uint32_t index, std::span<const Vec4<Real>> positions) const {
+bool FindSelfCollisions<Real>::is_face_calm(std::uint32_t index,
+                                            std::span<const Vec4<Real>> positions) const {
     const RestShapes& rest = model_->rest_shapes;
     const Face& face = model_->faces[index];
     const AffineFit<Real>& fit = fits_[face.object];
@@ -108,15 +109,15 @@ bool SelfCollision<Real>::is_face_calm(std::uint32_t index, std::span<const Vec4
 }
 
 template <class Real>
-bool SelfCollision<Real>::share_corner(std::uint32_t face, std::uint32_t other) const {
+bool FindSelfCollisions<Real>::share_corner(std::uint32_t face, std::uint32_t other) const {
     const Face &a = model_->faces[face], &b = model_->faces[other];
     const auto is_corner = [&b](std::uint32_t n) { return n == b.a || n == b.b || n == b.c; };
     return is_corner(a.a) || is_corner(a.b) || is_corner(a.c);
 }
 
 template <class Real>
-bool SelfCollision<Real>::touch(std::span<const Vec4<Real>> positions, std::uint32_t face,
-                                std::uint32_t other) const {
+bool FindSelfCollisions<Real>::touch(std::span<const Vec4<Real>> positions, std::uint32_t face,
+                                     std::uint32_t other) const {
     const auto triangle = [&](const Face& f) {
         return Triangle<Real>{Vec3<Real>(positions[f.a]), Vec3<Real>(positions[f.b]),
                               Vec3<Real>(positions[f.c])};
@@ -126,7 +127,7 @@ bool SelfCollision<Real>::touch(std::span<const Vec4<Real>> positions, std::uint
     return triangles_overlap(triangle(model_->faces[first]), triangle(model_->faces[second]));
 }
 
-template class SelfCollision<float>;
-template class SelfCollision<double>;
+template class FindSelfCollisions<float>;
+template class FindSelfCollisions<double>;
 
 }  // namespace gelatin::cpu

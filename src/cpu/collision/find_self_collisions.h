@@ -19,13 +19,13 @@ namespace gelatin::cpu {
 /// through their object's tree. Only objects that their last map does not explain are tested face by face.
 /// GPU twin: gpu::FindSelfCollisions.
 template <class Real>
-class SelfCollision {
+class FindSelfCollisions {
 public:
     /// @pre the model has rest shapes @param boxes must outlive this
-    SelfCollision(std::shared_ptr<const Model> model, const Collision<Real>& boxes);
+    FindSelfCollisions(std::shared_ptr<const Model> model, const Collision<Real>& boxes);
 
     /// @pre the boxes are those of `positions`
-    void find(std::span<const Vec4<Real>> positions);
+    void run(std::span<const Vec4<Real>> positions);
 
     /// The number of faces of its own object that a face touches.
     std::uint32_t contact_count(std::uint32_t face) const { return contact_counts_[face]; }

@@ -21,7 +21,7 @@ void for_all(std::size_t count, const Work& work) {
 }
 
 template <class Real>
-std::uint32_t count_colliding(const NodeFaces& around, const SelfCollision<Real>& collision,
+std::uint32_t count_colliding(const NodeFaces& around, const FindSelfCollisions<Real>& collision,
                               std::uint32_t node) {
     std::uint32_t count = 0;
     for (std::uint32_t k = around.starts[node]; k < around.starts[node + 1]; ++k)
@@ -30,7 +30,7 @@ std::uint32_t count_colliding(const NodeFaces& around, const SelfCollision<Real>
 }
 
 template <class Real>
-FaceLump<Real> make_lump(const Model& model, const SelfCollision<Real>& collision, std::uint32_t f,
+FaceLump<Real> make_lump(const Model& model, const FindSelfCollisions<Real>& collision, std::uint32_t f,
                          const Nodes<Real>& previous, const Nodes<Real>& current) {
     const Face& face = model.faces[f];
     FaceLump<Real> lump;
@@ -72,8 +72,8 @@ RespondToSelf<Real>::RespondToSelf(std::shared_ptr<const Model> model, const Con
       responses_(model_->faces.size()) {}
 
 template <class Real>
-void RespondToSelf<Real>::run(const SelfCollision<Real>& collision, Real step, const Nodes<Real>& previous,
-                              Nodes<Real>& current) {
+void RespondToSelf<Real>::run(const FindSelfCollisions<Real>& collision, Real step,
+                              const Nodes<Real>& previous, Nodes<Real>& current) {
     if (!collision.any()) return;
     const auto resting = static_cast<Real>(resting_speed(model_->gravity, static_cast<double>(step)));
     for_all(model_->faces.size(), [&](std::uint32_t f) {

@@ -15,7 +15,7 @@ class RespondToSelf {
 public:
     RespondToSelf(std::shared_ptr<const Model> model, const ContactProperties& properties);
 
-    void run(const SelfCollision<Real>& collision, Real step, const Nodes<Real>& previous,
+    void run(const FindSelfCollisions<Real>& collision, Real step, const Nodes<Real>& previous,
              Nodes<Real>& current);
 
 private:

@@ -9,7 +9,8 @@ namespace gelatin::gpu {
 
 /// The faces that touch others of their own object. Only shaders/sim/collision/find_restless_objects.comp
 /// runs for bodies that are hardly deformed; then list_restless_chunks.comp, fit_rest_shapes.comp,
-/// list_restless_faces.comp, walk_own_trees.comp, test_own_face_pairs.comp. CPU twin: cpu::SelfCollision.
+/// list_restless_faces.comp, walk_own_trees.comp, test_own_face_pairs.comp. CPU twin:
+/// cpu::FindSelfCollisions.
 class FindSelfCollisions {
 public:
     /// @throws InvalidInput for more faces or chunks than one dispatch can process

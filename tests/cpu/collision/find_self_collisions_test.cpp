@@ -47,7 +47,7 @@ TEST_P(SelfCollisionTest, FindsTheSameWhateverWasBefore) {
 }
 
 // No face of a body that is not deformed, or evenly, is looked at, wherever it is.
-TEST(SelfCollision, LetsUndeformedBodiesBe) {
+TEST(FindSelfCollisions, LetsUndeformedBodiesBe) {
     for (const Deformation deformation : {Deformation::rigid, Deformation::affine}) {
         Model model = test::make_folded(deformation);
         for (const float away : {0.0f, 100.0f}) {
@@ -59,7 +59,7 @@ TEST(SelfCollision, LetsUndeformedBodiesBe) {
     }
 }
 
-TEST(SelfCollision, BearsWhatIsNotANumber) {
+TEST(FindSelfCollisions, BearsWhatIsNotANumber) {
     Model model = test::make_folded(Deformation::rolled);
     const std::uint32_t broken = model.faces[5].a;
     model.positions[broken].y = NAN;

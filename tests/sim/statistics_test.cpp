@@ -1,0 +1,137 @@
+// What a simulator measures and times while it runs.
+#include <gtest/gtest.h>
+
+#include "support/simulator_fixture.h"
+
+namespace gelatin {
+namespace {
+
+using test::falling_balls;
+
+using StatisticsTest = test::SimulatorFixture;
+
+TEST_F(StatisticsTest, StatisticsComeInOrderAndConserveEnergyInFlight) {
+    for (const Backend backend : {Backend::cpu, Backend::gl}) {
+        Simulator simulator(falling_balls(), on(backend));
+        simulator.begin_statistics();
+        const double start = simulator.take_statistics().potential_energy;
+        for (int f = 1; f <= 3; ++f) {
+            simulator.advance_frame();
+            simulator.begin_statistics();
+            if (simulator.pending_statistics() < 2) continue;
+            const FrameStatistics s = simulator.take_statistics();
+            EXPECT_EQ(s.frame, f - 1);
+            EXPECT_NEAR(s.time, (f - 1) * 0.002, 1e-12);
+            EXPECT_NEAR((s.potential_energy + s.kinetic_energy) / start, 1.0, 1e-4);
+            ASSERT_EQ(s.volume_ratio.size(), 2u);
+            EXPECT_NEAR(s.volume_ratio[1], 1.0, 1e-4);
+        }
+        EXPECT_EQ(simulator.pending_statistics(), 1u);
+    }
+}
+
+// Two balls of radius 0.3 m at rest, 1 m apart.
+TEST_F(StatisticsTest, MeasuresWhatIsNear) {
+    for (const Backend backend : {Backend::cpu, Backend::gl}) {
+        Scene scene = falling_balls();
+        scene.collision.proximity_radius = 0.41;
+        SimulatorOptions options = on(backend);
+        options.time_stages = true;
+        Simulator simulator(scene, options);
+        simulator.begin_statistics();
+        EXPECT_EQ(simulator.take_statistics().proximities->node_face, 0u) << "nothing was sought yet";
+        simulator.step();
+        simulator.begin_statistics();
+        const auto near = simulator.take_statistics().proximities;
+        ASSERT_TRUE(near.has_value());
+        EXPECT_GT(near->node_face, 0u);
+        EXPECT_GT(near->edge_edge, 0u);
+        EXPECT_EQ(near->edge_edge % 2, 0u);
+        EXPECT_EQ(near->lost, 0u);
+        EXPECT_GE(near->nearest_gap, 0.4 - 1e-6);
+        EXPECT_LT(near->nearest_gap, 0.41);
+        bool is_timed = false;
+        for (const auto& [stage, times] : simulator.take_stage_times())
+            is_timed |= stage == "find_proximities";
+        EXPECT_TRUE(is_timed);
+    }
+}
+
+// Of one object its own parts, where it collides with itself; else nothing is sought.
+TEST_F(StatisticsTest, MeasuresWhatIsNearWithinOneObject) {
+    Scene scene = falling_balls();
+    scene.objects.resize(1);
+    scene.collision.proximity_radius = 0.2;
+    for (const bool own : {false, true}) {
+        scene.collision.self_collision = own;
+        std::vector<double> counts;
+        for (const Backend backend : {Backend::cpu, Backend::gl}) {
+            Simulator simulator(scene, on(backend));
+            simulator.step();
+            simulator.begin_statistics();
+            const auto near = simulator.take_statistics().proximities;
+            ASSERT_EQ(near.has_value(), own);
+            if (own) counts.push_back(static_cast<double>(near->node_face + near->edge_edge));
+        }
+        if (!own) continue;
+        EXPECT_GT(counts[0], 1000.0);
+        EXPECT_NEAR(counts[1] / counts[0], 1.0, 0.001) << "but for rounding";
+    }
+}
+
+// Under the same names on both backends, and the step is the same with them as without.
+TEST_F(StatisticsTest, TimesThePartsOfAnImplicitStep) {
+    const std::vector<std::string> parts = {"advance_nodes.descend", "advance_nodes.match_shapes",
+                                            "advance_nodes.move_bodies", "advance_nodes.start",
+                                            "advance_nodes.update_tets"};
+    for (const Backend backend : {Backend::cpu, Backend::gl}) {
+        Scene scene = falling_balls();
+        scene.simulation.solver = SolverKind::vbd;
+        scene.simulation.substeps = 1;
+        scene.simulation.iterations = 4;
+        SimulatorOptions options = on(backend);
+        options.time_stages = true;
+        Simulator plain(scene, options);
+        options.time_parts = true;
+        Simulator timed(scene, options);
+        for (int f = 0; f < 3; ++f) {
+            plain.advance_frame();
+            timed.advance_frame();
+        }
+        EXPECT_EQ(plain.read_frame().positions, timed.read_frame().positions);
+        std::vector<std::string> found;
+        for (const auto& [stage, times] : timed.take_stage_times()) {
+            if (stage.find('.') != stage.npos && stage != "advance_nodes.correct") found.push_back(stage);
+            if (stage == "advance_nodes.descend") {
+                EXPECT_EQ(times.size(), 12u);
+            }
+            if (stage == "advance_nodes") {
+                EXPECT_EQ(times.size(), 3u);
+            }
+        }
+        EXPECT_EQ(found, parts);
+        for (const auto& [stage, times] : plain.take_stage_times()) EXPECT_EQ(stage.find('.'), stage.npos);
+    }
+}
+
+TEST_F(StatisticsTest, StagesAreTimedWhereTheyRun) {
+    for (const Backend backend : {Backend::cpu, Backend::gl}) {
+        SimulatorOptions options = on(backend);
+        options.time_stages = true;
+        Simulator simulator(falling_balls(), options);
+        for (int f = 0; f < 4; ++f) simulator.advance_frame();
+        simulator.read_frame();
+        const auto times = simulator.take_stage_times();
+        std::vector<std::string> stages;
+        for (const auto& [stage, milliseconds] : times) {
+            stages.push_back(stage);
+            EXPECT_GT(milliseconds.front(), 0.0);
+        }
+        EXPECT_EQ(stages,
+                  (std::vector<std::string>{"advance_nodes", "find_face_collisions", "find_object_pairs",
+                                            "respond", "update_boxes", "watch_nodes"}));
+    }
+}
+
+}  // namespace
+}  // namespace gelatin
