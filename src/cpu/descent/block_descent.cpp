@@ -167,13 +167,13 @@ void BlockDescent<Real>::sweep(std::size_t batch, std::vector<Vec4<Real>>& posit
     const DescentBatch& bodies = rows.batches[batch];
     if constexpr (kIsFloat<Real>) {
         const DescentGroups groups = objective_.groups(collider_bounds_);
-        const bool any_tets = objective_.any_tets(batch);
+        const bool any_flat_tets = objective_.any_flat_tets(batch);
         const std::span in_contact(contacts_.objects.data() + bodies.objects.first, bodies.objects.count);
         const bool any_contact =
             std::any_of(in_contact.begin(), in_contact.end(), [](auto t) { return t != 0; });
         for (const Range& color : bodies.colors) {
             for_each_index(color.first / kGroup, color.end() / kGroup, kGroupsATask, [&](std::size_t group) {
-                move_group(groups, group, any_tets, any_contact, positions);
+                move_group(groups, group, any_flat_tets, any_contact, positions);
             });
         }
     } else {
@@ -187,19 +187,19 @@ void BlockDescent<Real>::sweep(std::size_t batch, std::vector<Vec4<Real>>& posit
     }
 }
 
-// @param any_tets whether tets add anything @param any_contact whether nodes touched a collider in the last
-// sweep
+// @param any_flat_tets whether any in the batch are flat @param any_contact whether nodes touched a collider
+// in the last sweep
 template <class Real>
 template <class Groups>
-void BlockDescent<Real>::move_group(const Groups& groups, std::size_t group, bool any_tets, bool any_contact,
-                                    std::vector<Vec4<Real>>& positions) {
+void BlockDescent<Real>::move_group(const Groups& groups, std::size_t group, bool any_flat_tets,
+                                    bool any_contact, std::vector<Vec4<Real>>& positions) {
     TermColumns terms;
-    if (any_tets) {
+    if (any_flat_tets) {
         for (std::uint32_t row = 0; row < kGroup; ++row) {
             const std::uint32_t node = groups.nodes[group * kGroup + row];
             if (node == kNoNode) continue;
             NodeTerms<Real> of_tets;
-            objective_.add_tets(node, positions, of_tets);
+            objective_.add_flat_tets(node, positions, of_tets);
             terms.add(row, of_tets);
         }
     }

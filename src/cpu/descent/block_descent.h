@@ -60,7 +60,7 @@ private:
     void sweep(std::size_t batch, std::vector<Vec4<Real>>& positions);
     void move_node(std::uint32_t node, const NodeTerms<Real>& terms, std::vector<Vec4<Real>>& positions);
     template <class Groups>  // DescentGroups: a template, for there is none but in float
-    void move_group(const Groups& groups, std::size_t group, bool any_tets, bool any_contact,
+    void move_group(const Groups& groups, std::size_t group, bool any_flat_tets, bool any_contact,
                     std::vector<Vec4<Real>>& positions);
     Vec3<Real> outside_colliders(std::uint32_t node, const SymmetricMatrix<Real>& hessian,
                                  Vec3<Real> position);

@@ -9,6 +9,7 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
+#include "cpu/descent/gather_tets-inl.h"
 #include "cpu/simd_columns-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -72,6 +73,17 @@ HWY_INLINE void gather_lanes(Lanes d, std::span<const SpringBlock> blocks, std::
     add(sums.yz, terms.beside[0]);
     add(sums.zx, terms.beside[1]);
     add(sums.xy, terms.beside[2]);
+}
+
+HWY_INLINE void add_terms(Lanes d, std::uint32_t row, const TermLanes& added, TermColumns& terms) {
+    const auto add = [&](const Vec3Lanes& v, std::array<TermColumns::Column, 3>& columns) HWY_ATTR {
+        hn::StoreU(hn::Add(v.x.v, hn::LoadU(d, &columns[0][row])), d, &columns[0][row]);
+        hn::StoreU(hn::Add(v.y.v, hn::LoadU(d, &columns[1][row])), d, &columns[1][row]);
+        hn::StoreU(hn::Add(v.z.v, hn::LoadU(d, &columns[2][row])), d, &columns[2][row]);
+    };
+    add(added.force, terms.force);
+    add(added.hessian.diagonal, terms.diagonal);
+    add(added.hessian.beside, terms.beside);
 }
 
 HWY_INLINE Vector inverse_or_zero(Lanes d, Vector pivot, Vector diagonal) {
@@ -145,6 +157,10 @@ HWY_INLINE std::array<Columns, 2> gather_terms(Lanes d, const DescentGroups& fro
     const Columns target = load_nodes(d, &from.targets[0].x, &shown[row]);
     add_inertia(d, row, self, target, terms);
     gather_lanes(d, blocks, row, self, &positions[0].x, terms);
+    if (!from.tets.blocks.is_empty()) {
+        const TermLanes of_tets = gather_tets(d, from, group, row, shown, self, &positions[0].x);
+        add_terms(d, row, of_tets, terms);
+    }
     return {self, target};
 }
 

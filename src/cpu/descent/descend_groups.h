@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cpu/descent/spring_blocks.h"
+#include "cpu/descent/tet_blocks.h"
 #include "cpu/elasticity/node_terms.h"
 
 namespace gelatin::cpu {
@@ -34,20 +35,30 @@ struct ColliderBound {
 };
 std::vector<ColliderBound> make_collider_bounds(std::span<const Collider> colliders);
 
+/// The tets of a step.
+struct DescentTets {
+    const TetBlocks& blocks;
+    std::span<const glm::vec4> bounds;  ///< VolumeBound of each tet in xy; empty without a volume term
+    /// xyz when the step began [m], damping time [s], shape [nodes]; empty if nothing is damped
+    std::span<const glm::vec4> starts;
+    float inverse_step;  ///< [1/s]
+};
+
 /// What a sweep of vertex block descent reads.
 struct DescentGroups {
-    const SpringBlocks& springs;           ///< their dampers in them
+    const SpringBlocks& springs;  ///< their dampers in them
+    DescentTets tets;
     std::span<const std::uint32_t> nodes;  ///< of each row, or kNoNode
     std::span<const glm::vec4> targets;    ///< y [m], m / h^2 [N/m], 0 where a node is held; shape [nodes]
     std::span<const ColliderBound> colliders;
 };
 
-/// What springs and inertia add to the terms of each node of a group.
+/// What inertia, springs and tets, but for flat ones, add to the terms of each node of a group.
 void gather_group(const DescentGroups& from, std::size_t group, std::span<const glm::vec4> positions,
                   TermColumns& terms);
 
 /// Newton's step of each node of a group that is not held, with SIMD for the processor it runs on.
-/// @param terms what other elements than springs add; those of springs and inertia are added to it
+/// @param terms what flat tets add; those of all other elements are added to it
 /// @return a bit for each row: whether its node may have come into a collider
 std::uint32_t descend_group(const DescentGroups& from, std::size_t group, TermColumns& terms,
                             std::span<glm::vec4> positions);

@@ -17,6 +17,7 @@ StepObjective<Real>::StepObjective(std::shared_ptr<const Model> model, std::uint
         springs_ = make_spring_blocks(rows_);
         rows_.springs = {};
         if (model_->has_damping()) damped_springs_ = springs_;
+        tet_blocks_ = make_tet_blocks(*model_, rows_.nodes);
     }
 }
 
@@ -38,7 +39,7 @@ NodeTerms<Real> StepObjective<Real>::terms_of(std::uint32_t row,
     const Vec4<Real>& target = targets[node];
     terms.force += target.w * (Vec3<Real>(target) - Vec3<Real>(positions[node]));
     terms.hessian.add_identity(target.w);
-    add_tets(node, positions, terms);
+    tets_.add(node, positions, {starts.data(), inverse_step_}, terms);
     return terms;
 }
 
@@ -47,9 +48,9 @@ void StepObjective<Real>::find_forces(const std::vector<Vec4<Real>>& positions,
                                       std::vector<Vec3<Real>>& forces) const {
     if constexpr (kIsFloat<Real>) {
         const auto all = groups();
-        const bool any_tets = tets_.any_resist();
+        const bool any_flat_tets = tets_.any_flat();
         for_each_index(0, rows_.nodes.size() / kGroup, kGroupsATask, [&](std::size_t group) {
-            find_group_forces(all, group, any_tets, positions, forces);
+            find_group_forces(all, group, any_flat_tets, positions, forces);
         });
     } else {
         for_each_index(0, rows_.nodes.size(), kGroup * kGroupsATask, [&](std::size_t row) {
@@ -62,7 +63,7 @@ void StepObjective<Real>::find_forces(const std::vector<Vec4<Real>>& positions,
 
 template <class Real>
 template <class Groups>
-void StepObjective<Real>::find_group_forces(const Groups& groups, std::size_t group, bool any_tets,
+void StepObjective<Real>::find_group_forces(const Groups& groups, std::size_t group, bool any_flat_tets,
                                             const std::vector<Vec4<Real>>& positions,
                                             std::vector<Vec3<Real>>& forces) const {
     TermColumns terms;
@@ -71,7 +72,7 @@ void StepObjective<Real>::find_group_forces(const Groups& groups, std::size_t gr
         const std::uint32_t node = groups.nodes[group * kGroup + row];
         if (node == kNoNode || targets[node].w == Real(0)) continue;
         NodeTerms<Real> all = terms.row(row);
-        if (any_tets) add_tets(node, positions, all);
+        if (any_flat_tets) add_flat_tets(node, positions, all);
         forces[node] = all.force;
     }
 }

@@ -39,17 +39,24 @@ public:
 
     /// Rows of nodes by batch and colour; their springs are in groups().
     const DescentRows& rows() const { return rows_; }
-    /// Springs and inertia for SIMD, in float: a template, for there is none in double.
+    /// Inertia, springs and tets but for flat ones for SIMD, in float: a template, for there is none in
+    /// double.
     /// @param colliders what a sweep will look out for
     template <class Groups = DescentGroups>
     Groups groups(std::span<const ColliderBound> colliders = {}) const {
-        return {model_->has_damping() ? damped_springs_ : springs_, rows_.nodes, targets, colliders};
+        const bool has_damping = model_->has_damping();
+        const std::span<const Vec4<Real>> damped_starts(starts.data(), has_damping ? starts.size() : 0);
+        return {has_damping ? damped_springs_ : springs_,
+                {tet_blocks_, tets_.bounds(), damped_starts, inverse_step_},
+                rows_.nodes,
+                targets,
+                colliders};
     }
-    /// What tets add to that.
-    bool any_tets(std::size_t batch) const { return tets_.any_resist(batch); }
-    void add_tets(std::uint32_t node, const std::vector<Vec4<Real>>& positions,
-                  NodeTerms<Real>& terms) const {
-        tets_.add(node, positions, {starts.data(), inverse_step_}, terms);
+    /// What flat tets add to that.
+    bool any_flat_tets(std::size_t batch) const { return tets_.any_flat(batch); }
+    void add_flat_tets(std::uint32_t node, const std::vector<Vec4<Real>>& positions,
+                       NodeTerms<Real>& terms) const {
+        tets_.add_flat_tets(node, positions, terms);
     }
     /// All terms of the node of a row, in double.
     NodeTerms<Real> terms_of(std::uint32_t row, const std::vector<Vec4<Real>>& positions) const;
@@ -59,7 +66,7 @@ public:
 
 private:
     template <class Groups>  // as above
-    void find_group_forces(const Groups& groups, std::size_t group, bool any_tets,
+    void find_group_forces(const Groups& groups, std::size_t group, bool any_flat_tets,
                            const std::vector<Vec4<Real>>& positions, std::vector<Vec3<Real>>& forces) const;
 
     std::shared_ptr<const Model> model_;
@@ -67,6 +74,7 @@ private:
     TetResistance<Real> tets_;
     Real inverse_step_ = Real(0);            // [1/s]
     SpringBlocks springs_, damped_springs_;  // in float; damped ones where the model has dampers
+    TetBlocks tet_blocks_;                   // in float
 };
 
 }  // namespace gelatin::cpu

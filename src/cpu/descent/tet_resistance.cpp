@@ -21,11 +21,10 @@ TetResistance<Real>::TetResistance(std::shared_ptr<const Model> model, std::size
       object_of_(objects_of_nodes(*model_)),
       ratios_(model_->tets.size()),
       is_near_flat_(model_->node_count()),
-      any_flat_(batches),
-      resist_always_(!model_->volume_term.is_empty() || !model_->neo_hookean_tets.empty()) {
+      any_flat_(batches) {
     if (model_->volume_term.is_empty()) return;
     node_pressures_.resize(model_->node_count());
-    offsets_.resize(model_->tets.size());
+    bounds_.resize(model_->tets.size());
 }
 
 template <class Real>
@@ -81,7 +80,9 @@ void TetResistance<Real>::update(std::size_t index, const DescentBatch& batch,
         const glm::uvec4& tet = model.tets[t];
         Real sum(0);
         for (int k = 0; k < 4; ++k) sum += node_pressures_[tet[k]];
-        offsets_[t] = Real(0.25) * sum - static_cast<Real>(term.tets[t]) * ratios_[t];
+        const auto volume = static_cast<Real>(model.tet_rests[t].volume),
+                   modulus = static_cast<Real>(term.tets[t]);
+        bounds_[t] = volume * Vec4<Real>(Real(0.25) * sum - modulus * ratios_[t], modulus, 0, 0);
     });
 }
 
@@ -104,26 +105,44 @@ void TetResistance<Real>::update_range(const Range& tets, std::uint8_t& any_flat
 
 template <class Real>
 VolumeBound<Real> TetResistance<Real>::volume_bound(std::uint32_t tet) const {
-    return {offsets_[tet], static_cast<Real>(model_->volume_term.tets[tet])};
+    if (bounds_.empty()) return {};
+    return {bounds_[tet].x, bounds_[tet].y};
 }
 
 template <class Real>
 void TetResistance<Real>::add(std::uint32_t node, const std::vector<Vec4<Real>>& positions,
                               const StepStart<Real>& start, NodeTerms<Real>& terms) const {
-    const Model& model = *model_;
-    if (has_neo_hookean_tets(model, node)) return add_neo_hookean_tets(node, positions, start, terms);
-    const bool has_volume_term = !model.volume_term.is_empty();
-    if (is_near_flat_[node] == 0 && !has_volume_term) return;
+    if (has_neo_hookean_tets(*model_, node)) return add_neo_hookean_tets(node, positions, start, terms);
+    add_flat_tets(node, positions, terms);
+    if (bounds_.empty()) return;
+    for_each_tet(node, positions, [&](std::uint32_t tet, const Vec3<Real>& slope, Real ratio) {
+        add_tet_volume(slope, ratio, volume_bound(tet), terms);
+    });
+}
+
+template <class Real>
+void TetResistance<Real>::add_flat_tets(std::uint32_t node, const std::vector<Vec4<Real>>& positions,
+                                        NodeTerms<Real>& terms) const {
+    if (is_near_flat_[node] == 0 || has_neo_hookean_tets(*model_, node)) return;
+    for_each_tet(node, positions, [&](std::uint32_t tet, const Vec3<Real>& slope, Real ratio) {
+        const TetRest& rest = model_->tet_rests[tet];
+        add_flat_tet(slope, ratio, static_cast<Real>(rest.volume) * static_cast<Real>(rest.modulus), terms);
+    });
+}
+
+// Calls work(tet, dJ/dx, J) for each tet of the node.
+template <class Real>
+template <class Work>
+void TetResistance<Real>::for_each_tet(std::uint32_t node, const std::vector<Vec4<Real>>& positions,
+                                       const Work& work) const {
     const Vec3<Real> position(positions[node]);
     for (std::uint32_t e = node_tets_.starts[node]; e < node_tets_.starts[node + 1]; ++e) {
         const std::uint32_t tet = node_tets_.entries[e] / 4, corner = node_tets_.entries[e] % 4;
         std::array<Vec3<Real>, 3> face;
-        for (std::size_t k = 0; k < 3; ++k) face[k] = positions[model.tets[tet][kOppositeCorners[corner][k]]];
-        const TetRest& rest = model.tet_rests[tet];
-        const auto volume = static_cast<Real>(rest.volume);
-        if (is_near_flat_[node] != 0)
-            add_flat_tet(position, face, volume, static_cast<Real>(rest.modulus), terms);
-        if (has_volume_term) add_tet_volume(position, face, volume, volume_bound(tet), terms);
+        for (std::size_t k = 0; k < 3; ++k)
+            face[k] = positions[model_->tets[tet][kOppositeCorners[corner][k]]];
+        const Vec3<Real> slope = volume_slope(face, static_cast<Real>(model_->tet_rests[tet].volume));
+        work(tet, slope, glm::dot(position - face[0], slope));
     }
 }
 
@@ -133,20 +152,18 @@ void TetResistance<Real>::add_neo_hookean_tets(std::uint32_t node, const std::ve
     const NodeTets& corners = model_->neo_hookean_corners;
     const ModelObject& object = model_->objects[object_of_[node]];
     const std::uint32_t first_tet = object.tets.first - object.neo_hookean_tets.first;
-    const bool has_volume_term = !model_->volume_term.is_empty();
     for (std::uint32_t e = corners.starts[node]; e < corners.starts[node + 1]; ++e) {
         const NeoHookeanTet& tet = model_->neo_hookean_tets[corners.entries[e] / 4];
-        const Real volume = static_cast<Real>(tet.gradient_1.w), mu = static_cast<Real>(tet.gradient_2.w),
-                   lambda = static_cast<Real>(tet.gradient_3.w);
+        const TetModuli<Real> moduli = tet_moduli<Real>(tet);
         const Vec3<Real> g = shape_gradient<Real>(tet, corners.entries[e] % 4);
         const Mat3<Real> f = gradient_of(tet, at_corners(tet, positions.data()));
-        const VolumeBound<Real> bound =
-            has_volume_term ? volume_bound(first_tet + corners.entries[e] / 4) : VolumeBound<Real>{};
-        add_neo_hookean(g, f, volume, mu, lambda, bound, terms);
+        const TetAtCorner<Real> at_corner = tet_at_corner(g, f);
+        add_neo_hookean(at_corner, moduli, volume_bound(first_tet + corners.entries[e] / 4), terms);
+        terms.force += opening_force(g, at_corner.squares, moduli.mu);
         const Real damping_time = mean_damping_time(tet, start.nodes);
         if (damping_time > Real(0)) {
             const Mat3<Real> before = gradient_of(tet, at_corners(tet, start.nodes));
-            add_viscosity(g, f, before, volume, mu, lambda, damping_time * start.inverse_step, terms);
+            add_viscosity(g, f, before, moduli, damping_time * start.inverse_step, terms);
         }
     }
 }

@@ -40,15 +40,20 @@ public:
     /// Finds which tets of a batch are flat and how far the volumes are from those at rest.
     void update(std::size_t index, const DescentBatch& batch, const std::vector<Vec4<Real>>& positions);
 
-    /// False if no node of the batch has anything to add.
-    bool any_resist(std::size_t batch) const { return any_flat_[batch] != 0 || resist_always_; }
-    bool any_resist() const {
-        return resist_always_ ||
-               std::any_of(any_flat_.begin(), any_flat_.end(), [](auto flat) { return flat != 0; });
+    /// True if a tet of the batch, or of any, was flat at its last update.
+    bool any_flat(std::size_t batch) const { return any_flat_[batch] != 0; }
+    bool any_flat() const {
+        return std::any_of(any_flat_.begin(), any_flat_.end(), [](auto flat) { return flat != 0; });
     }
+    /// Adds the resistance of the node's tets to being flat.
+    void add_flat_tets(std::uint32_t node, const std::vector<Vec4<Real>>& positions,
+                       NodeTerms<Real>& terms) const;
 
-    /// Adds the resistance of the node's tets, with the volumes round other nodes as they were at the last
-    /// update.
+    /// VolumeBound of each tet in xy at the last update, with the volumes around nodes as they were then;
+    /// empty without a volume term.
+    const std::vector<Vec4<Real>>& bounds() const { return bounds_; }
+
+    /// Adds the contributions of all of the node's tets.
     void add(std::uint32_t node, const std::vector<Vec4<Real>>& positions, const StepStart<Real>& start,
              NodeTerms<Real>& terms) const;
 
@@ -57,6 +62,8 @@ private:
     void add_neo_hookean_tets(std::uint32_t node, const std::vector<Vec4<Real>>& positions,
                               const StepStart<Real>& start, NodeTerms<Real>& terms) const;
     VolumeBound<Real> volume_bound(std::uint32_t tet) const;
+    template <class Work>
+    void for_each_tet(std::uint32_t node, const std::vector<Vec4<Real>>& positions, const Work& work) const;
     Real ratio_of(std::uint32_t tet, const std::vector<Vec4<Real>>& positions) const;
 
     std::shared_ptr<const Model> model_;
@@ -65,9 +72,8 @@ private:
     std::vector<Real> ratios_;                // J, by tet
     std::vector<std::uint8_t> is_near_flat_;  // nodes of tets that resist
     std::vector<std::uint8_t> any_flat_;      // by batch
-    bool resist_always_;                      // whatever their shapes
     std::vector<Real> node_pressures_;        // [Pa]
-    std::vector<Real> offsets_;               // q [Pa], by tet
+    std::vector<Vec4<Real>> bounds_;          // VolumeBound in xy, by tet; empty without a volume term
 };
 
 }  // namespace gelatin::cpu

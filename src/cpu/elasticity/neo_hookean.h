@@ -138,42 +138,26 @@ Vec3<Real> neo_hookean_force(const NeoHookeanTet& tet, std::uint32_t corner, con
     return -volume * traction;
 }
 
-/// The elastic energy as a function of one corner, with g its shape gradient and s = cof F g the gradient of
-/// J:
-///   force   -V (shear F g + pressure s)
-///   hessian V (shear |g|^2 + 2 mu / (I + 1)^2 (F g) (F g)^T + lambda s s^T),
-/// which is exact, because J is linear in one corner, and positive semi-definite for any F.
-/// @param bound of the tet's part of the volume term, which is added as in add_tet_volume
+#include "cpu/elasticity/neo_hookean_terms.inl"
+
+/// @param g the corner's shape gradient
 template <class Real>
-void add_neo_hookean(const Vec3<Real>& g, const Mat3<Real>& f, Real volume, Real mu, Real lambda,
-                     const VolumeBound<Real>& bound, NodeTerms<Real>& terms) {
+TetAtCorner<Real> tet_at_corner(const Vec3<Real>& g, const Mat3<Real>& f) {
     const Mat3<Real> cofactors = cofactor(f);
-    const Real squares = sum_of_squares(f), over = Real(1) / (squares + Real(1));
-    const Real ratio = glm::dot(f[0], cofactors[0]);
-    const NeoHookeanStress<Real> stress(squares, ratio, mu, lambda);
-    const Real pressure = stress.pressure + bound.offset + bound.modulus * ratio;
-    const Vec3<Real> stretched = f * g, slope = cofactors * g;
-    terms.force -= volume * (stress.shear * stretched + pressure * slope - stress.opening * g);
-    terms.hessian.add_identity(volume * stress.shear * glm::dot(g, g));
-    terms.hessian.add_outer(volume * Real(2) * mu * over * over, stretched);
-    terms.hessian.add_outer(volume * (lambda + bound.modulus), slope);
+    return {f * g, cofactors * g, sum_of_squares(f), glm::dot(f[0], cofactors[0]), glm::dot(g, g)};
 }
 
-/// Its viscosity over a step that changes the gradient from `start` to `f`: the dissipation
-///   V t a / (2 h) dE : C : dE,   dE = (F^T F - start^T start) / 2,
-/// with C the stiffness of viscous_stress, and a the viscous share at the start. The part of the Hessian that
-/// is negative where the tet gets shorter is omitted. @param damping t / h
+/// mu V and lambda V.
 template <class Real>
-void add_viscosity(const Vec3<Real>& g, const Mat3<Real>& f, const Mat3<Real>& start, Real volume, Real mu,
-                   Real lambda, Real damping, NodeTerms<Real>& terms) {
-    const Real scale = volume * damping * viscous_share(sum_of_squares(start));
-    const Real shear = Real(0.75) * mu, dilation = lambda - Real(0.625) * mu;
-    const Vec3<Real> stress = viscous_stress(Real(0.5) * (f + start), f - start, mu, lambda) * g;
-    const Vec3<Real> stretched = f * g;
-    terms.force -= scale * (f * stress);
-    for (int k = 0; k < 3; ++k) terms.hessian.add_outer(scale * shear * glm::dot(g, g), f[k]);
-    terms.hessian.add_outer(scale * (shear + dilation), stretched);
-    terms.hessian.add_identity(scale * std::max(glm::dot(g, stress), Real(0)));
+TetModuli<Real> tet_moduli(const NeoHookeanTet& tet) {
+    const auto volume = static_cast<Real>(tet.gradient_1.w);
+    return {volume * static_cast<Real>(tet.gradient_2.w), volume * static_cast<Real>(tet.gradient_3.w)};
+}
+
+/// The force that opens a collapsed tet, at a corner with the shape gradient g [N].
+template <class Real>
+Vec3<Real> opening_force(const Vec3<Real>& g, Real squares, Real mu) {
+    return squares < static_cast<Real>(kCollapsed) ? mu * g : Vec3<Real>(0);
 }
 
 }  // namespace gelatin::cpu

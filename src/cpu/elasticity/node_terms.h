@@ -12,28 +12,21 @@
 
 namespace gelatin::cpu {
 
-/// A symmetric matrix [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]].
-template <class Real>
-struct SymmetricMatrix {
-    Vec3<Real> diagonal{0};  ///< xx, yy, zz
-    Vec3<Real> beside{0};    ///< yz, zx, xy
+/// a b + c
+template <class T>
+T multiply_add(const T& a, const T& b, const T& c) {
+    return a * b + c;
+}
 
-    void add_identity(Real factor) { diagonal += factor; }
-    /// factor v v^T
-    void add_outer(Real factor, const Vec3<Real>& v) {
-        diagonal += factor * v * v;
-        beside += factor * Vec3<Real>(v.y * v.z, v.z * v.x, v.x * v.y);
-    }
-};
-
-/// The contribution of a body's elements to a node's part of the objective of a step: minus its gradient,
-/// which is a force [N], and a positive semi-definite second derivative [N/m]. GLSL twin:
-/// shaders/sim/elasticity/node_terms.glsl.
 template <class Real>
-struct NodeTerms {
-    Vec3<Real> force{0};
-    SymmetricMatrix<Real> hessian;
-};
+Real select(bool condition, Real a, Real b) {
+    return condition ? a : b;
+}
+
+/// Below this fraction of its rest volume, a tet resists.
+using thresholds::kFlattest;
+
+#include "cpu/elasticity/node_terms.inl"
 
 /// The spring to a node at the offset `apart` from this one. With l its length, n its direction, L the rest
 /// length, k the stiffness, t the damping time, h the step and l_0 the length at the start of the step, the
@@ -57,22 +50,11 @@ void add_spring(const Vec3<Real>& apart, Real start_length, Real rest_length, Re
     terms.hessian.add_identity(across);
 }
 
-/// Below this fraction of its rest volume, a tet resists.
-using thresholds::kFlattest;
-
-/// A tet as seen from one of its corners, with v its volume, V that at rest, J = v / V, J_0 = kFlattest and K
-/// its modulus: W = V K / 2 (J_0 - J)^2 where J < J_0, otherwise 0. v is linear in one corner, so
-///   force   V K (J_0 - J) dJ/dx,   hessian V K dJ/dx dJ/dx^T.
-/// It moves springs out of mirrored and tangled shapes, in which they would also be at rest.
-/// @param face the other corners, counter-clockwise as seen from the corner at `position`
+/// dJ/dx of a tet as seen from one of its corners [1/m].
+/// @param face the other corners, counter-clockwise as seen from the corner
 template <class Real>
-void add_flat_tet(const Vec3<Real>& position, const std::array<Vec3<Real>, 3>& face, Real rest_volume,
-                  Real modulus, NodeTerms<Real>& terms) {
-    const Vec3<Real> slope = glm::cross(face[1] - face[0], face[2] - face[0]) / (Real(6) * rest_volume);
-    const Real lack = static_cast<Real>(kFlattest) - glm::dot(position - face[0], slope);
-    if (!(lack > Real(0))) return;
-    terms.force += rest_volume * modulus * lack * slope;
-    terms.hessian.add_outer(rest_volume * modulus, slope);
+Vec3<Real> volume_slope(const std::array<Vec3<Real>, 3>& face, Real rest_volume) {
+    return glm::cross(face[1] - face[0], face[2] - face[0]) / (Real(6) * rest_volume);
 }
 
 /// kappa phi'(J - 1) of the volume term [Pa], with J the volume around a node relative to that at rest.
@@ -84,27 +66,6 @@ Real volume_stress(Real ratio, Real kappa) {
     if (kappa >= Real(0)) return kappa * u;
     const Real left = std::max(Real(1) - Real(4) * u * u, Real(0));
     return kappa * u * left * left;
-}
-
-/// For a tet's part of the volume term: p - k J_0, and k, as below [Pa].
-template <class Real>
-struct VolumeBound {
-    Real offset{0}, modulus{0};
-};
-
-/// A tet's part of the volume term, as seen from one of its corners. With p the mean of volume_stress at its
-/// corners and J_0 its own J, both at the last evaluation, and k the mean |kappa| of its corners, the term is
-/// at most
-///   W = V (p (J - J_0) + k / 2 (J - J_0)^2)
-/// plus its value then.
-/// @param face as in add_flat_tet
-template <class Real>
-void add_tet_volume(const Vec3<Real>& position, const std::array<Vec3<Real>, 3>& face, Real rest_volume,
-                    const VolumeBound<Real>& bound, NodeTerms<Real>& terms) {
-    const Vec3<Real> slope = glm::cross(face[1] - face[0], face[2] - face[0]) / (Real(6) * rest_volume);
-    const Real ratio = glm::dot(position - face[0], slope);
-    terms.force -= rest_volume * (bound.offset + bound.modulus * ratio) * slope;
-    terms.hessian.add_outer(rest_volume * bound.modulus, slope);
 }
 
 /// matrix^-1 v by the square-root-free Cholesky decomposition; zero along directions without stiffness.

@@ -36,7 +36,8 @@ TEST(SpringTerms, WithSimdAreThePlainOnes) {
     cpu::damp_springs(springs, rows.nodes, starts.data(), inverse_step, damped);
     const std::vector<glm::vec4> held(model.node_count(),
                                       glm::vec4(0.0f));  // nothing but springs, and no step
-    const cpu::DescentGroups groups{damped, rows.nodes, held, {}};
+    const cpu::TetBlocks no_tets;
+    const cpu::DescentGroups groups{damped, {no_tets, {}, {}, 0.0f}, rows.nodes, held, {}};
     float largest = 0.0f;
     for (const Spring& s : model.springs) largest = std::max(largest, s.stiffness);
     int looked_at = 0;

@@ -63,8 +63,10 @@ V force_on(const NeoHookeanTet& tet, std::uint32_t corner, const Corners& x, con
 
 cpu::NodeTerms<double> terms_of(const NeoHookeanTet& tet, std::uint32_t corner, const Corners& x) {
     cpu::NodeTerms<double> terms;
-    cpu::add_neo_hookean(cpu::shape_gradient<double>(tet, corner), cpu::gradient_of(tet, x), volume_of(tet),
-                         mu_of(tet), lambda_of(tet), {}, terms);
+    const V g = cpu::shape_gradient<double>(tet, corner);
+    const cpu::TetAtCorner<double> at_corner = cpu::tet_at_corner(g, cpu::gradient_of(tet, x));
+    cpu::add_neo_hookean(at_corner, cpu::tet_moduli<double>(tet), {}, terms);
+    terms.force += cpu::opening_force(g, at_corner.squares, mu_of(tet) * volume_of(tet));
     return terms;
 }
 
@@ -223,8 +225,7 @@ TEST(NeoHookeanViscosity, LeavesRigidMotionAlone) {
                       1e-10 * (glm::length(still) + mu_of(tet)));
             cpu::NodeTerms<double> terms;
             cpu::add_viscosity(cpu::shape_gradient<double>(tet, k), cpu::gradient_of(tet, later),
-                               cpu::gradient_of(tet, x), volume_of(tet), mu_of(tet), lambda_of(tet), 5.0,
-                               terms);
+                               cpu::gradient_of(tet, x), cpu::tet_moduli<double>(tet), 5.0, terms);
             EXPECT_LT(glm::length(terms.force), 1e-9 * mu_of(tet));
         }
     }
@@ -271,7 +272,7 @@ TEST(NeoHookeanViscosity, DescendsAlongItsDissipation) {
         for (std::uint32_t k = 0; k < 4; ++k) {
             cpu::NodeTerms<double> terms;
             cpu::add_viscosity(cpu::shape_gradient<double>(tet, k), cpu::gradient_of(tet, x), start,
-                               volume_of(tet), mu_of(tet), lambda_of(tet), damping, terms);
+                               cpu::tet_moduli<double>(tet), damping, terms);
             const V slope = central_difference([&](const V& d) {
                 Corners moved = x;
                 moved[k] += d;

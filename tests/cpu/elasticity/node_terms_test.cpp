@@ -130,7 +130,8 @@ TEST(NodeTerms, AFlatTetsForceAndHessianAreThoseOfItsEnergy) {
         const std::array<V, 3> face{random.point(0.5), random.point(0.5), random.point(0.5)};
         const auto terms_at = [&](const V& p) {
             Terms terms;
-            cpu::add_flat_tet(p, face, volume, modulus, terms);
+            const V slope = cpu::volume_slope(face, volume);
+            cpu::add_flat_tet(slope, glm::dot(p - face[0], slope), volume * modulus, terms);
             return terms;
         };
         const auto energy = [&](const V& p) {
@@ -175,7 +176,9 @@ TEST(NodeTerms, ATetsVolumeTermIsThatOfItsEnergy) {
         const std::array<V, 3> face{random.point(0.5), random.point(0.5), random.point(0.5)};
         const auto terms_at = [&](const V& p) {
             Terms terms;
-            cpu::add_tet_volume(p, face, volume, {offset, modulus}, terms);
+            const V slope = cpu::volume_slope(face, volume);
+            cpu::add_tet_volume(slope, glm::dot(p - face[0], slope), {volume * offset, volume * modulus},
+                                terms);
             return terms;
         };
         const auto energy = [&](const V& p) {
