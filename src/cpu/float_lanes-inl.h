@@ -16,6 +16,7 @@ struct FloatLanes {
     Vector v;
 
     FloatLanes() = default;
+    // NOLINTNEXTLINE(google-explicit-constructor): results of Highway's functions are such scalars
     HWY_INLINE FloatLanes(Vector value) : v(value) {}
     HWY_INLINE explicit FloatLanes(float value) : v(hn::Set(Lanes(), value)) {}
 
@@ -60,7 +61,8 @@ struct Vec3Lanes {
 
     Vec3Lanes() = default;
     HWY_INLINE explicit Vec3Lanes(FloatLanes all) : x(all), y(all), z(all) {}
-    HWY_INLINE Vec3Lanes(FloatLanes x_, FloatLanes y_, FloatLanes z_) : x(x_), y(y_), z(z_) {}
+    HWY_INLINE Vec3Lanes(FloatLanes first, FloatLanes second, FloatLanes third)
+        : x(first), y(second), z(third) {}
 
     HWY_INLINE Vec3Lanes& operator+=(const Vec3Lanes& b);
     HWY_INLINE Vec3Lanes& operator-=(const Vec3Lanes& b);

@@ -10,8 +10,8 @@ struct SymmetricMatrix {
     Vec3<Real> beside;    ///< yz, zx, xy
 
     SymmetricMatrix() : diagonal(Real(0)), beside(Real(0)) {}
-    SymmetricMatrix(const Vec3<Real>& diagonal_, const Vec3<Real>& beside_)
-        : diagonal(diagonal_), beside(beside_) {}
+    SymmetricMatrix(const Vec3<Real>& on_diagonal, const Vec3<Real>& off_diagonal)
+        : diagonal(on_diagonal), beside(off_diagonal) {}
 
     void add_identity(Real factor) { diagonal += Vec3<Real>(factor); }
     /// factor v v^T
@@ -31,8 +31,8 @@ struct NodeTerms {
     SymmetricMatrix<Real> hessian;
 
     NodeTerms() : force(Real(0)) {}
-    NodeTerms(const Vec3<Real>& force_, const SymmetricMatrix<Real>& hessian_)
-        : force(force_), hessian(hessian_) {}
+    NodeTerms(const Vec3<Real>& own_force, const SymmetricMatrix<Real>& own_hessian)
+        : force(own_force), hessian(own_hessian) {}
 };
 
 /// A tet as seen from one of its corners, with v its volume, V that at rest, J = v / V, J_0 = kFlattest and K
@@ -59,7 +59,7 @@ struct VolumeBound {
     Real modulus;  ///< V k [J]
 
     VolumeBound() : offset(Real(0)), modulus(Real(0)) {}
-    VolumeBound(Real offset_, Real modulus_) : offset(offset_), modulus(modulus_) {}
+    VolumeBound(Real at_zero, Real slope) : offset(at_zero), modulus(slope) {}
 };
 
 /// @param slope, ratio as in add_flat_tet
