@@ -16,8 +16,8 @@
 #include "core/file.h"
 #include "gelatin/simulator.h"
 #include "gl/hazards.h"
+#include "gpu/support/short_runs.h"
 #include "support/gl_fixture.h"
-#include "support/short_runs.h"
 #include "support/source_path.h"
 
 namespace gelatin {

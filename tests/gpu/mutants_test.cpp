@@ -1,15 +1,15 @@
 // Kernels broken on purpose must be caught: with each mutant of tests/mutants/ in place of the true shader,
 // at least one of the scenarios that the tests of parity run must fail.
-#include "support/mutants.h"
+#include "gpu/support/mutants.h"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 
+#include "gpu/support/collision_scenarios.h"
+#include "gpu/support/solver_scenarios.h"
 #include "mutants/collision_mutants.h"
 #include "mutants/solver_mutants.h"
-#include "support/collision_scenarios.h"
-#include "support/solver_scenarios.h"
 
 namespace gelatin::test {
 namespace {

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "core/file.h"
+#include "gpu/support/short_runs.h"
 #include "support/environment.h"
 #include "support/gl_fixture.h"
 #include "support/run_program.h"
-#include "support/short_runs.h"
 #include "support/source_path.h"
 
 namespace gelatin {

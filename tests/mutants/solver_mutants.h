@@ -1,6 +1,6 @@
 #pragma once
 
-#include "support/mutants.h"
+#include "gpu/support/mutants.h"
 
 namespace gelatin::test {
 

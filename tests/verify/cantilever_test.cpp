@@ -8,8 +8,8 @@
 
 #include "mesh/shapes.h"
 #include "mesh/tetrahedralise.h"
-#include "support/equilibrium.h"
 #include "support/test_models.h"
+#include "verify/support/equilibrium.h"
 
 namespace gelatin {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "mesh/shapes.h"
 #include "mesh/tetrahedralise.h"
-#include "support/statics.h"
 #include "support/test_models.h"
+#include "verify/support/statics.h"
 
 namespace gelatin {
 namespace {

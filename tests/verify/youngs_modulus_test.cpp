@@ -13,8 +13,8 @@
 #include "mesh/shapes.h"
 #include "mesh/tetrahedralise.h"
 #include "model/explicit/stability.h"
-#include "support/statics.h"
 #include "support/test_models.h"
+#include "verify/support/statics.h"
 
 namespace gelatin {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "cpu/collision/collision.h"
 #include "gpu/gpu_solver.h"
-#include "support/collision_scenarios.h"
+#include "gpu/support/collision_scenarios.h"
 #include "support/crowd.h"
 #include "support/gl_fixture.h"
 #include "support/test_models.h"

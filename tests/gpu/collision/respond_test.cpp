@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/collision_scenarios.h"
+#include "gpu/support/collision_scenarios.h"
 #include "support/crowd.h"
 #include "support/gl_fixture.h"
 

@@ -10,9 +10,9 @@
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "gl/shader_source.h"
+#include "gpu/support/mutants.h"
+#include "gpu/support/scenario.h"
 #include "support/moving_pairs.h"
-#include "support/mutants.h"
-#include "support/scenario.h"
 
 namespace gelatin {
 namespace {

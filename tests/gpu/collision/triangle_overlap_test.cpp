@@ -10,8 +10,8 @@
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "gl/shader_source.h"
-#include "support/mutants.h"
-#include "support/scenario.h"
+#include "gpu/support/mutants.h"
+#include "gpu/support/scenario.h"
 #include "support/triangle_pairs.h"
 
 namespace gelatin {

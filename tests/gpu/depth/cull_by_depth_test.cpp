@@ -10,7 +10,7 @@
 #include <random>
 
 #include "gpu/collision_stages.h"
-#include "support/collision_scenarios.h"
+#include "gpu/support/collision_scenarios.h"
 #include "support/crowd.h"
 #include "support/gl_fixture.h"
 #include "support/test_models.h"

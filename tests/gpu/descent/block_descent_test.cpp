@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "cpu/descent/block_descent.h"
+#include "gpu/support/solver_scenarios.h"
 #include "support/descend_on_gpu.h"
 #include "support/gl_fixture.h"
-#include "support/solver_scenarios.h"
 #include "support/test_models.h"
 
 namespace gelatin {

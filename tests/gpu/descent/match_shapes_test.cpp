@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "gpu/support/solver_scenarios.h"
 #include "support/gl_fixture.h"
 #include "support/lost_shapes.h"
-#include "support/solver_scenarios.h"
 
 namespace gelatin {
 namespace {

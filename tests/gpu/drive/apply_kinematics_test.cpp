@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/solver_scenarios.h"
+#include "gpu/support/solver_scenarios.h"
 #include "support/test_models.h"
 
 namespace gelatin {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "support/solver_scenarios.h"
+#include "gpu/support/solver_scenarios.h"
 
 namespace gelatin {
 namespace {

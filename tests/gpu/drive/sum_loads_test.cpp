@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "support/drive_on_gpu.h"
+#include "gpu/support/drive_on_gpu.h"
+#include "gpu/support/solver_scenarios.h"
 #include "support/gl_fixture.h"
-#include "support/solver_scenarios.h"
 #include "support/test_models.h"
 
 namespace gelatin {

@@ -2,10 +2,10 @@
 // bodies of springs beside them, tets that are inside out, pins, and with damping or without.
 #include <gtest/gtest.h>
 
+#include "gpu/support/solver_scenarios.h"
 #include "model/setting_names.h"
 #include "support/descend_on_gpu.h"
 #include "support/gl_fixture.h"
-#include "support/solver_scenarios.h"
 #include "support/step_on_gpu.h"
 #include "support/test_models.h"
 

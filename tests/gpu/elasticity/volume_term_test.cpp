@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "gpu/support/solver_scenarios.h"
 #include "model/setting_names.h"
 #include "support/descend_on_gpu.h"
-#include "support/solver_scenarios.h"
 
 namespace gelatin {
 namespace {

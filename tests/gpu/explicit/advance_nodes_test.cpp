@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "gpu/explicit/divide_and_merge.h"
+#include "gpu/support/solver_scenarios.h"
 #include "model/setting_names.h"
 #include "support/gl_fixture.h"
 #include "support/parity.h"
-#include "support/solver_scenarios.h"
 #include "support/step_on_gpu.h"
 #include "support/test_models.h"
 

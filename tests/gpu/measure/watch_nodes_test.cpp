@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "gpu/support/solver_scenarios.h"
+#include "gpu/support/watched_runs.h"
 #include "support/gl_fixture.h"
-#include "support/solver_scenarios.h"
 #include "support/test_models.h"
-#include "support/watched_runs.h"
 
 namespace gelatin {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "gpu/collision_stages.h"
-#include "support/collision_scenarios.h"
+#include "gpu/support/collision_scenarios.h"
 #include "support/crowd.h"
 #include "support/gl_fixture.h"
 #include "support/proximities.h"

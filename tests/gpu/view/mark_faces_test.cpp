@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "support/collision_scenarios.h"
+#include "gpu/support/collision_scenarios.h"
 #include "support/crowd.h"
 #include "support/folded.h"
 

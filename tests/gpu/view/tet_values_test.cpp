@@ -7,10 +7,10 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "gpu/support/solver_scenarios.h"
+#include "gpu/support/tet_values.h"
 #include "support/gl_fixture.h"
-#include "support/solver_scenarios.h"
 #include "support/test_models.h"
-#include "support/tet_values.h"
 
 namespace gelatin {
 namespace {

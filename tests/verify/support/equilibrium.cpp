@@ -1,4 +1,4 @@
-#include "support/equilibrium.h"
+#include "verify/support/equilibrium.h"
 
 #include <Eigen/SparseCholesky>
 #include <map>

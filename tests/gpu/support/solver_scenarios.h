@@ -1,6 +1,6 @@
 #pragma once
 
-#include "support/scenario.h"
+#include "gpu/support/scenario.h"
 
 // Of kernels that advance nodes, and of what is measured and shown of these.
 namespace gelatin::test {

@@ -1,4 +1,4 @@
-#include "support/drive_on_gpu.h"
+#include "gpu/support/drive_on_gpu.h"
 
 #include <algorithm>
 #include <cmath>

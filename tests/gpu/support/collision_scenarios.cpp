@@ -1,4 +1,4 @@
-#include "support/collision_scenarios.h"
+#include "gpu/support/collision_scenarios.h"
 
 #include <fmt/core.h>
 

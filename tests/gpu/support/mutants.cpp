@@ -1,4 +1,4 @@
-#include "support/mutants.h"
+#include "gpu/support/mutants.h"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "support/statics.h"
+#include "verify/support/statics.h"
 
 #include <Eigen/Geometry>
 #include <stdexcept>

@@ -1,4 +1,4 @@
-#include "support/pull_on_gpu.h"
+#include "gpu/support/pull_on_gpu.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>

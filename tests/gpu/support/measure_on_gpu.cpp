@@ -1,4 +1,4 @@
-#include "support/measure_on_gpu.h"
+#include "gpu/support/measure_on_gpu.h"
 
 #include <algorithm>
 #include <cmath>

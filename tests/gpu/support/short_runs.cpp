@@ -1,4 +1,4 @@
-#include "support/short_runs.h"
+#include "gpu/support/short_runs.h"
 
 #include <memory>
 

@@ -1,20 +1,20 @@
-#include "support/solver_scenarios.h"
+#include "gpu/support/solver_scenarios.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 
+#include "gpu/support/drive_on_gpu.h"
+#include "gpu/support/measure_on_gpu.h"
+#include "gpu/support/pull_on_gpu.h"
+#include "gpu/support/tet_values.h"
+#include "gpu/support/watched_runs.h"
 #include "model/setting_names.h"
 #include "support/descend_on_gpu.h"
-#include "support/drive_on_gpu.h"
 #include "support/lost_shapes.h"
-#include "support/measure_on_gpu.h"
 #include "support/parity.h"
-#include "support/pull_on_gpu.h"
 #include "support/step_on_gpu.h"
 #include "support/test_models.h"
-#include "support/tet_values.h"
-#include "support/watched_runs.h"
 
 namespace gelatin::test {
 namespace {

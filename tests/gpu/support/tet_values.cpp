@@ -1,4 +1,4 @@
-#include "support/tet_values.h"
+#include "gpu/support/tet_values.h"
 
 #include <epoxy/gl.h>
 

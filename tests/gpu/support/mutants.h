@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gl/shader_source.h"
-#include "support/scenario.h"
+#include "gpu/support/scenario.h"
 
 namespace gelatin::test {
 

@@ -1,4 +1,4 @@
-#include "support/watched_runs.h"
+#include "gpu/support/watched_runs.h"
 
 #include <bit>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "support/scenario.h"
+#include "gpu/support/scenario.h"
 
 // Of kernels that find what collides or is near, and that respond to it.
 namespace gelatin::test {
