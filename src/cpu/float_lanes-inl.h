@@ -135,10 +135,6 @@ using Vec3 = typename LaneTypes<Real>::Vec3;
 template <class Real>
 using Mat3 = typename LaneTypes<Real>::Mat3;
 
-#include "cpu/elasticity/node_terms.inl"
-
-#include "cpu/elasticity/neo_hookean_terms.inl"
-
 }  // namespace gelatin::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

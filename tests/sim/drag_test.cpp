@@ -11,13 +11,11 @@
 #include "gelatin/simulator.h"
 #include "model/model.h"
 #include "sim/simulator_internals.h"
-#include "support/gl_fixture.h"
+#include "support/simulator_fixture.h"
+#include "support/solver_kinds.h"
 
 namespace gelatin {
 namespace {
-
-constexpr SolverKind kSolvers[] = {SolverKind::vbd, SolverKind::semi_implicit_euler,
-                                   SolverKind::explicit_euler, SolverKind::midpoint, SolverKind::rk4};
 
 // A bar along x from the origin, pinned at its left, and at its right a handle that lifts it by 10 cm.
 Scene held_bar(SolverKind solver = SolverKind::vbd, bool has_handle = false) {
@@ -53,15 +51,7 @@ void advance(Simulator& simulator, int frames) {
     for (int f = 0; f < frames; ++f) simulator.advance_frame();
 }
 
-class DragTest : public test::GlTest {
-protected:
-    static SimulatorOptions on(Backend backend) {
-        SimulatorOptions options;
-        options.backend = backend;
-        options.use_current_context = true;
-        return options;
-    }
-};
+using DragTest = test::SimulatorFixture;
 
 // Where a rigid motion takes a point at rest.
 glm::dvec3 dragged(const HeldNodes& nodes, const Drag& drag, const glm::dvec3& point) {
@@ -71,7 +61,7 @@ glm::dvec3 dragged(const HeldNodes& nodes, const Drag& drag, const glm::dvec3& p
 
 // Once a body that is held at one end has come to rest, it has moved as its pin has: a rigid motion.
 TEST_F(DragTest, ABodyFollowsItsPin) {
-    for (const SolverKind solver : kSolvers) {
+    for (const SolverKind solver : test::kSolvers) {
         for (const Backend backend : {Backend::cpu, Backend::gl}) {
             if (backend == Backend::gl && solver != SolverKind::vbd) continue;
             Simulator simulator(held_bar(solver), on(backend));

@@ -15,7 +15,7 @@
 #include "model/explicit/stability.h"
 #include "sim/checkpoint.h"
 #include "sim/simulator_internals.h"
-#include "support/gl_fixture.h"
+#include "support/simulator_fixture.h"
 #include "support/test_models.h"
 
 namespace gelatin {
@@ -23,30 +23,15 @@ namespace {
 
 using ::testing::HasSubstr;
 
-class WatchTest : public test::GlTest {
-protected:
-    static SimulatorOptions on(Backend backend) {
-        SimulatorOptions options;
-        options.backend = backend;
-        options.use_current_context = true;
-        return options;
-    }
-};
+using WatchTest = test::SimulatorFixture;
 
+// In free fall.
 Scene two_balls() {
-    Scene scene;
-    scene.simulation.solver = SolverKind::semi_implicit_euler;
+    Scene scene = test::falling_balls();
     scene.simulation.frame_rate = 100.0;
-    scene.materials.push_back({});
-    scene.materials[0].name = "jelly";
-    for (int i = 0; i < 2; ++i) {
-        ObjectDescription ball;
-        ball.name = "ball " + std::to_string(i);
-        ball.shape = SphereShape{0.3, 4};
-        ball.material = "jelly";
-        ball.position = {i, 5.0, 0.0};
-        scene.objects.push_back(ball);
-    }
+    scene.materials[0].damping = Material().damping;
+    for (ObjectDescription& ball : scene.objects) ball.position.y = 5.0;
+    scene.colliders.clear();
     return scene;
 }
 

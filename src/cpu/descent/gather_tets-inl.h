@@ -8,7 +8,7 @@
 #endif
 
 #include "cpu/descent/descend_groups.h"
-#include "cpu/float_lanes-inl.h"
+#include "cpu/elasticity/node_terms-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {

@@ -17,7 +17,7 @@ StepObjective<Real>::StepObjective(std::shared_ptr<const Model> model, std::uint
         springs_ = make_spring_blocks(rows_);
         rows_.springs = {};
         if (model_->has_damping()) damped_springs_ = springs_;
-        tet_blocks_ = make_tet_blocks(*model_, rows_.nodes);
+        tet_blocks_ = make_tet_blocks(*model_, rows_.nodes, tets_.node_tets());
     }
 }
 

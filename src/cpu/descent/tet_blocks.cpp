@@ -10,11 +10,17 @@
 namespace gelatin::cpu {
 namespace {
 
-// A block whose rows have no tet: its corners are the rows' own nodes.
+// A group's rows: their nodes, and a tet of each, which blocks without one have. So padding reads nothing of
+// other bodies, which may move at the same time.
+struct Rows {
+    std::array<std::uint32_t, kGroup> nodes, tets{};
+};
+
 template <class Block>
-Block empty_block(const std::array<std::uint32_t, kGroup>& shown) {
+Block empty_block(const Rows& rows) {
     Block block{};
-    block.nodes = {shown, shown, shown};
+    block.nodes = {rows.nodes, rows.nodes, rows.nodes};
+    block.tets = rows.tets;
     return block;
 }
 
@@ -38,11 +44,8 @@ void set_gradients(const std::array<glm::dvec3, 3>& gradients, std::uint32_t row
 
 class Builder {
 public:
-    Builder(const Model& model, const std::vector<std::uint32_t>& nodes)
-        : model_(model),
-          nodes_(nodes),
-          node_tets_(make_node_tets(model.node_count(), model.tets)),
-          object_of_(objects_of_nodes(model)) {}
+    Builder(const Model& model, const std::vector<std::uint32_t>& nodes, const NodeTets& node_tets)
+        : model_(model), nodes_(nodes), node_tets_(node_tets), object_of_(objects_of_nodes(model)) {}
 
     TetBlocks build() {
         for (std::uint32_t group = 0; group < nodes_.size() / kGroup; ++group) {
@@ -57,26 +60,30 @@ public:
 
 private:
     void append_group(const std::uint32_t* nodes) {
-        const std::array<std::uint32_t, kGroup> shown = shown_nodes(nodes);
+        Rows rows{shown_nodes(nodes)};
+        for (std::uint32_t row = 0; row < kGroup; ++row) {
+            const std::uint32_t first = node_tets_.starts[rows.nodes[row]];
+            if (first < node_tets_.starts[rows.nodes[row] + 1])
+                rows.tets[row] = node_tets_.entries[first] / 4;
+        }
         for (std::uint32_t row = 0; row < kGroup; ++row) {
             if (nodes[row] == kNoNode) continue;
             if (has_neo_hookean_tets(model_, nodes[row])) {
-                append_neo_hookean(nodes[row], row, shown);
+                append_neo_hookean(nodes[row], row, rows);
             } else if (!model_.volume_term.is_empty()) {
-                append_volumes(nodes[row], row, shown);
+                append_volumes(nodes[row], row, rows);
             }
         }
     }
 
-    void append_neo_hookean(std::uint32_t node, std::uint32_t row,
-                            const std::array<std::uint32_t, kGroup>& shown) {
+    void append_neo_hookean(std::uint32_t node, std::uint32_t row, const Rows& rows) {
         const NodeTets& corners = model_.neo_hookean_corners;
         const ModelObject& object = model_.objects[object_of_[node]];
         const std::uint32_t first_tet = object.tets.first - object.neo_hookean_tets.first;
         std::size_t index = blocks_.neo_hookean_starts.back();
         for (std::uint32_t e = corners.starts[node]; e < corners.starts[node + 1]; ++e, ++index) {
             if (index == blocks_.neo_hookean.size()) {
-                blocks_.neo_hookean.push_back(empty_block<NeoHookeanBlock>(shown));
+                blocks_.neo_hookean.push_back(empty_block<NeoHookeanBlock>(rows));
                 blocks_.openings.emplace_back();
             }
             NeoHookeanBlock& block = blocks_.neo_hookean[index];
@@ -98,13 +105,14 @@ private:
         }
     }
 
-    void append_volumes(std::uint32_t node, std::uint32_t row,
-                        const std::array<std::uint32_t, kGroup>& shown) {
+    // Without tets that no volume term acts on, as in the other bodies of a scene.
+    void append_volumes(std::uint32_t node, std::uint32_t row, const Rows& rows) {
         std::size_t index = blocks_.volume_starts.back();
-        for (std::uint32_t e = node_tets_.starts[node]; e < node_tets_.starts[node + 1]; ++e, ++index) {
-            if (index == blocks_.volumes.size()) blocks_.volumes.push_back(empty_block<VolumeBlock>(shown));
-            VolumeBlock& block = blocks_.volumes[index];
+        for (std::uint32_t e = node_tets_.starts[node]; e < node_tets_.starts[node + 1]; ++e) {
             const std::uint32_t tet = node_tets_.entries[e] / 4, corner = node_tets_.entries[e] % 4;
+            if (model_.volume_term.tets[tet] == 0.0f) continue;
+            if (index == blocks_.volumes.size()) blocks_.volumes.push_back(empty_block<VolumeBlock>(rows));
+            VolumeBlock& block = blocks_.volumes[index++];
             for (std::size_t k = 0; k < 3; ++k)
                 block.nodes[k][row] = model_.tets[tet][kOppositeCorners[corner][k]];
             block.over_six_volumes[row] = 1.0f / (6.0f * model_.tet_rests[tet].volume);
@@ -114,15 +122,17 @@ private:
 
     const Model& model_;
     const std::vector<std::uint32_t>& nodes_;
-    NodeTets node_tets_;
+    const NodeTets& node_tets_;
     std::vector<std::uint32_t> object_of_;
     TetBlocks blocks_;
 };
 
 }  // namespace
 
-TetBlocks make_tet_blocks(const Model& model, const std::vector<std::uint32_t>& nodes) {
-    return Builder(model, nodes).build();
+TetBlocks make_tet_blocks(const Model& model, const std::vector<std::uint32_t>& nodes,
+                          const NodeTets& node_tets) {
+    if (model.neo_hookean_tets.empty() && model.volume_term.is_empty()) return {};
+    return Builder(model, nodes, node_tets).build();
 }
 
 }  // namespace gelatin::cpu

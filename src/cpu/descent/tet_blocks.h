@@ -43,7 +43,8 @@ struct TetBlocks {
     bool is_empty() const { return neo_hookean.empty() && volumes.empty(); }
 };
 
-/// @param nodes of the rows, or kNoNode
-TetBlocks make_tet_blocks(const Model& model, const std::vector<std::uint32_t>& nodes);
+/// @param nodes of the rows, or kNoNode @param node_tets those of the model's tets
+TetBlocks make_tet_blocks(const Model& model, const std::vector<std::uint32_t>& nodes,
+                          const NodeTets& node_tets);
 
 }  // namespace gelatin::cpu

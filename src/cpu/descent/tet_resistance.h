@@ -34,6 +34,8 @@ public:
     /// @param batches of bodies that are updated one by one
     TetResistance(std::shared_ptr<const Model> model, std::size_t batches);
 
+    const NodeTets& node_tets() const { return node_tets_; }  ///< of the model's tets
+
     /// True if a tet of the object is far from its volume at rest (kLeastSound, kMostSound).
     bool is_tangled(const ModelObject& object, const std::vector<Vec4<Real>>& positions) const;
 
