@@ -7,6 +7,7 @@
 #include "cpu/cpu_solver.h"
 #include "cpu/elasticity/neo_hookean.h"
 #include "model/elasticity/neo_hookean.h"
+#include "support/instruction_sets.h"
 
 namespace gelatin::test {
 namespace {
@@ -147,11 +148,16 @@ double worst_error(const Model& model, const StepBounds& bounds, const cpu::Node
 }
 
 double worst_simd_error(const Model& model, SolverKind solver, double step) {
-    cpu::CpuSolver<float> simd(std::make_shared<const Model>(model), solver, ForceMethod::fused);
-    simd.advance_nodes(step);
-    const State state = simd.read_state();
-    return worst_error(model, rounding_bounds(model, solver, step), oracle_step(model, solver, step),
-                       state.positions, state.velocities);
+    const cpu::Nodes<double> expected = oracle_step(model, solver, step);
+    const StepBounds bounds = rounding_bounds(model, solver, step);
+    double worst = 0.0;
+    with_each_instruction_set([&] {
+        cpu::CpuSolver<float> simd(std::make_shared<const Model>(model), solver, ForceMethod::fused);
+        simd.advance_nodes(step);
+        const State state = simd.read_state();
+        worst = std::max(worst, worst_error(model, bounds, expected, state.positions, state.velocities));
+    });
+    return worst;
 }
 
 }  // namespace gelatin::test

@@ -45,8 +45,8 @@ StepBounds rounding_bounds(const Model& model, SolverKind solver, double step);
 double worst_error(const Model& model, const StepBounds& bounds, const cpu::Nodes<double>& expected,
                    const std::vector<glm::vec4>& positions, const std::vector<glm::vec4>& velocities);
 
-/// worst_error of one step that cpu::CpuSolver<float>, which uses SIMD, makes from the model's start, against
-/// oracle_step.
+/// worst_error of one step that cpu::CpuSolver<float> makes from the model's start with each instruction set,
+/// against oracle_step.
 double worst_simd_error(const Model& model, SolverKind solver, double step);
 
 }  // namespace gelatin::test

@@ -86,7 +86,7 @@ HWY_INLINE void gather_neo_hookean_lanes(Lanes d, const DescentGroups& from, std
                         end = tets.blocks.neo_hookean_starts[group + 1];
     if (first == end) return;
     const float* starts = tets.starts.empty() ? nullptr : &tets.starts[0].x;
-    const Columns start = load_nodes(d, starts != nullptr ? starts : positions, shown);
+    const Columns start = load_nodes(d, starts != nullptr ? starts : positions, &shown[row]);
     for (std::uint32_t b = first; b < end; ++b) {
         const NeoHookeanBlock& block = tets.blocks.neo_hookean[b];
         const EdgeLanes edges(d, positions, block, row, self);
@@ -124,7 +124,7 @@ HWY_INLINE void gather_volume_lanes(Lanes d, const DescentGroups& from, std::siz
     }
 }
 
-// What the tets of kLanes rows from `row` of the group on add. @param shown their nodes
+// What the tets of kLanes rows from `row` of the group on add. @param shown the group's nodes
 HWY_INLINE TermLanes gather_tets(Lanes d, const DescentGroups& from, std::size_t group, std::uint32_t row,
                                  const std::uint32_t* shown, const Columns& self, const float* positions) {
     TermLanes terms;

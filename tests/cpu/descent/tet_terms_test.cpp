@@ -4,6 +4,7 @@
 #include <random>
 
 #include "cpu/descent/step_objective.h"
+#include "support/instruction_sets.h"
 #include "support/test_models.h"
 
 namespace gelatin {
@@ -31,7 +32,7 @@ cpu::StepObjective<Real> make_objective(const std::shared_ptr<const Model>& mode
 
 // All terms of all nodes. Errors are those of single precision: differences of positions of about a metre,
 // and some forty elements a node, relative to the stiffness of these.
-void expect_the_plain_terms(const Model& model) {
+void expect_the_plain_terms_here(const Model& model) {
     const auto shared = std::make_shared<const Model>(model);
     auto fast = make_objective<float>(shared);
     auto plain = make_objective<double>(shared);
@@ -61,6 +62,10 @@ void expect_the_plain_terms(const Model& model) {
         }
     }
     EXPECT_GT(compared, 100);
+}
+
+void expect_the_plain_terms(const Model& model) {
+    test::with_each_instruction_set([&] { expect_the_plain_terms_here(model); });
 }
 
 TEST(TetTerms, InLanesAreThePlainOnes) {
