@@ -11,7 +11,7 @@ struct DescentRow {      // 16 bytes
     uint  node;          // 0xFFFFFFFF pads a colour
     uint  object;
     uint  pairs;         // of half springs, in the slice from its start on, 64 apart
-    uint  first_tet;     // of the object's, less its first neo-Hookean one
+    uint  unused;
 };
 // How a collider holds a node.
 struct ColliderContact { // 32 bytes

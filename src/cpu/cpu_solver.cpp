@@ -67,6 +67,8 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
         spring_forces_.resize(model_->springs.size());
         node_forces_.resize(model_->node_count());
     }
+    if (std::is_same_v<Real, float> && !descent_ && forces_ == ForceMethod::fused)
+        pass_tets_ = make_pass_tets(*model_);
     load_factors_.assign(model_->loads.spans.size(), 1.0f);
     if (!model_->volume_term.is_empty() && !descent_) volume_stresses_.resize(model_->node_count());
     if (!model_->loads.empty()) load_forces_.assign(model_->node_count(), Vec4<Real>(0));
@@ -169,7 +171,7 @@ void CpuSolver<Real>::run_pass(const Pass<Real>& pass) {
     if (forces_ == ForceMethod::fused) {
         for_ranges(slice_count(*model_), kSlicesATask, [&](Range range) {
             if constexpr (std::is_same_v<Real, float>) {
-                advance_nodes_simd(pass, range);
+                advance_nodes_simd(pass, pass_tets_, range);
             } else {
                 cpu::advance_nodes(pass, range);
             }

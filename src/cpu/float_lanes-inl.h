@@ -7,6 +7,8 @@
 #define GELATIN_CPU_FLOAT_LANES
 #endif
 
+#include <limits>
+
 #include "cpu/simd_columns-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -54,6 +56,12 @@ HWY_INLINE FloatLanes multiply_add(FloatLanes a, FloatLanes b, FloatLanes c) {
 }
 HWY_INLINE FloatLanes select(LaneMask condition, FloatLanes a, FloatLanes b) {
     return hn::IfThenElse(condition, a.v, b.v);
+}
+HWY_INLINE FloatLanes larger(FloatLanes a, FloatLanes b) {
+    return hn::Max(a.v, b.v);
+}
+HWY_INLINE FloatLanes square_root(FloatLanes a) {
+    return hn::Sqrt(a.v);
 }
 
 struct Vec3Lanes {
@@ -106,17 +114,20 @@ HWY_INLINE Vec3Lanes difference(const Columns& a, const Columns& b) {
 struct Mat3Lanes {
     Vec3Lanes columns[3];
 
+    Mat3Lanes() = default;
+    HWY_INLINE Mat3Lanes(const Vec3Lanes& x, const Vec3Lanes& y, const Vec3Lanes& z) : columns{x, y, z} {}
+
     HWY_INLINE const Vec3Lanes& operator[](int k) const { return columns[k]; }
 };
 
 HWY_INLINE Mat3Lanes operator+(const Mat3Lanes& a, const Mat3Lanes& b) {
-    return {{a[0] + b[0], a[1] + b[1], a[2] + b[2]}};
+    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
 HWY_INLINE Mat3Lanes operator-(const Mat3Lanes& a, const Mat3Lanes& b) {
-    return {{a[0] - b[0], a[1] - b[1], a[2] - b[2]}};
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 HWY_INLINE Mat3Lanes operator*(FloatLanes factor, const Mat3Lanes& m) {
-    return {{factor * m[0], factor * m[1], factor * m[2]}};
+    return {factor * m[0], factor * m[1], factor * m[2]};
 }
 HWY_INLINE Vec3Lanes operator*(const Mat3Lanes& m, const Vec3Lanes& v) {
     return multiply_add(v.x, m[0], multiply_add(v.y, m[1], v.z * m[2]));
@@ -134,6 +145,8 @@ template <class Real>
 using Vec3 = typename LaneTypes<Real>::Vec3;
 template <class Real>
 using Mat3 = typename LaneTypes<Real>::Mat3;
+template <class Real>
+constexpr float kEpsilon = std::numeric_limits<float>::epsilon();
 
 }  // namespace gelatin::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

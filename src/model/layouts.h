@@ -23,6 +23,7 @@ using glm::vec4;
 #include "layouts/half_spring_pair.glsl"
 #include "layouts/handle.glsl"
 #include "layouts/load.glsl"
+#include "layouts/neo_hookean_corner.glsl"
 #include "layouts/neo_hookean_tet.glsl"
 #include "layouts/object_pair.glsl"
 #include "layouts/proximity.glsl"
@@ -57,6 +58,7 @@ static_assert(sizeof(HandleNode) == 32);
 static_assert(sizeof(LeafSearch) == 32);
 static_assert(sizeof(LoadedNode) == 16);
 static_assert(sizeof(NearObject) == 16);
+static_assert(sizeof(NeoHookeanCorner) == 64);
 static_assert(sizeof(NeoHookeanTet) == 64);
 static_assert(sizeof(NodeLoad) == 32);
 static_assert(sizeof(NodeSums) == 32);
@@ -104,6 +106,7 @@ using layouts::HandleNode;
 using layouts::LeafSearch;
 using layouts::LoadedNode;
 using layouts::NearObject;
+using layouts::NeoHookeanCorner;
 using layouts::NeoHookeanTet;
 using layouts::NodeLoad;
 using layouts::NodeSums;

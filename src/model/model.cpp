@@ -8,4 +8,13 @@ bool Model::has_damping() const {
     return std::any_of(velocities.begin(), velocities.end(), [](const glm::vec4& v) { return v.w > 0.0f; });
 }
 
+std::vector<std::uint32_t> objects_of_nodes(const Model& model) {
+    std::vector<std::uint32_t> objects(model.node_count(), 0);
+    for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
+        const Range& nodes = model.objects[o].nodes;
+        std::fill_n(objects.begin() + nodes.first, nodes.count, o);
+    }
+    return objects;
+}
+
 }  // namespace gelatin

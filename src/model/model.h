@@ -133,4 +133,7 @@ struct Model {
     bool has_damping() const;
 };
 
+/// The object of each node, shape [nodes].
+std::vector<std::uint32_t> objects_of_nodes(const Model& model);
+
 }  // namespace gelatin

@@ -16,11 +16,8 @@ double energy_out_of_shape(const Model& model) {
     double sum = 0.0;
     for (const TetRest& tet : model.tet_rests)
         sum += 0.5 * static_cast<double>(std::abs(tet.kappa)) * static_cast<double>(tet.volume);
-    for (const NeoHookeanTet& tet : model.neo_hookean_tets) {
-        sum += static_cast<double>(tet.gradient_1.w) *
-               cpu::neo_hookean_energy(cpu::Mat3<double>(2.0), static_cast<double>(tet.gradient_2.w),
-                                       static_cast<double>(tet.gradient_3.w));
-    }
+    for (const NeoHookeanTet& tet : model.neo_hookean_tets)
+        sum += cpu::neo_hookean_energy(cpu::Mat3<double>(2.0), cpu::tet_moduli<double>(tet));
     for (const Spring& spring : model.springs) {
         const auto length = static_cast<double>(spring.rest_length);
         sum += 0.5 * static_cast<double>(spring.stiffness) * length * length;

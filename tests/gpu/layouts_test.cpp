@@ -178,11 +178,13 @@ TEST_F(LayoutsTest, Proximities) {
           {FIELD(NearObject, leaf), FIELD(NearObject, object), FIELD(NearObject, first_near),
            FIELD(NearObject, near_count)});
 }
-TEST_F(LayoutsTest, NeoHookeanTet) {
-    check("neo_hookean_tet.glsl", "NeoHookeanTet", sizeof(NeoHookeanTet),
-          {FIELD(NeoHookeanTet, node_0), FIELD(NeoHookeanTet, node_1), FIELD(NeoHookeanTet, node_2),
-           FIELD(NeoHookeanTet, node_3), FIELD(NeoHookeanTet, gradient_1), FIELD(NeoHookeanTet, gradient_2),
-           FIELD(NeoHookeanTet, gradient_3)});
+TEST_F(LayoutsTest, NeoHookeanCorner) {
+    check("neo_hookean_corner.glsl", "NeoHookeanCorner", sizeof(NeoHookeanCorner),
+          {FIELD(NeoHookeanCorner, node_a), FIELD(NeoHookeanCorner, node_b), FIELD(NeoHookeanCorner, node_c),
+           FIELD(NeoHookeanCorner, tet), FIELD(NeoHookeanCorner, aa), FIELD(NeoHookeanCorner, ab),
+           FIELD(NeoHookeanCorner, bb), FIELD(NeoHookeanCorner, ac), FIELD(NeoHookeanCorner, bc),
+           FIELD(NeoHookeanCorner, cc), FIELD(NeoHookeanCorner, mu), FIELD(NeoHookeanCorner, lambda),
+           FIELD(NeoHookeanCorner, opening)});
 }
 TEST_F(LayoutsTest, Dispatch) {
     check("dispatch.glsl", "Dispatch", sizeof(Dispatch),
@@ -193,7 +195,7 @@ TEST_F(LayoutsTest, Dispatch) {
 TEST_F(LayoutsTest, Descent) {
     check("descent.glsl", "DescentRow", sizeof(DescentRow),
           {FIELD(DescentRow, node), FIELD(DescentRow, object), FIELD(DescentRow, pairs),
-           FIELD(DescentRow, first_tet)});
+           FIELD(DescentRow, unused)});
     check("descent.glsl", "TetCorner", sizeof(TetCorner),
           {FIELD(TetCorner, a), FIELD(TetCorner, b), FIELD(TetCorner, c), FIELD(TetCorner, tet)});
     check("descent.glsl", "ColliderContact", sizeof(ColliderContact),

@@ -26,7 +26,7 @@ void add_tet_bounds(const Model& model, double x, double v, std::vector<double>&
         double lengths = 0.0;
         for (const glm::dvec3& g : gradients) lengths += glm::length(g);
         const cpu::Mat3<double> f(cpu::gradient_of(tet, cpu::at_corners<float>(tet, model.positions.data())));
-        const double size = std::sqrt(cpu::sum_of_squares(f)), ratio = std::abs(glm::determinant(f));
+        const double size = std::sqrt(cpu::double_dot(f, f)), ratio = std::abs(glm::determinant(f));
         const double mu = static_cast<double>(tet.gradient_2.w),
                      lambda = static_cast<double>(tet.gradient_3.w);
         const double damping = static_cast<double>(cpu::mean_damping_time(tet, model.velocities.data()));

@@ -18,7 +18,7 @@ uniform usamplerBuffer slice_starts;
 uniform usamplerBuffer near_flat;    // of nodes, the number of the marking that they were marked in
 uniform usamplerBuffer tet_corners;   // TetCorner, of bodies of springs
 uniform usamplerBuffer corner_starts;
-uniform samplerBuffer tet_rests;     // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]
+uniform samplerBuffer tet_rests;     // volume V [m^3], modulus [Pa], stiffness of the volume term [Pa], 1 / (6 V)
 #ifdef VOLUME
 uniform samplerBuffer offsets;       // q [Pa], of each tet
 #endif
@@ -37,6 +37,11 @@ uniform uint row_count;
 uniform uint mark;         // number of the last marking
 
 vec3 position_of(uint node) { return texelFetch(positions, int(node)).xyz; }
+
+// dJ/dx of a tet [1/m]. @param a where its first other corner is @param inverse_six_volumes at rest [1/m^3]
+vec3 slope_of(uvec4 corner, vec3 a, float inverse_six_volumes) {
+    return inverse_six_volumes * cross(position_of(corner.y) - a, position_of(corner.z) - a);
+}
 
 #if COLLIDER_KINDS != 0
 layout(std430) buffer Contacts { ColliderContact contacts[]; };  // of nodes
@@ -123,25 +128,27 @@ void main() {
         add_spring(position_of(ends.y) - position.xyz, two.z, two.w, terms);
     }
     bool resists = texelFetch(near_flat, int(n)).x == mark;
-#ifndef VOLUME
-    if (resists)
-#endif
-    {
-        uint corners_end = texelFetch(corner_starts, slice + 1).x;
-        for (uint k = texelFetch(corner_starts, slice).x + row % 64u; k < corners_end; k += 64u) {
-            uvec4 corner = texelFetch(tet_corners, int(k));
-            if (corner.w == 0xFFFFFFFFu) break;
-            vec3 a = position_of(corner.x), b = position_of(corner.y), c = position_of(corner.z);
-            vec3 rest = texelFetch(tet_rests, int(corner.w)).xyz;
-            if (resists) add_flat_tet(position.xyz, a, b, c, rest.x, rest.y, terms);
-#ifdef VOLUME
-            float offset = texelFetch(offsets, int(corner.w)).x;
-            add_tet_volume(position.xyz, a, b, c, rest.x, offset, rest.z, terms);
-#endif
-        }
+    uint first_corner = texelFetch(corner_starts, slice).x + row % 64u;
+    uint corners_end = texelFetch(corner_starts, slice + 1).x;
+    for (uint k = first_corner; k < (resists ? corners_end : first_corner); k += 64u) {
+        uvec4 corner = texelFetch(tet_corners, int(k));
+        if (corner.w == 0xFFFFFFFFu) break;
+        vec4 rest = texelFetch(tet_rests, int(corner.w));
+        vec3 a = position_of(corner.x), slope = slope_of(corner, a, rest.w);
+        add_flat_tet(slope, dot(position.xyz - a, slope), rest.x * rest.y, terms);
     }
+#ifdef VOLUME
+    for (uint k = first_corner; k < corners_end; k += 64u) {
+        uvec4 corner = texelFetch(tet_corners, int(k));
+        if (corner.w == 0xFFFFFFFFu) break;
+        vec4 rest = texelFetch(tet_rests, int(corner.w));
+        float offset = texelFetch(offsets, int(corner.w)).x;
+        vec3 a = position_of(corner.x), slope = slope_of(corner, a, rest.w);
+        add_tet_volume(slope, dot(position.xyz - a, slope), rest.x * vec2(offset, rest.z), terms);
+    }
+#endif
 #ifdef NEO_HOOKEAN
-    add_neo_hookean_tets(row, entry.w, terms);
+    add_neo_hookean_tets(row, n, position.xyz, terms);
 #endif
 #ifdef FORCES
     vec3 force = terms.force;

@@ -1,66 +1,61 @@
 // The contribution of neo-Hookean tets to a node's part of the objective of a step of block descent. To be included after
 // sim/elasticity/node_terms.glsl, sim/descent/descent_step.glsl, and `positions`. DAMPED: some damping time is not zero.
 // VOLUME: there is a volume term; after `tet_rests` and `offsets`. CPU twin: add_neo_hookean, add_viscosity,
-// src/cpu/elasticity/neo_hookean.h.
+// src/cpu/elasticity/neo_hookean.inl.
 #include "sim/elasticity/neo_hookean.glsl"
 
-// The elastic energy as a function of the corner with the shape gradient g, and the tet's part of the volume term as in
-// add_tet_volume. @param bound its offset and modulus [Pa]
-void add_neo_hookean(NeoHookeanTet tet, vec2 bound, vec3 g, mat3 f, inout NodeTerms terms) {
-    mat3 cofactors = cofactor(f);
-    float squares = sum_of_squares(f), over = 1.0 / (squares + 1.0), ratio = dot(f[0], cofactors[0]);
-    NeoHookeanStress stress = neo_hookean_stress(squares, ratio, tet.mu, tet.lambda);
-    float pressure = stress.pressure + bound.x + bound.y * ratio;
-    vec3 stretched = f * g, slope = cofactors * g;
-    terms.force -= tet.volume * (stress.shear * stretched + pressure * slope - stress.opening * g);
-    terms.diagonal += tet.volume * stress.shear * dot(g, g);
-    add_outer(tet.volume * 2.0 * tet.mu * over * over, stretched, terms);
-    add_outer(tet.volume * (tet.lambda + bound.y), slope, terms);
+// The elastic energy as a function of the corner, and the tet's part of the volume term as in add_tet_volume.
+// @param bound its offset and modulus, times the volume at rest [J]
+void add_neo_hookean(NeoHookeanCorner tet, TetAtCorner at, vec2 bound, inout NodeTerms terms) {
+    NeoHookeanStress stress = neo_hookean_stress(tet, at);
+    float pressure = stress.pressure + bound.x + bound.y * at.ratio, over = 1.0 / (at.squares + 1.0);
+    vec3 g = shape_gradient(tet);
+    terms.force -= stress.shear * at.stretched + pressure * at.slope;
+    terms.diagonal += stress.shear * dot(g, g);
+    add_outer(2.0 * tet.mu * over * over, at.stretched, terms);
+    add_outer(tet.lambda + bound.y, at.slope, terms);
 }
 
 // Its viscosity over a step that changes the gradient from `start` to f. `damping`: damping time divided by time step.
-void add_viscosity(NeoHookeanTet tet, vec3 g, mat3 f, mat3 start, float damping, inout NodeTerms terms) {
-    float scale = tet.volume * damping * viscous_share(sum_of_squares(start));
-    float shear = 0.75 * tet.mu, dilation = tet.lambda - 0.625 * tet.mu;
-    vec3 stress = viscous_stress(0.5 * (f + start), f - start, tet.mu, tet.lambda) * g;
-    vec3 stretched = f * g;
-    terms.force -= scale * (f * stress);
+void add_viscosity(NeoHookeanCorner tet, mat3 f, mat3 start, float damping, inout NodeTerms terms) {
+    vec3 g = shape_gradient(tet);
+    float scale = damping * viscous_share(sum_of_squares(start)), shear = 0.75 * tet.mu;
+    vec3 traction = viscous_traction(tet, 0.5 * (f + start), f - start, g);
+    terms.force -= scale * (f * traction);
     for (int k = 0; k < 3; ++k) add_outer(scale * shear * dot(g, g), f[k], terms);
-    add_outer(scale * (shear + dilation), stretched, terms);
-    terms.diagonal += scale * max(dot(g, stress), 0.0);
+    add_outer(scale * (0.125 * tet.mu + tet.lambda), f * g, terms);
+    terms.diagonal += scale * max(dot(g, traction), 0.0);
 }
 
-void add_neo_hookean_corner(uint entry, uint first_tet, inout NodeTerms terms) {
-    NeoHookeanTet tet = fetch_neo_hookean_tet(entry / 4u);
-    vec3 g = shape_gradient(tet, entry % 4u);
-    mat3 f = gradient_of(tet, texelFetch(positions, int(tet.nodes.x)).xyz, texelFetch(positions, int(tet.nodes.y)).xyz,
-                         texelFetch(positions, int(tet.nodes.z)).xyz, texelFetch(positions, int(tet.nodes.w)).xyz);
+void add_neo_hookean_corner(uint corner, NeoHookeanCorner tet, vec3 position, vec4 start, inout NodeTerms terms) {
+    vec3 a = texelFetch(positions, int(tet.node_a)).xyz - position;
+    vec3 b = texelFetch(positions, int(tet.node_b)).xyz - position;
+    vec3 c = texelFetch(positions, int(tet.node_c)).xyz - position;
+    TetAtCorner at = tet_at_corner(tet, a, b, c);
 #ifdef VOLUME
-    int index = int(first_tet + entry / 4u);
-    vec2 bound = vec2(texelFetch(offsets, index).x, texelFetch(tet_rests, index).z);
+    vec4 rest = texelFetch(tet_rests, int(tet.tet));
+    vec2 bound = rest.x * vec2(texelFetch(offsets, int(tet.tet)).x, rest.z);
 #else
     vec2 bound = vec2(0.0);
 #endif
-    add_neo_hookean(tet, bound, g, f, terms);
+    add_neo_hookean(tet, at, bound, terms);
+    terms.force += opening_force(corner, at.squares);
 #ifdef DAMPED
-    mat3 start = gradient_of(tet, texelFetch(start_positions, int(tet.nodes.x)).xyz,
-                             texelFetch(start_positions, int(tet.nodes.y)).xyz,
-                             texelFetch(start_positions, int(tet.nodes.z)).xyz,
-                             texelFetch(start_positions, int(tet.nodes.w)).xyz);
-    float damping_time = 0.25 * (texelFetch(start_positions, int(tet.nodes.x)).w +
-                                 texelFetch(start_positions, int(tet.nodes.y)).w +
-                                 texelFetch(start_positions, int(tet.nodes.z)).w +
-                                 texelFetch(start_positions, int(tet.nodes.w)).w);
-    add_viscosity(tet, g, f, start, damping_time / time_step, terms);
+    vec4 s_a = texelFetch(start_positions, int(tet.node_a)), s_b = texelFetch(start_positions, int(tet.node_b));
+    vec4 s_c = texelFetch(start_positions, int(tet.node_c));
+    mat3 before = gradient_of(tet, s_a.xyz - start.xyz, s_b.xyz - start.xyz, s_c.xyz - start.xyz);
+    float damping_time = 0.25 * (start.w + s_a.w + s_b.w + s_c.w);
+    add_viscosity(tet, gradient_of(tet, a, b, c), before, damping_time / time_step, terms);
 #endif
 }
 
-// The contribution of all its tets to the node of a row of slices. @param first_tet as in DescentRow
-void add_neo_hookean_tets(uint row, uint first_tet, inout NodeTerms terms) {
+// The contribution of all its tets to node `n`, which row `row` of slices has.
+void add_neo_hookean_tets(uint row, uint n, vec3 position, inout NodeTerms terms) {
+    vec4 start = texelFetch(start_positions, int(n));
     uint end = texelFetch(neo_hookean_starts, int(row / kSlice) + 1).x;
     for (uint e = texelFetch(neo_hookean_starts, int(row / kSlice)).x + row % kSlice; e < end; e += kSlice) {
-        uint entry = texelFetch(neo_hookean_corners, int(e)).x;
-        if (entry == kNone) break;
-        add_neo_hookean_corner(entry, first_tet, terms);
+        NeoHookeanCorner tet = fetch_neo_hookean_corner(e);
+        if (tet.tet == kNone) break;
+        add_neo_hookean_corner(e, tet, position, start, terms);
     }
 }

@@ -1,5 +1,5 @@
 // What one element of a body adds to a node's part of the objective of a step: a force and a positive semi-definite
-// second derivative. CPU twin: src/cpu/elasticity/node_terms.h.
+// second derivative. CPU twin: src/cpu/elasticity/elements.inl.
 
 #include "layouts/thresholds.glsl"
 
@@ -24,12 +24,11 @@ void add_spring(vec3 apart, float rest_length, float stiffness, inout NodeTerms 
     terms.diagonal += across;
 }
 
-// A tet flatter than that, as the corner at `position` sees it.
-void add_flat_tet(vec3 position, vec3 a, vec3 b, vec3 c, float rest_volume, float modulus, inout NodeTerms terms) {
-    vec3 slope = cross(b - a, c - a) / (6.0 * rest_volume);
-    float lack = max(kFlattest - dot(position - a, slope), 0.0);
-    terms.force += rest_volume * modulus * lack * slope;
-    add_outer(lack > 0.0 ? rest_volume * modulus : 0.0, slope, terms);
+// A tet flatter than kFlattest, as one of its corners sees it: its J is `ratio`, dJ/dx `slope` [1/m].
+void add_flat_tet(vec3 slope, float ratio, float stiffness, inout NodeTerms terms) {
+    float lack = max(kFlattest - ratio, 0.0);
+    terms.force += stiffness * lack * slope;
+    add_outer(lack > 0.0 ? stiffness : 0.0, slope, terms);
 }
 
 // kappa phi'(J - 1) of the volume term [Pa].
@@ -39,12 +38,10 @@ float volume_stress(float ratio, float kappa) {
     return kappa >= 0.0 ? kappa * u : kappa * u * left * left;
 }
 
-// A tet's part of the volume term, as the corner at `position` sees it.
-void add_tet_volume(vec3 position, vec3 a, vec3 b, vec3 c, float rest_volume, float offset, float modulus,
-                    inout NodeTerms terms) {
-    vec3 slope = cross(b - a, c - a) / (6.0 * rest_volume);
-    terms.force -= rest_volume * (offset + modulus * dot(position - a, slope)) * slope;
-    add_outer(rest_volume * modulus, slope, terms);
+// A tet's part of the volume term. @param bound its offset and modulus, times the volume at rest [J]
+void add_tet_volume(vec3 slope, float ratio, vec2 bound, inout NodeTerms terms) {
+    terms.force -= (bound.x + bound.y * ratio) * slope;
+    add_outer(bound.y, slope, terms);
 }
 
 // Of a pivot; one that drowns in the rounding of what it is left over from counts as that.

@@ -35,7 +35,7 @@ void main() {
                               texelFetch(velocities, int(pair.z)), uintBitsToFloat(pair.w), stiffness.y);
     }
 #ifdef NEO_HOOKEAN
-    force += gather_tet_forces(n);
+    force += gather_tet_forces(n, position.xyz, velocity);
 #endif
 #ifdef VOLUME
     force += gather_volume_forces(n);

@@ -18,7 +18,7 @@ void main() {
     if (n >= node_count) return;
     vec3 force = node_forces[n].xyz;
 #ifdef NEO_HOOKEAN
-    force += gather_tet_forces(n);
+    force += gather_tet_forces(n, texelFetch(positions, int(n)).xyz, texelFetch(velocities, int(n)));
 #endif
 #ifdef VOLUME
     force += gather_volume_forces(n);

@@ -44,17 +44,16 @@ float half_spring_energy(uint n, vec3 position) {
 
 #ifdef NEO_HOOKEAN
 // A node has a quarter of the energy of each of its tets.
-float quarter_tet_energy(uint n) {
+float quarter_tet_energy(uint n, vec3 position) {
     float energy = 0.0;
     uint end = texelFetch(neo_hookean_starts, int(n / kSlice) + 1).x;
     for (uint e = texelFetch(neo_hookean_starts, int(n / kSlice)).x + n % kSlice; e < end; e += kSlice) {
-        uint entry = texelFetch(neo_hookean_corners, int(e)).x;
-        if (entry == kNone) break;
-        NeoHookeanTet tet = fetch_neo_hookean_tet(entry / 4u);
-        mat3 f = gradient_of(tet, texelFetch(positions, int(tet.nodes.x)).xyz,
-                             texelFetch(positions, int(tet.nodes.y)).xyz, texelFetch(positions, int(tet.nodes.z)).xyz,
-                             texelFetch(positions, int(tet.nodes.w)).xyz);
-        energy += 0.25 * tet.volume * neo_hookean_energy(f, tet.mu, tet.lambda);
+        NeoHookeanCorner tet = fetch_neo_hookean_corner(e);
+        if (tet.tet == kNone) break;
+        vec3 a = texelFetch(positions, int(tet.node_a)).xyz - position;
+        vec3 b = texelFetch(positions, int(tet.node_b)).xyz - position;
+        vec3 c = texelFetch(positions, int(tet.node_c)).xyz - position;
+        energy += 0.25 * neo_hookean_energy(tet, tet_at_corner(tet, a, b, c));
     }
     return energy;
 }
@@ -68,7 +67,7 @@ NodeSums measure_node(uint n) {
     vec3 momentum = mass * velocity;
     float elastic_energy = half_spring_energy(n, position.xyz);
 #ifdef NEO_HOOKEAN
-    elastic_energy += quarter_tet_energy(n);
+    elastic_energy += quarter_tet_energy(n, position.xyz);
 #endif
 #ifdef VOLUME
     vec2 rest = texelFetch(node_volumes, int(n)).xy;

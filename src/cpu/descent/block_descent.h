@@ -13,7 +13,7 @@
 #include "cpu/descent/rigid_motion.h"
 #include "cpu/descent/step_objective.h"
 #include "cpu/drive/pulls.h"
-#include "cpu/elasticity/node_terms.h"
+#include "cpu/elasticity/elements.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
 #include "model/solver.h"

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cpu/descent/spring_blocks.h"
-#include "cpu/descent/tet_blocks.h"
-#include "cpu/elasticity/node_terms.h"
+#include "cpu/elasticity/elements.h"
+#include "cpu/elasticity/tet_blocks.h"
 
 namespace gelatin::cpu {
 
@@ -39,9 +39,8 @@ std::vector<ColliderBound> make_collider_bounds(std::span<const Collider> collid
 struct DescentTets {
     const TetBlocks& blocks;
     std::span<const glm::vec4> bounds;  ///< VolumeBound of each tet in xy; empty without a volume term
-    /// xyz when the step began [m], damping time [s], shape [nodes]; empty if nothing is damped
-    std::span<const glm::vec4> starts;
-    float inverse_step;  ///< [1/s]
+    std::span<const glm::vec4> starts;  ///< xyz when the step began [m], damping time [s], shape [nodes]
+    float inverse_step;                 ///< [1/s]
 };
 
 /// What a sweep of vertex block descent reads.

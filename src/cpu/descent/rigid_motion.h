@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "cpu/elasticity/node_terms.h"
+#include "cpu/elasticity/elements.h"
 
 namespace gelatin::cpu {
 

@@ -10,7 +10,7 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include "cpu/simd_columns-inl.h"
+#include "cpu/elasticity/elements-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {
@@ -18,21 +18,20 @@ namespace gelatin::cpu::HWY_NAMESPACE {
 void damp_group(const SpringBlocks& springs, std::uint32_t group, const std::uint32_t* nodes,
                 const glm::vec4* starts, float inverse_step, SpringBlocks& damped) {
     const Lanes d;
-    const Vector one = hn::Set(d, 1.0f), factor = hn::Set(d, 0.5f * inverse_step);
+    const FloatLanes factor(0.5f * inverse_step);
     const std::array<std::uint32_t, kGroup> shown = shown_nodes(nodes);
     for (std::uint32_t row = 0; row < kGroup; row += kLanes) {
         const Columns self = load_nodes(d, &starts[0].x, &shown[row]);
         for (std::uint32_t b = springs.starts[group]; b < springs.starts[group + 1]; ++b) {
             const SpringBlock& block = springs.blocks[b];
             const Columns other = load_nodes(d, &starts[0].x, &block.nodes[row]);
-            const Vector dx = hn::Sub(other.x, self.x), dy = hn::Sub(other.y, self.y),
-                         dz = hn::Sub(other.z, self.z);
-            const Vector length = hn::Sqrt(hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz))));
-            const Vector damping = hn::Mul(factor, hn::Add(self.w, other.w));
-            const Vector stiffness = hn::LoadU(d, &block.stiffnesses[row]);
-            const Vector rest = hn::MulAdd(damping, length, hn::LoadU(d, &block.rest_lengths[row]));
-            hn::StoreU(hn::Div(rest, hn::Add(one, damping)), d, &damped.blocks[b].rest_lengths[row]);
-            hn::StoreU(hn::MulAdd(stiffness, damping, stiffness), d, &damped.blocks[b].stiffnesses[row]);
+            const Vec3Lanes apart = difference(other, self);
+            const SpringLaw<FloatLanes> spring{hn::LoadU(d, &block.rest_lengths[row]),
+                                               hn::LoadU(d, &block.stiffnesses[row])};
+            const SpringLaw<FloatLanes> both = damped_spring(
+                spring, square_root(dot(apart, apart)), factor * (FloatLanes(self.w) + FloatLanes(other.w)));
+            hn::StoreU(both.rest_length.v, d, &damped.blocks[b].rest_lengths[row]);
+            hn::StoreU(both.stiffness.v, d, &damped.blocks[b].stiffnesses[row]);
         }
     }
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cpu/elasticity/node_terms.h"
+#include "cpu/elasticity/elements.h"
 #include "cpu/nodes.h"
 #include "model/descent/descent_rows.h"
 
@@ -23,8 +23,8 @@ void add_row_spring(const SpringRows<Real>& from, std::uint32_t node, std::uint3
     const Vec4<Real>&start = from.starts[node], &other_start = from.starts[other];
     const Real damping = Real(0.5) * (start.w + other_start.w) * from.inverse_step;
     const Real start_length = glm::distance(Vec3<Real>(other_start), Vec3<Real>(start));
-    add_spring(Vec3<Real>(other_position - position), start_length, static_cast<Real>(rest_length),
-               static_cast<Real>(stiffness), damping, terms);
+    const SpringLaw<Real> spring{static_cast<Real>(rest_length), static_cast<Real>(stiffness)};
+    add_spring(Vec3<Real>(other_position - position), damped_spring(spring, start_length, damping), terms);
 }
 
 /// The terms of all springs of the node in row `row`.

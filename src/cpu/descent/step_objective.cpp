@@ -11,12 +11,13 @@ StepObjective<Real>::StepObjective(std::shared_ptr<const Model> model, std::uint
     : starts(model->node_count()),
       targets(model->node_count()),
       model_(std::move(model)),
+      has_damping_(model_->has_damping()),
       rows_(make_descent_rows(*model_, nodes_a_batch)),
       tets_(model_, rows_.batches.size()) {
     if constexpr (kIsFloat<Real>) {
         springs_ = make_spring_blocks(rows_);
         rows_.springs = {};
-        if (model_->has_damping()) damped_springs_ = springs_;
+        if (has_damping_) damped_springs_ = springs_;
         tet_blocks_ = make_tet_blocks(*model_, rows_.nodes, tets_.node_tets());
     }
 }
@@ -25,8 +26,7 @@ template <class Real>
 void StepObjective<Real>::begin(Real step) {
     inverse_step_ = Real(1) / step;
     if constexpr (kIsFloat<Real>) {
-        if (model_->has_damping())
-            damp_springs(springs_, rows_.nodes, starts.data(), inverse_step_, damped_springs_);
+        if (has_damping_) damp_springs(springs_, rows_.nodes, starts.data(), inverse_step_, damped_springs_);
     }
 }
 
@@ -37,8 +37,7 @@ NodeTerms<Real> StepObjective<Real>::terms_of(std::uint32_t row,
     const SpringRows<Real> springs{rows_, positions.data(), starts.data(), inverse_step_};
     NodeTerms<Real> terms = gather_spring_terms(springs, row);
     const Vec4<Real>& target = targets[node];
-    terms.force += target.w * (Vec3<Real>(target) - Vec3<Real>(positions[node]));
-    terms.hessian.add_identity(target.w);
+    add_inertia(Vec3<Real>(target - positions[node]), target.w, terms);
     tets_.add(node, positions, {starts.data(), inverse_step_}, terms);
     return terms;
 }

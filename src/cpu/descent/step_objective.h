@@ -7,7 +7,7 @@
 #include "cpu/descent/descend_groups.h"
 #include "cpu/descent/spring_blocks.h"
 #include "cpu/descent/tet_resistance.h"
-#include "cpu/elasticity/node_terms.h"
+#include "cpu/elasticity/elements.h"
 #include "cpu/nodes.h"
 #include "model/descent/descent_rows.h"
 #include "model/model.h"
@@ -44,10 +44,8 @@ public:
     /// @param colliders what a sweep will look out for
     template <class Groups = DescentGroups>
     Groups groups(std::span<const ColliderBound> colliders = {}) const {
-        const bool has_damping = model_->has_damping();
-        const std::span<const Vec4<Real>> damped_starts(starts.data(), has_damping ? starts.size() : 0);
-        return {has_damping ? damped_springs_ : springs_,
-                {tet_blocks_, tets_.bounds(), damped_starts, inverse_step_},
+        return {has_damping_ ? damped_springs_ : springs_,
+                {tet_blocks_, tets_.bounds(), starts, inverse_step_},
                 rows_.nodes,
                 targets,
                 colliders};
@@ -70,6 +68,7 @@ private:
                            const std::vector<Vec4<Real>>& positions, std::vector<Vec3<Real>>& forces) const;
 
     std::shared_ptr<const Model> model_;
+    bool has_damping_;
     DescentRows rows_;
     TetResistance<Real> tets_;
     Real inverse_step_ = Real(0);            // [1/s]

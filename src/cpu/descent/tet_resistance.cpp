@@ -28,12 +28,17 @@ TetResistance<Real>::TetResistance(std::shared_ptr<const Model> model, std::size
 }
 
 template <class Real>
+Real TetResistance<Real>::inverse_six_volumes(std::uint32_t tet) const {
+    return Real(1) / (Real(6) * static_cast<Real>(model_->tet_rests[tet].volume));
+}
+
+template <class Real>
 Real TetResistance<Real>::ratio_of(std::uint32_t tet, const std::vector<Vec4<Real>>& positions) const {
     const glm::uvec4& corners = model_->tets[tet];
     const Vec3<Real> a(positions[corners.x]);
     const Vec3<Real> u = Vec3<Real>(positions[corners.y]) - a, v = Vec3<Real>(positions[corners.z]) - a,
                      w = Vec3<Real>(positions[corners.w]) - a;
-    return glm::dot(glm::cross(u, v), w) / (Real(6) * static_cast<Real>(model_->tet_rests[tet].volume));
+    return glm::dot(volume_slope(u, v, inverse_six_volumes(tet)), w);
 }
 
 template <class Real>
@@ -141,7 +146,7 @@ void TetResistance<Real>::for_each_tet(std::uint32_t node, const std::vector<Vec
         std::array<Vec3<Real>, 3> face;
         for (std::size_t k = 0; k < 3; ++k)
             face[k] = positions[model_->tets[tet][kOppositeCorners[corner][k]]];
-        const Vec3<Real> slope = volume_slope(face, static_cast<Real>(model_->tet_rests[tet].volume));
+        const Vec3<Real> slope = volume_slope(face[1] - face[0], face[2] - face[0], inverse_six_volumes(tet));
         work(tet, slope, glm::dot(position - face[0], slope));
     }
 }
@@ -157,7 +162,7 @@ void TetResistance<Real>::add_neo_hookean_tets(std::uint32_t node, const std::ve
         const TetModuli<Real> moduli = tet_moduli<Real>(tet);
         const Vec3<Real> g = shape_gradient<Real>(tet, corners.entries[e] % 4);
         const Mat3<Real> f = gradient_of(tet, at_corners(tet, positions.data()));
-        const TetAtCorner<Real> at_corner = tet_at_corner(g, f);
+        const TetAtCorner<Real> at_corner = tet_at_corner<Real>(g, f);
         add_neo_hookean(at_corner, moduli, volume_bound(first_tet + corners.entries[e] / 4), terms);
         terms.force += opening_force(g, at_corner.squares, moduli.mu);
         const Real damping_time = mean_damping_time(tet, start.nodes);

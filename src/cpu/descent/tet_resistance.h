@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "cpu/elasticity/node_terms.h"
+#include "cpu/elasticity/elements.h"
 #include "cpu/nodes.h"
 #include "model/descent/descent_rows.h"
 #include "model/elasticity/node_tets.h"
@@ -66,6 +66,7 @@ private:
     VolumeBound<Real> volume_bound(std::uint32_t tet) const;
     template <class Work>
     void for_each_tet(std::uint32_t node, const std::vector<Vec4<Real>>& positions, const Work& work) const;
+    Real inverse_six_volumes(std::uint32_t tet) const;  // [1/m^3]
     Real ratio_of(std::uint32_t tet, const std::vector<Vec4<Real>>& positions) const;
 
     std::shared_ptr<const Model> model_;

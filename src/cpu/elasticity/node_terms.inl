@@ -1,7 +1,4 @@
-// What elements add to a node's part of the objective of a step, for any scalar. cpu/elasticity/node_terms.h
-// includes it for double and float, cpu/elasticity/node_terms-inl.h for lanes of floats, once for each
-// instruction set. Both provide Vec3<Real> with its operators, and dot, multiply_add and select. Constructors
-// are written out: those that compilers make themselves are not compiled for the instruction set.
+// What an element adds to a node; see elements.inl.
 
 /// A symmetric matrix [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]].
 template <class Real>
@@ -22,8 +19,8 @@ struct SymmetricMatrix {
     }
 };
 
-/// The contribution of a body's elements to a node's part of the objective of a step: minus its gradient,
-/// which is a force [N], and a positive semi-definite second derivative [N/m]. GLSL twin:
+/// The contribution of elements to a node's part of the objective of a step: minus its gradient, which is a
+/// force [N], and a positive semi-definite second derivative [N/m]. GLSL twin:
 /// shaders/sim/elasticity/node_terms.glsl.
 template <class Real>
 struct NodeTerms {
@@ -35,37 +32,39 @@ struct NodeTerms {
         : force(own_force), hessian(own_hessian) {}
 };
 
-/// A tet as seen from one of its corners, with v its volume, V that at rest, J = v / V, J_0 = kFlattest and K
-/// its modulus: W = V K / 2 (J_0 - J)^2 where J < J_0, otherwise 0. v is linear in one corner, so
-///   force   V K (J_0 - J) dJ/dx,   hessian V K dJ/dx dJ/dx^T.
-/// It moves springs out of mirrored and tangled shapes, in which they would also be at rest.
-/// @param slope dJ/dx [1/m] @param ratio J @param stiffness V K [J]
+/// Inertia, m / (2 h^2) |x - y|^2, with `mass` m / h^2 [N/m] and `apart` the vector from x to y.
 template <class Real>
-void add_flat_tet(const Vec3<Real>& slope, Real ratio, Real stiffness, NodeTerms<Real>& terms) {
-    const Real lack = Real(kFlattest) - ratio;
-    const Real resisting = select(lack > Real(0), stiffness, Real(0));
-    terms.force += resisting * lack * slope;
-    terms.hessian.add_outer(resisting, slope);
+void add_inertia(const Vec3<Real>& apart, Real mass, NodeTerms<Real>& terms) {
+    terms.force = multiply_add(mass, apart, terms.force);
+    terms.hessian.add_identity(mass);
 }
 
-/// A tet's part of the volume term, as seen from one of its corners. With p the mean of volume_stress at its
-/// corners and J_0 its own J, both at the last evaluation, and k the mean |kappa| of its corners, the term is
-/// at most
-///   W = V (p (J - J_0) + k / 2 (J - J_0)^2)
-/// plus its value then.
+/// 1 / pivot. Pivots that are smaller than the rounding error of their operands count as no stiffness, and
+/// give 0.
 template <class Real>
-struct VolumeBound {
-    Real offset;   ///< V (p - k J_0) [J]
-    Real modulus;  ///< V k [J]
+Real inverse_pivot(Real pivot, Real diagonal) {
+    const Real sound = larger(pivot, Real(8) * Real(kEpsilon<Real>) * diagonal);
+    return select(sound > Real(0), Real(1) / sound, Real(0));
+}
 
-    VolumeBound() : offset(Real(0)), modulus(Real(0)) {}
-    VolumeBound(Real at_zero, Real slope) : offset(at_zero), modulus(slope) {}
-};
-
-/// @param slope, ratio as in add_flat_tet
+/// matrix^-1 v by the square-root-free Cholesky decomposition; zero along directions without stiffness. Lost
+/// pivots may make the result too short, never too long.
 template <class Real>
-void add_tet_volume(const Vec3<Real>& slope, Real ratio, const VolumeBound<Real>& bound,
-                    NodeTerms<Real>& terms) {
-    terms.force -= multiply_add(bound.modulus, ratio, bound.offset) * slope;
-    terms.hessian.add_outer(bound.modulus, slope);
+Vec3<Real> solve(const SymmetricMatrix<Real>& matrix, const Vec3<Real>& v) {
+    const Vec3<Real>&d = matrix.diagonal, &b = matrix.beside;
+    const Real i0 = inverse_pivot(d.x, d.x);
+    const Real l10 = b.z * i0, l20 = b.y * i0;
+    const Real i1 = inverse_pivot(multiply_add(-l10, b.z, d.y), d.y);
+    const Real rest = multiply_add(-l20, b.z, b.x), l21 = rest * i1;
+    const Real i2 = inverse_pivot(multiply_add(-l21, rest, multiply_add(-l20, b.y, d.z)), d.z);
+    const Real y1 = multiply_add(-l10, v.x, v.y);
+    const Real y2 = multiply_add(-l21, y1, multiply_add(-l20, v.x, v.z));
+    const Real z = y2 * i2, y = multiply_add(-l21, z, y1 * i1);
+    return Vec3<Real>(multiply_add(-l20, z, multiply_add(-l10, y, v.x * i0)), y, z);
+}
+
+/// A node's Newton step [m].
+template <class Real>
+Vec3<Real> solve(const NodeTerms<Real>& terms) {
+    return solve(terms.hessian, terms.force);
 }

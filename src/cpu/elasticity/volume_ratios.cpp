@@ -9,21 +9,10 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include "cpu/simd_columns-inl.h"
+#include "cpu/elasticity/elements-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {
-
-// det (b - a, c - a, e - a)
-HWY_INLINE Vector six_volumes(const Columns& a, const Columns& b, const Columns& c, const Columns& e) {
-    const Vector ux = hn::Sub(b.x, a.x), uy = hn::Sub(b.y, a.y), uz = hn::Sub(b.z, a.z);
-    const Vector vx = hn::Sub(c.x, a.x), vy = hn::Sub(c.y, a.y), vz = hn::Sub(c.z, a.z);
-    const Vector wx = hn::Sub(e.x, a.x), wy = hn::Sub(e.y, a.y), wz = hn::Sub(e.z, a.z);
-    const Vector x = hn::NegMulAdd(uz, vy, hn::Mul(uy, vz));
-    const Vector y = hn::NegMulAdd(ux, vz, hn::Mul(uz, vx));
-    const Vector z = hn::NegMulAdd(uy, vx, hn::Mul(ux, vy));
-    return hn::MulAdd(x, wx, hn::MulAdd(y, wy, hn::Mul(z, wz)));
-}
 
 // For kLanes tets.
 HWY_INLINE Vector ratios_of(Lanes d, const glm::uvec4* tets, const TetRest* rests,
@@ -33,8 +22,11 @@ HWY_INLINE Vector ratios_of(Lanes d, const glm::uvec4* tets, const TetRest* rest
     };
     HWY_ALIGN float volumes[kLanes];
     for (std::size_t l = 0; l < kLanes; ++l) volumes[l] = rests[l].volume;
-    return hn::Div(six_volumes(corner(0), corner(1), corner(2), corner(3)),
-                   hn::Mul(hn::Set(d, 6.0f), hn::Load(d, volumes)));
+    const Columns a = corner(0);
+    const Vec3Lanes ab = difference(corner(1), a), ac = difference(corner(2), a),
+                    ad = difference(corner(3), a);
+    const FloatLanes inverse = FloatLanes(1.0f / 6.0f) / FloatLanes(hn::Load(d, volumes));
+    return dot(volume_slope(ab, ac, inverse), ad).v;
 }
 
 bool are_within(float least, float most, const Model& model, const Range& tets, const glm::vec4* positions,

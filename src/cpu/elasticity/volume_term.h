@@ -1,25 +1,14 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
-#include <glm/geometric.hpp>
 
-#include "cpu/elasticity/node_terms.h"
+#include "cpu/elasticity/elements.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
 
 /// The exact volume term (model/elasticity/volume_term.h), not the bound that block descent uses
-/// (cpu/elasticity/node_terms.h). GLSL twins: shaders/sim/elasticity/volume_term.glsl, volume_force.glsl.
+/// (cpu/elasticity/tet_volume.inl). GLSL twins: shaders/sim/elasticity/volume_term.glsl, volume_force.glsl.
 namespace gelatin::cpu {
-
-/// phi(J - 1), whose derivative is volume_stress divided by kappa.
-template <class Real>
-Real volume_potential(Real ratio, Real kappa) {
-    const Real u = ratio - Real(1);
-    if (kappa >= Real(0)) return Real(0.5) * u * u;
-    const Real s = std::min(Real(4) * u * u, Real(1));
-    return s * (Real(3) - Real(3) * s + s * s) / Real(24);
-}
 
 /// J_n: the volume around node n relative to that at rest; 1 if there is none.
 /// @param position of a node, as a Vec3<Real>

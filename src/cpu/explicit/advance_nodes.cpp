@@ -80,9 +80,8 @@ template <class Real>
 void write_spring_forces(const Pass<Real>& pass, std::span<Vec4<Real>> spring_forces, Range springs) {
     for (std::uint32_t s = springs.first; s < springs.end(); ++s) {
         const Spring& spring = pass.model.springs[s];
-        const Vec3<Real> force =
-            spring_force<Real>(pass.positions[spring.i], pass.positions[spring.j], pass.velocities[spring.i],
-                               pass.velocities[spring.j], spring.rest_length, spring.stiffness);
+        const Vec3<Real> force = spring_force(pass.positions, pass.velocities, spring.i, spring.j,
+                                              spring.rest_length, spring.stiffness);
         spring_forces[s] = Vec4<Real>(force, 0);
     }
 }

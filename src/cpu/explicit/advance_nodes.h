@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "cpu/elasticity/tet_blocks.h"
 #include "cpu/nodes.h"
 #include "model/explicit/explicit_scheme.h"
 #include "model/model.h"
@@ -49,8 +50,12 @@ void find_volume_stresses_simd(const Model& model, const Nodes<float>& at, std::
 template <class Real>
 void advance_nodes(const Pass<Real>& pass, Range slices);
 
+/// The neo-Hookean tets of the nodes in their order, for SIMD; empty if there are none.
+TetBlocks make_pass_tets(const Model& model);
+
 /// The same in float with SIMD, for the present processor; differs from the plain one by rounding only.
-void advance_nodes_simd(const Pass<float>& pass, Range slices);
+/// @param tets make_pass_tets of the model
+void advance_nodes_simd(const Pass<float>& pass, const TetBlocks& tets, Range slices);
 
 /// The instruction set that advance_nodes_simd uses here: "AVX3_ZEN4".
 const char* simd_target();

@@ -6,6 +6,8 @@
 // many springs takes 10 times as long, without it 20 times).
 #include "cpu/explicit/advance_nodes.h"
 
+#include <numeric>
+
 #include "cpu/elasticity/volume_term.h"
 #include "cpu/explicit/gather_forces.h"
 #include "cpu/explicit/integrate_node.h"
@@ -16,15 +18,14 @@
 #include <hwy/highway.h>
 
 #include "cpu/explicit/tet_forces-inl.h"
-#include "cpu/explicit/volume_forces-inl.h"
-#include "cpu/simd_columns-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR
 
 // Below SSSE3 SIMD gains nothing.
-void advance_slices(const Pass<float>& pass, Range slices) {
+void advance_slices(const Pass<float>& pass, const TetBlocks& tets, Range slices) {
+    (void)tets;
     advance_nodes<float>(pass, slices);
 }
 
@@ -34,45 +35,32 @@ void find_stresses(const Model& model, const Nodes<float>& at, std::span<float> 
 
 #else
 
-struct Node {
+struct NodeLanes {
     Columns position, velocity;
 };
 
-// cpu::spring_force for each lane, added to `force`.
-HWY_INLINE void add_spring_force(Lanes d, const Node& a, const Node& b, Vector rest_length, Vector stiffness,
-                                 Vector3& force) {
-    const Vector dx = hn::Sub(b.position.x, a.position.x);
-    const Vector dy = hn::Sub(b.position.y, a.position.y);
-    const Vector dz = hn::Sub(b.position.z, a.position.z);
-    const Vector squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
-    const Vector length = hn::Sqrt(hn::Max(squared, hn::Set(d, 1e-30f)));
-    const Vector inverse_length = hn::Div(hn::Set(d, 1.0f), length);
-
-    const Vector vx = hn::Sub(b.velocity.x, a.velocity.x);
-    const Vector vy = hn::Sub(b.velocity.y, a.velocity.y);
-    const Vector vz = hn::Sub(b.velocity.z, a.velocity.z);
-    const Vector rate = hn::Mul(hn::MulAdd(dx, vx, hn::MulAdd(dy, vy, hn::Mul(dz, vz))), inverse_length);
-    const Vector damping_time = hn::Mul(hn::Set(d, 0.5f), hn::Add(a.velocity.w, b.velocity.w));
-
-    const Vector stretch = hn::MulAdd(damping_time, rate, hn::Sub(length, rest_length));
-    const Vector scale = hn::Mul(hn::Mul(stiffness, stretch), inverse_length);
-    force.x = hn::MulAdd(scale, dx, force.x);
-    force.y = hn::MulAdd(scale, dy, force.y);
-    force.z = hn::MulAdd(scale, dz, force.z);
+HWY_INLINE Vec3Lanes force_between(const NodeLanes& self, const NodeLanes& other, Vector rest_length,
+                                   Vector stiffness) {
+    const FloatLanes damping_times = FloatLanes(self.velocity.w) + FloatLanes(other.velocity.w);
+    return spring_force<FloatLanes>(difference(other.position, self.position),
+                                    difference(other.velocity, self.velocity), {rest_length, stiffness},
+                                    FloatLanes(0.5f) * damping_times);
 }
 
 // Forces on the nodes first .. first + kLanes.
-HWY_INLINE Vector3 gather_lanes(Lanes d, const Pass<float>& pass, std::uint32_t first) {
+HWY_INLINE Vec3Lanes gather_lanes(Lanes d, const Pass<float>& pass, const TetBlocks& tets,
+                                  std::uint32_t first) {
     constexpr std::uint32_t kSlice = HalfSprings::kSlice;
     const float* positions = &pass.positions[0].x;
     const float* velocities = &pass.velocities[0].x;
     const auto load_node = [&](const auto& index) HWY_ATTR {
-        return Node{load_columns(d, [&](std::size_t l) { return positions + 4 * std::size_t(index(l)); }),
-                    load_columns(d, [&](std::size_t l) { return velocities + 4 * std::size_t(index(l)); })};
+        return NodeLanes{
+            load_columns(d, [&](std::size_t l) { return positions + 4 * std::size_t(index(l)); }),
+            load_columns(d, [&](std::size_t l) { return velocities + 4 * std::size_t(index(l)); })};
     };
-    const Node self = load_node([&](std::size_t l) { return first + l; });
+    const NodeLanes self = load_node([&](std::size_t l) { return first + l; });
     const HalfSprings& springs = pass.model.half_springs;
-    Vector3 force{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    Vec3Lanes force(FloatLanes(0.0f));
     const std::uint32_t end = springs.slice_starts[first / kSlice + 1];
     const std::uint32_t slice_length = end - springs.slice_starts[first / kSlice];
     for (std::uint32_t p = springs.slice_starts[first / kSlice] + first % kSlice; p < end; p += kSlice) {
@@ -83,28 +71,28 @@ HWY_INLINE Vector3 gather_lanes(Lanes d, const Pass<float>& pass, std::uint32_t 
             load_columns(d, [&](std::size_t l) { return reinterpret_cast<const float*>(pairs + l); });
         Vector stiffness_0, stiffness_1;
         hn::LoadInterleaved2(d, &springs.stiffness[p].x, stiffness_0, stiffness_1);
-        const Node other_0 = load_node([&](std::size_t l) { return pairs[l].node_0; });
-        add_spring_force(d, self, other_0, columns.y, stiffness_0, force);
-        const Node other_1 = load_node([&](std::size_t l) { return pairs[l].node_1; });
-        add_spring_force(d, self, other_1, columns.w, stiffness_1, force);
+        const NodeLanes other_0 = load_node([&](std::size_t l) { return pairs[l].node_0; });
+        force += force_between(self, other_0, columns.y, stiffness_0);
+        const NodeLanes other_1 = load_node([&](std::size_t l) { return pairs[l].node_1; });
+        force += force_between(self, other_1, columns.w, stiffness_1);
     }
+    if (!tets.is_empty()) add_tet_forces(d, pass, tets, first, self.position, self.velocity, force);
+    if (pass.volume_stresses != nullptr) add_volume_forces(d, pass, first, force);
     return force;
 }
 
-void advance_slices(const Pass<float>& pass, Range slices) {
+void advance_slices(const Pass<float>& pass, const TetBlocks& tets, Range slices) {
     const Lanes d;
     const std::uint32_t end = std::min(slices.end() * HalfSprings::kSlice, pass.model.node_count());
     std::uint32_t n = slices.first * HalfSprings::kSlice;
     for (; n + kLanes <= end; n += kLanes) {
         prefetch_lanes(pass.positions + n + kNodesAhead);
         prefetch_lanes(pass.velocities + n + kNodesAhead);
-        Vector3 force = gather_lanes(d, pass, n);
-        if (!pass.model.neo_hookean_tets.empty()) add_tet_forces(d, pass, n, force);
-        if (pass.volume_stresses != nullptr) add_volume_forces(d, pass, n, force);
+        const Vec3Lanes force = gather_lanes(d, pass, tets, n);
         HWY_ALIGN float x[kLanes], y[kLanes], z[kLanes];
-        hn::Store(force.x, d, x);
-        hn::Store(force.y, d, y);
-        hn::Store(force.z, d, z);
+        hn::Store(force.x.v, d, x);
+        hn::Store(force.y.v, d, y);
+        hn::Store(force.z.v, d, z);
         for (std::uint32_t l = 0; l < kLanes; ++l) integrate_node(pass, n + l, {x[l], y[l], z[l]});
     }
     for (; n < end; ++n) integrate_node(pass, n, gather_forces(pass, n));
@@ -116,7 +104,7 @@ void find_stresses(const Model& model, const Nodes<float>& at, std::span<float> 
     const std::uint32_t end = std::min(slices.end() * HalfSprings::kSlice, model.node_count());
     std::uint32_t n = slices.first * HalfSprings::kSlice;
     for (; n + kLanes <= end; n += kLanes)
-        hn::StoreU(volume_stresses(d, model.volume_term, positions, n), d, &stresses[n]);
+        hn::StoreU(volume_stresses(d, model.volume_term, positions, n).v, d, &stresses[n]);
     for (; n < end; ++n) stresses[n] = volume_stress_round(model.volume_term, n, positions);
 }
 
@@ -136,8 +124,16 @@ HWY_EXPORT(advance_slices);
 HWY_EXPORT(find_stresses);
 HWY_EXPORT(target_name);
 
-void advance_nodes_simd(const Pass<float>& pass, Range slices) {
-    HWY_DYNAMIC_DISPATCH(advance_slices)(pass, slices);
+TetBlocks make_pass_tets(const Model& model) {
+    if (model.neo_hookean_tets.empty()) return {};
+    std::vector<std::uint32_t> nodes(model.node_count());
+    std::iota(nodes.begin(), nodes.end(), 0u);
+    while (nodes.size() % kGroup != 0) nodes.push_back(kNoNode);
+    return make_tet_blocks(model, nodes, make_node_tets(model.node_count(), model.tets));
+}
+
+void advance_nodes_simd(const Pass<float>& pass, const TetBlocks& tets, Range slices) {
+    HWY_DYNAMIC_DISPATCH(advance_slices)(pass, tets, slices);
 }
 
 void find_volume_stresses_simd(const Model& model, const Nodes<float>& at, std::span<float> stresses,

@@ -31,11 +31,8 @@ template <class Real>
 inline Vec3<Real> gather_spring_forces(const Pass<Real>& pass, std::uint32_t n) {
     constexpr std::uint32_t kSlice = HalfSprings::kSlice;
     const HalfSprings& springs = pass.model.half_springs;
-    const Vec4<Real> position = pass.positions[n];
-    const Vec4<Real> velocity = pass.velocities[n];
     const auto force_of = [&](std::uint32_t other, float rest_length, float stiffness) {
-        return spring_force<Real>(position, pass.positions[other], velocity, pass.velocities[other],
-                                  rest_length, stiffness);
+        return spring_force(pass.positions, pass.velocities, n, other, rest_length, stiffness);
     };
     Vec3<Real> force(0);
     const std::uint32_t start = springs.slice_starts[n / kSlice], end = springs.slice_starts[n / kSlice + 1];

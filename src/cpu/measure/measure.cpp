@@ -76,17 +76,15 @@ ObjectMeasure sum_chunk(const Model& model, const Nodes<Real>& nodes, const Chun
     }
     for (std::uint32_t s = chunk.springs.first; s < chunk.springs.end(); ++s) {
         const Spring& spring = model.springs[s];
-        const double stretch =
-            glm::distance(position(spring.i), position(spring.j)) - static_cast<double>(spring.rest_length);
-        sums.elastic_energy += 0.5 * static_cast<double>(spring.stiffness) * stretch * stretch;
+        const SpringLaw<double> law{static_cast<double>(spring.rest_length),
+                                    static_cast<double>(spring.stiffness)};
+        sums.elastic_energy += spring_energy(position(spring.j) - position(spring.i), law);
     }
     for (std::uint32_t t = chunk.tets.first; t < chunk.tets.end(); ++t) {
         const NeoHookeanTet& tet = model.neo_hookean_tets[t];
         const Mat3<double> f = gradient_of<double>(
             tet, {position(tet.node_0), position(tet.node_1), position(tet.node_2), position(tet.node_3)});
-        sums.elastic_energy += static_cast<double>(tet.gradient_1.w) *
-                               neo_hookean_energy(f, static_cast<double>(tet.gradient_2.w),
-                                                  static_cast<double>(tet.gradient_3.w));
+        sums.elastic_energy += neo_hookean_energy(f, tet_moduli<double>(tet));
     }
     const glm::dvec3 origin = position(model.objects[chunk.object].nodes.first);
     for (std::uint32_t f = chunk.faces.first; f < chunk.faces.end(); ++f) {

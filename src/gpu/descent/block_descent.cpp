@@ -81,12 +81,12 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
     const DescentRows rows = make_descent_rows(model);
     colors_ = rows.batches.front().colors;
     const std::vector<std::uint32_t> objects = objects_of_nodes(model);
-    neo_hookean_corners_ = NeoHookeanBuffers::Corners(model, rows.nodes);
+    neo_hookean_ = NeoHookeanBuffers(model, rows.nodes);
     const TetCorners corners = corners_of(model, rows.nodes);
     const std::vector<Chunk> chunks = make_chunks(model, &ModelObject::nodes);
 
     row_count_ = static_cast<std::uint32_t>(rows.nodes.size());
-    rows_ = {rows_of(model, rows, objects), gl::TexelFormat::rgba32ui};
+    rows_ = {rows_of(rows, objects), gl::TexelFormat::rgba32ui};
     spring_ends_ = {ends_of(rows.springs), gl::TexelFormat::rg32ui};
     springs_ = {springs_of(rows.springs), gl::TexelFormat::rgba32f};
     if (model.has_damping()) damped_springs_.emplace(rows.springs.pairs.size());
@@ -153,7 +153,7 @@ void BlockDescent::bind_buffers() const {
         program->bind("tet_rests", tet_rests_);
         program->bind("ObjectContacts", object_contacts_);
         program->bind("Contacts", contacts_);
-        neo_hookean_corners_.bind(*program);
+        neo_hookean_.bind(*program);
     }
     for (const gl::Program* program : {&sum_program_, &motion_program_}) {
         program->bind("chunk_starts", chunk_starts_);
@@ -227,10 +227,7 @@ void BlockDescent::run(const ModelBuffers& model, const SumLoads* loads, const N
     last_move_program_.set("contact_distance", static_cast<float>(kContactDistance));
     last_move_program_.set("resting_speed", static_cast<float>(resting_speed(model.gravity, step)));
     bind_nodes(previous, current);
-    for (const gl::Program* program : sweep_programs()) {
-        model.bind_colliders(*program);
-        model.neo_hookean.bind_tets(*program);
-    }
+    for (const gl::Program* program : sweep_programs()) model.bind_colliders(*program);
     model.bind_colliders(last_move_program_);
     model.bind_colliders(start_program_);
     model.pulls.bind(start_program_);

@@ -76,7 +76,7 @@ private:
     std::optional<DampedSprings> damped_springs_;  // where the model has dampers
     std::vector<Range> colors_;                    // rows
     gl::TexelTable<DescentRow> rows_;
-    NeoHookeanBuffers::Corners neo_hookean_corners_;
+    NeoHookeanBuffers neo_hookean_;
     gl::TexelTable<glm::uvec2> spring_ends_;  // of pairs of half springs
     gl::TexelTable<glm::vec4> springs_;       // of each its rest length [m], stiffness [N/m]
     gl::TexelTable<std::uint32_t> spring_starts_;

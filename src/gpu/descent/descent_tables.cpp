@@ -21,7 +21,8 @@ std::vector<glm::vec4> rests_of(const Model& model) {
     std::vector<glm::vec4> rests;
     for (std::size_t t = 0; t < model.tet_rests.size(); ++t) {
         const TetRest& rest = model.tet_rests[t];
-        rests.emplace_back(rest.volume, rest.modulus, stiffnesses.empty() ? 0.0f : stiffnesses[t], 0.0f);
+        rests.emplace_back(rest.volume, rest.modulus, stiffnesses.empty() ? 0.0f : stiffnesses[t],
+                           1.0f / (6.0f * rest.volume));
     }
     return rests;
 }
@@ -42,14 +43,11 @@ std::vector<glm::vec4> springs_of(const HalfSprings& springs) {
     return result;
 }
 
-std::vector<DescentRow> rows_of(const Model& model, const DescentRows& rows,
-                                const std::vector<std::uint32_t>& objects) {
+std::vector<DescentRow> rows_of(const DescentRows& rows, const std::vector<std::uint32_t>& objects) {
     std::vector<DescentRow> result;
     for (std::uint32_t r = 0; r < rows.nodes.size(); ++r) {
         const std::uint32_t n = rows.nodes[r], o = n == kNoNode ? 0 : objects[n];
-        const ModelObject& object = model.objects[o];
-        result.push_back(
-            {n, o, pair_count(rows.springs, r), object.tets.first - object.neo_hookean_tets.first});
+        result.push_back({n, o, pair_count(rows.springs, r), 0});
     }
     return result;
 }

@@ -22,8 +22,7 @@ std::vector<glm::uvec2> ends_of(const HalfSprings& springs);
 std::vector<glm::vec4> springs_of(const HalfSprings& springs);
 
 /// @param objects of nodes
-std::vector<DescentRow> rows_of(const Model& model, const DescentRows& rows,
-                                const std::vector<std::uint32_t>& objects);
+std::vector<DescentRow> rows_of(const DescentRows& rows, const std::vector<std::uint32_t>& objects);
 
 /// The tets of each row's node. Nodes of neo-Hookean tets have none: their terms come with those.
 TetCorners corners_of(const Model& model, std::vector<std::uint32_t> rows);

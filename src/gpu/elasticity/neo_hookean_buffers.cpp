@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "model/elasticity/node_tets.h"
+#include "model/elasticity/neo_hookean.h"
 
 namespace gelatin::gpu {
 namespace {
@@ -15,22 +15,14 @@ std::vector<std::uint32_t> all_nodes(const Model& model) {
 
 }  // namespace
 
-NeoHookeanBuffers::Corners::Corners(const Model& model, std::span<const std::uint32_t> rows) {
+NeoHookeanBuffers::NeoHookeanBuffers(const Model& model, std::span<const std::uint32_t> rows) {
     if (model.neo_hookean_tets.empty()) return;
-    const NodeTetSlices slices = pack_node_tets(rows, model.neo_hookean_corners);
-    entries_ = {slices.entries, gl::TexelFormat::r32ui};
-    slice_starts_ = {slices.slice_starts, gl::TexelFormat::r32ui};
+    const NeoHookeanCorners packed = pack_neo_hookean_corners(model, rows);
+    corners_ = {packed.corners, gl::TexelFormat::rgba32ui};
+    slice_starts_ = {packed.slice_starts, gl::TexelFormat::r32ui};
 }
 
-void NeoHookeanBuffers::Corners::bind(const gl::Program& program) const {
-    if (entries_.is_empty()) return;
-    program.bind("neo_hookean_corners", entries_);
-    program.bind("neo_hookean_starts", slice_starts_);
-}
-
-NeoHookeanBuffers::NeoHookeanBuffers(const Model& model) : corners_(model, all_nodes(model)) {
-    if (!model.neo_hookean_tets.empty()) tets_ = {model.neo_hookean_tets, gl::TexelFormat::rgba32ui};
-}
+NeoHookeanBuffers::NeoHookeanBuffers(const Model& model) : NeoHookeanBuffers(model, all_nodes(model)) {}
 
 gl::Defines NeoHookeanBuffers::defines(const Model& model) {
     if (model.neo_hookean_tets.empty()) return {};
@@ -38,13 +30,10 @@ gl::Defines NeoHookeanBuffers::defines(const Model& model) {
     return {"NEO_HOOKEAN", "DAMPED"};
 }
 
-void NeoHookeanBuffers::bind_tets(const gl::Program& program) const {
-    if (!tets_.is_empty()) program.bind("neo_hookean_tets", tets_);
-}
-
 void NeoHookeanBuffers::bind(const gl::Program& program) const {
-    bind_tets(program);
-    corners_.bind(program);
+    if (corners_.is_empty()) return;
+    program.bind("neo_hookean_corners", corners_);
+    program.bind("neo_hookean_starts", slice_starts_);
 }
 
 }  // namespace gelatin::gpu

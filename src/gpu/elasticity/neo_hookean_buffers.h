@@ -6,35 +6,23 @@
 
 namespace gelatin::gpu {
 
-/// Neo-Hookean tets, and by row of nodes the tets that they are corners of, as
-/// shaders/sim/elasticity/neo_hookean.glsl reads them. All empty, and nothing bound, in models without.
+/// Neo-Hookean tets by row of nodes, as shaders/sim/elasticity/neo_hookean.glsl reads them. Empty, and
+/// nothing bound, in models without.
 class NeoHookeanBuffers {
 public:
-    /// Corners in slices of 64 rows.
-    class Corners {
-    public:
-        Corners() = default;
-        /// @param rows nodes, or kNoNode
-        Corners(const Model& model, std::span<const std::uint32_t> rows);
-
-        void bind(const gl::Program& program) const;
-
-    private:
-        gl::TexelTable<std::uint32_t> entries_, slice_starts_;
-    };
-
-    explicit NeoHookeanBuffers(const Model& model);
+    NeoHookeanBuffers() = default;
+    explicit NeoHookeanBuffers(const Model& model);  ///< a row for each node
+    /// @param rows nodes, or kNoNode
+    NeoHookeanBuffers(const Model& model, std::span<const std::uint32_t> rows);
 
     /// Defines for a shader that includes it only where a model has such tets.
     static gl::Defines defines(const Model& model);
 
-    void bind_tets(const gl::Program& program) const;
-    /// The tets, and the corners with a row for each node.
     void bind(const gl::Program& program) const;
 
 private:
-    gl::TexelTable<NeoHookeanTet> tets_;
-    Corners corners_;
+    gl::TexelTable<NeoHookeanCorner> corners_;
+    gl::TexelTable<std::uint32_t> slice_starts_;
 };
 
 }  // namespace gelatin::gpu

@@ -61,13 +61,4 @@ DescentRows make_descent_rows(const Model& model, std::uint32_t nodes_a_batch) {
     return rows;
 }
 
-std::vector<std::uint32_t> objects_of_nodes(const Model& model) {
-    std::vector<std::uint32_t> objects(model.node_count(), 0);
-    for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
-        const Range& nodes = model.objects[o].nodes;
-        std::fill_n(objects.begin() + nodes.first, nodes.count, o);
-    }
-    return objects;
-}
-
 }  // namespace gelatin

@@ -42,7 +42,4 @@ struct DescentRows {
 DescentRows make_descent_rows(const Model& model,
                               std::uint32_t nodes_a_batch = std::numeric_limits<std::uint32_t>::max());
 
-/// The object of each node, shape [nodes].
-std::vector<std::uint32_t> objects_of_nodes(const Model& model);
-
 }  // namespace gelatin

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <span>
+#include <vector>
 
 #include "model/layouts.h"
 
@@ -34,6 +36,18 @@ NeoHookeanTet make_neo_hookean_tet(const glm::uvec4& nodes, const std::array<glm
 
 /// The gradients of the corners' shape functions [1/m].
 std::array<glm::dvec3, 4> shape_gradients(const NeoHookeanTet& tet);
+
+/// A tet as one of its corners sees it. @param index of the tet in Model::tets
+NeoHookeanCorner make_neo_hookean_corner(const NeoHookeanTet& tet, std::uint32_t corner, std::uint32_t index);
+
+/// Those of each row's node in slices of 64 rows, laid out as HalfSprings' pairs are.
+struct NeoHookeanCorners {
+    std::vector<std::uint32_t> slice_starts;  ///< shape [slices + 1]
+    std::vector<NeoHookeanCorner> corners;    ///< shape [slice_starts.back()]
+};
+
+/// @param rows nodes, each at most once, or kNoNode
+NeoHookeanCorners pack_neo_hookean_corners(const Model& model, std::span<const std::uint32_t> rows);
 
 /// True for the nodes of bodies of such tets.
 bool has_neo_hookean_tets(const Model& model, std::uint32_t node);

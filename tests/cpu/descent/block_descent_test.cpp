@@ -8,7 +8,7 @@
 #include <random>
 
 #include "cpu/cpu_solver.h"
-#include "cpu/elasticity/node_terms.h"
+#include "cpu/elasticity/elements.h"
 #include "support/descend_on_gpu.h"
 #include "support/test_models.h"
 
@@ -98,9 +98,8 @@ std::vector<glm::dvec3> gradient(const Model& model, double step, const cpu::Nod
     std::vector<cpu::NodeTerms<double>> terms(model.node_count());
     for (const Spring& s : model.springs) {
         for (const auto& [a, b] : {std::pair(s.i, s.j), std::pair(s.j, s.i)}) {
-            cpu::add_spring(glm::dvec3(nodes.positions[b]) - glm::dvec3(nodes.positions[a]), 0.0,
-                            static_cast<double>(s.rest_length), static_cast<double>(s.stiffness), 0.0,
-                            terms[a]);
+            cpu::add_spring(glm::dvec3(nodes.positions[b]) - glm::dvec3(nodes.positions[a]),
+                            {static_cast<double>(s.rest_length), static_cast<double>(s.stiffness)}, terms[a]);
         }
     }
     std::vector<glm::dvec3> result;

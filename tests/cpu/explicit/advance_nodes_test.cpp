@@ -7,7 +7,6 @@
 #include <random>
 
 #include "cpu/cpu_solver.h"
-#include "cpu/elasticity/spring_force.h"
 #include "model/setting_names.h"
 #include "support/parity.h"
 #include "support/solver_kinds.h"
@@ -96,48 +95,11 @@ TEST(AdvanceNodes, WritesItsNodesAndNothingElse) {
     const auto slices = static_cast<std::uint32_t>(model.half_springs.slice_starts.size() - 1);
     cpu::advance_nodes_simd(cpu::make_pass(model, explicit_scheme(SolverKind::semi_implicit_euler), 0, kStep,
                                            from, from, to, none),
-                            {1, slices - 1});
+                            cpu::make_pass_tets(model), {1, slices - 1});
     EXPECT_TRUE(test::guard_is_untouched(to.positions, model.node_count()));
     EXPECT_TRUE(std::isnan(to.positions[63].x)) << "a slice that was not asked for";
     EXPECT_FALSE(std::isnan(to.positions[64].x));
     EXPECT_FALSE(std::isnan(to.positions[model.node_count() - 1].x));
-}
-
-// The force is the negative gradient of k/2 (l - rest)^2, found by central differences.
-TEST(SpringForce, IsTheGradientOfItsEnergy) {
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
-    const auto point = [&] { return glm::dvec3(coordinate(random), coordinate(random), coordinate(random)); };
-    for (int i = 0; i < 50; ++i) {
-        const glm::dvec3 a = point(), b = point();
-        const double rest = 0.7, stiffness = 40.0, d = 1e-6;
-        const auto energy = [&](const glm::dvec3& p) {
-            return 0.5 * stiffness * std::pow(glm::distance(p, b) - rest, 2);
-        };
-        const glm::dvec3 force =
-            cpu::spring_force<double>(a, b, glm::dvec3(0), glm::dvec3(0), rest, stiffness, 0.0);
-        for (int k = 0; k < 3; ++k) {
-            glm::dvec3 step(0.0);
-            step[k] = d;
-            EXPECT_NEAR(force[k], -(energy(a + step) - energy(a - step)) / (2.0 * d), 1e-6);
-        }
-    }
-}
-
-// k t l' along the spring, nothing across it.
-TEST(SpringForce, DampsAlongTheSpringAlone) {
-    const glm::dvec3 a(0), b(2, 0, 0);
-    const auto force = [&](const glm::dvec3& vb) {
-        return cpu::spring_force<double>(a, b, glm::dvec3(0), vb, 2.0, 100.0, 0.03);
-    };
-    EXPECT_NEAR(force({0.5, 0, 0}).x, 100.0 * 0.03 * 0.5, 1e-12);
-    EXPECT_EQ(glm::length(force({0, 0.5, 0.7})), 0.0);
-}
-
-TEST(SpringForce, CoincidentEndsGiveZero) {
-    const glm::dvec3 a(0.3);
-    EXPECT_EQ(cpu::spring_force<double>(a, a, glm::dvec3(0), glm::dvec3(1), 1.0, 100.0, 0.1),
-              glm::dvec3(0.0));
 }
 
 }  // namespace

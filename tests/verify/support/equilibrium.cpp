@@ -214,10 +214,8 @@ Eigen::SparseMatrix<double> Equilibrium::stiffness(const Eigen::VectorXd& displa
     }
     for (const Spring& spring : model_.springs) {
         const auto force = [&] {
-            return cpu::spring_force<double>(nodes.positions[spring.i], nodes.positions[spring.j],
-                                             nodes.velocities[spring.i], nodes.velocities[spring.j],
-                                             static_cast<double>(spring.rest_length),
-                                             static_cast<double>(spring.stiffness));
+            return cpu::spring_force(nodes.positions.data(), nodes.velocities.data(), spring.i, spring.j,
+                                     spring.rest_length, spring.stiffness);
         };
         const Eigen::Matrix3d block = derivative(force, nodes, spring.i);
         add_block(spring.i, spring.i, block, triplets);

@@ -1,11 +1,6 @@
-#include "cpu/descent/tet_blocks.h"
+#include "cpu/elasticity/tet_blocks.h"
 
-#include <algorithm>
-#include <glm/geometric.hpp>
-
-#include "model/descent/descent_rows.h"
 #include "model/elasticity/neo_hookean.h"
-#include "model/elasticity/node_tets.h"
 
 namespace gelatin::cpu {
 namespace {
@@ -24,24 +19,6 @@ Block empty_block(const Rows& rows) {
     return block;
 }
 
-// The gradients of a, b and c after a rotation, or a reflection, that makes them triangular: Gram-Schmidt.
-void set_gradients(const std::array<glm::dvec3, 3>& gradients, std::uint32_t row, NeoHookeanBlock& block) {
-    const double aa = glm::length(gradients[0]);
-    const glm::dvec3 x = gradients[0] / aa;
-    const double ab = glm::dot(x, gradients[1]), ac = glm::dot(x, gradients[2]);
-    const glm::dvec3 b_left = gradients[1] - ab * x;
-    const double bb = glm::length(b_left);
-    const glm::dvec3 y = b_left / bb;
-    const double bc = glm::dot(y, gradients[2]);
-    const double cc = glm::length(gradients[2] - ac * x - bc * y);
-    block.aa[row] = static_cast<float>(aa);
-    block.ab[row] = static_cast<float>(ab);
-    block.bb[row] = static_cast<float>(bb);
-    block.ac[row] = static_cast<float>(ac);
-    block.bc[row] = static_cast<float>(bc);
-    block.cc[row] = static_cast<float>(cc);
-}
-
 class Builder {
 public:
     Builder(const Model& model, const std::vector<std::uint32_t>& nodes, const NodeTets& node_tets)
@@ -55,6 +32,7 @@ public:
         }
         blocks_.neo_hookean_starts.push_back(static_cast<std::uint32_t>(blocks_.neo_hookean.size()));
         blocks_.volume_starts.push_back(static_cast<std::uint32_t>(blocks_.volumes.size()));
+        blocks_.is_damped = model_.has_damping();
         return std::move(blocks_);
     }
 
@@ -86,22 +64,23 @@ private:
                 blocks_.neo_hookean.push_back(empty_block<NeoHookeanBlock>(rows));
                 blocks_.openings.emplace_back();
             }
+            const std::uint32_t tet = corners.entries[e] / 4;
+            const NeoHookeanCorner corner = make_neo_hookean_corner(model_.neo_hookean_tets[tet],
+                                                                    corners.entries[e] % 4, first_tet + tet);
             NeoHookeanBlock& block = blocks_.neo_hookean[index];
-            const std::uint32_t corner = corners.entries[e] % 4;
-            const NeoHookeanTet& tet = model_.neo_hookean_tets[corners.entries[e] / 4];
-            const std::array<glm::dvec3, 4> gradients = shape_gradients(tet);
-            std::array<glm::dvec3, 3> others;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const int other = kOppositeCorners[corner][k];
-                block.nodes[k][row] = nodes_of(tet)[other];
-                others[k] = gradients[static_cast<std::size_t>(other)];
-            }
-            set_gradients(others, row, block);
-            const float volume = tet.gradient_1.w;
-            block.mu[row] = volume * tet.gradient_2.w;
-            block.lambda[row] = volume * tet.gradient_3.w;
-            block.tets[row] = first_tet + corners.entries[e] / 4;
-            blocks_.openings[index][row] = block.mu[row] * glm::vec3(gradients[corner]);
+            block.nodes[0][row] = corner.node_a;
+            block.nodes[1][row] = corner.node_b;
+            block.nodes[2][row] = corner.node_c;
+            block.aa[row] = corner.aa;
+            block.ab[row] = corner.ab;
+            block.bb[row] = corner.bb;
+            block.ac[row] = corner.ac;
+            block.bc[row] = corner.bc;
+            block.cc[row] = corner.cc;
+            block.mu[row] = corner.mu;
+            block.lambda[row] = corner.lambda;
+            block.tets[row] = corner.tet;
+            blocks_.openings[index][row] = glm::vec3(corner.opening);
         }
     }
 
@@ -115,7 +94,7 @@ private:
             VolumeBlock& block = blocks_.volumes[index++];
             for (std::size_t k = 0; k < 3; ++k)
                 block.nodes[k][row] = model_.tets[tet][kOppositeCorners[corner][k]];
-            block.over_six_volumes[row] = 1.0f / (6.0f * model_.tet_rests[tet].volume);
+            block.inverse_six_volumes[row] = 1.0f / (6.0f * model_.tet_rests[tet].volume);
             block.tets[row] = tet;
         }
     }

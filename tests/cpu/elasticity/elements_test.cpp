@@ -1,4 +1,4 @@
-#include "cpu/elasticity/node_terms.h"
+#include "cpu/elasticity/elements.h"
 
 #include <gtest/gtest.h>
 
@@ -68,11 +68,12 @@ constexpr double kRest = 0.8, kStiffness = 30.0;
 
 Terms spring_terms(const V& x, const V& other, double damping = 0.0, const V& start = V(0)) {
     Terms terms;
-    cpu::add_spring(other - x, glm::distance(other, start), kRest, kStiffness, damping, terms);
+    const cpu::SpringLaw<double> spring{kRest, kStiffness};
+    cpu::add_spring(other - x, cpu::damped_spring(spring, glm::distance(other, start), damping), terms);
     return terms;
 }
 
-TEST(NodeTerms, ASpringsForceAndHessianAreThoseOfItsEnergy) {
+TEST(Elements, ASpringsForceAndHessianAreThoseOfItsEnergy) {
     Random random;
     const double bound = 1e-5;  // h^2 k L / l^3 is 2.4e-6 at the shortest, and there are several terms
     int stretched = 0;
@@ -81,10 +82,11 @@ TEST(NodeTerms, ASpringsForceAndHessianAreThoseOfItsEnergy) {
         if (glm::distance(x, other) < 0.1) continue;
         const Terms terms = spring_terms(x, other);
         const auto energy = [&](const V& p) {
-            const double longer = glm::distance(p, other) - kRest;
-            return 0.5 * kStiffness * longer * longer;
+            return cpu::spring_energy<double>(other - p, {kRest, kStiffness});
         };
         expect_force_of(energy, x, terms.force, 1e-6);
+        const V explicitly = cpu::spring_force<double>(other - x, V(0), {kRest, kStiffness}, 0.0);
+        EXPECT_LT(glm::distance(explicitly, terms.force), 1e-12);
         const M exact = derivative_of([&](const V& p) { return spring_terms(p, other).force; }, x);
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> given(to_eigen(terms.hessian)),
             wanted(to_eigen(exact));
@@ -101,7 +103,7 @@ TEST(NodeTerms, ASpringsForceAndHessianAreThoseOfItsEnergy) {
 }
 
 // The damper pulls back by k t / h what the spring got longer in the step, and lets it turn.
-TEST(NodeTerms, DampingResistsChangesOfLengthAlone) {
+TEST(Elements, DampingResistsChangesOfLengthAlone) {
     const V start(0, 0, 0), other(kRest, 0, 0), moved(0.1, 0.2, 0);
     const double damping = 2.0;  // t / h
     const auto damper = [&](const V& at) {
@@ -114,14 +116,25 @@ TEST(NodeTerms, DampingResistsChangesOfLengthAlone) {
     EXPECT_LT(glm::length(damper(turned)), 1e-12);
 }
 
-TEST(NodeTerms, ASpringOfNoLengthAddsNothing) {
+// k t l' along the spring, nothing across it.
+TEST(Elements, DampersActAlongTheSpringAlone) {
+    const V apart(2, 0, 0);
+    const auto force = [&](const V& rate) {
+        return cpu::spring_force<double>(apart, rate, {2.0, 100.0}, 0.03);
+    };
+    EXPECT_NEAR(force({0.5, 0, 0}).x, 100.0 * 0.03 * 0.5, 1e-12);
+    EXPECT_EQ(glm::length(force({0, 0.5, 0.7})), 0.0);
+}
+
+TEST(Elements, ASpringOfNoLengthAddsNothing) {
+    EXPECT_EQ(cpu::spring_force<double>(V(0), V(1), {1.0, 100.0}, 0.1), V(0));
     const Terms terms = spring_terms(V(1, 2, 3), V(1, 2, 3), 2.0, V(0));
     EXPECT_EQ(terms.force, V(0));
     EXPECT_EQ(terms.hessian.diagonal, V(0));
     EXPECT_EQ(terms.hessian.beside, V(0));
 }
 
-TEST(NodeTerms, AFlatTetsForceAndHessianAreThoseOfItsEnergy) {
+TEST(Elements, AFlatTetsForceAndHessianAreThoseOfItsEnergy) {
     Random random;
     const double volume = 0.02, modulus = 5e3;
     int resisting = 0;
@@ -130,14 +143,13 @@ TEST(NodeTerms, AFlatTetsForceAndHessianAreThoseOfItsEnergy) {
         const std::array<V, 3> face{random.point(0.5), random.point(0.5), random.point(0.5)};
         const auto terms_at = [&](const V& p) {
             Terms terms;
-            const V slope = cpu::volume_slope(face, volume);
+            const V slope = cpu::volume_slope(face[1] - face[0], face[2] - face[0], 1.0 / (6.0 * volume));
             cpu::add_flat_tet(slope, glm::dot(p - face[0], slope), volume * modulus, terms);
             return terms;
         };
         const auto energy = [&](const V& p) {
             const double v = glm::dot(p - face[0], glm::cross(face[1] - face[0], face[2] - face[0])) / 6.0;
-            const double lack = std::max(cpu::kFlattest - v / volume, 0.0);
-            return 0.5 * volume * modulus * lack * lack;
+            return cpu::flat_tet_energy(v / volume, volume * modulus);
         };
         const Terms terms = terms_at(x);
         if (terms.force == V(0)) {
@@ -153,7 +165,7 @@ TEST(NodeTerms, AFlatTetsForceAndHessianAreThoseOfItsEnergy) {
 }
 
 // It is the slope of a potential whose curvature never exceeds |kappa|, and is kappa at rest.
-TEST(NodeTerms, VolumeStressIsNoSteeperThanItsModulus) {
+TEST(Elements, VolumeStressIsNoSteeperThanItsModulus) {
     for (const double kappa : {-3.0, 2.0}) {
         EXPECT_EQ(cpu::volume_stress(1.0, kappa), 0.0);
         const double h = 1e-6;
@@ -168,7 +180,7 @@ TEST(NodeTerms, VolumeStressIsNoSteeperThanItsModulus) {
     EXPECT_EQ(cpu::volume_stress(-7.0, -3.0), 0.0);
 }
 
-TEST(NodeTerms, ATetsVolumeTermIsThatOfItsEnergy) {
+TEST(Elements, ATetsVolumeTermIsThatOfItsEnergy) {
     Random random;
     const double volume = 0.02, offset = 300.0, modulus = 5e3;
     for (int i = 0; i < 200; ++i) {
@@ -176,14 +188,14 @@ TEST(NodeTerms, ATetsVolumeTermIsThatOfItsEnergy) {
         const std::array<V, 3> face{random.point(0.5), random.point(0.5), random.point(0.5)};
         const auto terms_at = [&](const V& p) {
             Terms terms;
-            const V slope = cpu::volume_slope(face, volume);
+            const V slope = cpu::volume_slope(face[1] - face[0], face[2] - face[0], 1.0 / (6.0 * volume));
             cpu::add_tet_volume(slope, glm::dot(p - face[0], slope), {volume * offset, volume * modulus},
                                 terms);
             return terms;
         };
         const auto energy = [&](const V& p) {
             const double v = glm::dot(p - face[0], glm::cross(face[1] - face[0], face[2] - face[0])) / 6.0;
-            return volume * (offset * v / volume + 0.5 * modulus * v * v / (volume * volume));
+            return cpu::volume_bound_energy<double>(v / volume, {volume * offset, volume * modulus});
         };
         const Terms terms = terms_at(x);
         expect_force_of(energy, x, terms.force, 1e-5 * glm::length(terms.force) + 1e-6);
@@ -192,7 +204,7 @@ TEST(NodeTerms, ATetsVolumeTermIsThatOfItsEnergy) {
     }
 }
 
-TEST(NodeTerms, SolvesWhatIsPositive) {
+TEST(Elements, SolvesWhatIsPositive) {
     Random random;
     for (int i = 0; i < 200; ++i) {
         Terms terms{random.point(1.0), {}};
@@ -202,7 +214,7 @@ TEST(NodeTerms, SolvesWhatIsPositive) {
     }
 }
 
-TEST(NodeTerms, MovesNothingAlongWhatHasNoStiffness) {
+TEST(Elements, MovesNothingAlongWhatHasNoStiffness) {
     EXPECT_EQ(cpu::solve(Terms{}), V(0));
     const V n(0.6, 0.0, 0.8);
     Terms terms{2.0 * n, {}};
