@@ -31,6 +31,14 @@ HWY_INLINE void prefetch_lanes(const T* first) {
     }
 }
 
+// Of a table that is read block by block, so that what comes next is there in time.
+template <class Block>
+HWY_INLINE void prefetch_block(const Block* block) {
+    constexpr std::size_t kAhead = 1024, kLine = 64;  // bytes
+    for (std::size_t offset = 0; offset < sizeof(Block); offset += kLine)
+        __builtin_prefetch(reinterpret_cast<const char*>(block) + kAhead + offset);
+}
+
 struct Columns {
     Vector x, y, z, w;
 };

@@ -37,6 +37,7 @@ HWY_INLINE void gather_spring_lanes(Lanes d, const SpringBlocks& springs, std::s
                                     TermLanes& terms) {
     for (std::uint32_t b = springs.starts[group]; b < springs.starts[group + 1]; ++b) {
         const SpringBlock& block = springs.blocks[b];
+        prefetch_block(&block);
         const Columns other = load_nodes(d, positions, &block.nodes[row]);
         const SpringLaw<FloatLanes> spring{hn::LoadU(d, &block.rest_lengths[row]),
                                            hn::LoadU(d, &block.stiffnesses[row])};
@@ -72,8 +73,9 @@ HWY_INLINE void gather_terms(Lanes d, const DescentGroups& from, std::size_t gro
     gather_volume_lanes(d, from.tets, group, row, self, &positions[0].x, terms);
 }
 
-void gather_rows(const DescentGroups& from, std::size_t group, std::span<const glm::vec4> positions,
-                 TermColumns& terms) {
+// Flattened: calls of formulas would pass lanes through memory.
+HWY_FLATTEN void gather_rows(const DescentGroups& from, std::size_t group,
+                             std::span<const glm::vec4> positions, TermColumns& terms) {
     const Lanes d;
     const std::array<std::uint32_t, kGroup> shown = shown_nodes(&from.nodes[group * kGroup]);
     for (std::uint32_t row = 0; row < kGroup; row += kLanes) {
@@ -85,8 +87,8 @@ void gather_rows(const DescentGroups& from, std::size_t group, std::span<const g
     }
 }
 
-std::uint32_t descend_rows(const DescentGroups& from, std::size_t group, TermColumns& terms,
-                           std::span<glm::vec4> positions) {
+HWY_FLATTEN std::uint32_t descend_rows(const DescentGroups& from, std::size_t group, TermColumns& terms,
+                                       std::span<glm::vec4> positions) {
     const Lanes d;
     const std::uint32_t* nodes = &from.nodes[group * kGroup];
     const std::array<std::uint32_t, kGroup> shown = shown_nodes(nodes);

@@ -29,6 +29,7 @@ HWY_INLINE void gather_neo_hookean_lanes(Lanes d, const DescentTets& tets, std::
     const Columns start = load_nodes(d, &tets.starts[0].x, &shown[row]);
     for (std::uint32_t b = first; b < end; ++b) {
         const NeoHookeanBlock& block = tets.blocks.neo_hookean[b];
+        prefetch_block(&block);
         const NeoHookeanLanes tet(d, block, row, EdgeLanes(d, positions, block, row, self));
         add_neo_hookean(tet.at_corner, tet.moduli, load_bounds(d, tets.bounds, &block.tets[row]), terms);
         tet.add_openings(d, tets.blocks.openings[b], row, terms.force);
@@ -44,6 +45,7 @@ HWY_INLINE void gather_volume_lanes(Lanes d, const DescentTets& tets, std::size_
                                     const Columns& self, const float* positions, TermLanes& terms) {
     for (std::uint32_t b = tets.blocks.volume_starts[group]; b < tets.blocks.volume_starts[group + 1]; ++b) {
         const VolumeBlock& block = tets.blocks.volumes[b];
+        prefetch_block(&block);
         const EdgeLanes edges(d, positions, block, row, self);
         const Vec3Lanes slope = load(d, block.inverse_six_volumes, row) * edges.area();
         add_tet_volume(slope, -dot(edges.a, slope), load_bounds(d, tets.bounds, &block.tets[row]), terms);

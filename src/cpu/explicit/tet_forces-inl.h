@@ -21,6 +21,7 @@ HWY_INLINE void add_tet_forces(Lanes d, const Pass<float>& pass, const TetBlocks
     const std::uint32_t group = first / kGroup, row = first % kGroup;
     for (std::uint32_t b = blocks.neo_hookean_starts[group]; b < blocks.neo_hookean_starts[group + 1]; ++b) {
         const NeoHookeanBlock& block = blocks.neo_hookean[b];
+        prefetch_block(&block);
         const EdgeLanes edges(d, &pass.positions[0].x, block, row, position);
         const NeoHookeanLanes tet(d, block, row, edges);
         force += neo_hookean_force(tet.at_corner, tet.moduli);
