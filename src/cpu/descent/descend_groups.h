@@ -38,7 +38,7 @@ std::vector<ColliderBound> make_collider_bounds(std::span<const Collider> collid
 /// The tets of a step.
 struct DescentTets {
     const TetBlocks& blocks;
-    std::span<const glm::vec4> bounds;  ///< VolumeBound of each tet in xy; empty without a volume term
+    const TetOffsets& offsets;          ///< empty without a volume term
     std::span<const glm::vec4> starts;  ///< xyz when the step began [m], damping time [s], shape [nodes]
     float inverse_step;                 ///< [1/s]
 };

@@ -13,29 +13,33 @@
 HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {
 
-HWY_INLINE VolumeBound<FloatLanes> load_bounds(Lanes d, std::span<const glm::vec4> bounds,
-                                               const std::uint32_t* tets) {
-    if (bounds.empty()) return {};
-    const Columns columns = load_nodes(d, &bounds[0].x, tets);
-    return {columns.x, columns.y};
-}
-
 HWY_INLINE void gather_neo_hookean_lanes(Lanes d, const DescentTets& tets, std::size_t group,
                                          std::uint32_t row, const std::uint32_t* shown, const Columns& self,
                                          const float* positions, TermLanes& terms) {
-    const std::uint32_t first = tets.blocks.neo_hookean_starts[group],
-                        end = tets.blocks.neo_hookean_starts[group + 1];
+    const TetBlocks& blocks = tets.blocks;
+    const std::uint32_t first = blocks.neo_hookean_starts[group], end = blocks.neo_hookean_starts[group + 1];
     if (first == end) return;
-    const Columns start = load_nodes(d, &tets.starts[0].x, &shown[row]);
+    const float* starts = &tets.starts[0].x;
+    const Columns start = load_nodes(d, starts, &shown[row]);
+    const FloatLanes damping_factor(0.25f * tets.inverse_step);
+    StripLanes strip, before;
     for (std::uint32_t b = first; b < end; ++b) {
-        const NeoHookeanBlock& block = tets.blocks.neo_hookean[b];
+        const NeoHookeanBlock& block = blocks.neo_hookean[b];
         prefetch_block(&block);
-        const NeoHookeanLanes tet(d, block, row, EdgeLanes(d, positions, block, row, self));
-        add_neo_hookean(tet.at_corner, tet.moduli, load_bounds(d, tets.bounds, &block.tets[row]), terms);
-        tet.add_openings(d, tets.blocks.openings[b], row, terms.force);
-        if (!tets.blocks.is_damped) continue;
-        const EdgeLanes before(d, &tets.starts[0].x, block, row, start);
-        const FloatLanes damping = FloatLanes(0.25f * tets.inverse_step) * before.sum_of_w;
+        const Vector signs = hn::LoadU(d, &block.mu[row]);
+        strip.step(d, positions, &block.nodes[row], self, signs);
+        if (blocks.is_damped) before.step(d, starts, &block.nodes[row], start, signs);
+        if (b < first + TetBlocks::kEmptyBlocks) continue;
+        VolumeBound<FloatLanes> bound;
+        if (!blocks.neo_hookean_moduli.empty())
+            bound = {load(d, tets.offsets.neo_hookean[b].values, row),
+                     load(d, blocks.neo_hookean_moduli[b].values, row)};
+        const NeoHookeanLanes tet(d, block, row, strip);
+        add_neo_hookean(tet.at_corner, tet.moduli, bound, terms);
+        tet.add_openings(d, blocks.openings[b], row, terms.force);
+        if (!blocks.is_damped) continue;
+        const FloatLanes damping =
+            damping_factor * (FloatLanes(start.w) + before.w_a + before.w_b + before.w_c);
         if (hn::AllFalse(d, damping > FloatLanes(0.0f))) continue;
         add_viscosity(tet.g, tet.f, tet.gradient_of(before), tet.moduli, damping, terms);
     }
@@ -43,12 +47,18 @@ HWY_INLINE void gather_neo_hookean_lanes(Lanes d, const DescentTets& tets, std::
 
 HWY_INLINE void gather_volume_lanes(Lanes d, const DescentTets& tets, std::size_t group, std::uint32_t row,
                                     const Columns& self, const float* positions, TermLanes& terms) {
-    for (std::uint32_t b = tets.blocks.volume_starts[group]; b < tets.blocks.volume_starts[group + 1]; ++b) {
-        const VolumeBlock& block = tets.blocks.volumes[b];
+    const TetBlocks& blocks = tets.blocks;
+    const std::uint32_t first = blocks.volume_starts[group], end = blocks.volume_starts[group + 1];
+    StripLanes strip;
+    for (std::uint32_t b = first; b < end; ++b) {
+        const VolumeBlock& block = blocks.volumes[b];
         prefetch_block(&block);
-        const EdgeLanes edges(d, positions, block, row, self);
-        const Vec3Lanes slope = load(d, block.inverse_six_volumes, row) * edges.area();
-        add_tet_volume(slope, -dot(edges.a, slope), load_bounds(d, tets.bounds, &block.tets[row]), terms);
+        const Vector modulus = hn::LoadU(d, &block.modulus[row]);
+        strip.step(d, positions, &block.nodes[row], self, modulus);
+        if (b < first + TetBlocks::kEmptyBlocks) continue;
+        const Vec3Lanes slope = load(d, block.inverse_six_volumes, row) * strip.area();
+        const VolumeBound<FloatLanes> bound{load(d, tets.offsets.volumes[b].values, row), hn::Abs(modulus)};
+        add_tet_volume(slope, -dot(strip.a, slope), bound, terms);
     }
 }
 

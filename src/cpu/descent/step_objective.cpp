@@ -13,12 +13,11 @@ StepObjective<Real>::StepObjective(std::shared_ptr<const Model> model, std::uint
       model_(std::move(model)),
       has_damping_(model_->has_damping()),
       rows_(make_descent_rows(*model_, nodes_a_batch)),
-      tets_(model_, rows_.batches.size()) {
+      tets_(model_, rows_) {
     if constexpr (kIsFloat<Real>) {
         springs_ = make_spring_blocks(rows_);
         rows_.springs = {};
         if (has_damping_) damped_springs_ = springs_;
-        tet_blocks_ = make_tet_blocks(*model_, rows_.nodes, tets_.node_tets());
     }
 }
 

@@ -34,7 +34,7 @@ public:
     }
     /// Updates the state of the tets of a batch of rows() (cpu/descent/tet_resistance.h).
     void update(std::size_t batch, const std::vector<Vec4<Real>>& positions) {
-        tets_.update(batch, rows_.batches[batch], positions);
+        tets_.update(batch, rows_, positions);
     }
 
     /// Rows of nodes by batch and colour; their springs are in groups().
@@ -45,7 +45,7 @@ public:
     template <class Groups = DescentGroups>
     Groups groups(std::span<const ColliderBound> colliders = {}) const {
         return {has_damping_ ? damped_springs_ : springs_,
-                {tet_blocks_, tets_.bounds(), starts, inverse_step_},
+                {tets_.blocks(), tets_.offsets(), starts, inverse_step_},
                 rows_.nodes,
                 targets,
                 colliders};
@@ -73,7 +73,6 @@ private:
     TetResistance<Real> tets_;
     Real inverse_step_ = Real(0);            // [1/s]
     SpringBlocks springs_, damped_springs_;  // in float; damped ones where the model has dampers
-    TetBlocks tet_blocks_;                   // in float
 };
 
 }  // namespace gelatin::cpu

@@ -15,16 +15,20 @@
 
 namespace gelatin::cpu {
 template <class Real>
-TetResistance<Real>::TetResistance(std::shared_ptr<const Model> model, std::size_t batches)
+TetResistance<Real>::TetResistance(std::shared_ptr<const Model> model, const DescentRows& rows)
     : model_(std::move(model)),
       node_tets_(make_node_tets(model_->node_count(), model_->tets)),
       object_of_(objects_of_nodes(*model_)),
       ratios_(model_->tets.size()),
       is_near_flat_(model_->node_count()),
-      any_flat_(batches) {
-    if (model_->volume_term.is_empty()) return;
-    node_pressures_.resize(model_->node_count());
-    bounds_.resize(model_->tets.size());
+      any_flat_(rows.batches.size()) {
+    if constexpr (std::is_same_v<Real, float>) {
+        blocks_ = make_tet_blocks(*model_, rows.nodes, node_tets_);
+        if (!model_->volume_term.is_empty()) volume_bounds_ = VolumeBounds(*model_, blocks_);
+    } else if (!model_->volume_term.is_empty()) {
+        node_pressures_.resize(model_->node_count());
+        bounds_.resize(model_->tets.size());
+    }
 }
 
 template <class Real>
@@ -56,9 +60,9 @@ bool TetResistance<Real>::is_tangled(const ModelObject& object,
 }
 
 template <class Real>
-void TetResistance<Real>::update(std::size_t index, const DescentBatch& batch,
+void TetResistance<Real>::update(std::size_t index, const DescentRows& rows,
                                  const std::vector<Vec4<Real>>& positions) {
-    const Model& model = *model_;
+    const DescentBatch& batch = rows.batches[index];
     std::uint8_t& any_flat = any_flat_[index];
     if (any_flat != 0)
         std::fill_n(is_near_flat_.begin() + batch.nodes.first, batch.nodes.count, std::uint8_t(0));
@@ -69,8 +73,18 @@ void TetResistance<Real>::update(std::size_t index, const DescentBatch& batch,
         update_range({batch.tets.first + first, std::min(kTetsATask, batch.tets.count - first)}, any_flat,
                      positions);
     });
+    if (model_->volume_term.is_empty()) return;
+    if constexpr (std::is_same_v<Real, float>) {
+        volume_bounds_.update(*model_, blocks_, batch, rows.nodes, ratios_);
+    } else {
+        update_bounds(batch);
+    }
+}
+
+template <class Real>
+void TetResistance<Real>::update_bounds(const DescentBatch& batch) {
+    const Model& model = *model_;
     const VolumeTerm& term = model.volume_term;
-    if (term.is_empty()) return;
     for_each_index(batch.nodes, [&](std::uint32_t n) {
         Real volume(0);
         for (std::uint32_t e = node_tets_.starts[n]; e < node_tets_.starts[n + 1]; ++e) {
@@ -87,7 +101,7 @@ void TetResistance<Real>::update(std::size_t index, const DescentBatch& batch,
         for (int k = 0; k < 4; ++k) sum += node_pressures_[tet[k]];
         const auto volume = static_cast<Real>(model.tet_rests[t].volume),
                    modulus = static_cast<Real>(term.tets[t]);
-        bounds_[t] = volume * Vec4<Real>(Real(0.25) * sum - modulus * ratios_[t], modulus, 0, 0);
+        bounds_[t] = {volume * (Real(0.25) * sum - modulus * ratios_[t]), volume * modulus};
     });
 }
 
@@ -110,8 +124,7 @@ void TetResistance<Real>::update_range(const Range& tets, std::uint8_t& any_flat
 
 template <class Real>
 VolumeBound<Real> TetResistance<Real>::volume_bound(std::uint32_t tet) const {
-    if (bounds_.empty()) return {};
-    return {bounds_[tet].x, bounds_[tet].y};
+    return bounds_.empty() ? VolumeBound<Real>() : bounds_[tet];
 }
 
 template <class Real>

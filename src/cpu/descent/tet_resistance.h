@@ -4,7 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include "cpu/descent/volume_bounds.h"
 #include "cpu/elasticity/elements.h"
+#include "cpu/elasticity/tet_blocks.h"
 #include "cpu/nodes.h"
 #include "model/descent/descent_rows.h"
 #include "model/elasticity/node_tets.h"
@@ -31,16 +33,18 @@ struct StepStart {
 template <class Real>
 class TetResistance {
 public:
-    /// @param batches of bodies that are updated one by one
-    TetResistance(std::shared_ptr<const Model> model, std::size_t batches);
+    /// @param rows whose batches are updated one by one
+    TetResistance(std::shared_ptr<const Model> model, const DescentRows& rows);
 
-    const NodeTets& node_tets() const { return node_tets_; }  ///< of the model's tets
+    const TetBlocks& blocks() const { return blocks_; }                     ///< for SIMD, in float
+    const TetOffsets& offsets() const { return volume_bounds_.offsets(); }  ///< as above
 
     /// True if a tet of the object is far from its volume at rest (kLeastSound, kMostSound).
     bool is_tangled(const ModelObject& object, const std::vector<Vec4<Real>>& positions) const;
 
     /// Finds which tets of a batch are flat and how far the volumes are from those at rest.
-    void update(std::size_t index, const DescentBatch& batch, const std::vector<Vec4<Real>>& positions);
+    /// @param rows as for the constructor
+    void update(std::size_t index, const DescentRows& rows, const std::vector<Vec4<Real>>& positions);
 
     /// True if a tet of the batch, or of any, was flat at its last update.
     bool any_flat(std::size_t batch) const { return any_flat_[batch] != 0; }
@@ -51,16 +55,13 @@ public:
     void add_flat_tets(std::uint32_t node, const std::vector<Vec4<Real>>& positions,
                        NodeTerms<Real>& terms) const;
 
-    /// VolumeBound of each tet in xy at the last update, with the volumes around nodes as they were then;
-    /// empty without a volume term.
-    const std::vector<Vec4<Real>>& bounds() const { return bounds_; }
-
     /// Adds the contributions of all of the node's tets.
     void add(std::uint32_t node, const std::vector<Vec4<Real>>& positions, const StepStart<Real>& start,
              NodeTerms<Real>& terms) const;
 
 private:
     void update_range(const Range& tets, std::uint8_t& any_flat, const std::vector<Vec4<Real>>& positions);
+    void update_bounds(const DescentBatch& batch);
     void add_neo_hookean_tets(std::uint32_t node, const std::vector<Vec4<Real>>& positions,
                               const StepStart<Real>& start, NodeTerms<Real>& terms) const;
     VolumeBound<Real> volume_bound(std::uint32_t tet) const;
@@ -75,8 +76,12 @@ private:
     std::vector<Real> ratios_;                // J, by tet
     std::vector<std::uint8_t> is_near_flat_;  // nodes of tets that resist
     std::vector<std::uint8_t> any_flat_;      // by batch
-    std::vector<Real> node_pressures_;        // [Pa]
-    std::vector<Vec4<Real>> bounds_;          // VolumeBound in xy, by tet; empty without a volume term
+    // In double, empty without a volume term:
+    std::vector<Real> node_pressures_;       // [Pa]
+    std::vector<VolumeBound<Real>> bounds_;  // by tet
+    // In float:
+    TetBlocks blocks_;
+    VolumeBounds volume_bounds_;
 };
 
 }  // namespace gelatin::cpu

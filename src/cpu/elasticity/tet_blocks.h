@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "cpu/groups.h"
@@ -11,28 +12,46 @@
 
 namespace gelatin::cpu {
 
-/// A NeoHookeanCorner (shaders/layouts/neo_hookean_corner.glsl) of each row of a group.
-struct alignas(32) NeoHookeanBlock {  // 384 bytes
+/// A step along the strips of the rows of a group (cpu/elasticity/link_strip.h): a vertex of each row, and
+/// what completes the neo-Hookean tet that it and the two before it make with the row's node. It is a
+/// NeoHookeanCorner (shaders/layouts/neo_hookean_corner.glsl) with these three vertices as a, b and c, and
+/// with cc negative where they come clockwise. All of it is zero where no tet is complete.
+struct alignas(32) NeoHookeanBlock {  // 288 bytes
     using Column = std::array<float, kGroup>;
-    std::array<std::array<std::uint32_t, kGroup>, 3> nodes;  ///< a, b and c, counter-clockwise from the node
-    Column aa, ab, bb, ac, bc, cc;                           ///< [1/m]
-    Column mu, lambda;                                       ///< times V [J]; 0 where a row has no more
-    std::array<std::uint32_t, kGroup> tets;                  ///< in Model::tets
+    std::array<std::uint32_t, kGroup> nodes;  ///< the row's own behind the strip's end
+    Column aa, ab, bb, ac, bc, cc;            ///< [1/m]
+    Column mu;      ///< times V [J]; the sign bit is set where the oldest vertex stays
+    Column lambda;  ///< times V [J]
 };
 
-/// A tet of springs of each row of a group, for its part of the volume term.
-struct alignas(32) VolumeBlock {                             // 160 bytes
-    std::array<std::array<std::uint32_t, kGroup>, 3> nodes;  ///< as above
-    std::array<float, kGroup> inverse_six_volumes;           ///< 1 / (6 V) [1/m^3]; 0 where a row has no more
-    std::array<std::uint32_t, kGroup> tets;                  ///< as above
+/// The same of the tets of springs, for their part of the volume term.
+struct alignas(32) VolumeBlock {              // 96 bytes
+    std::array<std::uint32_t, kGroup> nodes;  ///< as above
+    /// 1 / (6 V) [1/m^3]; negative where they come clockwise
+    std::array<float, kGroup> inverse_six_volumes;
+    /// VolumeBound's [J]; the sign bit is set where the oldest vertex stays
+    std::array<float, kGroup> modulus;
 };
+
+/// A value of each row of a block.
+struct alignas(32) BlockColumn {
+    std::array<float, kGroup> values;
+};
+
+/// The tets of a block, in Model::tets; the number of all where there is none.
+using BlockTets = std::array<std::uint32_t, kGroup>;
 
 /// The tets of rows of nodes as SIMD reads them: a group's blocks one after another, and group after group.
 struct TetBlocks {
+    /// Of a group's blocks, the first ones complete no tet.
+    static constexpr std::uint32_t kEmptyBlocks = 2;
+
     std::vector<NeoHookeanBlock> neo_hookean;
-    std::vector<std::array<glm::vec3, kGroup>>
-        openings;                                   ///< mu V g of each of them, read if it is collapsed [N]
-    std::vector<VolumeBlock> volumes;               ///< none if the model has no volume term
+    std::vector<BlockTets> neo_hookean_tets;
+    std::vector<BlockColumn> neo_hookean_moduli;          ///< VolumeBound's [J]; none without a volume term
+    std::vector<std::array<glm::vec3, kGroup>> openings;  ///< mu V g, read where a tet is collapsed [N]
+    std::vector<VolumeBlock> volumes;                     ///< none without a volume term
+    std::vector<BlockTets> volume_tets;
     std::vector<std::uint32_t> neo_hookean_starts;  ///< of each group, and the end, shape [groups + 1]
     std::vector<std::uint32_t> volume_starts;
     bool is_damped = false;  ///< whether any of the model's nodes are
@@ -41,7 +60,15 @@ struct TetBlocks {
 };
 
 /// @param nodes of the rows, or kNoNode, whole groups @param node_tets those of the model's tets
-TetBlocks make_tet_blocks(const Model& model, const std::vector<std::uint32_t>& nodes,
+TetBlocks make_tet_blocks(const Model& model, std::span<const std::uint32_t> nodes,
                           const NodeTets& node_tets);
+
+/// VolumeBound's offsets of the tets of blocks [J]; empty without a volume term.
+struct TetOffsets {
+    std::vector<BlockColumn> neo_hookean, volumes;
+
+    TetOffsets() = default;
+    explicit TetOffsets(const TetBlocks& blocks);
+};
 
 }  // namespace gelatin::cpu

@@ -13,24 +13,29 @@
 HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {
 
-// Values at three other corners of each lane's tet, relative to its node.
-struct EdgeLanes {
+// Values at the last three vertices of strips, relative to the rows' nodes, the oldest first.
+struct StripLanes {
     Vec3Lanes a, b, c;
-    FloatLanes sum_of_w;  // of all four
+    FloatLanes w_a, w_b, w_c;
 
-    template <class Block>
-    HWY_INLINE EdgeLanes(Lanes d, const float* values, const Block& block, std::uint32_t row,
-                         const Columns& self) {
-        const Columns at_a = load_nodes(d, values, &block.nodes[0][row]),
-                      at_b = load_nodes(d, values, &block.nodes[1][row]),
-                      at_c = load_nodes(d, values, &block.nodes[2][row]);
-        a = difference(at_a, self);
-        b = difference(at_b, self);
-        c = difference(at_c, self);
-        sum_of_w = hn::Add(hn::Add(self.w, at_a.w), hn::Add(at_b.w, at_c.w));
+    HWY_INLINE StripLanes()
+        : a(FloatLanes(0.0f)), b(FloatLanes(0.0f)), c(FloatLanes(0.0f)), w_a(0.0f), w_b(0.0f), w_c(0.0f) {}
+
+    // @param nodes the vertices that come in @param keeps_oldest by its sign bit
+    HWY_INLINE void step(Lanes d, const float* values, const std::uint32_t* nodes, const Columns& self,
+                         Vector keeps_oldest) {
+        const hn::Rebind<std::int32_t, Lanes> di;  // of floats, -0 would not be negative
+        const LaneMask keeps = hn::RebindMask(d, hn::Lt(hn::BitCast(di, keeps_oldest), hn::Zero(di)));
+        a = {select(keeps, a.x, b.x), select(keeps, a.y, b.y), select(keeps, a.z, b.z)};
+        w_a = select(keeps, w_a, w_b);
+        b = c;
+        w_b = w_c;
+        const Columns next = load_nodes(d, values, nodes);
+        c = difference(next, self);
+        w_c = next.w;
     }
 
-    // Twice the area of the face opposite to the node, away from it.
+    // Twice the area of the triangle, away from the nodes where its vertices come counter-clockwise.
     HWY_INLINE Vec3Lanes area() const { return cross(b - a, c - a); }
 };
 
@@ -46,8 +51,8 @@ struct NeoHookeanLanes {
     TetAtCorner<FloatLanes> at_corner;
 
     HWY_INLINE NeoHookeanLanes(Lanes d, const NeoHookeanBlock& block, std::uint32_t row,
-                               const EdgeLanes& edges)
-        : moduli{load(d, block.mu, row), load(d, block.lambda, row)},
+                               const StripLanes& strip)
+        : moduli{hn::Abs(load(d, block.mu, row).v), load(d, block.lambda, row)},
           aa_(load(d, block.aa, row)),
           ab_(load(d, block.ab, row)),
           bb_(load(d, block.bb, row)),
@@ -55,23 +60,24 @@ struct NeoHookeanLanes {
           bc_(load(d, block.bc, row)),
           cc_(load(d, block.cc, row)) {
         g = {-(aa_ + ab_ + ac_), -(bb_ + bc_), -cc_};
-        f = gradient_of(edges);
+        f = gradient_of(strip);
         at_corner.stretched = f * g;
-        at_corner.slope = (aa_ * bb_ * cc_) * edges.area();
+        at_corner.slope = (aa_ * bb_ * cc_) * strip.area();
         at_corner.squares = double_dot(f, f);
-        at_corner.ratio = -dot(edges.a, at_corner.slope);
+        at_corner.ratio = -dot(strip.a, at_corner.slope);
         at_corner.gradient_squared = dot(g, g);
     }
 
-    HWY_INLINE Mat3Lanes gradient_of(const EdgeLanes& edges) const {
-        return {multiply_add(aa_, edges.a, multiply_add(ab_, edges.b, ac_ * edges.c)),
-                multiply_add(bb_, edges.b, bc_ * edges.c), cc_ * edges.c};
+    HWY_INLINE Mat3Lanes gradient_of(const StripLanes& strip) const {
+        return {multiply_add(aa_, strip.a, multiply_add(ab_, strip.b, ac_ * strip.c)),
+                multiply_add(bb_, strip.b, bc_ * strip.c), cc_ * strip.c};
     }
 
     // Tets that are nearly a point open in their rest orientation, which blocks do not have.
     HWY_INLINE void add_openings(Lanes d, const std::array<glm::vec3, kGroup>& openings, std::uint32_t row,
                                  Vec3Lanes& force) const {
-        const LaneMask collapsed = at_corner.squares < FloatLanes(static_cast<float>(kCollapsed));
+        const LaneMask collapsed = hn::And(
+            at_corner.squares<FloatLanes(static_cast<float>(kCollapsed)), moduli.mu> FloatLanes(0.0f));
         if (hn::AllFalse(d, collapsed)) return;
         HWY_ALIGN float x[kLanes], y[kLanes], z[kLanes];
         for (std::size_t l = 0; l < kLanes; ++l) {

@@ -19,16 +19,21 @@ namespace gelatin::cpu::HWY_NAMESPACE {
 HWY_INLINE void add_tet_forces(Lanes d, const Pass<float>& pass, const TetBlocks& blocks, std::uint32_t first,
                                const Columns& position, const Columns& velocity, Vec3Lanes& force) {
     const std::uint32_t group = first / kGroup, row = first % kGroup;
-    for (std::uint32_t b = blocks.neo_hookean_starts[group]; b < blocks.neo_hookean_starts[group + 1]; ++b) {
+    const std::uint32_t begin = blocks.neo_hookean_starts[group], end = blocks.neo_hookean_starts[group + 1];
+    StripLanes strip, rates;
+    for (std::uint32_t b = begin; b < end; ++b) {
         const NeoHookeanBlock& block = blocks.neo_hookean[b];
         prefetch_block(&block);
-        const EdgeLanes edges(d, &pass.positions[0].x, block, row, position);
-        const NeoHookeanLanes tet(d, block, row, edges);
+        const Vector signs = hn::LoadU(d, &block.mu[row]);
+        strip.step(d, &pass.positions[0].x, &block.nodes[row], position, signs);
+        if (blocks.is_damped) rates.step(d, &pass.velocities[0].x, &block.nodes[row], velocity, signs);
+        if (b < begin + TetBlocks::kEmptyBlocks) continue;
+        const NeoHookeanLanes tet(d, block, row, strip);
         force += neo_hookean_force(tet.at_corner, tet.moduli);
         tet.add_openings(d, blocks.openings[b], row, force);
         if (!blocks.is_damped) continue;
-        const EdgeLanes rates(d, &pass.velocities[0].x, block, row, velocity);
-        const FloatLanes damping_time = FloatLanes(0.25f) * rates.sum_of_w;
+        const FloatLanes damping_time =
+            FloatLanes(0.25f) * (FloatLanes(velocity.w) + rates.w_a + rates.w_b + rates.w_c);
         if (hn::AllFalse(d, damping_time > FloatLanes(0.0f))) continue;
         force += viscous_force(tet.g, tet.f, tet.gradient_of(rates), tet.moduli, damping_time);
     }

@@ -38,19 +38,19 @@ std::array<glm::dvec3, 4> shape_gradients(const NeoHookeanTet& tet) {
     return {-(g1 + g2 + g3), g1, g2, g3};
 }
 
-// Gram-Schmidt makes the gradients triangular: by a rotation, or a reflection.
-NeoHookeanCorner make_neo_hookean_corner(const NeoHookeanTet& tet, std::uint32_t corner,
+// Gram-Schmidt makes the gradients triangular. Energies see no reflection, either: its z axis is opposed to
+// that of x and y, for which counter-clockwise corners have a positive cc.
+NeoHookeanCorner make_neo_hookean_corner(const NeoHookeanTet& tet, const std::array<int, 3>& others,
                                          std::uint32_t index) {
     const std::array<glm::dvec3, 4> gradients = shape_gradients(tet);
-    const auto& others = kOppositeCorners[corner];
-    const auto other = [&](int k) { return gradients[static_cast<std::size_t>(others[k])]; };
-    const glm::dvec3 a = other(0), b = other(1), c = other(2);
+    const auto gradient = [&](int k) { return gradients[static_cast<std::size_t>(k)]; };
+    const glm::dvec3 a = gradient(others[0]), b = gradient(others[1]), c = gradient(others[2]);
     const double aa = glm::length(a);
     const glm::dvec3 x = a / aa;
     const double ab = glm::dot(x, b), ac = glm::dot(x, c);
     const double bb = glm::length(b - ab * x);
     const glm::dvec3 y = (b - ab * x) / bb;
-    const double bc = glm::dot(y, c), cc = glm::length(c - ac * x - bc * y);
+    const double bc = glm::dot(y, c), cc = -glm::dot(glm::cross(x, y), c);
     const float volume = tet.gradient_1.w, mu = volume * tet.gradient_2.w;
     const glm::uvec4 nodes = nodes_of(tet);
     return {.node_a = nodes[others[0]],
@@ -65,15 +65,20 @@ NeoHookeanCorner make_neo_hookean_corner(const NeoHookeanTet& tet, std::uint32_t
             .cc = static_cast<float>(cc),
             .mu = mu,
             .lambda = volume * tet.gradient_3.w,
-            .opening = mu * glm::vec4(gradients[corner], 0.0)};
+            .opening = mu * glm::vec4(gradient(6 - others[0] - others[1] - others[2]), 0.0)};
 }
 
-NeoHookeanCorners pack_neo_hookean_corners(const Model& model, std::span<const std::uint32_t> rows) {
-    std::vector<std::uint32_t> indices(model.neo_hookean_tets.size());  // in Model::tets
+std::vector<std::uint32_t> neo_hookean_tet_indices(const Model& model) {
+    std::vector<std::uint32_t> indices(model.neo_hookean_tets.size());
     for (const ModelObject& object : model.objects) {
         const auto first = indices.begin() + object.neo_hookean_tets.first;
         std::iota(first, first + object.neo_hookean_tets.count, object.tets.first);
     }
+    return indices;
+}
+
+NeoHookeanCorners pack_neo_hookean_corners(const Model& model, std::span<const std::uint32_t> rows) {
+    const std::vector<std::uint32_t> indices = neo_hookean_tet_indices(model);
     const NodeTetSlices slices = pack_node_tets(rows, model.neo_hookean_corners);
     NeoHookeanCorners packed{slices.slice_starts, {}};
     packed.corners.reserve(slices.entries.size());
@@ -81,8 +86,9 @@ NeoHookeanCorners pack_neo_hookean_corners(const Model& model, std::span<const s
         if (entry == NodeTetSlices::kNoEntry) {
             packed.corners.emplace_back().tet = packing::kNone;
         } else {
-            packed.corners.push_back(
-                make_neo_hookean_corner(model.neo_hookean_tets[entry / 4], entry % 4, indices[entry / 4]));
+            const auto& others = kOppositeCorners[entry % 4];
+            packed.corners.push_back(make_neo_hookean_corner(
+                model.neo_hookean_tets[entry / 4], {others[0], others[1], others[2]}, indices[entry / 4]));
         }
     }
     return packed;

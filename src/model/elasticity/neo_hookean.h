@@ -37,8 +37,14 @@ NeoHookeanTet make_neo_hookean_tet(const glm::uvec4& nodes, const std::array<glm
 /// The gradients of the corners' shape functions [1/m].
 std::array<glm::dvec3, 4> shape_gradients(const NeoHookeanTet& tet);
 
-/// A tet as one of its corners sees it. @param index of the tet in Model::tets
-NeoHookeanCorner make_neo_hookean_corner(const NeoHookeanTet& tet, std::uint32_t corner, std::uint32_t index);
+/// A tet as one of its corners sees it.
+/// @param others the corners that become a, b and c; cc is negative if they come clockwise
+/// @param index of the tet in Model::tets
+NeoHookeanCorner make_neo_hookean_corner(const NeoHookeanTet& tet, const std::array<int, 3>& others,
+                                         std::uint32_t index);
+
+/// Of each neo-Hookean tet, where it is in Model::tets.
+std::vector<std::uint32_t> neo_hookean_tet_indices(const Model& model);
 
 /// Those of each row's node in slices of 64 rows, laid out as HalfSprings' pairs are.
 struct NeoHookeanCorners {
