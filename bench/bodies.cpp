@@ -6,7 +6,6 @@
 
 #include "mesh/shapes.h"
 #include "mesh/topology.h"
-#include "model/build/build_model.h"
 
 namespace gelatin {
 namespace {
@@ -41,15 +40,20 @@ TetMesh make_hollow_ball(double radius, int frequency) {
     return mesh;
 }
 
-std::shared_ptr<const Model> make_copies(const TetMesh& mesh, const std::vector<glm::dvec3>& places) {
-    std::vector<Body> bodies(places.size());
+std::shared_ptr<const Model> make_copies(const Body& body, const std::vector<glm::dvec3>& places) {
+    std::vector<Body> bodies(places.size(), body);
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         bodies[b].name = "body " + std::to_string(b);
-        bodies[b].mesh = mesh;
-        bodies[b].material.springs = SpringKinds{};  // the paper's: collision does not depend on it
         for (glm::dvec3& p : bodies[b].mesh.positions) p += places[b];
     }
     return std::make_shared<const Model>(pack_bodies(bodies, {}, glm::dvec3(0.0)));
+}
+
+std::shared_ptr<const Model> make_copies(const TetMesh& mesh, const std::vector<glm::dvec3>& places) {
+    Body body;
+    body.mesh = mesh;
+    body.material.springs = SpringKinds{};
+    return make_copies(body, places);
 }
 
 std::vector<glm::dvec3> jittered_lattice(std::size_t count, double spacing, double jitter) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh/tet_mesh.h"
+#include "model/build/build_model.h"
 #include "model/model.h"
 
 namespace gelatin {
@@ -14,7 +15,10 @@ namespace gelatin {
 /// same number of neighbours at any size.
 TetMesh make_hollow_ball(double radius, int frequency);
 
-/// Bodies with the same mesh at these positions [m]; no gravity, nothing else.
+/// Copies of a body at these positions [m]; no gravity, nothing else.
+std::shared_ptr<const Model> make_copies(const Body& body, const std::vector<glm::dvec3>& places);
+
+/// Bodies of the paper's springs with the same mesh: for collision, which does not depend on the material.
 std::shared_ptr<const Model> make_copies(const TetMesh& mesh, const std::vector<glm::dvec3>& places);
 
 /// The first `count` positions of a cubic lattice with that spacing, each displaced at random by up to

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "bench/kernels.h"
+#include "bench/materials.h"
 #include "bench/paper.h"
 #include "bench/scaling.h"
 #include "commands.h"
@@ -92,6 +93,24 @@ void add_scaling(CLI::App& bench) {
     scaling->callback([options] { bench_scaling(*options); });
 }
 
+void add_materials(CLI::App& bench) {
+    auto options = std::make_shared<MaterialBenchOptions>();
+    CLI::App* materials =
+        bench.add_subcommand("materials", "Cost of springs and tets, with volume term and damping");
+    materials->add_option("--json", options->json, "Also write the figures to this file")
+        ->type_name("FILE.json");
+    materials->add_option("--report", options->report, "Also write a report")->type_name("FILE.md");
+    materials->add_option("--runs", options->runs, "Samples of each measurement; the median counts")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    materials
+        ->add_option("--frequency", options->frequency, "Of the three balls, of 20 frequency^2 faces each")
+        ->check(CLI::Range(2, 200))
+        ->capture_default_str();
+    materials->add_flag("!--no-gl", options->use_gl, "Without OpenGL");
+    materials->callback([options] { bench_materials(*options); });
+}
+
 }  // namespace
 
 void add_bench_command(CLI::App& app) {
@@ -100,6 +119,7 @@ void add_bench_command(CLI::App& app) {
     add_paper(*bench);
     add_kernels(*bench);
     add_scaling(*bench);
+    add_materials(*bench);
 }
 
 }  // namespace gelatin

@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <set>
+
+#include "apps/program_test.h"
+
+namespace gelatin::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+class BenchMaterialsHeavy : public DrawingProgramTest {
+protected:
+    // With small balls.
+    ProgramResult bench(const std::vector<std::string>& more) const {
+        std::vector<std::string> arguments{"bench", "materials", "--frequency", "3"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments);
+    }
+};
+
+std::set<std::string> values(const json& rows, const std::string& key) {
+    std::set<std::string> found;
+    for (const json& row : rows) found.insert(row[key].get<std::string>());
+    return found;
+}
+
+double median(std::vector<double> samples) {
+    std::sort(samples.begin(), samples.end());
+    return samples[samples.size() / 2];
+}
+
+// The median of a row's samples over those of another.
+double median_ratio(const json& row, const json& other) {
+    std::vector<double> ratios;
+    for (std::size_t s = 0; s < row["ms"]["samples"].size(); ++s)
+        ratios.push_back(row["ms"]["samples"][s].get<double>() / other["ms"]["samples"][s].get<double>());
+    return median(ratios);
+}
+
+TEST_F(BenchMaterialsHeavy, ComparesMaterialsOnEverySystem) {
+    const ProgramResult result = bench({"--runs", "3", "--json", "m.json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json bench = read_json("m.json");
+    EXPECT_EQ(bench["benchmark"], "materials");
+    EXPECT_EQ(bench["settings"]["frequency"], 3);
+    const json& rows = bench["materials"];
+    const std::set<std::string> materials = values(rows, "material"), systems = values(rows, "system");
+    EXPECT_EQ(materials, (std::set<std::string>{"springs, nu 0.25", "springs, nu 0.3", "springs, nu 0.45",
+                                                "neo-Hookean, nu 0.25", "neo-Hookean, nu 0.3",
+                                                "neo-Hookean, nu 0.25, damped"}));
+    EXPECT_EQ(values(rows, "solver"), (std::set<std::string>{"vbd", "semi_implicit_euler"}));
+    EXPECT_EQ(systems.count("CPU, 1 thread"), 1u);
+    EXPECT_EQ(systems.count("OpenGL"), 1u);
+    ASSERT_EQ(rows.size(), materials.size() * systems.size() * 2);
+
+    json first;  // of the same solver and system
+    for (const json& row : rows) {
+        if (row["material"] == "springs, nu 0.25") first = row;
+        EXPECT_EQ(row["solver"], first["solver"]);
+        EXPECT_EQ(row["system"], first["system"]);
+        const std::vector<double> samples = row["ms"]["samples"];
+        ASSERT_EQ(samples.size(), 3u);
+        EXPECT_GT(*std::min_element(samples.begin(), samples.end()), 0.0);
+        EXPECT_DOUBLE_EQ(row["ms"]["median"], median(samples));
+        EXPECT_DOUBLE_EQ(row["ratio"], median_ratio(row, first));
+        if (row["solver"] == "vbd") {
+            EXPECT_DOUBLE_EQ(row["step"], 1.0 / 60.0);
+        } else {
+            EXPECT_LT(row["step"].get<double>(), 1.0 / 60.0);
+        }
+        EXPECT_THAT(result.out, HasSubstr("| " + row["material"].get<std::string>()));
+    }
+}
+
+TEST_F(BenchMaterialsHeavy, WritesAReport) {
+    const ProgramResult result = bench({"--runs", "1", "--no-gl", "--report", "m.md"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const std::string report = read_file(path("m.md"));
+    EXPECT_THAT(report, HasSubstr(result.out));
+    EXPECT_THAT(report, HasSubstr("-ffp-contract=off"));
+    EXPECT_THAT(report, Not(HasSubstr("| OpenGL |  ")));
+    EXPECT_THAT(report, Not(HasSubstr(path("").string())));
+}
+
+TEST_F(BenchMaterialsHeavy, RefusesWhatItCannotDo) {
+    const auto refused = [&](const std::vector<std::string>& more) {
+        const ProgramResult result = bench(more);
+        EXPECT_EQ(result.exit_code, 2);
+        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+        return result.err;
+    };
+    EXPECT_THAT(refused({"--report", "r.txt"}), HasSubstr("--report = r.txt: must end in .md"));
+    EXPECT_THAT(refused({"--json", "nowhere/m.json"}), HasSubstr("there is no folder nowhere"));
+    EXPECT_THAT(refused({"--runs", "0"}), HasSubstr("--runs"));
+}
+
+}  // namespace
+}  // namespace gelatin::test
