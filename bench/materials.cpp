@@ -42,12 +42,13 @@ void bench_materials(const MaterialBenchOptions& options) {
     if (!options.report.empty()) check_output_file("--report", options.report, {".md"});
     std::optional<gl::Context> context;
     if (options.use_gl) context = gl::Context::headless();
-    MaterialBench bench{options, describe_bench_machine(context ? &context->device() : nullptr), {}};
+    MaterialBench bench{options, describe_bench_machine(context ? &context->device() : nullptr), {}, {}};
     const std::vector<MaterialCase> cases = material_cases(options.frequency);
     for (const SolverKind solver : {SolverKind::vbd, SolverKind::semi_implicit_euler}) {
         for (const StageSystem& system : material_systems(options.use_gl))
             measure_materials(cases, solver, system, bench);
     }
+    bench.beam = measure_beam(options);
     fmt::print(message_stream({options.json, options.report}), "{}", material_tables(bench));
     if (!options.json.empty()) write_file(options.json, material_json(bench));
     if (!options.report.empty()) write_material_report(options.report, bench);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/beam_bench.h"
 #include "bench/machine.h"
 #include "bench/materials.h"
 #include "bench/samples.h"
@@ -25,6 +26,7 @@ struct MaterialBench {
     MaterialBenchOptions options;
     BenchMachine machine;
     std::vector<MaterialTime> materials;
+    BeamBench beam;
 };
 
 /// All figures as Markdown that is also legible as plain text.

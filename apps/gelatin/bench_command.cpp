@@ -107,6 +107,20 @@ void add_materials(CLI::App& bench) {
         ->add_option("--frequency", options->frequency, "Of the three balls, of 20 frequency^2 faces each")
         ->check(CLI::Range(2, 200))
         ->capture_default_str();
+    materials->add_option("--beam-nodes", options->beam_nodes, "Of SOFA's beam, across, across and along it")
+        ->delimiter('x')
+        ->expected(3)
+        ->type_name("NxNxN")
+        ->check(CLI::Range(2, 1000));
+    materials->add_option("--sweeps", options->sweeps, "Of the beam's steps")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 100'000))
+        ->capture_default_str();
+    materials
+        ->add_option("--reference-sweeps", options->reference_sweeps,
+                     "Of the converged steps, from which the beam's errors are measured")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
     materials->add_flag("!--no-gl", options->use_gl, "Without OpenGL");
     materials->callback([options] { bench_materials(*options); });
 }

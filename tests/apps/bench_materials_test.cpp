@@ -10,11 +10,11 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-class BenchMaterialsHeavy : public DrawingProgramTest {
+class BenchMaterials : public DrawingProgramTest {
 protected:
-    // With small balls.
+    // With small balls, and a short beam.
     ProgramResult bench(const std::vector<std::string>& more) const {
-        std::vector<std::string> arguments{"bench", "materials", "--frequency", "3"};
+        std::vector<std::string> arguments{"bench", "materials", "--frequency", "3", "--beam-nodes", "3x3x8"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         return run(arguments);
     }
@@ -39,8 +39,8 @@ double median_ratio(const json& row, const json& other) {
     return median(ratios);
 }
 
-TEST_F(BenchMaterialsHeavy, ComparesMaterialsOnEverySystem) {
-    const ProgramResult result = bench({"--runs", "3", "--json", "m.json"});
+TEST_F(BenchMaterials, ComparesMaterialsOnEverySystem) {
+    const ProgramResult result = bench({"--runs", "3", "--sweeps", "2", "--json", "m.json"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const json bench = read_json("m.json");
     EXPECT_EQ(bench["benchmark"], "materials");
@@ -74,8 +74,41 @@ TEST_F(BenchMaterialsHeavy, ComparesMaterialsOnEverySystem) {
     }
 }
 
-TEST_F(BenchMaterialsHeavy, WritesAReport) {
-    const ProgramResult result = bench({"--runs", "1", "--no-gl", "--report", "m.md"});
+TEST_F(BenchMaterials, MeasuresTheErrorsOfABeam) {
+    const ProgramResult result = bench({"--runs", "3", "--sweeps", "1,40", "--json", "m.json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json bench = read_json("m.json");
+    EXPECT_EQ(bench["settings"]["beam_nodes"], (std::vector<int>{3, 3, 8}));
+    ASSERT_EQ(bench["published"].size(), 6u);
+    ASSERT_EQ(bench["references"].size(), 2u);
+    const json& rows = bench["beam"];
+    const std::set<std::string> systems = values(rows, "system");
+    ASSERT_EQ(rows.size(), 2 * 2 * systems.size());
+    const auto find = [&](const std::string& body, const std::string& system, int sweeps) {
+        for (const json& row : rows)
+            if (row["body"] == body && row["system"] == system && row["sweeps"] == sweeps) return row;
+        return json{};
+    };
+    for (const json& reference : bench["references"]) {
+        const std::string body = reference["body"];
+        EXPECT_LT(reference["change"].get<double>(), 1e-9);
+        const double unsolved = reference["free_error"];
+        for (const std::string& system : systems) {
+            const json few = find(body, system, 1), many = find(body, system, 40);
+            EXPECT_DOUBLE_EQ(few["rate"].get<double>(), 1e3 / few["ms"]["median"].get<double>());
+            EXPECT_LT(few["error"].get<double>(), unsolved) << body << ", " << system;
+            EXPECT_LT(many["error"].get<double>(), 0.2 * few["error"].get<double>())
+                << body << ", " << system;
+            // All systems make the same step; coordinates up to 16 m are rounded, displacements are 1 cm.
+            EXPECT_NEAR(few["error"].get<double>(), find(body, "CPU, 1 thread", 1)["error"].get<double>(),
+                        5e-4);
+        }
+        EXPECT_THAT(result.out, HasSubstr("| " + body));
+    }
+}
+
+TEST_F(BenchMaterials, WritesAReport) {
+    const ProgramResult result = bench({"--runs", "1", "--sweeps", "2", "--no-gl", "--report", "m.md"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const std::string report = read_file(path("m.md"));
     EXPECT_THAT(report, HasSubstr(result.out));
@@ -84,9 +117,11 @@ TEST_F(BenchMaterialsHeavy, WritesAReport) {
     EXPECT_THAT(report, Not(HasSubstr(path("").string())));
 }
 
-TEST_F(BenchMaterialsHeavy, RefusesWhatItCannotDo) {
+TEST_F(BenchMaterials, RefusesWhatItCannotDo) {
     const auto refused = [&](const std::vector<std::string>& more) {
-        const ProgramResult result = bench(more);
+        std::vector<std::string> arguments{"bench", "materials", "--no-gl"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramResult result = run(arguments);
         EXPECT_EQ(result.exit_code, 2);
         EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
         return result.err;
@@ -94,6 +129,11 @@ TEST_F(BenchMaterialsHeavy, RefusesWhatItCannotDo) {
     EXPECT_THAT(refused({"--report", "r.txt"}), HasSubstr("--report = r.txt: must end in .md"));
     EXPECT_THAT(refused({"--json", "nowhere/m.json"}), HasSubstr("there is no folder nowhere"));
     EXPECT_THAT(refused({"--runs", "0"}), HasSubstr("--runs"));
+    EXPECT_THAT(refused({"--sweeps", "10,0"}), HasSubstr("--sweeps"));
+    EXPECT_THAT(refused({"--reference-sweeps", "0"}), HasSubstr("--reference-sweeps"));
+    EXPECT_THAT(refused({"--frequency", "1"}), HasSubstr("--frequency"));
+    EXPECT_THAT(refused({"--beam-nodes", "3x3"}), HasSubstr("--beam-nodes"));
+    EXPECT_THAT(refused({"--beam-nodes", "3x1x8"}), HasSubstr("--beam-nodes"));
 }
 
 }  // namespace
