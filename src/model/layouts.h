@@ -23,7 +23,6 @@ using glm::vec4;
 #include "layouts/half_spring_pair.glsl"
 #include "layouts/handle.glsl"
 #include "layouts/load.glsl"
-#include "layouts/neo_hookean_corner.glsl"
 #include "layouts/neo_hookean_tet.glsl"
 #include "layouts/object_pair.glsl"
 #include "layouts/proximity.glsl"
@@ -31,6 +30,7 @@ using glm::vec4;
 #include "layouts/shape_match.glsl"
 #include "layouts/spring.glsl"
 #include "layouts/surface_vertex.glsl"
+#include "layouts/tet_strip.glsl"
 #include "layouts/tree_node.glsl"
 
 static_assert(sizeof(AffineFit) == 80);
@@ -58,7 +58,7 @@ static_assert(sizeof(HandleNode) == 32);
 static_assert(sizeof(LeafSearch) == 32);
 static_assert(sizeof(LoadedNode) == 16);
 static_assert(sizeof(NearObject) == 16);
-static_assert(sizeof(NeoHookeanCorner) == 64);
+static_assert(sizeof(NeoHookeanStep) == 64);
 static_assert(sizeof(NeoHookeanTet) == 64);
 static_assert(sizeof(NodeLoad) == 32);
 static_assert(sizeof(NodeSums) == 32);
@@ -76,6 +76,7 @@ static_assert(sizeof(Spring) == 16);
 static_assert(sizeof(SurfaceVertex) == 16);
 static_assert(sizeof(TetCorner) == 16);
 static_assert(sizeof(TreeNode) == 16);
+static_assert(sizeof(VolumeStep) == 16);
 
 }  // namespace gelatin::layouts
 
@@ -106,7 +107,7 @@ using layouts::HandleNode;
 using layouts::LeafSearch;
 using layouts::LoadedNode;
 using layouts::NearObject;
-using layouts::NeoHookeanCorner;
+using layouts::NeoHookeanStep;
 using layouts::NeoHookeanTet;
 using layouts::NodeLoad;
 using layouts::NodeSums;
@@ -123,4 +124,5 @@ using layouts::Spring;
 using layouts::SurfaceVertex;
 using layouts::TetCorner;
 using layouts::TreeNode;
+using layouts::VolumeStep;
 }  // namespace gelatin

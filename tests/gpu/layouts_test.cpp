@@ -178,13 +178,16 @@ TEST_F(LayoutsTest, Proximities) {
           {FIELD(NearObject, leaf), FIELD(NearObject, object), FIELD(NearObject, first_near),
            FIELD(NearObject, near_count)});
 }
-TEST_F(LayoutsTest, NeoHookeanCorner) {
-    check("neo_hookean_corner.glsl", "NeoHookeanCorner", sizeof(NeoHookeanCorner),
-          {FIELD(NeoHookeanCorner, node_a), FIELD(NeoHookeanCorner, node_b), FIELD(NeoHookeanCorner, node_c),
-           FIELD(NeoHookeanCorner, tet), FIELD(NeoHookeanCorner, aa), FIELD(NeoHookeanCorner, ab),
-           FIELD(NeoHookeanCorner, bb), FIELD(NeoHookeanCorner, ac), FIELD(NeoHookeanCorner, bc),
-           FIELD(NeoHookeanCorner, cc), FIELD(NeoHookeanCorner, mu), FIELD(NeoHookeanCorner, lambda),
-           FIELD(NeoHookeanCorner, opening)});
+TEST_F(LayoutsTest, TetStrips) {
+    check("tet_strip.glsl", "VolumeStep", sizeof(VolumeStep),
+          {FIELD(VolumeStep, vertex), FIELD(VolumeStep, tet), FIELD(VolumeStep, inverse_six_volumes),
+           FIELD(VolumeStep, modulus)});
+    check("tet_strip.glsl", "NeoHookeanStep", sizeof(NeoHookeanStep),
+          {FIELD(NeoHookeanStep, vertex), FIELD(NeoHookeanStep, tet), FIELD(NeoHookeanStep, mu),
+           FIELD(NeoHookeanStep, lambda), FIELD(NeoHookeanStep, aa), FIELD(NeoHookeanStep, ab),
+           FIELD(NeoHookeanStep, bb), FIELD(NeoHookeanStep, ac), FIELD(NeoHookeanStep, bc),
+           FIELD(NeoHookeanStep, cc), FIELD(NeoHookeanStep, modulus), FIELD(NeoHookeanStep, unused),
+           FIELD(NeoHookeanStep, opening)});
 }
 TEST_F(LayoutsTest, Dispatch) {
     check("dispatch.glsl", "Dispatch", sizeof(Dispatch),

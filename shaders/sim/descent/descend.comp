@@ -7,6 +7,7 @@
 #include "sim/collision/colliders.glsl"
 #include "sim/descent/descent_step.glsl"
 #include "sim/elasticity/node_terms.glsl"
+#include "sim/elasticity/strip.glsl"
 #include "layouts/descent.glsl"
 layout(local_size_x = 64) in;
 
@@ -18,9 +19,11 @@ uniform usamplerBuffer slice_starts;
 uniform usamplerBuffer near_flat;    // of nodes, the number of the marking that they were marked in
 uniform usamplerBuffer tet_corners;   // TetCorner, of bodies of springs
 uniform usamplerBuffer corner_starts;
-uniform samplerBuffer tet_rests;     // volume V [m^3], modulus [Pa], stiffness of the volume term [Pa], 1 / (6 V)
+uniform samplerBuffer tet_rests;     // volume [m^3], modulus [Pa]
 #ifdef VOLUME
-uniform samplerBuffer offsets;       // q [Pa], of each tet
+uniform usamplerBuffer volume_strips;  // VolumeStep, of bodies of springs, in slices of rows; kNone pads
+uniform usamplerBuffer volume_starts;  // of the slices
+uniform samplerBuffer offsets;         // of each tet's bound [J]
 #endif
 layout(std430) writeonly buffer OutPositions { vec4 out_positions[]; };
 #ifdef FORCES
@@ -38,10 +41,22 @@ uniform uint mark;         // number of the last marking
 
 vec3 position_of(uint node) { return texelFetch(positions, int(node)).xyz; }
 
-// dJ/dx of a tet [1/m]. @param a where its first other corner is @param inverse_six_volumes at rest [1/m^3]
-vec3 slope_of(uvec4 corner, vec3 a, float inverse_six_volumes) {
-    return inverse_six_volumes * cross(position_of(corner.y) - a, position_of(corner.z) - a);
+#ifdef VOLUME
+// The volume term's part of the node of a row.
+void add_tet_volumes(uint row, vec3 position, inout NodeTerms terms) {
+    Strip strip = kNoStrip;
+    uint end = texelFetch(volume_starts, int(row / kSlice) + 1).x;
+    for (uint e = texelFetch(volume_starts, int(row / kSlice)).x + row % kSlice; e < end; e += kSlice) {
+        uvec4 texel = texelFetch(volume_strips, int(e));
+        if (texel.x == kNone) break;
+        step_strip(texel.x, position_of(uint(node_of(texel.x))) - position, strip);
+        if (texel.y == kNone) continue;
+        vec2 rest = uintBitsToFloat(texel.zw);
+        vec3 slope = rest.x * cross(strip.b - strip.a, strip.c - strip.a);
+        add_tet_volume(slope, -dot(strip.a, slope), vec2(texelFetch(offsets, int(texel.y)).x, rest.y), terms);
+    }
 }
+#endif
 
 #if COLLIDER_KINDS != 0
 layout(std430) buffer Contacts { ColliderContact contacts[]; };  // of nodes
@@ -133,19 +148,13 @@ void main() {
     for (uint k = first_corner; k < (resists ? corners_end : first_corner); k += 64u) {
         uvec4 corner = texelFetch(tet_corners, int(k));
         if (corner.w == 0xFFFFFFFFu) break;
-        vec4 rest = texelFetch(tet_rests, int(corner.w));
-        vec3 a = position_of(corner.x), slope = slope_of(corner, a, rest.w);
+        vec2 rest = texelFetch(tet_rests, int(corner.w)).xy;
+        vec3 a = position_of(corner.x);
+        vec3 slope = cross(position_of(corner.y) - a, position_of(corner.z) - a) / (6.0 * rest.x);
         add_flat_tet(slope, dot(position.xyz - a, slope), rest.x * rest.y, terms);
     }
 #ifdef VOLUME
-    for (uint k = first_corner; k < corners_end; k += 64u) {
-        uvec4 corner = texelFetch(tet_corners, int(k));
-        if (corner.w == 0xFFFFFFFFu) break;
-        vec4 rest = texelFetch(tet_rests, int(corner.w));
-        float offset = texelFetch(offsets, int(corner.w)).x;
-        vec3 a = position_of(corner.x), slope = slope_of(corner, a, rest.w);
-        add_tet_volume(slope, dot(position.xyz - a, slope), rest.x * vec2(offset, rest.z), terms);
-    }
+    add_tet_volumes(row, position.xyz, terms);
 #endif
 #ifdef NEO_HOOKEAN
     add_neo_hookean_tets(row, n, position.xyz, terms);

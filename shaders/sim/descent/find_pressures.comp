@@ -30,7 +30,7 @@ void main() {
 }
 #else
 layout(std430) readonly buffer Pressures { float pressures[]; };  // [Pa], of each node
-layout(std430) writeonly buffer Offsets { float offsets[]; };     // q [Pa], of each tet
+layout(std430) writeonly buffer Offsets { float offsets[]; };     // of each tet's bound [J]
 
 void main() {
     uint t = global_index();
@@ -38,6 +38,7 @@ void main() {
     uvec4 tet = texelFetch(tets, int(t));
     float sum = 0.0;
     for (int k = 0; k < 4; ++k) sum += pressures[tet[k]];
-    offsets[t] = 0.25 * sum - texelFetch(tet_rests, int(t)).z * ratios[t];
+    vec3 rest = texelFetch(tet_rests, int(t)).xyz;
+    offsets[t] = rest.x * (0.25 * sum - rest.z * ratios[t]);
 }
 #endif

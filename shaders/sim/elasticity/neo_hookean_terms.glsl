@@ -1,12 +1,12 @@
 // The contribution of neo-Hookean tets to a node's part of the objective of a step of block descent. To be included after
 // sim/elasticity/node_terms.glsl, sim/descent/descent_step.glsl, and `positions`. DAMPED: some damping time is not zero.
-// VOLUME: there is a volume term; after `tet_rests` and `offsets`. CPU twin: add_neo_hookean, add_viscosity,
+// VOLUME: there is a volume term; after `offsets`. CPU twin: add_neo_hookean, add_viscosity,
 // src/cpu/elasticity/neo_hookean.inl.
 #include "sim/elasticity/neo_hookean.glsl"
 
 // The elastic energy as a function of the corner, and the tet's part of the volume term as in add_tet_volume.
 // @param bound its offset and modulus, times the volume at rest [J]
-void add_neo_hookean(NeoHookeanCorner tet, TetAtCorner at, vec2 bound, inout NodeTerms terms) {
+void add_neo_hookean(NeoHookeanStep tet, TetAtCorner at, vec2 bound, inout NodeTerms terms) {
     NeoHookeanStress stress = neo_hookean_stress(tet, at);
     float pressure = stress.pressure + bound.x + bound.y * at.ratio, over = 1.0 / (at.squares + 1.0);
     vec3 g = shape_gradient(tet);
@@ -17,7 +17,7 @@ void add_neo_hookean(NeoHookeanCorner tet, TetAtCorner at, vec2 bound, inout Nod
 }
 
 // Its viscosity over a step that changes the gradient from `start` to f. `damping`: damping time divided by time step.
-void add_viscosity(NeoHookeanCorner tet, mat3 f, mat3 start, float damping, inout NodeTerms terms) {
+void add_viscosity(NeoHookeanStep tet, mat3 f, mat3 start, float damping, inout NodeTerms terms) {
     vec3 g = shape_gradient(tet);
     float scale = damping * viscous_share(sum_of_squares(start)), shear = 0.75 * tet.mu;
     vec3 traction = viscous_traction(tet, 0.5 * (f + start), f - start, g);
@@ -27,35 +27,33 @@ void add_viscosity(NeoHookeanCorner tet, mat3 f, mat3 start, float damping, inou
     terms.diagonal += scale * max(dot(g, traction), 0.0);
 }
 
-void add_neo_hookean_corner(uint corner, NeoHookeanCorner tet, vec3 position, vec4 start, inout NodeTerms terms) {
-    vec3 a = texelFetch(positions, int(tet.node_a)).xyz - position;
-    vec3 b = texelFetch(positions, int(tet.node_b)).xyz - position;
-    vec3 c = texelFetch(positions, int(tet.node_c)).xyz - position;
-    TetAtCorner at = tet_at_corner(tet, a, b, c);
-#ifdef VOLUME
-    vec4 rest = texelFetch(tet_rests, int(tet.tet));
-    vec2 bound = rest.x * vec2(texelFetch(offsets, int(tet.tet)).x, rest.z);
-#else
-    vec2 bound = vec2(0.0);
-#endif
-    add_neo_hookean(tet, at, bound, terms);
-    terms.force += opening_force(corner, at.squares);
-#ifdef DAMPED
-    vec4 s_a = texelFetch(start_positions, int(tet.node_a)), s_b = texelFetch(start_positions, int(tet.node_b));
-    vec4 s_c = texelFetch(start_positions, int(tet.node_c));
-    mat3 before = gradient_of(tet, s_a.xyz - start.xyz, s_b.xyz - start.xyz, s_c.xyz - start.xyz);
-    float damping_time = 0.25 * (start.w + s_a.w + s_b.w + s_c.w);
-    add_viscosity(tet, gradient_of(tet, a, b, c), before, damping_time / time_step, terms);
-#endif
-}
-
 // The contribution of all its tets to node `n`, which row `row` of slices has.
 void add_neo_hookean_tets(uint row, uint n, vec3 position, inout NodeTerms terms) {
     vec4 start = texelFetch(start_positions, int(n));
+    Strip strip = kNoStrip, before = kNoStrip, damping_times = kNoStrip;
     uint end = texelFetch(neo_hookean_starts, int(row / kSlice) + 1).x;
     for (uint e = texelFetch(neo_hookean_starts, int(row / kSlice)).x + row % kSlice; e < end; e += kSlice) {
-        NeoHookeanCorner tet = fetch_neo_hookean_corner(e);
-        if (tet.tet == kNone) break;
-        add_neo_hookean_corner(e, tet, position, start, terms);
+        NeoHookeanStep tet = fetch_neo_hookean_step(e);
+        if (tet.vertex == kNone) break;
+        int node = node_of(tet.vertex);
+        step_strip(tet.vertex, texelFetch(positions, node).xyz - position, strip);
+#ifdef DAMPED
+        vec4 other = texelFetch(start_positions, node);
+        step_strip(tet.vertex, other.xyz - start.xyz, before);
+        step_strip(tet.vertex, other.www, damping_times);
+#endif
+        if (tet.tet == kNone) continue;
+        TetAtCorner at = tet_at_corner(tet, strip);
+#ifdef VOLUME
+        vec2 bound = vec2(texelFetch(offsets, int(tet.tet)).x, tet.modulus);
+#else
+        vec2 bound = vec2(0.0);
+#endif
+        add_neo_hookean(tet, at, bound, terms);
+        terms.force += opening_force(e, at.squares);
+#ifdef DAMPED
+        float damping_time = 0.25 * (start.w + damping_times.a.x + damping_times.b.x + damping_times.c.x);
+        add_viscosity(tet, gradient_of(tet, strip), gradient_of(tet, before), damping_time / time_step, terms);
+#endif
     }
 }

@@ -46,14 +46,13 @@ float half_spring_energy(uint n, vec3 position) {
 // A node has a quarter of the energy of each of its tets.
 float quarter_tet_energy(uint n, vec3 position) {
     float energy = 0.0;
+    Strip strip = kNoStrip;
     uint end = texelFetch(neo_hookean_starts, int(n / kSlice) + 1).x;
     for (uint e = texelFetch(neo_hookean_starts, int(n / kSlice)).x + n % kSlice; e < end; e += kSlice) {
-        NeoHookeanCorner tet = fetch_neo_hookean_corner(e);
-        if (tet.tet == kNone) break;
-        vec3 a = texelFetch(positions, int(tet.node_a)).xyz - position;
-        vec3 b = texelFetch(positions, int(tet.node_b)).xyz - position;
-        vec3 c = texelFetch(positions, int(tet.node_c)).xyz - position;
-        energy += 0.25 * neo_hookean_energy(tet, tet_at_corner(tet, a, b, c));
+        NeoHookeanStep tet = fetch_neo_hookean_step(e);
+        if (tet.vertex == kNone) break;
+        step_strip(tet.vertex, texelFetch(positions, node_of(tet.vertex)).xyz - position, strip);
+        if (tet.tet != kNone) energy += 0.25 * neo_hookean_energy(tet, tet_at_corner(tet, strip));
     }
     return energy;
 }

@@ -1,54 +1,35 @@
 #include "cpu/elasticity/tet_blocks.h"
 
-#include <cmath>
+#include <utility>
 
-#include "cpu/elasticity/link_strip.h"
-#include "model/elasticity/neo_hookean.h"
+#include "model/elasticity/tet_strips.h"
+#include "model/shared_constants.h"
 
 namespace gelatin::cpu {
 namespace {
 
-// A strip of the tets that a row's node is a corner of.
-struct RowStrip {
-    std::vector<StripStep> steps;
-    std::vector<std::uint32_t> entries;  // of its triangles: 4 tet + corner
-
-    template <class NodesOf>
-    RowStrip(std::span<const std::uint32_t> tet_entries, const NodesOf& nodes_of)
-        : entries(tet_entries.begin(), tet_entries.end()) {
-        std::vector<LinkTriangle> triangles;
-        for (const std::uint32_t entry : entries) {
-            const glm::uvec4 nodes = nodes_of(entry / 4);
-            const auto& opposite = kOppositeCorners[entry % 4];
-            triangles.push_back({nodes[opposite[0]], nodes[opposite[1]], nodes[opposite[2]]});
-        }
-        steps = make_link_strip(triangles);
-    }
-};
-
-std::span<const std::uint32_t> entries_of(const NodeTets& tets, std::uint32_t node) {
-    return std::span(tets.entries).subspan(tets.starts[node], tets.starts[node + 1] - tets.starts[node]);
-}
-
-// Where `node` comes among the corners.
-int corner_of(const glm::uvec4& corners, std::uint32_t node) {
-    int k = 0;
-    while (corners[k] != node) ++k;
-    return k;
-}
+static_assert(TetBlocks::kEmptyBlocks == TetStrips::kFirstVertices);
 
 class Builder {
 public:
     Builder(const Model& model, std::span<const std::uint32_t> nodes, const NodeTets& node_tets)
-        : model_(model), nodes_(nodes), node_tets_(node_tets), tet_indices_(neo_hookean_tet_indices(model)) {}
+        : nodes_(nodes),
+          strips_(model, node_tets),
+          tet_count_(static_cast<std::uint32_t>(model.tets.size())),
+          has_volume_term_(!model.volume_term.is_empty()) {
+        blocks_.is_damped = model.has_damping();
+    }
 
     TetBlocks build() {
-        for (std::uint32_t group = 0; group < nodes_.size() / kGroup; ++group) {
+        for (std::uint32_t first = 0; first < nodes_.size(); first += kGroup) {
             begin_group();
-            append_group(nodes_.subspan(group * kGroup, kGroup));
+            const std::span<const std::uint32_t> nodes = nodes_.subspan(first, kGroup);
+            shown_ = shown_nodes(nodes.data());
+            for (std::uint32_t row = 0; row < kGroup; ++row) {
+                if (nodes[row] != kNoNode) append(nodes[row], row);
+            }
         }
         begin_group();
-        blocks_.is_damped = model_.has_damping();
         return std::move(blocks_);
     }
 
@@ -58,100 +39,65 @@ private:
         blocks_.volume_starts.push_back(static_cast<std::uint32_t>(blocks_.volumes.size()));
     }
 
-    void append_group(std::span<const std::uint32_t> nodes) {
-        shown_ = shown_nodes(nodes.data());
-        for (std::uint32_t row = 0; row < kGroup; ++row) {
-            if (nodes[row] == kNoNode) continue;
-            if (has_neo_hookean_tets(model_, nodes[row])) {
-                append_neo_hookean(nodes[row], row);
-            } else if (!model_.volume_term.is_empty()) {
-                append_volumes(nodes[row], row);
-            }
-        }
-    }
-
-    void append_neo_hookean(std::uint32_t node, std::uint32_t row) {
-        const RowStrip strip(entries_of(model_.neo_hookean_corners, node),
-                             [&](std::uint32_t tet) { return nodes_of(model_.neo_hookean_tets[tet]); });
-        LinkTriangle last{};
-        for (std::size_t k = 0; k < strip.steps.size(); ++k) {
-            const StripStep& step = strip.steps[k];
-            last = {step.keeps_oldest ? last[0] : last[1], last[2], step.vertex};
-            const std::size_t index = blocks_.neo_hookean_starts.back() + k;
+    void append(std::uint32_t node, std::uint32_t row) {
+        std::size_t index = blocks_.neo_hookean_starts.back();
+        for (const NeoHookeanStep& step : strips_.neo_hookean(node)) {
             if (index == blocks_.neo_hookean.size()) append_neo_hookean_block();
-            NeoHookeanBlock& block = blocks_.neo_hookean[index];
-            block.nodes[row] = step.vertex;
-            if (step.triangle != StripStep::kNoTriangle)
-                set_corner(strip.entries[step.triangle], last, index, row);
-            block.mu[row] = std::copysign(block.mu[row], step.keeps_oldest ? -1.0f : 1.0f);
+            set(step, index++, row);
+        }
+        index = blocks_.volume_starts.back();
+        for (const VolumeStep& step : strips_.volumes(node)) {
+            if (index == blocks_.volumes.size()) append_volume_block();
+            set(step, index++, row);
         }
     }
 
     void append_neo_hookean_block() {
         blocks_.neo_hookean.emplace_back().nodes = shown_;
-        blocks_.neo_hookean_tets.emplace_back().fill(static_cast<std::uint32_t>(model_.tets.size()));
+        blocks_.neo_hookean_tets.emplace_back().fill(tet_count_);
         blocks_.openings.emplace_back();
-        if (!model_.volume_term.is_empty()) blocks_.neo_hookean_moduli.emplace_back();
+        if (has_volume_term_) blocks_.neo_hookean_moduli.emplace_back();
     }
 
-    // @param order the other corners as the strip has them
-    void set_corner(std::uint32_t entry, const LinkTriangle& order, std::size_t index, std::uint32_t row) {
-        const NeoHookeanTet& tet = model_.neo_hookean_tets[entry / 4];
-        const glm::uvec4 nodes = nodes_of(tet);
-        const std::uint32_t tet_index = tet_indices_[entry / 4];
-        const NeoHookeanCorner corner = make_neo_hookean_corner(
-            tet, {corner_of(nodes, order[0]), corner_of(nodes, order[1]), corner_of(nodes, order[2])},
-            tet_index);
+    void append_volume_block() {
+        blocks_.volumes.emplace_back().nodes = shown_;
+        blocks_.volume_tets.emplace_back().fill(tet_count_);
+    }
+
+    void set(const NeoHookeanStep& step, std::size_t index, std::uint32_t row) {
         NeoHookeanBlock& block = blocks_.neo_hookean[index];
-        block.aa[row] = corner.aa;
-        block.ab[row] = corner.ab;
-        block.bb[row] = corner.bb;
-        block.ac[row] = corner.ac;
-        block.bc[row] = corner.bc;
-        block.cc[row] = corner.cc;
-        block.mu[row] = corner.mu;
-        block.lambda[row] = corner.lambda;
-        blocks_.neo_hookean_tets[index][row] = tet_index;
-        blocks_.openings[index][row] = glm::vec3(corner.opening);
-        if (!blocks_.neo_hookean_moduli.empty())
-            blocks_.neo_hookean_moduli[index].values[row] = modulus_of(tet_index);
+        block.nodes[row] = step.vertex & ~TetStrips::kKeepsOldest;
+        block.aa[row] = step.aa;
+        block.ab[row] = step.ab;
+        block.bb[row] = step.bb;
+        block.ac[row] = step.ac;
+        block.bc[row] = step.bc;
+        block.cc[row] = step.cc;
+        block.mu[row] = with_sign(step.mu, step.vertex);
+        block.lambda[row] = step.lambda;
+        blocks_.neo_hookean_tets[index][row] = index_of(step.tet);
+        blocks_.openings[index][row] = glm::vec3(step.opening);
+        if (has_volume_term_) blocks_.neo_hookean_moduli[index].values[row] = step.modulus;
     }
 
-    float modulus_of(std::uint32_t tet) const {
-        return model_.volume_term.tets[tet] * model_.tet_rests[tet].volume;
+    void set(const VolumeStep& step, std::size_t index, std::uint32_t row) {
+        VolumeBlock& block = blocks_.volumes[index];
+        block.nodes[row] = step.vertex & ~TetStrips::kKeepsOldest;
+        block.inverse_six_volumes[row] = step.inverse_six_volumes;
+        block.modulus[row] = with_sign(step.modulus, step.vertex);
+        blocks_.volume_tets[index][row] = index_of(step.tet);
     }
 
-    // Without tets that no volume term acts on, as in the other bodies of a scene.
-    void append_volumes(std::uint32_t node, std::uint32_t row) {
-        std::vector<std::uint32_t> entries;
-        for (const std::uint32_t entry : entries_of(node_tets_, node)) {
-            if (model_.volume_term.tets[entry / 4] != 0.0f) entries.push_back(entry);
-        }
-        const RowStrip strip(entries, [&](std::uint32_t tet) { return model_.tets[tet]; });
-        for (std::size_t k = 0; k < strip.steps.size(); ++k) {
-            const StripStep& step = strip.steps[k];
-            const std::size_t index = blocks_.volume_starts.back() + k;
-            if (index == blocks_.volumes.size()) {
-                blocks_.volumes.emplace_back().nodes = shown_;
-                blocks_.volume_tets.emplace_back().fill(static_cast<std::uint32_t>(model_.tets.size()));
-            }
-            VolumeBlock& block = blocks_.volumes[index];
-            block.nodes[row] = step.vertex;
-            if (step.triangle != StripStep::kNoTriangle) {
-                const std::uint32_t tet = strip.entries[step.triangle] / 4;
-                blocks_.volume_tets[index][row] = tet;
-                const float inverse = 1.0f / (6.0f * model_.tet_rests[tet].volume);
-                block.inverse_six_volumes[row] = step.is_reversed ? -inverse : inverse;
-                block.modulus[row] = modulus_of(tet);
-            }
-            block.modulus[row] = std::copysign(block.modulus[row], step.keeps_oldest ? -1.0f : 1.0f);
-        }
+    static float with_sign(float value, std::uint32_t vertex) {
+        return (vertex & TetStrips::kKeepsOldest) != 0 ? -value : value;
     }
 
-    const Model& model_;
+    std::uint32_t index_of(std::uint32_t tet) const { return tet == packing::kNone ? tet_count_ : tet; }
+
     std::span<const std::uint32_t> nodes_;
-    const NodeTets& node_tets_;
-    std::vector<std::uint32_t> tet_indices_;
+    TetStrips strips_;
+    std::uint32_t tet_count_;
+    bool has_volume_term_;
     std::array<std::uint32_t, kGroup> shown_{};
     TetBlocks blocks_;
 };

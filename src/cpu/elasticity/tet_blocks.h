@@ -12,10 +12,7 @@
 
 namespace gelatin::cpu {
 
-/// A step along the strips of the rows of a group (cpu/elasticity/link_strip.h): a vertex of each row, and
-/// what completes the neo-Hookean tet that it and the two before it make with the row's node. It is a
-/// NeoHookeanCorner (shaders/layouts/neo_hookean_corner.glsl) with these three vertices as a, b and c, and
-/// with cc negative where they come clockwise. All of it is zero where no tet is complete.
+/// A NeoHookeanStep (shaders/layouts/tet_strip.glsl) of each row of a group.
 struct alignas(32) NeoHookeanBlock {  // 288 bytes
     using Column = std::array<float, kGroup>;
     std::array<std::uint32_t, kGroup> nodes;  ///< the row's own behind the strip's end
@@ -24,7 +21,7 @@ struct alignas(32) NeoHookeanBlock {  // 288 bytes
     Column lambda;  ///< times V [J]
 };
 
-/// The same of the tets of springs, for their part of the volume term.
+/// A VolumeStep of each.
 struct alignas(32) VolumeBlock {              // 96 bytes
     std::array<std::uint32_t, kGroup> nodes;  ///< as above
     /// 1 / (6 V) [1/m^3]; negative where they come clockwise

@@ -5,6 +5,7 @@
 #include "gpu/chunks.h"
 #include "gpu/descent/descent_tables.h"
 #include "model/elasticity/node_tets.h"
+#include "model/elasticity/tet_strips.h"
 #include "model/shared_constants.h"
 
 namespace gelatin::gpu {
@@ -43,7 +44,7 @@ BlockDescent::DampedSprings::DampedSprings(std::size_t pairs)
     program.bind("DampedSprings", springs);
 }
 
-BlockDescent::Pressures::Pressures(const Model& model)
+BlockDescent::Pressures::Pressures(const Model& model, std::span<const std::uint32_t> rows)
     : node_program(gl::Program::compute("sim/descent/find_pressures.comp", {"NODES"})),
       tet_program(gl::Program::compute("sim/descent/find_pressures.comp")),
       node_volumes(model.volume_term.nodes, gl::TexelFormat::rg32f),
@@ -51,6 +52,9 @@ BlockDescent::Pressures::Pressures(const Model& model)
       node_pressures(model.positions.size()),
       offsets(model.tets.size()) {
     const NodeTets tets = make_node_tets(model.node_count(), model.tets);
+    const StripSlices<VolumeStep> packed = pack_volume_strips({model, tets}, rows);
+    strips = {packed.steps, gl::TexelFormat::rgba32ui};
+    strip_starts = {packed.slice_starts, gl::TexelFormat::r32ui};
     node_tet_starts = {tets.starts, gl::TexelFormat::r32ui};
     node_tets = {tets.entries, gl::TexelFormat::r32ui};
     offset_texels = {offsets, gl::TexelFormat::r32f};
@@ -77,8 +81,8 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
       object_contacts_(model.objects.size()),
       is_tangled_(model.objects.size()),
       motions_(model.objects.size()) {
-    if (!model.volume_term.is_empty()) pressures_.emplace(model);
     const DescentRows rows = make_descent_rows(model);
+    if (!model.volume_term.is_empty()) pressures_.emplace(model, rows.nodes);
     colors_ = rows.batches.front().colors;
     const std::vector<std::uint32_t> objects = objects_of_nodes(model);
     neo_hookean_ = NeoHookeanBuffers(model, rows.nodes);
@@ -191,7 +195,11 @@ void BlockDescent::bind_pressures(const Pressures& pressures) const {
     pressures.node_program.bind("node_tet_starts", pressures.node_tet_starts);
     pressures.node_program.bind("node_tets", pressures.node_tets);
     pressures.tet_program.bind("Offsets", pressures.offsets);
-    for (const gl::Program* program : sweep_programs()) program->bind("offsets", pressures.offset_texels);
+    for (const gl::Program* program : sweep_programs()) {
+        program->bind("offsets", pressures.offset_texels);
+        program->bind("volume_strips", pressures.strips);
+        program->bind("volume_starts", pressures.strip_starts);
+    }
 }
 
 // The nodes' two buffers swap places from step to step.

@@ -36,11 +36,13 @@ public:
 private:
     // What the volume term needs, in models that have one.
     struct Pressures {
-        explicit Pressures(const Model& model);
+        Pressures(const Model& model, std::span<const std::uint32_t> rows);
 
         gl::Program node_program, tet_program;
         gl::TexelTable<glm::vec2> node_volumes;  // [m^3], [Pa]
         gl::TexelTable<std::uint32_t> node_tet_starts, node_tets;
+        gl::TexelTable<VolumeStep> strips;
+        gl::TexelTable<std::uint32_t> strip_starts;
         gl::Buffer<float> ratios, node_pressures, offsets;
         gl::BufferTexture offset_texels;
     };

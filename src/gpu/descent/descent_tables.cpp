@@ -21,8 +21,7 @@ std::vector<glm::vec4> rests_of(const Model& model) {
     std::vector<glm::vec4> rests;
     for (std::size_t t = 0; t < model.tet_rests.size(); ++t) {
         const TetRest& rest = model.tet_rests[t];
-        rests.emplace_back(rest.volume, rest.modulus, stiffnesses.empty() ? 0.0f : stiffnesses[t],
-                           1.0f / (6.0f * rest.volume));
+        rests.emplace_back(rest.volume, rest.modulus, stiffnesses.empty() ? 0.0f : stiffnesses[t], 0.0f);
     }
     return rests;
 }

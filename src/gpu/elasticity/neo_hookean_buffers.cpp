@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "model/elasticity/neo_hookean.h"
+#include "model/elasticity/tet_strips.h"
 
 namespace gelatin::gpu {
 namespace {
@@ -17,8 +17,9 @@ std::vector<std::uint32_t> all_nodes(const Model& model) {
 
 NeoHookeanBuffers::NeoHookeanBuffers(const Model& model, std::span<const std::uint32_t> rows) {
     if (model.neo_hookean_tets.empty()) return;
-    const NeoHookeanCorners packed = pack_neo_hookean_corners(model, rows);
-    corners_ = {packed.corners, gl::TexelFormat::rgba32ui};
+    const NodeTets none;
+    const StripSlices<NeoHookeanStep> packed = pack_neo_hookean_strips({model, none}, rows);
+    strips_ = {packed.steps, gl::TexelFormat::rgba32ui};
     slice_starts_ = {packed.slice_starts, gl::TexelFormat::r32ui};
 }
 
@@ -31,8 +32,8 @@ gl::Defines NeoHookeanBuffers::defines(const Model& model) {
 }
 
 void NeoHookeanBuffers::bind(const gl::Program& program) const {
-    if (corners_.is_empty()) return;
-    program.bind("neo_hookean_corners", corners_);
+    if (strips_.is_empty()) return;
+    program.bind("neo_hookean_strips", strips_);
     program.bind("neo_hookean_starts", slice_starts_);
 }
 

@@ -21,7 +21,7 @@ public:
     void bind(const gl::Program& program) const;
 
 private:
-    gl::TexelTable<NeoHookeanCorner> corners_;
+    gl::TexelTable<NeoHookeanStep> strips_;
     gl::TexelTable<std::uint32_t> slice_starts_;
 };
 

@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-#include <span>
-#include <vector>
 
 #include "model/layouts.h"
 
@@ -36,24 +34,6 @@ NeoHookeanTet make_neo_hookean_tet(const glm::uvec4& nodes, const std::array<glm
 
 /// The gradients of the corners' shape functions [1/m].
 std::array<glm::dvec3, 4> shape_gradients(const NeoHookeanTet& tet);
-
-/// A tet as one of its corners sees it.
-/// @param others the corners that become a, b and c; cc is negative if they come clockwise
-/// @param index of the tet in Model::tets
-NeoHookeanCorner make_neo_hookean_corner(const NeoHookeanTet& tet, const std::array<int, 3>& others,
-                                         std::uint32_t index);
-
-/// Of each neo-Hookean tet, where it is in Model::tets.
-std::vector<std::uint32_t> neo_hookean_tet_indices(const Model& model);
-
-/// Those of each row's node in slices of 64 rows, laid out as HalfSprings' pairs are.
-struct NeoHookeanCorners {
-    std::vector<std::uint32_t> slice_starts;  ///< shape [slices + 1]
-    std::vector<NeoHookeanCorner> corners;    ///< shape [slice_starts.back()]
-};
-
-/// @param rows nodes, each at most once, or kNoNode
-NeoHookeanCorners pack_neo_hookean_corners(const Model& model, std::span<const std::uint32_t> rows);
 
 /// True for the nodes of bodies of such tets.
 bool has_neo_hookean_tets(const Model& model, std::uint32_t node);

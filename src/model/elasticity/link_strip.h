@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace gelatin::cpu {
+namespace gelatin {
 
 /// The other three corners of a tet, counter-clockwise as seen from a node.
 using LinkTriangle = std::array<std::uint32_t, 3>;
@@ -25,4 +25,4 @@ struct StripStep {
 /// wherever the strip has to begin anew.
 std::vector<StripStep> make_link_strip(std::span<const LinkTriangle> triangles);
 
-}  // namespace gelatin::cpu
+}  // namespace gelatin

@@ -1,4 +1,4 @@
-#include "cpu/elasticity/link_strip.h"
+#include "model/elasticity/link_strip.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,6 @@
 namespace gelatin {
 namespace {
 
-using cpu::LinkTriangle, cpu::StripStep;
-
 bool is_rotation_of(const LinkTriangle& a, const LinkTriangle& b) {
     for (std::size_t shift = 0; shift < 3; ++shift) {
         if (a == LinkTriangle{b[shift], b[(shift + 1) % 3], b[(shift + 2) % 3]}) return true;
@@ -21,7 +19,7 @@ bool is_rotation_of(const LinkTriangle& a, const LinkTriangle& b) {
 
 // Follows the strip as its users do. @return the number of its steps
 std::size_t expect_each_triangle_once(std::span<const LinkTriangle> triangles) {
-    const std::vector<StripStep> steps = cpu::make_link_strip(triangles);
+    const std::vector<StripStep> steps = make_link_strip(triangles);
     std::vector<int> seen(triangles.size(), 0);
     LinkTriangle last{};
     for (std::size_t k = 0; k < steps.size(); ++k) {
@@ -67,7 +65,7 @@ TEST(LinkStrip, BeginsAnewWhereTrianglesDoNotTouch) {
 TEST(LinkStrip, TakesWhatIsNoSurface) {
     expect_each_triangle_once(std::vector<LinkTriangle>{{1, 2, 3}, {1, 2, 3}, {2, 1, 4}});
     expect_each_triangle_once(std::vector<LinkTriangle>{{1, 2, 3}, {2, 1, 4}, {1, 2, 5}, {5, 2, 6}});
-    EXPECT_TRUE(cpu::make_link_strip({}).empty());
+    EXPECT_TRUE(make_link_strip({}).empty());
 }
 
 }  // namespace

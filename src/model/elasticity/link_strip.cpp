@@ -1,11 +1,11 @@
-#include "cpu/elasticity/link_strip.h"
+#include "model/elasticity/link_strip.h"
 
 #include <algorithm>
 #include <optional>
 #include <tuple>
 #include <utility>
 
-namespace gelatin::cpu {
+namespace gelatin {
 namespace {
 
 constexpr std::uint32_t kNone = StripStep::kNoTriangle;
@@ -145,4 +145,4 @@ std::vector<StripStep> make_link_strip(std::span<const LinkTriangle> triangles) 
     return StripMaker(triangles).make();
 }
 
-}  // namespace gelatin::cpu
+}  // namespace gelatin
