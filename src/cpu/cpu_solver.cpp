@@ -67,8 +67,7 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
         spring_forces_.resize(model_->springs.size());
         node_forces_.resize(model_->node_count());
     }
-    if (std::is_same_v<Real, float> && !descent_ && forces_ == ForceMethod::fused)
-        pass_tets_ = make_pass_tets(*model_);
+    if (std::is_same_v<Real, float> && !descent_) pass_tets_ = make_pass_tets(*model_);
     load_factors_.assign(model_->loads.spans.size(), 1.0f);
     if (!model_->volume_term.is_empty() && !descent_) volume_stresses_.resize(model_->node_count());
     if (!model_->loads.empty()) load_forces_.assign(model_->node_count(), Vec4<Real>(0));
@@ -158,7 +157,7 @@ void CpuSolver<Real>::find_volume_stresses(const Nodes<Real>& nodes) {
     if (volume_stresses_.empty()) return;
     for_ranges(slice_count(*model_), kSlicesATask, [&](Range slices) {
         if constexpr (std::is_same_v<Real, float>) {
-            find_volume_stresses_simd(*model_, nodes, volume_stresses_, slices);
+            find_volume_stresses_simd(*model_, pass_tets_, nodes, volume_stresses_, slices);
         } else {
             cpu::find_volume_stresses<Real>(*model_, nodes, volume_stresses_, slices);
         }

@@ -83,7 +83,7 @@ private:
     std::vector<float> load_factors_;
     std::vector<Vec4<Real>> load_forces_;  // [N], shape [nodes]; empty without loads
     std::optional<Pulls<Real>> pulls_;     // while a user pulls
-    TetBlocks pass_tets_;                  // in float, for fused explicit schemes
+    TetBlocks pass_tets_;                  // in float, for explicit schemes
     std::vector<Real> volume_stresses_;    // [Pa], shape [nodes]; empty if no explicit scheme needs them
     Collision<Real> collision_;
     ContactProperties contact_;

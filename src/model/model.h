@@ -11,6 +11,7 @@
 #include "model/drive/handles.h"
 #include "model/drive/loads.h"
 #include "model/elasticity/node_tets.h"
+#include "model/elasticity/neo_hookean.h"
 #include "model/elasticity/volume_term.h"
 #include "model/layouts.h"
 #include "model/shared_constants.h"

@@ -7,15 +7,17 @@ uniform samplerBuffer volume_stresses;  // [Pa], of each node
 // The force on node n [N]: each tet of volume v acts with -p dv/dx, p the mean stress of its corners.
 vec3 gather_volume_forces(uint n) {
     float own = texelFetch(volume_stresses, int(n)).x;
+    vec3 at = texelFetch(positions, int(n)).xyz;
     vec3 sum = vec3(0.0);  // -24 times the force
+    Strip strip = kNoStrip, stresses = kNoStrip;
     uint end = texelFetch(volume_starts, int(n / kSlice) + 1).x;
     for (uint e = texelFetch(volume_starts, int(n / kSlice)).x + n % kSlice; e < end; e += kSlice) {
-        uvec4 tet = texelFetch(volume_corners, int(e));
-        vec3 a = texelFetch(positions, int(tet.x)).xyz;
-        vec3 b = texelFetch(positions, int(tet.y)).xyz, c = texelFetch(positions, int(tet.z)).xyz;
-        float p = own + texelFetch(volume_stresses, int(tet.x)).x + texelFetch(volume_stresses, int(tet.y)).x +
-                  texelFetch(volume_stresses, int(tet.z)).x;
-        sum += p * cross(b - a, c - a);
+        uvec4 volume_step = texelFetch(volume_strips, int(e));
+        if (volume_step.x == kNone) break;
+        int node = node_of(volume_step.x);
+        step_strip(volume_step.x, texelFetch(positions, node).xyz - at, strip);
+        step_strip(volume_step.x, texelFetch(volume_stresses, node).xxx, stresses);
+        sum += (own + stresses.a.x + stresses.b.x + stresses.c.x) * area_of(volume_step, strip);
     }
     return -sum / 24.0;
 }

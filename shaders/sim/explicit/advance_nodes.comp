@@ -3,6 +3,7 @@
 // (src/model/model.h): all its lanes run the same number of times, over neighbouring texels.
 // CPU twin: gelatin::cpu::advance_nodes. Parity: tests/gpu/explicit/advance_nodes_test.cpp.
 #include "layouts/packing.glsl"
+#include "sim/elasticity/strip.glsl"
 #include "include/global_index.glsl"
 #include "sim/explicit/integrate_node.glsl"
 #include "sim/elasticity/spring_force.glsl"

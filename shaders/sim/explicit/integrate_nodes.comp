@@ -1,6 +1,7 @@
 // The paper's third kernel (3.3): each node moves by its merged forces, and those of its tets. CPU twin:
 // gelatin::cpu::integrate_nodes. Parity: tests/gpu/explicit/divide_and_merge_test.cpp.
 #include "layouts/packing.glsl"
+#include "sim/elasticity/strip.glsl"
 #include "include/global_index.glsl"
 #include "sim/explicit/integrate_node.glsl"
 #ifdef NEO_HOOKEAN

@@ -1,6 +1,7 @@
 // Sums over nodes, one work group for each chunk; the host adds up the chunks in double precision. Pinned nodes (inverse mass
 // 0) count for contacts and elastic energy only. CPU twin: gelatin::cpu::measure. Parity: tests/gpu/measure/measure_test.cpp.
 #include "layouts/packing.glsl"
+#include "sim/elasticity/strip.glsl"
 #include "sim/collision/colliders.glsl"
 #include "include/global_index.glsl"
 #include "layouts/chunk.glsl"

@@ -26,9 +26,9 @@ HWY_INLINE void gather_neo_hookean_lanes(Lanes d, const DescentTets& tets, std::
     for (std::uint32_t b = first; b < end; ++b) {
         const NeoHookeanBlock& block = blocks.neo_hookean[b];
         prefetch_block(&block);
-        const Vector signs = hn::LoadU(d, &block.mu[row]);
-        strip.step(d, positions, &block.nodes[row], self, signs);
-        if (blocks.is_damped) before.step(d, starts, &block.nodes[row], start, signs);
+        const LaneMask keeps = oldest_stays(d, hn::LoadU(d, &block.mu[row]));
+        strip.step(d, positions, &block.nodes[row], self, keeps);
+        if (blocks.is_damped) before.step(d, starts, &block.nodes[row], start, keeps);
         if (b < first + TetBlocks::kEmptyBlocks) continue;
         VolumeBound<FloatLanes> bound;
         if (!blocks.neo_hookean_moduli.empty())
@@ -38,8 +38,7 @@ HWY_INLINE void gather_neo_hookean_lanes(Lanes d, const DescentTets& tets, std::
         add_neo_hookean(tet.at_corner, tet.moduli, bound, terms);
         tet.add_openings(d, blocks.openings[b], row, terms.force);
         if (!blocks.is_damped) continue;
-        const FloatLanes damping =
-            damping_factor * (FloatLanes(start.w) + before.w_a + before.w_b + before.w_c);
+        const FloatLanes damping = damping_factor * (FloatLanes(start.w) + before.w.sum());
         if (hn::AllFalse(d, damping > FloatLanes(0.0f))) continue;
         add_viscosity(tet.g, tet.f, tet.gradient_of(before), tet.moduli, damping, terms);
     }
@@ -54,7 +53,7 @@ HWY_INLINE void gather_volume_lanes(Lanes d, const DescentTets& tets, std::size_
         const VolumeBlock& block = blocks.volumes[b];
         prefetch_block(&block);
         const Vector modulus = hn::LoadU(d, &block.modulus[row]);
-        strip.step(d, positions, &block.nodes[row], self, modulus);
+        strip.step(d, positions, &block.nodes[row], self, oldest_stays(d, modulus));
         if (b < first + TetBlocks::kEmptyBlocks) continue;
         const Vec3Lanes slope = load(d, block.inverse_six_volumes, row) * strip.area();
         const VolumeBound<FloatLanes> bound{load(d, tets.offsets.volumes[b].values, row), hn::Abs(modulus)};

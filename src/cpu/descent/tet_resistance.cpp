@@ -23,7 +23,7 @@ TetResistance<Real>::TetResistance(std::shared_ptr<const Model> model, const Des
       is_near_flat_(model_->node_count()),
       any_flat_(rows.batches.size()) {
     if constexpr (std::is_same_v<Real, float>) {
-        blocks_ = make_tet_blocks(*model_, rows.nodes, node_tets_);
+        blocks_ = make_tet_blocks(*model_, rows.nodes, node_tets_, VolumesOf::springs);
         if (!model_->volume_term.is_empty()) volume_bounds_ = VolumeBounds(*model_, blocks_);
     } else if (!model_->volume_term.is_empty()) {
         node_pressures_.resize(model_->node_count());

@@ -6,7 +6,7 @@
 
 #include "cpu/elasticity/elements.h"
 #include "cpu/nodes.h"
-#include "model/layouts.h"
+#include "model/elasticity/neo_hookean.h"
 
 /// Neo-Hookean tets of a model, with the formulas of cpu/elasticity/neo_hookean.inl.
 namespace gelatin::cpu {

@@ -23,17 +23,17 @@ Real inverse_length(const Vec3<Real>& apart) {
     return Real(1) / square_root(larger(dot(apart, apart), Real(kLeastSquare)));
 }
 
-/// The force of a spring and its damper on the end that `apart` starts at [N]: k (l - L + t l') d / l with
-/// the damping time t [s] and l' the rate of change of l (damping along the spring: Nealen et al. 2006, eq.
-/// 5, with k_d = k t).
+/// The force of a spring and its damper on the end that `apart` starts at, as a multiple of d [N/m]: k (l - L
+/// + t l') / l with the damping time t [s] and l' the rate of change of l (damping along the spring: Nealen
+/// et al. 2006, eq. 5, with k_d = k t).
 /// @param rate of change of `apart` [m/s]
 template <class Real>
-Vec3<Real> spring_force(const Vec3<Real>& apart, const Vec3<Real>& rate, const SpringLaw<Real>& spring,
-                        Real damping_time) {
+Real spring_pull(const Vec3<Real>& apart, const Vec3<Real>& rate, const SpringLaw<Real>& spring,
+                 Real damping_time) {
     const Real squared = larger(dot(apart, apart), Real(kLeastSquare));
     const Real length = square_root(squared), inverse = Real(1) / length;
     const Real longer = multiply_add(damping_time, dot(apart, rate) * inverse, length - spring.rest_length);
-    return (spring.stiffness * longer * inverse) * apart;
+    return spring.stiffness * longer * inverse;
 }
 
 /// Over a step of h seconds, the damper

@@ -12,9 +12,11 @@ Vec3<Real> spring_force(const Vec4<Real>* positions, const Vec4<Real>* velocitie
                         std::uint32_t j, float rest_length, float stiffness) {
     const Vec4<Real>&position = positions[i], &other_position = positions[j];
     const Vec4<Real>&velocity = velocities[i], &other_velocity = velocities[j];
-    return spring_force<Real>(Vec3<Real>(other_position - position), Vec3<Real>(other_velocity - velocity),
-                              {static_cast<Real>(rest_length), static_cast<Real>(stiffness)},
-                              Real(0.5) * (velocity.w + other_velocity.w));
+    const Vec3<Real> apart(other_position - position);
+    return spring_pull<Real>(apart, Vec3<Real>(other_velocity - velocity),
+                             {static_cast<Real>(rest_length), static_cast<Real>(stiffness)},
+                             Real(0.5) * (velocity.w + other_velocity.w)) *
+           apart;
 }
 
 }  // namespace gelatin::cpu

@@ -12,8 +12,10 @@ static_assert(TetBlocks::kEmptyBlocks == TetStrips::kFirstVertices);
 
 class Builder {
 public:
-    Builder(const Model& model, std::span<const std::uint32_t> nodes, const NodeTets& node_tets)
+    Builder(const Model& model, std::span<const std::uint32_t> nodes, const NodeTets& node_tets,
+            VolumesOf volumes)
         : nodes_(nodes),
+          volumes_of_(volumes),
           strips_(model, node_tets),
           tet_count_(static_cast<std::uint32_t>(model.tets.size())),
           has_volume_term_(!model.volume_term.is_empty()) {
@@ -40,11 +42,13 @@ private:
     }
 
     void append(std::uint32_t node, std::uint32_t row) {
+        const std::vector<NeoHookeanStep> steps = strips_.neo_hookean(node);
         std::size_t index = blocks_.neo_hookean_starts.back();
-        for (const NeoHookeanStep& step : strips_.neo_hookean(node)) {
+        for (const NeoHookeanStep& step : steps) {
             if (index == blocks_.neo_hookean.size()) append_neo_hookean_block();
             set(step, index++, row);
         }
+        if (volumes_of_ == VolumesOf::springs && !steps.empty()) return;
         index = blocks_.volume_starts.back();
         for (const VolumeStep& step : strips_.volumes(node)) {
             if (index == blocks_.volumes.size()) append_volume_block();
@@ -95,6 +99,7 @@ private:
     std::uint32_t index_of(std::uint32_t tet) const { return tet == packing::kNone ? tet_count_ : tet; }
 
     std::span<const std::uint32_t> nodes_;
+    VolumesOf volumes_of_;
     TetStrips strips_;
     std::uint32_t tet_count_;
     bool has_volume_term_;
@@ -104,10 +109,10 @@ private:
 
 }  // namespace
 
-TetBlocks make_tet_blocks(const Model& model, std::span<const std::uint32_t> nodes,
-                          const NodeTets& node_tets) {
+TetBlocks make_tet_blocks(const Model& model, std::span<const std::uint32_t> nodes, const NodeTets& node_tets,
+                          VolumesOf volumes) {
     if (model.neo_hookean_tets.empty() && model.volume_term.is_empty()) return {};
-    return Builder(model, nodes, node_tets).build();
+    return Builder(model, nodes, node_tets, volumes).build();
 }
 
 TetOffsets::TetOffsets(const TetBlocks& blocks)

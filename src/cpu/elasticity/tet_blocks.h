@@ -56,9 +56,13 @@ struct TetBlocks {
     bool is_empty() const { return neo_hookean.empty() && volumes.empty(); }
 };
 
+/// Block descent adds the volume term of neo-Hookean tets with their other terms; explicit passes have
+/// volumes of all nodes.
+enum class VolumesOf { springs, all };
+
 /// @param nodes of the rows, or kNoNode, whole groups @param node_tets those of the model's tets
-TetBlocks make_tet_blocks(const Model& model, std::span<const std::uint32_t> nodes,
-                          const NodeTets& node_tets);
+TetBlocks make_tet_blocks(const Model& model, std::span<const std::uint32_t> nodes, const NodeTets& node_tets,
+                          VolumesOf volumes);
 
 /// VolumeBound's offsets of the tets of blocks [J]; empty without a volume term.
 struct TetOffsets {

@@ -13,26 +13,40 @@
 HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {
 
-// Values at the last three vertices of strips, relative to the rows' nodes, the oldest first.
+// Where the oldest vertex of strips stays: the sign bits.
+HWY_INLINE LaneMask oldest_stays(Lanes d, Vector signs) {
+    const hn::Rebind<std::int32_t, Lanes> di;  // of floats, -0 would not be negative
+    return hn::RebindMask(d, hn::Lt(hn::BitCast(di, signs), hn::Zero(di)));
+}
+
+// A number at each of the last three vertices of strips, the oldest first.
+struct NumberStrip {
+    FloatLanes a, b, c;
+
+    HWY_INLINE NumberStrip() : a(0.0f), b(0.0f), c(0.0f) {}
+    HWY_INLINE void step(FloatLanes next, LaneMask keeps) {
+        a = select(keeps, a, b);
+        b = c;
+        c = next;
+    }
+    HWY_INLINE FloatLanes sum() const { return a + b + c; }
+};
+
+// Values at the last three vertices, relative to the rows' nodes.
 struct StripLanes {
     Vec3Lanes a, b, c;
-    FloatLanes w_a, w_b, w_c;
+    NumberStrip w;  // as they are
 
-    HWY_INLINE StripLanes()
-        : a(FloatLanes(0.0f)), b(FloatLanes(0.0f)), c(FloatLanes(0.0f)), w_a(0.0f), w_b(0.0f), w_c(0.0f) {}
+    HWY_INLINE StripLanes() : a(FloatLanes(0.0f)), b(FloatLanes(0.0f)), c(FloatLanes(0.0f)) {}
 
-    // @param nodes the vertices that come in @param keeps_oldest by its sign bit
+    // @param nodes the vertices that come in
     HWY_INLINE void step(Lanes d, const float* values, const std::uint32_t* nodes, const Columns& self,
-                         Vector keeps_oldest) {
-        const hn::Rebind<std::int32_t, Lanes> di;  // of floats, -0 would not be negative
-        const LaneMask keeps = hn::RebindMask(d, hn::Lt(hn::BitCast(di, keeps_oldest), hn::Zero(di)));
+                         LaneMask keeps) {
         a = {select(keeps, a.x, b.x), select(keeps, a.y, b.y), select(keeps, a.z, b.z)};
-        w_a = select(keeps, w_a, w_b);
         b = c;
-        w_b = w_c;
         const Columns next = load_nodes(d, values, nodes);
         c = difference(next, self);
-        w_c = next.w;
+        w.step(next.w, keeps);
     }
 
     // Twice the area of the triangle, away from the nodes where its vertices come counter-clockwise.

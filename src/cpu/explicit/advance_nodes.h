@@ -41,16 +41,16 @@ Pass<Real> make_pass(const Model& model, const ExplicitScheme& scheme, int index
 template <class Real>
 void find_volume_stresses(const Model& model, const Nodes<Real>& at, std::span<Real> stresses, Range slices);
 
-/// The same in float with SIMD.
-void find_volume_stresses_simd(const Model& model, const Nodes<float>& at, std::span<float> stresses,
-                               Range slices);
+/// The same in float with SIMD. @param tets make_pass_tets of the model
+void find_volume_stresses_simd(const Model& model, const TetBlocks& tets, const Nodes<float>& at,
+                               std::span<float> stresses, Range slices);
 
 /// Forces and integration fused: each node gathers the forces of its springs and tets and moves. Writes the
 /// nodes of `slices` only.
 template <class Real>
 void advance_nodes(const Pass<Real>& pass, Range slices);
 
-/// The neo-Hookean tets of the nodes in their order, for SIMD; empty if there are none.
+/// The tets of the nodes in their order, for SIMD; empty if springs are all.
 TetBlocks make_pass_tets(const Model& model);
 
 /// The same in float with SIMD, for the present processor; differs from the plain one by rounding only.

@@ -29,7 +29,9 @@ void advance_slices(const Pass<float>& pass, const TetBlocks& tets, Range slices
     advance_nodes<float>(pass, slices);
 }
 
-void find_stresses(const Model& model, const Nodes<float>& at, std::span<float> stresses, Range slices) {
+void find_stresses(const Model& model, const TetBlocks& tets, const Nodes<float>& at,
+                   std::span<float> stresses, Range slices) {
+    (void)tets;
     find_volume_stresses<float>(model, at, stresses, slices);
 }
 
@@ -39,12 +41,14 @@ struct NodeLanes {
     Columns position, velocity;
 };
 
-HWY_INLINE Vec3Lanes force_between(const NodeLanes& self, const NodeLanes& other, Vector rest_length,
-                                   Vector stiffness) {
+HWY_INLINE void add_spring_force(const NodeLanes& self, const NodeLanes& other, Vector rest_length,
+                                 Vector stiffness, Vec3Lanes& force) {
+    const Vec3Lanes apart = difference(other.position, self.position);
     const FloatLanes damping_times = FloatLanes(self.velocity.w) + FloatLanes(other.velocity.w);
-    return spring_force<FloatLanes>(difference(other.position, self.position),
-                                    difference(other.velocity, self.velocity), {rest_length, stiffness},
-                                    FloatLanes(0.5f) * damping_times);
+    const FloatLanes pull =
+        spring_pull<FloatLanes>(apart, difference(other.velocity, self.velocity), {rest_length, stiffness},
+                                FloatLanes(0.5f) * damping_times);
+    force = multiply_add(pull, apart, force);
 }
 
 // Forces on the nodes first .. first + kLanes.
@@ -72,12 +76,12 @@ HWY_INLINE Vec3Lanes gather_lanes(Lanes d, const Pass<float>& pass, const TetBlo
         Vector stiffness_0, stiffness_1;
         hn::LoadInterleaved2(d, &springs.stiffness[p].x, stiffness_0, stiffness_1);
         const NodeLanes other_0 = load_node([&](std::size_t l) { return pairs[l].node_0; });
-        force += force_between(self, other_0, columns.y, stiffness_0);
+        add_spring_force(self, other_0, columns.y, stiffness_0, force);
         const NodeLanes other_1 = load_node([&](std::size_t l) { return pairs[l].node_1; });
-        force += force_between(self, other_1, columns.w, stiffness_1);
+        add_spring_force(self, other_1, columns.w, stiffness_1, force);
     }
-    if (!tets.is_empty()) add_tet_forces(d, pass, tets, first, self.position, self.velocity, force);
-    if (pass.volume_stresses != nullptr) add_volume_forces(d, pass, first, force);
+    if (!tets.neo_hookean.empty()) add_tet_forces(d, pass, tets, first, self.position, self.velocity, force);
+    if (pass.volume_stresses != nullptr) add_volume_forces(d, pass, tets, first, self.position, force);
     return force;
 }
 
@@ -98,13 +102,14 @@ void advance_slices(const Pass<float>& pass, const TetBlocks& tets, Range slices
     for (; n < end; ++n) integrate_node(pass, n, gather_forces(pass, n));
 }
 
-void find_stresses(const Model& model, const Nodes<float>& at, std::span<float> stresses, Range slices) {
+void find_stresses(const Model& model, const TetBlocks& tets, const Nodes<float>& at,
+                   std::span<float> stresses, Range slices) {
     const Lanes d;
     const Vec4<float>* positions = at.positions.data();
     const std::uint32_t end = std::min(slices.end() * HalfSprings::kSlice, model.node_count());
     std::uint32_t n = slices.first * HalfSprings::kSlice;
     for (; n + kLanes <= end; n += kLanes)
-        hn::StoreU(volume_stresses(d, model.volume_term, positions, n).v, d, &stresses[n]);
+        hn::StoreU(volume_stresses(d, model.volume_term, tets, positions, n).v, d, &stresses[n]);
     for (; n < end; ++n) stresses[n] = volume_stress_round(model.volume_term, n, positions);
 }
 
@@ -125,20 +130,20 @@ HWY_EXPORT(find_stresses);
 HWY_EXPORT(target_name);
 
 TetBlocks make_pass_tets(const Model& model) {
-    if (model.neo_hookean_tets.empty()) return {};
+    if (model.neo_hookean_tets.empty() && model.volume_term.is_empty()) return {};
     std::vector<std::uint32_t> nodes(model.node_count());
     std::iota(nodes.begin(), nodes.end(), 0u);
     while (nodes.size() % kGroup != 0) nodes.push_back(kNoNode);
-    return make_tet_blocks(model, nodes, make_node_tets(model.node_count(), model.tets));
+    return make_tet_blocks(model, nodes, make_node_tets(model.node_count(), model.tets), VolumesOf::all);
 }
 
 void advance_nodes_simd(const Pass<float>& pass, const TetBlocks& tets, Range slices) {
     HWY_DYNAMIC_DISPATCH(advance_slices)(pass, tets, slices);
 }
 
-void find_volume_stresses_simd(const Model& model, const Nodes<float>& at, std::span<float> stresses,
-                               Range slices) {
-    HWY_DYNAMIC_DISPATCH(find_stresses)(model, at, stresses, slices);
+void find_volume_stresses_simd(const Model& model, const TetBlocks& tets, const Nodes<float>& at,
+                               std::span<float> stresses, Range slices) {
+    HWY_DYNAMIC_DISPATCH(find_stresses)(model, tets, at, stresses, slices);
 }
 
 const char* simd_target() {

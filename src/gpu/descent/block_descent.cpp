@@ -52,7 +52,7 @@ BlockDescent::Pressures::Pressures(const Model& model, std::span<const std::uint
       node_pressures(model.positions.size()),
       offsets(model.tets.size()) {
     const NodeTets tets = make_node_tets(model.node_count(), model.tets);
-    const StripSlices<VolumeStep> packed = pack_volume_strips({model, tets}, rows);
+    const StripSlices<VolumeStep> packed = pack_volume_strips({model, tets}, rows_of_springs(model, rows));
     strips = {packed.steps, gl::TexelFormat::rgba32ui};
     strip_starts = {packed.slice_starts, gl::TexelFormat::r32ui};
     node_tet_starts = {tets.starts, gl::TexelFormat::r32ui};

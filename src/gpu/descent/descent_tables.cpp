@@ -51,11 +51,17 @@ std::vector<DescentRow> rows_of(const DescentRows& rows, const std::vector<std::
     return result;
 }
 
-TetCorners corners_of(const Model& model, std::vector<std::uint32_t> rows) {
-    for (std::uint32_t& node : rows) {
+std::vector<std::uint32_t> rows_of_springs(const Model& model, std::span<const std::uint32_t> rows) {
+    std::vector<std::uint32_t> result(rows.begin(), rows.end());
+    for (std::uint32_t& node : result) {
         if (node != kNoNode && has_neo_hookean_tets(model, node)) node = kNoNode;
     }
-    return pack_tet_corners(rows, make_node_tets(model.node_count(), model.tets), model.tets);
+    return result;
+}
+
+TetCorners corners_of(const Model& model, std::span<const std::uint32_t> rows) {
+    return pack_tet_corners(rows_of_springs(model, rows), make_node_tets(model.node_count(), model.tets),
+                            model.tets);
 }
 
 }  // namespace gelatin::gpu

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
+#include <span>
 #include <vector>
 
 #include "model/descent/descent_rows.h"
@@ -24,7 +25,10 @@ std::vector<glm::vec4> springs_of(const HalfSprings& springs);
 /// @param objects of nodes
 std::vector<DescentRow> rows_of(const DescentRows& rows, const std::vector<std::uint32_t>& objects);
 
-/// The tets of each row's node. Nodes of neo-Hookean tets have none: their terms come with those.
-TetCorners corners_of(const Model& model, std::vector<std::uint32_t> rows);
+/// With kNoNode for nodes of neo-Hookean tets, whose terms come with those.
+std::vector<std::uint32_t> rows_of_springs(const Model& model, std::span<const std::uint32_t> rows);
+
+/// The tets of each row's node, if it is one of springs.
+TetCorners corners_of(const Model& model, std::span<const std::uint32_t> rows);
 
 }  // namespace gelatin::gpu

@@ -1,12 +1,20 @@
 #include "gpu/elasticity/volume_term_buffers.h"
 
+#include <numeric>
+
+#include "model/elasticity/tet_strips.h"
+
 namespace gelatin::gpu {
 
 VolumeTermBuffers::VolumeTermBuffers(const Model& model) {
     const VolumeTerm& term = model.volume_term;
     if (term.is_empty()) return;
-    corners_ = {term.corners.corners, gl::TexelFormat::rgba32ui};
-    slice_starts_ = {term.corners.slice_starts, gl::TexelFormat::r32ui};
+    std::vector<std::uint32_t> nodes(model.node_count());
+    std::iota(nodes.begin(), nodes.end(), 0u);
+    const NodeTets node_tets = make_node_tets(model.node_count(), model.tets);
+    const StripSlices<VolumeStep> packed = pack_volume_strips({model, node_tets}, nodes);
+    strips_ = {packed.steps, gl::TexelFormat::rgba32ui};
+    slice_starts_ = {packed.slice_starts, gl::TexelFormat::r32ui};
     nodes_ = {term.nodes, gl::TexelFormat::rg32f};
 }
 
@@ -16,8 +24,8 @@ gl::Defines VolumeTermBuffers::defines(const Model& model) {
 }
 
 void VolumeTermBuffers::bind(const gl::Program& program) const {
-    if (corners_.is_empty()) return;
-    program.bind("volume_corners", corners_);
+    if (strips_.is_empty()) return;
+    program.bind("volume_strips", strips_);
     program.bind("volume_starts", slice_starts_);
     program.bind("node_volumes", nodes_);
 }

@@ -20,7 +20,7 @@ public:
     void bind(const gl::Program& program) const;
 
 private:
-    gl::TexelTable<TetCorner> corners_;
+    gl::TexelTable<VolumeStep> strips_;
     gl::TexelTable<std::uint32_t> slice_starts_;
     gl::TexelTable<glm::vec2> nodes_;
 };

@@ -5,11 +5,17 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "model/layouts.h"
-
 namespace gelatin {
 
 struct Model;
+
+/// A tet of a neo-Hookean body. Corner 0's shape function has minus the sum of the other gradients.
+struct NeoHookeanTet {
+    std::uint32_t node_0, node_1, node_2, node_3;  ///< corners
+    glm::vec4 gradient_1;  ///< of corner 1's shape function at rest [1/m]; w: volume at rest [m^3]
+    glm::vec4 gradient_2;  ///< w: mu [Pa]
+    glm::vec4 gradient_3;  ///< w: lambda [Pa]
+};
 
 /// The two constants of a single tet's energy (cpu/elasticity/neo_hookean.h), and that of the volume term,
 /// which is averaged over nodes (model/elasticity/volume_term.h), because single tets would lock.

@@ -131,7 +131,7 @@ std::vector<NeoHookeanStep> TetStrips::neo_hookean(std::uint32_t node) const {
 }
 
 std::vector<VolumeStep> TetStrips::volumes(std::uint32_t node) const {
-    if (model_.volume_term.is_empty() || has_neo_hookean_tets(model_, node)) return {};
+    if (model_.volume_term.is_empty()) return {};
     std::vector<std::uint32_t> entries;
     for (const std::uint32_t entry : entries_of(node_tets_, node)) {
         if (model_.volume_term.tets[entry / 4] != 0.0f) entries.push_back(entry);

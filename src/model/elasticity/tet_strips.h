@@ -19,7 +19,7 @@ public:
 
     /// The neo-Hookean tets that the node is a corner of.
     std::vector<NeoHookeanStep> neo_hookean(std::uint32_t node) const;
-    /// The tets of springs round the node that the volume term acts on.
+    /// The tets round the node that the volume term acts on.
     std::vector<VolumeStep> volumes(std::uint32_t node) const;
 
     static constexpr std::uint32_t kKeepsOldest = 0x80000000u;  ///< of a step's vertex

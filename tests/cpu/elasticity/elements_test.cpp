@@ -85,7 +85,8 @@ TEST(Elements, ASpringsForceAndHessianAreThoseOfItsEnergy) {
             return cpu::spring_energy<double>(other - p, {kRest, kStiffness});
         };
         expect_force_of(energy, x, terms.force, 1e-6);
-        const V explicitly = cpu::spring_force<double>(other - x, V(0), {kRest, kStiffness}, 0.0);
+        const V apart = other - x;
+        const V explicitly = cpu::spring_pull<double>(apart, V(0), {kRest, kStiffness}, 0.0) * apart;
         EXPECT_LT(glm::distance(explicitly, terms.force), 1e-12);
         const M exact = derivative_of([&](const V& p) { return spring_terms(p, other).force; }, x);
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> given(to_eigen(terms.hessian)),
@@ -120,14 +121,14 @@ TEST(Elements, DampingResistsChangesOfLengthAlone) {
 TEST(Elements, DampersActAlongTheSpringAlone) {
     const V apart(2, 0, 0);
     const auto force = [&](const V& rate) {
-        return cpu::spring_force<double>(apart, rate, {2.0, 100.0}, 0.03);
+        return cpu::spring_pull<double>(apart, rate, {2.0, 100.0}, 0.03) * apart;
     };
     EXPECT_NEAR(force({0.5, 0, 0}).x, 100.0 * 0.03 * 0.5, 1e-12);
     EXPECT_EQ(glm::length(force({0, 0.5, 0.7})), 0.0);
 }
 
 TEST(Elements, ASpringOfNoLengthAddsNothing) {
-    EXPECT_EQ(cpu::spring_force<double>(V(0), V(1), {1.0, 100.0}, 0.1), V(0));
+    EXPECT_EQ(cpu::spring_pull<double>(V(0), V(1), {1.0, 100.0}, 0.1) * V(0), V(0));
     const Terms terms = spring_terms(V(1, 2, 3), V(1, 2, 3), 2.0, V(0));
     EXPECT_EQ(terms.force, V(0));
     EXPECT_EQ(terms.hessian.diagonal, V(0));
