@@ -127,11 +127,13 @@ HWY_EXPORT(descend_rows);
 
 void gather_group(const DescentGroups& from, std::size_t group, std::span<const glm::vec4> positions,
                   TermColumns& terms) {
+    if (is_empty_group(&from.nodes[group * kGroup])) return;
     HWY_DYNAMIC_DISPATCH(gather_rows)(from, group, positions, terms);
 }
 
 std::uint32_t descend_group(const DescentGroups& from, std::size_t group, TermColumns& terms,
                             std::span<glm::vec4> positions) {
+    if (is_empty_group(&from.nodes[group * kGroup])) return 0;
     return HWY_DYNAMIC_DISPATCH(descend_rows)(from, group, terms, positions);
 }
 

@@ -47,6 +47,7 @@ HWY_EXPORT(damp_group);
 void damp_springs(const SpringBlocks& springs, std::span<const std::uint32_t> nodes, const glm::vec4* starts,
                   float inverse_step, SpringBlocks& damped) {
     for_each_index(springs.starts.size() - 1, [&](std::size_t g) {
+        if (is_empty_group(&nodes[g * kGroup])) return;
         HWY_DYNAMIC_DISPATCH(damp_group)
         (springs, static_cast<std::uint32_t>(g), &nodes[g * kGroup], starts, inverse_step, damped);
     });

@@ -26,6 +26,7 @@ public:
         for (std::uint32_t first = 0; first < nodes_.size(); first += kGroup) {
             begin_group();
             const std::span<const std::uint32_t> nodes = nodes_.subspan(first, kGroup);
+            if (is_empty_group(nodes.data())) continue;
             shown_ = shown_nodes(nodes.data());
             for (std::uint32_t row = 0; row < kGroup; ++row) {
                 if (nodes[row] != kNoNode) append(nodes[row], row);
