@@ -5,7 +5,8 @@
 // The force of all its tets on the node of a row of slices [N].
 vec3 gather_tet_forces(uint row, vec3 position, vec4 velocity) {
     vec3 force = vec3(0.0);
-    Strip strip = kNoStrip, rates = kNoStrip, damping_times = kNoStrip;
+    Strip strip = kNoStrip, rates = kNoStrip;
+    vec3 damping_times = vec3(0.0);
     uint end = texelFetch(neo_hookean_starts, int(row / kSlice) + 1).x;
     for (uint e = texelFetch(neo_hookean_starts, int(row / kSlice)).x + row % kSlice; e < end; e += kSlice) {
         NeoHookeanStep tet = fetch_neo_hookean_step(e);
@@ -15,7 +16,7 @@ vec3 gather_tet_forces(uint row, vec3 position, vec4 velocity) {
 #ifdef DAMPED
         vec4 other = texelFetch(velocities, node);
         step_strip(tet.vertex, other.xyz - velocity.xyz, rates);
-        step_strip(tet.vertex, other.www, damping_times);
+        step_numbers(tet.vertex, other.w, damping_times);
 #endif
         if (tet.tet == kNone) continue;
         TetAtCorner at = tet_at_corner(tet, strip);
@@ -23,7 +24,7 @@ vec3 gather_tet_forces(uint row, vec3 position, vec4 velocity) {
         force += opening_force(e, at.squares) - stress.shear * at.stretched - stress.pressure * at.slope;
 #ifdef DAMPED
         mat3 f = gradient_of(tet, strip), rate = gradient_of(tet, rates);
-        float damping_time = 0.25 * (velocity.w + damping_times.a.x + damping_times.b.x + damping_times.c.x);
+        float damping_time = 0.25 * (velocity.w + sum_of(damping_times));
         force -= damping_time * viscous_share(at.squares) * (f * viscous_traction(tet, f, rate, shape_gradient(tet)));
 #endif
     }

@@ -30,7 +30,8 @@ void add_viscosity(NeoHookeanStep tet, mat3 f, mat3 start, float damping, inout 
 // The contribution of all its tets to node `n`, which row `row` of slices has.
 void add_neo_hookean_tets(uint row, uint n, vec3 position, inout NodeTerms terms) {
     vec4 start = texelFetch(start_positions, int(n));
-    Strip strip = kNoStrip, before = kNoStrip, damping_times = kNoStrip;
+    Strip strip = kNoStrip, before = kNoStrip;
+    vec3 damping_times = vec3(0.0);
     uint end = texelFetch(neo_hookean_starts, int(row / kSlice) + 1).x;
     for (uint e = texelFetch(neo_hookean_starts, int(row / kSlice)).x + row % kSlice; e < end; e += kSlice) {
         NeoHookeanStep tet = fetch_neo_hookean_step(e);
@@ -40,7 +41,7 @@ void add_neo_hookean_tets(uint row, uint n, vec3 position, inout NodeTerms terms
 #ifdef DAMPED
         vec4 other = texelFetch(start_positions, node);
         step_strip(tet.vertex, other.xyz - start.xyz, before);
-        step_strip(tet.vertex, other.www, damping_times);
+        step_numbers(tet.vertex, other.w, damping_times);
 #endif
         if (tet.tet == kNone) continue;
         TetAtCorner at = tet_at_corner(tet, strip);
@@ -52,7 +53,7 @@ void add_neo_hookean_tets(uint row, uint n, vec3 position, inout NodeTerms terms
         add_neo_hookean(tet, at, bound, terms);
         terms.force += opening_force(e, at.squares);
 #ifdef DAMPED
-        float damping_time = 0.25 * (start.w + damping_times.a.x + damping_times.b.x + damping_times.c.x);
+        float damping_time = 0.25 * (start.w + sum_of(damping_times));
         add_viscosity(tet, gradient_of(tet, strip), gradient_of(tet, before), damping_time / time_step, terms);
 #endif
     }

@@ -16,4 +16,11 @@ void step_strip(uint vertex, vec3 next, inout Strip strip) {
     strip.c = next;
 }
 
+// The same of a number at each vertex.
+void step_numbers(uint vertex, float next, inout vec3 numbers) {
+    numbers = vec3((vertex & 0x80000000u) != 0u ? numbers.x : numbers.y, numbers.z, next);
+}
+
+float sum_of(vec3 numbers) { return numbers.x + numbers.y + numbers.z; }
+
 int node_of(uint vertex) { return int(vertex & 0x7FFFFFFFu); }

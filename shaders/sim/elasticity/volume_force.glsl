@@ -9,15 +9,16 @@ vec3 gather_volume_forces(uint n) {
     float own = texelFetch(volume_stresses, int(n)).x;
     vec3 at = texelFetch(positions, int(n)).xyz;
     vec3 sum = vec3(0.0);  // -24 times the force
-    Strip strip = kNoStrip, stresses = kNoStrip;
+    Strip strip = kNoStrip;
+    vec3 stresses = vec3(0.0);
     uint end = texelFetch(volume_starts, int(n / kSlice) + 1).x;
     for (uint e = texelFetch(volume_starts, int(n / kSlice)).x + n % kSlice; e < end; e += kSlice) {
         uvec4 volume_step = texelFetch(volume_strips, int(e));
         if (volume_step.x == kNone) break;
         int node = node_of(volume_step.x);
         step_strip(volume_step.x, texelFetch(positions, node).xyz - at, strip);
-        step_strip(volume_step.x, texelFetch(volume_stresses, node).xxx, stresses);
-        sum += (own + stresses.a.x + stresses.b.x + stresses.c.x) * area_of(volume_step, strip);
+        step_numbers(volume_step.x, texelFetch(volume_stresses, node).x, stresses);
+        sum += (own + sum_of(stresses)) * area_of(volume_step, strip);
     }
     return -sum / 24.0;
 }
