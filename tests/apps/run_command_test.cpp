@@ -199,9 +199,9 @@ TEST_F(RunCommand, ASecondInterruptKills) {
     settings_.signal_after = "10%";
     settings_.signals = {SIGINT, SIGINT};
     settings_.signal_delay = std::chrono::milliseconds(300);
-    // Frames of 5,000 s, which take a second or more: the first interrupt waits for the second one's end.
+    // Frames of 1,700 s, which take about a second: the first interrupt waits for the second one's end.
     const ProgramResult result =
-        run({"run", "cube.toml", "--frames", "10", "--set", "simulation.frame_rate=2e-4", "--set",
+        run({"run", "cube.toml", "--frames", "10", "--set", "simulation.frame_rate=6e-4", "--set",
              "simulation.substeps=auto", "--set", "material.jelly.youngs_modulus=1000", "--set",
              "object.cube.shape={box=[1, 1, 1], segments=[10, 10, 10]}"});
     EXPECT_EQ(result.signal, SIGINT) << result.exit_code << result.err;
