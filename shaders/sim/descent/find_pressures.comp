@@ -1,6 +1,6 @@
 // The volume term: NODES: its stress round each node, from the volumes of the tets round it; without: of each tet the mean
 // of its corners', less what its own change of volume answers for.
-// CPU twin: gelatin::cpu::TetResistance. Parity: tests/gpu/descent/block_descent_test.cpp.
+// CPU twin: gelatin::cpu::VolumeBounds. Parity: tests/gpu/descent/block_descent_test.cpp.
 #include "include/global_index.glsl"
 #include "sim/elasticity/node_terms.glsl"
 layout(local_size_x = 64) in;

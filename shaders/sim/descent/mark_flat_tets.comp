@@ -1,6 +1,6 @@
 // Marks the nodes of all tets so flat that they resist, with the number of this marking, so that earlier marks need no
 // clearing. VOLUME: keeps the share of its volume that each tet has, too.
-// CPU twin: gelatin::cpu::TetResistance. Parity: tests/gpu/descent/block_descent_test.cpp.
+// CPU twin: gelatin::cpu::FlatTets. Parity: tests/gpu/descent/block_descent_test.cpp.
 #include "include/global_index.glsl"
 #include "sim/elasticity/node_terms.glsl"
 #include "sim/elasticity/volume_ratio.glsl"

@@ -1,4 +1,4 @@
-// A tet's volume relative to that at rest; negative if it is inverted. CPU twin: cpu::TetResistance::ratio_of.
+// A tet's volume relative to that at rest; negative if it is inverted. CPU twin: cpu::volumes_are_within.
 uniform samplerBuffer positions;   // xyz [m]
 uniform usamplerBuffer tets;       // nodes
 uniform samplerBuffer tet_rests;  // volume [m^3], modulus [Pa], stiffness of the volume term [Pa]

@@ -9,11 +9,10 @@
 #include "core/stage_timer.h"
 #include "cpu/descent/coarse_step.h"
 #include "cpu/descent/collider_contacts.h"
-#include "cpu/descent/descend_groups.h"
-#include "cpu/descent/rigid_motion.h"
+#include "cpu/descent/node_sweep.h"
+#include "cpu/descent/rigid_move.h"
 #include "cpu/descent/step_objective.h"
 #include "cpu/drive/pulls.h"
-#include "cpu/elasticity/elements.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
 #include "model/solver.h"
@@ -22,12 +21,13 @@ namespace gelatin::cpu {
 
 /// Vertex block descent (Chen et al. 2024): a step of implicit Euler as the minimum of
 ///   G(x) = sum_i m_i / (2 h^2) |x_i - y_i|^2 + E(x),   y = x_t + h v_t + h^2 (g + f / m),
-/// with f the force of loads, found node by node, each by one Newton step on its own three coordinates, all
-/// nodes of one colour at once.
-/// Between sweeps, clusters of nodes move towards that minimum (cpu/descent/coarse_correction.h), which long
-/// stiff bodies would need thousands of sweeps for. Between sweeps and after the last one, bodies that
-/// nothing holds move as rigid ones to where G is least: that keeps their momentum, which sweeps alone lose
-/// (docs/block-descent.md). Stable for any step and start. The same bits for any number of threads.
+/// with f the force of loads. G is a sum of elements (StepObjective), and three moves lower it in turn:
+/// - NodeSweep: each node by one Newton step on its own three coordinates, all nodes of one colour at once;
+/// - RigidMove, after every second sweep and after the last: bodies that nothing holds, as rigid ones. That
+///   keeps their momentum, which sweeps alone lose;
+/// - CoarseStep, after the first of every six sweeps: clusters of nodes, for long stiff bodies that would
+///   need thousands of sweeps (docs/block-descent.md).
+/// Stable for any step and start. The same bits for any number of threads.
 template <class Real>
 class BlockDescent {
 public:
@@ -47,34 +47,25 @@ public:
              StageTimer* timer = nullptr);
 
 private:
+    using Positions = std::vector<Vec4<Real>>;
+
     void start(Real step, bool has_earlier, const Nodes<Real>& previous,
                std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls, Nodes<Real>& current);
-    void take_back_tangled(std::vector<Vec4<Real>>& positions) const;
+    void take_back_tangled(Positions& positions) const;
     int end_of_run(int first) const;
-    void make_sweeps(int first, int end, std::vector<Vec4<Real>>& positions, StageTimer* timer);
-    void make_sweep(int index, std::size_t batch, std::vector<Vec4<Real>>& positions);
-    bool updates_tets(int index) const { return index % kSweepsAMotion == 0; }
-    bool moves_bodies(int index) const {
-        return index + 1 == settings_.iterations || (index + 1) % kSweepsAMotion == 0;
-    }
-    void sweep(std::size_t batch, std::vector<Vec4<Real>>& positions);
-    void move_node(std::uint32_t node, const NodeTerms<Real>& terms, std::vector<Vec4<Real>>& positions);
-    template <class Groups>  // DescentGroups: a template, for there is none but in float
-    void move_group(const Groups& groups, std::size_t group, bool any_flat_tets, bool any_contact,
-                    std::vector<Vec4<Real>>& positions);
-    Vec3<Real> outside_colliders(std::uint32_t node, const SymmetricMatrix<Real>& hessian,
-                                 Vec3<Real> position);
-    void move_bodies(const Range& objects, bool is_last, std::vector<Vec4<Real>>& positions) const;
-    void add_contact(std::uint32_t node, const glm::dvec3& origin, const std::vector<Vec4<Real>>& positions,
-                     RigidStep& body) const;
+    void make_sweeps(int first, int end, Positions& positions, StageTimer* timer);
+    bool updates_tets(int sweep) const { return sweep % kSweepsAMotion == 0; }
+    bool moves_bodies(int sweep) const { return is_last(sweep) || (sweep + 1) % kSweepsAMotion == 0; }
+    bool is_last(int sweep) const { return sweep + 1 == settings_.iterations; }
     void finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current) const;
 
     std::shared_ptr<const Model> model_;
     DescentSettings settings_;
     StepObjective<Real> objective_;
-    std::optional<CoarseStep<Real>> coarse_;  // where there are clusters
     ColliderContacts<Real> contacts_;
-    std::vector<ColliderBound> collider_bounds_;  // in float
+    NodeSweep<Real> sweep_;
+    RigidMove<Real> rigid_move_;
+    std::optional<CoarseStep<Real>> coarse_;  // where there are clusters
 };
 
 }  // namespace gelatin::cpu

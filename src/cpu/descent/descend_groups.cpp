@@ -66,7 +66,7 @@ HWY_INLINE std::uint32_t near_colliders(Lanes d, std::span<const ColliderBound> 
 HWY_INLINE void gather_terms(Lanes d, const DescentGroups& from, std::size_t group, std::uint32_t row,
                              const std::uint32_t* shown, const Columns& self, const Columns& target,
                              std::span<const glm::vec4> positions, TermLanes& terms) {
-    add_inertia<FloatLanes>(difference(target, self), target.w, terms);
+    add_point_spring<FloatLanes>(difference(target, self), target.w, terms);
     gather_spring_lanes(d, from.springs, group, row, self, &positions[0].x, terms);
     if (from.tets.blocks.is_empty()) return;
     gather_neo_hookean_lanes(d, from.tets, group, row, shown, self, &positions[0].x, terms);

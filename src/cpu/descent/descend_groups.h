@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <type_traits>
 #include <vector>
 
 #include "cpu/descent/spring_blocks.h"
@@ -14,10 +13,6 @@ namespace gelatin::cpu {
 
 /// Groups that a thread takes at a time, at least.
 constexpr std::size_t kGroupsATask = 16;
-
-/// The float path has SIMD; in double it is the plain one, which tests hold everything against.
-template <class Real>
-constexpr bool kIsFloat = std::is_same_v<Real, float>;
 
 /// NodeTerms of a group of rows, in columns.
 struct alignas(32) TermColumns {

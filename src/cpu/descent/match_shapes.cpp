@@ -6,7 +6,6 @@
 #include <atomic>
 #include <glm/matrix.hpp>
 #include <limits>
-#include <type_traits>
 #include <utility>
 
 #include "cpu/descent/nearest_rotation.h"
@@ -45,10 +44,8 @@ void ShapeMatcher<Real>::count_inverted_tets(const std::vector<Vec4<Real>>& posi
     const auto tet_count = static_cast<std::uint32_t>(model_->tets.size());
     tbb::parallel_for(0u, (tet_count + kTetsATask - 1) / kTetsATask, [&](std::uint32_t task) {
         const Range tets{task * kTetsATask, std::min(kTetsATask, tet_count - task * kTetsATask)};
-        if constexpr (std::is_same_v<Real, float>) {
-            constexpr float kAny = std::numeric_limits<float>::infinity();
-            if (volumes_are_within(0.0f, kAny, *model_, tets, positions.data(), nullptr)) return;
-        }
+        constexpr Real kAny = std::numeric_limits<Real>::infinity();
+        if (volumes_are_within(Real(0), kAny, *model_, tets, positions.data(), nullptr)) return;
         for (std::uint32_t t = tets.first; t < tets.end(); ++t) {
             const glm::uvec4& tet = model_->tets[t];
             const Vec3<Real> a(positions[tet.x]);

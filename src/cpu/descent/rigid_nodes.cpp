@@ -124,12 +124,26 @@ HWY_EXPORT(sum_nodes);
 HWY_EXPORT(move_nodes);
 
 RigidSums sum_rigid_nodes(std::span<const glm::vec4> positions, std::span<const glm::vec4> targets,
-                          const glm::vec3& origin) {
-    return HWY_DYNAMIC_DISPATCH(sum_nodes)(positions, targets, origin);
+                          const glm::dvec3& origin) {
+    return HWY_DYNAMIC_DISPATCH(sum_nodes)(positions, targets, glm::vec3(origin));
+}
+
+RigidSums sum_rigid_nodes(std::span<const glm::dvec4> positions, std::span<const glm::dvec4> targets,
+                          const glm::dvec3& origin) {
+    RigidSums sums;
+    for (std::size_t n = 0; n < positions.size(); ++n) {
+        const glm::dvec3 position(positions[n]);
+        sums.add(position - origin, targets[n].w, targets[n].w * (glm::dvec3(targets[n]) - position));
+    }
+    return sums;
 }
 
 void move_rigid_nodes(const RigidMotion& motion, std::span<glm::vec4> positions) {
     HWY_DYNAMIC_DISPATCH(move_nodes)(motion, positions);
+}
+
+void move_rigid_nodes(const RigidMotion& motion, std::span<glm::dvec4> positions) {
+    for (glm::dvec4& p : positions) p = glm::dvec4(motion.move(glm::dvec3(p)), p.w);
 }
 
 }  // namespace gelatin::cpu

@@ -27,13 +27,12 @@ void add_row_spring(const SpringRows<Real>& from, std::uint32_t node, std::uint3
     add_spring(Vec3<Real>(other_position - position), damped_spring(spring, start_length, damping), terms);
 }
 
-/// The terms of all springs of the node in row `row`.
+/// Adds the terms of all springs of the node in row `row`.
 template <class Real>
-NodeTerms<Real> gather_spring_terms(const SpringRows<Real>& from, std::uint32_t row) {
+void add_row_springs(const SpringRows<Real>& from, std::uint32_t row, NodeTerms<Real>& terms) {
     constexpr std::uint32_t kSlice = HalfSprings::kSlice;
     const HalfSprings& springs = from.rows.springs;
     const std::uint32_t node = from.rows.nodes[row], slice = row / kSlice;
-    NodeTerms<Real> terms;
     for (std::uint32_t p = springs.slice_starts[slice] + row % kSlice; p < springs.slice_starts[slice + 1];
          p += kSlice) {
         const HalfSpringPair& pair = springs.pairs[p];
@@ -43,7 +42,6 @@ NodeTerms<Real> gather_spring_terms(const SpringRows<Real>& from, std::uint32_t 
         if (stiffness.y > 0.0f)
             add_row_spring(from, node, pair.node_1, pair.rest_length_1, stiffness.y, terms);
     }
-    return terms;
 }
 
 }  // namespace gelatin::cpu

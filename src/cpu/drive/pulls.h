@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "cpu/elasticity/elements.h"
 #include "cpu/nodes.h"
 #include "gelatin/pull.h"
 
@@ -28,15 +29,14 @@ public:
     }
 
     /// For block descent: combines the target of a node [m] and its weight [N/m] with those of the spring,
-    /// for a step of `step` seconds from `start`. A damped spring acts like a stiffer one to a point between
-    /// its other end and the start.
+    /// for a step of `step` seconds from `start`.
     Vec4<Real> with_target(std::uint32_t node, const Vec4<Real>& target, const Vec3<Real>& start,
                            Real step) const {
         const Vec4<Real>& pull = by_node_[node];
-        const Real damping = damping_time_ / step, stiffness = pull.w * (Real(1) + damping);
-        const Vec3<Real> place = (target_ + Vec3<Real>(pull) + damping * start) / (Real(1) + damping);
-        const Real weight = target.w + stiffness;
-        return {(target.w * Vec3<Real>(target) + stiffness * place) / weight, weight};
+        const PointSpring<Real> inertia{Vec3<Real>(target), target.w},
+            hand{target_ + Vec3<Real>(pull), pull.w};
+        const auto [place, stiffness] = both(inertia, damped_point_spring(hand, start, damping_time_ / step));
+        return {place, stiffness};
     }
 
 private:

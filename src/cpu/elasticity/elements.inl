@@ -6,6 +6,8 @@
 
 #include "cpu/elasticity/node_terms.inl"
 
+#include "cpu/elasticity/point_spring.inl"
+
 #include "cpu/elasticity/spring.inl"
 
 #include "cpu/elasticity/tet_volume.inl"

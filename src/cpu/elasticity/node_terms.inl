@@ -32,13 +32,6 @@ struct NodeTerms {
         : force(own_force), hessian(own_hessian) {}
 };
 
-/// Inertia, m / (2 h^2) |x - y|^2, with `mass` m / h^2 [N/m] and `apart` the vector from x to y.
-template <class Real>
-void add_inertia(const Vec3<Real>& apart, Real mass, NodeTerms<Real>& terms) {
-    terms.force = multiply_add(mass, apart, terms.force);
-    terms.hessian.add_identity(mass);
-}
-
 /// 1 / pivot. Pivots that are smaller than the rounding error of their operands count as no stiffness, and
 /// give 0.
 template <class Real>

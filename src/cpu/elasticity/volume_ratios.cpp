@@ -73,5 +73,21 @@ bool volumes_are_within(float least, float most, const Model& model, const Range
     return HWY_DYNAMIC_DISPATCH(are_within)(least, most, model, tets, positions, ratios);
 }
 
+bool volumes_are_within(double least, double most, const Model& model, const Range& tets,
+                        const glm::dvec4* positions, double* ratios) {
+    bool all = true;
+    for (std::uint32_t t = tets.first; t < tets.end(); ++t) {
+        const glm::uvec4& corners = model.tets[t];
+        const glm::dvec3 a(positions[corners.x]);
+        const glm::dvec3 ab = glm::dvec3(positions[corners.y]) - a, ac = glm::dvec3(positions[corners.z]) - a,
+                         ad = glm::dvec3(positions[corners.w]) - a;
+        const double ratio =
+            glm::dot(volume_slope(ab, ac, inverse_six_volumes<double>(model.tet_rests[t])), ad);
+        all = all && ratio > least && ratio < most;
+        if (ratios != nullptr) ratios[t] = ratio;
+    }
+    return all;
+}
+
 }  // namespace gelatin::cpu
 #endif

@@ -21,9 +21,9 @@ cpu::StepObjective<Real> make_objective(const std::shared_ptr<const Model>& mode
     for (std::uint32_t n = 0; n < model->node_count(); ++n) {
         const float x = normal(random), y = normal(random), z = normal(random);
         const glm::vec3 start = glm::vec3(model->positions[n]) + 0.01f * glm::vec3(x, y, z);
-        objective.starts[n] = cpu::Vec4<Real>(cpu::Vec3<Real>(start), model->velocities[n].w);
+        objective.step.starts[n] = cpu::Vec4<Real>(cpu::Vec3<Real>(start), model->velocities[n].w);
         const float inverse_mass = model->positions[n].w;
-        objective.targets[n] = cpu::Vec4<Real>(
+        objective.step.targets[n] = cpu::Vec4<Real>(
             cpu::Vec3<Real>(start), inverse_mass > 0.0f ? 1.0f / (inverse_mass * kStep * kStep) : 0.0f);
     }
     objective.begin(static_cast<Real>(kStep));
@@ -40,18 +40,16 @@ void expect_the_plain_terms_here(const Model& model) {
     const std::vector<glm::dvec4> positions_d(positions.begin(), positions.end());
     fast.update(0, positions);
     plain.update(0, positions_d);
-    const auto groups = fast.groups();
     int compared = 0;
-    for (std::uint32_t group = 0; group < fast.rows().nodes.size() / cpu::kGroup; ++group) {
-        cpu::TermColumns columns;
-        cpu::gather_group(groups, group, positions, columns);
-        for (std::uint32_t r = 0; r < cpu::kGroup; ++r) {
-            const std::uint32_t row = group * cpu::kGroup + r, node = fast.rows().nodes[row];
+    for (std::size_t group = 0; group < fast.group_count(); ++group) {
+        const cpu::TermColumns lanes = fast.gather(group, fast.any_flat_tets(), positions);
+        const cpu::PlainTerms rows = plain.gather(group, plain.any_flat_tets(), positions_d);
+        for (std::size_t r = 0; r < cpu::kGroup; ++r) {
+            const std::uint32_t node = fast.rows().nodes[group * cpu::kGroup + r];
             if (node == kNoNode || model.positions[node].w == 0.0f) continue;
             ++compared;
-            cpu::NodeTerms<float> actual = columns.row(r);
-            fast.add_flat_tets(node, positions, actual);
-            const cpu::NodeTerms<double> expected = plain.terms_of(row, positions_d);
+            const cpu::NodeTerms<float> actual = lanes.row(r);
+            const cpu::NodeTerms<double>& expected = rows.row(r);
             const glm::dvec3& d = expected.hessian.diagonal;
             const double stiffness = d.x + d.y + d.z;
             EXPECT_LT(glm::distance(glm::dvec3(actual.force), expected.force), 2e-6 * stiffness) << node;

@@ -127,6 +127,38 @@ TEST(Elements, DampersActAlongTheSpringAlone) {
     EXPECT_EQ(glm::length(force({0, 0.5, 0.7})), 0.0);
 }
 
+TEST(Elements, APointSpringsForceAndHessianAreThoseOfItsEnergy) {
+    Random random;
+    for (int i = 0; i < 50; ++i) {
+        const V x = random.point(1.0), place = random.point(1.0);
+        const auto terms_at = [&](const V& p) {
+            Terms terms;
+            cpu::add_point_spring(place - p, kStiffness, terms);
+            return terms;
+        };
+        const auto energy = [&](const V& p) { return cpu::point_spring_energy(place - p, kStiffness); };
+        expect_force_of(energy, x, terms_at(x).force, 1e-8);
+        const M exact = derivative_of([&](const V& p) { return terms_at(p).force; }, x);
+        EXPECT_LT((to_eigen(terms_at(x).hessian) - to_eigen(exact)).norm(), 1e-8);
+    }
+}
+
+// Inertia, a hand's spring and its damper make one point spring, with the force of all three.
+TEST(Elements, PointSpringsAddUp) {
+    Random random;
+    const double damping = 3.0;  // t / h
+    for (int i = 0; i < 50; ++i) {
+        const V x = random.point(1.0), start = random.point(1.0);
+        const cpu::PointSpring<double> inertia{random.point(1.0), 7.0}, hand{random.point(1.0), 20.0};
+        const cpu::PointSpring<double> sum =
+            cpu::both(inertia, cpu::damped_point_spring(hand, start, damping));
+        const V force = inertia.stiffness * (inertia.place - x) + hand.stiffness * (hand.place - x) +
+                        damping * hand.stiffness * (start - x);
+        EXPECT_LT(glm::distance(sum.stiffness * (sum.place - x), force), 1e-12 * glm::length(force) + 1e-12);
+        EXPECT_DOUBLE_EQ(sum.stiffness, 7.0 + 20.0 * (1.0 + damping));
+    }
+}
+
 TEST(Elements, ASpringOfNoLengthAddsNothing) {
     EXPECT_EQ(cpu::spring_pull<double>(V(0), V(1), {1.0, 100.0}, 0.1) * V(0), V(0));
     const Terms terms = spring_terms(V(1, 2, 3), V(1, 2, 3), 2.0, V(0));

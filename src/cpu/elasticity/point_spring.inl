@@ -1,0 +1,38 @@
+// Springs without rest length that hold a node to a point; see elements.inl. Inertia is one, with the
+// stiffness m / h^2, to where the node would go by itself; a hand's pull is another (cpu/drive/pulls.h).
+
+template <class Real>
+struct PointSpring {
+    Vec3<Real> place;  ///< p [m]
+    Real stiffness;    ///< k [N/m]
+};
+
+/// k / 2 |d|^2 [J]. @param apart the vector d from the node to p
+template <class Real>
+Real point_spring_energy(const Vec3<Real>& apart, Real stiffness) {
+    return Real(0.5f) * stiffness * dot(apart, apart);
+}
+
+///   force   k d,   hessian k.
+template <class Real>
+void add_point_spring(const Vec3<Real>& apart, Real stiffness, NodeTerms<Real>& terms) {
+    terms.force = multiply_add(stiffness, apart, terms.force);
+    terms.hessian.add_identity(stiffness);
+}
+
+/// Over a step of h seconds, the damper k t / (2 h) |x - x_0|^2, with x_0 where the node was when the step
+/// began, makes of a point spring another one: of stiffness K = k (1 + t / h), to P = (p + t / h x_0) / (1 +
+/// t / h).
+/// @param damping t / h
+template <class Real>
+PointSpring<Real> damped_point_spring(const PointSpring<Real>& spring, const Vec3<Real>& start,
+                                      Real damping) {
+    return {(spring.place + damping * start) / (Real(1) + damping), spring.stiffness * (Real(1) + damping)};
+}
+
+/// One that acts like both together; its energy is theirs less a constant. @pre a's stiffness is positive
+template <class Real>
+PointSpring<Real> both(const PointSpring<Real>& a, const PointSpring<Real>& b) {
+    const Real stiffness = a.stiffness + b.stiffness;
+    return {(a.stiffness * a.place + b.stiffness * b.place) / stiffness, stiffness};
+}

@@ -1,0 +1,127 @@
+// What a collider does to a node after its Newton step, on a plane: the node's part of the objective is then
+// a quadratic with the Hessian H, which the pushed node minimises under the collider's forces.
+#include "cpu/descent/push_outside.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace gelatin {
+namespace {
+
+using V = cpu::Vec3<double>;
+using Contact = cpu::ColliderContact<double>;
+
+const V kNormal(0.6, 0.8, 0.0);
+constexpr double kDepth = 0.02;  // [m]
+
+Collider make_plane(double friction) {
+    Collider plane{};
+    plane.kind = 0;
+    plane.center = glm::vec4(glm::vec3(kNormal), 0.0f);
+    plane.friction = static_cast<float>(friction);
+    return plane;
+}
+
+class PushOutside : public ::testing::Test {
+protected:
+    V point() { return {unit_(random_), unit_(random_), unit_(random_)}; }
+    V along_plane() {
+        const V p = point();
+        return p - glm::dot(p, kNormal) * kNormal;
+    }
+    cpu::SymmetricMatrix<double> stiffness() {
+        cpu::SymmetricMatrix<double> hessian;
+        hessian.add_identity(50.0);
+        for (int k = 0; k < 3; ++k) hessian.add_outer(200.0, point());
+        return hessian;
+    }
+    static double height(const V& p) { return glm::dot(p, V(make_plane(0.0).center)); }
+
+    static Contact push(double friction, const V& start, const cpu::SymmetricMatrix<double>& hessian, V& at) {
+        Contact contact;
+        EXPECT_TRUE(cpu::push_outside(make_plane(friction), start, hessian, at, contact));
+        return contact;
+    }
+
+private:
+    std::mt19937 random_{11};
+    std::uniform_real_distribution<double> unit_{-1.0, 1.0};
+};
+
+V times(const cpu::SymmetricMatrix<double>& m, const V& v) {
+    return m.diagonal * v + V(m.beside.z * v.y + m.beside.y * v.z, m.beside.z * v.x + m.beside.x * v.z,
+                              m.beside.y * v.x + m.beside.x * v.y);
+}
+
+TEST_F(PushOutside, TheForceIsWhatHoldsTheNodeThere) {
+    for (const double friction : {0.0, 0.3, 100.0}) {
+        for (int i = 0; i < 100; ++i) {
+            const auto hessian = stiffness();
+            const V newton = along_plane() - kDepth * kNormal, start = newton + 0.1 * point();
+            V at = newton;
+            const Contact contact = push(friction, start, hessian, at);
+            EXPECT_NEAR(height(at), 0.0, 1e-7);  // the plane is one of floats
+            // Friction also changes the normal force a little where H couples both, which `force` leaves out.
+            const V lacking = times(hessian, at - newton) - contact.force;
+            EXPECT_LT(glm::length(lacking - glm::dot(lacking, kNormal) * kNormal), 1e-6);
+            if (friction == 0.0) {
+                EXPECT_LT(glm::length(lacking), 1e-9);
+            }
+            const double pressing = glm::dot(contact.force, kNormal);
+            const V rubbing = contact.force - pressing * kNormal;
+            EXPECT_GT(pressing, 0.0);
+            EXPECT_LE(glm::length(rubbing), friction * pressing * (1.0 + 1e-6) + 1e-6);
+        }
+    }
+}
+
+TEST_F(PushOutside, FrictionHoldsANodeOrActsAgainstItsSliding) {
+    int held = 0, slides = 0;
+    for (int i = 0; i < 200; ++i) {
+        const auto hessian = stiffness();
+        const V newton = along_plane() - kDepth * kNormal, start = newton + 0.02 * point();
+        V at = newton, without = newton;
+        const Contact contact = push(0.5, start, hessian, at);
+        push(0.0, start, hessian, without);
+        const double pressing = glm::dot(contact.force, kNormal);
+        const V rubbing = contact.force - pressing * kNormal;
+        if (glm::length(rubbing) < 0.5 * pressing * (1.0 - 1e-5)) {
+            // All of it is taken back along the direction in which the node had slid.
+            ++held;
+            V direction = without - start;
+            direction = glm::normalize(direction - glm::dot(direction, kNormal) * kNormal);
+            EXPECT_NEAR(glm::dot(at - start, direction), 0.0, 1e-6);
+        } else {
+            ++slides;
+            EXPECT_NEAR(glm::length(rubbing), 0.5 * pressing, 1e-5 * pressing);
+            EXPECT_LT(glm::dot(rubbing, without - start), 0.0);
+        }
+    }
+    EXPECT_GT(held, 20);
+    EXPECT_GT(slides, 20);
+}
+
+// `along` is the slope of the normal force by the depth that a Newton step ends at.
+TEST_F(PushOutside, KnowsHowItsForceFalls) {
+    const auto hessian = stiffness();
+    const V start = along_plane();
+    const auto pressing_at = [&](double depth) {
+        V at = start - depth * kNormal;
+        return glm::dot(push(0.0, start, hessian, at).force, kNormal);
+    };
+    V at = start - kDepth * kNormal;
+    const double slope = (pressing_at(kDepth + 1e-4) - pressing_at(kDepth - 1e-4)) / 2e-4;
+    EXPECT_NEAR(push(0.0, start, hessian, at).along, slope, 1e-5 * slope);
+}
+
+TEST_F(PushOutside, LeavesNodesOutsideWhereTheyAre) {
+    V at = 0.01 * kNormal;
+    Contact contact;
+    EXPECT_FALSE(cpu::push_outside(make_plane(0.5), V(0), stiffness(), at, contact));
+    EXPECT_EQ(at, 0.01 * kNormal);
+    EXPECT_EQ(contact.force, V(0));
+}
+
+}  // namespace
+}  // namespace gelatin
