@@ -5,7 +5,6 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
-#include <type_traits>
 #include <utility>
 
 #include "core/counted.h"
@@ -38,6 +37,34 @@ std::vector<Vec4<Real>> converted(const std::vector<glm::vec4>& values) {
     return {values.begin(), values.end()};
 }
 
+// In float with SIMD; in double the plain reference, which needs no tables for that.
+TetBlocks tets_for(const Nodes<float>&, const Model& model) {
+    return make_pass_tets(model);
+}
+TetBlocks tets_for(const Nodes<double>&, const Model&) {
+    return {};
+}
+void find_stresses(const Model& model, const TetBlocks& tets, const Nodes<float>& at,
+                   std::span<float> stresses, Range slices) {
+    find_volume_stresses_simd(model, tets, at, stresses, slices);
+}
+void find_stresses(const Model& model, const TetBlocks&, const Nodes<double>& at, std::span<double> stresses,
+                   Range slices) {
+    cpu::find_volume_stresses<double>(model, at, stresses, slices);
+}
+void advance(const Pass<float>& pass, const TetBlocks& tets, Range slices) {
+    advance_nodes_simd(pass, tets, slices);
+}
+void advance(const Pass<double>& pass, const TetBlocks&, Range slices) {
+    advance_nodes(pass, slices);
+}
+std::string arithmetic(const Nodes<float>&) {
+    return simd_target();
+}
+std::string arithmetic(const Nodes<double>&) {
+    return "double";
+}
+
 template <class Real>
 BoxMargin<Real> margin_for(const CollisionSettings& settings) {
     if (!settings.proximity_radius) return {};
@@ -67,7 +94,7 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
         spring_forces_.resize(model_->springs.size());
         node_forces_.resize(model_->node_count());
     }
-    if (std::is_same_v<Real, float> && !descent_) pass_tets_ = make_pass_tets(*model_);
+    if (!descent_) pass_tets_ = tets_for(current_, *model_);
     load_factors_.assign(model_->loads.spans.size(), 1.0f);
     if (!model_->volume_term.is_empty() && !descent_) volume_stresses_.resize(model_->node_count());
     if (!model_->loads.empty()) load_forces_.assign(model_->node_count(), Vec4<Real>(0));
@@ -155,26 +182,16 @@ void CpuSolver<Real>::sum_loads(const Nodes<Real>& nodes) {
 template <class Real>
 void CpuSolver<Real>::find_volume_stresses(const Nodes<Real>& nodes) {
     if (volume_stresses_.empty()) return;
-    for_ranges(slice_count(*model_), kSlicesATask, [&](Range slices) {
-        if constexpr (std::is_same_v<Real, float>) {
-            find_volume_stresses_simd(*model_, pass_tets_, nodes, volume_stresses_, slices);
-        } else {
-            cpu::find_volume_stresses<Real>(*model_, nodes, volume_stresses_, slices);
-        }
-    });
+    for_ranges(slice_count(*model_), kSlicesATask,
+               [&](Range slices) { find_stresses(*model_, pass_tets_, nodes, volume_stresses_, slices); });
 }
 
 template <class Real>
 void CpuSolver<Real>::run_pass(const Pass<Real>& pass) {
     const std::uint32_t nodes = model_->node_count();
     if (forces_ == ForceMethod::fused) {
-        for_ranges(slice_count(*model_), kSlicesATask, [&](Range range) {
-            if constexpr (std::is_same_v<Real, float>) {
-                advance_nodes_simd(pass, pass_tets_, range);
-            } else {
-                cpu::advance_nodes(pass, range);
-            }
-        });
+        for_ranges(slice_count(*model_), kSlicesATask,
+                   [&](Range slices) { advance(pass, pass_tets_, slices); });
         return;
     }
     for_ranges(static_cast<std::uint32_t>(model_->springs.size()), kElementsATask,
@@ -242,8 +259,7 @@ template <class Real>
 std::string CpuSolver<Real>::device() const {
     const std::size_t threads =
         tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-    return fmt::format("CPU, {}, {}", counted(threads, "thread"),
-                       std::is_same_v<Real, float> ? simd_target() : "double");
+    return fmt::format("CPU, {}, {}", counted(threads, "thread"), arithmetic(current_));
 }
 
 template class CpuSolver<float>;
