@@ -22,6 +22,6 @@ struct NeoHookeanStep {  // 64 bytes, four RGBA32UI texels
     float bc;
     float cc;
     float modulus;       // as above
-    float unused;
+    float volume;        // V [m^3]
     vec4  opening;       // mu V g, with g the node's own shape gradient in the rest shape as it is [N]
 };

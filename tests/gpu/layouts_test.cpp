@@ -186,7 +186,7 @@ TEST_F(LayoutsTest, TetStrips) {
           {FIELD(NeoHookeanStep, vertex), FIELD(NeoHookeanStep, tet), FIELD(NeoHookeanStep, mu),
            FIELD(NeoHookeanStep, lambda), FIELD(NeoHookeanStep, aa), FIELD(NeoHookeanStep, ab),
            FIELD(NeoHookeanStep, bb), FIELD(NeoHookeanStep, ac), FIELD(NeoHookeanStep, bc),
-           FIELD(NeoHookeanStep, cc), FIELD(NeoHookeanStep, modulus), FIELD(NeoHookeanStep, unused),
+           FIELD(NeoHookeanStep, cc), FIELD(NeoHookeanStep, modulus), FIELD(NeoHookeanStep, volume),
            FIELD(NeoHookeanStep, opening)});
 }
 TEST_F(LayoutsTest, Dispatch) {

@@ -14,7 +14,7 @@ NeoHookeanStep fetch_neo_hookean_step(uint index) {
     vec4 two = uintBitsToFloat(texelFetch(neo_hookean_strips, first + 1));
     vec4 three = uintBitsToFloat(texelFetch(neo_hookean_strips, first + 2));
     return NeoHookeanStep(one.x, one.y, uintBitsToFloat(one.z), uintBitsToFloat(one.w), two.x, two.y, two.z, two.w, three.x,
-                          three.y, three.z, 0.0, vec4(0.0));
+                          three.y, three.z, three.w, vec4(0.0));
 }
 
 // The force that opens the step's tet if it is collapsed [N].

@@ -1,12 +1,24 @@
 // Forces of neo-Hookean tets for explicit solvers, at `positions` with `velocities`, buffer textures that must be declared
-// before. DAMPED: some damping time is not zero. CPU twin: cpu::gather_tet_forces, src/cpu/explicit/gather_forces.h.
+// before. DAMPED: some damping time is not zero. VOLUME: there is a volume term, which is added for nodes of such tets.
+// CPU twin: cpu::gather_tet_forces, src/cpu/explicit/gather_forces.h.
 #include "sim/elasticity/neo_hookean.glsl"
+#include "sim/elasticity/volume_stresses.glsl"
+
+bool has_neo_hookean_tets(uint row) {
+    uint first = texelFetch(neo_hookean_starts, int(row / kSlice)).x + row % kSlice;
+    uint end = texelFetch(neo_hookean_starts, int(row / kSlice) + 1).x;
+    return first < end && texelFetch(neo_hookean_strips, int(4u * first)).x != kNone;
+}
 
 // The force of all its tets on the node of a row of slices [N].
 vec3 gather_tet_forces(uint row, vec3 position, vec4 velocity) {
     vec3 force = vec3(0.0);
     Strip strip = kNoStrip, rates = kNoStrip;
     vec3 damping_times = vec3(0.0);
+#ifdef VOLUME
+    float own = texelFetch(volume_stresses, int(row)).x;
+    vec3 stresses = vec3(0.0);
+#endif
     uint end = texelFetch(neo_hookean_starts, int(row / kSlice) + 1).x;
     for (uint e = texelFetch(neo_hookean_starts, int(row / kSlice)).x + row % kSlice; e < end; e += kSlice) {
         NeoHookeanStep tet = fetch_neo_hookean_step(e);
@@ -18,9 +30,15 @@ vec3 gather_tet_forces(uint row, vec3 position, vec4 velocity) {
         step_strip(tet.vertex, other.xyz - velocity.xyz, rates);
         step_numbers(tet.vertex, other.w, damping_times);
 #endif
+#ifdef VOLUME
+        step_numbers(tet.vertex, texelFetch(volume_stresses, node).x, stresses);
+#endif
         if (tet.tet == kNone) continue;
         TetAtCorner at = tet_at_corner(tet, strip);
         NeoHookeanStress stress = neo_hookean_stress(tet, at);
+#ifdef VOLUME
+        stress.pressure += 0.25 * (own + sum_of(stresses)) * tet.volume;
+#endif
         force += opening_force(e, at.squares) - stress.shear * at.stretched - stress.pressure * at.slope;
 #ifdef DAMPED
         mat3 f = gradient_of(tet, strip), rate = gradient_of(tet, rates);

@@ -1,11 +1,14 @@
 // Forces of the volume term for explicit solvers, after sim/explicit/find_volume_stresses.comp. CPU twin:
 // cpu::gather_volume_forces.
+#include "sim/elasticity/volume_stresses.glsl"
 #include "sim/elasticity/volume_term.glsl"
 
-uniform samplerBuffer volume_stresses;  // [Pa], of each node
-
-// The force on node n [N]: each tet of volume v acts with -p dv/dx, p the mean stress of its corners.
+// The force on node n [N]: each tet of volume v acts with -p dv/dx, p the mean stress of its corners. The forces of
+// neo-Hookean tets have theirs in them.
 vec3 gather_volume_forces(uint n) {
+#ifdef NEO_HOOKEAN
+    if (has_neo_hookean_tets(n)) return vec3(0.0);
+#endif
     float own = texelFetch(volume_stresses, int(n)).x;
     vec3 at = texelFetch(positions, int(n)).xyz;
     vec3 sum = vec3(0.0);  // -24 times the force

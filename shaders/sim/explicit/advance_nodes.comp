@@ -4,6 +4,7 @@
 // CPU twin: gelatin::cpu::advance_nodes. Parity: tests/gpu/explicit/advance_nodes_test.cpp.
 #include "layouts/packing.glsl"
 #include "sim/elasticity/strip.glsl"
+#include "sim/elasticity/volume_stresses.glsl"
 #include "include/global_index.glsl"
 #include "sim/explicit/integrate_node.glsl"
 #include "sim/elasticity/spring_force.glsl"

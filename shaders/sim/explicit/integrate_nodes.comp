@@ -2,6 +2,7 @@
 // gelatin::cpu::integrate_nodes. Parity: tests/gpu/explicit/divide_and_merge_test.cpp.
 #include "layouts/packing.glsl"
 #include "sim/elasticity/strip.glsl"
+#include "sim/elasticity/volume_stresses.glsl"
 #include "include/global_index.glsl"
 #include "sim/explicit/integrate_node.glsl"
 #ifdef NEO_HOOKEAN

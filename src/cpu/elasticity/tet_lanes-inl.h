@@ -87,6 +87,14 @@ struct NeoHookeanLanes {
                 multiply_add(bb_, strip.b, bc_ * strip.c), cc_ * strip.c};
     }
 
+    // dv/dx, with v the tet's volume [m^2]; 0 without a tet.
+    HWY_INLINE Vec3Lanes volume_slope(Lanes d, const StripLanes& strip) const {
+        const Vector side = (aa_ * bb_ * cc_).v;
+        return FloatLanes(hn::IfThenElseZero(hn::Ne(side, hn::Zero(d)),
+                                             hn::CopySign(hn::Set(d, 1.0f / 6.0f), side))) *
+               strip.area();
+    }
+
     // Tets that are nearly a point open in their rest orientation, which blocks do not have.
     HWY_INLINE void add_openings(Lanes d, const std::array<glm::vec3, kGroup>& openings, std::uint32_t row,
                                  Vec3Lanes& force) const {

@@ -14,22 +14,37 @@ HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {
 #if HWY_TARGET != HWY_SCALAR
 
+// values[indices[l]] in each lane.
+HWY_INLINE FloatLanes load_numbers(Lanes d, const float* values, const std::uint32_t* indices) {
+    HWY_ALIGN float lanes[kLanes];
+    for (std::size_t l = 0; l < kLanes; ++l) lanes[l] = values[indices[l]];
+    return hn::Load(d, lanes);
+}
+
 // Adds the forces of neo-Hookean tets to those on the nodes first .. first + kLanes, as
-// cpu::gather_tet_forces.
+// cpu::gather_tet_forces, and for their nodes those of the volume term, as cpu::gather_volume_forces.
 HWY_INLINE void add_tet_forces(Lanes d, const Pass<float>& pass, const TetBlocks& blocks, std::uint32_t first,
                                const Columns& position, const Columns& velocity, Vec3Lanes& force) {
     const std::uint32_t group = first / kGroup, row = first % kGroup;
     const std::uint32_t begin = blocks.neo_hookean_starts[group], end = blocks.neo_hookean_starts[group + 1];
+    if (begin == end) return;
+    const float* stresses = pass.volume_stresses;
+    const FloatLanes own = stresses == nullptr ? FloatLanes(0.0f) : hn::LoadU(d, stresses + first);
     StripLanes strip, rates;
+    NumberStrip others;
     for (std::uint32_t b = begin; b < end; ++b) {
         const NeoHookeanBlock& block = blocks.neo_hookean[b];
         prefetch_block(&block);
         const LaneMask keeps = oldest_stays(d, hn::LoadU(d, &block.mu[row]));
         strip.step(d, &pass.positions[0].x, &block.nodes[row], position, keeps);
         if (blocks.is_damped) rates.step(d, &pass.velocities[0].x, &block.nodes[row], velocity, keeps);
+        if (stresses != nullptr) others.step(load_numbers(d, stresses, &block.nodes[row]), keeps);
         if (b < begin + TetBlocks::kEmptyBlocks) continue;
         const NeoHookeanLanes tet(d, block, row, strip);
         force += neo_hookean_force(tet.at_corner, tet.moduli);
+        if (stresses != nullptr)
+            force =
+                multiply_add(FloatLanes(-0.25f) * (own + others.sum()), tet.volume_slope(d, strip), force);
         tet.add_openings(d, blocks.openings[b], row, force);
         if (!blocks.is_damped) continue;
         const FloatLanes damping_time = FloatLanes(0.25f) * (FloatLanes(velocity.w) + rates.w.sum());
@@ -72,19 +87,29 @@ HWY_INLINE FloatLanes volume_stresses(Lanes d, const VolumeTerm& term, const Tet
                          FloatLanes(kappa));
 }
 
-// As cpu::gather_volume_forces.
+// Nodes without neo-Hookean tets, of which a node's first is complete after the empty blocks.
+HWY_INLINE LaneMask has_springs(Lanes d, const TetBlocks& blocks, std::uint32_t first) {
+    const std::uint32_t group = first / kGroup, row = first % kGroup;
+    const std::uint32_t begin = blocks.neo_hookean_starts[group];
+    const Vector zero = hn::Zero(d);
+    if (begin == blocks.neo_hookean_starts[group + 1]) return hn::Eq(zero, zero);
+    return hn::Eq(hn::LoadU(d, &blocks.neo_hookean[begin + TetBlocks::kEmptyBlocks].mu[row]), zero);
+}
+
+// As cpu::gather_volume_forces, for nodes of springs.
 HWY_INLINE void add_volume_forces(Lanes d, const Pass<float>& pass, const TetBlocks& blocks,
                                   std::uint32_t first, const Columns& position, Vec3Lanes& force) {
+    const LaneMask counts = has_springs(d, blocks, first);
+    if (hn::AllFalse(d, counts)) return;
     const float* stresses = pass.volume_stresses;
-    const FloatLanes own = hn::LoadU(d, stresses + first), scale(-1.0f / 24.0f);
+    const FloatLanes own = hn::LoadU(d, stresses + first);
+    const FloatLanes scale = hn::IfThenElseZero(counts, hn::Set(d, -1.0f / 24.0f));
     NumberStrip others;
     const std::uint32_t row = first % kGroup;
     for_each_volume(d, blocks, pass.positions, first, position,
                     [&](const VolumeBlock& block, LaneMask keeps, const Vec3Lanes& area, const StripLanes&)
                         HWY_ATTR {
-                            HWY_ALIGN float next[kLanes];
-                            for (std::size_t l = 0; l < kLanes; ++l) next[l] = stresses[block.nodes[row + l]];
-                            others.step(hn::Load(d, next), keeps);
+                            others.step(load_numbers(d, stresses, &block.nodes[row]), keeps);
                             force = multiply_add(scale * (own + others.sum()), area, force);
                         });
 }

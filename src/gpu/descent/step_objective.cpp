@@ -36,12 +36,12 @@ StepObjective::Pressures::Pressures(const Model& model, std::span<const std::uin
       ratios(model.tets.size()),
       node_pressures(model.positions.size()),
       offsets(model.tets.size()) {
-    const NodeTets tets = make_node_tets(model.node_count(), model.tets);
-    const StripSlices<VolumeStep> packed = pack_volume_strips({model, tets}, rows_of_springs(model, rows));
+    const NodeTets by_node = make_node_tets(model.node_count(), model.tets);
+    const StripSlices<VolumeStep> packed = pack_volume_strips({model, by_node}, rows_of_springs(model, rows));
     strips = {packed.steps, gl::TexelFormat::rgba32ui};
     strip_starts = {packed.slice_starts, gl::TexelFormat::r32ui};
-    node_tet_starts = {tets.starts, gl::TexelFormat::r32ui};
-    node_tets = {tets.entries, gl::TexelFormat::r32ui};
+    node_tet_starts = {by_node.starts, gl::TexelFormat::r32ui};
+    node_tets = {by_node.entries, gl::TexelFormat::r32ui};
     offset_texels = {offsets, gl::TexelFormat::r32f};
 }
 

@@ -126,6 +126,7 @@ std::vector<NeoHookeanStep> TetStrips::neo_hookean(std::uint32_t node) const {
             step.mu = volume * tet.gradient_2.w;
             step.lambda = volume * tet.gradient_3.w;
             step.modulus = modulus_of(step.tet);
+            step.volume = volume;
             set_gradients(tet, order, step);
         });
 }
