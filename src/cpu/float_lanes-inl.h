@@ -148,6 +148,13 @@ using Mat3 = typename LaneTypes<Real>::Mat3;
 template <class Real>
 constexpr float kEpsilon = std::numeric_limits<float>::epsilon();
 
+// values[indices[l]] in each lane; faster than the processors' own gathers.
+HWY_INLINE FloatLanes gather(Lanes d, const float* values, const std::uint32_t* indices) {
+    HWY_ALIGN float lanes[kLanes];
+    for (std::size_t l = 0; l < kLanes; ++l) lanes[l] = values[indices[l]];
+    return hn::Load(d, lanes);
+}
+
 }  // namespace gelatin::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

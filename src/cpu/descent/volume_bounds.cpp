@@ -15,13 +15,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {
 
-// values[indices[l]] in each lane; faster than the processors' own gathers.
-HWY_INLINE FloatLanes gather(Lanes d, const float* values, const std::uint32_t* indices) {
-    HWY_ALIGN float lanes[kLanes];
-    for (std::size_t l = 0; l < kLanes; ++l) lanes[l] = values[indices[l]];
-    return hn::Load(d, lanes);
-}
-
 // volume_stress round each node of a group. Nodes without a volume at rest have none.
 void find_group_pressures(const VolumeTerm& term, const TetBlocks& blocks, std::size_t group,
                           const std::uint32_t* nodes, const float* volumes, float* pressures) {

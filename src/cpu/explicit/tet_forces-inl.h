@@ -14,13 +14,6 @@ HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {
 #if HWY_TARGET != HWY_SCALAR
 
-// values[indices[l]] in each lane.
-HWY_INLINE FloatLanes load_numbers(Lanes d, const float* values, const std::uint32_t* indices) {
-    HWY_ALIGN float lanes[kLanes];
-    for (std::size_t l = 0; l < kLanes; ++l) lanes[l] = values[indices[l]];
-    return hn::Load(d, lanes);
-}
-
 // Adds the forces of neo-Hookean tets to those on the nodes first .. first + kLanes, as
 // cpu::gather_tet_forces, and for their nodes those of the volume term, as cpu::gather_volume_forces.
 HWY_INLINE void add_tet_forces(Lanes d, const Pass<float>& pass, const TetBlocks& blocks, std::uint32_t first,
@@ -38,7 +31,7 @@ HWY_INLINE void add_tet_forces(Lanes d, const Pass<float>& pass, const TetBlocks
         const LaneMask keeps = oldest_stays(d, hn::LoadU(d, &block.mu[row]));
         strip.step(d, &pass.positions[0].x, &block.nodes[row], position, keeps);
         if (blocks.is_damped) rates.step(d, &pass.velocities[0].x, &block.nodes[row], velocity, keeps);
-        if (stresses != nullptr) others.step(load_numbers(d, stresses, &block.nodes[row]), keeps);
+        if (stresses != nullptr) others.step(gather(d, stresses, &block.nodes[row]), keeps);
         if (b < begin + TetBlocks::kEmptyBlocks) continue;
         const NeoHookeanLanes tet(d, block, row, strip);
         force += neo_hookean_force(tet.at_corner, tet.moduli);
@@ -109,7 +102,7 @@ HWY_INLINE void add_volume_forces(Lanes d, const Pass<float>& pass, const TetBlo
     for_each_volume(d, blocks, pass.positions, first, position,
                     [&](const VolumeBlock& block, LaneMask keeps, const Vec3Lanes& area, const StripLanes&)
                         HWY_ATTR {
-                            others.step(load_numbers(d, stresses, &block.nodes[row]), keeps);
+                            others.step(gather(d, stresses, &block.nodes[row]), keeps);
                             force = multiply_add(scale * (own + others.sum()), area, force);
                         });
 }
