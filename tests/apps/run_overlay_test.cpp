@@ -47,10 +47,10 @@ TEST_F(RunOverlays, RefusesWhatItDoesNotKnow) {
                  "--overlay = springs:0: the number must be a strain from 0.0001 to 1");
 }
 
-class RunOverlaysDrawn : public test::DrawingProgramTest {};
+class RunOverlaysDrawnHeavy : public test::DrawingProgramTest {};
 
 // Balls in one another. Of several names, together or apart, all are shown.
-TEST_F(RunOverlaysDrawn, AreTheSameOnBothBackends) {
+TEST_F(RunOverlaysDrawnHeavy, AreTheSameOnBothBackends) {
     write("balls.toml",
           "[simulation]\nframe_rate = 500\nframes = 5\ngravity = [0, 0, 0]\n"
           "[[material]]\nname = 'jelly'\n"

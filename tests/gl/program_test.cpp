@@ -154,7 +154,9 @@ TEST_F(DispatchTest, VisitsEachInvocationOnce) {
     }
 }
 
-TEST_F(DispatchTest, FoldsMoreThan65535Groups) {
+class DispatchHeavy : public DispatchTest {};
+
+TEST_F(DispatchHeavy, FoldsMoreThan65535Groups) {
     for (const std::size_t invocations : {65'535u * 4u, 65'535u * 4u + 1u, 65'536u * 9u + 3u}) {
         std::vector<std::uint32_t> counts = visits(invocations, 4);
         EXPECT_EQ(counts.back(), 0u);

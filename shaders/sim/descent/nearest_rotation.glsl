@@ -1,4 +1,4 @@
-// The rotation that fits nodes at X that have come to x best. CPU twin: src/cpu/descent/nearest_rotation.h.
+// The rotation that fits nodes at X that have come to x best. CPU twin: src/model/nearest_rotation.h.
 // Source: Horn 1987, Closed-form Solution of Absolute Orientation Using Unit Quaternions.
 
 // @param moment the sum of x X^T

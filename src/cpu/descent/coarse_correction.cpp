@@ -4,8 +4,8 @@
 
 #include <utility>
 
-#include "cpu/descent/nearest_rotation.h"
 #include "model/for_each_index.h"
+#include "model/nearest_rotation.h"
 
 namespace gelatin::cpu {
 

@@ -8,9 +8,9 @@
 #include <limits>
 #include <utility>
 
-#include "cpu/descent/nearest_rotation.h"
 #include "cpu/elasticity/volume_ratios.h"
 #include "model/descent/descent_rows.h"
+#include "model/nearest_rotation.h"
 
 namespace gelatin::cpu {
 namespace {

@@ -1,12 +1,12 @@
 #include "model/drive/drags.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <numeric>
 #include <utility>
+
+#include "model/nearest_rotation.h"
 
 namespace gelatin {
 namespace {
@@ -22,26 +22,6 @@ double angle_between(const glm::dquat& a, const glm::dquat& b) {
 glm::dvec3 mean(std::span<const glm::dvec3> points) {
     return std::accumulate(points.begin(), points.end(), glm::dvec3(0.0)) /
            static_cast<double>(points.size());
-}
-
-// The unit quaternion q that maximises the sum of (q from_i) . to_i is the eigenvector of this matrix with
-// the largest eigenvalue.
-glm::dquat nearest_rotation(std::span<const glm::dvec3> from, const glm::dvec3& from_center,
-                            std::span<const glm::dvec3> to, const glm::dvec3& to_center) {
-    glm::dmat3 s(0.0);  // s[b][a] = sum from_a to_b
-    for (std::size_t i = 0; i < from.size(); ++i)
-        s += glm::outerProduct(from[i] - from_center, to[i] - to_center);
-    Eigen::Matrix4d matrix;
-    matrix << s[0][0] + s[1][1] + s[2][2], s[2][1] - s[1][2], s[0][2] - s[2][0], s[1][0] - s[0][1],  //
-        0.0, s[0][0] - s[1][1] - s[2][2], s[1][0] + s[0][1], s[0][2] + s[2][0],                      //
-        0.0, 0.0, s[1][1] - s[0][0] - s[2][2], s[2][1] + s[1][2],                                    //
-        0.0, 0.0, 0.0, s[2][2] - s[0][0] - s[1][1];
-    matrix.triangularView<Eigen::StrictlyLower>() = matrix.transpose();
-    // If the nodes are on a line, or there is only one, the smallest rotation is used.
-    matrix(0, 0) += 1e-12 * matrix.norm() + std::numeric_limits<double>::min();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(matrix);
-    const Eigen::Vector4d q = solver.eigenvectors().col(3);
-    return q[0] < 0.0 ? glm::dquat(-q[0], -q[1], -q[2], -q[3]) : glm::dquat(q[0], q[1], q[2], q[3]);
 }
 
 }  // namespace
@@ -61,7 +41,10 @@ Drag nearest_drag(const HandlePose& pose, std::span<const glm::dvec3> arms,
     std::vector<glm::dvec3> from;
     for (const glm::dvec3& arm : arms) from.push_back(pose.map * arm);
     const glm::dvec3 from_center = mean(from), to_center = mean(places);
-    const glm::dquat turn = nearest_rotation(from, from_center, places, to_center);
+    glm::dmat3 moment(0.0);
+    for (std::size_t i = 0; i < from.size(); ++i)
+        moment += glm::outerProduct(places[i] - to_center, from[i] - from_center);
+    const glm::dquat turn = smallest_nearest_rotation(moment);
     return {to_center - turn * from_center - pose.center, turn};
 }
 

@@ -280,7 +280,7 @@ TEST(BlockDescent, BlocksSlideDownSlopes) {
 
 // SIMD, on bodies in all states that it tells apart: free, held, on the floor, against a sphere, with flat
 // tets.
-TEST(BlockDescent, InFloatIsTheDoubleReference) {
+TEST(BlockDescentHeavy, InFloatIsTheDoubleReference) {
     for (const double damping : {0.0, 0.01}) {
         for (const double poisson_ratio : {0.25, 0.4}) {
             const Model model = test::make_bodies_to_descend(damping, poisson_ratio);

@@ -11,8 +11,6 @@
 
 #include "cpu/cpu_solver.h"
 #include "cpu/descent/block_descent.h"
-#include "cpu/descent/nearest_rotation.h"
-#include "cpu/descent/rigid_motion.h"
 #include "support/lost_shapes.h"
 #include "support/test_models.h"
 
@@ -20,29 +18,6 @@ namespace gelatin {
 namespace {
 
 constexpr double kFrame = 1.0 / 60.0;  // [s]
-
-double difference(const glm::dmat3& a, const glm::dmat3& b) {
-    double worst = 0.0;
-    for (int k = 0; k < 3; ++k) worst = std::max(worst, glm::distance(a[k], b[k]));
-    return worst;
-}
-
-TEST(NearestRotation, IsTheRotationThatWasMade) {
-    const glm::dmat3 spread(glm::dvec3(3, 0.5, 0), glm::dvec3(0.5, 2, 0.1), glm::dvec3(0, 0.1, 1));
-    for (const glm::dvec3& w : {glm::dvec3(0.3, -0.2, 0.1), glm::dvec3(5, 40, -7), glm::dvec3(1e9, 0, 0)}) {
-        const glm::dmat3 rotation = cpu::cayley_rotation(w);
-        EXPECT_LT(difference(cpu::nearest_rotation(rotation * spread), rotation), 1e-12);
-    }
-}
-
-TEST(NearestRotation, IsProperForAnyMoment) {
-    const glm::dmat3 mirrored(glm::dvec3(1, 0, 0), glm::dvec3(0, -2, 0), glm::dvec3(0, 0, 3));
-    for (const glm::dmat3& moment : {mirrored, glm::dmat3(0.0), -glm::dmat3(1.0)}) {
-        const glm::dmat3 rotation = cpu::nearest_rotation(moment);
-        EXPECT_NEAR(glm::determinant(rotation), 1.0, 1e-12);
-        EXPECT_LT(difference(rotation * glm::transpose(rotation), glm::dmat3(1.0)), 1e-12);
-    }
-}
 
 struct Momenta {
     glm::dvec3 linear{0.0}, angular{0.0};  // about the origin

@@ -86,7 +86,7 @@ TEST(FitSprings, SizeScalesThemAndPlaceDoesNot) {
         EXPECT_NEAR(b.springs[s].stiffness / (3.0 * a.springs[s].stiffness), 1.0, 1e-9);
 }
 
-TEST(FitSprings, GivesTheSameBitsOnOneThread) {
+TEST(FitSpringsHeavy, GivesTheSameBitsOnOneThread) {
     const TetMesh mesh = test::make_block({12, 12, 12}, {1, 1, 1}, 0.2);
     const FittedSprings many = fit_springs(mesh);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
