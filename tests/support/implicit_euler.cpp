@@ -1,6 +1,5 @@
 #include "support/implicit_euler.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 
@@ -10,6 +9,7 @@
 
 #include "model/elasticity/neo_hookean.h"
 #include "model/elasticity/node_tets.h"
+#include "support/eigen_modes.h"
 
 namespace gelatin::test {
 namespace {
@@ -82,9 +82,8 @@ struct ElasticTet {
             matrix.block<3, 3>(next, last) -= pressure() * cross;
             matrix.block<3, 3>(last, next) += pressure() * cross;
         }
-        const Eigen::SelfAdjointEigenSolver<Matrix9> modes(matrix);
-        return volume * modes.eigenvectors() * modes.eigenvalues().cwiseMax(0.0).asDiagonal() *
-               modes.eigenvectors().transpose();
+        const EigenModes modes = eigen_modes(matrix);
+        return volume * modes.vectors * modes.values.cwiseMax(0.0).asDiagonal() * modes.vectors.transpose();
     }
     // How f changes with a corner's place.
     Eigen::Matrix<double, 9, 3> slope(int corner) const {
