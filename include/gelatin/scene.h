@@ -44,9 +44,12 @@ enum class CollisionDetection {
     continuous,  ///< also those that touch during the step, each node moving along a straight line
 };
 
-/// What happens to objects whose faces touch. `restore` is the paper's (2.4): nodes return to their previous
-/// positions, and their velocities respond.
-enum class CollisionResponse { restore };
+/// What happens to objects whose faces touch.
+enum class CollisionResponse {
+    restore,  ///< the paper's (2.4): nodes return to their previous positions, and their velocities respond
+    contact,  ///< bodies press each other before they touch, and never pass through each other
+              ///< (docs/contact.md); for SolverKind::vbd on the CPU
+};
 
 struct CollisionSettings {
     BroadPhase broad_phase = BroadPhase::hierarchy;

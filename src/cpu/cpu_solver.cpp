@@ -83,7 +83,13 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
       contact_{collision.friction, collision.restitution} {
     current_ = {converted<Real>(model_->positions), converted<Real>(model_->velocities)};
     previous_ = current_;
-    if (solver == SolverKind::vbd) descent_.emplace(Descent{{model_, descent}, ShapeMatcher<Real>(model_)});
+    if (solver == SolverKind::vbd) {
+        std::unique_ptr<Contacts<Real>> contacts;
+        if (collision.response == CollisionResponse::contact && model_->objects.size() > 1)
+            contacts = std::make_unique<Contacts<Real>>(model_, collision.friction);
+        descent_.emplace(Descent{{model_, descent, BlockDescent<Real>::kNodesABatch, std::move(contacts)},
+                                 ShapeMatcher<Real>(model_)});
+    }
     if (scheme_.pass_count > 1) sums_ = stage_[0] = stage_[1] = current_;
     if (collision.self_collision) {
         self_ = std::make_unique<SelfStages>(SelfStages{{model_, collision_}, {model_, contact_}});
@@ -252,6 +258,7 @@ void CpuSolver<Real>::write_state(const State& state) {
     previous_ = current_;
     has_earlier_ = !state.earlier_velocities.empty();
     if (has_earlier_) previous_.velocities = converted<Real>(state.earlier_velocities);
+    if (descent_) descent_->solver.restart(current_.positions);
     alarm_ = kNoAlarm;
 }
 

@@ -42,8 +42,8 @@ const char* name_of(CollisionDetection detection) {
     return detection == CollisionDetection::continuous ? "continuous" : "discrete";
 }
 
-const char* name_of(CollisionResponse /*response*/) {
-    return "restore";
+const char* name_of(CollisionResponse response) {
+    return response == CollisionResponse::contact ? "contact" : "restore";
 }
 
 const std::vector<std::string>& spring_kind_names() {

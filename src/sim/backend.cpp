@@ -10,6 +10,14 @@
 namespace gelatin {
 
 SimulatorOptions with_needed_backend(SimulatorOptions options, const Scene& scene) {
+    if (scene.collision.response == CollisionResponse::contact) {
+        if (options.backend == Backend::gl) {
+            throw InvalidInput({scene.file.string(), 0, "collision.response", "\"contact\"",
+                                "needs --backend cpu; with OpenGL it must be restore"});
+        }
+        options.backend = Backend::cpu;
+        return options;
+    }
     if (scene.collision.broad_phase != BroadPhase::depth) return options;
     if (scene.collision.proximity_radius) {
         throw InvalidInput({scene.file.string(),

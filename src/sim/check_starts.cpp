@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 
 #include "cpu/collision/colliders.h"
+#include "cpu/collision/collision.h"
+#include "gelatin/error.h"
 #include "model/collision/pack_colliders.h"
 
 namespace gelatin {
@@ -71,6 +73,21 @@ std::vector<std::string> check_starts(const Model& model, const Scene& scene,
         lines.push_back(first + (others > 0 ? fmt::format(" (and {} more objects)", others) : ""));
     }
     return lines;
+}
+
+void require_apart(const std::shared_ptr<const Model>& model, const Scene& scene,
+                   std::span<const glm::vec4> positions) {
+    const std::vector<glm::dvec4> exact(positions.begin(), positions.end());
+    cpu::Collision<double> collision(model);
+    collision.update_boxes(exact);
+    collision.find_object_pairs();
+    collision.find_face_collisions(exact);
+    for (const cpu::ObjectPair& pair : collision.pairs()) {
+        if (!collision.collide(pair)) continue;
+        throw InvalidInput({scene.file.string(), 0, "collision.response", "\"contact\"",
+                            fmt::format("needs objects that are apart at the start; '{}' and '{}' overlap",
+                                        model->objects[pair.object].name, model->objects[pair.other].name)});
+    }
 }
 
 }  // namespace gelatin

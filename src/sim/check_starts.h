@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec4.hpp>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,5 +17,9 @@ namespace gelatin {
 /// @param positions of all nodes at the start: xyz [m]
 std::vector<std::string> check_starts(const Model& model, const Scene& scene,
                                       std::span<const glm::vec4> positions);
+
+/// @throws InvalidInput naming the two objects, if faces of two of them overlap
+void require_apart(const std::shared_ptr<const Model>& model, const Scene& scene,
+                   std::span<const glm::vec4> positions);
 
 }  // namespace gelatin

@@ -150,6 +150,8 @@ Simulator::Simulator(const Scene& scene, std::shared_ptr<const Model> model, con
     d.make_solver();
     const std::optional<State> start = deformed_start(scene, *d.model);
     if (start) d.solver->write_state(*start);
+    if (scene.collision.response == CollisionResponse::contact)
+        require_apart(d.model, scene, start ? start->positions : d.model->positions);
     d.watch.emplace(d.scene, d.model, d.substeps);
     d.drags.emplace(d.model);
     if (start) d.watch->begin(*start, {});
@@ -170,12 +172,15 @@ void Simulator::step() {
     if (!d.model->loads.empty())
         d.solver->set_load_factors(load_factors(d.model->loads, d.time(), d.step_size()));
     d.run_stage("advance_nodes", [&] { d.solver->advance_nodes(d.step_size()); });
-    const bool meets_others = d.model->objects.size() > 1, meets_itself = d.scene.collision.self_collision;
-    if (meets_others || meets_itself) d.run_stage("update_boxes", [&] { d.solver->update_boxes(); });
-    if (meets_others) {
+    // Contacts are part of advance_nodes.
+    const bool is_apart = d.scene.collision.response == CollisionResponse::contact;
+    const bool has_others = d.model->objects.size() > 1, meets_others = has_others && !is_apart;
+    const bool meets_itself = d.scene.collision.self_collision;
+    if (meets_others || meets_itself || d.seeks_proximities())
+        d.run_stage("update_boxes", [&] { d.solver->update_boxes(); });
+    if (meets_others || (has_others && d.seeks_proximities()))
         d.run_stage("find_object_pairs", [&] { d.solver->find_object_pairs(); });
-        d.run_stage("find_face_collisions", [&] { d.solver->find_face_collisions(); });
-    }
+    if (meets_others) d.run_stage("find_face_collisions", [&] { d.solver->find_face_collisions(); });
     if (meets_itself) d.run_stage("find_self_collisions", [&] { d.solver->find_self_collisions(); });
     if (d.seeks_proximities()) d.run_stage("find_proximities", [&] { d.solver->find_proximities(); });
     if (meets_others || meets_itself) d.run_stage("respond", [&] { d.solver->respond(d.step_size()); });

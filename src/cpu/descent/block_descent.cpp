@@ -20,14 +20,17 @@ void for_each_node(const Model& model, const Work& work) {
 
 template <class Real>
 BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const DescentSettings& settings,
-                                 std::uint32_t nodes_a_batch)
+                                 std::uint32_t nodes_a_batch, std::unique_ptr<Contacts<Real>> contacts)
     : model_(std::move(model)),
       settings_(settings),
-      objective_(model_, nodes_a_batch),
+      bodies_(std::move(contacts)),
+      objective_(model_, nodes_a_batch, bodies_.get()),
       contacts_(*model_),
-      sweep_(model_),
-      rigid_move_(model_) {
-    if (settings_.coarse_level) coarse_.emplace(model_);
+      sweep_(model_, bodies_.get()),
+      rigid_move_(model_),
+      joint_move_(model_),
+      is_calm_(bodies_ ? model_->objects.size() : 0) {
+    if (settings_.coarse_level) coarse_.emplace(model_, bodies_.get());
     if (coarse_ && coarse_->is_empty()) coarse_.reset();
 }
 
@@ -37,9 +40,15 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
                              StageTimer* timer) {
     {
         const TimedStage part(timer, "advance_nodes.start");
+        if (bodies_) find_calm_bodies(step, previous);
         start(step, has_earlier, previous, load_forces, pulls, current);
         take_back_tangled(current.positions);
-        if (coarse_) coarse_->begin(step, current.positions);
+    }
+    if (bodies_)
+        bodies_->begin(step, objective_.step.targets, objective_.step.starts, current.positions, timer);
+    if (coarse_) {
+        const TimedStage part(timer, "advance_nodes.start");
+        coarse_->begin(step, current.positions);
     }
     for (int first = 0; first < settings_.iterations;) {
         const int end = end_of_run(first);
@@ -52,23 +61,44 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
     }
     const TimedStage part(timer, "advance_nodes.move_bodies");
     finish(step, previous, current);
+    if (bodies_) bodies_->end(current.positions);
+}
+
+// Bodies that press others and are slower than what gravity adds in two steps. For these, the best guess is
+// that they stay: a guess that presses them together would topple stacks.
+template <class Real>
+void BlockDescent<Real>::find_calm_bodies(Real step, const Nodes<Real>& previous) {
+    const double fast = 2.0 * static_cast<double>(step) * glm::length(glm::dvec3(model_->gravity));
+    tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
+        is_calm_[o] = 0;
+        if (!bodies_->was_pressed(o)) return;
+        glm::dvec3 momentum(0.0);
+        double mass = 0.0;
+        const Range& nodes = model_->objects[o].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            const auto own = static_cast<double>(model_->masses[n]);
+            momentum += own * glm::dvec3(previous.velocities[n]);
+            mass += own;
+        }
+        is_calm_[o] = glm::length(momentum) < fast * mass ? 1 : 0;
+    });
 }
 
 // Sweeps from `first` up to `end`, with what comes between them. The bodies of a batch make theirs one after
-// the other, while caches hold them; where parts are timed, all bodies make each part at once, with the same
-// results.
+// the other, while caches hold them; where parts are timed, or bodies meet, all bodies make each part at once,
+// with the same results.
 template <class Real>
 void BlockDescent<Real>::make_sweeps(int first, int end, Positions& positions, StageTimer* timer) {
     const std::vector<DescentBatch>& batches = objective_.rows().batches;
     const auto update = [&](std::size_t batch) { objective_.update(batch, positions); };
     const auto sweep = [&](std::size_t batch) { sweep_.run(batch, objective_, contacts_, positions); };
     const auto move_bodies = [&](std::size_t batch, bool last) {
-        rigid_move_.run(batches[batch].objects, last, objective_, contacts_, positions);
+        rigid_move_.run(batches[batch].objects, last, objective_, contacts_, nullptr, positions, positions);
     };
     const auto for_batches = [&](const auto& work) {
         tbb::parallel_for(std::size_t(0), batches.size(), work);
     };
-    if (timer == nullptr) {
+    if (timer == nullptr && !bodies_) {
         for_batches([&](std::size_t batch) {
             for (int i = first; i < end; ++i) {
                 if (updates_tets(i)) update(batch);
@@ -85,9 +115,24 @@ void BlockDescent<Real>::make_sweeps(int first, int end, Positions& positions, S
     for (int i = first; i < end; ++i) {
         if (updates_tets(i)) time("advance_nodes.update_tets", update);
         time("advance_nodes.descend", sweep);
-        if (moves_bodies(i))
+        if (moves_bodies(i) && bodies_) move_together(is_last(i), positions, timer);
+        if (moves_bodies(i) && !bodies_)
             time("advance_nodes.move_bodies", [&](std::size_t batch) { move_bodies(batch, is_last(i)); });
     }
+}
+
+// All bodies as rigid ones, those of an island together.
+template <class Real>
+void BlockDescent<Real>::move_together(bool last, Positions& positions, StageTimer* timer) {
+    {
+        const TimedStage part(timer, "advance_nodes.move_bodies");
+        ends_ = positions;
+        const Range all{0, static_cast<std::uint32_t>(model_->objects.size())};
+        rigid_move_.run(all, last, objective_, contacts_, bodies_.get(), positions, ends_);
+        joint_move_.run(last, *bodies_, objective_, contacts_, positions, ends_);
+        bodies_->move(ends_, positions);
+    }
+    if (!last) bodies_->renew(positions, timer);
 }
 
 // Of sweeps that no correction comes between.
@@ -130,9 +175,11 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
                             Real(1) / (from.w * step * step));
         if (pulls != nullptr) target = pulls->with_target(n, target, Vec3<Real>(from), step);
         const Real felt = has_earlier && squared > Real(0)
-                              ? glm::clamp(glm::dot(gained, gravity) / (step * squared), Real(0), Real(1))
-                              : Real(1);
-        const Vec3<Real> guess = Vec3<Real>(from) + step * (velocity + step * felt * gravity);
+                        ? glm::clamp(glm::dot(gained, gravity) / (step * squared), Real(0), Real(1))
+                        : Real(1);
+        Vec3<Real> guess = Vec3<Real>(from) + step * (velocity + step * felt * gravity);
+        if (bodies_ && bodies_->was_pressed(contacts_.object_of[n]))
+            guess = Vec3<Real>(from) + (is_calm_[contacts_.object_of[n]] != 0 ? Real(0) : step) * velocity;
         current.positions[n] = Vec4<Real>(guess, from.w);
     });
     contacts_.begin();

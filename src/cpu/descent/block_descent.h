@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "core/stage_timer.h"
+#include "cpu/contact/contacts.h"
 #include "cpu/descent/coarse_step.h"
 #include "cpu/descent/collider_contacts.h"
+#include "cpu/descent/joint_move.h"
 #include "cpu/descent/node_sweep.h"
 #include "cpu/descent/rigid_move.h"
 #include "cpu/descent/step_objective.h"
@@ -25,6 +27,7 @@ namespace gelatin::cpu {
 /// - NodeSweep: each node by one Newton step on its own three coordinates, all nodes of one colour at once;
 /// - RigidMove, after every second sweep and after the last: bodies that nothing holds, as rigid ones. That
 ///   keeps their momentum, which sweeps alone lose;
+/// - JointMove, where bodies are near each other: those of an island together, in place of RigidMove;
 /// - CoarseStep, after the first of every six sweeps: clusters of nodes, for long stiff bodies that would
 ///   need thousands of sweeps (docs/block-descent.md).
 /// Stable for any step and start. The same bits for any number of threads.
@@ -35,8 +38,15 @@ public:
     /// a processor's caches hold.
     static constexpr std::uint32_t kNodesABatch = 16384;
 
+    /// @param contacts between bodies; null: bodies do not meet within a step
     BlockDescent(std::shared_ptr<const Model> model, const DescentSettings& settings,
-                 std::uint32_t nodes_a_batch = kNodesABatch);
+                 std::uint32_t nodes_a_batch = kNodesABatch,
+                 std::unique_ptr<Contacts<Real>> contacts = nullptr);
+
+    /// To be called when nodes were set from outside.
+    void restart(std::span<const Vec4<Real>> positions) {
+        if (bodies_) bodies_->restart(positions);
+    }
 
     /// A step of `step` seconds from `previous`; writes `current`.
     /// @param current's velocities are those one step before `previous` if `has_earlier`, else not looked at
@@ -52,6 +62,8 @@ private:
     void start(Real step, bool has_earlier, const Nodes<Real>& previous,
                std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls, Nodes<Real>& current);
     void take_back_tangled(Positions& positions) const;
+    void find_calm_bodies(Real step, const Nodes<Real>& previous);
+    void move_together(bool last, Positions& positions, StageTimer* timer);
     int end_of_run(int first) const;
     void make_sweeps(int first, int end, Positions& positions, StageTimer* timer);
     bool updates_tets(int sweep) const { return sweep % kSweepsAMotion == 0; }
@@ -61,10 +73,14 @@ private:
 
     std::shared_ptr<const Model> model_;
     DescentSettings settings_;
+    std::unique_ptr<Contacts<Real>> bodies_;
     StepObjective<Real> objective_;
     ColliderContacts<Real> contacts_;
     NodeSweep<Real> sweep_;
     RigidMove<Real> rigid_move_;
+    JointMove<Real> joint_move_;
+    Positions ends_;                    // of bodies' motions
+    std::vector<std::uint8_t> is_calm_; // by object: it presses another, and hardly moves
     std::optional<CoarseStep<Real>> coarse_;  // where there are clusters
 };
 

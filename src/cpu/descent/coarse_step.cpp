@@ -17,7 +17,8 @@ constexpr double kFarthest = 2.0;
 }  // namespace
 
 template <class Real>
-CoarseStep<Real>::CoarseStep(std::shared_ptr<const Model> model) : model_(std::move(model)), coarse_(model_) {
+CoarseStep<Real>::CoarseStep(std::shared_ptr<const Model> model, const Contacts<Real>* bodies)
+    : model_(std::move(model)), bodies_(bodies), coarse_(model_) {
     ahead_.resize(model_->node_count());
     displacements_.resize(model_->node_count());
     forces_ = forces_ahead_ = displacements_;
@@ -43,9 +44,10 @@ void CoarseStep<Real>::run(const StepObjective<Real>& objective, const ColliderC
     });
     tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
         if (!coarse_.moves(o)) return;
-        const Real factor = displacement_factor(o);
-        if (factor == Real(0)) return;
         const Range& nodes = model_->objects[o].nodes;
+        Real factor = displacement_factor(o);
+        if (bodies_ != nullptr) factor = bodies_->allowed_part(nodes, positions, displacements_, factor);
+        if (factor == Real(0)) return;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
             positions[n] += Vec4<Real>(factor * displacements_[n], Real(0));
     });

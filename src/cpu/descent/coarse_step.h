@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "cpu/contact/contacts.h"
 #include "cpu/descent/coarse_correction.h"
 #include "cpu/descent/collider_contacts.h"
 #include "cpu/descent/step_objective.h"
@@ -17,7 +18,8 @@ namespace gelatin::cpu {
 template <class Real>
 class CoarseStep {
 public:
-    explicit CoarseStep(std::shared_ptr<const Model> model);
+    /// @param bodies whose contacts limit displacements; null: none; must outlive this
+    CoarseStep(std::shared_ptr<const Model> model, const Contacts<Real>* bodies);
 
     bool is_empty() const { return coarse_.is_empty(); }  ///< there is nothing for it to move
 
@@ -31,6 +33,7 @@ private:
     Real displacement_factor(std::size_t object) const;
 
     std::shared_ptr<const Model> model_;
+    const Contacts<Real>* bodies_;
     CoarseCorrection<Real> coarse_;
     std::vector<Vec4<Real>> ahead_;                                  // positions after the displacements [m]
     std::vector<Vec3<Real>> displacements_, forces_, forces_ahead_;  // [m], [N]

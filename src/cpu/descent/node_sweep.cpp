@@ -8,7 +8,8 @@
 namespace gelatin::cpu {
 
 template <class Real>
-NodeSweep<Real>::NodeSweep(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
+NodeSweep<Real>::NodeSweep(std::shared_ptr<const Model> model, const Contacts<Real>* bodies)
+    : model_(std::move(model)), bodies_(bodies) {}
 
 template <class Real>
 void NodeSweep<Real>::run(std::size_t batch, const StepObjective<Real>& objective,
@@ -17,9 +18,8 @@ void NodeSweep<Real>::run(std::size_t batch, const StepObjective<Real>& objectiv
     const DescentBatch& bodies = rows.batches[batch];
     const bool any_flat = objective.any_flat_tets(batch);
     const bool any_contact = contacts.has_contact(bodies.objects);  // in an earlier sweep
-    const auto move_group = [&](std::size_t group) {
-        typename StepObjective<Real>::Terms terms;
-        const std::uint32_t near_colliders = objective.descend(group, any_flat, positions, terms);
+    const auto stop_group = [&](std::size_t group, std::uint32_t near_colliders,
+                                const typename StepObjective<Real>::Terms& terms) {
         if (contacts.nodes.empty() || (near_colliders == 0 && !any_contact)) return;
         for (std::uint32_t r = 0; r < kGroup; ++r) {
             const std::uint32_t node = rows.nodes[group * kGroup + r];
@@ -30,6 +30,19 @@ void NodeSweep<Real>::run(std::size_t batch, const StepObjective<Real>& objectiv
                 contacts.nodes[node] = {};
             }
         }
+    };
+    const auto move_group = [&](std::size_t group) {
+        typename StepObjective<Real>::Terms terms;
+        std::array<Vec3<Real>, kGroup> before;
+        if (bodies_ != nullptr) {
+            for (std::uint32_t r = 0; r < kGroup; ++r) {
+                const std::uint32_t node = rows.nodes[group * kGroup + r];
+                if (node != kNoNode) before[r] = Vec3<Real>(positions[node]);
+            }
+        }
+        const std::uint32_t near_colliders = objective.descend(group, any_flat, positions, terms);
+        stop_group(group, near_colliders, terms);
+        if (bodies_ != nullptr) limit(group, objective, before, terms, positions);
     };
     for (const Range& color : bodies.colors)
         for_each_index(color.first / kGroup, color.end() / kGroup, kGroupsATask, move_group);
@@ -47,6 +60,20 @@ void NodeSweep<Real>::stop_at_colliders(std::uint32_t node, const StepObjective<
     }
     position = Vec4<Real>(moved, position.w);
     if (contact.along > Real(0) || contacts.nodes[node].along > Real(0)) contacts.nodes[node] = contact;
+}
+
+// Contacts come last: what a collider does to a node ends at another body.
+template <class Real>
+void NodeSweep<Real>::limit(std::size_t group, const StepObjective<Real>& objective,
+                            const std::array<Vec3<Real>, kGroup>& before,
+                            const typename StepObjective<Real>::Terms& terms,
+                            std::vector<Vec4<Real>>& positions) const {
+    for (std::uint32_t r = 0; r < kGroup; ++r) {
+        const std::uint32_t node = objective.rows().nodes[group * kGroup + r];
+        if (node == kNoNode || objective.step.targets[node].w == Real(0)) continue;
+        Vec4<Real>& position = positions[node];
+        position = Vec4<Real>(bodies_->limited(node, before[r], Vec3<Real>(position), terms.row(r)), position.w);
+    }
 }
 
 template class NodeSweep<float>;

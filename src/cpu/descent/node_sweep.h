@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace gelatin::cpu {
 template <class Real>
 class NodeSweep {
 public:
-    explicit NodeSweep(std::shared_ptr<const Model> model);
+    /// @param bodies whose contacts limit what nodes do; null: none; must outlive this
+    NodeSweep(std::shared_ptr<const Model> model, const Contacts<Real>* bodies);
 
     /// Moves the nodes of a batch of the objective's rows.
     /// @param contacts output: what colliders did to them
@@ -27,7 +29,12 @@ private:
                            const SymmetricMatrix<Real>& hessian, ColliderContacts<Real>& contacts,
                            Vec4<Real>& position) const;
 
+    void limit(std::size_t group, const StepObjective<Real>& objective,
+               const std::array<Vec3<Real>, kGroup>& before, const typename StepObjective<Real>::Terms& terms,
+               std::vector<Vec4<Real>>& positions) const;
+
     std::shared_ptr<const Model> model_;
+    const Contacts<Real>* bodies_;
 };
 
 }  // namespace gelatin::cpu

@@ -28,10 +28,12 @@ RigidMove<Real>::RigidMove(std::shared_ptr<const Model> model) : model_(std::mov
 // The last sweep has left nodes outside colliders: bodies that touch one do not move after it.
 template <class Real>
 void RigidMove<Real>::run(const Range& objects, bool is_last, const StepObjective<Real>& objective,
-                          const ColliderContacts<Real>& contacts, std::vector<Vec4<Real>>& positions) const {
+                          const ColliderContacts<Real>& contacts, const Contacts<Real>* bodies,
+                          const std::vector<Vec4<Real>>& positions, std::span<Vec4<Real>> ends) const {
     tbb::parallel_for(objects.first, objects.end(), [&](std::uint32_t o) {
+        if (bodies != nullptr && !bodies->list().is_alone_at(o)) return;
         const Range& nodes = model_->objects[o].nodes;
-        const std::span body_nodes(positions.data() + nodes.first, nodes.count);
+        const std::span<const Vec4<Real>> body_nodes(positions.data() + nodes.first, nodes.count);
         const bool is_held = std::any_of(body_nodes.begin(), body_nodes.end(),
                                          [](const Vec4<Real>& p) { return p.w == Real(0); });
         if (is_held || (is_last && contacts.objects[o] != 0)) return;
@@ -43,7 +45,7 @@ void RigidMove<Real>::run(const Range& objects, bool is_last, const StepObjectiv
             for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
                 add_contact(contacts.nodes[n], glm::dvec3(positions[n]) - origin, body);
         }
-        move_rigid_nodes(body.solve(origin), body_nodes);
+        move_rigid_nodes(body.solve(origin), ends.subspan(nodes.first, nodes.count));
     });
 }
 

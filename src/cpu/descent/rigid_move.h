@@ -1,8 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "cpu/contact/contacts.h"
 #include "cpu/descent/collider_contacts.h"
 #include "cpu/descent/rigid_motion.h"
 #include "cpu/descent/step_objective.h"
@@ -19,8 +21,11 @@ public:
     explicit RigidMove(std::shared_ptr<const Model> model);
 
     /// Moves some bodies. @param is_last whether no sweep follows
+    /// @param bodies whose contacts move those that are not alone (JointMove); null: none
+    /// @param ends output: where the nodes of those that move go; may be the positions themselves
     void run(const Range& objects, bool is_last, const StepObjective<Real>& objective,
-             const ColliderContacts<Real>& contacts, std::vector<Vec4<Real>>& positions) const;
+             const ColliderContacts<Real>& contacts, const Contacts<Real>* bodies,
+             const std::vector<Vec4<Real>>& positions, std::span<Vec4<Real>> ends) const;
 
 private:
     std::shared_ptr<const Model> model_;

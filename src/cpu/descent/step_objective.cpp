@@ -5,9 +5,11 @@
 namespace gelatin::cpu {
 
 template <class Real>
-StepObjective<Real>::StepObjective(std::shared_ptr<const Model> model, std::uint32_t nodes_a_batch)
+StepObjective<Real>::StepObjective(std::shared_ptr<const Model> model, std::uint32_t nodes_a_batch,
+                                   const Contacts<Real>* contacts)
     : step{std::vector<Vec4<Real>>(model->node_count()), std::vector<Vec4<Real>>(model->node_count())},
       rows_(make_descent_rows(*model, nodes_a_batch)),
+      contacts_(contacts),
       flat_tets_(model, rows_),
       elements_(model, rows_, flat_tets_.node_tets()) {}
 
@@ -24,16 +26,19 @@ void StepObjective<Real>::update(std::size_t batch, const std::vector<Vec4<Real>
 }
 
 template <class Real>
-typename StepObjective<Real>::Terms StepObjective<Real>::flat_terms(
+typename StepObjective<Real>::Terms StepObjective<Real>::rare_terms(
     std::size_t group, bool any_flat, const std::vector<Vec4<Real>>& positions) const {
     Terms terms;
-    if (!any_flat) return terms;
+    if (!any_flat && contacts_ == nullptr) return terms;
     for (std::uint32_t r = 0; r < kGroup; ++r) {
         const std::uint32_t node = rows_.nodes[group * kGroup + r];
         if (node == kNoNode) continue;
-        NodeTerms<Real> of_tets;
-        flat_tets_.add(node, positions, of_tets);
-        terms.add(r, of_tets);
+        const bool presses = contacts_ != nullptr && contacts_->presses(node);
+        if (!any_flat && !presses) continue;
+        NodeTerms<Real> sum;
+        if (any_flat) flat_tets_.add(node, positions, sum);
+        if (presses) contacts_->add(node, Vec3<Real>(positions[node]), sum);
+        terms.add(r, sum);
     }
     return terms;
 }
@@ -41,7 +46,7 @@ typename StepObjective<Real>::Terms StepObjective<Real>::flat_terms(
 template <class Real>
 typename StepObjective<Real>::Terms StepObjective<Real>::gather(
     std::size_t group, bool any_flat, const std::vector<Vec4<Real>>& positions) const {
-    Terms terms = flat_terms(group, any_flat, positions);
+    Terms terms = rare_terms(group, any_flat, positions);
     elements_.gather(rows_, step, group, positions, terms);
     return terms;
 }
@@ -49,7 +54,7 @@ typename StepObjective<Real>::Terms StepObjective<Real>::gather(
 template <class Real>
 std::uint32_t StepObjective<Real>::descend(std::size_t group, bool any_flat,
                                            std::vector<Vec4<Real>>& positions, Terms& terms) const {
-    terms = flat_terms(group, any_flat, positions);
+    terms = rare_terms(group, any_flat, positions);
     return elements_.descend(rows_, step, group, positions, terms);
 }
 

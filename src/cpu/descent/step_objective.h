@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "cpu/contact/contacts.h"
 #include "cpu/descent/flat_tets.h"
 #include "cpu/descent/lane_elements.h"
 #include "cpu/descent/plain_elements.h"
@@ -15,8 +16,8 @@
 
 namespace gelatin::cpu {
 
-/// What a step of vertex block descent minimises (cpu/descent/block_descent.h): the sum of inertia, springs
-/// and tets, as each node sees it. Moves (NodeSweep, RigidMove, CoarseStep) lower it. Colliders are no part
+/// What a step of vertex block descent minimises (cpu/descent/block_descent.h): the sum of inertia, springs,
+/// tets and contacts, as each node sees it. Moves (NodeSweep, RigidMove, CoarseStep) lower it. Colliders are no part
 /// of it, but limits of moves.
 template <class Real>
 class StepObjective {
@@ -26,7 +27,9 @@ public:
     using Terms = typename Elements::Terms;  ///< NodeTerms of a group of rows
 
     /// @param nodes_a_batch as make_descent_rows has it
-    StepObjective(std::shared_ptr<const Model> model, std::uint32_t nodes_a_batch);
+    /// @param contacts null: none; must outlive this
+    StepObjective(std::shared_ptr<const Model> model, std::uint32_t nodes_a_batch,
+                  const Contacts<Real>* contacts);
 
     /// The step; begin() is to be called when its starts and targets are known.
     StepState<Real> step;
@@ -60,9 +63,10 @@ public:
     void find_forces(const std::vector<Vec4<Real>>& positions, std::vector<Vec3<Real>>& forces) const;
 
 private:
-    Terms flat_terms(std::size_t group, bool any_flat, const std::vector<Vec4<Real>>& positions) const;
+    Terms rare_terms(std::size_t group, bool any_flat, const std::vector<Vec4<Real>>& positions) const;
 
     DescentRows rows_;
+    const Contacts<Real>* contacts_;
     FlatTets<Real> flat_tets_;
     Elements elements_;
 };

@@ -28,7 +28,7 @@ void check_simulation(const ValueChecks& checks, const SimulationSettings& setti
     checks.check(field / "frames", settings.frames, kNotNegative);
 }
 
-void check_collision(const ValueChecks& checks, const CollisionSettings& settings) {
+void check_collision(const ValueChecks& checks, const CollisionSettings& settings, SolverKind solver) {
     const FieldPath field("collision");
     const bool sees_one_moment = settings.broad_phase == BroadPhase::depth;
     if (sees_one_moment && settings.detection == CollisionDetection::continuous) {
@@ -40,6 +40,20 @@ void check_collision(const ValueChecks& checks, const CollisionSettings& setting
         checks.fail(
             field / "proximity_radius", text_of(*settings.proximity_radius),
             "must not be given with broad_phase = \"depth\", which finds what touches, not what is near");
+    }
+    if (settings.response == CollisionResponse::contact) {
+        if (solver != SolverKind::vbd) {
+            checks.fail(field / "response", text_of(name_of(settings.response)),
+                        "needs solver = \"vbd\"; with other solvers it must be \"restore\"");
+        }
+        if (settings.self_collision) {
+            checks.fail(field / "self_collision", "true",
+                        "must be false with response = \"contact\", which is between bodies so far");
+        }
+        if (sees_one_moment) {
+            checks.fail(field / "broad_phase", text_of(name_of(settings.broad_phase)),
+                        "must be none, boxes or hierarchy with response = \"contact\"");
+        }
     }
     checks.check(field / "friction", settings.friction, kNotNegative);
     checks.check(field / "restitution", settings.restitution, kFraction);
@@ -91,7 +105,7 @@ void check_materials(const ValueChecks& checks, const std::vector<Material>& mat
 void validate(const Scene& scene, const ReportProblem& report) {
     const ValueChecks checks(report);
     check_simulation(checks, scene.simulation);
-    check_collision(checks, scene.collision);
+    check_collision(checks, scene.collision, scene.simulation.solver);
     if (scene.camera) check_camera(checks, *scene.camera);
     check_materials(checks, scene.materials);
     check_objects(checks, scene);

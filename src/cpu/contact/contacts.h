@@ -1,0 +1,81 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/stage_timer.h"
+#include "cpu/contact/contact_aims.h"
+#include "cpu/contact/contact_list.h"
+#include "cpu/contact/detect_contacts.h"
+#include "cpu/contact/guarded_move.h"
+#include "cpu/nodes.h"
+#include "model/model.h"
+
+namespace gelatin::cpu {
+
+/// The contacts between bodies in the steps of vertex block descent (docs/contact.md): which pairs are near,
+/// aimed at where the nodes are, and the guard of every move.
+template <class Real>
+class Contacts {
+public:
+    /// @param friction Coulomb's coefficient
+    Contacts(std::shared_ptr<const Model> model, double friction);
+
+    /// Forgets what was, because nodes were set from outside. @pre no faces of two bodies overlap there
+    void restart(std::span<const Vec4<Real>> positions);
+
+    /// Whether the object pressed another one when the last step ended.
+    bool was_pressed(std::size_t object) const { return is_pressed_[object] != 0; }
+
+    /// Begins a step: goes from where the last one ended as far to a first guess as that is safe.
+    /// @param targets as in StepState; they and `starts` must stay where they are until the end of the step
+    /// @param positions input: the guess; output: where the sweeps begin
+    void begin(Real step, std::span<const Vec4<Real>> targets, std::span<const Vec4<Real>> starts,
+               std::span<Vec4<Real>> positions, StageTimer* timer);
+
+    /// Moves all bodies to `ends`, as far as that is safe. Aims are out of date after it.
+    void move(std::span<const Vec4<Real>> ends, std::span<Vec4<Real>> positions);
+
+    /// Aims at the present positions, and detects before if nodes have come far.
+    void renew(std::span<const Vec4<Real>> positions, StageTimer* timer);
+
+    void end(std::span<const Vec4<Real>> positions);
+
+    const ContactList<Real>& list() const { return list_; }
+    const ContactAims<Real>& aims() const { return aims_; }
+    bool is_held(std::size_t object) const { return guard_.is_held(object); }
+
+    /// Whether a node presses another body, or has before: it has terms.
+    bool presses(std::uint32_t node) const { return aims_.presses(node); }
+    void add(std::uint32_t node, const Vec3<Real>& position, NodeTerms<Real>& terms) const {
+        aims_.add(node, position, terms);
+    }
+    /// Where a node may go (ContactAims::limited).
+    Vec3<Real> limited(std::uint32_t node, const Vec3<Real>& from, const Vec3<Real>& to,
+                       const NodeTerms<Real>& all) const {
+        return aims_.limited(list_, node, from, to, all);
+    }
+    Real allowed_part(const Range& nodes, std::span<const Vec4<Real>> positions,
+                      std::span<const Vec3<Real>> displacements, Real part) const {
+        return aims_.allowed_part(list_, nodes, positions, displacements, part);
+    }
+
+private:
+    void detect(std::span<const Vec4<Real>> positions, StageTimer* timer);
+    void aim(std::span<const Vec4<Real>> positions, StageTimer* timer);
+    Real used_room(std::span<const Vec4<Real>> positions) const;
+
+    std::shared_ptr<const Model> model_;
+    std::shared_ptr<const ContactSurface> surface_;
+    std::vector<std::uint32_t> object_of_;  // by node
+    DetectContacts<Real> detection_;
+    ContactList<Real> list_, old_list_;
+    ContactAims<Real> aims_;
+    GuardedMove<Real> guard_;
+    double longest_ = 0.0;  // motion of a node in this step's guess [m]
+    std::vector<Vec4<Real>> safe_, guess_;
+    std::vector<std::uint8_t> is_pressed_;  // by object
+};
+
+}  // namespace gelatin::cpu

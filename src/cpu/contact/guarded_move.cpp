@@ -1,0 +1,266 @@
+#include "cpu/contact/guarded_move.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "model/for_each_index.h"
+
+namespace gelatin::cpu {
+namespace {
+
+// Rounds in which objects that block each other are shortened. After them, those still in the way make nothing
+// but what their island has in common.
+constexpr int kMostRounds = 8;
+
+template <class Real>
+Real least_gap(Real gap, Real reach, Closeness closeness) {
+    if (closeness == Closeness::motion)
+        return std::max(Real(0.1f) * gap, std::min(gap, Real(0.05f) * reach));
+    return gap > reach ? Real(0.5f) * reach : std::max(Real(0.5f) * gap, std::min(gap, Real(0.1f) * reach));
+}
+
+// The part of a change of a gap from `start` to `end` that leaves `least`, if the gap is concave between them.
+template <class Real>
+Real part_left(Real start, Real end, Real least) {
+    if (end >= least) return Real(1);
+    if (!(start > least)) return Real(0);
+    return Real(0.999f) * (start - least) / (start - end);
+}
+
+}  // namespace
+
+template <class Real>
+GuardedMove<Real>::GuardedMove(std::shared_ptr<const Model> model, std::vector<std::uint32_t> places)
+    : model_(std::move(model)),
+      places_(std::move(places)),
+      masses_(model_->objects.size()),
+      is_held_(model_->objects.size()),
+      means_(model_->objects.size()),
+      farthest_(model_->objects.size()),
+      parts_(model_->objects.size()) {
+    for (std::size_t o = 0; o < masses_.size(); ++o) {
+        const Range& nodes = model_->objects[o].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+            masses_[o] += static_cast<double>(model_->masses[n]);
+    }
+}
+
+template <class Real>
+void GuardedMove<Real>::begin(std::span<const Vec4<Real>> positions) {
+    for (std::size_t o = 0; o < is_held_.size(); ++o) {
+        const Range& nodes = model_->objects[o].nodes;
+        const auto own = positions.subspan(nodes.first, nodes.count);
+        is_held_[o] = std::any_of(own.begin(), own.end(), [](const auto& p) { return p.w == Real(0); });
+    }
+}
+
+template <class Real>
+bool GuardedMove<Real>::plan(const ContactList<Real>& list, const ContactAims<Real>& aims,
+                             std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
+                             Closeness closeness) {
+    find_common_motions(list, positions, ends);
+    const bool may_shift = limit_common_motions(list);
+    const bool have_room = keep_to_rooms(list, aims, positions, ends);
+    find_blocked_pairs(list, aims, positions, ends, closeness);
+    keep_pairs_apart(list);
+    return may_shift && have_room;
+}
+
+// The mean by mass over the objects of an island; none of one in which anything is held.
+template <class Real>
+void GuardedMove<Real>::find_common_motions(const ContactList<Real>& list,
+                                            std::span<const Vec4<Real>> positions,
+                                            std::span<const Vec4<Real>> ends) {
+    tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
+        const Range& nodes = model_->objects[o].nodes;
+        glm::dvec3 sum(0.0);
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+            sum += static_cast<double>(model_->masses[n]) *
+                   glm::dvec3(Vec3<Real>(ends[n]) - Vec3<Real>(positions[n]));
+        means_[o] = Vec3<Real>(sum / masses_[o]);
+    });
+    const std::size_t islands = list.shifts.size();
+    std::vector<glm::dvec3> sums(islands, glm::dvec3(0.0));
+    std::vector<double> masses(islands);
+    std::vector<std::uint8_t> is_held(islands);
+    for (std::size_t o = 0; o < means_.size(); ++o) {
+        const std::uint32_t i = list.islands[o];
+        sums[i] += masses_[o] * glm::dvec3(means_[o]);
+        masses[i] += masses_[o];
+        is_held[i] |= is_held_[o];
+    }
+    common_.assign(islands, Vec3<Real>(0));
+    for (std::size_t i = 0; i < islands; ++i) {
+        if (is_held[i] == 0) common_[i] = Vec3<Real>(sums[i] / masses[i]);
+    }
+}
+
+// An island that has come too far has nothing in common until the next detection.
+template <class Real>
+bool GuardedMove<Real>::limit_common_motions(const ContactList<Real>& list) {
+    bool may_shift = true;
+    for (std::size_t i = 0; i < common_.size(); ++i) {
+        if (part_within(list.shifts[i], common_[i], list.most_shift) == Real(1)) continue;
+        common_[i] = Vec3<Real>(0);
+        may_shift = false;
+    }
+    return may_shift;
+}
+
+template <class Real>
+bool GuardedMove<Real>::keep_to_rooms(const ContactList<Real>& list, const ContactAims<Real>& aims,
+                                      std::span<const Vec4<Real>> positions,
+                                      std::span<const Vec4<Real>> ends) {
+    tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
+        const std::uint32_t island = list.islands[o];
+        const Range& nodes = model_->objects[o].nodes;
+        Real part = 1, farthest = 0;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            const std::uint32_t place = places_[n];
+            if (place == kNoNode) continue;
+            const Vec3<Real> position(positions[n]);
+            const Vec3<Real> motion = Vec3<Real>(ends[n]) - position - common_[island];
+            const Vec3<Real> moved = position - list.found_at[place] - list.shifts[island];
+            part = std::min(part, part_within(moved, motion, list.rooms[place]));
+            const Real gone = glm::length(position - aims.aimed_at()[place]);
+            farthest = std::max(farthest, gone + glm::length(motion));
+        }
+        parts_[o] = part;
+        farthest_[o] = farthest;
+    });
+    return std::all_of(parts_.begin(), parts_.end(), [](Real part) { return part == Real(1); });
+}
+
+// Pairs that are too far apart to be in the way of anything are most of them.
+template <class Real>
+void GuardedMove<Real>::find_blocked_pairs(const ContactList<Real>& list, const ContactAims<Real>& aims,
+                                           std::span<const Vec4<Real>> positions,
+                                           std::span<const Vec4<Real>> ends, Closeness closeness) {
+    const Real reach = aims.reach();
+    blocked_.clear();
+    for (std::uint32_t p = 0; p < list.pairs.size(); ++p) {
+        const ContactPair& pair = list.pairs[p];
+        const Real gap = aims.aims()[p].gap;
+        if (!(gap - farthest_[pair.object] - farthest_[pair.other] > least_gap(gap, reach, closeness)))
+            blocked_.push_back(p);
+    }
+    courses_.resize(blocked_.size());
+    for_each_index(0, blocked_.size(), 256, [&](std::size_t k) {
+        const ContactPair& pair = list.pairs[blocked_[k]];
+        const Vec3<Real>& normal = aims.aims()[blocked_[k]].normal;
+        const Vec3<Real> origin(positions[pair.nodes[0]]), common = common_[list.islands[pair.object]];
+        Course& course = courses_[k];
+        course.object = pair.object;
+        course.other = pair.other;
+        course.first_count = pair.first_count;
+        for (std::size_t c = 0; c < 4; ++c) {
+            const Vec3<Real> position(positions[pair.nodes[c]]);
+            course.heights[c] = glm::dot(normal, position - origin);
+            course.motions[c] = glm::dot(normal, Vec3<Real>(ends[pair.nodes[c]]) - position - common);
+        }
+        const Real gap = course.gap(Real(0), Real(0));
+        course.least = least_gap(gap, reach, closeness) - Real(1e-5f) * reach;  // less rounding
+    });
+}
+
+template <class Real>
+Real GuardedMove<Real>::Course::gap(Real part, Real other_part) const {
+    Real top = -std::numeric_limits<Real>::infinity(), low = -top;
+    for (std::size_t k = 0; k < 4; ++k) {
+        if (k < first_count) {
+            top = std::max(top, heights[k] + part * motions[k]);
+        } else {
+            low = std::min(low, heights[k] + other_part * motions[k]);
+        }
+    }
+    return low - top;
+}
+
+// In each round every pair that would come too near shortens the objects that approach.
+template <class Real>
+void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
+    for (int round = 0;; ++round) {
+        bool is_blocked = false;
+        next_parts_ = parts_;
+        for (const Course& course : courses_) {
+            const Real a = parts_[course.object], b = parts_[course.other];
+            if (a == Real(0) && b == Real(0)) continue;
+            const Real end = course.gap(a, b);
+            if (end >= course.least) continue;
+            is_blocked = true;
+            Real &part = next_parts_[course.object], &other_part = next_parts_[course.other];
+            const Real here = course.gap(Real(0), Real(0));
+            const bool approaches = course.gap(a, Real(0)) < here, other_approaches = course.gap(Real(0), b) < here;
+            if (round >= kMostRounds || approaches == other_approaches) {
+                const Real left =
+                    round < kMostRounds && approaches ? part_left(here, end, course.least) : Real(0);
+                part = std::min(part, left * a);
+                other_part = std::min(other_part, left * b);
+            } else if (approaches) {
+                part = std::min(part, part_left(course.gap(Real(0), b), end, course.least) * a);
+            } else {
+                other_part = std::min(other_part, part_left(course.gap(a, Real(0)), end, course.least) * b);
+            }
+        }
+        std::swap(parts_, next_parts_);
+        if (!is_blocked) return;
+        // In a large island rounds could go on from object to object.
+        if (round < 2 * kMostRounds) continue;
+        std::vector<std::uint8_t> stops(common_.size());
+        for (const Course& course : courses_) {
+            if (course.gap(parts_[course.object], parts_[course.other]) < course.least)
+                stops[list.islands[course.object]] = 1;
+        }
+        for (std::size_t o = 0; o < parts_.size(); ++o)
+            if (stops[list.islands[o]] != 0) parts_[o] = Real(0);
+        return;
+    }
+}
+
+template <class Real>
+void GuardedMove<Real>::go(ContactList<Real>& list, std::span<const Vec4<Real>> ends, bool keeps_momentum,
+                           std::span<Vec4<Real>> positions) {
+    std::vector<Vec3<Real>> shifts = common_;
+    if (keeps_momentum) {
+        std::vector<glm::dvec3> lost(common_.size(), glm::dvec3(0.0));
+        std::vector<double> masses(common_.size());
+        std::vector<std::uint8_t> is_held(common_.size());
+        for (std::size_t o = 0; o < parts_.size(); ++o) {
+            const std::uint32_t i = list.islands[o];
+            lost[i] += (masses_[o] * static_cast<double>(Real(1) - parts_[o])) *
+                       glm::dvec3(means_[o] - common_[i]);
+            masses[i] += masses_[o];
+            is_held[i] |= is_held_[o];
+        }
+        for (std::size_t i = 0; i < shifts.size(); ++i) {
+            if (is_held[i] != 0) continue;
+            const Vec3<Real> made_up(lost[i] / masses[i]);
+            shifts[i] += part_within(list.shifts[i] + common_[i], made_up, list.most_shift) * made_up;
+        }
+    }
+    tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
+        const std::uint32_t island = list.islands[o];
+        const Range& nodes = model_->objects[o].nodes;
+        const Vec3<Real> shift = shifts[island], common = common_[island];
+        const Real part = parts_[o];
+        if (part == Real(1) && shift == common) {
+            std::copy(ends.begin() + nodes.first, ends.begin() + nodes.end(),
+                      positions.begin() + nodes.first);
+            return;
+        }
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            const Vec3<Real> position(positions[n]);
+            const Vec3<Real> motion = Vec3<Real>(ends[n]) - position - common;
+            positions[n] = Vec4<Real>(position + shift + part * motion, positions[n].w);
+        }
+    });
+    for (std::size_t i = 0; i < shifts.size(); ++i) list.shifts[i] += shifts[i];
+}
+
+template class GuardedMove<float>;
+template class GuardedMove<double>;
+
+}  // namespace gelatin::cpu

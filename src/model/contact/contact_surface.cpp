@@ -1,0 +1,126 @@
+#include "model/contact/contact_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+
+namespace gelatin {
+namespace {
+
+constexpr double kReach = 0.1;  // of the median edge
+
+std::array<std::uint32_t, 3> corners_of(const Face& face) {
+    return {face.a, face.b, face.c};
+}
+
+// One side of a surface edge: face 3 f + k, from corner k to k + 1.
+struct HalfEdge {
+    std::uint32_t low, high, index;
+    bool same_edge(const HalfEdge& other) const { return low == other.low && high == other.high; }
+};
+
+std::vector<HalfEdge> sorted_half_edges(const Model& model) {
+    std::vector<HalfEdge> halves;
+    for (std::uint32_t f = 0; f < model.faces.size(); ++f) {
+        const auto corners = corners_of(model.faces[f]);
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const auto [low, high] = std::minmax(corners[k], corners[(k + 1) % 3]);
+            halves.push_back({low, high, 3 * f + k});
+        }
+    }
+    std::sort(halves.begin(), halves.end(), [](const HalfEdge& a, const HalfEdge& b) {
+        return std::array{a.low, a.high, a.index} < std::array{b.low, b.high, b.index};
+    });
+    return halves;
+}
+
+std::uint32_t opposite_corner(const Model& model, std::uint32_t half) {
+    return corners_of(model.faces[half / 3])[(half % 3 + 2) % 3];
+}
+
+void add_neighbors(const Model& model, ContactSurface& surface) {
+    const std::vector<HalfEdge> halves = sorted_half_edges(model);
+    surface.across.resize(3 * model.faces.size());
+    for (std::size_t first = 0, end = 0; first < halves.size(); first = end) {
+        for (end = first + 1; end < halves.size() && halves[end].same_edge(halves[first]);) ++end;
+        if (end != first + 2) continue;
+        const std::uint32_t a = halves[first].index, b = halves[first + 1].index;
+        surface.across[a] = {b / 3, opposite_corner(model, b)};
+        surface.across[b] = {a / 3, opposite_corner(model, a)};
+    }
+    for (const FaceEdge& edge : model.surface_parts.edges) {
+        const auto before = [](const HalfEdge& half, const FaceEdge& e) {
+            return std::array{half.low, half.high} < std::array{e.a, e.b};
+        };
+        glm::uvec2 beside(kNoNode);
+        auto half = std::lower_bound(halves.begin(), halves.end(), edge, before);
+        for (int k = 0; k < 2 && half != halves.end() && half->low == edge.a && half->high == edge.b;
+             ++k, ++half)
+            beside[k] = opposite_corner(model, half->index);
+        surface.beside_edges.push_back(beside);
+    }
+}
+
+// A spring's second derivative along itself is its stiffness, and none at right angles at rest.
+void add_springs(const Model& model, std::vector<double>& traces) {
+    for (const Spring& spring : model.springs) {
+        traces[spring.i] += static_cast<double>(spring.stiffness);
+        traces[spring.j] += static_cast<double>(spring.stiffness);
+    }
+}
+
+// With g the gradient of the node's shape function, V (mu g^2 1 + (lambda + mu) g g^T) at small strains; of
+// the volume term at most V kappa g g^T.
+void add_tets(const Model& model, std::vector<double>& traces) {
+    for (const NeoHookeanTet& tet : model.neo_hookean_tets) {
+        const auto volume = static_cast<double>(tet.gradient_1.w), mu = static_cast<double>(tet.gradient_2.w),
+                   lambda = static_cast<double>(tet.gradient_3.w);
+        const std::array<glm::dvec3, 4> gradients = shape_gradients(tet);
+        const glm::uvec4 nodes = nodes_of(tet);
+        for (int k = 0; k < 4; ++k) {
+            const glm::dvec3& g = gradients[static_cast<std::size_t>(k)];
+            traces[nodes[k]] += volume * (4.0 * mu + lambda) * glm::dot(g, g);
+        }
+    }
+    if (model.volume_term.is_empty()) return;
+    for (std::size_t t = 0; t < model.tets.size(); ++t) {
+        const glm::uvec4& tet = model.tets[t];
+        const auto volume = static_cast<double>(model.tet_rests[t].volume),
+                   kappa = static_cast<double>(model.volume_term.tets[t]);
+        for (int k = 0; k < 4; ++k) {
+            const glm::dvec3 a(model.positions[tet[(k + 1) % 4]]), b(model.positions[tet[(k + 2) % 4]]),
+                c(model.positions[tet[(k + 3) % 4]]);
+            const double gradient = glm::length(glm::cross(b - a, c - a)) / (6.0 * volume);
+            traces[tet[k]] += volume * kappa * gradient * gradient;
+        }
+    }
+}
+
+double median_edge(const Model& model) {
+    std::vector<double> lengths;
+    for (const FaceEdge& edge : model.surface_parts.edges)
+        lengths.push_back(
+            glm::distance(glm::dvec3(model.positions[edge.a]), glm::dvec3(model.positions[edge.b])));
+    if (lengths.empty()) return 0.0;
+    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    return *middle;
+}
+
+}  // namespace
+
+ContactSurface make_contact_surface(const Model& model, double thickness) {
+    ContactSurface surface;
+    surface.places.assign(model.node_count(), kNoNode);
+    for (std::uint32_t s = 0; s < model.surface_parts.nodes.size(); ++s)
+        surface.places[model.surface_parts.nodes[s]] = s;
+    add_neighbors(model, surface);
+    std::vector<double> traces(model.node_count());
+    add_springs(model, traces);
+    add_tets(model, traces);
+    for (const double trace : traces) surface.stiffness.push_back(static_cast<float>(trace / 3.0));
+    surface.reach = thickness > 0.0 ? thickness : kReach * median_edge(model);
+    return surface;
+}
+
+}  // namespace gelatin

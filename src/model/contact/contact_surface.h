@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "model/model.h"
+#include "model/spring_packing.h"
+
+namespace gelatin {
+
+/// A corner opposite an edge of a face, in the face on the edge's other side; none at an open edge, or where
+/// three faces meet.
+struct CornerAcross {
+    std::uint32_t face = kNoNode, corner = kNoNode;  ///< the face, and the node that is its corner
+};
+
+/// What contact needs to know of the surfaces of all bodies (docs/contact.md).
+struct ContactSurface {
+    std::vector<std::uint32_t> places;    ///< of each node in SurfaceParts::nodes, or kNoNode inside
+    std::vector<CornerAcross> across;     ///< 3 f + k: of face f's edge from corner k to k + 1
+    std::vector<glm::uvec2> beside_edges; ///< of each edge, the opposite corners of its faces, or kNoNode
+    /// A third of the trace of the second derivative of the body's energy by the node at rest, without
+    /// dampers [N/m], shape [nodes]: how stiff the body is there, over all directions.
+    std::vector<float> stiffness;
+    /// Distance of two surfaces at which they begin to press each other [m]. A tenth of the median edge
+    /// unless the scene gives it.
+    double reach = 0.0;
+};
+
+/// @param thickness the reach [m]; 0: from the edges
+ContactSurface make_contact_surface(const Model& model, double thickness = 0.0);
+
+}  // namespace gelatin

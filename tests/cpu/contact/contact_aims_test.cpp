@@ -1,0 +1,217 @@
+#include "cpu/contact/contact_aims.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <set>
+#include <tuple>
+
+#include "cpu/collision/nearest_points.h"
+#include "cpu/contact/detect_contacts.h"
+#include "cpu/contact/guarded_move.h"
+#include "support/overlaps.h"
+#include "support/random_maker.h"
+#include "support/test_models.h"
+
+namespace gelatin {
+namespace {
+
+// Blocks that nearly touch: turned at random, one beside the other.
+Model make_near_blocks(unsigned seed) {
+    test::RandomMaker random(seed);
+    std::vector<Body> bodies;
+    for (int k = 0; k < 3; ++k) {
+        Body body = test::make_body(test::make_block({3, 2, 3}, {0.3, 0.2, 0.3}, 0.2, seed + unsigned(k)));
+        for (glm::dvec3& p : body.mesh.positions) p += glm::dvec3(0.01 * k, 0.24 * k, -0.02 * k);
+        bodies.push_back(std::move(body));
+    }
+    Model model = pack_bodies(bodies, {}, {0.0, 0.0, 0.0});
+    for (glm::vec4& p : model.positions) p += glm::vec4(glm::vec3(random.point(0.012)), 0.0f);
+    return model;
+}
+
+// Lists, aims and guards of a model's start.
+template <class Real>
+struct Contact {
+    explicit Contact(const Model& of)
+        : model(std::make_shared<const Model>(of)),
+          surface(std::make_shared<const ContactSurface>(make_contact_surface(of))),
+          positions(of.positions.begin(), of.positions.end()),
+          starts(positions),
+          detection(model, surface),
+          aims(model, surface, 0.4),
+          guard(model, surface->places) {
+        for (std::size_t n = 0; n < positions.size(); ++n) {
+            const Real inverse_mass = positions[n].w;
+            starts[n].w = Real(0);
+            targets.emplace_back(cpu::Vec3<Real>(positions[n]),
+                                 inverse_mass > Real(0) ? Real(3600) / inverse_mass : Real(0));
+        }
+        detection.run(positions, 0.0, list);
+        aims.begin(Real(1) / 60, targets, starts);
+        aims.carry_over({}, list);
+        aims.run(list, positions);
+        guard.begin(positions);
+    }
+
+    std::shared_ptr<const Model> model;
+    std::shared_ptr<const ContactSurface> surface;
+    std::vector<cpu::Vec4<Real>> positions, starts, targets;
+    cpu::DetectContacts<Real> detection;
+    cpu::ContactList<Real> list;
+    cpu::ContactAims<Real> aims;
+    cpu::GuardedMove<Real> guard;
+};
+
+using Key = std::tuple<bool, std::uint32_t, std::uint32_t>;
+
+// Distances of all nodes and faces, and all edges, of different bodies.
+template <class Found>
+void for_all_pairs(const Model& model, const std::vector<cpu::Vec4<double>>& x, const Found& found) {
+    const auto objects = objects_of_nodes(model);
+    const auto at = [&](std::uint32_t n) { return glm::dvec3(x[n]); };
+    for (const std::uint32_t n : model.surface_parts.nodes) {
+        for (std::uint32_t f = 0; f < model.faces.size(); ++f) {
+            const Face& face = model.faces[f];
+            if (face.object == objects[n]) continue;
+            const auto nearest =
+                cpu::nearest_points<double>(at(n), std::array{at(face.a), at(face.b), at(face.c)});
+            found(Key{false, n, f}, std::sqrt(nearest.squared_distance),
+                  std::vector{n, face.a, face.b, face.c});
+        }
+    }
+    const auto& edges = model.surface_parts.edges;
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {
+        for (std::uint32_t f = e + 1; f < edges.size(); ++f) {
+            if (edges[e].object == edges[f].object) continue;
+            const auto nearest = cpu::nearest_points<double>(std::array{at(edges[e].a), at(edges[e].b)},
+                                                             std::array{at(edges[f].a), at(edges[f].b)});
+            found(Key{true, e, f}, std::sqrt(nearest.squared_distance),
+                  std::vector{edges[e].a, edges[e].b, edges[f].a, edges[f].b});
+        }
+    }
+}
+
+// Every pair is listed, or its nodes' rooms are too small to bring it together.
+TEST(ContactAims, ListsAllThatCouldMeetWithinItsRooms) {
+    std::size_t listed = 0, loose = 0;
+    for (unsigned seed = 1; seed < 6; ++seed) {
+        Contact<double> contact(make_near_blocks(seed));
+        std::set<Key> pairs;
+        for (const cpu::ContactPair& pair : contact.list.pairs)
+            EXPECT_TRUE(pairs.insert(Key{pair.is_edges(), pair.first, pair.second}).second);
+        listed += pairs.size();
+        for_all_pairs(*contact.model, contact.positions,
+                      [&](const Key& key, double distance, const std::vector<std::uint32_t>& nodes) {
+                          if (pairs.count(key) != 0) return;
+                          ++loose;
+                          double first = 0.0, second = 0.0;
+                          const std::size_t split = std::get<0>(key) ? 2 : 1;
+                          for (std::size_t k = 0; k < 4; ++k) {
+                              const double room = contact.list.rooms[contact.surface->places[nodes[k]]];
+                              double& side = k < split ? first : second;
+                              side = std::max(side, room);
+                          }
+                          EXPECT_LT(first + second, distance);
+                      });
+    }
+    EXPECT_GT(listed, 1000u);
+    EXPECT_GT(loose, 10000u);
+}
+
+// Whatever nodes want, by the limits of each alone no face comes to pass another.
+template <class Real>
+void expect_limits_hold() {
+    for (unsigned seed = 1; seed < 9; ++seed) {
+        Contact<Real> contact(make_near_blocks(seed));
+        ASSERT_EQ(test::count_overlaps(*contact.model, contact.positions), 0u);
+        test::RandomMaker random(seed);
+        const auto before = contact.positions;
+        double longest = 0.0;
+        for (int pass = 0; pass < 6; ++pass) {
+            for (std::uint32_t n = 0; n < contact.positions.size(); ++n) {
+                const cpu::Vec3<Real> from(contact.positions[n]);
+                const cpu::Vec3<Real> to = from + cpu::Vec3<Real>(random.point(0.1));
+                cpu::NodeTerms<Real> terms;
+                terms.hessian.add_identity(Real(1e5));
+                terms.force = Real(1e5) * (to - from);
+                if (contact.aims.presses(n)) contact.aims.add(n, from, terms);
+                const cpu::Vec3<Real> end = contact.aims.limited(contact.list, n, from, to, terms);
+                contact.positions[n] = cpu::Vec4<Real>(end, contact.positions[n].w);
+            }
+            EXPECT_EQ(test::count_overlaps(*contact.model, contact.positions), 0u) << seed;
+            if (pass % 2 == 1) contact.aims.run(contact.list, contact.positions);
+        }
+        for (const std::uint32_t n : contact.model->surface_parts.nodes)
+            longest = std::max(longest, double(glm::distance(cpu::Vec3<Real>(contact.positions[n]),
+                                                             cpu::Vec3<Real>(before[n]))));
+        EXPECT_GT(longest, contact.surface->reach);  // they do move
+    }
+}
+
+TEST(ContactAims, KeepsNodesApart) {
+    expect_limits_hold<double>();
+    expect_limits_hold<float>();
+}
+
+// Bodies that fly through each other stop; what an island has in common it keeps, however far.
+TEST(GuardedMove, KeepsBodiesApart) {
+    for (unsigned seed = 1; seed < 9; ++seed) {
+        Contact<float> contact(make_near_blocks(seed));
+        test::RandomMaker random(seed);
+        auto ends = contact.positions;
+        for (const ModelObject& object : contact.model->objects) {
+            const glm::vec3 motion(random.point(0.3));
+            for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n)
+                ends[n] += glm::vec4(motion + glm::vec3(random.point(0.02)), 0.0f);
+        }
+        contact.guard.plan(contact.list, contact.aims, contact.positions, ends, cpu::Closeness::motion);
+        const auto momentum = [&](const std::vector<glm::vec4>& at) {
+            glm::dvec3 sum(0.0);
+            for (std::size_t n = 0; n < at.size(); ++n)
+                sum += static_cast<double>(contact.model->masses[n]) *
+                       glm::dvec3(at[n] - contact.model->positions[n]);
+            return sum;
+        };
+        contact.guard.go(contact.list, ends, true, contact.positions);
+        EXPECT_EQ(test::count_overlaps(*contact.model, contact.positions), 0u);
+        double mass = 0.0;
+        for (const float m : contact.model->masses) mass += static_cast<double>(m);
+        EXPECT_LT(glm::length(momentum(contact.positions) - momentum(ends)), 1e-6 * mass)
+            << "of an island that may move so far";
+    }
+}
+
+TEST(GuardedMove, DoesNotStopWhatFliesTogether) {
+    Contact<float> contact(make_near_blocks(1));
+    auto ends = contact.positions;
+    for (glm::vec4& p : ends) p += glm::vec4(0.02f, -0.01f, 0.03f, 0.0f);
+    EXPECT_TRUE(contact.guard.plan(contact.list, contact.aims, contact.positions, ends, cpu::Closeness::guess));
+    contact.guard.go(contact.list, ends, false, contact.positions);
+    for (std::size_t n = 0; n < ends.size(); ++n)
+        EXPECT_LT(glm::distance(glm::vec3(ends[n]), glm::vec3(contact.positions[n])), 1e-6f);
+}
+
+// Pairs that were used up since they were aimed are seen, though the aim tells another gap.
+TEST(GuardedMove, SeesWhatHasMovedSinceTheAim) {
+    Contact<float> contact(make_near_blocks(2));
+    auto pressed = contact.positions;
+    for (std::uint32_t n = 0; n < pressed.size(); ++n) {  // the outer ones as near as they may come
+        const float y = 0.3f - pressed[n].y;
+        const glm::vec3 from(pressed[n]);
+        cpu::NodeTerms<float> terms;
+        terms.hessian.add_identity(1e5f);
+        pressed[n] = glm::vec4(
+            contact.aims.limited(contact.list, n, from, from + glm::vec3(0.0f, 0.1f * y, 0.0f), terms),
+            pressed[n].w);
+    }
+    contact.positions = pressed;
+    auto ends = pressed;
+    for (std::uint32_t n = 0; n < ends.size(); ++n) ends[n].y += 0.05f * (0.3f - ends[n].y);
+    contact.guard.plan(contact.list, contact.aims, contact.positions, ends, cpu::Closeness::motion);
+    contact.guard.go(contact.list, ends, false, contact.positions);
+    EXPECT_EQ(test::count_overlaps(*contact.model, contact.positions), 0u);
+}
+
+}  // namespace
+}  // namespace gelatin

@@ -1,0 +1,223 @@
+#include "cpu/contact/contacts.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <glm/geometric.hpp>
+
+#include "cpu/cpu_solver.h"
+#include "cpu/measure/measure.h"
+#include "support/overlaps.h"
+#include "support/random_maker.h"
+#include "support/test_models.h"
+
+namespace gelatin {
+namespace {
+
+constexpr double kFrame = 1.0 / 60.0;  // [s]
+
+struct Block {
+    glm::dvec3 place{0.0}, velocity{0.0};
+    glm::ivec3 cells{3, 3, 3};
+    glm::dvec3 size{0.3};
+    double youngs_modulus = 1e5;
+    std::vector<Region> pins{};
+    double poisson_ratio = 0.25;
+    MaterialModel model = MaterialModel::mass_spring;
+};
+
+std::shared_ptr<const Model> make_blocks(const std::vector<Block>& blocks, const glm::dvec3& gravity = {0, 0, 0},
+                                         const std::vector<ColliderDescription>& colliders = {}) {
+    std::vector<Body> bodies;
+    unsigned seed = 0;
+    for (const Block& block : blocks) {
+        Body body = test::make_body(test::make_block(block.cells, block.size, 0.15, ++seed));
+        for (glm::dvec3& p : body.mesh.positions) p += block.place;
+        body.velocity = block.velocity;
+        body.pins = block.pins;
+        body.material.youngs_modulus = block.youngs_modulus;
+        body.material.poisson_ratio = block.poisson_ratio;
+        body.material.model = block.model;
+        if (block.model == MaterialModel::neo_hookean) body.material.springs.reset();
+        bodies.push_back(std::move(body));
+    }
+    return std::make_shared<const Model>(pack_bodies(bodies, colliders, gravity));
+}
+
+template <class Real>
+cpu::CpuSolver<Real> make_solver(const std::shared_ptr<const Model>& model, double friction = 0.4,
+                                 int iterations = 10) {
+    return {model, SolverKind::vbd, ForceMethod::fused,
+            CollisionSettings{.response = CollisionResponse::contact, .friction = friction},
+            DescentSettings{iterations}};
+}
+
+struct Sums {
+    glm::dvec3 momentum{0.0}, angular{0.0};
+    double kinetic = 0.0, energy = 0.0;
+};
+
+template <class Real>
+Sums sums_of(const Model& model, const cpu::Nodes<Real>& nodes) {
+    Sums sums;
+    for (const ObjectMeasure& object : cpu::measure(model, nodes)) {
+        sums.momentum += object.momentum;
+        sums.kinetic += object.kinetic_energy;
+        sums.energy += object.kinetic_energy + object.elastic_energy + object.potential_energy;
+    }
+    for (std::size_t n = 0; n < nodes.positions.size(); ++n)
+        sums.angular += static_cast<double>(model.masses[n]) *
+                        glm::cross(glm::dvec3(nodes.positions[n]), glm::dvec3(nodes.velocities[n]));
+    return sums;
+}
+
+// Two blocks that meet off their middles.
+std::shared_ptr<const Model> make_impact(double speed, double youngs_modulus = 1e5) {
+    return make_blocks({{.velocity = {speed, 0.1, 0}, .youngs_modulus = youngs_modulus},
+                        {.place = {0.34, 0.12, 0.05}, .velocity = {-speed, 0, 0}, .youngs_modulus = youngs_modulus}});
+}
+
+template <class Real>
+void expect_sound_impact(double speed, double youngs_modulus) {
+    const auto model = make_impact(speed, youngs_modulus);
+    cpu::CpuSolver<Real> solver = make_solver<Real>(model);
+    const Sums before = sums_of(*model, solver.nodes());
+    double energy = before.energy;
+    for (int frame = 0; frame < 40; ++frame) {
+        solver.advance_nodes(kFrame);
+        ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u) << speed << " m/s, frame " << frame;
+        const Sums now = sums_of(*model, solver.nodes());
+        EXPECT_LT(now.energy, energy + 2e-3 * before.energy);
+        energy = now.energy;
+    }
+    const Sums after = sums_of(*model, solver.nodes());
+    const double size = std::sqrt(2.0 * before.kinetic * 54.0);  // of momenta, both masses 27 kg
+    EXPECT_LT(glm::length(after.momentum - before.momentum), (std::is_same_v<Real, float> ? 3e-5 : 1e-9) * size);
+    EXPECT_LT(after.kinetic, 0.9 * before.kinetic);  // they met
+}
+
+TEST(Contacts, BodiesMeetAndDoNotPassThroughEachOther) {
+    for (const double speed : {1.0, 10.0, 60.0}) {
+        expect_sound_impact<float>(speed, 1e5);
+        expect_sound_impact<float>(speed, 1e8);
+    }
+    expect_sound_impact<double>(3.0, 1e5);
+}
+
+// The elements of all materials know contacts.
+TEST(Contacts, OfAllMaterials) {
+    for (const MaterialModel kind : {MaterialModel::mass_spring, MaterialModel::neo_hookean}) {
+        const auto model =
+            make_blocks({{.velocity = {3, 0, 0}, .poisson_ratio = 0.4, .model = kind},
+                         {.place = {0.34, 0.1, 0.05}, .velocity = {-3, 0, 0}, .poisson_ratio = 0.4, .model = kind}});
+        cpu::CpuSolver<float> solver = make_solver<float>(model);
+        const Sums before = sums_of(*model, solver.nodes());
+        for (int frame = 0; frame < 30; ++frame) {
+            solver.advance_nodes(kFrame);
+            ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u);
+        }
+        EXPECT_LT(sums_of(*model, solver.nodes()).kinetic, 0.9 * before.kinetic);
+    }
+}
+
+TEST(Contacts, GivesTheSameBitsForAnyNumberOfThreads) {
+    const auto run = [](std::size_t threads) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+        cpu::CpuSolver<float> solver = make_solver<float>(make_impact(5.0));
+        for (int frame = 0; frame < 20; ++frame) solver.advance_nodes(kFrame);
+        return solver.nodes().positions;
+    };
+    EXPECT_EQ(run(1), run(2));
+}
+
+// Times of parts do not change what is computed.
+TEST(Contacts, AStackStandsAndRests) {
+    std::vector<Block> blocks;
+    for (int k = 0; k < 4; ++k)
+        blocks.push_back({.place = {0.01 * (k % 2), 0.01 + 0.31 * k, 0}, .youngs_modulus = 1e6});
+    ColliderDescription floor;
+    floor.shape = PlaneShape{{0, 1, 0}};
+    const auto model = make_blocks(blocks, {0, -9.81, 0}, {floor});
+    cpu::CpuSolver<float> solver = make_solver<float>(model);
+    for (int frame = 0; frame < 300; ++frame) {
+        solver.advance_nodes(kFrame);
+        if (frame % 10 == 0) {
+            ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u);
+        }
+    }
+    double fastest = 0.0, highest = 0.0;
+    for (std::size_t n = 0; n < model->positions.size(); ++n) {
+        fastest = std::max(fastest, static_cast<double>(glm::length(glm::vec3(solver.nodes().velocities[n]))));
+        highest = std::max(highest, static_cast<double>(solver.nodes().positions[n].y));
+    }
+    EXPECT_LT(fastest, 0.02);
+    EXPECT_NEAR(highest, 4 * 0.3, 0.05);
+}
+
+// A block on a pinned plate under gravity that is inclined: it holds below the angle of friction and slides
+// beyond it, as Coulomb says.
+double slide(double friction, double slope) {
+    const double angle = std::atan(slope);
+    Region everywhere;
+    const auto model = make_blocks(
+        {{.place = {-1.0, -0.1, -0.6}, .cells = {8, 1, 5}, .size = {3.2, 0.1, 1.5}, .pins = {everywhere}},
+         {.place = {-0.2, 0.004, 0}, .size = {0.3, 0.2, 0.3}, .youngs_modulus = 1e6}},
+        9.81 * glm::dvec3(std::sin(angle), -std::cos(angle), 0));
+    cpu::CpuSolver<float> solver = make_solver<float>(model, friction);
+    const auto mean = [&] {
+        double sum = 0.0;
+        const Range& nodes = model->objects[1].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+            sum += static_cast<double>(solver.nodes().positions[n].x);
+        return sum / nodes.count;
+    };
+    for (int frame = 0; frame < 30; ++frame) solver.advance_nodes(kFrame);
+    const double start = mean();
+    for (int frame = 0; frame < 60; ++frame) solver.advance_nodes(kFrame);
+    return mean() - start;
+}
+
+TEST(Contacts, FrictionHoldsUpToItsAngle) {
+    EXPECT_LT(std::abs(slide(0.5, 0.45)), 1e-3);
+    EXPECT_GT(slide(0.5, 0.65), 0.2);
+    EXPECT_GT(slide(0.0, 0.1), 0.5);
+}
+
+// Violent scenes: blocks and thin plates, soft and hard, at random; a few here, more in the long tests.
+void fuzz(unsigned first, unsigned count) {
+    for (unsigned seed = first; seed < first + count; ++seed) {
+        test::RandomMaker random(seed);
+        std::vector<Block> blocks;
+        const int bodies = random.integer(2, 5);
+        for (int k = 0; k < bodies; ++k) {
+            Block block;
+            const bool is_thin = random.integer(0, 2) == 0;
+            block.size = is_thin ? glm::dvec3(0.4, 0.02, 0.4) : glm::dvec3(0.2, 0.25, 0.2);
+            block.cells = is_thin ? glm::ivec3(4, 1, 4) : glm::ivec3(2, 3, 2);
+            block.place = {random.uniform(-0.05, 0.05), 0.4 * k, random.uniform(-0.05, 0.05)};
+            block.velocity = random.point(random.magnitude(0.1, 100.0));
+            block.velocity.y -= 5.0 * k;
+            block.youngs_modulus = random.magnitude(1e3, 1e9);
+            blocks.push_back(block);
+        }
+        const auto model = make_blocks(blocks, {0, -9.81, 0});
+        const int substeps = random.integer(1, 4), iterations = random.integer(1, 12);
+        cpu::CpuSolver<float> solver = make_solver<float>(model, 0.4, iterations);
+        for (int step = 0; step < 20 * substeps; ++step) {
+            solver.advance_nodes(kFrame / substeps);
+            ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u)
+                << "scene " << seed << ", step " << step;
+        }
+    }
+}
+
+TEST(Contacts, NothingPassesThroughAnything) {
+    fuzz(1, 12);
+}
+
+TEST(ContactsLong, NothingPassesThroughAnything) {
+    fuzz(100, 500);
+}
+
+}  // namespace
+}  // namespace gelatin
