@@ -57,7 +57,8 @@ ContactAims<Real>::ContactAims(std::shared_ptr<const Model> model,
       object_of_(objects_of_nodes(*model_)),
       reach_(static_cast<Real>(surface_->reach)),
       friction_(static_cast<Real>(friction)),
-      softness_(model_->node_count()) {
+      softness_(model_->node_count()),
+      lightness_(model_->node_count()) {
     const std::size_t count = model_->surface_parts.nodes.size();
     first_slots_.resize(count);
     plane_counts_.resize(count);
@@ -74,6 +75,7 @@ void ContactAims<Real>::begin(Real step, std::span<const Vec4<Real>> targets,
         const Real damped = Real(1) + starts[n].w / step;
         const Real stiffness = targets[n].w + damped * static_cast<Real>(surface_->stiffness[n]);
         softness_[n] = targets[n].w > Real(0) ? Real(1) / stiffness : Real(0);
+        lightness_[n] = targets[n].w > Real(0) ? Real(1) / targets[n].w : Real(0);
     }
 }
 
@@ -81,12 +83,13 @@ template <class Real>
 void ContactAims<Real>::run(const ContactList<Real>& list, std::span<const Vec4<Real>> positions) {
     const std::size_t pairs = list.pairs.size();
     aims_.resize(pairs);
-    holds_.resize(pairs);
+    grips_.resize(pairs);
     planes_.resize(list.slot_pairs.size());
     shares_.resize(list.slot_pairs.size());
     for_each_index(0, pairs, 256, [&](std::size_t p) {
-        aims_[p].held = holds_[p];
+        aims_[p].grip = grips_[p];
         aim(list.pairs[p], positions, aims_[p]);
+        grips_[p] = aims_[p].grip;
     });
     const std::vector<std::uint32_t>& nodes = model_->surface_parts.nodes;
     for_each_index(nodes.size(), [&](std::size_t s) {
@@ -103,6 +106,9 @@ void ContactAims<Real>::aim(const ContactPair& pair, std::span<const Vec4<Real>>
     share_stiffness(pair, aim);
     aim.stiffness *= FeasibleRegion<Real>(*model_, *surface_, positions).weight(pair, apart, aim.weights);
     divide_gap(pair, positions, aim);
+    // What has slid before it pressed, friction did not resist.
+    if (!aim.grip.grips && limit(aim.gap, aim) > Real(0))
+        aim.grip = {Vec3<Real>(0), slip(pair, aim, positions), true};
     write_shares(pair, aim, positions);
 }
 
@@ -125,18 +131,21 @@ void ContactAims<Real>::find_nearest(const ContactPair& pair, std::span<const Ve
     aim.normal = aim.gap > Real(0) ? apart / aim.gap : Vec3<Real>(0);
 }
 
-// Both by how far the nodes yield to a force.
+// By how far the nodes yield to a force.
 template <class Real>
 void ContactAims<Real>::share_stiffness(const ContactPair& pair, PairAim<Real>& aim) const {
     std::array<Real, 2> softness{};
+    Real lightness = 0;
     std::array<bool, 2> is_free{};
     for (std::size_t k = 0; k < 4; ++k) {
         const Real weight = aim.weights[static_cast<int>(k)], soft = softness_[pair.nodes[k]];
         softness[pair.side_of(k)] += weight * weight * soft;
+        lightness += weight * weight * lightness_[pair.nodes[k]];
         is_free[pair.side_of(k)] |= soft > Real(0);
     }
     const Real sum = softness[0] + softness[1];
     aim.stiffness = sum > Real(0) ? Real(kStiffness) / sum : Real(0);
+    aim.yielding = lightness > Real(0) ? sum / lightness : Real(1);
     if (!is_free[0] || !is_free[1]) {
         aim.share = is_free[0] ? Real(1) : Real(0);
     } else {
@@ -182,7 +191,8 @@ void ContactAims<Real>::divide_gap(const ContactPair& pair, std::span<const Vec4
 template <class Real>
 Vec3<Real> ContactAims<Real>::hold(const ContactPair& pair, const PairAim<Real>& aim,
                                    std::span<const Vec4<Real>> positions) const {
-    return without_part_along(aim.held, aim.normal) + aim.stiffness * slip(pair, aim, positions);
+    return without_part_along(
+        aim.grip.held + aim.stiffness * (slip(pair, aim, positions) - aim.grip.from), aim.normal);
 }
 
 template <class Real>
@@ -380,18 +390,18 @@ Real ContactAims<Real>::allowed_part(const ContactList<Real>& list, const Range&
 // Pairs are in the order of the surface nodes, then of the edges, and of what these are near, in both lists.
 template <class Real>
 void ContactAims<Real>::carry_over(const ContactList<Real>& old, const ContactList<Real>& list) {
-    std::vector<Vec3<Real>> holds(list.pairs.size(), Vec3<Real>(0));
+    std::vector<Grip<Real>> grips(list.pairs.size());
     const auto rank = [&](const ContactPair& pair) {
         const std::uint32_t first = pair.is_edges() ? pair.first : surface_->places[pair.first];
         return std::tuple(pair.is_edges(), first, pair.second);
     };
     std::size_t before = 0;
-    for (std::size_t p = 0; p < list.pairs.size() && before < holds_.size(); ++p) {
+    for (std::size_t p = 0; p < list.pairs.size() && before < grips_.size(); ++p) {
         const auto wanted = rank(list.pairs[p]);
-        while (before < holds_.size() && rank(old.pairs[before]) < wanted) ++before;
-        if (before < holds_.size() && rank(old.pairs[before]) == wanted) holds[p] = holds_[before];
+        while (before < grips_.size() && rank(old.pairs[before]) < wanted) ++before;
+        if (before < grips_.size() && rank(old.pairs[before]) == wanted) grips[p] = grips_[before];
     }
-    holds_ = std::move(holds);
+    grips_ = std::move(grips);
 }
 
 template <class Real>
@@ -399,15 +409,13 @@ void ContactAims<Real>::end(const ContactList<Real>& list, std::span<const Vec4<
     for_each_index(0, aims_.size(), 256, [&](std::size_t p) {
         const ContactPair& pair = list.pairs[p];
         const PairAim<Real>& aim = aims_[p];
-        Vec3<Real>& held = holds_[p];
         const Real most = limit(gap(pair, aim, positions), aim);
-        if (!(most > Real(0))) {
-            held = Vec3<Real>(0);
-            return;
-        }
-        held = hold(pair, aim, positions);
+        grips_[p] = {};
+        if (!(most > Real(0))) return;
+        Vec3<Real> held = hold(pair, aim, positions);
         const Real length = glm::length(held);
         if (length > most) held *= most / length;
+        grips_[p] = {held, Vec3<Real>(0), true};
     });
 }
 

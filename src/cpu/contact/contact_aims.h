@@ -13,6 +13,14 @@
 
 namespace gelatin::cpu {
 
+/// How two surfaces hold each other by friction.
+template <class Real>
+struct Grip {
+    Vec3<Real> held{0};  ///< on the first side when the step began [N], minus that on the second
+    Vec3<Real> from{0};  ///< slip since then at which they came to press each other [m]
+    bool grips = false;  ///< whether they have pressed each other
+};
+
 /// A pair where it was aimed last.
 template <class Real>
 struct PairAim {
@@ -21,7 +29,8 @@ struct PairAim {
     Vec4<Real> weights;  ///< of the pair's nodes in them; each side's add up to 1
     Real stiffness;      ///< [N/m]; 0: it presses nowhere
     Real share;          ///< the part of the gap that the first side may use
-    Vec3<Real> held;     ///< friction on the first side when the step began [N], minus that on the second
+    Grip<Real> grip;
+    Real yielding;       ///< stiffness of the nodes by inertia alone, over that of them all, in (0, 1]
 };
 
 /// Contacts as an element, and as limits of moves, both divided among nodes (docs/contact.md). To aim a pair
@@ -40,7 +49,7 @@ public:
     void begin(Real step, std::span<const Vec4<Real>> targets, std::span<const Vec4<Real>> starts);
 
     /// Forgets what friction holds.
-    void forget() { holds_.clear(); }
+    void forget() { grips_.clear(); }
 
     /// Aims all pairs at `positions`. @pre they keep to the list
     void run(const ContactList<Real>& list, std::span<const Vec4<Real>> positions);
@@ -113,9 +122,10 @@ private:
     std::vector<std::uint32_t> object_of_;  // by node
     Real reach_, friction_;
     std::span<const Vec4<Real>> starts_;
-    std::vector<Real> softness_;  // of each node [m/N], 0 where it is held
+    // Of each node, 0 where it is held [m/N]: how it yields to a force, and would by inertia alone.
+    std::vector<Real> softness_, lightness_;
     std::vector<PairAim<Real>> aims_;
-    std::vector<Vec3<Real>> holds_;  // what friction held in the last step, by pair [N]
+    std::vector<Grip<Real>> grips_;  // by pair
     // By slot; of each node's first those that are counted:
     std::vector<Plane> planes_;
     std::vector<ContactShare<Real>> shares_;

@@ -15,11 +15,13 @@ namespace {
 // but what their island has in common.
 constexpr int kMostRounds = 8;
 
+// Stiff contacts are not entered by a guess: it would bring energy into them that the bodies do not have.
 template <class Real>
-Real least_gap(Real gap, Real reach, Closeness closeness) {
+Real least_gap(const PairAim<Real>& aim, Real gap, Real reach, Closeness closeness) {
     if (closeness == Closeness::motion)
         return std::max(Real(0.1f) * gap, std::min(gap, Real(0.05f) * reach));
-    return gap > reach ? Real(0.5f) * reach : std::max(Real(0.5f) * gap, std::min(gap, Real(0.1f) * reach));
+    const Real nearest = (Real(1) - Real(0.5f) * aim.yielding) * std::min(gap, reach);
+    return std::max(nearest, std::min(gap, Real(0.1f) * reach));
 }
 
 // The part of a change of a gap from `start` to `end` that leaves `least`, if the gap is concave between them.
@@ -143,14 +145,16 @@ void GuardedMove<Real>::find_blocked_pairs(const ContactList<Real>& list, const 
     blocked_.clear();
     for (std::uint32_t p = 0; p < list.pairs.size(); ++p) {
         const ContactPair& pair = list.pairs[p];
-        const Real gap = aims.aims()[p].gap;
-        if (!(gap - farthest_[pair.object] - farthest_[pair.other] > least_gap(gap, reach, closeness)))
+        const PairAim<Real>& aim = aims.aims()[p];
+        if (!(aim.gap - farthest_[pair.object] - farthest_[pair.other] >
+              least_gap(aim, aim.gap, reach, closeness)))
             blocked_.push_back(p);
     }
     courses_.resize(blocked_.size());
     for_each_index(0, blocked_.size(), 256, [&](std::size_t k) {
         const ContactPair& pair = list.pairs[blocked_[k]];
-        const Vec3<Real>& normal = aims.aims()[blocked_[k]].normal;
+        const PairAim<Real>& aim = aims.aims()[blocked_[k]];
+        const Vec3<Real>& normal = aim.normal;
         const Vec3<Real> origin(positions[pair.nodes[0]]), common = common_[list.islands[pair.object]];
         Course& course = courses_[k];
         course.object = pair.object;
@@ -162,7 +166,7 @@ void GuardedMove<Real>::find_blocked_pairs(const ContactList<Real>& list, const 
             course.motions[c] = glm::dot(normal, Vec3<Real>(ends[pair.nodes[c]]) - position - common);
         }
         const Real gap = course.gap(Real(0), Real(0));
-        course.least = least_gap(gap, reach, closeness) - Real(1e-5f) * reach;  // less rounding
+        course.least = least_gap(aim, gap, reach, closeness) - Real(1e-5f) * reach;  // less rounding
     });
 }
 

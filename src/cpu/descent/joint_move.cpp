@@ -71,6 +71,7 @@ public:
     std::vector<Body> bodies;
     std::vector<Touch> touches;
     bool is_held = false;
+    bool is_outside_touched = false;  // a body is in contact with a collider
 
     void add(const Touch& touch, double stiffness, double force) {
         const bool has_a = touch.a != kNoNode, has_b = touch.b != kNoNode;
@@ -89,8 +90,10 @@ public:
             if (force > 0.0) add(touch, contact_hessian(touch.gap, reach, touch.stiffness), force);
         }
         std::vector<Motion> motions = solve();
-        const Motion common = is_held ? Motion::Zero() : common_motion(motions);
+        Motion common = is_held ? Motion::Zero() : common_motion(motions);
         for (Motion& motion : motions) motion -= common;
+        // Contacts cancel in the sum, so that momentum does not depend on how well the rest was solved.
+        if (!is_held && !is_outside_touched) common = free_motion();
         const double part = least_along(motions, common, reach);
         for (Motion& motion : motions) motion = part * motion + common;
         return motions;
@@ -133,6 +136,17 @@ private:
         for (std::size_t k = 0; k < bodies.size(); ++k) {
             sum.head<3>() += bodies[k].stiffness * motions[k].head<3>();
             stiffness += bodies[k].stiffness;
+        }
+        return sum / stiffness;
+    }
+
+    // What brings all of them to their targets on average.
+    Motion free_motion() const {
+        Motion sum = Motion::Zero();
+        double stiffness = 0.0;
+        for (const Body& body : bodies) {
+            sum.head<3>() += body.force.head<3>();
+            stiffness += body.stiffness;
         }
         return sum / stiffness;
     }
@@ -321,9 +335,11 @@ void JointMove<Real>::run(bool is_last, const Contacts<Real>& contacts, const St
     tbb::parallel_for(std::size_t(0), islands.size(), [&](std::size_t i) {
         Island& island = islands[i];
         if (waits[i] != 0 || island.bodies.empty()) return;
-        for (Body& body : island.bodies)
+        for (Body& body : island.bodies) {
             body = make_body<Real>(body.object, model_->objects[body.object].nodes, objective, colliders,
                                    positions);
+            island.is_outside_touched |= colliders.objects[body.object] != 0;
+        }
         for (const std::uint32_t p : pairs[i])
             add_pair(list.pairs[p], contacts.aims(), contacts.aims().aims()[p], numbers, positions, island);
         const std::vector<Motion> motions =

@@ -29,7 +29,7 @@ public:
     /// @param nodes_a_batch as make_descent_rows has it
     /// @param contacts null: none; must outlive this
     StepObjective(std::shared_ptr<const Model> model, std::uint32_t nodes_a_batch,
-                  const Contacts<Real>* contacts);
+                  const Contacts<Real>* contacts = nullptr);
 
     /// The step; begin() is to be called when its starts and targets are known.
     StepState<Real> step;
