@@ -1,12 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "cpu/contact/contact_law.h"
 #include "cpu/contact/contact_list.h"
+#include "cpu/contact/node_contacts.h"
 #include "cpu/nodes.h"
 #include "model/contact/contact_surface.h"
 #include "model/model.h"
@@ -30,14 +31,15 @@ struct PairAim {
     Real stiffness;      ///< [N/m]; 0: it presses nowhere
     Real share;          ///< the part of the gap that the first side may use
     Grip<Real> grip;
-    Real yielding;       ///< stiffness of the nodes by inertia alone, over that of them all, in (0, 1]
+    Real yielding;  ///< stiffness of the nodes by inertia alone, over that of them all, in (0, 1]
 };
 
-/// Contacts as an element, and as limits of moves, both divided among nodes (docs/contact.md). To aim a pair
+/// Aims the pairs of a list (docs/contact.md). To aim a pair
 /// means to freeze the direction between its nearest points, and to divide the gap between its sides by a
 /// plane. Until the next aim, each node has a half space of its own for each of its pairs and a convex term
-/// (ContactShare) which depends on nothing but the node's own position. So nodes move at once without looking
-/// at others, and while each keeps to its half spaces and its room, no face passes through another.
+/// (ContactShare) which depends on nothing but the node's own position: NodeContacts. So nodes move at once
+/// without looking at others, and while each keeps to its half spaces and its room, no face passes through
+/// another.
 template <class Real>
 class ContactAims {
 public:
@@ -61,31 +63,11 @@ public:
 
     const std::vector<PairAim<Real>>& aims() const { return aims_; }  ///< in the order of the list's pairs
     Real reach() const { return reach_; }
-    /// Where surface nodes were aimed [m], in the order of SurfaceParts::nodes.
-    const std::vector<Vec3<Real>>& aimed_at() const { return aimed_at_; }
-
-    bool presses(std::uint32_t node) const {
-        const std::uint32_t place = surface_->places[node];
-        return place != kNoNode && share_counts_[place] > 0;
-    }
-    /// Adds the terms of a node.
-    void add(std::uint32_t node, const Vec3<Real>& position, NodeTerms<Real>& terms) const;
-
-    /// Where a node may go that is at `from` and would go to `to`, to where its part of the objective is least
-    /// on the way.
-    /// @param all terms of the node at `from`, those of contacts among them
-    Vec3<Real> limited(const ContactList<Real>& list, std::uint32_t node, const Vec3<Real>& from,
-                       const Vec3<Real>& to, const NodeTerms<Real>& all) const;
-
-    /// The part of displacements that all nodes of an object may make.
-    /// @param part no more than this, in [0, 1]
-    Real allowed_part(const ContactList<Real>& list, const Range& nodes,
-                      std::span<const Vec4<Real>> positions, std::span<const Vec3<Real>> displacements,
-                      Real part) const;
+    Real friction() const { return friction_; }
+    const NodeContacts<Real>& nodes() const { return nodes_; }
 
     /// The gap between the points that were nearest at the aim, along its normal [m].
-    Real gap(const ContactPair& pair, const PairAim<Real>& aim,
-             std::span<const Vec4<Real>> positions) const;
+    Real gap(const ContactPair& pair, const PairAim<Real>& aim, std::span<const Vec4<Real>> positions) const;
     /// What would hold the first side there, if nothing slid [N].
     Vec3<Real> hold(const ContactPair& pair, const PairAim<Real>& aim,
                     std::span<const Vec4<Real>> positions) const;
@@ -95,48 +77,33 @@ public:
     }
 
 private:
-    struct Plane {
-        Vec3<Real> towards;
-        Real head;  // how far the node may go along it from where it was aimed [m]; < 0: it may not move
-    };
     void aim(const ContactPair& pair, std::span<const Vec4<Real>> positions, PairAim<Real>& aim);
-    void find_nearest(const ContactPair& pair, std::span<const Vec4<Real>> positions, PairAim<Real>& aim,
-                      Vec3<Real>& apart) const;
     void share_stiffness(const ContactPair& pair, PairAim<Real>& aim) const;
     void divide_gap(const ContactPair& pair, std::span<const Vec4<Real>> positions, const PairAim<Real>& aim);
     void write_shares(const ContactPair& pair, const PairAim<Real>& aim,
                       std::span<const Vec4<Real>> positions);
     Vec3<Real> slip(const ContactPair& pair, const PairAim<Real>& aim,
                     std::span<const Vec4<Real>> positions) const;
-    void select(const ContactList<Real>& list, std::uint32_t place, const Vec3<Real>& position);
-    Vec3<Real> kept_to_planes(std::span<const Plane> planes, const Vec3<Real>& displacement,
-                              Vec3<Real> motion) const;
-    Real least_along(std::span<const ContactShare<Real>> shares, const Vec3<Real>& displacement,
-                     const Vec3<Real>& motion, const NodeTerms<Real>& all) const;
-    std::span<const Plane> planes_of(const ContactList<Real>& list, std::uint32_t place) const {
-        return {planes_.data() + list.row_starts[place], plane_counts_[place]};
-    }
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
-    std::vector<std::uint32_t> object_of_;  // by node
     Real reach_, friction_;
     std::span<const Vec4<Real>> starts_;
     // Of each node, 0 where it is held [m/N]: how it yields to a force, and would by inertia alone.
     std::vector<Real> softness_, lightness_;
     std::vector<PairAim<Real>> aims_;
     std::vector<Grip<Real>> grips_;  // by pair
-    // By slot; of each node's first those that are counted:
-    std::vector<Plane> planes_;
-    std::vector<ContactShare<Real>> shares_;
-    // By surface node:
-    std::vector<std::uint32_t> first_slots_, plane_counts_, share_counts_;
-    std::vector<std::uint8_t> is_stuck_;    // a pair could not be divided
-    std::vector<Vec3<Real>> aimed_at_;      // [m]
+    NodeContacts<Real> nodes_;
 };
 
-/// The part of a motion from u, inside a ball round the origin, that stays in it.
+/// The nearest points of a pair's sides: the weights of its nodes in them, and the vector from the first's to
+/// the second's [m].
 template <class Real>
-Real part_within(const Vec3<Real>& u, const Vec3<Real>& motion, Real radius);
+struct PairNearest {
+    Vec4<Real> weights;
+    Vec3<Real> apart;
+};
+template <class Real>
+PairNearest<Real> nearest_points(const ContactPair& pair, const std::array<Vec3<Real>, 4>& nodes);
 
 }  // namespace gelatin::cpu

@@ -12,10 +12,10 @@ namespace gelatin::cpu {
 /// A node and a face, or two edges, of different bodies: the first side's nodes, then the second's.
 struct ContactPair {
     std::array<std::uint32_t, 4> nodes;
-    std::array<std::uint32_t, 4> slots;    ///< where each node has what it knows of the pair (ContactAims)
-    std::uint32_t first, second;           ///< as Proximity has them
-    std::uint32_t object, other;           ///< of the sides
-    std::uint32_t first_count;             ///< nodes of the first side: 1, or 2 for edges
+    std::array<std::uint32_t, 4> slots;  ///< where each node has what it knows of the pair (ContactAims)
+    std::uint32_t first, second;         ///< as Proximity has them
+    std::uint32_t object, other;         ///< of the sides
+    std::uint32_t first_count;           ///< nodes of the first side: 1, or 2 for edges
 
     bool is_edges() const { return first_count == 2; }
     std::size_t side_of(std::size_t k) const { return k < first_count ? 0 : 1; }

@@ -37,9 +37,8 @@ void Contacts<Real>::restart(std::span<const Vec4<Real>> positions) {
 }
 
 template <class Real>
-void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets,
-                           std::span<const Vec4<Real>> starts, std::span<Vec4<Real>> positions,
-                           StageTimer* timer) {
+void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::span<const Vec4<Real>> starts,
+                           std::span<Vec4<Real>> positions, StageTimer* timer) {
     guess_.assign(positions.begin(), positions.end());
     for (std::size_t n = 0; n < positions.size(); ++n)
         positions[n] = Vec4<Real>(Vec3<Real>(safe_[n]), guess_[n].w);

@@ -47,18 +47,18 @@ public:
     bool is_held(std::size_t object) const { return guard_.is_held(object); }
 
     /// Whether a node presses another body, or has before: it has terms.
-    bool presses(std::uint32_t node) const { return aims_.presses(node); }
+    bool presses(std::uint32_t node) const { return aims_.nodes().presses(node); }
     void add(std::uint32_t node, const Vec3<Real>& position, NodeTerms<Real>& terms) const {
-        aims_.add(node, position, terms);
+        aims_.nodes().add(node, position, terms);
     }
-    /// Where a node may go (ContactAims::limited).
+    /// Where a node may go (NodeContacts::limited).
     Vec3<Real> limited(std::uint32_t node, const Vec3<Real>& from, const Vec3<Real>& to,
                        const NodeTerms<Real>& all) const {
-        return aims_.limited(list_, node, from, to, all);
+        return aims_.nodes().limited(list_, node, from, to, all);
     }
     Real allowed_part(const Range& nodes, std::span<const Vec4<Real>> positions,
                       std::span<const Vec3<Real>> displacements, Real part) const {
-        return aims_.allowed_part(list_, nodes, positions, displacements, part);
+        return aims_.nodes().allowed_part(list_, nodes, positions, displacements, part);
     }
 
 private:

@@ -11,20 +11,22 @@
 namespace gelatin::cpu {
 namespace {
 
-// Rounds in which objects that block each other are shortened. After them, those still in the way make nothing
-// but what their island has in common.
+// Rounds in which objects that block each other are shortened. After them, those still in the way make
+// nothing but what their island has in common.
 constexpr int kMostRounds = 8;
+// Of the reach: another direction than that of the aim is taken if the pair is so far apart along it.
+constexpr double kSeparated = 0.05;
 
 // Stiff contacts are not entered by a guess: it would bring energy into them that the bodies do not have.
 template <class Real>
 Real least_gap(const PairAim<Real>& aim, Real gap, Real reach, Closeness closeness) {
-    if (closeness == Closeness::motion)
-        return std::max(Real(0.1f) * gap, std::min(gap, Real(0.05f) * reach));
+    if (closeness == Closeness::motion) return std::max(Real(0.1f) * gap, std::min(gap, Real(0.05f) * reach));
     const Real nearest = (Real(1) - Real(0.5f) * aim.yielding) * std::min(gap, reach);
     return std::max(nearest, std::min(gap, Real(0.1f) * reach));
 }
 
-// The part of a change of a gap from `start` to `end` that leaves `least`, if the gap is concave between them.
+// The part of a change of a gap from `start` to `end` that leaves `least`, if the gap is concave between
+// them.
 template <class Real>
 Real part_left(Real start, Real end, Real least) {
     if (end >= least) return Real(1);
@@ -127,7 +129,7 @@ bool GuardedMove<Real>::keep_to_rooms(const ContactList<Real>& list, const Conta
             const Vec3<Real> motion = Vec3<Real>(ends[n]) - position - common_[island];
             const Vec3<Real> moved = position - list.found_at[place] - list.shifts[island];
             part = std::min(part, part_within(moved, motion, list.rooms[place]));
-            const Real gone = glm::length(position - aims.aimed_at()[place]);
+            const Real gone = glm::length(position - aims.nodes().aimed_at()[place]);
             farthest = std::max(farthest, gone + glm::length(motion));
         }
         parts_[o] = part;
@@ -154,20 +156,43 @@ void GuardedMove<Real>::find_blocked_pairs(const ContactList<Real>& list, const 
     for_each_index(0, blocked_.size(), 256, [&](std::size_t k) {
         const ContactPair& pair = list.pairs[blocked_[k]];
         const PairAim<Real>& aim = aims.aims()[blocked_[k]];
-        const Vec3<Real>& normal = aim.normal;
-        const Vec3<Real> origin(positions[pair.nodes[0]]), common = common_[list.islands[pair.object]];
-        Course& course = courses_[k];
-        course.object = pair.object;
-        course.other = pair.other;
-        course.first_count = pair.first_count;
+        const Vec3<Real> common = common_[list.islands[pair.object]];
+        std::array<Vec3<Real>, 4> nodes, motions, moved;
         for (std::size_t c = 0; c < 4; ++c) {
-            const Vec3<Real> position(positions[pair.nodes[c]]);
-            course.heights[c] = glm::dot(normal, position - origin);
-            course.motions[c] = glm::dot(normal, Vec3<Real>(ends[pair.nodes[c]]) - position - common);
+            nodes[c] = Vec3<Real>(positions[pair.nodes[c]]);
+            motions[c] = Vec3<Real>(ends[pair.nodes[c]]) - nodes[c] - common;
+            moved[c] = nodes[c] + motions[c];
         }
-        const Real gap = course.gap(Real(0), Real(0));
-        course.least = least_gap(aim, gap, reach, closeness) - Real(1e-5f) * reach;  // less rounding
+        Course& course = courses_[k];
+        course = course_along(pair, aim, aim.normal, nodes, motions, reach, closeness);
+        if (course.is_free()) return;
+        // What slides over an edge is ahead of it now and above it then.
+        const Vec3<Real> apart = nearest_points(pair, moved).apart;
+        const Real distance = glm::length(apart);
+        if (!(distance > Real(0))) return;
+        const Course other = course_along(pair, aim, apart / distance, nodes, motions, reach, closeness);
+        if (other.is_free() && other.gap(Real(0), Real(0)) > Real(kSeparated) * reach) course = other;
     });
+}
+
+template <class Real>
+typename GuardedMove<Real>::Course GuardedMove<Real>::course_along(const ContactPair& pair,
+                                                                   const PairAim<Real>& aim,
+                                                                   const Vec3<Real>& normal,
+                                                                   const std::array<Vec3<Real>, 4>& nodes,
+                                                                   const std::array<Vec3<Real>, 4>& motions,
+                                                                   Real reach, Closeness closeness) const {
+    Course course;
+    course.object = pair.object;
+    course.other = pair.other;
+    course.first_count = pair.first_count;
+    for (std::size_t c = 0; c < 4; ++c) {
+        course.heights[c] = glm::dot(normal, nodes[c] - nodes[0]);
+        course.motions[c] = glm::dot(normal, motions[c]);
+    }
+    const Real gap = course.gap(Real(0), Real(0));
+    course.least = least_gap(aim, gap, reach, closeness) - Real(1e-5f) * reach;  // less rounding
+    return course;
 }
 
 template <class Real>
@@ -197,7 +222,8 @@ void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
             is_blocked = true;
             Real &part = next_parts_[course.object], &other_part = next_parts_[course.other];
             const Real here = course.gap(Real(0), Real(0));
-            const bool approaches = course.gap(a, Real(0)) < here, other_approaches = course.gap(Real(0), b) < here;
+            const bool approaches = course.gap(a, Real(0)) < here,
+                       other_approaches = course.gap(Real(0), b) < here;
             if (round >= kMostRounds || approaches == other_approaches) {
                 const Real left =
                     round < kMostRounds && approaches ? part_left(here, end, course.least) : Real(0);
@@ -234,8 +260,8 @@ void GuardedMove<Real>::go(ContactList<Real>& list, std::span<const Vec4<Real>> 
         std::vector<std::uint8_t> is_held(common_.size());
         for (std::size_t o = 0; o < parts_.size(); ++o) {
             const std::uint32_t i = list.islands[o];
-            lost[i] += (masses_[o] * static_cast<double>(Real(1) - parts_[o])) *
-                       glm::dvec3(means_[o] - common_[i]);
+            lost[i] +=
+                (masses_[o] * static_cast<double>(Real(1) - parts_[o])) * glm::dvec3(means_[o] - common_[i]);
             masses[i] += masses_[o];
             is_held[i] |= is_held_[o];
         }

@@ -17,10 +17,10 @@ enum class Closeness {
     motion,  ///< a tenth of the gap
 };
 
-/// Moves all bodies of a list at once towards where they should be. What the bodies of an island have in common
-/// they move in full. Of the rest each makes as much as leaves a gap in all of its pairs, along the directions
-/// in which they were aimed. All nodes go straight and at the same time, so that surfaces that are apart at
-/// both ends are so on the way.
+/// Moves all bodies of a list at once towards where they should be. What the bodies of an island have in
+/// common they move in full. Of the rest each makes as much as leaves a gap in all of its pairs, along the
+/// directions in which they were aimed. All nodes go straight and at the same time, so that surfaces that are
+/// apart at both ends are so on the way.
 template <class Real>
 class GuardedMove {
 public:
@@ -35,7 +35,8 @@ public:
     bool plan(const ContactList<Real>& list, const ContactAims<Real>& aims,
               std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends, Closeness closeness);
 
-    /// Goes there. @param keeps_momentum whether what objects of an island did not make, all of it makes up for
+    /// Goes there. @param keeps_momentum whether what objects of an island did not make, all of it makes up
+    /// for
     void go(ContactList<Real>& list, std::span<const Vec4<Real>> ends, bool keeps_momentum,
             std::span<Vec4<Real>> positions);
 
@@ -53,13 +54,18 @@ private:
                             Closeness closeness);
     void keep_pairs_apart(const ContactList<Real>& list);
 
-    // A pair that could come too near, along its normal from its first node.
+    // A pair that could come too near, along a direction that separates it from its first node.
     struct Course {
         std::uint32_t object, other, first_count;
         std::array<Real, 4> heights, motions;  // [m]
         Real least;                            // gap that must be left [m]
         Real gap(Real part, Real other_part) const;
+        bool is_free() const { return gap(Real(1), Real(1)) >= least; }
     };
+
+    Course course_along(const ContactPair& pair, const PairAim<Real>& aim, const Vec3<Real>& normal,
+                        const std::array<Vec3<Real>, 4>& nodes, const std::array<Vec3<Real>, 4>& motions,
+                        Real reach, Closeness closeness) const;
 
     std::shared_ptr<const Model> model_;
     std::vector<std::uint32_t> places_;  // of nodes among those of the surface
@@ -68,7 +74,7 @@ private:
     std::vector<Vec3<Real>> means_;      // mean motion of each object [m]
     // How far any of its surface nodes goes besides what is in common, and has gone since the aim [m].
     std::vector<Real> farthest_;
-    std::vector<Vec3<Real>> common_;     // by island
+    std::vector<Vec3<Real>> common_;  // by island
     std::vector<Real> parts_, next_parts_;
     std::vector<std::uint32_t> blocked_;
     std::vector<Course> courses_;

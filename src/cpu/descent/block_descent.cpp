@@ -85,8 +85,8 @@ void BlockDescent<Real>::find_calm_bodies(Real step, const Nodes<Real>& previous
 }
 
 // Sweeps from `first` up to `end`, with what comes between them. The bodies of a batch make theirs one after
-// the other, while caches hold them; where parts are timed, or bodies meet, all bodies make each part at once,
-// with the same results.
+// the other, while caches hold them; where parts are timed, or bodies meet, all bodies make each part at
+// once, with the same results.
 template <class Real>
 void BlockDescent<Real>::make_sweeps(int first, int end, Positions& positions, StageTimer* timer) {
     const std::vector<DescentBatch>& batches = objective_.rows().batches;
@@ -175,8 +175,8 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
                             Real(1) / (from.w * step * step));
         if (pulls != nullptr) target = pulls->with_target(n, target, Vec3<Real>(from), step);
         const Real felt = has_earlier && squared > Real(0)
-                        ? glm::clamp(glm::dot(gained, gravity) / (step * squared), Real(0), Real(1))
-                        : Real(1);
+                              ? glm::clamp(glm::dot(gained, gravity) / (step * squared), Real(0), Real(1))
+                              : Real(1);
         Vec3<Real> guess = Vec3<Real>(from) + step * (velocity + step * felt * gravity);
         if (bodies_ && bodies_->was_pressed(contacts_.object_of[n]))
             guess = Vec3<Real>(from) + (is_calm_[contacts_.object_of[n]] != 0 ? Real(0) : step) * velocity;

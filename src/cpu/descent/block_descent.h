@@ -79,8 +79,8 @@ private:
     NodeSweep<Real> sweep_;
     RigidMove<Real> rigid_move_;
     JointMove<Real> joint_move_;
-    Positions ends_;                    // of bodies' motions
-    std::vector<std::uint8_t> is_calm_; // by object: it presses another, and hardly moves
+    Positions ends_;                          // of bodies' motions
+    std::vector<std::uint8_t> is_calm_;       // by object: it presses another, and hardly moves
     std::optional<CoarseStep<Real>> coarse_;  // where there are clusters
 };
 

@@ -2,8 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Core>
 #include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -55,9 +55,14 @@ struct Body {
 // A pair of the bodies, which are numbered within their island; kNoNode: held.
 struct Touch {
     std::uint32_t a = kNoNode, b = kNoNode;
-    Motion row_a, row_b;                 // how its gap changes
-    double gap = 0.0, stiffness = 0.0;   // [m], [N/m]
-    double change = 0.0;  // of the gap by the step
+    Motion row_a, row_b;                // how its gap changes
+    double gap = 0.0, stiffness = 0.0;  // [m], [N/m]
+    double change = 0.0;                // of the gap by the step
+    // What would hold the first side if nothing slid [N], and directions across the normal, the first along
+    // it.
+    glm::dvec3 hold{0.0};
+    std::array<glm::dvec3, 2> across{};
+    std::array<glm::dvec3, 2> arms{};
 };
 
 struct Coupling {
@@ -73,21 +78,52 @@ public:
     bool is_held = false;
     bool is_outside_touched = false;  // a body is in contact with a collider
 
-    void add(const Touch& touch, double stiffness, double force) {
+    // The motions of all bodies at which the objective is least. Friction depends on how contacts press, of
+    // which sweeps find far too much in stiff bodies: it is taken by what a first solution leaves of that.
+    std::vector<Motion> find_motions(double reach, double friction) {
+        if (friction == 0.0) return solve_once(reach, friction);
+        const std::vector<Body> bodies_alone = bodies;
+        solve_once(reach, friction);
+        bodies = bodies_alone;
+        for (Coupling& coupling : couplings_) coupling.block.setZero();
+        return solve_once(reach, friction);
+    }
+
+private:
+    void add(const Touch& touch, const Motion& row_a, const Motion& row_b, double stiffness, double force) {
         const bool has_a = touch.a != kNoNode, has_b = touch.b != kNoNode;
-        if (has_a) bodies[touch.a].add(touch.row_a, stiffness, force);
-        if (has_b) bodies[touch.b].add(touch.row_b, stiffness, force);
+        if (has_a) bodies[touch.a].add(row_a, stiffness, force);
+        if (has_b) bodies[touch.b].add(row_b, stiffness, force);
         if (!has_a || !has_b) return;
         const auto [place, is_new] = index_.try_emplace({touch.a, touch.b}, couplings_.size());
         if (is_new) couplings_.push_back({touch.a, touch.b, Block::Zero()});
-        couplings_[place->second].block += stiffness * touch.row_a * touch.row_b.transpose();
+        couplings_[place->second].block += stiffness * row_a * row_b.transpose();
     }
 
-    // The motions of all bodies at which contacts press no more than they did and the objective is least.
-    std::vector<Motion> find_motions(double reach) {
+    // @param limit the most that friction may be [N]
+    void add_friction(const Touch& touch, double limit) {
+        std::array<double, 2> stiffnesses{touch.stiffness, touch.stiffness};
+        glm::dvec3 hold = touch.hold;
+        const double length = glm::length(hold);
+        if (length > limit) {
+            hold *= limit / length;
+            stiffnesses[1] *= limit / length;
+            stiffnesses[0] = kSlipShare<double> * stiffnesses[1];
+        }
+        for (std::size_t k = 0; k < 2; ++k)
+            add(touch, along(touch.arms[0], -touch.across[k]), along(touch.arms[1], touch.across[k]),
+                stiffnesses[k], -glm::dot(hold, touch.across[k]));
+    }
+
+    // By the changes of gaps of the solution before, if there is one.
+    std::vector<Motion> solve_once(double reach, double friction) {
         for (const Touch& touch : touches) {
             const double force = contact_force(touch.gap, reach, touch.stiffness);
-            if (force > 0.0) add(touch, contact_hessian(touch.gap, reach, touch.stiffness), force);
+            if (force > 0.0)
+                add(touch, touch.row_a, touch.row_b, contact_hessian(touch.gap, reach, touch.stiffness),
+                    force);
+            const double limit = friction * contact_force(touch.gap + touch.change, reach, touch.stiffness);
+            if (limit > 0.0) add_friction(touch, limit);
         }
         std::vector<Motion> motions = solve();
         Motion common = is_held ? Motion::Zero() : common_motion(motions);
@@ -95,11 +131,11 @@ public:
         // Contacts cancel in the sum, so that momentum does not depend on how well the rest was solved.
         if (!is_held && !is_outside_touched) common = free_motion();
         const double part = least_along(motions, common, reach);
+        for (Touch& touch : touches) touch.change *= part;
         for (Motion& motion : motions) motion = part * motion + common;
         return motions;
     }
 
-private:
     // By conjugate gradients, preconditioned with the bodies' own blocks.
     std::vector<Motion> solve() const {
         const std::size_t count = bodies.size();
@@ -151,8 +187,8 @@ private:
         return sum / stiffness;
     }
 
-    // The part of the motions, after the common one, at which the objective is least: contacts as they are, the
-    // rest to second order. Newton's step alone would throw bodies through the reach of others.
+    // The part of the motions, after the common one, at which the objective is least: contacts as they are,
+    // the rest to second order. Newton's step alone would throw bodies through the reach of others.
     double least_along(const std::vector<Motion>& motions, const Motion& common, double reach) {
         const std::vector<Motion> product_of = product(motions);
         double pull = 0.0, curvature = dot(motions, product_of);
@@ -163,13 +199,13 @@ private:
             if (touch.a != kNoNode) touch.change += touch.row_a.dot(motions[touch.a]);
             if (touch.b != kNoNode) touch.change += touch.row_b.dot(motions[touch.b]);
             pull -= contact_force(touch.gap, reach, touch.stiffness) * touch.change;
-            curvature -=
-                contact_hessian(touch.gap, reach, touch.stiffness) * touch.change * touch.change;
+            curvature -= contact_hessian(touch.gap, reach, touch.stiffness) * touch.change * touch.change;
         }
         const auto slope_at = [&](double part) {
             double slope = part * curvature - pull;
             for (const Touch& touch : touches)
-                slope -= contact_force(touch.gap + part * touch.change, reach, touch.stiffness) * touch.change;
+                slope -=
+                    contact_force(touch.gap + part * touch.change, reach, touch.stiffness) * touch.change;
             return slope;
         };
         if (!(slope_at(1.0) > 0.0)) return 1.0;
@@ -239,47 +275,6 @@ Body make_body(std::uint32_t object, const Range& nodes, const StepObjective<Rea
 
 }  // namespace
 
-// How the second side's point moves against the first's along a direction.
-Touch make_touch(const std::array<std::uint32_t, 2>& bodies, const std::array<glm::dvec3, 2>& arms,
-                 const glm::dvec3& direction) {
-    Touch touch;
-    touch.a = bodies[0];
-    touch.b = bodies[1];
-    touch.row_a = along(arms[0], -direction);
-    touch.row_b = along(arms[1], direction);
-    return touch;
-}
-
-// Friction at a pair: its force on the first side, a direction in which it may slide, and how the force changes
-// with the slip along that and across.
-struct Friction {
-    glm::dvec3 hold{0.0}, first{0.0};
-    double along = 0.0, across = 0.0;
-};
-
-template <class Real>
-Friction find_friction(const ContactAims<Real>& aims, const ContactPair& pair, const PairAim<Real>& aim,
-                       double gap, std::span<const Vec4<Real>> positions) {
-    Friction friction;
-    const auto limit = static_cast<double>(aims.limit(static_cast<Real>(gap), aim));
-    if (!(limit > 0.0)) return friction;
-    friction.hold = glm::dvec3(aims.hold(pair, aim, positions));
-    friction.along = friction.across = static_cast<double>(aim.stiffness);
-    const glm::dvec3 normal(aim.normal);
-    const double length = glm::length(friction.hold);
-    if (length > limit) {
-        friction.first = friction.hold / length;
-        friction.hold = limit * friction.first;
-        friction.across *= limit / length;
-        friction.along = static_cast<double>(kSlipShare<Real>) * friction.across;
-    } else {
-        const glm::dvec3 axis = std::abs(normal.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-        friction.first = glm::cross(normal, axis);
-    }
-    friction.first = glm::normalize(friction.first - glm::dot(friction.first, normal) * normal);
-    return friction;
-}
-
 template <class Real>
 void add_pair(const ContactPair& pair, const ContactAims<Real>& aims, const PairAim<Real>& aim,
               const std::vector<std::uint32_t>& numbers, std::span<const Vec4<Real>> positions,
@@ -292,16 +287,21 @@ void add_pair(const ContactPair& pair, const ContactAims<Real>& aims, const Pair
     for (std::size_t side = 0; side < 2; ++side)
         if (bodies[side] != kNoNode) arms[side] -= island.bodies[bodies[side]].origin;
     const glm::dvec3 normal(aim.normal);
-    Touch touch = make_touch(bodies, arms, normal);
+    Touch touch;
+    touch.a = bodies[0];
+    touch.b = bodies[1];
+    touch.row_a = along(arms[0], -normal);
+    touch.row_b = along(arms[1], normal);
     touch.gap = static_cast<double>(aims.gap(pair, aim, positions));
     touch.stiffness = static_cast<double>(aim.stiffness);
+    touch.arms = arms;
+    touch.hold = glm::dvec3(aims.hold(pair, aim, positions));
+    const double length = glm::length(touch.hold);
+    const glm::dvec3 axis = std::abs(normal.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 first = length > 0.0 ? touch.hold / length : glm::cross(normal, axis);
+    touch.across[0] = glm::normalize(first - glm::dot(first, normal) * normal);
+    touch.across[1] = glm::cross(normal, touch.across[0]);
     island.touches.push_back(touch);
-    const Friction friction = find_friction(aims, pair, aim, touch.gap, positions);
-    if (friction.across == 0.0) return;
-    const glm::dvec3 other = glm::cross(normal, friction.first);
-    island.add(make_touch(bodies, arms, friction.first), friction.along,
-               -glm::dot(friction.hold, friction.first));
-    island.add(make_touch(bodies, arms, other), friction.across, -glm::dot(friction.hold, other));
 }
 
 template <class Real>
@@ -342,8 +342,8 @@ void JointMove<Real>::run(bool is_last, const Contacts<Real>& contacts, const St
         }
         for (const std::uint32_t p : pairs[i])
             add_pair(list.pairs[p], contacts.aims(), contacts.aims().aims()[p], numbers, positions, island);
-        const std::vector<Motion> motions =
-            island.find_motions(static_cast<double>(contacts.aims().reach()));
+        const std::vector<Motion> motions = island.find_motions(
+            static_cast<double>(contacts.aims().reach()), static_cast<double>(contacts.aims().friction()));
         for (std::size_t k = 0; k < motions.size(); ++k) {
             const Motion& m = motions[k];
             if (!m.allFinite()) return;

@@ -72,7 +72,8 @@ void NodeSweep<Real>::limit(std::size_t group, const StepObjective<Real>& object
         const std::uint32_t node = objective.rows().nodes[group * kGroup + r];
         if (node == kNoNode || objective.step.targets[node].w == Real(0)) continue;
         Vec4<Real>& position = positions[node];
-        position = Vec4<Real>(bodies_->limited(node, before[r], Vec3<Real>(position), terms.row(r)), position.w);
+        position =
+            Vec4<Real>(bodies_->limited(node, before[r], Vec3<Real>(position), terms.row(r)), position.w);
     }
 }
 

@@ -17,8 +17,8 @@
 namespace gelatin::cpu {
 
 /// What a step of vertex block descent minimises (cpu/descent/block_descent.h): the sum of inertia, springs,
-/// tets and contacts, as each node sees it. Moves (NodeSweep, RigidMove, CoarseStep) lower it. Colliders are no part
-/// of it, but limits of moves.
+/// tets and contacts, as each node sees it. Moves (NodeSweep, RigidMove, CoarseStep) lower it. Colliders are
+/// no part of it, but limits of moves.
 template <class Real>
 class StepObjective {
 public:

@@ -17,9 +17,9 @@ struct CornerAcross {
 
 /// What contact needs to know of the surfaces of all bodies (docs/contact.md).
 struct ContactSurface {
-    std::vector<std::uint32_t> places;    ///< of each node in SurfaceParts::nodes, or kNoNode inside
-    std::vector<CornerAcross> across;     ///< 3 f + k: of face f's edge from corner k to k + 1
-    std::vector<glm::uvec2> beside_edges; ///< of each edge, the opposite corners of its faces, or kNoNode
+    std::vector<std::uint32_t> places;     ///< of each node in SurfaceParts::nodes, or kNoNode inside
+    std::vector<CornerAcross> across;      ///< 3 f + k: of face f's edge from corner k to k + 1
+    std::vector<glm::uvec2> beside_edges;  ///< of each edge, the opposite corners of its faces, or kNoNode
     /// A third of the trace of the second derivative of the body's energy by the node at rest, without
     /// dampers [N/m], shape [nodes]: how stiff the body is there, over all directions.
     std::vector<float> stiffness;

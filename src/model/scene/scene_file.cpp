@@ -59,7 +59,8 @@ CollisionSettings read_collision(TableReader reader) {
                  {"depth", BroadPhase::depth}});
     reader.read("detection", settings.detection,
                 {{"discrete", CollisionDetection::discrete}, {"continuous", CollisionDetection::continuous}});
-    reader.read("response", settings.response, {{"restore", CollisionResponse::restore}, {"contact", CollisionResponse::contact}});
+    reader.read("response", settings.response,
+                {{"restore", CollisionResponse::restore}, {"contact", CollisionResponse::contact}});
     reader.read("self_collision", settings.self_collision);
     reader.read("proximity_radius", settings.proximity_radius);
     reader.read("friction", settings.friction);

@@ -135,8 +135,8 @@ void expect_limits_hold() {
                 cpu::NodeTerms<Real> terms;
                 terms.hessian.add_identity(Real(1e5));
                 terms.force = Real(1e5) * (to - from);
-                if (contact.aims.presses(n)) contact.aims.add(n, from, terms);
-                const cpu::Vec3<Real> end = contact.aims.limited(contact.list, n, from, to, terms);
+                if (contact.aims.nodes().presses(n)) contact.aims.nodes().add(n, from, terms);
+                const cpu::Vec3<Real> end = contact.aims.nodes().limited(contact.list, n, from, to, terms);
                 contact.positions[n] = cpu::Vec4<Real>(end, contact.positions[n].w);
             }
             EXPECT_EQ(test::count_overlaps(*contact.model, contact.positions), 0u) << seed;
@@ -186,7 +186,8 @@ TEST(GuardedMove, DoesNotStopWhatFliesTogether) {
     Contact<float> contact(make_near_blocks(1));
     auto ends = contact.positions;
     for (glm::vec4& p : ends) p += glm::vec4(0.02f, -0.01f, 0.03f, 0.0f);
-    EXPECT_TRUE(contact.guard.plan(contact.list, contact.aims, contact.positions, ends, cpu::Closeness::guess));
+    EXPECT_TRUE(
+        contact.guard.plan(contact.list, contact.aims, contact.positions, ends, cpu::Closeness::guess));
     contact.guard.go(contact.list, ends, false, contact.positions);
     for (std::size_t n = 0; n < ends.size(); ++n)
         EXPECT_LT(glm::distance(glm::vec3(ends[n]), glm::vec3(contact.positions[n])), 1e-6f);
@@ -201,9 +202,9 @@ TEST(GuardedMove, SeesWhatHasMovedSinceTheAim) {
         const glm::vec3 from(pressed[n]);
         cpu::NodeTerms<float> terms;
         terms.hessian.add_identity(1e5f);
-        pressed[n] = glm::vec4(
-            contact.aims.limited(contact.list, n, from, from + glm::vec3(0.0f, 0.1f * y, 0.0f), terms),
-            pressed[n].w);
+        pressed[n] = glm::vec4(contact.aims.nodes().limited(contact.list, n, from,
+                                                            from + glm::vec3(0.0f, 0.1f * y, 0.0f), terms),
+                               pressed[n].w);
     }
     contact.positions = pressed;
     auto ends = pressed;

@@ -32,10 +32,10 @@ TEST(ContactLaw, ForceAndHessianAreThoseOfTheEnergy) {
 TEST(ContactLaw, IsContinuousAndEndsAtTheReach) {
     for (const double gap : {0.5 * kReach, kReach}) {
         const double below = gap * (1 - 1e-12), above = gap * (1 + 1e-12);
-        EXPECT_NEAR(cpu::contact_energy(below, kReach, kStiffness), cpu::contact_energy(above, kReach, kStiffness),
-                    1e-9);
-        EXPECT_NEAR(cpu::contact_force(below, kReach, kStiffness), cpu::contact_force(above, kReach, kStiffness),
-                    1e-9);
+        EXPECT_NEAR(cpu::contact_energy(below, kReach, kStiffness),
+                    cpu::contact_energy(above, kReach, kStiffness), 1e-9);
+        EXPECT_NEAR(cpu::contact_force(below, kReach, kStiffness),
+                    cpu::contact_force(above, kReach, kStiffness), 1e-9);
     }
     EXPECT_EQ(cpu::contact_energy(kReach, kReach, kStiffness), 0.0);
     EXPECT_EQ(cpu::contact_force(1.1 * kReach, kReach, kStiffness), 0.0);
@@ -53,8 +53,9 @@ Case random_case(test::RandomMaker& random) {
     V hold = random.point(2.0);
     hold -= glm::dot(hold, towards) * towards;
     const double share = random.uniform(0.05, 1.0);
-    const Share made{towards, random.magnitude(0.05 * kReach, 2 * kReach), 1 / share,
-                     random.magnitude(10.0, 1e3), hold, random.magnitude(0.1, 10.0)};
+    const Share made{towards,   random.magnitude(0.05 * kReach, 2 * kReach),
+                     1 / share, random.magnitude(10.0, 1e3),
+                     hold,      random.magnitude(0.1, 10.0)};
     return {made, random.point(0.02 * share * made.gap)};
 }
 
@@ -75,8 +76,7 @@ TEST(ContactLaw, AShareIsTheSlopeOfItsEnergy) {
             V e(0);
             e[k] = h;
             const auto energy = [&](const V& d) { return cpu::contact_share_energy(one.share, kReach, d); };
-            const double slope =
-                (energy(one.displacement + e) - energy(one.displacement - e)) / (2 * h);
+            const double slope = (energy(one.displacement + e) - energy(one.displacement - e)) / (2 * h);
             EXPECT_NEAR(terms.force[k], -slope, 1e-4 * (glm::length(terms.force) + 0.1));
         }
     }

@@ -1,0 +1,215 @@
+#include "cpu/contact/node_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "model/for_each_index.h"
+
+namespace gelatin::cpu {
+namespace {
+
+template <class Real>
+Vec3<Real> product(const SymmetricMatrix<Real>& m, const Vec3<Real>& v) {
+    return {m.diagonal.x * v.x + m.beside.z * v.y + m.beside.y * v.z,
+            m.beside.z * v.x + m.diagonal.y * v.y + m.beside.x * v.z,
+            m.beside.y * v.x + m.beside.x * v.y + m.diagonal.z * v.z};
+}
+
+}  // namespace
+
+template <class Real>
+NodeContacts<Real>::NodeContacts(std::shared_ptr<const Model> model,
+                                 std::shared_ptr<const ContactSurface> surface, double friction)
+    : model_(std::move(model)),
+      surface_(std::move(surface)),
+      object_of_(objects_of_nodes(*model_)),
+      reach_(static_cast<Real>(surface_->reach)),
+      friction_(static_cast<Real>(friction)) {
+    const std::size_t count = model_->surface_parts.nodes.size();
+    first_slots_.resize(count);
+    plane_counts_.resize(count);
+    share_counts_.resize(count);
+    is_stuck_.resize(count);
+    aimed_at_.resize(count);
+}
+
+template <class Real>
+void NodeContacts<Real>::resize(const ContactList<Real>& list) {
+    planes_.resize(list.slot_pairs.size());
+    shares_.resize(list.slot_pairs.size());
+}
+
+template <class Real>
+void NodeContacts<Real>::select(const ContactList<Real>& list, std::span<const Vec4<Real>> positions) {
+    const std::vector<std::uint32_t>& nodes = model_->surface_parts.nodes;
+    for_each_index(nodes.size(), [&](std::size_t s) {
+        select(list, static_cast<std::uint32_t>(s), Vec3<Real>(positions[nodes[s]]));
+    });
+}
+
+template <class Real>
+Real part_within(const Vec3<Real>& u, const Vec3<Real>& motion, Real radius) {
+    const Vec3<Real> end = u + motion;
+    if (glm::dot(end, end) <= radius * radius) return Real(1);
+    const Real a = glm::dot(motion, motion), b = glm::dot(u, motion), c = glm::dot(u, u) - radius * radius;
+    if (!(c < Real(0)) || !(a > Real(0))) return Real(0);
+    const Real root = std::sqrt(b * b - a * c);
+    const Real part = b > Real(0) ? -c / (b + root) : (root - b) / a;
+    return std::clamp(Real(0.999f) * part, Real(0), Real(1));
+}
+
+// Keeps of a node's planes those that it can reach within its room, and of its shares those that press.
+template <class Real>
+void NodeContacts<Real>::select(const ContactList<Real>& list, std::uint32_t place,
+                                const Vec3<Real>& position) {
+    const std::uint32_t first = list.row_starts[place], end = list.row_starts[place + 1];
+    const std::uint32_t object = object_of_[model_->surface_parts.nodes[place]];
+    const Vec3<Real> moved = position - list.found_at[place] - list.shifts[list.islands[object]];
+    std::uint32_t planes = first, shares = first;
+    std::uint8_t is_stuck = 0;
+    for (std::uint32_t k = first; k < end; ++k) {
+        const NodePlane<Real> plane = planes_[k];
+        if (plane.head < Real(0)) is_stuck = 1;
+        if (plane.head < list.rooms[place] - glm::dot(plane.towards, moved)) planes_[planes++] = plane;
+        if (shares_[k].stiffness > Real(0)) shares_[shares++] = shares_[k];
+    }
+    first_slots_[place] = first;
+    plane_counts_[place] = planes - first;
+    share_counts_[place] = shares - first;
+    is_stuck_[place] = is_stuck;
+    aimed_at_[place] = position;
+}
+
+template <class Real>
+void NodeContacts<Real>::add(std::uint32_t node, const Vec3<Real>& position, NodeTerms<Real>& terms) const {
+    const std::uint32_t place = surface_->places[node];
+    const Vec3<Real> displacement = position - aimed_at_[place];
+    const std::uint32_t first = first_slots_[place];
+    for (std::uint32_t k = first; k < first + share_counts_[place]; ++k) {
+        add_contact_share(shares_[k], reach_, displacement, terms);
+        if (!(shares_[k].limit > Real(0))) continue;
+        // Less where the node presses less than at the aim: few sweeps find far too much of that at first.
+        ContactShare<Real> share = shares_[k];
+        const Real pressing = contact_force(share.gap_at(displacement), reach_, share.stiffness);
+        share.limit = std::min(share.limit, friction_ * pressing);
+        if (share.limit > Real(0)) add_friction_share(share, displacement, terms);
+    }
+}
+
+template <class Real>
+Vec3<Real> NodeContacts<Real>::limited(const ContactList<Real>& list, std::uint32_t node,
+                                       const Vec3<Real>& from, const Vec3<Real>& to,
+                                       const NodeTerms<Real>& all) const {
+    const std::uint32_t place = surface_->places[node];
+    if (place == kNoNode) return to;
+    if (is_stuck_[place] != 0) return from;
+    const Vec3<Real> displacement = from - aimed_at_[place];
+    Vec3<Real> motion = kept_to_planes(planes_of(place), displacement, to - from);
+    const Vec3<Real> moved = from - list.found_at[place] - list.shifts[list.islands[object_of_[node]]];
+    const Real part = part_within(moved, motion, list.rooms[place]);
+    if (!(part == Real(1))) motion *= part;
+    if (share_counts_[place] > 0) motion *= least_along(shares_of(place), displacement, motion, all);
+
+    return from + motion;
+}
+
+// Along the planes in its way, the nearest two of which it is projected on; then it is shortened.
+template <class Real>
+Vec3<Real> NodeContacts<Real>::kept_to_planes(std::span<const NodePlane<Real>> planes,
+                                              const Vec3<Real>& displacement, Vec3<Real> motion) const {
+    const auto beyond = [&](const NodePlane<Real>& plane) {
+        const Real head = std::max(plane.head - glm::dot(plane.towards, displacement), Real(0));
+        return glm::dot(plane.towards, motion) - head;
+    };
+    for (int pass = 0; pass < 2; ++pass) {
+        Real farthest = 0;
+        const NodePlane<Real>* worst = nullptr;
+        for (const NodePlane<Real>& plane : planes) {
+            const Real distance = beyond(plane);
+            if (distance > farthest) {
+                farthest = distance;
+                worst = &plane;
+            }
+        }
+        if (worst == nullptr) return motion;
+        motion -= farthest * worst->towards;
+    }
+    Real part = 1;
+    for (const NodePlane<Real>& plane : planes) {
+        const Real along = glm::dot(plane.towards, motion);
+        const Real head = std::max(plane.head - glm::dot(plane.towards, displacement), Real(0));
+        if (!(along <= head)) part = along > Real(0) ? std::min(part, head / along) : Real(0);
+    }
+    return part * motion;
+}
+
+// The part of a motion at which the node's objective is least, with contacts as they are and the rest to
+// second order. A node just outside the reach feels nothing, and Newton's step would throw it onto a plane.
+template <class Real>
+Real NodeContacts<Real>::least_along(std::span<const ContactShare<Real>> shares,
+                                     const Vec3<Real>& displacement, const Vec3<Real>& motion,
+                                     const NodeTerms<Real>& all) const {
+    Real pull = glm::dot(all.force, motion), curvature = glm::dot(product(all.hessian, motion), motion);
+    for (const ContactShare<Real>& share : shares) {  // what is left without contacts
+        const Real along = glm::dot(share.towards, motion), gap = share.gap_at(displacement);
+        pull += contact_force(gap, reach_, share.stiffness) * along;
+        curvature -= share.inverse_share * contact_hessian(gap, reach_, share.stiffness) * along * along;
+    }
+    struct Slope {
+        Real value, change;
+    };
+    const auto slope_at = [&](Real part) {
+        Slope slope{part * curvature - pull, curvature};
+        for (const ContactShare<Real>& share : shares) {
+            const Real along = glm::dot(share.towards, motion);
+            const Real gap = share.gap_at(displacement) - part * share.inverse_share * along;
+            slope.value += contact_force(gap, reach_, share.stiffness) * along;
+            slope.change +=
+                share.inverse_share * contact_hessian(gap, reach_, share.stiffness) * along * along;
+        }
+        return slope;
+    };
+    Slope slope = slope_at(Real(1));
+    if (!(slope.value > Real(0))) return Real(1);
+    constexpr int kMostTries = 6;
+    constexpr Real kNearEnough = Real(0.02f);
+    Real low = 0, high = 1, part = Real(0.5f);
+    for (int i = 0; i < kMostTries; ++i) {
+        slope = slope_at(part);
+        (slope.value > Real(0) ? high : low) = part;
+        Real next = part - slope.value / slope.change;
+        if (!(next > low && next < high)) next = Real(0.5f) * (low + high);
+        const bool is_near = std::abs(next - part) < kNearEnough;
+        part = next;
+        if (is_near) break;
+    }
+    return part;
+}
+
+template <class Real>
+Real NodeContacts<Real>::allowed_part(const ContactList<Real>& list, const Range& nodes,
+                                      std::span<const Vec4<Real>> positions,
+                                      std::span<const Vec3<Real>> displacements, Real part) const {
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+        const std::uint32_t place = surface_->places[n];
+        if (place == kNoNode) continue;
+        if (is_stuck_[place] != 0) return Real(0);
+        const Vec3<Real> position(positions[n]), before = position - aimed_at_[place];
+        for (const NodePlane<Real>& plane : planes_of(place)) {
+            const Real along = glm::dot(plane.towards, displacements[n]);
+            const Real head = std::max(plane.head - glm::dot(plane.towards, before), Real(0));
+            if (!(part * along <= head)) part = along > Real(0) ? head / along : Real(0);
+        }
+        const Vec3<Real> moved = position - list.found_at[place] - list.shifts[list.islands[object_of_[n]]];
+        part *= part_within(moved, part * displacements[n], list.rooms[place]);
+    }
+    return part;
+}
+
+template float part_within(const Vec3<float>&, const Vec3<float>&, float);
+template double part_within(const Vec3<double>&, const Vec3<double>&, double);
+template class NodeContacts<float>;
+template class NodeContacts<double>;
+
+}  // namespace gelatin::cpu
