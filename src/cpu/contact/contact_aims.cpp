@@ -48,7 +48,6 @@ ContactAims<Real>::ContactAims(std::shared_ptr<const Model> model,
                                std::shared_ptr<const ContactSurface> surface, double friction)
     : model_(std::move(model)),
       surface_(std::move(surface)),
-      reach_(static_cast<Real>(surface_->reach)),
       friction_(static_cast<Real>(friction)),
       softness_(model_->node_count()),
       lightness_(model_->node_count()),
@@ -87,6 +86,7 @@ void ContactAims<Real>::aim(const ContactPair& pair, std::span<const Vec4<Real>>
     for (std::size_t k = 0; k < 4; ++k) nodes[k] = Vec3<Real>(positions[pair.nodes[k]]);
     const auto [weights, apart] = nearest_points(pair, nodes);
     aim.weights = weights;
+    aim.reach = static_cast<Real>(surface_->reach(pair.object, pair.other));
     aim.gap = glm::length(apart);
     aim.normal = aim.gap > Real(0) ? apart / aim.gap : Vec3<Real>(0);
     share_stiffness(pair, aim);
@@ -143,7 +143,8 @@ void ContactAims<Real>::divide_gap(const ContactPair& pair, std::span<const Vec4
     }
     const Real rounding = kEpsilon<Real> * glm::dot(glm::abs(aim.normal), Real(8) * extent + Real(4) * reach);
     const Real gap = (low - top) - rounding;
-    const Real usable = Real(kUsable) * std::max(gap - std::max(Real(kLeastGap) * reach_, rounding), Real(0));
+    const Real usable =
+        Real(kUsable) * std::max(gap - std::max(Real(kLeastGap) * aim.reach, rounding), Real(0));
     for (std::size_t k = 0; k < 4; ++k) {
         const bool is_first = pair.side_of(k) == 0;
         const Real head = is_first ? (top - heights[k]) + aim.share * usable
@@ -201,6 +202,7 @@ void ContactAims<Real>::write_shares(const ContactPair& pair, const PairAim<Real
                                        aim.gap,
                                        presses ? Real(1) / share : Real(0),
                                        presses ? weight * aim.stiffness : Real(0),
+                                       aim.reach,
                                        (-sign * weight) * holds,
                                        weight * most};
     }

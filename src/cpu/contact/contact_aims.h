@@ -28,6 +28,7 @@ struct PairAim {
     Vec3<Real> normal;   ///< from the first side to the second, unit
     Real gap;            ///< between the nearest points [m]
     Vec4<Real> weights;  ///< of the pair's nodes in them; each side's add up to 1
+    Real reach;          ///< gap at which it begins to press [m]
     Real stiffness;      ///< [N/m]; 0: it presses nowhere
     Real share;          ///< the part of the gap that the first side may use
     Grip<Real> grip;
@@ -62,7 +63,6 @@ public:
     void end(const ContactList<Real>& list, std::span<const Vec4<Real>> positions);
 
     const std::vector<PairAim<Real>>& aims() const { return aims_; }  ///< in the order of the list's pairs
-    Real reach() const { return reach_; }
     Real friction() const { return friction_; }
     const NodeContacts<Real>& nodes() const { return nodes_; }
 
@@ -73,7 +73,7 @@ public:
                     std::span<const Vec4<Real>> positions) const;
     /// The most that friction may be at a gap [N].
     Real limit(Real gap, const PairAim<Real>& aim) const {
-        return friction_ * contact_force(gap, reach_, aim.stiffness);
+        return friction_ * contact_force(gap, aim.reach, aim.stiffness);
     }
 
 private:
@@ -87,7 +87,7 @@ private:
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
-    Real reach_, friction_;
+    Real friction_;
     std::span<const Vec4<Real>> starts_;
     // Of each node, 0 where it is held [m/N]: how it yields to a force, and would by inertia alone.
     std::vector<Real> softness_, lightness_;

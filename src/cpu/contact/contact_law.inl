@@ -51,6 +51,7 @@ struct ContactShare {
     Real gap;            ///< g_0 [m]
     Real inverse_share;  ///< 1 / s
     Real stiffness;      ///< k [N/m]
+    Real reach;          ///< r [m]
     Vec3<Real> hold;     ///< q_0 [N], at right angles to m
     Real limit;          ///< L [N]
 
@@ -71,23 +72,23 @@ constexpr Real kSlipShare = Real(0.01f);
 
 /// [J]
 template <class Real>
-Real contact_share_energy(const ContactShare<Real>& share, Real reach, const Vec3<Real>& displacement) {
+Real contact_share_energy(const ContactShare<Real>& share, const Vec3<Real>& displacement) {
     const Vec3<Real> hold = share.hold_at(displacement);
     const Real squared = dot(hold, hold), length = square_root(squared);
     const Real friction = select(length > share.limit, share.limit * (length - Real(0.5f) * share.limit),
                                  Real(0.5f) * squared) /
                           share.stiffness;
-    return (contact_energy(share.gap_at(displacement), reach, share.stiffness) + friction) /
+    return (contact_energy(share.gap_at(displacement), share.reach, share.stiffness) + friction) /
            share.inverse_share;
 }
 
 template <class Real>
-void add_contact_share(const ContactShare<Real>& share, Real reach, const Vec3<Real>& displacement,
+void add_contact_share(const ContactShare<Real>& share, const Vec3<Real>& displacement,
                        NodeTerms<Real>& terms) {
     const Real gap = share.gap_at(displacement);
     terms.force =
-        multiply_add(Real(0) - contact_force(gap, reach, share.stiffness), share.towards, terms.force);
-    terms.hessian.add_outer(share.inverse_share * contact_hessian(gap, reach, share.stiffness),
+        multiply_add(Real(0) - contact_force(gap, share.reach, share.stiffness), share.towards, terms.force);
+    terms.hessian.add_outer(share.inverse_share * contact_hessian(gap, share.reach, share.stiffness),
                             share.towards);
 }
 

@@ -9,8 +9,8 @@
 namespace gelatin::cpu {
 namespace {
 
-// Moves of a guess, between which rooms are made anew.
-constexpr int kMostMoves = 2;
+// Moves of a guess, between which rooms are made anew. With two, bodies that slide lose speed to their rooms.
+constexpr int kMostMoves = 6;
 // Of a room: nodes that have come farther are detected again.
 constexpr double kUsedRoom = 0.9;
 
@@ -88,7 +88,7 @@ void Contacts<Real>::end(std::span<const Vec4<Real>> positions) {
     for (std::size_t p = 0; p < list_.pairs.size(); ++p) {
         const ContactPair& pair = list_.pairs[p];
         const PairAim<Real>& aim = aims_.aims()[p];
-        if (aim.stiffness > Real(0) && aims_.gap(pair, aim, positions) < aims_.reach())
+        if (aim.stiffness > Real(0) && aims_.gap(pair, aim, positions) < aim.reach)
             is_pressed_[pair.object] = is_pressed_[pair.other] = 1;
     }
 }

@@ -18,6 +18,10 @@ constexpr double kRoom = 0.45;
 // go. With rooms of 0.45 (1/4 + 1/4) and shifts of 1/5, nodes of two islands do not meet.
 constexpr double kSearched = 0.25, kShifted = 0.2;
 
+double greatest_reach(const ContactSurface& surface) {
+    return 2.0 * *std::max_element(surface.thicknesses.begin(), surface.thicknesses.end());
+}
+
 template <class Real>
 Real squared_distance(const AxisBox<Real>& a, const AxisBox<Real>& b) {
     const Vec3<Real> apart = glm::max(glm::max(a.min - b.max, b.min - a.max), Vec3<Real>(0));
@@ -32,7 +36,7 @@ DetectContacts<Real>::DetectContacts(std::shared_ptr<const Model> model,
     : model_(std::move(model)),
       surface_(std::move(surface)),
       object_of_(objects_of_nodes(*model_)),
-      listed_(kListedReach * surface_->reach),
+      listed_(kListedReach * greatest_reach(*surface_)),
       collision_(std::make_unique<Collision<Real>>(model_, BroadPhase::hierarchy,
                                                    CollisionDetection::discrete,
                                                    BoxMargin<Real>::for_distance(listed_))),
@@ -124,6 +128,8 @@ void DetectContacts<Real>::list_pairs(ContactList<Real>& list) const {
         }
         pair.object = object_of_[pair.nodes[0]];
         pair.other = object_of_[pair.nodes[3]];
+        const double listed = kListedReach * surface_->reach(pair.object, pair.other);
+        if (!(found[p].distance < static_cast<Real>(listed))) continue;
         list.pairs.push_back(pair);
     }
 }
@@ -146,8 +152,9 @@ void DetectContacts<Real>::assign_slots(ContactList<Real>& list) const {
     }
 }
 
-// What is not listed is farther apart than the listed distance, and, if nothing of a leaf is within that of
-// any other body's leaf, than that and the distance between the leaves' boxes, which have the margin.
+// What is not listed is farther apart than the pair's listed distance, and, if nothing of a leaf is near any
+// other body's leaf, than that and the distance between the leaves' boxes, which have the margin. Each node
+// may use its part of both, less the reach.
 template <class Real>
 void DetectContacts<Real>::find_rooms(ContactList<Real>& list) const {
     const BoxTree& trees = model_->face_trees;
@@ -167,8 +174,11 @@ void DetectContacts<Real>::find_rooms(ContactList<Real>& list) const {
             }
         }
     }
-    const auto beyond = static_cast<Real>(listed_ - surface_->reach);
-    for (Real& room : list.rooms) room = static_cast<Real>(kRoom) * (room + beyond);
+    for (std::size_t s = 0; s < list.rooms.size(); ++s) {
+        const double thickness = surface_->thicknesses[object_of_[model_->surface_parts.nodes[s]]];
+        list.rooms[s] = static_cast<Real>(kRoom) * list.rooms[s] +
+                        static_cast<Real>(2.0 * kRoom * (kListedReach - 1.0) * thickness);
+    }
 }
 
 // From the box of a leaf to the nearest leaf of another body [m].

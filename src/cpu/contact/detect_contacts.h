@@ -38,8 +38,8 @@ private:
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
     std::vector<std::uint32_t> object_of_;  // by node
-    double listed_;
-    double island_distance_ = 0.0;  // bodies farther apart than this are of different islands [m]
+    double listed_;                         // proximities are found up to here [m]
+    double island_distance_ = 0.0;          // bodies farther apart than this are of different islands [m]
     std::unique_ptr<Collision<Real>> collision_;
     FindProximities<Real> proximities_;
     ObjectTree<Real> object_tree_;

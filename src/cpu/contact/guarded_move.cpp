@@ -19,7 +19,8 @@ constexpr double kSeparated = 0.05;
 
 // Stiff contacts are not entered by a guess: it would bring energy into them that the bodies do not have.
 template <class Real>
-Real least_gap(const PairAim<Real>& aim, Real gap, Real reach, Closeness closeness) {
+Real least_gap(const PairAim<Real>& aim, Real gap, Closeness closeness) {
+    const Real reach = aim.reach;
     if (closeness == Closeness::motion) return std::max(Real(0.1f) * gap, std::min(gap, Real(0.05f) * reach));
     const Real nearest = (Real(1) - Real(0.5f) * aim.yielding) * std::min(gap, reach);
     return std::max(nearest, std::min(gap, Real(0.1f) * reach));
@@ -32,6 +33,15 @@ Real part_left(Real start, Real end, Real least) {
     if (end >= least) return Real(1);
     if (!(start > least)) return Real(0);
     return Real(0.999f) * (start - least) / (start - end);
+}
+
+// At right angles to the face, or to both edges, and towards the second side. What slides over an edge is
+// ahead of it now and behind it then, and above it all the time.
+template <class Real>
+Vec3<Real> across_both(const ContactPair& pair, const std::array<Vec3<Real>, 4>& nodes) {
+    const Vec3<Real> across = pair.is_edges() ? glm::cross(nodes[1] - nodes[0], nodes[3] - nodes[2])
+                                              : glm::cross(nodes[2] - nodes[1], nodes[3] - nodes[1]);
+    return glm::dot(across, nodes[2] - nodes[0]) < Real(0) ? -across : across;
 }
 
 }  // namespace
@@ -143,13 +153,11 @@ template <class Real>
 void GuardedMove<Real>::find_blocked_pairs(const ContactList<Real>& list, const ContactAims<Real>& aims,
                                            std::span<const Vec4<Real>> positions,
                                            std::span<const Vec4<Real>> ends, Closeness closeness) {
-    const Real reach = aims.reach();
     blocked_.clear();
     for (std::uint32_t p = 0; p < list.pairs.size(); ++p) {
         const ContactPair& pair = list.pairs[p];
         const PairAim<Real>& aim = aims.aims()[p];
-        if (!(aim.gap - farthest_[pair.object] - farthest_[pair.other] >
-              least_gap(aim, aim.gap, reach, closeness)))
+        if (!(aim.gap - farthest_[pair.object] - farthest_[pair.other] > least_gap(aim, aim.gap, closeness)))
             blocked_.push_back(p);
     }
     courses_.resize(blocked_.size());
@@ -164,15 +172,19 @@ void GuardedMove<Real>::find_blocked_pairs(const ContactList<Real>& list, const 
             moved[c] = nodes[c] + motions[c];
         }
         Course& course = courses_[k];
-        course = course_along(pair, aim, aim.normal, nodes, motions, reach, closeness);
+        course = course_along(pair, aim, aim.normal, nodes, motions, closeness);
         if (course.is_free()) return;
-        // What slides over an edge is ahead of it now and above it then.
-        const Vec3<Real> apart = nearest_points(pair, moved).apart;
-        const Real distance = glm::length(apart);
-        if (!(distance > Real(0))) return;
-        const Course other = course_along(pair, aim, apart / distance, nodes, motions, reach, closeness);
-        if (other.is_free() && other.gap(Real(0), Real(0)) > Real(kSeparated) * reach) course = other;
+        for (const Vec3<Real>& direction : {nearest_points(pair, moved).apart, across_both(pair, nodes)}) {
+            const Real length = glm::length(direction);
+            if (!(length > Real(0))) continue;
+            const Course other = course_along(pair, aim, direction / length, nodes, motions, closeness);
+            if (!other.is_free() || !(other.gap(Real(0), Real(0)) > Real(kSeparated) * aim.reach)) continue;
+            course = other;
+            return;
+        }
     });
+    const auto is_out_of_way = [](const Course& course) { return course.is_always_free(); };
+    courses_.erase(std::remove_if(courses_.begin(), courses_.end(), is_out_of_way), courses_.end());
 }
 
 template <class Real>
@@ -181,7 +193,7 @@ typename GuardedMove<Real>::Course GuardedMove<Real>::course_along(const Contact
                                                                    const Vec3<Real>& normal,
                                                                    const std::array<Vec3<Real>, 4>& nodes,
                                                                    const std::array<Vec3<Real>, 4>& motions,
-                                                                   Real reach, Closeness closeness) const {
+                                                                   Closeness closeness) const {
     Course course;
     course.object = pair.object;
     course.other = pair.other;
@@ -191,7 +203,7 @@ typename GuardedMove<Real>::Course GuardedMove<Real>::course_along(const Contact
         course.motions[c] = glm::dot(normal, motions[c]);
     }
     const Real gap = course.gap(Real(0), Real(0));
-    course.least = least_gap(aim, gap, reach, closeness) - Real(1e-5f) * reach;  // less rounding
+    course.least = least_gap(aim, gap, closeness) - Real(1e-5f) * aim.reach;  // less rounding
     return course;
 }
 

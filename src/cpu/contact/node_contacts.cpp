@@ -24,7 +24,6 @@ NodeContacts<Real>::NodeContacts(std::shared_ptr<const Model> model,
     : model_(std::move(model)),
       surface_(std::move(surface)),
       object_of_(objects_of_nodes(*model_)),
-      reach_(static_cast<Real>(surface_->reach)),
       friction_(static_cast<Real>(friction)) {
     const std::size_t count = model_->surface_parts.nodes.size();
     first_slots_.resize(count);
@@ -87,11 +86,11 @@ void NodeContacts<Real>::add(std::uint32_t node, const Vec3<Real>& position, Nod
     const Vec3<Real> displacement = position - aimed_at_[place];
     const std::uint32_t first = first_slots_[place];
     for (std::uint32_t k = first; k < first + share_counts_[place]; ++k) {
-        add_contact_share(shares_[k], reach_, displacement, terms);
+        add_contact_share(shares_[k], displacement, terms);
         if (!(shares_[k].limit > Real(0))) continue;
         // Less where the node presses less than at the aim: few sweeps find far too much of that at first.
         ContactShare<Real> share = shares_[k];
-        const Real pressing = contact_force(share.gap_at(displacement), reach_, share.stiffness);
+        const Real pressing = contact_force(share.gap_at(displacement), share.reach, share.stiffness);
         share.limit = std::min(share.limit, friction_ * pressing);
         if (share.limit > Real(0)) add_friction_share(share, displacement, terms);
     }
@@ -153,8 +152,8 @@ Real NodeContacts<Real>::least_along(std::span<const ContactShare<Real>> shares,
     Real pull = glm::dot(all.force, motion), curvature = glm::dot(product(all.hessian, motion), motion);
     for (const ContactShare<Real>& share : shares) {  // what is left without contacts
         const Real along = glm::dot(share.towards, motion), gap = share.gap_at(displacement);
-        pull += contact_force(gap, reach_, share.stiffness) * along;
-        curvature -= share.inverse_share * contact_hessian(gap, reach_, share.stiffness) * along * along;
+        pull += contact_force(gap, share.reach, share.stiffness) * along;
+        curvature -= share.inverse_share * contact_hessian(gap, share.reach, share.stiffness) * along * along;
     }
     struct Slope {
         Real value, change;
@@ -164,9 +163,9 @@ Real NodeContacts<Real>::least_along(std::span<const ContactShare<Real>> shares,
         for (const ContactShare<Real>& share : shares) {
             const Real along = glm::dot(share.towards, motion);
             const Real gap = share.gap_at(displacement) - part * share.inverse_share * along;
-            slope.value += contact_force(gap, reach_, share.stiffness) * along;
+            slope.value += contact_force(gap, share.reach, share.stiffness) * along;
             slope.change +=
-                share.inverse_share * contact_hessian(gap, reach_, share.stiffness) * along * along;
+                share.inverse_share * contact_hessian(gap, share.reach, share.stiffness) * along * along;
         }
         return slope;
     };

@@ -74,7 +74,7 @@ private:
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
     std::vector<std::uint32_t> object_of_;  // by node
-    Real reach_, friction_;
+    Real friction_;
     // By slot; of each node's first those that are counted:
     std::vector<NodePlane<Real>> planes_;
     std::vector<ContactShare<Real>> shares_;

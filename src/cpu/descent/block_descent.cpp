@@ -121,12 +121,16 @@ void BlockDescent<Real>::make_sweeps(int first, int end, Positions& positions, S
     }
 }
 
-// All bodies as rigid ones, those of an island together.
+// All bodies as rigid ones, those of an island together. Held nodes that others were in the way of go on: what
+// they press has yielded since.
 template <class Real>
 void BlockDescent<Real>::move_together(bool last, Positions& positions, StageTimer* timer) {
     {
         const TimedStage part(timer, "advance_nodes.move_bodies");
         ends_ = positions;
+        for_each_node(*model_, [&](std::uint32_t n) {
+            if (ends_[n].w == Real(0)) ends_[n] = objective_.step.targets[n];
+        });
         const Range all{0, static_cast<std::uint32_t>(model_->objects.size())};
         rigid_move_.run(all, last, objective_, contacts_, bodies_.get(), positions, ends_);
         joint_move_.run(last, *bodies_, objective_, contacts_, positions, ends_);

@@ -55,9 +55,9 @@ struct Body {
 // A pair of the bodies, which are numbered within their island; kNoNode: held.
 struct Touch {
     std::uint32_t a = kNoNode, b = kNoNode;
-    Motion row_a, row_b;                // how its gap changes
-    double gap = 0.0, stiffness = 0.0;  // [m], [N/m]
-    double change = 0.0;                // of the gap by the step
+    Motion row_a, row_b;                             // how its gap changes
+    double gap = 0.0, stiffness = 0.0, reach = 0.0;  // [m], [N/m]
+    double change = 0.0;                             // of the gap by the step
     // What would hold the first side if nothing slid [N], and directions across the normal, the first along
     // it.
     glm::dvec3 hold{0.0};
@@ -80,13 +80,13 @@ public:
 
     // The motions of all bodies at which the objective is least. Friction depends on how contacts press, of
     // which sweeps find far too much in stiff bodies: it is taken by what a first solution leaves of that.
-    std::vector<Motion> find_motions(double reach, double friction) {
-        if (friction == 0.0) return solve_once(reach, friction);
+    std::vector<Motion> find_motions(double friction) {
+        if (friction == 0.0) return solve_once(friction);
         const std::vector<Body> bodies_alone = bodies;
-        solve_once(reach, friction);
+        solve_once(friction);
         bodies = bodies_alone;
         for (Coupling& coupling : couplings_) coupling.block.setZero();
-        return solve_once(reach, friction);
+        return solve_once(friction);
     }
 
 private:
@@ -116,13 +116,14 @@ private:
     }
 
     // By the changes of gaps of the solution before, if there is one.
-    std::vector<Motion> solve_once(double reach, double friction) {
+    std::vector<Motion> solve_once(double friction) {
         for (const Touch& touch : touches) {
-            const double force = contact_force(touch.gap, reach, touch.stiffness);
+            const double force = contact_force(touch.gap, touch.reach, touch.stiffness);
             if (force > 0.0)
-                add(touch, touch.row_a, touch.row_b, contact_hessian(touch.gap, reach, touch.stiffness),
+                add(touch, touch.row_a, touch.row_b, contact_hessian(touch.gap, touch.reach, touch.stiffness),
                     force);
-            const double limit = friction * contact_force(touch.gap + touch.change, reach, touch.stiffness);
+            const double limit =
+                friction * contact_force(touch.gap + touch.change, touch.reach, touch.stiffness);
             if (limit > 0.0) add_friction(touch, limit);
         }
         std::vector<Motion> motions = solve();
@@ -130,7 +131,7 @@ private:
         for (Motion& motion : motions) motion -= common;
         // Contacts cancel in the sum, so that momentum does not depend on how well the rest was solved.
         if (!is_held && !is_outside_touched) common = free_motion();
-        const double part = least_along(motions, common, reach);
+        const double part = least_along(motions, common);
         for (Touch& touch : touches) touch.change *= part;
         for (Motion& motion : motions) motion = part * motion + common;
         return motions;
@@ -189,7 +190,7 @@ private:
 
     // The part of the motions, after the common one, at which the objective is least: contacts as they are,
     // the rest to second order. Newton's step alone would throw bodies through the reach of others.
-    double least_along(const std::vector<Motion>& motions, const Motion& common, double reach) {
+    double least_along(const std::vector<Motion>& motions, const Motion& common) {
         const std::vector<Motion> product_of = product(motions);
         double pull = 0.0, curvature = dot(motions, product_of);
         for (std::size_t k = 0; k < bodies.size(); ++k)
@@ -198,14 +199,15 @@ private:
             touch.change = 0.0;
             if (touch.a != kNoNode) touch.change += touch.row_a.dot(motions[touch.a]);
             if (touch.b != kNoNode) touch.change += touch.row_b.dot(motions[touch.b]);
-            pull -= contact_force(touch.gap, reach, touch.stiffness) * touch.change;
-            curvature -= contact_hessian(touch.gap, reach, touch.stiffness) * touch.change * touch.change;
+            pull -= contact_force(touch.gap, touch.reach, touch.stiffness) * touch.change;
+            curvature -=
+                contact_hessian(touch.gap, touch.reach, touch.stiffness) * touch.change * touch.change;
         }
         const auto slope_at = [&](double part) {
             double slope = part * curvature - pull;
             for (const Touch& touch : touches)
-                slope -=
-                    contact_force(touch.gap + part * touch.change, reach, touch.stiffness) * touch.change;
+                slope -= contact_force(touch.gap + part * touch.change, touch.reach, touch.stiffness) *
+                         touch.change;
             return slope;
         };
         if (!(slope_at(1.0) > 0.0)) return 1.0;
@@ -294,6 +296,7 @@ void add_pair(const ContactPair& pair, const ContactAims<Real>& aims, const Pair
     touch.row_b = along(arms[1], normal);
     touch.gap = static_cast<double>(aims.gap(pair, aim, positions));
     touch.stiffness = static_cast<double>(aim.stiffness);
+    touch.reach = static_cast<double>(aim.reach);
     touch.arms = arms;
     touch.hold = glm::dvec3(aims.hold(pair, aim, positions));
     const double length = glm::length(touch.hold);
@@ -342,8 +345,8 @@ void JointMove<Real>::run(bool is_last, const Contacts<Real>& contacts, const St
         }
         for (const std::uint32_t p : pairs[i])
             add_pair(list.pairs[p], contacts.aims(), contacts.aims().aims()[p], numbers, positions, island);
-        const std::vector<Motion> motions = island.find_motions(
-            static_cast<double>(contacts.aims().reach()), static_cast<double>(contacts.aims().friction()));
+        const std::vector<Motion> motions =
+            island.find_motions(static_cast<double>(contacts.aims().friction()));
         for (std::size_t k = 0; k < motions.size(); ++k) {
             const Motion& m = motions[k];
             if (!m.allFinite()) return;

@@ -7,7 +7,7 @@
 namespace gelatin {
 namespace {
 
-constexpr double kReach = 0.1;  // of the median edge
+constexpr double kThickness = 0.05;  // of the median edge
 
 std::array<std::uint32_t, 3> corners_of(const Face& face) {
     return {face.a, face.b, face.c};
@@ -96,20 +96,27 @@ void add_tets(const Model& model, std::vector<double>& traces) {
     }
 }
 
-double median_edge(const Model& model) {
-    std::vector<double> lengths;
+std::vector<double> find_thicknesses(const Model& model) {
+    std::vector<std::vector<double>> lengths(model.objects.size());
     for (const FaceEdge& edge : model.surface_parts.edges)
-        lengths.push_back(
+        lengths[edge.object].push_back(
             glm::distance(glm::dvec3(model.positions[edge.a]), glm::dvec3(model.positions[edge.b])));
-    if (lengths.empty()) return 0.0;
-    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-    std::nth_element(lengths.begin(), middle, lengths.end());
-    return *middle;
+    std::vector<double> thicknesses;
+    for (std::vector<double>& of_object : lengths) {
+        if (of_object.empty()) {
+            thicknesses.push_back(0.0);
+            continue;
+        }
+        const auto middle = of_object.begin() + static_cast<std::ptrdiff_t>(of_object.size() / 2);
+        std::nth_element(of_object.begin(), middle, of_object.end());
+        thicknesses.push_back(kThickness * *middle);
+    }
+    return thicknesses;
 }
 
 }  // namespace
 
-ContactSurface make_contact_surface(const Model& model, double thickness) {
+ContactSurface make_contact_surface(const Model& model) {
     ContactSurface surface;
     surface.places.assign(model.node_count(), kNoNode);
     for (std::uint32_t s = 0; s < model.surface_parts.nodes.size(); ++s)
@@ -119,7 +126,7 @@ ContactSurface make_contact_surface(const Model& model, double thickness) {
     add_springs(model, traces);
     add_tets(model, traces);
     for (const double trace : traces) surface.stiffness.push_back(static_cast<float>(trace / 3.0));
-    surface.reach = thickness > 0.0 ? thickness : kReach * median_edge(model);
+    surface.thicknesses = find_thicknesses(model);
     return surface;
 }
 

@@ -23,12 +23,15 @@ struct ContactSurface {
     /// A third of the trace of the second derivative of the body's energy by the node at rest, without
     /// dampers [N/m], shape [nodes]: how stiff the body is there, over all directions.
     std::vector<float> stiffness;
-    /// Distance of two surfaces at which they begin to press each other [m]. A tenth of the median edge
-    /// unless the scene gives it.
-    double reach = 0.0;
+    /// Of each object [m]: two surfaces begin to press each other at the sum of both. A twentieth of the
+    /// object's median surface edge.
+    std::vector<double> thicknesses;
+
+    double reach(std::uint32_t object, std::uint32_t other) const {
+        return thicknesses[object] + thicknesses[other];
+    }
 };
 
-/// @param thickness the reach [m]; 0: from the edges
-ContactSurface make_contact_surface(const Model& model, double thickness = 0.0);
+ContactSurface make_contact_surface(const Model& model);
 
 }  // namespace gelatin

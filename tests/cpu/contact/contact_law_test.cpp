@@ -53,15 +53,19 @@ Case random_case(test::RandomMaker& random) {
     V hold = random.point(2.0);
     hold -= glm::dot(hold, towards) * towards;
     const double share = random.uniform(0.05, 1.0);
-    const Share made{towards,   random.magnitude(0.05 * kReach, 2 * kReach),
-                     1 / share, random.magnitude(10.0, 1e3),
-                     hold,      random.magnitude(0.1, 10.0)};
+    const Share made{towards,
+                     random.magnitude(0.05 * kReach, 2 * kReach),
+                     1 / share,
+                     random.magnitude(10.0, 1e3),
+                     kReach,
+                     hold,
+                     random.magnitude(0.1, 10.0)};
     return {made, random.point(0.02 * share * made.gap)};
 }
 
 Terms terms_of(const Share& share, const V& displacement) {
     Terms terms;
-    cpu::add_contact_share(share, kReach, displacement, terms);
+    cpu::add_contact_share(share, displacement, terms);
     cpu::add_friction_share(share, displacement, terms);
     return terms;
 }
@@ -75,7 +79,7 @@ TEST(ContactLaw, AShareIsTheSlopeOfItsEnergy) {
         for (int k = 0; k < 3; ++k) {
             V e(0);
             e[k] = h;
-            const auto energy = [&](const V& d) { return cpu::contact_share_energy(one.share, kReach, d); };
+            const auto energy = [&](const V& d) { return cpu::contact_share_energy(one.share, d); };
             const double slope = (energy(one.displacement + e) - energy(one.displacement - e)) / (2 * h);
             EXPECT_NEAR(terms.force[k], -slope, 1e-4 * (glm::length(terms.force) + 0.1));
         }
@@ -121,13 +125,13 @@ TEST(ContactLaw, SharesBoundTheEnergyOfThePair) {
         double sum = 0.0, at_aim = 0.0, moved = 0.0;
         for (int k = 0; k < 4; ++k) {
             const double sign = k == 0 ? 1.0 : -1.0, share = k == 0 ? split : 1 - split;
-            const Share made{sign * normal, gap, 1 / share, weights[k] * kStiffness, V(0), 1e-3};
+            const Share made{sign * normal, gap, 1 / share, weights[k] * kStiffness, kReach, V(0), 1e-3};
             V d = random.point(gap);
             const double along = glm::dot(made.towards, d);  // within its half of the gap
             if (along > 0.9 * share * gap) d -= (along - 0.9 * share * gap) * made.towards;
             const V inwards = glm::dot(made.towards, d) * made.towards;  // friction apart
-            sum += cpu::contact_share_energy(made, kReach, inwards);
-            at_aim += cpu::contact_share_energy(made, kReach, V(0));
+            sum += cpu::contact_share_energy(made, inwards);
+            at_aim += cpu::contact_share_energy(made, V(0));
             moved += weights[k] * glm::dot(made.towards, d);
         }
         EXPECT_NEAR(at_aim, cpu::contact_energy(gap, kReach, kStiffness), 1e-9);

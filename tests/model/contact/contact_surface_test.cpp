@@ -60,11 +60,13 @@ TEST(ContactSurface, ListsSurfaceNodesAlone) {
     EXPECT_LT(count, model.node_count());
 }
 
-// Of a block of cells of 0.1 m, whose faces are halved squares: more straight edges than diagonals.
-TEST(ContactSurface, ReachesATenthOfTheMedianEdge) {
-    const Model model = test::make_model(test::make_body(test::make_block({4, 4, 4}, {0.4, 0.4, 0.4})));
-    EXPECT_NEAR(make_contact_surface(model).reach, 0.01, 1e-8);
-    EXPECT_EQ(make_contact_surface(model, 0.003).reach, 0.003);
+// Of blocks of cells of 0.1 and 0.3 m, whose faces are halved squares: more straight edges than diagonals.
+TEST(ContactSurface, ReachesATenthOfTheMedianEdges) {
+    const Body fine = test::make_body(test::make_block({4, 4, 4}, {0.4, 0.4, 0.4}));
+    const Body coarse = test::make_body(test::make_block({2, 2, 2}, {0.6, 0.6, 0.6}));
+    const ContactSurface surface = make_contact_surface(pack_bodies({fine, coarse}, {}, {0.0, 0.0, 0.0}));
+    EXPECT_NEAR(surface.reach(0, 0), 0.01, 1e-8);
+    EXPECT_NEAR(surface.reach(0, 1), 0.02, 1e-8);
 }
 
 }  // namespace
