@@ -121,8 +121,8 @@ void BlockDescent<Real>::make_sweeps(int first, int end, Positions& positions, S
     }
 }
 
-// All bodies as rigid ones, those of an island together. Held nodes that others were in the way of go on: what
-// they press has yielded since.
+// All bodies as rigid ones, those of an island together. Held nodes that others were in the way of go on:
+// what they press has yielded since.
 template <class Real>
 void BlockDescent<Real>::move_together(bool last, Positions& positions, StageTimer* timer) {
     {
