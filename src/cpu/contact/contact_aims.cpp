@@ -7,7 +7,6 @@
 #include <tuple>
 #include <utility>
 
-#include "cpu/collision/nearest_points.h"
 #include "cpu/contact/feasible_region.h"
 #include "model/for_each_index.h"
 
@@ -30,18 +29,6 @@ Vec3<Real> without_part_along(const Vec3<Real>& v, const Vec3<Real>& normal) {
 }
 
 }  // namespace
-
-template <class Real>
-PairNearest<Real> nearest_points(const ContactPair& pair, const std::array<Vec3<Real>, 4>& nodes) {
-    if (pair.is_edges()) {
-        const EdgeToEdge<Real> nearest =
-            nearest_points<Real>(std::array{nodes[0], nodes[1]}, std::array{nodes[2], nodes[3]});
-        const Real s = nearest.fraction, t = nearest.other_fraction;
-        return {{1 - s, s, 1 - t, t}, nearest.apart};
-    }
-    const NodeToFace<Real> nearest = nearest_points<Real>(nodes[0], std::array{nodes[1], nodes[2], nodes[3]});
-    return {{Real(1), nearest.weights}, nearest.apart};
-}
 
 template <class Real>
 ContactAims<Real>::ContactAims(std::shared_ptr<const Model> model,
@@ -71,31 +58,45 @@ void ContactAims<Real>::run(const ContactList<Real>& list, std::span<const Vec4<
     aims_.resize(pairs);
     grips_.resize(pairs);
     nodes_.resize(list);
-    for_each_index(0, pairs, 256, [&](std::size_t p) {
-        aims_[p].grip = grips_[p];
-        aim(list.pairs[p], positions, aims_[p]);
-        grips_[p] = aims_[p].grip;
-    });
+    const auto aim_range = [&](std::size_t first, std::size_t end) {
+        const std::size_t blocks = (end - first + kPairBlock - 1) / kPairBlock;
+        for_each_index(0, blocks, 32, [&](std::size_t b) {
+            const std::size_t begin = first + b * kPairBlock;
+            aim_block(list,
+                      {static_cast<std::uint32_t>(begin),
+                       static_cast<std::uint32_t>(std::min(kPairBlock, end - begin))},
+                      positions);
+        });
+    };
+    aim_range(0, list.first_edges);
+    aim_range(list.first_edges, pairs);
     nodes_.select(list, positions);
 }
 
 template <class Real>
-void ContactAims<Real>::aim(const ContactPair& pair, std::span<const Vec4<Real>> positions,
-                            PairAim<Real>& aim) {
-    std::array<Vec3<Real>, 4> nodes;
-    for (std::size_t k = 0; k < 4; ++k) nodes[k] = Vec3<Real>(positions[pair.nodes[k]]);
-    const auto [weights, apart] = nearest_points(pair, nodes);
-    aim.weights = weights;
-    aim.reach = static_cast<Real>(surface_->reach(pair.object, pair.other));
-    aim.gap = glm::length(apart);
-    aim.normal = aim.gap > Real(0) ? apart / aim.gap : Vec3<Real>(0);
-    share_stiffness(pair, aim);
-    aim.stiffness *= FeasibleRegion<Real>(*model_, *surface_, positions).weight(pair, apart, aim.weights);
-    divide_gap(pair, positions, aim);
-    // What has slid before it pressed, friction did not resist.
-    if (!aim.grip.grips && limit(aim.gap, aim) > Real(0))
-        aim.grip = {Vec3<Real>(0), slip(pair, aim, positions), true};
-    write_shares(pair, aim, positions);
+void ContactAims<Real>::aim_block(const ContactList<Real>& list, const Range& pairs,
+                                  std::span<const Vec4<Real>> positions) {
+    MeasuredPairs<Real> measured;
+    measure_pairs(std::span(list.pairs).subspan(pairs.first, pairs.count), positions, measured);
+    const FeasibleRegion<Real> region(*model_, *surface_, positions);
+    for (std::size_t k = 0; k < pairs.count; ++k) {
+        const ContactPair& pair = list.pairs[pairs.first + k];
+        PairAim<Real>& aim = aims_[pairs.first + k];
+        const Vec3<Real> apart(measured.apart[0][k], measured.apart[1][k], measured.apart[2][k]);
+        aim.weights = {measured.weights[0][k], measured.weights[1][k], measured.weights[2][k],
+                       measured.weights[3][k]};
+        aim.reach = static_cast<Real>(surface_->reach(pair.object, pair.other));
+        aim.gap = measured.gaps[k];
+        aim.normal = aim.gap > Real(0) ? apart / aim.gap : Vec3<Real>(0);
+        aim.grip = grips_[pairs.first + k];
+        share_stiffness(pair, aim);
+        aim.stiffness *= region.weight(pair, apart, aim.weights);
+        divide_gap(pair, measured, k, aim);
+        // What has slid before it pressed, friction did not resist.
+        if (!aim.grip.grips && limit(aim.gap, aim) > Real(0))
+            grips_[pairs.first + k] = aim.grip = {Vec3<Real>(0), slip(pair, aim, positions), true};
+        write_shares(pair, aim, positions);
+    }
 }
 
 // By how far the nodes yield to a force.
@@ -124,31 +125,26 @@ void ContactAims<Real>::share_stiffness(const ContactPair& pair, PairAim<Real>& 
 // The gap is that between the sides' nodes along the normal, less what rounding could make of it, here and
 // when nodes go to new positions.
 template <class Real>
-void ContactAims<Real>::divide_gap(const ContactPair& pair, std::span<const Vec4<Real>> positions,
-                                   const PairAim<Real>& aim) {
-    const Vec3<Real> origin(positions[pair.nodes[0]]);
-    std::array<Real, 4> heights;
+void ContactAims<Real>::divide_gap(const ContactPair& pair, const MeasuredPairs<Real>& measured,
+                                   std::size_t column, const PairAim<Real>& aim) {
     Real top = -std::numeric_limits<Real>::infinity(), low = -top;
-    Vec3<Real> extent(0), reach(0);
     for (std::size_t k = 0; k < 4; ++k) {
-        const Vec3<Real> position(positions[pair.nodes[k]]), relative = position - origin;
-        extent = glm::max(extent, glm::abs(relative));
-        reach = glm::max(reach, glm::abs(position));
-        heights[k] = glm::dot(aim.normal, relative);
+        const Real height = measured.heights[k][column];
         if (pair.side_of(k) == 0) {
-            top = std::max(top, heights[k]);
+            top = std::max(top, height);
         } else {
-            low = std::min(low, heights[k]);
+            low = std::min(low, height);
         }
     }
-    const Real rounding = kEpsilon<Real> * glm::dot(glm::abs(aim.normal), Real(8) * extent + Real(4) * reach);
+    const Real rounding = measured.rounding[column];
     const Real gap = (low - top) - rounding;
     const Real usable =
         Real(kUsable) * std::max(gap - std::max(Real(kLeastGap) * aim.reach, rounding), Real(0));
     for (std::size_t k = 0; k < 4; ++k) {
         const bool is_first = pair.side_of(k) == 0;
-        const Real head = is_first ? (top - heights[k]) + aim.share * usable
-                                   : (heights[k] - low) + (Real(1) - aim.share) * usable;
+        const Real height = measured.heights[k][column];
+        const Real head =
+            is_first ? (top - height) + aim.share * usable : (height - low) + (Real(1) - aim.share) * usable;
         nodes_.plane(pair.slots[k]) = {is_first ? aim.normal : -aim.normal, gap > Real(0) ? head : Real(-1)};
     }
 }
@@ -240,8 +236,6 @@ void ContactAims<Real>::end(const ContactList<Real>& list, std::span<const Vec4<
     });
 }
 
-template PairNearest<float> nearest_points(const ContactPair&, const std::array<Vec3<float>, 4>&);
-template PairNearest<double> nearest_points(const ContactPair&, const std::array<Vec3<double>, 4>&);
 template class ContactAims<float>;
 template class ContactAims<double>;
 

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "cpu/contact/contact_list.h"
+#include "cpu/contact/nearest_pairs.h"
 #include "cpu/contact/node_contacts.h"
 #include "cpu/nodes.h"
 #include "model/contact/contact_surface.h"
@@ -77,9 +77,10 @@ public:
     }
 
 private:
-    void aim(const ContactPair& pair, std::span<const Vec4<Real>> positions, PairAim<Real>& aim);
+    void aim_block(const ContactList<Real>& list, const Range& pairs, std::span<const Vec4<Real>> positions);
     void share_stiffness(const ContactPair& pair, PairAim<Real>& aim) const;
-    void divide_gap(const ContactPair& pair, std::span<const Vec4<Real>> positions, const PairAim<Real>& aim);
+    void divide_gap(const ContactPair& pair, const MeasuredPairs<Real>& measured, std::size_t column,
+                    const PairAim<Real>& aim);
     void write_shares(const ContactPair& pair, const PairAim<Real>& aim,
                       std::span<const Vec4<Real>> positions);
     Vec3<Real> slip(const ContactPair& pair, const PairAim<Real>& aim,
@@ -95,15 +96,5 @@ private:
     std::vector<Grip<Real>> grips_;  // by pair
     NodeContacts<Real> nodes_;
 };
-
-/// The nearest points of a pair's sides: the weights of its nodes in them, and the vector from the first's to
-/// the second's [m].
-template <class Real>
-struct PairNearest {
-    Vec4<Real> weights;
-    Vec3<Real> apart;
-};
-template <class Real>
-PairNearest<Real> nearest_points(const ContactPair& pair, const std::array<Vec3<Real>, 4>& nodes);
 
 }  // namespace gelatin::cpu

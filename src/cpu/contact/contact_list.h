@@ -27,6 +27,7 @@ struct ContactPair {
 template <class Real>
 struct ContactList {
     std::vector<ContactPair> pairs;         ///< nodes and faces, then edges; each once
+    std::size_t first_edges = 0;            ///< the first pair of edges
     std::vector<std::uint32_t> row_starts;  ///< of the slots of each surface node, shape [surface nodes + 1]
     std::vector<std::uint32_t> slot_pairs;  ///< 4 times the pair, plus the node's index in it
     std::vector<Vec3<Real>> found_at;       ///< [m], shape [surface nodes]

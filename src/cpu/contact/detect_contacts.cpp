@@ -112,6 +112,7 @@ void DetectContacts<Real>::list_pairs(ContactList<Real>& list) const {
     const std::vector<Proximity<Real>>& found = proximities_.proximities();
     const std::size_t faces_end = proximities_.starts()[parts.nodes.size()];
     list.pairs.clear();
+    list.first_edges = 0;
     for (std::size_t p = 0; p < found.size(); ++p) {
         ContactPair pair{};
         pair.first = found[p].first;
@@ -131,6 +132,7 @@ void DetectContacts<Real>::list_pairs(ContactList<Real>& list) const {
         const double listed = kListedReach * surface_->reach(pair.object, pair.other);
         if (!(found[p].distance < static_cast<Real>(listed))) continue;
         list.pairs.push_back(pair);
+        if (!pair.is_edges()) ++list.first_edges;
     }
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "cpu/collision/nearest_points.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -33,6 +34,14 @@ Real part_left(Real start, Real end, Real least) {
     if (end >= least) return Real(1);
     if (!(start > least)) return Real(0);
     return Real(0.999f) * (start - least) / (start - end);
+}
+
+// From the first side's nearest point to the second's.
+template <class Real>
+Vec3<Real> shortest(const ContactPair& pair, const std::array<Vec3<Real>, 4>& nodes) {
+    if (pair.is_edges())
+        return nearest_points<Real>(std::array{nodes[0], nodes[1]}, std::array{nodes[2], nodes[3]}).apart;
+    return nearest_points<Real>(nodes[0], std::array{nodes[1], nodes[2], nodes[3]}).apart;
 }
 
 // At right angles to the face, or to both edges, and towards the second side. What slides over an edge is
@@ -174,7 +183,7 @@ void GuardedMove<Real>::find_blocked_pairs(const ContactList<Real>& list, const 
         Course& course = courses_[k];
         course = course_along(pair, aim, aim.normal, nodes, motions, closeness);
         if (course.is_free()) return;
-        for (const Vec3<Real>& direction : {nearest_points(pair, moved).apart, across_both(pair, nodes)}) {
+        for (const Vec3<Real>& direction : {shortest(pair, moved), across_both(pair, nodes)}) {
             const Real length = glm::length(direction);
             if (!(length > Real(0))) continue;
             const Course other = course_along(pair, aim, direction / length, nodes, motions, closeness);

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "cpu/contact/contact_list.h"
+#include "cpu/nodes.h"
+
+namespace gelatin::cpu {
+
+/// Pairs that are measured at a time.
+constexpr std::size_t kPairBlock = 8;
+
+/// Where pairs are near each other, one in each column.
+template <class Real>
+struct alignas(32) MeasuredPairs {
+    using Column = std::array<Real, kPairBlock>;
+    std::array<Column, 4> weights;  ///< of the nodes in the nearest points
+    std::array<Column, 3> apart;    ///< from the first side's to the second's [m]
+    Column gaps;                    ///< its length [m]
+    std::array<Column, 4> heights;  ///< of the nodes along it, from the first node [m]
+    Column rounding;                ///< bound of what rounding makes of a difference of heights [m]
+};
+
+/// Measures up to kPairBlock pairs, in float with SIMD for the processor it runs on.
+void measure_pairs(std::span<const ContactPair> pairs, std::span<const glm::vec4> positions,
+                   MeasuredPairs<float>& measured);
+void measure_pairs(std::span<const ContactPair> pairs, std::span<const glm::dvec4> positions,
+                   MeasuredPairs<double>& measured);
+
+}  // namespace gelatin::cpu
