@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "cpu/collision/walk_tree.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -17,6 +18,8 @@ constexpr double kRoom = 0.45;
 // Parts of the distance between islands: how far from others rooms are looked for, and how far an island may
 // go. With rooms of 0.45 (1/4 + 1/4) and shifts of 1/5, nodes of two islands do not meet.
 constexpr double kSearched = 0.25, kShifted = 0.2;
+
+constexpr std::size_t kLeavesATask = 16;
 
 double greatest_reach(const ContactSurface& surface) {
     return 2.0 * *std::max_element(surface.thicknesses.begin(), surface.thicknesses.end());
@@ -40,7 +43,9 @@ DetectContacts<Real>::DetectContacts(std::shared_ptr<const Model> model,
       collision_(std::make_unique<Collision<Real>>(model_, BroadPhase::hierarchy,
                                                    CollisionDetection::discrete,
                                                    BoxMargin<Real>::for_distance(listed_))),
-      proximities_(model_, *collision_, listed_, false),
+      margin_(BoxMargin<Real>::for_distance(listed_)),
+      edge_boxes_(model_->surface_parts.edges.size()),
+      found_((model_->face_trees.levels[0].size() + kLeavesATask - 1) / kLeavesATask),
       object_tree_(static_cast<std::uint32_t>(model_->objects.size())),
       near_(model_->objects.size()) {}
 
@@ -51,9 +56,8 @@ void DetectContacts<Real>::run(std::span<const Vec4<Real>> positions, double lon
     list.most_shift = static_cast<Real>(kShifted * island_distance_);
     collision_->update_boxes(positions);
     collision_->find_object_pairs();
-    proximities_.run(positions);
     find_islands(list);
-    list_pairs(list);
+    find_pairs(positions, list);
     assign_slots(list);
     find_rooms(list);
     const std::vector<std::uint32_t>& nodes = model_->surface_parts.nodes;
@@ -105,35 +109,147 @@ void DetectContacts<Real>::find_islands(ContactList<Real>& list) {
     list.shifts.assign(list.is_alone.size(), Vec3<Real>(0));
 }
 
-// Proximities see edges from both sides.
 template <class Real>
-void DetectContacts<Real>::list_pairs(ContactList<Real>& list) const {
-    const SurfaceParts& parts = model_->surface_parts;
-    const std::vector<Proximity<Real>>& found = proximities_.proximities();
-    const std::size_t faces_end = proximities_.starts()[parts.nodes.size()];
-    list.pairs.clear();
-    list.first_edges = 0;
-    for (std::size_t p = 0; p < found.size(); ++p) {
-        ContactPair pair{};
-        pair.first = found[p].first;
-        pair.second = found[p].second;
-        if (p < faces_end) {
-            const Face& face = model_->faces[pair.second];
-            pair.nodes = {pair.first, face.a, face.b, face.c};
-            pair.first_count = 1;
-        } else {
-            if (pair.first > pair.second) continue;
-            const FaceEdge &edge = parts.edges[pair.first], &other = parts.edges[pair.second];
-            pair.nodes = {edge.a, edge.b, other.a, other.b};
-            pair.first_count = 2;
-        }
-        pair.object = object_of_[pair.nodes[0]];
-        pair.other = object_of_[pair.nodes[3]];
-        const double listed = kListedReach * surface_->reach(pair.object, pair.other);
-        if (!(found[p].distance < static_cast<Real>(listed))) continue;
-        list.pairs.push_back(pair);
-        if (!pair.is_edges()) ++list.first_edges;
+void DetectContacts<Real>::Near::clear() {
+    indices.clear();
+    for (int axis = 0; axis < 3; ++axis) {
+        lows[static_cast<std::size_t>(axis)].clear();
+        highs[static_cast<std::size_t>(axis)].clear();
     }
+}
+
+template <class Real>
+void DetectContacts<Real>::Near::add(std::uint32_t index, const AxisBox<Real>& box) {
+    indices.push_back(index);
+    for (int axis = 0; axis < 3; ++axis) {
+        lows[static_cast<std::size_t>(axis)].push_back(box.min[axis]);
+        highs[static_cast<std::size_t>(axis)].push_back(box.max[axis]);
+    }
+}
+
+// Without branches and in columns, which compilers turn into SIMD.
+template <class Real>
+void DetectContacts<Real>::Near::compare(const AxisBox<Real>& box) {
+    const std::size_t count = indices.size();
+    meet.resize(count);
+    const Real *low_x = lows[0].data(), *low_y = lows[1].data(), *low_z = lows[2].data();
+    const Real *high_x = highs[0].data(), *high_y = highs[1].data(), *high_z = highs[2].data();
+    std::uint8_t* const marks = meet.data();
+    for (std::size_t k = 0; k < count; ++k) {
+        marks[k] = static_cast<std::uint8_t>((low_x[k] <= box.max.x) & (box.min.x <= high_x[k]) &
+                                             (low_y[k] <= box.max.y) & (box.min.y <= high_y[k]) &
+                                             (low_z[k] <= box.max.z) & (box.min.z <= high_z[k]));
+    }
+}
+
+// The nodes and edges of each leaf of the trees search together, in ascending order. An edge looks for those
+// after it alone.
+template <class Real>
+void DetectContacts<Real>::find_pairs(std::span<const Vec4<Real>> positions, ContactList<Real>& list) {
+    const std::vector<FaceEdge>& edges = model_->surface_parts.edges;
+    for_each_index(0, edges.size(), 2048, [&](std::size_t e) {
+        AxisBox<Real> box;
+        for (const std::uint32_t n : {edges[e].a, edges[e].b}) box.add(Vec3<Real>(positions[n]), margin_);
+        edge_boxes_[e] = box;
+    });
+    const std::vector<std::uint32_t>& leaves = model_->face_trees.levels[0];  // in the order of their faces
+    tbb::parallel_for(std::size_t(0), found_.size(), [&](std::size_t task) {
+        Found& found = found_[task];
+        found.of_nodes.clear();
+        found.of_edges.clear();
+        const std::size_t end = std::min((task + 1) * kLeavesATask, leaves.size());
+        for (std::size_t k = task * kLeavesATask; k < end; ++k) search(leaves[k], positions, found);
+    });
+    list.pairs.clear();
+    for (const Found& found : found_)
+        list.pairs.insert(list.pairs.end(), found.of_nodes.begin(), found.of_nodes.end());
+    list.first_edges = list.pairs.size();
+    for (const Found& found : found_)
+        list.pairs.insert(list.pairs.end(), found.of_edges.begin(), found.of_edges.end());
+}
+
+template <class Real>
+void DetectContacts<Real>::search(std::uint32_t leaf, std::span<const Vec4<Real>> positions,
+                                  Found& found) const {
+    const TreeNode& faces = model_->face_trees.nodes[leaf];
+    const std::vector<glm::uvec2>& face_starts = model_->surface_parts.face_starts;
+    const glm::uvec2 first = face_starts[faces.first_item],
+                     end = face_starts[faces.first_item + faces.item_count];
+    if (first == end) return;
+    found.faces.clear();
+    found.edges.clear();
+    const Range row = collision_->row(model_->faces[faces.first_item].object);
+    for (std::uint32_t p = row.first; p < row.end(); ++p)
+        find_near(leaf, collision_->pairs()[p].other, found);
+    if (found.faces.indices.empty()) return;
+    for (std::uint32_t place = first.x; place < end.x; ++place) pair_node(place, positions, found);
+    keep_near(positions, found.waiting, found.of_nodes);
+    for (std::uint32_t edge = first.y; edge < end.y; ++edge) pair_edge(edge, found);
+    keep_near(positions, found.waiting, found.of_edges);
+}
+
+// What of another object is near a leaf.
+template <class Real>
+void DetectContacts<Real>::find_near(std::uint32_t leaf, std::uint32_t other, Found& found) const {
+    const BoxTree& trees = model_->face_trees;
+    const std::vector<glm::uvec2>& face_starts = model_->surface_parts.face_starts;
+    const AxisBox<Real> box = collision_->tree_boxes()[leaf];
+    for_leaves_near<Real>(trees, collision_->tree_boxes(), trees.roots[other], box, [&](std::uint32_t near) {
+        const std::uint32_t first = trees.nodes[near].first_item, end = first + trees.nodes[near].item_count;
+        for (std::uint32_t f = first; f < end; ++f) {
+            if (meet(box, collision_->face_boxes()[f])) found.faces.add(f, collision_->face_boxes()[f]);
+        }
+        for (std::uint32_t e = face_starts[first].y; e < face_starts[end].y; ++e) {
+            if (meet(box, edge_boxes_[e])) found.edges.add(e, edge_boxes_[e]);
+        }
+    });
+}
+
+template <class Real>
+void DetectContacts<Real>::pair_node(std::uint32_t place, std::span<const Vec4<Real>> positions,
+                                     Found& found) const {
+    const std::uint32_t node = model_->surface_parts.nodes[place];
+    AxisBox<Real> box;
+    box.add(Vec3<Real>(positions[node]), margin_);
+    found.faces.compare(box);
+    for (std::size_t k = 0; k < found.faces.indices.size(); ++k) {
+        if (found.faces.meet[k] == 0) continue;
+        const std::uint32_t f = found.faces.indices[k];
+        const Face& face = model_->faces[f];
+        found.waiting.push_back(
+            {{node, face.a, face.b, face.c}, {}, node, f, object_of_[node], face.object, 1});
+    }
+}
+
+template <class Real>
+void DetectContacts<Real>::pair_edge(std::uint32_t edge, Found& found) const {
+    const std::vector<FaceEdge>& edges = model_->surface_parts.edges;
+    const FaceEdge& first = edges[edge];
+    found.edges.compare(edge_boxes_[edge]);
+    for (std::size_t k = 0; k < found.edges.indices.size(); ++k) {
+        const std::uint32_t other = found.edges.indices[k];
+        if (found.edges.meet[k] == 0 || other < edge) continue;
+        const FaceEdge& second = edges[other];
+        found.waiting.push_back(
+            {{first.a, first.b, second.a, second.b}, {}, edge, other, first.object, second.object, 2});
+    }
+}
+
+template <class Real>
+void DetectContacts<Real>::keep_near(std::span<const Vec4<Real>> positions, std::vector<ContactPair>& waiting,
+                                     std::vector<ContactPair>& kept) const {
+    for (std::size_t first = 0; first < waiting.size(); first += kPairBlock) {
+        const auto block = std::span<const ContactPair>(waiting).subspan(
+            first, std::min(kPairBlock, waiting.size() - first));
+        MeasuredPairs<Real> measured;
+        measure_pairs(block, positions, measured);
+        for (std::size_t k = 0; k < block.size(); ++k) {
+            const double listed = kListedReach * surface_->reach(block[k].object, block[k].other);
+            // Against rounding a little more.
+            if (measured.gaps[k] < static_cast<Real>(listed) + measured.rounding[k]) kept.push_back(block[k]);
+        }
+    }
+    waiting.clear();
 }
 
 template <class Real>

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -7,7 +9,7 @@
 #include "cpu/collision/collision.h"
 #include "cpu/collision/object_tree.h"
 #include "cpu/contact/contact_list.h"
-#include "cpu/proximity/find_proximities.h"
+#include "cpu/contact/nearest_pairs.h"
 #include "model/contact/contact_surface.h"
 #include "model/model.h"
 
@@ -30,7 +32,28 @@ public:
 
 private:
     void find_islands(ContactList<Real>& list);
-    void list_pairs(ContactList<Real>& list) const;
+    // Faces or edges that a leaf may be near, in ascending order, and their boxes in columns.
+    struct Near {
+        std::vector<std::uint32_t> indices;
+        std::array<std::vector<Real>, 3> lows, highs;
+        std::vector<std::uint8_t> meet;  // those of them whose box meets that of a node or an edge
+
+        void clear();
+        void add(std::uint32_t index, const AxisBox<Real>& box);
+        void compare(const AxisBox<Real>& box);
+    };
+    // The pairs of a few leaves.
+    struct Found {
+        Near faces, edges;                                     // near the current leaf
+        std::vector<ContactPair> of_nodes, of_edges, waiting;  // waiting: to be measured
+    };
+    void find_pairs(std::span<const Vec4<Real>> positions, ContactList<Real>& list);
+    void search(std::uint32_t leaf, std::span<const Vec4<Real>> positions, Found& found) const;
+    void find_near(std::uint32_t leaf, std::uint32_t other, Found& found) const;
+    void pair_node(std::uint32_t place, std::span<const Vec4<Real>> positions, Found& found) const;
+    void pair_edge(std::uint32_t edge, Found& found) const;
+    void keep_near(std::span<const Vec4<Real>> positions, std::vector<ContactPair>& waiting,
+                   std::vector<ContactPair>& kept) const;
     void assign_slots(ContactList<Real>& list) const;
     void find_rooms(ContactList<Real>& list) const;
     Real distance_to_others(std::uint32_t leaf, Real most) const;
@@ -41,7 +64,9 @@ private:
     double listed_;                         // proximities are found up to here [m]
     double island_distance_ = 0.0;          // bodies farther apart than this are of different islands [m]
     std::unique_ptr<Collision<Real>> collision_;
-    FindProximities<Real> proximities_;
+    BoxMargin<Real> margin_;
+    std::vector<AxisBox<Real>> edge_boxes_;
+    std::vector<Found> found_;  // in the leaves' order
     ObjectTree<Real> object_tree_;
     std::vector<std::vector<std::uint32_t>> near_;  // objects of the same island that are near, ascending
 };
