@@ -192,8 +192,6 @@ void GuardedMove<Real>::find_blocked_pairs(const ContactList<Real>& list, const 
             return;
         }
     });
-    const auto is_out_of_way = [](const Course& course) { return course.is_always_free(); };
-    courses_.erase(std::remove_if(courses_.begin(), courses_.end(), is_out_of_way), courses_.end());
 }
 
 template <class Real>
@@ -235,11 +233,17 @@ void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
     for (int round = 0;; ++round) {
         bool is_blocked = false;
         next_parts_ = parts_;
-        for (const Course& course : courses_) {
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < courses_.size(); ++k) {
+            const Course course = courses_[k];
             const Real a = parts_[course.object], b = parts_[course.other];
-            if (a == Real(0) && b == Real(0)) continue;
             const Real end = course.gap(a, b);
-            if (end >= course.least) continue;
+            // Parts only fall, and a gap is concave in both: so it stays.
+            if (end >= course.least && course.gap(a, Real(0)) >= course.least &&
+                course.gap(Real(0), b) >= course.least)
+                continue;
+            courses_[kept++] = course;
+            if (end >= course.least || (a == Real(0) && b == Real(0))) continue;
             is_blocked = true;
             Real &part = next_parts_[course.object], &other_part = next_parts_[course.other];
             const Real here = course.gap(Real(0), Real(0));
@@ -256,6 +260,7 @@ void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
                 other_part = std::min(other_part, part_left(course.gap(a, Real(0)), end, course.least) * b);
             }
         }
+        courses_.resize(kept);
         std::swap(parts_, next_parts_);
         if (!is_blocked) return;
         // In a large island rounds could go on from object to object.

@@ -61,10 +61,6 @@ private:
         Real least;                            // gap that must be left [m]
         Real gap(Real part, Real other_part) const;
         bool is_free() const { return gap(Real(1), Real(1)) >= least; }
-        // Whatever parts both make: a gap is concave in both.
-        bool is_always_free() const {
-            return is_free() && gap(Real(1), Real(0)) >= least && gap(Real(0), Real(1)) >= least;
-        }
     };
 
     Course course_along(const ContactPair& pair, const PairAim<Real>& aim, const Vec3<Real>& normal,
