@@ -22,11 +22,11 @@ Model make_near_blocks(unsigned seed) {
     std::vector<Body> bodies;
     for (int k = 0; k < 3; ++k) {
         Body body = test::make_body(test::make_block({3, 2, 3}, {0.3, 0.2, 0.3}, 0.2, seed + unsigned(k)));
-        for (glm::dvec3& p : body.mesh.positions) p += glm::dvec3(0.01 * k, 0.24 * k, -0.02 * k);
+        for (glm::dvec3& p : body.mesh.positions) p += glm::dvec3(0.01 * k, 0.218 * k, -0.02 * k);
         bodies.push_back(std::move(body));
     }
     Model model = pack_bodies(bodies, {}, {0.0, 0.0, 0.0});
-    for (glm::vec4& p : model.positions) p += glm::vec4(glm::vec3(random.point(0.012)), 0.0f);
+    for (glm::vec4& p : model.positions) p += glm::vec4(glm::vec3(random.point(0.007)), 0.0f);
     return model;
 }
 
@@ -128,10 +128,13 @@ void expect_limits_hold() {
         test::RandomMaker random(seed);
         const auto before = contact.positions;
         double longest = 0.0;
-        for (int pass = 0; pass < 6; ++pass) {
+        for (int pass = 0; pass < 12; ++pass) {
             for (std::uint32_t n = 0; n < contact.positions.size(); ++n) {
                 const cpu::Vec3<Real> from(contact.positions[n]);
-                const cpu::Vec3<Real> to = from + cpu::Vec3<Real>(random.point(0.1));
+                cpu::Vec3<Real> to = from + cpu::Vec3<Real>(random.point(0.03));
+                // To the faces between the blocks, from both sides.
+                const bool is_lower = from.y < Real(0.209) || (from.y > Real(0.32) && from.y < Real(0.427));
+                to.y += Real(is_lower ? 0.03 : -0.03);
                 cpu::NodeTerms<Real> terms;
                 terms.hessian.add_identity(Real(1e12));  // contacts do not hold it
                 terms.force = Real(1e12) * (to - from);
@@ -152,6 +155,45 @@ void expect_limits_hold() {
 TEST(ContactAims, KeepsNodesApart) {
     expect_limits_hold<double>();
     expect_limits_hold<float>();
+}
+
+// A small block above a large one: both use what they may of the gap, which leaves what nobody may use.
+TEST(ContactAims, DividesTheGap) {
+    std::vector<Body> bodies{test::make_body(test::make_block({1, 1, 1}, {1, 1, 1})),
+                             test::make_body(test::make_block({1, 1, 1}, {0.2, 0.2, 0.2}))};
+    constexpr double kGap = 0.02;
+    for (glm::dvec3& p : bodies[1].mesh.positions) p += glm::dvec3(0.4, 1.0 + kGap, 0.3);
+    Contact<double> contact(pack_bodies(bodies, {}, {0.0, 0.0, 0.0}));
+    for (std::uint32_t n = 0; n < contact.positions.size(); ++n) {
+        const glm::dvec3 from(contact.positions[n]);
+        const double way = n < contact.model->objects[1].nodes.first ? 0.025 : -0.025;
+        cpu::NodeTerms<double> terms;
+        terms.hessian.add_identity(1e12);
+        terms.force.y = 1e12 * way;
+        const glm::dvec3 end =
+            contact.aims.nodes().limited(contact.list, n, from, from + glm::dvec3(0.0, way, 0.0), terms);
+        contact.positions[n] = glm::dvec4(end, contact.positions[n].w);
+    }
+    double top = 0.0, low = 2.0;
+    for (std::uint32_t n = 0; n < contact.positions.size(); ++n) {
+        const double y = contact.positions[n].y;
+        if (n < contact.model->objects[1].nodes.first) {
+            top = std::max(top, y);
+        } else {
+            low = std::min(low, y);
+        }
+    }
+    EXPECT_GT(top, 1.0);
+    EXPECT_LT(low, 1.0 + kGap);
+    EXPECT_NEAR(low - top, 0.05 * kGap + 0.95 * 0.02 * contact.surface->reach(0, 1), 1e-6);
+    EXPECT_EQ(test::count_overlaps(*contact.model, contact.positions), 0u);
+    // A move by what is left, and more, is seen, though the aim tells the whole gap.
+    auto ends = contact.positions;
+    for (std::uint32_t n = 0; n < ends.size(); ++n)
+        ends[n].y += n < contact.model->objects[1].nodes.first ? 0.0 : -0.004;
+    contact.guard.plan(contact.list, contact.aims, contact.positions, ends, cpu::Closeness::motion);
+    contact.guard.go(contact.list, ends, false, contact.positions);
+    EXPECT_EQ(test::count_overlaps(*contact.model, contact.positions), 0u);
 }
 
 // Bodies that fly through each other stop; what an island has in common it keeps, however far.
@@ -191,27 +233,6 @@ TEST(GuardedMove, DoesNotStopWhatFliesTogether) {
     contact.guard.go(contact.list, ends, false, contact.positions);
     for (std::size_t n = 0; n < ends.size(); ++n)
         EXPECT_LT(glm::distance(glm::vec3(ends[n]), glm::vec3(contact.positions[n])), 1e-6f);
-}
-
-// Pairs that were used up since they were aimed are seen, though the aim tells another gap.
-TEST(GuardedMove, SeesWhatHasMovedSinceTheAim) {
-    Contact<float> contact(make_near_blocks(2));
-    auto pressed = contact.positions;
-    for (std::uint32_t n = 0; n < pressed.size(); ++n) {  // the outer ones as near as they may come
-        const float y = 0.3f - pressed[n].y;
-        const glm::vec3 from(pressed[n]);
-        cpu::NodeTerms<float> terms;
-        terms.hessian.add_identity(1e5f);
-        pressed[n] = glm::vec4(contact.aims.nodes().limited(contact.list, n, from,
-                                                            from + glm::vec3(0.0f, 0.1f * y, 0.0f), terms),
-                               pressed[n].w);
-    }
-    contact.positions = pressed;
-    auto ends = pressed;
-    for (std::uint32_t n = 0; n < ends.size(); ++n) ends[n].y += 0.05f * (0.3f - ends[n].y);
-    contact.guard.plan(contact.list, contact.aims, contact.positions, ends, cpu::Closeness::motion);
-    contact.guard.go(contact.list, ends, false, contact.positions);
-    EXPECT_EQ(test::count_overlaps(*contact.model, contact.positions), 0u);
 }
 
 }  // namespace
