@@ -1,6 +1,6 @@
 // The nearest points of a node and a face, or of two edges, for any scalar; see contact_law.inl. Without
-// branches. As in cpu/collision/nearest_points.h, directions come from normals and from residuals along edges,
-// so that they are accurate however short they are; results may differ by rounding from those there.
+// branches. As in cpu/collision/nearest_points.h, directions come from normals and from residuals along
+// edges, so that they are accurate however short they are; results may differ by rounding from those there.
 
 template <class Real>
 Real smaller(Real a, Real b) {
@@ -20,14 +20,20 @@ struct NearestPair {
     Real squared;  ///< |apart|^2
 
     NearestPair(Real w0, Real w1, Real w2, Real w3, const Vec3<Real>& between)
-        : weight_0(w0), weight_1(w1), weight_2(w2), weight_3(w3), apart(between), squared(dot(between, between)) {}
+        : weight_0(w0),
+          weight_1(w1),
+          weight_2(w2),
+          weight_3(w3),
+          apart(between),
+          squared(dot(between, between)) {}
 };
 
 template <class Mask, class Real>
 NearestPair<Real> choose(Mask condition, const NearestPair<Real>& a, const NearestPair<Real>& b) {
-    return NearestPair<Real>(select(condition, a.weight_0, b.weight_0), select(condition, a.weight_1, b.weight_1),
-                             select(condition, a.weight_2, b.weight_2), select(condition, a.weight_3, b.weight_3),
-                             choose(condition, a.apart, b.apart));
+    return NearestPair<Real>(select(condition, a.weight_0, b.weight_0),
+                             select(condition, a.weight_1, b.weight_1),
+                             select(condition, a.weight_2, b.weight_2),
+                             select(condition, a.weight_3, b.weight_3), choose(condition, a.apart, b.apart));
 }
 
 template <class Real>
@@ -100,9 +106,8 @@ NearestPair<Real> nearest_of_edges(const Vec3<Real>& a, const Vec3<Real>& b, con
 
     const Vec3<Real> u = b - a, v = d - c, w = c - a, normal = cross(u, v);
     const Real size = dot(normal, normal), s = dot(cross(w, v), normal), t = dot(cross(w, u), normal);
-    const Real inside =
-        sound_inside(size, parallel_bound(dot(u, u), dot(v, v)),
-                     smaller(smaller(s, size - s), smaller(t, size - t)));
+    const Real inside = sound_inside(size, parallel_bound(dot(u, u), dot(v, v)),
+                                     smaller(smaller(s, size - s), smaller(t, size - t)));
     const Real inverse = select(inside > none, one / size, none);
     const NearestPair<Real> within(one - s * inverse, s * inverse, one - t * inverse, t * inverse,
                                    (dot(w, normal) * inverse) * normal);
