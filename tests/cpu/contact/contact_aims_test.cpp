@@ -161,7 +161,7 @@ TEST(ContactAims, KeepsNodesApart) {
 TEST(ContactAims, DividesTheGap) {
     std::vector<Body> bodies{test::make_body(test::make_block({1, 1, 1}, {1, 1, 1})),
                              test::make_body(test::make_block({1, 1, 1}, {0.2, 0.2, 0.2}))};
-    constexpr double kGap = 0.02;
+    constexpr double kGap = 0.01;
     for (glm::dvec3& p : bodies[1].mesh.positions) p += glm::dvec3(0.4, 1.0 + kGap, 0.3);
     Contact<double> contact(pack_bodies(bodies, {}, {0.0, 0.0, 0.0}));
     for (std::uint32_t n = 0; n < contact.positions.size(); ++n) {
