@@ -35,12 +35,11 @@ struct PairAim {
     Real yielding;  ///< stiffness of the nodes by inertia alone, over that of them all, in (0, 1]
 };
 
-/// Aims the pairs of a list (docs/contact.md). To aim a pair
-/// means to freeze the direction between its nearest points, and to divide the gap between its sides by a
-/// plane. Until the next aim, each node has a half space of its own for each of its pairs and a convex term
-/// (ContactShare) which depends on nothing but the node's own position: NodeContacts. So nodes move at once
-/// without looking at others, and while each keeps to its half spaces and its room, no face passes through
-/// another.
+/// Aims the pairs of a list (docs/contact.md). To aim a pair means to freeze the direction between its
+/// nearest points, and to divide the gap between its sides by a plane. Until the next aim, each node has a
+/// half space of its own for each of its pairs and a convex term (ContactShare) which depends on nothing but
+/// the node's own position: NodeContacts. So nodes move at once without looking at others, and while each
+/// keeps to its half spaces and its room, no face passes through another.
 template <class Real>
 class ContactAims {
 public:

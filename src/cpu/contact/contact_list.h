@@ -13,7 +13,7 @@ namespace gelatin::cpu {
 struct ContactPair {
     std::array<std::uint32_t, 4> nodes;
     std::array<std::uint32_t, 4> slots;  ///< where each node has what it knows of the pair (ContactAims)
-    std::uint32_t first, second;         ///< as Proximity has them
+    std::uint32_t first, second;         ///< node and face, or edges
     std::uint32_t object, other;         ///< of the sides
     std::uint32_t first_count;           ///< nodes of the first side: 1, or 2 for edges
 
@@ -29,7 +29,6 @@ struct ContactList {
     std::vector<ContactPair> pairs;         ///< nodes and faces, then edges; each once
     std::size_t first_edges = 0;            ///< the first pair of edges
     std::vector<std::uint32_t> row_starts;  ///< of the slots of each surface node, shape [surface nodes + 1]
-    std::vector<std::uint32_t> slot_pairs;  ///< 4 times the pair, plus the node's index in it
     std::vector<Vec3<Real>> found_at;       ///< [m], shape [surface nodes]
     std::vector<Real> rooms;                ///< radius [m], the same shape
     std::vector<std::uint32_t> islands;     ///< of each object
@@ -40,7 +39,11 @@ struct ContactList {
 
     void clear() { *this = {}; }
     bool is_alone_at(std::size_t object) const { return is_alone[islands[object]] != 0; }
-    bool has_pairs(std::uint32_t place) const { return row_starts[place + 1] > row_starts[place]; }
+    std::size_t slot_count() const { return row_starts.back(); }
+    /// How far a surface node of an object is from the middle of its room [m].
+    Vec3<Real> moved(std::uint32_t place, std::uint32_t object, const Vec3<Real>& position) const {
+        return position - found_at[place] - shifts[islands[object]];
+    }
 };
 
 }  // namespace gelatin::cpu

@@ -113,8 +113,8 @@ Real Contacts<Real>::used_room(std::span<const Vec4<Real>> positions) const {
     const std::vector<std::uint32_t>& nodes = model_->surface_parts.nodes;
     Real most = 0;
     for (std::size_t s = 0; s < nodes.size(); ++s) {
-        const Vec3<Real> moved = Vec3<Real>(positions[nodes[s]]) - list_.found_at[s] -
-                                 list_.shifts[list_.islands[object_of_[nodes[s]]]];
+        const Vec3<Real> moved =
+            list_.moved(static_cast<std::uint32_t>(s), object_of_[nodes[s]], Vec3<Real>(positions[nodes[s]]));
         most = std::max(most, glm::dot(moved, moved) / (list_.rooms[s] * list_.rooms[s]));
     }
     return std::sqrt(most);

@@ -46,7 +46,7 @@ public:
     const ContactAims<Real>& aims() const { return aims_; }
     bool is_held(std::size_t object) const { return guard_.is_held(object); }
 
-    /// Whether a node presses another body, or has before: it has terms.
+    /// Whether contacts add terms to a node.
     bool presses(std::uint32_t node) const { return aims_.nodes().presses(node); }
     void add(std::uint32_t node, const Vec3<Real>& position, NodeTerms<Real>& terms) const {
         aims_.nodes().add(node, position, terms);

@@ -260,14 +260,8 @@ void DetectContacts<Real>::assign_slots(ContactList<Real>& list) const {
         for (const std::uint32_t n : pair.nodes) ++list.row_starts[places[n]];
     std::exclusive_scan(list.row_starts.begin(), list.row_starts.end(), list.row_starts.begin(), 0u);
     std::vector<std::uint32_t> next(list.row_starts.begin(), list.row_starts.end() - 1);
-    list.slot_pairs.resize(list.row_starts.back());
-    for (std::uint32_t p = 0; p < list.pairs.size(); ++p) {
-        for (std::uint32_t k = 0; k < 4; ++k) {
-            const std::uint32_t slot = next[places[list.pairs[p].nodes[k]]]++;
-            list.pairs[p].slots[k] = slot;
-            list.slot_pairs[slot] = 4 * p + k;
-        }
-    }
+    for (ContactPair& pair : list.pairs)
+        for (std::size_t k = 0; k < 4; ++k) pair.slots[k] = next[places[pair.nodes[k]]]++;
 }
 
 // What is not listed is farther apart than the pair's listed distance, and, if nothing of a leaf is near any

@@ -146,7 +146,7 @@ bool GuardedMove<Real>::keep_to_rooms(const ContactList<Real>& list, const Conta
             if (place == kNoNode) continue;
             const Vec3<Real> position(positions[n]);
             const Vec3<Real> motion = Vec3<Real>(ends[n]) - position - common_[island];
-            const Vec3<Real> moved = position - list.found_at[place] - list.shifts[island];
+            const Vec3<Real> moved = list.moved(place, static_cast<std::uint32_t>(o), position);
             part = std::min(part, part_within(moved, motion, list.rooms[place]));
             const Real gone = glm::length(position - aims.nodes().aimed_at()[place]);
             farthest = std::max(farthest, gone + glm::length(motion));

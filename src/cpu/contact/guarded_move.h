@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -24,7 +26,7 @@ enum class Closeness {
 template <class Real>
 class GuardedMove {
 public:
-    explicit GuardedMove(std::shared_ptr<const Model> model, std::vector<std::uint32_t> places);
+    GuardedMove(std::shared_ptr<const Model> model, std::vector<std::uint32_t> places);
 
     /// To be called when a step begins. @param positions tell by their inverse masses which nodes are held
     void begin(std::span<const Vec4<Real>> positions);

@@ -35,8 +35,8 @@ NodeContacts<Real>::NodeContacts(std::shared_ptr<const Model> model,
 
 template <class Real>
 void NodeContacts<Real>::resize(const ContactList<Real>& list) {
-    planes_.resize(list.slot_pairs.size());
-    shares_.resize(list.slot_pairs.size());
+    planes_.resize(list.slot_count());
+    shares_.resize(list.slot_count());
 }
 
 template <class Real>
@@ -64,7 +64,7 @@ void NodeContacts<Real>::select(const ContactList<Real>& list, std::uint32_t pla
                                 const Vec3<Real>& position) {
     const std::uint32_t first = list.row_starts[place], end = list.row_starts[place + 1];
     const std::uint32_t object = object_of_[model_->surface_parts.nodes[place]];
-    const Vec3<Real> moved = position - list.found_at[place] - list.shifts[list.islands[object]];
+    const Vec3<Real> moved = list.moved(place, object, position);
     std::uint32_t planes = first, shares = first;
     std::uint8_t is_stuck = 0;
     for (std::uint32_t k = first; k < end; ++k) {
@@ -105,7 +105,7 @@ Vec3<Real> NodeContacts<Real>::limited(const ContactList<Real>& list, std::uint3
     if (is_stuck_[place] != 0) return from;
     const Vec3<Real> displacement = from - aimed_at_[place];
     Vec3<Real> motion = kept_to_planes(planes_of(place), displacement, to - from);
-    const Vec3<Real> moved = from - list.found_at[place] - list.shifts[list.islands[object_of_[node]]];
+    const Vec3<Real> moved = list.moved(place, object_of_[node], from);
     const Real part = part_within(moved, motion, list.rooms[place]);
     if (!(part == Real(1))) motion *= part;
     if (share_counts_[place] > 0) motion *= least_along(shares_of(place), displacement, motion, all);
@@ -200,7 +200,7 @@ Real NodeContacts<Real>::allowed_part(const ContactList<Real>& list, const Range
             const Real head = std::max(plane.head - glm::dot(plane.towards, before), Real(0));
             if (!(part * along <= head)) part = along > Real(0) ? head / along : Real(0);
         }
-        const Vec3<Real> moved = position - list.found_at[place] - list.shifts[list.islands[object_of_[n]]];
+        const Vec3<Real> moved = list.moved(place, object_of_[n], position);
         part *= part_within(moved, part * displacements[n], list.rooms[place]);
     }
     return part;

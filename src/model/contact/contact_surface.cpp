@@ -75,11 +75,12 @@ void add_tets(const Model& model, std::vector<double>& traces) {
     for (const NeoHookeanTet& tet : model.neo_hookean_tets) {
         const auto volume = static_cast<double>(tet.gradient_1.w), mu = static_cast<double>(tet.gradient_2.w),
                    lambda = static_cast<double>(tet.gradient_3.w);
+        const double lame_mu = 0.75 * mu, lame_lambda = lambda - 5.0 / 6.0 * lame_mu;  // neo_hookean_moduli
         const std::array<glm::dvec3, 4> gradients = shape_gradients(tet);
         const glm::uvec4 nodes = nodes_of(tet);
         for (int k = 0; k < 4; ++k) {
             const glm::dvec3& g = gradients[static_cast<std::size_t>(k)];
-            traces[nodes[k]] += volume * (4.0 * mu + lambda) * glm::dot(g, g);
+            traces[nodes[k]] += volume * (4.0 * lame_mu + lame_lambda) * glm::dot(g, g);
         }
     }
     if (model.volume_term.is_empty()) return;
