@@ -14,25 +14,12 @@
 
 namespace gelatin::cpu {
 
-/// How two surfaces hold each other by friction.
-template <class Real>
-struct Grip {
-    Vec3<Real> held{0};  ///< on the first side when the step began [N], minus that on the second
-    Vec3<Real> from{0};  ///< slip since then at which they came to press each other [m]
-    bool grips = false;  ///< whether they have pressed each other
-};
-
-/// A pair where it was aimed last.
+/// Where the sides of a pair were nearest when it was aimed last.
 template <class Real>
 struct PairAim {
-    Vec3<Real> normal;   ///< from the first side to the second, unit
-    Real gap;            ///< between the nearest points [m]
-    Vec4<Real> weights;  ///< of the pair's nodes in them; each side's add up to 1
-    Real reach;          ///< gap at which it begins to press [m]
-    Real stiffness;      ///< [N/m]; 0: it presses nowhere
-    Real share;          ///< the part of the gap that the first side may use
-    Grip<Real> grip;
-    Real yielding;  ///< stiffness of the nodes by inertia alone, over that of them all, in (0, 1]
+    Vec3<Real> normal;  ///< from the first side to the second, unit
+    Real gap;           ///< [m]
+    Real yielding;      ///< stiffness of the nodes by inertia alone, over that of them all, in (0, 1]
 };
 
 /// Aims the pairs of a list (docs/contact.md). To aim a pair means to freeze the direction between its
@@ -62,27 +49,35 @@ public:
     void end(const ContactList<Real>& list, std::span<const Vec4<Real>> positions);
 
     const std::vector<PairAim<Real>>& aims() const { return aims_; }  ///< in the order of the list's pairs
+    const std::vector<Press<Real>>& presses() const { return presses_; }  ///< in the order of their pairs
     Real friction() const { return friction_; }
+    /// Gap at which a pair begins to press [m].
+    Real reach(const ContactPair& pair) const {
+        return static_cast<Real>(surface_->reach(pair.object, pair.other));
+    }
     const NodeContacts<Real>& nodes() const { return nodes_; }
 
     /// The gap between the points that were nearest at the aim, along its normal [m].
-    Real gap(const ContactPair& pair, const PairAim<Real>& aim, std::span<const Vec4<Real>> positions) const;
+    Real gap(const ContactPair& pair, const Press<Real>& press, std::span<const Vec4<Real>> positions) const;
     /// What would hold the first side there, if nothing slid [N].
-    Vec3<Real> hold(const ContactPair& pair, const PairAim<Real>& aim,
+    Vec3<Real> hold(const ContactPair& pair, const Press<Real>& press,
                     std::span<const Vec4<Real>> positions) const;
     /// The most that friction may be at a gap [N].
-    Real limit(Real gap, const PairAim<Real>& aim) const {
-        return friction_ * contact_force(gap, aim.reach, aim.stiffness);
+    Real limit(Real gap, const Press<Real>& press) const {
+        return friction_ * contact_force(gap, press.reach, press.stiffness);
     }
 
 private:
-    void aim_block(const ContactList<Real>& list, const Range& pairs, std::span<const Vec4<Real>> positions);
-    void share_stiffness(const ContactPair& pair, PairAim<Real>& aim) const;
+    // How a pair's sides share what there is.
+    struct Division {
+        Real stiffness, share, yielding;  // as of Press and PairAim
+    };
+    void aim_block(const ContactList<Real>& list, const Range& pairs, std::span<const Vec4<Real>> positions,
+                   std::vector<Press<Real>>& presses);
+    Division divide(const ContactPair& pair, const Vec4<Real>& weights) const;
     void divide_gap(const ContactPair& pair, const MeasuredPairs<Real>& measured, std::size_t column,
-                    const PairAim<Real>& aim);
-    void write_shares(const ContactPair& pair, const PairAim<Real>& aim,
-                      std::span<const Vec4<Real>> positions);
-    Vec3<Real> slip(const ContactPair& pair, const PairAim<Real>& aim,
+                    const Vec3<Real>& normal, Real reach, Real share);
+    Vec3<Real> slip(const ContactPair& pair, const Press<Real>& press,
                     std::span<const Vec4<Real>> positions) const;
 
     std::shared_ptr<const Model> model_;
@@ -92,7 +87,9 @@ private:
     // Of each node, 0 where it is held [m/N]: how it yields to a force, and would by inertia alone.
     std::vector<Real> softness_, lightness_;
     std::vector<PairAim<Real>> aims_;
-    std::vector<Grip<Real>> grips_;  // by pair
+    std::vector<Press<Real>> presses_;
+    std::vector<std::vector<Press<Real>>> found_;  // of each task, in the order of the pairs
+    std::vector<Grip<Real>> grips_;                // by pair
     NodeContacts<Real> nodes_;
 };
 

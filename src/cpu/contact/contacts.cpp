@@ -85,10 +85,9 @@ void Contacts<Real>::end(std::span<const Vec4<Real>> positions) {
     aims_.end(list_, positions);
     safe_.assign(positions.begin(), positions.end());
     std::fill(is_pressed_.begin(), is_pressed_.end(), std::uint8_t(0));
-    for (std::size_t p = 0; p < list_.pairs.size(); ++p) {
-        const ContactPair& pair = list_.pairs[p];
-        const PairAim<Real>& aim = aims_.aims()[p];
-        if (aim.stiffness > Real(0) && aims_.gap(pair, aim, positions) < aim.reach)
+    for (const Press<Real>& press : aims_.presses()) {
+        const ContactPair& pair = list_.pairs[press.pair];
+        if (aims_.gap(pair, press, positions) < press.reach)
             is_pressed_[pair.object] = is_pressed_[pair.other] = 1;
     }
 }

@@ -45,6 +45,7 @@ DetectContacts<Real>::DetectContacts(std::shared_ptr<const Model> model,
                                                    BoxMargin<Real>::for_distance(listed_))),
       margin_(BoxMargin<Real>::for_distance(listed_)),
       edge_boxes_(model_->surface_parts.edges.size()),
+      distances_(model_->face_trees.nodes.size()),
       found_((model_->face_trees.levels[0].size() + kLeavesATask - 1) / kLeavesATask),
       object_tree_(static_cast<std::uint32_t>(model_->objects.size())),
       near_(model_->objects.size()) {}
@@ -57,9 +58,9 @@ void DetectContacts<Real>::run(std::span<const Vec4<Real>> positions, double lon
     collision_->update_boxes(positions);
     collision_->find_object_pairs();
     find_islands(list);
+    find_rooms(list);
     find_pairs(positions, list);
     assign_slots(list);
-    find_rooms(list);
     const std::vector<std::uint32_t>& nodes = model_->surface_parts.nodes;
     list.found_at.resize(nodes.size());
     for (std::size_t s = 0; s < nodes.size(); ++s) list.found_at[s] = Vec3<Real>(positions[nodes[s]]);
@@ -142,17 +143,12 @@ void DetectContacts<Real>::Near::compare(const AxisBox<Real>& box) {
     }
 }
 
-// The nodes and edges of each leaf of the trees search together, in ascending order. An edge looks for those
-// after it alone.
+// The nodes and edges of each leaf of the trees that is near another body search together, in ascending
+// order. An edge looks for those after it alone.
 template <class Real>
 void DetectContacts<Real>::find_pairs(std::span<const Vec4<Real>> positions, ContactList<Real>& list) {
-    const std::vector<FaceEdge>& edges = model_->surface_parts.edges;
-    for_each_index(0, edges.size(), 2048, [&](std::size_t e) {
-        AxisBox<Real> box;
-        for (const std::uint32_t n : {edges[e].a, edges[e].b}) box.add(Vec3<Real>(positions[n]), margin_);
-        edge_boxes_[e] = box;
-    });
     const std::vector<std::uint32_t>& leaves = model_->face_trees.levels[0];  // in the order of their faces
+    for_each_index(0, leaves.size(), 64, [&](std::size_t k) { find_edge_boxes(leaves[k], positions); });
     tbb::parallel_for(std::size_t(0), found_.size(), [&](std::size_t task) {
         Found& found = found_[task];
         found.of_nodes.clear();
@@ -169,8 +165,23 @@ void DetectContacts<Real>::find_pairs(std::span<const Vec4<Real>> positions, Con
 }
 
 template <class Real>
+void DetectContacts<Real>::find_edge_boxes(std::uint32_t leaf, std::span<const Vec4<Real>> positions) {
+    if (distances_[leaf] > Real(0)) return;
+    const TreeNode& faces = model_->face_trees.nodes[leaf];
+    const std::vector<glm::uvec2>& face_starts = model_->surface_parts.face_starts;
+    const std::uint32_t end = face_starts[faces.first_item + faces.item_count].y;
+    for (std::uint32_t e = face_starts[faces.first_item].y; e < end; ++e) {
+        const FaceEdge& edge = model_->surface_parts.edges[e];
+        AxisBox<Real> box;
+        for (const std::uint32_t n : {edge.a, edge.b}) box.add(Vec3<Real>(positions[n]), margin_);
+        edge_boxes_[e] = box;
+    }
+}
+
+template <class Real>
 void DetectContacts<Real>::search(std::uint32_t leaf, std::span<const Vec4<Real>> positions,
                                   Found& found) const {
+    if (distances_[leaf] > Real(0)) return;
     const TreeNode& faces = model_->face_trees.nodes[leaf];
     const std::vector<glm::uvec2>& face_starts = model_->surface_parts.face_starts;
     const glm::uvec2 first = face_starts[faces.first_item],
@@ -194,11 +205,13 @@ void DetectContacts<Real>::find_near(std::uint32_t leaf, std::uint32_t other, Fo
     const BoxTree& trees = model_->face_trees;
     const std::vector<glm::uvec2>& face_starts = model_->surface_parts.face_starts;
     const AxisBox<Real> box = collision_->tree_boxes()[leaf];
+    const bool is_after = other > model_->faces[trees.nodes[leaf].first_item].object;
     for_leaves_near<Real>(trees, collision_->tree_boxes(), trees.roots[other], box, [&](std::uint32_t near) {
         const std::uint32_t first = trees.nodes[near].first_item, end = first + trees.nodes[near].item_count;
         for (std::uint32_t f = first; f < end; ++f) {
             if (meet(box, collision_->face_boxes()[f])) found.faces.add(f, collision_->face_boxes()[f]);
         }
+        if (!is_after) return;
         for (std::uint32_t e = face_starts[first].y; e < face_starts[end].y; ++e) {
             if (meet(box, edge_boxes_[e])) found.edges.add(e, edge_boxes_[e]);
         }
@@ -228,7 +241,7 @@ void DetectContacts<Real>::pair_edge(std::uint32_t edge, Found& found) const {
     found.edges.compare(edge_boxes_[edge]);
     for (std::size_t k = 0; k < found.edges.indices.size(); ++k) {
         const std::uint32_t other = found.edges.indices[k];
-        if (found.edges.meet[k] == 0 || other < edge) continue;
+        if (found.edges.meet[k] == 0) continue;
         const FaceEdge& second = edges[other];
         found.waiting.push_back(
             {{first.a, first.b, second.a, second.b}, {}, edge, other, first.object, second.object, 2});
@@ -268,47 +281,70 @@ void DetectContacts<Real>::assign_slots(ContactList<Real>& list) const {
 // other body's leaf, than that and the distance between the leaves' boxes, which have the margin. Each node
 // may use its part of both, less the reach.
 template <class Real>
-void DetectContacts<Real>::find_rooms(ContactList<Real>& list) const {
+void DetectContacts<Real>::find_rooms(ContactList<Real>& list) {
     const BoxTree& trees = model_->face_trees;
-    const std::vector<std::uint32_t>& leaves = trees.levels[0];
     const auto most = static_cast<Real>(kSearched * island_distance_);
-    std::vector<Real> distances(leaves.size());
-    for_each_index(0, leaves.size(), 64,
-                   [&](std::size_t k) { distances[k] = distance_to_others(leaves[k], most); });
     list.rooms.assign(model_->surface_parts.nodes.size(), most);
-    for (std::size_t k = 0; k < leaves.size(); ++k) {
-        const TreeNode& leaf = trees.nodes[leaves[k]];
-        for (std::uint32_t f = leaf.first_item; f < leaf.first_item + leaf.item_count; ++f) {
-            const Face& face = model_->faces[f];
-            for (const std::uint32_t n : {face.a, face.b, face.c}) {
-                Real& room = list.rooms[surface_->places[n]];
-                room = std::min(room, distances[k]);
+    tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
+        find_distances(static_cast<std::uint32_t>(o), most);
+        const auto besides = static_cast<Real>(2.0 * (kListedReach - 1.0) * surface_->thicknesses[o]);
+        const std::uint32_t root = trees.roots[o], end = trees.nodes[root].skip;
+        for (std::uint32_t n = root; n < end; ++n) {
+            const TreeNode& leaf = trees.nodes[n];
+            for (std::uint32_t f = leaf.first_item; f < leaf.first_item + leaf.item_count; ++f) {
+                const Face& face = model_->faces[f];
+                for (const std::uint32_t corner : {face.a, face.b, face.c}) {
+                    Real& room = list.rooms[surface_->places[corner]];
+                    room = std::min(room, static_cast<Real>(kRoom) * (distances_[n] + besides));
+                }
             }
         }
-    }
-    for (std::size_t s = 0; s < list.rooms.size(); ++s) {
-        const double thickness = surface_->thicknesses[object_of_[model_->surface_parts.nodes[s]]];
-        list.rooms[s] = static_cast<Real>(kRoom) * list.rooms[s] +
-                        static_cast<Real>(2.0 * kRoom * (kListedReach - 1.0) * thickness);
+    });
+}
+
+// Of each leaf of an object. What is far enough away for its size shares one.
+template <class Real>
+void DetectContacts<Real>::find_distances(std::uint32_t object, Real most) {
+    const BoxTree& trees = model_->face_trees;
+    const std::uint32_t root = trees.roots[object], end = trees.nodes[root].skip;
+    Nearest nearest{most * most, kNoNode};
+    for (std::uint32_t n = root; n < end;) {
+        const AxisBox<Real>& box = collision_->tree_boxes()[n];
+        const Vec3<Real> size = box.max - box.min;
+        const bool is_leaf = trees.nodes[n].item_count > 0;
+        const Real enough = is_leaf ? Real(0) : glm::dot(size, size);
+        find_nearest(object, box, most * most, enough, nearest);
+        if (!is_leaf && !(nearest.squared > enough)) {
+            ++n;
+            continue;
+        }
+        const std::uint32_t next = trees.nodes[n].skip;
+        std::fill(distances_.begin() + n, distances_.begin() + next, std::sqrt(nearest.squared));
+        n = next;
     }
 }
 
-// From the box of a leaf to the nearest leaf of another body [m].
+// From a box of an object to the nearest leaf of another one, up to `most`, or to any that is as near as
+// `enough`. @param nearest input: of a box beside this one, which is tried first
 template <class Real>
-Real DetectContacts<Real>::distance_to_others(std::uint32_t leaf, Real most) const {
+void DetectContacts<Real>::find_nearest(std::uint32_t object, const AxisBox<Real>& box, Real most,
+                                        Real enough, Nearest& nearest) const {
     const BoxTree& trees = model_->face_trees;
     const std::vector<AxisBox<Real>>& boxes = collision_->tree_boxes();
-    Real least = most * most;
-    for (const std::uint32_t other : near_[model_->faces[trees.nodes[leaf].first_item].object]) {
+    const auto look_at = [&](std::uint32_t leaf, Real squared) {
+        if (squared < nearest.squared) nearest = {squared, leaf};
+    };
+    nearest.squared = most;
+    if (nearest.leaf != kNoNode) look_at(nearest.leaf, squared_distance(box, boxes[nearest.leaf]));
+    for (const std::uint32_t other : near_[object]) {
         const std::uint32_t end = trees.nodes[trees.roots[other]].skip;
-        for (std::uint32_t n = trees.roots[other]; n < end && least > Real(0);) {
-            const Real squared = squared_distance(boxes[leaf], boxes[n]);
-            const bool is_near = squared < least;
-            if (is_near && trees.nodes[n].item_count > 0) least = squared;
+        for (std::uint32_t n = trees.roots[other]; n < end && nearest.squared > enough;) {
+            const Real squared = squared_distance(box, boxes[n]);
+            const bool is_near = squared < nearest.squared;
+            if (trees.nodes[n].item_count > 0) look_at(n, squared);
             n = is_near ? n + 1 : trees.nodes[n].skip;
         }
     }
-    return std::sqrt(least);
 }
 
 template class DetectContacts<float>;

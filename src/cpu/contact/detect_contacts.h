@@ -48,6 +48,7 @@ private:
         std::vector<ContactPair> of_nodes, of_edges, waiting;  // waiting: to be measured
     };
     void find_pairs(std::span<const Vec4<Real>> positions, ContactList<Real>& list);
+    void find_edge_boxes(std::uint32_t leaf, std::span<const Vec4<Real>> positions);
     void search(std::uint32_t leaf, std::span<const Vec4<Real>> positions, Found& found) const;
     void find_near(std::uint32_t leaf, std::uint32_t other, Found& found) const;
     void pair_node(std::uint32_t place, std::span<const Vec4<Real>> positions, Found& found) const;
@@ -55,8 +56,14 @@ private:
     void keep_near(std::span<const Vec4<Real>> positions, std::vector<ContactPair>& waiting,
                    std::vector<ContactPair>& kept) const;
     void assign_slots(ContactList<Real>& list) const;
-    void find_rooms(ContactList<Real>& list) const;
-    Real distance_to_others(std::uint32_t leaf, Real most) const;
+    void find_rooms(ContactList<Real>& list);
+    void find_distances(std::uint32_t object, Real most);
+    struct Nearest {
+        Real squared;        // distance [m^2]
+        std::uint32_t leaf;  // of another object, or kNoNode
+    };
+    void find_nearest(std::uint32_t object, const AxisBox<Real>& box, Real most, Real enough,
+                      Nearest& nearest) const;
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
@@ -65,7 +72,9 @@ private:
     double island_distance_ = 0.0;          // bodies farther apart than this are of different islands [m]
     std::unique_ptr<Collision<Real>> collision_;
     BoxMargin<Real> margin_;
-    std::vector<AxisBox<Real>> edge_boxes_;
+    std::vector<AxisBox<Real>> edge_boxes_;  // of leaves that are near others
+    // From leaves to what is nearest of other bodies [m], shape [nodes of all trees].
+    std::vector<Real> distances_;
     std::vector<Found> found_;  // in the leaves' order
     ObjectTree<Real> object_tree_;
     std::vector<std::vector<std::uint32_t>> near_;  // objects of the same island that are near, ascending

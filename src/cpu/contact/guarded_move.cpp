@@ -20,8 +20,7 @@ constexpr double kSeparated = 0.05;
 
 // Stiff contacts are not entered by a guess: it would bring energy into them that the bodies do not have.
 template <class Real>
-Real least_gap(const PairAim<Real>& aim, Real gap, Closeness closeness) {
-    const Real reach = aim.reach;
+Real least_gap(const PairAim<Real>& aim, Real reach, Real gap, Closeness closeness) {
     if (closeness == Closeness::motion) return std::max(Real(0.1f) * gap, std::min(gap, Real(0.05f) * reach));
     const Real nearest = (Real(1) - Real(0.5f) * aim.yielding) * std::min(gap, reach);
     return std::max(nearest, std::min(gap, Real(0.1f) * reach));
@@ -62,7 +61,7 @@ GuardedMove<Real>::GuardedMove(std::shared_ptr<const Model> model, std::vector<s
       masses_(model_->objects.size()),
       is_held_(model_->objects.size()),
       means_(model_->objects.size()),
-      farthest_(model_->objects.size()),
+      ways_(model_->node_count()),
       parts_(model_->objects.size()) {
     for (std::size_t o = 0; o < masses_.size(); ++o) {
         const Range& nodes = model_->objects[o].nodes;
@@ -86,10 +85,15 @@ bool GuardedMove<Real>::plan(const ContactList<Real>& list, const ContactAims<Re
                              Closeness closeness) {
     find_common_motions(list, positions, ends);
     const bool may_shift = limit_common_motions(list);
-    const bool have_room = keep_to_rooms(list, aims, positions, ends);
+    keep_to_rooms(list, aims, positions, ends);
+    room_parts_ = parts_;
     find_blocked_pairs(list, aims, positions, ends, closeness);
     keep_pairs_apart(list);
-    return may_shift && have_room;
+    // Where other bodies are in the way, more room would not help.
+    const auto needs_room = [&](std::size_t o) { return parts_[o] < Real(1) && parts_[o] == room_parts_[o]; };
+    for (std::size_t o = 0; o < parts_.size(); ++o)
+        if (needs_room(o)) return false;
+    return may_shift;
 }
 
 // The mean by mass over the objects of an island; none of one in which anything is held.
@@ -134,13 +138,13 @@ bool GuardedMove<Real>::limit_common_motions(const ContactList<Real>& list) {
 }
 
 template <class Real>
-bool GuardedMove<Real>::keep_to_rooms(const ContactList<Real>& list, const ContactAims<Real>& aims,
+void GuardedMove<Real>::keep_to_rooms(const ContactList<Real>& list, const ContactAims<Real>& aims,
                                       std::span<const Vec4<Real>> positions,
                                       std::span<const Vec4<Real>> ends) {
     tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
         const std::uint32_t island = list.islands[o];
         const Range& nodes = model_->objects[o].nodes;
-        Real part = 1, farthest = 0;
+        Real part = 1;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
             const std::uint32_t place = places_[n];
             if (place == kNoNode) continue;
@@ -148,13 +152,10 @@ bool GuardedMove<Real>::keep_to_rooms(const ContactList<Real>& list, const Conta
             const Vec3<Real> motion = Vec3<Real>(ends[n]) - position - common_[island];
             const Vec3<Real> moved = list.moved(place, static_cast<std::uint32_t>(o), position);
             part = std::min(part, part_within(moved, motion, list.rooms[place]));
-            const Real gone = glm::length(position - aims.nodes().aimed_at()[place]);
-            farthest = std::max(farthest, gone + glm::length(motion));
+            ways_[n] = glm::length(position - aims.nodes().aimed_at(n)) + glm::length(motion);
         }
         parts_[o] = part;
-        farthest_[o] = farthest;
     });
-    return std::all_of(parts_.begin(), parts_.end(), [](Real part) { return part == Real(1); });
 }
 
 // Pairs that are too far apart to be in the way of anything are most of them.
@@ -166,7 +167,12 @@ void GuardedMove<Real>::find_blocked_pairs(const ContactList<Real>& list, const 
     for (std::uint32_t p = 0; p < list.pairs.size(); ++p) {
         const ContactPair& pair = list.pairs[p];
         const PairAim<Real>& aim = aims.aims()[p];
-        if (!(aim.gap - farthest_[pair.object] - farthest_[pair.other] > least_gap(aim, aim.gap, closeness)))
+        std::array<Real, 2> ways{};
+        for (std::size_t k = 0; k < 4; ++k) {
+            Real& way = ways[pair.side_of(k)];
+            way = std::max(way, ways_[pair.nodes[k]]);
+        }
+        if (!(aim.gap - ways[0] - ways[1] > least_gap(aim, aims.reach(pair), aim.gap, closeness)))
             blocked_.push_back(p);
     }
     courses_.resize(blocked_.size());
@@ -181,13 +187,15 @@ void GuardedMove<Real>::find_blocked_pairs(const ContactList<Real>& list, const 
             moved[c] = nodes[c] + motions[c];
         }
         Course& course = courses_[k];
-        course = course_along(pair, aim, aim.normal, nodes, motions, closeness);
+        const Real reach = aims.reach(pair);
+        course = course_along(pair, aim, reach, aim.normal, nodes, motions, closeness);
         if (course.is_free()) return;
         for (const Vec3<Real>& direction : {shortest(pair, moved), across_both(pair, nodes)}) {
             const Real length = glm::length(direction);
             if (!(length > Real(0))) continue;
-            const Course other = course_along(pair, aim, direction / length, nodes, motions, closeness);
-            if (!other.is_free() || !(other.gap(Real(0), Real(0)) > Real(kSeparated) * aim.reach)) continue;
+            const Course other =
+                course_along(pair, aim, reach, direction / length, nodes, motions, closeness);
+            if (!other.is_free() || !(other.gap(Real(0), Real(0)) > Real(kSeparated) * reach)) continue;
             course = other;
             return;
         }
@@ -196,7 +204,7 @@ void GuardedMove<Real>::find_blocked_pairs(const ContactList<Real>& list, const 
 
 template <class Real>
 typename GuardedMove<Real>::Course GuardedMove<Real>::course_along(const ContactPair& pair,
-                                                                   const PairAim<Real>& aim,
+                                                                   const PairAim<Real>& aim, Real reach,
                                                                    const Vec3<Real>& normal,
                                                                    const std::array<Vec3<Real>, 4>& nodes,
                                                                    const std::array<Vec3<Real>, 4>& motions,
@@ -210,7 +218,7 @@ typename GuardedMove<Real>::Course GuardedMove<Real>::course_along(const Contact
         course.motions[c] = glm::dot(normal, motions[c]);
     }
     const Real gap = course.gap(Real(0), Real(0));
-    course.least = least_gap(aim, gap, closeness) - Real(1e-5f) * aim.reach;  // less rounding
+    course.least = least_gap(aim, reach, gap, closeness) - Real(1e-5f) * reach;  // less rounding
     return course;
 }
 

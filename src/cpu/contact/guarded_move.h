@@ -33,7 +33,7 @@ public:
     bool is_held(std::size_t object) const { return is_held_[object] != 0; }
 
     /// Finds how much of the way to `ends` each object may go.
-    /// @return false if a room, or what an island may move, is in the way
+    /// @return false if more room, or a new island, would let an object go farther
     bool plan(const ContactList<Real>& list, const ContactAims<Real>& aims,
               std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends, Closeness closeness);
 
@@ -49,7 +49,7 @@ private:
     void find_common_motions(const ContactList<Real>& list, std::span<const Vec4<Real>> positions,
                              std::span<const Vec4<Real>> ends);
     bool limit_common_motions(const ContactList<Real>& list);
-    bool keep_to_rooms(const ContactList<Real>& list, const ContactAims<Real>& aims,
+    void keep_to_rooms(const ContactList<Real>& list, const ContactAims<Real>& aims,
                        std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends);
     void find_blocked_pairs(const ContactList<Real>& list, const ContactAims<Real>& aims,
                             std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
@@ -65,19 +65,18 @@ private:
         bool is_free() const { return gap(Real(1), Real(1)) >= least; }
     };
 
-    Course course_along(const ContactPair& pair, const PairAim<Real>& aim, const Vec3<Real>& normal,
-                        const std::array<Vec3<Real>, 4>& nodes, const std::array<Vec3<Real>, 4>& motions,
-                        Closeness closeness) const;
+    Course course_along(const ContactPair& pair, const PairAim<Real>& aim, Real reach,
+                        const Vec3<Real>& normal, const std::array<Vec3<Real>, 4>& nodes,
+                        const std::array<Vec3<Real>, 4>& motions, Closeness closeness) const;
 
     std::shared_ptr<const Model> model_;
     std::vector<std::uint32_t> places_;  // of nodes among those of the surface
     std::vector<double> masses_;         // of objects [kg]
     std::vector<std::uint8_t> is_held_;  // by object
     std::vector<Vec3<Real>> means_;      // mean motion of each object [m]
-    // How far any of its surface nodes goes besides what is in common, and has gone since the aim [m].
-    std::vector<Real> farthest_;
+    std::vector<Real> ways_;          // of surface nodes since the aim and now, without what is in common [m]
     std::vector<Vec3<Real>> common_;  // by island
-    std::vector<Real> parts_, next_parts_;
+    std::vector<Real> parts_, next_parts_, room_parts_;
     std::vector<std::uint32_t> blocked_;
     std::vector<Course> courses_;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <utility>
 
 #include "model/for_each_index.h"
@@ -26,17 +28,51 @@ NodeContacts<Real>::NodeContacts(std::shared_ptr<const Model> model,
       object_of_(objects_of_nodes(*model_)),
       friction_(static_cast<Real>(friction)) {
     const std::size_t count = model_->surface_parts.nodes.size();
-    first_slots_.resize(count);
+    first_planes_.resize(count);
     plane_counts_.resize(count);
-    share_counts_.resize(count);
+    share_starts_.resize(count + 1);
     is_stuck_.resize(count);
-    aimed_at_.resize(count);
+    presses_.resize(model_->node_count());
+    free_.assign(model_->node_count(), Vec4<Real>(0, 0, 0, std::numeric_limits<Real>::infinity()));
 }
 
 template <class Real>
 void NodeContacts<Real>::resize(const ContactList<Real>& list) {
     planes_.resize(list.slot_count());
-    shares_.resize(list.slot_count());
+}
+
+template <class Real>
+void NodeContacts<Real>::share(const ContactList<Real>& list, const std::vector<Press<Real>>& presses) {
+    const auto for_shares = [&](const auto& use) {
+        for (const Press<Real>& press : presses) {
+            const ContactPair& pair = list.pairs[press.pair];
+            for (std::size_t k = 0; k < 4; ++k) {
+                const Real part = pair.side_of(k) == 0 ? press.share : Real(1) - press.share;
+                if (part > Real(0) && press.weights[static_cast<int>(k)] > Real(0)) use(press, pair, k, part);
+            }
+        }
+    };
+    std::fill(share_starts_.begin(), share_starts_.end(), 0u);
+    std::fill(presses_.begin(), presses_.end(), std::uint8_t(0));
+    for_shares([&](const auto&, const ContactPair& pair, std::size_t k, Real) {
+        ++share_starts_[surface_->places[pair.nodes[k]] + 1];
+        presses_[pair.nodes[k]] = 1;
+    });
+    std::partial_sum(share_starts_.begin(), share_starts_.end(), share_starts_.begin());
+    shares_.resize(share_starts_.back());
+    next_.assign(share_starts_.begin(), share_starts_.end() - 1);
+    for_shares([&](const Press<Real>& press, const ContactPair& pair, std::size_t k, Real part) {
+        const Real sign = pair.side_of(k) == 0 ? Real(1) : Real(-1),
+                   weight = press.weights[static_cast<int>(k)];
+        shares_[next_[surface_->places[pair.nodes[k]]]++] = {
+            sign * press.normal,
+            press.gap,
+            Real(1) / part,
+            weight * press.stiffness,
+            press.reach,
+            (-sign * weight) * press.hold,
+            weight * friction_ * contact_force(press.gap, press.reach, press.stiffness)};
+    });
 }
 
 template <class Real>
@@ -58,38 +94,36 @@ Real part_within(const Vec3<Real>& u, const Vec3<Real>& motion, Real radius) {
     return std::clamp(Real(0.999f) * part, Real(0), Real(1));
 }
 
-// Keeps of a node's planes those that it can reach within its room, and of its shares those that press.
+// Keeps of a node's planes those that it can reach within its room.
 template <class Real>
 void NodeContacts<Real>::select(const ContactList<Real>& list, std::uint32_t place,
                                 const Vec3<Real>& position) {
     const std::uint32_t first = list.row_starts[place], end = list.row_starts[place + 1];
-    const std::uint32_t object = object_of_[model_->surface_parts.nodes[place]];
-    const Vec3<Real> moved = list.moved(place, object, position);
-    std::uint32_t planes = first, shares = first;
-    std::uint8_t is_stuck = 0;
+    const std::uint32_t node = model_->surface_parts.nodes[place];
+    const Vec3<Real> moved = list.moved(place, object_of_[node], position);
+    std::uint32_t planes = first;
+    Real least = std::numeric_limits<Real>::infinity();  // of the planes
     for (std::uint32_t k = first; k < end; ++k) {
         const NodePlane<Real> plane = planes_[k];
-        if (plane.head < Real(0)) is_stuck = 1;
+        least = std::min(least, plane.head);
         if (plane.head < list.rooms[place] - glm::dot(plane.towards, moved)) planes_[planes++] = plane;
-        if (shares_[k].stiffness > Real(0)) shares_[shares++] = shares_[k];
     }
-    first_slots_[place] = first;
+    first_planes_[place] = first;
     plane_counts_[place] = planes - first;
-    share_counts_[place] = shares - first;
-    is_stuck_[place] = is_stuck;
-    aimed_at_[place] = position;
+    is_stuck_[place] = least < Real(0) ? 1 : 0;
+    least = std::min(least, list.rooms[place] - glm::length(moved));
+    const Real free = presses_[node] != 0 || !(least > Real(0)) ? Real(-1) : Real(0.999f) * least * least;
+    free_[node] = Vec4<Real>(position, free);
 }
 
 template <class Real>
 void NodeContacts<Real>::add(std::uint32_t node, const Vec3<Real>& position, NodeTerms<Real>& terms) const {
     const std::uint32_t place = surface_->places[node];
-    const Vec3<Real> displacement = position - aimed_at_[place];
-    const std::uint32_t first = first_slots_[place];
-    for (std::uint32_t k = first; k < first + share_counts_[place]; ++k) {
-        add_contact_share(shares_[k], displacement, terms);
-        if (!(shares_[k].limit > Real(0))) continue;
+    const Vec3<Real> displacement = position - aimed_at(node);
+    for (ContactShare<Real> share : shares_of(place)) {
+        add_contact_share(share, displacement, terms);
+        if (!(share.limit > Real(0))) continue;
         // Less where the node presses less than at the aim: few sweeps find far too much of that at first.
-        ContactShare<Real> share = shares_[k];
         const Real pressing = contact_force(share.gap_at(displacement), share.reach, share.stiffness);
         share.limit = std::min(share.limit, friction_ * pressing);
         if (share.limit > Real(0)) add_friction_share(share, displacement, terms);
@@ -97,19 +131,17 @@ void NodeContacts<Real>::add(std::uint32_t node, const Vec3<Real>& position, Nod
 }
 
 template <class Real>
-Vec3<Real> NodeContacts<Real>::limited(const ContactList<Real>& list, std::uint32_t node,
-                                       const Vec3<Real>& from, const Vec3<Real>& to,
-                                       const NodeTerms<Real>& all) const {
+Vec3<Real> NodeContacts<Real>::limited_nearby(const ContactList<Real>& list, std::uint32_t node,
+                                              const Vec3<Real>& from, const Vec3<Real>& to,
+                                              const NodeTerms<Real>& all) const {
     const std::uint32_t place = surface_->places[node];
-    if (place == kNoNode) return to;
     if (is_stuck_[place] != 0) return from;
-    const Vec3<Real> displacement = from - aimed_at_[place];
+    const Vec3<Real> displacement = from - aimed_at(node);
     Vec3<Real> motion = kept_to_planes(planes_of(place), displacement, to - from);
     const Vec3<Real> moved = list.moved(place, object_of_[node], from);
     const Real part = part_within(moved, motion, list.rooms[place]);
     if (!(part == Real(1))) motion *= part;
-    if (share_counts_[place] > 0) motion *= least_along(shares_of(place), displacement, motion, all);
-
+    if (presses(node)) motion *= least_along(shares_of(place), displacement, motion, all);
     return from + motion;
 }
 
@@ -192,9 +224,9 @@ Real NodeContacts<Real>::allowed_part(const ContactList<Real>& list, const Range
                                       std::span<const Vec3<Real>> displacements, Real part) const {
     for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
         const std::uint32_t place = surface_->places[n];
-        if (place == kNoNode) continue;
+        const Vec3<Real> position(positions[n]), before = position - aimed_at(n);
+        if (place == kNoNode || is_free_at(n, position + part * displacements[n])) continue;
         if (is_stuck_[place] != 0) return Real(0);
-        const Vec3<Real> position(positions[n]), before = position - aimed_at_[place];
         for (const NodePlane<Real>& plane : planes_of(place)) {
             const Real along = glm::dot(plane.towards, displacements[n]);
             const Real head = std::max(plane.head - glm::dot(plane.towards, before), Real(0));

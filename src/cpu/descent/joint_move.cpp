@@ -278,27 +278,27 @@ Body make_body(std::uint32_t object, const Range& nodes, const StepObjective<Rea
 }  // namespace
 
 template <class Real>
-void add_pair(const ContactPair& pair, const ContactAims<Real>& aims, const PairAim<Real>& aim,
+void add_pair(const ContactPair& pair, const ContactAims<Real>& aims, const Press<Real>& press,
               const std::vector<std::uint32_t>& numbers, std::span<const Vec4<Real>> positions,
               Island& island) {
     std::array<glm::dvec3, 2> arms{};
     for (std::size_t k = 0; k < 4; ++k)
         arms[pair.side_of(k)] +=
-            static_cast<double>(aim.weights[static_cast<int>(k)]) * glm::dvec3(positions[pair.nodes[k]]);
+            static_cast<double>(press.weights[static_cast<int>(k)]) * glm::dvec3(positions[pair.nodes[k]]);
     const std::array<std::uint32_t, 2> bodies{numbers[pair.object], numbers[pair.other]};
     for (std::size_t side = 0; side < 2; ++side)
         if (bodies[side] != kNoNode) arms[side] -= island.bodies[bodies[side]].origin;
-    const glm::dvec3 normal(aim.normal);
+    const glm::dvec3 normal(press.normal);
     Touch touch;
     touch.a = bodies[0];
     touch.b = bodies[1];
     touch.row_a = along(arms[0], -normal);
     touch.row_b = along(arms[1], normal);
-    touch.gap = static_cast<double>(aims.gap(pair, aim, positions));
-    touch.stiffness = static_cast<double>(aim.stiffness);
-    touch.reach = static_cast<double>(aim.reach);
+    touch.gap = static_cast<double>(aims.gap(pair, press, positions));
+    touch.stiffness = static_cast<double>(press.stiffness);
+    touch.reach = static_cast<double>(press.reach);
     touch.arms = arms;
-    touch.hold = glm::dvec3(aims.hold(pair, aim, positions));
+    touch.hold = glm::dvec3(aims.hold(pair, press, positions));
     const double length = glm::length(touch.hold);
     const glm::dvec3 axis = std::abs(normal.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 first = length > 0.0 ? touch.hold / length : glm::cross(normal, axis);
@@ -330,11 +330,10 @@ void JointMove<Real>::run(bool is_last, const Contacts<Real>& contacts, const St
         numbers[o] = static_cast<std::uint32_t>(islands[i].bodies.size());
         islands[i].bodies.emplace_back(o);
     }
-    std::vector<std::vector<std::uint32_t>> pairs(islands.size());
-    for (std::uint32_t p = 0; p < list.pairs.size(); ++p) {
-        if (contacts.aims().aims()[p].stiffness > Real(0))
-            pairs[list.islands[list.pairs[p].object]].push_back(p);
-    }
+    const std::vector<Press<Real>>& presses = contacts.aims().presses();
+    std::vector<std::vector<std::uint32_t>> own(islands.size());  // presses of each island
+    for (std::uint32_t k = 0; k < presses.size(); ++k)
+        own[list.islands[list.pairs[presses[k].pair].object]].push_back(k);
     tbb::parallel_for(std::size_t(0), islands.size(), [&](std::size_t i) {
         Island& island = islands[i];
         if (waits[i] != 0 || island.bodies.empty()) return;
@@ -343,8 +342,8 @@ void JointMove<Real>::run(bool is_last, const Contacts<Real>& contacts, const St
                                    positions);
             island.is_outside_touched |= colliders.objects[body.object] != 0;
         }
-        for (const std::uint32_t p : pairs[i])
-            add_pair(list.pairs[p], contacts.aims(), contacts.aims().aims()[p], numbers, positions, island);
+        for (const std::uint32_t k : own[i])
+            add_pair(list.pairs[presses[k].pair], contacts.aims(), presses[k], numbers, positions, island);
         const std::vector<Motion> motions =
             island.find_motions(static_cast<double>(contacts.aims().friction()));
         for (std::size_t k = 0; k < motions.size(); ++k) {

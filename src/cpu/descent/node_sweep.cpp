@@ -33,19 +33,25 @@ void NodeSweep<Real>::run(std::size_t batch, const StepObjective<Real>& objectiv
     };
     const auto move_group = [&](std::size_t group) {
         typename StepObjective<Real>::Terms terms;
-        std::array<Vec3<Real>, kGroup> before;
-        if (bodies_ != nullptr) {
-            for (std::uint32_t r = 0; r < kGroup; ++r) {
-                const std::uint32_t node = rows.nodes[group * kGroup + r];
-                if (node != kNoNode) before[r] = Vec3<Real>(positions[node]);
-            }
-        }
-        const std::uint32_t near_colliders = objective.descend(group, any_flat, positions, terms);
-        stop_group(group, near_colliders, terms);
-        if (bodies_ != nullptr) limit(group, objective, before, terms, positions);
+        stop_group(group, objective.descend(group, any_flat, positions, terms), terms);
     };
-    for (const Range& color : bodies.colors)
-        for_each_index(color.first / kGroup, color.end() / kGroup, kGroupsATask, move_group);
+    const auto move_limited_group = [&](std::size_t group) {
+        std::array<Vec3<Real>, kGroup> before;
+        for (std::uint32_t r = 0; r < kGroup; ++r) {
+            const std::uint32_t node = rows.nodes[group * kGroup + r];
+            if (node != kNoNode) before[r] = Vec3<Real>(positions[node]);
+        }
+        typename StepObjective<Real>::Terms terms;
+        stop_group(group, objective.descend(group, any_flat, positions, terms), terms);
+        limit(group, objective, before, terms, positions);
+    };
+    for (const Range& color : bodies.colors) {
+        if (bodies_ != nullptr) {
+            for_each_index(color.first / kGroup, color.end() / kGroup, kGroupsATask, move_limited_group);
+        } else {
+            for_each_index(color.first / kGroup, color.end() / kGroup, kGroupsATask, move_group);
+        }
+    }
 }
 
 template <class Real>

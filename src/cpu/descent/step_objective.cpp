@@ -26,10 +26,8 @@ void StepObjective<Real>::update(std::size_t batch, const std::vector<Vec4<Real>
 }
 
 template <class Real>
-typename StepObjective<Real>::Terms StepObjective<Real>::rare_terms(
-    std::size_t group, bool any_flat, const std::vector<Vec4<Real>>& positions) const {
-    Terms terms;
-    if (!any_flat && contacts_ == nullptr) return terms;
+void StepObjective<Real>::add_rare_terms(std::size_t group, bool any_flat,
+                                         const std::vector<Vec4<Real>>& positions, Terms& terms) const {
     for (std::uint32_t r = 0; r < kGroup; ++r) {
         const std::uint32_t node = rows_.nodes[group * kGroup + r];
         if (node == kNoNode) continue;
@@ -40,13 +38,13 @@ typename StepObjective<Real>::Terms StepObjective<Real>::rare_terms(
         if (presses) contacts_->add(node, Vec3<Real>(positions[node]), sum);
         terms.add(r, sum);
     }
-    return terms;
 }
 
 template <class Real>
 typename StepObjective<Real>::Terms StepObjective<Real>::gather(
     std::size_t group, bool any_flat, const std::vector<Vec4<Real>>& positions) const {
-    Terms terms = rare_terms(group, any_flat, positions);
+    Terms terms;
+    if (any_flat || contacts_ != nullptr) add_rare_terms(group, any_flat, positions, terms);
     elements_.gather(rows_, step, group, positions, terms);
     return terms;
 }
@@ -54,7 +52,7 @@ typename StepObjective<Real>::Terms StepObjective<Real>::gather(
 template <class Real>
 std::uint32_t StepObjective<Real>::descend(std::size_t group, bool any_flat,
                                            std::vector<Vec4<Real>>& positions, Terms& terms) const {
-    terms = rare_terms(group, any_flat, positions);
+    if (any_flat || contacts_ != nullptr) add_rare_terms(group, any_flat, positions, terms);
     return elements_.descend(rows_, step, group, positions, terms);
 }
 

@@ -54,7 +54,7 @@ public:
     Terms gather(std::size_t group, bool any_flat, const std::vector<Vec4<Real>>& positions) const;
 
     /// Newton's step of each node of a group that is not held.
-    /// @param terms output: those of each node, where it was
+    /// @param terms input: none; output: those of each node, where it was
     /// @return a bit for each row: whether its node may have come into a collider
     std::uint32_t descend(std::size_t group, bool any_flat, std::vector<Vec4<Real>>& positions,
                           Terms& terms) const;
@@ -63,7 +63,9 @@ public:
     void find_forces(const std::vector<Vec4<Real>>& positions, std::vector<Vec3<Real>>& forces) const;
 
 private:
-    Terms rare_terms(std::size_t group, bool any_flat, const std::vector<Vec4<Real>>& positions) const;
+    // Those of flat tets and contacts, which few nodes have.
+    void add_rare_terms(std::size_t group, bool any_flat, const std::vector<Vec4<Real>>& positions,
+                        Terms& terms) const;
 
     DescentRows rows_;
     const Contacts<Real>* contacts_;

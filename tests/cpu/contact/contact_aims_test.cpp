@@ -157,13 +157,18 @@ TEST(ContactAims, KeepsNodesApart) {
     expect_limits_hold<float>();
 }
 
-// A small block above a large one: both use what they may of the gap, which leaves what nobody may use.
-TEST(ContactAims, DividesTheGap) {
+// A small block above a large one.
+Model make_block_above(double gap) {
     std::vector<Body> bodies{test::make_body(test::make_block({1, 1, 1}, {1, 1, 1})),
                              test::make_body(test::make_block({1, 1, 1}, {0.2, 0.2, 0.2}))};
+    for (glm::dvec3& p : bodies[1].mesh.positions) p += glm::dvec3(0.4, 1.0 + gap, 0.3);
+    return pack_bodies(bodies, {}, {0.0, 0.0, 0.0});
+}
+
+// Both use what they may of the gap, which leaves what nobody may use.
+TEST(ContactAims, DividesTheGap) {
     constexpr double kGap = 0.01;
-    for (glm::dvec3& p : bodies[1].mesh.positions) p += glm::dvec3(0.4, 1.0 + kGap, 0.3);
-    Contact<double> contact(pack_bodies(bodies, {}, {0.0, 0.0, 0.0}));
+    Contact<double> contact(make_block_above(kGap));
     for (std::uint32_t n = 0; n < contact.positions.size(); ++n) {
         const glm::dvec3 from(contact.positions[n]);
         const double way = n < contact.model->objects[1].nodes.first ? 0.025 : -0.025;
@@ -222,6 +227,22 @@ TEST(GuardedMove, KeepsBodiesApart) {
         EXPECT_LT(glm::length(momentum(contact.positions) - momentum(ends)), 1e-6 * mass)
             << "of an island that may move so far";
     }
+}
+
+// More room helps what leaves its room, not what another body is in the way of.
+TEST(GuardedMove, AsksForRoomWhereThatHelps) {
+    Contact<float> contact(make_block_above(0.01));
+    const auto plan = [&](float way) {
+        auto ends = contact.positions;
+        for (std::size_t n = contact.model->objects[1].nodes.first; n < ends.size(); ++n) ends[n].y += way;
+        return contact.guard.plan(contact.list, contact.aims, contact.positions, ends, cpu::Closeness::guess);
+    };
+    EXPECT_TRUE(plan(-0.5f));
+    EXPECT_LT(contact.guard.part(1), 0.9f);
+    EXPECT_TRUE(plan(0.02f));
+    EXPECT_EQ(contact.guard.part(1), 1.0f);
+    EXPECT_FALSE(plan(0.5f));
+    EXPECT_LT(contact.guard.part(1), 0.9f);
 }
 
 TEST(GuardedMove, DoesNotStopWhatFliesTogether) {
