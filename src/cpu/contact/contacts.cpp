@@ -69,6 +69,55 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
 }
 
 template <class Real>
+bool Contacts<Real>::plan_rest(std::span<const Vec4<Real>> positions, std::span<Vec3<Real>> displacements,
+                               StageTimer* timer) {
+    const TimedStage part(timer, "advance_nodes.guess");
+    bool any = false;
+    for (std::size_t o = 0; o < model_->objects.size(); ++o) any |= guard_.part(o) < Real(1);
+    if (!any) return false;
+    guard_.plan(list_, aims_, positions, guess_, Closeness::guess, Movers::nodes);
+    for_each_index(positions.size(), [&](std::size_t n) {
+        displacements[n] = guard_.part(n) * (Vec3<Real>(guess_[n]) - Vec3<Real>(positions[n]));
+    });
+    return true;
+}
+
+template <class Real>
+void Contacts<Real>::go_on(std::span<const Real> parts, std::span<Vec4<Real>> positions, StageTimer* timer) {
+    {
+        const TimedStage part(timer, "advance_nodes.guess");
+        guard_.shorten(list_, parts);
+        guard_.go(list_, guess_, false, positions);
+    }
+    renew(positions, timer);
+}
+
+// Of pairs as they are, with both sides under way.
+template <class Real>
+std::vector<Work> Contacts<Real>::works(
+    std::span<const Vec4<Real>> positions, std::span<const Vec3<Real>> displacements) const {
+    std::vector<Work> works(model_->objects.size());
+    for (const Press<Real>& press : aims_.presses()) {
+        const ContactPair& pair = list_.pairs[press.pair];
+        std::array<Real, 2> changes{};  // of the gap, by side [m]
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Real along = glm::dot(press.normal, displacements[pair.nodes[k]]);
+            const Real weight = press.weights[static_cast<int>(k)];
+            changes[pair.side_of(k)] += pair.side_of(k) == 0 ? -weight * along : weight * along;
+        }
+        const Real gap = aims_.gap(pair, press, positions);
+        const Real here = contact_force(gap, press.reach, press.stiffness);
+        const Real ahead = contact_force(gap + changes[0] + changes[1], press.reach, press.stiffness);
+        for (std::size_t side = 0; side < 2; ++side) {
+            Work& work = works[side == 0 ? pair.object : pair.other];
+            work.here += static_cast<double>(here * changes[side]);
+            work.ahead += static_cast<double>(ahead * changes[side]);
+        }
+    }
+    return works;
+}
+
+template <class Real>
 void Contacts<Real>::move(std::span<const Vec4<Real>> ends, std::span<Vec4<Real>> positions) {
     guard_.plan(list_, aims_, positions, ends, Closeness::motion);
     guard_.go(list_, ends, true, positions);

@@ -14,6 +14,11 @@
 
 namespace gelatin::cpu {
 
+/// Of forces by displacements, with those at the start and those at the end of them [J].
+struct Work {
+    double here = 0.0, ahead = 0.0;
+};
+
 /// The contacts between bodies in the steps of vertex block descent (docs/contact.md): which pairs are near,
 /// aimed at where the nodes are, and the guard of every move.
 template <class Real>
@@ -34,6 +39,14 @@ public:
     void begin(Real step, std::span<const Vec4<Real>> targets, std::span<const Vec4<Real>> starts,
                std::span<Vec4<Real>> positions, StageTimer* timer);
 
+    /// Finds how far the nodes of bodies that others kept from the guess of begin() may go on to it.
+    /// @param displacements output [m], shape [nodes]
+    /// @return false if nothing is behind
+    bool plan_rest(std::span<const Vec4<Real>> positions, std::span<Vec3<Real>> displacements,
+                   StageTimer* timer);
+    /// Goes on so. @param parts of the displacements that objects make, if others let them
+    void go_on(std::span<const Real> parts, std::span<Vec4<Real>> positions, StageTimer* timer);
+
     /// Moves all bodies to `ends`, as far as that is safe. Aims are out of date after it.
     void move(std::span<const Vec4<Real>> ends, std::span<Vec4<Real>> positions);
 
@@ -45,6 +58,10 @@ public:
     const ContactList<Real>& list() const { return list_; }
     const ContactAims<Real>& aims() const { return aims_; }
     bool is_held(std::size_t object) const { return guard_.is_held(object); }
+
+    /// The work of contacts by displacements of nodes, for each object.
+    std::vector<Work> works(std::span<const Vec4<Real>> positions,
+                            std::span<const Vec3<Real>> displacements) const;
 
     /// Whether contacts add terms to a node.
     bool presses(std::uint32_t node) const { return aims_.nodes().presses(node); }

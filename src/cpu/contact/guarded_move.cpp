@@ -12,8 +12,8 @@
 namespace gelatin::cpu {
 namespace {
 
-// Rounds in which objects that block each other are shortened. After them, those still in the way make
-// nothing but what their island has in common.
+// Rounds in which movers that block each other are shortened. After them, those still in the way make nothing
+// of their own.
 constexpr int kMostRounds = 8;
 // Of the reach: another direction than that of the aim is taken if the pair is so far apart along it.
 constexpr double kSeparated = 0.05;
@@ -58,6 +58,7 @@ template <class Real>
 GuardedMove<Real>::GuardedMove(std::shared_ptr<const Model> model, std::vector<std::uint32_t> places)
     : model_(std::move(model)),
       places_(std::move(places)),
+      object_of_(objects_of_nodes(*model_)),
       masses_(model_->objects.size()),
       is_held_(model_->objects.size()),
       means_(model_->objects.size()),
@@ -82,17 +83,18 @@ void GuardedMove<Real>::begin(std::span<const Vec4<Real>> positions) {
 template <class Real>
 bool GuardedMove<Real>::plan(const ContactList<Real>& list, const ContactAims<Real>& aims,
                              std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
-                             Closeness closeness) {
-    find_common_motions(list, positions, ends);
+                             Closeness closeness, Movers movers) {
+    movers_ = movers;
+    common_.assign(list.shifts.size(), Vec3<Real>(0));
+    if (movers == Movers::objects) find_common_motions(list, positions, ends);
     const bool may_shift = limit_common_motions(list);
     keep_to_rooms(list, aims, positions, ends);
     room_parts_ = parts_;
     find_blocked_pairs(list, aims, positions, ends, closeness);
     keep_pairs_apart(list);
     // Where other bodies are in the way, more room would not help.
-    const auto needs_room = [&](std::size_t o) { return parts_[o] < Real(1) && parts_[o] == room_parts_[o]; };
-    for (std::size_t o = 0; o < parts_.size(); ++o)
-        if (needs_room(o)) return false;
+    for (std::size_t m = 0; m < parts_.size(); ++m)
+        if (parts_[m] < Real(1) && parts_[m] == room_parts_[m]) return false;
     return may_shift;
 }
 
@@ -119,7 +121,6 @@ void GuardedMove<Real>::find_common_motions(const ContactList<Real>& list,
         masses[i] += masses_[o];
         is_held[i] |= is_held_[o];
     }
-    common_.assign(islands, Vec3<Real>(0));
     for (std::size_t i = 0; i < islands; ++i) {
         if (is_held[i] == 0) common_[i] = Vec3<Real>(sums[i] / masses[i]);
     }
@@ -141,20 +142,21 @@ template <class Real>
 void GuardedMove<Real>::keep_to_rooms(const ContactList<Real>& list, const ContactAims<Real>& aims,
                                       std::span<const Vec4<Real>> positions,
                                       std::span<const Vec4<Real>> ends) {
+    const bool are_nodes = movers_ == Movers::nodes;
+    parts_.assign(are_nodes ? positions.size() : model_->objects.size(), Real(1));
     tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
         const std::uint32_t island = list.islands[o];
         const Range& nodes = model_->objects[o].nodes;
-        Real part = 1;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
             const std::uint32_t place = places_[n];
             if (place == kNoNode) continue;
             const Vec3<Real> position(positions[n]);
             const Vec3<Real> motion = Vec3<Real>(ends[n]) - position - common_[island];
             const Vec3<Real> moved = list.moved(place, static_cast<std::uint32_t>(o), position);
+            Real& part = parts_[are_nodes ? n : o];
             part = std::min(part, part_within(moved, motion, list.rooms[place]));
             ways_[n] = glm::length(position - aims.nodes().aimed_at(n)) + glm::length(motion);
         }
-        parts_[o] = part;
     });
 }
 
@@ -195,7 +197,7 @@ void GuardedMove<Real>::find_blocked_pairs(const ContactList<Real>& list, const 
             if (!(length > Real(0))) continue;
             const Course other =
                 course_along(pair, aim, reach, direction / length, nodes, motions, closeness);
-            if (!other.is_free() || !(other.gap(Real(0), Real(0)) > Real(kSeparated) * reach)) continue;
+            if (!other.is_free() || !(other.gap_at(Real(0)) > Real(kSeparated) * reach)) continue;
             course = other;
             return;
         }
@@ -210,78 +212,90 @@ typename GuardedMove<Real>::Course GuardedMove<Real>::course_along(const Contact
                                                                    const std::array<Vec3<Real>, 4>& motions,
                                                                    Closeness closeness) const {
     Course course;
-    course.object = pair.object;
-    course.other = pair.other;
     course.first_count = pair.first_count;
     for (std::size_t c = 0; c < 4; ++c) {
+        course.movers[c] = movers_ == Movers::nodes ? pair.nodes[c]
+                           : pair.side_of(c) == 0   ? pair.object
+                                                    : pair.other;
         course.heights[c] = glm::dot(normal, nodes[c] - nodes[0]);
         course.motions[c] = glm::dot(normal, motions[c]);
     }
-    const Real gap = course.gap(Real(0), Real(0));
+    const Real gap = course.gap_at(Real(0));
     course.least = least_gap(aim, reach, gap, closeness) - Real(1e-5f) * reach;  // less rounding
     return course;
 }
 
 template <class Real>
-Real GuardedMove<Real>::Course::gap(Real part, Real other_part) const {
+template <class Part>
+Real GuardedMove<Real>::Course::gap(const Part& part) const {
     Real top = -std::numeric_limits<Real>::infinity(), low = -top;
     for (std::size_t k = 0; k < 4; ++k) {
+        const Real height = heights[k] + part(k) * motions[k];
         if (k < first_count) {
-            top = std::max(top, heights[k] + part * motions[k]);
+            top = std::max(top, height);
         } else {
-            low = std::min(low, heights[k] + other_part * motions[k]);
+            low = std::min(low, height);
         }
     }
     return low - top;
 }
 
-// In each round every pair that would come too near shortens the objects that approach.
+// In each round every pair that would come too near shortens the movers that approach.
 template <class Real>
 void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
+    const auto is_left = [&](const Course& course) {
+        return course.gap([&](std::size_t k) { return parts_[course.movers[k]]; }) >= course.least;
+    };
     for (int round = 0;; ++round) {
         bool is_blocked = false;
         next_parts_ = parts_;
         std::size_t kept = 0;
         for (std::size_t k = 0; k < courses_.size(); ++k) {
             const Course course = courses_[k];
-            const Real a = parts_[course.object], b = parts_[course.other];
-            const Real end = course.gap(a, b);
-            // Parts only fall, and a gap is concave in both: so it stays.
-            if (end >= course.least && course.gap(a, Real(0)) >= course.least &&
-                course.gap(Real(0), b) >= course.least)
-                continue;
+            // Parts only fall. So no gap becomes less than if nothing but what approaches moved.
+            const auto part_approaching = [&](std::size_t c) {
+                return course.approaches(c) ? parts_[course.movers[c]] : Real(0);
+            };
+            if (course.gap(part_approaching) >= course.least) continue;
             courses_[kept++] = course;
-            if (end >= course.least || (a == Real(0) && b == Real(0))) continue;
+            if (is_left(course)) continue;
             is_blocked = true;
-            Real &part = next_parts_[course.object], &other_part = next_parts_[course.other];
-            const Real here = course.gap(Real(0), Real(0));
-            const bool approaches = course.gap(a, Real(0)) < here,
-                       other_approaches = course.gap(Real(0), b) < here;
-            if (round >= kMostRounds || approaches == other_approaches) {
-                const Real left =
-                    round < kMostRounds && approaches ? part_left(here, end, course.least) : Real(0);
-                part = std::min(part, left * a);
-                other_part = std::min(other_part, left * b);
-            } else if (approaches) {
-                part = std::min(part, part_left(course.gap(Real(0), b), end, course.least) * a);
-            } else {
-                other_part = std::min(other_part, part_left(course.gap(a, Real(0)), end, course.least) * b);
+            const Real start = course.gap([&](std::size_t c) {
+                return course.approaches(c) ? Real(0) : parts_[course.movers[c]];
+            });
+            const Real end = course.gap([&](std::size_t c) { return parts_[course.movers[c]]; });
+            const Real left = round < kMostRounds ? part_left(start, end, course.least) : Real(0);
+            for (std::size_t c = 0; c < 4; ++c) {
+                Real& part = next_parts_[course.movers[c]];
+                if (course.approaches(c)) part = std::min(part, left * parts_[course.movers[c]]);
             }
         }
         courses_.resize(kept);
         std::swap(parts_, next_parts_);
         if (!is_blocked) return;
-        // In a large island rounds could go on from object to object.
+        // In a large island rounds could go on from body to body.
         if (round < 2 * kMostRounds) continue;
         std::vector<std::uint8_t> stops(common_.size());
-        for (const Course& course : courses_) {
-            if (course.gap(parts_[course.object], parts_[course.other]) < course.least)
-                stops[list.islands[course.object]] = 1;
-        }
-        for (std::size_t o = 0; o < parts_.size(); ++o)
-            if (stops[list.islands[o]] != 0) parts_[o] = Real(0);
+        for (const Course& course : courses_)
+            if (!is_left(course)) stops[island_of(list, course.movers[0])] = 1;
+        for (std::uint32_t m = 0; m < parts_.size(); ++m)
+            if (stops[island_of(list, m)] != 0) parts_[m] = Real(0);
         return;
     }
+}
+
+template <class Real>
+std::uint32_t GuardedMove<Real>::island_of(const ContactList<Real>& list, std::uint32_t mover) const {
+    return list.islands[movers_ == Movers::nodes ? object_of_[mover] : mover];
+}
+
+template <class Real>
+void GuardedMove<Real>::shorten(const ContactList<Real>& list, std::span<const Real> parts) {
+    for (std::size_t o = 0; o < parts.size(); ++o) {
+        const Range& nodes = model_->objects[o].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) parts_[n] *= parts[o];
+    }
+    keep_pairs_apart(list);
 }
 
 template <class Real>
@@ -309,8 +323,8 @@ void GuardedMove<Real>::go(ContactList<Real>& list, std::span<const Vec4<Real>> 
         const std::uint32_t island = list.islands[o];
         const Range& nodes = model_->objects[o].nodes;
         const Vec3<Real> shift = shifts[island], common = common_[island];
-        const Real part = parts_[o];
-        if (part == Real(1) && shift == common) {
+        const bool are_nodes = movers_ == Movers::nodes;
+        if (!are_nodes && parts_[o] == Real(1) && shift == common) {
             std::copy(ends.begin() + nodes.first, ends.begin() + nodes.end(),
                       positions.begin() + nodes.first);
             return;
@@ -318,7 +332,7 @@ void GuardedMove<Real>::go(ContactList<Real>& list, std::span<const Vec4<Real>> 
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
             const Vec3<Real> position(positions[n]);
             const Vec3<Real> motion = Vec3<Real>(ends[n]) - position - common;
-            positions[n] = Vec4<Real>(position + shift + part * motion, positions[n].w);
+            positions[n] = Vec4<Real>(position + shift + parts_[are_nodes ? n : o] * motion, positions[n].w);
         }
     });
     for (std::size_t i = 0; i < shifts.size(); ++i) list.shifts[i] += shifts[i];

@@ -19,9 +19,15 @@ enum class Closeness {
     motion,  ///< a tenth of the gap
 };
 
+/// What makes parts of its own of a planned move.
+enum class Movers {
+    objects,  ///< besides what their islands have in common, which they move in full
+    nodes,
+};
+
 /// Moves all bodies of a list at once towards where they should be. What the bodies of an island have in
-/// common they move in full. Of the rest each makes as much as leaves a gap in all of its pairs, along the
-/// directions in which they were aimed. All nodes go straight and at the same time, so that surfaces that are
+/// common they move in full. Of the rest each object, or node, makes as much as leaves a gap in all of its
+/// pairs, along a direction that separates them. All nodes go straight and at the same time, so that surfaces that are
 /// apart at both ends are so on the way.
 template <class Real>
 class GuardedMove {
@@ -32,18 +38,23 @@ public:
     void begin(std::span<const Vec4<Real>> positions);
     bool is_held(std::size_t object) const { return is_held_[object] != 0; }
 
-    /// Finds how much of the way to `ends` each object may go.
+    /// Finds how much of the way to `ends` each mover may go.
     /// @return false if more room, or a new island, would let an object go farther
     bool plan(const ContactList<Real>& list, const ContactAims<Real>& aims,
-              std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends, Closeness closeness);
+              std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends, Closeness closeness,
+              Movers movers = Movers::objects);
+
+    /// Leaves each object no more than a part of what its nodes were to make, and others what that leaves
+    /// them. @pre nodes were planned @param parts by object
+    void shorten(const ContactList<Real>& list, std::span<const Real> parts);
 
     /// Goes there. @param keeps_momentum whether what objects of an island did not make, all of it makes up
     /// for
     void go(ContactList<Real>& list, std::span<const Vec4<Real>> ends, bool keeps_momentum,
             std::span<Vec4<Real>> positions);
 
-    /// The part of the planned motion that an object makes.
-    Real part(std::size_t object) const { return parts_[object]; }
+    /// The part of the planned motion that an object, or a node, makes.
+    Real part(std::size_t mover) const { return parts_[mover]; }
 
 private:
     void find_common_motions(const ContactList<Real>& list, std::span<const Vec4<Real>> positions,
@@ -55,14 +66,23 @@ private:
                             std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
                             Closeness closeness);
     void keep_pairs_apart(const ContactList<Real>& list);
+    std::uint32_t island_of(const ContactList<Real>& list, std::uint32_t mover) const;
 
-    // A pair that could come too near, along a direction that separates it from its first node.
+    // A pair that could come too near, along a direction from its first side to its second.
     struct Course {
-        std::uint32_t object, other, first_count;
-        std::array<Real, 4> heights, motions;  // [m]
+        std::array<std::uint32_t, 4> movers;
+        std::array<Real, 4> heights, motions;  // of its nodes, from the first one [m]
         Real least;                            // gap that must be left [m]
-        Real gap(Real part, Real other_part) const;
-        bool is_free() const { return gap(Real(1), Real(1)) >= least; }
+        std::uint32_t first_count;             // nodes of the first side
+
+        bool approaches(std::size_t k) const { return k < first_count ? motions[k] > 0 : motions[k] < 0; }
+        // The gap when each node makes a part of its motion. @param part of node k
+        template <class Part>
+        Real gap(const Part& part) const;
+        Real gap_at(Real part) const {
+            return gap([&](std::size_t) { return part; });
+        }
+        bool is_free() const { return gap_at(Real(1)) >= least; }
     };
 
     Course course_along(const ContactPair& pair, const PairAim<Real>& aim, Real reach,
@@ -71,12 +91,14 @@ private:
 
     std::shared_ptr<const Model> model_;
     std::vector<std::uint32_t> places_;  // of nodes among those of the surface
+    std::vector<std::uint32_t> object_of_;  // by node
     std::vector<double> masses_;         // of objects [kg]
     std::vector<std::uint8_t> is_held_;  // by object
     std::vector<Vec3<Real>> means_;      // mean motion of each object [m]
     std::vector<Real> ways_;          // of surface nodes since the aim and now, without what is in common [m]
     std::vector<Vec3<Real>> common_;  // by island
-    std::vector<Real> parts_, next_parts_, room_parts_;
+    Movers movers_ = Movers::objects;
+    std::vector<Real> parts_, next_parts_, room_parts_;  // by mover
     std::vector<std::uint32_t> blocked_;
     std::vector<Course> courses_;
 };

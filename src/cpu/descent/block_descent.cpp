@@ -32,6 +32,7 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
       is_calm_(bodies_ ? model_->objects.size() : 0) {
     if (settings_.coarse_level) coarse_.emplace(model_, bodies_.get());
     if (coarse_ && coarse_->is_empty()) coarse_.reset();
+    if (coarse_ || bodies_) secant_.emplace(model_);
 }
 
 template <class Real>
@@ -44,8 +45,10 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
         start(step, has_earlier, previous, load_forces, pulls, current);
         take_back_tangled(current.positions);
     }
-    if (bodies_)
+    if (bodies_) {
         bodies_->begin(step, objective_.step.targets, objective_.step.starts, current.positions, timer);
+        go_on_to_guess(current.positions, timer);
+    }
     if (coarse_) {
         const TimedStage part(timer, "advance_nodes.start");
         coarse_->begin(step, current.positions);
@@ -55,7 +58,7 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
         make_sweeps(first, end, current.positions, timer);
         if (end < settings_.iterations) {
             const TimedStage part(timer, "advance_nodes.correct");
-            coarse_->run(objective_, contacts_, current.positions);
+            coarse_->run(objective_, contacts_, *secant_, current.positions);
         }
         first = end;
     }
@@ -119,6 +122,27 @@ void BlockDescent<Real>::make_sweeps(int first, int end, Positions& positions, S
         if (moves_bodies(i) && !bodies_)
             time("advance_nodes.move_bodies", [&](std::size_t batch) { move_bodies(batch, is_last(i)); });
     }
+}
+
+// Of bodies that others were in the way of, each node goes on to the guess as far as others let it, and the
+// body makes the part of that at which the objective is least.
+template <class Real>
+void BlockDescent<Real>::go_on_to_guess(Positions& positions, StageTimer* timer) {
+    if (!bodies_->plan_rest(positions, secant_->displacements, timer)) return;
+    std::vector<Real> parts(model_->objects.size());
+    {
+        const TimedStage part(timer, "advance_nodes.guess");
+        secant_->find_forces(objective_, contacts_, nullptr, positions);
+        secant_->look_ahead(objective_, contacts_, nullptr, positions);
+        const std::vector<Work> of_contacts = bodies_->works(positions, secant_->displacements);
+        tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t o) {
+            Work work = secant_->work(o);
+            work.here += of_contacts[o].here;
+            work.ahead += of_contacts[o].ahead;
+            parts[o] = static_cast<Real>(secant_->part(work, 1.0));
+        });
+    }
+    bodies_->go_on(parts, positions, timer);
 }
 
 // All bodies as rigid ones, those of an island together. Held nodes that others were in the way of go on:

@@ -63,6 +63,7 @@ private:
                std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls, Nodes<Real>& current);
     void take_back_tangled(Positions& positions) const;
     void find_calm_bodies(Real step, const Nodes<Real>& previous);
+    void go_on_to_guess(Positions& positions, StageTimer* timer);
     void move_together(bool last, Positions& positions, StageTimer* timer);
     int end_of_run(int first) const;
     void make_sweeps(int first, int end, Positions& positions, StageTimer* timer);
@@ -79,6 +80,7 @@ private:
     NodeSweep<Real> sweep_;
     RigidMove<Real> rigid_move_;
     JointMove<Real> joint_move_;
+    std::optional<SecantStep<Real>> secant_;
     Positions ends_;                          // of bodies' motions
     std::vector<std::uint8_t> is_calm_;       // by object: it presses another, and hardly moves
     std::optional<CoarseStep<Real>> coarse_;  // where there are clusters

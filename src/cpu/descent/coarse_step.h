@@ -7,6 +7,7 @@
 #include "cpu/contact/contacts.h"
 #include "cpu/descent/coarse_correction.h"
 #include "cpu/descent/collider_contacts.h"
+#include "cpu/descent/secant_step.h"
 #include "cpu/descent/step_objective.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
@@ -27,16 +28,12 @@ public:
     void begin(Real step, std::span<const Vec4<Real>> positions) { coarse_.begin(step, positions); }
 
     void run(const StepObjective<Real>& objective, const ColliderContacts<Real>& contacts,
-             std::vector<Vec4<Real>>& positions);
+             SecantStep<Real>& secant, std::vector<Vec4<Real>>& positions);
 
 private:
-    Real displacement_factor(std::size_t object) const;
-
     std::shared_ptr<const Model> model_;
     const Contacts<Real>* bodies_;
     CoarseCorrection<Real> coarse_;
-    std::vector<Vec4<Real>> ahead_;                                  // positions after the displacements [m]
-    std::vector<Vec3<Real>> displacements_, forces_, forces_ahead_;  // [m], [N]
 };
 
 }  // namespace gelatin::cpu

@@ -26,25 +26,26 @@ void StepObjective<Real>::update(std::size_t batch, const std::vector<Vec4<Real>
 }
 
 template <class Real>
-void StepObjective<Real>::add_rare_terms(std::size_t group, bool any_flat,
+void StepObjective<Real>::add_rare_terms(std::size_t group, bool any_flat, const Contacts<Real>* contacts,
                                          const std::vector<Vec4<Real>>& positions, Terms& terms) const {
     for (std::uint32_t r = 0; r < kGroup; ++r) {
         const std::uint32_t node = rows_.nodes[group * kGroup + r];
         if (node == kNoNode) continue;
-        const bool presses = contacts_ != nullptr && contacts_->presses(node);
+        const bool presses = contacts != nullptr && contacts->presses(node);
         if (!any_flat && !presses) continue;
         NodeTerms<Real> sum;
         if (any_flat) flat_tets_.add(node, positions, sum);
-        if (presses) contacts_->add(node, Vec3<Real>(positions[node]), sum);
+        if (presses) contacts->add(node, Vec3<Real>(positions[node]), sum);
         terms.add(r, sum);
     }
 }
 
 template <class Real>
 typename StepObjective<Real>::Terms StepObjective<Real>::gather(
-    std::size_t group, bool any_flat, const std::vector<Vec4<Real>>& positions) const {
+    std::size_t group, bool any_flat, const Contacts<Real>* contacts,
+    const std::vector<Vec4<Real>>& positions) const {
     Terms terms;
-    if (any_flat || contacts_ != nullptr) add_rare_terms(group, any_flat, positions, terms);
+    if (any_flat || contacts != nullptr) add_rare_terms(group, any_flat, contacts, positions, terms);
     elements_.gather(rows_, step, group, positions, terms);
     return terms;
 }
@@ -52,16 +53,17 @@ typename StepObjective<Real>::Terms StepObjective<Real>::gather(
 template <class Real>
 std::uint32_t StepObjective<Real>::descend(std::size_t group, bool any_flat,
                                            std::vector<Vec4<Real>>& positions, Terms& terms) const {
-    if (any_flat || contacts_ != nullptr) add_rare_terms(group, any_flat, positions, terms);
+    if (any_flat || contacts_ != nullptr) add_rare_terms(group, any_flat, contacts_, positions, terms);
     return elements_.descend(rows_, step, group, positions, terms);
 }
 
 template <class Real>
 void StepObjective<Real>::find_forces(const std::vector<Vec4<Real>>& positions,
+                                      const Contacts<Real>* contacts,
                                       std::vector<Vec3<Real>>& forces) const {
     const bool any_flat = any_flat_tets();
     for_each_index(0, group_count(), kGroupsATask, [&](std::size_t group) {
-        const Terms terms = gather(group, any_flat, positions);
+        const Terms terms = gather(group, any_flat, contacts, positions);
         for (std::uint32_t r = 0; r < kGroup; ++r) {
             const std::uint32_t node = rows_.nodes[group * kGroup + r];
             if (node != kNoNode && step.targets[node].w != Real(0)) forces[node] = terms.row(r).force;

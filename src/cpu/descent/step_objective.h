@@ -51,7 +51,9 @@ public:
     bool any_flat_tets() const { return flat_tets_.any(); }                        ///< of any batch
 
     /// All terms of each node of a group. @param any_flat whether flat tets are to be looked for
-    Terms gather(std::size_t group, bool any_flat, const std::vector<Vec4<Real>>& positions) const;
+    Terms gather(std::size_t group, bool any_flat, const std::vector<Vec4<Real>>& positions) const {
+        return gather(group, any_flat, contacts_, positions);
+    }
 
     /// Newton's step of each node of a group that is not held.
     /// @param terms input: none; output: those of each node, where it was
@@ -60,12 +62,16 @@ public:
                           Terms& terms) const;
 
     /// Minus the slope by each node that is not held [N].
-    void find_forces(const std::vector<Vec4<Real>>& positions, std::vector<Vec3<Real>>& forces) const;
+    /// @param contacts those of the constructor, or null to leave them out
+    void find_forces(const std::vector<Vec4<Real>>& positions, const Contacts<Real>* contacts,
+                     std::vector<Vec3<Real>>& forces) const;
 
 private:
+    Terms gather(std::size_t group, bool any_flat, const Contacts<Real>* contacts,
+                 const std::vector<Vec4<Real>>& positions) const;
     // Those of flat tets and contacts, which few nodes have.
-    void add_rare_terms(std::size_t group, bool any_flat, const std::vector<Vec4<Real>>& positions,
-                        Terms& terms) const;
+    void add_rare_terms(std::size_t group, bool any_flat, const Contacts<Real>* contacts,
+                        const std::vector<Vec4<Real>>& positions, Terms& terms) const;
 
     DescentRows rows_;
     const Contacts<Real>* contacts_;
