@@ -16,6 +16,9 @@ namespace {
 // A contact's stiffness over that of the nodes in it. Stiffer ones rest sooner, up to about 4; with 20,
 // stacks tremble.
 constexpr double kStiffness = 4.0;
+// Shorter steps do not make contacts stiffer: what they meet with less than a step's motion they would take
+// up at once, and give nothing back [s].
+constexpr double kSlowestStep = 1.0 / 60.0;
 // Of the reach: what of a gap is left as it is.
 constexpr double kLeastGap = 0.02;
 // Of what is above that: how much both sides may use before the next aim.
@@ -39,7 +42,7 @@ ContactAims<Real>::ContactAims(std::shared_ptr<const Model> model,
       surface_(std::move(surface)),
       friction_(static_cast<Real>(friction)),
       softness_(model_->node_count()),
-      lightness_(model_->node_count()),
+      yielding_(model_->node_count()),
       nodes_(model_, surface_, friction) {}
 
 template <class Real>
@@ -47,10 +50,14 @@ void ContactAims<Real>::begin(Real step, std::span<const Vec4<Real>> targets,
                               std::span<const Vec4<Real>> starts) {
     starts_ = starts;
     for (const std::uint32_t n : model_->surface_parts.nodes) {
-        const Real damped = Real(1) + starts[n].w / step;
-        const Real stiffness = targets[n].w + damped * static_cast<Real>(surface_->stiffness[n]);
-        softness_[n] = targets[n].w > Real(0) ? Real(1) / stiffness : Real(0);
-        lightness_[n] = targets[n].w > Real(0) ? Real(1) / targets[n].w : Real(0);
+        const Real inertia = targets[n].w;  // m / h^2 [N/m]
+        const auto elasticity = static_cast<Real>(surface_->stiffness[n]);
+        const auto stiffness = [&](Real seconds) {
+            const Real ratio = step / seconds;
+            return ratio * ratio * inertia + (Real(1) + starts[n].w / seconds) * elasticity;
+        };
+        softness_[n] = inertia > Real(0) ? Real(1) / stiffness(std::max(step, Real(kSlowestStep))) : Real(0);
+        yielding_[n] = inertia > Real(0) ? inertia / stiffness(step) : Real(0);
     }
 }
 
@@ -117,18 +124,18 @@ template <class Real>
 typename ContactAims<Real>::Division ContactAims<Real>::divide(const ContactPair& pair,
                                                                const Vec4<Real>& weights) const {
     std::array<Real, 2> softness{};
-    Real lightness = 0;
+    Real yielding = 0;
     std::array<bool, 2> is_free{};
     for (std::size_t k = 0; k < 4; ++k) {
         const Real weight = weights[static_cast<int>(k)], soft = softness_[pair.nodes[k]];
         softness[pair.side_of(k)] += weight * weight * soft;
-        lightness += weight * weight * lightness_[pair.nodes[k]];
+        yielding += weight * weight * soft * yielding_[pair.nodes[k]];
         is_free[pair.side_of(k)] |= soft > Real(0);
     }
     const Real sum = softness[0] + softness[1];
     Division division;
     division.stiffness = sum > Real(0) ? Real(kStiffness) / sum : Real(0);
-    division.yielding = lightness > Real(0) ? sum / lightness : Real(1);
+    division.yielding = sum > Real(0) ? yielding / sum : Real(1);
     if (!is_free[0] || !is_free[1]) {
         division.share = is_free[0] ? Real(1) : Real(0);
     } else {

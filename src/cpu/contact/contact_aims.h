@@ -19,7 +19,7 @@ template <class Real>
 struct PairAim {
     Vec3<Real> normal;  ///< from the first side to the second, unit
     Real gap;           ///< [m]
-    Real yielding;      ///< stiffness of the nodes by inertia alone, over that of them all, in (0, 1]
+    Real yielding;      ///< the part of the nodes' stiffness that is inertia, in (0, 1]
 };
 
 /// Aims the pairs of a list (docs/contact.md). To aim a pair means to freeze the direction between its
@@ -84,8 +84,9 @@ private:
     std::shared_ptr<const ContactSurface> surface_;
     Real friction_;
     std::span<const Vec4<Real>> starts_;
-    // Of each node, 0 where it is held [m/N]: how it yields to a force, and would by inertia alone.
-    std::vector<Real> softness_, lightness_;
+    // Of each node, 0 where it is held: how it yields to a force [m/N], and what part of that stiffness is
+    // its inertia.
+    std::vector<Real> softness_, yielding_;
     std::vector<PairAim<Real>> aims_;
     std::vector<Press<Real>> presses_;
     std::vector<std::vector<Press<Real>>> found_;  // of each task, in the order of the pairs
