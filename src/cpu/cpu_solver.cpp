@@ -149,15 +149,18 @@ void CpuSolver<Real>::advance_nodes(double step) {
 
 template <class Real>
 void CpuSolver<Real>::descend(Descent& descent, double step) {
-    std::swap(current_, previous_);
     StageTimer* const timer = timer_.for_parts();
-    {
-        const TimedStage part(timer, "advance_nodes.match_shapes");
-        descent.shape_matcher.run(previous_);
+    const int parts = descent.solver.parts(step, current_);
+    for (int p = 0; p < parts; ++p) {
+        std::swap(current_, previous_);
+        {
+            const TimedStage part(timer, "advance_nodes.match_shapes");
+            descent.shape_matcher.run(previous_);
+        }
+        sum_loads(previous_);
+        descent.solver.run(static_cast<Real>(step / parts), std::exchange(has_earlier_, true), previous_,
+                           current_, load_forces_, pulls_ ? &*pulls_ : nullptr, timer, parts);
     }
-    sum_loads(previous_);
-    descent.solver.run(static_cast<Real>(step), std::exchange(has_earlier_, true), previous_, current_,
-                       load_forces_, pulls_ ? &*pulls_ : nullptr, timer);
 }
 
 template <class Real>

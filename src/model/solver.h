@@ -27,6 +27,9 @@ struct State {
 struct DescentSettings {
     int iterations = 10;       ///< sweeps over all nodes in a step, >= 1
     bool coarse_level = true;  ///< model/descent/coarse_basis.h; off to compare
+    /// Whether steps in which bodies meet are divided into parts, among which sweeps are shared out; on the
+    /// CPU alone.
+    bool divides_steps = false;
 };
 
 /// A node nearer to a collider than this [m] counts as a contact.

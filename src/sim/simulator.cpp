@@ -48,7 +48,8 @@ struct Simulator::Impl {
 
     void make_solver() {
         const SimulationSettings& settings = scene.simulation;
-        const DescentSettings descent{settings.iterations};
+        DescentSettings descent{settings.iterations};
+        descent.divides_steps = scene.collision.response == CollisionResponse::contact && !settings.substeps;
         if (choose_gl(options, context)) {
             solver = std::make_unique<gpu::GpuSolver>(model, settings.solver, settings.forces,
                                                       scene.collision, descent);

@@ -51,6 +51,7 @@ public:
     const std::vector<PairAim<Real>>& aims() const { return aims_; }  ///< in the order of the list's pairs
     const std::vector<Press<Real>>& presses() const { return presses_; }  ///< in the order of their pairs
     Real friction() const { return friction_; }
+    Real thickness(std::size_t object) const { return static_cast<Real>(surface_->thicknesses[object]); }
     /// Gap at which a pair begins to press [m].
     Real reach(const ContactPair& pair) const {
         return static_cast<Real>(surface_->reach(pair.object, pair.other));

@@ -9,7 +9,8 @@
 namespace gelatin::cpu {
 namespace {
 
-// Moves of a guess, between which rooms are made anew. With two, bodies that slide lose speed to their rooms.
+// Moves of a guess, between which rooms are made anew; the parts of a divided step share them out. With two,
+// bodies that slide lose speed to their rooms.
 constexpr int kMostMoves = 6;
 // Of a room: nodes that have come farther are detected again.
 constexpr double kUsedRoom = 0.9;
@@ -37,8 +38,9 @@ void Contacts<Real>::restart(std::span<const Vec4<Real>> positions) {
 }
 
 template <class Real>
-void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::span<const Vec4<Real>> starts,
-                           std::span<Vec4<Real>> positions, StageTimer* timer) {
+void Contacts<Real>::begin(Real step, int parts, std::span<const Vec4<Real>> targets,
+                           std::span<const Vec4<Real>> starts, std::span<Vec4<Real>> positions,
+                           StageTimer* timer) {
     guess_.assign(positions.begin(), positions.end());
     for (std::size_t n = 0; n < positions.size(); ++n)
         positions[n] = Vec4<Real>(Vec3<Real>(safe_[n]), guess_[n].w);
@@ -51,21 +53,21 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
     }
     longest_ = std::sqrt(static_cast<double>(longest));
     bool is_fresh = !list_.is_valid || used_room(positions) > Real(kUsedRoom);
-    if (is_fresh) detect(positions, timer);
-    for (int moves = 0; moves < kMostMoves;) {
-        aim(positions, timer);
+    if (is_fresh) renew(positions, timer);
+    const int most_moves = std::max(1, kMostMoves / parts);
+    for (int moves = 0; moves < most_moves;) {
         const TimedStage part(timer, "advance_nodes.guess");
         const bool is_free = guard_.plan(list_, aims_, positions, guess_, Closeness::guess);
         if (is_free || is_fresh) {
             guard_.go(list_, guess_, false, positions);
             ++moves;
             is_fresh = false;
-            if (is_free) break;
+            if (is_free || moves == most_moves) break;
         }
         detect(positions, timer);
+        aim(positions, timer);
         is_fresh = true;
     }
-    renew(positions, timer);
 }
 
 template <class Real>
@@ -83,19 +85,15 @@ bool Contacts<Real>::plan_rest(std::span<const Vec4<Real>> positions, std::span<
 }
 
 template <class Real>
-void Contacts<Real>::go_on(std::span<const Real> parts, std::span<Vec4<Real>> positions, StageTimer* timer) {
-    {
-        const TimedStage part(timer, "advance_nodes.guess");
-        guard_.shorten(list_, parts);
-        guard_.go(list_, guess_, false, positions);
-    }
-    renew(positions, timer);
+void Contacts<Real>::go_on(std::span<const Real> parts, std::span<Vec4<Real>> positions) {
+    guard_.shorten(list_, parts);
+    guard_.go(list_, guess_, false, positions);
 }
 
 // Of pairs as they are, with both sides under way.
 template <class Real>
-std::vector<Work> Contacts<Real>::works(
-    std::span<const Vec4<Real>> positions, std::span<const Vec3<Real>> displacements) const {
+std::vector<Work> Contacts<Real>::works(std::span<const Vec4<Real>> positions,
+                                        std::span<const Vec3<Real>> displacements) const {
     std::vector<Work> works(model_->objects.size());
     for (const Press<Real>& press : aims_.presses()) {
         const ContactPair& pair = list_.pairs[press.pair];
@@ -125,7 +123,7 @@ void Contacts<Real>::move(std::span<const Vec4<Real>> ends, std::span<Vec4<Real>
 
 template <class Real>
 void Contacts<Real>::renew(std::span<const Vec4<Real>> positions, StageTimer* timer) {
-    if (used_room(positions) > Real(kUsedRoom)) detect(positions, timer);
+    if (!list_.is_valid || used_room(positions) > Real(kUsedRoom)) detect(positions, timer);
     aim(positions, timer);
 }
 

@@ -34,9 +34,10 @@ public:
     bool was_pressed(std::size_t object) const { return is_pressed_[object] != 0; }
 
     /// Begins a step: goes from where the last one ended as far to a first guess as that is safe.
-    /// @param targets as in StepState; they and `starts` must stay where they are until the end of the step
+    /// @param parts of the divided step that this is one of @param targets as in StepState; they and `starts`
+    /// must stay where they are until the end of the step
     /// @param positions input: the guess; output: where the sweeps begin
-    void begin(Real step, std::span<const Vec4<Real>> targets, std::span<const Vec4<Real>> starts,
+    void begin(Real step, int parts, std::span<const Vec4<Real>> targets, std::span<const Vec4<Real>> starts,
                std::span<Vec4<Real>> positions, StageTimer* timer);
 
     /// Finds how far the nodes of bodies that others kept from the guess of begin() may go on to it.
@@ -45,7 +46,7 @@ public:
     bool plan_rest(std::span<const Vec4<Real>> positions, std::span<Vec3<Real>> displacements,
                    StageTimer* timer);
     /// Goes on so. @param parts of the displacements that objects make, if others let them
-    void go_on(std::span<const Real> parts, std::span<Vec4<Real>> positions, StageTimer* timer);
+    void go_on(std::span<const Real> parts, std::span<Vec4<Real>> positions);
 
     /// Moves all bodies to `ends`, as far as that is safe. Aims are out of date after it.
     void move(std::span<const Vec4<Real>> ends, std::span<Vec4<Real>> positions);

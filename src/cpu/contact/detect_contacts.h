@@ -16,7 +16,7 @@
 namespace gelatin::cpu {
 
 /// Pairs are listed that are nearer than this times the reach.
-constexpr double kListedReach = 4.0;
+constexpr double kListedReach = 3.0;
 
 /// Lists the pairs of surface nodes and faces, and of edges, of different bodies that are near each other,
 /// and how far every node may go before others could meet (docs/contact.md).

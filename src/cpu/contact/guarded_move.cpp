@@ -15,6 +15,9 @@ namespace {
 // Rounds in which movers that block each other are shortened. After them, those still in the way make nothing
 // of their own.
 constexpr int kMostRounds = 8;
+// What others are in the way of, but makes so much of its way, may make more after another detection if much
+// is left: what slides, over the next edges.
+constexpr double kProgress = 0.1;
 // Of the reach: another direction than that of the aim is taken if the pair is so far apart along it.
 constexpr double kSeparated = 0.05;
 
@@ -63,6 +66,7 @@ GuardedMove<Real>::GuardedMove(std::shared_ptr<const Model> model, std::vector<s
       is_held_(model_->objects.size()),
       means_(model_->objects.size()),
       ways_(model_->node_count()),
+      ways_of_objects_(model_->objects.size()),
       parts_(model_->objects.size()) {
     for (std::size_t o = 0; o < masses_.size(); ++o) {
         const Range& nodes = model_->objects[o].nodes;
@@ -92,9 +96,15 @@ bool GuardedMove<Real>::plan(const ContactList<Real>& list, const ContactAims<Re
     room_parts_ = parts_;
     find_blocked_pairs(list, aims, positions, ends, closeness);
     keep_pairs_apart(list);
-    // Where other bodies are in the way, more room would not help.
-    for (std::size_t m = 0; m < parts_.size(); ++m)
-        if (parts_[m] < Real(1) && parts_[m] == room_parts_[m]) return false;
+    if (movers == Movers::nodes) return true;
+    const auto goes_on = [&](std::size_t o) {
+        if (parts_[o] == Real(1)) return false;
+        if (parts_[o] == room_parts_[o]) return true;
+        const Real left = (Real(1) - parts_[o]) * ways_of_objects_[o];
+        return parts_[o] > Real(kProgress) && left > aims.thickness(o);
+    };
+    for (std::size_t o = 0; o < parts_.size(); ++o)
+        if (goes_on(o)) return false;
     return may_shift;
 }
 
@@ -147,6 +157,7 @@ void GuardedMove<Real>::keep_to_rooms(const ContactList<Real>& list, const Conta
     tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
         const std::uint32_t island = list.islands[o];
         const Range& nodes = model_->objects[o].nodes;
+        ways_of_objects_[o] = Real(0);
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
             const std::uint32_t place = places_[n];
             if (place == kNoNode) continue;
@@ -155,7 +166,9 @@ void GuardedMove<Real>::keep_to_rooms(const ContactList<Real>& list, const Conta
             const Vec3<Real> moved = list.moved(place, static_cast<std::uint32_t>(o), position);
             Real& part = parts_[are_nodes ? n : o];
             part = std::min(part, part_within(moved, motion, list.rooms[place]));
-            ways_[n] = glm::length(position - aims.nodes().aimed_at(n)) + glm::length(motion);
+            const Real way = glm::length(motion);
+            ways_[n] = glm::length(position - aims.nodes().aimed_at(n)) + way;
+            ways_of_objects_[o] = std::max(ways_of_objects_[o], way);
         }
     });
 }
@@ -260,9 +273,8 @@ void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
             courses_[kept++] = course;
             if (is_left(course)) continue;
             is_blocked = true;
-            const Real start = course.gap([&](std::size_t c) {
-                return course.approaches(c) ? Real(0) : parts_[course.movers[c]];
-            });
+            const Real start = course.gap(
+                [&](std::size_t c) { return course.approaches(c) ? Real(0) : parts_[course.movers[c]]; });
             const Real end = course.gap([&](std::size_t c) { return parts_[course.movers[c]]; });
             const Real left = round < kMostRounds ? part_left(start, end, course.least) : Real(0);
             for (std::size_t c = 0; c < 4; ++c) {

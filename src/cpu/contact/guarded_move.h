@@ -27,8 +27,8 @@ enum class Movers {
 
 /// Moves all bodies of a list at once towards where they should be. What the bodies of an island have in
 /// common they move in full. Of the rest each object, or node, makes as much as leaves a gap in all of its
-/// pairs, along a direction that separates them. All nodes go straight and at the same time, so that surfaces that are
-/// apart at both ends are so on the way.
+/// pairs, along a direction that separates them. All nodes go straight and at the same time, so that surfaces
+/// that are apart at both ends are so on the way.
 template <class Real>
 class GuardedMove {
 public:
@@ -39,7 +39,7 @@ public:
     bool is_held(std::size_t object) const { return is_held_[object] != 0; }
 
     /// Finds how much of the way to `ends` each mover may go.
-    /// @return false if more room, or a new island, would let an object go farther
+    /// @return false if movers may go farther after this move and another detection
     bool plan(const ContactList<Real>& list, const ContactAims<Real>& aims,
               std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends, Closeness closeness,
               Movers movers = Movers::objects);
@@ -90,13 +90,14 @@ private:
                         const std::array<Vec3<Real>, 4>& motions, Closeness closeness) const;
 
     std::shared_ptr<const Model> model_;
-    std::vector<std::uint32_t> places_;  // of nodes among those of the surface
+    std::vector<std::uint32_t> places_;     // of nodes among those of the surface
     std::vector<std::uint32_t> object_of_;  // by node
-    std::vector<double> masses_;         // of objects [kg]
-    std::vector<std::uint8_t> is_held_;  // by object
-    std::vector<Vec3<Real>> means_;      // mean motion of each object [m]
-    std::vector<Real> ways_;          // of surface nodes since the aim and now, without what is in common [m]
-    std::vector<Vec3<Real>> common_;  // by island
+    std::vector<double> masses_;            // of objects [kg]
+    std::vector<std::uint8_t> is_held_;     // by object
+    std::vector<Vec3<Real>> means_;         // mean motion of each object [m]
+    std::vector<Real> ways_;  // of surface nodes since the aim and now, without what is in common [m]
+    std::vector<Real> ways_of_objects_;  // the longest of a node's now [m]
+    std::vector<Vec3<Real>> common_;     // by island
     Movers movers_ = Movers::objects;
     std::vector<Real> parts_, next_parts_, room_parts_;  // by mover
     std::vector<std::uint32_t> blocked_;

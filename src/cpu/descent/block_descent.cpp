@@ -23,6 +23,7 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
                                  std::uint32_t nodes_a_batch, std::unique_ptr<Contacts<Real>> contacts)
     : model_(std::move(model)),
       settings_(settings),
+      sweeps_(settings.iterations),
       bodies_(std::move(contacts)),
       objective_(model_, nodes_a_batch, bodies_.get()),
       contacts_(*model_),
@@ -33,12 +34,14 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
     if (settings_.coarse_level) coarse_.emplace(model_, bodies_.get());
     if (coarse_ && coarse_->is_empty()) coarse_.reset();
     if (coarse_ || bodies_) secant_.emplace(model_);
+    if (settings_.divides_steps) division_.emplace(model_);
 }
 
 template <class Real>
 void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current,
                              std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls,
-                             StageTimer* timer) {
+                             StageTimer* timer, int parts) {
+    sweeps_ = std::max(1, settings_.iterations / parts);
     {
         const TimedStage part(timer, "advance_nodes.start");
         if (bodies_) find_calm_bodies(step, previous);
@@ -46,17 +49,18 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
         take_back_tangled(current.positions);
     }
     if (bodies_) {
-        bodies_->begin(step, objective_.step.targets, objective_.step.starts, current.positions, timer);
+        bodies_->begin(step, parts, objective_.step.targets, objective_.step.starts, current.positions,
+                       timer);
         go_on_to_guess(current.positions, timer);
     }
-    if (coarse_) {
+    if (coarse_ && end_of_run(0) < sweeps_) {
         const TimedStage part(timer, "advance_nodes.start");
         coarse_->begin(step, current.positions);
     }
-    for (int first = 0; first < settings_.iterations;) {
+    for (int first = 0; first < sweeps_;) {
         const int end = end_of_run(first);
         make_sweeps(first, end, current.positions, timer);
-        if (end < settings_.iterations) {
+        if (end < sweeps_) {
             const TimedStage part(timer, "advance_nodes.correct");
             coarse_->run(objective_, contacts_, *secant_, current.positions);
         }
@@ -65,6 +69,7 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
     const TimedStage part(timer, "advance_nodes.move_bodies");
     finish(step, previous, current);
     if (bodies_) bodies_->end(current.positions);
+    last_step_ = step;
 }
 
 // Bodies that press others and are slower than what gravity adds in two steps. For these, the best guess is
@@ -128,9 +133,8 @@ void BlockDescent<Real>::make_sweeps(int first, int end, Positions& positions, S
 // body makes the part of that at which the objective is least.
 template <class Real>
 void BlockDescent<Real>::go_on_to_guess(Positions& positions, StageTimer* timer) {
-    if (!bodies_->plan_rest(positions, secant_->displacements, timer)) return;
-    std::vector<Real> parts(model_->objects.size());
-    {
+    if (bodies_->plan_rest(positions, secant_->displacements, timer)) {
+        std::vector<Real> parts(model_->objects.size());
         const TimedStage part(timer, "advance_nodes.guess");
         secant_->find_forces(objective_, contacts_, nullptr, positions);
         secant_->look_ahead(objective_, contacts_, nullptr, positions);
@@ -141,8 +145,9 @@ void BlockDescent<Real>::go_on_to_guess(Positions& positions, StageTimer* timer)
             work.ahead += of_contacts[o].ahead;
             parts[o] = static_cast<Real>(secant_->part(work, 1.0));
         });
+        bodies_->go_on(parts, positions);
     }
-    bodies_->go_on(parts, positions, timer);
+    bodies_->renew(positions, timer);
 }
 
 // All bodies as rigid ones, those of an island together. Held nodes that others were in the way of go on:
@@ -166,9 +171,9 @@ void BlockDescent<Real>::move_together(bool last, Positions& positions, StageTim
 // Of sweeps that no correction comes between.
 template <class Real>
 int BlockDescent<Real>::end_of_run(int first) const {
-    if (!coarse_) return settings_.iterations;
+    if (!coarse_) return sweeps_;
     const int corrected = (first + kSweepsACorrection - 1) / kSweepsACorrection * kSweepsACorrection;
-    return std::min(corrected + 1, settings_.iterations);
+    return std::min(corrected + 1, sweeps_);
 }
 
 // As the last step went on: with as much of gravity as was felt in it, from none, where a body rests, to all,
@@ -181,6 +186,7 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
                                Nodes<Real>& current) {
     const Vec3<Real> gravity(model_->gravity);
     const Real squared = glm::dot(gravity, gravity);
+    const Real earlier_step = last_step_ > Real(0) ? last_step_ : step;
     for_each_node(*model_, [&](std::uint32_t n) {
         const Vec3<Real> velocity(previous.velocities[n]);
         const Vec3<Real> gained = velocity - Vec3<Real>(current.velocities[n]);
@@ -202,9 +208,10 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
         target = Vec4<Real>(Vec3<Real>(from) + step * (velocity + step * acceleration),
                             Real(1) / (from.w * step * step));
         if (pulls != nullptr) target = pulls->with_target(n, target, Vec3<Real>(from), step);
-        const Real felt = has_earlier && squared > Real(0)
-                              ? glm::clamp(glm::dot(gained, gravity) / (step * squared), Real(0), Real(1))
-                              : Real(1);
+        const Real felt =
+            has_earlier && squared > Real(0)
+                ? glm::clamp(glm::dot(gained, gravity) / (earlier_step * squared), Real(0), Real(1))
+                : Real(1);
         Vec3<Real> guess = Vec3<Real>(from) + step * (velocity + step * felt * gravity);
         if (bodies_ && bodies_->was_pressed(contacts_.object_of[n]))
             guess = Vec3<Real>(from) + (is_calm_[contacts_.object_of[n]] != 0 ? Real(0) : step) * velocity;

@@ -13,6 +13,7 @@
 #include "cpu/descent/joint_move.h"
 #include "cpu/descent/node_sweep.h"
 #include "cpu/descent/rigid_move.h"
+#include "cpu/descent/step_division.h"
 #include "cpu/descent/step_objective.h"
 #include "cpu/drive/pulls.h"
 #include "cpu/nodes.h"
@@ -46,15 +47,25 @@ public:
     /// To be called when nodes were set from outside.
     void restart(std::span<const Vec4<Real>> positions) {
         if (bodies_) bodies_->restart(positions);
+        if (division_) division_->restart();
+        last_step_ = 0.0;
+    }
+
+    /// Into how many equal steps a step of `step` seconds from `nodes` is to be divided.
+    int parts(double step, const Nodes<Real>& nodes) {
+        return division_ ? division_->parts(step, nodes.velocities, contacts_.objects, bodies_.get(),
+                                            settings_.iterations)
+                         : 1;
     }
 
     /// A step of `step` seconds from `previous`; writes `current`.
     /// @param current's velocities are those one step before `previous` if `has_earlier`, else not looked at
     /// @param load_forces [N], shape [nodes], or empty @param pulls null: no hand holds anything
-    /// @param timer of the parts of the step; null: none
+    /// @param timer of the parts of the step; null: none @param parts of a divided step: it makes its share
+    /// of the sweeps
     void run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current,
              std::span<const Vec4<Real>> load_forces = {}, const Pulls<Real>* pulls = nullptr,
-             StageTimer* timer = nullptr);
+             StageTimer* timer = nullptr, int parts = 1);
 
 private:
     using Positions = std::vector<Vec4<Real>>;
@@ -69,11 +80,14 @@ private:
     void make_sweeps(int first, int end, Positions& positions, StageTimer* timer);
     bool updates_tets(int sweep) const { return sweep % kSweepsAMotion == 0; }
     bool moves_bodies(int sweep) const { return is_last(sweep) || (sweep + 1) % kSweepsAMotion == 0; }
-    bool is_last(int sweep) const { return sweep + 1 == settings_.iterations; }
+    bool is_last(int sweep) const { return sweep + 1 == sweeps_; }
     void finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current) const;
 
     std::shared_ptr<const Model> model_;
     DescentSettings settings_;
+    int sweeps_;                // of this step
+    Real last_step_ = Real(0);  // length of the step before [s]; 0: as this one
+    std::optional<StepDivision<Real>> division_;
     std::unique_ptr<Contacts<Real>> bodies_;
     StepObjective<Real> objective_;
     ColliderContacts<Real> contacts_;

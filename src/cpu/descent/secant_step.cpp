@@ -28,8 +28,7 @@ const std::vector<Vec3<Real>>& SecantStep<Real>::find_forces(const StepObjective
 
 template <class Real>
 void SecantStep<Real>::look_ahead(const StepObjective<Real>& objective,
-                                  const ColliderContacts<Real>& colliders,
-                                  const Contacts<Real>* contacts,
+                                  const ColliderContacts<Real>& colliders, const Contacts<Real>* contacts,
                                   const std::vector<Vec4<Real>>& positions) {
     for_each_index(positions.size(),
                    [&](std::size_t n) { ahead_[n] = positions[n] + Vec4<Real>(displacements[n], Real(0)); });

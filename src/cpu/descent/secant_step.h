@@ -39,8 +39,8 @@ public:
 
 private:
     std::shared_ptr<const Model> model_;
-    std::vector<Vec4<Real>> ahead_;                    // positions after the displacements [m]
-    std::vector<Vec3<Real>> forces_, forces_ahead_;    // [N]
+    std::vector<Vec4<Real>> ahead_;                  // positions after the displacements [m]
+    std::vector<Vec3<Real>> forces_, forces_ahead_;  // [N]
 };
 
 }  // namespace gelatin::cpu

@@ -59,8 +59,7 @@ std::uint32_t StepObjective<Real>::descend(std::size_t group, bool any_flat,
 
 template <class Real>
 void StepObjective<Real>::find_forces(const std::vector<Vec4<Real>>& positions,
-                                      const Contacts<Real>* contacts,
-                                      std::vector<Vec3<Real>>& forces) const {
+                                      const Contacts<Real>* contacts, std::vector<Vec3<Real>>& forces) const {
     const bool any_flat = any_flat_tets();
     for_each_index(0, group_count(), kGroupsATask, [&](std::size_t group) {
         const Terms terms = gather(group, any_flat, contacts, positions);

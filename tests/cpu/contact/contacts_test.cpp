@@ -47,10 +47,10 @@ std::shared_ptr<const Model> make_blocks(const std::vector<Block>& blocks,
 
 template <class Real>
 cpu::CpuSolver<Real> make_solver(const std::shared_ptr<const Model>& model, double friction = 0.4,
-                                 int iterations = 10) {
+                                 int iterations = 10, bool divides_steps = false) {
     return {model, SolverKind::vbd, ForceMethod::fused,
             CollisionSettings{.response = CollisionResponse::contact, .friction = friction},
-            DescentSettings{iterations}};
+            DescentSettings{.iterations = iterations, .divides_steps = divides_steps}};
 }
 
 struct Sums {
@@ -145,10 +145,95 @@ TEST(Contacts, OfAllMaterials) {
     }
 }
 
+// What contacts do along displacements is minus the slope of their energy, with both sides under way.
+TEST(Contacts, TellTheWorkOfDisplacements) {
+    const auto model = make_blocks({{}, {.place = {0.305, 0.1, 0.05}}});
+    cpu::Contacts<double> contacts(model, 0.4);
+    std::vector<glm::dvec4> positions(model->positions.begin(), model->positions.end()), targets = positions;
+    for (glm::dvec4& target : targets) target.w = 3600.0 / target.w;
+    auto starts = positions;
+    for (glm::dvec4& start : starts) start.w = 0.0;
+    contacts.begin(kFrame, 1, targets, starts, positions, nullptr);
+    contacts.renew(positions, nullptr);
+    test::RandomMaker random(1);
+    std::vector<glm::dvec3> displacements(positions.size());
+    for (glm::dvec3& d : displacements) d = random.point(1e-3);
+    const auto energy = [&](double part) {
+        auto moved = positions;
+        for (std::size_t n = 0; n < moved.size(); ++n) moved[n] += glm::dvec4(part * displacements[n], 0.0);
+        double sum = 0.0;
+        for (const auto& press : contacts.aims().presses())
+            sum += cpu::contact_energy(contacts.aims().gap(contacts.list().pairs[press.pair], press, moved),
+                                       press.reach, press.stiffness);
+        return sum;
+    };
+    ASSERT_GT(energy(0.0), 0.0);
+    cpu::Work sum;
+    for (const cpu::Work& work : contacts.works(positions, displacements)) {
+        sum.here += work.here;
+        sum.ahead += work.ahead;
+    }
+    constexpr double kStep = 1e-5;
+    EXPECT_NEAR(sum.here, (energy(-kStep) - energy(kStep)) / (2 * kStep), 1e-6 * std::abs(sum.here));
+    EXPECT_NEAR(sum.ahead, (energy(1 - kStep) - energy(1 + kStep)) / (2 * kStep), 1e-6 * std::abs(sum.ahead));
+}
+
+// Parts of the next step: as often as shapes are matched.
+std::size_t count_parts(cpu::CpuSolver<float>& solver) {
+    solver.stage_timer().time_parts(true);
+    solver.stage_timer().take();
+    solver.advance_nodes(kFrame);
+    return solver.stage_timer().take().at("advance_nodes.match_shapes").size();
+}
+
+TEST(StepDivision, IsForBodiesThatMeet) {
+    const auto most_parts = [](const std::shared_ptr<const Model>& model, int frames) {
+        cpu::CpuSolver<float> solver = make_solver<float>(model, 0.4, 10, true);
+        std::vector<std::size_t> parts;
+        for (int frame = 0; frame < frames; ++frame) parts.push_back(count_parts(solver));
+        return std::pair(*std::max_element(parts.begin(), parts.end()), parts.back());
+    };
+    const auto most_of_impact = [&](double speed, double youngs_modulus) {
+        return most_parts(make_impact(speed, youngs_modulus), 10).first;
+    };
+    EXPECT_EQ(most_of_impact(3.0, 2e5), 16u);
+    const std::size_t slow = most_of_impact(0.5, 2e5);
+    EXPECT_GT(slow, 1u);
+    EXPECT_LT(slow, 8u);
+    EXPECT_EQ(most_of_impact(0.05, 2e5), 1u);
+    EXPECT_LT(most_of_impact(3.0, 1e3), 8u);   // so soft that impacts take long
+    EXPECT_EQ(most_of_impact(3.0, 1e10), 1u);  // so stiff that no part is short enough
+    // One that flies past, far away; and a lone one that falls on a floor, and comes to rest.
+    EXPECT_EQ(most_parts(make_blocks({{.velocity = {9, 0, 0}}, {.place = {0, 9, 0}}}), 10).first, 1u);
+    ColliderDescription floor;
+    floor.shape = PlaneCollider{};
+    const auto ball = make_blocks({{.place = {0, 0.5, 0}, .youngs_modulus = 2e4}}, {0, -9.81, 0}, {floor});
+    const auto [most, last] = most_parts(ball, 300);
+    EXPECT_GT(most, 8u);
+    EXPECT_EQ(last, 1u);
+}
+
+TEST(ContactsHeavy, BodiesBounceInDividedSteps) {
+    const auto left_after = [](int substeps, int iterations, bool divides_steps) {
+        const auto model = make_impact(1.5, 2e4);
+        cpu::CpuSolver<float> solver = make_solver<float>(model, 0.4, iterations, divides_steps);
+        for (int step = 0; step < 60 * substeps; ++step) solver.advance_nodes(kFrame / substeps);
+        // Of the bodies' middles: what they vibrate with dies down.
+        double sum = 0.0;
+        for (const ObjectMeasure& object : cpu::measure(*model, solver.nodes()))
+            sum += glm::dot(object.momentum, object.momentum) / (2.0 * 27.0);
+        return sum;
+    };
+    const double fine = left_after(64, 10, false), divided = left_after(1, 10, true);
+    EXPECT_GT(divided, 0.85 * fine);
+    EXPECT_LT(divided, 1.05 * fine);
+    EXPECT_LT(left_after(1, 10, false), 0.8 * fine);
+}
+
 TEST(Contacts, GivesTheSameBitsForAnyNumberOfThreads) {
     const auto run = [](std::size_t threads) {
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-        cpu::CpuSolver<float> solver = make_solver<float>(make_impact(5.0));
+        cpu::CpuSolver<float> solver = make_solver<float>(make_impact(5.0), 0.4, 10, true);
         for (int frame = 0; frame < 20; ++frame) solver.advance_nodes(kFrame);
         return solver.nodes().positions;
     };
@@ -264,7 +349,8 @@ void fuzz(unsigned first, unsigned count) {
         }
         const auto model = make_blocks(blocks, {0, -9.81, 0});
         const int substeps = random.integer(1, 4), iterations = random.integer(1, 12);
-        cpu::CpuSolver<float> solver = make_solver<float>(model, 0.4, iterations);
+        const bool divides_steps = random.integer(0, 1) == 0;
+        cpu::CpuSolver<float> solver = make_solver<float>(model, 0.4, iterations, divides_steps);
         for (int step = 0; step < 20 * substeps; ++step) {
             solver.advance_nodes(kFrame / substeps);
             ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u)

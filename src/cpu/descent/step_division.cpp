@@ -1,0 +1,122 @@
+#include "cpu/descent/step_division.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace gelatin::cpu {
+namespace {
+
+constexpr int kMostParts = 16;
+// A part for each of these that bodies meet with: some of what gravity adds in a step of a frame [m/s].
+constexpr double kLivelySpeed = 0.125;
+// Parts of the time that a pressure wave takes through a body, of whose impact they leave 85%.
+constexpr double kPartsAWave = 48.0;
+// An impact takes so many of these times. Where that is less than two of the shortest parts, they are no
+// help.
+constexpr double kWavesAnImpact = 8.0, kLeastParts = 2.0;
+// Contacts of all parts cost up to so much of what sweeps do: by nodes and pairs.
+constexpr double kPairsASweptNode = 2.0;
+
+}  // namespace
+
+template <class Real>
+StepDivision<Real>::StepDivision(std::shared_ptr<const Model> model)
+    : model_(std::move(model)),
+      masses_(model_->objects.size()),
+      wave_times_(model_->objects.size()),
+      velocities_(model_->objects.size()),
+      speeds_(model_->objects.size()),
+      liveliness_(model_->objects.size()) {
+    for (std::size_t o = 0; o < masses_.size(); ++o) {
+        const ModelObject& object = model_->objects[o];
+        double mass = 0.0, bulk = 0.0, volume = 0.0;
+        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
+            const auto own = static_cast<double>(model_->masses[n]);
+            mass += own;
+            if (model_->positions[n].w > 0.0f) masses_[o] += own;
+        }
+        for (std::uint32_t t = object.tets.first; t < object.tets.end(); ++t) {
+            const TetRest& rest = model_->tet_rests[t];
+            bulk += static_cast<double>(rest.bulk) * static_cast<double>(rest.volume);
+            volume += static_cast<double>(rest.volume);
+        }
+        wave_times_[o] = std::cbrt(volume) * std::sqrt(mass / bulk);  // bulk is of the volume [J]
+    }
+}
+
+template <class Real>
+void StepDivision<Real>::restart() {
+    std::fill(liveliness_.begin(), liveliness_.end(), 0.0);
+}
+
+template <class Real>
+int StepDivision<Real>::parts(double step, std::span<const Vec4<Real>> velocities,
+                              std::span<const std::uint8_t> touched_colliders, const Contacts<Real>* contacts,
+                              int sweeps) {
+    find_velocities(velocities);
+    find_speeds(touched_colliders, contacts);
+    double parts = 1.0;
+    for (std::size_t o = 0; o < speeds_.size(); ++o) {
+        const double wave = wave_times_[o], impact = kWavesAnImpact * wave;
+        // Bodies that are most compressed stand still: what they met with fades by half while an impact
+        // takes.
+        const double left = std::exp2(-step / impact) * liveliness_[o];
+        liveliness_[o] = speeds_[o] > 0.0 ? std::max(speeds_[o], left) : 0.0;
+        if (impact < kLeastParts * step / kMostParts) continue;
+        parts = std::max(parts, std::min(liveliness_[o] / kLivelySpeed, kPartsAWave * step / wave));
+    }
+    if (contacts != nullptr && !contacts->list().pairs.empty()) {
+        const double swept = static_cast<double>(sweeps) * static_cast<double>(model_->node_count());
+        parts =
+            std::min(parts, kPairsASweptNode * swept / static_cast<double>(contacts->list().pairs.size()));
+    }
+    return std::clamp(static_cast<int>(std::ceil(parts)), 1, kMostParts);
+}
+
+template <class Real>
+void StepDivision<Real>::find_velocities(std::span<const Vec4<Real>> velocities) {
+    for (std::size_t o = 0; o < velocities_.size(); ++o) {
+        const Range& nodes = model_->objects[o].nodes;
+        glm::dvec3 momentum(0.0);
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            if (model_->positions[n].w > 0.0f)
+                momentum += static_cast<double>(model_->masses[n]) * glm::dvec3(velocities[n]);
+        }
+        velocities_[o] = masses_[o] > 0.0 ? momentum / masses_[o] : glm::dvec3(0.0);
+    }
+}
+
+// Relative to the mean of the island; to what does not move, where something is held or a collider is
+// touched.
+template <class Real>
+void StepDivision<Real>::find_speeds(std::span<const std::uint8_t> touched_colliders,
+                                     const Contacts<Real>* contacts) {
+    const bool has_islands = contacts != nullptr && contacts->list().is_valid;
+    const std::size_t objects = speeds_.size();
+    const auto island_of = [&](std::size_t o) { return has_islands ? contacts->list().islands[o] : o; };
+    const std::size_t islands = has_islands ? contacts->list().shifts.size() : objects;
+    std::vector<glm::dvec3> momenta(islands, glm::dvec3(0.0));
+    std::vector<double> masses(islands);
+    std::vector<std::uint8_t> meets(islands), is_held(islands);
+    for (std::size_t o = 0; o < objects; ++o) {
+        const std::size_t i = island_of(o);
+        momenta[i] += masses_[o] * velocities_[o];
+        masses[i] += masses_[o];
+        if (touched_colliders[o] != 0) meets[i] = is_held[i] = 1;
+        if (!has_islands) continue;
+        if (!contacts->list().is_alone_at(o)) meets[i] = 1;
+        if (contacts->is_held(o)) is_held[i] = 1;
+    }
+    for (std::size_t o = 0; o < objects; ++o) {
+        const std::size_t i = island_of(o);
+        const bool moves = is_held[i] == 0 && masses[i] > 0.0;
+        const glm::dvec3 mean = moves ? momenta[i] / masses[i] : glm::dvec3(0.0);
+        speeds_[o] = meets[i] != 0 ? glm::length(velocities_[o] - mean) : 0.0;
+    }
+}
+
+template class StepDivision<float>;
+template class StepDivision<double>;
+
+}  // namespace gelatin::cpu

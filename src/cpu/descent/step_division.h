@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cpu/contact/contacts.h"
+#include "cpu/nodes.h"
+#include "model/model.h"
+
+namespace gelatin::cpu {
+
+/// Decides into how many parts a step is divided, so that bodies that meet bounce: a long step of implicit
+/// Euler takes up most of an impact's energy (docs/contact.md).
+template <class Real>
+class StepDivision {
+public:
+    explicit StepDivision(std::shared_ptr<const Model> model);
+
+    /// To be called when nodes were set from outside.
+    void restart();
+
+    /// @param step to be divided [s] @param touched_colliders by object, in the last step
+    /// @param contacts null: there is one body @param sweeps of the step
+    int parts(double step, std::span<const Vec4<Real>> velocities,
+              std::span<const std::uint8_t> touched_colliders, const Contacts<Real>* contacts, int sweeps);
+
+private:
+    void find_velocities(std::span<const Vec4<Real>> velocities);
+    void find_speeds(std::span<const std::uint8_t> touched_colliders, const Contacts<Real>* contacts);
+
+    std::shared_ptr<const Model> model_;
+    // By object:
+    std::vector<double> masses_;          // of what is not held [kg]
+    std::vector<double> wave_times_;      // a pressure wave's through it [s]
+    std::vector<glm::dvec3> velocities_;  // mean [m/s]
+    std::vector<double> speeds_;          // with which it meets others now [m/s]
+    std::vector<double> liveliness_;      // the greatest of these, fading while it meets them [m/s]
+};
+
+}  // namespace gelatin::cpu
