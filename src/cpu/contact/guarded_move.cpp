@@ -18,6 +18,7 @@ constexpr int kMostRounds = 8;
 // What others are in the way of, but makes so much of its way, may make more after another detection if much
 // is left: what slides, over the next edges.
 constexpr double kProgress = 0.1;
+constexpr std::size_t kPairsATask = 1024;
 // Of the reach: another direction than that of the aim is taken if the pair is so far apart along it.
 constexpr double kSeparated = 0.05;
 
@@ -94,7 +95,7 @@ bool GuardedMove<Real>::plan(const ContactList<Real>& list, const ContactAims<Re
     const bool may_shift = limit_common_motions(list);
     keep_to_rooms(list, aims, positions, ends);
     room_parts_ = parts_;
-    find_blocked_pairs(list, aims, positions, ends, closeness);
+    find_courses(list, aims, positions, ends, closeness);
     keep_pairs_apart(list);
     if (movers == Movers::nodes) return true;
     const auto goes_on = [&](std::size_t o) {
@@ -173,48 +174,68 @@ void GuardedMove<Real>::keep_to_rooms(const ContactList<Real>& list, const Conta
     });
 }
 
-// Pairs that are too far apart to be in the way of anything are most of them.
 template <class Real>
-void GuardedMove<Real>::find_blocked_pairs(const ContactList<Real>& list, const ContactAims<Real>& aims,
-                                           std::span<const Vec4<Real>> positions,
-                                           std::span<const Vec4<Real>> ends, Closeness closeness) {
-    blocked_.clear();
-    for (std::uint32_t p = 0; p < list.pairs.size(); ++p) {
-        const ContactPair& pair = list.pairs[p];
-        const PairAim<Real>& aim = aims.aims()[p];
-        std::array<Real, 2> ways{};
-        for (std::size_t k = 0; k < 4; ++k) {
-            Real& way = ways[pair.side_of(k)];
-            way = std::max(way, ways_[pair.nodes[k]]);
-        }
-        if (!(aim.gap - ways[0] - ways[1] > least_gap(aim, aims.reach(pair), aim.gap, closeness)))
-            blocked_.push_back(p);
-    }
-    courses_.resize(blocked_.size());
-    for_each_index(0, blocked_.size(), 256, [&](std::size_t k) {
-        const ContactPair& pair = list.pairs[blocked_[k]];
-        const PairAim<Real>& aim = aims.aims()[blocked_[k]];
-        const Vec3<Real> common = common_[list.islands[pair.object]];
-        std::array<Vec3<Real>, 4> nodes, motions, moved;
-        for (std::size_t c = 0; c < 4; ++c) {
-            nodes[c] = Vec3<Real>(positions[pair.nodes[c]]);
-            motions[c] = Vec3<Real>(ends[pair.nodes[c]]) - nodes[c] - common;
-            moved[c] = nodes[c] + motions[c];
-        }
-        Course& course = courses_[k];
-        const Real reach = aims.reach(pair);
-        course = course_along(pair, aim, reach, aim.normal, nodes, motions, closeness);
-        if (course.is_free()) return;
-        for (const Vec3<Real>& direction : {shortest(pair, moved), across_both(pair, nodes)}) {
-            const Real length = glm::length(direction);
-            if (!(length > Real(0))) continue;
-            const Course other =
-                course_along(pair, aim, reach, direction / length, nodes, motions, closeness);
-            if (!other.is_free() || !(other.gap_at(Real(0)) > Real(kSeparated) * reach)) continue;
-            course = other;
-            return;
+void GuardedMove<Real>::find_courses(const ContactList<Real>& list, const ContactAims<Real>& aims,
+                                     std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
+                                     Closeness closeness) {
+    found_.resize((list.pairs.size() + kPairsATask - 1) / kPairsATask);
+    for_each_index(0, found_.size(), 1, [&](std::size_t task) {
+        found_[task].clear();
+        const std::size_t end = std::min((task + 1) * kPairsATask, list.pairs.size());
+        for (std::size_t p = task * kPairsATask; p < end; ++p) {
+            if (are_far_apart(list.pairs[p], aims, aims.aims()[p], closeness)) continue;
+            const Course course =
+                best_course(list, list.pairs[p], aims, aims.aims()[p], positions, ends, closeness);
+            if (!course.stays_free([](std::size_t) { return Real(1); })) found_[task].push_back(course);
         }
     });
+    courses_.clear();
+    for (const std::vector<Course>& found : found_)
+        courses_.insert(courses_.end(), found.begin(), found.end());
+}
+
+// Most pairs are too far apart for the ways of their nodes.
+template <class Real>
+bool GuardedMove<Real>::are_far_apart(const ContactPair& pair, const ContactAims<Real>& aims,
+                                      const PairAim<Real>& aim, Closeness closeness) const {
+    std::array<Real, 2> ways{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        Real& way = ways[pair.side_of(k)];
+        way = std::max(way, ways_[pair.nodes[k]]);
+    }
+    return aim.gap - ways[0] - ways[1] > least_gap(aim, aims.reach(pair), aim.gap, closeness);
+}
+
+// Along the direction of the aim, or along that between the nearest points where it no longer separates the
+// pair; or along another one that does so all the way.
+template <class Real>
+typename GuardedMove<Real>::Course GuardedMove<Real>::best_course(
+    const ContactList<Real>& list, const ContactPair& pair, const ContactAims<Real>& aims,
+    const PairAim<Real>& aim, std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
+    Closeness closeness) const {
+    const Vec3<Real> common = common_[list.islands[pair.object]];
+    std::array<Vec3<Real>, 4> nodes, motions, moved;
+    for (std::size_t c = 0; c < 4; ++c) {
+        nodes[c] = Vec3<Real>(positions[pair.nodes[c]]);
+        motions[c] = Vec3<Real>(ends[pair.nodes[c]]) - nodes[c] - common;
+        moved[c] = nodes[c] + motions[c];
+    }
+    const Real reach = aims.reach(pair);
+    Course course = course_along(pair, aim, reach, aim.normal, nodes, motions, closeness);
+    if (!(course.gap_at(Real(0)) > Real(kSeparated) * reach)) {
+        const Vec3<Real> between = shortest(pair, nodes);
+        const Real length = glm::length(between);
+        if (length > Real(0))
+            course = course_along(pair, aim, reach, between / length, nodes, motions, closeness);
+    }
+    if (course.is_free()) return course;
+    for (const Vec3<Real>& direction : {shortest(pair, moved), across_both(pair, nodes)}) {
+        const Real length = glm::length(direction);
+        if (!(length > Real(0))) continue;
+        const Course other = course_along(pair, aim, reach, direction / length, nodes, motions, closeness);
+        if (other.is_free() && other.gap_at(Real(0)) > Real(kSeparated) * reach) return other;
+    }
+    return course;
 }
 
 template <class Real>
@@ -234,7 +255,9 @@ typename GuardedMove<Real>::Course GuardedMove<Real>::course_along(const Contact
         course.motions[c] = glm::dot(normal, motions[c]);
     }
     const Real gap = course.gap_at(Real(0));
-    course.least = least_gap(aim, reach, gap, closeness) - Real(1e-5f) * reach;  // less rounding
+    const Real least = least_gap(aim, reach, gap, closeness);
+    // Less what rounding makes, but never none.
+    course.least = std::max({least - Real(1e-5f) * reach, Real(0.5f) * least, Real(1e-10f) * reach});
     return course;
 }
 
@@ -253,6 +276,12 @@ Real GuardedMove<Real>::Course::gap(const Part& part) const {
     return low - top;
 }
 
+template <class Real>
+template <class Part>
+bool GuardedMove<Real>::Course::stays_free(const Part& part) const {
+    return gap([&](std::size_t k) { return approaches(k) ? part(k) : Real(0); }) >= least;
+}
+
 // In each round every pair that would come too near shortens the movers that approach.
 template <class Real>
 void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
@@ -265,11 +294,7 @@ void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
         std::size_t kept = 0;
         for (std::size_t k = 0; k < courses_.size(); ++k) {
             const Course course = courses_[k];
-            // Parts only fall. So no gap becomes less than if nothing but what approaches moved.
-            const auto part_approaching = [&](std::size_t c) {
-                return course.approaches(c) ? parts_[course.movers[c]] : Real(0);
-            };
-            if (course.gap(part_approaching) >= course.least) continue;
+            if (course.stays_free([&](std::size_t c) { return parts_[course.movers[c]]; })) continue;
             courses_[kept++] = course;
             if (is_left(course)) continue;
             is_blocked = true;

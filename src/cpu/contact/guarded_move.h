@@ -62,9 +62,6 @@ private:
     bool limit_common_motions(const ContactList<Real>& list);
     void keep_to_rooms(const ContactList<Real>& list, const ContactAims<Real>& aims,
                        std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends);
-    void find_blocked_pairs(const ContactList<Real>& list, const ContactAims<Real>& aims,
-                            std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
-                            Closeness closeness);
     void keep_pairs_apart(const ContactList<Real>& list);
     std::uint32_t island_of(const ContactList<Real>& list, std::uint32_t mover) const;
 
@@ -83,8 +80,20 @@ private:
             return gap([&](std::size_t) { return part; });
         }
         bool is_free() const { return gap_at(Real(1)) >= least; }
+        // Whether the gap is left by all parts up to these: the worst is that nothing but what approaches
+        // moves.
+        template <class Part>
+        bool stays_free(const Part& part) const;
     };
 
+    void find_courses(const ContactList<Real>& list, const ContactAims<Real>& aims,
+                      std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
+                      Closeness closeness);
+    bool are_far_apart(const ContactPair& pair, const ContactAims<Real>& aims, const PairAim<Real>& aim,
+                       Closeness closeness) const;
+    Course best_course(const ContactList<Real>& list, const ContactPair& pair, const ContactAims<Real>& aims,
+                       const PairAim<Real>& aim, std::span<const Vec4<Real>> positions,
+                       std::span<const Vec4<Real>> ends, Closeness closeness) const;
     Course course_along(const ContactPair& pair, const PairAim<Real>& aim, Real reach,
                         const Vec3<Real>& normal, const std::array<Vec3<Real>, 4>& nodes,
                         const std::array<Vec3<Real>, 4>& motions, Closeness closeness) const;
@@ -100,8 +109,8 @@ private:
     std::vector<Vec3<Real>> common_;     // by island
     Movers movers_ = Movers::objects;
     std::vector<Real> parts_, next_parts_, room_parts_;  // by mover
-    std::vector<std::uint32_t> blocked_;
     std::vector<Course> courses_;
+    std::vector<std::vector<Course>> found_;  // of each task, in the order of the pairs
 };
 
 }  // namespace gelatin::cpu

@@ -158,10 +158,10 @@ TEST(ContactAims, KeepsNodesApart) {
 }
 
 // A small block above a large one.
-Model make_block_above(double gap) {
+Model make_block_above(double gap, double x = 0.4) {
     std::vector<Body> bodies{test::make_body(test::make_block({1, 1, 1}, {1, 1, 1})),
                              test::make_body(test::make_block({1, 1, 1}, {0.2, 0.2, 0.2}))};
-    for (glm::dvec3& p : bodies[1].mesh.positions) p += glm::dvec3(0.4, 1.0 + gap, 0.3);
+    for (glm::dvec3& p : bodies[1].mesh.positions) p += glm::dvec3(x, 1.0 + gap, 0.3);
     return pack_bodies(bodies, {}, {0.0, 0.0, 0.0});
 }
 
@@ -267,6 +267,21 @@ TEST(GuardedMove, AsksForRoomWhereThatHelps) {
     EXPECT_EQ(contact.guard.part(1), 1.0f);
     EXPECT_FALSE(plan(0.5f));
     EXPECT_LT(contact.guard.part(1), 0.9f);
+}
+
+// What was above at the aim and is beside now is not separated along the direction of the aim any more.
+TEST(GuardedMove, FindsAnotherDirectionThanThatOfAnOldAim) {
+    Contact<float> contact(make_block_above(0.01, 0.995));
+    auto ends = contact.positions;
+    for (std::size_t n = contact.model->objects[1].nodes.first; n < ends.size(); ++n) {
+        contact.positions[n] += glm::vec4(0.008f, -0.015f, 0.0f, 0.0f);
+        ends[n] = contact.positions[n] - glm::vec4(0.02f, 0.0f, 0.0f, 0.0f);
+    }
+    ASSERT_EQ(test::count_overlaps(*contact.model, contact.positions), 0u);
+    ASSERT_GT(test::count_overlaps(*contact.model, ends), 0u);
+    contact.guard.plan(contact.list, contact.aims, contact.positions, ends, cpu::Closeness::guess);
+    contact.guard.go(contact.list, ends, false, contact.positions);
+    EXPECT_EQ(test::count_overlaps(*contact.model, contact.positions), 0u);
 }
 
 TEST(GuardedMove, DoesNotStopWhatFliesTogether) {
