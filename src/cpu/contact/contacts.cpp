@@ -9,11 +9,13 @@
 namespace gelatin::cpu {
 namespace {
 
-// Moves of a guess, between which rooms are made anew; the parts of a divided step share them out. With two,
-// bodies that slide lose speed to their rooms.
-constexpr int kMostMoves = 6;
+// Moves of a guess, between which rooms are made anew. With two in a step of 1/60 s, bodies that slide lose
+// speed to their rooms; shorter steps need fewer.
+constexpr double kMostMoves = 6.0, kMovesASecond = 360.0;
 // Of a room: nodes that have come farther are detected again.
 constexpr double kUsedRoom = 0.9;
+// If none has come so far, another detection would give them hardly more.
+constexpr double kFreshRoom = 0.3;
 
 }  // namespace
 
@@ -38,9 +40,8 @@ void Contacts<Real>::restart(std::span<const Vec4<Real>> positions) {
 }
 
 template <class Real>
-void Contacts<Real>::begin(Real step, int parts, std::span<const Vec4<Real>> targets,
-                           std::span<const Vec4<Real>> starts, std::span<Vec4<Real>> positions,
-                           StageTimer* timer) {
+void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::span<const Vec4<Real>> starts,
+                           std::span<Vec4<Real>> positions, StageTimer* timer) {
     guess_.assign(positions.begin(), positions.end());
     for (std::size_t n = 0; n < positions.size(); ++n)
         positions[n] = Vec4<Real>(Vec3<Real>(safe_[n]), guess_[n].w);
@@ -52,9 +53,10 @@ void Contacts<Real>::begin(Real step, int parts, std::span<const Vec4<Real>> tar
         longest = std::max(longest, glm::dot(motion, motion));
     }
     longest_ = std::sqrt(static_cast<double>(longest));
-    bool is_fresh = !list_.is_valid || used_room(positions) > Real(kUsedRoom);
-    if (is_fresh) renew(positions, timer);
-    const int most_moves = std::max(1, kMostMoves / parts);
+    if (!list_.is_valid || used_room(positions) > Real(kUsedRoom)) renew(positions, timer);
+    bool is_fresh = used_room(positions) < Real(kFreshRoom);
+    const int most_moves =
+        static_cast<int>(std::clamp(kMovesASecond * static_cast<double>(step), 1.0, kMostMoves));
     for (int moves = 0; moves < most_moves;) {
         const TimedStage part(timer, "advance_nodes.guess");
         const bool is_free = guard_.plan(list_, aims_, positions, guess_, Closeness::guess);

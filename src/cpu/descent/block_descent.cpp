@@ -49,8 +49,7 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
         take_back_tangled(current.positions);
     }
     if (bodies_) {
-        bodies_->begin(step, parts, objective_.step.targets, objective_.step.starts, current.positions,
-                       timer);
+        bodies_->begin(step, objective_.step.targets, objective_.step.starts, current.positions, timer);
         go_on_to_guess(current.positions, timer);
     }
     if (coarse_ && end_of_run(0) < sweeps_) {

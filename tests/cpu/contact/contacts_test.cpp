@@ -164,7 +164,7 @@ TEST(Contacts, TellTheWorkOfDisplacements) {
     for (glm::dvec4& target : targets) target.w = 3600.0 / target.w;
     auto starts = positions;
     for (glm::dvec4& start : starts) start.w = 0.0;
-    contacts.begin(kFrame, 1, targets, starts, positions, nullptr);
+    contacts.begin(kFrame, targets, starts, positions, nullptr);
     contacts.renew(positions, nullptr);
     test::RandomMaker random(1);
     std::vector<glm::dvec3> displacements(positions.size());
