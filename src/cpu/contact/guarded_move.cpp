@@ -160,6 +160,8 @@ void GuardedMove<Real>::keep_to_rooms(const ContactList<Real>& list, const Conta
         const Range& nodes = model_->objects[o].nodes;
         ways_of_objects_[o] = Real(0);
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            // The nodes of a handle keep their shape: they go on with whole objects alone.
+            if (are_nodes && positions[n].w == Real(0)) parts_[n] = Real(0);
             const std::uint32_t place = places_[n];
             if (place == kNoNode) continue;
             const Vec3<Real> position(positions[n]);

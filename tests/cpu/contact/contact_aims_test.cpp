@@ -253,6 +253,25 @@ TEST(GuardedMove, KeepsNodesApart) {
     }
 }
 
+TEST(GuardedMove, LeavesHeldNodesToTheirObjects) {
+    Model model = make_near_blocks(1);
+    for (const std::size_t n : {std::size_t(0), std::size_t(1), model.positions.size() - 1})
+        model.positions[n].w = 0.0f;
+    Contact<float> contact(model);
+    auto ends = contact.positions;
+    for (glm::vec4& p : ends) p += glm::vec4(0.0f, 0.001f, 0.0f, 0.0f);
+    for (const bool are_nodes : {true, false}) {
+        auto moved = contact.positions;
+        contact.guard.plan(contact.list, contact.aims, moved, ends, cpu::Closeness::guess,
+                           are_nodes ? cpu::Movers::nodes : cpu::Movers::objects);
+        contact.guard.go(contact.list, ends, false, moved);
+        for (std::size_t n = 0; n < moved.size(); ++n) {
+            if (moved[n].w > 0.0f) continue;
+            EXPECT_EQ(moved[n] == contact.positions[n], are_nodes) << n;
+        }
+    }
+}
+
 // More room helps what leaves its room, not what another body is in the way of.
 TEST(GuardedMove, AsksForRoomWhereThatHelps) {
     Contact<float> contact(make_block_above(0.01));
