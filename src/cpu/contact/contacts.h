@@ -34,8 +34,7 @@ public:
     bool was_pressed(std::size_t object) const { return is_pressed_[object] != 0; }
 
     /// Begins a step: goes from where the last one ended as far to a first guess as that is safe.
-    /// @param targets as in StepState; they and `starts`
-    /// must stay where they are until the end of the step
+    /// @param targets as in StepState; they and `starts` must stay where they are until the end of the step
     /// @param positions input: the guess; output: where the sweeps begin
     void begin(Real step, std::span<const Vec4<Real>> targets, std::span<const Vec4<Real>> starts,
                std::span<Vec4<Real>> positions, StageTimer* timer);
