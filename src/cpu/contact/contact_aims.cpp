@@ -18,7 +18,7 @@ namespace {
 constexpr double kStiffness = 4.0;
 // Shorter steps do not make contacts stiffer: what they meet with less than a step's motion they would take
 // up at once, and give nothing back [s].
-constexpr double kSlowestStep = 1.0 / 60.0;
+constexpr double kStiffestStep = 1.0 / 60.0;
 // Of the reach: what of a gap is left as it is.
 constexpr double kLeastGap = 0.02;
 // Of what is above that: how much both sides may use before the next aim.
@@ -56,7 +56,7 @@ void ContactAims<Real>::begin(Real step, std::span<const Vec4<Real>> targets,
             const Real ratio = step / seconds;
             return ratio * ratio * inertia + (Real(1) + starts[n].w / seconds) * elasticity;
         };
-        softness_[n] = inertia > Real(0) ? Real(1) / stiffness(std::max(step, Real(kSlowestStep))) : Real(0);
+        softness_[n] = inertia > Real(0) ? Real(1) / stiffness(std::max(step, Real(kStiffestStep))) : Real(0);
         yielding_[n] = inertia > Real(0) ? inertia / stiffness(step) : Real(0);
     }
 }
