@@ -201,17 +201,24 @@ TEST(ContactAims, DividesTheGap) {
     EXPECT_EQ(test::count_overlaps(*contact.model, contact.positions), 0u);
 }
 
+// Where bodies would be that fly up to `farthest` [m] and are deformed.
+std::vector<glm::vec4> random_ends(const Contact<float>& contact, double farthest,
+                                   test::RandomMaker& random) {
+    auto ends = contact.positions;
+    for (const ModelObject& object : contact.model->objects) {
+        const glm::vec3 motion(random.point(farthest));
+        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n)
+            ends[n] += glm::vec4(motion + glm::vec3(random.point(0.02)), 0.0f);
+    }
+    return ends;
+}
+
 // Bodies that fly through each other stop; what an island has in common it keeps, however far.
 TEST(GuardedMove, KeepsBodiesApart) {
     for (unsigned seed = 1; seed < 9; ++seed) {
         Contact<float> contact(make_near_blocks(seed));
         test::RandomMaker random(seed);
-        auto ends = contact.positions;
-        for (const ModelObject& object : contact.model->objects) {
-            const glm::vec3 motion(random.point(0.3));
-            for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n)
-                ends[n] += glm::vec4(motion + glm::vec3(random.point(0.02)), 0.0f);
-        }
+        const auto ends = random_ends(contact, 0.3, random);
         contact.guard.plan(contact.list, contact.aims, contact.positions, ends, cpu::Closeness::motion);
         const auto momentum = [&](const std::vector<glm::vec4>& at) {
             glm::dvec3 sum(0.0);
@@ -234,12 +241,7 @@ TEST(GuardedMove, KeepsNodesApart) {
     for (unsigned seed = 1; seed < 9; ++seed) {
         Contact<float> contact(make_near_blocks(seed));
         test::RandomMaker random(seed);
-        auto ends = contact.positions;
-        for (const ModelObject& object : contact.model->objects) {
-            const glm::vec3 motion(random.point(0.02));
-            for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n)
-                ends[n] += glm::vec4(motion + glm::vec3(random.point(0.02)), 0.0f);
-        }
+        const auto ends = random_ends(contact, 0.02, random);
         contact.guard.plan(contact.list, contact.aims, contact.positions, ends, cpu::Closeness::guess,
                            cpu::Movers::nodes);
         std::size_t whole = 0;
