@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "model/build/collider_surface.h"
 #include "model/model.h"
 #include "render/collider_props.h"
 #include "sim/simulator_internals.h"
@@ -10,9 +11,12 @@ namespace gelatin {
 
 render::Surroundings describe_surroundings(const Simulator& simulator) {
     render::Surroundings surroundings;
-    surroundings.bounds = render::bounds_of(simulator.read_frame().positions);
+    const Model& model = model_of(simulator);
+    std::vector<float> positions = simulator.read_frame().positions;
+    positions.resize(3 * std::size_t{model.body_node_count()});
+    surroundings.bounds = render::bounds_of(positions);
     render::ColliderProps colliders =
-        render::make_collider_props(simulator.scene().colliders, surroundings.bounds);
+        render::make_collider_props(solid_colliders(simulator.scene()), surroundings.bounds);
     surroundings.floor_height = colliders.floor_height;
     surroundings.props = std::move(colliders.props);
     if (surroundings.floor_height) {  // falling bodies end there
@@ -20,7 +24,8 @@ render::Surroundings describe_surroundings(const Simulator& simulator) {
         below.y = *surroundings.floor_height;
         surroundings.bounds.add(below);
     }
-    for (const ModelObject& object : model_of(simulator).objects) surroundings.colors.push_back(object.color);
+    for (std::size_t o = 0; o < model.objects.size(); ++o)
+        surroundings.colors.push_back(model.is_body(o) ? model.objects[o].color : render::kPropColor);
     return surroundings;
 }
 

@@ -112,8 +112,9 @@ void Session::follow_hand() {
     if (hand_ == Hand::reaching) {
         const std::vector<float> positions = simulator_.read_frame().positions;
         const std::optional<Pick> found = pick(reach_, positions, model().faces);
-        hand_ = found ? Hand::holding : Hand::free;
-        if (!found) return;
+        const bool is_body = found && model().is_body(found->object);  // or a collider
+        hand_ = is_body ? Hand::holding : Hand::free;
+        if (!is_body) return;
         held_point_ = hand_target_ = found->point;
         pull_ = take_hold(model(), positions, *found);
         simulator_.set_pull(pull_);

@@ -237,23 +237,24 @@ struct PlaneCollider {
     glm::dvec3 normal{0.0, 1.0, 0.0};  ///< unit, towards the free side
     double offset = 0.0;               ///< normal . x on the plane [m]
 };
-struct BoxCollider {
-    glm::dvec3 size{1.0};  ///< [m]
-};
-struct SphereCollider {
-    double radius = 0.5;  ///< [m]
-};
-struct CapsuleCollider {
-    double radius = 0.25;  ///< [m]
-    double length = 0.5;   ///< of the straight part, along the collider's y [m]
-};
 
+/// What bodies cannot enter. With CollisionResponse::contact every shape but a plane is a rigid surface with
+/// two sides, open ones too. Otherwise spheres, boxes and capsules are solid, and others are not possible.
 struct ColliderDescription {
-    std::variant<PlaneCollider, BoxCollider, SphereCollider, CapsuleCollider> shape;
-    glm::dvec3 position{0.0};  ///< [m]; not for planes
-    glm::dvec3 rotation{0.0};  ///< about x, then y, then z [degrees]; not for planes
+    std::variant<PlaneCollider, Shape> shape;
+    glm::dvec3 position{0.0};  ///< [m]; this, rotation and scale are not for planes
+    glm::dvec3 rotation{0.0};  ///< about x, then y, then z [degrees]
     double friction = 0.4;     ///< CollisionSettings' where the file does not say
     double restitution = 0.3;
+
+    // For CollisionResponse::contact, and not for planes:
+    /// In ascending order of time; the first is the start; none: it rests.
+    std::vector<Keyframe> keyframes = {};
+    Interpolation interpolation = Interpolation::linear;
+    std::optional<glm::dvec3> pivot = {};  ///< about which it rotates and scales [m]; empty: its position
+    glm::dvec3 surface_velocity{0.0};      ///< of the surface within itself, as of a belt [m/s]
+    std::string name = {};  ///< in messages and statistics; empty: "collider 1", by its place in the scene
+    double scale = 1.0;     ///< > 0, applied first
 };
 
 struct CameraDescription {

@@ -225,7 +225,7 @@ void CpuSolver<Real>::watch_nodes(std::uint32_t step_number, double most_energy)
 template <class Real>
 void CpuSolver<Real>::begin_measure() {
     Measured& measured = measures_.emplace_back(Measured{measure(*model_, current_), {}});
-    for (std::size_t o = 0; o < model_->objects.size(); ++o) {
+    for (std::size_t o = 0; o < model_->body_count(); ++o) {
         const Range& faces = model_->objects[o].faces;
         std::uint32_t& count = measured.objects[o].colliding_faces;
         for (std::uint32_t f = faces.first; f < faces.end(); ++f) count += collides(f) ? 1 : 0;

@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,8 @@ struct Range {
     std::uint32_t end() const { return first + count; }
 };
 
-/// One deformable body: its ranges in the packed arrays, and its constant properties.
+/// One deformable body, or the rigid surface of a collider: its ranges in the packed arrays, and its constant
+/// properties.
 struct ModelObject {
     std::string name;
     Range nodes, springs, faces, tets, handle_nodes;
@@ -33,6 +35,14 @@ struct ModelObject {
     double mass = 0.0;         ///< [kg]
     double rest_volume = 0.0;  ///< [m^3]
     glm::vec3 color{0.0f};     ///< linear RGB; negative if the scene gives none
+};
+
+/// What a collider's surface has besides its nodes and faces. It has no springs, tets and mass, and all of
+/// its nodes are held.
+struct RigidSurface {
+    double friction = 0.0;     ///< Coulomb's coefficient
+    glm::vec3 velocity{0.0f};  ///< of the surface within itself [m/s]
+    bool moves = false;        ///< by a handle
 };
 
 /// Half springs by node, in slices of 64 nodes (sliced ELLPACK; a slice is a work group). Pair p of node 64 s
@@ -99,7 +109,8 @@ struct DrawSurface {
 ///
 /// An object owns a contiguous range of each array. Nodes are ordered for locality within their object.
 struct Model {
-    std::vector<ModelObject> objects;
+    std::vector<ModelObject> objects;    ///< bodies, then the surfaces of colliders
+    std::vector<RigidSurface> surfaces;  ///< of the last objects
 
     std::vector<glm::vec4> positions;  ///< at the start: xyz [m], inverse mass [1/kg] (0 pins), shape [nodes]
     std::vector<glm::vec4>
@@ -131,6 +142,13 @@ struct Model {
     glm::vec3 gravity{0.0f};          ///< [m/s^2]
 
     std::uint32_t node_count() const { return static_cast<std::uint32_t>(positions.size()); }
+    std::size_t body_count() const { return objects.size() - surfaces.size(); }
+    std::span<const ModelObject> bodies() const { return {objects.data(), body_count()}; }
+    bool is_body(std::size_t object) const { return object < body_count(); }
+    /// Those of bodies come first.
+    std::uint32_t body_node_count() const {
+        return body_count() > 0 ? objects[body_count() - 1].nodes.end() : 0;
+    }
     bool has_damping() const;
 };
 

@@ -41,6 +41,7 @@ SurfaceMesh piece_of(const PlaneCollider& plane, const Bounds& bounds) {
 ColliderProps make_collider_props(const std::vector<ColliderDescription>& colliders, const Bounds& bounds) {
     ColliderProps all;
     for (const ColliderDescription& collider : colliders) {
+        const auto* shape = std::get_if<Shape>(&collider.shape);
         if (const auto* plane = std::get_if<PlaneCollider>(&collider.shape)) {
             if (plane->normal.y >= kFlat) {
                 const auto height = static_cast<float>(plane->offset / plane->normal.y);
@@ -48,11 +49,11 @@ ColliderProps make_collider_props(const std::vector<ColliderDescription>& collid
             } else if (plane->normal.y > -kFlat) {
                 all.props.push_back(piece_of(*plane, bounds));
             }
-        } else if (const auto* box = std::get_if<BoxCollider>(&collider.shape)) {
+        } else if (const auto* box = std::get_if<BoxShape>(shape)) {
             all.props.push_back(placed(make_box({box->size, glm::ivec3(1)}), collider));
-        } else if (const auto* sphere = std::get_if<SphereCollider>(&collider.shape)) {
+        } else if (const auto* sphere = std::get_if<SphereShape>(shape)) {
             all.props.push_back(placed(make_sphere({sphere->radius, 16}), collider));
-        } else if (const auto* capsule = std::get_if<CapsuleCollider>(&collider.shape)) {
+        } else if (const auto* capsule = std::get_if<CapsuleShape>(shape)) {
             all.props.push_back(placed(make_capsule({capsule->radius, capsule->length, 16}), collider));
         }
     }

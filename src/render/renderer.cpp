@@ -15,7 +15,6 @@
 namespace gelatin::render {
 namespace {
 
-const glm::vec4 kPropColor(0.34f, 0.37f, 0.42f, 1.0f);
 constexpr float kShadowReach = 3.0f;  // of the scene's extent
 
 constexpr ShadowDetail kHighShadows{
@@ -82,7 +81,8 @@ void Renderer::resize(int width, int height) {
 void Renderer::set_surroundings(const Surroundings& surroundings) {
     surroundings_ = surroundings;
     props_ = StaticMesh(surroundings.props);
-    const std::vector<glm::vec4> prop_colors(std::max<std::size_t>(surroundings.props.size(), 1), kPropColor);
+    const std::vector<glm::vec4> prop_colors(std::max<std::size_t>(surroundings.props.size(), 1),
+                                             glm::vec4(kPropColor, 1.0f));
     prop_colors_ = gl::Buffer<glm::vec4>(std::span<const glm::vec4>(prop_colors));
     body_colors_ = {};
 }

@@ -28,6 +28,9 @@ struct RendererOptions {
     Smoothing smoothing = Smoothing::automatic;  ///< ignored by Quality::fast
 };
 
+/// Of what bodies lie on and bounce off, linear RGB.
+const glm::vec3 kPropColor(0.34f, 0.37f, 0.42f);
+
 /// What does not change from frame to frame.
 struct Surroundings {
     Bounds bounds;  ///< of the bodies at the start: sets the scale of floor and shadows [m]

@@ -25,10 +25,11 @@ void copy_vectors(const std::vector<glm::vec4>& from, const Range& range, std::v
 }
 
 const ModelObject* find_same(const Model& from, const Model& to, const ModelObject& object) {
-    const auto same = std::find_if(from.objects.begin(), from.objects.end(), [&](const ModelObject& other) {
+    const auto bodies = from.bodies();
+    const auto same = std::find_if(bodies.begin(), bodies.end(), [&](const ModelObject& other) {
         return other.name == object.name && have_the_same_tets(from, other, to, object);
     });
-    return same == from.objects.end() ? nullptr : &*same;
+    return same == bodies.end() ? nullptr : &*same;
 }
 
 // The nodes of a handle, in ascending order, by their index in the object.
@@ -65,7 +66,7 @@ Drag drag_to(const State& state, const Model& model, std::size_t handle, double 
 State carried_over(const Model& from, const State& state, const Model& to, State start) {
     const bool has_earlier = !state.earlier_velocities.empty();
     if (has_earlier) start.earlier_velocities = start.velocities;
-    for (const ModelObject& object : to.objects) {
+    for (const ModelObject& object : to.bodies()) {
         const ModelObject* same = find_same(from, to, object);
         if (same == nullptr) continue;
         copy_vectors(state.positions, same->nodes, start.positions, object.nodes.first);
@@ -84,6 +85,7 @@ Drags carried_over(const Model& from, const Drags& drags, const Model& to, const
                    Drags start) {
     std::vector<Drag> carried = start.drags(), targets = start.targets();
     for (std::size_t h = 0; h < to.handles.size(); ++h) {
+        if (!to.is_body(to.handles[h].object)) continue;
         const ModelObject* same = find_same(from, to, to.objects[to.handles[h].object]);
         if (same == nullptr || to.handles[h].count == 0) continue;
         const std::optional<std::size_t> earlier = find_handle(from, *same, nodes_of(to, h));

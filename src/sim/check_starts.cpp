@@ -49,10 +49,13 @@ std::vector<std::string> check_starts(const Model& model, const Scene& scene,
                                       std::span<const glm::vec4> positions) {
     std::vector<std::string> lines;
     for (std::size_t c = 0; c < scene.colliders.size(); ++c) {
+        if (scene.collision.response == CollisionResponse::contact &&
+            !std::holds_alternative<PlaneCollider>(scene.colliders[c].shape))
+            continue;  // a surface, not solid
         const Collider collider = pack_colliders({scene.colliders[c]}).front();
         std::string first;
         std::size_t others = 0;
-        for (const ModelObject& object : model.objects) {
+        for (const ModelObject& object : model.bodies()) {
             const auto of_object = [&](std::span<const glm::vec4> nodes) {
                 return nodes.subspan(object.nodes.first, object.nodes.count);
             };
@@ -83,6 +86,7 @@ void require_apart(const std::shared_ptr<const Model>& model, const Scene& scene
     collision.find_object_pairs();
     collision.find_face_collisions(exact);
     for (const cpu::ObjectPair& pair : collision.pairs()) {
+        if (!model->is_body(pair.object) && !model->is_body(pair.other)) continue;
         if (!collision.collide(pair)) continue;
         throw InvalidInput({scene.file.string(), 0, "collision.response", "\"contact\"",
                             fmt::format("needs objects that are apart at the start; '{}' and '{}' overlap",

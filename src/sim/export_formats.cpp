@@ -70,7 +70,7 @@ std::string vtu_cells(const Model& model) {
 ExportTopology make_export_topology(const Model& model) {
     constexpr std::uint32_t kInside = std::numeric_limits<std::uint32_t>::max();
     ExportTopology topology;
-    topology.node_count = model.node_count();
+    topology.node_count = model.body_node_count();
     topology.tet_count = model.tets.size();
     std::vector<std::uint32_t> vertex_of_node(model.node_count(), kInside);
     for (const Face& face : model.faces) {
@@ -135,14 +135,20 @@ std::string ply_bytes(const ExportTopology& topology, const HostFrame& frame) {
 }
 
 std::string vtu_text(const ExportTopology& topology, const HostFrame& frame) {
+    // Without those of colliders, which come last.
+    const auto of_nodes = [&](const std::vector<float>& vectors) {
+        return std::span<const float>(vectors).first(3 * topology.node_count);
+    };
     return fmt::format(
                "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
                "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n"
                "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n",
                topology.node_count, topology.tet_count) +
-           data_array<float>("Float32", "Name=\"Points\" NumberOfComponents=\"3\"", frame.positions) +
+           data_array<float>("Float32", "Name=\"Points\" NumberOfComponents=\"3\"",
+                             of_nodes(frame.positions)) +
            "</Points>\n<PointData Vectors=\"velocity\">\n" +
-           data_array<float>("Float32", "Name=\"velocity\" NumberOfComponents=\"3\"", frame.velocities) +
+           data_array<float>("Float32", "Name=\"velocity\" NumberOfComponents=\"3\"",
+                             of_nodes(frame.velocities)) +
            "</PointData>\n" + topology.vtu_cells + "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 

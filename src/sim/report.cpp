@@ -96,7 +96,7 @@ RunReport describe_run(const Simulator& simulator) {
     report.substeps = simulator.substeps();
     report.step_size = simulator.step_size();
     report.counts = simulator.counts();
-    for (const ModelObject& object : model_of(simulator).objects) report.objects.push_back(object.name);
+    for (const ModelObject& object : model_of(simulator).bodies()) report.objects.push_back(object.name);
     return report;
 }
 

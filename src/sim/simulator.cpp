@@ -225,6 +225,7 @@ std::vector<HeldNodes> Simulator::held_nodes() const {
     std::vector<HeldNodes> all;
     for (std::size_t h = 0; h < d.model->handles.size(); ++h) {
         const Handle& handle = d.model->handles[h];
+        if (!d.model->is_body(handle.object)) break;  // colliders come last
         const Drag& drag = d.drags->drags()[h];
         const HandlePose pose = pose_at(handle, time(), drag);
         const bool is_released = !is_held(handle, time(), step_size());
@@ -280,7 +281,7 @@ Simulator SimulatorInternals::make(const Scene& scene, std::shared_ptr<const Mod
 
 Counts Simulator::counts() const {
     const Model& m = *impl_->model;
-    return {m.objects.size(), m.positions.size(), m.springs.size(), m.faces.size(), m.tets.size()};
+    return {m.body_count(), m.positions.size(), m.springs.size(), m.faces.size(), m.tets.size()};
 }
 
 void Simulator::begin_statistics() {
@@ -315,7 +316,8 @@ FrameStatistics Simulator::take_statistics() {
         frame.contacts += object.contacts;
         frame.colliding_faces += object.colliding_faces;
         frame.deepest_penetration = std::max(frame.deepest_penetration, object.deepest_penetration);
-        frame.volume_ratio.push_back(object.volume / d.model->objects[o].rest_volume);
+        if (d.model->is_body(o))
+            frame.volume_ratio.push_back(object.volume / d.model->objects[o].rest_volume);
     }
     return frame;
 }

@@ -60,7 +60,7 @@ std::vector<std::uint32_t> thin_surface_nodes(const Model& model, std::size_t co
     std::sort(nodes.begin(), nodes.end());  // by object
     std::vector<std::uint32_t> kept;
     auto node = nodes.begin();
-    for (const ModelObject& object : model.objects) {
+    for (const ModelObject& object : model.bodies()) {
         SpacedPoints points(spacing);
         for (; node != nodes.end() && *node < object.nodes.end(); ++node) {
             if (points.add(place_of(model, *node))) kept.push_back(*node);

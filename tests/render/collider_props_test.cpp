@@ -11,8 +11,7 @@ namespace {
 
 const Bounds kBounds{glm::vec3(-1.0f, 0.0f, -1.0f), glm::vec3(1.0f, 2.0f, 1.0f)};
 
-ColliderDescription collider(
-    std::variant<PlaneCollider, BoxCollider, SphereCollider, CapsuleCollider> shape) {
+ColliderDescription collider(std::variant<PlaneCollider, Shape> shape) {
     ColliderDescription description;
     description.shape = shape;
     return description;
@@ -42,7 +41,7 @@ TEST(ColliderPropsTest, ATiltedPlaneIsAPieceOfItFacingItsFreeSide) {
 }
 
 TEST(ColliderPropsTest, BoxesTurnAboutXThenYThenZ) {
-    ColliderDescription box = collider(BoxCollider{{2.0, 4.0, 6.0}});
+    ColliderDescription box = collider(BoxShape{{2.0, 4.0, 6.0}});
     box.position = {10.0, 0.0, 0.0};
     box.rotation = {90.0, 0.0, 90.0};  // x: y -> z; then z: x -> y
     const ColliderProps all = make_collider_props({box}, kBounds);
@@ -59,7 +58,7 @@ TEST(ColliderPropsTest, BoxesTurnAboutXThenYThenZ) {
 
 TEST(ColliderPropsTest, SpheresAndCapsulesHaveTheirSize) {
     const ColliderProps all =
-        make_collider_props({collider(SphereCollider{0.5}), collider(CapsuleCollider{0.25, 1.0})}, kBounds);
+        make_collider_props({collider(SphereShape{0.5}), collider(CapsuleShape{0.25, 1.0})}, kBounds);
     ASSERT_EQ(all.props.size(), 2u);
     constexpr double kPi = 3.14159265358979;
     EXPECT_NEAR(signed_volume(all.props[0]), 4.0 / 3.0 * kPi * 0.125, 0.01);

@@ -15,7 +15,7 @@ using ::testing::IsEmpty;
 std::vector<std::string> check(double height, const std::vector<Region>& pins = {}) {
     Scene scene;
     scene.colliders.resize(2);
-    scene.colliders[0].shape = SphereCollider{0.5};
+    scene.colliders[0].shape = SphereShape{0.5};
     scene.colliders[0].position = {9.0, 0.0, 0.0};
     scene.colliders[1].shape = PlaneCollider{{0.0, 1.0, 0.0}, height};
     Body body = test::make_body(test::make_block({3, 2, 3}, {1.0, 0.4, 1.0}));

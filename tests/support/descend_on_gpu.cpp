@@ -155,7 +155,7 @@ Model make_bodies_to_descend(double damping_time, double poisson_ratio, Material
     floor.shape = PlaneCollider{};
     floor.friction = 0.2;
     floor.restitution = 0.9;
-    ball.shape = SphereCollider{0.3};
+    ball.shape = SphereShape{0.3};
     ball.position = {-0.85, 0.4, 0.0};
     Model model = pack_bodies(bodies, {floor, ball}, {0.0, -9.81, 0.0});
     for (const std::size_t shaken : {0, 1}) {

@@ -36,7 +36,8 @@ std::size_t count_overlaps(const Model& model, std::span<const cpu::Vec4<double>
     for (std::size_t i = 0; i < extents.size(); ++i) {
         for (std::size_t j = i + 1; j < extents.size() && extents[j].low.x <= extents[i].high.x; ++j) {
             const Extent &a = extents[i], &b = extents[j];
-            if (model.faces[a.face].object == model.faces[b.face].object) continue;
+            const std::uint32_t object = model.faces[a.face].object, other = model.faces[b.face].object;
+            if (object == other || !(model.is_body(object) || model.is_body(other))) continue;
             if (glm::any(glm::greaterThan(a.low, b.high)) || glm::any(glm::greaterThan(b.low, a.high)))
                 continue;
             if (exactly_overlap(triangle(a.face), triangle(b.face))) ++count;

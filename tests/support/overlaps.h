@@ -8,8 +8,8 @@
 
 namespace gelatin::test {
 
-/// Pairs of faces of different bodies that share a point, in exact arithmetic (tests/exact) and independent
-/// of what the solvers use to find them.
+/// Pairs of faces of different bodies, and of bodies and colliders, that share a point, in exact arithmetic
+/// (tests/exact) and independent of what the solvers use to find them.
 std::size_t count_overlaps(const Model& model, std::span<const cpu::Vec4<double>> positions);
 std::size_t count_overlaps(const Model& model, std::span<const cpu::Vec4<float>> positions);
 

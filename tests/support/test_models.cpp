@@ -81,7 +81,7 @@ Body lively_body(unsigned seed) {
 
 Model enlivened(const Body& body, unsigned seed) {
     ColliderDescription sphere;
-    sphere.shape = SphereCollider{0.3};
+    sphere.shape = SphereShape{0.3};
     sphere.position = {0.3, 0.5, 0.2};
     Model model = pack_bodies({body}, {ColliderDescription{}, sphere}, {0.0, -9.81, 0.0});
 

@@ -70,7 +70,7 @@ Fuzzed make_scene(unsigned seed) {
     floor.shape = PlaneCollider{{0, 1, 0}, lowest - random.decades(1e-3, 1.0)};
     floor.restitution = random.between(0, 1);
     const double radius = random.decades(1e-2, 10.0);
-    ball.shape = SphereCollider{radius};
+    ball.shape = SphereShape{radius};
     ball.position = {0.0, lowest - radius - random.decades(1e-3, 1.0), 0.0};
     fuzzed.model =
         std::make_shared<const Model>(pack_bodies(bodies, {floor, ball}, 10.0 * random.direction()));

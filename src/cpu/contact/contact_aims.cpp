@@ -37,13 +37,12 @@ Vec3<Real> without_part_along(const Vec3<Real>& v, const Vec3<Real>& normal) {
 
 template <class Real>
 ContactAims<Real>::ContactAims(std::shared_ptr<const Model> model,
-                               std::shared_ptr<const ContactSurface> surface, double friction)
+                               std::shared_ptr<const ContactSurface> surface)
     : model_(std::move(model)),
       surface_(std::move(surface)),
-      friction_(static_cast<Real>(friction)),
       softness_(model_->node_count()),
       yielding_(model_->node_count()),
-      nodes_(model_, surface_, friction) {}
+      nodes_(model_, surface_) {}
 
 template <class Real>
 void ContactAims<Real>::begin(Real step, std::span<const Vec4<Real>> targets,
@@ -107,8 +106,9 @@ void ContactAims<Real>::aim_block(const ContactList<Real>& list, const Range& pa
         divide_gap(pair, measured, k, normal, pair_reach, division.share);
         const Real stiffness = division.stiffness * region.weight(pair, apart, weights);
         if (!(stiffness > Real(0))) continue;
-        Press<Real> press{p,         normal,         gap,       weights,      pair_reach,
-                          stiffness, division.share, grips_[p], Vec3<Real>(0)};
+        const auto friction = static_cast<Real>(surface_->friction(pair.object, pair.other));
+        Press<Real> press{p,        normal,         gap,       weights,      pair_reach, stiffness,
+                          friction, division.share, grips_[p], Vec3<Real>(0)};
         if (limit(gap, press) > Real(0)) {
             // What has slid before it pressed, friction did not resist.
             if (!press.grip.grips)

@@ -30,9 +30,7 @@ struct PairAim {
 template <class Real>
 class ContactAims {
 public:
-    /// @param friction Coulomb's coefficient
-    ContactAims(std::shared_ptr<const Model> model, std::shared_ptr<const ContactSurface> surface,
-                double friction);
+    ContactAims(std::shared_ptr<const Model> model, std::shared_ptr<const ContactSurface> surface);
 
     /// To be called when a step's targets and starts are known, which must stay where they are until its end.
     void begin(Real step, std::span<const Vec4<Real>> targets, std::span<const Vec4<Real>> starts);
@@ -50,7 +48,6 @@ public:
 
     const std::vector<PairAim<Real>>& aims() const { return aims_; }  ///< in the order of the list's pairs
     const std::vector<Press<Real>>& presses() const { return presses_; }  ///< in the order of their pairs
-    Real friction() const { return friction_; }
     Real thickness(std::size_t object) const { return static_cast<Real>(surface_->thicknesses[object]); }
     /// Gap at which a pair begins to press [m].
     Real reach(const ContactPair& pair) const {
@@ -65,7 +62,7 @@ public:
                     std::span<const Vec4<Real>> positions) const;
     /// The most that friction may be at a gap [N].
     Real limit(Real gap, const Press<Real>& press) const {
-        return friction_ * contact_force(gap, press.reach, press.stiffness);
+        return press.friction * contact_force(gap, press.reach, press.stiffness);
     }
 
 private:
@@ -83,7 +80,6 @@ private:
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
-    Real friction_;
     std::span<const Vec4<Real>> starts_;
     // Of each node, 0 where it is held: how it yields to a force [m/N], and what part of that stiffness is
     // its inertia.

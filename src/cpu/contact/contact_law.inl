@@ -53,6 +53,7 @@ struct ContactShare {
     Real stiffness;      ///< k [N/m]
     Real reach;          ///< r [m]
     Vec3<Real> hold;     ///< q_0 [N], at right angles to m
+    Real friction;       ///< Coulomb's coefficient
     Real limit;          ///< L [N]
 
     /// @param displacement d [m]

@@ -23,7 +23,9 @@ struct ContactPair {
 
 /// What a detection has found: all pairs that may come together while each node stays in its room, a ball
 /// round where it was found that moves with its island. Bodies of an island are near each other. They have
-/// motions in common that bring none of them nearer to another.
+/// motions in common that bring none of them nearer to another. Each collider is an island, too. An island
+/// near one has a course: what its bodies have in common is a motion along it, for which pairs with colliders
+/// were looked for all the way.
 template <class Real>
 struct ContactList {
     std::vector<ContactPair> pairs;         ///< nodes and faces, then edges; each once
@@ -33,12 +35,19 @@ struct ContactList {
     std::vector<Real> rooms;                ///< radius [m], the same shape
     std::vector<std::uint32_t> islands;     ///< of each object
     std::vector<Vec3<Real>> shifts;         ///< of each island since the detection [m]
-    std::vector<std::uint8_t> is_alone;     ///< by island: not 0 if it is one body's
+    std::vector<std::uint8_t> is_alone;     ///< by island: not 0 if it is one body's, and near no collider
+    std::vector<std::uint8_t> is_fixed;     ///< by island: not 0 near a collider, and of a collider
+    std::vector<Vec3<Real>> drifts;         ///< by island: its course since the detection, 0 if not fixed [m]
+    std::vector<Real> drifted;              ///< the part of it that it has gone
     Real most_shift = Real(0);              ///< length that no shift may have [m]
     bool is_valid = false;                  ///< false until something was found
 
     void clear() { *this = {}; }
     bool is_alone_at(std::size_t object) const { return is_alone[islands[object]] != 0; }
+    /// That of its bodies, which are of one; colliders' numbers come after those of bodies.
+    std::uint32_t island_of(const ContactPair& pair) const {
+        return std::min(islands[pair.object], islands[pair.other]);
+    }
     std::size_t slot_count() const { return row_starts.back(); }
     /// How far a surface node of an object is from the middle of its room [m].
     Vec3<Real> moved(std::uint32_t place, std::uint32_t object, const Vec3<Real>& position) const {

@@ -22,10 +22,10 @@ constexpr double kFreshRoom = 0.3;
 template <class Real>
 Contacts<Real>::Contacts(std::shared_ptr<const Model> model, double friction)
     : model_(std::move(model)),
-      surface_(std::make_shared<const ContactSurface>(make_contact_surface(*model_))),
+      surface_(std::make_shared<const ContactSurface>(make_contact_surface(*model_, friction))),
       object_of_(objects_of_nodes(*model_)),
       detection_(model_, surface_),
-      aims_(model_, surface_, friction),
+      aims_(model_, surface_),
       guard_(model_, surface_->places),
       is_pressed_(model_->objects.size()) {
     restart(std::vector<Vec4<Real>>(model_->positions.begin(), model_->positions.end()));
@@ -59,6 +59,7 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
         static_cast<int>(std::clamp(kMovesASecond * static_cast<double>(step), 1.0, kMostMoves));
     for (int moves = 0; moves < most_moves;) {
         const TimedStage part(timer, "advance_nodes.guess");
+        guard_.drift(list_, aims_, guess_, positions);
         const bool is_free = guard_.plan(list_, aims_, positions, guess_, Closeness::guess);
         if (is_free || is_fresh) {
             guard_.go(list_, guess_, false, positions);
@@ -66,7 +67,7 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
             is_fresh = false;
             if (is_free || moves == most_moves) break;
         }
-        detect(positions, timer);
+        detect(positions, expected_motions(positions), timer);
         aim(positions, timer);
         is_fresh = true;
     }
@@ -125,7 +126,7 @@ void Contacts<Real>::move(std::span<const Vec4<Real>> ends, std::span<Vec4<Real>
 
 template <class Real>
 void Contacts<Real>::renew(std::span<const Vec4<Real>> positions, StageTimer* timer) {
-    if (!list_.is_valid || used_room(positions) > Real(kUsedRoom)) detect(positions, timer);
+    if (!list_.is_valid || used_room(positions) > Real(kUsedRoom)) detect(positions, {}, timer);
     aim(positions, timer);
 }
 
@@ -141,11 +142,28 @@ void Contacts<Real>::end(std::span<const Vec4<Real>> positions) {
     }
 }
 
+// Mean motions of bodies to the guess, without what leads into colliders that they press.
 template <class Real>
-void Contacts<Real>::detect(std::span<const Vec4<Real>> positions, StageTimer* timer) {
+std::vector<Vec3<Real>> Contacts<Real>::expected_motions(std::span<const Vec4<Real>> positions) {
+    std::vector<Vec3<Real>> motions = guard_.mean_motions(positions, guess_);
+    for (const Press<Real>& press : aims_.presses()) {
+        const ContactPair& pair = list_.pairs[press.pair];
+        const bool is_first = model_->is_body(pair.object);
+        if (is_first && model_->is_body(pair.other)) continue;
+        const Vec3<Real> towards = is_first ? press.normal : -press.normal;
+        Vec3<Real>& motion = motions[is_first ? pair.object : pair.other];
+        if (aims_.gap(pair, press, positions) < press.reach)
+            motion -= std::max(glm::dot(motion, towards), Real(0)) * towards;
+    }
+    return motions;
+}
+
+template <class Real>
+void Contacts<Real>::detect(std::span<const Vec4<Real>> positions, std::span<const Vec3<Real>> motions,
+                            StageTimer* timer) {
     const TimedStage part(timer, "advance_nodes.detect");
     std::swap(old_list_, list_);
-    detection_.run(positions, longest_, list_);
+    detection_.run(positions, longest_, motions, list_);
     aims_.carry_over(old_list_, list_);
 }
 

@@ -33,6 +33,14 @@ public:
     /// Whether the object pressed another one when the last step ended.
     bool was_pressed(std::size_t object) const { return is_pressed_[object] != 0; }
 
+    /// Where a held node is when a step begins: where the last one ended; of a belt, from where its velocity
+    /// would take it there [m].
+    Vec3<Real> came_from(std::uint32_t node, Real step) const {
+        const std::size_t o = object_of_[node], bodies = model_->body_count();
+        const Vec3<Real> place(safe_[node]);
+        return o < bodies ? place : place - step * Vec3<Real>(model_->surfaces[o - bodies].velocity);
+    }
+
     /// Begins a step: goes from where the last one ended as far to a first guess as that is safe.
     /// @param targets as in StepState; they and `starts` must stay where they are until the end of the step
     /// @param positions input: the guess; output: where the sweeps begin
@@ -79,7 +87,9 @@ public:
     }
 
 private:
-    void detect(std::span<const Vec4<Real>> positions, StageTimer* timer);
+    std::vector<Vec3<Real>> expected_motions(std::span<const Vec4<Real>> positions);
+    void detect(std::span<const Vec4<Real>> positions, std::span<const Vec3<Real>> motions,
+                StageTimer* timer);
     void aim(std::span<const Vec4<Real>> positions, StageTimer* timer);
     Real used_room(std::span<const Vec4<Real>> positions) const;
 

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -31,6 +32,14 @@ Real squared_distance(const AxisBox<Real>& a, const AxisBox<Real>& b) {
     return glm::dot(apart, apart);
 }
 
+// What the box passes over on its way.
+template <class Real>
+AxisBox<Real> swept(AxisBox<Real> box, const Vec3<Real>& motion) {
+    box.min += glm::min(motion, Vec3<Real>(0));
+    box.max += glm::max(motion, Vec3<Real>(0));
+    return box;
+}
+
 }  // namespace
 
 template <class Real>
@@ -48,16 +57,27 @@ DetectContacts<Real>::DetectContacts(std::shared_ptr<const Model> model,
       distances_(model_->face_trees.nodes.size()),
       found_((model_->face_trees.levels[0].size() + kLeavesATask - 1) / kLeavesATask),
       object_tree_(static_cast<std::uint32_t>(model_->objects.size())),
-      near_(model_->objects.size()) {}
+      near_(model_->objects.size()),
+      listed_thicknesses_(surface_->thicknesses) {
+    drifts_.resize(model_->objects.size());
+    for (const ModelObject& body : model_->bodies()) masses_.push_back(body.mass);
+    double thinnest = std::numeric_limits<double>::infinity();
+    for (std::size_t o = 0; o < model_->body_count(); ++o)
+        thinnest = std::min(thinnest, surface_->thicknesses[o]);
+    for (std::size_t c = 0; c < model_->surfaces.size(); ++c)
+        if (model_->surfaces[c].moves) listed_thicknesses_[model_->body_count() + c] = thinnest;
+}
 
 template <class Real>
 void DetectContacts<Real>::run(std::span<const Vec4<Real>> positions, double longest,
-                               ContactList<Real>& list) {
+                               std::span<const Vec3<Real>> motions, ContactList<Real>& list) {
     island_distance_ = 4.0 * (listed_ + 2.0 * longest);
     list.most_shift = static_cast<Real>(kShifted * island_distance_);
+    positions_ = positions;
     collision_->update_boxes(positions);
-    collision_->find_object_pairs();
+    find_near_objects();
     find_islands(list);
+    find_drifts(motions, list);
     find_rooms(list);
     find_pairs(positions, list);
     assign_slots(list);
@@ -67,47 +87,132 @@ void DetectContacts<Real>::run(std::span<const Vec4<Real>> positions, double lon
     list.is_valid = true;
 }
 
-// By union of objects that are near each other; islands are numbered in the order of their first objects.
 template <class Real>
-void DetectContacts<Real>::find_islands(ContactList<Real>& list) {
+void DetectContacts<Real>::find_near_objects() {
     const auto count = static_cast<std::uint32_t>(model_->objects.size());
+    const auto bodies = static_cast<std::uint32_t>(model_->body_count());
     const std::vector<AxisBox<Real>>& boxes = collision_->bounding_boxes();
     const auto apart = static_cast<Real>(island_distance_);
     object_tree_.update(boxes);
-    tbb::parallel_for(std::uint32_t(0), count, [&](std::uint32_t o) {
-        AxisBox<Real> box = boxes[o];
-        box.min -= apart;
-        box.max += apart;
+    tbb::parallel_for(std::uint32_t(0), bodies, [&](std::uint32_t o) {
+        AxisBox<Real> around = boxes[o];
+        around.min -= apart;
+        around.max += apart;
         near_[o].clear();
-        object_tree_.for_objects_near(box, [&](std::uint32_t other) {
-            if (other != o) near_[o].push_back(other);
+        object_tree_.for_objects_near(around, [&](std::uint32_t other) {
+            if (other != o && (other < bodies || reaches(other, boxes[o], apart))) near_[o].push_back(other);
         });
         std::sort(near_[o].begin(), near_[o].end());
     });
+    for (std::uint32_t c = bodies; c < count; ++c) near_[c].clear();
+    for (std::uint32_t o = 0; o < bodies; ++o) {
+        for (const std::uint32_t other : near_[o])
+            if (other >= bodies) near_[other].push_back(o);
+    }
+}
+
+// Bodies can be far from all faces of a large collider, and within its box.
+// @param most distance beyond what is listed [m]
+template <class Real>
+bool DetectContacts<Real>::reaches(std::uint32_t collider, const AxisBox<Real>& box, Real most) const {
+    const BoxTree& trees = model_->face_trees;
+    const std::uint32_t end = trees.nodes[trees.roots[collider]].skip;
+    for (std::uint32_t n = trees.roots[collider]; n < end;) {
+        const bool is_near = squared_distance(box, collision_->tree_boxes()[n]) <= most * most;
+        if (is_near && trees.nodes[n].item_count > 0 && squared_gap(box, Vec3<Real>(0), n) <= most * most)
+            return true;
+        n = is_near ? n + 1 : trees.nodes[n].skip;
+    }
+    return false;
+}
+
+// No more than the square of the distance between what is in a body's box and the faces of a collider's leaf,
+// beyond what is listed. These can be large, and their boxes far larger.
+template <class Real>
+Real DetectContacts<Real>::squared_gap(const AxisBox<Real>& box, const Vec3<Real>& drift,
+                                       std::uint32_t leaf) const {
+    const TreeNode& faces = model_->face_trees.nodes[leaf];
+    const Vec3<Real> center = Real(0.5) * (box.min + box.max), half = Real(0.5) * (box.max - box.min);
+    const AxisBox<Real> passed = swept(box, drift);
+    Real least = std::numeric_limits<Real>::infinity();
+    for (std::uint32_t f = faces.first_item; f < faces.first_item + faces.item_count; ++f) {
+        Real squared = squared_distance(passed, collision_->face_boxes()[f]);
+        const Face& face = model_->faces[f];
+        const Vec3<Real> a(positions_[face.a]);
+        const Vec3<Real> across =
+            glm::cross(Vec3<Real>(positions_[face.b]) - a, Vec3<Real>(positions_[face.c]) - a);
+        const Real length = glm::length(across);
+        if (length > Real(0)) {
+            // From the box, which has the margin, to the plane of the face, less the margin of the face.
+            const Vec3<Real> normal = across / length, margin = margin_.at(glm::abs(a) + glm::abs(center));
+            const Real start = glm::dot(normal, center - a), end = start + glm::dot(normal, drift);
+            const Real height = start > Real(0) ? std::min(start, end) : -std::max(start, end);
+            const Real gap = height - glm::dot(glm::abs(normal), half + margin);
+            if (gap > Real(0)) squared = std::max(squared, gap * gap);
+        }
+        least = std::min(least, squared);
+    }
+    return least;
+}
+
+// By union of bodies that are near each other; islands are numbered in the order of their first objects.
+template <class Real>
+void DetectContacts<Real>::find_islands(ContactList<Real>& list) {
+    const auto count = static_cast<std::uint32_t>(model_->objects.size());
     std::vector<std::uint32_t> roots(count);
     std::iota(roots.begin(), roots.end(), 0u);
     const auto root = [&](std::uint32_t o) {
         while (roots[o] != o) o = roots[o] = roots[roots[o]];
         return o;
     };
-    for (std::uint32_t o = 0; o < count; ++o) {
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         for (const std::uint32_t other : near_[o]) {
+            if (!model_->is_body(other)) continue;
             const std::uint32_t mine = root(o), theirs = root(other);
             roots[std::max(mine, theirs)] = std::min(mine, theirs);
         }
     }
     list.islands.resize(count);
     list.is_alone.clear();
+    list.is_fixed.clear();
     for (std::uint32_t o = 0; o < count; ++o) {
         const std::uint32_t first = root(o);
         list.islands[o] = first == o ? static_cast<std::uint32_t>(list.is_alone.size()) : list.islands[first];
         if (first == o) {
             list.is_alone.push_back(1);
+            list.is_fixed.push_back(0);
         } else {
             list.is_alone[list.islands[o]] = 0;
         }
+        const bool is_near_collider = !near_[o].empty() && !model_->is_body(near_[o].back());
+        if (is_near_collider) list.is_alone[list.islands[o]] = 0;
+        if (is_near_collider || !model_->is_body(o)) list.is_fixed[list.islands[o]] = 1;
     }
     list.shifts.assign(list.is_alone.size(), Vec3<Real>(0));
+}
+
+// The mean motion by mass of an island's bodies.
+template <class Real>
+void DetectContacts<Real>::find_drifts(std::span<const Vec3<Real>> motions, ContactList<Real>& list) {
+    const std::size_t islands = list.is_alone.size();
+    list.drifts.assign(islands, Vec3<Real>(0));
+    list.drifted.assign(islands, Real(0));
+    std::vector<double> masses(islands);
+    std::vector<glm::dvec3> sums(islands, glm::dvec3(0.0));
+    for (std::size_t o = 0; o < motions.size(); ++o) {
+        masses[list.islands[o]] += masses_[o];
+        sums[list.islands[o]] += masses_[o] * glm::dvec3(motions[o]);
+    }
+    for (std::size_t i = 0; i < islands; ++i)
+        if (list.is_fixed[i] != 0 && masses[i] > 0.0) list.drifts[i] = Vec3<Real>(sums[i] / masses[i]);
+    for (std::size_t o = 0; o < drifts_.size(); ++o) drifts_[o] = list.drifts[list.islands[o]];
+}
+
+// Of an object as another one sees it. Bodies of one island go together.
+template <class Real>
+Vec3<Real> DetectContacts<Real>::drift_towards(std::uint32_t object, std::uint32_t other) const {
+    return model_->is_body(object) && model_->is_body(other) ? Vec3<Real>(0)
+                                                             : drifts_[object] - drifts_[other];
 }
 
 template <class Real>
@@ -189,9 +294,8 @@ void DetectContacts<Real>::search(std::uint32_t leaf, std::span<const Vec4<Real>
     if (first == end) return;
     found.faces.clear();
     found.edges.clear();
-    const Range row = collision_->row(model_->faces[faces.first_item].object);
-    for (std::uint32_t p = row.first; p < row.end(); ++p)
-        find_near(leaf, collision_->pairs()[p].other, found);
+    for (const std::uint32_t other : near_[model_->faces[faces.first_item].object])
+        find_near(leaf, other, found);
     if (found.faces.indices.empty()) return;
     for (std::uint32_t place = first.x; place < end.x; ++place) pair_node(place, positions, found);
     keep_near(positions, found.waiting, found.of_nodes);
@@ -204,16 +308,19 @@ template <class Real>
 void DetectContacts<Real>::find_near(std::uint32_t leaf, std::uint32_t other, Found& found) const {
     const BoxTree& trees = model_->face_trees;
     const std::vector<glm::uvec2>& face_starts = model_->surface_parts.face_starts;
-    const AxisBox<Real> box = collision_->tree_boxes()[leaf];
-    const bool is_after = other > model_->faces[trees.nodes[leaf].first_item].object;
+    const std::uint32_t object = model_->faces[trees.nodes[leaf].first_item].object;
+    const Vec3<Real> drift = drift_towards(object, other);
+    const AxisBox<Real> box = swept(collision_->tree_boxes()[leaf], drift);
+    const bool is_after = other > object;
     for_leaves_near<Real>(trees, collision_->tree_boxes(), trees.roots[other], box, [&](std::uint32_t near) {
         const std::uint32_t first = trees.nodes[near].first_item, end = first + trees.nodes[near].item_count;
         for (std::uint32_t f = first; f < end; ++f) {
-            if (meet(box, collision_->face_boxes()[f])) found.faces.add(f, collision_->face_boxes()[f]);
+            if (meet(box, collision_->face_boxes()[f]))
+                found.faces.add(f, swept(collision_->face_boxes()[f], -drift));
         }
         if (!is_after) return;
         for (std::uint32_t e = face_starts[first].y; e < face_starts[end].y; ++e) {
-            if (meet(box, edge_boxes_[e])) found.edges.add(e, edge_boxes_[e]);
+            if (meet(box, edge_boxes_[e])) found.edges.add(e, swept(edge_boxes_[e], -drift));
         }
     });
 }
@@ -257,9 +364,14 @@ void DetectContacts<Real>::keep_near(std::span<const Vec4<Real>> positions, std:
         MeasuredPairs<Real> measured;
         measure_pairs(block, positions, measured);
         for (std::size_t k = 0; k < block.size(); ++k) {
-            const double listed = kListedReach * surface_->reach(block[k].object, block[k].other);
-            // Against rounding a little more.
-            if (measured.gaps[k] < static_cast<Real>(listed) + measured.rounding[k]) kept.push_back(block[k]);
+            const double listed =
+                kListedReach * (listed_thicknesses_[block[k].object] + listed_thicknesses_[block[k].other]);
+            // Along the line between nearest points now, the gap changes by no more than the drift. Against
+            // rounding a little more.
+            const Vec3<Real> apart(measured.apart[0][k], measured.apart[1][k], measured.apart[2][k]);
+            const Real nearer = glm::dot(apart, drift_towards(block[k].object, block[k].other));
+            const Real least = measured.gaps[k] - std::max(nearer / measured.gaps[k], Real(0));
+            if (!(least > static_cast<Real>(listed) + measured.rounding[k])) kept.push_back(block[k]);
         }
     }
     waiting.clear();
@@ -287,7 +399,9 @@ void DetectContacts<Real>::find_rooms(ContactList<Real>& list) {
     list.rooms.assign(model_->surface_parts.nodes.size(), most);
     tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
         find_distances(static_cast<std::uint32_t>(o), most);
-        const auto besides = static_cast<Real>(2.0 * (kListedReach - 1.0) * surface_->thicknesses[o]);
+        if (!model_->is_body(o) && !model_->surfaces[o - model_->body_count()].moves) return;
+        const auto besides =
+            static_cast<Real>(2.0 * (kListedReach * listed_thicknesses_[o] - surface_->thicknesses[o]));
         const std::uint32_t root = trees.roots[o], end = trees.nodes[root].skip;
         for (std::uint32_t n = root; n < end; ++n) {
             const TreeNode& leaf = trees.nodes[n];
@@ -331,17 +445,26 @@ void DetectContacts<Real>::find_nearest(std::uint32_t object, const AxisBox<Real
                                         Real enough, Nearest& nearest) const {
     const BoxTree& trees = model_->face_trees;
     const std::vector<AxisBox<Real>>& boxes = collision_->tree_boxes();
-    const auto look_at = [&](std::uint32_t leaf, Real squared) {
+    const auto look_at = [&](std::uint32_t leaf, const Vec3<Real>& drift, Real squared) {
+        if (!(squared < nearest.squared)) return;
+        if (!model_->is_body(model_->faces[trees.nodes[leaf].first_item].object))
+            squared = std::max(squared, squared_gap(box, drift, leaf));
         if (squared < nearest.squared) nearest = {squared, leaf};
     };
     nearest.squared = most;
-    if (nearest.leaf != kNoNode) look_at(nearest.leaf, squared_distance(box, boxes[nearest.leaf]));
+    if (nearest.leaf != kNoNode) {
+        const std::uint32_t other = model_->faces[trees.nodes[nearest.leaf].first_item].object;
+        const Vec3<Real> drift = drift_towards(object, other);
+        look_at(nearest.leaf, drift, squared_distance(swept(box, drift), boxes[nearest.leaf]));
+    }
     for (const std::uint32_t other : near_[object]) {
+        const Vec3<Real> drift = drift_towards(object, other);
+        const AxisBox<Real> passed = swept(box, drift);
         const std::uint32_t end = trees.nodes[trees.roots[other]].skip;
         for (std::uint32_t n = trees.roots[other]; n < end && nearest.squared > enough;) {
-            const Real squared = squared_distance(box, boxes[n]);
+            const Real squared = squared_distance(passed, boxes[n]);
             const bool is_near = squared < nearest.squared;
-            if (trees.nodes[n].item_count > 0) look_at(n, squared);
+            if (trees.nodes[n].item_count > 0) look_at(n, drift, squared);
             n = is_near ? n + 1 : trees.nodes[n].skip;
         }
     }

@@ -28,10 +28,17 @@ public:
     double listed_distance() const { return listed_; }  ///< [m]
 
     /// @param longest motion that the next step is expected to make [m]
-    void run(std::span<const Vec4<Real>> positions, double longest, ContactList<Real>& list);
+    /// @param motions expected means of bodies [m], shape [bodies], or empty: none
+    void run(std::span<const Vec4<Real>> positions, double longest, std::span<const Vec3<Real>> motions,
+             ContactList<Real>& list);
 
 private:
+    void find_near_objects();
+    bool reaches(std::uint32_t collider, const AxisBox<Real>& box, Real most) const;
+    Real squared_gap(const AxisBox<Real>& box, const Vec3<Real>& drift, std::uint32_t leaf) const;
     void find_islands(ContactList<Real>& list);
+    void find_drifts(std::span<const Vec3<Real>> motions, ContactList<Real>& list);
+    Vec3<Real> drift_towards(std::uint32_t object, std::uint32_t other) const;
     // Faces or edges that a leaf may be near, in ascending order, and their boxes in columns.
     struct Near {
         std::vector<std::uint32_t> indices;
@@ -67,9 +74,12 @@ private:
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
-    std::vector<std::uint32_t> object_of_;  // by node
-    double listed_;                         // proximities are found up to here [m]
-    double island_distance_ = 0.0;          // bodies farther apart than this are of different islands [m]
+    std::vector<std::uint32_t> object_of_;   // by node
+    double listed_;                          // proximities are found up to here [m]
+    double island_distance_ = 0.0;           // bodies farther apart than this are of different islands [m]
+    std::span<const Vec4<Real>> positions_;  // of this run
+    std::vector<double> masses_;             // of bodies [kg]
+    std::vector<Vec3<Real>> drifts_;         // of objects, of this run [m]
     std::unique_ptr<Collision<Real>> collision_;
     BoxMargin<Real> margin_;
     std::vector<AxisBox<Real>> edge_boxes_;  // of leaves that are near others
@@ -77,7 +87,11 @@ private:
     std::vector<Real> distances_;
     std::vector<Found> found_;  // in the leaves' order
     ObjectTree<Real> object_tree_;
-    std::vector<std::vector<std::uint32_t>> near_;  // objects of the same island that are near, ascending
+    // Of each object, those near it that are not both colliders, ascending; those of a body's island, and
+    // colliders.
+    std::vector<std::vector<std::uint32_t>> near_;
+    // How thick objects are for what is listed [m]: a collider that moves needs room, too.
+    std::vector<double> listed_thicknesses_;
 };
 
 }  // namespace gelatin::cpu

@@ -65,7 +65,7 @@ GuardedMove<Real>::GuardedMove(std::shared_ptr<const Model> model, std::vector<s
       object_of_(objects_of_nodes(*model_)),
       masses_(model_->objects.size()),
       is_held_(model_->objects.size()),
-      means_(model_->objects.size()),
+      means_(model_->body_count()),
       ways_(model_->node_count()),
       ways_of_objects_(model_->objects.size()),
       parts_(model_->objects.size()) {
@@ -109,12 +109,10 @@ bool GuardedMove<Real>::plan(const ContactList<Real>& list, const ContactAims<Re
     return may_shift;
 }
 
-// The mean by mass over the objects of an island; none of one in which anything is held.
 template <class Real>
-void GuardedMove<Real>::find_common_motions(const ContactList<Real>& list,
-                                            std::span<const Vec4<Real>> positions,
-                                            std::span<const Vec4<Real>> ends) {
-    tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
+const std::vector<Vec3<Real>>& GuardedMove<Real>::mean_motions(std::span<const Vec4<Real>> positions,
+                                                               std::span<const Vec4<Real>> ends) {
+    tbb::parallel_for(std::size_t(0), model_->body_count(), [&](std::size_t o) {
         const Range& nodes = model_->objects[o].nodes;
         glm::dvec3 sum(0.0);
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
@@ -122,18 +120,81 @@ void GuardedMove<Real>::find_common_motions(const ContactList<Real>& list,
                    glm::dvec3(Vec3<Real>(ends[n]) - Vec3<Real>(positions[n]));
         means_[o] = Vec3<Real>(sum / masses_[o]);
     });
-    const std::size_t islands = list.shifts.size();
-    std::vector<glm::dvec3> sums(islands, glm::dvec3(0.0));
-    std::vector<double> masses(islands);
-    std::vector<std::uint8_t> is_held(islands);
-    for (std::size_t o = 0; o < means_.size(); ++o) {
+    return means_;
+}
+
+// By mass; none of those in which a node is held.
+template <class Real>
+std::vector<Vec3<Real>> GuardedMove<Real>::means_of_islands(const ContactList<Real>& list) const {
+    std::vector<glm::dvec3> sums(list.shifts.size(), glm::dvec3(0.0));
+    std::vector<double> masses(sums.size());
+    std::vector<std::uint8_t> is_held(sums.size());
+    for (std::size_t o = 0; o < model_->body_count(); ++o) {
         const std::uint32_t i = list.islands[o];
         sums[i] += masses_[o] * glm::dvec3(means_[o]);
         masses[i] += masses_[o];
         is_held[i] |= is_held_[o];
     }
-    for (std::size_t i = 0; i < islands; ++i) {
-        if (is_held[i] == 0) common_[i] = Vec3<Real>(sums[i] / masses[i]);
+    std::vector<Vec3<Real>> means(sums.size(), Vec3<Real>(0));
+    for (std::size_t i = 0; i < means.size(); ++i)
+        if (is_held[i] == 0 && masses[i] > 0.0) means[i] = Vec3<Real>(sums[i] / masses[i]);
+    return means;
+}
+
+template <class Real>
+void GuardedMove<Real>::find_common_motions(const ContactList<Real>& list,
+                                            std::span<const Vec4<Real>> positions,
+                                            std::span<const Vec4<Real>> ends) {
+    mean_motions(positions, ends);
+    const std::vector<Vec3<Real>> means = means_of_islands(list);
+    for (std::size_t i = 0; i < means.size(); ++i)
+        if (list.is_fixed[i] == 0) common_[i] = means[i];
+}
+
+// Bodies of an island go on with the gaps that they have; those to colliders change.
+template <class Real>
+void GuardedMove<Real>::drift(ContactList<Real>& list, const ContactAims<Real>& aims,
+                              std::span<const Vec4<Real>> ends, std::span<Vec4<Real>> positions) {
+    mean_motions(positions, ends);
+    const std::vector<Vec3<Real>> means = means_of_islands(list);
+    std::vector<Real> parts(means.size());  // of their drifts
+    bool any = false;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const Real squared = glm::dot(list.drifts[i], list.drifts[i]);
+        if (!(squared > Real(0))) continue;
+        parts[i] =
+            std::clamp(glm::dot(means[i], list.drifts[i]) / squared, Real(0), Real(1) - list.drifted[i]);
+        any |= parts[i] > Real(0);
+    }
+    if (!any) return;
+    movers_ = Movers::objects;
+    std::vector<Real> allowed = parts;
+    for (std::size_t p = 0; p < list.pairs.size(); ++p) {
+        const ContactPair& pair = list.pairs[p];
+        if (model_->is_body(pair.object) && model_->is_body(pair.other)) continue;
+        const std::uint32_t island = list.island_of(pair);
+        if (!(allowed[island] > Real(0))) continue;
+        const std::size_t body_side = model_->is_body(pair.object) ? 0 : 1;
+        std::array<Vec3<Real>, 4> nodes, motions;
+        for (std::size_t k = 0; k < 4; ++k) {
+            nodes[k] = Vec3<Real>(positions[pair.nodes[k]]);
+            motions[k] = pair.side_of(k) == body_side ? allowed[island] * list.drifts[island] : Vec3<Real>(0);
+        }
+        const Course course =
+            best_course(pair, aims.aims()[p], aims.reach(pair), nodes, motions, Closeness::guess);
+        if (course.is_free()) continue;
+        allowed[island] *= part_left(course.gap_at(Real(0)), course.gap_at(Real(1)), course.least);
+    }
+    tbb::parallel_for(std::size_t(0), model_->body_count(), [&](std::size_t o) {
+        const std::uint32_t island = list.islands[o];
+        if (!(allowed[island] > Real(0))) return;
+        const Vec4<Real> motion(allowed[island] * list.drifts[island], Real(0));
+        const Range& nodes = model_->objects[o].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) positions[n] += motion;
+    });
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        list.shifts[i] += allowed[i] * list.drifts[i];
+        list.drifted[i] += allowed[i];
     }
 }
 
@@ -186,8 +247,15 @@ void GuardedMove<Real>::find_courses(const ContactList<Real>& list, const Contac
         const std::size_t end = std::min((task + 1) * kPairsATask, list.pairs.size());
         for (std::size_t p = task * kPairsATask; p < end; ++p) {
             if (are_far_apart(list.pairs[p], aims, aims.aims()[p], closeness)) continue;
+            const ContactPair& pair = list.pairs[p];
+            const Vec3<Real> common = common_[list.island_of(pair)];
+            std::array<Vec3<Real>, 4> nodes, motions;
+            for (std::size_t c = 0; c < 4; ++c) {
+                nodes[c] = Vec3<Real>(positions[pair.nodes[c]]);
+                motions[c] = Vec3<Real>(ends[pair.nodes[c]]) - nodes[c] - common;
+            }
             const Course course =
-                best_course(list, list.pairs[p], aims, aims.aims()[p], positions, ends, closeness);
+                best_course(pair, aims.aims()[p], aims.reach(pair), nodes, motions, closeness);
             if (!course.stays_free([](std::size_t) { return Real(1); })) found_[task].push_back(course);
         }
     });
@@ -211,18 +279,13 @@ bool GuardedMove<Real>::are_far_apart(const ContactPair& pair, const ContactAims
 // Along the direction of the aim, or along that between the nearest points where it no longer separates the
 // pair; or along another one that does so all the way.
 template <class Real>
-typename GuardedMove<Real>::Course GuardedMove<Real>::best_course(
-    const ContactList<Real>& list, const ContactPair& pair, const ContactAims<Real>& aims,
-    const PairAim<Real>& aim, std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
-    Closeness closeness) const {
-    const Vec3<Real> common = common_[list.islands[pair.object]];
-    std::array<Vec3<Real>, 4> nodes, motions, moved;
-    for (std::size_t c = 0; c < 4; ++c) {
-        nodes[c] = Vec3<Real>(positions[pair.nodes[c]]);
-        motions[c] = Vec3<Real>(ends[pair.nodes[c]]) - nodes[c] - common;
-        moved[c] = nodes[c] + motions[c];
-    }
-    const Real reach = aims.reach(pair);
+typename GuardedMove<Real>::Course GuardedMove<Real>::best_course(const ContactPair& pair,
+                                                                  const PairAim<Real>& aim, Real reach,
+                                                                  const std::array<Vec3<Real>, 4>& nodes,
+                                                                  const std::array<Vec3<Real>, 4>& motions,
+                                                                  Closeness closeness) const {
+    std::array<Vec3<Real>, 4> moved;
+    for (std::size_t c = 0; c < 4; ++c) moved[c] = nodes[c] + motions[c];
     Course course = course_along(pair, aim, reach, aim.normal, nodes, motions, closeness);
     if (!(course.gap_at(Real(0)) > Real(kSeparated) * reach)) {
         const Vec3<Real> between = shortest(pair, nodes);
@@ -312,14 +375,16 @@ void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
         courses_.resize(kept);
         std::swap(parts_, next_parts_);
         if (!is_blocked) return;
-        // In a large island rounds could go on from body to body.
+        // In a large island rounds could go on from body to body. Islands stop whole, and colliders, each
+        // time at least one.
         if (round < 2 * kMostRounds) continue;
         std::vector<std::uint8_t> stops(common_.size());
-        for (const Course& course : courses_)
-            if (!is_left(course)) stops[island_of(list, course.movers[0])] = 1;
+        for (const Course& course : courses_) {
+            if (is_left(course)) continue;
+            for (const std::uint32_t mover : course.movers) stops[island_of(list, mover)] = 1;
+        }
         for (std::uint32_t m = 0; m < parts_.size(); ++m)
             if (stops[island_of(list, m)] != 0) parts_[m] = Real(0);
-        return;
     }
 }
 
@@ -345,15 +410,15 @@ void GuardedMove<Real>::go(ContactList<Real>& list, std::span<const Vec4<Real>> 
         std::vector<glm::dvec3> lost(common_.size(), glm::dvec3(0.0));
         std::vector<double> masses(common_.size());
         std::vector<std::uint8_t> is_held(common_.size());
-        for (std::size_t o = 0; o < parts_.size(); ++o) {
+        for (std::size_t o = 0; o < model_->body_count(); ++o) {
             const std::uint32_t i = list.islands[o];
             lost[i] +=
                 (masses_[o] * static_cast<double>(Real(1) - parts_[o])) * glm::dvec3(means_[o] - common_[i]);
             masses[i] += masses_[o];
-            is_held[i] |= is_held_[o];
+            is_held[i] |= is_held_[o] | list.is_fixed[i];
         }
         for (std::size_t i = 0; i < shifts.size(); ++i) {
-            if (is_held[i] != 0) continue;
+            if (is_held[i] != 0 || !(masses[i] > 0.0)) continue;
             const Vec3<Real> made_up(lost[i] / masses[i]);
             shifts[i] += part_within(list.shifts[i] + common_[i], made_up, list.most_shift) * made_up;
         }

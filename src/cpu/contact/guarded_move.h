@@ -38,6 +38,15 @@ public:
     void begin(std::span<const Vec4<Real>> positions);
     bool is_held(std::size_t object) const { return is_held_[object] != 0; }
 
+    /// The mean motions of bodies to `ends` [m], until the next call.
+    const std::vector<Vec3<Real>>& mean_motions(std::span<const Vec4<Real>> positions,
+                                                std::span<const Vec4<Real>> ends);
+
+    /// Moves islands near colliders along their courses, as far as their bodies' mean motion to `ends` leads
+    /// and colliders let them.
+    void drift(ContactList<Real>& list, const ContactAims<Real>& aims, std::span<const Vec4<Real>> ends,
+               std::span<Vec4<Real>> positions);
+
     /// Finds how much of the way to `ends` each mover may go.
     /// @return false if movers may go farther after this move and another detection
     bool plan(const ContactList<Real>& list, const ContactAims<Real>& aims,
@@ -57,6 +66,7 @@ public:
     Real part(std::size_t mover) const { return parts_[mover]; }
 
 private:
+    std::vector<Vec3<Real>> means_of_islands(const ContactList<Real>& list) const;
     void find_common_motions(const ContactList<Real>& list, std::span<const Vec4<Real>> positions,
                              std::span<const Vec4<Real>> ends);
     bool limit_common_motions(const ContactList<Real>& list);
@@ -91,9 +101,9 @@ private:
                       Closeness closeness);
     bool are_far_apart(const ContactPair& pair, const ContactAims<Real>& aims, const PairAim<Real>& aim,
                        Closeness closeness) const;
-    Course best_course(const ContactList<Real>& list, const ContactPair& pair, const ContactAims<Real>& aims,
-                       const PairAim<Real>& aim, std::span<const Vec4<Real>> positions,
-                       std::span<const Vec4<Real>> ends, Closeness closeness) const;
+    Course best_course(const ContactPair& pair, const PairAim<Real>& aim, Real reach,
+                       const std::array<Vec3<Real>, 4>& nodes, const std::array<Vec3<Real>, 4>& motions,
+                       Closeness closeness) const;
     Course course_along(const ContactPair& pair, const PairAim<Real>& aim, Real reach,
                         const Vec3<Real>& normal, const std::array<Vec3<Real>, 4>& nodes,
                         const std::array<Vec3<Real>, 4>& motions, Closeness closeness) const;

@@ -22,11 +22,8 @@ Vec3<Real> product(const SymmetricMatrix<Real>& m, const Vec3<Real>& v) {
 
 template <class Real>
 NodeContacts<Real>::NodeContacts(std::shared_ptr<const Model> model,
-                                 std::shared_ptr<const ContactSurface> surface, double friction)
-    : model_(std::move(model)),
-      surface_(std::move(surface)),
-      object_of_(objects_of_nodes(*model_)),
-      friction_(static_cast<Real>(friction)) {
+                                 std::shared_ptr<const ContactSurface> surface)
+    : model_(std::move(model)), surface_(std::move(surface)), object_of_(objects_of_nodes(*model_)) {
     const std::size_t count = model_->surface_parts.nodes.size();
     first_planes_.resize(count);
     plane_counts_.resize(count);
@@ -71,7 +68,8 @@ void NodeContacts<Real>::share(const ContactList<Real>& list, const std::vector<
             weight * press.stiffness,
             press.reach,
             (-sign * weight) * press.hold,
-            weight * friction_ * contact_force(press.gap, press.reach, press.stiffness)};
+            press.friction,
+            weight * press.friction * contact_force(press.gap, press.reach, press.stiffness)};
     });
 }
 
@@ -125,7 +123,7 @@ void NodeContacts<Real>::add(std::uint32_t node, const Vec3<Real>& position, Nod
         if (!(share.limit > Real(0))) continue;
         // Less where the node presses less than at the aim: few sweeps find far too much of that at first.
         const Real pressing = contact_force(share.gap_at(displacement), share.reach, share.stiffness);
-        share.limit = std::min(share.limit, friction_ * pressing);
+        share.limit = std::min(share.limit, share.friction * pressing);
         if (share.limit > Real(0)) add_friction_share(share, displacement, terms);
     }
 }

@@ -30,6 +30,7 @@ struct Press {
     Vec4<Real> weights;  ///< of the pair's nodes in them; each side's add up to 1
     Real reach;          ///< gap at which it begins to press [m]
     Real stiffness;      ///< [N/m], positive
+    Real friction;       ///< Coulomb's coefficient
     Real share;          ///< the part of the gap that the first side may use
     Grip<Real> grip;
     Vec3<Real> hold;  ///< what would hold the first side there, if nothing slid [N]; 0 without pressure
@@ -47,9 +48,7 @@ struct NodePlane {
 template <class Real>
 class NodeContacts {
 public:
-    /// @param friction Coulomb's coefficient
-    NodeContacts(std::shared_ptr<const Model> model, std::shared_ptr<const ContactSurface> surface,
-                 double friction);
+    NodeContacts(std::shared_ptr<const Model> model, std::shared_ptr<const ContactSurface> surface);
 
     // An aim writes all planes, slot by slot of the list, and all shares. Then it selects.
     void resize(const ContactList<Real>& list);
@@ -101,8 +100,7 @@ private:
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
-    std::vector<std::uint32_t> object_of_;  // by node
-    Real friction_;
+    std::vector<std::uint32_t> object_of_;    // by node
     std::vector<NodePlane<Real>> planes_;     // by slot; of each node's first those that are counted
     std::vector<ContactShare<Real>> shares_;  // node by node
     // By surface node:

@@ -200,6 +200,9 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
         if (from.w == Real(0)) {
             target = Vec4<Real>(Vec3<Real>(from) + step * velocity, Real(0));
             current.positions[n] = target;
+            // Bodies may have been in the way of what a handle moves.
+            if (bodies_)
+                objective_.step.starts[n] = Vec4<Real>(bodies_->came_from(n, step), previous.velocities[n].w);
             return;
         }
         Vec3<Real> acceleration = gravity;

@@ -58,6 +58,7 @@ struct Touch {
     Motion row_a, row_b;                             // how its gap changes
     double gap = 0.0, stiffness = 0.0, reach = 0.0;  // [m], [N/m]
     double change = 0.0;                             // of the gap by the step
+    double friction = 0.0;
     // What would hold the first side if nothing slid [N], and directions across the normal, the first along
     // it.
     glm::dvec3 hold{0.0};
@@ -80,13 +81,14 @@ public:
 
     // The motions of all bodies at which the objective is least. Friction depends on how contacts press, of
     // which sweeps find far too much in stiff bodies: it is taken by what a first solution leaves of that.
-    std::vector<Motion> find_motions(double friction) {
-        if (friction == 0.0) return solve_once(friction);
+    std::vector<Motion> find_motions() {
+        const auto slips = [](const Touch& touch) { return touch.friction == 0.0; };
+        if (std::all_of(touches.begin(), touches.end(), slips)) return solve_once();
         const std::vector<Body> bodies_alone = bodies;
-        solve_once(friction);
+        solve_once();
         bodies = bodies_alone;
         for (Coupling& coupling : couplings_) coupling.block.setZero();
-        return solve_once(friction);
+        return solve_once();
     }
 
 private:
@@ -116,14 +118,14 @@ private:
     }
 
     // By the changes of gaps of the solution before, if there is one.
-    std::vector<Motion> solve_once(double friction) {
+    std::vector<Motion> solve_once() {
         for (const Touch& touch : touches) {
             const double force = contact_force(touch.gap, touch.reach, touch.stiffness);
             if (force > 0.0)
                 add(touch, touch.row_a, touch.row_b, contact_hessian(touch.gap, touch.reach, touch.stiffness),
                     force);
             const double limit =
-                friction * contact_force(touch.gap + touch.change, touch.reach, touch.stiffness);
+                touch.friction * contact_force(touch.gap + touch.change, touch.reach, touch.stiffness);
             if (limit > 0.0) add_friction(touch, limit);
         }
         std::vector<Motion> motions = solve();
@@ -297,6 +299,7 @@ void add_pair(const ContactPair& pair, const ContactAims<Real>& aims, const Pres
     touch.gap = static_cast<double>(aims.gap(pair, press, positions));
     touch.stiffness = static_cast<double>(press.stiffness);
     touch.reach = static_cast<double>(press.reach);
+    touch.friction = static_cast<double>(press.friction);
     touch.arms = arms;
     touch.hold = glm::dvec3(aims.hold(pair, press, positions));
     const double length = glm::length(touch.hold);
@@ -323,8 +326,8 @@ void JointMove<Real>::run(bool is_last, const Contacts<Real>& contacts, const St
         const std::uint32_t i = list.islands[o];
         // The last sweep has left nodes outside colliders: bodies that touch one do not move after it.
         if (list.is_alone[i] != 0 || (is_last && colliders.objects[o] != 0)) waits[i] = 1;
+        islands[i].is_held |= list.is_fixed[i] != 0 || contacts.is_held(o);
         if (contacts.is_held(o)) {
-            islands[i].is_held = true;
             continue;
         }
         numbers[o] = static_cast<std::uint32_t>(islands[i].bodies.size());
@@ -333,7 +336,7 @@ void JointMove<Real>::run(bool is_last, const Contacts<Real>& contacts, const St
     const std::vector<Press<Real>>& presses = contacts.aims().presses();
     std::vector<std::vector<std::uint32_t>> own(islands.size());  // presses of each island
     for (std::uint32_t k = 0; k < presses.size(); ++k)
-        own[list.islands[list.pairs[presses[k].pair].object]].push_back(k);
+        own[list.island_of(list.pairs[presses[k].pair])].push_back(k);
     tbb::parallel_for(std::size_t(0), islands.size(), [&](std::size_t i) {
         Island& island = islands[i];
         if (waits[i] != 0 || island.bodies.empty()) return;
@@ -344,8 +347,7 @@ void JointMove<Real>::run(bool is_last, const Contacts<Real>& contacts, const St
         }
         for (const std::uint32_t k : own[i])
             add_pair(list.pairs[presses[k].pair], contacts.aims(), presses[k], numbers, positions, island);
-        const std::vector<Motion> motions =
-            island.find_motions(static_cast<double>(contacts.aims().friction()));
+        const std::vector<Motion> motions = island.find_motions();
         for (std::size_t k = 0; k < motions.size(); ++k) {
             const Motion& m = motions[k];
             if (!m.allFinite()) return;

@@ -31,7 +31,7 @@ ShapeMatcher<Real>::ShapeMatcher(std::shared_ptr<const Model> model)
 template <class Real>
 void ShapeMatcher<Real>::run(Nodes<Real>& nodes) {
     count_inverted_tets(nodes.positions);
-    tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
+    tbb::parallel_for(std::size_t(0), model_->body_count(), [&](std::size_t o) {
         if (static_cast<float>(inverted_[o]) > shapes_.objects[o].inverse_y.w)
             match(static_cast<std::uint32_t>(o), nodes);
     });

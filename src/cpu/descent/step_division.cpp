@@ -23,11 +23,11 @@ constexpr double kPairsASweptNode = 2.0;
 template <class Real>
 StepDivision<Real>::StepDivision(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
-      masses_(model_->objects.size()),
-      wave_times_(model_->objects.size()),
-      velocities_(model_->objects.size()),
-      speeds_(model_->objects.size()),
-      liveliness_(model_->objects.size()) {
+      masses_(model_->body_count()),
+      wave_times_(model_->body_count()),
+      velocities_(model_->body_count()),
+      speeds_(model_->body_count()),
+      liveliness_(model_->body_count()) {
     for (std::size_t o = 0; o < masses_.size(); ++o) {
         const ModelObject& object = model_->objects[o];
         double mass = 0.0, bulk = 0.0, volume = 0.0;
@@ -106,7 +106,7 @@ void StepDivision<Real>::find_speeds(std::span<const std::uint8_t> touched_colli
         if (touched_colliders[o] != 0) meets[i] = is_held[i] = 1;
         if (!has_islands) continue;
         if (!contacts->list().is_alone_at(o)) meets[i] = 1;
-        if (contacts->is_held(o)) is_held[i] = 1;
+        if (contacts->is_held(o) || contacts->list().is_fixed[i] != 0) is_held[i] = 1;
     }
     for (std::size_t o = 0; o < objects; ++o) {
         const std::size_t i = island_of(o);

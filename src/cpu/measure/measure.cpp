@@ -23,7 +23,7 @@ struct Chunk {
 // order.
 std::vector<Chunk> make_chunks(const Model& model) {
     std::vector<Chunk> chunks;
-    for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
+    for (std::uint32_t o = 0; o < model.body_count(); ++o) {
         const ModelObject& object = model.objects[o];
         const auto part = [](const Range& range, std::uint32_t offset) {
             return offset < range.count ? Range{range.first + offset, std::min(kChunk, range.count - offset)}

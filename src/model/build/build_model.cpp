@@ -37,17 +37,6 @@ namespace {
 // locality.
 constexpr std::size_t kSmallObject = 8192;
 constexpr std::uint32_t kSortWindow = 256;
-constexpr double kCreaseAngle = 0.7;  // 40 degrees: flatter edges are drawn smooth
-
-// Faces in the order of the tree that is built over them.
-void arrange_faces(TetMesh& mesh) {
-    std::vector<glm::dvec3> centers;
-    for (const glm::uvec3& f : mesh.faces)
-        centers.push_back((mesh.positions[f.x] + mesh.positions[f.y] + mesh.positions[f.z]) / 3.0);
-    const std::vector<glm::uvec3> faces = mesh.faces;
-    std::size_t place = 0;
-    for (const std::uint32_t face : box_tree_order(centers)) mesh.faces[place++] = faces[face];
-}
 
 // A body's mesh with its nodes in an order that keeps neighbours near each other.
 struct Arranged {
@@ -80,7 +69,7 @@ Arranged arranged(const TetMesh& mesh, const std::vector<glm::uvec2>& edges) {
     for (const std::size_t old : old_tets) result.tets.push_back(renamed(mesh.tets[old]));
     for (const glm::uvec3& f : mesh.faces)
         result.faces.emplace_back(new_index[f.x], new_index[f.y], new_index[f.z]);
-    arrange_faces(result);
+    arrange_faces(result.positions, result.faces);
     return {std::move(result), std::move(new_index), std::move(old_tets)};
 }
 
@@ -301,9 +290,10 @@ Body make_body(const Scene& scene, const ObjectDescription& object, ObjectMesher
 }  // namespace
 
 Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDescription>& colliders,
-                  const glm::dvec3& gravity) {
+                  const glm::dvec3& gravity, const std::vector<ColliderSurface>& surfaces) {
     Model model;
     for (const Body& body : bodies) append_body(model, body);
+    for (const ColliderSurface& surface : surfaces) append_surface(surface, model);
     model.colliders = pack_colliders(colliders);
     model.gravity = glm::vec3(gravity);
     model.half_springs = pack_half_springs(model.node_count(), model.springs);
@@ -321,7 +311,8 @@ Model build_model(const Scene& scene) {
     std::vector<Body> bodies;
     ObjectMesher mesher;
     for (const ObjectDescription& object : scene.objects) bodies.push_back(make_body(scene, object, mesher));
-    Model model = pack_bodies(bodies, scene.colliders, scene.simulation.gravity);
+    Model model =
+        pack_bodies(bodies, solid_colliders(scene), scene.simulation.gravity, make_collider_surfaces(scene));
     if (scene.collision.self_collision) model.rest_shapes = make_rest_shapes(model);
     return model;
 }

@@ -4,6 +4,7 @@
 
 #include "gelatin/scene.h"
 #include "mesh/tet_mesh.h"
+#include "model/build/collider_surface.h"
 #include "model/model.h"
 #include "model/springs/fit_springs.h"
 
@@ -42,8 +43,9 @@ struct Body {
 /// quarter of each tet's mass), springs, and the surface to draw.
 /// @throws InvalidInput if a number does not fit into float (stiffness, mass), or the model exceeds 2^31
 ///   elements.
+/// @param colliders planes, and solid spheres, boxes and capsules
 Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDescription>& colliders,
-                  const glm::dvec3& gravity);
+                  const glm::dvec3& gravity, const std::vector<ColliderSurface>& surfaces = {});
 
 /// Makes the mesh of each of the scene's objects and packs them.
 /// @throws InvalidInput as validate, pack_bodies, ObjectMesher::make and check_regions.

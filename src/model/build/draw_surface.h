@@ -7,6 +7,9 @@
 
 namespace gelatin {
 
+/// Edges at which faces meet at less than this are drawn smooth [rad]: 40 degrees.
+constexpr double kCreaseAngle = 0.7;
+
 /// Appends an object's surface to `surface`. Each corner of its faces becomes part of a surface vertex.
 /// Corners of one node share a vertex as long as the faces between them meet at less than `crease_angle` in
 /// the rest shape.

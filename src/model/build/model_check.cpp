@@ -70,9 +70,9 @@ std::optional<std::string> lost_inertia(const Model& model, const ModelObject& o
 }
 
 std::optional<std::string> uneven_masses(const Model& model) {
-    if (model.objects.size() < 2) return {};
+    if (model.body_count() < 2) return {};
     const auto [light, heavy] =
-        std::minmax_element(model.objects.begin(), model.objects.end(),
+        std::minmax_element(model.bodies().begin(), model.bodies().end(),
                             [](const ModelObject& a, const ModelObject& b) { return a.mass < b.mass; });
     if (!(heavy->mass > kMuch * light->mass)) return {};
     return fmt::format(
@@ -86,7 +86,7 @@ template <class Check>
 void add_first(const Model& model, const Check& check, std::vector<std::string>& lines) {
     std::optional<std::string> first;
     std::size_t others = 0;
-    for (const ModelObject& object : model.objects) {
+    for (const ModelObject& object : model.bodies()) {
         const std::optional<std::string> line = check(object);
         if (line && first) ++others;
         if (!first) first = line;

@@ -22,13 +22,17 @@ struct SurfaceMaker {
     SurfaceMesh operator()(const BoxShape& shape) const { return make_box(shape); }
     SurfaceMesh operator()(const CapsuleShape& shape) const { return make_capsule(shape); }
     SurfaceMesh operator()(const TextShape& shape) const { return make_text(shape); }
-    SurfaceMesh operator()(const FileShape& shape) const { return read_surface(shape.file, notes); }
+    SurfaceMesh operator()(const FileShape& shape) const {
+        if (!is_tet_file(shape.file)) return read_surface(shape.file, notes);
+        const TetMesh tets = read_tets(shape.file, notes);
+        return {tets.positions, tets.faces};
+    }
 };
 
 TetMesh make_local_mesh(const ObjectDescription& object, Notes& notes) {
     const auto* file = std::get_if<FileShape>(&object.shape);
     if (file != nullptr && is_tet_file(file->file)) return read_tets(file->file, notes);
-    const SurfaceMesh surface = std::visit(SurfaceMaker{notes}, object.shape);
+    const SurfaceMesh surface = make_surface(object.shape, notes);
     return tetrahedralise(surface, object.mesher,
                           file != nullptr ? file->file.string() : "object '" + object.name + "'");
 }
@@ -43,6 +47,10 @@ void warn_of_a_poor_fit(const FittedSprings& springs, const std::string& name) {
 }
 
 }  // namespace
+
+SurfaceMesh make_surface(const Shape& shape, Notes& notes) {
+    return std::visit(SurfaceMaker{notes}, shape);
+}
 
 TetMesh ObjectMesher::make(const ObjectDescription& object) {
     TetMesh mesh = local(object).mesh;

@@ -4,10 +4,15 @@
 #include <vector>
 
 #include "gelatin/scene.h"
+#include "mesh/surface_mesh.h"
 #include "mesh/tet_mesh.h"
 #include "model/springs/fit_springs.h"
 
 namespace gelatin {
+
+/// The surface of a shape, as it is before it is placed; of a file with tets, that of the tets.
+/// @throws InvalidInput for files that cannot be read
+SurfaceMesh make_surface(const Shape& shape, Notes& notes);
 
 /// Makes the tets of objects and fits springs to them, once for all objects with the same shape and mesher.
 class ObjectMesher {

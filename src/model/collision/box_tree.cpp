@@ -77,6 +77,15 @@ std::vector<std::uint32_t> box_tree_order(std::span<const glm::dvec3> centers) {
     return order;
 }
 
+void arrange_faces(std::span<const glm::dvec3> positions, std::vector<glm::uvec3>& faces) {
+    std::vector<glm::dvec3> centers;
+    for (const glm::uvec3& f : faces)
+        centers.push_back((positions[f.x] + positions[f.y] + positions[f.z]) / 3.0);
+    const std::vector<glm::uvec3> unordered = faces;
+    std::size_t place = 0;
+    for (const std::uint32_t face : box_tree_order(centers)) faces[place++] = unordered[face];
+}
+
 void append_box_tree(const Range& items, BoxTree& trees) {
     const auto tree = static_cast<std::uint32_t>(trees.roots.size());
     trees.roots.push_back(static_cast<std::uint32_t>(trees.nodes.size()));

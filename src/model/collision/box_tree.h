@@ -14,6 +14,9 @@ namespace gelatin {
 /// order[place] = item.
 std::vector<std::uint32_t> box_tree_order(std::span<const glm::dvec3> centers);
 
+/// Puts faces in that order.
+void arrange_faces(std::span<const glm::dvec3> positions, std::vector<glm::uvec3>& faces);
+
 /// The number of steps after which an order of moving items is renewed.
 constexpr int kOrderLifetime = 64;
 

@@ -1,6 +1,7 @@
 #include "model/collision/pack_colliders.h"
 
 #include <algorithm>
+#include <cassert>
 #include <glm/gtc/quaternion.hpp>
 #include <variant>
 
@@ -17,25 +18,33 @@ struct ColliderPacker {
         c.center = glm::vec4(glm::vec3(plane.normal), static_cast<float>(plane.offset));
         return c;
     }
-    Collider operator()(const BoxCollider& box) const {
+    Collider operator()(const Shape& shape) const { return std::visit(*this, shape); }
+    Collider operator()(const BoxShape& box) const {
         Collider c = common(1);
         const glm::quat q(rotation_from_degrees(description.rotation));
         c.axis = glm::vec4(glm::vec3(0.5 * box.size), 0.0f);
         c.orientation = glm::vec4(q.x, q.y, q.z, q.w);
         return c;
     }
-    Collider operator()(const SphereCollider& sphere) const {
+    Collider operator()(const SphereShape& sphere) const {
         Collider c = common(2);
         c.center.w = static_cast<float>(sphere.radius);
         return c;
     }
-    Collider operator()(const CapsuleCollider& capsule) const {
+    Collider operator()(const CapsuleShape& capsule) const {
         Collider c = common(3);
         const glm::dvec3 half =
             rotation_from_degrees(description.rotation) * glm::dvec3(0, 0.5 * capsule.length, 0);
         c.center.w = static_cast<float>(capsule.radius);
         c.axis = glm::vec4(glm::vec3(half), 0.0f);
         return c;
+    }
+    Collider operator()(const TextShape&) const { return refused(); }
+    Collider operator()(const FileShape&) const { return refused(); }
+
+    Collider refused() const {
+        assert(!"no solid shape: validate() refuses it");
+        return {};
     }
 
     Collider common(std::uint32_t kind) const {

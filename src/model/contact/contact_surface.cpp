@@ -103,8 +103,9 @@ std::vector<double> find_thicknesses(const Model& model) {
         lengths[edge.object].push_back(
             glm::distance(glm::dvec3(model.positions[edge.a]), glm::dvec3(model.positions[edge.b])));
     std::vector<double> thicknesses;
-    for (std::vector<double>& of_object : lengths) {
-        if (of_object.empty()) {
+    for (std::size_t o = 0; o < lengths.size(); ++o) {
+        std::vector<double>& of_object = lengths[o];
+        if (of_object.empty() || !model.is_body(o)) {
             thicknesses.push_back(0.0);
             continue;
         }
@@ -117,7 +118,7 @@ std::vector<double> find_thicknesses(const Model& model) {
 
 }  // namespace
 
-ContactSurface make_contact_surface(const Model& model) {
+ContactSurface make_contact_surface(const Model& model, double friction) {
     ContactSurface surface;
     surface.places.assign(model.node_count(), kNoNode);
     for (std::uint32_t s = 0; s < model.surface_parts.nodes.size(); ++s)
@@ -128,6 +129,9 @@ ContactSurface make_contact_surface(const Model& model) {
     add_tets(model, traces);
     for (const double trace : traces) surface.stiffness.push_back(static_cast<float>(trace / 3.0));
     surface.thicknesses = find_thicknesses(model);
+    surface.first_collider = static_cast<std::uint32_t>(model.body_count());
+    surface.frictions.assign(model.body_count(), friction);
+    for (const RigidSurface& collider : model.surfaces) surface.frictions.push_back(collider.friction);
     return surface;
 }
 

@@ -23,15 +23,24 @@ struct ContactSurface {
     /// A third of the trace of the second derivative of the body's energy by the node at rest, without
     /// dampers [N/m], shape [nodes]: how stiff the body is there, over all directions.
     std::vector<float> stiffness;
-    /// Of each object [m]: two surfaces begin to press each other at the sum of both. A twentieth of the
-    /// object's median surface edge.
+    /// Of each object [m]: two surfaces begin to press each other at the sum of both. A twentieth of a body's
+    /// median surface edge; colliders have none.
     std::vector<double> thicknesses;
+
+    /// Of each object: Coulomb's coefficient. Where a collider is touched, its own counts.
+    std::vector<double> frictions;
+    std::uint32_t first_collider = 0;  ///< objects from here on are colliders
 
     double reach(std::uint32_t object, std::uint32_t other) const {
         return thicknesses[object] + thicknesses[other];
     }
+    /// Of a pair of objects, at most one of which is a collider.
+    double friction(std::uint32_t object, std::uint32_t other) const {
+        return frictions[object < first_collider ? other : object];
+    }
 };
 
-ContactSurface make_contact_surface(const Model& model);
+/// @param friction of bodies with each other
+ContactSurface make_contact_surface(const Model& model, double friction);
 
 }  // namespace gelatin

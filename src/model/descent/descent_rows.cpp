@@ -22,7 +22,7 @@ void sort_by_degree(std::span<std::uint32_t> nodes, const SpringIncidence& incid
 
 std::vector<DescentBatch> make_batches(const Model& model, std::uint32_t nodes_a_batch) {
     std::vector<DescentBatch> batches;
-    for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
+    for (std::uint32_t o = 0; o < model.body_count(); ++o) {
         const ModelObject& object = model.objects[o];
         if (batches.empty() || object.nodes.end() - batches.back().nodes.first > nodes_a_batch)
             batches.push_back({{o, 0}, {object.nodes.first, 0}, {object.tets.first, 0}, {}});

@@ -34,7 +34,7 @@ RestMoment make_rest_moment(const Model& model, const ModelObject& object, std::
 MatchShapes make_match_shapes(const Model& model) {
     MatchShapes shapes;
     shapes.offsets.reserve(model.positions.size());
-    for (const ModelObject& object : model.objects)
+    for (const ModelObject& object : model.bodies())
         shapes.objects.push_back(make_rest_moment(model, object, shapes.offsets));
     return shapes;
 }

@@ -133,7 +133,7 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
     scene.materials = read_materials(std::move(materials));
     ReadObjects read = read_objects(std::move(objects), scene.materials, file.parent_path());
     scene.objects = std::move(read.objects);
-    scene.colliders = read_colliders(std::move(colliders), scene.collision);
+    scene.colliders = read_colliders(std::move(colliders), scene.collision, file.parent_path());
     const ScenePlaces places(document, scene, std::move(read.tables));
     validate(scene, [&](const FieldPath& field, const std::string& value, const std::string& problem) {
         places.report(field, value, problem);

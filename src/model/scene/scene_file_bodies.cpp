@@ -8,8 +8,8 @@
 namespace gelatin {
 namespace {
 
-Shape read_shape(TableReader reader, const std::filesystem::path& folder) {
-    const std::string kind = reader.require_one_of({"sphere", "box", "capsule", "text", "file"});
+// @param kind one of the table's keys
+Shape read_shape(TableReader& reader, const std::string& kind, const std::filesystem::path& folder) {
     Shape result;
     if (kind == "sphere") {
         SphereShape shape;
@@ -39,8 +39,14 @@ Shape read_shape(TableReader reader, const std::filesystem::path& folder) {
         reader.read("file", file);
         result = FileShape{file.empty() ? std::filesystem::path() : folder / file};
     }
-    reader.finish();
     return result;
+}
+
+Shape read_shape(TableReader reader, const std::filesystem::path& folder) {
+    const std::string kind = reader.require_one_of({"sphere", "box", "capsule", "text", "file"});
+    Shape shape = read_shape(reader, kind, folder);
+    reader.finish();
+    return shape;
 }
 
 MesherSettings read_mesher(TableReader reader) {
@@ -117,37 +123,33 @@ std::vector<ObjectDescription> read_object(TableReader& reader, const std::vecto
     return {object};
 }
 
-ColliderDescription read_collider(TableReader& reader, const CollisionSettings& collision) {
+ColliderDescription read_collider(TableReader& reader, const CollisionSettings& collision,
+                                  const std::filesystem::path& folder) {
     ColliderDescription collider;
     collider.friction = collision.friction;
     collider.restitution = collision.restitution;
     reader.require({"shape"});
     TableReader shape = *reader.table("shape");
-    const std::string kind = shape.require_one_of({"plane", "box", "sphere", "capsule"});
+    const std::string kind = shape.require_one_of({"plane", "box", "sphere", "capsule", "text", "file"});
     if (kind == "plane") {
         PlaneCollider plane;
         shape.read_direction("plane", plane.normal);
         shape.read("offset", plane.offset);
         collider.shape = plane;
-    } else if (kind == "box") {
-        BoxCollider box;
-        shape.read("box", box.size);
-        collider.shape = box;
-    } else if (kind == "sphere") {
-        SphereCollider sphere;
-        shape.read("sphere", sphere.radius);
-        collider.shape = sphere;
     } else {
-        CapsuleCollider capsule;
-        shape.read("capsule", capsule.radius);
-        shape.read("length", capsule.length);
-        collider.shape = capsule;
+        collider.shape = read_shape(shape, kind, folder);
     }
     shape.finish();
+    reader.read("name", collider.name);
     reader.read("position", collider.position);
     reader.read("rotation", collider.rotation);
+    reader.read("scale", collider.scale);
     reader.read("friction", collider.friction);
     reader.read("restitution", collider.restitution);
+    collider.keyframes = read_keyframes(reader);
+    collider.interpolation = read_interpolation(reader);
+    if (reader.has("pivot")) reader.read("pivot", collider.pivot.emplace(0.0));
+    reader.read("surface_velocity", collider.surface_velocity);
     reader.finish();
     return collider;
 }
@@ -167,9 +169,10 @@ ReadObjects read_objects(std::vector<TableReader> tables, const std::vector<Mate
 }
 
 std::vector<ColliderDescription> read_colliders(std::vector<TableReader> tables,
-                                                const CollisionSettings& collision) {
+                                                const CollisionSettings& collision,
+                                                const std::filesystem::path& folder) {
     std::vector<ColliderDescription> colliders;
-    for (TableReader& reader : tables) colliders.push_back(read_collider(reader, collision));
+    for (TableReader& reader : tables) colliders.push_back(read_collider(reader, collision, folder));
     return colliders;
 }
 

@@ -21,7 +21,9 @@ ReadObjects read_objects(std::vector<TableReader> tables, const std::vector<Mate
 
 /// @param tables the [[collider]] tables
 /// @param collision gives friction and restitution where a collider is silent
+/// @param folder where relative mesh files start
 std::vector<ColliderDescription> read_colliders(std::vector<TableReader> tables,
-                                                const CollisionSettings& collision);
+                                                const CollisionSettings& collision,
+                                                const std::filesystem::path& folder);
 
 }  // namespace gelatin

@@ -31,16 +31,28 @@ Region require_region(TableReader& reader) {
 
 }  // namespace
 
+Interpolation read_interpolation(TableReader& reader) {
+    Interpolation interpolation = Interpolation::linear;
+    reader.read("interpolation", interpolation,
+                {{"linear", Interpolation::linear}, {"smooth", Interpolation::smooth}});
+    return interpolation;
+}
+
+std::vector<Keyframe> read_keyframes(TableReader& reader) {
+    std::vector<Keyframe> keyframes;
+    for (const TableReader& keyframe : reader.tables("keyframes"))
+        keyframes.push_back(read_keyframe(keyframe));
+    return keyframes;
+}
+
 HandleDescription read_handle(TableReader reader) {
     HandleDescription handle;
     handle.line = reader.line();
     handle.region = require_region(reader);
     if (reader.has("pivot")) reader.read("pivot", handle.pivot.emplace(0.0));
-    reader.read("interpolation", handle.interpolation,
-                {{"linear", Interpolation::linear}, {"smooth", Interpolation::smooth}});
+    handle.interpolation = read_interpolation(reader);
     reader.read("release", handle.release);
-    for (const TableReader& keyframe : reader.tables("keyframes"))
-        handle.keyframes.push_back(read_keyframe(keyframe));
+    handle.keyframes = read_keyframes(reader);
     if (auto drag = reader.table("drag")) handle.drag = read_drag(std::move(*drag));
     reader.finish();
     return handle;

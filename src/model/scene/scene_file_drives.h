@@ -5,6 +5,10 @@
 
 namespace gelatin {
 
+/// The values of the keys "keyframes" and "interpolation".
+std::vector<Keyframe> read_keyframes(TableReader& reader);
+Interpolation read_interpolation(TableReader& reader);
+
 /// An [[object.handle]] table, which it finishes.
 HandleDescription read_handle(TableReader reader);
 

@@ -181,19 +181,22 @@ Table table_of(const Material& material) {
     return table;
 }
 
-Table table_of(const ColliderDescription& collider) {
-    Table shape, table;
-    const bool is_plane = std::holds_alternative<PlaneCollider>(collider.shape);
-    if (const auto* plane = std::get_if<PlaneCollider>(&collider.shape))
-        shape.add("plane", plane->normal).add("offset", plane->offset);
-    if (const auto* box = std::get_if<BoxCollider>(&collider.shape)) shape.add("box", box->size);
-    if (const auto* sphere = std::get_if<SphereCollider>(&collider.shape))
-        shape.add("sphere", sphere->radius);
-    if (const auto* capsule = std::get_if<CapsuleCollider>(&collider.shape))
-        shape.add("capsule", capsule->radius).add("length", capsule->length);
-    table.add_text("shape", shape.in_line());
-    if (!is_plane) table.add("position", collider.position).add("rotation", collider.rotation);
-    return table.add("friction", collider.friction).add("restitution", collider.restitution);
+Table table_of(const ColliderDescription& collider, const std::filesystem::path& folder) {
+    const ColliderDescription usual;
+    Table table;
+    if (!collider.name.empty()) table.add("name", collider.name);
+    if (const auto* plane = std::get_if<PlaneCollider>(&collider.shape)) {
+        table.add_text("shape", Table().add("plane", plane->normal).add("offset", plane->offset).in_line());
+    } else {
+        table.add_text("shape", std::visit(ShapeTable{folder}, std::get<Shape>(collider.shape)).in_line());
+        table.add("position", collider.position).add("rotation", collider.rotation);
+    }
+    table.add_unless(usual.scale, "scale", collider.scale);
+    table.add("friction", collider.friction).add("restitution", collider.restitution);
+    if (!collider.keyframes.empty()) table.add_text("keyframes", list_of_tables(collider.keyframes));
+    if (collider.interpolation == Interpolation::smooth) table.add("interpolation", "smooth");
+    return table.add("pivot", collider.pivot)
+        .add_unless(usual.surface_velocity, "surface_velocity", collider.surface_velocity);
 }
 
 }  // namespace
@@ -219,7 +222,8 @@ void save_scene(const std::filesystem::path& file, const Scene& scene) {
         for (const HandleDescription& handle : object.handles) add("[[object.handle]]", table_of(handle));
         for (const LoadDescription& load : object.loads) add("[[object.load]]", table_of(load));
     }
-    for (const ColliderDescription& collider : scene.colliders) add("[[collider]]", table_of(collider));
+    for (const ColliderDescription& collider : scene.colliders)
+        add("[[collider]]", table_of(collider, folder));
     write_file(file, text);
 }
 

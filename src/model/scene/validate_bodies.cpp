@@ -45,22 +45,62 @@ struct ShapeCheck {
     }
 };
 
-struct ColliderShapeCheck {
-    const ValueChecks& checks;
-    FieldPath field;
+class ColliderCheck {
+public:
+    ColliderCheck(const ValueChecks& checks, CollisionResponse response)
+        : checks_(checks), response_(response) {}
 
-    void operator()(const PlaneCollider& plane) const {
-        checks.check_direction(field / "plane", plane.normal);
-        checks.check(field / "offset", plane.offset);
+    void run(const FieldPath& field, const ColliderDescription& collider) const {
+        if (const auto* plane = std::get_if<PlaneCollider>(&collider.shape)) {
+            checks_.check_direction(field / "shape" / "plane", plane->normal);
+            checks_.check(field / "shape" / "offset", plane->offset);
+        } else {
+            std::visit(ShapeCheck{checks_, field / "shape"}, std::get<Shape>(collider.shape));
+        }
+        checks_.check(field / "position", collider.position);
+        checks_.check(field / "rotation", collider.rotation);
+        checks_.check(field / "scale", collider.scale, kPositive);
+        checks_.check(field / "friction", collider.friction, kNotNegative);
+        checks_.check(field / "restitution", collider.restitution, kFraction);
+        check_keyframes(checks_, field / "keyframes", collider.keyframes);
+        checks_.check(field / "pivot", collider.pivot);
+        checks_.check(field / "surface_velocity", collider.surface_velocity);
+        if (!collider.name.empty()) checks_.check_text(field / "name", collider.name);
+        if (std::holds_alternative<PlaneCollider>(collider.shape)) check_plane(field, collider);
+        if (response_ != CollisionResponse::contact) check_solid(field, collider);
     }
-    void operator()(const BoxCollider& box) const { checks.check(field / "box", box.size, kPositive); }
-    void operator()(const SphereCollider& sphere) const {
-        checks.check(field / "sphere", sphere.radius, kPositive);
+
+private:
+    void check_plane(const FieldPath& field, const ColliderDescription& collider) const {
+        const std::string placed = "a plane has none: its shape's normal and offset place it";
+        const auto refuse_vector = [&](const char* key, const glm::dvec3& value, const std::string& why) {
+            if (value != glm::dvec3(0.0)) checks_.fail(field / key, text_of(value), why);
+        };
+        refuse_vector("position", collider.position, placed);
+        refuse_vector("rotation", collider.rotation, placed);
+        if (collider.scale != 1.0) checks_.fail(field / "scale", text_of(collider.scale), placed);
+        const std::string rests = "a plane does not move: a box can";
+        if (!collider.keyframes.empty()) checks_.fail(field / "keyframes", "[{...}]", rests);
+        refuse_vector("surface_velocity", collider.surface_velocity, rests);
     }
-    void operator()(const CapsuleCollider& capsule) const {
-        checks.check(field / "capsule", capsule.radius, kPositive);
-        checks.check(field / "length", capsule.length, kPositive);
+
+    // Colliders as the paper has them: solid, of the kinds that nodes are easily pushed out of, and at rest.
+    void check_solid(const FieldPath& field, const ColliderDescription& collider) const {
+        const std::string needs = "needs collision.response = \"contact\"";
+        if (const auto* shape = std::get_if<Shape>(&collider.shape)) {
+            if (const auto* text = std::get_if<TextShape>(shape))
+                checks_.fail(field / "shape" / "text", text_of(text->text), needs);
+            if (const auto* file = std::get_if<FileShape>(shape))
+                checks_.fail(field / "shape" / "file", text_of(file->file.string()), needs);
+        }
+        if (!collider.keyframes.empty()) checks_.fail(field / "keyframes", "[{...}]", needs);
+        if (collider.surface_velocity != glm::dvec3(0.0))
+            checks_.fail(field / "surface_velocity", text_of(collider.surface_velocity), needs);
+        if (collider.scale != 1.0) checks_.fail(field / "scale", text_of(collider.scale), needs);
     }
+
+    const ValueChecks& checks_;
+    CollisionResponse response_;
 };
 
 class ObjectCheck {
@@ -150,23 +190,9 @@ void check_objects(const ValueChecks& checks, const Scene& scene) {
 }
 
 void check_colliders(const ValueChecks& checks, const Scene& scene) {
-    for (std::size_t c = 0; c < scene.colliders.size(); ++c) {
-        const ColliderDescription& collider = scene.colliders[c];
-        const FieldPath field("collider", c);
-        std::visit(ColliderShapeCheck{checks, field / "shape"}, collider.shape);
-        const bool is_plane = std::holds_alternative<PlaneCollider>(collider.shape);
-        const auto check_place = [&](const char* key, const glm::dvec3& place) {
-            checks.check(field / key, place);
-            if (is_plane && place != glm::dvec3(0.0)) {
-                checks.fail(field / key, text_of(place),
-                            "a plane has none: its shape's normal and offset place it");
-            }
-        };
-        check_place("position", collider.position);
-        check_place("rotation", collider.rotation);
-        checks.check(field / "friction", collider.friction, kNotNegative);
-        checks.check(field / "restitution", collider.restitution, kFraction);
-    }
+    const ColliderCheck check(checks, scene.collision.response);
+    for (std::size_t c = 0; c < scene.colliders.size(); ++c)
+        check.run(FieldPath("collider", c), scene.colliders[c]);
 }
 
 }  // namespace gelatin

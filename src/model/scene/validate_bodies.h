@@ -10,6 +10,7 @@ void check_colliders(const ValueChecks& checks, const Scene& scene);
 
 /// A region of an object's pin, handle, load or part.
 void check_region(const ValueChecks& checks, const FieldPath& field, const Region& region);
+void check_keyframes(const ValueChecks& checks, const FieldPath& field, const std::vector<Keyframe>& keys);
 void check_handle(const ValueChecks& checks, const FieldPath& field, const HandleDescription& handle);
 void check_load(const ValueChecks& checks, const FieldPath& field, const LoadDescription& load);
 

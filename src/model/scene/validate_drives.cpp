@@ -21,6 +21,20 @@ void check_box(const ValueChecks& checks, const FieldPath& field, const BoxRegio
     }
 }
 
+}  // namespace
+
+void check_region(const ValueChecks& checks, const FieldPath& field, const Region& region) {
+    if (const auto* box = std::get_if<BoxRegion>(&region)) check_box(checks, field / "box", *box);
+    if (const auto* sphere = std::get_if<SphereRegion>(&region)) {
+        checks.check(field / "sphere", sphere->center);
+        checks.check(field / "radius", sphere->radius, kPositive);
+    }
+    if (const auto* half_space = std::get_if<HalfSpaceRegion>(&region)) {
+        checks.check_direction(field / "plane", half_space->normal);
+        checks.check(field / "offset", half_space->offset);
+    }
+}
+
 void check_keyframes(const ValueChecks& checks, const FieldPath& field, const std::vector<Keyframe>& keys) {
     for (std::size_t k = 0; k < keys.size(); ++k) {
         const Keyframe& key = keys[k];
@@ -38,20 +52,6 @@ void check_keyframes(const ValueChecks& checks, const FieldPath& field, const st
                 field[k] / "time", text_of(key.time),
                 fmt::format("must be greater than that of the keyframe before, {}", keys[k - 1].time));
         }
-    }
-}
-
-}  // namespace
-
-void check_region(const ValueChecks& checks, const FieldPath& field, const Region& region) {
-    if (const auto* box = std::get_if<BoxRegion>(&region)) check_box(checks, field / "box", *box);
-    if (const auto* sphere = std::get_if<SphereRegion>(&region)) {
-        checks.check(field / "sphere", sphere->center);
-        checks.check(field / "radius", sphere->radius, kPositive);
-    }
-    if (const auto* half_space = std::get_if<HalfSpaceRegion>(&region)) {
-        checks.check_direction(field / "plane", half_space->normal);
-        checks.check(field / "offset", half_space->offset);
     }
 }
 

@@ -29,7 +29,7 @@ TEST(SurfaceDistance, Plane) {
 
 TEST(SurfaceDistance, Sphere) {
     ColliderDescription d;
-    d.shape = SphereCollider{0.5};
+    d.shape = SphereShape{0.5};
     d.position = {1.0, 2.0, 3.0};
     EXPECT_NEAR(distance(pack(d), {1.0, 4.0, 3.0}), 1.5, 1e-12);
     EXPECT_NEAR(distance(pack(d), {1.0, 2.0, 3.25}), -0.25, 1e-12);
@@ -39,7 +39,7 @@ TEST(SurfaceDistance, Sphere) {
 
 TEST(SurfaceDistance, CapsuleAlongItsTurnedAxis) {
     ColliderDescription d;
-    d.shape = CapsuleCollider{0.25, 2.0};
+    d.shape = CapsuleShape{0.25, 2.0};
     d.rotation = {0.0, 0.0, 90.0};  // y becomes -x
     EXPECT_NEAR(distance(pack(d), {0.9, 0.5, 0.0}), 0.25, 1e-6);
     EXPECT_NEAR(distance(pack(d), {-2.0, 0.0, 0.0}), 0.75, 1e-6);
@@ -48,7 +48,7 @@ TEST(SurfaceDistance, CapsuleAlongItsTurnedAxis) {
 
 TEST(SurfaceDistance, BoxInItsTurnedFrame) {
     ColliderDescription d;
-    d.shape = BoxCollider{{2.0, 1.0, 1.0}};
+    d.shape = BoxShape{{2.0, 1.0, 1.0}};
     d.rotation = {0.0, 0.0, 90.0};  // two metres along y now
     const Collider box = pack(d);
     EXPECT_NEAR(distance(box, {0.0, 1.5, 0.0}), 0.5, 1e-6);
@@ -61,9 +61,9 @@ TEST(SurfaceDistance, BoxInItsTurnedFrame) {
 TEST(SurfaceDistance, NormalIsTheGradient) {
     ColliderDescription plane, box, sphere, capsule;
     plane.shape = PlaneCollider{glm::normalize(glm::dvec3(1, 2, 3)), 0.1};
-    box.shape = BoxCollider{{1.0, 0.6, 0.8}};
-    sphere.shape = SphereCollider{0.5};
-    capsule.shape = CapsuleCollider{0.3, 0.7};
+    box.shape = BoxShape{{1.0, 0.6, 0.8}};
+    sphere.shape = SphereShape{0.5};
+    capsule.shape = CapsuleShape{0.3, 0.7};
     std::mt19937 random(11);
     std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
     for (ColliderDescription d : {plane, box, sphere, capsule}) {

@@ -35,11 +35,11 @@ template <class Real>
 struct Contact {
     explicit Contact(const Model& of)
         : model(std::make_shared<const Model>(of)),
-          surface(std::make_shared<const ContactSurface>(make_contact_surface(of))),
+          surface(std::make_shared<const ContactSurface>(make_contact_surface(of, 0.4))),
           positions(of.positions.begin(), of.positions.end()),
           starts(positions),
           detection(model, surface),
-          aims(model, surface, 0.4),
+          aims(model, surface),
           guard(model, surface->places) {
         for (std::size_t n = 0; n < positions.size(); ++n) {
             const Real inverse_mass = positions[n].w;
@@ -47,7 +47,7 @@ struct Contact {
             targets.emplace_back(cpu::Vec3<Real>(positions[n]),
                                  inverse_mass > Real(0) ? Real(3600) / inverse_mass : Real(0));
         }
-        detection.run(positions, 0.5, list);
+        detection.run(positions, 0.5, {}, list);
         aims.begin(Real(1) / 60, targets, starts);
         aims.carry_over({}, list);
         aims.run(list, positions);

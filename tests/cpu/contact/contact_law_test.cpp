@@ -53,13 +53,10 @@ Case random_case(test::RandomMaker& random) {
     V hold = random.point(2.0);
     hold -= glm::dot(hold, towards) * towards;
     const double share = random.uniform(0.05, 1.0);
-    const Share made{towards,
-                     random.magnitude(0.05 * kReach, 2 * kReach),
-                     1 / share,
-                     random.magnitude(10.0, 1e3),
-                     kReach,
-                     hold,
-                     random.magnitude(0.1, 10.0)};
+    const Share made{towards,   random.magnitude(0.05 * kReach, 2 * kReach),
+                     1 / share, random.magnitude(10.0, 1e3),
+                     kReach,    hold,
+                     0.4,       random.magnitude(0.1, 10.0)};
     return {made, random.point(0.02 * share * made.gap)};
 }
 
@@ -125,7 +122,7 @@ TEST(ContactLaw, SharesBoundTheEnergyOfThePair) {
         double sum = 0.0, at_aim = 0.0, moved = 0.0;
         for (int k = 0; k < 4; ++k) {
             const double sign = k == 0 ? 1.0 : -1.0, share = k == 0 ? split : 1 - split;
-            const Share made{sign * normal, gap, 1 / share, weights[k] * kStiffness, kReach, V(0), 1e-3};
+            const Share made{sign * normal, gap, 1 / share, weights[k] * kStiffness, kReach, V(0), 0.4, 1e-3};
             V d = random.point(gap);
             const double along = glm::dot(made.towards, d);  // within its half of the gap
             if (along > 0.9 * share * gap) d -= (along - 0.9 * share * gap) * made.towards;

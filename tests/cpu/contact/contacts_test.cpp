@@ -7,6 +7,7 @@
 
 #include "cpu/cpu_solver.h"
 #include "cpu/measure/measure.h"
+#include "support/contact_scenes.h"
 #include "support/overlaps.h"
 #include "support/random_maker.h"
 #include "support/test_models.h"
@@ -14,44 +15,10 @@
 namespace gelatin {
 namespace {
 
-constexpr double kFrame = 1.0 / 60.0;  // [s]
-
-struct Block {
-    glm::dvec3 place{0.0}, velocity{0.0};
-    glm::ivec3 cells{3, 3, 3};
-    glm::dvec3 size{0.3};
-    double youngs_modulus = 1e5;
-    std::vector<Region> pins{};
-    double poisson_ratio = 0.25;
-    MaterialModel model = MaterialModel::mass_spring;
-};
-
-std::shared_ptr<const Model> make_blocks(const std::vector<Block>& blocks,
-                                         const glm::dvec3& gravity = {0, 0, 0},
-                                         const std::vector<ColliderDescription>& colliders = {}) {
-    std::vector<Body> bodies;
-    unsigned seed = 0;
-    for (const Block& block : blocks) {
-        Body body = test::make_body(test::make_block(block.cells, block.size, 0.15, ++seed));
-        for (glm::dvec3& p : body.mesh.positions) p += block.place;
-        body.velocity = block.velocity;
-        body.pins = block.pins;
-        body.material.youngs_modulus = block.youngs_modulus;
-        body.material.poisson_ratio = block.poisson_ratio;
-        body.material.model = block.model;
-        if (block.model == MaterialModel::neo_hookean) body.material.springs.reset();
-        bodies.push_back(std::move(body));
-    }
-    return std::make_shared<const Model>(pack_bodies(bodies, colliders, gravity));
-}
-
-template <class Real>
-cpu::CpuSolver<Real> make_solver(const std::shared_ptr<const Model>& model, double friction = 0.4,
-                                 int iterations = 10, bool divides_steps = false) {
-    return {model, SolverKind::vbd, ForceMethod::fused,
-            CollisionSettings{.response = CollisionResponse::contact, .friction = friction},
-            DescentSettings{.iterations = iterations, .divides_steps = divides_steps}};
-}
+using test::Block;
+using test::kFrame;
+using test::make_blocks;
+using test::make_solver;
 
 struct Sums {
     glm::dvec3 momentum{0.0}, angular{0.0};

@@ -16,7 +16,7 @@ std::array<std::uint32_t, 3> corners_of(const Face& face) {
 
 TEST(ContactSurface, KnowsWhatIsAcrossEveryEdge) {
     const Model model = test::make_lively_model();
-    const ContactSurface surface = make_contact_surface(model);
+    const ContactSurface surface = make_contact_surface(model, 0.4);
     ASSERT_EQ(surface.across.size(), 3 * model.faces.size());
     for (std::uint32_t f = 0; f < model.faces.size(); ++f) {
         const auto corners = corners_of(model.faces[f]);
@@ -49,7 +49,7 @@ TEST(ContactSurface, KnowsWhatIsAcrossEveryEdge) {
 
 TEST(ContactSurface, ListsSurfaceNodesAlone) {
     const Model model = test::make_lively_model();
-    const ContactSurface surface = make_contact_surface(model);
+    const ContactSurface surface = make_contact_surface(model, 0.4);
     std::size_t count = 0;
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
         if (surface.places[n] == kNoNode) continue;
@@ -64,7 +64,8 @@ TEST(ContactSurface, ListsSurfaceNodesAlone) {
 TEST(ContactSurface, ReachesATenthOfTheMedianEdges) {
     const Body fine = test::make_body(test::make_block({4, 4, 4}, {0.4, 0.4, 0.4}));
     const Body coarse = test::make_body(test::make_block({2, 2, 2}, {0.6, 0.6, 0.6}));
-    const ContactSurface surface = make_contact_surface(pack_bodies({fine, coarse}, {}, {0.0, 0.0, 0.0}));
+    const ContactSurface surface =
+        make_contact_surface(pack_bodies({fine, coarse}, {}, {0.0, 0.0, 0.0}), 0.4);
     EXPECT_NEAR(surface.reach(0, 0), 0.01, 1e-8);
     EXPECT_NEAR(surface.reach(0, 1), 0.02, 1e-8);
 }

@@ -27,8 +27,9 @@ collider = [{ shape = { box = [1, 2, 3] } }, { shape = { sphere = 4 } }]
     EXPECT_EQ(std::get<TextShape>(scene.objects[2].shape).size, 2.0);
     EXPECT_EQ(std::get<TextShape>(scene.objects[2].shape).font, "DejaVu Serif");
     EXPECT_EQ(std::get<FileShape>(scene.objects[3].shape).file, scene.file.parent_path() / "bunny.obj");
-    EXPECT_EQ(std::get<BoxCollider>(scene.colliders.at(0).shape).size, glm::dvec3(1.0, 2.0, 3.0));
-    EXPECT_EQ(std::get<SphereCollider>(scene.colliders.at(1).shape).radius, 4.0);
+    EXPECT_EQ(std::get<BoxShape>(std::get<Shape>(scene.colliders.at(0).shape)).size,
+              glm::dvec3(1.0, 2.0, 3.0));
+    EXPECT_EQ(std::get<SphereShape>(std::get<Shape>(scene.colliders.at(1).shape)).radius, 4.0);
 }
 
 TEST_F(SceneFileBodies, ReadsHowAnObjectStarts) {
@@ -194,8 +195,10 @@ TEST_F(SceneFileBodies, RefusesWrongColliders) {
     EXPECT_EQ(collider("shape = {plane = [0, 1, 0]}\nposition = [0, 1, 0]"),
               "scene.toml:6: collider[0].position = [0, 1, 0]: a plane has none: its shape's normal and "
               "offset place it");
-    EXPECT_EQ(collider("shape = {text = 'A'}"),
-              "scene.toml:5: collider[0].shape: must have exactly one of plane, box, sphere or capsule");
+    EXPECT_EQ(
+        collider("shape = {cube = 1}"),
+        "scene.toml:5: collider[0].shape: must have exactly one of plane, box, sphere, capsule, text or "
+        "file");
     EXPECT_EQ(collider("shape = {sphere = 1}\nrestitution = 2"),
               "scene.toml:6: collider[0].restitution = 2: must be from 0 to 1");
     EXPECT_EQ(collider("friction = 1"), "scene.toml:4: collider[0]: needs \"shape\"");

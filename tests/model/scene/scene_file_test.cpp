@@ -119,8 +119,8 @@ restitution = 0
     EXPECT_EQ(std::get<PlaneCollider>(scene.colliders[0].shape).offset, -1.0);
     EXPECT_EQ(scene.colliders[0].friction, 0.7);
     EXPECT_EQ(scene.colliders[0].restitution, 0.9);  // the scene's
-    EXPECT_EQ(std::get<CapsuleCollider>(scene.colliders[1].shape).radius, 0.2);
-    EXPECT_EQ(std::get<CapsuleCollider>(scene.colliders[1].shape).length, 3.0);
+    EXPECT_EQ(std::get<CapsuleShape>(std::get<Shape>(scene.colliders[1].shape)).radius, 0.2);
+    EXPECT_EQ(std::get<CapsuleShape>(std::get<Shape>(scene.colliders[1].shape)).length, 3.0);
     EXPECT_EQ(scene.colliders[1].position, glm::dvec3(0.0, 1.0, 0.0));
     EXPECT_EQ(scene.colliders[1].rotation, glm::dvec3(0.0, 0.0, 45.0));
     EXPECT_EQ(scene.colliders[1].friction, 0.1);

@@ -124,21 +124,21 @@ friction = 0.1
 restitution = 0.2
 
 [[collider]]
-shape = { box = [1, 2, 3] }
+shape = { box = [1, 2, 3], segments = [1, 1, 1] }
 position = [5, 0, 0]
 rotation = [0, 45, 0]
 friction = 0.7
 restitution = 0.1
 
 [[collider]]
-shape = { sphere = 0.4 }
+shape = { sphere = 0.4, frequency = 10 }
 position = [0, 0, 5]
 rotation = [0, 0, 0]
 friction = 0.7
 restitution = 0.1
 
 [[collider]]
-shape = { capsule = 0.3, length = 0.8 }
+shape = { capsule = 0.3, length = 0.8, frequency = 8 }
 position = [0, 0, 9]
 rotation = [0, 0, 0]
 friction = 0.7
@@ -153,6 +153,33 @@ TEST(SceneWriter, WritesEverythingThatWasRead) {
     const std::size_t letter = expected.find("\\u00e9");
     expected.replace(letter, 6, "\u00e9");  // as UTF-8
     EXPECT_EQ(read_file(folder.path() / "copy.toml"), expected);
+}
+
+// What colliders have with response = "contact".
+constexpr const char* kMovingColliders = R"([[collider]]
+name = "press"
+shape = { file = "press.obj" }
+position = [0, 1, 0]
+rotation = [0, 0, 0]
+scale = 2
+friction = 0.4
+restitution = 0.3
+keyframes = [{ time = 0 }, { time = 1, move = [0, -1, 0] }]
+interpolation = "smooth"
+pivot = [1, 1, 1]
+surface_velocity = [0.5, 0, 0]
+)";
+
+TEST(SceneWriter, WritesHowCollidersMove) {
+    const TemporaryFolder folder;
+    const std::string head =
+        "[collision]\nresponse = 'contact'\n[[material]]\nname = 'm'\n[[object]]\nname = 'o'\nshape = "
+        "{sphere "
+        "= 1}\n";
+    write_file(folder.path() / "scene.toml", head + kMovingColliders);
+    save_scene(folder.path() / "copy.toml", load_scene(folder.path() / "scene.toml"));
+    const std::string copy = read_file(folder.path() / "copy.toml");
+    EXPECT_EQ(copy.substr(copy.find("[[collider]]")), kMovingColliders);
 }
 
 TEST(SceneWriter, MeshFilesAreFoundFromWhereItIsWritten) {

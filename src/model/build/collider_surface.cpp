@@ -1,0 +1,120 @@
+#include "model/build/collider_surface.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <utility>
+#include <variant>
+
+#include "core/log.h"
+#include "gelatin/error.h"
+#include "model/build/draw_surface.h"
+#include "model/build/object_mesh.h"
+#include "model/collision/box_tree.h"
+#include "model/spring_packing.h"
+#include "model/transform.h"
+
+namespace gelatin {
+namespace {
+
+// Faces in the order of the tree over them, and nodes in the order of the faces.
+void arrange(SurfaceMesh& mesh) {
+    arrange_faces(mesh.positions, mesh.faces);
+    std::vector<std::uint32_t> places(mesh.positions.size(), kNoNode);
+    std::vector<glm::dvec3> positions;
+    for (glm::uvec3& face : mesh.faces) {
+        for (int k = 0; k < 3; ++k) {
+            std::uint32_t& place = places[face[k]];
+            if (place == kNoNode) {
+                place = static_cast<std::uint32_t>(positions.size());
+                positions.push_back(mesh.positions[face[k]]);
+            }
+            face[k] = place;
+        }
+    }
+    mesh.positions = std::move(positions);
+}
+
+void append_motion(const ColliderSurface& surface, const Range& nodes, Model& model) {
+    const ColliderDescription& description = surface.description;
+    Handle handle;
+    handle.pivot = description.pivot.value_or(description.position);
+    handle.interpolation = description.interpolation;
+    handle.keyframes = description.keyframes;
+    handle.object = model.objects.size();
+    handle.count = nodes.count;
+    const auto index = static_cast<std::uint32_t>(model.handles.size());
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+        const glm::dvec3 arm = surface.mesh.positions[n - nodes.first] - handle.pivot;
+        handle.radius = std::max(handle.radius, glm::length(arm));
+        handle.middle += arm / static_cast<double>(nodes.count);
+        model.handle_nodes.push_back({glm::vec4(glm::vec3(arm), 0.0f), n, index, 0, 0});
+    }
+    model.handles.push_back(std::move(handle));
+}
+
+}  // namespace
+
+std::string name_of_collider(const ColliderDescription& collider, std::size_t index) {
+    return collider.name.empty() ? fmt::format("collider {}", index + 1) : collider.name;
+}
+
+std::vector<ColliderDescription> solid_colliders(const Scene& scene) {
+    std::vector<ColliderDescription> solid = scene.colliders;
+    if (scene.collision.response == CollisionResponse::contact)
+        std::erase_if(solid, [](const auto& c) { return !std::holds_alternative<PlaneCollider>(c.shape); });
+    return solid;
+}
+
+std::vector<ColliderSurface> make_collider_surfaces(const Scene& scene) {
+    std::vector<ColliderSurface> surfaces;
+    if (scene.collision.response != CollisionResponse::contact) return surfaces;
+    for (std::size_t c = 0; c < scene.colliders.size(); ++c) {
+        const ColliderDescription& collider = scene.colliders[c];
+        const auto* shape = std::get_if<Shape>(&collider.shape);
+        if (shape == nullptr) continue;
+        ColliderSurface surface{name_of_collider(collider, c), {}, collider};
+        Notes notes;
+        surface.mesh = make_surface(*shape, notes);
+        for (const std::string& note : notes) log_warning(fmt::format("{}: {}", surface.name, note));
+        if (surface.mesh.faces.empty())
+            throw InvalidInput({scene.file.string(), 0, surface.name + ".shape", {}, "has no faces"});
+        const glm::dquat rotation = rotation_from_degrees(collider.rotation);
+        for (glm::dvec3& p : surface.mesh.positions) p = rotation * (collider.scale * p) + collider.position;
+        arrange(surface.mesh);
+        surfaces.push_back(std::move(surface));
+    }
+    return surfaces;
+}
+
+void append_surface(const ColliderSurface& surface, Model& model) {
+    const auto size = [](const auto& array) { return static_cast<std::uint32_t>(array.size()); };
+    const SurfaceMesh& mesh = surface.mesh;
+    ModelObject object;
+    object.name = surface.name;
+    object.nodes = {size(model.positions), size(mesh.positions)};
+    object.faces = {size(model.faces), size(mesh.faces)};
+    object.tets.first = size(model.tets);
+    object.springs.first = size(model.springs);
+    object.neo_hookean_tets.first = size(model.neo_hookean_tets);
+    object.handle_nodes.first = size(model.handle_nodes);
+    for (const glm::dvec3& p : mesh.positions) {
+        model.positions.emplace_back(glm::vec3(p), 0.0f);
+        model.velocities.emplace_back(0.0f);
+        model.masses.push_back(0.0f);
+    }
+    const bool moves = !surface.description.keyframes.empty();
+    if (moves) append_motion(surface, object.nodes, model);
+    object.handle_nodes.count = size(model.handle_nodes) - object.handle_nodes.first;
+    const std::uint32_t first = object.nodes.first;
+    for (const glm::uvec3& f : mesh.faces)
+        model.faces.push_back({f.x + first, f.y + first, f.z + first, size(model.objects)});
+    append_box_tree(object.faces, model.face_trees);
+    append_draw_surface(model.positions, model.faces, object.faces, kCreaseAngle, model.surface);
+    model.surfaces.push_back(
+        {surface.description.friction, glm::vec3(surface.description.surface_velocity), moves});
+    model.objects.push_back(std::move(object));
+}
+
+}  // namespace gelatin

@@ -1,0 +1,223 @@
+// Bodies and the surfaces of colliders, at rest and moving.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "core/file.h"
+#include "cpu/contact/contacts.h"
+#include "cpu/cpu_solver.h"
+#include "cpu/measure/measure.h"
+#include "model/drive/handles.h"
+#include "support/contact_scenes.h"
+#include "support/overlaps.h"
+#include "support/random_maker.h"
+
+namespace gelatin {
+namespace {
+
+using test::Block;
+using test::kFrame;
+using test::make_blocks;
+using test::make_solver;
+
+ColliderDescription collider(Shape shape, const glm::dvec3& position = {0, 0, 0}) {
+    ColliderDescription description;
+    description.shape = std::move(shape);
+    description.position = position;
+    return description;
+}
+
+void advance(cpu::CpuSolver<float>& solver, const Model& model, int frame) {
+    solver.apply_kinematics(handle_motions(model.handles, frame * kFrame, kFrame));
+    solver.advance_nodes(kFrame);
+}
+
+glm::dvec3 mean_velocity(const Model& model, const cpu::CpuSolver<float>& solver) {
+    return cpu::measure(model, solver.nodes())[0].momentum / model.objects[0].mass;
+}
+
+double mean_height(const Model& model, const cpu::CpuSolver<float>& solver) {
+    double sum = 0.0;
+    for (std::uint32_t n = 0; n < model.objects[0].nodes.count; ++n)
+        sum += static_cast<double>(solver.nodes().positions[n].y);
+    return sum / model.objects[0].nodes.count;
+}
+
+// A box, whose edges and corners are sharper and farther apart than a body's.
+TEST(ColliderSurfaces, StopBodies) {
+    for (const double speed : {1.0, 10.0, 100.0}) {
+        const auto model = make_blocks({{.place = {0.05, 0.32, 0.1}, .velocity = {0, -speed, 0}}}, {0, 0, 0},
+                                       {collider(BoxShape{glm::dvec3(0.5)})});
+        cpu::CpuSolver<float> solver = make_solver<float>(model);
+        for (int frame = 0; frame < 30; ++frame) {
+            advance(solver, *model, frame);
+            ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u) << speed << ", " << frame;
+        }
+        EXPECT_GT(mean_velocity(*model, solver).y, 0.0) << speed;
+    }
+}
+
+// A sheet has two sides.
+TEST(ColliderSurfaces, AreStoppedByFromBothSides) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "sheet.obj";
+    write_file(file, "v -2 0 -2\nv 2 0 -2\nv 2 0 2\nv -2 0 2\nf 1 3 2\nf 1 4 3\n");
+    for (const double side : {1.0, -1.0}) {
+        const auto model =
+            make_blocks({{.place = {0, side > 0 ? 0.1 : -0.4, 0}, .velocity = {0, -5 * side, 0}}}, {0, 0, 0},
+                        {collider(FileShape{file})});
+        cpu::CpuSolver<float> solver = make_solver<float>(model);
+        for (int frame = 0; frame < 30; ++frame) {
+            advance(solver, *model, frame);
+            ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u);
+        }
+        EXPECT_GT(side * mean_height(*model, solver), 0.1);
+        EXPECT_GT(side * mean_velocity(*model, solver).y, 0.0);
+    }
+}
+
+// What a block slides down an inclined box with.
+double acceleration_on(double friction) {
+    const double angle = std::atan(0.5);
+    ColliderDescription slope = collider(BoxShape{{20, 1, 2}}, {0, -0.5, 0});
+    slope.friction = friction;
+    const auto model = make_blocks({{.place = {-0.15, 0.012, -0.15}, .size = {0.3, 0.2, 0.3}}},
+                                   9.81 * glm::dvec3(std::sin(angle), -std::cos(angle), 0), {slope});
+    cpu::CpuSolver<float> solver = make_solver<float>(model, 2.0);  // between bodies
+    for (int frame = 0; frame < 60; ++frame) solver.advance_nodes(kFrame);
+    const double before = mean_velocity(*model, solver).x;
+    for (int frame = 0; frame < 60; ++frame) solver.advance_nodes(kFrame);
+    return mean_velocity(*model, solver).x - before;
+}
+
+TEST(ColliderSurfaces, HaveTheirOwnFriction) {
+    const double angle = std::atan(0.5), pressing = 9.81 * std::cos(angle), pulling = 9.81 * std::sin(angle);
+    EXPECT_NEAR(acceleration_on(0.6), 0.0, 1e-3 * pulling);  // it still vibrates a little
+    EXPECT_NEAR(acceleration_on(0.3), pulling - 0.3 * pressing, 0.02 * 0.3 * pressing);
+    EXPECT_NEAR(acceleration_on(0.0), pulling, 0.01);
+}
+
+// Friction brings what lies on a belt to its speed, and no farther.
+TEST(ColliderSurfaces, ABeltCarries) {
+    ColliderDescription belt = collider(BoxShape{{20, 1, 2}}, {0, -0.5, 0});
+    belt.friction = 0.2;
+    belt.surface_velocity = {1, 0, 0};
+    const auto model =
+        make_blocks({{.place = {-0.15, 0.012, -0.15}, .size = {0.3, 0.2, 0.3}}}, {0, -9.81, 0}, {belt});
+    cpu::CpuSolver<float> solver = make_solver<float>(model);
+    for (int frame = 0; frame < 15; ++frame) solver.advance_nodes(kFrame);
+    const double before = mean_velocity(*model, solver).x;
+    for (int frame = 0; frame < 12; ++frame) solver.advance_nodes(kFrame);
+    const double gained = 0.2 * 9.81 * 12 * kFrame;
+    EXPECT_NEAR(mean_velocity(*model, solver).x - before, gained, 0.04 * gained);
+    for (int frame = 0; frame < 60; ++frame) solver.advance_nodes(kFrame);
+    EXPECT_NEAR(mean_velocity(*model, solver).x, 1.0, 5e-3);
+}
+
+// Two plates take hold of a block, lift it by friction, and let go.
+TEST(ColliderSurfaces, CarryByFriction) {
+    std::vector<ColliderDescription> plates;
+    for (const double side : {-1.0, 1.0}) {
+        ColliderDescription plate = collider(BoxShape{{0.1, 0.4, 0.4}}, {side * 0.22, 0.15, 0});
+        plate.friction = 0.8;
+        plate.keyframes = {{0.0},
+                           {0.3, {-side * 0.04, 0, 0}},
+                           {1.3, {-side * 0.04, 1, 0}},
+                           {1.5, {-side * 0.04, 1, 0}},
+                           {1.7, {0, 1, 0}}};
+        plates.push_back(plate);
+    }
+    ColliderDescription floor;
+    plates.push_back(floor);
+    const auto model =
+        make_blocks({{.place = {-0.15, 0, -0.15}, .youngs_modulus = 3e5}}, {0, -9.81, 0}, plates);
+    cpu::CpuSolver<float> solver = make_solver<float>(model);
+    for (int frame = 0; frame < 150; ++frame) {
+        advance(solver, *model, frame);
+        ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u) << frame;
+        if (frame == 89) {
+            EXPECT_NEAR(mean_height(*model, solver), 1.15, 0.05);
+        }
+    }
+    EXPECT_LT(mean_height(*model, solver), 0.2);
+}
+
+// A press does not push a block through the bed below it, wherever its keyframes lead.
+TEST(ColliderSurfaces, APressStopsWhereABodyLeavesItNoRoom) {
+    ColliderDescription press = collider(BoxShape{{0.6, 0.1, 0.6}}, {0, 0.42, 0}),
+                        bed = collider(BoxShape{{0.6, 0.1, 0.6}}, {0, -0.06, 0});
+    press.keyframes = {{0.0}, {0.2, {0, -0.42, 0}}, {0.5, {0, -0.42, 0}}, {0.8}};
+    const auto model =
+        make_blocks({{.place = {-0.15, 0, -0.15}, .youngs_modulus = 1e5}}, {0, 0, 0}, {press, bed});
+    cpu::CpuSolver<float> solver = make_solver<float>(model);
+    for (int frame = 0; frame < 90; ++frame) {
+        advance(solver, *model, frame);
+        ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u) << frame;
+    }
+    EXPECT_GT(cpu::measure(*model, solver.nodes())[0].volume, 0.95 * 0.027);
+}
+
+// Bodies that a large surface surrounds are of islands of their own, as long as they are far from its faces.
+TEST(ColliderSurfaces, AreNearWhereTheirFacesAre) {
+    const auto model = make_blocks({{.place = {-2, 0, 0}}, {.place = {2, 0, 0}}, {.place = {4.6, 0, 0}}},
+                                   {0, 0, 0}, {collider(BoxShape{glm::dvec3(10)})});
+    cpu::DetectContacts<float> detection(
+        model, std::make_shared<const ContactSurface>(make_contact_surface(*model, 0.4)));
+    cpu::ContactList<float> list;
+    detection.run(model->positions, 0.01, {}, list);
+    EXPECT_NE(list.islands[0], list.islands[1]);
+    for (const std::size_t body : {0, 1}) {
+        EXPECT_EQ(list.is_fixed[list.islands[body]], 0);
+        EXPECT_NE(list.is_alone[list.islands[body]], 0);
+    }
+    EXPECT_NE(list.is_fixed[list.islands[2]], 0);
+    EXPECT_EQ(list.is_alone[list.islands[2]], 0);
+}
+
+// Violent scenes among boxes, balls and capsules that move and turn.
+void fuzz(unsigned first, unsigned count) {
+    for (unsigned seed = first; seed < first + count; ++seed) {
+        test::RandomMaker random(seed);
+        std::vector<Block> blocks;
+        for (int k = random.integer(1, 3); k > 0; --k) {
+            blocks.push_back({.place = {random.uniform(-0.05, 0.05), 0.4 * k, random.uniform(-0.05, 0.05)},
+                              .velocity = random.point(random.magnitude(0.1, 100.0)),
+                              .cells = {2, 3, 2},
+                              .size = {0.2, 0.25, 0.2},
+                              .youngs_modulus = random.magnitude(1e3, 1e9)});
+        }
+        std::vector<ColliderDescription> colliders;
+        const Shape shapes[] = {BoxShape{{0.5, 0.05, 0.5}}, SphereShape{0.2, 4}, CapsuleShape{0.05, 0.6, 4}};
+        for (const double height : {0.0, 2.0}) {
+            ColliderDescription made = collider(shapes[random.integer(0, 2)], {0.1, height, 0.1});
+            made.rotation = random.point(5.0);
+            made.friction = random.uniform(0.0, 1.0);
+            made.surface_velocity = random.point(1.0);
+            if (random.integer(0, 1) == 0)
+                made.keyframes = {{0.0},
+                                  {random.magnitude(0.01, 1.0), random.point(1.5), random.point(180.0)}};
+            colliders.push_back(made);
+        }
+        const auto model = make_blocks(blocks, {0, -9.81, 0}, colliders);
+        cpu::CpuSolver<float> solver =
+            make_solver<float>(model, 0.4, random.integer(1, 12), random.integer(0, 1) == 0);
+        for (int frame = 0; frame < 30; ++frame) {
+            advance(solver, *model, frame);
+            ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u)
+                << "scene " << seed << ", frame " << frame;
+        }
+    }
+}
+
+TEST(ColliderSurfaces, NothingPassesThroughThem) {
+    fuzz(1, 12);
+}
+
+TEST(ColliderSurfacesLong, NothingPassesThroughThem) {
+    fuzz(100, 400);
+}
+
+}  // namespace
+}  // namespace gelatin
