@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <vector>
 
 #include "cpu/nodes.h"
@@ -21,8 +23,9 @@ struct ContactPair {
     std::size_t side_of(std::size_t k) const { return k < first_count ? 0 : 1; }
 };
 
-/// What a detection has found: all pairs that may come together while each node stays in its room, a ball
-/// round where it was found that moves with its island. Bodies of an island are near each other. They have
+/// What a detection has found: all pairs that may come together while each node stays in its room. That is
+/// all that is nearer than a radius to the way that it is expected to go from where it was found. Rooms move
+/// with their islands. Bodies of an island are near each other. They have
 /// motions in common that bring none of them nearer to another. Each collider is an island, too. An island
 /// near one has a course: what its bodies have in common is a motion along it, for which pairs with colliders
 /// were looked for all the way.
@@ -32,6 +35,7 @@ struct ContactList {
     std::size_t first_edges = 0;            ///< the first pair of edges
     std::vector<std::uint32_t> row_starts;  ///< of the slots of each surface node, shape [surface nodes + 1]
     std::vector<Vec3<Real>> found_at;       ///< [m], shape [surface nodes]
+    std::vector<Vec3<Real>> ways;           ///< relative to the island's motion [m], the same shape
     std::vector<Real> rooms;                ///< radius [m], the same shape
     std::vector<std::uint32_t> islands;     ///< of each object
     std::vector<Vec3<Real>> shifts;         ///< of each island since the detection [m]
@@ -49,10 +53,48 @@ struct ContactList {
         return std::min(islands[pair.object], islands[pair.other]);
     }
     std::size_t slot_count() const { return row_starts.back(); }
-    /// How far a surface node of an object is from the middle of its room [m].
+    /// From where a surface node of an object was found, moved with its island [m].
     Vec3<Real> moved(std::uint32_t place, std::uint32_t object, const Vec3<Real>& position) const {
         return position - found_at[place] - shifts[islands[object]];
     }
+    /// Its distance from its way [m].
+    Real beside_way(std::uint32_t place, const Vec3<Real>& moved) const {
+        const Vec3<Real>& way = ways[place];
+        const Real squared = glm::dot(way, way);
+        const Real along =
+            squared > Real(0) ? std::clamp(glm::dot(moved, way) / squared, Real(0), Real(1)) : Real(0);
+        return glm::length(moved - along * way);
+    }
+    /// The part of a motion from there that stays in its room.
+    Real part_within_room(std::uint32_t place, const Vec3<Real>& moved, const Vec3<Real>& motion) const;
 };
+
+/// The part of a motion from u, inside a ball round the origin, that stays in it.
+template <class Real>
+Real part_within(const Vec3<Real>& u, const Vec3<Real>& motion, Real radius) {
+    const Vec3<Real> end = u + motion;
+    if (glm::dot(end, end) <= radius * radius) return Real(1);
+    const Real a = glm::dot(motion, motion), b = glm::dot(u, motion), c = glm::dot(u, u) - radius * radius;
+    if (!(c < Real(0)) || !(a > Real(0))) return Real(0);
+    const Real root = std::sqrt(b * b - a * c);
+    const Real part = b > Real(0) ? -c / (b + root) : (root - b) / a;
+    return std::clamp(Real(0.999f) * part, Real(0), Real(1));
+}
+
+// A room is convex: what leaves it does so once.
+template <class Real>
+Real ContactList<Real>::part_within_room(std::uint32_t place, const Vec3<Real>& moved,
+                                         const Vec3<Real>& motion) const {
+    if (ways[place] == Vec3<Real>(0)) return part_within(moved, motion, rooms[place]);
+    if (beside_way(place, moved + motion) <= rooms[place]) return Real(1);
+    if (!(beside_way(place, moved) < rooms[place])) return Real(0);
+    constexpr int kHalvings = 10;
+    Real low = 0, high = 1;
+    for (int i = 0; i < kHalvings; ++i) {
+        const Real middle = Real(0.5f) * (low + high);
+        (beside_way(place, moved + middle * motion) < rooms[place] ? low : high) = middle;
+    }
+    return low;
+}
 
 }  // namespace gelatin::cpu

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cpu/contact/planes.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -39,12 +40,21 @@ void Contacts<Real>::restart(std::span<const Vec4<Real>> positions) {
     std::fill(is_pressed_.begin(), is_pressed_.end(), std::uint8_t(0));
 }
 
+// Of planes; held nodes stay.
+template <class Real>
+Vec4<Real> Contacts<Real>::outside(const Vec4<Real>& position) const {
+    if (model_->colliders.empty() || position.w == Real(0)) return position;
+    return Vec4<Real>(outside_planes<Real>(model_->colliders, Vec3<Real>(position)), position.w);
+}
+
 template <class Real>
 void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::span<const Vec4<Real>> starts,
                            std::span<Vec4<Real>> positions, StageTimer* timer) {
-    guess_.assign(positions.begin(), positions.end());
-    for (std::size_t n = 0; n < positions.size(); ++n)
+    guess_.resize(positions.size());
+    for_each_index(positions.size(), [&](std::size_t n) {
+        guess_[n] = outside(positions[n]);
         positions[n] = Vec4<Real>(Vec3<Real>(safe_[n]), guess_[n].w);
+    });
     aims_.begin(step, targets, starts);
     guard_.begin(positions);
     Real longest = 0;
@@ -61,15 +71,17 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
         const TimedStage part(timer, "advance_nodes.guess");
         guard_.drift(list_, aims_, guess_, positions);
         const bool is_free = guard_.plan(list_, aims_, positions, guess_, Closeness::guess);
-        if (is_free || is_fresh) {
+        if (is_free || is_fresh || !guard_.lacks_room()) {
             guard_.go(list_, guess_, false, positions);
             ++moves;
             is_fresh = false;
             if (is_free || moves == most_moves) break;
         }
-        detect(positions, expected_motions(positions), timer);
+        if (guard_.lacks_room()) {
+            detect(positions, guess_, timer);
+            is_fresh = true;
+        }
         aim(positions, timer);
-        is_fresh = true;
     }
 }
 
@@ -119,7 +131,8 @@ std::vector<Work> Contacts<Real>::works(std::span<const Vec4<Real>> positions,
 }
 
 template <class Real>
-void Contacts<Real>::move(std::span<const Vec4<Real>> ends, std::span<Vec4<Real>> positions) {
+void Contacts<Real>::move(std::span<Vec4<Real>> ends, std::span<Vec4<Real>> positions) {
+    for_each_index(ends.size(), [&](std::size_t n) { ends[n] = outside(ends[n]); });
     guard_.plan(list_, aims_, positions, ends, Closeness::motion);
     guard_.go(list_, ends, true, positions);
 }
@@ -142,28 +155,30 @@ void Contacts<Real>::end(std::span<const Vec4<Real>> positions) {
     }
 }
 
-// Mean motions of bodies to the guess, without what leads into colliders that they press.
+// Bodies that press a collider.
 template <class Real>
-std::vector<Vec3<Real>> Contacts<Real>::expected_motions(std::span<const Vec4<Real>> positions) {
-    std::vector<Vec3<Real>> motions = guard_.mean_motions(positions, guess_);
+std::vector<std::uint8_t> Contacts<Real>::find_blocked(std::span<const Vec4<Real>> positions) const {
+    std::vector<std::uint8_t> is_blocked(model_->objects.size());
     for (const Press<Real>& press : aims_.presses()) {
         const ContactPair& pair = list_.pairs[press.pair];
-        const bool is_first = model_->is_body(pair.object);
-        if (is_first && model_->is_body(pair.other)) continue;
-        const Vec3<Real> towards = is_first ? press.normal : -press.normal;
-        Vec3<Real>& motion = motions[is_first ? pair.object : pair.other];
+        if (model_->is_body(pair.object) && model_->is_body(pair.other)) continue;
         if (aims_.gap(pair, press, positions) < press.reach)
-            motion -= std::max(glm::dot(motion, towards), Real(0)) * towards;
+            is_blocked[pair.object] = is_blocked[pair.other] = 1;
     }
-    return motions;
+    return is_blocked;
 }
 
 template <class Real>
-void Contacts<Real>::detect(std::span<const Vec4<Real>> positions, std::span<const Vec3<Real>> motions,
+void Contacts<Real>::detect(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
                             StageTimer* timer) {
     const TimedStage part(timer, "advance_nodes.detect");
+    const std::vector<std::uint8_t> is_blocked = find_blocked(positions);
     std::swap(old_list_, list_);
-    detection_.run(positions, longest_, motions, list_);
+    if (ends.empty()) {
+        detection_.run(positions, {.longest = longest_}, list_);
+    } else {
+        detection_.run(positions, {ends, guard_.mean_motions(positions, ends), is_blocked, longest_}, list_);
+    }
     aims_.carry_over(old_list_, list_);
 }
 
@@ -181,9 +196,10 @@ Real Contacts<Real>::used_room(std::span<const Vec4<Real>> positions) const {
     for (std::size_t s = 0; s < nodes.size(); ++s) {
         const Vec3<Real> moved =
             list_.moved(static_cast<std::uint32_t>(s), object_of_[nodes[s]], Vec3<Real>(positions[nodes[s]]));
-        most = std::max(most, glm::dot(moved, moved) / (list_.rooms[s] * list_.rooms[s]));
+        const auto place = static_cast<std::uint32_t>(s);
+        most = std::max(most, list_.beside_way(place, moved) / list_.rooms[s]);
     }
-    return std::sqrt(most);
+    return most;
 }
 
 template class Contacts<float>;

@@ -56,7 +56,8 @@ public:
     void go_on(std::span<const Real> parts, std::span<Vec4<Real>> positions);
 
     /// Moves all bodies to `ends`, as far as that is safe. Aims are out of date after it.
-    void move(std::span<const Vec4<Real>> ends, std::span<Vec4<Real>> positions);
+    /// @param ends input; output: outside of planes
+    void move(std::span<Vec4<Real>> ends, std::span<Vec4<Real>> positions);
 
     /// Aims at the present positions, and detects before if nodes have come far.
     void renew(std::span<const Vec4<Real>> positions, StageTimer* timer);
@@ -87,9 +88,10 @@ public:
     }
 
 private:
-    std::vector<Vec3<Real>> expected_motions(std::span<const Vec4<Real>> positions);
-    void detect(std::span<const Vec4<Real>> positions, std::span<const Vec3<Real>> motions,
-                StageTimer* timer);
+    Vec4<Real> outside(const Vec4<Real>& position) const;
+    std::vector<std::uint8_t> find_blocked(std::span<const Vec4<Real>> positions) const;
+    // @param ends where nodes are expected to go; empty: nowhere
+    void detect(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends, StageTimer* timer);
     void aim(std::span<const Vec4<Real>> positions, StageTimer* timer);
     Real used_room(std::span<const Vec4<Real>> positions) const;
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cpu/collision/walk_tree.h"
+#include "cpu/contact/planes.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -32,9 +33,18 @@ Real squared_distance(const AxisBox<Real>& a, const AxisBox<Real>& b) {
     return glm::dot(apart, apart);
 }
 
+// The box with less of a margin; it may be inside out then, and is compared all the same.
+template <class Real>
+AxisBox<Real> trimmed(AxisBox<Real> box, Real margin) {
+    box.min += margin;
+    box.max -= margin;
+    return box;
+}
+
 // What the box passes over on its way.
 template <class Real>
 AxisBox<Real> swept(AxisBox<Real> box, const Vec3<Real>& motion) {
+    if (motion == Vec3<Real>(0)) return box;
     box.min += glm::min(motion, Vec3<Real>(0));
     box.max += glm::max(motion, Vec3<Real>(0));
     return box;
@@ -50,7 +60,7 @@ DetectContacts<Real>::DetectContacts(std::shared_ptr<const Model> model,
       object_of_(objects_of_nodes(*model_)),
       listed_(kListedReach * greatest_reach(*surface_)),
       collision_(std::make_unique<Collision<Real>>(model_, BroadPhase::hierarchy,
-                                                   CollisionDetection::discrete,
+                                                   CollisionDetection::continuous,
                                                    BoxMargin<Real>::for_distance(listed_))),
       margin_(BoxMargin<Real>::for_distance(listed_)),
       edge_boxes_(model_->surface_parts.edges.size()),
@@ -58,8 +68,14 @@ DetectContacts<Real>::DetectContacts(std::shared_ptr<const Model> model,
       found_((model_->face_trees.levels[0].size() + kLeavesATask - 1) / kLeavesATask),
       object_tree_(static_cast<std::uint32_t>(model_->objects.size())),
       near_(model_->objects.size()),
+      meeting_(model_->objects.size()),
+      by_distance_(model_->objects.size()),
       listed_thicknesses_(surface_->thicknesses) {
     drifts_.resize(model_->objects.size());
+    boxes_.resize(model_->objects.size());
+    is_held_.resize(model_->objects.size());
+    ends_.assign(model_->positions.begin(), model_->positions.end());
+    collision_->update_boxes(ends_, ends_);  // colliders' stay
     for (const ModelObject& body : model_->bodies()) masses_.push_back(body.mass);
     double thinnest = std::numeric_limits<double>::infinity();
     for (std::size_t o = 0; o < model_->body_count(); ++o)
@@ -69,38 +85,64 @@ DetectContacts<Real>::DetectContacts(std::shared_ptr<const Model> model,
 }
 
 template <class Real>
-void DetectContacts<Real>::run(std::span<const Vec4<Real>> positions, double longest,
-                               std::span<const Vec3<Real>> motions, ContactList<Real>& list) {
-    island_distance_ = 4.0 * (listed_ + 2.0 * longest);
+void DetectContacts<Real>::run(std::span<const Vec4<Real>> positions, const Expected& expected,
+                               ContactList<Real>& list) {
+    island_distance_ = 4.0 * (listed_ + 3.0 * expected.longest);
     list.most_shift = static_cast<Real>(kShifted * island_distance_);
     positions_ = positions;
-    collision_->update_boxes(positions);
+    find_boxes();
     find_near_objects();
     find_islands(list);
-    find_drifts(motions, list);
+    find_drifts(expected, list);
+    find_ways(expected.ends, list);
+    collision_->update_boxes(positions, ends_);
+    find_meeting_objects();
     find_rooms(list);
-    find_pairs(positions, list);
+    find_pairs(list);
     assign_slots(list);
+    list.is_valid = true;
+}
+
+template <class Real>
+void DetectContacts<Real>::find_boxes() {
+    tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
+        const Range& nodes = model_->objects[o].nodes;
+        boxes_[o] = {};
+        is_held_[o] = 0;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            boxes_[o].add(Vec3<Real>(positions_[n]), margin_);
+            if (positions_[n].w == Real(0)) is_held_[o] = 1;
+        }
+    });
+}
+
+template <class Real>
+void DetectContacts<Real>::find_ways(std::span<const Vec4<Real>> ends, ContactList<Real>& list) {
     const std::vector<std::uint32_t>& nodes = model_->surface_parts.nodes;
     list.found_at.resize(nodes.size());
-    for (std::size_t s = 0; s < nodes.size(); ++s) list.found_at[s] = Vec3<Real>(positions[nodes[s]]);
-    list.is_valid = true;
+    list.ways.resize(nodes.size());
+    for_each_index(nodes.size(), [&](std::size_t s) {
+        const std::uint32_t n = nodes[s];
+        const Vec3<Real> position(positions_[n]);
+        list.found_at[s] = position;
+        list.ways[s] = ends.empty() ? Vec3<Real>(0) : Vec3<Real>(ends[n]) - position - drifts_[object_of_[n]];
+        ends_[n] = Vec4<Real>(position + list.ways[s], positions_[n].w);
+    });
 }
 
 template <class Real>
 void DetectContacts<Real>::find_near_objects() {
     const auto count = static_cast<std::uint32_t>(model_->objects.size());
     const auto bodies = static_cast<std::uint32_t>(model_->body_count());
-    const std::vector<AxisBox<Real>>& boxes = collision_->bounding_boxes();
     const auto apart = static_cast<Real>(island_distance_);
-    object_tree_.update(boxes);
+    object_tree_.update(boxes_);
     tbb::parallel_for(std::uint32_t(0), bodies, [&](std::uint32_t o) {
-        AxisBox<Real> around = boxes[o];
+        AxisBox<Real> around = boxes_[o];
         around.min -= apart;
         around.max += apart;
         near_[o].clear();
         object_tree_.for_objects_near(around, [&](std::uint32_t other) {
-            if (other != o && (other < bodies || reaches(other, boxes[o], apart))) near_[o].push_back(other);
+            if (other != o && (other < bodies || reaches(other, boxes_[o], apart))) near_[o].push_back(other);
         });
         std::sort(near_[o].begin(), near_[o].end());
     });
@@ -115,6 +157,7 @@ void DetectContacts<Real>::find_near_objects() {
 // @param most distance beyond what is listed [m]
 template <class Real>
 bool DetectContacts<Real>::reaches(std::uint32_t collider, const AxisBox<Real>& box, Real most) const {
+    if (model_->surfaces[collider - model_->body_count()].moves) return true;
     const BoxTree& trees = model_->face_trees;
     const std::uint32_t end = trees.nodes[trees.roots[collider]].skip;
     for (std::uint32_t n = trees.roots[collider]; n < end;) {
@@ -138,6 +181,10 @@ Real DetectContacts<Real>::squared_gap(const AxisBox<Real>& box, const Vec3<Real
     for (std::uint32_t f = faces.first_item; f < faces.first_item + faces.item_count; ++f) {
         Real squared = squared_distance(passed, collision_->face_boxes()[f]);
         const Face& face = model_->faces[f];
+        if (model_->surfaces[face.object - model_->body_count()].moves) {
+            least = std::min(least, squared);
+            continue;
+        }
         const Vec3<Real> a(positions_[face.a]);
         const Vec3<Real> across =
             glm::cross(Vec3<Real>(positions_[face.b]) - a, Vec3<Real>(positions_[face.c]) - a);
@@ -153,6 +200,24 @@ Real DetectContacts<Real>::squared_gap(const AxisBox<Real>& box, const Vec3<Real
         least = std::min(least, squared);
     }
     return least;
+}
+
+template <class Real>
+void DetectContacts<Real>::find_meeting_objects() {
+    const std::vector<AxisBox<Real>>& boxes = collision_->bounding_boxes();
+    tbb::parallel_for(std::size_t(0), near_.size(), [&](std::size_t index) {
+        const auto o = static_cast<std::uint32_t>(index);
+        meeting_[o].clear();
+        by_distance_[o].clear();
+        for (const std::uint32_t other : near_[o]) {
+            const AxisBox<Real> own =
+                trimmed(swept(boxes[o], drift_towards(o, other)), spare_margin(o, other));
+            const Real squared = squared_distance(own, boxes[other]);
+            if (!(squared > Real(0))) meeting_[o].push_back(other);
+            by_distance_[o].emplace_back(squared, other);
+        }
+        std::sort(by_distance_[o].begin(), by_distance_[o].end());
+    });
 }
 
 // By union of bodies that are near each other; islands are numbered in the order of their first objects.
@@ -191,21 +256,36 @@ void DetectContacts<Real>::find_islands(ContactList<Real>& list) {
     list.shifts.assign(list.is_alone.size(), Vec3<Real>(0));
 }
 
-// The mean motion by mass of an island's bodies.
+// The mean motion by mass of an island's bodies; none where a node is held, or a collider is in the way.
+// Islands near colliders have it as their course.
 template <class Real>
-void DetectContacts<Real>::find_drifts(std::span<const Vec3<Real>> motions, ContactList<Real>& list) {
+void DetectContacts<Real>::find_drifts(const Expected& expected, ContactList<Real>& list) {
     const std::size_t islands = list.is_alone.size();
     list.drifts.assign(islands, Vec3<Real>(0));
     list.drifted.assign(islands, Real(0));
     std::vector<double> masses(islands);
     std::vector<glm::dvec3> sums(islands, glm::dvec3(0.0));
-    for (std::size_t o = 0; o < motions.size(); ++o) {
+    std::vector<std::uint8_t> is_held(islands);
+    for (std::size_t o = 0; o < expected.motions.size(); ++o) {
         masses[list.islands[o]] += masses_[o];
-        sums[list.islands[o]] += masses_[o] * glm::dvec3(motions[o]);
+        sums[list.islands[o]] += masses_[o] * glm::dvec3(expected.motions[o]);
+        is_held[list.islands[o]] |= is_held_[o] | expected.is_blocked[o];
     }
+    std::vector<Vec3<Real>> means(islands, Vec3<Real>(0));
+    for (std::size_t i = 0; i < islands; ++i) {
+        if (masses[i] > 0.0 && is_held[i] == 0) means[i] = Vec3<Real>(sums[i] / masses[i]);
+    }
+    keep_outside_planes(*model_, list, positions_, means);
     for (std::size_t i = 0; i < islands; ++i)
-        if (list.is_fixed[i] != 0 && masses[i] > 0.0) list.drifts[i] = Vec3<Real>(sums[i] / masses[i]);
-    for (std::size_t o = 0; o < drifts_.size(); ++o) drifts_[o] = list.drifts[list.islands[o]];
+        if (list.is_fixed[i] != 0) list.drifts[i] = means[i];
+    for (std::size_t o = 0; o < drifts_.size(); ++o) drifts_[o] = means[list.islands[o]];
+}
+
+// Boxes have the margin of the thickest bodies: by how much that is too much for two objects.
+template <class Real>
+Real DetectContacts<Real>::spare_margin(std::uint32_t object, std::uint32_t other) const {
+    return static_cast<Real>(listed_ -
+                             kListedReach * (listed_thicknesses_[object] + listed_thicknesses_[other]));
 }
 
 // Of an object as another one sees it. Bodies of one island go together.
@@ -251,15 +331,15 @@ void DetectContacts<Real>::Near::compare(const AxisBox<Real>& box) {
 // The nodes and edges of each leaf of the trees that is near another body search together, in ascending
 // order. An edge looks for those after it alone.
 template <class Real>
-void DetectContacts<Real>::find_pairs(std::span<const Vec4<Real>> positions, ContactList<Real>& list) {
+void DetectContacts<Real>::find_pairs(ContactList<Real>& list) {
     const std::vector<std::uint32_t>& leaves = model_->face_trees.levels[0];  // in the order of their faces
-    for_each_index(0, leaves.size(), 64, [&](std::size_t k) { find_edge_boxes(leaves[k], positions); });
+    for_each_index(0, leaves.size(), 64, [&](std::size_t k) { find_edge_boxes(leaves[k]); });
     tbb::parallel_for(std::size_t(0), found_.size(), [&](std::size_t task) {
         Found& found = found_[task];
         found.of_nodes.clear();
         found.of_edges.clear();
         const std::size_t end = std::min((task + 1) * kLeavesATask, leaves.size());
-        for (std::size_t k = task * kLeavesATask; k < end; ++k) search(leaves[k], positions, found);
+        for (std::size_t k = task * kLeavesATask; k < end; ++k) search(leaves[k], found);
     });
     list.pairs.clear();
     for (const Found& found : found_)
@@ -270,7 +350,7 @@ void DetectContacts<Real>::find_pairs(std::span<const Vec4<Real>> positions, Con
 }
 
 template <class Real>
-void DetectContacts<Real>::find_edge_boxes(std::uint32_t leaf, std::span<const Vec4<Real>> positions) {
+void DetectContacts<Real>::find_edge_boxes(std::uint32_t leaf) {
     if (distances_[leaf] > Real(0)) return;
     const TreeNode& faces = model_->face_trees.nodes[leaf];
     const std::vector<glm::uvec2>& face_starts = model_->surface_parts.face_starts;
@@ -278,14 +358,16 @@ void DetectContacts<Real>::find_edge_boxes(std::uint32_t leaf, std::span<const V
     for (std::uint32_t e = face_starts[faces.first_item].y; e < end; ++e) {
         const FaceEdge& edge = model_->surface_parts.edges[e];
         AxisBox<Real> box;
-        for (const std::uint32_t n : {edge.a, edge.b}) box.add(Vec3<Real>(positions[n]), margin_);
+        for (const std::uint32_t n : {edge.a, edge.b}) {
+            box.add(Vec3<Real>(positions_[n]), margin_);
+            box.add(Vec3<Real>(ends_[n]), margin_);
+        }
         edge_boxes_[e] = box;
     }
 }
 
 template <class Real>
-void DetectContacts<Real>::search(std::uint32_t leaf, std::span<const Vec4<Real>> positions,
-                                  Found& found) const {
+void DetectContacts<Real>::search(std::uint32_t leaf, Found& found) const {
     if (distances_[leaf] > Real(0)) return;
     const TreeNode& faces = model_->face_trees.nodes[leaf];
     const std::vector<glm::uvec2>& face_starts = model_->surface_parts.face_starts;
@@ -294,13 +376,13 @@ void DetectContacts<Real>::search(std::uint32_t leaf, std::span<const Vec4<Real>
     if (first == end) return;
     found.faces.clear();
     found.edges.clear();
-    for (const std::uint32_t other : near_[model_->faces[faces.first_item].object])
+    for (const std::uint32_t other : meeting_[model_->faces[faces.first_item].object])
         find_near(leaf, other, found);
     if (found.faces.indices.empty()) return;
-    for (std::uint32_t place = first.x; place < end.x; ++place) pair_node(place, positions, found);
-    keep_near(positions, found.waiting, found.of_nodes);
+    for (std::uint32_t place = first.x; place < end.x; ++place) pair_node(place, found);
+    keep_near(found.waiting, found.of_nodes);
     for (std::uint32_t edge = first.y; edge < end.y; ++edge) pair_edge(edge, found);
-    keep_near(positions, found.waiting, found.of_edges);
+    keep_near(found.waiting, found.of_edges);
 }
 
 // What of another object is near a leaf.
@@ -310,27 +392,28 @@ void DetectContacts<Real>::find_near(std::uint32_t leaf, std::uint32_t other, Fo
     const std::vector<glm::uvec2>& face_starts = model_->surface_parts.face_starts;
     const std::uint32_t object = model_->faces[trees.nodes[leaf].first_item].object;
     const Vec3<Real> drift = drift_towards(object, other);
-    const AxisBox<Real> box = swept(collision_->tree_boxes()[leaf], drift);
+    const Real spare = spare_margin(object, other);
+    const AxisBox<Real> box = trimmed(swept(collision_->tree_boxes()[leaf], drift), spare);
     const bool is_after = other > object;
     for_leaves_near<Real>(trees, collision_->tree_boxes(), trees.roots[other], box, [&](std::uint32_t near) {
         const std::uint32_t first = trees.nodes[near].first_item, end = first + trees.nodes[near].item_count;
         for (std::uint32_t f = first; f < end; ++f) {
             if (meet(box, collision_->face_boxes()[f]))
-                found.faces.add(f, swept(collision_->face_boxes()[f], -drift));
+                found.faces.add(f, trimmed(swept(collision_->face_boxes()[f], -drift), spare));
         }
         if (!is_after) return;
         for (std::uint32_t e = face_starts[first].y; e < face_starts[end].y; ++e) {
-            if (meet(box, edge_boxes_[e])) found.edges.add(e, swept(edge_boxes_[e], -drift));
+            if (meet(box, edge_boxes_[e])) found.edges.add(e, trimmed(swept(edge_boxes_[e], -drift), spare));
         }
     });
 }
 
 template <class Real>
-void DetectContacts<Real>::pair_node(std::uint32_t place, std::span<const Vec4<Real>> positions,
-                                     Found& found) const {
+void DetectContacts<Real>::pair_node(std::uint32_t place, Found& found) const {
     const std::uint32_t node = model_->surface_parts.nodes[place];
     AxisBox<Real> box;
-    box.add(Vec3<Real>(positions[node]), margin_);
+    box.add(Vec3<Real>(positions_[node]), margin_);
+    box.add(Vec3<Real>(ends_[node]), margin_);
     found.faces.compare(box);
     for (std::size_t k = 0; k < found.faces.indices.size(); ++k) {
         if (found.faces.meet[k] == 0) continue;
@@ -356,25 +439,43 @@ void DetectContacts<Real>::pair_edge(std::uint32_t edge, Found& found) const {
 }
 
 template <class Real>
-void DetectContacts<Real>::keep_near(std::span<const Vec4<Real>> positions, std::vector<ContactPair>& waiting,
+void DetectContacts<Real>::keep_near(std::vector<ContactPair>& waiting,
                                      std::vector<ContactPair>& kept) const {
     for (std::size_t first = 0; first < waiting.size(); first += kPairBlock) {
         const auto block = std::span<const ContactPair>(waiting).subspan(
             first, std::min(kPairBlock, waiting.size() - first));
         MeasuredPairs<Real> measured;
-        measure_pairs(block, positions, measured);
+        measure_pairs(block, positions_, measured);
         for (std::size_t k = 0; k < block.size(); ++k) {
             const double listed =
                 kListedReach * (listed_thicknesses_[block[k].object] + listed_thicknesses_[block[k].other]);
-            // Along the line between nearest points now, the gap changes by no more than the drift. Against
-            // rounding a little more.
-            const Vec3<Real> apart(measured.apart[0][k], measured.apart[1][k], measured.apart[2][k]);
-            const Real nearer = glm::dot(apart, drift_towards(block[k].object, block[k].other));
-            const Real least = measured.gaps[k] - std::max(nearer / measured.gaps[k], Real(0));
-            if (!(least > static_cast<Real>(listed) + measured.rounding[k])) kept.push_back(block[k]);
+            // Against rounding a little more.
+            const Real most = static_cast<Real>(listed) + measured.rounding[k];
+            if (!(measured.gaps[k] > most) || !(least_gap(block[k], measured, k) > most))
+                kept.push_back(block[k]);
         }
     }
     waiting.clear();
+}
+
+// No more than the gap wherever the nodes are on their ways: along the line between the nearest points.
+template <class Real>
+Real DetectContacts<Real>::least_gap(const ContactPair& pair, const MeasuredPairs<Real>& measured,
+                                     std::size_t column) const {
+    const Vec3<Real> apart(measured.apart[0][column], measured.apart[1][column], measured.apart[2][column]);
+    const Vec3<Real> normal = apart / measured.gaps[column];
+    Real top = -std::numeric_limits<Real>::infinity(), low = -top;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::uint32_t n = pair.nodes[k];
+        const Real height = measured.heights[k][column];
+        const Real end = height + glm::dot(normal, Vec3<Real>(ends_[n] - positions_[n]));
+        if (pair.side_of(k) == 0) {
+            top = std::max({top, height, end});
+        } else {
+            low = std::min({low, height, end});
+        }
+    }
+    return low - top - std::max(glm::dot(normal, drift_towards(pair.object, pair.other)), Real(0));
 }
 
 template <class Real>
@@ -445,26 +546,29 @@ void DetectContacts<Real>::find_nearest(std::uint32_t object, const AxisBox<Real
                                         Real enough, Nearest& nearest) const {
     const BoxTree& trees = model_->face_trees;
     const std::vector<AxisBox<Real>>& boxes = collision_->tree_boxes();
-    const auto look_at = [&](std::uint32_t leaf, const Vec3<Real>& drift, Real squared) {
+    const auto look_at = [&](std::uint32_t leaf, const AxisBox<Real>& own, const Vec3<Real>& drift,
+                             Real squared) {
         if (!(squared < nearest.squared)) return;
         if (!model_->is_body(model_->faces[trees.nodes[leaf].first_item].object))
-            squared = std::max(squared, squared_gap(box, drift, leaf));
+            squared = std::max(squared, squared_gap(own, drift, leaf));
         if (squared < nearest.squared) nearest = {squared, leaf};
     };
     nearest.squared = most;
     if (nearest.leaf != kNoNode) {
         const std::uint32_t other = model_->faces[trees.nodes[nearest.leaf].first_item].object;
         const Vec3<Real> drift = drift_towards(object, other);
-        look_at(nearest.leaf, drift, squared_distance(swept(box, drift), boxes[nearest.leaf]));
+        const AxisBox<Real> own = trimmed(box, spare_margin(object, other));
+        look_at(nearest.leaf, own, drift, squared_distance(swept(own, drift), boxes[nearest.leaf]));
     }
-    for (const std::uint32_t other : near_[object]) {
+    for (const auto& [least, other] : by_distance_[object]) {
+        if (!(least < nearest.squared)) return;
         const Vec3<Real> drift = drift_towards(object, other);
-        const AxisBox<Real> passed = swept(box, drift);
+        const AxisBox<Real> own = trimmed(box, spare_margin(object, other)), passed = swept(own, drift);
         const std::uint32_t end = trees.nodes[trees.roots[other]].skip;
         for (std::uint32_t n = trees.roots[other]; n < end && nearest.squared > enough;) {
             const Real squared = squared_distance(passed, boxes[n]);
             const bool is_near = squared < nearest.squared;
-            if (trees.nodes[n].item_count > 0) look_at(n, drift, squared);
+            if (trees.nodes[n].item_count > 0) look_at(n, own, drift, squared);
             n = is_near ? n + 1 : trees.nodes[n].skip;
         }
     }

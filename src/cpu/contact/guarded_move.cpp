@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cpu/collision/nearest_points.h"
+#include "cpu/contact/planes.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -149,6 +150,7 @@ void GuardedMove<Real>::find_common_motions(const ContactList<Real>& list,
     const std::vector<Vec3<Real>> means = means_of_islands(list);
     for (std::size_t i = 0; i < means.size(); ++i)
         if (list.is_fixed[i] == 0) common_[i] = means[i];
+    keep_outside_planes(*model_, list, positions, common_);
 }
 
 // Bodies of an island go on with the gaps that they have; those to colliders change.
@@ -229,7 +231,7 @@ void GuardedMove<Real>::keep_to_rooms(const ContactList<Real>& list, const Conta
             const Vec3<Real> motion = Vec3<Real>(ends[n]) - position - common_[island];
             const Vec3<Real> moved = list.moved(place, static_cast<std::uint32_t>(o), position);
             Real& part = parts_[are_nodes ? n : o];
-            part = std::min(part, part_within(moved, motion, list.rooms[place]));
+            part = std::min(part, list.part_within_room(place, moved, motion));
             const Real way = glm::length(motion);
             ways_[n] = glm::length(position - aims.nodes().aimed_at(n)) + way;
             ways_of_objects_[o] = std::max(ways_of_objects_[o], way);

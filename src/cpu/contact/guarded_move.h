@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -61,6 +62,11 @@ public:
     /// for
     void go(ContactList<Real>& list, std::span<const Vec4<Real>> ends, bool keeps_momentum,
             std::span<Vec4<Real>> positions);
+
+    /// Whether it was rooms that kept an object from the end of its planned motion.
+    bool lacks_room() const {
+        return std::any_of(room_parts_.begin(), room_parts_.end(), [](Real part) { return part < Real(1); });
+    }
 
     /// The part of the planned motion that an object, or a node, makes.
     Real part(std::size_t mover) const { return parts_[mover]; }

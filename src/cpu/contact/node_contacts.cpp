@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "cpu/contact/planes.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -81,17 +82,6 @@ void NodeContacts<Real>::select(const ContactList<Real>& list, std::span<const V
     });
 }
 
-template <class Real>
-Real part_within(const Vec3<Real>& u, const Vec3<Real>& motion, Real radius) {
-    const Vec3<Real> end = u + motion;
-    if (glm::dot(end, end) <= radius * radius) return Real(1);
-    const Real a = glm::dot(motion, motion), b = glm::dot(u, motion), c = glm::dot(u, u) - radius * radius;
-    if (!(c < Real(0)) || !(a > Real(0))) return Real(0);
-    const Real root = std::sqrt(b * b - a * c);
-    const Real part = b > Real(0) ? -c / (b + root) : (root - b) / a;
-    return std::clamp(Real(0.999f) * part, Real(0), Real(1));
-}
-
 // Keeps of a node's planes those that it can reach within its room.
 template <class Real>
 void NodeContacts<Real>::select(const ContactList<Real>& list, std::uint32_t place,
@@ -104,12 +94,14 @@ void NodeContacts<Real>::select(const ContactList<Real>& list, std::uint32_t pla
     for (std::uint32_t k = first; k < end; ++k) {
         const NodePlane<Real> plane = planes_[k];
         least = std::min(least, plane.head);
-        if (plane.head < list.rooms[place] - glm::dot(plane.towards, moved)) planes_[planes++] = plane;
+        const Real ahead = std::max(glm::dot(plane.towards, list.ways[place]), Real(0));
+        if (plane.head < list.rooms[place] + ahead - glm::dot(plane.towards, moved))
+            planes_[planes++] = plane;
     }
     first_planes_[place] = first;
     plane_counts_[place] = planes - first;
     is_stuck_[place] = least < Real(0) ? 1 : 0;
-    least = std::min(least, list.rooms[place] - glm::length(moved));
+    least = std::min(least, list.rooms[place] - list.beside_way(place, moved));
     const Real free = presses_[node] != 0 || !(least > Real(0)) ? Real(-1) : Real(0.999f) * least * least;
     free_[node] = Vec4<Real>(position, free);
 }
@@ -137,8 +129,9 @@ Vec3<Real> NodeContacts<Real>::limited_nearby(const ContactList<Real>& list, std
     const Vec3<Real> displacement = from - aimed_at(node);
     Vec3<Real> motion = kept_to_planes(planes_of(place), displacement, to - from);
     const Vec3<Real> moved = list.moved(place, object_of_[node], from);
-    const Real part = part_within(moved, motion, list.rooms[place]);
+    const Real part = list.part_within_room(place, moved, motion);
     if (!(part == Real(1))) motion *= part;
+    if (!model_->colliders.empty()) motion *= part_outside_planes<Real>(model_->colliders, from, motion);
     if (presses(node)) motion *= least_along(shares_of(place), displacement, motion, all);
     return from + motion;
 }
@@ -231,13 +224,11 @@ Real NodeContacts<Real>::allowed_part(const ContactList<Real>& list, const Range
             if (!(part * along <= head)) part = along > Real(0) ? head / along : Real(0);
         }
         const Vec3<Real> moved = list.moved(place, object_of_[n], position);
-        part *= part_within(moved, part * displacements[n], list.rooms[place]);
+        part *= list.part_within_room(place, moved, part * displacements[n]);
     }
     return part;
 }
 
-template float part_within(const Vec3<float>&, const Vec3<float>&, float);
-template double part_within(const Vec3<double>&, const Vec3<double>&, double);
 template class NodeContacts<float>;
 template class NodeContacts<double>;
 

@@ -113,8 +113,4 @@ private:
     std::vector<Vec4<Real>> free_;
 };
 
-/// The part of a motion from u, inside a ball round the origin, that stays in it.
-template <class Real>
-Real part_within(const Vec3<Real>& u, const Vec3<Real>& motion, Real radius);
-
 }  // namespace gelatin::cpu

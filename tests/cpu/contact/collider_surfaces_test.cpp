@@ -166,7 +166,7 @@ TEST(ColliderSurfaces, AreNearWhereTheirFacesAre) {
     cpu::DetectContacts<float> detection(
         model, std::make_shared<const ContactSurface>(make_contact_surface(*model, 0.4)));
     cpu::ContactList<float> list;
-    detection.run(model->positions, 0.01, {}, list);
+    detection.run(model->positions, {.longest = 0.01}, list);
     EXPECT_NE(list.islands[0], list.islands[1]);
     for (const std::size_t body : {0, 1}) {
         EXPECT_EQ(list.is_fixed[list.islands[body]], 0);

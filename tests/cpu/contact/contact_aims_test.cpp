@@ -47,7 +47,7 @@ struct Contact {
             targets.emplace_back(cpu::Vec3<Real>(positions[n]),
                                  inverse_mass > Real(0) ? Real(3600) / inverse_mass : Real(0));
         }
-        detection.run(positions, 0.5, {}, list);
+        detection.run(positions, {.longest = 0.5}, list);
         aims.begin(Real(1) / 60, targets, starts);
         aims.carry_over({}, list);
         aims.run(list, positions);
