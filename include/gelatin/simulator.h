@@ -44,6 +44,17 @@ struct ProximityStatistics {
     double nearest_gap = std::numeric_limits<double>::infinity();  ///< smallest distance [m]
 };
 
+/// A force on an object from another one, or from a collider, when the last step ended (of a divided step,
+/// its last part). For CollisionResponse::contact.
+struct ContactForce {
+    std::size_t object = 0;                    ///< index in Scene::objects
+    std::optional<std::size_t> other = {};     ///< index in Scene::objects, greater than `object`; or
+    std::optional<std::size_t> collider = {};  ///< index in Scene::colliders
+    double normal[3] = {};                     ///< pressure on the object [N]
+    double friction[3] = {};                   ///< friction on the object [N]
+    std::size_t points = 0;                    ///< where they press each other
+};
+
 /// The measurements of one frame. SI units.
 struct FrameStatistics {
     int frame = 0;
@@ -57,6 +68,7 @@ struct FrameStatistics {
     double deepest_penetration = 0.0;                ///< of a node into a collider [m]
     std::vector<double> volume_ratio;                ///< volume divided by rest volume, by object
     std::optional<ProximityStatistics> proximities;  ///< of the last step; empty without a proximity radius
+    std::vector<ContactForce> contact_forces;        ///< by object, then others, then colliders
 };
 
 /// Node positions and velocities on the host.
@@ -65,6 +77,9 @@ struct HostFrame {
     double time = 0.0;              ///< [s]
     std::vector<float> positions;   ///< x, y, z of each node [m], shape [nodes][3]
     std::vector<float> velocities;  ///< x, y, z of each node [m/s], shape [nodes][3]
+    /// For CollisionResponse::contact, else empty: x, y, z of the force of contacts on each node [N], shape
+    /// [nodes][3]; and the part of it that is friction.
+    std::vector<float> contact_forces, contact_friction;
 };
 
 /// A scene that runs.

@@ -247,6 +247,11 @@ std::vector<ObjectMeasure> CpuSolver<Real>::end_measure() {
 }
 
 template <class Real>
+ContactForces CpuSolver<Real>::contact_forces() const {
+    return descent_ ? descent_->solver.contact_forces(current_.positions) : ContactForces();
+}
+
+template <class Real>
 State CpuSolver<Real>::read_state() const {
     State state{{current_.positions.begin(), current_.positions.end()},
                 {current_.velocities.begin(), current_.velocities.end()},

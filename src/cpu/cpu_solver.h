@@ -45,6 +45,7 @@ public:
     std::vector<ObjectMeasure> end_measure() override;
     std::uint32_t lost_pairs() const override { return 0; }
     ProximityMeasure proximities() const override { return measured_proximities_; }
+    ContactForces contact_forces() const override;
     State read_state() const override;
     void write_state(const State& state) override;
     StageTimer& stage_timer() override { return timer_; }

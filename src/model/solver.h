@@ -61,6 +61,19 @@ struct ProximityMeasure {
     double nearest = std::numeric_limits<double>::infinity();  ///< least distance of all [m]
 };
 
+/// What presses objects when a step has ended.
+struct ContactForces {
+    struct Between {
+        std::uint32_t object;  ///< index in Model::objects, a body's
+        std::uint32_t other;   ///< index in Model::objects, greater; or of a plane in Model::colliders
+        bool is_plane;
+        glm::dvec3 normal{0.0}, friction{0.0};  ///< on `object` [N]
+        std::uint32_t points = 0;
+    };
+    std::vector<Between> between;              ///< by object, others before planes
+    std::vector<glm::dvec3> normal, friction;  ///< on each node [N], shape [nodes]
+};
+
 /// A backend: owns the state, in host or device memory, and advances it. The stages are called in the order
 /// of Simulator::step; none of them waits for a device.
 class Solver {
@@ -115,6 +128,9 @@ public:
 
     /// What find_proximities had found last when the last measurement that ended began.
     virtual ProximityMeasure proximities() const = 0;
+
+    /// For CollisionResponse::contact: what presses objects at present.
+    virtual ContactForces contact_forces() const { return {}; }
 
     virtual State read_state() const = 0;
     /// Discards what watching has found so far.

@@ -139,6 +139,11 @@ std::string vtu_text(const ExportTopology& topology, const HostFrame& frame) {
     const auto of_nodes = [&](const std::vector<float>& vectors) {
         return std::span<const float>(vectors).first(3 * topology.node_count);
     };
+    const auto contact_array = [&](const char* name, const std::vector<float>& forces) {
+        if (forces.empty()) return std::string();
+        return data_array<float>("Float32", fmt::format("Name=\"{}\" NumberOfComponents=\"3\"", name),
+                                 of_nodes(forces));
+    };
     return fmt::format(
                "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
                "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n"
@@ -149,7 +154,9 @@ std::string vtu_text(const ExportTopology& topology, const HostFrame& frame) {
            "</Points>\n<PointData Vectors=\"velocity\">\n" +
            data_array<float>("Float32", "Name=\"velocity\" NumberOfComponents=\"3\"",
                              of_nodes(frame.velocities)) +
-           "</PointData>\n" + topology.vtu_cells + "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+           contact_array("contact_force", frame.contact_forces) +
+           contact_array("contact_friction", frame.contact_friction) + "</PointData>\n" + topology.vtu_cells +
+           "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
 }  // namespace gelatin

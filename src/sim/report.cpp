@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gelatin/version.h"
+#include "model/build/collider_surface.h"
 #include "model/model.h"
 #include "model/setting_names.h"
 #include "sim/simulator_internals.h"
@@ -49,7 +50,21 @@ void add_proximities(const ProximityStatistics& proximities, Json& frame) {
     frame["nearest_gap"] = proximities.nearest_gap;
 }
 
-Json frame_json(const FrameStatistics& frame, const std::vector<std::string>& objects) {
+Json contact_forces_json(const std::vector<ContactForce>& forces, const RunReport& report) {
+    Json list = Json::array();
+    for (const ContactForce& force : forces) {
+        list.push_back(
+            {{"object", report.objects[force.object]},
+             {"from", force.collider ? report.colliders[*force.collider] : report.objects[*force.other]},
+             {"normal", force.normal},
+             {"friction", force.friction},
+             {"points", force.points}});
+    }
+    return list;
+}
+
+Json frame_json(const FrameStatistics& frame, const RunReport& report) {
+    const std::vector<std::string>& objects = report.objects;
     Json volume_ratio = Json::object();
     for (std::size_t o = 0; o < objects.size() && o < frame.volume_ratio.size(); ++o) {
         volume_ratio[objects[o]] = frame.volume_ratio[o];
@@ -65,6 +80,8 @@ Json frame_json(const FrameStatistics& frame, const std::vector<std::string>& ob
                  {"deepest_penetration", frame.deepest_penetration},
                  {"volume_ratio", volume_ratio}};
     if (frame.proximities) add_proximities(*frame.proximities, json);
+    if (report.collision.response == CollisionResponse::contact)
+        json["contact_forces"] = contact_forces_json(frame.contact_forces, report);
     return json;
 }
 
@@ -97,12 +114,15 @@ RunReport describe_run(const Simulator& simulator) {
     report.step_size = simulator.step_size();
     report.counts = simulator.counts();
     for (const ModelObject& object : model_of(simulator).bodies()) report.objects.push_back(object.name);
+    const std::vector<ColliderDescription>& colliders = simulator.scene().colliders;
+    for (std::size_t c = 0; c < colliders.size(); ++c)
+        report.colliders.push_back(name_of_collider(colliders[c], c));
     return report;
 }
 
 std::string to_json(const RunReport& report) {
     Json frames = Json::array();
-    for (const FrameStatistics& frame : report.frames) frames.push_back(frame_json(frame, report.objects));
+    for (const FrameStatistics& frame : report.frames) frames.push_back(frame_json(frame, report));
     const Json document = {{"gelatin", {{"version", version()}, {"commit", commit()}}},
                            {"scene", report.scene},
                            {"backend", report.backend},

@@ -19,7 +19,8 @@ struct RunReport {
     int substeps = 1;        ///< steps per frame, as chosen
     double step_size = 0.0;  ///< [s]
     Counts counts;
-    std::vector<std::string> objects;  ///< names, in the order of FrameStatistics::volume_ratio
+    std::vector<std::string> objects;    ///< names, in the order of FrameStatistics::volume_ratio
+    std::vector<std::string> colliders;  ///< names, in the order of the scene
     std::vector<FrameStatistics> frames;
     double seconds = 0.0;          ///< wall clock over all timed frames [s]
     std::vector<double> frame_ms;  ///< wall clock of each frame, recording included [ms]

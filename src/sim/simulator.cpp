@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <variant>
 
 #include "core/current_stage.h"
 #include "core/log.h"
@@ -43,6 +44,7 @@ struct Simulator::Impl {
     std::optional<Drags> drags;
     bool is_pulled = false;
     std::deque<Moment> measured;
+    std::deque<std::vector<ContactForce>> measured_forces;  // of the same, with contact
     std::uint32_t reported_losses = 0;
     bool lost_proximities = false;  // and reported
 
@@ -86,6 +88,36 @@ struct Simulator::Impl {
                (model->objects.size() > 1 || scene.collision.self_collision);
     }
 
+    bool has_contact_forces() const { return scene.collision.response == CollisionResponse::contact; }
+
+    // Planes, and surfaces, are in the order of the scene.
+    std::vector<ContactForce> contact_forces() const {
+        std::vector<std::size_t> planes, surfaces;
+        for (std::size_t c = 0; c < scene.colliders.size(); ++c) {
+            const bool is_plane = std::holds_alternative<PlaneCollider>(scene.colliders[c].shape);
+            (is_plane ? planes : surfaces).push_back(c);
+        }
+        std::vector<ContactForce> forces;
+        for (const ContactForces::Between& between : solver->contact_forces().between) {
+            ContactForce force;
+            force.object = between.object;
+            if (between.is_plane) {
+                force.collider = planes[between.other];
+            } else if (model->is_body(between.other)) {
+                force.other = between.other;
+            } else {
+                force.collider = surfaces[between.other - model->body_count()];
+            }
+            for (int k = 0; k < 3; ++k) {
+                force.normal[k] = between.normal[k];
+                force.friction[k] = between.friction[k];
+            }
+            force.points = between.points;
+            forces.push_back(force);
+        }
+        return forces;
+    }
+
     ProximityStatistics take_proximities() {
         const ProximityMeasure measure = solver->proximities();
         if (measure.lost > 0 && !lost_proximities) {
@@ -106,6 +138,7 @@ struct Simulator::Impl {
     // Continues from this state. Pending measurements belong to the old one.
     void take_state(const State& state, const Moment& moment) {
         for (; !measured.empty(); measured.pop_front()) solver->end_measure();
+        measured_forces.clear();
         solver->write_state(state);
         go_on_from(moment);
         watch->begin(state, now());
@@ -289,6 +322,7 @@ void Simulator::begin_statistics() {
     Impl& d = *impl_;
     d.run_stage("measure", [&] { d.solver->begin_measure(); });
     d.measured.push_back(d.now());
+    if (d.has_contact_forces()) d.measured_forces.push_back(d.contact_forces());
 }
 
 std::size_t Simulator::pending_statistics() const {
@@ -307,6 +341,10 @@ FrameStatistics Simulator::take_statistics() {
     frame.time = moment.time;
     d.warn_of_lost_pairs();
     if (d.seeks_proximities()) frame.proximities = d.take_proximities();
+    if (d.has_contact_forces()) {
+        frame.contact_forces = std::move(d.measured_forces.front());
+        d.measured_forces.pop_front();
+    }
     for (std::size_t o = 0; o < objects.size(); ++o) {
         const ObjectMeasure& object = objects[o];
         frame.kinetic_energy += object.kinetic_energy;
@@ -335,6 +373,13 @@ HostFrame Simulator::read_frame() const {
     for (const glm::vec4& p : state.positions) host.positions.insert(host.positions.end(), {p.x, p.y, p.z});
     for (const glm::vec4& v : state.velocities)
         host.velocities.insert(host.velocities.end(), {v.x, v.y, v.z});
+    if (!impl_->has_contact_forces()) return host;
+    const ContactForces forces = impl_->solver->contact_forces();
+    for (std::size_t n = 0; n < forces.normal.size(); ++n) {
+        const glm::vec3 friction(forces.friction[n]), force(forces.normal[n] + forces.friction[n]);
+        host.contact_forces.insert(host.contact_forces.end(), {force.x, force.y, force.z});
+        host.contact_friction.insert(host.contact_friction.end(), {friction.x, friction.y, friction.z});
+    }
     return host;
 }
 

@@ -55,6 +55,9 @@ public:
     }
     const NodeContacts<Real>& nodes() const { return nodes_; }
 
+    /// The friction on the first side of a pair when the last step ended [N].
+    const Vec3<Real>& held(std::uint32_t pair) const { return grips_[pair].held; }
+
     /// The gap between the points that were nearest at the aim, along its normal [m].
     Real gap(const ContactPair& pair, const Press<Real>& press, std::span<const Vec4<Real>> positions) const;
     /// What would hold the first side there, if nothing slid [N].

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/stage_timer.h"
+#include "cpu/contact/contact_forces.h"
 #include "cpu/contact/contacts.h"
 #include "cpu/descent/coarse_step.h"
 #include "cpu/descent/collider_contacts.h"
@@ -66,6 +67,11 @@ public:
     void run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current,
              std::span<const Vec4<Real>> load_forces = {}, const Pulls<Real>* pulls = nullptr,
              StageTimer* timer = nullptr, int parts = 1);
+
+    /// At the end of the last step.
+    ContactForces contact_forces(std::span<const Vec4<Real>> positions) const {
+        return find_contact_forces<Real>(*model_, bodies_.get(), contacts_, positions);
+    }
 
 private:
     using Positions = std::vector<Vec4<Real>>;

@@ -1,0 +1,121 @@
+#include "cpu/contact/contact_forces.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "cpu/collision/colliders.h"
+
+namespace gelatin::cpu {
+namespace {
+
+class Sums {
+public:
+    explicit Sums(const Model& model) {
+        forces_.normal.assign(model.node_count(), glm::dvec3(0.0));
+        forces_.friction = forces_.normal;
+    }
+
+    void add_to_node(std::uint32_t node, const glm::dvec3& normal, const glm::dvec3& friction) {
+        forces_.normal[node] += normal;
+        forces_.friction[node] += friction;
+    }
+
+    // On `object`, from the other one or a plane.
+    void add(std::uint32_t object, std::uint32_t other, bool is_plane, const glm::dvec3& normal,
+             const glm::dvec3& friction) {
+        const bool turned = !is_plane && other < object;
+        const auto key = turned ? std::tuple(other, false, object) : std::tuple(object, is_plane, other);
+        const double sign = turned ? -1.0 : 1.0;
+        ContactForces::Between& sum = between_[key];
+        sum.normal += sign * normal;
+        sum.friction += sign * friction;
+        ++sum.points;
+    }
+
+    ContactForces take() {
+        for (auto& [key, sum] : between_) {
+            std::tie(sum.object, sum.is_plane, sum.other) = key;
+            forces_.between.push_back(sum);
+        }
+        return std::move(forces_);
+    }
+
+private:
+    ContactForces forces_;
+    std::map<std::tuple<std::uint32_t, bool, std::uint32_t>, ContactForces::Between> between_;
+};
+
+template <class Real>
+void add_presses(const Contacts<Real>& contacts, std::span<const Vec4<Real>> positions, Sums& sums) {
+    const ContactAims<Real>& aims = contacts.aims();
+    for (const Press<Real>& press : aims.presses()) {
+        const ContactPair& pair = contacts.list().pairs[press.pair];
+        const Real pressing = contact_force(aims.gap(pair, press, positions), press.reach, press.stiffness);
+        if (!(pressing > Real(0))) continue;
+        // On the first side.
+        const glm::dvec3 normal = -static_cast<double>(pressing) * glm::dvec3(press.normal),
+                         friction(aims.held(press.pair));
+        sums.add(pair.object, pair.other, false, normal, friction);
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto weight = static_cast<double>(press.weights[static_cast<int>(k)]);
+            const double share = pair.side_of(k) == 0 ? weight : -weight;
+            sums.add_to_node(pair.nodes[k], share * normal, share * friction);
+        }
+    }
+}
+
+// The plane that a node is on, with this normal.
+template <class Real>
+std::uint32_t plane_of(const Model& model, const Vec3<Real>& position, const Vec3<Real>& normal) {
+    std::uint32_t nearest = 0;
+    Real least = std::numeric_limits<Real>::infinity();
+    for (std::uint32_t c = 0; c < model.colliders.size(); ++c) {
+        const SurfaceDistance<Real> surface = surface_distance(model.colliders[c], position);
+        const Real away = std::abs(surface.distance) + (Real(1) - glm::dot(surface.normal, normal));
+        if (away < least) {
+            least = away;
+            nearest = c;
+        }
+    }
+    return nearest;
+}
+
+template <class Real>
+void add_planes(const Model& model, const ColliderContacts<Real>& planes,
+                std::span<const Vec4<Real>> positions, Sums& sums) {
+    for (std::uint32_t o = 0; o < model.body_count(); ++o) {
+        if (planes.nodes.empty() || planes.objects[o] == 0) continue;
+        const Range& nodes = model.objects[o].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            const ColliderContact<Real>& contact = planes.nodes[n];
+            if (contact.along == Real(0)) continue;
+            const glm::dvec3 force(contact.force), direction(contact.normal);
+            const glm::dvec3 normal = glm::dot(force, direction) * direction;
+            sums.add(o, plane_of(model, Vec3<Real>(positions[n]), contact.normal), true, normal,
+                     force - normal);
+            sums.add_to_node(n, normal, force - normal);
+        }
+    }
+}
+
+}  // namespace
+
+template <class Real>
+ContactForces find_contact_forces(const Model& model, const Contacts<Real>* contacts,
+                                  const ColliderContacts<Real>& planes,
+                                  std::span<const Vec4<Real>> positions) {
+    Sums sums(model);
+    if (contacts != nullptr) add_presses(*contacts, positions, sums);
+    add_planes(model, planes, positions, sums);
+    return sums.take();
+}
+
+template ContactForces find_contact_forces<float>(const Model&, const Contacts<float>*,
+                                                  const ColliderContacts<float>&,
+                                                  std::span<const Vec4<float>>);
+template ContactForces find_contact_forces<double>(const Model&, const Contacts<double>*,
+                                                   const ColliderContacts<double>&,
+                                                   std::span<const Vec4<double>>);
+
+}  // namespace gelatin::cpu
