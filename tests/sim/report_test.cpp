@@ -94,6 +94,29 @@ TEST(Report, HasTheDocumentedKeys) {
                       {"stages", {{"advance_nodes", {{"median", 0.5}, {"p95", 0.75}, {"runs", 3}}}}}}}}));
 }
 
+TEST(Report, TellsContactForcesByName) {
+    RunReport report = sample_report();
+    report.collision.response = CollisionResponse::contact;
+    report.colliders = {"floor", "plate"};
+    ContactForce on_floor, on_other;
+    on_floor.object = 1;
+    on_floor.collider = 0;
+    on_floor.normal[1] = 9.5;
+    on_floor.friction[0] = -2.0;
+    on_floor.points = 3;
+    on_other.other = 1;
+    report.frames[0].contact_forces = {on_other, on_floor};
+    const Json none{0.0, 0.0, 0.0};
+    EXPECT_EQ(
+        Json::parse(to_json(report))["frames"][0]["contact_forces"],
+        (Json::array({{{"object", "a"}, {"from", "b"}, {"normal", none}, {"friction", none}, {"points", 0}},
+                      {{"object", "b"},
+                       {"from", "floor"},
+                       {"normal", {0.0, 9.5, 0.0}},
+                       {"friction", {-2.0, 0.0, 0.0}},
+                       {"points", 3}}})));
+}
+
 TEST(Report, OfNoFramesIsStillWhole) {
     RunReport report;
     report.seconds = 0.0;
