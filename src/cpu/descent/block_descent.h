@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/stage_timer.h"
-#include "cpu/contact/contact_forces.h"
 #include "cpu/contact/contacts.h"
 #include "cpu/descent/coarse_step.h"
 #include "cpu/descent/collider_contacts.h"
+#include "cpu/descent/contact_forces.h"
 #include "cpu/descent/joint_move.h"
 #include "cpu/descent/node_sweep.h"
 #include "cpu/descent/rigid_move.h"

@@ -1,4 +1,4 @@
-#include "cpu/contact/contact_forces.h"
+#include "cpu/descent/contact_forces.h"
 
 #include <gtest/gtest.h>
 
