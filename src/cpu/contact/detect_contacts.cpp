@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "cpu/collision/walk_tree.h"
-#include "cpu/contact/planes.h"
+#include "cpu/contact/swept_box.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -17,38 +17,10 @@ namespace {
 
 // Two nodes may each use this part of the distance between them.
 constexpr double kRoom = 0.45;
-// Parts of the distance between islands: how far from others rooms are looked for, and how far an island may
-// go. With rooms of 0.45 (1/4 + 1/4) and shifts of 1/5, nodes of two islands do not meet.
-constexpr double kSearched = 0.25, kShifted = 0.2;
+// Of the distance between islands: how far from others rooms are looked for.
+constexpr double kSearched = 0.25;
 
 constexpr std::size_t kLeavesATask = 16;
-
-double greatest_reach(const ContactSurface& surface) {
-    return 2.0 * *std::max_element(surface.thicknesses.begin(), surface.thicknesses.end());
-}
-
-template <class Real>
-Real squared_distance(const AxisBox<Real>& a, const AxisBox<Real>& b) {
-    const Vec3<Real> apart = glm::max(glm::max(a.min - b.max, b.min - a.max), Vec3<Real>(0));
-    return glm::dot(apart, apart);
-}
-
-// The box with less of a margin; it may be inside out then, and is compared all the same.
-template <class Real>
-AxisBox<Real> trimmed(AxisBox<Real> box, Real margin) {
-    box.min += margin;
-    box.max -= margin;
-    return box;
-}
-
-// What the box passes over on its way.
-template <class Real>
-AxisBox<Real> swept(AxisBox<Real> box, const Vec3<Real>& motion) {
-    if (motion == Vec3<Real>(0)) return box;
-    box.min += glm::min(motion, Vec3<Real>(0));
-    box.max += glm::max(motion, Vec3<Real>(0));
-    return box;
-}
 
 }  // namespace
 
@@ -58,62 +30,29 @@ DetectContacts<Real>::DetectContacts(std::shared_ptr<const Model> model,
     : model_(std::move(model)),
       surface_(std::move(surface)),
       object_of_(objects_of_nodes(*model_)),
-      listed_(kListedReach * greatest_reach(*surface_)),
+      margin_(BoxMargin<Real>::for_distance(NearObjects<Real>::most_listed(*surface_))),
       collision_(std::make_unique<Collision<Real>>(model_, BroadPhase::hierarchy,
-                                                   CollisionDetection::continuous,
-                                                   BoxMargin<Real>::for_distance(listed_))),
-      margin_(BoxMargin<Real>::for_distance(listed_)),
+                                                   CollisionDetection::continuous, margin_)),
+      objects_(model_, surface_, *collision_),
+      ends_(model_->positions.begin(), model_->positions.end()),
       edge_boxes_(model_->surface_parts.edges.size()),
       distances_(model_->face_trees.nodes.size()),
-      found_((model_->face_trees.levels[0].size() + kLeavesATask - 1) / kLeavesATask),
-      object_tree_(static_cast<std::uint32_t>(model_->objects.size())),
-      near_(model_->objects.size()),
-      meeting_(model_->objects.size()),
-      by_distance_(model_->objects.size()),
-      listed_thicknesses_(surface_->thicknesses) {
-    drifts_.resize(model_->objects.size());
-    boxes_.resize(model_->objects.size());
-    is_held_.resize(model_->objects.size());
-    ends_.assign(model_->positions.begin(), model_->positions.end());
-    collision_->update_boxes(ends_, ends_);  // colliders' stay
-    for (const ModelObject& body : model_->bodies()) masses_.push_back(body.mass);
-    double thinnest = std::numeric_limits<double>::infinity();
-    for (std::size_t o = 0; o < model_->body_count(); ++o)
-        thinnest = std::min(thinnest, surface_->thicknesses[o]);
-    for (std::size_t c = 0; c < model_->surfaces.size(); ++c)
-        if (model_->surfaces[c].moves) listed_thicknesses_[model_->body_count() + c] = thinnest;
+      found_((model_->face_trees.levels[0].size() + kLeavesATask - 1) / kLeavesATask) {
+    collision_->update_boxes(ends_, ends_);  // those of colliders that rest stay
 }
 
 template <class Real>
-void DetectContacts<Real>::run(std::span<const Vec4<Real>> positions, const Expected& expected,
+void DetectContacts<Real>::run(std::span<const Vec4<Real>> positions, const Expected<Real>& expected,
                                ContactList<Real>& list) {
-    island_distance_ = 4.0 * (listed_ + 3.0 * expected.longest);
-    list.most_shift = static_cast<Real>(kShifted * island_distance_);
     positions_ = positions;
-    find_boxes();
-    find_near_objects();
-    find_islands(list);
-    find_drifts(expected, list);
+    objects_.run(positions, expected, list);
     find_ways(expected.ends, list);
     collision_->update_boxes(positions, ends_);
-    find_meeting_objects();
+    objects_.sort();
     find_rooms(list);
     find_pairs(list);
     assign_slots(list);
     list.is_valid = true;
-}
-
-template <class Real>
-void DetectContacts<Real>::find_boxes() {
-    tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
-        const Range& nodes = model_->objects[o].nodes;
-        boxes_[o] = {};
-        is_held_[o] = 0;
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
-            boxes_[o].add(Vec3<Real>(positions_[n]), margin_);
-            if (positions_[n].w == Real(0)) is_held_[o] = 1;
-        }
-    });
 }
 
 template <class Real>
@@ -125,174 +64,10 @@ void DetectContacts<Real>::find_ways(std::span<const Vec4<Real>> ends, ContactLi
         const std::uint32_t n = nodes[s];
         const Vec3<Real> position(positions_[n]);
         list.found_at[s] = position;
-        list.ways[s] = ends.empty() ? Vec3<Real>(0) : Vec3<Real>(ends[n]) - position - drifts_[object_of_[n]];
+        list.ways[s] =
+            ends.empty() ? Vec3<Real>(0) : Vec3<Real>(ends[n]) - position - objects_.drift(object_of_[n]);
         ends_[n] = Vec4<Real>(position + list.ways[s], positions_[n].w);
     });
-}
-
-template <class Real>
-void DetectContacts<Real>::find_near_objects() {
-    const auto count = static_cast<std::uint32_t>(model_->objects.size());
-    const auto bodies = static_cast<std::uint32_t>(model_->body_count());
-    const auto apart = static_cast<Real>(island_distance_);
-    object_tree_.update(boxes_);
-    tbb::parallel_for(std::uint32_t(0), bodies, [&](std::uint32_t o) {
-        AxisBox<Real> around = boxes_[o];
-        around.min -= apart;
-        around.max += apart;
-        near_[o].clear();
-        object_tree_.for_objects_near(around, [&](std::uint32_t other) {
-            if (other != o && (other < bodies || reaches(other, boxes_[o], apart))) near_[o].push_back(other);
-        });
-        std::sort(near_[o].begin(), near_[o].end());
-    });
-    for (std::uint32_t c = bodies; c < count; ++c) near_[c].clear();
-    for (std::uint32_t o = 0; o < bodies; ++o) {
-        for (const std::uint32_t other : near_[o])
-            if (other >= bodies) near_[other].push_back(o);
-    }
-}
-
-// Bodies can be far from all faces of a large collider, and within its box.
-// @param most distance beyond what is listed [m]
-template <class Real>
-bool DetectContacts<Real>::reaches(std::uint32_t collider, const AxisBox<Real>& box, Real most) const {
-    if (model_->surfaces[collider - model_->body_count()].moves) return true;
-    const BoxTree& trees = model_->face_trees;
-    const std::uint32_t end = trees.nodes[trees.roots[collider]].skip;
-    for (std::uint32_t n = trees.roots[collider]; n < end;) {
-        const bool is_near = squared_distance(box, collision_->tree_boxes()[n]) <= most * most;
-        if (is_near && trees.nodes[n].item_count > 0 && squared_gap(box, Vec3<Real>(0), n) <= most * most)
-            return true;
-        n = is_near ? n + 1 : trees.nodes[n].skip;
-    }
-    return false;
-}
-
-// No more than the square of the distance between what is in a body's box and the faces of a collider's leaf,
-// beyond what is listed. These can be large, and their boxes far larger.
-template <class Real>
-Real DetectContacts<Real>::squared_gap(const AxisBox<Real>& box, const Vec3<Real>& drift,
-                                       std::uint32_t leaf) const {
-    const TreeNode& faces = model_->face_trees.nodes[leaf];
-    const Vec3<Real> center = Real(0.5) * (box.min + box.max), half = Real(0.5) * (box.max - box.min);
-    const AxisBox<Real> passed = swept(box, drift);
-    Real least = std::numeric_limits<Real>::infinity();
-    for (std::uint32_t f = faces.first_item; f < faces.first_item + faces.item_count; ++f) {
-        Real squared = squared_distance(passed, collision_->face_boxes()[f]);
-        const Face& face = model_->faces[f];
-        if (model_->surfaces[face.object - model_->body_count()].moves) {
-            least = std::min(least, squared);
-            continue;
-        }
-        const Vec3<Real> a(positions_[face.a]);
-        const Vec3<Real> across =
-            glm::cross(Vec3<Real>(positions_[face.b]) - a, Vec3<Real>(positions_[face.c]) - a);
-        const Real length = glm::length(across);
-        if (length > Real(0)) {
-            // From the box, which has the margin, to the plane of the face, less the margin of the face.
-            const Vec3<Real> normal = across / length, margin = margin_.at(glm::abs(a) + glm::abs(center));
-            const Real start = glm::dot(normal, center - a), end = start + glm::dot(normal, drift);
-            const Real height = start > Real(0) ? std::min(start, end) : -std::max(start, end);
-            const Real gap = height - glm::dot(glm::abs(normal), half + margin);
-            if (gap > Real(0)) squared = std::max(squared, gap * gap);
-        }
-        least = std::min(least, squared);
-    }
-    return least;
-}
-
-template <class Real>
-void DetectContacts<Real>::find_meeting_objects() {
-    const std::vector<AxisBox<Real>>& boxes = collision_->bounding_boxes();
-    tbb::parallel_for(std::size_t(0), near_.size(), [&](std::size_t index) {
-        const auto o = static_cast<std::uint32_t>(index);
-        meeting_[o].clear();
-        by_distance_[o].clear();
-        for (const std::uint32_t other : near_[o]) {
-            const AxisBox<Real> own =
-                trimmed(swept(boxes[o], drift_towards(o, other)), spare_margin(o, other));
-            const Real squared = squared_distance(own, boxes[other]);
-            if (!(squared > Real(0))) meeting_[o].push_back(other);
-            by_distance_[o].emplace_back(squared, other);
-        }
-        std::sort(by_distance_[o].begin(), by_distance_[o].end());
-    });
-}
-
-// By union of bodies that are near each other; islands are numbered in the order of their first objects.
-template <class Real>
-void DetectContacts<Real>::find_islands(ContactList<Real>& list) {
-    const auto count = static_cast<std::uint32_t>(model_->objects.size());
-    std::vector<std::uint32_t> roots(count);
-    std::iota(roots.begin(), roots.end(), 0u);
-    const auto root = [&](std::uint32_t o) {
-        while (roots[o] != o) o = roots[o] = roots[roots[o]];
-        return o;
-    };
-    for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        for (const std::uint32_t other : near_[o]) {
-            if (!model_->is_body(other)) continue;
-            const std::uint32_t mine = root(o), theirs = root(other);
-            roots[std::max(mine, theirs)] = std::min(mine, theirs);
-        }
-    }
-    list.islands.resize(count);
-    list.is_alone.clear();
-    list.is_fixed.clear();
-    for (std::uint32_t o = 0; o < count; ++o) {
-        const std::uint32_t first = root(o);
-        list.islands[o] = first == o ? static_cast<std::uint32_t>(list.is_alone.size()) : list.islands[first];
-        if (first == o) {
-            list.is_alone.push_back(1);
-            list.is_fixed.push_back(0);
-        } else {
-            list.is_alone[list.islands[o]] = 0;
-        }
-        const bool is_near_collider = !near_[o].empty() && !model_->is_body(near_[o].back());
-        if (is_near_collider) list.is_alone[list.islands[o]] = 0;
-        if (is_near_collider || !model_->is_body(o)) list.is_fixed[list.islands[o]] = 1;
-    }
-    list.shifts.assign(list.is_alone.size(), Vec3<Real>(0));
-}
-
-// The mean motion by mass of an island's bodies; none where a node is held, or a collider is in the way.
-// Islands near colliders have it as their course.
-template <class Real>
-void DetectContacts<Real>::find_drifts(const Expected& expected, ContactList<Real>& list) {
-    const std::size_t islands = list.is_alone.size();
-    list.drifts.assign(islands, Vec3<Real>(0));
-    list.drifted.assign(islands, Real(0));
-    std::vector<double> masses(islands);
-    std::vector<glm::dvec3> sums(islands, glm::dvec3(0.0));
-    std::vector<std::uint8_t> is_held(islands);
-    for (std::size_t o = 0; o < expected.motions.size(); ++o) {
-        masses[list.islands[o]] += masses_[o];
-        sums[list.islands[o]] += masses_[o] * glm::dvec3(expected.motions[o]);
-        is_held[list.islands[o]] |= is_held_[o] | expected.is_blocked[o];
-    }
-    std::vector<Vec3<Real>> means(islands, Vec3<Real>(0));
-    for (std::size_t i = 0; i < islands; ++i) {
-        if (masses[i] > 0.0 && is_held[i] == 0) means[i] = Vec3<Real>(sums[i] / masses[i]);
-    }
-    keep_outside_planes(*model_, list, positions_, means);
-    for (std::size_t i = 0; i < islands; ++i)
-        if (list.is_fixed[i] != 0) list.drifts[i] = means[i];
-    for (std::size_t o = 0; o < drifts_.size(); ++o) drifts_[o] = means[list.islands[o]];
-}
-
-// Boxes have the margin of the thickest bodies: by how much that is too much for two objects.
-template <class Real>
-Real DetectContacts<Real>::spare_margin(std::uint32_t object, std::uint32_t other) const {
-    return static_cast<Real>(listed_ -
-                             kListedReach * (listed_thicknesses_[object] + listed_thicknesses_[other]));
-}
-
-// Of an object as another one sees it. Bodies of one island go together.
-template <class Real>
-Vec3<Real> DetectContacts<Real>::drift_towards(std::uint32_t object, std::uint32_t other) const {
-    return model_->is_body(object) && model_->is_body(other) ? Vec3<Real>(0)
-                                                             : drifts_[object] - drifts_[other];
 }
 
 template <class Real>
@@ -376,7 +151,7 @@ void DetectContacts<Real>::search(std::uint32_t leaf, Found& found) const {
     if (first == end) return;
     found.faces.clear();
     found.edges.clear();
-    for (const std::uint32_t other : meeting_[model_->faces[faces.first_item].object])
+    for (const std::uint32_t other : objects_.meeting(model_->faces[faces.first_item].object))
         find_near(leaf, other, found);
     if (found.faces.indices.empty()) return;
     for (std::uint32_t place = first.x; place < end.x; ++place) pair_node(place, found);
@@ -391,8 +166,8 @@ void DetectContacts<Real>::find_near(std::uint32_t leaf, std::uint32_t other, Fo
     const BoxTree& trees = model_->face_trees;
     const std::vector<glm::uvec2>& face_starts = model_->surface_parts.face_starts;
     const std::uint32_t object = model_->faces[trees.nodes[leaf].first_item].object;
-    const Vec3<Real> drift = drift_towards(object, other);
-    const Real spare = spare_margin(object, other);
+    const Vec3<Real> drift = objects_.drift_towards(object, other);
+    const Real spare = objects_.spare_margin(object, other);
     const AxisBox<Real> box = trimmed(swept(collision_->tree_boxes()[leaf], drift), spare);
     const bool is_after = other > object;
     for_leaves_near<Real>(trees, collision_->tree_boxes(), trees.roots[other], box, [&](std::uint32_t near) {
@@ -447,8 +222,7 @@ void DetectContacts<Real>::keep_near(std::vector<ContactPair>& waiting,
         MeasuredPairs<Real> measured;
         measure_pairs(block, positions_, measured);
         for (std::size_t k = 0; k < block.size(); ++k) {
-            const double listed =
-                kListedReach * (listed_thicknesses_[block[k].object] + listed_thicknesses_[block[k].other]);
+            const double listed = objects_.listed(block[k].object, block[k].other);
             // Against rounding a little more.
             const Real most = static_cast<Real>(listed) + measured.rounding[k];
             if (!(measured.gaps[k] > most) || !(least_gap(block[k], measured, k) > most))
@@ -475,7 +249,7 @@ Real DetectContacts<Real>::least_gap(const ContactPair& pair, const MeasuredPair
             low = std::min({low, height, end});
         }
     }
-    return low - top - std::max(glm::dot(normal, drift_towards(pair.object, pair.other)), Real(0));
+    return low - top - std::max(glm::dot(normal, objects_.drift_towards(pair.object, pair.other)), Real(0));
 }
 
 template <class Real>
@@ -496,13 +270,13 @@ void DetectContacts<Real>::assign_slots(ContactList<Real>& list) const {
 template <class Real>
 void DetectContacts<Real>::find_rooms(ContactList<Real>& list) {
     const BoxTree& trees = model_->face_trees;
-    const auto most = static_cast<Real>(kSearched * island_distance_);
+    const auto most = static_cast<Real>(kSearched * objects_.island_distance());
     list.rooms.assign(model_->surface_parts.nodes.size(), most);
     tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
         find_distances(static_cast<std::uint32_t>(o), most);
         if (!model_->is_body(o) && !model_->surfaces[o - model_->body_count()].moves) return;
         const auto besides =
-            static_cast<Real>(2.0 * (kListedReach * listed_thicknesses_[o] - surface_->thicknesses[o]));
+            static_cast<Real>(2.0 * (kListedReach * objects_.listed_thickness(o) - surface_->thicknesses[o]));
         const std::uint32_t root = trees.roots[o], end = trees.nodes[root].skip;
         for (std::uint32_t n = root; n < end; ++n) {
             const TreeNode& leaf = trees.nodes[n];
@@ -550,20 +324,21 @@ void DetectContacts<Real>::find_nearest(std::uint32_t object, const AxisBox<Real
                              Real squared) {
         if (!(squared < nearest.squared)) return;
         if (!model_->is_body(model_->faces[trees.nodes[leaf].first_item].object))
-            squared = std::max(squared, squared_gap(own, drift, leaf));
+            squared = std::max(squared, objects_.squared_gap(own, drift, leaf));
         if (squared < nearest.squared) nearest = {squared, leaf};
     };
     nearest.squared = most;
     if (nearest.leaf != kNoNode) {
         const std::uint32_t other = model_->faces[trees.nodes[nearest.leaf].first_item].object;
-        const Vec3<Real> drift = drift_towards(object, other);
-        const AxisBox<Real> own = trimmed(box, spare_margin(object, other));
+        const Vec3<Real> drift = objects_.drift_towards(object, other);
+        const AxisBox<Real> own = trimmed(box, objects_.spare_margin(object, other));
         look_at(nearest.leaf, own, drift, squared_distance(swept(own, drift), boxes[nearest.leaf]));
     }
-    for (const auto& [least, other] : by_distance_[object]) {
+    for (const auto& [least, other] : objects_.by_distance(object)) {
         if (!(least < nearest.squared)) return;
-        const Vec3<Real> drift = drift_towards(object, other);
-        const AxisBox<Real> own = trimmed(box, spare_margin(object, other)), passed = swept(own, drift);
+        const Vec3<Real> drift = objects_.drift_towards(object, other);
+        const AxisBox<Real> own = trimmed(box, objects_.spare_margin(object, other)),
+                            passed = swept(own, drift);
         const std::uint32_t end = trees.nodes[trees.roots[other]].skip;
         for (std::uint32_t n = trees.roots[other]; n < end && nearest.squared > enough;) {
             const Real squared = squared_distance(passed, boxes[n]);

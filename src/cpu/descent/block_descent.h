@@ -69,8 +69,10 @@ public:
              StageTimer* timer = nullptr, int parts = 1);
 
     /// At the end of the last step.
-    ContactForces contact_forces(std::span<const Vec4<Real>> positions) const {
-        return find_contact_forces<Real>(*model_, bodies_.get(), contacts_, positions);
+    ContactForces contact_forces(const std::vector<Vec4<Real>>& positions) const {
+        std::vector<Vec3<Real>> forces(positions.size());
+        objective_.find_forces(positions, nullptr, forces);
+        return find_contact_forces<Real>(*model_, bodies_.get(), contacts_, forces, positions);
     }
 
 private:

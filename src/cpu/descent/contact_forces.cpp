@@ -21,6 +21,8 @@ public:
         forces_.friction[node] += friction;
     }
 
+    glm::dvec3 at_node(std::uint32_t node) const { return forces_.normal[node] + forces_.friction[node]; }
+
     // On `object`, from the other one or a plane.
     void add(std::uint32_t object, std::uint32_t other, bool is_plane, const glm::dvec3& normal,
              const glm::dvec3& friction) {
@@ -82,15 +84,27 @@ std::uint32_t plane_of(const Model& model, const Vec3<Real>& position, const Vec
 }
 
 template <class Real>
-void add_planes(const Model& model, const ColliderContacts<Real>& planes,
+void add_planes(const Model& model, const ColliderContacts<Real>& planes, std::span<const Vec3<Real>> forces,
                 std::span<const Vec4<Real>> positions, Sums& sums) {
     for (std::uint32_t o = 0; o < model.body_count(); ++o) {
         if (planes.nodes.empty() || planes.objects[o] == 0) continue;
         const Range& nodes = model.objects[o].nodes;
+        // What sweeps have left over on other nodes would have reached the planes, too.
+        glm::dvec3 rest(0.0);
+        double sum = 0.0;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            const glm::dvec3 force = glm::dvec3(forces[n]) + sums.at_node(n);
+            if (planes.nodes[n].along == Real(0)) {
+                rest += force;
+            } else {
+                sum += glm::length(force);
+            }
+        }
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
             const ColliderContact<Real>& contact = planes.nodes[n];
-            if (contact.along == Real(0)) continue;
-            const glm::dvec3 force(contact.force), direction(contact.normal);
+            if (contact.along == Real(0) || !(sum > 0.0)) continue;
+            const glm::dvec3 own = glm::dvec3(forces[n]) + sums.at_node(n), direction(contact.normal);
+            const glm::dvec3 force = -own - glm::length(own) / sum * rest;
             const glm::dvec3 normal = glm::dot(force, direction) * direction;
             sums.add(o, plane_of(model, Vec3<Real>(positions[n]), contact.normal), true, normal,
                      force - normal);
@@ -103,19 +117,20 @@ void add_planes(const Model& model, const ColliderContacts<Real>& planes,
 
 template <class Real>
 ContactForces find_contact_forces(const Model& model, const Contacts<Real>* contacts,
-                                  const ColliderContacts<Real>& planes,
+                                  const ColliderContacts<Real>& planes, std::span<const Vec3<Real>> forces,
                                   std::span<const Vec4<Real>> positions) {
     Sums sums(model);
     if (contacts != nullptr) add_presses(*contacts, positions, sums);
-    add_planes(model, planes, positions, sums);
+    add_planes(model, planes, forces, positions, sums);
     return sums.take();
 }
 
 template ContactForces find_contact_forces<float>(const Model&, const Contacts<float>*,
                                                   const ColliderContacts<float>&,
-                                                  std::span<const Vec4<float>>);
+                                                  std::span<const Vec3<float>>, std::span<const Vec4<float>>);
 template ContactForces find_contact_forces<double>(const Model&, const Contacts<double>*,
                                                    const ColliderContacts<double>&,
+                                                   std::span<const Vec3<double>>,
                                                    std::span<const Vec4<double>>);
 
 }  // namespace gelatin::cpu
