@@ -19,14 +19,13 @@ constexpr double kShifted = 0.2;
 }  // namespace
 
 template <class Real>
-NearObjects<Real>::NearObjects(std::shared_ptr<const Model> model,
-                               std::shared_ptr<const ContactSurface> surface,
+NearObjects<Real>::NearObjects(std::shared_ptr<const Model> model, const ContactSurface& surface,
                                const Collision<Real>& collision)
     : model_(std::move(model)),
       collision_(collision),
-      listed_(most_listed(*surface)),
+      listed_(most_listed(surface)),
       margin_(BoxMargin<Real>::for_distance(listed_)),
-      listed_thicknesses_(surface->thicknesses),
+      listed_thicknesses_(surface.thicknesses),
       boxes_(model_->objects.size()),
       is_held_(model_->objects.size()),
       drifts_(model_->objects.size()),
@@ -37,7 +36,7 @@ NearObjects<Real>::NearObjects(std::shared_ptr<const Model> model,
     for (const ModelObject& body : model_->bodies()) masses_.push_back(body.mass);
     double thinnest = std::numeric_limits<double>::infinity();
     for (std::size_t o = 0; o < model_->body_count(); ++o)
-        thinnest = std::min(thinnest, surface->thicknesses[o]);
+        thinnest = std::min(thinnest, surface.thicknesses[o]);
     for (std::size_t c = 0; c < model_->surfaces.size(); ++c)
         if (model_->surfaces[c].moves) listed_thicknesses_[model_->body_count() + c] = thinnest;
 }

@@ -31,7 +31,7 @@ template <class Real>
 class NearObjects {
 public:
     /// @param collision has the boxes of faces, with a margin of half the listed distance; must outlive it
-    NearObjects(std::shared_ptr<const Model> model, std::shared_ptr<const ContactSurface> surface,
+    NearObjects(std::shared_ptr<const Model> model, const ContactSurface& surface,
                 const Collision<Real>& collision);
 
     /// The greatest distance up to which pairs of any two objects are listed [m].
