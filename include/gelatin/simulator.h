@@ -31,6 +31,7 @@ struct SimulatorOptions {
     bool time_parts = false;           ///< and with the parts of an implicit step; needs time_stages
 };
 
+/// Nodes and faces include those of colliders' surfaces.
 struct Counts {
     std::size_t objects = 0, nodes = 0, springs = 0, faces = 0, tets = 0;
 };
@@ -71,7 +72,7 @@ struct FrameStatistics {
     std::vector<ContactForce> contact_forces;        ///< by object, then others, then colliders
 };
 
-/// Node positions and velocities on the host.
+/// Node positions and velocities on the host. Nodes of colliders' surfaces come after those of bodies.
 struct HostFrame {
     int frame = 0;
     double time = 0.0;              ///< [s]

@@ -25,10 +25,9 @@ struct ContactPair {
 
 /// What a detection has found: all pairs that may come together while each node stays in its room. That is
 /// all that is nearer than a radius to the way that it is expected to go from where it was found. Rooms move
-/// with their islands. Bodies of an island are near each other. They have
-/// motions in common that bring none of them nearer to another. Each collider is an island, too. An island
-/// near one has a course: what its bodies have in common is a motion along it, for which pairs with colliders
-/// were looked for all the way.
+/// with their islands. Bodies of an island are near each other. They have motions in common that bring none
+/// of them nearer to another. Each collider is an island, too. An island near one has a course: what its
+/// bodies have in common is a motion along it, for which pairs with colliders were looked for all the way.
 template <class Real>
 struct ContactList {
     std::vector<ContactPair> pairs;         ///< nodes and faces, then edges; each once

@@ -155,29 +155,29 @@ void Contacts<Real>::end(std::span<const Vec4<Real>> positions) {
     }
 }
 
-// Bodies that press a collider.
+// Bodies that are held, or press a collider: these take no part in what their islands do.
 template <class Real>
-std::vector<std::uint8_t> Contacts<Real>::find_blocked(std::span<const Vec4<Real>> positions) const {
-    std::vector<std::uint8_t> is_blocked(model_->objects.size());
+std::vector<std::uint8_t> Contacts<Real>::find_staying(std::span<const Vec4<Real>> positions) const {
+    std::vector<std::uint8_t> stays(model_->objects.size());
+    for (std::size_t o = 0; o < stays.size(); ++o) stays[o] = guard_.is_held(o) ? 1 : 0;
     for (const Press<Real>& press : aims_.presses()) {
         const ContactPair& pair = list_.pairs[press.pair];
         if (model_->is_body(pair.object) && model_->is_body(pair.other)) continue;
-        if (aims_.gap(pair, press, positions) < press.reach)
-            is_blocked[pair.object] = is_blocked[pair.other] = 1;
+        if (aims_.gap(pair, press, positions) < press.reach) stays[pair.object] = stays[pair.other] = 1;
     }
-    return is_blocked;
+    return stays;
 }
 
 template <class Real>
 void Contacts<Real>::detect(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
                             StageTimer* timer) {
     const TimedStage part(timer, "advance_nodes.detect");
-    const std::vector<std::uint8_t> is_blocked = find_blocked(positions);
+    const std::vector<std::uint8_t> stays = find_staying(positions);
     std::swap(old_list_, list_);
     if (ends.empty()) {
         detection_.run(positions, {.longest = longest_}, list_);
     } else {
-        detection_.run(positions, {ends, guard_.mean_motions(positions, ends), is_blocked, longest_}, list_);
+        detection_.run(positions, {ends, guard_.mean_motions(positions, ends), stays, longest_}, list_);
     }
     aims_.carry_over(old_list_, list_);
 }

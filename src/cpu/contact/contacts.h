@@ -89,7 +89,7 @@ public:
 
 private:
     Vec4<Real> outside(const Vec4<Real>& position) const;
-    std::vector<std::uint8_t> find_blocked(std::span<const Vec4<Real>> positions) const;
+    std::vector<std::uint8_t> find_staying(std::span<const Vec4<Real>> positions) const;
     // @param ends where nodes are expected to go; empty: nowhere
     void detect(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends, StageTimer* timer);
     void aim(std::span<const Vec4<Real>> positions, StageTimer* timer);

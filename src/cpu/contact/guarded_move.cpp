@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cpu/collision/nearest_points.h"
+#include "cpu/contact/island_motions.h"
 #include "cpu/contact/planes.h"
 #include "model/for_each_index.h"
 
@@ -124,30 +125,12 @@ const std::vector<Vec3<Real>>& GuardedMove<Real>::mean_motions(std::span<const V
     return means_;
 }
 
-// By mass; none of those in which a node is held.
-template <class Real>
-std::vector<Vec3<Real>> GuardedMove<Real>::means_of_islands(const ContactList<Real>& list) const {
-    std::vector<glm::dvec3> sums(list.shifts.size(), glm::dvec3(0.0));
-    std::vector<double> masses(sums.size());
-    std::vector<std::uint8_t> is_held(sums.size());
-    for (std::size_t o = 0; o < model_->body_count(); ++o) {
-        const std::uint32_t i = list.islands[o];
-        sums[i] += masses_[o] * glm::dvec3(means_[o]);
-        masses[i] += masses_[o];
-        is_held[i] |= is_held_[o];
-    }
-    std::vector<Vec3<Real>> means(sums.size(), Vec3<Real>(0));
-    for (std::size_t i = 0; i < means.size(); ++i)
-        if (is_held[i] == 0 && masses[i] > 0.0) means[i] = Vec3<Real>(sums[i] / masses[i]);
-    return means;
-}
-
 template <class Real>
 void GuardedMove<Real>::find_common_motions(const ContactList<Real>& list,
                                             std::span<const Vec4<Real>> positions,
                                             std::span<const Vec4<Real>> ends) {
-    mean_motions(positions, ends);
-    const std::vector<Vec3<Real>> means = means_of_islands(list);
+    const std::vector<Vec3<Real>> means =
+        island_motions<Real>(*model_, list, mean_motions(positions, ends), is_held_);
     for (std::size_t i = 0; i < means.size(); ++i)
         if (list.is_fixed[i] == 0) common_[i] = means[i];
     keep_outside_planes(*model_, list, positions, common_);
@@ -157,8 +140,8 @@ void GuardedMove<Real>::find_common_motions(const ContactList<Real>& list,
 template <class Real>
 void GuardedMove<Real>::drift(ContactList<Real>& list, const ContactAims<Real>& aims,
                               std::span<const Vec4<Real>> ends, std::span<Vec4<Real>> positions) {
-    mean_motions(positions, ends);
-    const std::vector<Vec3<Real>> means = means_of_islands(list);
+    const std::vector<Vec3<Real>> means =
+        island_motions<Real>(*model_, list, mean_motions(positions, ends), is_held_);
     std::vector<Real> parts(means.size());  // of their drifts
     bool any = false;
     for (std::size_t i = 0; i < parts.size(); ++i) {

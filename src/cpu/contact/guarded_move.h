@@ -72,7 +72,6 @@ public:
     Real part(std::size_t mover) const { return parts_[mover]; }
 
 private:
-    std::vector<Vec3<Real>> means_of_islands(const ContactList<Real>& list) const;
     void find_common_motions(const ContactList<Real>& list, std::span<const Vec4<Real>> positions,
                              std::span<const Vec4<Real>> ends);
     bool limit_common_motions(const ContactList<Real>& list);

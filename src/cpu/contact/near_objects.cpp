@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "cpu/contact/island_motions.h"
 #include "cpu/contact/planes.h"
 #include "cpu/contact/swept_box.h"
 
@@ -27,13 +28,11 @@ NearObjects<Real>::NearObjects(std::shared_ptr<const Model> model, const Contact
       margin_(BoxMargin<Real>::for_distance(listed_)),
       listed_thicknesses_(surface.thicknesses),
       boxes_(model_->objects.size()),
-      is_held_(model_->objects.size()),
       drifts_(model_->objects.size()),
       object_tree_(static_cast<std::uint32_t>(model_->objects.size())),
       near_(model_->objects.size()),
       meeting_(model_->objects.size()),
       by_distance_(model_->objects.size()) {
-    for (const ModelObject& body : model_->bodies()) masses_.push_back(body.mass);
     double thinnest = std::numeric_limits<double>::infinity();
     for (std::size_t o = 0; o < model_->body_count(); ++o)
         thinnest = std::min(thinnest, surface.thicknesses[o]);
@@ -65,11 +64,8 @@ void NearObjects<Real>::find_boxes() {
     tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
         const Range& nodes = model_->objects[o].nodes;
         boxes_[o] = {};
-        is_held_[o] = 0;
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
             boxes_[o].add(Vec3<Real>(positions_[n]), margin_);
-            if (positions_[n].w == Real(0)) is_held_[o] = 1;
-        }
     });
 }
 
@@ -197,25 +193,13 @@ void NearObjects<Real>::find_islands(ContactList<Real>& list) {
     list.shifts.assign(list.is_alone.size(), Vec3<Real>(0));
 }
 
-// The mean motion by mass of an island's bodies; none where a node is held, or a collider is in the way.
-// Islands near colliders have it as their course.
+// Islands near colliders have what they do as their course.
 template <class Real>
 void NearObjects<Real>::find_drifts(const Expected<Real>& expected, ContactList<Real>& list) {
     const std::size_t islands = list.is_alone.size();
     list.drifts.assign(islands, Vec3<Real>(0));
     list.drifted.assign(islands, Real(0));
-    std::vector<double> masses(islands);
-    std::vector<glm::dvec3> sums(islands, glm::dvec3(0.0));
-    std::vector<std::uint8_t> is_held(islands);
-    for (std::size_t o = 0; o < expected.motions.size(); ++o) {
-        masses[list.islands[o]] += masses_[o];
-        sums[list.islands[o]] += masses_[o] * glm::dvec3(expected.motions[o]);
-        is_held[list.islands[o]] |= is_held_[o] | expected.is_blocked[o];
-    }
-    std::vector<Vec3<Real>> means(islands, Vec3<Real>(0));
-    for (std::size_t i = 0; i < islands; ++i) {
-        if (masses[i] > 0.0 && is_held[i] == 0) means[i] = Vec3<Real>(sums[i] / masses[i]);
-    }
+    std::vector<Vec3<Real>> means = island_motions<Real>(*model_, list, expected.motions, expected.stays);
     keep_outside_planes(*model_, list, positions_, means);
     for (std::size_t i = 0; i < islands; ++i)
         if (list.is_fixed[i] != 0) list.drifts[i] = means[i];

@@ -20,10 +20,10 @@ constexpr double kListedReach = 3.0;
 /// What is expected to happen after a detection.
 template <class Real>
 struct Expected {
-    std::span<const Vec4<Real>> ends = {};          ///< of nodes [m], or empty: they stay
-    std::span<const Vec3<Real>> motions = {};       ///< means of bodies [m], or empty: none
-    std::span<const std::uint8_t> is_blocked = {};  ///< by body: not 0 if a collider is in its way
-    double longest = 0.0;                           ///< motion of a node in a step [m]
+    std::span<const Vec4<Real>> ends = {};     ///< of nodes [m], or empty: they stay
+    std::span<const Vec3<Real>> motions = {};  ///< means of bodies [m], or empty: none
+    std::span<const std::uint8_t> stays = {};  ///< by body: not 0 if it is held, or presses a collider
+    double longest = 0.0;                      ///< motion of a node in a step [m]
 };
 
 /// Which objects are near each other, in which islands, and what islands do (docs/contact.md).
@@ -37,7 +37,7 @@ public:
     /// The greatest distance up to which pairs of any two objects are listed [m].
     static double most_listed(const ContactSurface& surface);
 
-    /// Writes the list's islands and their courses. @param positions must stay until sort()
+    /// Writes the list's islands and their courses. @param positions must stay until the next run
     void run(std::span<const Vec4<Real>> positions, const Expected<Real>& expected, ContactList<Real>& list);
     /// Sorts what is near an object, once the boxes of faces are those of this run.
     void sort();
@@ -82,12 +82,10 @@ private:
     double listed_;  // greatest of all [m]
     BoxMargin<Real> margin_;
     std::vector<double> listed_thicknesses_;
-    std::vector<double> masses_;             // of bodies [kg]
     std::span<const Vec4<Real>> positions_;  // of this run
     double island_distance_ = 0.0;
-    std::vector<AxisBox<Real>> boxes_;   // of objects where they are
-    std::vector<std::uint8_t> is_held_;  // by object: in part, or whole
-    std::vector<Vec3<Real>> drifts_;     // by object
+    std::vector<AxisBox<Real>> boxes_;  // of objects where they are
+    std::vector<Vec3<Real>> drifts_;    // by object
     ObjectTree<Real> object_tree_;
     // Of each object, those near it that are not both colliders, ascending; those of a body's island, and
     // colliders.

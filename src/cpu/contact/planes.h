@@ -46,9 +46,11 @@ Real part_outside_planes(std::span<const Collider> colliders, const Vec3<Real>& 
 template <class Real>
 void keep_outside_planes(const Model& model, const ContactList<Real>& list,
                          std::span<const Vec4<Real>> positions, std::vector<Vec3<Real>>& motions) {
+    if (model.colliders.empty()) return;
     std::vector<Real> parts(motions.size(), Real(1));
     for (std::size_t o = 0; o < model.body_count(); ++o) {
         const std::uint32_t i = list.islands[o];
+        if (motions[i] == Vec3<Real>(0)) continue;
         const Range& nodes = model.objects[o].nodes;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
             parts[i] = std::min(
