@@ -159,23 +159,6 @@ TEST(ColliderSurfaces, APressStopsWhereABodyLeavesItNoRoom) {
     EXPECT_GT(cpu::measure(*model, solver.nodes())[0].volume, 0.95 * 0.027);
 }
 
-// What others press from above does not go below a plane, however fast; up to what the coarse correction
-// does, which does not look at planes.
-TEST(ColliderSurfaces, APlaneHoldsWhatOthersPress) {
-    std::vector<Block> blocks;
-    for (int k = 0; k < 5; ++k)
-        blocks.push_back({.place = {0.02 * k, 0.05 + 0.32 * k, 0}, .velocity = {0, -10, 0}});
-    const auto model = make_blocks(blocks, {0, -9.81, 0}, {ColliderDescription{}});
-    for (const bool divides_steps : {false, true}) {
-        cpu::CpuSolver<float> solver = make_solver<float>(model, 0.4, 10, divides_steps);
-        for (int frame = 0; frame < 30; ++frame) {
-            solver.advance_nodes(kFrame);
-            for (const glm::vec4& p : solver.nodes().positions) ASSERT_GT(p.y, -2e-3f) << frame;
-            for (const glm::vec4& v : solver.nodes().velocities) ASSERT_LT(glm::length(glm::vec3(v)), 30.0f);
-        }
-    }
-}
-
 // Bodies that a large surface surrounds are of islands of their own, as long as they are far from its faces.
 TEST(ColliderSurfaces, AreNearWhereTheirFacesAre) {
     const auto model = make_blocks({{.place = {-2, 0, 0}}, {.place = {2, 0, 0}}, {.place = {4.6, 0, 0}}},
