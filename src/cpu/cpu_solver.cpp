@@ -83,19 +83,21 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
       contact_{collision.friction, collision.restitution} {
     current_ = {converted<Real>(model_->positions), converted<Real>(model_->velocities)};
     previous_ = current_;
+    const bool has_contact = collision.response == CollisionResponse::contact;
     if (solver == SolverKind::vbd) {
         std::unique_ptr<Contacts<Real>> contacts;
-        if (collision.response == CollisionResponse::contact && model_->objects.size() > 1)
-            contacts = std::make_unique<Contacts<Real>>(model_, collision.friction);
+        if (has_contact && (model_->objects.size() > 1 || collision.meet_themselves()))
+            contacts =
+                std::make_unique<Contacts<Real>>(model_, collision.friction, collision.meet_themselves());
         descent_.emplace(Descent{{model_, descent, BlockDescent<Real>::kNodesABatch, std::move(contacts)},
                                  ShapeMatcher<Real>(model_)});
     }
     if (scheme_.pass_count > 1) sums_ = stage_[0] = stage_[1] = current_;
-    if (collision.self_collision) {
+    if (collision.meet_themselves() && !has_contact) {
         self_ = std::make_unique<SelfStages>(SelfStages{{model_, collision_}, {model_, contact_}});
     }
     if (collision.proximity_radius)
-        proximities_.emplace(model_, collision_, *collision.proximity_radius, collision.self_collision);
+        proximities_.emplace(model_, collision_, *collision.proximity_radius, collision.meet_themselves());
     if (forces_ == ForceMethod::divide_and_merge) {
         spring_forces_.resize(model_->springs.size());
         node_forces_.resize(model_->node_count());

@@ -7,6 +7,8 @@
 
 #include "cpu/collision/colliders.h"
 #include "cpu/collision/collision.h"
+#include "cpu/collision/triangle_overlap.h"
+#include "cpu/collision/walk_tree.h"
 #include "gelatin/error.h"
 #include "model/collision/pack_colliders.h"
 
@@ -36,6 +38,32 @@ double thickness_along(const glm::dvec3& direction, std::span<const glm::vec4> n
         most = std::max(most, along);
     }
     return most - least;
+}
+
+bool share_corner(const Face& f, const Face& g) {
+    const auto is_corner = [&](std::uint32_t n) { return n == g.a || n == g.b || n == g.c; };
+    return is_corner(f.a) || is_corner(f.b) || is_corner(f.c);
+}
+
+// Faces without a corner in common.
+bool passes_through_itself(const Model& model, std::uint32_t object, const cpu::Collision<double>& boxes,
+                           std::span<const glm::dvec4> positions) {
+    const auto triangle = [&](const Face& f) {
+        return cpu::Triangle<double>{glm::dvec3(positions[f.a]), glm::dvec3(positions[f.b]),
+                                     glm::dvec3(positions[f.c])};
+    };
+    const Range& faces = model.objects[object].faces;
+    bool any = false;
+    for (std::uint32_t f = faces.first; f < faces.end() && !any; ++f) {
+        const Face& face = model.faces[f];
+        cpu::for_items_near<double>(
+            model.face_trees, boxes.tree_boxes(), model.face_trees.roots[object], boxes.face_boxes()[f],
+            [&](std::uint32_t g) {
+                any = any || (g > f && !share_corner(face, model.faces[g]) &&
+                              cpu::triangles_overlap(triangle(face), triangle(model.faces[g])));
+            });
+    }
+    return any;
 }
 
 const char* name_of(const Collider& collider) {
@@ -81,6 +109,9 @@ std::vector<std::string> check_starts(const Model& model, const Scene& scene,
 void require_apart(const std::shared_ptr<const Model>& model, const Scene& scene,
                    std::span<const glm::vec4> positions) {
     const std::vector<glm::dvec4> exact(positions.begin(), positions.end());
+    const auto fail = [&](const std::string& text) {
+        throw InvalidInput({scene.file.string(), 0, "collision.response", "\"contact\"", text});
+    };
     cpu::Collision<double> collision(model);
     collision.update_boxes(exact);
     collision.find_object_pairs();
@@ -88,9 +119,16 @@ void require_apart(const std::shared_ptr<const Model>& model, const Scene& scene
     for (const cpu::ObjectPair& pair : collision.pairs()) {
         if (!model->is_body(pair.object) && !model->is_body(pair.other)) continue;
         if (!collision.collide(pair)) continue;
-        throw InvalidInput({scene.file.string(), 0, "collision.response", "\"contact\"",
-                            fmt::format("needs objects that are apart at the start; '{}' and '{}' overlap",
-                                        model->objects[pair.object].name, model->objects[pair.other].name)});
+        fail(fmt::format("needs objects that are apart at the start; '{}' and '{}' overlap",
+                         model->objects[pair.object].name, model->objects[pair.other].name));
+    }
+    if (!scene.collision.meet_themselves()) return;
+    for (std::uint32_t o = 0; o < model->body_count(); ++o) {
+        if (!passes_through_itself(*model, o, collision, exact)) continue;
+        fail(
+            fmt::format("needs objects that do not pass through themselves at the start; '{}' does; "
+                        "self_collision = false leaves that alone",
+                        model->objects[o].name));
     }
 }
 

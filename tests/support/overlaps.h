@@ -8,9 +8,17 @@
 
 namespace gelatin::test {
 
-/// Pairs of faces of different bodies, and of bodies and colliders, that share a point, in exact arithmetic
-/// (tests/exact) and independent of what the solvers use to find them.
-std::size_t count_overlaps(const Model& model, std::span<const cpu::Vec4<double>> positions);
-std::size_t count_overlaps(const Model& model, std::span<const cpu::Vec4<float>> positions);
+/// Which faces count that share a point.
+enum class Overlaps {
+    all,      ///< of one body, too, if they have no corner in common, or an edge of one without it passes
+              ///< through the other
+    between,  ///< of different bodies, or of a body and a collider
+};
+
+/// Pairs of faces, in exact arithmetic (tests/exact) and independent of what the solvers use to find them.
+std::size_t count_overlaps(const Model& model, std::span<const cpu::Vec4<double>> positions,
+                           Overlaps which = Overlaps::all);
+std::size_t count_overlaps(const Model& model, std::span<const cpu::Vec4<float>> positions,
+                           Overlaps which = Overlaps::all);
 
 }  // namespace gelatin::test

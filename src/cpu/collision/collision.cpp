@@ -64,20 +64,10 @@ void Collision<Real>::update_boxes(std::span<const Vec4<Real>> positions,
     tbb::parallel_for(std::uint32_t(0), objects, [&](std::uint32_t o) { update_tree(o); });
 }
 
-// From the last node to the first, because children come after their parents.
 template <class Real>
 void Collision<Real>::update_tree(std::uint32_t object) {
-    const BoxTree& tree = model_->face_trees;
-    const std::uint32_t root = tree.roots[object];
-    for (std::uint32_t n = tree.nodes[root].skip; n-- > root;) {
-        const TreeNode& node = tree.nodes[n];
-        AxisBox<Real> box;
-        for (std::uint32_t f = node.first_item; f < node.first_item + node.item_count; ++f)
-            box.add(face_boxes_[f]);
-        for (std::uint32_t child = n + 1; child < node.skip; child = tree.nodes[child].skip)
-            box.add(tree_boxes_[child]);
-        tree_boxes_[n] = box;
-    }
+    const std::uint32_t root = model_->face_trees.roots[object];
+    update_tree_boxes<Real>(model_->face_trees, root, face_boxes_, tree_boxes_);
     bounding_boxes_[object] = tree_boxes_[root];
 }
 

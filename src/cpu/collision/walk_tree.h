@@ -2,11 +2,27 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "cpu/collision/axis_box.h"
 #include "model/model.h"
 
 namespace gelatin::cpu {
+
+/// Writes the boxes of a tree's nodes from those of its items.
+template <class Real>
+void update_tree_boxes(const BoxTree& trees, std::uint32_t root, std::span<const AxisBox<Real>> items,
+                       std::vector<AxisBox<Real>>& boxes) {
+    // From the last node to the first, because children come after their parents.
+    for (std::uint32_t n = trees.nodes[root].skip; n-- > root;) {
+        const TreeNode& node = trees.nodes[n];
+        AxisBox<Real> box;
+        for (std::uint32_t k = node.first_item; k < node.first_item + node.item_count; ++k) box.add(items[k]);
+        for (std::uint32_t child = n + 1; child < node.skip; child = trees.nodes[child].skip)
+            box.add(boxes[child]);
+        boxes[n] = box;
+    }
+}
 
 /// found(leaf) for each leaf whose box meets `box`, in the order of the items, in the tree with the root
 /// `root`. `boxes` are those of all nodes of `trees`. GLSL twins: shaders/sim/collision/walk_trees.comp,

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 #include "cpu/contact/feasible_region.h"
@@ -105,7 +104,7 @@ void ContactAims<Real>::aim_block(const ContactList<Real>& list, const Range& pa
         aims_[p] = {normal, gap, division.yielding};
         divide_gap(pair, measured, k, normal, pair_reach, division.share);
         const Real stiffness = division.stiffness * region.weight(pair, apart, weights);
-        if (!(stiffness > Real(0))) continue;
+        if (!(stiffness > Real(0)) || !(pair_reach > Real(0))) continue;
         const auto friction = static_cast<Real>(surface_->friction(pair.object, pair.other));
         Press<Real> press{p,        normal,         gap,       weights,      pair_reach, stiffness,
                           friction, division.share, grips_[p], Vec3<Real>(0)};
@@ -207,19 +206,15 @@ Real ContactAims<Real>::gap(const ContactPair& pair, const Press<Real>& press,
     return gap;
 }
 
-// Pairs are in the order of the surface nodes, then of the edges, and of what these are near, in both lists.
 template <class Real>
-void ContactAims<Real>::carry_over(const ContactList<Real>& old, const ContactList<Real>& list) {
+void ContactAims<Real>::carry_over(const std::vector<ContactPair>& old, const ContactList<Real>& list) {
     std::vector<Grip<Real>> grips(list.pairs.size());
-    const auto rank = [&](const ContactPair& pair) {
-        const std::uint32_t first = pair.is_edges() ? pair.first : surface_->places[pair.first];
-        return std::tuple(pair.is_edges(), first, pair.second);
-    };
+    const auto rank = [&](const ContactPair& pair) { return pair.rank(surface_->places); };
     std::size_t before = 0;
     for (std::size_t p = 0; p < list.pairs.size() && before < grips_.size(); ++p) {
         const auto wanted = rank(list.pairs[p]);
-        while (before < grips_.size() && rank(old.pairs[before]) < wanted) ++before;
-        if (before < grips_.size() && rank(old.pairs[before]) == wanted) grips[p] = grips_[before];
+        while (before < grips_.size() && rank(old[before]) < wanted) ++before;
+        if (before < grips_.size() && rank(old[before]) == wanted) grips[p] = grips_[before];
     }
     grips_ = std::move(grips);
 }

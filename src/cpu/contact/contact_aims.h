@@ -41,8 +41,8 @@ public:
     /// Aims all pairs at `positions`. @pre they keep to the list
     void run(const ContactList<Real>& list, std::span<const Vec4<Real>> positions);
 
-    /// Carries what friction holds on to a new list. @param old the list of the last run
-    void carry_over(const ContactList<Real>& old, const ContactList<Real>& list);
+    /// Carries what friction holds on to a new list. @param old the pairs of the last run
+    void carry_over(const std::vector<ContactPair>& old, const ContactList<Real>& list);
     /// What friction holds when a step ends.
     void end(const ContactList<Real>& list, std::span<const Vec4<Real>> positions);
 
@@ -50,9 +50,7 @@ public:
     const std::vector<Press<Real>>& presses() const { return presses_; }  ///< in the order of their pairs
     Real thickness(std::size_t object) const { return static_cast<Real>(surface_->thicknesses[object]); }
     /// Gap at which a pair begins to press [m].
-    Real reach(const ContactPair& pair) const {
-        return static_cast<Real>(surface_->reach(pair.object, pair.other));
-    }
+    Real reach(const ContactPair& pair) const { return static_cast<Real>(pair.reach); }
     const NodeContacts<Real>& nodes() const { return nodes_; }
 
     /// The friction on the first side of a pair when the last step ended [N].

@@ -5,22 +5,32 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <tuple>
 #include <vector>
 
+#include "cpu/contact/own_rooms.h"
+#include "cpu/contact/part_within.h"
 #include "cpu/nodes.h"
 
 namespace gelatin::cpu {
 
-/// A node and a face, or two edges, of different bodies: the first side's nodes, then the second's.
+/// A node and a face, or two edges, without a node in common: the first side's nodes, then the second's.
 struct ContactPair {
     std::array<std::uint32_t, 4> nodes;
     std::array<std::uint32_t, 4> slots;  ///< where each node has what it knows of the pair (ContactAims)
     std::uint32_t first, second;         ///< node and face, or edges
     std::uint32_t object, other;         ///< of the sides
     std::uint32_t first_count;           ///< nodes of the first side: 1, or 2 for edges
+    float reach;                         ///< gap at which it begins to press [m]
 
     bool is_edges() const { return first_count == 2; }
+    bool is_own() const { return object == other; }  ///< of one body
     std::size_t side_of(std::size_t k) const { return k < first_count ? 0 : 1; }
+    /// Lists are in this order: of the surface nodes, then of the edges, and of what these are near.
+    /// @param places of nodes among those of the surface
+    std::tuple<bool, std::uint32_t, std::uint32_t> rank(const std::vector<std::uint32_t>& places) const {
+        return {is_edges(), is_edges() ? first : places[first], second};
+    }
 };
 
 /// What a detection has found: all pairs that may come together while each node stays in its room. That is
@@ -30,8 +40,10 @@ struct ContactPair {
 /// bodies have in common is a motion along it, for which pairs with colliders were looked for all the way.
 template <class Real>
 struct ContactList {
-    std::vector<ContactPair> pairs;         ///< nodes and faces, then edges; each once
-    std::size_t first_edges = 0;            ///< the first pair of edges
+    std::vector<ContactPair> pairs;                    ///< nodes and faces, then edges; each once
+    std::size_t first_edges = 0;                       ///< the first pair of edges
+    std::vector<std::uint32_t> own_pairs, own_starts;  ///< those of one body, body by body, [objects + 1]
+    OwnRooms<Real> own;                                ///< of nodes in their own bodies
     std::vector<std::uint32_t> row_starts;  ///< of the slots of each surface node, shape [surface nodes + 1]
     std::vector<Vec3<Real>> found_at;       ///< [m], shape [surface nodes]
     std::vector<Vec3<Real>> ways;           ///< relative to the island's motion [m], the same shape
@@ -67,18 +79,6 @@ struct ContactList {
     /// The part of a motion from there that stays in its room.
     Real part_within_room(std::uint32_t place, const Vec3<Real>& moved, const Vec3<Real>& motion) const;
 };
-
-/// The part of a motion from u, inside a ball round the origin, that stays in it.
-template <class Real>
-Real part_within(const Vec3<Real>& u, const Vec3<Real>& motion, Real radius) {
-    const Vec3<Real> end = u + motion;
-    if (glm::dot(end, end) <= radius * radius) return Real(1);
-    const Real a = glm::dot(motion, motion), b = glm::dot(u, motion), c = glm::dot(u, u) - radius * radius;
-    if (!(c < Real(0)) || !(a > Real(0))) return Real(0);
-    const Real root = std::sqrt(b * b - a * c);
-    const Real part = b > Real(0) ? -c / (b + root) : (root - b) / a;
-    return std::clamp(Real(0.999f) * part, Real(0), Real(1));
-}
 
 // A room is convex: what leaves it does so once.
 template <class Real>

@@ -14,16 +14,19 @@ namespace {
 // speed to their rooms; shorter steps need fewer.
 constexpr double kMostMoves = 6.0, kMovesASecond = 360.0;
 // Of a room: nodes that have come farther are detected again.
-constexpr double kUsedRoom = 0.9;
+constexpr double kUsedRoom = 0.9, kUsedOwnRoom = 0.8;
 // If none has come so far, another detection would give them hardly more.
 constexpr double kFreshRoom = 0.3;
+// Of a body's surface nodes: if more would leave their rooms, the body is looked at.
+constexpr double kMostRestless = 0.1;
 
 }  // namespace
 
 template <class Real>
-Contacts<Real>::Contacts(std::shared_ptr<const Model> model, double friction)
+Contacts<Real>::Contacts(std::shared_ptr<const Model> model, double friction, bool meet_themselves)
     : model_(std::move(model)),
       surface_(std::make_shared<const ContactSurface>(make_contact_surface(*model_, friction))),
+      meet_themselves_(meet_themselves),
       object_of_(objects_of_nodes(*model_)),
       detection_(model_, surface_),
       aims_(model_, surface_),
@@ -36,6 +39,12 @@ template <class Real>
 void Contacts<Real>::restart(std::span<const Vec4<Real>> positions) {
     safe_.assign(positions.begin(), positions.end());
     list_.clear();
+    if (meet_themselves_) {
+        std::vector<std::uint8_t> meet_themselves(model_->objects.size());
+        std::fill_n(meet_themselves.begin(), model_->body_count(), std::uint8_t(1));
+        list_.own.restart(model_, std::move(meet_themselves));
+    }
+    detection_.restart();
     aims_.forget();
     std::fill(is_pressed_.begin(), is_pressed_.end(), std::uint8_t(0));
 }
@@ -64,6 +73,7 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
     }
     longest_ = std::sqrt(static_cast<double>(longest));
     if (!list_.is_valid || used_room(positions) > Real(kUsedRoom)) renew(positions, timer);
+    keep_guess_in_own_rooms(positions, timer);
     bool is_fresh = used_room(positions) < Real(kFreshRoom);
     const int most_moves =
         static_cast<int>(std::clamp(kMovesASecond * static_cast<double>(step), 1.0, kMostMoves));
@@ -93,6 +103,12 @@ bool Contacts<Real>::plan_rest(std::span<const Vec4<Real>> positions, std::span<
     for (std::size_t o = 0; o < model_->objects.size(); ++o) any |= guard_.part(o) < Real(1);
     if (!any) return false;
     guard_.plan(list_, aims_, positions, guess_, Closeness::guess, Movers::nodes);
+    if (guard_.lacks_own_room()) {
+        detect_own(
+            positions, true, [&](std::uint32_t o) { return guard_.lacks_own_room(o); }, timer);
+        aim(positions, timer);
+        guard_.plan(list_, aims_, positions, guess_, Closeness::guess, Movers::nodes);
+    }
     for_each_index(positions.size(), [&](std::size_t n) {
         displacements[n] = guard_.part(n) * (Vec3<Real>(guess_[n]) - Vec3<Real>(positions[n]));
     });
@@ -101,7 +117,7 @@ bool Contacts<Real>::plan_rest(std::span<const Vec4<Real>> positions, std::span<
 
 template <class Real>
 void Contacts<Real>::go_on(std::span<const Real> parts, std::span<Vec4<Real>> positions) {
-    guard_.shorten(list_, parts);
+    guard_.shorten(list_, aims_, positions, guess_, parts);
     guard_.go(list_, guess_, false, positions);
 }
 
@@ -140,7 +156,77 @@ void Contacts<Real>::move(std::span<Vec4<Real>> ends, std::span<Vec4<Real>> posi
 template <class Real>
 void Contacts<Real>::renew(std::span<const Vec4<Real>> positions, StageTimer* timer) {
     if (!list_.is_valid || used_room(positions) > Real(kUsedRoom)) detect(positions, {}, timer);
+    if (meet_themselves_)
+        detect_own(
+            positions, false, [&](std::uint32_t o) { return uses_own_room(o, positions); }, timer);
     aim(positions, timer);
+}
+
+// Where a body's deformation has come too far for what is known of it, the body is looked at anew. Single
+// nodes that would leave their rooms go to the edge.
+template <class Real>
+void Contacts<Real>::keep_guess_in_own_rooms(std::span<const Vec4<Real>> positions, StageTimer* timer) {
+    if (!meet_themselves_) return;
+    const OwnRooms<Real>& own = list_.own;
+    std::vector<ShapeMap<Real>> maps(model_->body_count());
+    const auto find_map = [&](std::uint32_t o) {
+        maps[o] = own.carried(o, guess_);
+        if (own.count_outside(o, maps[o], kUsedOwnRoom, guess_) > 0) maps[o] = own.bent(o, maps[o], guess_);
+        return own.count_outside(o, maps[o], kUsedOwnRoom, guess_);
+    };
+    const auto has_to = [&](std::uint32_t o) {
+        return static_cast<double>(find_map(o)) > kMostRestless * own.places(o).count;
+    };
+    const std::vector<std::uint32_t> anew = detect_own(positions, true, has_to, timer);
+    if (!anew.empty()) aim(positions, timer);
+    for (const std::uint32_t o : anew) find_map(o);
+    for_each_index(0, maps.size(), 1, [&](std::size_t index) {
+        const auto o = static_cast<std::uint32_t>(index);
+        const Range& places = own.places(o);
+        for (std::uint32_t s = places.first; s < places.end(); ++s) {
+            Vec4<Real>& end = guess_[model_->surface_parts.nodes[s]];
+            if (end.w == Real(0)) continue;
+            const Vec3<Real> mapped = own.mapped(o, maps[o], s), deviation = Vec3<Real>(end) - mapped;
+            const Real length = glm::length(deviation), most = Real(kUsedOwnRoom) * own.radius(s);
+            if (length > most) end = Vec4<Real>(mapped + most / length * deviation, end.w);
+        }
+    });
+}
+
+// Another map may explain where a body is.
+template <class Real>
+bool Contacts<Real>::uses_own_room(std::uint32_t object, std::span<const Vec4<Real>> positions) {
+    OwnRooms<Real>& own = list_.own;
+    const Real used = own.used(object, positions);
+    if (!(used > Real(kFreshRoom))) return false;
+    const ShapeMap<Real> before = own.map(object);
+    own.follow(object, own.bent(object, own.carried(object, positions), positions));
+    const Real left = own.used(object, positions);
+    if (left < used) return left > Real(kUsedOwnRoom);
+    own.follow(object, before);
+    return used > Real(kUsedOwnRoom);
+}
+
+// Looks at bodies that meet themselves. @param anew whether at all of them; else at nodes that have come far
+// @param has_to whether one has to be looked at
+template <class Real>
+template <class HasTo>
+std::vector<std::uint32_t> Contacts<Real>::detect_own(std::span<const Vec4<Real>> positions, bool anew,
+                                                      const HasTo& has_to, StageTimer* timer) {
+    std::vector<std::uint8_t> looks_at(model_->body_count());
+    for_each_index(0, looks_at.size(), 1, [&](std::size_t o) {
+        const auto object = static_cast<std::uint32_t>(o);
+        looks_at[o] = !list_.own.is_found(o) || has_to(object) ? 1 : 0;
+    });
+    std::vector<std::uint32_t> objects;
+    for (std::uint32_t o = 0; o < looks_at.size(); ++o)
+        if (looks_at[o] != 0) objects.push_back(o);
+    if (objects.empty()) return objects;
+    const TimedStage part(timer, "advance_nodes.detect_own");
+    old_pairs_.swap(list_.pairs);
+    detection_.run_own(objects, anew, positions, list_);
+    aims_.carry_over(old_pairs_, list_);
+    return objects;
 }
 
 template <class Real>
@@ -150,7 +236,7 @@ void Contacts<Real>::end(std::span<const Vec4<Real>> positions) {
     std::fill(is_pressed_.begin(), is_pressed_.end(), std::uint8_t(0));
     for (const Press<Real>& press : aims_.presses()) {
         const ContactPair& pair = list_.pairs[press.pair];
-        if (aims_.gap(pair, press, positions) < press.reach)
+        if (!pair.is_own() && aims_.gap(pair, press, positions) < press.reach)
             is_pressed_[pair.object] = is_pressed_[pair.other] = 1;
     }
 }
@@ -173,13 +259,13 @@ void Contacts<Real>::detect(std::span<const Vec4<Real>> positions, std::span<con
                             StageTimer* timer) {
     const TimedStage part(timer, "advance_nodes.detect");
     const std::vector<std::uint8_t> stays = find_staying(positions);
-    std::swap(old_list_, list_);
+    old_pairs_.swap(list_.pairs);
     if (ends.empty()) {
         detection_.run(positions, {.longest = longest_}, list_);
     } else {
         detection_.run(positions, {ends, guard_.mean_motions(positions, ends), stays, longest_}, list_);
     }
-    aims_.carry_over(old_list_, list_);
+    aims_.carry_over(old_pairs_, list_);
 }
 
 template <class Real>

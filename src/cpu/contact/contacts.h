@@ -19,13 +19,13 @@ struct Work {
     double here = 0.0, ahead = 0.0;
 };
 
-/// The contacts between bodies in the steps of vertex block descent (docs/contact.md): which pairs are near,
+/// The contacts of bodies in the steps of vertex block descent (docs/contact.md): which pairs are near,
 /// aimed at where the nodes are, and the guard of every move.
 template <class Real>
 class Contacts {
 public:
-    /// @param friction Coulomb's coefficient
-    Contacts(std::shared_ptr<const Model> model, double friction);
+    /// @param friction Coulomb's coefficient @param meet_themselves whether bodies do
+    Contacts(std::shared_ptr<const Model> model, double friction, bool meet_themselves);
 
     /// Forgets what was, because nodes were set from outside. @pre no faces of two bodies overlap there
     void restart(std::span<const Vec4<Real>> positions);
@@ -90,16 +90,23 @@ public:
 private:
     Vec4<Real> outside(const Vec4<Real>& position) const;
     std::vector<std::uint8_t> find_staying(std::span<const Vec4<Real>> positions) const;
+    void keep_guess_in_own_rooms(std::span<const Vec4<Real>> positions, StageTimer* timer);
     // @param ends where nodes are expected to go; empty: nowhere
     void detect(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends, StageTimer* timer);
+    bool uses_own_room(std::uint32_t object, std::span<const Vec4<Real>> positions);
+    template <class HasTo>
+    std::vector<std::uint32_t> detect_own(std::span<const Vec4<Real>> positions, bool anew,
+                                          const HasTo& has_to, StageTimer* timer);
     void aim(std::span<const Vec4<Real>> positions, StageTimer* timer);
     Real used_room(std::span<const Vec4<Real>> positions) const;
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
+    bool meet_themselves_;
     std::vector<std::uint32_t> object_of_;  // by node
     DetectContacts<Real> detection_;
-    ContactList<Real> list_, old_list_;
+    ContactList<Real> list_;
+    std::vector<ContactPair> old_pairs_;
     ContactAims<Real> aims_;
     GuardedMove<Real> guard_;
     double longest_ = 0.0;  // motion of a node in this step's guess [m]

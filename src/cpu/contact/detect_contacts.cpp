@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -20,6 +21,10 @@ constexpr double kRoom = 0.45;
 // Of the distance between islands: how far from others rooms are looked for.
 constexpr double kSearched = 0.25;
 
+// Nodes that have used more than this of their rooms in their body are looked at again, all together if so
+// many have.
+constexpr double kRestless = 0.4, kMostRestless = 0.15;
+
 constexpr std::size_t kLeavesATask = 16;
 
 }  // namespace
@@ -34,6 +39,7 @@ DetectContacts<Real>::DetectContacts(std::shared_ptr<const Model> model,
       collision_(std::make_unique<Collision<Real>>(model_, BroadPhase::hierarchy,
                                                    CollisionDetection::continuous, margin_)),
       objects_(model_, *surface_, *collision_),
+      own_(model_, surface_),
       ends_(model_->positions.begin(), model_->positions.end()),
       edge_boxes_(model_->surface_parts.edges.size()),
       distances_(model_->face_trees.nodes.size()),
@@ -50,8 +56,8 @@ void DetectContacts<Real>::run(std::span<const Vec4<Real>> positions, const Expe
     collision_->update_boxes(positions, ends_);
     objects_.sort();
     find_rooms(list);
-    find_pairs(list);
-    assign_slots(list);
+    find_pairs();
+    put_together(list);
     list.is_valid = true;
 }
 
@@ -70,43 +76,10 @@ void DetectContacts<Real>::find_ways(std::span<const Vec4<Real>> ends, ContactLi
     });
 }
 
-template <class Real>
-void DetectContacts<Real>::Near::clear() {
-    indices.clear();
-    for (int axis = 0; axis < 3; ++axis) {
-        lows[static_cast<std::size_t>(axis)].clear();
-        highs[static_cast<std::size_t>(axis)].clear();
-    }
-}
-
-template <class Real>
-void DetectContacts<Real>::Near::add(std::uint32_t index, const AxisBox<Real>& box) {
-    indices.push_back(index);
-    for (int axis = 0; axis < 3; ++axis) {
-        lows[static_cast<std::size_t>(axis)].push_back(box.min[axis]);
-        highs[static_cast<std::size_t>(axis)].push_back(box.max[axis]);
-    }
-}
-
-// Without branches and in columns, which compilers turn into SIMD.
-template <class Real>
-void DetectContacts<Real>::Near::compare(const AxisBox<Real>& box) {
-    const std::size_t count = indices.size();
-    meet.resize(count);
-    const Real *low_x = lows[0].data(), *low_y = lows[1].data(), *low_z = lows[2].data();
-    const Real *high_x = highs[0].data(), *high_y = highs[1].data(), *high_z = highs[2].data();
-    std::uint8_t* const marks = meet.data();
-    for (std::size_t k = 0; k < count; ++k) {
-        marks[k] = static_cast<std::uint8_t>((low_x[k] <= box.max.x) & (box.min.x <= high_x[k]) &
-                                             (low_y[k] <= box.max.y) & (box.min.y <= high_y[k]) &
-                                             (low_z[k] <= box.max.z) & (box.min.z <= high_z[k]));
-    }
-}
-
 // The nodes and edges of each leaf of the trees that is near another body search together, in ascending
 // order. An edge looks for those after it alone.
 template <class Real>
-void DetectContacts<Real>::find_pairs(ContactList<Real>& list) {
+void DetectContacts<Real>::find_pairs() {
     const std::vector<std::uint32_t>& leaves = model_->face_trees.levels[0];  // in the order of their faces
     for_each_index(0, leaves.size(), 64, [&](std::size_t k) { find_edge_boxes(leaves[k]); });
     tbb::parallel_for(std::size_t(0), found_.size(), [&](std::size_t task) {
@@ -116,12 +89,78 @@ void DetectContacts<Real>::find_pairs(ContactList<Real>& list) {
         const std::size_t end = std::min((task + 1) * kLeavesATask, leaves.size());
         for (std::size_t k = task * kLeavesATask; k < end; ++k) search(leaves[k], found);
     });
+    node_pairs_.clear();
+    edge_pairs_.clear();
+    for (const Found& found : found_) {
+        node_pairs_.insert(node_pairs_.end(), found.of_nodes.begin(), found.of_nodes.end());
+        edge_pairs_.insert(edge_pairs_.end(), found.of_edges.begin(), found.of_edges.end());
+    }
+}
+
+template <class Real>
+void DetectContacts<Real>::run_own(std::span<const std::uint32_t> objects, bool anew,
+                                   std::span<const Vec4<Real>> positions, ContactList<Real>& list) {
+    for_each_index(0, objects.size(), 1, [&](std::size_t k) {
+        const std::uint32_t o = objects[k];
+        if (anew || !list.own.is_found(o)) {
+            own_.run(o, positions, list.own);
+            return;
+        }
+        const std::vector<std::uint32_t> places = restless_places(o, positions, list);
+        if (static_cast<double>(places.size()) < kMostRestless * list.own.places(o).count) {
+            own_.run_again(o, places, positions, list.own);
+        } else {
+            own_.run(o, positions, list.own);
+        }
+    });
+    put_together(list);
+}
+
+// Surface nodes that have used up much of their rooms in their body.
+template <class Real>
+std::vector<std::uint32_t> DetectContacts<Real>::restless_places(std::uint32_t object,
+                                                                 std::span<const Vec4<Real>> positions,
+                                                                 const ContactList<Real>& list) const {
+    std::vector<std::uint32_t> places;
+    const Range& all = list.own.places(object);
+    for (std::uint32_t s = all.first; s < all.end(); ++s) {
+        const Vec3<Real> position(positions[model_->surface_parts.nodes[s]]);
+        if (glm::length(list.own.deviation(s, position)) > static_cast<Real>(kRestless) * list.own.radius(s))
+            places.push_back(s);
+    }
+    return places;
+}
+
+// Both kinds are in their order already.
+template <class Real>
+void DetectContacts<Real>::put_together(ContactList<Real>& list) {
+    const auto goes_before = [&](const ContactPair& a, const ContactPair& b) {
+        return a.rank(surface_->places) < b.rank(surface_->places);
+    };
+    const auto merge = [&](const std::vector<ContactPair>& pairs, const auto& add_own) {
+        own_pairs_.clear();
+        add_own(own_pairs_);
+        std::merge(pairs.begin(), pairs.end(), own_pairs_.begin(), own_pairs_.end(),
+                   std::back_inserter(list.pairs), goes_before);
+    };
     list.pairs.clear();
-    for (const Found& found : found_)
-        list.pairs.insert(list.pairs.end(), found.of_nodes.begin(), found.of_nodes.end());
+    merge(node_pairs_, [&](std::vector<ContactPair>& own) { own_.add_node_pairs(own); });
     list.first_edges = list.pairs.size();
-    for (const Found& found : found_)
-        list.pairs.insert(list.pairs.end(), found.of_edges.begin(), found.of_edges.end());
+    merge(edge_pairs_, [&](std::vector<ContactPair>& own) { own_.add_edge_pairs(own); });
+    find_own_pairs(list);
+    assign_slots(list);
+}
+
+template <class Real>
+void DetectContacts<Real>::find_own_pairs(ContactList<Real>& list) const {
+    list.own_starts.assign(model_->objects.size() + 1, 0);
+    for (const ContactPair& pair : list.pairs)
+        if (pair.is_own()) ++list.own_starts[pair.object + 1];
+    std::partial_sum(list.own_starts.begin(), list.own_starts.end(), list.own_starts.begin());
+    list.own_pairs.resize(list.own_starts.back());
+    std::vector<std::uint32_t> next(list.own_starts.begin(), list.own_starts.end() - 1);
+    for (std::uint32_t p = 0; p < list.pairs.size(); ++p)
+        if (list.pairs[p].is_own()) list.own_pairs[next[list.pairs[p].object]++] = p;
 }
 
 template <class Real>
@@ -185,32 +224,38 @@ void DetectContacts<Real>::find_near(std::uint32_t leaf, std::uint32_t other, Fo
 
 template <class Real>
 void DetectContacts<Real>::pair_node(std::uint32_t place, Found& found) const {
-    const std::uint32_t node = model_->surface_parts.nodes[place];
+    const std::uint32_t node = model_->surface_parts.nodes[place], object = object_of_[node];
     AxisBox<Real> box;
     box.add(Vec3<Real>(positions_[node]), margin_);
     box.add(Vec3<Real>(ends_[node]), margin_);
-    found.faces.compare(box);
-    for (std::size_t k = 0; k < found.faces.indices.size(); ++k) {
-        if (found.faces.meet[k] == 0) continue;
-        const std::uint32_t f = found.faces.indices[k];
+    found.faces.for_meeting(box, [&](std::uint32_t f) {
         const Face& face = model_->faces[f];
-        found.waiting.push_back(
-            {{node, face.a, face.b, face.c}, {}, node, f, object_of_[node], face.object, 1});
-    }
+        found.waiting.push_back({{node, face.a, face.b, face.c},
+                                 {},
+                                 node,
+                                 f,
+                                 object,
+                                 face.object,
+                                 1,
+                                 reach(object, face.object)});
+    });
 }
 
 template <class Real>
 void DetectContacts<Real>::pair_edge(std::uint32_t edge, Found& found) const {
     const std::vector<FaceEdge>& edges = model_->surface_parts.edges;
     const FaceEdge& first = edges[edge];
-    found.edges.compare(edge_boxes_[edge]);
-    for (std::size_t k = 0; k < found.edges.indices.size(); ++k) {
-        const std::uint32_t other = found.edges.indices[k];
-        if (found.edges.meet[k] == 0) continue;
+    found.edges.for_meeting(edge_boxes_[edge], [&](std::uint32_t other) {
         const FaceEdge& second = edges[other];
-        found.waiting.push_back(
-            {{first.a, first.b, second.a, second.b}, {}, edge, other, first.object, second.object, 2});
-    }
+        found.waiting.push_back({{first.a, first.b, second.a, second.b},
+                                 {},
+                                 edge,
+                                 other,
+                                 first.object,
+                                 second.object,
+                                 2,
+                                 reach(first.object, second.object)});
+    });
 }
 
 template <class Real>

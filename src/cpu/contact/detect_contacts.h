@@ -8,6 +8,8 @@
 
 #include "cpu/collision/collision.h"
 #include "cpu/contact/contact_list.h"
+#include "cpu/contact/detect_own.h"
+#include "cpu/contact/near_boxes.h"
 #include "cpu/contact/near_objects.h"
 #include "cpu/contact/nearest_pairs.h"
 #include "model/contact/contact_surface.h"
@@ -15,34 +17,35 @@
 
 namespace gelatin::cpu {
 
-/// Lists the pairs of surface nodes and faces, and of edges, of different bodies that are near each other,
-/// and how far every node may go before others could meet (docs/contact.md).
+/// Lists the pairs of surface nodes and faces, and of edges, that are near each other, and how far every node
+/// may go before others could meet (docs/contact.md).
 template <class Real>
 class DetectContacts {
 public:
     DetectContacts(std::shared_ptr<const Model> model, std::shared_ptr<const ContactSurface> surface);
 
+    /// Looks for pairs of different bodies. Those of single bodies stay as they are.
     void run(std::span<const Vec4<Real>> positions, const Expected<Real>& expected, ContactList<Real>& list);
+    /// Looks for pairs of single bodies, of which the others stay as they are.
+    /// @param anew whether at all of a body, or only at nodes that have come far
+    void run_own(std::span<const std::uint32_t> objects, bool anew, std::span<const Vec4<Real>> positions,
+                 ContactList<Real>& list);
+    /// Forgets the pairs of single bodies.
+    void restart() { own_.restart(); }
 
 private:
     void find_ways(std::span<const Vec4<Real>> ends, ContactList<Real>& list);
 
-    // Faces or edges that a leaf may be near, in ascending order, and their boxes in columns.
-    struct Near {
-        std::vector<std::uint32_t> indices;
-        std::array<std::vector<Real>, 3> lows, highs;
-        std::vector<std::uint8_t> meet;  // those of them whose box meets that of a node or an edge
-
-        void clear();
-        void add(std::uint32_t index, const AxisBox<Real>& box);
-        void compare(const AxisBox<Real>& box);
-    };
     // The pairs of a few leaves.
     struct Found {
-        Near faces, edges;                                     // near the current leaf
+        NearBoxes<Real> faces, edges;                          // near the current leaf
         std::vector<ContactPair> of_nodes, of_edges, waiting;  // waiting: to be measured
     };
-    void find_pairs(ContactList<Real>& list);
+    void find_pairs();
+    std::vector<std::uint32_t> restless_places(std::uint32_t object, std::span<const Vec4<Real>> positions,
+                                               const ContactList<Real>& list) const;
+    void put_together(ContactList<Real>& list);
+    void find_own_pairs(ContactList<Real>& list) const;
     void find_edge_boxes(std::uint32_t leaf);
     void search(std::uint32_t leaf, Found& found) const;
     void find_near(std::uint32_t leaf, std::uint32_t other, Found& found) const;
@@ -50,6 +53,9 @@ private:
     void pair_edge(std::uint32_t edge, Found& found) const;
     void keep_near(std::vector<ContactPair>& waiting, std::vector<ContactPair>& kept) const;
     Real least_gap(const ContactPair& pair, const MeasuredPairs<Real>& measured, std::size_t column) const;
+    float reach(std::uint32_t object, std::uint32_t other) const {
+        return static_cast<float>(surface_->reach(object, other));
+    }
     void assign_slots(ContactList<Real>& list) const;
     void find_rooms(ContactList<Real>& list);
     void find_distances(std::uint32_t object, Real most);
@@ -66,12 +72,14 @@ private:
     BoxMargin<Real> margin_;
     std::unique_ptr<Collision<Real>> collision_;
     NearObjects<Real> objects_;
+    DetectOwn<Real> own_;
     std::span<const Vec4<Real>> positions_;  // of this run
     std::vector<Vec4<Real>> ends_;           // of nodes, as their islands see them
     std::vector<AxisBox<Real>> edge_boxes_;  // of leaves that are near others
     // From leaves to what is nearest of other bodies [m], shape [nodes of all trees].
     std::vector<Real> distances_;
     std::vector<Found> found_;  // in the leaves' order
+    std::vector<ContactPair> node_pairs_, edge_pairs_, own_pairs_;
 };
 
 }  // namespace gelatin::cpu

@@ -20,44 +20,9 @@ constexpr int kMostRounds = 8;
 // What others are in the way of, but makes so much of its way, may make more after another detection if much
 // is left: what slides, over the next edges.
 constexpr double kProgress = 0.1;
+// Rounds in which bodies that would meet themselves are shortened. After them, they make nothing.
+constexpr int kMostOwnRounds = 4;
 constexpr std::size_t kPairsATask = 1024;
-// Of the reach: another direction than that of the aim is taken if the pair is so far apart along it.
-constexpr double kSeparated = 0.05;
-
-// Stiff contacts are not entered by a guess: it would bring energy into them that the bodies do not have.
-template <class Real>
-Real least_gap(const PairAim<Real>& aim, Real reach, Real gap, Closeness closeness) {
-    if (closeness == Closeness::motion) return std::max(Real(0.1f) * gap, std::min(gap, Real(0.05f) * reach));
-    const Real nearest = (Real(1) - Real(0.5f) * aim.yielding) * std::min(gap, reach);
-    return std::max(nearest, std::min(gap, Real(0.1f) * reach));
-}
-
-// The part of a change of a gap from `start` to `end` that leaves `least`, if the gap is concave between
-// them.
-template <class Real>
-Real part_left(Real start, Real end, Real least) {
-    if (end >= least) return Real(1);
-    if (!(start > least)) return Real(0);
-    return Real(0.999f) * (start - least) / (start - end);
-}
-
-// From the first side's nearest point to the second's.
-template <class Real>
-Vec3<Real> shortest(const ContactPair& pair, const std::array<Vec3<Real>, 4>& nodes) {
-    if (pair.is_edges())
-        return nearest_points<Real>(std::array{nodes[0], nodes[1]}, std::array{nodes[2], nodes[3]}).apart;
-    return nearest_points<Real>(nodes[0], std::array{nodes[1], nodes[2], nodes[3]}).apart;
-}
-
-// At right angles to the face, or to both edges, and towards the second side. What slides over an edge is
-// ahead of it now and behind it then, and above it all the time.
-template <class Real>
-Vec3<Real> across_both(const ContactPair& pair, const std::array<Vec3<Real>, 4>& nodes) {
-    const Vec3<Real> across = pair.is_edges() ? glm::cross(nodes[1] - nodes[0], nodes[3] - nodes[2])
-                                              : glm::cross(nodes[2] - nodes[1], nodes[3] - nodes[1]);
-    return glm::dot(across, nodes[2] - nodes[0]) < Real(0) ? -across : across;
-}
-
 }  // namespace
 
 template <class Real>
@@ -70,7 +35,9 @@ GuardedMove<Real>::GuardedMove(std::shared_ptr<const Model> model, std::vector<s
       means_(model_->body_count()),
       ways_(model_->node_count()),
       ways_of_objects_(model_->objects.size()),
-      parts_(model_->objects.size()) {
+      parts_(model_->objects.size()),
+      own_(model_),
+      planned_(model_->node_count()) {
     for (std::size_t o = 0; o < masses_.size(); ++o) {
         const Range& nodes = model_->objects[o].nodes;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
@@ -99,10 +66,11 @@ bool GuardedMove<Real>::plan(const ContactList<Real>& list, const ContactAims<Re
     room_parts_ = parts_;
     find_courses(list, aims, positions, ends, closeness);
     keep_pairs_apart(list);
+    keep_from_themselves(list, aims, positions, ends, closeness);
     if (movers == Movers::nodes) return true;
     const auto goes_on = [&](std::size_t o) {
         if (parts_[o] == Real(1)) return false;
-        if (parts_[o] == room_parts_[o]) return true;
+        if (parts_[o] == room_parts_[o] || own_.lacks_room(o)) return true;
         const Real left = (Real(1) - parts_[o]) * ways_of_objects_[o];
         return parts_[o] > Real(kProgress) && left > aims.thickness(o);
     };
@@ -165,7 +133,7 @@ void GuardedMove<Real>::drift(ContactList<Real>& list, const ContactAims<Real>& 
             nodes[k] = Vec3<Real>(positions[pair.nodes[k]]);
             motions[k] = pair.side_of(k) == body_side ? allowed[island] * list.drifts[island] : Vec3<Real>(0);
         }
-        const Course course =
+        const PairCourse<Real> course =
             best_course(pair, aims.aims()[p], aims.reach(pair), nodes, motions, Closeness::guess);
         if (course.is_free()) continue;
         allowed[island] *= part_left(course.gap_at(Real(0)), course.gap_at(Real(1)), course.least);
@@ -176,6 +144,7 @@ void GuardedMove<Real>::drift(ContactList<Real>& list, const ContactAims<Real>& 
         const Vec4<Real> motion(allowed[island] * list.drifts[island], Real(0));
         const Range& nodes = model_->objects[o].nodes;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) positions[n] += motion;
+        if (list.own.meets_itself(o)) list.own.shift(static_cast<std::uint32_t>(o), Vec3<Real>(motion));
     });
     for (std::size_t i = 0; i < parts.size(); ++i) {
         list.shifts[i] += allowed[i] * list.drifts[i];
@@ -231,21 +200,26 @@ void GuardedMove<Real>::find_courses(const ContactList<Real>& list, const Contac
         found_[task].clear();
         const std::size_t end = std::min((task + 1) * kPairsATask, list.pairs.size());
         for (std::size_t p = task * kPairsATask; p < end; ++p) {
-            if (are_far_apart(list.pairs[p], aims, aims.aims()[p], closeness)) continue;
             const ContactPair& pair = list.pairs[p];
+            if (pair.is_own() || are_far_apart(pair, aims, aims.aims()[p], closeness)) continue;
             const Vec3<Real> common = common_[list.island_of(pair)];
             std::array<Vec3<Real>, 4> nodes, motions;
             for (std::size_t c = 0; c < 4; ++c) {
                 nodes[c] = Vec3<Real>(positions[pair.nodes[c]]);
                 motions[c] = Vec3<Real>(ends[pair.nodes[c]]) - nodes[c] - common;
             }
-            const Course course =
+            PairCourse<Real> course =
                 best_course(pair, aims.aims()[p], aims.reach(pair), nodes, motions, closeness);
-            if (!course.stays_free([](std::size_t) { return Real(1); })) found_[task].push_back(course);
+            if (course.stays_free([](std::size_t) { return Real(1); })) continue;
+            for (std::size_t c = 0; c < 4; ++c)
+                course.movers[c] = movers_ == Movers::nodes ? pair.nodes[c]
+                                   : pair.side_of(c) == 0   ? pair.object
+                                                            : pair.other;
+            found_[task].push_back(course);
         }
     });
     courses_.clear();
-    for (const std::vector<Course>& found : found_)
+    for (const std::vector<PairCourse<Real>>& found : found_)
         courses_.insert(courses_.end(), found.begin(), found.end());
 }
 
@@ -261,81 +235,10 @@ bool GuardedMove<Real>::are_far_apart(const ContactPair& pair, const ContactAims
     return aim.gap - ways[0] - ways[1] > least_gap(aim, aims.reach(pair), aim.gap, closeness);
 }
 
-// Along the direction of the aim, or along that between the nearest points where it no longer separates the
-// pair; or along another one that does so all the way.
-template <class Real>
-typename GuardedMove<Real>::Course GuardedMove<Real>::best_course(const ContactPair& pair,
-                                                                  const PairAim<Real>& aim, Real reach,
-                                                                  const std::array<Vec3<Real>, 4>& nodes,
-                                                                  const std::array<Vec3<Real>, 4>& motions,
-                                                                  Closeness closeness) const {
-    std::array<Vec3<Real>, 4> moved;
-    for (std::size_t c = 0; c < 4; ++c) moved[c] = nodes[c] + motions[c];
-    Course course = course_along(pair, aim, reach, aim.normal, nodes, motions, closeness);
-    if (!(course.gap_at(Real(0)) > Real(kSeparated) * reach)) {
-        const Vec3<Real> between = shortest(pair, nodes);
-        const Real length = glm::length(between);
-        if (length > Real(0))
-            course = course_along(pair, aim, reach, between / length, nodes, motions, closeness);
-    }
-    if (course.is_free()) return course;
-    for (const Vec3<Real>& direction : {shortest(pair, moved), across_both(pair, nodes)}) {
-        const Real length = glm::length(direction);
-        if (!(length > Real(0))) continue;
-        const Course other = course_along(pair, aim, reach, direction / length, nodes, motions, closeness);
-        if (other.is_free() && other.gap_at(Real(0)) > Real(kSeparated) * reach) return other;
-    }
-    return course;
-}
-
-template <class Real>
-typename GuardedMove<Real>::Course GuardedMove<Real>::course_along(const ContactPair& pair,
-                                                                   const PairAim<Real>& aim, Real reach,
-                                                                   const Vec3<Real>& normal,
-                                                                   const std::array<Vec3<Real>, 4>& nodes,
-                                                                   const std::array<Vec3<Real>, 4>& motions,
-                                                                   Closeness closeness) const {
-    Course course;
-    course.first_count = pair.first_count;
-    for (std::size_t c = 0; c < 4; ++c) {
-        course.movers[c] = movers_ == Movers::nodes ? pair.nodes[c]
-                           : pair.side_of(c) == 0   ? pair.object
-                                                    : pair.other;
-        course.heights[c] = glm::dot(normal, nodes[c] - nodes[0]);
-        course.motions[c] = glm::dot(normal, motions[c]);
-    }
-    const Real gap = course.gap_at(Real(0));
-    const Real least = least_gap(aim, reach, gap, closeness);
-    // Less what rounding makes, but never none.
-    course.least = std::max({least - Real(1e-5f) * reach, Real(0.5f) * least, Real(1e-10f) * reach});
-    return course;
-}
-
-template <class Real>
-template <class Part>
-Real GuardedMove<Real>::Course::gap(const Part& part) const {
-    Real top = -std::numeric_limits<Real>::infinity(), low = -top;
-    for (std::size_t k = 0; k < 4; ++k) {
-        const Real height = heights[k] + part(k) * motions[k];
-        if (k < first_count) {
-            top = std::max(top, height);
-        } else {
-            low = std::min(low, height);
-        }
-    }
-    return low - top;
-}
-
-template <class Real>
-template <class Part>
-bool GuardedMove<Real>::Course::stays_free(const Part& part) const {
-    return gap([&](std::size_t k) { return approaches(k) ? part(k) : Real(0); }) >= least;
-}
-
 // In each round every pair that would come too near shortens the movers that approach.
 template <class Real>
 void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
-    const auto is_left = [&](const Course& course) {
+    const auto is_left = [&](const PairCourse<Real>& course) {
         return course.gap([&](std::size_t k) { return parts_[course.movers[k]]; }) >= course.least;
     };
     for (int round = 0;; ++round) {
@@ -343,7 +246,7 @@ void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
         next_parts_ = parts_;
         std::size_t kept = 0;
         for (std::size_t k = 0; k < courses_.size(); ++k) {
-            const Course course = courses_[k];
+            const PairCourse<Real> course = courses_[k];
             if (course.stays_free([&](std::size_t c) { return parts_[course.movers[c]]; })) continue;
             courses_[kept++] = course;
             if (is_left(course)) continue;
@@ -364,7 +267,7 @@ void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
         // time at least one.
         if (round < 2 * kMostRounds) continue;
         std::vector<std::uint8_t> stops(common_.size());
-        for (const Course& course : courses_) {
+        for (const PairCourse<Real>& course : courses_) {
             if (is_left(course)) continue;
             for (const std::uint32_t mover : course.movers) stops[island_of(list, mover)] = 1;
         }
@@ -378,13 +281,82 @@ std::uint32_t GuardedMove<Real>::island_of(const ContactList<Real>& list, std::u
     return list.islands[movers_ == Movers::nodes ? object_of_[mover] : mover];
 }
 
+// What others let a body make can bring it into itself. Then it makes less, and others what that leaves them.
 template <class Real>
-void GuardedMove<Real>::shorten(const ContactList<Real>& list, std::span<const Real> parts) {
-    for (std::size_t o = 0; o < parts.size(); ++o) {
-        const Range& nodes = model_->objects[o].nodes;
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) parts_[n] *= parts[o];
+void GuardedMove<Real>::keep_from_themselves(const ContactList<Real>& list, const ContactAims<Real>& aims,
+                                             std::span<const Vec4<Real>> positions,
+                                             std::span<const Vec4<Real>> ends, Closeness closeness) {
+    own_.begin();
+    std::vector<Real> own_parts(model_->body_count());
+    std::vector<Real> before;  // parts of the round before
+    for (int round = 0;; ++round) {
+        tbb::parallel_for(std::size_t(0), own_parts.size(), [&](std::size_t index) {
+            own_parts[index] = Real(1);
+            const auto o = static_cast<std::uint32_t>(index);
+            if (!list.own.meets_itself(o) || (round > 0 && makes_the_same(o, before))) return;
+            const Vec3<Real> common = common_[list.islands[o]];
+            if (!plan_positions(o, common, positions, ends)) {
+                own_.stay(o, list, common);
+                return;
+            }
+            own_parts[o] = own_.part(o, list, aims, positions, planned_, closeness);
+            if (own_parts[o] < Real(1) && round >= kMostOwnRounds) own_parts[o] = Real(0);
+        });
+        if (std::all_of(own_parts.begin(), own_parts.end(), [](Real part) { return part == Real(1); }))
+            return;
+        before = parts_;
+        for (std::uint32_t o = 0; o < own_parts.size(); ++o)
+            if (own_parts[o] > Real(0) && own_parts[o] < Real(1)) own_.shorten(o, own_parts[o], list.own);
+        scale_parts(own_parts);
+        keep_pairs_apart(list);
     }
+}
+
+// Where the parts as they are take the body's nodes.
+// @return false if none of them makes any
+template <class Real>
+bool GuardedMove<Real>::plan_positions(std::uint32_t object, const Vec3<Real>& common,
+                                       std::span<const Vec4<Real>> positions,
+                                       std::span<const Vec4<Real>> ends) {
+    bool any = false;
+    const Range& nodes = model_->objects[object].nodes;
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+        const Real part = parts_[movers_ == Movers::nodes ? n : object];
+        any |= part > Real(0);
+        const Vec3<Real> position(positions[n]), motion = Vec3<Real>(ends[n]) - position - common;
+        planned_[n] = Vec4<Real>(position + common + part * motion, positions[n].w);
+    }
+    return any;
+}
+
+template <class Real>
+Range GuardedMove<Real>::movers_of(std::uint32_t object) const {
+    return movers_ == Movers::nodes ? model_->objects[object].nodes : Range{object, 1};
+}
+
+template <class Real>
+bool GuardedMove<Real>::makes_the_same(std::uint32_t object, const std::vector<Real>& parts) const {
+    const Range movers = movers_of(object);
+    return std::equal(parts_.begin() + movers.first, parts_.begin() + movers.end(),
+                      parts.begin() + movers.first);
+}
+
+template <class Real>
+void GuardedMove<Real>::scale_parts(std::span<const Real> by_object) {
+    for (std::size_t o = 0; o < by_object.size(); ++o) {
+        if (by_object[o] == Real(1)) continue;
+        const Range movers = movers_of(static_cast<std::uint32_t>(o));
+        for (std::uint32_t m = movers.first; m < movers.end(); ++m) parts_[m] *= by_object[o];
+    }
+}
+
+template <class Real>
+void GuardedMove<Real>::shorten(const ContactList<Real>& list, const ContactAims<Real>& aims,
+                                std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
+                                std::span<const Real> parts) {
+    scale_parts(parts);
     keep_pairs_apart(list);
+    keep_from_themselves(list, aims, positions, ends, Closeness::guess);
 }
 
 template <class Real>
@@ -412,6 +384,7 @@ void GuardedMove<Real>::go(ContactList<Real>& list, std::span<const Vec4<Real>> 
         const std::uint32_t island = list.islands[o];
         const Range& nodes = model_->objects[o].nodes;
         const Vec3<Real> shift = shifts[island], common = common_[island];
+        if (list.own.meets_itself(o)) own_.go(static_cast<std::uint32_t>(o), shift - common, list);
         const bool are_nodes = movers_ == Movers::nodes;
         if (!are_nodes && parts_[o] == Real(1) && shift == common) {
             std::copy(ends.begin() + nodes.first, ends.begin() + nodes.end(),

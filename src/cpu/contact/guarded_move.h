@@ -9,16 +9,12 @@
 
 #include "cpu/contact/contact_aims.h"
 #include "cpu/contact/contact_list.h"
+#include "cpu/contact/own_guard.h"
+#include "cpu/contact/pair_course.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
 
 namespace gelatin::cpu {
-
-/// How near to each other a move may bring two surfaces.
-enum class Closeness {
-    guess,   ///< half of the reach, or of the gap, is left for what follows
-    motion,  ///< a tenth of the gap
-};
 
 /// What makes parts of its own of a planned move.
 enum class Movers {
@@ -55,8 +51,10 @@ public:
               Movers movers = Movers::objects);
 
     /// Leaves each object no more than a part of what its nodes were to make, and others what that leaves
-    /// them. @pre nodes were planned @param parts by object
-    void shorten(const ContactList<Real>& list, std::span<const Real> parts);
+    /// them. @pre nodes were planned, from and to the same positions @param parts by object
+    void shorten(const ContactList<Real>& list, const ContactAims<Real>& aims,
+                 std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
+                 std::span<const Real> parts);
 
     /// Goes there. @param keeps_momentum whether what objects of an island did not make, all of it makes up
     /// for
@@ -67,6 +65,10 @@ public:
     bool lacks_room() const {
         return std::any_of(room_parts_.begin(), room_parts_.end(), [](Real part) { return part < Real(1); });
     }
+
+    /// Whether it was their rooms in themselves that kept bodies, or one.
+    bool lacks_own_room() const { return own_.lacks_room(); }
+    bool lacks_own_room(std::size_t object) const { return own_.lacks_room(object); }
 
     /// The part of the planned motion that an object, or a node, makes.
     Real part(std::size_t mover) const { return parts_[mover]; }
@@ -80,38 +82,19 @@ private:
     void keep_pairs_apart(const ContactList<Real>& list);
     std::uint32_t island_of(const ContactList<Real>& list, std::uint32_t mover) const;
 
-    // A pair that could come too near, along a direction from its first side to its second.
-    struct Course {
-        std::array<std::uint32_t, 4> movers;
-        std::array<Real, 4> heights, motions;  // of its nodes, from the first one [m]
-        Real least;                            // gap that must be left [m]
-        std::uint32_t first_count;             // nodes of the first side
-
-        bool approaches(std::size_t k) const { return k < first_count ? motions[k] > 0 : motions[k] < 0; }
-        // The gap when each node makes a part of its motion. @param part of node k
-        template <class Part>
-        Real gap(const Part& part) const;
-        Real gap_at(Real part) const {
-            return gap([&](std::size_t) { return part; });
-        }
-        bool is_free() const { return gap_at(Real(1)) >= least; }
-        // Whether the gap is left by all parts up to these: the worst is that nothing but what approaches
-        // moves.
-        template <class Part>
-        bool stays_free(const Part& part) const;
-    };
-
     void find_courses(const ContactList<Real>& list, const ContactAims<Real>& aims,
                       std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
                       Closeness closeness);
     bool are_far_apart(const ContactPair& pair, const ContactAims<Real>& aims, const PairAim<Real>& aim,
                        Closeness closeness) const;
-    Course best_course(const ContactPair& pair, const PairAim<Real>& aim, Real reach,
-                       const std::array<Vec3<Real>, 4>& nodes, const std::array<Vec3<Real>, 4>& motions,
-                       Closeness closeness) const;
-    Course course_along(const ContactPair& pair, const PairAim<Real>& aim, Real reach,
-                        const Vec3<Real>& normal, const std::array<Vec3<Real>, 4>& nodes,
-                        const std::array<Vec3<Real>, 4>& motions, Closeness closeness) const;
+    void keep_from_themselves(const ContactList<Real>& list, const ContactAims<Real>& aims,
+                              std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
+                              Closeness closeness);
+    bool plan_positions(std::uint32_t object, const Vec3<Real>& common, std::span<const Vec4<Real>> positions,
+                        std::span<const Vec4<Real>> ends);
+    Range movers_of(std::uint32_t object) const;
+    bool makes_the_same(std::uint32_t object, const std::vector<Real>& parts) const;
+    void scale_parts(std::span<const Real> by_object);
 
     std::shared_ptr<const Model> model_;
     std::vector<std::uint32_t> places_;     // of nodes among those of the surface
@@ -124,8 +107,10 @@ private:
     std::vector<Vec3<Real>> common_;     // by island
     Movers movers_ = Movers::objects;
     std::vector<Real> parts_, next_parts_, room_parts_;  // by mover
-    std::vector<Course> courses_;
-    std::vector<std::vector<Course>> found_;  // of each task, in the order of the pairs
+    OwnGuard<Real> own_;
+    std::vector<Vec4<Real>> planned_;  // where bodies that meet themselves go [m]
+    std::vector<PairCourse<Real>> courses_;
+    std::vector<std::vector<PairCourse<Real>>> found_;  // of each task, in the order of the pairs
 };
 
 }  // namespace gelatin::cpu

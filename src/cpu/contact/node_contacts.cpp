@@ -101,7 +101,8 @@ void NodeContacts<Real>::select(const ContactList<Real>& list, std::uint32_t pla
     first_planes_[place] = first;
     plane_counts_[place] = planes - first;
     is_stuck_[place] = least < Real(0) ? 1 : 0;
-    least = std::min(least, list.rooms[place] - list.beside_way(place, moved));
+    least = std::min(
+        {least, list.rooms[place] - list.beside_way(place, moved), list.own.free_around(place, position)});
     const Real free = presses_[node] != 0 || !(least > Real(0)) ? Real(-1) : Real(0.999f) * least * least;
     free_[node] = Vec4<Real>(position, free);
 }
@@ -131,6 +132,8 @@ Vec3<Real> NodeContacts<Real>::limited_nearby(const ContactList<Real>& list, std
     const Vec3<Real> moved = list.moved(place, object_of_[node], from);
     const Real part = list.part_within_room(place, moved, motion);
     if (!(part == Real(1))) motion *= part;
+    const Real own_part = list.own.part_within_room(place, from, motion);
+    if (!(own_part == Real(1))) motion *= own_part;
     if (!model_->colliders.empty()) motion *= part_outside_planes<Real>(model_->colliders, from, motion);
     if (presses(node)) motion *= least_along(shares_of(place), displacement, motion, all);
     return from + motion;
@@ -225,6 +228,7 @@ Real NodeContacts<Real>::allowed_part(const ContactList<Real>& list, const Range
         }
         const Vec3<Real> moved = list.moved(place, object_of_[n], position);
         part *= list.part_within_room(place, moved, part * displacements[n]);
+        part *= list.own.part_within_room(place, position, part * displacements[n]);
     }
     return part;
 }

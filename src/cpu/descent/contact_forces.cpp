@@ -58,7 +58,7 @@ void add_presses(const Contacts<Real>& contacts, std::span<const Vec4<Real>> pos
         // On the first side.
         const glm::dvec3 normal = -static_cast<double>(pressing) * glm::dvec3(press.normal),
                          friction(aims.held(press.pair));
-        sums.add(pair.object, pair.other, false, normal, friction);
+        if (!pair.is_own()) sums.add(pair.object, pair.other, false, normal, friction);
         for (std::size_t k = 0; k < 4; ++k) {
             const auto weight = static_cast<double>(press.weights[static_cast<int>(k)]);
             const double share = pair.side_of(k) == 0 ? weight : -weight;

@@ -335,8 +335,10 @@ void JointMove<Real>::run(bool is_last, const Contacts<Real>& contacts, const St
     }
     const std::vector<Press<Real>>& presses = contacts.aims().presses();
     std::vector<std::vector<std::uint32_t>> own(islands.size());  // presses of each island
-    for (std::uint32_t k = 0; k < presses.size(); ++k)
-        own[list.island_of(list.pairs[presses[k].pair])].push_back(k);
+    for (std::uint32_t k = 0; k < presses.size(); ++k) {
+        const ContactPair& pair = list.pairs[presses[k].pair];
+        if (!pair.is_own()) own[list.island_of(pair)].push_back(k);
+    }
     tbb::parallel_for(std::size_t(0), islands.size(), [&](std::size_t i) {
         Island& island = islands[i];
         if (waits[i] != 0 || island.bodies.empty()) return;

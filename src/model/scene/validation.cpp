@@ -46,10 +46,6 @@ void check_collision(const ValueChecks& checks, const CollisionSettings& setting
             checks.fail(field / "response", text_of(name_of(settings.response)),
                         "needs solver = \"vbd\"; with other solvers it must be \"restore\"");
         }
-        if (settings.self_collision) {
-            checks.fail(field / "self_collision", "true",
-                        "must be false with response = \"contact\", which is between bodies so far");
-        }
         if (sees_one_moment) {
             checks.fail(field / "broad_phase", text_of(name_of(settings.broad_phase)),
                         "must be none, boxes or hierarchy with response = \"contact\"");

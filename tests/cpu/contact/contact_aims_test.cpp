@@ -124,7 +124,7 @@ template <class Real>
 void expect_limits_hold() {
     for (unsigned seed = 1; seed < 9; ++seed) {
         Contact<Real> contact(make_near_blocks(seed));
-        ASSERT_EQ(test::count_overlaps(*contact.model, contact.positions), 0u);
+        ASSERT_EQ(test::count_overlaps(*contact.model, contact.positions, test::Overlaps::between), 0u);
         test::RandomMaker random(seed);
         const auto before = contact.positions;
         double longest = 0.0;
@@ -142,7 +142,8 @@ void expect_limits_hold() {
                 const cpu::Vec3<Real> end = contact.aims.nodes().limited(contact.list, n, from, to, terms);
                 contact.positions[n] = cpu::Vec4<Real>(end, contact.positions[n].w);
             }
-            EXPECT_EQ(test::count_overlaps(*contact.model, contact.positions), 0u) << seed;
+            EXPECT_EQ(test::count_overlaps(*contact.model, contact.positions, test::Overlaps::between), 0u)
+                << seed;
             if (pass % 2 == 1) contact.aims.run(contact.list, contact.positions);
         }
         for (const std::uint32_t n : contact.model->surface_parts.nodes)
@@ -191,14 +192,14 @@ TEST(ContactAims, DividesTheGap) {
     EXPECT_GT(top, 1.0);
     EXPECT_LT(low, 1.0 + kGap);
     EXPECT_NEAR(low - top, 0.05 * kGap + 0.95 * 0.02 * contact.surface->reach(0, 1), 1e-6);
-    EXPECT_EQ(test::count_overlaps(*contact.model, contact.positions), 0u);
+    EXPECT_EQ(test::count_overlaps(*contact.model, contact.positions, test::Overlaps::between), 0u);
     // A move by what is left, and more, is seen, though the aim tells the whole gap.
     auto ends = contact.positions;
     for (std::uint32_t n = 0; n < ends.size(); ++n)
         ends[n].y += n < contact.model->objects[1].nodes.first ? 0.0 : -0.004;
     contact.guard.plan(contact.list, contact.aims, contact.positions, ends, cpu::Closeness::motion);
     contact.guard.go(contact.list, ends, false, contact.positions);
-    EXPECT_EQ(test::count_overlaps(*contact.model, contact.positions), 0u);
+    EXPECT_EQ(test::count_overlaps(*contact.model, contact.positions, test::Overlaps::between), 0u);
 }
 
 // Where bodies would be that fly up to `farthest` [m] and are deformed.
@@ -228,7 +229,7 @@ TEST(GuardedMove, KeepsBodiesApart) {
             return sum;
         };
         contact.guard.go(contact.list, ends, true, contact.positions);
-        EXPECT_EQ(test::count_overlaps(*contact.model, contact.positions), 0u);
+        EXPECT_EQ(test::count_overlaps(*contact.model, contact.positions, test::Overlaps::between), 0u);
         double mass = 0.0;
         for (const float m : contact.model->masses) mass += static_cast<double>(m);
         EXPECT_LT(glm::length(momentum(contact.positions) - momentum(ends)), 1e-6 * mass)
@@ -249,9 +250,10 @@ TEST(GuardedMove, KeepsNodesApart) {
         EXPECT_GT(whole, ends.size() / 6);  // some are in the way of others, the rest go on
         EXPECT_LT(whole, ends.size());
         const std::vector<float> parts{float(random.uniform(0, 1)), 1.0f, float(random.uniform(0, 1))};
-        contact.guard.shorten(contact.list, parts);
+        contact.guard.shorten(contact.list, contact.aims, contact.positions, ends, parts);
         contact.guard.go(contact.list, ends, false, contact.positions);
-        EXPECT_EQ(test::count_overlaps(*contact.model, contact.positions), 0u) << seed;
+        EXPECT_EQ(test::count_overlaps(*contact.model, contact.positions, test::Overlaps::between), 0u)
+            << seed;
     }
 }
 
@@ -298,11 +300,11 @@ TEST(GuardedMove, FindsAnotherDirectionThanThatOfAnOldAim) {
         contact.positions[n] += glm::vec4(0.008f, -0.015f, 0.0f, 0.0f);
         ends[n] = contact.positions[n] - glm::vec4(0.02f, 0.0f, 0.0f, 0.0f);
     }
-    ASSERT_EQ(test::count_overlaps(*contact.model, contact.positions), 0u);
-    ASSERT_GT(test::count_overlaps(*contact.model, ends), 0u);
+    ASSERT_EQ(test::count_overlaps(*contact.model, contact.positions, test::Overlaps::between), 0u);
+    ASSERT_GT(test::count_overlaps(*contact.model, ends, test::Overlaps::between), 0u);
     contact.guard.plan(contact.list, contact.aims, contact.positions, ends, cpu::Closeness::guess);
     contact.guard.go(contact.list, ends, false, contact.positions);
-    EXPECT_EQ(test::count_overlaps(*contact.model, contact.positions), 0u);
+    EXPECT_EQ(test::count_overlaps(*contact.model, contact.positions, test::Overlaps::between), 0u);
 }
 
 TEST(GuardedMove, DoesNotStopWhatFliesTogether) {

@@ -49,10 +49,6 @@ const Rule kSettingRules[] = {
     {"response", "[collision]\nresponse = 'contact'\n[simulation]\nsolver = 'rk4'",
      BREAKS(s.collision.response = CollisionResponse::contact; s.simulation.solver = SolverKind::rk4),
      "collision.response = \"contact\": needs solver = \"vbd\"; with other solvers it must be \"restore\""},
-    {"response_self", "[collision]\nresponse = 'contact'\nself_collision = true",
-     BREAKS(s.collision.response = CollisionResponse::contact; s.collision.self_collision = true),
-     "collision.self_collision = true: must be false with response = \"contact\", which is between bodies so "
-     "far"},
     {"response_depth", "[collision]\nresponse = 'contact'\nbroad_phase = 'depth'",
      BREAKS(s.collision.response = CollisionResponse::contact; s.collision.broad_phase = BroadPhase::depth),
      "collision.broad_phase = \"depth\": must be none, boxes or hierarchy with response = \"contact\""},

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cpu/collision/axis_box.h"
+#include "cpu/contact/contact_list.h"
+#include "cpu/contact/near_boxes.h"
+#include "cpu/contact/nearest_pairs.h"
+#include "cpu/contact/own_rooms.h"
+#include "model/contact/contact_surface.h"
+#include "model/model.h"
+
+namespace gelatin::cpu {
+
+/// Lists the pairs of single bodies that are near each other, and writes how far nodes may go before others
+/// of their body could meet (docs/contact.md).
+template <class Real>
+class DetectOwn {
+public:
+    DetectOwn(std::shared_ptr<const Model> model, std::shared_ptr<const ContactSurface> surface);
+
+    /// Looks at a body that meets itself.
+    void run(std::uint32_t object, std::span<const Vec4<Real>> positions, OwnRooms<Real>& rooms);
+    /// Looks again at some surface nodes of a body, which have used up their rooms.
+    void run_again(std::uint32_t object, std::span<const std::uint32_t> places,
+                   std::span<const Vec4<Real>> positions, OwnRooms<Real>& rooms);
+    /// Forgets all bodies.
+    void restart();
+
+    /// Adds the pairs of all bodies as they were looked at last, in the order of lists.
+    void add_node_pairs(std::vector<ContactPair>& pairs) const;
+    void add_edge_pairs(std::vector<ContactPair>& pairs) const;
+
+private:
+    // Of a leaf.
+    struct Found {
+        std::vector<ContactPair> of_nodes, of_edges;
+    };
+    struct Search {
+        NearBoxes<Real> faces, edges;
+        std::vector<ContactPair> waiting;  // to be measured
+    };
+    double listed(std::uint32_t object) const;
+    Range leaves_of(std::uint32_t object) const;
+    void update_boxes(std::uint32_t object, const OwnRooms<Real>& rooms);
+    void search(std::uint32_t object, std::span<const std::uint32_t> leaves, OwnRooms<Real>& rooms);
+    void search_leaf(std::uint32_t leaf, Real listed, Search& search, Found& found);
+    void keep_near(std::vector<ContactPair>& waiting, Real listed, std::vector<ContactPair>& kept);
+    void set_reaches(std::vector<ContactPair>& pairs) const;
+
+    std::shared_ptr<const Model> model_;
+    std::shared_ptr<const ContactSurface> surface_;
+    std::vector<std::uint32_t> leaf_of_faces_;
+    std::vector<Vec4<Real>> found_at_;  // by node, from the middle of its body [m]
+    std::vector<AxisBox<Real>> node_boxes_, edge_boxes_, face_boxes_, tree_boxes_;
+    std::vector<Real> apart_;   // by surface node: from the nearest that is not listed [m]
+    std::vector<Found> found_;  // by leaf, in the order of faces
+};
+
+}  // namespace gelatin::cpu

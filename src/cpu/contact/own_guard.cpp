@@ -1,0 +1,110 @@
+#include "cpu/contact/own_guard.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+#include <utility>
+
+namespace gelatin::cpu {
+namespace {
+
+// Of the part that seems to be allowed: it is found for all of the motion, whose map is another one.
+constexpr double kSafe = 0.9;
+
+}  // namespace
+
+template <class Real>
+OwnGuard<Real>::OwnGuard(std::shared_ptr<const Model> model)
+    : model_(std::move(model)),
+      next_(model_->objects.size()),
+      lacks_room_(model_->objects.size()),
+      is_shortened_(model_->objects.size()) {}
+
+template <class Real>
+Real OwnGuard<Real>::part(std::uint32_t object, const ContactList<Real>& list, const ContactAims<Real>& aims,
+                          std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
+                          Closeness closeness) {
+    Real part = keep_to_rooms(object, list.own, positions, ends);
+    if (part < Real(1)) lacks_room_[object] = 1;
+    for (std::uint32_t k = list.own_starts[object]; k < list.own_starts[object + 1]; ++k) {
+        const std::uint32_t p = list.own_pairs[k];
+        part = std::min(part, part_of_pair(list.pairs[p], aims.aims()[p], aims, positions, ends, closeness));
+    }
+    return part < Real(1) ? Real(kSafe) * part : part;
+}
+
+// Of maps to the ends, the first with which nodes stay in their rooms, or the best. Where the motion was
+// shortened, the map to its ends is; else the present one is carried, and bent where that is not enough.
+template <class Real>
+Real OwnGuard<Real>::keep_to_rooms(std::uint32_t object, const OwnRooms<Real>& rooms,
+                                   std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends) {
+    const Range& places = rooms.places(object);
+    const auto part_with = [&](const ShapeMap<Real>& map) {
+        Real part = rooms.part_between(object, map);
+        for (std::uint32_t s = places.first; s < places.end(); ++s) {
+            const std::uint32_t n = model_->surface_parts.nodes[s];
+            const Vec3<Real> before = rooms.deviation(s, Vec3<Real>(positions[n])),
+                             after = Vec3<Real>(ends[n]) - rooms.mapped(object, map, s);
+            part = std::min(part, part_within(before, after - before, rooms.radius(s)));
+        }
+        return part;
+    };
+    Real best = -1;
+    const auto try_map = [&](ShapeMap<Real> map) {
+        const Real part = part_with(map);
+        if (part > best) {
+            best = part;
+            next_[object] = std::move(map);
+        }
+        return part == Real(1);
+    };
+    if (is_shortened_[object] != 0 && try_map(next_[object])) return best;
+    if (try_map(rooms.carried(object, ends))) return best;
+    try_map(rooms.bent(object, next_[object], ends));
+    return best;
+}
+
+template <class Real>
+void OwnGuard<Real>::shorten(std::uint32_t object, Real part, const OwnRooms<Real>& rooms) {
+    next_[object] = rooms.between(object, next_[object], part);
+    is_shortened_[object] = 1;
+}
+
+// All nodes of a body make the same part of their motions.
+template <class Real>
+Real OwnGuard<Real>::part_of_pair(const ContactPair& pair, const PairAim<Real>& aim,
+                                  const ContactAims<Real>& aims, std::span<const Vec4<Real>> positions,
+                                  std::span<const Vec4<Real>> ends, Closeness closeness) const {
+    std::array<Vec3<Real>, 4> nodes, moved;
+    Real change = 0;  // of distances since the aim, now and at the end
+    for (std::size_t c = 0; c < 4; ++c) {
+        const std::uint32_t n = pair.nodes[c], first = pair.nodes[0];
+        nodes[c] = Vec3<Real>(positions[n]);
+        moved[c] = Vec3<Real>(ends[n]);
+        const Vec3<Real> aimed = aims.nodes().aimed_at(n) - aims.nodes().aimed_at(first);
+        change = std::max(
+            {change, glm::length(nodes[c] - nodes[0] - aimed), glm::length(moved[c] - moved[0] - aimed)});
+    }
+    const Real reach(pair.reach);
+    if (aim.gap - Real(2) * change > least_gap(aim, reach, aim.gap, closeness)) return Real(1);
+    return part_apart(pair, aim, reach, nodes, moved, closeness);
+}
+
+template <class Real>
+void OwnGuard<Real>::stay(std::uint32_t object, const ContactList<Real>& list,
+                          const Vec3<Real>& displacement) {
+    next_[object] = list.own.map(object);
+    next_[object].center += displacement;
+}
+
+template <class Real>
+void OwnGuard<Real>::go(std::uint32_t object, const Vec3<Real>& more, ContactList<Real>& list) const {
+    ShapeMap<Real> map = next_[object];
+    map.center += more;
+    list.own.follow(object, map);
+}
+
+template class OwnGuard<float>;
+template class OwnGuard<double>;
+
+}  // namespace gelatin::cpu

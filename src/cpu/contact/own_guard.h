@@ -1,0 +1,63 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cpu/contact/contact_aims.h"
+#include "cpu/contact/contact_list.h"
+#include "cpu/contact/own_rooms.h"
+#include "cpu/contact/pair_course.h"
+#include "cpu/nodes.h"
+#include "model/model.h"
+
+namespace gelatin::cpu {
+
+/// Keeps the bodies of a planned move from passing through themselves. Where a body goes, its map goes, too:
+/// all nodes stay in their rooms on the way if they are in them at the end. Its own pairs have directions
+/// that separate them all the way and may turn with the body.
+template <class Real>
+class OwnGuard {
+public:
+    explicit OwnGuard(std::shared_ptr<const Model> model);
+
+    /// To be called when a move is planned.
+    void begin() {
+        std::fill(lacks_room_.begin(), lacks_room_.end(), std::uint8_t(0));
+        std::fill(is_shortened_.begin(), is_shortened_.end(), std::uint8_t(0));
+    }
+
+    /// The part of its motion that a body may make, if all of its nodes make the same part.
+    /// @param ends of all nodes [m]
+    Real part(std::uint32_t object, const ContactList<Real>& list, const ContactAims<Real>& aims,
+              std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends, Closeness closeness);
+    /// All nodes of the body make this part of what they were to make.
+    void shorten(std::uint32_t object, Real part, const OwnRooms<Real>& rooms);
+    /// The body makes nothing but a displacement.
+    void stay(std::uint32_t object, const ContactList<Real>& list, const Vec3<Real>& displacement);
+
+    /// Goes to the ends of the last part(), which was 1, or as it stays. @param more displacement of all [m]
+    void go(std::uint32_t object, const Vec3<Real>& more, ContactList<Real>& list) const;
+
+    /// Whether its room kept a body from the end of its planned motion.
+    bool lacks_room() const {
+        return std::any_of(lacks_room_.begin(), lacks_room_.end(), [](auto lacks) { return lacks != 0; });
+    }
+    bool lacks_room(std::size_t object) const { return lacks_room_[object] != 0; }
+
+private:
+    Real keep_to_rooms(std::uint32_t object, const OwnRooms<Real>& rooms,
+                       std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends);
+    Real part_of_pair(const ContactPair& pair, const PairAim<Real>& aim, const ContactAims<Real>& aims,
+                      std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
+                      Closeness closeness) const;
+
+    std::shared_ptr<const Model> model_;
+    std::vector<ShapeMap<Real>> next_;                     // by object
+    std::vector<std::uint8_t> lacks_room_, is_shortened_;  // by object
+};
+
+}  // namespace gelatin::cpu
