@@ -15,10 +15,10 @@ namespace {
 constexpr double kMostMoves = 6.0, kMovesASecond = 360.0;
 // Of a room: nodes that have come farther are detected again.
 constexpr double kUsedRoom = 0.9, kUsedOwnRoom = 0.8;
+// Of a room in its own body: where a node has used more, the map follows.
+constexpr double kFollowed = 0.6;
 // If none has come so far, another detection would give them hardly more.
 constexpr double kFreshRoom = 0.3;
-// Of a body's surface nodes: if more would leave their rooms, the body is looked at.
-constexpr double kMostRestless = 0.1;
 
 }  // namespace
 
@@ -73,7 +73,6 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
     }
     longest_ = std::sqrt(static_cast<double>(longest));
     if (!list_.is_valid || used_room(positions) > Real(kUsedRoom)) renew(positions, timer);
-    keep_guess_in_own_rooms(positions, timer);
     bool is_fresh = used_room(positions) < Real(kFreshRoom);
     const int most_moves =
         static_cast<int>(std::clamp(kMovesASecond * static_cast<double>(step), 1.0, kMostMoves));
@@ -81,16 +80,16 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
         const TimedStage part(timer, "advance_nodes.guess");
         guard_.drift(list_, aims_, guess_, positions);
         const bool is_free = guard_.plan(list_, aims_, positions, guess_, Closeness::guess);
-        if (is_free || is_fresh || !guard_.lacks_room()) {
+        const bool lacks_room = guard_.lacks_room(), lacks_own_room = guard_.lacks_own_room();
+        if (is_free || is_fresh || !(lacks_room || lacks_own_room)) {
             guard_.go(list_, guess_, false, positions);
             ++moves;
             is_fresh = false;
             if (is_free || moves == most_moves) break;
         }
-        if (guard_.lacks_room()) {
-            detect(positions, guess_, timer);
-            is_fresh = true;
-        }
+        if (lacks_room) detect(positions, guess_, timer);
+        if (lacks_own_room) look_at_restless(positions, timer);
+        is_fresh = lacks_room || lacks_own_room;
         aim(positions, timer);
     }
 }
@@ -149,7 +148,7 @@ std::vector<Work> Contacts<Real>::works(std::span<const Vec4<Real>> positions,
 template <class Real>
 void Contacts<Real>::move(std::span<Vec4<Real>> ends, std::span<Vec4<Real>> positions) {
     for_each_index(ends.size(), [&](std::size_t n) { ends[n] = outside(ends[n]); });
-    guard_.plan(list_, aims_, positions, ends, Closeness::motion);
+    guard_.plan(list_, aims_, positions, ends, Closeness::motion, Movers::rigid_objects);
     guard_.go(list_, ends, true, positions);
 }
 
@@ -162,35 +161,10 @@ void Contacts<Real>::renew(std::span<const Vec4<Real>> positions, StageTimer* ti
     aim(positions, timer);
 }
 
-// Where a body's deformation has come too far for what is known of it, the body is looked at anew. Single
-// nodes that would leave their rooms go to the edge.
+// Bodies whose rooms in themselves were not enough for a plan.
 template <class Real>
-void Contacts<Real>::keep_guess_in_own_rooms(std::span<const Vec4<Real>> positions, StageTimer* timer) {
-    if (!meet_themselves_) return;
-    const OwnRooms<Real>& own = list_.own;
-    std::vector<ShapeMap<Real>> maps(model_->body_count());
-    const auto find_map = [&](std::uint32_t o) {
-        maps[o] = own.carried(o, guess_);
-        if (own.count_outside(o, maps[o], kUsedOwnRoom, guess_) > 0) maps[o] = own.bent(o, maps[o], guess_);
-        return own.count_outside(o, maps[o], kUsedOwnRoom, guess_);
-    };
-    const auto has_to = [&](std::uint32_t o) {
-        return static_cast<double>(find_map(o)) > kMostRestless * own.places(o).count;
-    };
-    const std::vector<std::uint32_t> anew = detect_own(positions, true, has_to, timer);
-    if (!anew.empty()) aim(positions, timer);
-    for (const std::uint32_t o : anew) find_map(o);
-    for_each_index(0, maps.size(), 1, [&](std::size_t index) {
-        const auto o = static_cast<std::uint32_t>(index);
-        const Range& places = own.places(o);
-        for (std::uint32_t s = places.first; s < places.end(); ++s) {
-            Vec4<Real>& end = guess_[model_->surface_parts.nodes[s]];
-            if (end.w == Real(0)) continue;
-            const Vec3<Real> mapped = own.mapped(o, maps[o], s), deviation = Vec3<Real>(end) - mapped;
-            const Real length = glm::length(deviation), most = Real(kUsedOwnRoom) * own.radius(s);
-            if (length > most) end = Vec4<Real>(mapped + most / length * deviation, end.w);
-        }
-    });
+void Contacts<Real>::look_at_restless(std::span<const Vec4<Real>> positions, StageTimer* timer) {
+    detect_own(positions, true, [&](std::uint32_t o) { return guard_.lacks_own_room(o); }, timer);
 }
 
 // Another map may explain where a body is.
@@ -198,7 +172,7 @@ template <class Real>
 bool Contacts<Real>::uses_own_room(std::uint32_t object, std::span<const Vec4<Real>> positions) {
     OwnRooms<Real>& own = list_.own;
     const Real used = own.used(object, positions);
-    if (!(used > Real(kFreshRoom))) return false;
+    if (!(used > Real(kFollowed))) return false;
     const ShapeMap<Real> before = own.map(object);
     own.follow(object, own.bent(object, own.carried(object, positions), positions));
     const Real left = own.used(object, positions);

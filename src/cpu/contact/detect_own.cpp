@@ -144,10 +144,10 @@ void DetectOwn<Real>::search(std::uint32_t object, std::span<const std::uint32_t
             set_reaches(found.of_edges);
         }
     });
+    constexpr auto kPart = static_cast<Real>(OwnRooms<Real>::kRoom * OwnRooms<Real>::kLeastStretch);
     const Range& places = rooms.places(object);
-    for (std::uint32_t s = places.first; s < places.end(); ++s)
-        rooms.set_radius(
-            s, static_cast<Real>(OwnRooms<Real>::kRoom * OwnRooms<Real>::kLeastStretch) * apart_[s]);
+    for (std::uint32_t s = places.first; s < places.end(); ++s) rooms.set_radius(s, kPart * apart_[s]);
+    rooms.set_largest_radius(object, kPart * static_cast<Real>(kSearched * listed(object)));
 }
 
 template <class Real>

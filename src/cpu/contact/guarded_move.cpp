@@ -60,7 +60,7 @@ bool GuardedMove<Real>::plan(const ContactList<Real>& list, const ContactAims<Re
                              Closeness closeness, Movers movers) {
     movers_ = movers;
     common_.assign(list.shifts.size(), Vec3<Real>(0));
-    if (movers == Movers::objects) find_common_motions(list, positions, ends);
+    if (movers != Movers::nodes) find_common_motions(list, positions, ends);
     const bool may_shift = limit_common_motions(list);
     keep_to_rooms(list, aims, positions, ends);
     room_parts_ = parts_;
@@ -299,6 +299,7 @@ void GuardedMove<Real>::keep_from_themselves(const ContactList<Real>& list, cons
                 own_.stay(o, list, common);
                 return;
             }
+            if (movers_ == Movers::rigid_objects && is_held_[o] == 0 && own_.carry(o, list.own, planned_)) return;
             own_parts[o] = own_.part(o, list, aims, positions, planned_, closeness);
             if (own_parts[o] < Real(1) && round >= kMostOwnRounds) own_parts[o] = Real(0);
         });

@@ -18,7 +18,8 @@ namespace gelatin::cpu {
 
 /// What makes parts of its own of a planned move.
 enum class Movers {
-    objects,  ///< besides what their islands have in common, which they move in full
+    objects,        ///< besides what their islands have in common, which they move in full
+    rigid_objects,  ///< the same; but for objects with held nodes, ends are rigid motions
     nodes,
 };
 

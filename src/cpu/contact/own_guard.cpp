@@ -10,6 +10,8 @@ namespace {
 
 // Of the part that seems to be allowed: it is found for all of the motion, whose map is another one.
 constexpr double kSafe = 0.9;
+// Rooms that a body would have if it was looked at have to let it make so much more of its motion.
+constexpr double kWorthALook = 1.5;
 
 }  // namespace
 
@@ -25,7 +27,6 @@ Real OwnGuard<Real>::part(std::uint32_t object, const ContactList<Real>& list, c
                           std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
                           Closeness closeness) {
     Real part = keep_to_rooms(object, list.own, positions, ends);
-    if (part < Real(1)) lacks_room_[object] = 1;
     for (std::uint32_t k = list.own_starts[object]; k < list.own_starts[object + 1]; ++k) {
         const std::uint32_t p = list.own_pairs[k];
         part = std::min(part, part_of_pair(list.pairs[p], aims.aims()[p], aims, positions, ends, closeness));
@@ -39,13 +40,16 @@ template <class Real>
 Real OwnGuard<Real>::keep_to_rooms(std::uint32_t object, const OwnRooms<Real>& rooms,
                                    std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends) {
     const Range& places = rooms.places(object);
+    Real farthest = 0;  // motion of a node beside its map, over the room it would have if it was looked at
     const auto part_with = [&](const ShapeMap<Real>& map) {
         Real part = rooms.part_between(object, map);
+        farthest = 0;
         for (std::uint32_t s = places.first; s < places.end(); ++s) {
             const std::uint32_t n = model_->surface_parts.nodes[s];
             const Vec3<Real> before = rooms.deviation(s, Vec3<Real>(positions[n])),
                              after = Vec3<Real>(ends[n]) - rooms.mapped(object, map, s);
             part = std::min(part, part_within(before, after - before, rooms.radius(s)));
+            farthest = std::max(farthest, glm::length(after - before));
         }
         return part;
     };
@@ -60,8 +64,18 @@ Real OwnGuard<Real>::keep_to_rooms(std::uint32_t object, const OwnRooms<Real>& r
     };
     if (is_shortened_[object] != 0 && try_map(next_[object])) return best;
     if (try_map(rooms.carried(object, ends))) return best;
-    try_map(rooms.bent(object, next_[object], ends));
+    const ShapeMap<Real> bent = rooms.bent(object, rooms.carried(object, ends), ends);
+    if (try_map(bent)) return best;
+    const Real anew = rooms.largest_radius(object) / farthest;
+    if (bent.is_steep || anew > static_cast<Real>(kWorthALook) * best) lacks_room_[object] = 1;
     return best;
+}
+
+template <class Real>
+bool OwnGuard<Real>::carry(std::uint32_t object, const OwnRooms<Real>& rooms,
+                           std::span<const Vec4<Real>> ends) {
+    next_[object] = rooms.carried(object, ends);
+    return next_[object].is_carried && rooms.part_between(object, next_[object]) == Real(1);
 }
 
 template <class Real>

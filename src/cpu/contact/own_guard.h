@@ -34,6 +34,9 @@ public:
     /// @param ends of all nodes [m]
     Real part(std::uint32_t object, const ContactList<Real>& list, const ContactAims<Real>& aims,
               std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends, Closeness closeness);
+    /// A body moves rigidly, or a part of that: what is apart in it stays so.
+    /// @return false if the map could not follow
+    bool carry(std::uint32_t object, const OwnRooms<Real>& rooms, std::span<const Vec4<Real>> ends);
     /// All nodes of the body make this part of what they were to make.
     void shorten(std::uint32_t object, Real part, const OwnRooms<Real>& rooms);
     /// The body makes nothing but a displacement.
@@ -42,7 +45,7 @@ public:
     /// Goes to the ends of the last part(), which was 1, or as it stays. @param more displacement of all [m]
     void go(std::uint32_t object, const Vec3<Real>& more, ContactList<Real>& list) const;
 
-    /// Whether its room kept a body from the end of its planned motion.
+    /// Whether its room kept a body from the end of its planned motion, and another look at it would help.
     bool lacks_room() const {
         return std::any_of(lacks_room_.begin(), lacks_room_.end(), [](auto lacks) { return lacks != 0; });
     }

@@ -73,7 +73,7 @@ template <class Real>
 void OwnRooms<Real>::find(std::uint32_t object, Real cell, std::span<const Vec4<Real>> positions) {
     Shape& shape = shapes_[object];
     shape.is_found = true;
-    shape.map = {glm::mat<3, 3, Real>(1), middle(shape.places, positions), {}};
+    shape.map = {glm::mat<3, 3, Real>(1), middle(shape.places, positions), {}, true, false};
     glm::mat<3, 3, Real> moment(0);
     for (std::uint32_t s = shape.places.first; s < shape.places.end(); ++s) {
         mapped_[s] = at(s, positions);
@@ -216,29 +216,18 @@ Real OwnRooms<Real>::used(std::uint32_t object, std::span<const Vec4<Real>> posi
     return most;
 }
 
-template <class Real>
-std::uint32_t OwnRooms<Real>::count_outside(std::uint32_t object, const ShapeMap<Real>& map, double part,
-                                            std::span<const Vec4<Real>> positions) const {
-    std::uint32_t count = 0;
-    const Range& places = shapes_[object].places;
-    for (std::uint32_t s = places.first; s < places.end(); ++s) {
-        const Vec3<Real> deviation = at(s, positions) - mapped(object, map, s);
-        const Real most = static_cast<Real>(part) * radii_[s];
-        count += glm::dot(deviation, deviation) > most * most ? 1 : 0;
-    }
-    return count;
-}
-
 // By least squares over the surface nodes.
 template <class Real>
 ShapeMap<Real> OwnRooms<Real>::carried(std::uint32_t object, std::span<const Vec4<Real>> positions) const {
     const Shape& shape = shapes_[object];
-    ShapeMap<Real> map{shape.map.linear, middle(shape.places, positions), shape.map.bends};
+    ShapeMap<Real> map = shape.map;
+    map.center = middle(shape.places, positions);
     glm::mat<3, 3, Real> moment(0);
     for (std::uint32_t s = shape.places.first; s < shape.places.end(); ++s)
         moment += glm::outerProduct(at(s, positions) - map.center, offsets_[s]);
     const glm::mat<3, 3, Real> linear = moment * shape.inverse_moment;
-    if (!keeps_distances(linear)) return map;
+    map.is_carried = keeps_distances(linear);
+    if (!map.is_carried) return map;
     const glm::mat<3, 3, Real> turn = linear * glm::inverse(map.linear);
     map.linear = linear;
     for (Vec3<Real>& bend : map.bends) bend = turn * bend;
@@ -262,17 +251,18 @@ ShapeMap<Real> OwnRooms<Real>::bent(std::uint32_t object, ShapeMap<Real> map,
             if (lattice.weights[p] > Real(0)) map.bends[p] += sums[p] / lattice.weights[p];
     }
     fill_empty(lattice, map.bends);
-    flatten(lattice, map.bends);
+    map.is_steep = flatten(lattice, map.bends) || !map.is_carried;
     return map;
 }
 
-// Where bends are too steep, they are less.
+// Where bends are too steep, they become less. @return whether they were
 template <class Real>
-void OwnRooms<Real>::flatten(const Lattice& lattice, std::vector<Vec3<Real>>& bends) const {
+bool OwnRooms<Real>::flatten(const Lattice& lattice, std::vector<Vec3<Real>>& bends) const {
     const Real slope = steepest(lattice, bends);
-    if (!(slope > static_cast<Real>(kMostSlope))) return;
+    if (!(slope > static_cast<Real>(kMostSlope))) return false;
     const Real part = static_cast<Real>(0.999 * kMostSlope) / slope;
     for (Vec3<Real>& bend : bends) bend *= part;
+    return true;
 }
 
 template <class Real>

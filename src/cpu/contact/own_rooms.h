@@ -22,6 +22,8 @@ struct ShapeMap {
     glm::mat<3, 3, Real> linear{1};
     Vec3<Real> center{0};           ///< of the middle of what was found [m]
     std::vector<Vec3<Real>> bends;  ///< [m]
+    bool is_carried = false;        ///< the affine one is the nearest, not one that is only displaced
+    bool is_steep = false;          ///< it could not be bent as far as it should
 };
 
 /// How far nodes may go before others of their own body could meet them. When a body is found, all its pairs
@@ -57,6 +59,9 @@ public:
     const Vec3<Real>& offset(std::uint32_t place) const { return offsets_[place]; }
     /// Of a surface node [m].
     void set_radius(std::uint32_t place, Real radius) { radii_[place] = radius; }
+    /// That of nodes that nothing is near.
+    void set_largest_radius(std::uint32_t object, Real radius) { shapes_[object].largest_radius = radius; }
+    Real largest_radius(std::uint32_t object) const { return shapes_[object].largest_radius; }
     Real radius(std::uint32_t place) const { return radii_[place]; }
 
     /// From where the map has a surface node [m].
@@ -73,10 +78,6 @@ public:
         if (meets_themselves_.empty()) return std::numeric_limits<Real>::infinity();
         return Real(kByNodes) * radii_[place] - glm::length(deviation(place, position));
     }
-    /// How many of a body's nodes at `positions` are farther from where a map has them than this part of
-    /// their rooms.
-    std::uint32_t count_outside(std::uint32_t object, const ShapeMap<Real>& map, double part,
-                                std::span<const Vec4<Real>> positions) const;
     /// The largest part of its room that a node of a body uses.
     Real used(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
 
@@ -115,6 +116,7 @@ private:
         bool is_found = false;
         glm::mat<3, 3, Real> inverse_moment{0};  // of the offsets [1/m^2]; 0: too flat
         Lattice lattice;
+        Real largest_radius = 0;  // [m]
         ShapeMap<Real> map;
     };
     void make_lattice(Shape& shape, Real cell);
@@ -123,7 +125,7 @@ private:
     void for_points(const Lattice& lattice, std::uint32_t place, const Use& use) const;
     Vec3<Real> bend(const Lattice& lattice, const std::vector<Vec3<Real>>& bends, std::uint32_t place) const;
     void fill_empty(const Lattice& lattice, std::vector<Vec3<Real>>& bends) const;
-    void flatten(const Lattice& lattice, std::vector<Vec3<Real>>& bends) const;
+    bool flatten(const Lattice& lattice, std::vector<Vec3<Real>>& bends) const;
     Real steepest(const Lattice& lattice, const std::vector<Vec3<Real>>& bends) const;
     Vec3<Real> at(std::uint32_t place, std::span<const Vec4<Real>> positions) const {
         return Vec3<Real>(positions[model_->surface_parts.nodes[place]]);
