@@ -47,6 +47,18 @@ public:
         return most;
     }
 
+    // Of the nodes whose height is near y [m].
+    glm::dvec3 extent_near_y(double y, double distance) const {
+        glm::dvec3 low(1e9), high(-1e9);
+        for (std::size_t n = 0; n < now_.positions.size(); n += 3) {
+            const glm::dvec3 p(now_.positions[n], now_.positions[n + 1], now_.positions[n + 2]);
+            if (std::abs(p.y - y) > distance) continue;
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+        return high - low;
+    }
+
     FrameStatistics statistics() {
         simulator_.begin_statistics();
         return simulator_.take_statistics();
@@ -84,6 +96,18 @@ TEST(ContactScenesHeavy, ARodPressesABallThroughARing) {
     EXPECT_GT(scene.center(0).y, 1.0);  // it is caught
     scene.advance_to(200);
     EXPECT_LT(scene.center(0).y, 0.6);
+}
+
+// Pulled along y, the knot draws together and stays: a bar without one is 0.15 m thick.
+TEST(ContactScenesHeavy, AKnotIsPulledTight) {
+    ContactScene scene("knot.toml");
+    scene.advance_to(130);
+    const glm::dvec3 loose = scene.extent_near_y(0.0, 0.6);
+    scene.advance_to(330);
+    const glm::dvec3 tight = scene.extent_near_y(0.0, 0.6);
+    EXPECT_GT(loose.x, 0.6);
+    EXPECT_LT(tight.x, 0.45);
+    EXPECT_GT(tight.x, 0.3);
 }
 
 TEST(ContactScenesHeavy, PlatesCarryABall) {

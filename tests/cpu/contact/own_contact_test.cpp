@@ -8,6 +8,8 @@
 #include "cpu/collision/nearest_points.h"
 #include "cpu/contact/detect_own.h"
 #include "cpu/contact/own_rooms.h"
+#include "cpu/contact/pair_course.h"
+#include "cpu/measure/measure.h"
 #include "support/contact_scenes.h"
 #include "support/overlaps.h"
 #include "support/random_maker.h"
@@ -172,6 +174,52 @@ TEST(DetectOwn, ListsAllThatCouldMeetWithinItsRooms) {
     }
 }
 
+// A pair that turns with its body stays apart, and what passes through another is not taken for apart.
+TEST(PairCourse, IsApartAllTheWay) {
+    test::RandomMaker random(7);
+    int apart = 0, blocked = 0;
+    for (int round = 0; round < 4000; ++round) {
+        const bool are_edges = round % 2 == 0;
+        cpu::ContactPair pair{{0, 1, 2, 3}, {}, 0, 0, 0, 0, are_edges ? 2u : 1u, 0.1f};
+        std::array<glm::dvec3, 4> nodes, moved;
+        const double angle = random.uniform(0.0, 0.4), noise = random.magnitude(1e-2, 3.0);
+        for (std::size_t k = 0; k < 4; ++k) {
+            nodes[k] = random.point(1.0);
+            moved[k] =
+                turned(nodes[k], angle) + glm::dvec3(1, 2, 3) + random.point(round % 8 < 4 ? 0.0 : noise);
+        }
+        const auto gap = [&](double part) {
+            std::array<glm::dvec3, 4> at;
+            for (std::size_t k = 0; k < 4; ++k) at[k] = nodes[k] + part * (moved[k] - nodes[k]);
+            return glm::length(
+                are_edges
+                    ? cpu::nearest_points<double>(std::array{at[0], at[1]}, std::array{at[2], at[3]}).apart
+                    : cpu::nearest_points<double>(at[0], std::array{at[1], at[2], at[3]}).apart);
+        };
+        const cpu::PairAim<double> aim{{1, 0, 0}, gap(0.0), 0.5};
+        const double part = cpu::part_apart<double>(pair, aim, 0.1, nodes, moved, cpu::Closeness::motion);
+        if (round % 8 < 4 && gap(0.0) > 0.1) {
+            EXPECT_EQ(part, 1.0) << round;
+        }
+        if (part < 1.0) {
+            ++blocked;
+            continue;
+        }
+        ++apart;
+        // By steps that are too short to touch.
+        double speed = 0.0;
+        for (std::size_t k = 0; k < 4; ++k)
+            speed = std::max(speed, glm::length((moved[k] - nodes[k]) - (moved[0] - nodes[0])));
+        for (double at = 0.0; at < 1.0;) {
+            const double now = gap(at);
+            ASSERT_GT(now, 1e-7) << round;
+            at += 0.5 * now / std::max(speed, 1e-9);
+        }
+    }
+    EXPECT_GT(apart, 1500);
+    EXPECT_GT(blocked, 100);
+}
+
 // Both ends of a bar whose middle is pinned go at each other.
 TEST(OwnContact, ABarThatFoldsDoesNotPassThroughItself) {
     for (const double speed : {3.0, 20.0}) {
@@ -186,10 +234,16 @@ TEST(OwnContact, ABarThatFoldsDoesNotPassThroughItself) {
         }
         const std::shared_ptr<const Model> shared = model;
         cpu::CpuSolver<float> solver = make_solver<float>(shared);
+        const ObjectMeasure start = cpu::measure(*shared, solver.nodes()).front();
+        double energy = start.kinetic_energy;
         for (int frame = 0; frame < 60; ++frame) {
             solver.advance_nodes(kFrame);
             ASSERT_EQ(test::count_overlaps(*shared, solver.nodes().positions), 0u)
                 << speed << " m/s, frame " << frame;
+            const ObjectMeasure now = cpu::measure(*shared, solver.nodes()).front();
+            EXPECT_LT(glm::length(now.momentum - start.momentum), 1e-4 * speed * shared->objects[0].mass);
+            EXPECT_LT(now.kinetic_energy + now.elastic_energy, energy + 2e-3 * start.kinetic_energy);
+            energy = now.kinetic_energy + now.elastic_energy;
         }
     }
 }
