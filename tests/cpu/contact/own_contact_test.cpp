@@ -4,9 +4,13 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <set>
+#include <tuple>
 
 #include "cpu/collision/nearest_points.h"
+#include "cpu/contact/detect_contacts.h"
 #include "cpu/contact/detect_own.h"
+#include "cpu/contact/guarded_move.h"
 #include "cpu/contact/own_rooms.h"
 #include "cpu/contact/pair_course.h"
 #include "cpu/measure/measure.h"
@@ -60,37 +64,50 @@ glm::dvec3 bent(const glm::dvec3& p, double curvature) {
     return {radius * std::sin(angle), 1.0 / curvature - radius * std::cos(angle), p.z};
 }
 
-// The least gap of node and face, and of edges, without a common node and not in the list.
-double least_unlisted_gap(const Model& model, const std::vector<cpu::ContactPair>& listed,
-                          std::span<const glm::dvec4> positions) {
-    const auto is_listed = [&](bool edges, std::uint32_t first, std::uint32_t second) {
-        return std::any_of(listed.begin(), listed.end(), [&](const cpu::ContactPair& pair) {
-            return pair.is_edges() == edges && pair.first == first && pair.second == second;
-        });
-    };
+// found(edges, first, second, gap, nodes) for all nodes and faces, and all edges, without a common node.
+template <class Found>
+void for_all_pairs(const Model& model, std::span<const glm::dvec4> positions, const Found& found) {
     const auto at = [&](std::uint32_t n) { return glm::dvec3(positions[n]); };
-    double least = 1e9;
     for (const std::uint32_t n : model.surface_parts.nodes) {
         for (std::uint32_t f = 0; f < model.faces.size(); ++f) {
             const Face& face = model.faces[f];
-            if (n == face.a || n == face.b || n == face.c || is_listed(false, n, f)) continue;
+            if (n == face.a || n == face.b || n == face.c) continue;
             const auto nearest =
                 cpu::nearest_points<double>(at(n), std::array{at(face.a), at(face.b), at(face.c)});
-            least = std::min(least, glm::length(nearest.apart));
+            found(false, n, f, glm::length(nearest.apart), std::array{n, face.a, face.b, face.c});
         }
     }
     const auto& edges = model.surface_parts.edges;
     for (std::uint32_t e = 0; e < edges.size(); ++e) {
         for (std::uint32_t g = e + 1; g < edges.size(); ++g) {
-            const bool touch = edges[e].a == edges[g].a || edges[e].a == edges[g].b ||
-                               edges[e].b == edges[g].a || edges[e].b == edges[g].b;
-            if (touch || is_listed(true, e, g)) continue;
-            const auto nearest = cpu::nearest_points<double>(std::array{at(edges[e].a), at(edges[e].b)},
-                                                             std::array{at(edges[g].a), at(edges[g].b)});
-            least = std::min(least, glm::length(nearest.apart));
+            const FaceEdge &a = edges[e], &b = edges[g];
+            if (a.a == b.a || a.a == b.b || a.b == b.a || a.b == b.b) continue;
+            const auto nearest =
+                cpu::nearest_points<double>(std::array{at(a.a), at(a.b)}, std::array{at(b.a), at(b.b)});
+            found(true, e, g, glm::length(nearest.apart), std::array{a.a, a.b, b.a, b.b});
         }
     }
-    return least;
+}
+
+// Each pair is listed, or the rooms of its nodes are too small to bring it together.
+void expect_complete(const FoundBar& bar) {
+    std::set<std::tuple<bool, std::uint32_t, std::uint32_t>> listed;
+    for (const cpu::ContactPair& pair : bar.pairs()) listed.emplace(pair.is_edges(), pair.first, pair.second);
+    std::vector<glm::dvec4> found_at(bar.positions.size());
+    for (std::uint32_t s = 0; s < bar.model->surface_parts.nodes.size(); ++s)
+        found_at[bar.model->surface_parts.nodes[s]] = glm::dvec4(bar.rooms.offset(s), 0.0);
+    constexpr double kPart = cpu::OwnRooms<double>::kLeastStretch * cpu::OwnRooms<double>::kRoom;
+    std::size_t small = 0;
+    for_all_pairs(*bar.model, found_at,
+                  [&](bool edges, auto first, auto second, double gap, const auto& nodes) {
+                      if (listed.count({edges, first, second}) > 0) return;
+                      for (const std::uint32_t n : nodes) {
+                          const double radius = bar.rooms.radius(bar.surface->places[n]);
+                          EXPECT_LE(radius, (1.0 + 1e-9) * kPart * gap);
+                          small += radius > 0.9 * kPart * gap ? 1 : 0;
+                      }
+                  });
+    EXPECT_GT(small, 100u);  // rooms are not smaller than they need be
 }
 
 TEST(OwnRooms, AreNotUsedUpByMotionAndUniformDeformation) {
@@ -142,35 +159,58 @@ TEST(OwnRooms, MapsKeepEnoughOfAllDistances) {
     }
 }
 
-// Each node at random at the edge of its room round where the map has it: nothing meets that is not listed.
+// Of a bar that is folded, so that it is near itself; then of one of whose nodes some are found again.
 TEST(DetectOwn, ListsAllThatCouldMeetWithinItsRooms) {
     test::RandomMaker random(5);
     FoundBar bar;
-    // It is folded, so that it is near itself, and found so; then half of its nodes once more.
-    const auto folded = bar.moved([](const glm::dvec3& p) { return bent(p, 5.2); });
-    bar.positions = folded;
+    bar.positions = bar.moved([](const glm::dvec3& p) { return bent(p, 5.2); });
     bar.detection.run(0, bar.positions, bar.rooms);
     EXPECT_GT(bar.pairs().size(), 20u);
-    for (int round = 0; round < 5; ++round) {
-        std::vector<glm::dvec4> moved = bar.positions;
-        const auto next = bar.moved([&](const glm::dvec3& p) { return turned(p, 0.1) + 0.05 * p.x * p; });
-        bar.rooms.follow(0, bar.rooms.bent(0, bar.rooms.carried(0, next), next));
+    expect_complete(bar);
+    for (unsigned round = 0; round < 4; ++round) {
         const Range& places = bar.rooms.places(0);
-        for (std::uint32_t s = places.first; s < places.end(); ++s) {
-            const glm::dvec3 direction = glm::normalize(random.point(1.0) + glm::dvec3(1e-6));
-            const glm::dvec3 place = bar.rooms.mapped(0, bar.rooms.map(0), s);
-            moved[bar.model->surface_parts.nodes[s]] =
-                glm::dvec4(place + bar.rooms.radius(s) * direction, 1.0);
-        }
-        ASSERT_GT(least_unlisted_gap(*bar.model, bar.pairs(), moved), 0.0) << round;
         std::vector<std::uint32_t> restless;
-        for (std::uint32_t s = places.first; s < places.end(); s += 1 + round % 3) restless.push_back(s);
-        bar.positions = moved;
-        bar.detection.run_again(0, restless, moved, bar.rooms);
+        for (std::uint32_t s = places.first + round; s < places.end(); s += 9) {
+            restless.push_back(s);
+            bar.positions[bar.model->surface_parts.nodes[s]] += glm::dvec4(random.point(0.03), 0.0);
+        }
+        bar.detection.run_again(0, restless, bar.positions, bar.rooms);
         for (const std::uint32_t s : restless)
-            ASSERT_LT(
-                glm::length(bar.rooms.deviation(s, glm::dvec3(moved[bar.model->surface_parts.nodes[s]]))),
-                0.5 * bar.rooms.radius(s) + 0.02);
+            EXPECT_LT(glm::length(bar.rooms.deviation(
+                          s, glm::dvec3(bar.positions[bar.model->surface_parts.nodes[s]]))),
+                      1e-9);
+        expect_complete(bar);
+    }
+}
+
+// Whatever a move wants, a body does not pass through itself: with the list, or without it by its rooms.
+TEST(OwnGuard, KeepsBodiesFromThemselves) {
+    test::RandomMaker random(11);
+    for (int round = 0; round < 10; ++round) {
+        FoundBar bar;
+        cpu::DetectContacts<double> detection(bar.model, bar.surface);
+        cpu::ContactList<double> list;
+        list.own.restart(bar.model, {1});
+        detection.run(bar.positions, {.longest = 0.5}, list);
+        detection.run_own(std::vector<std::uint32_t>{0}, true, bar.positions, list);
+        cpu::ContactAims<double> aims(bar.model, bar.surface);
+        cpu::GuardedMove<double> guard(bar.model, bar.surface->places);
+        std::vector<glm::dvec4> starts = bar.positions, targets = bar.positions;
+        for (glm::dvec4& target : targets) target.w = 3600.0 / target.w;
+        aims.begin(kFrame, targets, starts);
+        aims.carry_over({}, list);
+        aims.run(list, bar.positions);
+        guard.begin(bar.positions);
+        const double size = random.magnitude(0.05, 0.5);
+        const auto ends = bar.moved([&](const glm::dvec3& p) {
+            return round % 2 == 0 ? p + random.point(size) : glm::dvec3(p.x, -2.0 * p.y, p.z);
+        });
+        ASSERT_GT(test::count_overlaps(*bar.model, ends) + std::size_t(round % 2), 0u);
+        std::vector<glm::dvec4> positions = bar.positions;
+        guard.plan(list, aims, positions, ends, cpu::Closeness::motion);
+        guard.go(list, ends, false, positions);
+        EXPECT_EQ(test::count_overlaps(*bar.model, positions), 0u) << round;
+        EXPECT_LT(list.own.used(0, positions), 1.0 + 1e-9);
     }
 }
 
