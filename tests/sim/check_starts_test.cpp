@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "gelatin/error.h"
 #include "support/test_models.h"
 
 namespace gelatin {
@@ -39,6 +42,31 @@ TEST(CheckStarts, TellsOfObjectsDeepInside) {
 
 TEST(CheckStarts, LooksAtFreeNodesAlone) {
     EXPECT_THAT(check(0.25, {HalfSpaceRegion{{0.0, 1.0, 0.0}, 1.0}}), IsEmpty());
+}
+
+// A bar whose ends go through each other, and which may do so.
+TEST(CheckStarts, NamesWhatPassesThroughItself) {
+    Body body = test::make_body(test::make_block({12, 2, 2}, {2.4, 0.2, 0.2}));
+    body.name = "ring";
+    const auto model =
+        std::make_shared<const Model>(pack_bodies({body}, std::vector<ColliderDescription>{}, {0, 0, 0}));
+    std::vector<glm::vec4> positions = model->positions;
+    Scene scene;
+    scene.collision.response = CollisionResponse::contact;
+    EXPECT_NO_THROW(require_apart(model, scene, positions));
+    for (glm::vec4& p : positions) {
+        const float angle = 3.0f * p.x, radius = 0.4f + p.y;
+        p = glm::vec4(radius * std::cos(angle), radius * std::sin(angle), p.z, p.w);
+    }
+    try {
+        require_apart(model, scene, positions);
+        FAIL() << "a body that passes through itself was accepted";
+    } catch (const InvalidInput& error) {
+        EXPECT_THAT(error.what(),
+                    ::testing::HasSubstr("do not pass through themselves at the start; 'ring' does"));
+    }
+    scene.collision.self_collision = false;
+    EXPECT_NO_THROW(require_apart(model, scene, positions));
 }
 
 }  // namespace

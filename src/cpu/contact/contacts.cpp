@@ -76,17 +76,19 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
     bool is_fresh = used_room(positions) < Real(kFreshRoom);
     const int most_moves =
         static_cast<int>(std::clamp(kMovesASecond * static_cast<double>(step), 1.0, kMostMoves));
-    for (int moves = 0; moves < most_moves;) {
-        const TimedStage part(timer, "advance_nodes.guess");
-        guard_.drift(list_, aims_, guess_, positions);
-        const bool is_free = guard_.plan(list_, aims_, positions, guess_, Closeness::guess);
-        const bool lacks_room = guard_.lacks_room(), lacks_own_room = guard_.lacks_own_room();
-        if (is_free || is_fresh || !(lacks_room || lacks_own_room)) {
-            guard_.go(list_, guess_, false, positions);
-            ++moves;
-            is_fresh = false;
-            if (is_free || moves == most_moves) break;
+    for (int moves = 0;;) {
+        {
+            const TimedStage part(timer, "advance_nodes.guess");
+            guard_.drift(list_, aims_, guess_, positions);
+            const bool is_free = guard_.plan(list_, aims_, positions, guess_, Closeness::guess);
+            if (is_free || is_fresh || !(guard_.lacks_room() || guard_.lacks_own_room())) {
+                guard_.go(list_, guess_, false, positions);
+                ++moves;
+                is_fresh = false;
+                if (is_free || moves == most_moves) break;
+            }
         }
+        const bool lacks_room = guard_.lacks_room(), lacks_own_room = guard_.lacks_own_room();
         if (lacks_room) detect(positions, guess_, timer);
         if (lacks_own_room) look_at_restless(positions, timer);
         is_fresh = lacks_room || lacks_own_room;
@@ -97,16 +99,18 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
 template <class Real>
 bool Contacts<Real>::plan_rest(std::span<const Vec4<Real>> positions, std::span<Vec3<Real>> displacements,
                                StageTimer* timer) {
-    const TimedStage part(timer, "advance_nodes.guess");
     bool any = false;
     for (std::size_t o = 0; o < model_->objects.size(); ++o) any |= guard_.part(o) < Real(1);
     if (!any) return false;
-    guard_.plan(list_, aims_, positions, guess_, Closeness::guess, Movers::nodes);
-    if (guard_.lacks_own_room()) {
-        detect_own(
-            positions, true, [&](std::uint32_t o) { return guard_.lacks_own_room(o); }, timer);
-        aim(positions, timer);
+    const auto plan = [&] {
+        const TimedStage part(timer, "advance_nodes.guess");
         guard_.plan(list_, aims_, positions, guess_, Closeness::guess, Movers::nodes);
+    };
+    plan();
+    if (guard_.lacks_own_room()) {
+        look_at_restless(positions, timer);
+        aim(positions, timer);
+        plan();
     }
     for_each_index(positions.size(), [&](std::size_t n) {
         displacements[n] = guard_.part(n) * (Vec3<Real>(guess_[n]) - Vec3<Real>(positions[n]));
@@ -164,7 +168,8 @@ void Contacts<Real>::renew(std::span<const Vec4<Real>> positions, StageTimer* ti
 // Bodies whose rooms in themselves were not enough for a plan.
 template <class Real>
 void Contacts<Real>::look_at_restless(std::span<const Vec4<Real>> positions, StageTimer* timer) {
-    detect_own(positions, true, [&](std::uint32_t o) { return guard_.lacks_own_room(o); }, timer);
+    detect_own(
+        positions, true, [&](std::uint32_t o) { return guard_.lacks_own_room(o); }, timer);
 }
 
 // Another map may explain where a body is.

@@ -61,7 +61,7 @@ CollisionSettings read_collision(TableReader reader) {
                 {{"discrete", CollisionDetection::discrete}, {"continuous", CollisionDetection::continuous}});
     reader.read("response", settings.response,
                 {{"restore", CollisionResponse::restore}, {"contact", CollisionResponse::contact}});
-    if (reader.has("self_collision")) reader.read("self_collision", settings.self_collision.emplace());
+    reader.read("self_collision", settings.self_collision);
     reader.read("proximity_radius", settings.proximity_radius);
     reader.read("friction", settings.friction);
     reader.read("restitution", settings.restitution);
