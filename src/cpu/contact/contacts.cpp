@@ -149,10 +149,21 @@ std::vector<Work> Contacts<Real>::works(std::span<const Vec4<Real>> positions,
     return works;
 }
 
+// Bodies move rigidly, but for nodes that are held or would end in a plane.
 template <class Real>
 void Contacts<Real>::move(std::span<Vec4<Real>> ends, std::span<Vec4<Real>> positions) {
-    for_each_index(ends.size(), [&](std::size_t n) { ends[n] = outside(ends[n]); });
-    guard_.plan(list_, aims_, positions, ends, Closeness::motion, Movers::rigid_objects);
+    std::vector<std::uint8_t> is_rigid(model_->objects.size());
+    for_each_index(0, is_rigid.size(), 1, [&](std::size_t o) {
+        is_rigid[o] = guard_.is_held(o) ? 0 : 1;
+        const Range& nodes = model_->objects[o].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            const Vec4<Real> end = outside(ends[n]);
+            if (end == ends[n]) continue;
+            ends[n] = end;
+            is_rigid[o] = 0;
+        }
+    });
+    guard_.plan(list_, aims_, positions, ends, Closeness::motion, Movers::objects, is_rigid);
     guard_.go(list_, ends, true, positions);
 }
 

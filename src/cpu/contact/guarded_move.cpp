@@ -57,16 +57,16 @@ void GuardedMove<Real>::begin(std::span<const Vec4<Real>> positions) {
 template <class Real>
 bool GuardedMove<Real>::plan(const ContactList<Real>& list, const ContactAims<Real>& aims,
                              std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
-                             Closeness closeness, Movers movers) {
+                             Closeness closeness, Movers movers, std::span<const std::uint8_t> is_rigid) {
     movers_ = movers;
     common_.assign(list.shifts.size(), Vec3<Real>(0));
-    if (movers != Movers::nodes) find_common_motions(list, positions, ends);
+    if (movers == Movers::objects) find_common_motions(list, positions, ends);
     const bool may_shift = limit_common_motions(list);
     keep_to_rooms(list, aims, positions, ends);
     room_parts_ = parts_;
     find_courses(list, aims, positions, ends, closeness);
     keep_pairs_apart(list);
-    keep_from_themselves(list, aims, positions, ends, closeness);
+    keep_from_themselves(list, aims, positions, ends, closeness, is_rigid);
     if (movers == Movers::nodes) return true;
     const auto goes_on = [&](std::size_t o) {
         if (parts_[o] == Real(1)) return false;
@@ -285,7 +285,8 @@ std::uint32_t GuardedMove<Real>::island_of(const ContactList<Real>& list, std::u
 template <class Real>
 void GuardedMove<Real>::keep_from_themselves(const ContactList<Real>& list, const ContactAims<Real>& aims,
                                              std::span<const Vec4<Real>> positions,
-                                             std::span<const Vec4<Real>> ends, Closeness closeness) {
+                                             std::span<const Vec4<Real>> ends, Closeness closeness,
+                                             std::span<const std::uint8_t> is_rigid) {
     own_.begin();
     std::vector<Real> own_parts(model_->body_count());
     std::vector<Real> before;  // parts of the round before
@@ -299,7 +300,7 @@ void GuardedMove<Real>::keep_from_themselves(const ContactList<Real>& list, cons
                 own_.stay(o, list, common);
                 return;
             }
-            if (movers_ == Movers::rigid_objects && is_held_[o] == 0 && own_.carry(o, list.own, planned_)) return;
+            if (!is_rigid.empty() && is_rigid[o] != 0 && own_.carry(o, list.own, planned_)) return;
             own_parts[o] = own_.part(o, list, aims, positions, planned_, closeness);
             if (own_parts[o] < Real(1) && round >= kMostOwnRounds) own_parts[o] = Real(0);
         });

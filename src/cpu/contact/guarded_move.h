@@ -18,8 +18,7 @@ namespace gelatin::cpu {
 
 /// What makes parts of its own of a planned move.
 enum class Movers {
-    objects,        ///< besides what their islands have in common, which they move in full
-    rigid_objects,  ///< the same; but for objects with held nodes, ends are rigid motions
+    objects,  ///< besides what their islands have in common, which they move in full
     nodes,
 };
 
@@ -46,10 +45,11 @@ public:
                std::span<Vec4<Real>> positions);
 
     /// Finds how much of the way to `ends` each mover may go.
+    /// @param is_rigid by object: not 0 if its ends are a rigid motion; empty: none are
     /// @return false if movers may go farther after this move and another detection
     bool plan(const ContactList<Real>& list, const ContactAims<Real>& aims,
               std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends, Closeness closeness,
-              Movers movers = Movers::objects);
+              Movers movers = Movers::objects, std::span<const std::uint8_t> is_rigid = {});
 
     /// Leaves each object no more than a part of what its nodes were to make, and others what that leaves
     /// them. @pre nodes were planned, from and to the same positions @param parts by object
@@ -90,7 +90,7 @@ private:
                        Closeness closeness) const;
     void keep_from_themselves(const ContactList<Real>& list, const ContactAims<Real>& aims,
                               std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
-                              Closeness closeness);
+                              Closeness closeness, std::span<const std::uint8_t> is_rigid = {});
     bool plan_positions(std::uint32_t object, const Vec3<Real>& common, std::span<const Vec4<Real>> positions,
                         std::span<const Vec4<Real>> ends);
     Range movers_of(std::uint32_t object) const;

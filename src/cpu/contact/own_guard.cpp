@@ -40,7 +40,7 @@ template <class Real>
 Real OwnGuard<Real>::keep_to_rooms(std::uint32_t object, const OwnRooms<Real>& rooms,
                                    std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends) {
     const Range& places = rooms.places(object);
-    Real farthest = 0;  // motion of a node beside its map, over the room it would have if it was looked at
+    Real farthest = 0;  // motion of a node beside its map [m]
     const auto part_with = [&](const ShapeMap<Real>& map) {
         Real part = rooms.part_between(object, map);
         farthest = 0;

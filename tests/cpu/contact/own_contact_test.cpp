@@ -301,7 +301,7 @@ TEST(OwnContact, GivesTheSameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(run(1), run(4));
 }
 
-// A ball of jelly between two plates, crushed by inertia: at no speed and in no material.
+// Bars thrown into waves, half of them over a floor, at speeds from 1 to 60 m/s and of 1 kPa to 10 MPa.
 void fuzz_folds(unsigned first, int count) {
     for (unsigned seed = first; seed < first + static_cast<unsigned>(count); ++seed) {
         test::RandomMaker random(seed);
@@ -315,7 +315,9 @@ void fuzz_folds(unsigned first, int count) {
                  .size = {random.uniform(0.6, 1.5), random.uniform(0.03, 0.2), random.uniform(0.1, 0.4)},
                  .youngs_modulus = std::pow(10.0, random.uniform(3.0, 7.0)),
                  .poisson_ratio = random.uniform(0.2, 0.45)});
-        auto model = std::make_shared<Model>(*make_blocks(blocks, {0, -9.81, 0}));
+        std::vector<ColliderDescription> floor;
+        if (seed % 2 == 0) floor.push_back({.shape = PlaneCollider{{0.0, 1.0, 0.0}, -0.1}});
+        auto model = std::make_shared<Model>(*make_blocks(blocks, {0, -9.81, 0}, floor));
         const double speed = std::pow(10.0, random.uniform(0.0, 1.8));
         const double wave = random.uniform(2.0, 12.0);
         for (std::uint32_t n = 0; n < model->node_count(); ++n) {
