@@ -1,7 +1,6 @@
 """Gelatin, by its command line: the frames that `gelatin run` exports, and the times of a run that exports none."""
 
 import json
-import os
 import subprocess
 from pathlib import Path
 
@@ -21,7 +20,7 @@ NOTES = "vertex block descent, 10 sweeps a frame; `--backend cpu --threads 1`"
 
 
 class Peer:
-    """Two runs with the same numbers. One measures, with nothing to write. The other writes each frame."""
+    """Two runs with the same numbers. One is timed, with nothing to write. The other writes each frame."""
 
     def __init__(self, scene, options, job):
         self.masses = lumped_masses(scene)
@@ -30,8 +29,10 @@ class Peer:
         subprocess.run([*command, "--stats", "stats.json"], check=True)
         subprocess.run([*command, "--export", "frames", "--every", "1"], check=True)
         with open("stats.json", encoding="utf-8") as file:
-            stages = json.load(file)["timing"]["stages"]
-        self.times = self.frame_times(job["frames"], stages["advance_nodes"]["median"] / 1000)
+            timing = json.load(file)["timing"]
+        # Frames are the steps and their statistics.
+        measuring = timing["stages"]["measure"]["median"]
+        self.times = (np.array(timing["frame_ms"]["each"]) - measuring) / 1000
         self.frame = 0
         # The same nodes, but their order depends on the material's model.
         self.order = np.empty(len(scene.positions), int)
@@ -40,15 +41,6 @@ class Peer:
     @staticmethod
     def file(frame):
         return f"frames/frame_{frame:06}.vtu"
-
-    def frame_times(self, frames, median):
-        """Seconds for each frame: between the writes of two files, less the cost of writing, by the medians of both runs.
-
-        Statistics have the median of the stage, but neither its mean nor its worst.
-        """
-        written = np.array([os.stat(self.file(frame)).st_mtime_ns for frame in range(frames + 1)])
-        spans = np.diff(written) * 1e-9
-        return np.maximum(spans - (np.median(spans) - median), 0)
 
     def step(self):
         self.frame += 1

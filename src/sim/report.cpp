@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "gelatin/version.h"
 #include "model/build/collider_surface.h"
@@ -86,7 +87,12 @@ Json frame_json(const FrameStatistics& frame, const RunReport& report) {
 }
 
 Json spread_json(const std::vector<double>& milliseconds) {
-    return {{"median", percentile(milliseconds, 0.5)}, {"p95", percentile(milliseconds, 0.95)}};
+    if (milliseconds.empty()) return {{"median", 0.0}, {"mean", 0.0}, {"p95", 0.0}, {"max", 0.0}};
+    const double sum = std::accumulate(milliseconds.begin(), milliseconds.end(), 0.0);
+    return {{"median", percentile(milliseconds, 0.5)},
+            {"mean", sum / static_cast<double>(milliseconds.size())},
+            {"p95", percentile(milliseconds, 0.95)},
+            {"max", *std::max_element(milliseconds.begin(), milliseconds.end())}};
 }
 
 Json timing_json(const RunReport& report) {
@@ -96,8 +102,10 @@ Json timing_json(const RunReport& report) {
         stages[name]["runs"] = milliseconds.size();
     }
     const auto frames = static_cast<double>(report.frame_ms.size());
+    Json frame_ms = spread_json(report.frame_ms);
+    frame_ms["each"] = report.frame_ms;
     return {{"fps", report.seconds > 0.0 ? frames / report.seconds : 0.0},
-            {"frame_ms", spread_json(report.frame_ms)},
+            {"frame_ms", frame_ms},
             {"stages", stages}};
 }
 

@@ -90,8 +90,13 @@ TEST(Report, HasTheDocumentedKeys) {
                                              {"volume_ratio", {{"a", 0.9}, {"b", 1.1}}}}})},
                     {"timing",
                      {{"fps", 8.0},
-                      {"frame_ms", {{"median", 2.0}, {"p95", 100.0}}},
-                      {"stages", {{"advance_nodes", {{"median", 0.5}, {"p95", 0.75}, {"runs", 3}}}}}}}}));
+                      {"frame_ms",
+                       {{"median", 2.0},
+                        {"mean", 26.5},
+                        {"p95", 100.0},
+                        {"max", 100.0},
+                        {"each", {1.0, 2.0, 3.0, 100.0}}}},
+                      {"stages", {{"advance_nodes", {{"median", 0.5}, {"mean", 0.5}, {"p95", 0.75}, {"max", 0.75}, {"runs", 3}}}}}}}}));
 }
 
 TEST(Report, TellsContactForcesByName) {
