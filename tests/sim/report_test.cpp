@@ -96,7 +96,9 @@ TEST(Report, HasTheDocumentedKeys) {
                         {"p95", 100.0},
                         {"max", 100.0},
                         {"each", {1.0, 2.0, 3.0, 100.0}}}},
-                      {"stages", {{"advance_nodes", {{"median", 0.5}, {"mean", 0.5}, {"p95", 0.75}, {"max", 0.75}, {"runs", 3}}}}}}}}));
+                      {"stages",
+                       {{"advance_nodes",
+                         {{"median", 0.5}, {"mean", 0.5}, {"p95", 0.75}, {"max", 0.75}, {"runs", 3}}}}}}}}));
 }
 
 TEST(Report, TellsContactForcesByName) {
