@@ -55,14 +55,12 @@ struct CollisionSettings {
     BroadPhase broad_phase = BroadPhase::hierarchy;
     CollisionDetection detection = CollisionDetection::discrete;
     CollisionResponse response = CollisionResponse::restore;
-    /// Whether objects collide with themselves, too. Not given: with `contact` they do.
-    std::optional<bool> self_collision = std::nullopt;
+    /// Whether objects collide with themselves, too: by tests of their faces, or by contacts.
+    bool self_collision = false;
     /// Find nodes and faces, and pairs of edges, nearer than this [m], > 0; empty: off.
     std::optional<double> proximity_radius = std::nullopt;
     double friction = 0.4;     ///< Coulomb's coefficient, >= 0
     double restitution = 0.3;  ///< normal speed after a contact relative to before, in [0, 1]
-
-    bool meet_themselves() const { return self_collision.value_or(response == CollisionResponse::contact); }
 };
 
 /// How a material's elasticity is modelled.

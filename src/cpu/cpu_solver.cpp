@@ -86,18 +86,18 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
     const bool has_contact = collision.response == CollisionResponse::contact;
     if (solver == SolverKind::vbd) {
         std::unique_ptr<Contacts<Real>> contacts;
-        if (has_contact && (model_->objects.size() > 1 || collision.meet_themselves()))
+        if (has_contact && (model_->objects.size() > 1 || collision.self_collision))
             contacts =
-                std::make_unique<Contacts<Real>>(model_, collision.friction, collision.meet_themselves());
+                std::make_unique<Contacts<Real>>(model_, collision.friction, collision.self_collision);
         descent_.emplace(Descent{{model_, descent, BlockDescent<Real>::kNodesABatch, std::move(contacts)},
                                  ShapeMatcher<Real>(model_)});
     }
     if (scheme_.pass_count > 1) sums_ = stage_[0] = stage_[1] = current_;
-    if (collision.meet_themselves() && !has_contact) {
+    if (collision.self_collision && !has_contact) {
         self_ = std::make_unique<SelfStages>(SelfStages{{model_, collision_}, {model_, contact_}});
     }
     if (collision.proximity_radius)
-        proximities_.emplace(model_, collision_, *collision.proximity_radius, collision.meet_themselves());
+        proximities_.emplace(model_, collision_, *collision.proximity_radius, collision.self_collision);
     if (forces_ == ForceMethod::divide_and_merge) {
         spring_forces_.resize(model_->springs.size());
         node_forces_.resize(model_->node_count());

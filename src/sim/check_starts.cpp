@@ -122,7 +122,7 @@ void require_apart(const std::shared_ptr<const Model>& model, const Scene& scene
         fail(fmt::format("needs objects that are apart at the start; '{}' and '{}' overlap",
                          model->objects[pair.object].name, model->objects[pair.other].name));
     }
-    if (!scene.collision.meet_themselves()) return;
+    if (!scene.collision.self_collision) return;
     for (std::uint32_t o = 0; o < model->body_count(); ++o) {
         if (!passes_through_itself(*model, o, collision, exact)) continue;
         fail(

@@ -85,7 +85,7 @@ struct Simulator::Impl {
 
     bool seeks_proximities() const {
         return scene.collision.proximity_radius &&
-               (model->objects.size() > 1 || scene.collision.meet_themselves());
+               (model->objects.size() > 1 || scene.collision.self_collision);
     }
 
     bool has_contact_forces() const { return scene.collision.response == CollisionResponse::contact; }
@@ -209,7 +209,7 @@ void Simulator::step() {
     // Contacts are part of advance_nodes.
     const bool is_apart = d.scene.collision.response == CollisionResponse::contact;
     const bool has_others = d.model->objects.size() > 1, meets_others = has_others && !is_apart;
-    const bool meets_itself = d.scene.collision.meet_themselves() && !is_apart;
+    const bool meets_itself = d.scene.collision.self_collision && !is_apart;
     if (meets_others || meets_itself || d.seeks_proximities())
         d.run_stage("update_boxes", [&] { d.solver->update_boxes(); });
     if (meets_others || (has_others && d.seeks_proximities()))

@@ -53,6 +53,7 @@ TEST(CheckStarts, NamesWhatPassesThroughItself) {
     std::vector<glm::vec4> positions = model->positions;
     Scene scene;
     scene.collision.response = CollisionResponse::contact;
+    scene.collision.self_collision = true;
     EXPECT_NO_THROW(require_apart(model, scene, positions));
     for (glm::vec4& p : positions) {
         const float angle = 3.0f * p.x, radius = 0.4f + p.y;

@@ -27,12 +27,13 @@ std::shared_ptr<const Model> make_blocks(const std::vector<Block>& blocks,
                                          const glm::dvec3& gravity = {0, 0, 0},
                                          const std::vector<ColliderDescription>& colliders = {});
 
-/// With contact between bodies.
+/// With contact between bodies, and of bodies with themselves.
 template <class Real>
 cpu::CpuSolver<Real> make_solver(const std::shared_ptr<const Model>& model, double friction = 0.4,
                                  int iterations = 10, bool divides_steps = false) {
     return {model, SolverKind::vbd, ForceMethod::fused,
-            CollisionSettings{.response = CollisionResponse::contact, .friction = friction},
+            CollisionSettings{
+                .response = CollisionResponse::contact, .self_collision = true, .friction = friction},
             DescentSettings{.iterations = iterations, .divides_steps = divides_steps}};
 }
 

@@ -313,7 +313,7 @@ Model build_model(const Scene& scene) {
     for (const ObjectDescription& object : scene.objects) bodies.push_back(make_body(scene, object, mesher));
     Model model =
         pack_bodies(bodies, solid_colliders(scene), scene.simulation.gravity, make_collider_surfaces(scene));
-    if (scene.collision.meet_themselves() && scene.collision.response != CollisionResponse::contact)
+    if (scene.collision.self_collision && scene.collision.response != CollisionResponse::contact)
         model.rest_shapes = make_rest_shapes(model);
     return model;
 }

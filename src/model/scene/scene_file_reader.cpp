@@ -155,12 +155,6 @@ void TableReader::read(const char* key, bool& value) {
     value = node->as_boolean()->get();
 }
 
-void TableReader::read(const char* key, std::optional<bool>& value) {
-    bool given = false;
-    read(key, given);
-    if (has(key)) value = given;
-}
-
 void TableReader::read(const char* key, std::string& value) {
     const toml::node* node = find(key);
     if (node == nullptr) return;

@@ -52,7 +52,6 @@ public:
     void read(const char* key, std::optional<double>& value);
     void read(const char* key, int& value);
     void read(const char* key, bool& value);
-    void read(const char* key, std::optional<bool>& value);
     void read(const char* key, std::string& value);
     void read(const char* key, glm::dvec3& value);
     void read(const char* key, glm::ivec3& value);

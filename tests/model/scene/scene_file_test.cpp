@@ -67,7 +67,7 @@ restitution = 0
     EXPECT_EQ(scene.simulation.gravity, glm::dvec3(0.0, -1.62, 0.0));
     EXPECT_EQ(scene.simulation.frames, 12);
     EXPECT_EQ(scene.collision.broad_phase, BroadPhase::boxes);
-    EXPECT_EQ(scene.collision.self_collision, true);
+    EXPECT_TRUE(scene.collision.self_collision);
     EXPECT_EQ(scene.collision.proximity_radius, 0.005);
     EXPECT_EQ(scene.collision.detection, CollisionDetection::continuous);
     EXPECT_EQ(scene.collision.response, CollisionResponse::restore);
