@@ -87,8 +87,7 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
     if (solver == SolverKind::vbd) {
         std::unique_ptr<Contacts<Real>> contacts;
         if (has_contact && (model_->objects.size() > 1 || collision.self_collision))
-            contacts =
-                std::make_unique<Contacts<Real>>(model_, collision.friction, collision.self_collision);
+            contacts = std::make_unique<Contacts<Real>>(model_, collision.friction, collision.self_collision);
         descent_.emplace(Descent{{model_, descent, BlockDescent<Real>::kNodesABatch, std::move(contacts)},
                                  ShapeMatcher<Real>(model_)});
     }
