@@ -300,7 +300,7 @@ void GuardedMove<Real>::keep_from_themselves(const ContactList<Real>& list, cons
                 own_.stay(o, list, common);
                 return;
             }
-            if (!is_rigid.empty() && is_rigid[o] != 0 && own_.carry(o, list.own, planned_)) return;
+            if (!is_rigid.empty() && is_rigid[o] != 0 && own_.carry(o, list.own, positions, planned_)) return;
             own_parts[o] = own_.part(o, list, aims, positions, planned_, closeness);
             if (own_parts[o] < Real(1) && round >= kMostOwnRounds) own_parts[o] = Real(0);
         });

@@ -73,9 +73,11 @@ Real OwnGuard<Real>::keep_to_rooms(std::uint32_t object, const OwnRooms<Real>& r
 
 template <class Real>
 bool OwnGuard<Real>::carry(std::uint32_t object, const OwnRooms<Real>& rooms,
-                           std::span<const Vec4<Real>> ends) {
-    next_[object] = rooms.carried(object, ends);
-    return next_[object].is_carried && rooms.part_between(object, next_[object]) == Real(1);
+                           std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends) {
+    std::optional<ShapeMap<Real>> map = rooms.moved(object, positions, ends);
+    if (!map || rooms.part_between(object, *map) < Real(1)) return false;
+    next_[object] = std::move(*map);
+    return true;
 }
 
 template <class Real>

@@ -36,7 +36,8 @@ public:
               std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends, Closeness closeness);
     /// A body moves rigidly, or a part of that: what is apart in it stays so.
     /// @return false if the map could not follow
-    bool carry(std::uint32_t object, const OwnRooms<Real>& rooms, std::span<const Vec4<Real>> ends);
+    bool carry(std::uint32_t object, const OwnRooms<Real>& rooms, std::span<const Vec4<Real>> positions,
+               std::span<const Vec4<Real>> ends);
     /// All nodes of the body make this part of what they were to make.
     void shorten(std::uint32_t object, Real part, const OwnRooms<Real>& rooms);
     /// The body makes nothing but a displacement.

@@ -216,16 +216,38 @@ Real OwnRooms<Real>::used(std::uint32_t object, std::span<const Vec4<Real>> posi
     return most;
 }
 
+template <class Real>
+glm::mat<3, 3, Real> OwnRooms<Real>::moment(const Shape& shape, const Vec3<Real>& center,
+                                            std::span<const Vec4<Real>> positions) const {
+    glm::mat<3, 3, Real> moment(0);
+    for (std::uint32_t s = shape.places.first; s < shape.places.end(); ++s)
+        moment += glm::outerProduct(at(s, positions) - center, offsets_[s]);
+    return moment;
+}
+
+template <class Real>
+std::optional<ShapeMap<Real>> OwnRooms<Real>::moved(std::uint32_t object,
+                                                    std::span<const Vec4<Real>> positions,
+                                                    std::span<const Vec4<Real>> ends) const {
+    const Shape& shape = shapes_[object];
+    const Vec3<Real> from = middle(shape.places, positions), to = middle(shape.places, ends);
+    const glm::mat<3, 3, Real> before = moment(shape, from, positions) * shape.inverse_moment;
+    if (!keeps_distances(before)) return std::nullopt;
+    const glm::mat<3, 3, Real> motion = moment(shape, to, ends) * shape.inverse_moment * glm::inverse(before);
+    ShapeMap<Real> map = shape.map;
+    map.linear = motion * map.linear;
+    map.center = to + motion * (map.center - from);
+    for (Vec3<Real>& bend : map.bends) bend = motion * bend;
+    return map;
+}
+
 // By least squares over the surface nodes.
 template <class Real>
 ShapeMap<Real> OwnRooms<Real>::carried(std::uint32_t object, std::span<const Vec4<Real>> positions) const {
     const Shape& shape = shapes_[object];
     ShapeMap<Real> map = shape.map;
     map.center = middle(shape.places, positions);
-    glm::mat<3, 3, Real> moment(0);
-    for (std::uint32_t s = shape.places.first; s < shape.places.end(); ++s)
-        moment += glm::outerProduct(at(s, positions) - map.center, offsets_[s]);
-    const glm::mat<3, 3, Real> linear = moment * shape.inverse_moment;
+    const glm::mat<3, 3, Real> linear = moment(shape, map.center, positions) * shape.inverse_moment;
     map.is_carried = keeps_distances(linear);
     if (!map.is_carried) return map;
     const glm::mat<3, 3, Real> turn = linear * glm::inverse(map.linear);

@@ -6,6 +6,7 @@
 #include <glm/mat3x3.hpp>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -92,6 +93,10 @@ public:
     /// The same, and bent to `positions` as far as it may be.
     ShapeMap<Real> bent(std::uint32_t object, ShapeMap<Real> map,
                         std::span<const Vec4<Real>> positions) const;
+    /// The present map, moved as all nodes are that go from `positions` to `ends` by one affine motion: they
+    /// stay where they are in their rooms. None if the motion cannot be found from them.
+    std::optional<ShapeMap<Real>> moved(std::uint32_t object, std::span<const Vec4<Real>> positions,
+                                        std::span<const Vec4<Real>> ends) const;
     /// The part of the way from the present map to another one on which all maps between them keep enough.
     Real part_between(std::uint32_t object, const ShapeMap<Real>& to) const;
     /// What is between the present map and another one, at a part of the way.
@@ -130,6 +135,8 @@ private:
     Vec3<Real> at(std::uint32_t place, std::span<const Vec4<Real>> positions) const {
         return Vec3<Real>(positions[model_->surface_parts.nodes[place]]);
     }
+    glm::mat<3, 3, Real> moment(const Shape& shape, const Vec3<Real>& center,
+                                std::span<const Vec4<Real>> positions) const;
     Vec3<Real> middle(const Range& places, std::span<const Vec4<Real>> positions) const;
 
     std::shared_ptr<const Model> model_;

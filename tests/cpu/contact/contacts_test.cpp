@@ -340,6 +340,8 @@ void fuzz(unsigned first, unsigned count, int most_substeps = 4, int most_iterat
 
 TEST(Contacts, NothingPassesThroughAnything) {
     fuzz(1, 12);
+    fuzz(1197, 1, 16,
+         60);  // a soft body that is torn to twenty times its size, and moved while its map is old
 }
 
 TEST(ContactsLong, NothingPassesThroughAnything) {
