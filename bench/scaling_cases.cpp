@@ -89,7 +89,8 @@ void add_self_collision(const std::filesystem::path& scenes, std::vector<Scaling
     for (const char* name : {"free_fall", "rain"}) {
         const auto make = [scenes, name] {
             const Scene scene = load_scene(find_bench_scene(scenes, std::string(name) + ".toml"),
-                                           {"collision.self_collision=true"});
+                                           {"simulation.solver=semi_implicit_euler",
+                                            "collision.response=restore", "collision.self_collision=true"});
             return std::make_shared<const Model>(build_model(scene));
         };
         CollisionSettings settings;

@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "cpu/explicit/advance_nodes.h"
+#include "crossings.h"
 #include "gelatin/error.h"
 #include "gelatin/simulator.h"
 #include "gelatin/version.h"
@@ -50,7 +51,8 @@ Json describe_scene(const std::filesystem::path& file) {
     SimulatorOptions options;
     options.backend = Backend::cpu;
     Scene scene = load_scene(file);
-    scene.collision = {};  // some values need OpenGL; the description does not depend on them
+    // The description does not depend on what needs OpenGL.
+    if (scene.collision.broad_phase == BroadPhase::depth) scene.collision.broad_phase = BroadPhase::hierarchy;
     const Simulator simulator(scene, options);
     const SimulationSettings& settings = simulator.scene().simulation;
     const Counts counts = simulator.counts();
@@ -66,7 +68,7 @@ Json describe_scene(const std::filesystem::path& file) {
                           {"springs", counts.springs},
                           {"faces", counts.faces},
                           {"tets", counts.tets}}}};
-    for (const ModelObject& object : model_of(simulator).objects) {
+    for (const ModelObject& object : model_of(simulator).bodies()) {
         description["objects"][object.name] = {
             {"nodes", object.nodes.count}, {"springs", object.springs.count},
             {"faces", object.faces.count}, {"tets", object.tets.count},
@@ -79,8 +81,14 @@ Json describe(const std::filesystem::path& file) {
     if (file.empty()) return describe_machine();
     if (lower_case_ending(file) == ".toml") return describe_scene(file);
     Notes notes;
-    Json description = is_tet_file(file) ? describe_tets(read_tets(file, notes))
-                                         : describe_surface(read_surface(file, notes));
+    Json description;
+    if (is_tet_file(file)) {
+        description = describe_tets(read_tets(file, notes));
+    } else {
+        const SurfaceMesh mesh = read_surface(file, notes);
+        description = describe_surface(mesh);
+        description["crossings"] = count_crossings(mesh);
+    }
     description["notes"] = notes;
     return description;
 }

@@ -20,6 +20,9 @@ constexpr Limit kStrain{"a strain from 0.0001 to 1", [](double v) { return v >= 
 constexpr Limit kStretch{"a stretch above 1, up to 1000", [](double v) { return v > 1.0 && v <= 1e3; }};
 constexpr Limit kStress{"a stress above 0, up to 1e15 Pa", [](double v) { return v > 0.0 && v <= 1e15; }};
 constexpr Limit kSpeed{"a speed above 0, up to 1e6 m/s", [](double v) { return v > 0.0 && v <= 1e6; }};
+constexpr Limit kPressure{"a pressure above 0, up to 1e15 Pa", [](double v) { return v > 0.0 && v <= 1e15; }};
+constexpr Limit kForceScale{"a length from 1e-9 to 1e6 m for each newton",
+                            [](double v) { return v >= 1e-9 && v <= 1e6; }};
 constexpr Limit kTime{"a time from 0.0001 to 100 s", [](double v) { return v >= 1e-4 && v <= 100.0; }};
 constexpr Limit kCoordinate{"between -1e6 and 1e6", [](double v) { return std::abs(v) <= 1e6; }};
 constexpr double kUsualLevels = 0.0, kUsualStrain = 0.1, kUsualTime = 0.1;
@@ -28,7 +31,20 @@ constexpr const char* kCutForms =
     "along it "
     "[m]; -x, -y and -z are the other side";
 
-enum class Kind { boxes, faces, springs, stretch, stress, speed, cut, velocity, objects, wireframe };
+enum class Kind {
+    boxes,
+    faces,
+    springs,
+    stretch,
+    stress,
+    speed,
+    pressure,
+    cut,
+    velocity,
+    forces,
+    objects,
+    wireframe
+};
 
 // "NAME", or with fields "NAME:FIELD:FIELD".
 struct Request {
@@ -49,8 +65,10 @@ struct Request {
                              {"stretch", Kind::stretch},
                              {"stress", Kind::stress},
                              {"speed", Kind::speed},
+                             {"pressure", Kind::pressure},
                              {"cut", Kind::cut},
                              {"velocity", Kind::velocity},
+                             {"forces", Kind::forces},
                              {"objects", Kind::objects},
                              {"wireframe", Kind::wireframe}});
     }
@@ -95,7 +113,7 @@ void show_boxes(const Request& request, Overlays& overlays) {
 // Springs and the quantities both colour the bodies, so they exclude each other.
 void check_colors(const Request& request, const Overlays& overlays) {
     if (overlays.full_strain || overlays.color_map)
-        request.refuse("of springs, stretch, stress and speed one can be shown");
+        request.refuse("of springs, stretch, stress, speed and pressure one can be shown");
 }
 
 void show_quantity(const Request& request, Quantity quantity, const Limit& limit, Overlays& overlays) {
@@ -144,10 +162,18 @@ void show(const Request& request, Overlays& overlays) {
             return show_quantity(request, Quantity::stress, kStress, overlays);
         case Kind::speed:
             return show_quantity(request, Quantity::speed, kSpeed, overlays);
+        case Kind::pressure:
+            return show_quantity(request, Quantity::pressure, kPressure, overlays);
         case Kind::cut:
             return show_cut(request, overlays);
         case Kind::velocity:
             overlays.arrow_time = static_cast<float>(request.number_or(kUsualTime, kTime));
+            return;
+        case Kind::forces:
+            request.allow(1);
+            overlays.contact_forces = ForceArrows{};
+            if (!request.fields.empty())
+                overlays.contact_forces->scale = static_cast<float>(request.number(0, kForceScale));
             return;
         case Kind::objects:
             request.allow(0);

@@ -42,6 +42,12 @@ std::optional<Overlays> toggled(Overlays overlays, Command command, const Render
         case Command::toggle_speed:
             switch_quantity(overlays, Quantity::speed);
             return overlays;
+        case Command::toggle_pressure:
+            switch_quantity(overlays, Quantity::pressure);
+            return overlays;
+        case Command::toggle_contact_forces:
+            overlays.contact_forces = switched(overlays.contact_forces, ForceArrows{});
+            return overlays;
         case Command::toggle_arrows:
             overlays.arrow_time = switched(overlays.arrow_time, kUsualArrowTime);
             return overlays;

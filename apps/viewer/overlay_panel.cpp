@@ -24,6 +24,7 @@ constexpr std::array kColors{
     ColorChoice{"stretch", Quantity::stretch, 1.001f, 10.0f, "%.3f"},
     ColorChoice{"stress", Quantity::stress, 1.0f, 1e9f, "%.3g Pa"},
     ColorChoice{"speed", Quantity::speed, 0.001f, 100.0f, "%.3g m/s"},
+    ColorChoice{"contact pressure", Quantity::pressure, 1.0f, 1e9f, "%.3g Pa"},
 };
 
 const ColorChoice& present_choice(const Overlays& overlays) {
@@ -128,6 +129,22 @@ bool choose_arrows(Overlays& overlays) {
     return changed;
 }
 
+bool choose_forces(const RenderView& bodies, Overlays& overlays) {
+    bool is_shown = overlays.contact_forces.has_value();
+    bool changed = ImGui::Checkbox("contact forces", &is_shown);
+    if (changed) overlays.contact_forces = is_shown ? std::optional(ForceArrows{}) : std::nullopt;
+    if (!overlays.contact_forces) return changed;
+    std::optional<float>& scale = overlays.contact_forces->scale;
+    bool follows = !scale;
+    if (ImGui::Checkbox("length adapts", &follows)) {
+        const float present = bodies.overlay.contact_forces ? bodies.overlay.contact_forces->scale : 0.01f;
+        scale = follows ? std::nullopt : std::optional(present);
+        changed = true;
+    }
+    if (scale) changed |= ImGui::SliderFloat("length##force", &*scale, 1e-6f, 1.0f, "%.3g m/N", kLogarithmic);
+    return changed;
+}
+
 bool choose_boxes(Overlays& overlays) {
     bool is_shown = overlays.box_levels.has_value();
     bool changed = ImGui::Checkbox("boxes", &is_shown);
@@ -147,6 +164,7 @@ void draw_overlay_choices(const Session& session, const PanelState& state, Reque
     changed |= ImGui::Checkbox("edges of the surfaces", &overlays.wireframe);
     changed |= choose_cut(session.view(), state.camera, overlays);
     changed |= choose_arrows(overlays);
+    changed |= choose_forces(session.view(), overlays);
     changed |= choose_springs(overlays);
     changed |= ImGui::Checkbox("faces that touch", &overlays.faces);
     changed |= choose_boxes(overlays);

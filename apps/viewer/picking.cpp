@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "model/corners.h"
+
 namespace gelatin::viewer {
 namespace {
 
@@ -60,8 +62,7 @@ Pull take_hold(const Model& model, std::span<const float> positions, const Pick&
         const glm::vec3 arm = position_of(positions, n) - pick.point;
         const float part = glm::dot(arm, arm) / (reach * reach);
         const float firmness = part < 1.0f ? (1.0f - part) * (1.0f - part) : 0.0f;
-        const bool is_corner = n == face.a || n == face.b || n == face.c;
-        const float weight = model.masses[n] * std::max(firmness, is_corner ? 0.1f : 0.0f);
+        const float weight = model.masses[n] * std::max(firmness, has_corner(face, n) ? 0.1f : 0.0f);
         if (weight == 0.0f) continue;
         pull.nodes.push_back({n, arm, weight});
         sum += static_cast<double>(weight);

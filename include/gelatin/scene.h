@@ -48,7 +48,16 @@ enum class CollisionDetection {
 enum class CollisionResponse {
     restore,  ///< the paper's (2.4): nodes return to their previous positions, and their velocities respond
     contact,  ///< bodies press each other before they touch, and never pass through each other
-              ///< (docs/contact.md); for SolverKind::vbd on the CPU
+              ///< (docs/contact.md); for SolverKind::vbd
+};
+
+/// How bodies of two materials, or of one, press each other; for CollisionResponse::contact.
+struct MaterialPair {
+    std::string first, second;  ///< names of materials, in any order
+    /// Coulomb's coefficient, >= 0; empty: the geometric mean of both materials'.
+    std::optional<double> friction = {};
+    /// As a factor, > 0; empty: the geometric mean of both materials'.
+    std::optional<double> contact_stiffness = {};
 };
 
 struct CollisionSettings {
@@ -59,8 +68,9 @@ struct CollisionSettings {
     bool self_collision = false;
     /// Find nodes and faces, and pairs of edges, nearer than this [m], > 0; empty: off.
     std::optional<double> proximity_radius = std::nullopt;
-    double friction = 0.4;     ///< Coulomb's coefficient, >= 0
-    double restitution = 0.3;  ///< normal speed after a contact relative to before, in [0, 1]
+    double friction = 0.4;                 ///< Coulomb's coefficient, >= 0
+    double restitution = 0.3;              ///< normal speed after a contact relative to before, in [0, 1]
+    std::vector<MaterialPair> pairs = {};  ///< each pair of materials at most once
 };
 
 /// How a material's elasticity is modelled.
@@ -90,7 +100,13 @@ struct Material {
     /// For mass_spring only. Empty: springs fitted to each mesh, so that the body has youngs_modulus. With
     /// kinds: the paper's springs, which are softer.
     std::optional<SpringKinds> springs;
-    int line = 0;  ///< in the scene file, for later messages
+
+    // Of a body's surface, for CollisionResponse::contact; the material of a part does not count.
+    std::optional<double> friction = {};  ///< Coulomb's coefficient, >= 0; empty: CollisionSettings'
+    /// Two surfaces begin to press at the sum of both [m], > 0; empty: a twentieth of the body's median edge.
+    std::optional<double> thickness = {};
+    double contact_stiffness = 1.0;  ///< of contacts, as a factor, > 0
+    int line = 0;                    ///< in the scene file, for later messages
 };
 
 struct SphereShape {

@@ -56,6 +56,17 @@ struct ContactForce {
     std::size_t points = 0;                    ///< where they press each other
 };
 
+/// What a pin or a handle exerts on its object to hold its nodes where they are, when the last step ended:
+/// the mass of these nodes times their acceleration, less all other forces on them. For SolverKind::vbd on
+/// the CPU.
+struct HoldingForce {
+    std::size_t object = 0;  ///< index in Scene::objects
+    bool is_pin = false;     ///< otherwise a handle
+    std::size_t index = 0;   ///< in ObjectDescription::pins or handles
+    double force[3] = {};    ///< on the object [N]
+    double torque[3] = {};   ///< on the object, about the centre of the nodes [N m]
+};
+
 /// The measurements of one frame. SI units.
 struct FrameStatistics {
     int frame = 0;
@@ -70,6 +81,7 @@ struct FrameStatistics {
     std::vector<double> volume_ratio;                ///< volume divided by rest volume, by object
     std::optional<ProximityStatistics> proximities;  ///< of the last step; empty without a proximity radius
     std::vector<ContactForce> contact_forces;        ///< by object, then others, then colliders
+    std::vector<HoldingForce> holding_forces;        ///< in the order of Simulator::held_nodes
 };
 
 /// Node positions and velocities on the host. Nodes of colliders' surfaces come after those of bodies.
@@ -81,6 +93,9 @@ struct HostFrame {
     /// For CollisionResponse::contact, else empty: x, y, z of the force of contacts on each node [N], shape
     /// [nodes][3]; and the part of it that is friction.
     std::vector<float> contact_forces, contact_friction;
+    /// For scenes with pins or handles and SolverKind::vbd on the CPU, else empty: x, y, z of the force that
+    /// holds each node [N], shape [nodes][3]; 0 for those that nothing holds.
+    std::vector<float> holding_forces;
 };
 
 /// A scene that runs.

@@ -12,6 +12,8 @@ enum class Quantity {
     stretch,  ///< the largest principal stretch, 1 at rest
     stress,   ///< von Mises' stress [Pa]
     speed,    ///< [m/s]
+    /// The normal force of contacts at a node over its share of the surface [Pa]; vbd on the CPU finds it.
+    pressure,
 };
 
 struct ColorMap {
@@ -24,6 +26,12 @@ struct CutPlane {
     float normal[3] = {0.0f, 0.0f, 1.0f};  ///< of any length but 0
     /// Distance from the origin along the normal [m]; empty: through the centre of the bodies at the start.
     std::optional<float> offset = {};
+};
+
+/// Arrows of what contacts exert on nodes, normal and friction together; vbd on the CPU finds it.
+struct ForceArrows {
+    std::optional<float> scale =
+        {};  ///< length of an arrow over its force [m/N]; empty: adapts to the forces
 };
 
 /// What to show of the simulation in addition to the bodies.
@@ -39,11 +47,13 @@ struct Overlays {
     std::optional<CutPlane> cut = {};
     /// Arrows, as long as the displacement of a surface node in this time [s], > 0; empty: none.
     std::optional<float> arrow_time = {};
+    std::optional<ForceArrows> contact_forces = {};
     bool objects = false;    ///< each object in its own colour, with its name
     bool wireframe = false;  ///< the edges of the surfaces
 
     bool any() const {
-        return box_levels || faces || full_strain || color_map || cut || arrow_time || objects || wireframe;
+        return box_levels || faces || full_strain || color_map || cut || arrow_time || contact_forces ||
+               objects || wireframe;
     }
 };
 
@@ -64,10 +74,10 @@ struct ColorMapView {
 };
 
 struct ArrowView {
-    unsigned nodes = 0;       ///< uint; shape [count]
-    unsigned velocities = 0;  ///< vec4: xyz [m/s]; shape [nodes]
+    unsigned nodes = 0;    ///< uint; shape [count]
+    unsigned vectors = 0;  ///< vec4: xyz, a velocity [m/s] or a force [N]; shape [nodes]
     std::uint32_t count = 0;
-    float time = 0.0f;  ///< [s]
+    float scale = 0.0f;  ///< length of an arrow over that of its vector [s] or [m/N]
 };
 
 struct ObjectView {
@@ -89,7 +99,8 @@ struct OverlayView {
     float full_strain = 0.0f;
     std::optional<ColorMapView> color_map = {};
     std::optional<CutView> cut = {};
-    std::optional<ArrowView> arrows = {};
+    std::optional<ArrowView> arrows = {};          ///< velocities
+    std::optional<ArrowView> contact_forces = {};  ///< each begins at a node that is pressed
     std::optional<ObjectView> objects = {};
     bool wireframe = false;
 };

@@ -11,7 +11,7 @@ struct DescentRow {      // 16 bytes
     uint  node;          // 0xFFFFFFFF pads a colour
     uint  object;
     uint  pairs;         // of half springs, in the slice from its start on, 64 apart
-    uint  unused;
+    uint  place;         // of the node among those of the surface, or 0xFFFFFFFF
 };
 // How a collider holds a node.
 struct ColliderContact { // 32 bytes

@@ -1,14 +1,14 @@
-// Velocities as arrows from nodes of the surface to where they will be after some time: each a rectangle around it that faces
-// the screen, six vertices; render/arrows.frag draws the arrow in it.
+// Arrows from nodes of the surface, of velocities or forces: each a rectangle around it that faces the screen, six vertices;
+// render/arrows.frag draws the arrow in it.
 #include "render/include/cut.glsl"
 #include "render/include/near_plane.glsl"
 
 uniform samplerBuffer node_positions;  // xyz [m]
-uniform samplerBuffer velocities;      // xyz [m/s]
+uniform samplerBuffer vectors;         // xyz [m/s] or [N]
 uniform usamplerBuffer arrow_nodes;
 uniform mat4 world_to_clip;
 uniform vec2 picture_size;  // [pixels]
-uniform float arrow_time;   // [s]
+uniform float arrow_scale;  // [s] or [m/N]
 uniform float line_scale;
 
 noperspective out vec2 place;  // along the arrow, back from its tip, and across it, in widths of its shaft
@@ -20,7 +20,7 @@ void main() {
     int node = int(texelFetch(arrow_nodes, gl_VertexID / 6).x);
     vec3 from = texelFetch(node_positions, node).xyz;
     vec4 a = world_to_clip * vec4(from, 1.0);
-    vec4 b = world_to_clip * vec4(from + arrow_time * texelFetch(velocities, node).xyz, 1.0);
+    vec4 b = world_to_clip * vec4(from + arrow_scale * texelFetch(vectors, node).xyz, 1.0);
     bool is_hidden = cut_by_near_plane(a, b) || depth_below_cut(from) < 0.0;
 
     vec2 pixels = 0.5 * picture_size;

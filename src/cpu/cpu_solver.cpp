@@ -9,6 +9,7 @@
 
 #include "core/counted.h"
 #include "cpu/collision/respond.h"
+#include "cpu/descent/holding_forces.h"
 #include "cpu/drive/apply_kinematics.h"
 #include "cpu/drive/sum_loads.h"
 #include "cpu/measure/measure.h"
@@ -75,7 +76,8 @@ BoxMargin<Real> margin_for(const CollisionSettings& settings) {
 
 template <class Real>
 CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces,
-                           const CollisionSettings& collision, const DescentSettings& descent)
+                           const CollisionSettings& collision, const DescentSettings& descent,
+                           DeviceSweeps* device)
     : model_(std::move(model)),
       scheme_(explicit_scheme(solver)),
       forces_(forces),
@@ -86,10 +88,10 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
     const bool has_contact = collision.response == CollisionResponse::contact;
     if (solver == SolverKind::vbd) {
         std::unique_ptr<Contacts<Real>> contacts;
-        if (has_contact && (model_->objects.size() > 1 || collision.self_collision))
-            contacts = std::make_unique<Contacts<Real>>(model_, collision.friction, collision.self_collision);
-        descent_.emplace(Descent{{model_, descent, BlockDescent<Real>::kNodesABatch, std::move(contacts)},
-                                 ShapeMatcher<Real>(model_)});
+        if (has_contacts(*model_, collision)) contacts = std::make_unique<Contacts<Real>>(model_, collision);
+        descent_.emplace(
+            Descent{{model_, descent, BlockDescent<Real>::kNodesABatch, std::move(contacts), device},
+                    ShapeMatcher<Real>(model_)});
     }
     if (scheme_.pass_count > 1) sums_ = stage_[0] = stage_[1] = current_;
     if (collision.self_collision && !has_contact) {
@@ -109,7 +111,14 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
 
 template <class Real>
 void CpuSolver<Real>::apply_kinematics(std::span<const HandleMotion> motions) {
+    const auto add_velocities = [&](double sign) {
+        for (std::size_t h = 0; h < held_changes_.size(); ++h)
+            held_changes_[h] += sign * glm::dvec3(current_.velocities[model_->handle_nodes[h].node]);
+    };
+    held_changes_.assign(model_->handle_nodes.size(), glm::dvec3(0.0));
+    add_velocities(-1.0);
     cpu::apply_kinematics(*model_, motions, current_);
+    add_velocities(1.0);
 }
 
 template <class Real>
@@ -141,6 +150,7 @@ void CpuSolver<Real>::add_pulls(const Nodes<Real>& nodes, Real step) {
 
 template <class Real>
 void CpuSolver<Real>::advance_nodes(double step) {
+    step_ = step;
     if (descent_) {
         descend(*descent_, step);
     } else {
@@ -253,6 +263,19 @@ ContactForces CpuSolver<Real>::contact_forces() const {
 }
 
 template <class Real>
+HoldingForces CpuSolver<Real>::holding_forces() const {
+    const bool holds_bodies = !model_->handles.empty() && model_->is_body(model_->handles[0].object);
+    if (!descent_ || !holds_bodies) return {};
+    std::vector<glm::dvec3> others =
+        descent_->solver.forces_on_held(current_.positions, pulls_ ? &*pulls_ : nullptr);
+    if (!load_forces_.empty())
+        for (std::size_t n = 0; n < others.size(); ++n) others[n] += glm::dvec3(load_forces_[n]);
+    std::vector<glm::dvec3> accelerations = held_changes_;
+    for (glm::dvec3& acceleration : accelerations) acceleration /= step_;
+    return find_holding_forces<Real>(*model_, current_.positions, others, accelerations);
+}
+
+template <class Real>
 State CpuSolver<Real>::read_state() const {
     State state{{current_.positions.begin(), current_.positions.end()},
                 {current_.velocities.begin(), current_.velocities.end()},
@@ -268,6 +291,7 @@ void CpuSolver<Real>::write_state(const State& state) {
     has_earlier_ = !state.earlier_velocities.empty();
     if (has_earlier_) previous_.velocities = converted<Real>(state.earlier_velocities);
     if (descent_) descent_->solver.restart(current_.positions);
+    held_changes_.clear();
     alarm_ = kNoAlarm;
 }
 

@@ -23,8 +23,11 @@ namespace gelatin::cpu {
 template <class Real>
 class CpuSolver : public Solver {
 public:
+    /// @param device that makes the sweeps of bodies with contacts; null: the host makes them; must outlive
+    /// this
     CpuSolver(std::shared_ptr<const Model> model, SolverKind solver, ForceMethod forces,
-              const CollisionSettings& collision = {}, const DescentSettings& descent = {});
+              const CollisionSettings& collision = {}, const DescentSettings& descent = {},
+              DeviceSweeps* device = nullptr);
 
     void apply_kinematics(std::span<const HandleMotion> motions) override;
     void set_load_factors(std::span<const float> factors) override;
@@ -46,6 +49,7 @@ public:
     std::uint32_t lost_pairs() const override { return 0; }
     ProximityMeasure proximities() const override { return measured_proximities_; }
     ContactForces contact_forces() const override;
+    HoldingForces holding_forces() const override;
     State read_state() const override;
     void write_state(const State& state) override;
     StageTimer& stage_timer() override { return timer_; }
@@ -81,6 +85,8 @@ private:
     Nodes<Real> stage_[2];            // between the passes of one step
     Nodes<Real> sums_;
     std::vector<Vec4<Real>> spring_forces_, node_forces_;
+    double step_ = 0.0;                     // the last one [s]
+    std::vector<glm::dvec3> held_changes_;  // of handle nodes' velocities as it began [m/s]
     std::vector<float> load_factors_;
     std::vector<Vec4<Real>> load_forces_;  // [N], shape [nodes]; empty without loads
     std::optional<Pulls<Real>> pulls_;     // while a user pulls

@@ -69,7 +69,7 @@ public:
     const ObjectName& name() const { return raw_.name(); }
     unsigned id() const { return raw_.id(); }
 
-    /// @pre data.size() == size()
+    /// To the first elements. @pre data.size() <= size()
     void upload(std::span<const T> data) { raw_.upload(0, data.size_bytes(), data.data()); }
 
     /// Copies the contents to `out`; blocks until the GPU has finished.

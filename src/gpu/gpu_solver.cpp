@@ -15,21 +15,25 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, Forc
       buffers_(*model_),
       current_(model_->positions, model_->velocities),
       previous_(model_->positions, model_->velocities),
-      integrator_(make_integrator(*model_, scheme_, solver, forces, descent)),
+      integrator_(make_integrator(*model_, scheme_, solver, forces, collision, descent)),
       measure_(*model_, collision.self_collision) {
     if (scheme_.pass_count > 1) {
         for (NodeBuffers* nodes : {&stage_[0], &stage_[1], &sums_}) {
             *nodes = NodeBuffers(model_->positions, model_->velocities);
         }
     }
-    if (model_->objects.size() > 1 || collision.self_collision) collision_.emplace(*model_, collision);
+    const bool has_contact = collision.response == CollisionResponse::contact;
+    if (!has_contact && (model_->objects.size() > 1 || collision.self_collision))
+        collision_.emplace(*model_, collision);
     if (!model_->loads.empty()) sum_loads_.emplace(*model_);
     if (!model_->volume_term.is_empty() && solver != SolverKind::vbd) find_volume_stresses_.emplace(*model_);
 }
 
 GpuSolver::Integrator GpuSolver::make_integrator(const Model& model, const ExplicitScheme& scheme,
                                                  SolverKind solver, ForceMethod forces,
+                                                 const CollisionSettings& collision,
                                                  const DescentSettings& descent) {
+    if (has_contacts(model, collision)) return {};
     if (solver == SolverKind::vbd) return Descent{{model, descent}, ShapeMatcher(model)};
     if (forces == ForceMethod::fused) return AdvanceNodes(model, scheme);
     return DivideAndMerge(model, scheme);
@@ -46,6 +50,12 @@ void GpuSolver::advance_nodes(double step) {
     } else {
         run_scheme(step);
     }
+}
+
+void GpuSolver::take_step(std::span<const glm::vec4> positions, std::span<const glm::vec4> velocities) {
+    std::swap(current_, previous_);
+    current_.positions.upload(positions);
+    current_.velocities.upload(velocities);
 }
 
 void GpuSolver::descend(Descent& descent, double step) {

@@ -58,6 +58,10 @@ public:
     const Collision& collision() const { return *collision_; }
     bool has_collision() const { return collision_.has_value(); }
 
+protected:
+    /// What a step has led to that was made elsewhere: instead of advance_nodes.
+    void take_step(std::span<const glm::vec4> positions, std::span<const glm::vec4> velocities);
+
 private:
     // Vertex block descent, and what gives bodies their shape back before it.
     struct Descent {
@@ -65,9 +69,11 @@ private:
         ShapeMatcher shape_matcher;
     };
     // What moves the nodes: an explicit scheme in one kernel or in the paper's three, or block descent.
-    using Integrator = std::variant<AdvanceNodes, DivideAndMerge, Descent>;
+    // None where steps are made elsewhere.
+    using Integrator = std::variant<std::monostate, AdvanceNodes, DivideAndMerge, Descent>;
     static Integrator make_integrator(const Model& model, const ExplicitScheme& scheme, SolverKind solver,
-                                      ForceMethod forces, const DescentSettings& descent);
+                                      ForceMethod forces, const CollisionSettings& collision,
+                                      const DescentSettings& descent);
     void descend(Descent& descent, double step);
     void run_scheme(double step);
 

@@ -23,6 +23,7 @@ using glm::vec4;
 #include "layouts/half_spring_pair.glsl"
 #include "layouts/handle.glsl"
 #include "layouts/load.glsl"
+#include "layouts/node_contacts.glsl"
 #include "layouts/object_pair.glsl"
 #include "layouts/proximity.glsl"
 #include "layouts/rest_shape.glsl"
@@ -58,6 +59,8 @@ static_assert(sizeof(LeafSearch) == 32);
 static_assert(sizeof(LoadedNode) == 16);
 static_assert(sizeof(NearObject) == 16);
 static_assert(sizeof(NeoHookeanStep) == 64);
+static_assert(sizeof(NodeLimits) == 80);
+static_assert(sizeof(NodeShare) == 48);
 static_assert(sizeof(NodeLoad) == 32);
 static_assert(sizeof(NodeSums) == 32);
 static_assert(sizeof(ObjectPair) == 32);
@@ -106,7 +109,9 @@ using layouts::LeafSearch;
 using layouts::LoadedNode;
 using layouts::NearObject;
 using layouts::NeoHookeanStep;
+using layouts::NodeLimits;
 using layouts::NodeLoad;
+using layouts::NodeShare;
 using layouts::NodeSums;
 using layouts::ObjectPair;
 using layouts::PairRow;

@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,6 +27,13 @@ struct Range {
     std::uint32_t end() const { return first + count; }
 };
 
+/// How a body presses others. @see Material
+struct BodySurface {
+    std::string material;
+    std::optional<double> friction, thickness;
+    double contact_stiffness = 1.0;
+};
+
 /// One deformable body, or the rigid surface of a collider: its ranges in the packed arrays, and its constant
 /// properties.
 struct ModelObject {
@@ -35,6 +43,7 @@ struct ModelObject {
     double mass = 0.0;         ///< [kg]
     double rest_volume = 0.0;  ///< [m^3]
     glm::vec3 color{0.0f};     ///< linear RGB; negative if the scene gives none
+    BodySurface surface;       ///< of a body
 };
 
 /// What a collider's surface has besides its nodes and faces. It has no springs, tets and mass, and all of
@@ -154,5 +163,8 @@ struct Model {
 
 /// The object of each node, shape [nodes].
 std::vector<std::uint32_t> objects_of_nodes(const Model& model);
+
+/// Of each node its place in SurfaceParts::nodes, or kNoNode inside a body.
+std::vector<std::uint32_t> places_on_surface(const Model& model);
 
 }  // namespace gelatin

@@ -32,6 +32,12 @@ struct DescentSettings {
     bool divides_steps = false;
 };
 
+/// Whether vertex block descent has contacts between bodies, with colliders, or of bodies with themselves.
+inline bool has_contacts(const Model& model, const CollisionSettings& collision) {
+    return collision.response == CollisionResponse::contact &&
+           (model.objects.size() > 1 || collision.self_collision);
+}
+
 /// A node nearer to a collider than this [m] counts as a contact.
 constexpr double kContactDistance = 1e-5;
 
@@ -72,6 +78,13 @@ struct ContactForces {
     };
     std::vector<Between> between;              ///< by object, others before planes
     std::vector<glm::dvec3> normal, friction;  ///< on each node [N], shape [nodes]
+};
+
+/// What pins and handles exert on bodies to hold their nodes where they are, when a step has ended.
+struct HoldingForces {
+    std::vector<glm::dvec3> by_handle;  ///< sums over each handle's nodes [N], shape [Model::handles]
+    std::vector<glm::dvec3> torques;    ///< about the centres of their nodes [N m], shape [Model::handles]
+    std::vector<glm::dvec3> nodes;      ///< [N], shape [nodes]; 0 where nothing holds a node
 };
 
 /// A backend: owns the state, in host or device memory, and advances it. The stages are called in the order
@@ -131,6 +144,10 @@ public:
 
     /// For CollisionResponse::contact: what presses objects at present.
     virtual ContactForces contact_forces() const { return {}; }
+
+    /// What pins and handles exert at present; zero before the first step. Empty without any, and from
+    /// solvers that do not find it.
+    virtual HoldingForces holding_forces() const { return {}; }
 
     virtual State read_state() const = 0;
     /// Discards what watching has found so far.

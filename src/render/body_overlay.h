@@ -16,12 +16,14 @@ public:
     void prepare(const OverlayView& overlay);
     /// @pre as Pipeline::draw, and the shadows' textures are bound
     void draw(const Frame& frame, const RenderView& bodies) const;
+    /// What contacts press shines through what hides it. @pre pressures are shown, blending is on
+    void draw_pressed(const Frame& frame, const RenderView& bodies) const;
 
 private:
-    void draw_colored(const Frame& frame, const RenderView& bodies) const;
+    void draw_colored(const Frame& frame, const RenderView& bodies, const gl::Program& program) const;
 
     std::optional<PixelLight> cut_light_;
-    std::optional<gl::Program> colored_program_;
+    std::optional<gl::Program> colored_program_, pressed_program_;
 };
 
 }  // namespace gelatin::render

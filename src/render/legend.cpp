@@ -95,6 +95,8 @@ const char* title_of(Quantity quantity) {
             return "largest stretch";
         case Quantity::stress:
             return "von Mises stress";
+        case Quantity::pressure:
+            return "contact pressure";
         case Quantity::speed:
             break;
     }

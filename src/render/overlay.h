@@ -35,6 +35,9 @@ public:
 private:
     const OverlayView& view() const { return bodies_.overlay; }
     bool has_springs() const { return view().springs != 0; }
+    bool shows_pressures() const {
+        return !has_springs() && view().color_map && view().color_map->quantity == Quantity::pressure;
+    }
 
     RenderView bodies_;
     std::optional<BodyOverlay> recolored_;

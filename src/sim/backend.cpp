@@ -11,11 +11,8 @@ namespace gelatin {
 
 SimulatorOptions with_needed_backend(SimulatorOptions options, const Scene& scene) {
     if (scene.collision.response == CollisionResponse::contact) {
-        if (options.backend == Backend::gl) {
-            throw InvalidInput({scene.file.string(), 0, "collision.response", "\"contact\"",
-                                "needs --backend cpu; with OpenGL it must be restore"});
-        }
-        options.backend = Backend::cpu;
+        // Most of such a step runs on the processor with any backend (docs/contact.md).
+        if (options.backend == Backend::automatic) options.backend = Backend::cpu;
         return options;
     }
     if (scene.collision.broad_phase != BroadPhase::depth) return options;

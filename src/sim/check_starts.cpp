@@ -11,6 +11,7 @@
 #include "cpu/collision/walk_tree.h"
 #include "gelatin/error.h"
 #include "model/collision/pack_colliders.h"
+#include "model/corners.h"
 
 namespace gelatin {
 namespace {
@@ -40,11 +41,6 @@ double thickness_along(const glm::dvec3& direction, std::span<const glm::vec4> n
     return most - least;
 }
 
-bool share_corner(const Face& f, const Face& g) {
-    const auto is_corner = [&](std::uint32_t n) { return n == g.a || n == g.b || n == g.c; };
-    return is_corner(f.a) || is_corner(f.b) || is_corner(f.c);
-}
-
 // Faces without a corner in common.
 bool passes_through_itself(const Model& model, std::uint32_t object, const cpu::Collision<double>& boxes,
                            std::span<const glm::dvec4> positions) {
@@ -64,6 +60,10 @@ bool passes_through_itself(const Model& model, std::uint32_t object, const cpu::
             });
     }
     return any;
+}
+
+[[noreturn]] void refuse(const Scene& scene, const std::string& text) {
+    throw InvalidInput({scene.file.string(), 0, "collision.response", "\"contact\"", text});
 }
 
 const char* name_of(const Collider& collider) {
@@ -109,9 +109,6 @@ std::vector<std::string> check_starts(const Model& model, const Scene& scene,
 void require_apart(const std::shared_ptr<const Model>& model, const Scene& scene,
                    std::span<const glm::vec4> positions) {
     const std::vector<glm::dvec4> exact(positions.begin(), positions.end());
-    const auto fail = [&](const std::string& text) {
-        throw InvalidInput({scene.file.string(), 0, "collision.response", "\"contact\"", text});
-    };
     cpu::Collision<double> collision(model);
     collision.update_boxes(exact);
     collision.find_object_pairs();
@@ -119,16 +116,22 @@ void require_apart(const std::shared_ptr<const Model>& model, const Scene& scene
     for (const cpu::ObjectPair& pair : collision.pairs()) {
         if (!model->is_body(pair.object) && !model->is_body(pair.other)) continue;
         if (!collision.collide(pair)) continue;
-        fail(fmt::format("needs objects that are apart at the start; '{}' and '{}' overlap",
-                         model->objects[pair.object].name, model->objects[pair.other].name));
+        refuse(scene, fmt::format("needs objects that are apart at the start; '{}' and '{}' overlap",
+                                  model->objects[pair.object].name, model->objects[pair.other].name));
     }
-    if (!scene.collision.self_collision) return;
+}
+
+void require_whole(const std::shared_ptr<const Model>& model, const Scene& scene,
+                   std::span<const glm::vec4> positions) {
+    const std::vector<glm::dvec4> exact(positions.begin(), positions.end());
+    cpu::Collision<double> collision(model);
+    collision.update_boxes(exact);
     for (std::uint32_t o = 0; o < model->body_count(); ++o) {
         if (!passes_through_itself(*model, o, collision, exact)) continue;
-        fail(
-            fmt::format("needs objects that do not pass through themselves at the start; '{}' does; "
-                        "self_collision = false leaves that alone",
-                        model->objects[o].name));
+        refuse(scene,
+               fmt::format("needs objects that do not pass through themselves at the start; '{}' does; "
+                           "self_collision = false leaves that alone",
+                           model->objects[o].name));
     }
 }
 

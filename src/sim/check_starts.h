@@ -21,5 +21,8 @@ std::vector<std::string> check_starts(const Model& model, const Scene& scene,
 /// @throws InvalidInput naming the two objects, if faces of two of them overlap
 void require_apart(const std::shared_ptr<const Model>& model, const Scene& scene,
                    std::span<const glm::vec4> positions);
+/// @throws InvalidInput naming the body, if faces of one overlap that have no common corner
+void require_whole(const std::shared_ptr<const Model>& model, const Scene& scene,
+                   std::span<const glm::vec4> positions);
 
 }  // namespace gelatin

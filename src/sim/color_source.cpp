@@ -17,6 +17,7 @@ float least_range(const Model& model, Quantity quantity) {
             return kStrain * (stiffest == model.shear_moduli.end() ? 1.0f : *stiffest);
         }
         case Quantity::speed:
+        case Quantity::pressure:  // ContactOverlay's
             break;
     }
     return kSpeed;

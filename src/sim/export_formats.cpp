@@ -139,7 +139,7 @@ std::string vtu_text(const ExportTopology& topology, const HostFrame& frame) {
     const auto of_nodes = [&](const std::vector<float>& vectors) {
         return std::span<const float>(vectors).first(3 * topology.node_count);
     };
-    const auto contact_array = [&](const char* name, const std::vector<float>& forces) {
+    const auto force_array = [&](const char* name, const std::vector<float>& forces) {
         if (forces.empty()) return std::string();
         return data_array<float>("Float32", fmt::format("Name=\"{}\" NumberOfComponents=\"3\"", name),
                                  of_nodes(forces));
@@ -154,8 +154,9 @@ std::string vtu_text(const ExportTopology& topology, const HostFrame& frame) {
            "</Points>\n<PointData Vectors=\"velocity\">\n" +
            data_array<float>("Float32", "Name=\"velocity\" NumberOfComponents=\"3\"",
                              of_nodes(frame.velocities)) +
-           contact_array("contact_force", frame.contact_forces) +
-           contact_array("contact_friction", frame.contact_friction) + "</PointData>\n" + topology.vtu_cells +
+           force_array("contact_force", frame.contact_forces) +
+           force_array("contact_friction", frame.contact_friction) +
+           force_array("holding_force", frame.holding_forces) + "</PointData>\n" + topology.vtu_cells +
            "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 

@@ -30,8 +30,12 @@ bool needs_boxes(const Overlays& overlays) {
     return overlays.box_levels || overlays.objects;
 }
 
+bool shows_pressures(const Overlays& overlays) {
+    return overlays.color_map && overlays.color_map->quantity == Quantity::pressure;
+}
+
 bool needs_velocities(const Overlays& overlays) {
-    return overlays.color_map || overlays.arrow_time;
+    return (overlays.color_map && !shows_pressures(overlays)) || overlays.arrow_time;
 }
 
 // Of the box round all.
@@ -66,7 +70,7 @@ OverlayView OverlaySource::update(const Overlays& overlays, const RenderView& bo
                              self ? &self->buffers : nullptr, marks_);
         }
     }
-    return update(overlays, bodies, boxes, solver.nodes().velocities.id());
+    return update(overlays, bodies, boxes, solver.nodes().velocities.id(), solver);
 }
 
 OverlayView OverlaySource::update(const Overlays& overlays, const RenderView& bodies,
@@ -91,11 +95,11 @@ OverlayView OverlaySource::update(const Overlays& overlays, const RenderView& bo
             uploaded_velocities_ = gl::Buffer<glm::vec4>(state.velocities.size());
         uploaded_velocities_.upload(state.velocities);
     }
-    return update(overlays, bodies, uploaded_boxes_.id(), uploaded_velocities_.id());
+    return update(overlays, bodies, uploaded_boxes_.id(), uploaded_velocities_.id(), solver);
 }
 
 OverlayView OverlaySource::update(const Overlays& overlays, const RenderView& bodies, unsigned boxes,
-                                  unsigned velocities) {
+                                  unsigned velocities, const Solver& solver) {
     OverlayView view;
     if (needs_boxes(overlays)) {
         view.boxes = boxes;
@@ -105,9 +109,11 @@ OverlayView OverlaySource::update(const Overlays& overlays, const RenderView& bo
     if (overlays.objects) view_objects(view);
     if (overlays.faces) view.face_marks = marks_.id();
     if (overlays.full_strain) view_springs(*overlays.full_strain, view);
-    if (overlays.color_map) view_colors(*overlays.color_map, bodies, velocities, view);
+    if (overlays.color_map && !shows_pressures(overlays))
+        view_colors(*overlays.color_map, bodies, velocities, view);
     if (overlays.cut) view_cut(*overlays.cut, view);
     if (overlays.arrow_time) view_arrows(*overlays.arrow_time, velocities, view);
+    if (overlays.contact_forces || shows_pressures(overlays)) view_contacts(overlays, solver, view);
     view.wireframe = overlays.wireframe;
     return view;
 }
@@ -176,9 +182,16 @@ void OverlaySource::view_arrows(float time, unsigned velocities, OverlayView& vi
             gl::Buffer<std::uint32_t>(std::span<const std::uint32_t>(thin_surface_nodes(*model_, kArrows)));
     }
     view.arrows = ArrowView{.nodes = arrow_nodes_.id(),
-                            .velocities = velocities,
+                            .vectors = velocities,
                             .count = static_cast<std::uint32_t>(arrow_nodes_.size()),
-                            .time = time};
+                            .scale = time};
+}
+
+void OverlaySource::view_contacts(const Overlays& overlays, const Solver& solver, OverlayView& view) {
+    if (!contacts_) contacts_.emplace(model_);
+    contacts_->read(solver);
+    if (overlays.contact_forces) view.contact_forces = contacts_->arrows(*overlays.contact_forces);
+    if (shows_pressures(overlays)) view.color_map = contacts_->pressures(*overlays.color_map);
 }
 
 }  // namespace gelatin

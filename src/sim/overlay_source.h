@@ -11,6 +11,7 @@
 #include "gpu/gpu_solver.h"
 #include "gpu/view/mark_faces.h"
 #include "sim/color_source.h"
+#include "sim/contact_overlay.h"
 
 namespace gelatin {
 
@@ -27,13 +28,14 @@ public:
 
 private:
     OverlayView update(const Overlays& overlays, const RenderView& bodies, unsigned boxes,
-                       unsigned velocities);
+                       unsigned velocities, const Solver& solver);
     void view_boxes(const Overlays& overlays, OverlayView& view);
     void view_objects(OverlayView& view);
     void view_springs(float full_strain, OverlayView& view);
     void view_cut(const CutPlane& cut, OverlayView& view);
     void view_colors(const ColorMap& map, const RenderView& bodies, unsigned velocities, OverlayView& view);
     void view_arrows(float time, unsigned velocities, OverlayView& view);
+    void view_contacts(const Overlays& overlays, const Solver& solver, OverlayView& view);
     void make_marks();
 
     std::shared_ptr<const Model> model_;
@@ -49,6 +51,7 @@ private:
     gl::Buffer<glm::uvec4> tets_;
     gl::Buffer<std::uint32_t> tet_objects_;
     std::optional<ColorSource> colors_;
+    std::optional<ContactOverlay> contacts_;
     gl::Buffer<std::uint32_t> arrow_nodes_;
     gl::Buffer<glm::vec4> uploaded_velocities_;
 };

@@ -64,6 +64,18 @@ Json contact_forces_json(const std::vector<ContactForce>& forces, const RunRepor
     return list;
 }
 
+// Pins and handles have no names; they count from 0, as in overrides.
+Json holding_forces_json(const std::vector<HoldingForce>& forces, const RunReport& report) {
+    Json list = Json::array();
+    for (const HoldingForce& force : forces) {
+        list.push_back({{"object", report.objects[force.object]},
+                        {force.is_pin ? "pin" : "handle", force.index},
+                        {"force", force.force},
+                        {"torque", force.torque}});
+    }
+    return list;
+}
+
 Json frame_json(const FrameStatistics& frame, const RunReport& report) {
     const std::vector<std::string>& objects = report.objects;
     Json volume_ratio = Json::object();
@@ -83,6 +95,8 @@ Json frame_json(const FrameStatistics& frame, const RunReport& report) {
     if (frame.proximities) add_proximities(*frame.proximities, json);
     if (report.collision.response == CollisionResponse::contact)
         json["contact_forces"] = contact_forces_json(frame.contact_forces, report);
+    if (!frame.holding_forces.empty())
+        json["holding_forces"] = holding_forces_json(frame.holding_forces, report);
     return json;
 }
 

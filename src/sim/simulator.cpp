@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <variant>
 
 #include "core/current_stage.h"
 #include "core/log.h"
@@ -22,7 +21,10 @@
 #include "sim/check_starts.h"
 #include "sim/checkpoint.h"
 #include "sim/draw_source.h"
+#include "sim/forces.h"
+#include "sim/move_apart.h"
 #include "sim/overlay_source.h"
+#include "sim/shared_solver.h"
 #include "sim/simulator_internals.h"
 #include "sim/watch.h"
 
@@ -37,6 +39,7 @@ struct Simulator::Impl {
     std::unique_ptr<Solver> solver;
     std::optional<DrawSource> draw_source;
     std::optional<OverlaySource> overlay_source;
+    std::optional<State> start_state;  // if it is not the model's
 
     Moment start{0, 0.0, 0};  // of this run: where a checkpoint was loaded
     std::uint64_t steps = 0;  // since then
@@ -45,6 +48,7 @@ struct Simulator::Impl {
     bool is_pulled = false;
     std::deque<Moment> measured;
     std::deque<std::vector<ContactForce>> measured_forces;  // of the same, with contact
+    std::deque<std::vector<HoldingForce>> measured_holds;
     std::uint32_t reported_losses = 0;
     bool lost_proximities = false;  // and reported
 
@@ -52,7 +56,9 @@ struct Simulator::Impl {
         const SimulationSettings& settings = scene.simulation;
         DescentSettings descent{settings.iterations};
         descent.divides_steps = scene.collision.response == CollisionResponse::contact && !settings.substeps;
-        if (choose_gl(options, context)) {
+        if (choose_gl(options, context) && has_contacts(*model, scene.collision)) {
+            solver = std::make_unique<SharedSolver>(model, settings.forces, scene.collision, descent);
+        } else if (choose_gl(options, context)) {
             solver = std::make_unique<gpu::GpuSolver>(model, settings.solver, settings.forces,
                                                       scene.collision, descent);
         } else {
@@ -90,34 +96,6 @@ struct Simulator::Impl {
 
     bool has_contact_forces() const { return scene.collision.response == CollisionResponse::contact; }
 
-    // Planes, and surfaces, are in the order of the scene.
-    std::vector<ContactForce> contact_forces() const {
-        std::vector<std::size_t> planes, surfaces;
-        for (std::size_t c = 0; c < scene.colliders.size(); ++c) {
-            const bool is_plane = std::holds_alternative<PlaneCollider>(scene.colliders[c].shape);
-            (is_plane ? planes : surfaces).push_back(c);
-        }
-        std::vector<ContactForce> forces;
-        for (const ContactForces::Between& between : solver->contact_forces().between) {
-            ContactForce force;
-            force.object = between.object;
-            if (between.is_plane) {
-                force.collider = planes[between.other];
-            } else if (model->is_body(between.other)) {
-                force.other = between.other;
-            } else {
-                force.collider = surfaces[between.other - model->body_count()];
-            }
-            for (int k = 0; k < 3; ++k) {
-                force.normal[k] = between.normal[k];
-                force.friction[k] = between.friction[k];
-            }
-            force.points = between.points;
-            forces.push_back(force);
-        }
-        return forces;
-    }
-
     ProximityStatistics take_proximities() {
         const ProximityMeasure measure = solver->proximities();
         if (measure.lost > 0 && !lost_proximities) {
@@ -130,15 +108,26 @@ struct Simulator::Impl {
         return {measure.node_face, measure.edge_edge, measure.lost, measure.nearest};
     }
 
-    State start_state() const {
-        if (std::optional<State> deformed = deformed_start(scene, *model)) return *std::move(deformed);
-        return {model->positions, model->velocities, {}};
+    State first_state() const { return start_state.value_or(State{model->positions, model->velocities, {}}); }
+
+    // Bodies that never pass through each other have to be apart when they start.
+    void start_apart() {
+        State state = first_state();
+        if (std::optional<MovedApart> moved = move_apart(model, state.positions)) {
+            for (const std::string& line : moved->lines) log_warning(line);
+            state.positions = std::move(moved->positions);
+            require_apart(model, scene, state.positions);  // both may be held
+            start_state = std::move(state);
+        }
+        if (scene.collision.self_collision)
+            require_whole(model, scene, start_state ? start_state->positions : model->positions);
     }
 
     // Continues from this state. Pending measurements belong to the old one.
     void take_state(const State& state, const Moment& moment) {
         for (; !measured.empty(); measured.pop_front()) solver->end_measure();
         measured_forces.clear();
+        measured_holds.clear();
         solver->write_state(state);
         go_on_from(moment);
         watch->begin(state, now());
@@ -182,10 +171,10 @@ Simulator::Simulator(const Scene& scene, std::shared_ptr<const Model> model, con
     d.substeps = choose_substeps(scene, *d.model);
     d.context = make_context(d.options);
     d.make_solver();
-    const std::optional<State> start = deformed_start(scene, *d.model);
+    d.start_state = deformed_start(scene, *d.model);
+    if (scene.collision.response == CollisionResponse::contact) d.start_apart();
+    const std::optional<State>& start = d.start_state;
     if (start) d.solver->write_state(*start);
-    if (scene.collision.response == CollisionResponse::contact)
-        require_apart(d.model, scene, start ? start->positions : d.model->positions);
     d.watch.emplace(d.scene, d.model, d.substeps);
     d.drags.emplace(d.model);
     if (start) d.watch->begin(*start, {});
@@ -230,14 +219,14 @@ void Simulator::step() {
 
 void Simulator::reset() {
     impl_->drags->restart();
-    impl_->take_state(impl_->start_state(), {});
+    impl_->take_state(impl_->first_state(), {});
 }
 
 void Simulator::go_on_from(const Simulator& other) {
     Impl& d = *impl_;
     const int frame = static_cast<int>(other.time() * scene().simulation.frame_rate + 1e-6);
     const State state =
-        carried_over(*other.impl_->model, other.impl_->solver->read_state(), *d.model, d.start_state());
+        carried_over(*other.impl_->model, other.impl_->solver->read_state(), *d.model, d.first_state());
     d.drags =
         carried_over(*other.impl_->model, *other.impl_->drags, *d.model, state, other.time(), Drags(d.model));
     d.take_state(state, {frame, other.time(),
@@ -322,7 +311,8 @@ void Simulator::begin_statistics() {
     Impl& d = *impl_;
     d.run_stage("measure", [&] { d.solver->begin_measure(); });
     d.measured.push_back(d.now());
-    if (d.has_contact_forces()) d.measured_forces.push_back(d.contact_forces());
+    if (d.has_contact_forces()) d.measured_forces.push_back(contact_forces(d.scene, *d.model, *d.solver));
+    d.measured_holds.push_back(holding_forces(*d.model, *d.solver));
 }
 
 std::size_t Simulator::pending_statistics() const {
@@ -345,6 +335,8 @@ FrameStatistics Simulator::take_statistics() {
         frame.contact_forces = std::move(d.measured_forces.front());
         d.measured_forces.pop_front();
     }
+    frame.holding_forces = std::move(d.measured_holds.front());
+    d.measured_holds.pop_front();
     for (std::size_t o = 0; o < objects.size(); ++o) {
         const ObjectMeasure& object = objects[o];
         frame.kinetic_energy += object.kinetic_energy;
@@ -373,6 +365,8 @@ HostFrame Simulator::read_frame() const {
     for (const glm::vec4& p : state.positions) host.positions.insert(host.positions.end(), {p.x, p.y, p.z});
     for (const glm::vec4& v : state.velocities)
         host.velocities.insert(host.velocities.end(), {v.x, v.y, v.z});
+    for (const glm::dvec3& force : impl_->solver->holding_forces().nodes)
+        for (int k = 0; k < 3; ++k) host.holding_forces.push_back(static_cast<float>(force[k]));
     if (!impl_->has_contact_forces()) return host;
     const ContactForces forces = impl_->solver->contact_forces();
     for (std::size_t n = 0; n < forces.normal.size(); ++n) {

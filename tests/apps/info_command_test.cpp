@@ -50,6 +50,32 @@ TEST_F(InfoCommand, NeedsNoOpenGlForASceneThatDoes) {
     EXPECT_EQ(json::parse(result.out)["counts"]["objects"], 1);
 }
 
+// With what only contact has.
+TEST_F(InfoCommand, TellsAboutASceneWithContact) {
+    write("wall.obj", "v 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\n");
+    write(
+        "contact.toml",
+        "[collision]\nresponse = 'contact'\n[[material]]\nname = 'jelly'\nfriction = 0.2\n[[object]]\n"
+        "name = 'ball'\nshape = {sphere = 0.3, frequency = 3}\n[[collider]]\nshape = {file = 'wall.obj'}\n");
+    const ProgramResult result = run({"info", "contact.toml", "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(json::parse(result.out)["counts"]["objects"], 1);
+    EXPECT_EQ(json::parse(result.out)["objects"].size(), 1u);
+}
+
+// A triangle through another one, and one beside them that shares a vertex with the second.
+TEST_F(InfoCommand, CountsCrossingsOfASurface) {
+    const std::string apart =
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 0.1\nv 0.3 0.2 1\nv 0.2 0.3 1\nv 3 3 3\n"
+        "v 4 3 3\nf 1 2 3\nf 4 5 6\nf 4 7 8\n";
+    std::string crossing = apart;
+    crossing.replace(crossing.find("0.1\n"), 3, "-1.");
+    write("apart.obj", apart);
+    write("crossing.obj", crossing);
+    EXPECT_EQ(json::parse(run({"info", "apart.obj", "--json"}).out)["crossings"], 0);
+    EXPECT_EQ(json::parse(run({"info", "crossing.obj", "--json"}).out)["crossings"], 1);
+}
+
 TEST_F(InfoCommand, TellsAboutASurface) {
     write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n");
     const ProgramResult result = run({"info", "open.obj", "--json"});

@@ -13,8 +13,8 @@ class RunOverlays : public test::ProgramTest {};
 TEST_F(RunOverlays, RefusesWhatItDoesNotKnow) {
     expect_error(
         {"run", "cube.toml", "--overlay", "faces,bxes"}, 2,
-        "--overlay = bxes: must be boxes, faces, springs, stretch, stress, speed, cut, velocity, objects or "
-        "wireframe (did you mean \"boxes\"?)");
+        "--overlay = bxes: must be boxes, faces, springs, stretch, stress, speed, pressure, cut, velocity, "
+        "forces, objects or wireframe (did you mean \"boxes\"?)");
     expect_error({"run", "cube.toml", "--overlay", "faces:2"}, 2,
                  "--overlay = faces:2: faces takes no number");
     for (const char* text : {"boxes:", "boxes:x", "boxes:1.5", "boxes:-1", "boxes:13"}) {
@@ -32,6 +32,8 @@ TEST_F(RunOverlays, RefusesWhatItDoesNotKnow) {
     refuses("stretch:1", "the number must be a stretch above 1, up to 1000");
     refuses("speed:1:2", "speed takes no more than 1 field");
     refuses("velocity:0", "the number must be a time from 0.0001 to 100 s");
+    refuses("forces:0", "the number must be a length from 1e-9 to 1e6 m for each newton");
+    refuses("pressure:-1", "the number must be a pressure above 0, up to 1e15 Pa");
     refuses("objects:1", "objects takes no number");
     refuses("cut:0:0:0", "the direction must not be zero");
     refuses("cut:x:a", "the number must be between -1e6 and 1e6");
@@ -42,7 +44,7 @@ TEST_F(RunOverlays, RefusesWhatItDoesNotKnow) {
             << result.err;
     }
     expect_error({"run", "cube.toml", "--overlay", "springs,stress"}, 2,
-                 "--overlay = stress: of springs, stretch, stress and speed one can be shown");
+                 "--overlay = stress: of springs, stretch, stress, speed and pressure one can be shown");
     expect_error({"run", "cube.toml", "--overlay", "springs:0"}, 2,
                  "--overlay = springs:0: the number must be a strain from 0.0001 to 1");
 }
@@ -77,6 +79,33 @@ TEST_F(RunOverlaysDrawnHeavy, AreTheSameOnBothBackends) {
         }
         EXPECT_EQ(picture(quality, "cpu", {"--overlay", "boxes", "--overlay", "faces"}).pixels,
                   picture(quality, "cpu", {"--overlay", "boxes,faces"}).pixels);
+    }
+}
+
+// A block on a floor, whose forces the CPU finds alone. Elsewhere a line says so.
+TEST_F(RunOverlaysDrawnHeavy, ContactForcesNeedTheCpu) {
+    write("block.toml",
+          "[simulation]\nframes = 30\n[[material]]\nname = 'jelly'\n[[collider]]\nshape = { plane = [0, 1, "
+          "0] }\n"
+          "[[object]]\nname = 'block'\nshape = { box = [0.4, 0.4, 0.4], segments = [3, 3, 3] }\n"
+          "position = [0, 0.2, 0]\n");
+    const auto draw = [&](const std::string& backend, const std::string& overlay) {
+        return run({"run", "block.toml", "--image", "a.png", "--size", "320x180", "--backend", backend,
+                    "--overlay", overlay, "--gl-debug"});
+    };
+    const ProgramResult plain = draw("cpu", "velocity:0.0001");
+    EXPECT_EQ(plain.exit_code, 0) << plain.err;
+    const render::Image without = render::read_png(path("a.png"));
+    for (const char* overlay : {"forces", "pressure", "pressure:1e4,forces:1e-3,cut:z"}) {
+        const ProgramResult on_cpu = draw("cpu", overlay);
+        EXPECT_EQ(on_cpu.exit_code, 0) << on_cpu.err;
+        EXPECT_EQ(on_cpu.err.find("overlays of contact forces"), std::string::npos);
+        EXPECT_GT(test::perceptual_difference(render::read_png(path("a.png")), without), 0.05) << overlay;
+        const ProgramResult on_gl = draw("gl", overlay);
+        EXPECT_EQ(on_gl.exit_code, 0) << on_gl.err;
+        EXPECT_NE(on_gl.err.find("overlays of contact forces need solver = \"vbd\" on the CPU"),
+                  std::string::npos)
+            << on_gl.err;
     }
 }
 

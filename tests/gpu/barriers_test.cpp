@@ -113,7 +113,6 @@ TEST_F(BarriersHeavy, AreNotMissingInTheScenesThatComeWithTheProgram) {
         if (entry.path().extension() != ".toml") continue;
         SCOPED_TRACE(entry.path().filename());
         const Scene scene = load_scene(entry.path());
-        if (scene.collision.response == CollisionResponse::contact) continue;  // on the CPU alone
         SimulatorOptions options;
         options.backend = Backend::gl;
         options.use_current_context = true;

@@ -195,10 +195,19 @@ TEST_F(LayoutsTest, Dispatch) {
            FIELD(Dispatch, count)});
 }
 
+TEST_F(LayoutsTest, NodeContacts) {
+    check("node_contacts.glsl", "NodeLimits", sizeof(NodeLimits),
+          {FIELD(NodeLimits, aimed_at), FIELD(NodeLimits, room), FIELD(NodeLimits, way),
+           FIELD(NodeLimits, own_room), FIELD(NodeLimits, first_plane), FIELD(NodeLimits, plane_count),
+           FIELD(NodeLimits, first_share), FIELD(NodeLimits, share_count)});
+    check("node_contacts.glsl", "NodeShare", sizeof(NodeShare),
+          {FIELD(NodeShare, towards), FIELD(NodeShare, law), FIELD(NodeShare, hold)});
+}
+
 TEST_F(LayoutsTest, Descent) {
     check("descent.glsl", "DescentRow", sizeof(DescentRow),
           {FIELD(DescentRow, node), FIELD(DescentRow, object), FIELD(DescentRow, pairs),
-           FIELD(DescentRow, unused)});
+           FIELD(DescentRow, place)});
     check("descent.glsl", "TetCorner", sizeof(TetCorner),
           {FIELD(TetCorner, a), FIELD(TetCorner, b), FIELD(TetCorner, c), FIELD(TetCorner, tet)});
     check("descent.glsl", "ColliderContact", sizeof(ColliderContact),

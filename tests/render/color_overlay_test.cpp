@@ -51,6 +51,20 @@ TEST_P(ColorOverlayTest, TheSurfaceHasTheLegendsColorsInLittleShade) {
     }
 }
 
+// On the ball's far side, in the middle of what the eye sees of it.
+TEST_P(ColorOverlayTest, WhatContactsPressShinesThroughBodies) {
+    std::vector<float> values;
+    for (const glm::vec4& p : nodes()) values.push_back(p.z < -0.3f ? 1.0f : 0.0f);
+    const auto buffer = buffer_of(values);
+    const auto picture = [&](Quantity quantity) {
+        return draw({.color_map = ColorMapView{.quantity = quantity, .node_values = buffer.id()}});
+    };
+    const glm::vec3 behind(0.0f, 0.6f, -0.4f), above(0.0f, 0.95f, 0.1f);
+    const Image pressure = picture(Quantity::pressure), stress = picture(Quantity::stress);
+    EXPECT_GT(lightness(color_at(pressure, behind)), lightness(color_at(stress, behind)) + 60.0);
+    EXPECT_LT(glm::distance(color_at(pressure, above), color_at(stress, above)), 2.0) << "none is there";
+}
+
 TEST_P(ColorOverlayTest, ObjectsGetColorsOfTheirOwn) {
     const auto boxes = buffer_of<glm::vec4>({glm::vec4(0.0f), glm::vec4(0.0f)});
     const auto roots = buffer_of<std::uint32_t>({0u});
@@ -134,8 +148,8 @@ TEST_P(ColorOverlayTest, EdgesOfFacesAreDrawnAndTheirMiddlesStay) {
 class ArrowTest : public ColorOverlayTest {
 protected:
     // Of the nodes at these places alone; the ball stays, in front of some of them.
-    Image draw_arrows(const std::vector<glm::vec3>& places, const std::vector<glm::vec3>& speeds,
-                      float time) {
+    Image draw_arrows(const std::vector<glm::vec3>& places, const std::vector<glm::vec3>& speeds, float time,
+                      bool are_forces = false) {
         std::vector<glm::vec4> positions = nodes();
         std::vector<glm::vec4> velocities(positions.size(), glm::vec4(0.0f));
         std::vector<std::uint32_t> arrows;
@@ -149,10 +163,13 @@ protected:
         const RenderView ball = view_;
         view_.node_positions = position_buffer.id();
         view_.node_count = static_cast<std::uint32_t>(positions.size());
-        const Image image = draw({.arrows = ArrowView{.nodes = arrow_buffer.id(),
-                                                      .velocities = velocity_buffer.id(),
-                                                      .count = static_cast<std::uint32_t>(arrows.size()),
-                                                      .time = time}});
+        OverlayView overlay;
+        (are_forces ? overlay.contact_forces : overlay.arrows) =
+            ArrowView{.nodes = arrow_buffer.id(),
+                      .vectors = velocity_buffer.id(),
+                      .count = static_cast<std::uint32_t>(arrows.size()),
+                      .scale = time};
+        const Image image = draw(overlay);
         view_ = ball;
         return image;
     }
@@ -195,6 +212,27 @@ TEST_P(ArrowTest, HiddenOnesAreFaint) {
     EXPECT_GT(change(beside), 2.5 * change(behind));
 }
 
+// Red, from a dot that stays however small the force is; well visible behind a body.
+TEST_P(ArrowTest, ForcesBeginWithADot) {
+    const glm::vec3 beside(-0.9f, 0.15f, 0.5f), behind(-0.2f, 0.6f, -0.6f);
+    const glm::vec3 force(3.0f, 0.0f, 0.0f), small(1e-3f, 0.0f, 0.0f);
+    const auto is_red = [&](const Image& image, const glm::vec3& p) {
+        const glm::dvec3 color = color_at(image, p);
+        return color.r > color.g + 60.0 && color.r > color.b + 60.0;
+    };
+    const Image long_one = draw_arrows({beside}, {force}, 0.25f, true),
+                short_one = draw_arrows({beside}, {small}, 0.25f, true);
+    EXPECT_TRUE(is_red(long_one, beside + 0.125f * force));
+    EXPECT_TRUE(is_red(short_one, beside));
+    EXPECT_FALSE(is_red(draw_arrows({beside}, {small}, 0.25f), beside)) << "a velocity has none";
+    const glm::vec3 middle = behind + glm::vec3(0.1f, 0.0f, 0.0f);
+    const auto change = [&](bool are_forces) {
+        const Image image = draw_arrows({behind}, {{0.2f, 0.0f, 0.0f}}, 1.0f, are_forces);
+        return glm::distance(color_at(draw(), middle), color_at(image, middle));
+    };
+    EXPECT_GT(change(true), 2.0 * change(false));
+}
+
 TEST(ValueScale, HasUnitsThatKeepNumbersShort) {
     const auto ends = [](Quantity quantity, float low, float full) {
         const ColorScale scale = value_scale({.quantity = quantity, .low = low, .full = full});
@@ -205,6 +243,7 @@ TEST(ValueScale, HasUnitsThatKeepNumbersShort) {
     EXPECT_EQ(ends(Quantity::stress, 0.0f, 2e4f), "0|10|20 kPa");
     EXPECT_EQ(ends(Quantity::stress, 0.0f, 3e6f), "0|1.5|3 MPa");
     EXPECT_EQ(ends(Quantity::stress, 0.0f, 2e9f), "0|1|2 GPa");
+    EXPECT_EQ(ends(Quantity::pressure, 0.0f, 2e4f), "0|10|20 kPa");
     EXPECT_EQ(ends(Quantity::speed, 0.0f, 5.0f), "0|2.5|5 m/s");
     EXPECT_EQ(ends(Quantity::speed, 0.0f, 0.05f), "0|25|50 mm/s");
 }

@@ -67,6 +67,7 @@ TEST(ColliderSurfacesInASimulator, AreNoObjectsOfTheScene) {
     EXPECT_EQ(topology.node_count, model.body_node_count());
     EXPECT_THAT(vtu_text(topology, frame), HasSubstr("Name=\"contact_force\""));
     EXPECT_THAT(vtu_text(topology, frame), HasSubstr("Name=\"contact_friction\""));
+    EXPECT_TRUE(frame.holding_forces.empty()) << "the plate moves, but no body is held";
     EXPECT_THAT(obj_text(topology, frame), HasSubstr("o table"));
 }
 
@@ -95,11 +96,13 @@ TEST(ColliderSurfacesInASimulator, StayWhereAChangedSceneSays) {
     EXPECT_EQ(next.read_frame().positions[1], simulator.read_frame().positions[1]);
 }
 
-TEST(ColliderSurfacesInASimulator, MayOverlapEachOtherButNoBody) {
+TEST(ColliderSurfacesInASimulator, MayOverlapEachOtherButNoHeldBody) {
     Scene scene = table_scene();
     scene.colliders[2].position = {0.4, 0.5, 0};  // into the table
     EXPECT_NO_THROW(Simulator(scene, cpu()));
     scene.objects[0].position.y = 0.55;
+    EXPECT_NO_THROW(Simulator(scene, cpu()));  // it is moved out
+    scene.objects[0].pins = {HalfSpaceRegion{{0.0, 1.0, 0.0}, 100.0}};
     try {
         Simulator simulator(scene, cpu());
         FAIL() << "a body in a collider was accepted";

@@ -58,7 +58,8 @@ TEST_P(OverlaySourceTest, GivesNothingThatIsNotAskedFor) {
     Simulator simulator = simulate(balls(2));
     const OverlayView view = simulator.render_view().overlay;
     EXPECT_EQ(view.boxes + view.shown_boxes + view.face_marks + view.springs, 0u);
-    EXPECT_FALSE(view.color_map || view.cut || view.arrows || view.objects || view.wireframe);
+    EXPECT_FALSE(view.color_map || view.cut || view.arrows || view.contact_forces || view.objects ||
+                 view.wireframe);
 }
 
 // At the start, after steps, and of a body that has none to collide with.
@@ -159,8 +160,8 @@ TEST_P(OverlaySourceTest, SpeedsAndArrowsAreTheNodes) {
     const HostFrame frame = simulator.read_frame();
     const auto values = download<float>(view.color_map->node_values, simulator.counts().nodes);
     ASSERT_TRUE(view.arrows);
-    EXPECT_EQ(view.arrows->time, 0.2f);
-    const auto velocities = download<glm::vec4>(view.arrows->velocities, simulator.counts().nodes);
+    EXPECT_EQ(view.arrows->scale, 0.2f);
+    const auto velocities = download<glm::vec4>(view.arrows->vectors, simulator.counts().nodes);
     for (std::size_t n = 0; n < values.size(); ++n) {
         const glm::vec3 v(frame.velocities[3 * n], frame.velocities[3 * n + 1], frame.velocities[3 * n + 2]);
         EXPECT_NEAR(values[n], glm::length(v), 1e-6f);
@@ -169,6 +170,67 @@ TEST_P(OverlaySourceTest, SpeedsAndArrowsAreTheNodes) {
     const auto nodes = download<std::uint32_t>(view.arrows->nodes, view.arrows->count);
     EXPECT_GT(nodes.size(), 50u);
     for (const std::uint32_t node : nodes) EXPECT_LT(node, values.size());
+}
+
+// A block that lies on a floor: arrows at the nodes below, and pressures that add up to its weight.
+TEST_P(OverlaySourceTest, ContactForcesAreThoseOfTheFrame) {
+    Scene scene = balls(1);
+    scene.simulation.frame_rate = 60.0;
+    scene.simulation.gravity = {0.0, -9.81, 0.0};
+    scene.objects[0].shape = BoxShape{glm::dvec3(0.4), glm::ivec3(3)};
+    scene.objects[0].position = {0.0, 0.2, 0.0};
+    scene.objects[0].velocity = {0.0, 0.0, 0.0};
+    scene.colliders.push_back({});
+    scene.collision.response =
+        GetParam() == Backend::cpu ? CollisionResponse::contact : CollisionResponse::restore;
+    Simulator simulator = simulate(scene);
+    for (int f = 0; f < 120; ++f) simulator.advance_frame();
+    const Overlays both{.color_map = ColorMap{Quantity::pressure, {}}, .contact_forces = ForceArrows{0.01f}};
+    const OverlayView view = simulator.render_view(both).overlay;
+    ASSERT_TRUE(view.color_map);
+    EXPECT_EQ(view.color_map->quantity, Quantity::pressure);
+    const auto pressures = download<float>(view.color_map->node_values, simulator.counts().nodes);
+    if (GetParam() == Backend::gl) {  // it does not find them
+        EXPECT_FALSE(view.contact_forces);
+        for (const float pressure : pressures) EXPECT_EQ(pressure, 0.0f);
+        return;
+    }
+    ASSERT_TRUE(view.contact_forces);
+    EXPECT_EQ(view.contact_forces->scale, 0.01f);
+    const HostFrame frame = simulator.read_frame();
+    const auto forces = download<glm::vec4>(view.contact_forces->vectors, simulator.counts().nodes);
+    const auto nodes = download<std::uint32_t>(view.contact_forces->nodes, view.contact_forces->count);
+    EXPECT_GT(nodes.size(), 10u);
+    const Model& model = model_of(simulator);
+    std::vector<glm::vec4> positions;
+    for (std::size_t n = 0; n < forces.size(); ++n)
+        positions.emplace_back(frame.positions[3 * n], frame.positions[3 * n + 1], frame.positions[3 * n + 2],
+                               1.0f);
+    const std::vector<float> areas = surface_areas(model, positions);
+    glm::dvec3 shown(0.0);
+    for (const std::uint32_t n : nodes) shown += glm::dvec3(forces[n]);
+    double weight = 0.0, area = 0.0;
+    for (std::size_t n = 0; n < forces.size(); ++n) {
+        EXPECT_EQ(forces[n].y, frame.contact_forces[3 * n + 1]);
+        weight += static_cast<double>(pressures[n] * areas[n]);
+        area += static_cast<double>(areas[n]);
+    }
+    EXPECT_NEAR(shown.y, 64.0 * 9.81, 5.0);
+    EXPECT_NEAR(weight, 64.0 * 9.81, 5.0);
+    EXPECT_NEAR(area, 6 * 0.16, 0.05);
+    EXPECT_GT(view.color_map->full, 3e3f);  // the mean is 4 kPa
+    EXPECT_LT(view.color_map->full, 3e4f);
+    // In a cut, tets beside the floor show theirs.
+    const auto of_tets = download<float>(view.color_map->tet_values, simulator.counts().tets);
+    for (std::size_t t = 0; t < of_tets.size(); ++t) {
+        const glm::uvec4& tet = model.tets[t];
+        const float sum = pressures[tet.x] + pressures[tet.y] + pressures[tet.z] + pressures[tet.w];
+        EXPECT_FLOAT_EQ(of_tets[t], 0.25f * sum);
+    }
+    // The arrow of a usual force has half the block's length.
+    const OverlayView adapted = simulator.render_view({.contact_forces = ForceArrows{}}).overlay;
+    EXPECT_GT(adapted.contact_forces->scale * 64.0 * 9.81 / static_cast<double>(nodes.size()), 0.02);
+    EXPECT_LT(adapted.contact_forces->scale * 64.0 * 9.81 / static_cast<double>(nodes.size()), 0.2);
 }
 
 TEST_P(OverlaySourceTest, ACutWithoutAnOffsetGoesThroughTheMiddle) {

@@ -124,6 +124,18 @@ TEST(Report, TellsContactForcesByName) {
                        {"points", 3}}})));
 }
 
+TEST(Report, TellsWhatPinsAndHandlesExert) {
+    RunReport report = sample_report();
+    HoldingForce of_pin{1, true, 0, {}, {}}, of_handle{0, false, 2, {}, {}};
+    of_pin.force[1] = 9.5;
+    of_handle.torque[2] = -4.0;
+    report.frames[0].holding_forces = {of_handle, of_pin};
+    const Json none{0.0, 0.0, 0.0};
+    EXPECT_EQ(Json::parse(to_json(report))["frames"][0]["holding_forces"],
+              (Json::array({{{"object", "a"}, {"handle", 2}, {"force", none}, {"torque", {0.0, 0.0, -4.0}}},
+                            {{"object", "b"}, {"pin", 0}, {"force", {0.0, 9.5, 0.0}}, {"torque", none}}})));
+}
+
 TEST(Report, OfNoFramesIsStillWhole) {
     RunReport report;
     report.seconds = 0.0;

@@ -1,6 +1,10 @@
 // What a simulator measures and times while it runs.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "sim/export_formats.h"
+#include "sim/simulator_internals.h"
 #include "support/simulator_fixture.h"
 
 namespace gelatin {
@@ -77,6 +81,39 @@ TEST_F(StatisticsTest, MeasuresWhatIsNearWithinOneObject) {
         EXPECT_GT(counts[0], 1000.0);
         EXPECT_NEAR(counts[1] / counts[0], 1.0, 0.001) << "but for rounding";
     }
+}
+
+// In the order of held_nodes(), each frame's own; by node in frames and VTU files.
+TEST_F(StatisticsTest, HasForcesOfPinsAndHandles) {
+    Scene scene = test::driven_balls(SolverKind::vbd);
+    scene.simulation.substeps = 1;
+    Simulator simulator(scene, on(Backend::cpu));
+    for (int f = 0; f < 3; ++f) {
+        simulator.advance_frame();
+        simulator.begin_statistics();
+    }
+    const std::vector<HeldNodes> held = simulator.held_nodes();
+    ASSERT_FALSE(held.empty());
+    std::vector<double> forces;
+    for (int f = 0; f < 3; ++f) {
+        const FrameStatistics frame = simulator.take_statistics();
+        ASSERT_EQ(frame.holding_forces.size(), held.size());
+        for (std::size_t h = 0; h < held.size(); ++h) {
+            EXPECT_EQ(frame.holding_forces[h].object, held[h].object);
+            EXPECT_EQ(frame.holding_forces[h].is_pin, held[h].is_pin);
+            EXPECT_EQ(frame.holding_forces[h].index, held[h].index);
+        }
+        forces.push_back(frame.holding_forces[0].force[1]);
+    }
+    EXPECT_NE(forces[0], forces[2]);
+    const HostFrame now = simulator.read_frame();
+    ASSERT_EQ(now.holding_forces.size(), now.positions.size());
+    double sum = 0.0;
+    for (std::size_t k = 1; k < now.holding_forces.size(); k += 3)
+        sum += static_cast<double>(now.holding_forces[k]);
+    EXPECT_NEAR(sum, forces[2], 1e-3 * std::abs(forces[2]));
+    EXPECT_NE(vtu_text(make_export_topology(model_of(simulator)), now).find("Name=\"holding_force\""),
+              std::string::npos);
 }
 
 // Under the same names on both backends, and the step is the same with them as without.

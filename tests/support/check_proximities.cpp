@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "model/corners.h"
 #include "support/proximities.h"
 
 namespace gelatin::test {
@@ -116,8 +117,7 @@ public:
             start_query(q);
             for (std::uint32_t f = 0; f < faces_.size(); ++f) {
                 const Face& face = model_.faces[f];
-                const bool is_corner = face.a == node || face.b == node || face.c == node;
-                const bool counts = is_sought(object_of(node), face.object) && !is_corner;
+                const bool counts = is_sought(object_of(node), face.object) && !has_corner(face, node);
                 const auto bound = [&](double extent) {
                     return distance_bound<Real>(extent, faces_[f][1] - faces_[f][0],
                                                 faces_[f][2] - faces_[f][0]);
@@ -132,9 +132,7 @@ public:
             start_query(static_cast<std::uint32_t>(parts_.nodes.size()) + e);
             for (std::uint32_t f = 0; f < edges_.size(); ++f) {
                 const FaceEdge &edge = parts_.edges[e], &other = parts_.edges[f];
-                const bool share =
-                    edge.a == other.a || edge.a == other.b || edge.b == other.a || edge.b == other.b;
-                const bool counts = is_sought(edge.object, other.object) && !share;
+                const bool counts = is_sought(edge.object, other.object) && !share_end(edge, other);
                 const auto bound = [&](double extent) {
                     return distance_bound<Real>(extent, edges_[e][1] - edges_[e][0],
                                                 edges_[f][1] - edges_[f][0]);

@@ -1,9 +1,28 @@
 #include "support/contact_scenes.h"
 
 #include "model/build/build_model.h"
+#include "model/drive/handles.h"
+#include "support/overlaps.h"
 #include "support/test_models.h"
 
 namespace gelatin::test {
+
+std::vector<Block> violent_blocks(RandomMaker& random, int most_bodies) {
+    std::vector<Block> blocks;
+    const int bodies = random.integer(2, most_bodies);
+    for (int k = 0; k < bodies; ++k) {
+        Block block;
+        const bool is_thin = random.integer(0, 2) == 0;
+        block.size = is_thin ? glm::dvec3(0.4, 0.02, 0.4) : glm::dvec3(0.2, 0.25, 0.2);
+        block.cells = is_thin ? glm::ivec3(4, 1, 4) : glm::ivec3(2, 3, 2);
+        block.place = {random.uniform(-0.05, 0.05), 0.4 * k, random.uniform(-0.05, 0.05)};
+        block.velocity = random.point(random.magnitude(0.1, 100.0));
+        block.velocity.y -= 5.0 * k;
+        block.youngs_modulus = random.magnitude(1e3, 1e9);
+        blocks.push_back(block);
+    }
+    return blocks;
+}
 
 std::shared_ptr<const Model> make_blocks(const std::vector<Block>& blocks, const glm::dvec3& gravity,
                                          const std::vector<ColliderDescription>& colliders) {
@@ -17,6 +36,7 @@ std::shared_ptr<const Model> make_blocks(const std::vector<Block>& blocks, const
         body.material.youngs_modulus = block.youngs_modulus;
         body.material.poisson_ratio = block.poisson_ratio;
         body.material.model = block.model;
+        body.material.friction = block.friction;
         if (block.model == MaterialModel::neo_hookean) body.material.springs.reset();
         bodies.push_back(std::move(body));
     }
@@ -26,5 +46,27 @@ std::shared_ptr<const Model> make_blocks(const std::vector<Block>& blocks, const
     return std::make_shared<const Model>(
         pack_bodies(bodies, solid_colliders(scene), gravity, make_collider_surfaces(scene)));
 }
+
+template <class Real>
+void advance(cpu::CpuSolver<Real>& solver, const Model& model, int number, double step) {
+    solver.apply_kinematics(handle_motions(model.handles, number * step, step));
+    solver.advance_nodes(step);
+}
+
+template <class Real>
+testing::AssertionResult stays_apart(cpu::CpuSolver<Real>& solver, const Model& model, int steps,
+                                     double step) {
+    for (int number = 0; number < steps; ++number) {
+        advance(solver, model, number, step);
+        const std::size_t overlaps = count_overlaps(model, solver.nodes().positions);
+        if (overlaps > 0) return testing::AssertionFailure() << overlaps << " overlaps after step " << number;
+    }
+    return testing::AssertionSuccess();
+}
+
+template void advance<float>(cpu::CpuSolver<float>&, const Model&, int, double);
+template void advance<double>(cpu::CpuSolver<double>&, const Model&, int, double);
+template testing::AssertionResult stays_apart<float>(cpu::CpuSolver<float>&, const Model&, int, double);
+template testing::AssertionResult stays_apart<double>(cpu::CpuSolver<double>&, const Model&, int, double);
 
 }  // namespace gelatin::test

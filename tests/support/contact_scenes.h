@@ -1,11 +1,14 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <memory>
 #include <vector>
 
 #include "cpu/cpu_solver.h"
 #include "gelatin/scene.h"
 #include "model/model.h"
+#include "support/random_maker.h"
 
 namespace gelatin::test {
 
@@ -20,7 +23,12 @@ struct Block {
     std::vector<Region> pins{};
     double poisson_ratio = 0.25;
     MaterialModel model = MaterialModel::mass_spring;
+    std::optional<double> friction = {};  // of its material
 };
+
+/// Blocks and thin plates above each other, that fly in all directions, soft and hard.
+/// @param most_bodies at least 2
+std::vector<Block> violent_blocks(RandomMaker& random, int most_bodies);
 
 /// @param colliders planes are solid, others surfaces
 std::shared_ptr<const Model> make_blocks(const std::vector<Block>& blocks,
@@ -36,5 +44,14 @@ cpu::CpuSolver<Real> make_solver(const std::shared_ptr<const Model>& model, doub
                 .response = CollisionResponse::contact, .self_collision = true, .friction = friction},
             DescentSettings{.iterations = iterations, .divides_steps = divides_steps}};
 }
+
+/// Makes a step of `step` [s], with what handles and colliders do then. @param number of the step, from 0
+template <class Real>
+void advance(cpu::CpuSolver<Real>& solver, const Model& model, int number, double step = kFrame);
+
+/// Makes steps from the start, until faces overlap after one. @return whether none did
+template <class Real>
+testing::AssertionResult stays_apart(cpu::CpuSolver<Real>& solver, const Model& model, int steps,
+                                     double step = kFrame);
 
 }  // namespace gelatin::test

@@ -11,6 +11,7 @@
 #include "cpu/collision/find_self_collisions.h"
 #include "cpu/collision/respond_to_self.h"
 #include "gpu/collision_stages.h"
+#include "model/corners.h"
 #include "support/crowd.h"
 #include "support/parity.h"
 #include "support/test_models.h"
@@ -122,17 +123,11 @@ SelfContacts find_self_contacts_by_brute_force(const Model& model) {
         const auto at = [&](std::uint32_t n) { return glm::dvec3(model.positions[n]); };
         return cpu::Triangle<double>{at(face.a), at(face.b), at(face.c)};
     };
-    const auto neighbours = [](const Face& f, const Face& g) {
-        for (const std::uint32_t p : {f.a, f.b, f.c})
-            for (const std::uint32_t q : {g.a, g.b, g.c})
-                if (p == q) return true;
-        return false;
-    };
     SelfContacts counts(model.faces.size(), 0);
     for (std::uint32_t f = 0; f < model.faces.size(); ++f) {
         for (std::uint32_t g = f + 1; g < model.faces.size(); ++g) {
             const Face &one = model.faces[f], &two = model.faces[g];
-            if (one.object != two.object || neighbours(one, two)) continue;
+            if (one.object != two.object || share_corner(one, two)) continue;
             if (!cpu::triangles_overlap(triangle(one), triangle(two))) continue;
             ++counts[f];
             ++counts[g];

@@ -7,17 +7,10 @@
 #include <vector>
 
 #include "exact/triangle_overlap.h"
+#include "model/corners.h"
 
 namespace gelatin::test {
 namespace {
-
-std::array<std::uint32_t, 3> corners_of(const Face& face) {
-    return {face.a, face.b, face.c};
-}
-
-bool has_corner(const Face& face, std::uint32_t node) {
-    return face.a == node || face.b == node || face.c == node;
-}
 
 int corners_in_common(const Face& f, const Face& g) {
     return int(has_corner(g, f.a)) + int(has_corner(g, f.b)) + int(has_corner(g, f.c));

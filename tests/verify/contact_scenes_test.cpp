@@ -6,10 +6,12 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <string>
+#include <vector>
 
 #include "gelatin/simulator.h"
 #include "model/model.h"
 #include "sim/simulator_internals.h"
+#include "support/gl_fixture.h"
 #include "support/overlaps.h"
 #include "support/source_path.h"
 
@@ -18,15 +20,16 @@ namespace {
 
 class ContactScene {
 public:
-    explicit ContactScene(const std::string& name)
-        : simulator_(load_scene(test::source_path() + "scenes/" + name), cpu()) {}
+    explicit ContactScene(const std::string& name, Backend backend = Backend::cpu,
+                          const std::vector<std::string>& changes = {})
+        : simulator_(load_scene(test::source_path() + "scenes/" + name, changes), on(backend)) {}
 
-    // Looks for overlaps after every fifth frame.
-    void advance_to(int frame) {
+    // Looks for overlaps after every fifth frame, or so many.
+    void advance_to(int frame, int every = 5) {
         while (simulator_.frame() < frame) {
             simulator_.advance_frame();
             now_ = simulator_.read_frame();
-            if (simulator_.frame() % 5 != 0) continue;
+            if (simulator_.frame() % every != 0) continue;
             std::vector<cpu::Vec4<float>> positions;
             for (std::size_t n = 0; 3 * n < now_.positions.size(); ++n)
                 positions.emplace_back(now_.positions[3 * n], now_.positions[3 * n + 1],
@@ -66,10 +69,39 @@ public:
         return simulator_.take_statistics();
     }
 
+    // A hand takes an object by all of its nodes.
+    void grab(std::size_t object) {
+        const Range& nodes = model_of(simulator_).objects[object].nodes;
+        now_ = simulator_.read_frame();
+        hand_ = center(object);
+        Pull pull;
+        pull.target = hand_;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            const glm::vec3 place(now_.positions[3 * n], now_.positions[3 * n + 1],
+                                  now_.positions[3 * n + 2]);
+            pull.nodes.push_back({n, place - glm::vec3(hand_), 50.0f});
+        }
+        pull.damping_time = 0.05;
+        simulator_.set_pull(pull);
+    }
+    // The hand goes straight to `place`. @param speed [m/s]
+    void drag_to(const glm::dvec3& place, double speed) {
+        const double way = speed * simulator_.scene().simulation.frame_time();
+        while (glm::distance(hand_, place) > 1e-6) {
+            const glm::dvec3 left = place - hand_;
+            hand_ += std::min(1.0, way / glm::length(left)) * left;
+            simulator_.move_pull(hand_);
+            advance_to(simulator_.frame() + 1, 1);
+        }
+    }
+    void let_go() { simulator_.set_pull({}); }
+    int frame() const { return simulator_.frame(); }
+
 private:
-    static SimulatorOptions cpu() {
+    static SimulatorOptions on(Backend backend) {
         SimulatorOptions options;
-        options.backend = Backend::cpu;
+        options.backend = backend;
+        options.use_current_context = backend == Backend::gl;
         return options;
     }
     glm::dvec3 mean(std::size_t object, const std::vector<float>& of) const {
@@ -82,7 +114,10 @@ private:
 
     Simulator simulator_;
     HostFrame now_;
+    glm::dvec3 hand_{0.0};
 };
+
+class ContactScenesOnGlHeavy : public test::GlTest {};
 
 TEST(ContactScenesHeavy, ABallFallsThroughAFunnel) {
     ContactScene scene("funnel.toml");
@@ -155,6 +190,78 @@ TEST(ContactScenesHeavy, AStackStands) {
     scene.advance_to(300);
     EXPECT_LT(scene.fastest(), 1e-4);
     EXPECT_NEAR(scene.center(9).y, 0.80, 0.01);
+}
+
+// The halves of a bar swing against each other, and hang.
+TEST(ContactScenesHeavy, ABarFoldsOverARod) {
+    ContactScene scene("fold.toml");
+    scene.advance_to(200);
+    EXPECT_NEAR(scene.center(0).y, 1.7, 0.15);
+    EXPECT_LT(scene.fastest(), 1.0);
+}
+
+TEST(ContactScenesHeavy, APlateStopsABallAtAnySpeed) {
+    for (const double speed : {50.0, 500.0, 5000.0}) {
+        ContactScene scene("bullet.toml", Backend::cpu,
+                           {"object.ball.velocity=[0, 0, " + std::to_string(-speed) + "]"});
+        scene.advance_to(6, 1);
+        EXPECT_GT(scene.center(1).z, 0.0) << speed;
+    }
+}
+
+TEST(ContactScenesHeavy, LettersFallOnEachOther) {
+    ContactScene scene("letters.toml");
+    scene.advance_to(300);
+    EXPECT_LT(scene.fastest(), 6.0);
+}
+
+TEST(ContactScenesHeavy, DropsRainOnEachOther) {
+    ContactScene scene("rain.toml", Backend::cpu, {"object.drop.copies.counts=[3, 4, 3]"});
+    scene.advance_to(240);
+    EXPECT_LT(scene.fastest(), 3.0);
+}
+
+// What a user does with it: a stack is hit, and a cube thrown into a ring.
+void play(Backend backend) {
+    ContactScene scene("play.toml", backend);
+    scene.advance_to(10);
+    const glm::dvec3 stacked = scene.center(3);
+    scene.grab(0);
+    scene.drag_to({-0.7, 0.7, 0.0}, 3.0);
+    scene.drag_to({1.2, 0.6, -0.5}, 12.0);
+    scene.let_go();
+    scene.advance_to(scene.frame() + 30, 1);
+    EXPECT_GT(glm::distance(scene.center(3), stacked), 0.2);
+    scene.grab(3);
+    scene.drag_to({0.1, 1.0, 1.0}, 6.0);
+    scene.drag_to({0.1, 0.0, 1.0}, 20.0);  // the hand presses it into the ring and the floor
+    scene.let_go();
+    scene.advance_to(scene.frame() + 60, 1);
+    EXPECT_GT(scene.center(3).y, 0.1);
+}
+
+TEST(ContactScenesHeavy, NothingPassesThroughAnythingInAHand) {
+    play(Backend::cpu);
+}
+TEST_F(ContactScenesOnGlHeavy, NothingPassesThroughAnythingInAHand) {
+    play(Backend::gl);
+}
+
+TEST_F(ContactScenesOnGlHeavy, DoWhatTheyDoOnTheCpu) {
+    ContactScene squeeze("squeeze.toml", Backend::gl);
+    squeeze.advance_to(70);
+    EXPECT_GT(squeeze.center(0).y, 1.0);
+    squeeze.advance_to(200);
+    EXPECT_LT(squeeze.center(0).y, 0.6);
+    ContactScene gripper("gripper.toml", Backend::gl);
+    gripper.advance_to(165);
+    EXPECT_NEAR(gripper.center(0).y, 1.35, 0.05);
+    ContactScene stack("stack.toml", Backend::gl);
+    stack.advance_to(300);
+    EXPECT_LT(stack.fastest(), 1e-4);
+    ContactScene knot("knot.toml", Backend::gl);
+    knot.advance_to(330);
+    EXPECT_LT(knot.extent_near_y(0.0, 0.6).x, 0.45);
 }
 
 TEST(ContactScenesLong, AStackStandsForTwentySeconds) {

@@ -1,4 +1,4 @@
-// scenes/fold.toml: the halves of a bar swing against one another.
+// scenes/fold.toml with an explicit solver: the halves of a bar swing against one another.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,9 +20,10 @@ struct Swing {
 };
 
 Swing fold(bool self_collision) {
-    const Scene scene =
-        load_scene(test::source_path() + "scenes/fold.toml",
-                   {std::string("collision.self_collision=") + (self_collision ? "true" : "false")});
+    const Scene scene = load_scene(
+        test::source_path() + "scenes/fold.toml",
+        {"simulation.solver=semi_implicit_euler", "collision.response=restore", "collision.restitution=0.1",
+         std::string("collision.self_collision=") + (self_collision ? "true" : "false")});
     SimulatorOptions options;
     options.backend = Backend::cpu;
     Simulator simulator(scene, options);

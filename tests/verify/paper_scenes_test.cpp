@@ -55,7 +55,7 @@ protected:
     }
 };
 
-constexpr PaperScene kScenes[] = {{"free_fall", true}, {"letters", true}, {"collision", false}};
+constexpr PaperScene kScenes[] = {{"free_fall", true}, {"paper_letters", true}, {"collision", false}};
 
 class PaperScenesHeavy : public PaperScenes {};
 class PaperScenesLong : public PaperScenes {};

@@ -149,6 +149,8 @@ TEST_F(WindowHeavy, KeysShowWhatTheyPromise) {
     EXPECT_TRUE(app().panels().overlays.faces);
     press("8");  // nothing moves as long as nothing is simulated
     EXPECT_TRUE(app().panels().overlays.arrow_time);
+    press("c");
+    EXPECT_TRUE(app().panels().overlays.contact_forces);
 }
 
 // Straight from the buffers of a simulation that goes on meanwhile.

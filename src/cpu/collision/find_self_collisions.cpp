@@ -109,13 +109,6 @@ bool FindSelfCollisions<Real>::is_face_calm(std::uint32_t index,
 }
 
 template <class Real>
-bool FindSelfCollisions<Real>::share_corner(std::uint32_t face, std::uint32_t other) const {
-    const Face &a = model_->faces[face], &b = model_->faces[other];
-    const auto is_corner = [&b](std::uint32_t n) { return n == b.a || n == b.b || n == b.c; };
-    return is_corner(a.a) || is_corner(a.b) || is_corner(a.c);
-}
-
-template <class Real>
 bool FindSelfCollisions<Real>::touch(std::span<const Vec4<Real>> positions, std::uint32_t face,
                                      std::uint32_t other) const {
     const auto triangle = [&](const Face& f) {

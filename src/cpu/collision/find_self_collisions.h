@@ -8,6 +8,7 @@
 #include "cpu/collision/collision.h"
 #include "cpu/collision/triangle_overlap.h"
 #include "cpu/collision/walk_tree.h"
+#include "model/corners.h"
 #include "model/model.h"
 
 namespace gelatin::cpu {
@@ -49,7 +50,6 @@ private:
     bool renew_fit(std::uint32_t object, std::span<const Vec4<Real>> positions);
     bool is_calm_all_over(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
     bool is_face_calm(std::uint32_t index, std::span<const Vec4<Real>> positions) const;
-    bool share_corner(std::uint32_t face, std::uint32_t other) const;
     bool touch(std::span<const Vec4<Real>> positions, std::uint32_t face, std::uint32_t other) const;
 
     // found(other) for each face of the same object whose box meets that of `face`, and which shares no
@@ -57,9 +57,11 @@ private:
     template <class Found>
     void for_faces_near(std::uint32_t face, const Found& found) const {
         const AxisBox<Real> box = boxes_.face_boxes()[face];
-        const std::uint32_t root = model_->face_trees.roots[model_->faces[face].object];
+        const std::vector<Face>& faces = model_->faces;
+        const std::uint32_t root = model_->face_trees.roots[faces[face].object];
         for_items_near<Real>(model_->face_trees, boxes_.tree_boxes(), root, box, [&](std::uint32_t other) {
-            if (meet(box, boxes_.face_boxes()[other]) && !share_corner(face, other)) found(other);
+            if (meet(box, boxes_.face_boxes()[other]) && !share_corner(faces[face], faces[other]))
+                found(other);
         });
     }
 

@@ -73,11 +73,8 @@ void ContactAims<Real>::run(const ContactList<Real>& list, std::span<const Vec4<
         const std::size_t begin =
             is_edges ? list.first_edges + (task - node_tasks) * kPairsATask : task * kPairsATask;
         const std::size_t end = std::min(begin + kPairsATask, is_edges ? pairs : list.first_edges);
-        for (std::size_t first = begin; first < end; first += kPairBlock)
-            aim_block(list,
-                      {static_cast<std::uint32_t>(first),
-                       static_cast<std::uint32_t>(std::min(kPairBlock, end - first))},
-                      positions, found_[task]);
+        aim_pairs(list, {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin)},
+                  positions, found_[task]);
     });
     presses_.clear();
     for (const std::vector<Press<Real>>& found : found_)
@@ -87,13 +84,11 @@ void ContactAims<Real>::run(const ContactList<Real>& list, std::span<const Vec4<
 }
 
 template <class Real>
-void ContactAims<Real>::aim_block(const ContactList<Real>& list, const Range& pairs,
+void ContactAims<Real>::aim_pairs(const ContactList<Real>& list, const Range& pairs,
                                   std::span<const Vec4<Real>> positions, std::vector<Press<Real>>& presses) {
-    MeasuredPairs<Real> measured;
-    measure_pairs(std::span(list.pairs).subspan(pairs.first, pairs.count), positions, measured);
     const FeasibleRegion<Real> region(*model_, *surface_, positions);
-    for (std::size_t k = 0; k < pairs.count; ++k) {
-        const std::uint32_t p = pairs.first + static_cast<std::uint32_t>(k);
+    const auto aim = [&](std::size_t index, const MeasuredPairs<Real>& measured, std::size_t k) {
+        const std::uint32_t p = pairs.first + static_cast<std::uint32_t>(index);
         const ContactPair& pair = list.pairs[p];
         const Vec3<Real> apart(measured.apart[0][k], measured.apart[1][k], measured.apart[2][k]);
         const Vec4<Real> weights{measured.weights[0][k], measured.weights[1][k], measured.weights[2][k],
@@ -103,9 +98,11 @@ void ContactAims<Real>::aim_block(const ContactList<Real>& list, const Range& pa
         const Division division = divide(pair, weights);
         aims_[p] = {normal, gap, division.yielding};
         divide_gap(pair, measured, k, normal, pair_reach, division.share);
-        const Real stiffness = division.stiffness * region.weight(pair, apart, weights);
-        if (!(stiffness > Real(0)) || !(pair_reach > Real(0))) continue;
-        const auto friction = static_cast<Real>(surface_->friction(pair.object, pair.other));
+        const ContactSurface::Touch& touch = surface_->touch(pair.object, pair.other);
+        const Real stiffness =
+            static_cast<Real>(touch.stiffness) * division.stiffness * region.weight(pair, apart, weights);
+        if (!(stiffness > Real(0)) || !(pair_reach > Real(0))) return;
+        const auto friction = static_cast<Real>(touch.friction);
         Press<Real> press{p,        normal,         gap,       weights,      pair_reach, stiffness,
                           friction, division.share, grips_[p], Vec3<Real>(0)};
         if (limit(gap, press) > Real(0)) {
@@ -115,7 +112,8 @@ void ContactAims<Real>::aim_block(const ContactList<Real>& list, const Range& pa
             press.hold = hold(pair, press, positions);
         }
         presses.push_back(press);
-    }
+    };
+    for_measured<Real>(std::span(list.pairs).subspan(pairs.first, pairs.count), positions, aim);
 }
 
 // By how far the nodes yield to a force.

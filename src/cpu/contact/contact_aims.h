@@ -35,8 +35,12 @@ public:
     /// To be called when a step's targets and starts are known, which must stay where they are until its end.
     void begin(Real step, std::span<const Vec4<Real>> targets, std::span<const Vec4<Real>> starts);
 
-    /// Forgets what friction holds.
-    void forget() { grips_.clear(); }
+    /// Forgets all, because pairs are listed anew.
+    void forget() {
+        grips_.clear();
+        aims_.clear();
+        presses_.clear();
+    }
 
     /// Aims all pairs at `positions`. @pre they keep to the list
     void run(const ContactList<Real>& list, std::span<const Vec4<Real>> positions);
@@ -71,7 +75,7 @@ private:
     struct Division {
         Real stiffness, share, yielding;  // as of Press and PairAim
     };
-    void aim_block(const ContactList<Real>& list, const Range& pairs, std::span<const Vec4<Real>> positions,
+    void aim_pairs(const ContactList<Real>& list, const Range& pairs, std::span<const Vec4<Real>> positions,
                    std::vector<Press<Real>>& presses);
     Division divide(const ContactPair& pair, const Vec4<Real>& weights) const;
     void divide_gap(const ContactPair& pair, const MeasuredPairs<Real>& measured, std::size_t column,

@@ -23,10 +23,10 @@ constexpr double kFreshRoom = 0.3;
 }  // namespace
 
 template <class Real>
-Contacts<Real>::Contacts(std::shared_ptr<const Model> model, double friction, bool meet_themselves)
+Contacts<Real>::Contacts(std::shared_ptr<const Model> model, const CollisionSettings& collision)
     : model_(std::move(model)),
-      surface_(std::make_shared<const ContactSurface>(make_contact_surface(*model_, friction))),
-      meet_themselves_(meet_themselves),
+      surface_(std::make_shared<const ContactSurface>(make_contact_surface(*model_, collision))),
+      meet_themselves_(collision.self_collision),
       object_of_(objects_of_nodes(*model_)),
       detection_(model_, surface_),
       aims_(model_, surface_),

@@ -24,8 +24,7 @@ struct Work {
 template <class Real>
 class Contacts {
 public:
-    /// @param friction Coulomb's coefficient @param meet_themselves whether bodies do
-    Contacts(std::shared_ptr<const Model> model, double friction, bool meet_themselves);
+    Contacts(std::shared_ptr<const Model> model, const CollisionSettings& collision);
 
     /// Forgets what was, because nodes were set from outside. @pre no faces of two bodies overlap there
     void restart(std::span<const Vec4<Real>> positions);
@@ -71,6 +70,9 @@ public:
     /// The work of contacts by displacements of nodes, for each object.
     std::vector<Work> works(std::span<const Vec4<Real>> positions,
                             std::span<const Vec3<Real>> displacements) const;
+
+    /// For sweeps on a device. @param limits output: of the last aim
+    void write_limits(ContactLimits& limits) const { aims_.nodes().write(list_, limits); }
 
     /// Whether contacts add terms to a node.
     bool presses(std::uint32_t node) const { return aims_.nodes().presses(node); }

@@ -261,19 +261,14 @@ void DetectContacts<Real>::pair_edge(std::uint32_t edge, Found& found) const {
 template <class Real>
 void DetectContacts<Real>::keep_near(std::vector<ContactPair>& waiting,
                                      std::vector<ContactPair>& kept) const {
-    for (std::size_t first = 0; first < waiting.size(); first += kPairBlock) {
-        const auto block = std::span<const ContactPair>(waiting).subspan(
-            first, std::min(kPairBlock, waiting.size() - first));
-        MeasuredPairs<Real> measured;
-        measure_pairs(block, positions_, measured);
-        for (std::size_t k = 0; k < block.size(); ++k) {
-            const double listed = objects_.listed(block[k].object, block[k].other);
-            // Against rounding a little more.
-            const Real most = static_cast<Real>(listed) + measured.rounding[k];
-            if (!(measured.gaps[k] > most) || !(least_gap(block[k], measured, k) > most))
-                kept.push_back(block[k]);
-        }
-    }
+    for_measured<Real>(waiting, positions_, [&](std::size_t p, const auto& measured, std::size_t column) {
+        const ContactPair& pair = waiting[p];
+        // Against rounding a little more.
+        const Real most =
+            static_cast<Real>(objects_.listed(pair.object, pair.other)) + measured.rounding[column];
+        if (!(measured.gaps[column] > most) || !(least_gap(pair, measured, column) > most))
+            kept.push_back(pair);
+    });
     waiting.clear();
 }
 

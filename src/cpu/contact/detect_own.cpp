@@ -6,11 +6,11 @@
 #include <array>
 #include <atomic>
 #include <numeric>
-
 #include <utility>
 
 #include "cpu/collision/walk_tree.h"
 #include "cpu/contact/near_objects.h"
+#include "model/corners.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -30,10 +30,6 @@ void lower_to(Real& value, Real least) {
     Real seen = shared.load(std::memory_order_relaxed);
     while (least < seen && !shared.compare_exchange_weak(seen, least, std::memory_order_relaxed)) {
     }
-}
-
-bool has(const Face& face, std::uint32_t node) {
-    return face.a == node || face.b == node || face.c == node;
 }
 
 }  // namespace
@@ -200,7 +196,7 @@ void DetectOwn<Real>::search_leaf(std::uint32_t leaf, Real listed, Search& searc
         const std::uint32_t node = parts.nodes[s];
         search.faces.for_meeting(node_boxes_[s], [&](std::uint32_t f) {
             const Face& face = model_->faces[f];
-            if (!has(face, node))
+            if (!has_corner(face, node))
                 search.waiting.push_back(
                     {{node, face.a, face.b, face.c}, {}, node, f, object, object, 1, 0.0f});
         });
@@ -210,9 +206,7 @@ void DetectOwn<Real>::search_leaf(std::uint32_t leaf, Real listed, Search& searc
         const FaceEdge& edge = parts.edges[e];
         search.edges.for_meeting(edge_boxes_[e], [&](std::uint32_t other) {
             const FaceEdge& second = parts.edges[other];
-            const bool is_apart =
-                edge.a != second.a && edge.a != second.b && edge.b != second.a && edge.b != second.b;
-            if (other > e && is_apart)
+            if (other > e && !share_end(edge, second))
                 search.waiting.push_back(
                     {{edge.a, edge.b, second.a, second.b}, {}, e, other, object, object, 2, 0.0f});
         });
@@ -224,39 +218,25 @@ void DetectOwn<Real>::search_leaf(std::uint32_t leaf, Real listed, Search& searc
 template <class Real>
 void DetectOwn<Real>::keep_near(std::vector<ContactPair>& waiting, Real listed,
                                 std::vector<ContactPair>& kept) {
-    for (std::size_t first = 0; first < waiting.size(); first += kPairBlock) {
-        const auto block = std::span<const ContactPair>(waiting).subspan(
-            first, std::min(kPairBlock, waiting.size() - first));
-        MeasuredPairs<Real> measured;
-        measure_pairs(block, found_at_, measured);
-        for (std::size_t k = 0; k < block.size(); ++k) {
-            const Real gap = measured.gaps[k];
-            if (!(gap > listed)) {
-                kept.push_back(block[k]);
-                continue;
-            }
-            for (const std::uint32_t n : block[k].nodes) {
-                Real& apart = apart_[surface_->places[n]];
-                lower_to(apart, gap);
-            }
+    for_measured<Real>(waiting, found_at_, [&](std::size_t p, const auto& measured, std::size_t column) {
+        const Real gap = measured.gaps[column];
+        if (!(gap > listed)) {
+            kept.push_back(waiting[p]);
+            return;
         }
-    }
+        for (const std::uint32_t n : waiting[p].nodes) lower_to(apart_[surface_->places[n]], gap);
+    });
     waiting.clear();
 }
 
 // A body does not press itself where it has its shape at rest.
 template <class Real>
 void DetectOwn<Real>::set_reaches(std::vector<ContactPair>& pairs) const {
-    for (std::size_t first = 0; first < pairs.size(); first += kPairBlock) {
-        const auto block =
-            std::span<ContactPair>(pairs).subspan(first, std::min(kPairBlock, pairs.size() - first));
-        MeasuredPairs<float> measured;
-        measure_pairs(block, model_->positions, measured);
-        for (std::size_t k = 0; k < block.size(); ++k) {
-            const auto reach = static_cast<float>(surface_->reach(block[k].object, block[k].other));
-            block[k].reach = std::min(reach, 0.5f * measured.gaps[k]);
-        }
-    }
+    const auto set = [&](std::size_t p, const auto& measured, std::size_t column) {
+        const auto reach = static_cast<float>(surface_->reach(pairs[p].object, pairs[p].other));
+        pairs[p].reach = std::min(reach, 0.5f * measured.gaps[column]);
+    };
+    for_measured<float>(pairs, model_->positions, set);
 }
 
 template class DetectOwn<float>;

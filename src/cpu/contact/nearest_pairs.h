@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -23,10 +24,22 @@ struct alignas(32) MeasuredPairs {
     Column rounding;                ///< bound of what rounding makes of a difference of heights [m]
 };
 
-/// Measures up to kPairBlock pairs, in float with SIMD for the processor it runs on.
+/// Measures up to kPairBlock pairs, all of nodes and faces or all of edges; in float with SIMD for the
+/// processor it runs on.
 void measure_pairs(std::span<const ContactPair> pairs, std::span<const glm::vec4> positions,
                    MeasuredPairs<float>& measured);
 void measure_pairs(std::span<const ContactPair> pairs, std::span<const glm::dvec4> positions,
                    MeasuredPairs<double>& measured);
+
+/// Measures any number of pairs, block by block. use(p, measured, column) for each of them, in their order.
+template <class Real, class Use>
+void for_measured(std::span<const ContactPair> pairs, std::span<const Vec4<Real>> positions, const Use& use) {
+    for (std::size_t first = 0; first < pairs.size(); first += kPairBlock) {
+        const auto block = pairs.subspan(first, std::min(kPairBlock, pairs.size() - first));
+        MeasuredPairs<Real> measured;
+        measure_pairs(block, positions, measured);
+        for (std::size_t column = 0; column < block.size(); ++column) use(first + column, measured, column);
+    }
+}
 
 }  // namespace gelatin::cpu

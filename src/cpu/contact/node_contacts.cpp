@@ -233,6 +233,35 @@ Real NodeContacts<Real>::allowed_part(const ContactList<Real>& list, const Range
     return part;
 }
 
+template <class Real>
+void NodeContacts<Real>::write(const ContactList<Real>& list, ContactLimits& limits) const {
+    const std::vector<std::uint32_t>& nodes = model_->surface_parts.nodes;
+    limits.nodes.resize(nodes.size());
+    for_each_index(nodes.size(), [&](std::size_t s) {
+        const auto place = static_cast<std::uint32_t>(s);
+        const std::uint32_t node = nodes[s];
+        const Vec3<Real> room_start = list.found_at[s] + list.shifts[list.islands[object_of_[node]]];
+        limits.nodes[s] = {glm::vec4(free_[node]),
+                           glm::vec4(room_start, list.rooms[s]),
+                           glm::vec4(list.ways[s], is_stuck_[s] != 0 ? 0.0f : 1.0f),
+                           glm::vec4(list.own.room(place)),
+                           first_planes_[s],
+                           plane_counts_[s],
+                           share_starts_[s],
+                           share_starts_[s + 1] - share_starts_[s]};
+    });
+    limits.planes.resize(planes_.size());
+    for_each_index(planes_.size(),
+                   [&](std::size_t k) { limits.planes[k] = glm::vec4(planes_[k].towards, planes_[k].head); });
+    limits.shares.resize(shares_.size());
+    for_each_index(shares_.size(), [&](std::size_t k) {
+        const ContactShare<Real>& share = shares_[k];
+        limits.shares[k] = {glm::vec4(share.towards, share.gap),
+                            glm::vec4(share.inverse_share, share.stiffness, share.reach, share.friction),
+                            glm::vec4(share.hold, share.limit)};
+    });
+}
+
 template class NodeContacts<float>;
 template class NodeContacts<double>;
 

@@ -8,6 +8,7 @@
 #include "cpu/contact/contact_law.h"
 #include "cpu/contact/contact_list.h"
 #include "cpu/nodes.h"
+#include "model/contact/contact_limits.h"
 #include "model/contact/contact_surface.h"
 #include "model/model.h"
 
@@ -71,6 +72,9 @@ public:
                        const Vec3<Real>& to, const NodeTerms<Real>& all) const {
         return is_free_at(node, to) ? to : limited_nearby(list, node, from, to, all);
     }
+
+    /// For sweeps on a device. @param limits output
+    void write(const ContactList<Real>& list, ContactLimits& limits) const;
 
     /// The part of displacements that all of some nodes may make.
     /// @param part no more than this, in [0, 1]

@@ -54,17 +54,18 @@ Real OwnGuard<Real>::keep_to_rooms(std::uint32_t object, const OwnRooms<Real>& r
         return part;
     };
     Real best = -1;
-    const auto try_map = [&](ShapeMap<Real> map) {
+    const auto try_map = [&](const ShapeMap<Real>& map) {
         const Real part = part_with(map);
         if (part > best) {
             best = part;
-            next_[object] = std::move(map);
+            next_[object] = map;
         }
         return part == Real(1);
     };
     if (is_shortened_[object] != 0 && try_map(next_[object])) return best;
-    if (try_map(rooms.carried(object, ends))) return best;
-    const ShapeMap<Real> bent = rooms.bent(object, rooms.carried(object, ends), ends);
+    const ShapeMap<Real> carried = rooms.carried(object, ends);
+    if (try_map(carried)) return best;
+    const ShapeMap<Real> bent = rooms.bent(object, carried, ends);
     if (try_map(bent)) return best;
     const Real anew = rooms.largest_radius(object) / farthest;
     if (bent.is_steep || anew > static_cast<Real>(kWorthALook) * best) lacks_room_[object] = 1;

@@ -74,6 +74,11 @@ public:
         if (meets_themselves_.empty()) return Real(1);
         return part_within(deviation(place, position), motion, Real(kByNodes) * radii_[place]);
     }
+    /// Where the map has a surface node, and how far from there it may go by itself [m].
+    Vec4<Real> room(std::uint32_t place) const {
+        if (meets_themselves_.empty()) return Vec4<Real>(0, 0, 0, std::numeric_limits<float>::max());
+        return Vec4<Real>(mapped_[place], Real(kByNodes) * radii_[place]);
+    }
     /// How far a surface node may go in any direction [m].
     Real free_around(std::uint32_t place, const Vec3<Real>& position) const {
         if (meets_themselves_.empty()) return std::numeric_limits<Real>::infinity();

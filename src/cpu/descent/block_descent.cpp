@@ -20,7 +20,8 @@ void for_each_node(const Model& model, const Work& work) {
 
 template <class Real>
 BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const DescentSettings& settings,
-                                 std::uint32_t nodes_a_batch, std::unique_ptr<Contacts<Real>> contacts)
+                                 std::uint32_t nodes_a_batch, std::unique_ptr<Contacts<Real>> contacts,
+                                 DeviceSweeps* device)
     : model_(std::move(model)),
       settings_(settings),
       sweeps_(settings.iterations),
@@ -30,7 +31,8 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
       sweep_(model_, bodies_.get()),
       rigid_move_(model_),
       joint_move_(model_),
-      is_calm_(bodies_ ? model_->objects.size() : 0) {
+      is_calm_(bodies_ ? model_->objects.size() : 0),
+      device_(bodies_ ? device : nullptr) {
     if (settings_.coarse_level) coarse_.emplace(model_, bodies_.get());
     if (coarse_ && coarse_->is_empty()) coarse_.reset();
     if (coarse_ || bodies_) secant_.emplace(model_);
@@ -52,13 +54,24 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
         bodies_->begin(step, objective_.step.targets, objective_.step.starts, current.positions, timer);
         go_on_to_guess(current.positions, timer);
     }
+    if (device_ != nullptr) {
+        const TimedStage part(timer, "advance_nodes.start");
+        device_->begin(
+            static_cast<double>(step),
+            std::vector<glm::vec4>(objective_.step.starts.begin(), objective_.step.starts.end()),
+            std::vector<glm::vec4>(objective_.step.targets.begin(), objective_.step.targets.end()));
+    }
     if (coarse_ && end_of_run(0) < sweeps_) {
         const TimedStage part(timer, "advance_nodes.start");
         coarse_->begin(step, current.positions);
     }
     for (int first = 0; first < sweeps_;) {
         const int end = end_of_run(first);
-        make_sweeps(first, end, current.positions, timer);
+        if (device_ != nullptr) {
+            make_sweeps_on_device(first, end, current.positions, timer);
+        } else {
+            make_sweeps(first, end, current.positions, timer);
+        }
         if (end < sweeps_) {
             const TimedStage part(timer, "advance_nodes.correct");
             coarse_->run(objective_, contacts_, *secant_, current.positions);
@@ -125,6 +138,43 @@ void BlockDescent<Real>::make_sweeps(int first, int end, Positions& positions, S
         if (moves_bodies(i) && bodies_) move_together(is_last(i), positions, timer);
         if (moves_bodies(i) && !bodies_)
             time("advance_nodes.move_bodies", [&](std::size_t batch) { move_bodies(batch, is_last(i)); });
+    }
+}
+
+// The same, with sweeps on a device: those between two aims at a time. What follows on the host needs the
+// tets as well, which it looks at meanwhile.
+template <class Real>
+void BlockDescent<Real>::make_sweeps_on_device(int first, int end, Positions& positions, StageTimer* timer) {
+    for (int next = first; next < end;) {
+        const int begin = next++;
+        while (next < end && !moves_bodies(next - 1)) ++next;
+        {
+            const TimedStage part(timer, "advance_nodes.descend");
+            device_positions_.assign(positions.begin(), positions.end());
+            bodies_->write_limits(device_limits_);
+            device_->start(next - begin, updates_tets(begin), device_limits_, device_positions_);
+            if (updates_tets(begin)) {
+                tbb::parallel_for(std::size_t(0), objective_.rows().batches.size(),
+                                  [&](std::size_t batch) { objective_.update(batch, positions); });
+            }
+            device_->finish(device_positions_, device_contacts_);
+            positions.assign(device_positions_.begin(), device_positions_.end());
+            take_contacts_of_device();
+        }
+        if (moves_bodies(next - 1)) move_together(is_last(next - 1), positions, timer);
+    }
+}
+
+template <class Real>
+void BlockDescent<Real>::take_contacts_of_device() {
+    for (std::size_t o = 0; o < contacts_.objects.size(); ++o)
+        contacts_.objects[o] = device_contacts_.objects[o] != 0 ? 1 : 0;
+    for (std::size_t n = 0; n < contacts_.nodes.size(); ++n) {
+        const gelatin::ColliderContact& contact = device_contacts_.nodes[n];
+        contacts_.nodes[n] = {};
+        if (contact.force.w > 0.0f)
+            contacts_.nodes[n] = {Vec3<Real>(contact.force), Vec3<Real>(contact.normal),
+                                  Real(contact.force.w), Real(contact.normal.w)};
     }
 }
 
@@ -252,6 +302,25 @@ void BlockDescent<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Re
                           (Vec3<Real>(objective_.step.targets[n]) - start) / step, least, velocity);
         current.velocities[n] = Vec4<Real>(velocity, old.w);
     });
+}
+
+template <class Real>
+std::vector<glm::dvec3> BlockDescent<Real>::forces_on_held(const Positions& positions,
+                                                           const Pulls<Real>* pulls) const {
+    if (last_step_ == Real(0)) return {};
+    std::vector<Vec3<Real>> of_elements(positions.size());
+    objective_.find_held_forces(positions, of_elements);
+    std::vector<glm::dvec3> forces(of_elements.begin(), of_elements.end());
+    if (bodies_) {
+        const ContactForces contacts = contact_forces(positions);
+        for_each_node(*model_,
+                      [&](std::uint32_t n) { forces[n] += contacts.normal[n] + contacts.friction[n]; });
+    }
+    if (pulls != nullptr)
+        for (const std::uint32_t n : pulls->nodes())
+            forces[n] += glm::dvec3(
+                pulls->force_at_end(n, positions[n], Vec3<Real>(objective_.step.starts[n]), last_step_));
+    return forces;
 }
 
 template class BlockDescent<float>;

@@ -18,6 +18,7 @@
 #include "cpu/descent/step_objective.h"
 #include "cpu/drive/pulls.h"
 #include "cpu/nodes.h"
+#include "model/descent/device_sweeps.h"
 #include "model/model.h"
 #include "model/solver.h"
 
@@ -41,9 +42,11 @@ public:
     static constexpr std::uint32_t kNodesABatch = 16384;
 
     /// @param contacts between bodies; null: bodies do not meet within a step
+    /// @param device that makes the sweeps of bodies with contacts; null: the host makes them; must outlive
+    /// this
     BlockDescent(std::shared_ptr<const Model> model, const DescentSettings& settings,
                  std::uint32_t nodes_a_batch = kNodesABatch,
-                 std::unique_ptr<Contacts<Real>> contacts = nullptr);
+                 std::unique_ptr<Contacts<Real>> contacts = nullptr, DeviceSweeps* device = nullptr);
 
     /// To be called when nodes were set from outside.
     void restart(std::span<const Vec4<Real>> positions) {
@@ -68,12 +71,19 @@ public:
              std::span<const Vec4<Real>> load_forces = {}, const Pulls<Real>* pulls = nullptr,
              StageTimer* timer = nullptr, int parts = 1);
 
-    /// At the end of the last step.
+    /// At the end of the last step; none before the first.
     ContactForces contact_forces(const std::vector<Vec4<Real>>& positions) const {
+        const std::vector<glm::dvec3> none(positions.size(), glm::dvec3(0.0));
+        if (last_step_ == Real(0)) return {{}, none, none};
         std::vector<Vec3<Real>> forces(positions.size());
         objective_.find_forces(positions, nullptr, forces);
         return find_contact_forces<Real>(*model_, bodies_.get(), contacts_, forces, positions);
     }
+
+    /// Of elements, contacts and a hand on each held node at the end of the last step [N], shape [nodes];
+    /// empty before the first step.
+    std::vector<glm::dvec3> forces_on_held(const std::vector<Vec4<Real>>& positions,
+                                           const Pulls<Real>* pulls) const;
 
 private:
     using Positions = std::vector<Vec4<Real>>;
@@ -86,6 +96,8 @@ private:
     void move_together(bool last, Positions& positions, StageTimer* timer);
     int end_of_run(int first) const;
     void make_sweeps(int first, int end, Positions& positions, StageTimer* timer);
+    void make_sweeps_on_device(int first, int end, Positions& positions, StageTimer* timer);
+    void take_contacts_of_device();
     bool updates_tets(int sweep) const { return sweep % kSweepsAMotion == 0; }
     bool moves_bodies(int sweep) const { return is_last(sweep) || (sweep + 1) % kSweepsAMotion == 0; }
     bool is_last(int sweep) const { return sweep + 1 == sweeps_; }
@@ -106,6 +118,10 @@ private:
     Positions ends_;                          // of bodies' motions
     std::vector<std::uint8_t> is_calm_;       // by object: it presses another, and hardly moves
     std::optional<CoarseStep<Real>> coarse_;  // where there are clusters
+    DeviceSweeps* device_;
+    std::vector<glm::vec4> device_positions_;
+    ContactLimits device_limits_;
+    DeviceContacts device_contacts_;
 };
 
 }  // namespace gelatin::cpu

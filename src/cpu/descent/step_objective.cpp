@@ -70,6 +70,21 @@ void StepObjective<Real>::find_forces(const std::vector<Vec4<Real>>& positions,
     });
 }
 
+template <class Real>
+void StepObjective<Real>::find_held_forces(const std::vector<Vec4<Real>>& positions,
+                                           std::vector<Vec3<Real>>& forces) const {
+    const bool any_flat = any_flat_tets();
+    for_each_index(0, group_count(), kGroupsATask, [&](std::size_t group) {
+        const std::size_t first = group * kGroup;
+        bool any_held = false;
+        for (std::size_t r = 0; r < kGroup; ++r) any_held |= is_held(first + r);
+        if (!any_held) return;
+        const Terms terms = gather(group, any_flat, nullptr, positions);
+        for (std::size_t r = 0; r < kGroup; ++r)
+            if (is_held(first + r)) forces[rows_.nodes[first + r]] = terms.row(r).force;
+    });
+}
+
 template class StepObjective<float>;
 template class StepObjective<double>;
 

@@ -66,7 +66,13 @@ public:
     void find_forces(const std::vector<Vec4<Real>>& positions, const Contacts<Real>* contacts,
                      std::vector<Vec3<Real>>& forces) const;
 
+    /// The forces of all elements but contacts on each held node [N].
+    void find_held_forces(const std::vector<Vec4<Real>>& positions, std::vector<Vec3<Real>>& forces) const;
+
 private:
+    bool is_held(std::size_t row) const {
+        return rows_.nodes[row] != kNoNode && step.targets[rows_.nodes[row]].w == Real(0);
+    }
     Terms gather(std::size_t group, bool any_flat, const Contacts<Real>* contacts,
                  const std::vector<Vec4<Real>>& positions) const;
     // Those of flat tets and contacts, which few nodes have.

@@ -39,6 +39,15 @@ public:
         return {place, stiffness};
     }
 
+    /// The force [N] on a node that a step of `step` seconds brought from `start` to `position`.
+    Vec3<Real> force_at_end(std::uint32_t node, const Vec4<Real>& position, const Vec3<Real>& start,
+                            Real step) const {
+        const Vec4<Real>& pull = by_node_[node];
+        const auto [place, stiffness] =
+            damped_point_spring<Real>({target_ + Vec3<Real>(pull), pull.w}, start, damping_time_ / step);
+        return stiffness * (place - Vec3<Real>(position));
+    }
+
 private:
     std::vector<std::uint32_t> nodes_;
     std::vector<Vec4<Real>> by_node_;  // offset from the pull's target [m], stiffness [N/m]; 0: not held

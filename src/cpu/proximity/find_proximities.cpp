@@ -9,20 +9,13 @@
 #include <utility>
 
 #include "cpu/collision/walk_tree.h"
+#include "model/corners.h"
 
 namespace gelatin::cpu {
 namespace {
 
 constexpr std::size_t kLeavesATask = 16;
 constexpr std::uint32_t kEdgesATask = 2048;
-
-bool has_node(const Face& face, std::uint32_t node) {
-    return face.a == node || face.b == node || face.c == node;
-}
-
-bool share_node(const FaceEdge& e, const FaceEdge& f) {
-    return e.a == f.a || e.a == f.b || e.b == f.a || e.b == f.b;
-}
 
 template <class Real>
 Proximity<Real> make_proximity(std::uint32_t first, std::uint32_t second, const EdgeToEdge<Real>& nearest) {
@@ -131,7 +124,7 @@ void FindProximities<Real>::test_node(std::uint32_t place, std::span<const Vec4<
     for (const Near& near : found.faces) {
         if (!meet(box, near.box)) continue;
         const Face& face = model_->faces[near.index];
-        if (has_node(face, node)) continue;
+        if (has_corner(face, node)) continue;
         const NodeToFace<Real> nearest = nearest_points<Real>(
             p, {Vec3<Real>(positions[face.a]), Vec3<Real>(positions[face.b]), Vec3<Real>(positions[face.c])});
         if (!(nearest.squared_distance < squared_radius_)) continue;
@@ -150,7 +143,7 @@ void FindProximities<Real>::test_edge(std::uint32_t edge, std::span<const Vec4<R
         return std::array{Vec3<Real>(positions[parts.edges[e].a]), Vec3<Real>(positions[parts.edges[e].b])};
     };
     for (const Near& near : found.edges) {
-        if (!meet(box, near.box) || share_node(parts.edges[edge], parts.edges[near.index])) continue;
+        if (!meet(box, near.box) || share_end(parts.edges[edge], parts.edges[near.index])) continue;
         // In a fixed order, so that both edges get the same result.
         const auto [first, second] = std::minmax(edge, near.index);
         const EdgeToEdge<Real> nearest = nearest_points<Real>(ends(first), ends(second));

@@ -42,11 +42,17 @@ std::vector<glm::vec4> springs_of(const HalfSprings& springs) {
     return result;
 }
 
-std::vector<DescentRow> rows_of(const DescentRows& rows, const std::vector<std::uint32_t>& objects) {
+std::vector<DescentRow> rows_of(const DescentRows& rows, const Model& model) {
+    const std::vector<std::uint32_t> objects = objects_of_nodes(model), places = places_on_surface(model);
     std::vector<DescentRow> result;
     for (std::uint32_t r = 0; r < rows.nodes.size(); ++r) {
-        const std::uint32_t n = rows.nodes[r], o = n == kNoNode ? 0 : objects[n];
-        result.push_back({n, o, pair_count(rows.springs, r), 0});
+        const std::uint32_t n = rows.nodes[r];
+        DescentRow row{n, 0, pair_count(rows.springs, r), kNoNode};
+        if (n != kNoNode) {
+            row.object = objects[n];
+            row.place = places[n];
+        }
+        result.push_back(row);
     }
     return result;
 }

@@ -22,8 +22,7 @@ std::vector<glm::uvec2> ends_of(const HalfSprings& springs);
 /// Of each pair of half springs rest length [m] and stiffness [N/m], of one and of the other.
 std::vector<glm::vec4> springs_of(const HalfSprings& springs);
 
-/// @param objects of nodes
-std::vector<DescentRow> rows_of(const DescentRows& rows, const std::vector<std::uint32_t>& objects);
+std::vector<DescentRow> rows_of(const DescentRows& rows, const Model& model);
 
 /// With kNoNode for nodes of neo-Hookean tets, whose terms come with those.
 std::vector<std::uint32_t> rows_of_springs(const Model& model, std::span<const std::uint32_t> rows);

@@ -60,7 +60,7 @@ StepObjective::StepObjective(const Model& model)
     const TetCorners corners = corners_of(model, rows.nodes);
     colors_ = rows.batches.front().colors;
     row_count_ = static_cast<std::uint32_t>(rows.nodes.size());
-    rows_ = {rows_of(rows, objects_of_nodes(model)), gl::TexelFormat::rgba32ui};
+    rows_ = {rows_of(rows, model), gl::TexelFormat::rgba32ui};
     spring_ends_ = {ends_of(rows.springs), gl::TexelFormat::rg32ui};
     springs_ = {springs_of(rows.springs), gl::TexelFormat::rgba32f};
     spring_starts_ = {rows.springs.slice_starts, gl::TexelFormat::r32ui};

@@ -14,6 +14,7 @@ gl::Defines defines(Quantity quantity) {
         case Quantity::stress:
             return {"STRESS"};
         case Quantity::speed:
+        case Quantity::pressure:  // not of tets
             break;
     }
     return {"SPEED"};

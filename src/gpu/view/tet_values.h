@@ -20,6 +20,7 @@ public:
     static constexpr int kBinShift = packing::kBinShift;
     static constexpr std::size_t kBins = packing::kBins;
 
+    /// @pre quantity is not Quantity::pressure, which is that of contacts
     TetValues(const Model& model, Quantity quantity);
 
     Quantity quantity() const { return quantity_; }

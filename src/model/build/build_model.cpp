@@ -223,6 +223,8 @@ void append_body(Model& model, const Body& body) {
     ModelObject object;
     object.name = body.name;
     object.color = body.color;
+    object.surface = {body.material.name, body.material.friction, body.material.thickness,
+                      body.material.contact_stiffness};
     object.nodes = {size(model.positions), size(mesh.positions)};
     object.tets = {size(model.tets), size(mesh.tets)};
     object.faces = {size(model.faces), size(mesh.faces)};

@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 #include <limits>
 
+#include "model/corners.h"
 #include "model/model.h"
 
 namespace gelatin {
@@ -63,12 +64,6 @@ double least_distance(const Corners& a, const Corners& b, double enough) {
         for (const glm::dvec3& f : edges_b)
             if (try_direction(glm::cross(e, f))) return widest;
     return widest;
-}
-
-bool share_corner(const Face& a, const Face& b) {
-    for (const std::uint32_t p : {a.a, a.b, a.c})
-        if (p == b.a || p == b.b || p == b.c) return true;
-    return false;
 }
 
 class Clearances {

@@ -2,16 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
+#include <string>
+#include <tuple>
+
+#include "model/corners.h"
 
 namespace gelatin {
 namespace {
 
 constexpr double kThickness = 0.05;  // of the median edge
-
-std::array<std::uint32_t, 3> corners_of(const Face& face) {
-    return {face.a, face.b, face.c};
-}
 
 // One side of a surface edge: face 3 f + k, from corner k to k + 1.
 struct HalfEdge {
@@ -105,6 +107,10 @@ std::vector<double> find_thicknesses(const Model& model) {
     std::vector<double> thicknesses;
     for (std::size_t o = 0; o < lengths.size(); ++o) {
         std::vector<double>& of_object = lengths[o];
+        if (model.objects[o].surface.thickness) {
+            thicknesses.push_back(*model.objects[o].surface.thickness);
+            continue;
+        }
         if (of_object.empty() || !model.is_body(o)) {
             thicknesses.push_back(0.0);
             continue;
@@ -116,22 +122,59 @@ std::vector<double> find_thicknesses(const Model& model) {
     return thicknesses;
 }
 
+// What a kind has by itself.
+struct Kind {
+    std::string material;
+    ContactSurface::Touch own;
+    bool is_collider = false;
+};
+
+std::vector<Kind> find_kinds(const Model& model, double friction, std::vector<std::uint32_t>& kinds) {
+    std::vector<Kind> all;
+    std::map<std::tuple<std::string, double, double>, std::uint32_t> known;
+    for (std::size_t o = 0; o < model.body_count(); ++o) {
+        const BodySurface& surface = model.objects[o].surface;
+        const ContactSurface::Touch own{surface.friction.value_or(friction), surface.contact_stiffness};
+        const auto [place, is_new] = known.try_emplace({surface.material, own.friction, own.stiffness},
+                                                       static_cast<std::uint32_t>(all.size()));
+        if (is_new) all.push_back({surface.material, own});
+        kinds.push_back(place->second);
+    }
+    for (const RigidSurface& collider : model.surfaces) {
+        kinds.push_back(static_cast<std::uint32_t>(all.size()));
+        all.push_back({{}, {collider.friction, 1.0}, true});
+    }
+    return all;
+}
+
+ContactSurface::Touch touch_of(const Kind& a, const Kind& b, const std::vector<MaterialPair>& pairs) {
+    if (a.is_collider) return {a.own.friction, b.own.stiffness};
+    if (b.is_collider) return {b.own.friction, a.own.stiffness};
+    ContactSurface::Touch touch{std::sqrt(a.own.friction * b.own.friction),
+                                std::sqrt(a.own.stiffness * b.own.stiffness)};
+    for (const MaterialPair& pair : pairs) {
+        if (std::minmax(pair.first, pair.second) != std::minmax(a.material, b.material)) continue;
+        touch.friction = pair.friction.value_or(touch.friction);
+        touch.stiffness = pair.contact_stiffness.value_or(touch.stiffness);
+    }
+    return touch;
+}
+
 }  // namespace
 
-ContactSurface make_contact_surface(const Model& model, double friction) {
+ContactSurface make_contact_surface(const Model& model, const CollisionSettings& collision) {
     ContactSurface surface;
-    surface.places.assign(model.node_count(), kNoNode);
-    for (std::uint32_t s = 0; s < model.surface_parts.nodes.size(); ++s)
-        surface.places[model.surface_parts.nodes[s]] = s;
+    surface.places = places_on_surface(model);
     add_neighbors(model, surface);
     std::vector<double> traces(model.node_count());
     add_springs(model, traces);
     add_tets(model, traces);
     for (const double trace : traces) surface.stiffness.push_back(static_cast<float>(trace / 3.0));
     surface.thicknesses = find_thicknesses(model);
-    surface.first_collider = static_cast<std::uint32_t>(model.body_count());
-    surface.frictions.assign(model.body_count(), friction);
-    for (const RigidSurface& collider : model.surfaces) surface.frictions.push_back(collider.friction);
+    const std::vector<Kind> kinds = find_kinds(model, collision.friction, surface.kinds);
+    surface.kind_count = static_cast<std::uint32_t>(kinds.size());
+    for (const Kind& a : kinds)
+        for (const Kind& b : kinds) surface.touches.push_back(touch_of(a, b, collision.pairs));
     return surface;
 }
 

@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
+#include "gelatin/scene.h"
 #include "model/model.h"
 #include "model/spring_packing.h"
 
@@ -27,20 +28,24 @@ struct ContactSurface {
     /// median surface edge; colliders have none.
     std::vector<double> thicknesses;
 
-    /// Of each object: Coulomb's coefficient. Where a collider is touched, its own counts.
-    std::vector<double> frictions;
-    std::uint32_t first_collider = 0;  ///< objects from here on are colliders
+    /// How two kinds of bodies press each other, a kind for each material, or colliders and bodies.
+    struct Touch {
+        double friction;   ///< Coulomb's coefficient; where a collider is touched, its own
+        double stiffness;  ///< of contacts, as a factor
+    };
+    std::vector<std::uint32_t> kinds;  ///< of each object; each collider is one by itself
+    std::vector<Touch> touches;        ///< of two kinds, shape [kinds, kinds]
+    std::uint32_t kind_count = 0;
 
     double reach(std::uint32_t object, std::uint32_t other) const {
         return thicknesses[object] + thicknesses[other];
     }
-    /// Of a pair of objects, at most one of which is a collider.
-    double friction(std::uint32_t object, std::uint32_t other) const {
-        return frictions[object < first_collider ? other : object];
+    const Touch& touch(std::uint32_t object, std::uint32_t other) const {
+        return touches[kinds[object] * kind_count + kinds[other]];
     }
 };
 
-/// @param friction of bodies with each other
-ContactSurface make_contact_surface(const Model& model, double friction);
+/// @param collision friction of bodies whose materials have none, and pairs of materials
+ContactSurface make_contact_surface(const Model& model, const CollisionSettings& collision);
 
 }  // namespace gelatin

@@ -2,6 +2,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "core/file.h"
 #include "gelatin/scene.h"
@@ -50,6 +51,16 @@ SimulationSettings read_simulation(TableReader reader) {
     return settings;
 }
 
+MaterialPair read_pair(TableReader& reader) {
+    MaterialPair pair;
+    reader.require({"materials"});
+    std::tie(pair.first, pair.second) = reader.read_two_texts("materials");
+    reader.read("friction", pair.friction);
+    reader.read("contact_stiffness", pair.contact_stiffness);
+    reader.finish();
+    return pair;
+}
+
 CollisionSettings read_collision(TableReader reader) {
     CollisionSettings settings;
     reader.read("broad_phase", settings.broad_phase,
@@ -65,6 +76,7 @@ CollisionSettings read_collision(TableReader reader) {
     reader.read("proximity_radius", settings.proximity_radius);
     reader.read("friction", settings.friction);
     reader.read("restitution", settings.restitution);
+    for (TableReader& pair : reader.tables("pair")) settings.pairs.push_back(read_pair(pair));
     reader.finish();
     return settings;
 }
@@ -101,6 +113,9 @@ Material read_material(TableReader& reader) {
     reader.read("poisson_ratio", material.poisson_ratio);
     reader.read("damping", material.damping);
     material.springs = read_springs(reader);
+    reader.read("friction", material.friction);
+    reader.read("thickness", material.thickness);
+    reader.read("contact_stiffness", material.contact_stiffness);
     reader.finish();
     return material;
 }

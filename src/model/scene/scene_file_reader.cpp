@@ -218,6 +218,14 @@ std::vector<std::string> TableReader::read_names(const char* key, const std::vec
     return found;
 }
 
+std::pair<std::string, std::string> TableReader::read_two_texts(const char* key) {
+    const toml::node* node = find(key);
+    const toml::array* array = node != nullptr ? node->as_array() : nullptr;
+    if (array == nullptr || array->size() != 2 || !array->is_homogeneous(toml::node_type::string))
+        fail(key, "must be a list of two names");
+    return {(*array)[0].value_or(std::string()), (*array)[1].value_or(std::string())};
+}
+
 std::optional<TableReader> TableReader::table(const char* key) {
     const toml::node* node = find(key);
     if (node == nullptr) return std::nullopt;

@@ -81,6 +81,9 @@ public:
     /// A list of at least one of `names`, none twice.
     std::vector<std::string> read_names(const char* key, const std::vector<std::string>& names);
 
+    /// A list of two texts.
+    std::pair<std::string, std::string> read_two_texts(const char* key);
+
     std::optional<TableReader> table(const char* key);
     std::vector<TableReader> tables(const char* key);
 

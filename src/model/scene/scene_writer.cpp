@@ -178,7 +178,14 @@ Table table_of(const Material& material) {
         for (const std::string& kind : kind_names(*material.springs)) names.push_back(text_of(kind));
         table.add_text("springs", fmt::format("[{}]", fmt::join(names, ", ")));
     }
-    return table;
+    table.add("friction", material.friction).add("thickness", material.thickness);
+    return table.add_unless(1.0, "contact_stiffness", material.contact_stiffness);
+}
+
+Table table_of(const MaterialPair& pair) {
+    Table table;
+    table.add_text("materials", fmt::format("[{}, {}]", text_of(pair.first), text_of(pair.second)));
+    return table.add("friction", pair.friction).add("contact_stiffness", pair.contact_stiffness);
 }
 
 Table table_of(const ColliderDescription& collider, const std::filesystem::path& folder) {
@@ -209,6 +216,7 @@ void save_scene(const std::filesystem::path& file, const Scene& scene) {
     };
     add("[simulation]", table_of(scene.simulation));
     add("[collision]", table_of(scene.collision));
+    for (const MaterialPair& pair : scene.collision.pairs) add("[[collision.pair]]", table_of(pair));
     if (const auto& camera = scene.camera) {
         add("[camera]", Table()
                             .add("eye", camera->eye)

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
+#include <set>
+#include <string>
+#include <utility>
 
 #include "gelatin/error.h"
 #include "model/scene/names.h"
@@ -84,10 +88,49 @@ void check_material(const ValueChecks& checks, const FieldPath& field, const Mat
                     fmt::format("must name at least one of {}", join_names(spring_kind_names(), "or")));
 }
 
-void check_materials(const ValueChecks& checks, const std::vector<Material>& materials) {
+// What only contact knows.
+void check_surface(const ValueChecks& checks, const FieldPath& field, const Material& material,
+                   CollisionResponse response) {
+    checks.check(field / "friction", material.friction, kNotNegative);
+    checks.check(field / "thickness", material.thickness, kPositive);
+    checks.check(field / "contact_stiffness", material.contact_stiffness, kPositive);
+    if (response == CollisionResponse::contact) return;
+    const std::string needs = "needs collision.response = \"contact\"";
+    if (material.friction) checks.fail(field / "friction", text_of(*material.friction), needs);
+    if (material.thickness) checks.fail(field / "thickness", text_of(*material.thickness), needs);
+    if (material.contact_stiffness != 1.0)
+        checks.fail(field / "contact_stiffness", text_of(material.contact_stiffness), needs);
+}
+
+void check_pairs(const ValueChecks& checks, const Scene& scene) {
+    const std::vector<MaterialPair>& pairs = scene.collision.pairs;
+    std::vector<std::string> names;
+    for (const Material& material : scene.materials) names.push_back(material.name);
+    std::set<std::pair<std::string, std::string>> known;
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+        const FieldPath field = (FieldPath("collision") / "pair")[p];
+        const std::string both = fmt::format("[{}, {}]", text_of(pairs[p].first), text_of(pairs[p].second));
+        for (const std::string& name : {pairs[p].first, pairs[p].second}) {
+            if (std::find(names.begin(), names.end(), name) == names.end())
+                checks.fail(field / "materials", both,
+                            names.empty() ? "there are no materials"
+                                          : fmt::format("must be of {}", join_names(names, "or")));
+        }
+        if (!known.insert(std::minmax(pairs[p].first, pairs[p].second)).second)
+            checks.fail(field / "materials", both, "is there twice");
+        checks.check(field / "friction", pairs[p].friction, kNotNegative);
+        checks.check(field / "contact_stiffness", pairs[p].contact_stiffness, kPositive);
+        if (scene.collision.response != CollisionResponse::contact)
+            checks.fail(field, both, "needs collision.response = \"contact\"");
+    }
+}
+
+void check_materials(const ValueChecks& checks, const std::vector<Material>& materials,
+                     CollisionResponse response) {
     for (std::size_t m = 0; m < materials.size(); ++m) {
         const FieldPath field("material", m);
         check_material(checks, field, materials[m]);
+        check_surface(checks, field, materials[m], response);
         for (std::size_t i = 0; i < m; ++i) {
             if (materials[i].name != materials[m].name) continue;
             checks.fail(field / "name", text_of(materials[m].name),
@@ -103,7 +146,8 @@ void validate(const Scene& scene, const ReportProblem& report) {
     check_simulation(checks, scene.simulation);
     check_collision(checks, scene.collision, scene.simulation.solver);
     if (scene.camera) check_camera(checks, *scene.camera);
-    check_materials(checks, scene.materials);
+    check_materials(checks, scene.materials, scene.collision.response);
+    check_pairs(checks, scene);
     check_objects(checks, scene);
     check_colliders(checks, scene);
 }

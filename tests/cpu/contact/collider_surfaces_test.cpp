@@ -9,7 +9,6 @@
 #include "cpu/contact/contacts.h"
 #include "cpu/cpu_solver.h"
 #include "cpu/measure/measure.h"
-#include "model/drive/handles.h"
 #include "support/contact_scenes.h"
 #include "support/overlaps.h"
 #include "support/random_maker.h"
@@ -29,11 +28,6 @@ ColliderDescription collider(Shape shape, const glm::dvec3& position = {0, 0, 0}
     return description;
 }
 
-void advance(cpu::CpuSolver<float>& solver, const Model& model, int frame) {
-    solver.apply_kinematics(handle_motions(model.handles, frame * kFrame, kFrame));
-    solver.advance_nodes(kFrame);
-}
-
 glm::dvec3 mean_velocity(const Model& model, const cpu::CpuSolver<float>& solver) {
     return cpu::measure(model, solver.nodes())[0].momentum / model.objects[0].mass;
 }
@@ -51,10 +45,7 @@ TEST(ColliderSurfaces, StopBodies) {
         const auto model = make_blocks({{.place = {0.05, 0.32, 0.1}, .velocity = {0, -speed, 0}}}, {0, 0, 0},
                                        {collider(BoxShape{glm::dvec3(0.5)})});
         cpu::CpuSolver<float> solver = make_solver<float>(model);
-        for (int frame = 0; frame < 30; ++frame) {
-            advance(solver, *model, frame);
-            ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u) << speed << ", " << frame;
-        }
+        ASSERT_TRUE(test::stays_apart(solver, *model, 30)) << speed;
         EXPECT_GT(mean_velocity(*model, solver).y, 0.0) << speed;
     }
 }
@@ -69,10 +60,7 @@ TEST(ColliderSurfaces, AreStoppedByFromBothSides) {
             make_blocks({{.place = {0, side > 0 ? 0.1 : -0.4, 0}, .velocity = {0, -5 * side, 0}}}, {0, 0, 0},
                         {collider(FileShape{file})});
         cpu::CpuSolver<float> solver = make_solver<float>(model);
-        for (int frame = 0; frame < 30; ++frame) {
-            advance(solver, *model, frame);
-            ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u);
-        }
+        ASSERT_TRUE(test::stays_apart(solver, *model, 30));
         EXPECT_GT(side * mean_height(*model, solver), 0.1);
         EXPECT_GT(side * mean_velocity(*model, solver).y, 0.0);
     }
@@ -135,7 +123,7 @@ TEST(ColliderSurfaces, CarryByFriction) {
         make_blocks({{.place = {-0.15, 0, -0.15}, .youngs_modulus = 3e5}}, {0, -9.81, 0}, plates);
     cpu::CpuSolver<float> solver = make_solver<float>(model);
     for (int frame = 0; frame < 150; ++frame) {
-        advance(solver, *model, frame);
+        test::advance(solver, *model, frame);
         ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u) << frame;
         if (frame == 89) {
             EXPECT_NEAR(mean_height(*model, solver), 1.15, 0.05);
@@ -152,10 +140,7 @@ TEST(ColliderSurfaces, APressStopsWhereABodyLeavesItNoRoom) {
     const auto model =
         make_blocks({{.place = {-0.15, 0, -0.15}, .youngs_modulus = 1e5}}, {0, 0, 0}, {press, bed});
     cpu::CpuSolver<float> solver = make_solver<float>(model);
-    for (int frame = 0; frame < 90; ++frame) {
-        advance(solver, *model, frame);
-        ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u) << frame;
-    }
+    ASSERT_TRUE(test::stays_apart(solver, *model, 90));
     EXPECT_GT(cpu::measure(*model, solver.nodes())[0].volume, 0.95 * 0.027);
 }
 
@@ -164,7 +149,7 @@ TEST(ColliderSurfaces, AreNearWhereTheirFacesAre) {
     const auto model = make_blocks({{.place = {-2, 0, 0}}, {.place = {2, 0, 0}}, {.place = {4.6, 0, 0}}},
                                    {0, 0, 0}, {collider(BoxShape{glm::dvec3(10)})});
     cpu::DetectContacts<float> detection(
-        model, std::make_shared<const ContactSurface>(make_contact_surface(*model, 0.4)));
+        model, std::make_shared<const ContactSurface>(make_contact_surface(*model, {.friction = 0.4})));
     cpu::ContactList<float> list;
     detection.run(model->positions, {.longest = 0.01}, list);
     EXPECT_NE(list.islands[0], list.islands[1]);
@@ -203,11 +188,7 @@ void fuzz(unsigned first, unsigned count) {
         const auto model = make_blocks(blocks, {0, -9.81, 0}, colliders);
         cpu::CpuSolver<float> solver =
             make_solver<float>(model, 0.4, random.integer(1, 12), random.integer(0, 1) == 0);
-        for (int frame = 0; frame < 30; ++frame) {
-            advance(solver, *model, frame);
-            ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u)
-                << "scene " << seed << ", frame " << frame;
-        }
+        ASSERT_TRUE(test::stays_apart(solver, *model, 30)) << "scene " << seed;
     }
 }
 

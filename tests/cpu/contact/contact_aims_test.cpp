@@ -35,7 +35,7 @@ template <class Real>
 struct Contact {
     explicit Contact(const Model& of)
         : model(std::make_shared<const Model>(of)),
-          surface(std::make_shared<const ContactSurface>(make_contact_surface(of, 0.4))),
+          surface(std::make_shared<const ContactSurface>(make_contact_surface(of, {.friction = 0.4}))),
           positions(of.positions.begin(), of.positions.end()),
           starts(positions),
           detection(model, surface),

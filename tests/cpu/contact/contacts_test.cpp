@@ -107,6 +107,21 @@ TEST(ContactsHeavy, KeepMomentumOfTenAtAnySpeed) {
     for (const double speed : {1.0, 10.0, 100.0}) expect_momentum_of_many(10, speed, true, 1e-8 * speed);
 }
 
+// In the middle of an impact: nothing is left of its contacts.
+TEST(Contacts, StartAgain) {
+    const auto model = make_impact(3.0);
+    cpu::CpuSolver<float> solver = make_solver<float>(model);
+    const State start = solver.read_state();
+    const auto advance = [&] {
+        for (int frame = 0; frame < 2; ++frame) solver.advance_nodes(kFrame);
+        return solver.nodes().positions;
+    };
+    const std::vector<glm::vec4> first = advance();
+    ASSERT_FALSE(solver.contact_forces().between.empty());  // they press each other
+    solver.write_state(start);
+    EXPECT_EQ(advance(), first);
+}
+
 // The elements of all materials know contacts.
 TEST(Contacts, OfAllMaterials) {
     for (const MaterialModel kind : {MaterialModel::mass_spring, MaterialModel::neo_hookean}) {
@@ -115,10 +130,7 @@ TEST(Contacts, OfAllMaterials) {
              {.place = {0.34, 0.1, 0.05}, .velocity = {-3, 0, 0}, .poisson_ratio = 0.4, .model = kind}});
         cpu::CpuSolver<float> solver = make_solver<float>(model);
         const Sums before = sums_of(*model, solver.nodes());
-        for (int frame = 0; frame < 30; ++frame) {
-            solver.advance_nodes(kFrame);
-            ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u);
-        }
+        ASSERT_TRUE(test::stays_apart(solver, *model, 30));
         EXPECT_LT(sums_of(*model, solver.nodes()).kinetic, 0.9 * before.kinetic);
     }
 }
@@ -126,7 +138,7 @@ TEST(Contacts, OfAllMaterials) {
 // What contacts do along displacements is minus the slope of their energy, with both sides under way.
 TEST(Contacts, TellTheWorkOfDisplacements) {
     const auto model = make_blocks({{}, {.place = {0.305, 0.1, 0.05}}});
-    cpu::Contacts<double> contacts(model, 0.4, false);
+    cpu::Contacts<double> contacts(model, {.friction = 0.4});
     std::vector<glm::dvec4> positions(model->positions.begin(), model->positions.end()), targets = positions;
     for (glm::dvec4& target : targets) target.w = 3600.0 / target.w;
     auto starts = positions;
@@ -248,12 +260,17 @@ struct Slide {
     double acceleration;  // [m/s^2]
 };
 
-Slide slide(double friction, double slope, double youngs_modulus = 1e6) {
+// @param of_material of the block's material
+Slide slide(double friction, double slope, double youngs_modulus = 1e6,
+            std::optional<double> of_material = {}) {
     const double angle = std::atan(slope);
     const Region everywhere = HalfSpaceRegion{{1.0, 0.0, 0.0}, 100.0};
     const auto model = make_blocks(
         {{.place = {-1.0, -0.1, -0.6}, .cells = {100, 1, 10}, .size = {16.0, 0.1, 1.6}, .pins = {everywhere}},
-         {.place = {-0.2, 0.012, 0}, .size = {0.3, 0.2, 0.3}, .youngs_modulus = youngs_modulus}},
+         {.place = {-0.2, 0.012, 0},
+          .size = {0.3, 0.2, 0.3},
+          .youngs_modulus = youngs_modulus,
+          .friction = of_material}},
         9.81 * glm::dvec3(std::sin(angle), -std::cos(angle), 0));
     cpu::CpuSolver<float> solver = make_solver<float>(model, friction);
     const auto mean = [&](const std::vector<glm::vec4>& of) {
@@ -274,6 +291,9 @@ TEST(ContactsHeavy, FrictionIsCoulombs) {
     const double angle = std::atan(0.6), friction = 0.5 * 9.81 * std::cos(angle);  // [m/s^2]
     EXPECT_NEAR(slide(0.5, 0.6, 1e5).acceleration, 9.81 * std::sin(angle) - friction, 0.04 * friction);
     EXPECT_NEAR(slide(0.0, 0.1).acceleration, 9.81 * std::sin(std::atan(0.1)), 0.01);
+    // The geometric mean of 0.8 and 0.2, and of 0.8 and 0.
+    EXPECT_LT(std::abs(slide(0.8, 0.3, 1e5, 0.2).distance), 1e-4);
+    EXPECT_NEAR(slide(0.8, 0.1, 1e6, 0.0).acceleration, 9.81 * std::sin(std::atan(0.1)), 0.01);
 }
 
 // A ram that a handle moves presses a block on a bed flat, and lets it go.
@@ -299,8 +319,7 @@ TEST(Contacts, AHandlePressesABody) {
     const auto start = static_cast<double>(model->positions[ram].y);
     double least = start;
     for (int frame = 0; frame < 90; ++frame) {
-        solver.apply_kinematics(handle_motions(model->handles, frame * kFrame, kFrame));
-        solver.advance_nodes(kFrame);
+        test::advance(solver, *model, frame);
         ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u) << frame;
         least = std::min(least, static_cast<double>(solver.nodes().positions[ram].y));
     }
@@ -308,33 +327,16 @@ TEST(Contacts, AHandlePressesABody) {
     EXPECT_GT(cpu::measure(*model, solver.nodes())[1].volume, 0.9 * 0.027);
 }
 
-// Violent scenes: blocks and thin plates, soft and hard, at random; a few here, more in the long tests.
+// Violent scenes at random; a few here, more in the long tests.
 void fuzz(unsigned first, unsigned count, int most_substeps = 4, int most_iterations = 12) {
     for (unsigned seed = first; seed < first + count; ++seed) {
         test::RandomMaker random(seed);
-        std::vector<Block> blocks;
-        const int bodies = random.integer(2, 5);
-        for (int k = 0; k < bodies; ++k) {
-            Block block;
-            const bool is_thin = random.integer(0, 2) == 0;
-            block.size = is_thin ? glm::dvec3(0.4, 0.02, 0.4) : glm::dvec3(0.2, 0.25, 0.2);
-            block.cells = is_thin ? glm::ivec3(4, 1, 4) : glm::ivec3(2, 3, 2);
-            block.place = {random.uniform(-0.05, 0.05), 0.4 * k, random.uniform(-0.05, 0.05)};
-            block.velocity = random.point(random.magnitude(0.1, 100.0));
-            block.velocity.y -= 5.0 * k;
-            block.youngs_modulus = random.magnitude(1e3, 1e9);
-            blocks.push_back(block);
-        }
-        const auto model = make_blocks(blocks, {0, -9.81, 0});
+        const auto model = make_blocks(test::violent_blocks(random, 5), {0, -9.81, 0});
         const int substeps = random.integer(1, most_substeps),
                   iterations = random.integer(1, most_iterations);
         const bool divides_steps = random.integer(0, 1) == 0;
         cpu::CpuSolver<float> solver = make_solver<float>(model, 0.4, iterations, divides_steps);
-        for (int step = 0; step < 20 * substeps; ++step) {
-            solver.advance_nodes(kFrame / substeps);
-            ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u)
-                << "scene " << seed << ", step " << step;
-        }
+        ASSERT_TRUE(test::stays_apart(solver, *model, 20 * substeps, kFrame / substeps)) << "scene " << seed;
     }
 }
 

@@ -52,12 +52,12 @@ glm::dvec3 exactly_apart(const cpu::ContactPair& pair, const std::array<glm::dve
 template <class Real>
 void expect_right(bool are_edges, double bound) {
     const Pairs<Real> test(are_edges, 5);
-    for (std::size_t first = 0; first < test.pairs.size(); first += cpu::kPairBlock) {
-        cpu::MeasuredPairs<Real> measured;
-        const std::size_t count = std::min(cpu::kPairBlock, test.pairs.size() - first);
-        cpu::measure_pairs(std::span(test.pairs).subspan(first, count), test.positions, measured);
-        for (std::size_t c = 0; c < count; ++c) {
-            const cpu::ContactPair& pair = test.pairs[first + c];
+    std::size_t measured_pairs = 0;
+    cpu::for_measured<Real>(
+        test.pairs, test.positions,
+        [&](std::size_t p, const cpu::MeasuredPairs<Real>& measured, std::size_t c) {
+            EXPECT_EQ(p, measured_pairs++);  // each once, in their order
+            const cpu::ContactPair& pair = test.pairs[p];
             std::array<glm::dvec3, 4> nodes;
             glm::dvec3 between(0.0);
             double sums[2] = {0.0, 0.0}, low = 1e30, top = -1e30;
@@ -83,8 +83,8 @@ void expect_right(bool are_edges, double bound) {
             EXPECT_NEAR(measured.gaps[c], glm::length(apart), bound);
             // The direction separates both sides by the gap.
             EXPECT_NEAR(low - top, glm::length(exact), bound + static_cast<double>(measured.rounding[c]));
-        }
-    }
+        });
+    EXPECT_EQ(measured_pairs, test.pairs.size());
 }
 
 TEST(NearestPairs, AreThoseOfNodesFacesAndEdges) {

@@ -14,7 +14,7 @@ void expect_trace_of_elements(MaterialModel kind, double poisson_ratio) {
     body.material.poisson_ratio = poisson_ratio;
     if (kind == MaterialModel::neo_hookean) body.material.springs.reset();
     const auto model = std::make_shared<const Model>(test::make_model(body));
-    const ContactSurface surface = make_contact_surface(*model, 0.4);
+    const ContactSurface surface = make_contact_surface(*model, {.friction = 0.4});
     cpu::StepObjective<double> objective(model, model->node_count());
     std::vector<glm::dvec4> positions(model->positions.begin(), model->positions.end());
     objective.step.starts = objective.step.targets = positions;

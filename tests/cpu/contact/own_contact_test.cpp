@@ -12,8 +12,8 @@
 #include "cpu/contact/detect_own.h"
 #include "cpu/contact/guarded_move.h"
 #include "cpu/contact/own_rooms.h"
-#include "cpu/contact/pair_course.h"
 #include "cpu/measure/measure.h"
+#include "model/corners.h"
 #include "support/contact_scenes.h"
 #include "support/overlaps.h"
 #include "support/random_maker.h"
@@ -31,7 +31,7 @@ using test::make_solver;
 struct FoundBar {
     std::shared_ptr<const Model> model = make_blocks({{.cells = {12, 2, 3}, .size = {1.2, 0.2, 0.3}}});
     std::shared_ptr<const ContactSurface> surface =
-        std::make_shared<const ContactSurface>(make_contact_surface(*model, 0.4));
+        std::make_shared<const ContactSurface>(make_contact_surface(*model, {.friction = 0.4}));
     std::vector<glm::dvec4> positions{model->positions.begin(), model->positions.end()};
     cpu::DetectOwn<double> detection{model, surface};
     cpu::OwnRooms<double> rooms;
@@ -71,7 +71,7 @@ void for_all_pairs(const Model& model, std::span<const glm::dvec4> positions, co
     for (const std::uint32_t n : model.surface_parts.nodes) {
         for (std::uint32_t f = 0; f < model.faces.size(); ++f) {
             const Face& face = model.faces[f];
-            if (n == face.a || n == face.b || n == face.c) continue;
+            if (has_corner(face, n)) continue;
             const auto nearest =
                 cpu::nearest_points<double>(at(n), std::array{at(face.a), at(face.b), at(face.c)});
             found(false, n, f, glm::length(nearest.apart), std::array{n, face.a, face.b, face.c});
@@ -81,7 +81,7 @@ void for_all_pairs(const Model& model, std::span<const glm::dvec4> positions, co
     for (std::uint32_t e = 0; e < edges.size(); ++e) {
         for (std::uint32_t g = e + 1; g < edges.size(); ++g) {
             const FaceEdge &a = edges[e], &b = edges[g];
-            if (a.a == b.a || a.a == b.b || a.b == b.a || a.b == b.b) continue;
+            if (share_end(a, b)) continue;
             const auto nearest =
                 cpu::nearest_points<double>(std::array{at(a.a), at(a.b)}, std::array{at(b.a), at(b.b)});
             found(true, e, g, glm::length(nearest.apart), std::array{a.a, a.b, b.a, b.b});
@@ -214,52 +214,6 @@ TEST(OwnGuard, KeepsBodiesFromThemselves) {
     }
 }
 
-// A pair that turns with its body stays apart, and what passes through another is not taken for apart.
-TEST(PairCourse, IsApartAllTheWay) {
-    test::RandomMaker random(7);
-    int apart = 0, blocked = 0;
-    for (int round = 0; round < 4000; ++round) {
-        const bool are_edges = round % 2 == 0;
-        cpu::ContactPair pair{{0, 1, 2, 3}, {}, 0, 0, 0, 0, are_edges ? 2u : 1u, 0.1f};
-        std::array<glm::dvec3, 4> nodes, moved;
-        const double angle = random.uniform(0.0, 0.4), noise = random.magnitude(1e-2, 3.0);
-        for (std::size_t k = 0; k < 4; ++k) {
-            nodes[k] = random.point(1.0);
-            moved[k] =
-                turned(nodes[k], angle) + glm::dvec3(1, 2, 3) + random.point(round % 8 < 4 ? 0.0 : noise);
-        }
-        const auto gap = [&](double part) {
-            std::array<glm::dvec3, 4> at;
-            for (std::size_t k = 0; k < 4; ++k) at[k] = nodes[k] + part * (moved[k] - nodes[k]);
-            return glm::length(
-                are_edges
-                    ? cpu::nearest_points<double>(std::array{at[0], at[1]}, std::array{at[2], at[3]}).apart
-                    : cpu::nearest_points<double>(at[0], std::array{at[1], at[2], at[3]}).apart);
-        };
-        const cpu::PairAim<double> aim{{1, 0, 0}, gap(0.0), 0.5};
-        const double part = cpu::part_apart<double>(pair, aim, 0.1, nodes, moved, cpu::Closeness::motion);
-        if (round % 8 < 4 && gap(0.0) > 0.1) {
-            EXPECT_EQ(part, 1.0) << round;
-        }
-        if (part < 1.0) {
-            ++blocked;
-            continue;
-        }
-        ++apart;
-        // By steps that are too short to touch.
-        double speed = 0.0;
-        for (std::size_t k = 0; k < 4; ++k)
-            speed = std::max(speed, glm::length((moved[k] - nodes[k]) - (moved[0] - nodes[0])));
-        for (double at = 0.0; at < 1.0;) {
-            const double now = gap(at);
-            ASSERT_GT(now, 1e-7) << round;
-            at += 0.5 * now / std::max(speed, 1e-9);
-        }
-    }
-    EXPECT_GT(apart, 1500);
-    EXPECT_GT(blocked, 100);
-}
-
 // Both ends of a bar whose middle is pinned go at each other.
 TEST(OwnContact, ABarThatFoldsDoesNotPassThroughItself) {
     for (const double speed : {3.0, 20.0}) {
@@ -332,11 +286,7 @@ void fuzz_folds(unsigned first, int count) {
         cpu::CpuSolver<float> solver = make_solver<float>(shared, random.uniform(0.0, 0.8),
                                                           random.integer(1, 12), random.integer(0, 1) == 1);
         const int substeps = random.integer(1, 4);
-        for (int frame = 0; frame < 30; ++frame) {
-            for (int k = 0; k < substeps; ++k) solver.advance_nodes(kFrame / substeps);
-            ASSERT_EQ(test::count_overlaps(*shared, solver.nodes().positions), 0u)
-                << "seed " << seed << ", frame " << frame;
-        }
+        ASSERT_TRUE(test::stays_apart(solver, *shared, 30 * substeps, kFrame / substeps)) << "scene " << seed;
     }
 }
 

@@ -77,6 +77,19 @@ TEST(ContactForces, HaveFriction) {
     }
 }
 
+// What was found belongs to the state that was there.
+TEST(ContactForces, AreNoneOfAStateThatIsNew) {
+    const auto model = make_blocks({{}, {.place = {0, 0.31, 0}}}, {0, -9.81, 0}, {ColliderDescription{}});
+    cpu::CpuSolver<float> solver = make_solver<float>(model);
+    for (int frame = 0; frame < 10; ++frame) solver.advance_nodes(kFrame);
+    EXPECT_FALSE(solver.contact_forces().between.empty());
+    solver.write_state({model->positions, model->velocities, {}});
+    const ContactForces forces = solver.contact_forces();
+    EXPECT_TRUE(forces.between.empty());
+    ASSERT_EQ(forces.normal.size(), model->node_count());
+    for (const glm::dvec3& force : forces.normal) EXPECT_EQ(force, glm::dvec3(0));
+}
+
 TEST(ContactForces, AreNoneInTheAir) {
     const auto model = make_blocks({{}, {.place = {2, 0, 0}}}, {0, -9.81, 0});
     cpu::CpuSolver<float> solver = make_solver<float>(model);

@@ -65,6 +65,7 @@ Overlays everything() {
     all.color_map = ColorMap{};
     all.cut = CutPlane{};
     all.arrow_time = 0.1f;
+    all.contact_forces = ForceArrows{};
     all.objects = true;
     all.wireframe = true;
     return all;
@@ -81,6 +82,8 @@ std::vector<Overlays> kinds_of_overlays() {
     kinds[7].cut = CutPlane{};  // right after a cut, with nothing between that has a barrier
     kinds[7].arrow_time = 0.1f;
     kinds[8].objects = kinds[8].wireframe = true;
+    kinds.emplace_back().color_map = ColorMap{Quantity::pressure, {}};
+    kinds.emplace_back().contact_forces = ForceArrows{};
     kinds.push_back(everything());
     return kinds;
 }
@@ -143,6 +146,11 @@ void volume_term(Scene& scene) {
     scene.materials.front().poisson_ratio = 0.4;
 }
 
+void contact(Scene& scene) {
+    scene.collision.response = CollisionResponse::contact;
+    scene.objects[1].position = {0.1, 0.53, 0.0};
+}
+
 // Flat bodies, which get their shapes back.
 void squashed(Scene& scene) {
     for (ObjectDescription& object : scene.objects) {
@@ -202,6 +210,9 @@ std::vector<ShortRun> short_runs() {
         {"block descent, neo-Hookean", neo_hookean, pull},
         {"block descent, squashed", squashed, start_again},
         {"block descent, squashed neo-Hookean", both(squashed, neo_hookean)},
+        {"contact", contact, start_again, true},
+        {"contact, volume term", both(contact, volume_term), pull},
+        {"contact, neo-Hookean", both(contact, neo_hookean)},
         {"drawn from the CPU", nothing, start_again, true, Backend::cpu},
         {"fused", fused, pull},
         {"fused, volume term", both(fused, volume_term), start_again},

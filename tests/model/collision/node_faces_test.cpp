@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "model/corners.h"
 #include "support/test_models.h"
 
 namespace gelatin {
@@ -18,8 +19,7 @@ TEST(NodeFaces, AreThoseThatNameTheNode) {
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
         std::vector<std::uint32_t> expected;
         for (std::uint32_t f = 0; f < model.faces.size(); ++f) {
-            const Face& face = model.faces[f];
-            if (face.a == n || face.b == n || face.c == n) expected.push_back(f);
+            if (has_corner(model.faces[f], n)) expected.push_back(f);
         }
         const std::vector<std::uint32_t> actual(around.faces.begin() + around.starts[n],
                                                 around.faces.begin() + around.starts[n + 1]);

@@ -208,8 +208,8 @@ TEST_F(SceneFile, RefusesAnUnknownKeyAndNamesTheNearest) {
               "scene.toml:6: simulation.solvr = \"rk4\": unknown key (did you mean \"solver\"?)");
     EXPECT_EQ(error(std::string(kBall) + "[collision]\nwobbliness = 3"),
               "scene.toml:5: collision.wobbliness = 3: unknown key; known here are broad_phase, detection, "
-              "response, self_collision, proximity_radius, friction and "
-              "restitution");
+              "response, self_collision, proximity_radius, friction, "
+              "restitution and pair");
 }
 
 TEST_F(SceneFile, RefusesAnUnknownSection) {

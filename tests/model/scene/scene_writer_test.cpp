@@ -182,6 +182,37 @@ TEST(SceneWriter, WritesHowCollidersMove) {
     EXPECT_EQ(copy.substr(copy.find("[[collider]]")), kMovingColliders);
 }
 
+TEST(SceneWriter, WritesHowMaterialsPress) {
+    constexpr const char* kText = R"([[collision.pair]]
+materials = ["ice", "rubber"]
+friction = 0.1
+contact_stiffness = 3
+
+[[collision.pair]]
+materials = ["ice", "ice"]
+friction = 0.02
+
+[[material]]
+name = "ice"
+youngs_modulus = 1000000
+density = 900
+poisson_ratio = 0.25
+damping = 0
+friction = 0.05
+thickness = 0.001
+contact_stiffness = 2
+
+)";
+    const TemporaryFolder folder;
+    write_file(folder.path() / "scene.toml",
+               "[collision]\nresponse = 'contact'\n" + std::string(kText) +
+                   "[[material]]\nname = 'rubber'\n[[object]]\nname = 'o'\nshape = {sphere = 1}\nmaterial = "
+                   "'ice'\n");
+    save_scene(folder.path() / "copy.toml", load_scene(folder.path() / "scene.toml"));
+    const std::string copy = read_file(folder.path() / "copy.toml");
+    EXPECT_NE(copy.find(kText), std::string::npos) << copy;
+}
+
 TEST(SceneWriter, MeshFilesAreFoundFromWhereItIsWritten) {
     const TemporaryFolder folder;
     fs::create_directory(folder.path() / "elsewhere");

@@ -146,6 +146,20 @@ const Rule kMaterialRules[] = {
      "material.jelly.poisson_ratio = 0.5: must be 0 or more and less than 0.5 with model = \"neo_hookean\""},
     {"damping", "name = 'jelly'\ndamping = inf", BREAKS(s.materials[0].damping = kInfinite),
      "material.jelly.damping = inf: must be finite"},
+    {"friction", "name = 'jelly'\nfriction = -1", BREAKS(s.materials[0].friction = -1),
+     "material.jelly.friction = -1: must be 0 or more"},
+    {"friction_without_contact", "name = 'jelly'\nfriction = 1", BREAKS(s.materials[0].friction = 1),
+     "material.jelly.friction = 1: needs collision.response = \"contact\""},
+    {"thickness", "name = 'jelly'\nthickness = 0", BREAKS(s.materials[0].thickness = 0),
+     "material.jelly.thickness = 0: must be greater than 0"},
+    {"thickness_without_contact", "name = 'jelly'\nthickness = 1", BREAKS(s.materials[0].thickness = 1),
+     "material.jelly.thickness = 1: needs collision.response = \"contact\""},
+    {"contact_stiffness", "name = 'jelly'\ncontact_stiffness = 0",
+     BREAKS(s.materials[0].contact_stiffness = 0),
+     "material.jelly.contact_stiffness = 0: must be greater than 0"},
+    {"contact_stiffness_without_contact", "name = 'jelly'\ncontact_stiffness = 2",
+     BREAKS(s.materials[0].contact_stiffness = 2),
+     "material.jelly.contact_stiffness = 2: needs collision.response = \"contact\""},
     {"springs_of_a_model_without", "name = 'jelly'\nmodel = 'neo_hookean'\nsprings = ['structural', 'flex']",
      BREAKS(s.materials[0].model = MaterialModel::neo_hookean;
             s.materials[0].springs = (SpringKinds{true, false, true})),
@@ -168,6 +182,26 @@ protected:
         return code_error({"", "", breaks, ""});
     }
 };
+
+TEST_F(Validation, NamesWhatIsWrongWithAPairOfMaterials) {
+    const auto error = [](const MaterialPair& pair, int count = 1) {
+        return error_of([=](Scene& s) {
+            s.collision.response = CollisionResponse::contact;
+            s.collision.pairs.assign(static_cast<std::size_t>(count), pair);
+        });
+    };
+    EXPECT_EQ(error({"jelly", "ice"}),
+              "collision.pair[0].materials = [\"jelly\", \"ice\"]: must be of jelly");
+    EXPECT_EQ(error({"jelly", "jelly"}, 2),
+              "collision.pair[1].materials = [\"jelly\", \"jelly\"]: is there twice");
+    EXPECT_EQ(error({"jelly", "jelly", -1.0}), "collision.pair[0].friction = -1: must be 0 or more");
+    EXPECT_EQ(error({"jelly", "jelly", {}, 0.0}),
+              "collision.pair[0].contact_stiffness = 0: must be greater than 0");
+    EXPECT_EQ(error_of([](Scene& s) {
+                  s.collision.pairs = {{"jelly", "jelly"}};
+              }),
+              "collision.pair[0] = [\"jelly\", \"jelly\"]: needs collision.response = \"contact\"");
+}
 
 TEST_F(Validation, TakesASoundScene) {
     EXPECT_NO_THROW(validate(scene_of_file()));

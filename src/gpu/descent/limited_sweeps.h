@@ -1,0 +1,38 @@
+#pragma once
+
+#include <span>
+
+#include "gl/program.h"
+#include "gpu/descent/collider_contacts.h"
+#include "gpu/descent/step_objective.h"
+#include "gpu/model_buffers.h"
+#include "gpu/node_buffers.h"
+#include "model/descent/device_sweeps.h"
+#include "model/model.h"
+
+namespace gelatin::gpu {
+
+/// Sweeps of block descent that contacts take part in and limit: shaders/sim/descent/descend.comp with
+/// CONTACT. CPU twin: cpu::NodeSweep.
+class LimitedSweeps : public DeviceSweeps {
+public:
+    /// @param buffers of the model, which must outlive this
+    LimitedSweeps(const Model& model, const ModelBuffers& buffers);
+
+    void begin(double step, std::span<const glm::vec4> starts, std::span<const glm::vec4> targets) override;
+    void start(int sweeps, bool updates_tets, const ContactLimits& limits,
+               std::span<const glm::vec4> positions) override;
+    void finish(std::span<glm::vec4> positions, DeviceContacts& contacts) override;
+
+private:
+    const ModelBuffers& buffers_;
+    gl::Program program_;
+    StepObjective objective_;
+    ColliderContacts contacts_;
+    NodeBuffers nodes_;  // velocities for their damping times alone
+    gl::Buffer<NodeLimits> limits_;
+    gl::Buffer<glm::vec4> planes_;  // these two grow
+    gl::Buffer<NodeShare> shares_;
+};
+
+}  // namespace gelatin::gpu

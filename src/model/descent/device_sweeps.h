@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec4.hpp>
+#include <span>
+#include <vector>
+
+#include "model/contact/contact_limits.h"
+#include "model/layouts.h"
+
+namespace gelatin {
+
+/// What colliders did in the last sweep (cpu::ColliderContacts).
+struct DeviceContacts {
+    std::vector<ColliderContact> nodes;  ///< shape [nodes]; empty in models without colliders
+    std::vector<std::uint32_t> objects;  ///< not 0 where they met a collider in this step, shape [objects]
+};
+
+/// The sweeps of block descent on a device, for a solver that makes all other moves on the host.
+class DeviceSweeps {
+public:
+    virtual ~DeviceSweeps() = default;
+
+    /// To be called when a step's targets and starts are known.
+    /// @param step [s] @param starts, targets as StepObjective has them, shape [nodes]
+    virtual void begin(double step, std::span<const glm::vec4> starts,
+                       std::span<const glm::vec4> targets) = 0;
+
+    /// Starts sweeps, and does not wait for them.
+    /// @param updates_tets whether flat tets and the volume term are looked at first, as for the first sweeps
+    /// of a step
+    /// @param positions [m], shape [nodes]
+    virtual void start(int sweeps, bool updates_tets, const ContactLimits& limits,
+                       std::span<const glm::vec4> positions) = 0;
+    /// Waits for the sweeps that were started. @param positions output [m], shape [nodes]
+    virtual void finish(std::span<glm::vec4> positions, DeviceContacts& contacts) = 0;
+};
+
+}  // namespace gelatin

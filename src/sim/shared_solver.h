@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cpu/cpu_solver.h"
+#include "gpu/descent/limited_sweeps.h"
+#include "gpu/gpu_solver.h"
+
+namespace gelatin {
+
+/// Vertex block descent with contacts in OpenGL (docs/contact.md): the sweeps run on the device, all other
+/// moves and the detection on the host. The device has the nodes after each step, for drawing and measuring.
+class SharedSolver : public gpu::GpuSolver {
+public:
+    SharedSolver(const std::shared_ptr<const Model>& model, ForceMethod forces,
+                 const CollisionSettings& collision, const DescentSettings& descent);
+
+    void apply_kinematics(std::span<const HandleMotion> motions) override { host_.apply_kinematics(motions); }
+    void set_load_factors(std::span<const float> factors) override { host_.set_load_factors(factors); }
+    void set_pull(const std::optional<Pull>& pull) override { host_.set_pull(pull); }
+    void move_pull(const glm::dvec3& target) override { host_.move_pull(target); }
+    void advance_nodes(double step) override;
+    ContactForces contact_forces() const override { return host_.contact_forces(); }
+    HoldingForces holding_forces() const override { return host_.holding_forces(); }
+    State read_state() const override { return host_.read_state(); }
+    void write_state(const State& state) override;
+    /// By the host's clock: it waits for the device within a step.
+    StageTimer& stage_timer() override { return host_.stage_timer(); }
+    std::string device() const override { return GpuSolver::device() + " and " + host_.device(); }
+
+private:
+    gpu::LimitedSweeps sweeps_;
+    cpu::CpuSolver<float> host_;
+};
+
+}  // namespace gelatin

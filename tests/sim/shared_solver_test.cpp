@@ -1,0 +1,142 @@
+#include "sim/shared_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "support/contact_scenes.h"
+#include "support/gl_fixture.h"
+#include "support/overlaps.h"
+#include "support/random_maker.h"
+
+namespace gelatin {
+namespace {
+
+using test::Block;
+using test::kFrame;
+
+class SharedSolverTest : public test::GlTest {};
+using SharedSolverLong = SharedSolverTest;
+
+SharedSolver make_solver(const std::shared_ptr<const Model>& model, int iterations = 10,
+                         bool divides_steps = false) {
+    CollisionSettings collision;
+    collision.response = CollisionResponse::contact;
+    collision.self_collision = true;
+    collision.friction = 0.4;
+    DescentSettings descent;
+    descent.iterations = iterations;
+    descent.divides_steps = divides_steps;
+    return {model, ForceMethod::fused, collision, descent};
+}
+
+std::uint32_t overlaps_of(const Model& model, const SharedSolver& solver) {
+    const std::vector<glm::vec4> positions = solver.read_state().positions;
+    return test::count_overlaps(model, std::vector<cpu::Vec4<float>>(positions.begin(), positions.end()));
+}
+
+ColliderDescription floor() {
+    ColliderDescription description;
+    description.shape = PlaneCollider{};
+    return description;
+}
+
+std::shared_ptr<const Model> make_stack() {
+    return test::make_blocks(
+        {{.place = {0, 0.001, 0}}, {.place = {0.02, 0.32, 0.01}, .velocity = {0, -1, 0}}}, {0, -9.81, 0},
+        {floor()});
+}
+
+// What is drawn and measured is what the host has made.
+TEST_F(SharedSolverTest, TheDeviceHasTheNodesOfTheHost) {
+    const auto model = make_stack();
+    SharedSolver solver = make_solver(model);
+    for (int frame = 0; frame < 3; ++frame) solver.advance_nodes(kFrame);
+    const State state = solver.read_state();
+    gl::barrier(gl::Barrier::buffer_update);
+    std::vector<glm::vec4> positions(model->node_count()), velocities(model->node_count());
+    solver.nodes().positions.download(positions);
+    solver.nodes().velocities.download(velocities);
+    EXPECT_EQ(positions, state.positions);
+    EXPECT_EQ(velocities, state.velocities);
+    EXPECT_NE(positions, model->positions);
+}
+
+// Nodes differ by rounding, which impacts amplify; what the bodies do does not.
+TEST_F(SharedSolverTest, DoesWhatTheCpuDoes) {
+    const auto model = make_stack();
+    SharedSolver solver = make_solver(model);
+    auto reference = test::make_solver<float>(model);
+    for (int frame = 0; frame < 120; ++frame) {
+        solver.advance_nodes(kFrame);
+        reference.advance_nodes(kFrame);
+        ASSERT_EQ(overlaps_of(*model, solver), 0u) << frame;
+    }
+    const State state = solver.read_state();
+    const auto mean_height = [&](const ModelObject& object, const std::vector<glm::vec4>& positions) {
+        double sum = 0.0;
+        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n)
+            sum += static_cast<double>(positions[n].y);
+        return sum / object.nodes.count;
+    };
+    for (const ModelObject& object : model->objects) {
+        EXPECT_NEAR(mean_height(object, state.positions), mean_height(object, reference.nodes().positions),
+                    1e-3);
+    }
+    double weight = 0.0;  // of both on the floor [N]
+    for (const ContactForces::Between& between : solver.contact_forces().between)
+        if (between.is_plane) weight += between.normal.y;
+    EXPECT_NEAR(weight, 9.81 * (model->objects[0].mass + model->objects[1].mass), 0.01 * weight);
+}
+
+TEST_F(SharedSolverTest, RepeatsBitForBitAndStartsAgain) {
+    const auto model = make_stack();
+    SharedSolver solver = make_solver(model), again = make_solver(model);
+    const State start = solver.read_state();
+    for (int frame = 0; frame < 20; ++frame) {
+        solver.advance_nodes(kFrame);
+        again.advance_nodes(kFrame);
+    }
+    const State end = solver.read_state();
+    EXPECT_EQ(again.read_state().positions, end.positions);
+    again.write_state(start);
+    for (int frame = 0; frame < 20; ++frame) again.advance_nodes(kFrame);
+    EXPECT_EQ(again.read_state().positions, end.positions);
+}
+
+// Violent scenes of all materials, above a plane or a box.
+void fuzz(unsigned first, unsigned count) {
+    for (unsigned seed = first; seed < first + count; ++seed) {
+        test::RandomMaker random(seed);
+        std::vector<Block> blocks = test::violent_blocks(random, 4);
+        for (Block& block : blocks) {
+            block.poisson_ratio = random.integer(0, 1) == 0 ? 0.25 : 0.4;
+            if (random.integer(0, 2) == 0) block.model = MaterialModel::neo_hookean;
+        }
+        ColliderDescription ground;
+        ground.shape = PlaneCollider{{0.0, 1.0, 0.0}, -0.1};
+        if (random.integer(0, 1) == 0) {
+            ground.shape = BoxShape{{4.0, 0.2, 4.0}};
+            ground.position = {0.0, -0.2, 0.0};
+        }
+        const auto model = test::make_blocks(blocks, {0, -9.81, 0}, {ground});
+        const int substeps = random.integer(1, 16), iterations = random.integer(1, 60);
+        const bool divides_steps = random.integer(0, 1) == 0;
+        SharedSolver solver = make_solver(model, iterations, divides_steps);
+        for (int step = 0; step < 15; ++step) {
+            solver.advance_nodes(kFrame / substeps);
+            ASSERT_EQ(overlaps_of(*model, solver), 0u) << "scene " << seed << ", step " << step;
+        }
+    }
+}
+
+TEST_F(SharedSolverTest, NothingPassesThroughAnything) {
+    fuzz(1, 3);
+}
+
+TEST_F(SharedSolverLong, NothingPassesThroughAnything) {
+    fuzz(100, 500);
+}
+
+}  // namespace
+}  // namespace gelatin
