@@ -58,12 +58,13 @@ struct MaterialPair {
     std::optional<double> friction = {};
     /// As a factor, > 0; empty: the geometric mean of both materials'.
     std::optional<double> contact_stiffness = {};
+    std::optional<double> restitution = {};  ///< in [0, 1]; empty: the geometric mean of both materials'
 };
 
 struct CollisionSettings {
     BroadPhase broad_phase = BroadPhase::hierarchy;
     CollisionDetection detection = CollisionDetection::discrete;
-    CollisionResponse response = CollisionResponse::restore;
+    std::optional<CollisionResponse> response = {};  ///< empty: contact with vbd, else restore
     /// Whether objects collide with themselves, too: by tests of their faces, or by contacts.
     bool self_collision = false;
     /// Find nodes and faces, and pairs of edges, nearer than this [m], > 0; empty: off.
@@ -71,6 +72,11 @@ struct CollisionSettings {
     double friction = 0.4;                 ///< Coulomb's coefficient, >= 0
     double restitution = 0.3;              ///< normal speed after a contact relative to before, in [0, 1]
     std::vector<MaterialPair> pairs = {};  ///< each pair of materials at most once
+
+    CollisionResponse response_with(SolverKind solver) const {
+        const bool presses = solver == SolverKind::vbd;
+        return response.value_or(presses ? CollisionResponse::contact : CollisionResponse::restore);
+    }
 };
 
 /// How a material's elasticity is modelled.
@@ -105,8 +111,9 @@ struct Material {
     std::optional<double> friction = {};  ///< Coulomb's coefficient, >= 0; empty: CollisionSettings'
     /// Two surfaces begin to press at the sum of both [m], > 0; empty: a twentieth of the body's median edge.
     std::optional<double> thickness = {};
-    double contact_stiffness = 1.0;  ///< of contacts, as a factor, > 0
-    int line = 0;                    ///< in the scene file, for later messages
+    double contact_stiffness = 1.0;          ///< of contacts, as a factor, > 0
+    std::optional<double> restitution = {};  ///< in [0, 1]; empty: CollisionSettings'
+    int line = 0;                            ///< in the scene file, for later messages
 };
 
 struct SphereShape {
@@ -288,6 +295,10 @@ struct Scene {
     std::vector<ObjectDescription> objects;
     std::vector<ColliderDescription> colliders;
     std::optional<CameraDescription> camera;  ///< empty: frames the scene by itself
+
+    bool has_contact() const {
+        return collision.response_with(simulation.solver) == CollisionResponse::contact;
+    }
 };
 
 /// Reads and checks a scene file. `overrides` are "section.key=value" with TOML values

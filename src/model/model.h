@@ -30,7 +30,7 @@ struct Range {
 /// How a body presses others. @see Material
 struct BodySurface {
     std::string material;
-    std::optional<double> friction, thickness;
+    std::optional<double> friction, thickness, restitution;
     double contact_stiffness = 1.0;
 };
 
@@ -50,6 +50,7 @@ struct ModelObject {
 /// its nodes are held.
 struct RigidSurface {
     double friction = 0.0;     ///< Coulomb's coefficient
+    double restitution = 0.0;  ///< as of ColliderDescription
     glm::vec3 velocity{0.0f};  ///< of the surface within itself [m/s]
     bool moves = false;        ///< by a handle
 };

@@ -33,6 +33,7 @@ struct DescentSettings {
 };
 
 /// Whether vertex block descent has contacts between bodies, with colliders, or of bodies with themselves.
+/// @param collision with a response, as Simulator chooses it; without one there are none
 inline bool has_contacts(const Model& model, const CollisionSettings& collision) {
     return collision.response == CollisionResponse::contact &&
            (model.objects.size() > 1 || collision.self_collision);

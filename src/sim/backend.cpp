@@ -9,8 +9,8 @@
 
 namespace gelatin {
 
-SimulatorOptions with_needed_backend(SimulatorOptions options, const Scene& scene) {
-    if (scene.collision.response == CollisionResponse::contact) {
+SimulatorOptions with_needed_backend(SimulatorOptions options, const Scene& scene, const Model& model) {
+    if (has_contacts(model, scene.collision)) {
         // Most of such a step runs on the processor with any backend (docs/contact.md).
         if (options.backend == Backend::automatic) options.backend = Backend::cpu;
         return options;

@@ -11,7 +11,7 @@ namespace gelatin {
 
 /// The options, with the backend that the scene requires instead of `automatic`.
 /// @throws InvalidInput if the options name another one.
-SimulatorOptions with_needed_backend(SimulatorOptions options, const Scene& scene);
+SimulatorOptions with_needed_backend(SimulatorOptions options, const Scene& scene, const Model& model);
 
 /// The context for the options: the host's, a headless one, or none if nothing needs GL.
 /// @throws NoOpenGl if GL is needed and there is none.

@@ -77,8 +77,7 @@ std::vector<std::string> check_starts(const Model& model, const Scene& scene,
                                       std::span<const glm::vec4> positions) {
     std::vector<std::string> lines;
     for (std::size_t c = 0; c < scene.colliders.size(); ++c) {
-        if (scene.collision.response == CollisionResponse::contact &&
-            !std::holds_alternative<PlaneCollider>(scene.colliders[c].shape))
+        if (scene.has_contact() && !std::holds_alternative<PlaneCollider>(scene.colliders[c].shape))
             continue;  // a surface, not solid
         const Collider collider = pack_colliders({scene.colliders[c]}).front();
         std::string first;

@@ -29,7 +29,7 @@ Json settings_json(const RunReport& report) {
             {"frames", settings.frames},
             {"broad_phase", name_of(report.collision.broad_phase)},
             {"detection", name_of(report.collision.detection)},
-            {"response", name_of(report.collision.response)},
+            {"response", name_of(report.collision.response_with(settings.solver))},
             {"self_collision", report.collision.self_collision},
             {"proximity_radius", radius},
             {"gravity", {settings.gravity.x, settings.gravity.y, settings.gravity.z}}};
@@ -93,7 +93,7 @@ Json frame_json(const FrameStatistics& frame, const RunReport& report) {
                  {"deepest_penetration", frame.deepest_penetration},
                  {"volume_ratio", volume_ratio}};
     if (frame.proximities) add_proximities(*frame.proximities, json);
-    if (report.collision.response == CollisionResponse::contact)
+    if (report.collision.response_with(report.settings.solver) == CollisionResponse::contact)
         json["contact_forces"] = contact_forces_json(frame.contact_forces, report);
     if (!frame.holding_forces.empty())
         json["holding_forces"] = holding_forces_json(frame.holding_forces, report);

@@ -55,7 +55,7 @@ struct Simulator::Impl {
     void make_solver() {
         const SimulationSettings& settings = scene.simulation;
         DescentSettings descent{settings.iterations};
-        descent.divides_steps = scene.collision.response == CollisionResponse::contact && !settings.substeps;
+        descent.divides_steps = scene.has_contact() && !settings.substeps;
         if (choose_gl(options, context) && has_contacts(*model, scene.collision)) {
             solver = std::make_unique<SharedSolver>(model, settings.forces, scene.collision, descent);
         } else if (choose_gl(options, context)) {
@@ -94,7 +94,7 @@ struct Simulator::Impl {
                (model->objects.size() > 1 || scene.collision.self_collision);
     }
 
-    bool has_contact_forces() const { return scene.collision.response == CollisionResponse::contact; }
+    bool has_contact_forces() const { return scene.has_contact(); }
 
     ProximityStatistics take_proximities() {
         const ProximityMeasure measure = solver->proximities();
@@ -166,13 +166,14 @@ Simulator::Simulator(const Scene& scene, std::shared_ptr<const Model> model, con
     validate(scene);
     Impl& d = *impl_;
     d.scene = scene;
-    d.options = with_needed_backend(options, scene);
+    d.scene.collision.response = scene.collision.response_with(scene.simulation.solver);
+    d.options = with_needed_backend(options, d.scene, *model);
     d.model = std::move(model);
     d.substeps = choose_substeps(scene, *d.model);
     d.context = make_context(d.options);
     d.make_solver();
     d.start_state = deformed_start(scene, *d.model);
-    if (scene.collision.response == CollisionResponse::contact) d.start_apart();
+    if (d.scene.has_contact()) d.start_apart();
     const std::optional<State>& start = d.start_state;
     if (start) d.solver->write_state(*start);
     d.watch.emplace(d.scene, d.model, d.substeps);
@@ -196,7 +197,7 @@ void Simulator::step() {
         d.solver->set_load_factors(load_factors(d.model->loads, d.time(), d.step_size()));
     d.run_stage("advance_nodes", [&] { d.solver->advance_nodes(d.step_size()); });
     // Contacts are part of advance_nodes.
-    const bool is_apart = d.scene.collision.response == CollisionResponse::contact;
+    const bool is_apart = d.scene.has_contact();
     const bool has_others = d.model->objects.size() > 1, meets_others = has_others && !is_apart;
     const bool meets_itself = d.scene.collision.self_collision && !is_apart;
     if (meets_others || meets_itself || d.seeks_proximities())

@@ -21,7 +21,7 @@ protected:
     void SetUp() override {
         DrawingProgramTest::SetUp();
         write("two.toml",
-              "[[material]]\nname = 'jelly'\n"
+              "[collision]\nresponse = 'restore'\n[[material]]\nname = 'jelly'\n"
               "[[object]]\nname = 'a'\nshape = { box = [1, 1, 1] }\n"
               "[[object]]\nname = 'b'\nshape = { box = [1, 1, 1] }\nposition = [0, 0.9, 0]\n");
     }

@@ -19,6 +19,7 @@ Scene balls(int count) {
     Scene scene;
     scene.simulation.frame_rate = 500.0;
     scene.simulation.gravity = {0.0, 0.0, 0.0};
+    scene.collision.response = CollisionResponse::restore;
     scene.materials.push_back({});
     scene.materials[0].name = "jelly";
     for (int i = 0; i < count; ++i) {

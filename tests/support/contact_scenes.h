@@ -35,13 +35,15 @@ std::shared_ptr<const Model> make_blocks(const std::vector<Block>& blocks,
                                          const glm::dvec3& gravity = {0, 0, 0},
                                          const std::vector<ColliderDescription>& colliders = {});
 
-/// With contact between bodies, and of bodies with themselves.
+/// With contact between bodies, and of bodies with themselves, without restitution.
 template <class Real>
 cpu::CpuSolver<Real> make_solver(const std::shared_ptr<const Model>& model, double friction = 0.4,
                                  int iterations = 10, bool divides_steps = false) {
     return {model, SolverKind::vbd, ForceMethod::fused,
-            CollisionSettings{
-                .response = CollisionResponse::contact, .self_collision = true, .friction = friction},
+            CollisionSettings{.response = CollisionResponse::contact,
+                              .self_collision = true,
+                              .friction = friction,
+                              .restitution = 0.0},
             DescentSettings{.iterations = iterations, .divides_steps = divides_steps}};
 }
 

@@ -66,6 +66,9 @@ public:
     const ContactList<Real>& list() const { return list_; }
     const ContactAims<Real>& aims() const { return aims_; }
     bool is_held(std::size_t object) const { return guard_.is_held(object); }
+    double restitution(std::uint32_t object, std::uint32_t other) const {
+        return surface_->touch(object, other).restitution;
+    }
 
     /// The work of contacts by displacements of nodes, for each object.
     std::vector<Work> works(std::span<const Vec4<Real>> positions,

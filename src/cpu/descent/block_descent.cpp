@@ -31,6 +31,7 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
       sweep_(model_, bodies_.get()),
       rigid_move_(model_),
       joint_move_(model_),
+      rebound_(model_),
       is_calm_(bodies_ ? model_->objects.size() : 0),
       device_(bodies_ ? device : nullptr) {
     if (settings_.coarse_level) coarse_.emplace(model_, bodies_.get());
@@ -287,9 +288,10 @@ void BlockDescent<Real>::take_back_tangled(Positions& positions) const {
     });
 }
 
-// Nodes that a collider has stopped go back with restitution times the speed they would have had without it.
+// Restitution: of bodies that meet others, as rigid ones; else nodes that a collider has stopped go back with
+// restitution times the speed that they would have had without it.
 template <class Real>
-void BlockDescent<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current) const {
+void BlockDescent<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current) {
     const auto least = static_cast<Real>(resting_speed(model_->gravity, static_cast<double>(step)));
     for_each_node(*model_, [&](std::uint32_t n) {
         const Vec4<Real> old = previous.velocities[n];
@@ -297,11 +299,15 @@ void BlockDescent<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Re
         if (current.positions[n].w == Real(0)) return;
         const Vec3<Real> position(current.positions[n]), start(objective_.step.starts[n]);
         Vec3<Real> velocity = (position - start) / step;
-        if (contacts_.has_contact(n))
+        if (!bodies_ && contacts_.has_contact(n))
             rebound<Real>(model_->colliders, position,
                           (Vec3<Real>(objective_.step.targets[n]) - start) / step, least, velocity);
         current.velocities[n] = Vec4<Real>(velocity, old.w);
     });
+    if (bodies_)
+        rebound_.run({static_cast<double>(step), static_cast<double>(least), previous.velocities,
+                      objective_.step.starts, current.positions},
+                     *bodies_, contacts_, current.velocities);
 }
 
 template <class Real>

@@ -14,6 +14,7 @@
 #include "cpu/descent/joint_move.h"
 #include "cpu/descent/node_sweep.h"
 #include "cpu/descent/rigid_move.h"
+#include "cpu/descent/rigid_rebound.h"
 #include "cpu/descent/step_division.h"
 #include "cpu/descent/step_objective.h"
 #include "cpu/drive/pulls.h"
@@ -52,6 +53,7 @@ public:
     void restart(std::span<const Vec4<Real>> positions) {
         if (bodies_) bodies_->restart(positions);
         if (division_) division_->restart();
+        rebound_.restart();
         last_step_ = 0.0;
     }
 
@@ -101,7 +103,7 @@ private:
     bool updates_tets(int sweep) const { return sweep % kSweepsAMotion == 0; }
     bool moves_bodies(int sweep) const { return is_last(sweep) || (sweep + 1) % kSweepsAMotion == 0; }
     bool is_last(int sweep) const { return sweep + 1 == sweeps_; }
-    void finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current) const;
+    void finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current);
 
     std::shared_ptr<const Model> model_;
     DescentSettings settings_;
@@ -114,6 +116,7 @@ private:
     NodeSweep<Real> sweep_;
     RigidMove<Real> rigid_move_;
     JointMove<Real> joint_move_;
+    RigidRebound<Real> rebound_;
     std::optional<SecantStep<Real>> secant_;
     Positions ends_;                          // of bodies' motions
     std::vector<std::uint8_t> is_calm_;       // by object: it presses another, and hardly moves

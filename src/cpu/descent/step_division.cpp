@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "cpu/descent/wave_times.h"
+
 namespace gelatin::cpu {
 namespace {
 
@@ -24,24 +26,14 @@ template <class Real>
 StepDivision<Real>::StepDivision(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
       masses_(model_->body_count()),
-      wave_times_(model_->body_count()),
+      wave_times_(wave_times(*model_)),
       velocities_(model_->body_count()),
       speeds_(model_->body_count()),
       liveliness_(model_->body_count()) {
     for (std::size_t o = 0; o < masses_.size(); ++o) {
         const ModelObject& object = model_->objects[o];
-        double mass = 0.0, bulk = 0.0, volume = 0.0;
-        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
-            const auto own = static_cast<double>(model_->masses[n]);
-            mass += own;
-            if (model_->positions[n].w > 0.0f) masses_[o] += own;
-        }
-        for (std::uint32_t t = object.tets.first; t < object.tets.end(); ++t) {
-            const TetRest& rest = model_->tet_rests[t];
-            bulk += static_cast<double>(rest.bulk) * static_cast<double>(rest.volume);
-            volume += static_cast<double>(rest.volume);
-        }
-        wave_times_[o] = std::cbrt(volume) * std::sqrt(mass / bulk);  // bulk is of the volume [J]
+        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n)
+            if (model_->positions[n].w > 0.0f) masses_[o] += static_cast<double>(model_->masses[n]);
     }
 }
 

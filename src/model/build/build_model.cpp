@@ -224,7 +224,7 @@ void append_body(Model& model, const Body& body) {
     object.name = body.name;
     object.color = body.color;
     object.surface = {body.material.name, body.material.friction, body.material.thickness,
-                      body.material.contact_stiffness};
+                      body.material.restitution, body.material.contact_stiffness};
     object.nodes = {size(model.positions), size(mesh.positions)};
     object.tets = {size(model.tets), size(mesh.tets)};
     object.faces = {size(model.faces), size(mesh.faces)};
@@ -315,8 +315,7 @@ Model build_model(const Scene& scene) {
     for (const ObjectDescription& object : scene.objects) bodies.push_back(make_body(scene, object, mesher));
     Model model =
         pack_bodies(bodies, solid_colliders(scene), scene.simulation.gravity, make_collider_surfaces(scene));
-    if (scene.collision.self_collision && scene.collision.response != CollisionResponse::contact)
-        model.rest_shapes = make_rest_shapes(model);
+    if (scene.collision.self_collision && !scene.has_contact()) model.rest_shapes = make_rest_shapes(model);
     return model;
 }
 

@@ -62,14 +62,14 @@ std::string name_of_collider(const ColliderDescription& collider, std::size_t in
 
 std::vector<ColliderDescription> solid_colliders(const Scene& scene) {
     std::vector<ColliderDescription> solid = scene.colliders;
-    if (scene.collision.response == CollisionResponse::contact)
+    if (scene.has_contact())
         std::erase_if(solid, [](const auto& c) { return !std::holds_alternative<PlaneCollider>(c.shape); });
     return solid;
 }
 
 std::vector<ColliderSurface> make_collider_surfaces(const Scene& scene) {
     std::vector<ColliderSurface> surfaces;
-    if (scene.collision.response != CollisionResponse::contact) return surfaces;
+    if (!scene.has_contact()) return surfaces;
     for (std::size_t c = 0; c < scene.colliders.size(); ++c) {
         const ColliderDescription& collider = scene.colliders[c];
         const auto* shape = std::get_if<Shape>(&collider.shape);
@@ -112,8 +112,8 @@ void append_surface(const ColliderSurface& surface, Model& model) {
         model.faces.push_back({f.x + first, f.y + first, f.z + first, size(model.objects)});
     append_box_tree(object.faces, model.face_trees);
     append_draw_surface(model.positions, model.faces, object.faces, kCreaseAngle, model.surface);
-    model.surfaces.push_back(
-        {surface.description.friction, glm::vec3(surface.description.surface_velocity), moves});
+    model.surfaces.push_back({surface.description.friction, surface.description.restitution,
+                              glm::vec3(surface.description.surface_velocity), moves});
     model.objects.push_back(std::move(object));
 }
 

@@ -129,33 +129,38 @@ struct Kind {
     bool is_collider = false;
 };
 
-std::vector<Kind> find_kinds(const Model& model, double friction, std::vector<std::uint32_t>& kinds) {
+std::vector<Kind> find_kinds(const Model& model, const CollisionSettings& usual,
+                             std::vector<std::uint32_t>& kinds) {
     std::vector<Kind> all;
-    std::map<std::tuple<std::string, double, double>, std::uint32_t> known;
+    std::map<std::tuple<std::string, double, double, double>, std::uint32_t> known;
     for (std::size_t o = 0; o < model.body_count(); ++o) {
         const BodySurface& surface = model.objects[o].surface;
-        const ContactSurface::Touch own{surface.friction.value_or(friction), surface.contact_stiffness};
-        const auto [place, is_new] = known.try_emplace({surface.material, own.friction, own.stiffness},
-                                                       static_cast<std::uint32_t>(all.size()));
+        const ContactSurface::Touch own{surface.friction.value_or(usual.friction), surface.contact_stiffness,
+                                        surface.restitution.value_or(usual.restitution)};
+        const auto [place, is_new] =
+            known.try_emplace({surface.material, own.friction, own.stiffness, own.restitution},
+                              static_cast<std::uint32_t>(all.size()));
         if (is_new) all.push_back({surface.material, own});
         kinds.push_back(place->second);
     }
     for (const RigidSurface& collider : model.surfaces) {
         kinds.push_back(static_cast<std::uint32_t>(all.size()));
-        all.push_back({{}, {collider.friction, 1.0}, true});
+        all.push_back({{}, {collider.friction, 1.0, collider.restitution}, true});
     }
     return all;
 }
 
 ContactSurface::Touch touch_of(const Kind& a, const Kind& b, const std::vector<MaterialPair>& pairs) {
-    if (a.is_collider) return {a.own.friction, b.own.stiffness};
-    if (b.is_collider) return {b.own.friction, a.own.stiffness};
+    if (a.is_collider) return {a.own.friction, b.own.stiffness, a.own.restitution};
+    if (b.is_collider) return {b.own.friction, a.own.stiffness, b.own.restitution};
     ContactSurface::Touch touch{std::sqrt(a.own.friction * b.own.friction),
-                                std::sqrt(a.own.stiffness * b.own.stiffness)};
+                                std::sqrt(a.own.stiffness * b.own.stiffness),
+                                std::sqrt(a.own.restitution * b.own.restitution)};
     for (const MaterialPair& pair : pairs) {
         if (std::minmax(pair.first, pair.second) != std::minmax(a.material, b.material)) continue;
         touch.friction = pair.friction.value_or(touch.friction);
         touch.stiffness = pair.contact_stiffness.value_or(touch.stiffness);
+        touch.restitution = pair.restitution.value_or(touch.restitution);
     }
     return touch;
 }
@@ -171,7 +176,7 @@ ContactSurface make_contact_surface(const Model& model, const CollisionSettings&
     add_tets(model, traces);
     for (const double trace : traces) surface.stiffness.push_back(static_cast<float>(trace / 3.0));
     surface.thicknesses = find_thicknesses(model);
-    const std::vector<Kind> kinds = find_kinds(model, collision.friction, surface.kinds);
+    const std::vector<Kind> kinds = find_kinds(model, collision, surface.kinds);
     surface.kind_count = static_cast<std::uint32_t>(kinds.size());
     for (const Kind& a : kinds)
         for (const Kind& b : kinds) surface.touches.push_back(touch_of(a, b, collision.pairs));

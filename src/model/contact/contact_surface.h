@@ -30,8 +30,9 @@ struct ContactSurface {
 
     /// How two kinds of bodies press each other, a kind for each material, or colliders and bodies.
     struct Touch {
-        double friction;   ///< Coulomb's coefficient; where a collider is touched, its own
-        double stiffness;  ///< of contacts, as a factor
+        double friction;     ///< Coulomb's coefficient; where a collider is touched, its own
+        double stiffness;    ///< of contacts, as a factor
+        double restitution;  ///< in [0, 1]; where a collider is touched, its own
     };
     std::vector<std::uint32_t> kinds;  ///< of each object; each collider is one by itself
     std::vector<Touch> touches;        ///< of two kinds, shape [kinds, kinds]
@@ -45,7 +46,7 @@ struct ContactSurface {
     }
 };
 
-/// @param collision friction of bodies whose materials have none, and pairs of materials
+/// @param collision friction and restitution of bodies whose materials have none, and pairs of materials
 ContactSurface make_contact_surface(const Model& model, const CollisionSettings& collision);
 
 }  // namespace gelatin

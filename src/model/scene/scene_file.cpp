@@ -57,6 +57,7 @@ MaterialPair read_pair(TableReader& reader) {
     std::tie(pair.first, pair.second) = reader.read_two_texts("materials");
     reader.read("friction", pair.friction);
     reader.read("contact_stiffness", pair.contact_stiffness);
+    reader.read("restitution", pair.restitution);
     reader.finish();
     return pair;
 }
@@ -116,6 +117,7 @@ Material read_material(TableReader& reader) {
     reader.read("friction", material.friction);
     reader.read("thickness", material.thickness);
     reader.read("contact_stiffness", material.contact_stiffness);
+    reader.read("restitution", material.restitution);
     reader.finish();
     return material;
 }

@@ -162,7 +162,8 @@ Table table_of(const SimulationSettings& s) {
 Table table_of(const CollisionSettings& c) {
     Table table;
     table.add("broad_phase", name_of(c.broad_phase)).add("detection", name_of(c.detection));
-    table.add("response", name_of(c.response)).add("self_collision", c.self_collision);
+    if (c.response) table.add("response", name_of(*c.response));
+    table.add("self_collision", c.self_collision);
     table.add("proximity_radius", c.proximity_radius);
     return table.add("friction", c.friction).add("restitution", c.restitution);
 }
@@ -179,13 +180,15 @@ Table table_of(const Material& material) {
         table.add_text("springs", fmt::format("[{}]", fmt::join(names, ", ")));
     }
     table.add("friction", material.friction).add("thickness", material.thickness);
-    return table.add_unless(1.0, "contact_stiffness", material.contact_stiffness);
+    table.add_unless(1.0, "contact_stiffness", material.contact_stiffness);
+    return table.add("restitution", material.restitution);
 }
 
 Table table_of(const MaterialPair& pair) {
     Table table;
     table.add_text("materials", fmt::format("[{}, {}]", text_of(pair.first), text_of(pair.second)));
-    return table.add("friction", pair.friction).add("contact_stiffness", pair.contact_stiffness);
+    table.add("friction", pair.friction).add("contact_stiffness", pair.contact_stiffness);
+    return table.add("restitution", pair.restitution);
 }
 
 Table table_of(const ColliderDescription& collider, const std::filesystem::path& folder) {

@@ -47,8 +47,7 @@ struct ShapeCheck {
 
 class ColliderCheck {
 public:
-    ColliderCheck(const ValueChecks& checks, CollisionResponse response)
-        : checks_(checks), response_(response) {}
+    ColliderCheck(const ValueChecks& checks, bool has_contact) : checks_(checks), has_contact_(has_contact) {}
 
     void run(const FieldPath& field, const ColliderDescription& collider) const {
         if (const auto* plane = std::get_if<PlaneCollider>(&collider.shape)) {
@@ -67,7 +66,7 @@ public:
         checks_.check(field / "surface_velocity", collider.surface_velocity);
         if (!collider.name.empty()) checks_.check_text(field / "name", collider.name);
         if (std::holds_alternative<PlaneCollider>(collider.shape)) check_plane(field, collider);
-        if (response_ != CollisionResponse::contact) check_solid(field, collider);
+        if (!has_contact_) check_solid(field, collider);
     }
 
 private:
@@ -100,7 +99,7 @@ private:
     }
 
     const ValueChecks& checks_;
-    CollisionResponse response_;
+    bool has_contact_;
 };
 
 class ObjectCheck {
@@ -190,7 +189,7 @@ void check_objects(const ValueChecks& checks, const Scene& scene) {
 }
 
 void check_colliders(const ValueChecks& checks, const Scene& scene) {
-    const ColliderCheck check(checks, scene.collision.response);
+    const ColliderCheck check(checks, scene.has_contact());
     for (std::size_t c = 0; c < scene.colliders.size(); ++c)
         check.run(FieldPath("collider", c), scene.colliders[c]);
 }

@@ -45,14 +45,15 @@ void check_collision(const ValueChecks& checks, const CollisionSettings& setting
             field / "proximity_radius", text_of(*settings.proximity_radius),
             "must not be given with broad_phase = \"depth\", which finds what touches, not what is near");
     }
-    if (settings.response == CollisionResponse::contact) {
+    if (settings.response_with(solver) == CollisionResponse::contact) {
         if (solver != SolverKind::vbd) {
-            checks.fail(field / "response", text_of(name_of(settings.response)),
+            checks.fail(field / "response", text_of(name_of(CollisionResponse::contact)),
                         "needs solver = \"vbd\"; with other solvers it must be \"restore\"");
         }
         if (sees_one_moment) {
             checks.fail(field / "broad_phase", text_of(name_of(settings.broad_phase)),
-                        "must be none, boxes or hierarchy with response = \"contact\"");
+                        "must be none, boxes or hierarchy with response = \"contact\", which is what vbd has "
+                        "unless response = \"restore\" is given");
         }
     }
     checks.check(field / "friction", settings.friction, kNotNegative);
@@ -90,16 +91,18 @@ void check_material(const ValueChecks& checks, const FieldPath& field, const Mat
 
 // What only contact knows.
 void check_surface(const ValueChecks& checks, const FieldPath& field, const Material& material,
-                   CollisionResponse response) {
+                   bool has_contact) {
     checks.check(field / "friction", material.friction, kNotNegative);
     checks.check(field / "thickness", material.thickness, kPositive);
     checks.check(field / "contact_stiffness", material.contact_stiffness, kPositive);
-    if (response == CollisionResponse::contact) return;
+    checks.check(field / "restitution", material.restitution, kFraction);
+    if (has_contact) return;
     const std::string needs = "needs collision.response = \"contact\"";
     if (material.friction) checks.fail(field / "friction", text_of(*material.friction), needs);
     if (material.thickness) checks.fail(field / "thickness", text_of(*material.thickness), needs);
     if (material.contact_stiffness != 1.0)
         checks.fail(field / "contact_stiffness", text_of(material.contact_stiffness), needs);
+    if (material.restitution) checks.fail(field / "restitution", text_of(*material.restitution), needs);
 }
 
 void check_pairs(const ValueChecks& checks, const Scene& scene) {
@@ -120,17 +123,16 @@ void check_pairs(const ValueChecks& checks, const Scene& scene) {
             checks.fail(field / "materials", both, "is there twice");
         checks.check(field / "friction", pairs[p].friction, kNotNegative);
         checks.check(field / "contact_stiffness", pairs[p].contact_stiffness, kPositive);
-        if (scene.collision.response != CollisionResponse::contact)
-            checks.fail(field, both, "needs collision.response = \"contact\"");
+        checks.check(field / "restitution", pairs[p].restitution, kFraction);
+        if (!scene.has_contact()) checks.fail(field, both, "needs collision.response = \"contact\"");
     }
 }
 
-void check_materials(const ValueChecks& checks, const std::vector<Material>& materials,
-                     CollisionResponse response) {
+void check_materials(const ValueChecks& checks, const std::vector<Material>& materials, bool has_contact) {
     for (std::size_t m = 0; m < materials.size(); ++m) {
         const FieldPath field("material", m);
         check_material(checks, field, materials[m]);
-        check_surface(checks, field, materials[m], response);
+        check_surface(checks, field, materials[m], has_contact);
         for (std::size_t i = 0; i < m; ++i) {
             if (materials[i].name != materials[m].name) continue;
             checks.fail(field / "name", text_of(materials[m].name),
@@ -146,7 +148,7 @@ void validate(const Scene& scene, const ReportProblem& report) {
     check_simulation(checks, scene.simulation);
     check_collision(checks, scene.collision, scene.simulation.solver);
     if (scene.camera) check_camera(checks, *scene.camera);
-    check_materials(checks, scene.materials, scene.collision.response);
+    check_materials(checks, scene.materials, scene.has_contact());
     check_pairs(checks, scene);
     check_objects(checks, scene);
     check_colliders(checks, scene);

@@ -21,6 +21,9 @@ substeps = 3
 iterations = 7
 frame_rate = 100
 
+[collision]
+response = "restore"
+
 [[material]]
 name = "jelly"
 youngs_modulus = 5e4

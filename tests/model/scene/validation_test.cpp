@@ -3,6 +3,10 @@
 namespace gelatin::test {
 namespace {
 
+void restore(Scene& scene) {
+    scene.collision.response = CollisionResponse::restore;
+}
+
 class SettingRule : public RuleTest {};
 
 TEST_P(SettingRule, HoldsInFilesAndInCode) {
@@ -51,7 +55,14 @@ const Rule kSettingRules[] = {
      "collision.response = \"contact\": needs solver = \"vbd\"; with other solvers it must be \"restore\""},
     {"response_depth", "[collision]\nresponse = 'contact'\nbroad_phase = 'depth'",
      BREAKS(s.collision.response = CollisionResponse::contact; s.collision.broad_phase = BroadPhase::depth),
-     "collision.broad_phase = \"depth\": must be none, boxes or hierarchy with response = \"contact\""},
+     "collision.broad_phase = \"depth\": must be none, boxes or hierarchy with response = \"contact\", which "
+     "is "
+     "what vbd has unless response = \"restore\" is given"},
+    {"response_depth_by_default", "[collision]\nbroad_phase = 'depth'",
+     BREAKS(s.collision.broad_phase = BroadPhase::depth),
+     "collision.broad_phase = \"depth\": must be none, boxes or hierarchy with response = \"contact\", which "
+     "is "
+     "what vbd has unless response = \"restore\" is given"},
     {"friction", "[collision]\nfriction = -1", BREAKS(s.collision.friction = -1),
      "collision.friction = -1: must be 0 or more"},
     {"restitution", "[collision]\nrestitution = 2", BREAKS(s.collision.restitution = 2),
@@ -105,16 +116,19 @@ const Rule kSettingRules[] = {
     {"collider_restitution", "[[collider]]\nshape = {sphere = 1}\nrestitution = -1",
      BREAKS(add_collider(s).shape = SphereShape{1}; s.colliders[0].restitution = -1),
      "collider[0].restitution = -1: must be from 0 to 1"},
-    {"collider_text", "[[collider]]\nshape = {text = 'A'}", BREAKS(add_collider(s).shape = TextShape{"A"}),
+    {"collider_text", "[[collider]]\nshape = {text = 'A'}\n[collision]\nresponse = 'restore'",
+     BREAKS(restore(s); add_collider(s).shape = TextShape{"A"}),
      "collider[0].shape.text = \"A\": needs collision.response = \"contact\""},
-    {"collider_keyframes", "[[collider]]\nshape = {sphere = 1}\nkeyframes = [{time = 0}]",
-     BREAKS(add_collider(s).shape = SphereShape{1}; s.colliders[0].keyframes = {{}}),
+    {"collider_keyframes",
+     "[[collider]]\nshape = {sphere = 1}\nkeyframes = [{time = 0}]\n[collision]\nresponse = \'restore\'",
+     BREAKS(restore(s); add_collider(s).shape = SphereShape{1}; s.colliders[0].keyframes = {{}}),
      "collider[0].keyframes = [{...}]: needs collision.response = \"contact\""},
-    {"collider_belt", "[[collider]]\nshape = {sphere = 1}\nsurface_velocity = [1, 0, 0]",
-     BREAKS(add_collider(s).shape = SphereShape{1}; s.colliders[0].surface_velocity.x = 1),
+    {"collider_belt",
+     "[[collider]]\nshape = {sphere = 1}\nsurface_velocity = [1, 0, 0]\n[collision]\nresponse = \'restore\'",
+     BREAKS(restore(s); add_collider(s).shape = SphereShape{1}; s.colliders[0].surface_velocity.x = 1),
      "collider[0].surface_velocity = [1, 0, 0]: needs collision.response = \"contact\""},
-    {"collider_scale", "[[collider]]\nshape = {sphere = 1}\nscale = 2",
-     BREAKS(add_collider(s).shape = SphereShape{1}; s.colliders[0].scale = 2),
+    {"collider_scale", "[[collider]]\nshape = {sphere = 1}\nscale = 2\n[collision]\nresponse = \'restore\'",
+     BREAKS(restore(s); add_collider(s).shape = SphereShape{1}; s.colliders[0].scale = 2),
      "collider[0].scale = 2: needs collision.response = \"contact\""},
     {"collider_no_scale", "[[collider]]\nshape = {sphere = 1}\nscale = 0",
      BREAKS(add_collider(s).shape = SphereShape{1}; s.colliders[0].scale = 0),
@@ -148,18 +162,26 @@ const Rule kMaterialRules[] = {
      "material.jelly.damping = inf: must be finite"},
     {"friction", "name = 'jelly'\nfriction = -1", BREAKS(s.materials[0].friction = -1),
      "material.jelly.friction = -1: must be 0 or more"},
-    {"friction_without_contact", "name = 'jelly'\nfriction = 1", BREAKS(s.materials[0].friction = 1),
+    {"friction_without_contact", "name = 'jelly'\nfriction = 1\n[collision]\nresponse = \'restore\'",
+     BREAKS(restore(s); s.materials[0].friction = 1),
      "material.jelly.friction = 1: needs collision.response = \"contact\""},
     {"thickness", "name = 'jelly'\nthickness = 0", BREAKS(s.materials[0].thickness = 0),
      "material.jelly.thickness = 0: must be greater than 0"},
-    {"thickness_without_contact", "name = 'jelly'\nthickness = 1", BREAKS(s.materials[0].thickness = 1),
+    {"thickness_without_contact", "name = 'jelly'\nthickness = 1\n[collision]\nresponse = \'restore\'",
+     BREAKS(restore(s); s.materials[0].thickness = 1),
      "material.jelly.thickness = 1: needs collision.response = \"contact\""},
     {"contact_stiffness", "name = 'jelly'\ncontact_stiffness = 0",
      BREAKS(s.materials[0].contact_stiffness = 0),
      "material.jelly.contact_stiffness = 0: must be greater than 0"},
-    {"contact_stiffness_without_contact", "name = 'jelly'\ncontact_stiffness = 2",
-     BREAKS(s.materials[0].contact_stiffness = 2),
+    {"contact_stiffness_without_contact",
+     "name = 'jelly'\ncontact_stiffness = 2\n[collision]\nresponse = \'restore\'",
+     BREAKS(restore(s); s.materials[0].contact_stiffness = 2),
      "material.jelly.contact_stiffness = 2: needs collision.response = \"contact\""},
+    {"material_restitution", "name = 'jelly'\nrestitution = 2", BREAKS(s.materials[0].restitution = 2),
+     "material.jelly.restitution = 2: must be from 0 to 1"},
+    {"restitution_without_contact", "name = 'jelly'\nrestitution = 0.5\n[simulation]\nsolver = 'rk4'",
+     BREAKS(s.materials[0].restitution = 0.5; s.simulation.solver = SolverKind::rk4),
+     "material.jelly.restitution = 0.5: needs collision.response = \"contact\""},
     {"springs_of_a_model_without", "name = 'jelly'\nmodel = 'neo_hookean'\nsprings = ['structural', 'flex']",
      BREAKS(s.materials[0].model = MaterialModel::neo_hookean;
             s.materials[0].springs = (SpringKinds{true, false, true})),
@@ -197,7 +219,10 @@ TEST_F(Validation, NamesWhatIsWrongWithAPairOfMaterials) {
     EXPECT_EQ(error({"jelly", "jelly", -1.0}), "collision.pair[0].friction = -1: must be 0 or more");
     EXPECT_EQ(error({"jelly", "jelly", {}, 0.0}),
               "collision.pair[0].contact_stiffness = 0: must be greater than 0");
+    EXPECT_EQ(error({"jelly", "jelly", {}, {}, 1.5}),
+              "collision.pair[0].restitution = 1.5: must be from 0 to 1");
     EXPECT_EQ(error_of([](Scene& s) {
+                  restore(s);
                   s.collision.pairs = {{"jelly", "jelly"}};
               }),
               "collision.pair[0] = [\"jelly\", \"jelly\"]: needs collision.response = \"contact\"");

@@ -1,0 +1,345 @@
+#include "cpu/descent/rigid_rebound.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <iterator>
+#include <utility>
+
+#include "cpu/collision/colliders.h"
+#include "cpu/descent/rigid_motion.h"
+#include "cpu/descent/wave_times.h"
+
+namespace gelatin::cpu {
+namespace {
+
+// What is little of the speed at which two have met.
+constexpr double kLeft = 0.1;
+// What takes longer is seen: softness, which bounces by itself [s].
+constexpr double kLongestImpact = 0.1;
+// Impulses are repeated until so much of the speed is lacking, or so often.
+constexpr double kEnough = 0.01;
+constexpr int kMostPasses = 32;
+
+}  // namespace
+
+template <class Real>
+struct RigidRebound<Real>::Body {
+    glm::dvec3 center{0.0};           // [m]
+    double inverse_mass = 0.0;        // [1/kg]
+    glm::dmat3 inverse_inertia{0.0};  // about the centre [1/(kg m^2)]
+    Twist before, after, change;      // in this step without restitution, and by it
+    double pushes = 0.0;              // how many points it is pushed at
+
+    // By how much an impulse changes the velocity along it there [1/kg].
+    double yielding(const glm::dvec3& arm, const glm::dvec3& direction) const {
+        const glm::dvec3 lever = glm::cross(arm, direction);
+        return inverse_mass + glm::dot(lever, inverse_inertia * lever);
+    }
+    Twist change_by(const glm::dvec3& arm, const glm::dvec3& impulse) const {
+        return {inverse_mass * impulse, inverse_inertia * glm::cross(arm, impulse)};
+    }
+};
+
+// A touch at which sides are to come apart. Those of null are not bodies that move as a whole.
+template <class Real>
+struct RigidRebound<Real>::Push {
+    std::array<Body*, 2> sides;
+    Touch touch;
+    double wanted = 0.0;   // [m/s]
+    double inertia = 0.0;  // that yields to its impulse [kg]
+    double impulse = 0.0;  // [N s]
+
+    // The speed at which the sides come apart. @param twist of a side, which is a body
+    double opening(const auto& twist) const {
+        std::array<glm::dvec3, 2> velocities = touch.velocities;
+        for (std::size_t side = 0; side < 2; ++side)
+            if (sides[side] != nullptr) velocities[side] = twist(side).at(touch.points[side]);
+        return glm::dot(touch.normal, velocities[1] - velocities[0]);
+    }
+};
+
+template <class Real>
+RigidRebound<Real>::RigidRebound(std::shared_ptr<const Model> model)
+    : model_(std::move(model)), wave_times_(wave_times(*model_)) {
+    wave_times_.resize(model_->objects.size());  // colliders take none
+}
+
+template <class Real>
+void RigidRebound<Real>::run(const Step& step, const Contacts<Real>& contacts,
+                             const ColliderContacts<Real>& planes, std::span<Vec4<Real>> velocities) {
+    Touches touches = find_touches(step, contacts, planes);
+    if (touches.empty() && meetings_.empty()) return;
+    Bodies bodies = measure(step, touches, contacts, velocities);
+    meet(step, std::move(touches), bodies);
+    std::vector<Push> pushes = end_meetings(step, contacts, bodies);
+    push_apart(pushes);
+    for (const auto& [object, body] : bodies) {
+        if (body.pushes == 0.0) continue;
+        const Range& nodes = model_->objects[object].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            const glm::dvec3 change = body.change.at(glm::dvec3(step.positions[n]) - body.center);
+            velocities[n] += Vec4<Real>(Vec3<Real>(change), Real(0));
+        }
+    }
+}
+
+// Of what is held, what it does in this step: bodies may be in the way of what moves it.
+template <class Real>
+Vec3<Real> RigidRebound<Real>::velocity_before(const Step& step, std::uint32_t node) const {
+    if (step.positions[node].w > Real(0)) return Vec3<Real>(step.before[node]);
+    return (Vec3<Real>(step.positions[node]) - Vec3<Real>(step.starts[node])) /
+           static_cast<Real>(step.length);
+}
+
+// Objects without these meet nothing faster than the resting speed.
+template <class Real>
+std::vector<std::uint8_t> RigidRebound<Real>::find_fast(const Step& step) const {
+    std::vector<std::uint8_t> is_fast(model_->objects.size());
+    const auto least = static_cast<Real>(0.25 * step.resting_speed * step.resting_speed);
+    tbb::parallel_for(std::size_t(0), is_fast.size(), [&](std::size_t o) {
+        const Range& nodes = model_->objects[o].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end() && is_fast[o] == 0; ++n) {
+            const Vec3<Real> velocity = velocity_before(step, n);
+            if (glm::dot(velocity, velocity) > least) is_fast[o] = 1;
+        }
+    });
+    return is_fast;
+}
+
+// Of what has met, or may have.
+template <class Real>
+typename RigidRebound<Real>::Touches RigidRebound<Real>::find_touches(
+    const Step& step, const Contacts<Real>& contacts, const ColliderContacts<Real>& planes) const {
+    Touches touches;
+    const std::vector<std::uint8_t> is_fast = find_fast(step);
+    const ContactAims<Real>& aims = contacts.aims();
+    for (const Press<Real>& press : aims.presses()) {
+        const ContactPair& sides = contacts.list().pairs[press.pair];
+        const Pair pair{false, sides.object, sides.other};
+        const bool may_meet = is_fast[pair.first] != 0 || is_fast[pair.second] != 0;
+        if (sides.is_own() || !(may_meet || meetings_.contains(pair))) continue;
+        if (contacts.restitution(pair.first, pair.second) == 0.0) continue;
+        if (!(aims.gap(sides, press, step.positions) < press.reach)) continue;
+        Touch touch;
+        touch.normal = glm::dvec3(press.normal);
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto weight = static_cast<double>(press.weights[static_cast<int>(k)]);
+            const std::size_t side = sides.side_of(k);
+            touch.points[side] += weight * glm::dvec3(step.positions[sides.nodes[k]]);
+            touch.velocities[side] += weight * glm::dvec3(velocity_before(step, sides.nodes[k]));
+        }
+        // One point for both, so that impulses keep angular momentum.
+        touch.points.fill(0.5 * (touch.points[0] + touch.points[1]));
+        touches[pair].push_back(touch);
+    }
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o)
+        if (planes.objects[o] != 0 && !planes.nodes.empty())
+            add_planes(step, planes, o, is_fast[o] != 0, touches);
+    return touches;
+}
+
+template <class Real>
+void RigidRebound<Real>::add_planes(const Step& step, const ColliderContacts<Real>& planes,
+                                    std::uint32_t object, bool is_fast, Touches& touches) const {
+    for (std::uint32_t c = 0; c < model_->colliders.size(); ++c) {
+        const Pair pair{true, c, object};
+        const Collider& plane = model_->colliders[c];
+        if (plane.restitution == 0.0f || !(is_fast || meetings_.contains(pair))) continue;
+        const Range& nodes = model_->objects[object].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            if (planes.nodes[n].along == Real(0)) continue;
+            const SurfaceDistance<Real> surface = surface_distance(plane, Vec3<Real>(step.positions[n]));
+            if (surface.distance > static_cast<Real>(kContactDistance)) continue;
+            const glm::dvec3 point(step.positions[n]);
+            touches[pair].push_back({{point, point}, {}, glm::dvec3(surface.normal)});
+        }
+    }
+}
+
+// Null: a plane, a collider, or a body with held nodes.
+template <class Real>
+std::array<typename RigidRebound<Real>::Body*, 2> RigidRebound<Real>::sides_of(const Pair& pair,
+                                                                               Bodies& bodies) const {
+    const auto find = [&](std::uint32_t object) {
+        const auto found = bodies.find(object);
+        return found == bodies.end() ? nullptr : &found->second;
+    };
+    return {pair.has_plane ? nullptr : find(pair.first), find(pair.second)};
+}
+
+template <class Real>
+typename RigidRebound<Real>::Bodies RigidRebound<Real>::measure(
+    const Step& step, const Touches& touches, const Contacts<Real>& contacts,
+    std::span<const Vec4<Real>> velocities) const {
+    Bodies bodies;
+    const auto add = [&](const Pair& pair) {
+        if (!pair.has_plane && !contacts.is_held(pair.first)) bodies[pair.first];
+        if (!contacts.is_held(pair.second)) bodies[pair.second];
+    };
+    for (const auto& [pair, of_pair] : touches) add(pair);
+    for (const auto& [pair, meeting] : meetings_) add(pair);
+    std::vector<std::uint32_t> objects;
+    for (const auto& [object, body] : bodies) objects.push_back(object);
+    tbb::parallel_for(std::size_t(0), objects.size(), [&](std::size_t k) {
+        bodies.find(objects[k])->second = measure(step, objects[k], velocities);
+    });
+    return bodies;
+}
+
+template <class Real>
+typename RigidRebound<Real>::Body RigidRebound<Real>::measure(const Step& step, std::uint32_t object,
+                                                              std::span<const Vec4<Real>> velocities) const {
+    const Range& nodes = model_->objects[object].nodes;
+    const glm::dvec3 origin(step.positions[nodes.first]);
+    RigidSums before, after;  // with masses for stiffnesses, and momenta for forces
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+        const glm::dvec3 arm = glm::dvec3(step.positions[n]) - origin;
+        const double mass = 1.0 / static_cast<double>(step.positions[n].w);
+        before.add(arm, mass, mass * glm::dvec3(step.before[n]));
+        after.add(arm, mass, mass * glm::dvec3(velocities[n]));
+    }
+    Body body;
+    const glm::dvec3 center = before.arm / before.stiffness;
+    body.center = origin + center;
+    body.inverse_mass = 1.0 / before.stiffness;
+    before.square.add_outer(-before.stiffness, center);
+    const glm::dvec3 &d = before.square.diagonal, &b = before.square.beside;
+    const double trace = d.x + d.y + d.z;
+    constexpr double kThin = 1e-6;  // a row of nodes has no inertia about itself
+    const glm::dvec3 own = (1.0 + kThin) * glm::dvec3(trace) - d;
+    if (trace > 0.0)
+        body.inverse_inertia =
+            glm::inverse(glm::dmat3(own.x, -b.z, -b.y, -b.z, own.y, -b.x, -b.y, -b.x, own.z));
+    const auto twist = [&](const RigidSums& sums) {
+        return Twist{body.inverse_mass * sums.force,
+                     body.inverse_inertia * (sums.moment - glm::cross(center, sums.force))};
+    };
+    body.before = twist(before);
+    body.after = twist(after);
+    return body;
+}
+
+// Meetings begin where two press each other that came together faster than the resting speed, and again where
+// they come together faster than they had met.
+template <class Real>
+void RigidRebound<Real>::meet(const Step& step, Touches touches, Bodies& bodies) {
+    for (auto& [pair, meeting] : meetings_) meeting.age += step.length;
+    for (auto& [pair, of_pair] : touches) {
+        const std::array<Body*, 2> sides = sides_of(pair, bodies);
+        double approach = 0.0;
+        for (Touch& touch : of_pair) {
+            for (std::size_t side = 0; side < 2; ++side)
+                if (sides[side] != nullptr) touch.points[side] -= sides[side]->center;
+            const Push push{sides, touch};
+            approach =
+                std::max(approach, -push.opening([&](std::size_t side) { return sides[side]->before; }));
+        }
+        const auto known = meetings_.find(pair);
+        const bool is_known = known != meetings_.end();
+        if (approach > (is_known ? known->second.approach : step.resting_speed)) {
+            std::array<Twist, 2> twists;
+            for (std::size_t side = 0; side < 2; ++side)
+                if (sides[side] != nullptr) twists[side] = sides[side]->before;
+            meetings_[pair] = {twists, approach, approach, step.length, std::move(of_pair), true};
+        } else if (is_known) {
+            known->second.latest_approach = approach;
+            known->second.touches = std::move(of_pair);
+            known->second.presses = true;
+        }
+    }
+}
+
+// As if each point had bodies of its own, with their part of the mass (mass splitting, Tonge et al. 2012):
+// all may be pushed at once.
+template <class Real>
+void RigidRebound<Real>::push_apart(std::vector<Push>& pushes) {
+    for (const Push& push : pushes)
+        for (Body* side : push.sides)
+            if (side != nullptr) side->pushes += 1.0;
+    for (Push& push : pushes) {
+        double yielding = 0.0;
+        for (std::size_t side = 0; side < 2; ++side)
+            if (const Body* body = push.sides[side])
+                yielding += body->pushes * body->yielding(push.touch.points[side], push.touch.normal);
+        push.inertia = yielding > 0.0 ? 1.0 / yielding : 0.0;
+    }
+    bool lacks = true;
+    for (int pass = 0; pass < kMostPasses && lacks; ++pass) {
+        lacks = false;
+        std::vector<double> changes;  // of impulses
+        for (Push& push : pushes) {
+            const double lacking = push.wanted - push.opening([&](std::size_t side) {
+                return push.sides[side]->after + push.sides[side]->change;
+            });
+            const double before = push.impulse;
+            push.impulse = std::max(before + lacking * push.inertia, 0.0);
+            changes.push_back(push.impulse - before);
+            lacks = lacks || lacking > kEnough * push.wanted;
+        }
+        for (std::size_t k = 0; k < pushes.size(); ++k) {
+            const Push& push = pushes[k];
+            const std::array<double, 2> impulses{-changes[k], changes[k]};
+            for (std::size_t side = 0; side < 2; ++side)
+                if (Body* body = push.sides[side])
+                    body->change = body->change + body->change_by(push.touch.points[side],
+                                                                  impulses[side] * push.touch.normal);
+        }
+    }
+}
+
+// Of two that still press each other: over where they hardly approach any more, and what they press each
+// other with would hardly throw them apart while a pressure wave passes.
+template <class Real>
+bool RigidRebound<Real>::is_over(const Step& step, const Meeting& meeting, const std::array<Body*, 2>& sides,
+                                 double wave_time) const {
+    double before = 0.0, after = 0.0;
+    for (const Touch& touch : meeting.touches) {
+        const Push push{sides, touch};
+        before += push.opening([&](std::size_t side) { return sides[side]->before; });
+        after += push.opening([&](std::size_t side) { return sides[side]->after; });
+    }
+    const double little = kLeft * meeting.approach * static_cast<double>(meeting.touches.size());
+    return after > -little && (after - before) * wave_time < little * step.length;
+}
+
+// Those of two that have left each other, or whose impact is over. Of long ones nothing is left to do, but
+// they are no new ones while the two go on to approach.
+template <class Real>
+std::vector<typename RigidRebound<Real>::Push> RigidRebound<Real>::end_meetings(
+    const Step& step, const Contacts<Real>& contacts, Bodies& bodies) {
+    std::vector<Push> pushes;
+    for (auto next = meetings_.begin(); next != meetings_.end();) {
+        auto& [pair, meeting] = *next;
+        const std::array<Body*, 2> sides = sides_of(pair, bodies);
+        const bool presses = std::exchange(meeting.presses, false), is_short = meeting.age < kLongestImpact;
+        const double wave_time =
+            std::max(pair.has_plane ? 0.0 : wave_times_[pair.first], wave_times_[pair.second]);
+        const bool goes_on = is_short ? !is_over(step, meeting, sides, wave_time)
+                                      : meeting.latest_approach > step.resting_speed;
+        if (presses && goes_on) {
+            ++next;
+            continue;
+        }
+        if (is_short) {
+            const double restitution = pair.has_plane
+                                           ? static_cast<double>(model_->colliders[pair.first].restitution)
+                                           : contacts.restitution(pair.first, pair.second);
+            for (const Touch& touch : meeting.touches) {
+                Push push{sides, touch};
+                push.wanted =
+                    -restitution * push.opening([&](std::size_t side) { return meeting.twists[side]; });
+                if (push.wanted > 0.0) pushes.push_back(push);
+            }
+        }
+        next = meetings_.erase(next);
+    }
+    return pushes;
+}
+
+template class RigidRebound<float>;
+template class RigidRebound<double>;
+
+}  // namespace gelatin::cpu

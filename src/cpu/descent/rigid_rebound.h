@@ -1,0 +1,97 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cpu/contact/contacts.h"
+#include "cpu/descent/collider_contacts.h"
+#include "cpu/nodes.h"
+#include "model/model.h"
+
+namespace gelatin::cpu {
+
+/// How a body moves as a rigid one.
+struct Twist {
+    glm::dvec3 velocity{0.0}, spin{0.0};  ///< of the centre of mass [m/s]; [rad/s]
+
+    /// @param arm from the centre of mass [m]
+    glm::dvec3 at(const glm::dvec3& arm) const { return velocity + glm::cross(spin, arm); }
+    Twist operator+(const Twist& other) const { return {velocity + other.velocity, spin + other.spin}; }
+};
+
+/// Restitution (docs/contact.md). Bodies bounce by their elasticity, of which implicit steps leave little
+/// where bodies are stiff. Those that leave each other with less than the restitution times the speed at
+/// which they met, or still lie there when the impact is over, get that speed, as rigid bodies.
+template <class Real>
+class RigidRebound {
+public:
+    explicit RigidRebound(std::shared_ptr<const Model> model);
+
+    /// Forgets what has met.
+    void restart() { meetings_.clear(); }
+
+    /// A step, as it is without restitution.
+    struct Step {
+        double length, resting_speed;  ///< [s]; what meets slower stays [m/s]
+        /// Velocities when it began, shape [nodes]; starts as of StepState; positions at its end.
+        std::span<const Vec4<Real>> before, starts, positions;
+    };
+    /// To be called at the end of a step. Bodies with held nodes do not change.
+    /// @param velocities at its end, input and output, shape [nodes]
+    void run(const Step& step, const Contacts<Real>& contacts, const ColliderContacts<Real>& planes,
+             std::span<Vec4<Real>> velocities);
+
+private:
+    // Objects, or a body and a plane, which comes first and has its number among the colliders.
+    struct Pair {
+        bool has_plane;
+        std::uint32_t first, second;
+        auto operator<=>(const Pair&) const = default;
+    };
+    // A point where two sides press each other.
+    struct Touch {
+        std::array<glm::dvec3, 2> points{};      // of bodies that move as a whole: from their centres [m]
+        std::array<glm::dvec3, 2> velocities{};  // of other sides [m/s]
+        glm::dvec3 normal{0.0};                  // from the first side to the second
+    };
+    // Two that have met, since then.
+    struct Meeting {
+        std::array<Twist, 2> twists;   // when they met
+        double approach = 0.0;         // then, of their fastest point [m/s]
+        double latest_approach = 0.0;  // when they pressed each other last
+        double age = 0.0;              // [s]
+        std::vector<Touch> touches;    // when they pressed each other last
+        bool presses = true;           // in this step
+    };
+    struct Body;
+    struct Push;
+    using Bodies = std::map<std::uint32_t, Body>;  // by object
+    using Touches = std::map<Pair, std::vector<Touch>>;
+
+    Vec3<Real> velocity_before(const Step& step, std::uint32_t node) const;
+    std::vector<std::uint8_t> find_fast(const Step& step) const;
+    Touches find_touches(const Step& step, const Contacts<Real>& contacts,
+                         const ColliderContacts<Real>& planes) const;
+    void add_planes(const Step& step, const ColliderContacts<Real>& planes, std::uint32_t object,
+                    bool is_fast, Touches& touches) const;
+    std::array<Body*, 2> sides_of(const Pair& pair, Bodies& bodies) const;
+    Bodies measure(const Step& step, const Touches& touches, const Contacts<Real>& contacts,
+                   std::span<const Vec4<Real>> velocities) const;
+    Body measure(const Step& step, std::uint32_t object, std::span<const Vec4<Real>> velocities) const;
+    void meet(const Step& step, Touches touches, Bodies& bodies);
+    static void push_apart(std::vector<Push>& pushes);
+    std::vector<Push> end_meetings(const Step& step, const Contacts<Real>& contacts, Bodies& bodies);
+    bool is_over(const Step& step, const Meeting& meeting, const std::array<Body*, 2>& sides,
+                 double wave_time) const;
+
+    std::shared_ptr<const Model> model_;
+    std::vector<double> wave_times_;  // by object [s]
+    std::map<Pair, Meeting> meetings_;
+};
+
+}  // namespace gelatin::cpu

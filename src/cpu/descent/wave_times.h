@@ -1,0 +1,12 @@
+#pragma once
+
+#include <vector>
+
+#include "model/model.h"
+
+namespace gelatin::cpu {
+
+/// The time that a pressure wave takes through each body: V^(1/3) sqrt(rho / K) [s].
+std::vector<double> wave_times(const Model& model);
+
+}  // namespace gelatin::cpu

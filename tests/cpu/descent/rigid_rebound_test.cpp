@@ -1,0 +1,175 @@
+// Restitution: what elasticity does not give back, bodies get as rigid ones.
+#include "cpu/descent/rigid_rebound.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <optional>
+
+#include "support/contact_scenes.h"
+
+namespace gelatin {
+namespace {
+
+using test::Block;
+using test::kFrame;
+using test::make_blocks;
+using Solver = cpu::CpuSolver<double>;
+
+constexpr double kStiff = 1e8;  // [Pa]
+
+Solver make_solver(const std::shared_ptr<const Model>& model, double restitution) {
+    return {model, SolverKind::vbd, ForceMethod::fused,
+            CollisionSettings{
+                .response = CollisionResponse::contact, .friction = 0.0, .restitution = restitution},
+            DescentSettings{.iterations = 20}};
+}
+
+struct Sums {
+    double mass = 0.0, energy = 0.0;                  // [kg], [J]
+    glm::dvec3 momentum{0.0}, angular_momentum{0.0};  // about the origin
+    glm::dvec3 velocity() const { return momentum / mass; }
+};
+
+Sums sums_of(const Model& model, const Solver& solver, const Range& nodes) {
+    Sums sums;
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+        const auto mass = static_cast<double>(model.masses[n]);
+        const glm::dvec3 velocity(solver.nodes().velocities[n]), position(solver.nodes().positions[n]);
+        sums.mass += mass;
+        sums.momentum += mass * velocity;
+        sums.angular_momentum += mass * glm::cross(position, velocity);
+        sums.energy += 0.5 * mass * glm::dot(velocity, velocity);
+    }
+    return sums;
+}
+
+Sums sums_of(const Model& model, const Solver& solver, std::size_t object) {
+    return sums_of(model, solver, model.objects[object].nodes);
+}
+
+Sums sums_of_all(const Model& model, const Solver& solver) {
+    return sums_of(model, solver, {0, model.body_node_count()});
+}
+
+// The y that the second of two blocks gains over the first, which is below it, after some frames.
+double speed_apart(const std::vector<Block>& blocks, double restitution, int frames = 12) {
+    const auto model = make_blocks(blocks);
+    Solver solver = make_solver(model, restitution);
+    for (int frame = 0; frame < frames; ++frame) solver.advance_nodes(kFrame);
+    return sums_of(*model, solver, 1).velocity().y - sums_of(*model, solver, 0).velocity().y;
+}
+
+std::vector<Block> two_blocks(double youngs_modulus, double beside = 0.0) {
+    return {{.velocity = {0, 1, 0}, .youngs_modulus = youngs_modulus},
+            {.place = {beside, 0.38, 0}, .velocity = {0, -2, 0}, .youngs_modulus = youngs_modulus}};
+}
+
+TEST(RigidRebound, StiffBodiesLeaveWithThatPartOfTheirSpeed) {
+    for (const double restitution : {0.0, 0.3, 0.7, 1.0})
+        EXPECT_NEAR(speed_apart(two_blocks(kStiff), restitution), 3.0 * restitution, 0.03) << restitution;
+}
+
+// Their impacts take long, and elasticity gives them back what they have.
+TEST(RigidRebound, SoftBodiesBounceByThemselves) {
+    const auto blocks = two_blocks(3e4);
+    const double alone = speed_apart(blocks, 0.0, 30);
+    EXPECT_GT(alone, 0.2 * 3.0);
+    EXPECT_EQ(speed_apart(blocks, 1.0, 30), alone);
+}
+
+// Three that meet off their middles: they spin.
+std::vector<Block> tumbling_blocks() {
+    std::vector<Block> blocks = two_blocks(kStiff, 0.21);
+    blocks.push_back({.place = {-0.2, 0.8, 0.05}, .velocity = {0, -6, 1}, .youngs_modulus = kStiff});
+    return blocks;
+}
+
+// Without it, positions are the same up to the first step with an impact that is over.
+TEST(RigidRebound, KeepsMomentumAndAngularMomentum) {
+    const auto model = make_blocks(tumbling_blocks());
+    Solver solver = make_solver(model, 1.0), without = make_solver(model, 0.0);
+    const auto momentum = [&](const Solver& of) { return sums_of_all(*model, of).momentum; };
+    const auto angular = [&](const Solver& of) { return sums_of_all(*model, of).angular_momentum; };
+    const double size = 27.0 * 6.0;  // of a momentum [kg m/s]; arms are shorter than 1 m
+    while (solver.nodes().velocities == without.nodes().velocities) {
+        solver.advance_nodes(kFrame);
+        without.advance_nodes(kFrame);
+    }
+    ASSERT_EQ(solver.nodes().positions, without.nodes().positions);
+    EXPECT_GT(glm::length(sums_of(*model, solver, 0).momentum - sums_of(*model, without, 0).momentum),
+              0.1 * size);
+    EXPECT_LT(glm::length(momentum(solver) - momentum(without)),
+              1e-8 * size);  // masses are of single precision
+    EXPECT_LT(glm::length(angular(solver) - angular(without)), 1e-8 * size);
+}
+
+TEST(RigidRebound, AddsNoEnergyToWhatWasThereBefore) {
+    for (const double restitution : {0.3, 1.0}) {
+        const auto model = make_blocks(tumbling_blocks());
+        Solver solver = make_solver(model, restitution);
+        const double before = sums_of_all(*model, solver).energy;
+        for (int frame = 0; frame < 30; ++frame) {
+            solver.advance_nodes(kFrame);
+            EXPECT_LT(sums_of_all(*model, solver).energy, 1.01 * before) << restitution;  // to kEnough
+        }
+    }
+}
+
+ColliderDescription table(double restitution) {
+    ColliderDescription description;
+    description.shape = Shape{BoxShape{{4, 1, 4}}};
+    description.position = {0, -0.5, 0};
+    description.restitution = restitution;
+    return description;
+}
+
+// Of the collider, whatever the bodies' is.
+TEST(RigidRebound, CollidersHaveTheirOwn) {
+    ColliderDescription plane;
+    plane.restitution = 0.6;
+    for (const ColliderDescription& collider : {plane, table(0.6)}) {
+        const auto model = make_blocks(
+            {{.place = {0, 0.05, 0}, .velocity = {0, -2, 0}, .youngs_modulus = kStiff}, {.place = {3, 5, 0}}},
+            {}, {collider});
+        Solver solver = make_solver(model, 0.1);
+        for (int frame = 0; frame < 6; ++frame) solver.advance_nodes(kFrame);
+        EXPECT_NEAR(sums_of(*model, solver, 0).velocity().y, 1.2, 0.02);
+    }
+}
+
+// A table that rises at 1 m/s throws a block up at twice its speed.
+TEST(RigidRebound, CollidersThrow) {
+    ColliderDescription collider = table(1.0);
+    collider.keyframes = {{.time = 0.0, .move = {0, 0, 0}}, {.time = 1.0, .move = {0, 1, 0}}};
+    const auto model = make_blocks({{.place = {0, 0.1, 0}, .youngs_modulus = kStiff}}, {}, {collider});
+    Solver solver = make_solver(model, 0.0);
+    for (int frame = 0; frame < 12; ++frame) test::advance(solver, *model, frame);
+    EXPECT_NEAR(sums_of(*model, solver, 0).velocity().y, 2.0, 0.05);
+}
+
+// Gravity makes what rests approach in every step.
+TEST(RigidRebound, WhatRestsDoesNotBounce) {
+    const auto model = make_blocks(
+        {{.place = {0, 0.012, 0}, .youngs_modulus = 1e6}, {.place = {0.02, 0.325, 0}, .youngs_modulus = 1e6}},
+        {0, -9.81, 0}, {table(0.5)});
+    Solver solver = make_solver(model, 0.5);
+    for (int frame = 0; frame < 240; ++frame) solver.advance_nodes(kFrame);
+    const Sums sums = sums_of_all(*model, solver);
+    EXPECT_LT(sums.energy / sums.mass, 1e-8);
+}
+
+TEST(RigidRebound, ForgetsWhatHasMetAtARestart) {
+    const auto model = make_blocks(two_blocks(3e4));
+    Solver solver = make_solver(model, 1.0), fresh = make_solver(model, 1.0);
+    for (int frame = 0; frame < 6; ++frame) solver.advance_nodes(kFrame);  // they press each other
+    for (Solver* each : {&solver, &fresh}) {
+        each->write_state({model->positions, model->velocities, {}});
+        for (int frame = 0; frame < 3; ++frame) each->advance_nodes(kFrame);
+    }
+    EXPECT_EQ(solver.nodes().velocities, fresh.nodes().velocities);
+}
+
+}  // namespace
+}  // namespace gelatin
