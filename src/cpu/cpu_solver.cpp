@@ -264,6 +264,11 @@ ContactForces CpuSolver<Real>::contact_forces() const {
 }
 
 template <class Real>
+std::vector<std::uint32_t> CpuSolver<Real>::held_up() const {
+    return descent_ ? descent_->solver.held_up(current_.positions) : std::vector<std::uint32_t>();
+}
+
+template <class Real>
 HoldingForces CpuSolver<Real>::holding_forces() const {
     const bool holds_bodies = !model_->handles.empty() && model_->is_body(model_->handles[0].object);
     if (!descent_ || !holds_bodies) return {};

@@ -150,6 +150,10 @@ public:
     /// solvers that do not find it.
     virtual HoldingForces holding_forces() const { return {}; }
 
+    /// For CollisionResponse::contact: objects with nodes that bodies kept in the last step from where their
+    /// handles, or keyframes, take them.
+    virtual std::vector<std::uint32_t> held_up() const { return {}; }
+
     virtual State read_state() const = 0;
     /// Discards what watching has found so far.
     virtual void write_state(const State& state) = 0;

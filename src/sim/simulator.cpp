@@ -26,6 +26,7 @@
 #include "sim/overlay_source.h"
 #include "sim/shared_solver.h"
 #include "sim/simulator_internals.h"
+#include "sim/standstills.h"
 #include "sim/watch.h"
 
 namespace gelatin {
@@ -45,6 +46,7 @@ struct Simulator::Impl {
     std::uint64_t steps = 0;  // since then
     std::optional<Watch> watch;
     std::optional<Drags> drags;
+    Standstills standstills;
     bool is_pulled = false;
     std::deque<Moment> measured;
     std::deque<std::vector<ContactForce>> measured_forces;  // of the same, with contact
@@ -126,6 +128,7 @@ struct Simulator::Impl {
     // Continues from this state. Pending measurements belong to the old one.
     void take_state(const State& state, const Moment& moment) {
         for (; !measured.empty(); measured.pop_front()) solver->end_measure();
+        standstills.restart();
         measured_forces.clear();
         measured_holds.clear();
         solver->write_state(state);
@@ -210,6 +213,7 @@ void Simulator::step() {
     if (meets_others || meets_itself) d.run_stage("respond", [&] { d.solver->respond(d.step_size()); });
     ++d.steps;
     const Moment now = d.now();
+    for (const std::string& line : d.standstills.look(*d.model, *d.solver, now.time)) log_warning(line);
     d.run_stage("watch_nodes", [&] {
         d.solver->watch_nodes(static_cast<std::uint32_t>(now.steps), d.watch->most_energy(now.time));
     });

@@ -231,6 +231,24 @@ void Contacts<Real>::end(std::span<const Vec4<Real>> positions) {
     }
 }
 
+template <class Real>
+std::vector<std::uint32_t> Contacts<Real>::held_up(std::span<const Vec4<Real>> targets,
+                                                   std::span<const Vec4<Real>> positions) const {
+    const auto reach =
+        static_cast<Real>(*std::max_element(surface_->thicknesses.begin(), surface_->thicknesses.end()));
+    std::vector<std::uint32_t> objects;
+    for (std::uint32_t o = 0; o < model_->objects.size(); ++o) {
+        const Range& nodes = model_->objects[o].nodes;
+        const bool moves = model_->objects[o].handle_nodes.count > 0;
+        bool is_late = false;
+        for (std::uint32_t n = nodes.first; moves && n < nodes.end() && !is_late; ++n)
+            is_late = positions[n].w == Real(0) &&
+                      glm::distance(Vec3<Real>(targets[n]), Vec3<Real>(positions[n])) > reach;
+        if (is_late) objects.push_back(o);
+    }
+    return objects;
+}
+
 // Bodies that are held, or press a collider: these take no part in what their islands do.
 template <class Real>
 std::vector<std::uint8_t> Contacts<Real>::find_staying(std::span<const Vec4<Real>> positions) const {

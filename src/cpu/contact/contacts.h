@@ -63,6 +63,10 @@ public:
 
     void end(std::span<const Vec4<Real>> positions);
 
+    /// Objects with held nodes that are farther from their targets than surfaces reach.
+    std::vector<std::uint32_t> held_up(std::span<const Vec4<Real>> targets,
+                                       std::span<const Vec4<Real>> positions) const;
+
     const ContactList<Real>& list() const { return list_; }
     const ContactAims<Real>& aims() const { return aims_; }
     bool is_held(std::size_t object) const { return guard_.is_held(object); }

@@ -131,8 +131,6 @@ typename RigidRebound<Real>::Touches RigidRebound<Real>::find_touches(
             touch.points[side] += weight * glm::dvec3(step.positions[sides.nodes[k]]);
             touch.velocities[side] += weight * glm::dvec3(velocity_before(step, sides.nodes[k]));
         }
-        // One point for both, so that impulses keep angular momentum.
-        touch.points.fill(0.5 * (touch.points[0] + touch.points[1]));
         touches[pair].push_back(touch);
     }
     for (std::uint32_t o = 0; o < model_->body_count(); ++o)
@@ -305,6 +303,16 @@ bool RigidRebound<Real>::is_over(const Step& step, const Meeting& meeting, const
     return after > -little && (after - before) * wave_time < little * step.length;
 }
 
+// So that impulses keep angular momentum.
+template <class Real>
+void RigidRebound<Real>::meet_in_one_point(Push& push) {
+    const auto [first, second] = push.sides;
+    if (first == nullptr || second == nullptr) return;
+    std::array<glm::dvec3, 2>& arms = push.touch.points;
+    const glm::dvec3 point = 0.5 * (first->center + arms[0] + second->center + arms[1]);
+    arms = {point - first->center, point - second->center};
+}
+
 // Those of two that have left each other, or whose impact is over. Of long ones nothing is left to do, but
 // they are no new ones while the two go on to approach.
 template <class Real>
@@ -331,7 +339,9 @@ std::vector<typename RigidRebound<Real>::Push> RigidRebound<Real>::end_meetings(
                 Push push{sides, touch};
                 push.wanted =
                     -restitution * push.opening([&](std::size_t side) { return meeting.twists[side]; });
-                if (push.wanted > 0.0) pushes.push_back(push);
+                if (!(push.wanted > 0.0)) continue;
+                meet_in_one_point(push);
+                pushes.push_back(push);
             }
         }
         next = meetings_.erase(next);

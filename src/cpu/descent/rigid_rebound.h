@@ -84,6 +84,7 @@ private:
                    std::span<const Vec4<Real>> velocities) const;
     Body measure(const Step& step, std::uint32_t object, std::span<const Vec4<Real>> velocities) const;
     void meet(const Step& step, Touches touches, Bodies& bodies);
+    static void meet_in_one_point(Push& push);
     static void push_apart(std::vector<Push>& pushes);
     std::vector<Push> end_meetings(const Step& step, const Contacts<Real>& contacts, Bodies& bodies);
     bool is_over(const Step& step, const Meeting& meeting, const std::array<Body*, 2>& sides,
