@@ -183,18 +183,13 @@ void Contacts<Real>::look_at_restless(std::span<const Vec4<Real>> positions, Sta
         positions, true, [&](std::uint32_t o) { return guard_.lacks_own_room(o); }, timer);
 }
 
-// Another map may explain where a body is.
+// The map follows. What it does not explain is looked at again.
 template <class Real>
 bool Contacts<Real>::uses_own_room(std::uint32_t object, std::span<const Vec4<Real>> positions) {
     OwnRooms<Real>& own = list_.own;
-    const Real used = own.used(object, positions);
-    if (!(used > Real(kFollowed))) return false;
-    const ShapeMap<Real> before = own.map(object);
+    if (!(own.used(object, positions) > Real(kFollowed))) return false;
     own.follow(object, own.bent(object, own.carried(object, positions), positions));
-    const Real left = own.used(object, positions);
-    if (left < used) return left > Real(kUsedOwnRoom);
-    own.follow(object, before);
-    return used > Real(kUsedOwnRoom);
+    return own.used(object, positions) > Real(kUsedOwnRoom);
 }
 
 // Looks at bodies that meet themselves. @param anew whether at all of them; else at nodes that have come far

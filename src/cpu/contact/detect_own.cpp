@@ -19,6 +19,9 @@ namespace {
 // Pairs are looked for up to this times the distance up to which they are listed: the farther, the larger
 // rooms can be, and the more there is to measure.
 constexpr double kSearched = 2.0;
+// Pairs are listed that are nearer than this times their gap at rest, where they have a gap of a body's own;
+// nearer than this times the distance of others, all are.
+constexpr double kNearer = 0.6, kAlways = 0.4;
 // Cells of the lattice of a body's map, over the body's thickness, which is a twentieth of an edge.
 constexpr double kCell = 80.0;
 constexpr std::size_t kLeavesATask = 32;
@@ -39,6 +42,7 @@ DetectOwn<Real>::DetectOwn(std::shared_ptr<const Model> model, std::shared_ptr<c
     : model_(std::move(model)),
       surface_(std::move(surface)),
       leaf_of_faces_(model_->faces.size()),
+      rest_(model_->positions.begin(), model_->positions.end()),
       found_at_(model_->node_count()),
       node_boxes_(model_->surface_parts.nodes.size()),
       edge_boxes_(model_->surface_parts.edges.size()),
@@ -214,13 +218,18 @@ void DetectOwn<Real>::search_leaf(std::uint32_t leaf, Real listed, Search& searc
     keep_near(search.waiting, listed, found.of_edges);
 }
 
+// Where a mesh is narrow, neighbours are near each other already at rest: most of these need not be listed.
 // Others tell their nodes how far apart they are.
 template <class Real>
 void DetectOwn<Real>::keep_near(std::vector<ContactPair>& waiting, Real listed,
                                 std::vector<ContactPair>& kept) {
+    std::vector<Real> at_rest(waiting.size());
+    for_measured<Real>(waiting, rest_, [&](std::size_t p, const auto& measured, std::size_t column) {
+        at_rest[p] = static_cast<Real>(kNearer) * measured.gaps[column];
+    });
     for_measured<Real>(waiting, found_at_, [&](std::size_t p, const auto& measured, std::size_t column) {
         const Real gap = measured.gaps[column];
-        if (!(gap > listed)) {
+        if (!(gap > std::min(listed, std::max(static_cast<Real>(kAlways) * listed, at_rest[p])))) {
             kept.push_back(waiting[p]);
             return;
         }

@@ -54,6 +54,7 @@ private:
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
     std::vector<std::uint32_t> leaf_of_faces_;
+    std::vector<Vec4<Real>> rest_;      // positions at rest, by node [m]
     std::vector<Vec4<Real>> found_at_;  // by node, from the middle of its body [m]
     std::vector<AxisBox<Real>> node_boxes_, edge_boxes_, face_boxes_, tree_boxes_;
     std::vector<Real> apart_;   // by surface node: from the nearest that is not listed [m]

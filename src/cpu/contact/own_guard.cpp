@@ -40,16 +40,16 @@ template <class Real>
 Real OwnGuard<Real>::keep_to_rooms(std::uint32_t object, const OwnRooms<Real>& rooms,
                                    std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends) {
     const Range& places = rooms.places(object);
-    Real farthest = 0;  // motion of a node beside its map [m]
+    Real anew = 1;  // what they could make from the middles of their rooms
     const auto part_with = [&](const ShapeMap<Real>& map) {
         Real part = rooms.part_between(object, map);
-        farthest = 0;
+        anew = 1;
         for (std::uint32_t s = places.first; s < places.end(); ++s) {
             const std::uint32_t n = model_->surface_parts.nodes[s];
             const Vec3<Real> before = rooms.deviation(s, Vec3<Real>(positions[n])),
                              after = Vec3<Real>(ends[n]) - rooms.mapped(object, map, s);
             part = std::min(part, part_within(before, after - before, rooms.radius(s)));
-            farthest = std::max(farthest, glm::length(after - before));
+            anew = std::min(anew, part_within(Vec3<Real>(0), after - before, rooms.radius(s)));
         }
         return part;
     };
@@ -67,7 +67,6 @@ Real OwnGuard<Real>::keep_to_rooms(std::uint32_t object, const OwnRooms<Real>& r
     if (try_map(carried)) return best;
     const ShapeMap<Real> bent = rooms.bent(object, carried, ends);
     if (try_map(bent)) return best;
-    const Real anew = rooms.largest_radius(object) / farthest;
     if (bent.is_steep || anew > static_cast<Real>(kWorthALook) * best) lacks_room_[object] = 1;
     return best;
 }
