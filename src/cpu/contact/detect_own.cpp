@@ -19,8 +19,8 @@ namespace {
 // Pairs are looked for up to this times the distance up to which they are listed: the farther, the larger
 // rooms can be, and the more there is to measure.
 constexpr double kSearched = 2.0;
-// Pairs are listed that are nearer than this times their gap at rest, where they have a gap of a body's own;
-// nearer than this times the distance of others, all are.
+// Of what is nearer than the distance up to which pairs are listed, only that is which is nearer than this
+// times its gap at rest, or than this times that distance.
 constexpr double kNearer = 0.6, kAlways = 0.4;
 // Cells of the lattice of a body's map, over the body's thickness, which is a twentieth of an edge.
 constexpr double kCell = 80.0;
@@ -42,7 +42,6 @@ DetectOwn<Real>::DetectOwn(std::shared_ptr<const Model> model, std::shared_ptr<c
     : model_(std::move(model)),
       surface_(std::move(surface)),
       leaf_of_faces_(model_->faces.size()),
-      rest_(model_->positions.begin(), model_->positions.end()),
       found_at_(model_->node_count()),
       node_boxes_(model_->surface_parts.nodes.size()),
       edge_boxes_(model_->surface_parts.edges.size()),
@@ -140,8 +139,6 @@ void DetectOwn<Real>::search(std::uint32_t object, std::span<const std::uint32_t
             found.of_edges.clear();
             search_leaf(model_->face_trees.levels[0][leaves[k]], static_cast<Real>(listed(object)), search,
                         found);
-            set_reaches(found.of_nodes);
-            set_reaches(found.of_edges);
         }
     });
     constexpr auto kPart = static_cast<Real>(OwnRooms<Real>::kRoom * OwnRooms<Real>::kLeastStretch);
@@ -205,7 +202,7 @@ void DetectOwn<Real>::search_leaf(std::uint32_t leaf, Real listed, Search& searc
                     {{node, face.a, face.b, face.c}, {}, node, f, object, object, 1, 0.0f});
         });
     }
-    keep_near(search.waiting, listed, found.of_nodes);
+    keep_near(search, listed, found.of_nodes);
     for (std::uint32_t e = first.y; e < end.y; ++e) {
         const FaceEdge& edge = parts.edges[e];
         search.edges.for_meeting(edge_boxes_[e], [&](std::uint32_t other) {
@@ -215,37 +212,50 @@ void DetectOwn<Real>::search_leaf(std::uint32_t leaf, Real listed, Search& searc
                     {{edge.a, edge.b, second.a, second.b}, {}, e, other, object, object, 2, 0.0f});
         });
     }
-    keep_near(search.waiting, listed, found.of_edges);
+    keep_near(search, listed, found.of_edges);
 }
 
-// Where a mesh is narrow, neighbours are near each other already at rest: most of these need not be listed.
 // Others tell their nodes how far apart they are.
 template <class Real>
-void DetectOwn<Real>::keep_near(std::vector<ContactPair>& waiting, Real listed,
-                                std::vector<ContactPair>& kept) {
-    std::vector<Real> at_rest(waiting.size());
-    for_measured<Real>(waiting, rest_, [&](std::size_t p, const auto& measured, std::size_t column) {
-        at_rest[p] = static_cast<Real>(kNearer) * measured.gaps[column];
-    });
-    for_measured<Real>(waiting, found_at_, [&](std::size_t p, const auto& measured, std::size_t column) {
+void DetectOwn<Real>::keep_near(Search& search, Real listed, std::vector<ContactPair>& kept) {
+    search.gaps.clear();
+    const auto keep = [&](std::size_t p, const auto& measured, std::size_t column) {
         const Real gap = measured.gaps[column];
-        if (!(gap > std::min(listed, std::max(static_cast<Real>(kAlways) * listed, at_rest[p])))) {
-            kept.push_back(waiting[p]);
+        if (gap > listed) {
+            tell_apart(search.waiting[p], gap);
             return;
         }
-        for (const std::uint32_t n : waiting[p].nodes) lower_to(apart_[surface_->places[n]], gap);
-    });
-    waiting.clear();
+        kept.push_back(search.waiting[p]);
+        search.gaps.push_back(gap);
+    };
+    for_measured<Real>(search.waiting, found_at_, keep);
+    search.waiting.clear();
+    leave_out_resting(search.gaps, static_cast<Real>(kAlways) * listed, kept);
 }
 
-// A body does not press itself where it has its shape at rest.
+// Where a mesh is narrow, parts are near each other already at rest. They need not be listed before they are
+// nearer than that. A body does not press itself where it has its shape at rest.
 template <class Real>
-void DetectOwn<Real>::set_reaches(std::vector<ContactPair>& pairs) const {
-    const auto set = [&](std::size_t p, const auto& measured, std::size_t column) {
-        const auto reach = static_cast<float>(surface_->reach(pairs[p].object, pairs[p].other));
-        pairs[p].reach = std::min(reach, 0.5f * measured.gaps[column]);
+void DetectOwn<Real>::leave_out_resting(std::span<const Real> gaps, Real always,
+                                        std::vector<ContactPair>& pairs) {
+    std::size_t kept = 0;
+    const auto keep = [&](std::size_t p, const auto& measured, std::size_t column) {
+        ContactPair pair = pairs[p];
+        const float at_rest = measured.gaps[column];
+        if (gaps[p] > std::max(always, static_cast<Real>(kNearer) * static_cast<Real>(at_rest))) {
+            tell_apart(pair, gaps[p]);
+            return;
+        }
+        pair.reach = std::min(static_cast<float>(surface_->reach(pair.object, pair.other)), 0.5f * at_rest);
+        pairs[kept++] = pair;
     };
-    for_measured<float>(pairs, model_->positions, set);
+    for_measured<float>(pairs, model_->positions, keep);
+    pairs.resize(kept);
+}
+
+template <class Real>
+void DetectOwn<Real>::tell_apart(const ContactPair& pair, Real gap) {
+    for (const std::uint32_t n : pair.nodes) lower_to(apart_[surface_->places[n]], gap);
 }
 
 template class DetectOwn<float>;

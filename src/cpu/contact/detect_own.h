@@ -42,19 +42,20 @@ private:
     struct Search {
         NearBoxes<Real> faces, edges;
         std::vector<ContactPair> waiting;  // to be measured
+        std::vector<Real> gaps;            // of those that are near [m]
     };
     double listed(std::uint32_t object) const;
     Range leaves_of(std::uint32_t object) const;
     void update_boxes(std::uint32_t object, const OwnRooms<Real>& rooms);
     void search(std::uint32_t object, std::span<const std::uint32_t> leaves, OwnRooms<Real>& rooms);
     void search_leaf(std::uint32_t leaf, Real listed, Search& search, Found& found);
-    void keep_near(std::vector<ContactPair>& waiting, Real listed, std::vector<ContactPair>& kept);
-    void set_reaches(std::vector<ContactPair>& pairs) const;
+    void keep_near(Search& search, Real listed, std::vector<ContactPair>& kept);
+    void leave_out_resting(std::span<const Real> gaps, Real always, std::vector<ContactPair>& pairs);
+    void tell_apart(const ContactPair& pair, Real gap);
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
     std::vector<std::uint32_t> leaf_of_faces_;
-    std::vector<Vec4<Real>> rest_;      // positions at rest, by node [m]
     std::vector<Vec4<Real>> found_at_;  // by node, from the middle of its body [m]
     std::vector<AxisBox<Real>> node_boxes_, edge_boxes_, face_boxes_, tree_boxes_;
     std::vector<Real> apart_;   // by surface node: from the nearest that is not listed [m]

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "cpu/collision/axis_box.h"
@@ -11,6 +13,8 @@ namespace gelatin::cpu {
 /// Faces or edges that a leaf of a tree may be near, in ascending order, and their boxes in columns.
 template <class Real>
 struct NearBoxes {
+    static constexpr std::size_t kWord = sizeof(std::uint64_t);  // marks that are looked at together
+
     std::vector<std::uint32_t> indices;
     std::array<std::vector<Real>, 3> lows, highs;
     std::vector<std::uint8_t> meet;  ///< those of them whose box meets the one compared last
@@ -34,7 +38,7 @@ struct NearBoxes {
     // Without branches and in columns, which compilers turn into SIMD.
     void compare(const AxisBox<Real>& box) {
         const std::size_t count = indices.size();
-        meet.resize(count);
+        meet.assign((count + kWord - 1) / kWord * kWord, 0);
         const Real *low_x = lows[0].data(), *low_y = lows[1].data(), *low_z = lows[2].data();
         const Real *high_x = highs[0].data(), *high_y = highs[1].data(), *high_z = highs[2].data();
         std::uint8_t* const marks = meet.data();
@@ -49,8 +53,14 @@ struct NearBoxes {
     template <class Use>
     void for_meeting(const AxisBox<Real>& box, const Use& use) {
         compare(box);
-        for (std::size_t k = 0; k < indices.size(); ++k)
-            if (meet[k] != 0) use(indices[k]);
+        const std::size_t count = indices.size();
+        for (std::size_t first = 0; first < count; first += kWord) {
+            std::uint64_t word;  // most have none
+            std::memcpy(&word, meet.data() + first, kWord);
+            if (word == 0) continue;
+            for (std::size_t k = first; k < std::min(first + kWord, count); ++k)
+                if (meet[k] != 0) use(indices[k]);
+        }
     }
 };
 
