@@ -109,9 +109,10 @@ void DetectContacts<Real>::run_own(std::span<const std::uint32_t> objects, bool 
         const std::vector<std::uint32_t> places = restless_places(o, positions, list);
         if (static_cast<double>(places.size()) < kMostRestless * list.own.places(o).count) {
             own_.run_again(o, places, positions, list.own);
-        } else {
-            own_.run(o, positions, list.own);
+            // Beside them, rooms may have become smaller than what their nodes have used.
+            if (list.own.used(o, positions) < static_cast<Real>(OwnRooms<Real>::kByNodes)) return;
         }
+        own_.run(o, positions, list.own);
     });
     put_together(list);
 }

@@ -121,6 +121,28 @@ TEST(OwnRooms, AreNotUsedUpByMotionAndUniformDeformation) {
     EXPECT_LT(rooms.used(0, moved), 1e-9);
 }
 
+// Nodes that are looked at again may make the rooms of others smaller, which have used what is gone then.
+TEST(OwnRooms, HoldTheirNodesAfterEachLook) {
+    const FoundBar bar;
+    test::RandomMaker random(5);
+    cpu::DetectContacts<double> detection(bar.model, bar.surface);
+    for (int round = 0; round < 20; ++round) {
+        cpu::ContactList<double> list;
+        list.own.restart(bar.model, {1});
+        const std::vector<std::uint32_t> bars{0};
+        detection.run(bar.positions, {}, list);
+        detection.run_own(bars, true, bar.positions, list);
+        std::vector<glm::dvec4> moved = bar.positions;
+        for (std::uint32_t s = 0; s < bar.model->surface_parts.nodes.size(); ++s) {
+            const double part = random.integer(0, 19) == 0 ? random.uniform(3.0, 30.0) : 0.35;
+            const glm::dvec3 motion = part * list.own.radius(s) * glm::normalize(random.point(1.0));
+            moved[bar.model->surface_parts.nodes[s]] += glm::dvec4(motion, 0.0);
+        }
+        detection.run_own(bars, false, moved, list);
+        EXPECT_LT(list.own.used(0, moved), cpu::OwnRooms<double>::kByNodes);
+    }
+}
+
 TEST(OwnRooms, AreHardlyUsedUpByBending) {
     const FoundBar bar;
     const auto moved = bar.moved([](const glm::dvec3& p) { return bent(p, 0.4); });
