@@ -40,23 +40,26 @@ ContactAims<Real>::ContactAims(std::shared_ptr<const Model> model,
     : model_(std::move(model)),
       surface_(std::move(surface)),
       softness_(model_->node_count()),
-      yielding_(model_->node_count()),
       nodes_(model_, surface_) {}
 
 template <class Real>
 void ContactAims<Real>::begin(Real step, std::span<const Vec4<Real>> targets,
                               std::span<const Vec4<Real>> starts) {
     starts_ = starts;
-    for (const std::uint32_t n : model_->surface_parts.nodes) {
+    const std::vector<std::uint32_t>& nodes = model_->surface_parts.nodes;
+    for_each_index(nodes.size(), [&](std::size_t s) {
+        const std::uint32_t n = nodes[s];
         const Real inertia = targets[n].w;  // m / h^2 [N/m]
         const auto elasticity = static_cast<Real>(surface_->stiffness[n]);
         const auto stiffness = [&](Real seconds) {
             const Real ratio = step / seconds;
             return ratio * ratio * inertia + (Real(1) + starts[n].w / seconds) * elasticity;
         };
-        softness_[n] = inertia > Real(0) ? Real(1) / stiffness(std::max(step, Real(kStiffestStep))) : Real(0);
-        yielding_[n] = inertia > Real(0) ? inertia / stiffness(step) : Real(0);
-    }
+        softness_[n] = {};
+        if (inertia > Real(0))
+            softness_[n] = {Real(1) / stiffness(std::max(step, Real(kStiffestStep))),
+                            inertia / stiffness(step)};
+    });
 }
 
 template <class Real>
@@ -124,10 +127,11 @@ typename ContactAims<Real>::Division ContactAims<Real>::divide(const ContactPair
     Real yielding = 0;
     std::array<bool, 2> is_free{};
     for (std::size_t k = 0; k < 4; ++k) {
-        const Real weight = weights[static_cast<int>(k)], soft = softness_[pair.nodes[k]];
-        softness[pair.side_of(k)] += weight * weight * soft;
-        yielding += weight * weight * soft * yielding_[pair.nodes[k]];
-        is_free[pair.side_of(k)] |= soft > Real(0);
+        const Softness& own = softness_[pair.nodes[k]];
+        const Real weight = weights[static_cast<int>(k)], soft = weight * weight * own.value;
+        softness[pair.side_of(k)] += soft;
+        yielding += soft * own.inertia;
+        is_free[pair.side_of(k)] |= own.value > Real(0);
     }
     const Real sum = softness[0] + softness[1];
     Division division;

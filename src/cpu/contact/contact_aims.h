@@ -86,9 +86,11 @@ private:
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
     std::span<const Vec4<Real>> starts_;
-    // Of each node, 0 where it is held: how it yields to a force [m/N], and what part of that stiffness is
-    // its inertia.
-    std::vector<Real> softness_, yielding_;
+    // How a node yields to a force [m/N], and the part of its stiffness that is inertia; 0 where it is held.
+    struct Softness {
+        Real value, inertia;
+    };
+    std::vector<Softness> softness_;  // by node
     std::vector<PairAim<Real>> aims_;
     std::vector<Press<Real>> presses_;
     std::vector<std::vector<Press<Real>>> found_;  // of each task, in the order of the pairs

@@ -84,8 +84,10 @@ struct ContactList {
 template <class Real>
 Real ContactList<Real>::part_within_room(std::uint32_t place, const Vec3<Real>& moved,
                                          const Vec3<Real>& motion) const {
+    const Vec3<Real> end = moved + motion;
+    if (glm::dot(end, end) <= rooms[place] * rooms[place]) return Real(1);
     if (ways[place] == Vec3<Real>(0)) return part_within(moved, motion, rooms[place]);
-    if (beside_way(place, moved + motion) <= rooms[place]) return Real(1);
+    if (beside_way(place, end) <= rooms[place]) return Real(1);
     if (!(beside_way(place, moved) < rooms[place])) return Real(0);
     constexpr int kHalvings = 10;
     Real low = 0, high = 1;

@@ -66,11 +66,10 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
     });
     aims_.begin(step, targets, starts);
     guard_.begin(positions);
-    Real longest = 0;
-    for (const std::uint32_t n : model_->surface_parts.nodes) {
+    const Real longest = greatest_at_nodes([&](std::uint32_t, std::uint32_t n, std::uint32_t) {
         const Vec3<Real> motion = Vec3<Real>(guess_[n]) - Vec3<Real>(positions[n]);
-        longest = std::max(longest, glm::dot(motion, motion));
-    }
+        return glm::dot(motion, motion);
+    });
     longest_ = std::sqrt(static_cast<double>(longest));
     if (!list_.is_valid || used_room(positions) > Real(kUsedRoom)) renew(positions, timer);
     bool is_fresh = used_room(positions) < Real(kFreshRoom);
@@ -277,18 +276,30 @@ void Contacts<Real>::aim(std::span<const Vec4<Real>> positions, StageTimer* time
     aims_.run(list_, positions);
 }
 
+// The greatest of value(place, node, object) over all surface nodes, at least 0.
+template <class Real>
+template <class Value>
+Real Contacts<Real>::greatest_at_nodes(const Value& value) {
+    const SurfaceParts& parts = model_->surface_parts;
+    greatest_.assign(model_->objects.size(), Real(0));
+    for_each_index(0, greatest_.size(), 1, [&](std::size_t o) {
+        const Range& faces = model_->objects[o].faces;
+        const std::uint32_t first = parts.face_starts[faces.first].x, end = parts.face_starts[faces.end()].x;
+        for (std::uint32_t place = first; place < end; ++place) {
+            const Real at_node = value(place, parts.nodes[place], static_cast<std::uint32_t>(o));
+            greatest_[o] = std::max(greatest_[o], at_node);
+        }
+    });
+    return *std::max_element(greatest_.begin(), greatest_.end());
+}
+
 // The largest part of a room that a node has used.
 template <class Real>
-Real Contacts<Real>::used_room(std::span<const Vec4<Real>> positions) const {
-    const std::vector<std::uint32_t>& nodes = model_->surface_parts.nodes;
-    Real most = 0;
-    for (std::size_t s = 0; s < nodes.size(); ++s) {
-        const Vec3<Real> moved =
-            list_.moved(static_cast<std::uint32_t>(s), object_of_[nodes[s]], Vec3<Real>(positions[nodes[s]]));
-        const auto place = static_cast<std::uint32_t>(s);
-        most = std::max(most, list_.beside_way(place, moved) / list_.rooms[s]);
-    }
-    return most;
+Real Contacts<Real>::used_room(std::span<const Vec4<Real>> positions) {
+    return greatest_at_nodes([&](std::uint32_t place, std::uint32_t node, std::uint32_t object) {
+        const Vec3<Real> moved = list_.moved(place, object, Vec3<Real>(positions[node]));
+        return list_.beside_way(place, moved) / list_.rooms[place];
+    });
 }
 
 template class Contacts<float>;

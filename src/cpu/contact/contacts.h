@@ -107,7 +107,9 @@ private:
     std::vector<std::uint32_t> detect_own(std::span<const Vec4<Real>> positions, bool anew,
                                           const HasTo& has_to, StageTimer* timer);
     void aim(std::span<const Vec4<Real>> positions, StageTimer* timer);
-    Real used_room(std::span<const Vec4<Real>> positions) const;
+    template <class Value>
+    Real greatest_at_nodes(const Value& value);
+    Real used_room(std::span<const Vec4<Real>> positions);
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
@@ -121,6 +123,7 @@ private:
     double longest_ = 0.0;  // motion of a node in this step's guess [m]
     std::vector<Vec4<Real>> safe_, guess_;
     std::vector<std::uint8_t> is_pressed_;  // by object
+    std::vector<Real> greatest_;            // of something, by object
 };
 
 }  // namespace gelatin::cpu

@@ -87,7 +87,11 @@ void DetectContacts<Real>::find_pairs() {
         found.of_nodes.clear();
         found.of_edges.clear();
         const std::size_t end = std::min((task + 1) * kLeavesATask, leaves.size());
-        for (std::size_t k = task * kLeavesATask; k < end; ++k) search(leaves[k], found);
+        for (std::size_t first = task * kLeavesATask, k = first + 1; first < end; ++k) {
+            if (k < end && object_of_leaf(leaves[k]) == object_of_leaf(leaves[first])) continue;
+            search(std::span(leaves).subspan(first, k - first), found);
+            first = k;
+        }
     });
     node_pairs_.clear();
     edge_pairs_.clear();
@@ -181,45 +185,55 @@ void DetectContacts<Real>::find_edge_boxes(std::uint32_t leaf) {
     }
 }
 
+// Leaves of one object beside each other: what is near any of them is looked for once.
+template <class Real>
+void DetectContacts<Real>::search(std::span<const std::uint32_t> leaves, Found& found) const {
+    AxisBox<Real> around;
+    for (const std::uint32_t leaf : leaves)
+        if (!(distances_[leaf] > Real(0))) around.add(collision_->tree_boxes()[leaf]);
+    if (!(around.min.x <= around.max.x)) return;
+    found.faces.clear();
+    found.edges.clear();
+    const std::uint32_t object = object_of_leaf(leaves[0]);
+    for (const NearObject<Real>& other : objects_.meeting(object)) find_near(object, around, other, found);
+    if (found.faces.is_empty()) return;
+    for (const std::uint32_t leaf : leaves)
+        if (!(distances_[leaf] > Real(0))) search(leaf, found);
+}
+
 template <class Real>
 void DetectContacts<Real>::search(std::uint32_t leaf, Found& found) const {
-    if (distances_[leaf] > Real(0)) return;
     const TreeNode& faces = model_->face_trees.nodes[leaf];
     const std::vector<glm::uvec2>& face_starts = model_->surface_parts.face_starts;
     const glm::uvec2 first = face_starts[faces.first_item],
                      end = face_starts[faces.first_item + faces.item_count];
-    if (first == end) return;
-    found.faces.clear();
-    found.edges.clear();
-    for (const std::uint32_t other : objects_.meeting(model_->faces[faces.first_item].object))
-        find_near(leaf, other, found);
-    if (found.faces.indices.empty()) return;
     for (std::uint32_t place = first.x; place < end.x; ++place) pair_node(place, found);
     keep_near(found.waiting, found.of_nodes);
     for (std::uint32_t edge = first.y; edge < end.y; ++edge) pair_edge(edge, found);
     keep_near(found.waiting, found.of_edges);
 }
 
-// What of another object is near a leaf.
+// What of another object is near some leaves. @param around their boxes
 template <class Real>
-void DetectContacts<Real>::find_near(std::uint32_t leaf, std::uint32_t other, Found& found) const {
+void DetectContacts<Real>::find_near(std::uint32_t object, const AxisBox<Real>& around,
+                                     const NearObject<Real>& other, Found& found) const {
     const BoxTree& trees = model_->face_trees;
     const std::vector<glm::uvec2>& face_starts = model_->surface_parts.face_starts;
-    const std::uint32_t object = model_->faces[trees.nodes[leaf].first_item].object;
-    const Vec3<Real> drift = objects_.drift_towards(object, other);
-    const Real spare = objects_.spare_margin(object, other);
-    const AxisBox<Real> box = trimmed(swept(collision_->tree_boxes()[leaf], drift), spare);
-    const bool is_after = other > object;
-    for_leaves_near<Real>(trees, collision_->tree_boxes(), trees.roots[other], box, [&](std::uint32_t near) {
+    const AxisBox<Real> box = trimmed(swept(around, other.drift), other.spare);
+    const bool is_after = other.object > object;
+    const auto as_seen = [&](const AxisBox<Real>& its) {
+        return trimmed(swept(its, -other.drift), other.spare);
+    };
+    const std::uint32_t root = trees.roots[other.object];
+    for_leaves_near<Real>(trees, collision_->tree_boxes(), root, box, [&](std::uint32_t near) {
         const std::uint32_t first = trees.nodes[near].first_item, end = first + trees.nodes[near].item_count;
         for (std::uint32_t f = first; f < end; ++f) {
             if (meet(box, collision_->face_boxes()[f]))
-                found.faces.add(f, trimmed(swept(collision_->face_boxes()[f], -drift), spare));
+                found.faces.add(f, as_seen(collision_->face_boxes()[f]));
         }
         if (!is_after) return;
-        for (std::uint32_t e = face_starts[first].y; e < face_starts[end].y; ++e) {
-            if (meet(box, edge_boxes_[e])) found.edges.add(e, trimmed(swept(edge_boxes_[e], -drift), spare));
-        }
+        for (std::uint32_t e = face_starts[first].y; e < face_starts[end].y; ++e)
+            if (meet(box, edge_boxes_[e])) found.edges.add(e, as_seen(edge_boxes_[e]));
     });
 }
 
@@ -337,7 +351,7 @@ template <class Real>
 void DetectContacts<Real>::find_distances(std::uint32_t object, Real most) {
     const BoxTree& trees = model_->face_trees;
     const std::uint32_t root = trees.roots[object], end = trees.nodes[root].skip;
-    Nearest nearest{most * most, kNoNode};
+    Nearest nearest{most * most, kNoNode, nullptr};
     for (std::uint32_t n = root; n < end;) {
         const AxisBox<Real>& box = collision_->tree_boxes()[n];
         const Vec3<Real> size = box.max - box.min;
@@ -361,30 +375,27 @@ void DetectContacts<Real>::find_nearest(std::uint32_t object, const AxisBox<Real
                                         Real enough, Nearest& nearest) const {
     const BoxTree& trees = model_->face_trees;
     const std::vector<AxisBox<Real>>& boxes = collision_->tree_boxes();
-    const auto look_at = [&](std::uint32_t leaf, const AxisBox<Real>& own, const Vec3<Real>& drift,
+    const auto look_at = [&](std::uint32_t leaf, const NearObject<Real>& other, const AxisBox<Real>& own,
                              Real squared) {
         if (!(squared < nearest.squared)) return;
-        if (!model_->is_body(model_->faces[trees.nodes[leaf].first_item].object))
-            squared = std::max(squared, objects_.squared_gap(own, drift, leaf));
-        if (squared < nearest.squared) nearest = {squared, leaf};
+        if (!model_->is_body(other.object))
+            squared = std::max(squared, objects_.squared_gap(own, other.drift, leaf));
+        if (squared < nearest.squared) nearest = {squared, leaf, &other};
     };
     nearest.squared = most;
     if (nearest.leaf != kNoNode) {
-        const std::uint32_t other = model_->faces[trees.nodes[nearest.leaf].first_item].object;
-        const Vec3<Real> drift = objects_.drift_towards(object, other);
-        const AxisBox<Real> own = trimmed(box, objects_.spare_margin(object, other));
-        look_at(nearest.leaf, own, drift, squared_distance(swept(own, drift), boxes[nearest.leaf]));
+        const NearObject<Real>& other = *nearest.object;
+        const AxisBox<Real> own = trimmed(box, other.spare);
+        look_at(nearest.leaf, other, own, squared_distance(swept(own, other.drift), boxes[nearest.leaf]));
     }
-    for (const auto& [least, other] : objects_.by_distance(object)) {
-        if (!(least < nearest.squared)) return;
-        const Vec3<Real> drift = objects_.drift_towards(object, other);
-        const AxisBox<Real> own = trimmed(box, objects_.spare_margin(object, other)),
-                            passed = swept(own, drift);
-        const std::uint32_t end = trees.nodes[trees.roots[other]].skip;
-        for (std::uint32_t n = trees.roots[other]; n < end && nearest.squared > enough;) {
+    for (const NearObject<Real>& other : objects_.by_distance(object)) {
+        if (!(other.squared < nearest.squared)) return;
+        const AxisBox<Real> own = trimmed(box, other.spare), passed = swept(own, other.drift);
+        const std::uint32_t root = trees.roots[other.object], end = trees.nodes[root].skip;
+        for (std::uint32_t n = root; n < end && nearest.squared > enough;) {
             const Real squared = squared_distance(passed, boxes[n]);
             const bool is_near = squared < nearest.squared;
-            if (trees.nodes[n].item_count > 0) look_at(n, own, drift, squared);
+            if (is_near && trees.nodes[n].item_count > 0) look_at(n, other, own, squared);
             n = is_near ? n + 1 : trees.nodes[n].skip;
         }
     }

@@ -34,11 +34,14 @@ public:
     void restart() { own_.restart(); }
 
 private:
+    std::uint32_t object_of_leaf(std::uint32_t leaf) const {
+        return model_->faces[model_->face_trees.nodes[leaf].first_item].object;
+    }
     void find_ways(std::span<const Vec4<Real>> ends, ContactList<Real>& list);
 
     // The pairs of a few leaves.
     struct Found {
-        NearBoxes<Real> faces, edges;                          // near the current leaf
+        NearBoxes<Real> faces, edges;                          // near some of the leaves
         std::vector<ContactPair> of_nodes, of_edges, waiting;  // waiting: to be measured
     };
     void find_pairs();
@@ -47,8 +50,10 @@ private:
     void put_together(ContactList<Real>& list);
     void find_own_pairs(ContactList<Real>& list) const;
     void find_edge_boxes(std::uint32_t leaf);
+    void search(std::span<const std::uint32_t> leaves, Found& found) const;
     void search(std::uint32_t leaf, Found& found) const;
-    void find_near(std::uint32_t leaf, std::uint32_t other, Found& found) const;
+    void find_near(std::uint32_t object, const AxisBox<Real>& around, const NearObject<Real>& other,
+                   Found& found) const;
     void pair_node(std::uint32_t place, Found& found) const;
     void pair_edge(std::uint32_t edge, Found& found) const;
     void keep_near(std::vector<ContactPair>& waiting, std::vector<ContactPair>& kept) const;
@@ -60,8 +65,9 @@ private:
     void find_rooms(ContactList<Real>& list);
     void find_distances(std::uint32_t object, Real most);
     struct Nearest {
-        Real squared;        // distance [m^2]
-        std::uint32_t leaf;  // of another object, or kNoNode
+        Real squared;                    // distance [m^2]
+        std::uint32_t leaf;              // of another object, or kNoNode
+        const NearObject<Real>* object;  // its own
     };
     void find_nearest(std::uint32_t object, const AxisBox<Real>& box, Real most, Real enough,
                       Nearest& nearest) const;

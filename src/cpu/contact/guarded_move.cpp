@@ -34,6 +34,7 @@ GuardedMove<Real>::GuardedMove(std::shared_ptr<const Model> model, std::vector<s
       is_held_(model_->objects.size()),
       means_(model_->body_count()),
       ways_(model_->node_count()),
+      longest_ways_(model_->objects.size()),
       ways_of_objects_(model_->objects.size()),
       parts_(model_->objects.size()),
       own_(model_),
@@ -47,11 +48,11 @@ GuardedMove<Real>::GuardedMove(std::shared_ptr<const Model> model, std::vector<s
 
 template <class Real>
 void GuardedMove<Real>::begin(std::span<const Vec4<Real>> positions) {
-    for (std::size_t o = 0; o < is_held_.size(); ++o) {
+    for_each_index(0, is_held_.size(), 1, [&](std::size_t o) {
         const Range& nodes = model_->objects[o].nodes;
         const auto own = positions.subspan(nodes.first, nodes.count);
         is_held_[o] = std::any_of(own.begin(), own.end(), [](const auto& p) { return p.w == Real(0); });
-    }
+    });
 }
 
 template <class Real>
@@ -108,6 +109,8 @@ void GuardedMove<Real>::find_common_motions(const ContactList<Real>& list,
 template <class Real>
 void GuardedMove<Real>::drift(ContactList<Real>& list, const ContactAims<Real>& aims,
                               std::span<const Vec4<Real>> ends, std::span<Vec4<Real>> positions) {
+    const auto has_none = [](const Vec3<Real>& drift) { return drift == Vec3<Real>(0); };
+    if (std::all_of(list.drifts.begin(), list.drifts.end(), has_none)) return;
     const std::vector<Vec3<Real>> means =
         island_motions<Real>(*model_, list, mean_motions(positions, ends), is_held_);
     std::vector<Real> parts(means.size());  // of their drifts
@@ -173,7 +176,7 @@ void GuardedMove<Real>::keep_to_rooms(const ContactList<Real>& list, const Conta
     tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
         const std::uint32_t island = list.islands[o];
         const Range& nodes = model_->objects[o].nodes;
-        ways_of_objects_[o] = Real(0);
+        longest_ways_[o] = ways_of_objects_[o] = Real(0);
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
             // The nodes of a handle keep their shape: they go on with whole objects alone.
             if (are_nodes && positions[n].w == Real(0)) parts_[n] = Real(0);
@@ -187,6 +190,7 @@ void GuardedMove<Real>::keep_to_rooms(const ContactList<Real>& list, const Conta
             const Real way = glm::length(motion);
             ways_[n] = glm::length(position - aims.nodes().aimed_at(n)) + way;
             ways_of_objects_[o] = std::max(ways_of_objects_[o], way);
+            longest_ways_[o] = std::max(longest_ways_[o], ways_[n]);
         }
     });
 }
@@ -227,12 +231,14 @@ void GuardedMove<Real>::find_courses(const ContactList<Real>& list, const Contac
 template <class Real>
 bool GuardedMove<Real>::are_far_apart(const ContactPair& pair, const ContactAims<Real>& aims,
                                       const PairAim<Real>& aim, Closeness closeness) const {
+    const Real least = least_gap(aim, aims.reach(pair), aim.gap, closeness);
+    if (aim.gap - longest_ways_[pair.object] - longest_ways_[pair.other] > least) return true;
     std::array<Real, 2> ways{};
     for (std::size_t k = 0; k < 4; ++k) {
         Real& way = ways[pair.side_of(k)];
         way = std::max(way, ways_[pair.nodes[k]]);
     }
-    return aim.gap - ways[0] - ways[1] > least_gap(aim, aims.reach(pair), aim.gap, closeness);
+    return aim.gap - ways[0] - ways[1] > least;
 }
 
 // In each round every pair that would come too near shortens the movers that approach.

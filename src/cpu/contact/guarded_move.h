@@ -104,8 +104,9 @@ private:
     std::vector<std::uint8_t> is_held_;     // by object
     std::vector<Vec3<Real>> means_;         // mean motion of each object [m]
     std::vector<Real> ways_;  // of surface nodes since the aim and now, without what is in common [m]
-    std::vector<Real> ways_of_objects_;  // the longest of a node's now [m]
-    std::vector<Vec3<Real>> common_;     // by island
+    // Of each object the longest of these, and of a node's way now [m].
+    std::vector<Real> longest_ways_, ways_of_objects_;
+    std::vector<Vec3<Real>> common_;  // by island
     Movers movers_ = Movers::objects;
     std::vector<Real> parts_, next_parts_, room_parts_;  // by mover
     OwnGuard<Real> own_;

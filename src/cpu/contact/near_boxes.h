@@ -1,67 +1,78 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
+#include <bit>
 #include <cstdint>
-#include <cstring>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "cpu/collision/axis_box.h"
 
 namespace gelatin::cpu {
 
-/// Faces or edges that a leaf of a tree may be near, in ascending order, and their boxes in columns.
+/// Boxes that are compared at a time.
+constexpr std::size_t kBoxBlock = 8;
+
+/// The least and greatest coordinates of boxes, one box in each column.
 template <class Real>
-struct NearBoxes {
-    static constexpr std::size_t kWord = sizeof(std::uint64_t);  // marks that are looked at together
+struct BoxBlock {
+    Real lows[3][kBoxBlock], highs[3][kBoxBlock];  // [m]
+};
 
-    std::vector<std::uint32_t> indices;
-    std::array<std::vector<Real>, 3> lows, highs;
-    std::vector<std::uint8_t> meet;  ///< those of them whose box meets the one compared last
+/// Which boxes of each block meet a box, a bit each; in float with SIMD for the processor it runs on.
+/// @param meet output, shape [blocks]
+void compare_boxes(std::span<const BoxBlock<float>> blocks, const AxisBox<float>& box,
+                   std::span<std::uint8_t> meet);
+void compare_boxes(std::span<const BoxBlock<double>> blocks, const AxisBox<double>& box,
+                   std::span<std::uint8_t> meet);
 
+/// Faces or edges that others may be near, in ascending order, and their boxes.
+template <class Real>
+class NearBoxes {
+public:
+    bool is_empty() const { return indices_.empty(); }
     void clear() {
-        indices.clear();
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            lows[axis].clear();
-            highs[axis].clear();
-        }
+        indices_.clear();
+        blocks_.clear();
     }
 
     void add(std::uint32_t index, const AxisBox<Real>& box) {
-        indices.push_back(index);
+        const std::size_t column = indices_.size() % kBoxBlock;
+        if (column == 0) blocks_.push_back(empty_block());
+        indices_.push_back(index);
         for (int axis = 0; axis < 3; ++axis) {
-            lows[static_cast<std::size_t>(axis)].push_back(box.min[axis]);
-            highs[static_cast<std::size_t>(axis)].push_back(box.max[axis]);
-        }
-    }
-
-    // Without branches and in columns, which compilers turn into SIMD.
-    void compare(const AxisBox<Real>& box) {
-        const std::size_t count = indices.size();
-        meet.assign((count + kWord - 1) / kWord * kWord, 0);
-        const Real *low_x = lows[0].data(), *low_y = lows[1].data(), *low_z = lows[2].data();
-        const Real *high_x = highs[0].data(), *high_y = highs[1].data(), *high_z = highs[2].data();
-        std::uint8_t* const marks = meet.data();
-        for (std::size_t k = 0; k < count; ++k) {
-            marks[k] = static_cast<std::uint8_t>((low_x[k] <= box.max.x) & (box.min.x <= high_x[k]) &
-                                                 (low_y[k] <= box.max.y) & (box.min.y <= high_y[k]) &
-                                                 (low_z[k] <= box.max.z) & (box.min.z <= high_z[k]));
+            blocks_.back().lows[axis][column] = box.min[axis];
+            blocks_.back().highs[axis][column] = box.max[axis];
         }
     }
 
     /// use(index) for each whose box meets `box`.
     template <class Use>
     void for_meeting(const AxisBox<Real>& box, const Use& use) {
-        compare(box);
-        const std::size_t count = indices.size();
-        for (std::size_t first = 0; first < count; first += kWord) {
-            std::uint64_t word;  // most have none
-            std::memcpy(&word, meet.data() + first, kWord);
-            if (word == 0) continue;
-            for (std::size_t k = first; k < std::min(first + kWord, count); ++k)
-                if (meet[k] != 0) use(indices[k]);
+        meet_.resize(blocks_.size());
+        compare_boxes(std::span<const BoxBlock<Real>>(blocks_), box, meet_);
+        for (std::size_t b = 0; b < blocks_.size(); ++b) {
+            for (unsigned bits = meet_[b]; bits != 0; bits &= bits - 1)
+                use(indices_[kBoxBlock * b + static_cast<std::size_t>(std::countr_zero(bits))]);
         }
     }
+
+private:
+    // Of boxes that meet none.
+    static BoxBlock<Real> empty_block() {
+        BoxBlock<Real> block;
+        for (int axis = 0; axis < 3; ++axis) {
+            for (std::size_t column = 0; column < kBoxBlock; ++column) {
+                block.lows[axis][column] = std::numeric_limits<Real>::infinity();
+                block.highs[axis][column] = -std::numeric_limits<Real>::infinity();
+            }
+        }
+        return block;
+    }
+
+    std::vector<std::uint32_t> indices_;
+    std::vector<BoxBlock<Real>> blocks_;
+    std::vector<std::uint8_t> meet_;  // of the box compared last
 };
 
 }  // namespace gelatin::cpu

@@ -147,13 +147,13 @@ void NearObjects<Real>::sort() {
         meeting_[o].clear();
         by_distance_[o].clear();
         for (const std::uint32_t other : near_[o]) {
-            const AxisBox<Real> own =
-                trimmed(swept(boxes[o], drift_towards(o, other)), spare_margin(o, other));
-            const Real squared = squared_distance(own, boxes[other]);
-            if (!(squared > Real(0))) meeting_[o].push_back(other);
-            by_distance_[o].emplace_back(squared, other);
+            NearObject<Real> near{Real(0), other, spare_margin(o, other), drift_towards(o, other)};
+            near.squared = squared_distance(trimmed(swept(boxes[o], near.drift), near.spare), boxes[other]);
+            if (!(near.squared > Real(0))) meeting_[o].push_back(near);
+            by_distance_[o].push_back(near);
         }
-        std::sort(by_distance_[o].begin(), by_distance_[o].end());
+        std::stable_sort(by_distance_[o].begin(), by_distance_[o].end(),
+                         [](const auto& a, const auto& b) { return a.squared < b.squared; });
     });
 }
 

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "cpu/collision/collision.h"
@@ -26,6 +25,15 @@ struct Expected {
     double longest = 0.0;                      ///< motion of a node in a step [m]
 };
 
+/// An object as one near it sees it.
+template <class Real>
+struct NearObject {
+    Real squared;  ///< distance between their boxes [m^2]
+    std::uint32_t object;
+    Real spare;        ///< NearObjects::spare_margin [m]
+    Vec3<Real> drift;  ///< NearObjects::drift_towards it [m]
+};
+
 /// Which objects are near each other, in which islands, and what islands do (docs/contact.md).
 template <class Real>
 class NearObjects {
@@ -45,9 +53,9 @@ public:
     /// Beyond what is listed [m]: islands are farther apart.
     double island_distance() const { return island_distance_; }
     /// Objects that an object meets if both go their ways, ascending; not one collider and another.
-    const std::vector<std::uint32_t>& meeting(std::uint32_t object) const { return meeting_[object]; }
-    /// All that are near it, by the squares of the distances between their boxes [m^2], the nearest first.
-    const std::vector<std::pair<Real, std::uint32_t>>& by_distance(std::uint32_t object) const {
+    const std::vector<NearObject<Real>>& meeting(std::uint32_t object) const { return meeting_[object]; }
+    /// All that are near it, the nearest first.
+    const std::vector<NearObject<Real>>& by_distance(std::uint32_t object) const {
         return by_distance_[object];
     }
 
@@ -89,8 +97,8 @@ private:
     ObjectTree<Real> object_tree_;
     // Of each object, those near it that are not both colliders, ascending; those of a body's island, and
     // colliders.
-    std::vector<std::vector<std::uint32_t>> near_, meeting_;
-    std::vector<std::vector<std::pair<Real, std::uint32_t>>> by_distance_;
+    std::vector<std::vector<std::uint32_t>> near_;
+    std::vector<std::vector<NearObject<Real>>> meeting_, by_distance_;
 };
 
 }  // namespace gelatin::cpu
