@@ -320,7 +320,8 @@ std::vector<typename RigidRebound<Real>::Push> RigidRebound<Real>::end_meetings(
     const Step& step, const Contacts<Real>& contacts, Bodies& bodies) {
     std::vector<Push> pushes;
     for (auto next = meetings_.begin(); next != meetings_.end();) {
-        auto& [pair, meeting] = *next;
+        const Pair& pair = next->first;
+        Meeting& meeting = next->second;
         const std::array<Body*, 2> sides = sides_of(pair, bodies);
         const bool presses = std::exchange(meeting.presses, false), is_short = meeting.age < kLongestImpact;
         const double wave_time =
