@@ -270,15 +270,20 @@ void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
         std::swap(parts_, next_parts_);
         if (!is_blocked) return;
         // In a large island rounds could go on from body to body. Islands stop whole, and colliders, each
-        // time at least one.
+        // time at least one; none is left where faces overlap already.
         if (round < 2 * kMostRounds) continue;
         std::vector<std::uint8_t> stops(common_.size());
         for (const PairCourse<Real>& course : courses_) {
             if (is_left(course)) continue;
             for (const std::uint32_t mover : course.movers) stops[island_of(list, mover)] = 1;
         }
-        for (std::uint32_t m = 0; m < parts_.size(); ++m)
-            if (stops[island_of(list, m)] != 0) parts_[m] = Real(0);
+        bool any = false;
+        for (std::uint32_t m = 0; m < parts_.size(); ++m) {
+            if (stops[island_of(list, m)] == 0 || parts_[m] == Real(0)) continue;
+            parts_[m] = Real(0);
+            any = true;
+        }
+        if (!any) return;
     }
 }
 
