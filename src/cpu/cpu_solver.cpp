@@ -88,8 +88,7 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
     const bool has_contact = collision.response == CollisionResponse::contact;
     if (solver == SolverKind::vbd) {
         std::unique_ptr<Contacts<Real>> contacts;
-        if (has_contacts(*model_, collision))
-            contacts = std::make_unique<Contacts<Real>>(model_, collision);
+        if (has_contacts(*model_, collision)) contacts = std::make_unique<Contacts<Real>>(model_, collision);
         descent_.emplace(
             Descent{{model_, descent, BlockDescent<Real>::kNodesABatch, std::move(contacts), device},
                     ShapeMatcher<Real>(model_)});

@@ -84,7 +84,24 @@ void OwnRooms<Real>::find(std::uint32_t object, Real cell, std::span<const Vec4<
     }
     shape.inverse_moment = safe_inverse(moment);
     make_lattice(shape, cell);
+    shape.can_bend = !(longest_edge(object, positions) > shape.lattice.cell);
     shape.map.bends.assign(shape.lattice.weights.size(), Vec3<Real>(0));
+}
+
+// Of its faces.
+template <class Real>
+Real OwnRooms<Real>::longest_edge(std::uint32_t object, std::span<const Vec4<Real>> positions) const {
+    Real squared = 0;
+    const Range& faces = model_->objects[object].faces;
+    for (std::uint32_t f = faces.first; f < faces.end(); ++f) {
+        const Face& face = model_->faces[f];
+        const std::array corners{face.a, face.b, face.c};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3<Real> edge(positions[corners[k]] - positions[corners[(k + 1) % 3]]);
+            squared = std::max(squared, glm::dot(edge, edge));
+        }
+    }
+    return std::sqrt(squared);
 }
 
 template <class Real>
@@ -265,6 +282,10 @@ template <class Real>
 ShapeMap<Real> OwnRooms<Real>::bent(std::uint32_t object, ShapeMap<Real> map,
                                     std::span<const Vec4<Real>> positions) const {
     const Shape& shape = shapes_[object];
+    if (!shape.can_bend) {
+        map.is_steep = true;
+        return map;
+    }
     const Lattice& lattice = shape.lattice;
     std::vector<Vec3<Real>> sums(lattice.weights.size());
     for (int bending = 0; bending < kBendings; ++bending) {

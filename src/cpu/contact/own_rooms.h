@@ -126,9 +126,11 @@ private:
         bool is_found = false;
         glm::mat<3, 3, Real> inverse_moment{0};  // of the offsets [1/m^2]; 0: too flat
         Lattice lattice;
+        bool can_bend = true;     // where the lattice can tell what its faces do
         Real largest_radius = 0;  // [m]
         ShapeMap<Real> map;
     };
+    Real longest_edge(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
     void make_lattice(Shape& shape, Real cell);
     void place_in_lattice(const Lattice& lattice, std::uint32_t place);
     template <class Use>

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "cpu/contact/contacts.h"
@@ -51,7 +52,9 @@ private:
     struct Pair {
         bool has_plane;
         std::uint32_t first, second;
-        auto operator<=>(const Pair&) const = default;
+        bool operator<(const Pair& p) const {
+            return std::tie(has_plane, first, second) < std::tie(p.has_plane, p.first, p.second);
+        }
     };
     // A point where two sides press each other.
     struct Touch {
