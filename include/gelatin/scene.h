@@ -180,6 +180,13 @@ struct Keyframe {
 /// How a handle moves between keyframes: at constant speed, or starting and ending at rest.
 enum class Interpolation { linear, smooth };
 
+/// What a handle or a collider does while bodies leave it no room to follow its keyframes. It waits, and
+/// pushes nothing through anything; a warning names it. For CollisionResponse::contact.
+enum class WhenBlocked {
+    goes_on,  ///< the time of its keyframes goes on: it catches up as soon as it can
+    stops,    ///< its time stands still, so that all that it has still to do follows later
+};
+
 /// A drag in addition to a handle's keyframes. The handle approaches it from the start on, no faster than its
 /// body can follow.
 struct DragDescription {
@@ -197,6 +204,8 @@ struct HandleDescription {
     std::vector<Keyframe> keyframes;  ///< in ascending order of time; the first is the start; none: a pin
     int line = 0;                     ///< in the scene file, for later messages
     DragDescription drag = {};        ///< in addition to the keyframes
+    /// With `stops` its release is later, too. Then it needs keyframes and CollisionResponse::contact.
+    WhenBlocked when_blocked = WhenBlocked::goes_on;
 };
 
 /// The kinds of load.
@@ -279,6 +288,7 @@ struct ColliderDescription {
     glm::dvec3 surface_velocity{0.0};      ///< of the surface within itself, as of a belt [m/s]
     std::string name = {};  ///< in messages and statistics; empty: "collider 1", by its place in the scene
     double scale = 1.0;     ///< > 0, applied first
+    WhenBlocked when_blocked = WhenBlocked::goes_on;  ///< `stops` needs keyframes
 };
 
 struct CameraDescription {

@@ -263,8 +263,8 @@ ContactForces CpuSolver<Real>::contact_forces() const {
 }
 
 template <class Real>
-std::vector<std::uint32_t> CpuSolver<Real>::held_up() const {
-    return descent_ ? descent_->solver.held_up(current_.positions) : std::vector<std::uint32_t>();
+std::vector<std::uint32_t> CpuSolver<Real>::held_up(std::span<const HandlePose> poses) const {
+    return descent_ ? descent_->solver.held_up(poses, current_.positions) : std::vector<std::uint32_t>();
 }
 
 template <class Real>

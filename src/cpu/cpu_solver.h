@@ -50,7 +50,7 @@ public:
     ProximityMeasure proximities() const override { return measured_proximities_; }
     ContactForces contact_forces() const override;
     HoldingForces holding_forces() const override;
-    std::vector<std::uint32_t> held_up() const override;
+    std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) const override;
     State read_state() const override;
     void write_state(const State& state) override;
     StageTimer& stage_timer() override { return timer_; }

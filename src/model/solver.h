@@ -150,9 +150,12 @@ public:
     /// solvers that do not find it.
     virtual HoldingForces holding_forces() const { return {}; }
 
-    /// For CollisionResponse::contact: objects with nodes that bodies kept in the last step from where their
-    /// handles, or keyframes, take them.
-    virtual std::vector<std::uint32_t> held_up() const { return {}; }
+    /// For CollisionResponse::contact: the handles with nodes that bodies keep from where their poses have
+    /// them, each an index in Model::handles. @param poses at present, shape [handles]
+    virtual std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) const {
+        static_cast<void>(poses);
+        return {};
+    }
 
     virtual State read_state() const = 0;
     /// Discards what watching has found so far.

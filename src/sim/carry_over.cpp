@@ -51,6 +51,15 @@ std::optional<std::size_t> find_handle(const Model& model, const ModelObject& ob
     return {};
 }
 
+// The collider of `from` that has the same name as one of `to`, and moves; null: none.
+const ModelObject* find_same_collider(const Model& from, const ModelObject& collider) {
+    const auto first = from.objects.begin() + static_cast<std::ptrdiff_t>(from.body_count());
+    const auto same = std::find_if(first, from.objects.end(), [&](const ModelObject& other) {
+        return other.name == collider.name && other.handle_nodes.count > 0;
+    });
+    return same == from.objects.end() ? nullptr : &*same;
+}
+
 Drag drag_to(const State& state, const Model& model, std::size_t handle, double time) {
     std::vector<glm::dvec3> arms, places;
     for (const HandleNode& held : model.handle_nodes) {
@@ -81,19 +90,35 @@ State carried_over(const Model& from, const State& state, const Model& to, State
     return start;
 }
 
-Drags carried_over(const Model& from, const Drags& drags, const Model& to, const State& state, double time,
-                   Drags start) {
+Drags carried_over(const Model& from, const Drags& drags, const Model& to, const State& state,
+                   const std::vector<double>& times, Drags start) {
     std::vector<Drag> carried = start.drags(), targets = start.targets();
     for (std::size_t h = 0; h < to.handles.size(); ++h) {
         if (!to.is_body(to.handles[h].object)) continue;
         const ModelObject* same = find_same(from, to, to.objects[to.handles[h].object]);
         if (same == nullptr || to.handles[h].count == 0) continue;
         const std::optional<std::size_t> earlier = find_handle(from, *same, nodes_of(to, h));
-        carried[h] = earlier ? drags.drags()[*earlier] : drag_to(state, to, h, time);
+        carried[h] = earlier ? drags.drags()[*earlier] : drag_to(state, to, h, times[h]);
         targets[h] = earlier ? drags.targets()[*earlier] : carried[h];
     }
     start.go_on_with(std::move(carried), std::move(targets));
     return start;
+}
+
+std::vector<double> carried_over(const Model& from, const std::vector<double>& delays, const Model& to) {
+    std::vector<double> carried(to.handles.size());
+    for (std::size_t h = 0; h < to.handles.size(); ++h) {
+        const ModelObject& object = to.objects[to.handles[h].object];
+        std::optional<std::size_t> earlier;
+        if (!to.is_body(to.handles[h].object)) {
+            const ModelObject* same = find_same_collider(from, object);
+            if (same != nullptr) earlier = from.handle_nodes[same->handle_nodes.first].handle;
+        } else if (const ModelObject* same = find_same(from, to, object); same && to.handles[h].count > 0) {
+            earlier = find_handle(from, *same, nodes_of(to, h));
+        }
+        if (earlier) carried[h] = delays[*earlier];
+    }
+    return carried;
 }
 
 }  // namespace gelatin

@@ -13,8 +13,12 @@ State carried_over(const Model& from, const State& state, const Model& to, State
 
 /// `start` with the handles of the bodies that `state` has taken from `from`: handles that hold the same
 /// nodes as one of `from` get its drag; others are placed as near to their nodes as possible.
-/// @param state of `to` at `time` [s] @param start of `to`
-Drags carried_over(const Model& from, const Drags& drags, const Model& to, const State& state, double time,
-                   Drags start);
+/// @param state of `to` at these times of its handles [s] @param start of `to`
+Drags carried_over(const Model& from, const Drags& drags, const Model& to, const State& state,
+                   const std::vector<double>& times, Drags start);
+
+/// The delays of the handles of `to` [s]: of those that hold the same nodes as one of `from`, or move a
+/// collider of the same name, that one's.
+std::vector<double> carried_over(const Model& from, const std::vector<double>& delays, const Model& to);
 
 }  // namespace gelatin

@@ -12,7 +12,7 @@
 namespace gelatin {
 namespace {
 
-// The file is this header, then the arrays of the state and those of the drags, one after the other.
+// The file is this header, then the arrays of the state and those of the handles, one after the other.
 struct Header {
     char magic[8];
     std::uint32_t version;
@@ -20,14 +20,14 @@ struct Header {
     double time;
     std::uint64_t nodes;
     std::uint64_t arrays;    // 2, or 3 with earlier velocities
-    std::uint64_t handles;   // in the arrays of drags; 0 if nothing is dragged
+    std::uint64_t handles;   // in the arrays of drags and delays; 0 if nothing is dragged or late
     std::uint64_t topology;  // hash of the model's topology
     std::uint64_t checksum;  // hash of the arrays
 };
 static_assert(sizeof(Header) == 64 && sizeof(Drag) == 56);
 
 constexpr char kMagic[8] = {'G', 'E', 'L', 'A', 'C', 'K', 'P', 'T'};
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 template <class T>
 std::uint64_t hash(const std::vector<T>& values, std::uint64_t seed) {
@@ -38,10 +38,20 @@ std::uint64_t topology_hash(const Model& model) {
     return hash(model.tets, hash(model.faces, model.positions.size()));
 }
 
-bool is_any_dragged(const Checkpoint& checkpoint) {
+// Whether a handle is anywhere but where its keyframes have it.
+bool is_any_away(const Checkpoint& checkpoint) {
     const auto is_away = [](const Drag& drag) { return drag != Drag(); };
+    const auto is_late = [](double delay) { return delay != 0.0; };
     return std::any_of(checkpoint.drags.begin(), checkpoint.drags.end(), is_away) ||
-           std::any_of(checkpoint.drag_targets.begin(), checkpoint.drag_targets.end(), is_away);
+           std::any_of(checkpoint.drag_targets.begin(), checkpoint.drag_targets.end(), is_away) ||
+           std::any_of(checkpoint.delays.begin(), checkpoint.delays.end(), is_late);
+}
+
+// One value for each handle, also where the checkpoint has none.
+template <class T>
+std::vector<T> for_handles(std::vector<T> values, std::size_t handles) {
+    values.resize(handles);
+    return values;
 }
 
 template <class T>
@@ -73,10 +83,11 @@ void write_checkpoint(const std::filesystem::path& file, const Model& model, con
         append(*array, arrays);
         ++count;
     }
-    const bool has_drags = is_any_dragged(checkpoint);
-    if (has_drags) {
-        append(checkpoint.drags, arrays);
-        append(checkpoint.drag_targets, arrays);
+    const std::size_t handles = is_any_away(checkpoint) ? model.handles.size() : 0;
+    if (handles > 0) {
+        append(for_handles(checkpoint.drags, handles), arrays);
+        append(for_handles(checkpoint.drag_targets, handles), arrays);
+        append(for_handles(checkpoint.delays, handles), arrays);
     }
     Header header{};
     std::memcpy(header.magic, kMagic, sizeof(kMagic));
@@ -85,7 +96,7 @@ void write_checkpoint(const std::filesystem::path& file, const Model& model, con
     header.time = checkpoint.time;
     header.nodes = state.positions.size();
     header.arrays = count;
-    header.handles = has_drags ? checkpoint.drags.size() : 0;
+    header.handles = handles;
     header.topology = topology_hash(model);
     header.checksum = XXH3_64bits(arrays.data(), arrays.size());
 
@@ -106,8 +117,8 @@ Checkpoint read_checkpoint(const std::filesystem::path& file, const Model& model
     }
     if (header.handles != 0 && header.handles != model.handles.size())
         refuse(file, "was made from a scene with other pins or handles");
-    const std::size_t bytes =
-        header.arrays * model.positions.size() * sizeof(glm::vec4) + 2 * header.handles * sizeof(Drag);
+    const std::size_t bytes = header.arrays * model.positions.size() * sizeof(glm::vec4) +
+                              header.handles * (2 * sizeof(Drag) + sizeof(double));
     if (header.arrays < 2 || header.arrays > 3 || content.size() != sizeof(Header) + bytes)
         refuse(file, "is damaged: it has the wrong size");
     const char* next = content.data() + sizeof(Header);
@@ -122,8 +133,10 @@ Checkpoint read_checkpoint(const std::filesystem::path& file, const Model& model
     if (header.arrays == 3) take(next, model.positions.size(), state.earlier_velocities);
     take(next, header.handles, checkpoint.drags);
     take(next, header.handles, checkpoint.drag_targets);
+    take(next, header.handles, checkpoint.delays);
     checkpoint.drags.resize(model.handles.size());
     checkpoint.drag_targets.resize(model.handles.size());
+    checkpoint.delays.resize(model.handles.size());
     return checkpoint;
 }
 

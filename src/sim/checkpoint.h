@@ -15,6 +15,7 @@ struct Checkpoint {
     double time = 0.0;  ///< [s]
     State state;
     std::vector<Drag> drags = {}, drag_targets = {};  ///< shape [handles], or none
+    std::vector<double> delays = {};                  ///< of handles [s], shape [handles], or none
 };
 
 /// Writes the exact bits, with the model's topology and a checksum; completely or not at all. @throws

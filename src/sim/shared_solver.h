@@ -26,7 +26,9 @@ public:
     void advance_nodes(double step) override;
     ContactForces contact_forces() const override { return host_.contact_forces(); }
     HoldingForces holding_forces() const override { return host_.holding_forces(); }
-    std::vector<std::uint32_t> held_up() const override { return host_.held_up(); }
+    std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) const override {
+        return host_.held_up(poses);
+    }
     State read_state() const override { return host_.read_state(); }
     void write_state(const State& state) override;
     /// By the host's clock: it waits for the device within a step.

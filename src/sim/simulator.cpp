@@ -15,6 +15,7 @@
 #include "model/build/model_check.h"
 #include "model/build/start_state.h"
 #include "model/drive/drags.h"
+#include "model/drive/handle_clocks.h"
 #include "model/explicit/stability.h"
 #include "sim/backend.h"
 #include "sim/carry_over.h"
@@ -46,6 +47,7 @@ struct Simulator::Impl {
     std::uint64_t steps = 0;  // since then
     std::optional<Watch> watch;
     std::optional<Drags> drags;
+    std::optional<HandleClocks> clocks;
     Standstills standstills;
     bool is_pulled = false;
     std::deque<Moment> measured;
@@ -134,14 +136,35 @@ struct Simulator::Impl {
         solver->write_state(state);
         go_on_from(moment);
         watch->begin(state, now());
+        clocks->set_held_up(find_held_up());
     }
 
-    // The work of a user's pull or drag is unknown.
+    // The work of a user's pull or drag is unknown, and the watch does not know of handles that are late.
     void move_held_nodes() {
         if (is_pulled || drags->is_under_way()) watch->note_hand(time() + step_size());
         if (!drags->may_move()) return;
-        const std::vector<HandleMotion> motions = drags->advance(time(), step_size());
+        const HandleTimes times = clocks->advance(time(), step_size());
+        if (clocks->late_ones_act(times, step_size())) watch->note_hand(time() + step_size());
+        const std::vector<HandleMotion> motions = drags->advance(times, step_size());
         run_stage("apply_kinematics", [&] { solver->apply_kinematics(motions); });
+    }
+
+    HandlePose pose_of(std::size_t handle) const {
+        return pose_at(model->handles[handle], time() - clocks->delays()[handle], drags->drags()[handle]);
+    }
+
+    std::vector<std::uint32_t> find_held_up() const {
+        if (!drags->may_move() || !has_contact_forces()) return {};
+        std::vector<HandlePose> poses;
+        for (std::size_t h = 0; h < model->handles.size(); ++h) poses.push_back(pose_of(h));
+        return solver->held_up(poses);
+    }
+
+    void look_for_standstills() {
+        const std::vector<std::uint32_t> held_up = find_held_up();
+        clocks->set_held_up(held_up);
+        for (const std::string& line : standstills.look(*model, *solver, held_up, clocks->delays(), time()))
+            log_warning(line);
     }
 
     void warn_of_lost_pairs() {
@@ -181,6 +204,7 @@ Simulator::Simulator(const Scene& scene, std::shared_ptr<const Model> model, con
     if (start) d.solver->write_state(*start);
     d.watch.emplace(d.scene, d.model, d.substeps);
     d.drags.emplace(d.model);
+    d.clocks.emplace(d.model);
     if (start) d.watch->begin(*start, {});
     for (const std::string& line : check_model(*d.model, scene, d.step_size())) log_warning(line);
     for (const std::string& line :
@@ -213,7 +237,7 @@ void Simulator::step() {
     if (meets_others || meets_itself) d.run_stage("respond", [&] { d.solver->respond(d.step_size()); });
     ++d.steps;
     const Moment now = d.now();
-    for (const std::string& line : d.standstills.look(*d.model, *d.solver, now.time)) log_warning(line);
+    d.look_for_standstills();
     d.run_stage("watch_nodes", [&] {
         d.solver->watch_nodes(static_cast<std::uint32_t>(now.steps), d.watch->most_energy(now.time));
     });
@@ -224,6 +248,7 @@ void Simulator::step() {
 
 void Simulator::reset() {
     impl_->drags->restart();
+    impl_->clocks->restart();
     impl_->take_state(impl_->first_state(), {});
 }
 
@@ -232,8 +257,10 @@ void Simulator::go_on_from(const Simulator& other) {
     const int frame = static_cast<int>(other.time() * scene().simulation.frame_rate + 1e-6);
     const State state =
         carried_over(*other.impl_->model, other.impl_->solver->read_state(), *d.model, d.first_state());
-    d.drags =
-        carried_over(*other.impl_->model, *other.impl_->drags, *d.model, state, other.time(), Drags(d.model));
+    const std::vector<double>& delays = other.impl_->clocks->delays();
+    d.clocks->go_on_with(carried_over(*other.impl_->model, delays, *d.model));
+    d.drags = carried_over(*other.impl_->model, *other.impl_->drags, *d.model, state,
+                           d.clocks->times(other.time()), Drags(d.model));
     d.take_state(state, {frame, other.time(),
                          static_cast<std::uint64_t>(frame) * static_cast<std::uint64_t>(substeps())});
 }
@@ -253,11 +280,10 @@ std::vector<HeldNodes> Simulator::held_nodes() const {
     for (std::size_t h = 0; h < d.model->handles.size(); ++h) {
         const Handle& handle = d.model->handles[h];
         if (!d.model->is_body(handle.object)) break;  // colliders come last
-        const Drag& drag = d.drags->drags()[h];
-        const HandlePose pose = pose_at(handle, time(), drag);
-        const bool is_released = !is_held(handle, time(), step_size());
+        const HandlePose pose = d.pose_of(h);
+        const bool is_released = !is_held(handle, time() - d.clocks->delays()[h], step_size());
         all.push_back({handle.object, handle.is_pin, handle.index, handle.count, is_released,
-                       pose.place(handle.middle), pose.center, drag, d.drags->targets()[h]});
+                       pose.place(handle.middle), pose.center, d.drags->drags()[h], d.drags->targets()[h]});
     }
     return all;
 }
@@ -410,12 +436,14 @@ void Simulator::save_checkpoint(const std::filesystem::path& file) const {
     check();
     const Drags& drags = *impl_->drags;
     write_checkpoint(file, *impl_->model,
-                     {frame(), time(), impl_->solver->read_state(), drags.drags(), drags.targets()});
+                     {frame(), time(), impl_->solver->read_state(), drags.drags(), drags.targets(),
+                      impl_->clocks->delays()});
 }
 
 void Simulator::load_checkpoint(const std::filesystem::path& file) {
     const Checkpoint checkpoint = read_checkpoint(file, *impl_->model);
     impl_->drags->go_on_with(checkpoint.drags, checkpoint.drag_targets);
+    impl_->clocks->go_on_with(checkpoint.delays);
     impl_->take_state(checkpoint.state, {checkpoint.frame, checkpoint.time,
                                          static_cast<std::uint64_t>(checkpoint.frame) *
                                              static_cast<std::uint64_t>(substeps())});

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,19 +12,31 @@
 
 namespace gelatin {
 
-/// Tells, once for each, which colliders and held bodies cannot follow their motion because bodies leave them
-/// no room (docs/contact.md). They wait; nothing is pushed through anything.
+/// Tells which colliders and held bodies cannot follow their motion because bodies leave them no room
+/// (docs/contact.md). They wait; nothing is pushed through anything. Those whose time goes on meanwhile are
+/// told once, those that stop (WhenBlocked) each time that they stop and that they have moved on.
 class Standstills {
 public:
-    /// @param solver whose last step ended at `time` [s]
-    /// @return a line for each that was not told before
-    std::vector<std::string> look(const Model& model, const Solver& solver, double time);
+    /// What has stopped is told to have moved on when nothing has held it up for so long [s]; until then it
+    /// has not stopped again.
+    static constexpr double kMovesOn = 0.25;
 
-    /// They are told again.
-    void restart() { told_.clear(); }
+    /// @param solver whose last step ended at `time` [s]
+    /// @param held_up what Solver::held_up finds then @param delays of handles [s], shape [handles]
+    /// @return a line for each that is to be told
+    std::vector<std::string> look(const Model& model, const Solver& solver,
+                                  std::span<const std::uint32_t> held_up, std::span<const double> delays,
+                                  double time);
+
+    /// All are told again.
+    void restart() {
+        told_.clear();
+        stopped_.clear();
+    }
 
 private:
-    std::set<std::uint32_t> told_;  // objects
+    std::set<std::uint32_t> told_;             // objects
+    std::map<std::uint32_t, double> stopped_;  // handles that were told, and until when they were held up [s]
 };
 
 }  // namespace gelatin

@@ -58,6 +58,24 @@ TEST_F(CheckpointTest, GivesBackDrags) {
     EXPECT_THAT(message_of_reading(model_), ::testing::HasSubstr("other pins or handles"));
 }
 
+TEST_F(CheckpointTest, GivesBackDelays) {
+    checkpoint_.delays = {0.625};
+    write_checkpoint(file(), model_, checkpoint_);
+    const Checkpoint read = read_checkpoint(file(), model_);
+    EXPECT_EQ(read.delays, checkpoint_.delays);
+    EXPECT_EQ(read.drags, std::vector<Drag>(1)) << "nothing is dragged";
+    model_.handles.emplace_back();
+    EXPECT_THAT(message_of_reading(model_), ::testing::HasSubstr("other pins or handles"));
+}
+
+TEST_F(CheckpointTest, RefusesThoseOfEarlierVersions) {
+    write_checkpoint(file(), model_, checkpoint_);
+    std::string earlier = read_file(file());
+    earlier[8] = 3;
+    write_file(file(), earlier);
+    EXPECT_THAT(message_of_reading(model_), ::testing::HasSubstr("another version"));
+}
+
 TEST_F(CheckpointTest, RefusesAnotherScenes) {
     write_checkpoint(file(), model_, checkpoint_);
     EXPECT_THAT(message_of_reading(test::make_model(test::make_body(test::make_block({2, 2, 2}, {1, 1, 1})))),

@@ -226,21 +226,21 @@ void Contacts<Real>::end(std::span<const Vec4<Real>> positions) {
 }
 
 template <class Real>
-std::vector<std::uint32_t> Contacts<Real>::held_up(std::span<const Vec4<Real>> targets,
+std::vector<std::uint32_t> Contacts<Real>::held_up(std::span<const HandlePose> poses,
                                                    std::span<const Vec4<Real>> positions) const {
-    const auto reach =
-        static_cast<Real>(*std::max_element(surface_->thicknesses.begin(), surface_->thicknesses.end()));
-    std::vector<std::uint32_t> objects;
-    for (std::uint32_t o = 0; o < model_->objects.size(); ++o) {
-        const Range& nodes = model_->objects[o].nodes;
-        const bool moves = model_->objects[o].handle_nodes.count > 0;
-        bool is_late = false;
-        for (std::uint32_t n = nodes.first; moves && n < nodes.end() && !is_late; ++n)
-            is_late = positions[n].w == Real(0) &&
-                      glm::distance(Vec3<Real>(targets[n]), Vec3<Real>(positions[n])) > reach;
-        if (is_late) objects.push_back(o);
+    const double reach =
+        static_cast<double>(*std::max_element(surface_->thicknesses.begin(), surface_->thicknesses.end()));
+    std::vector<std::uint8_t> are_late(poses.size());
+    for (const HandleNode& held : model_->handle_nodes) {
+        const Vec4<Real>& position = positions[held.node];
+        if (position.w != Real(0)) continue;  // it is released
+        const glm::dvec3 place = poses[held.handle].place(glm::dvec3(held.arm));
+        if (glm::distance(place, glm::dvec3(position)) > reach) are_late[held.handle] = 1;
     }
-    return objects;
+    std::vector<std::uint32_t> handles;
+    for (std::uint32_t h = 0; h < are_late.size(); ++h)
+        if (are_late[h] != 0) handles.push_back(h);
+    return handles;
 }
 
 // Bodies that are held, or press a collider: these take no part in what their islands do.

@@ -63,8 +63,8 @@ public:
 
     void end(std::span<const Vec4<Real>> positions);
 
-    /// Objects with held nodes that are farther from their targets than surfaces reach.
-    std::vector<std::uint32_t> held_up(std::span<const Vec4<Real>> targets,
+    /// Handles with nodes that are farther from where their poses have them than surfaces reach.
+    std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses,
                                        std::span<const Vec4<Real>> positions) const;
 
     const ContactList<Real>& list() const { return list_; }

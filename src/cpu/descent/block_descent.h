@@ -82,10 +82,10 @@ public:
         return find_contact_forces<Real>(*model_, bodies_.get(), contacts_, forces, positions);
     }
 
-    /// Objects with nodes that others kept from where their handles took them in the last step.
-    std::vector<std::uint32_t> held_up(const std::vector<Vec4<Real>>& positions) const {
-        return bodies_ && last_step_ > Real(0) ? bodies_->held_up(objective_.step.targets, positions)
-                                               : std::vector<std::uint32_t>();
+    /// Handles with nodes that bodies keep from where their poses have them.
+    std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses,
+                                       const std::vector<Vec4<Real>>& positions) const {
+        return bodies_ ? bodies_->held_up(poses, positions) : std::vector<std::uint32_t>();
     }
 
     /// Of elements, contacts and a hand on each held node at the end of the last step [N], shape [nodes];

@@ -43,6 +43,7 @@ void append_handle(const HandleDescription& description, Handle handle,
     handle.pivot = description.pivot.value_or(center);
     handle.interpolation = description.interpolation;
     handle.keyframes = description.keyframes;
+    handle.stops = description.when_blocked == WhenBlocked::stops;
     if (description.release) handle.release = *description.release;
     handle.count = nodes.size();
     handle.middle = center - handle.pivot;

@@ -42,6 +42,7 @@ void append_motion(const ColliderSurface& surface, const Range& nodes, Model& mo
     handle.pivot = description.pivot.value_or(description.position);
     handle.interpolation = description.interpolation;
     handle.keyframes = description.keyframes;
+    handle.stops = description.when_blocked == WhenBlocked::stops;
     handle.object = model.objects.size();
     handle.count = nodes.count;
     const auto index = static_cast<std::uint32_t>(model.handles.size());

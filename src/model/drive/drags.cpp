@@ -75,11 +75,11 @@ void Drags::set_target(std::size_t handle, const Drag& target) {
     is_dragged_ = true;
 }
 
-std::vector<HandleMotion> Drags::advance(double time, double step) {
+std::vector<HandleMotion> Drags::advance(const HandleTimes& times, double step) {
     const std::vector<Drag> before = drags_;
     for (std::size_t h = 0; h < drags_.size(); ++h)
         drags_[h] = follow(before[h], targets_[h], model_->handles[h], step);
-    return handle_motions(model_->handles, before, drags_, time, step);
+    return handle_motions(model_->handles, before, drags_, times, step);
 }
 
 }  // namespace gelatin

@@ -44,9 +44,9 @@ public:
     /// True if a drag has not reached its target, so that the next advance() changes it.
     bool is_under_way() const { return drags_ != targets_; }
 
-    /// The motions of all handles over the step of `step` seconds that begins at `time`, in which they
-    /// approach their targets.
-    std::vector<HandleMotion> advance(double time, double step);
+    /// The motions of all handles over a step of `step` seconds between these times, in which they approach
+    /// their targets.
+    std::vector<HandleMotion> advance(const HandleTimes& times, double step);
 
 private:
     std::shared_ptr<const Model> model_;

@@ -42,36 +42,41 @@ bool is_held(const Handle& handle, double time, double step) {
 
 std::vector<HandleMotion> handle_motions(const std::vector<Handle>& handles, double time, double step) {
     const std::vector<Drag> none(handles.size());
-    return handle_motions(handles, none, none, time, step);
+    const HandleTimes times{std::vector<double>(handles.size(), time),
+                            std::vector<double>(handles.size(), time + step)};
+    return handle_motions(handles, none, none, times, step);
 }
 
 std::vector<HandleMotion> handle_motions(const std::vector<Handle>& handles, std::span<const Drag> before,
-                                         std::span<const Drag> after, double time, double step) {
+                                         std::span<const Drag> after, const HandleTimes& times, double step) {
     std::vector<HandleMotion> motions;
     for (std::size_t h = 0; h < handles.size(); ++h) {
         const Handle& handle = handles[h];
-        const HandlePose start = pose_at(handle, time, before[h]);
-        const HandlePose end = pose_at(handle, time + step, after[h]);
+        const HandlePose start = pose_at(handle, times.begin[h], before[h]);
+        const HandlePose end = pose_at(handle, times.end[h], after[h]);
         const auto column = [](const glm::dvec3& v) { return glm::vec4(glm::vec3(v), 0.0f); };
         const auto rate = [&](const glm::dvec3& from, const glm::dvec3& to) {
             return column((to - from) / step);
         };
-        motions.push_back({glm::vec4(glm::vec3(start.center), is_held(handle, time, step) ? 1.0f : 0.0f),
-                           column(start.map[0]), column(start.map[1]), column(start.map[2]),
-                           rate(start.center, end.center), rate(start.map[0], end.map[0]),
-                           rate(start.map[1], end.map[1]), rate(start.map[2], end.map[2])});
+        motions.push_back(
+            {glm::vec4(glm::vec3(start.center), is_held(handle, times.begin[h], step) ? 1.0f : 0.0f),
+             column(start.map[0]), column(start.map[1]), column(start.map[2]), rate(start.center, end.center),
+             rate(start.map[0], end.map[0]), rate(start.map[1], end.map[1]), rate(start.map[2], end.map[2])});
     }
     return motions;
 }
 
 bool any_acts(const std::vector<Handle>& handles, double from, double until, double step) {
-    return std::any_of(handles.begin(), handles.end(), [&](const Handle& handle) {
-        if (from > handle.release + step) return false;
-        if (until > handle.release - step) return true;
-        if (handle.keyframes.empty()) return false;
-        const bool begins = from <= 0.0;  // the first keyframe may be anywhere
-        return begins || (handle.keyframes.front().time < until && handle.keyframes.back().time > from);
-    });
+    return std::any_of(handles.begin(), handles.end(),
+                       [&](const Handle& handle) { return acts(handle, from, until, step); });
+}
+
+bool acts(const Handle& handle, double from, double until, double step) {
+    if (from > handle.release + step) return false;
+    if (until > handle.release - step) return true;
+    if (handle.keyframes.empty()) return false;
+    const bool begins = from <= 0.0;  // the first keyframe may be anywhere
+    return begins || (handle.keyframes.front().time < until && handle.keyframes.back().time > from);
 }
 
 std::vector<double> free_inverse_masses(const Model& model, const ModelObject& object) {

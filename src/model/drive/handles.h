@@ -21,6 +21,7 @@ struct Handle {
     Interpolation interpolation = Interpolation::linear;
     std::vector<Keyframe> keyframes;
     double release = std::numeric_limits<double>::infinity();  ///< [s]
+    bool stops = false;  ///< its time stands still while bodies hold it up (WhenBlocked)
 
     std::size_t object = 0;   ///< index in Model::objects
     bool is_pin = false;      ///< from ObjectDescription::pins, otherwise from its handles
@@ -43,12 +44,19 @@ HandlePose pose_at(const Handle& handle, double time);
 /// The same with a drag.
 HandlePose pose_at(const Handle& handle, double time, const Drag& drag);
 
+/// The times at which handles are at the two ends of a step [s], shape [handles]: the simulation's, but
+/// earlier for those that have stood still (HandleClocks).
+struct HandleTimes {
+    std::vector<double> begin, end;
+};
+
 /// The motions of all handles over the step of `step` seconds that begins at `time`. A node is released at
 /// the step that begins nearest to its release.
 std::vector<HandleMotion> handle_motions(const std::vector<Handle>& handles, double time, double step);
-/// The same with the drags at the start and at the end of the step, each of shape [handles].
+/// The same with the drags at the start and at the end of the step, each of shape [handles], at times of
+/// their own.
 std::vector<HandleMotion> handle_motions(const std::vector<Handle>& handles, std::span<const Drag> before,
-                                         std::span<const Drag> after, double time, double step);
+                                         std::span<const Drag> after, const HandleTimes& times, double step);
 
 /// False if it has released its nodes by the step that begins at `time` and takes `step` seconds.
 bool is_held(const Handle& handle, double time, double step);
@@ -57,6 +65,8 @@ bool is_held(const Handle& handle, double time, double step);
 /// like pins.
 /// @param step as above
 bool any_acts(const std::vector<Handle>& handles, double from, double until, double step);
+/// The same of one.
+bool acts(const Handle& handle, double from, double until, double step);
 
 /// Inverse masses of an object's nodes [1/kg], after all handles with a release have released theirs.
 std::vector<double> free_inverse_masses(const Model& model, const ModelObject& object);

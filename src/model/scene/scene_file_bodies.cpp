@@ -148,6 +148,7 @@ ColliderDescription read_collider(TableReader& reader, const CollisionSettings& 
     reader.read("restitution", collider.restitution);
     collider.keyframes = read_keyframes(reader);
     collider.interpolation = read_interpolation(reader);
+    collider.when_blocked = read_when_blocked(reader);
     if (reader.has("pivot")) reader.read("pivot", collider.pivot.emplace(0.0));
     reader.read("surface_velocity", collider.surface_velocity);
     reader.finish();

@@ -38,6 +38,13 @@ Interpolation read_interpolation(TableReader& reader) {
     return interpolation;
 }
 
+WhenBlocked read_when_blocked(TableReader& reader) {
+    WhenBlocked when_blocked = WhenBlocked::goes_on;
+    reader.read("when_blocked", when_blocked,
+                {{"goes_on", WhenBlocked::goes_on}, {"stops", WhenBlocked::stops}});
+    return when_blocked;
+}
+
 std::vector<Keyframe> read_keyframes(TableReader& reader) {
     std::vector<Keyframe> keyframes;
     for (const TableReader& keyframe : reader.tables("keyframes"))
@@ -53,6 +60,7 @@ HandleDescription read_handle(TableReader reader) {
     handle.interpolation = read_interpolation(reader);
     reader.read("release", handle.release);
     handle.keyframes = read_keyframes(reader);
+    handle.when_blocked = read_when_blocked(reader);
     if (auto drag = reader.table("drag")) handle.drag = read_drag(std::move(*drag));
     reader.finish();
     return handle;

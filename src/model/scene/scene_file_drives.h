@@ -5,9 +5,10 @@
 
 namespace gelatin {
 
-/// The values of the keys "keyframes" and "interpolation".
+/// The values of the keys "keyframes", "interpolation" and "when_blocked".
 std::vector<Keyframe> read_keyframes(TableReader& reader);
 Interpolation read_interpolation(TableReader& reader);
+WhenBlocked read_when_blocked(TableReader& reader);
 
 /// An [[object.handle]] table, which it finishes.
 HandleDescription read_handle(TableReader reader);

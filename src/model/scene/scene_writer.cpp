@@ -103,6 +103,7 @@ Table table_of(const HandleDescription& handle) {
     if (handle.interpolation == Interpolation::smooth) table.add("interpolation", "smooth");
     table.add("release", handle.release);
     if (!handle.keyframes.empty()) table.add_text("keyframes", list_of_tables(handle.keyframes));
+    if (handle.when_blocked == WhenBlocked::stops) table.add("when_blocked", "stops");
     const DragDescription usual;
     Table drag;
     drag.add_unless(usual.move, "move", handle.drag.move).add_unless(usual.turn, "turn", handle.drag.turn);
@@ -205,6 +206,7 @@ Table table_of(const ColliderDescription& collider, const std::filesystem::path&
     table.add("friction", collider.friction).add("restitution", collider.restitution);
     if (!collider.keyframes.empty()) table.add_text("keyframes", list_of_tables(collider.keyframes));
     if (collider.interpolation == Interpolation::smooth) table.add("interpolation", "smooth");
+    if (collider.when_blocked == WhenBlocked::stops) table.add("when_blocked", "stops");
     return table.add("pivot", collider.pivot)
         .add_unless(usual.surface_velocity, "surface_velocity", collider.surface_velocity);
 }

@@ -67,6 +67,8 @@ public:
         if (!collider.name.empty()) checks_.check_text(field / "name", collider.name);
         if (std::holds_alternative<PlaneCollider>(collider.shape)) check_plane(field, collider);
         if (!has_contact_) check_solid(field, collider);
+        check_when_blocked(checks_, field / "when_blocked", collider.when_blocked, collider.keyframes,
+                           has_contact_);
     }
 
 private:
@@ -81,21 +83,22 @@ private:
         const std::string rests = "a plane does not move: a box can";
         if (!collider.keyframes.empty()) checks_.fail(field / "keyframes", "[{...}]", rests);
         refuse_vector("surface_velocity", collider.surface_velocity, rests);
+        if (collider.when_blocked == WhenBlocked::stops)
+            checks_.fail(field / "when_blocked", text_of("stops"), rests);
     }
 
     // Colliders as the paper has them: solid, of the kinds that nodes are easily pushed out of, and at rest.
     void check_solid(const FieldPath& field, const ColliderDescription& collider) const {
-        const std::string needs = "needs collision.response = \"contact\"";
         if (const auto* shape = std::get_if<Shape>(&collider.shape)) {
             if (const auto* text = std::get_if<TextShape>(shape))
-                checks_.fail(field / "shape" / "text", text_of(text->text), needs);
+                checks_.fail(field / "shape" / "text", text_of(text->text), kNeedsContact);
             if (const auto* file = std::get_if<FileShape>(shape))
-                checks_.fail(field / "shape" / "file", text_of(file->file.string()), needs);
+                checks_.fail(field / "shape" / "file", text_of(file->file.string()), kNeedsContact);
         }
-        if (!collider.keyframes.empty()) checks_.fail(field / "keyframes", "[{...}]", needs);
+        if (!collider.keyframes.empty()) checks_.fail(field / "keyframes", "[{...}]", kNeedsContact);
         if (collider.surface_velocity != glm::dvec3(0.0))
-            checks_.fail(field / "surface_velocity", text_of(collider.surface_velocity), needs);
-        if (collider.scale != 1.0) checks_.fail(field / "scale", text_of(collider.scale), needs);
+            checks_.fail(field / "surface_velocity", text_of(collider.surface_velocity), kNeedsContact);
+        if (collider.scale != 1.0) checks_.fail(field / "scale", text_of(collider.scale), kNeedsContact);
     }
 
     const ValueChecks& checks_;
@@ -104,8 +107,8 @@ private:
 
 class ObjectCheck {
 public:
-    ObjectCheck(const ValueChecks& checks, const std::vector<Material>& materials)
-        : checks_(checks), materials_(materials) {}
+    ObjectCheck(const ValueChecks& checks, const std::vector<Material>& materials, bool has_contact)
+        : checks_(checks), materials_(materials), has_contact_(has_contact) {}
 
     void run(const FieldPath& field, const ObjectDescription& object) const {
         checks_.check_text(field / "name", object.name);
@@ -124,7 +127,7 @@ public:
         for (std::size_t p = 0; p < object.pins.size(); ++p)
             check_region(checks_, (field / "pins")[p], object.pins[p]);
         for (std::size_t h = 0; h < object.handles.size(); ++h)
-            check_handle(checks_, (field / "handle")[h], object.handles[h]);
+            check_handle(checks_, (field / "handle")[h], object.handles[h], has_contact_);
         for (std::size_t l = 0; l < object.loads.size(); ++l)
             check_load(checks_, (field / "load")[l], object.loads[l]);
         checks_.check(field / "color", object.color, kFraction);
@@ -171,12 +174,13 @@ private:
 
     const ValueChecks& checks_;
     const std::vector<Material>& materials_;
+    bool has_contact_;
 };
 
 }  // namespace
 
 void check_objects(const ValueChecks& checks, const Scene& scene) {
-    const ObjectCheck check(checks, scene.materials);
+    const ObjectCheck check(checks, scene.materials, scene.has_contact());
     std::unordered_map<std::string_view, int> lines;  // by name
     for (std::size_t o = 0; o < scene.objects.size(); ++o) {
         const ObjectDescription& object = scene.objects[o];

@@ -8,10 +8,16 @@ namespace gelatin {
 void check_objects(const ValueChecks& checks, const Scene& scene);
 void check_colliders(const ValueChecks& checks, const Scene& scene);
 
+inline constexpr const char* kNeedsContact = "needs collision.response = \"contact\"";
+
 /// A region of an object's pin, handle, load or part.
 void check_region(const ValueChecks& checks, const FieldPath& field, const Region& region);
 void check_keyframes(const ValueChecks& checks, const FieldPath& field, const std::vector<Keyframe>& keys);
-void check_handle(const ValueChecks& checks, const FieldPath& field, const HandleDescription& handle);
+void check_handle(const ValueChecks& checks, const FieldPath& field, const HandleDescription& handle,
+                  bool has_contact);
+/// Of a handle or a collider with these keyframes. Only contact holds one up.
+void check_when_blocked(const ValueChecks& checks, const FieldPath& field, WhenBlocked when_blocked,
+                        const std::vector<Keyframe>& keys, bool has_contact);
 void check_load(const ValueChecks& checks, const FieldPath& field, const LoadDescription& load);
 
 }  // namespace gelatin

@@ -79,9 +79,9 @@ TEST(Drags, MotionsLeadFromOneToTheNext) {
     drags.set_target(0, {{0.1, 0.0, 0.0}, about_z(0.3)});
     EXPECT_TRUE(drags.may_move());
     EXPECT_TRUE(drags.is_under_way());
-    for (int s = 0; s < 3; ++s) drags.advance(s * kStep, kStep);
+    for (int s = 0; s < 3; ++s) drags.advance({{s * kStep}, {s * kStep + kStep}}, kStep);
     const HandlePose start = pose_at(model->handles[0], 0.0, drags.drags()[0]);
-    const HandleMotion motion = drags.advance(3 * kStep, kStep).at(0);
+    const HandleMotion motion = drags.advance({{3 * kStep}, {4 * kStep}}, kStep).at(0);
     const HandlePose end = pose_at(model->handles[0], 0.0, drags.drags()[0]);
     EXPECT_LT(glm::distance(glm::dvec3(motion.center), start.center), 1e-7);
     EXPECT_LT(glm::distance(kStep * glm::dvec3(motion.velocity), end.center - start.center), 1e-8);
@@ -103,7 +103,8 @@ TEST(Drags, BeginWithTheScenes) {
     Drags drags(std::make_shared<const Model>(test::make_model(body)));
     EXPECT_TRUE(drags.is_under_way());
     EXPECT_EQ(drags.drags()[0], Drag());
-    for (int s = 0; s < 2000 && drags.is_under_way(); ++s) drags.advance(s * kStep, kStep);
+    for (int s = 0; s < 2000 && drags.is_under_way(); ++s)
+        drags.advance({{s * kStep}, {s * kStep + kStep}}, kStep);
     EXPECT_EQ(drags.drags()[0].move, glm::dvec3(0.0, 0.2, 0.0));
     EXPECT_EQ(drags.drags()[0].turn, rotation_from_degrees({0.0, 30.0, 0.0}));
     EXPECT_TRUE(drags.may_move()) << "a step more takes the velocity away";

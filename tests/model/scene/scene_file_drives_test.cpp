@@ -20,6 +20,7 @@ pivot = [0, 1, 2]
 interpolation = "smooth"
 release = 3.5
 keyframes = [ { time = 0 }, { time = 2, move = [0, 0.1, 0], turn = [720, 0, 0], scale = 2 } ]
+when_blocked = "stops"
 drag = { move = [0.5, 0, 0], turn = [0, 0, 90] }
 
 [[object.handle]]
@@ -36,6 +37,7 @@ region = { sphere = [1, 0, 0], radius = 0.1 })"));
     EXPECT_EQ(handle.keyframes[1].move, glm::dvec3(0.0, 0.1, 0.0));
     EXPECT_EQ(handle.keyframes[1].turn, glm::dvec3(720.0, 0.0, 0.0));
     EXPECT_EQ(handle.keyframes[1].scale, 2.0);
+    EXPECT_EQ(handle.when_blocked, WhenBlocked::stops);
     EXPECT_EQ(handle.drag.move, glm::dvec3(0.5, 0.0, 0.0));
     EXPECT_EQ(handle.drag.turn, glm::dvec3(0.0, 0.0, 90.0));
     const HandleDescription& silent = scene.objects[0].handles[1];
@@ -43,8 +45,9 @@ region = { sphere = [1, 0, 0], radius = 0.1 })"));
     EXPECT_FALSE(silent.release);
     EXPECT_EQ(silent.interpolation, Interpolation::linear);
     EXPECT_TRUE(silent.keyframes.empty());
+    EXPECT_EQ(silent.when_blocked, WhenBlocked::goes_on);
     EXPECT_EQ(silent.drag.move, glm::dvec3(0.0));
-    EXPECT_EQ(silent.line, 13);
+    EXPECT_EQ(silent.line, 14);
 }
 
 TEST_F(SceneFileDrives, ReadsLoadsAndSpin) {
@@ -113,6 +116,10 @@ TEST_F(SceneFileDrives, RefusesWrongHandles) {
 }
 
 TEST_F(SceneFileDrives, RefusesWrongKeyframes) {
+    EXPECT_EQ(
+        handle_error("region = {plane = [1, 0, 0]}\nkeyframes = [{time = 0}]\nwhen_blocked = 'stop'"),
+        "scene.toml:8: object.bar.handle[0].when_blocked = \"stop\": must be goes_on or stops (did you mean "
+        "\"stops\"?)");
     const auto keyframes = [&](const std::string& list) {
         return handle_error("region = {plane = [1, 0, 0]}\nkeyframes = [" + list + "]");
     };

@@ -1,5 +1,6 @@
 #include "model/scene/scene_writer.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -166,6 +167,7 @@ friction = 0.4
 restitution = 0.3
 keyframes = [{ time = 0 }, { time = 1, move = [0, -1, 0] }]
 interpolation = "smooth"
+when_blocked = "stops"
 pivot = [1, 1, 1]
 surface_velocity = [0.5, 0, 0]
 )";
@@ -180,6 +182,17 @@ TEST(SceneWriter, WritesHowCollidersMove) {
     save_scene(folder.path() / "copy.toml", load_scene(folder.path() / "scene.toml"));
     const std::string copy = read_file(folder.path() / "copy.toml");
     EXPECT_EQ(copy.substr(copy.find("[[collider]]")), kMovingColliders);
+}
+
+TEST(SceneWriter, WritesWhichHandlesStop) {
+    const TemporaryFolder folder;
+    const std::string handle =
+        "[[object.handle]]\nregion = { plane = [0, 1, 0], offset = 0 }\n"
+        "keyframes = [{ time = 0 }, { time = 1, move = [0, -1, 0] }]\nwhen_blocked = \"stops\"\n";
+    write_file(folder.path() / "scene.toml",
+               "[[material]]\nname = 'm'\n[[object]]\nname = 'o'\nshape = {sphere = 1}\n" + handle);
+    save_scene(folder.path() / "copy.toml", load_scene(folder.path() / "scene.toml"));
+    EXPECT_THAT(read_file(folder.path() / "copy.toml"), ::testing::HasSubstr(handle));
 }
 
 TEST(SceneWriter, WritesHowMaterialsPress) {

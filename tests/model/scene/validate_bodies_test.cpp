@@ -146,6 +146,21 @@ const Rule kObjectRules[] = {
     {"key_scale", BALL "[[object.handle]]\nkeyframes = [{time = 0}, {time = 1, scale = 0}]\n" REGION,
      BREAKS(add_handle(s).keyframes = (std::vector<Keyframe>{{0.0}, {1.0, {}, {}, 0.0}})),
      "object.ball.handle[0].keyframes[1].scale = 0: must be greater than 0"},
+    {"stops", BALL "[[object.handle]]\nwhen_blocked = 'stops'\n" REGION,
+     BREAKS(add_handle(s).when_blocked = WhenBlocked::stops),
+     "object.ball.handle[0].when_blocked = \"stops\": needs keyframes"},
+    {"stops_without_contact",
+     BALL "[[object.handle]]\nwhen_blocked = 'stops'\nkeyframes = [{time = 0}]\n" REGION
+          "\n[collision]\nresponse = 'restore'",
+     BREAKS(s.collision.response = CollisionResponse::restore; add_handle(s).keyframes = {{}};
+            s.objects[0].handles[0].when_blocked = WhenBlocked::stops),
+     "object.ball.handle[0].when_blocked = \"stops\": needs collision.response = \"contact\""},
+    {"stops_explicitly",
+     BALL "[[object.handle]]\nwhen_blocked = 'stops'\nkeyframes = [{time = 0}]\n" REGION
+          "\n[simulation]\nsolver = 'rk4'",
+     BREAKS(s.simulation.solver = SolverKind::rk4; add_handle(s).keyframes = {{}};
+            s.objects[0].handles[0].when_blocked = WhenBlocked::stops),
+     "object.ball.handle[0].when_blocked = \"stops\": needs collision.response = \"contact\""},
     {"load_region", BALL "[[object.load]]\nforce = [1, 0, 0]\nregion = {plane = [0, 0, 0]}",
      BREAKS(add_load(s).region = (HalfSpaceRegion{glm::dvec3(0), 0})),
      "object.ball.load[0].region.plane = [0, 0, 0]: must not be zero: a direction"},
