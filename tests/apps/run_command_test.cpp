@@ -46,6 +46,26 @@ TEST_F(RunCommand, WritesTheStatisticsOfEveryFrame) {
               20 * stats["settings"]["substeps"].get<int>());
 }
 
+// A plate comes down on a block that is held in the air for a second.
+TEST_F(RunCommand, TellsWhatBodiesHoldUp) {
+    write("press.toml",
+          "[simulation]\nframes = 90\n[[material]]\nname = 'jelly'\n"
+          "[[object]]\nname = 'block'\nshape = { box = [0.2, 0.2, 0.2] }\nposition = [0, 2, 0]\n"
+          "[[object.handle]]\nregion = { plane = [0, 1, 0], offset = 9 }\nrelease = 1\n"
+          "[[collider]]\nname = 'plate'\nshape = { box = [1, 0.1, 1] }\nposition = [0, 2.35, 0]\n"
+          "keyframes = [{ time = 0 }, { time = 1, move = [0, -0.5, 0] }]\nwhen_blocked = 'stops'\n");
+    const ProgramResult result = run({"run", "press.toml", "--backend", "cpu"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, testing::ContainsRegex("warning: collider 'plate' stops at 0\\.4[0-9]* s: "));
+    EXPECT_THAT(result.err, testing::ContainsRegex(
+                                "warning: collider 'plate' has moved on since 1 s, 0\\.[56][0-9]* s later "
+                                "than its keyframes"));
+    const ProgramResult goes_on =
+        run({"run", "press.toml", "--backend", "cpu", "--set", "collider.0.when_blocked=goes_on"});
+    EXPECT_THAT(goes_on.err, HasSubstr("warning: collider 'plate' waits at 0.4"));
+    EXPECT_THAT(goes_on.err, Not(HasSubstr("moved on")));
+}
+
 TEST_F(RunCommand, TakesOverridesAndFrames) {
     const ProgramResult result = run({"run", "cube.toml", "--frames", "3", "--set", "simulation.solver=rk4",
                                       "--set", "object.cube.velocity=[2, 0, 0]", "--stats", "s.json"});
