@@ -1,0 +1,36 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "mesh/lattice/face_tree.h"
+#include "mesh/lattice/winding_numbers.h"
+#include "mesh/surface_mesh.h"
+
+namespace gelatin::lattice {
+
+/// What a surface encloses: the points with a winding number above 1/2. Defined for any faces, also those that
+/// are open, cross each other or are there twice.
+class EnclosedSpace {
+public:
+    explicit EnclosedSpace(const SurfaceMesh& surface);
+    EnclosedSpace(const EnclosedSpace&) = delete;
+    EnclosedSpace& operator=(const EnclosedSpace&) = delete;
+
+    const FaceTree& tree() const { return tree_; }
+    bool contains(const glm::dvec3& p) const { return winding_(p) > 0.5; }
+
+    /// A point of the boundary between `inside`, which this contains, and `outside`, which it does not. It lies on a
+    /// face, to rounding, where a face is the boundary.
+    glm::dvec3 find_boundary(const glm::dvec3& inside, const glm::dvec3& outside) const;
+
+    /// How thick this is behind a face, from its centre against its normal, if it is less than `limit` and the opposite
+    /// faces are nearly parallel. Empty also where the face is not part of the boundary.
+    std::optional<double> find_thickness(const Triangle& face, double limit) const;
+
+private:
+    FaceTree tree_;
+    WindingNumbers winding_;
+};
+
+}  // namespace gelatin::lattice

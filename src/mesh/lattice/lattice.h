@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "mesh/lattice/enclosed_space.h"
+#include "mesh/lattice/lattice_tets.h"
+#include "mesh/lattice/octree.h"
+
+namespace gelatin::lattice {
+
+/// Which sizes the cells of a lattice have.
+struct CellSizes {
+    double boundary;         ///< where the boundary passes [m], > 0
+    int finer_levels = 2;    ///< at thin parts cells are halved this often at most
+    int coarser_levels = 2;  ///< deep inside they are doubled this often at most
+};
+
+/// A part is thin where cells are larger than this fraction of its thickness: then points of the lattice may miss it.
+constexpr double kCellsInThickness = 0.8;
+
+/// A lattice over the space that a surface encloses, and which of its points are inside.
+struct Lattice {
+    glm::dvec3 origin;  ///< of the octree's coordinates [m]
+    double unit;        ///< of them [m]
+    Octree octree;
+    LatticeTets tets;
+    std::vector<std::uint8_t> inside;  ///< 1: inside, shape [tets.points]
+
+    glm::dvec3 position(const glm::ivec3& p) const { return origin + unit * glm::dvec3(p); }
+    glm::dvec3 position(std::uint32_t point) const { return position(point_of(tets.points[point])); }
+};
+
+/// All tets that the boundary passes through are of cells of size `boundary`, or smaller at thin parts.
+/// @throws InvalidInput if it would have more than `kMostCells` cells
+Lattice make_lattice(const EnclosedSpace& space, const CellSizes& sizes);
+
+constexpr std::size_t kMostCells = 4'000'000;
+
+}  // namespace gelatin::lattice

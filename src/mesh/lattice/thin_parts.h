@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "mesh/lattice/enclosed_space.h"
+
+namespace gelatin::lattice {
+
+/// A piece of a face behind which the enclosed space is thin.
+struct ThinPlace {
+    Triangle face;
+    double thickness;  ///< [m]
+};
+
+/// Where the enclosed space is thinner than `thickness`. Faces are divided into pieces: none longer than `spacing`, and
+/// none longer than it is thick, but down to `least`.
+std::vector<ThinPlace> find_thin_places(const EnclosedSpace& space, double thickness, double spacing, double least);
+
+}  // namespace gelatin::lattice
