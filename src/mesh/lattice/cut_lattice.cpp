@@ -8,7 +8,9 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <span>
 #include <tuple>
+#include <utility>
 
 #include "mesh/lattice/cut_tet.h"
 
@@ -25,6 +27,36 @@ using Edge = std::array<std::uint32_t, 2>;
 struct CutEdge {
     Edge points;  // ascending
     glm::dvec3 at = {};
+};
+
+// A point that could move to a cut.
+struct Move {
+    double closeness;  // the distance, relative to the longest allowed
+    std::uint32_t point, edge;
+};
+
+// The tets around each point that may move.
+class PointTets {
+public:
+    PointTets(const std::vector<std::array<std::uint32_t, 4>>& tets, const std::vector<Move>& moves,
+              std::size_t point_count) {
+        std::vector<bool> may_move(point_count, false);
+        for (const Move& move : moves) may_move[move.point] = true;
+        for (std::uint32_t t = 0; t < tets.size(); ++t) {
+            for (const std::uint32_t point : tets[t]) {
+                if (may_move[point]) pairs_.push_back({point, t});
+            }
+        }
+        tbb::parallel_sort(pairs_);
+    }
+    std::span<const std::pair<std::uint32_t, std::uint32_t>> of(std::uint32_t point) const {
+        const auto by_point = [](const auto& pair, std::uint32_t p) { return pair.first < p; };
+        return {std::lower_bound(pairs_.begin(), pairs_.end(), point, by_point),
+                std::lower_bound(pairs_.begin(), pairs_.end(), point + 1, by_point)};
+    }
+
+private:
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;  // point, tet
 };
 
 class LatticeCutter {
@@ -88,10 +120,6 @@ private:
     // Moves points that are close to a cut to it, the closest first. Edges between a moved point and another are cut no
     // more.
     void move_points() {
-        struct Move {
-            double closeness;
-            std::uint32_t point, edge;
-        };
         std::vector<Move> moves;
         const std::vector<double> shortest = shortest_edges();
         for (std::uint32_t e = 0; e < edges_.size(); ++e) {
@@ -109,12 +137,32 @@ private:
         std::sort(moves.begin(), moves.end(), [](const Move& x, const Move& y) {
             return std::tie(x.closeness, x.point, x.edge) < std::tie(y.closeness, y.point, y.edge);
         });
+        const PointTets around(lattice_.tets.tets, moves, mesh_.positions.size());
         for (const Move& move : moves) {
             if (!is_cut(edges_[move.edge].points)) continue;
-            mesh_.positions[move.point] = edges_[move.edge].at;
-            side_[move.point] = Side::boundary;
+            glm::dvec3& position = mesh_.positions[move.point];
+            const glm::dvec3 old = position;
+            position = edges_[move.edge].at;
+            if (keeps_volumes(around.of(move.point)))
+                side_[move.point] = Side::boundary;
+            else
+                position = old;
         }
         std::erase_if(edges_, [&](const CutEdge& edge) { return !is_cut(edge.points); });
+    }
+
+    // Points may move as long as no tet of the lattice becomes flat or inverted.
+    bool keeps_volumes(std::span<const std::pair<std::uint32_t, std::uint32_t>> tets) const {
+        constexpr double kLeast = 0.05;  // of the volume in the lattice
+        return std::all_of(tets.begin(), tets.end(), [&](const auto& pair) {
+            const auto& [a, b, c, d] = lattice_.tets.tets[pair.second];
+            const auto volume = [](const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& r,
+                                   const glm::dvec3& s) { return glm::dot(glm::cross(q - p, r - p), s - p); };
+            const auto& at = mesh_.positions;
+            const double before = volume(lattice_.position(a), lattice_.position(b), lattice_.position(c),
+                                         lattice_.position(d));
+            return volume(at[a], at[b], at[c], at[d]) / before > kLeast;
+        });
     }
 
     std::uint32_t node_of_cut(std::uint32_t a, std::uint32_t b) const {

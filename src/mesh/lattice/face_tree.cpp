@@ -121,6 +121,7 @@ FaceTree::FaceTree(const SurfaceMesh& surface) {
     if (surface.faces.empty()) return;
     builder.add_node(0, static_cast<std::uint32_t>(surface.faces.size()));
     for (const std::uint32_t face : builder.order) faces_.push_back(builder.faces[face]);
+    sources_ = std::move(builder.order);
 }
 
 void FaceTree::find_crossings(const glm::dvec3& a, const glm::dvec3& b, std::vector<Crossing>& found) const {
@@ -146,8 +147,8 @@ void FaceTree::find_crossings(const glm::dvec3& a, const glm::dvec3& b, std::vec
     });
 }
 
-std::optional<glm::dvec3> FaceTree::find_nearest(const glm::dvec3& p, double radius) const {
-    std::optional<glm::dvec3> nearest;
+std::optional<NearestPoint> FaceTree::find_nearest(const glm::dvec3& p, double radius) const {
+    std::optional<NearestPoint> nearest;
     if (nodes_.empty()) return nearest;
     double best = radius * radius;
     std::array<std::uint32_t, kDeepest> stack{0};
@@ -162,12 +163,12 @@ std::optional<glm::dvec3> FaceTree::find_nearest(const glm::dvec3& p, double rad
             stack[size++] = left_first ? index + 1 : node.right;
             continue;
         }
-        for (const Triangle& face : faces_of(node)) {
-            const glm::dvec3 candidate = nearest_point(face, p);
+        for (std::uint32_t face = node.first; face < node.first + node.count; ++face) {
+            const glm::dvec3 candidate = nearest_point(faces_[face], p);
             const double squared = glm::dot(p - candidate, p - candidate);
             if (squared >= best) continue;
             best = squared;
-            nearest = candidate;
+            nearest = NearestPoint{candidate, face};
         }
     }
     return nearest;

@@ -36,18 +36,20 @@ struct TetsOfNodes {
     std::vector<std::uint32_t> starts, tets;
 };
 
-enum class Freedom : std::uint8_t { free, on_surface, fixed };
+// Nodes of the boundary that are on no face, as in a hole of the surface, stay near where they were.
+enum class Freedom : std::uint8_t { free, on_surface, near_start };
+constexpr double kLeash = 0.3;  // of the shortest edge
 
 class Improvement {
 public:
     Improvement(TetMesh& mesh, const FaceTree& tree)
-        : mesh_(mesh), tree_(tree), tets_(mesh), freedom_(mesh.positions.size(), Freedom::free) {
+        : mesh_(mesh), tree_(tree), tets_(mesh), starts_(mesh.positions), freedom_(mesh.positions.size(), Freedom::free) {
         for (const glm::uvec3& face : mesh.faces) {
             for (int k = 0; k < 3; ++k) freedom_[face[k]] = Freedom::on_surface;
         }
         for (std::uint32_t n = 0; n < freedom_.size(); ++n) {
             if (freedom_[n] == Freedom::on_surface && !tree.find_nearest(mesh.positions[n], 1e-6 * shortest_edge(n)))
-                freedom_[n] = Freedom::fixed;
+                freedom_[n] = Freedom::near_start;
         }
     }
 
@@ -102,27 +104,29 @@ private:
 
     // Searches along fixed directions, with steps that become shorter.
     bool improve(std::uint32_t node) {
-        if (freedom_[node] == Freedom::fixed) return false;
         double worst = worst_around(node, -1.0);
         if (worst >= kGoodSine) return false;
         const double start = worst, least_gain = 1e-3;
         const double length = shortest_edge(node);
         for (double step = 0.3 * length; step > 0.02 * length;) {
-            if (!try_steps(node, step, worst)) step *= 0.5;
+            if (!try_steps(node, step, length, worst)) step *= 0.5;
         }
         return worst > start + least_gain;
     }
 
-    bool try_steps(std::uint32_t node, double step, double& worst) {
+    bool try_steps(std::uint32_t node, double step, double shortest, double& worst) {
         for (int d = 0; d < 27; ++d) {
             const glm::dvec3 direction(d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1);
             if (d == 13) continue;
             const glm::dvec3 old = mesh_.positions[node];
             glm::dvec3 moved = old + step / glm::length(direction) * direction;
             if (freedom_[node] == Freedom::on_surface) {
-                const std::optional<glm::dvec3> nearest = tree_.find_nearest(moved, step);
+                const auto nearest = tree_.find_nearest(moved, step);
                 if (!nearest) continue;
-                moved = *nearest;
+                moved = nearest->point;
+            } else if (freedom_[node] == Freedom::near_start &&
+                       glm::distance(moved, starts_[node]) > kLeash * shortest) {
+                continue;
             }
             mesh_.positions[node] = moved;
             const double now = worst_around(node, worst + 1e-4);
@@ -138,6 +142,7 @@ private:
     TetMesh& mesh_;
     const FaceTree& tree_;
     const TetsOfNodes tets_;
+    const std::vector<glm::dvec3> starts_;
     std::vector<Freedom> freedom_;
 };
 

@@ -10,19 +10,31 @@ namespace {
 
 using Corners = std::array<glm::ivec3, 4>;
 
-/// Makes the tets of one octree, as keys of their corners.
+// Keys of the corners and centres of all leaves.
+std::vector<std::uint64_t> collect_points(const Octree& octree) {
+    std::vector<std::uint64_t> points;
+    for (const Octree::Cell& cell : octree.cells()) {
+        if (!cell.is_leaf()) continue;
+        points.push_back(key_of(cell.center()));
+        for (int corner = 0; corner < 8; ++corner)
+            points.push_back(key_of(cell.min + cell.size * glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2)));
+    }
+    tbb::parallel_sort(points);
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    return points;
+}
+
+/// Adds tets of one octree to `out`, each for one of its leaves.
 class TetMaker {
 public:
-    explicit TetMaker(const Octree& octree) : octree_(octree) {}
+    TetMaker(const Octree& octree, const std::vector<std::uint64_t>& points, LatticeTets& out)
+        : octree_(octree), points_(points), out_(out) {}
 
     void add_cell(std::uint32_t index) {
         for (int axis = 0; axis < 3; ++axis) {
             for (const int side : {-1, 1}) add_face(index, axis, side);
         }
     }
-
-    std::vector<std::array<std::uint64_t, 4>> tets;
-    std::vector<std::array<std::uint32_t, 2>> cells;
 
 private:
     void add_face(std::uint32_t index, int axis, int side) {
@@ -100,33 +112,39 @@ private:
     static int axis_of(const glm::ivec3& d) { return d.x != 0 ? 0 : d.y != 0 ? 1 : 2; }
 
     void add(const Corners& corners, std::uint32_t index, std::uint32_t other) {
-        tets.push_back({key_of(corners[0]), key_of(corners[1]), key_of(corners[2]), key_of(corners[3])});
-        cells.push_back({index, other});
+        std::array<std::uint32_t, 4>& tet = out_.tets.emplace_back();
+        for (int k = 0; k < 4; ++k) {
+            const auto found = std::lower_bound(points_.begin(), points_.end(), key_of(corners[k]));
+            tet[k] = static_cast<std::uint32_t>(found - points_.begin());
+        }
+        out_.cells.push_back({index, other});
     }
 
     const Octree& octree_;
+    const std::vector<std::uint64_t>& points_;
+    LatticeTets& out_;
 };
 
 }  // namespace
 
 LatticeTets make_lattice_tets(const Octree& octree) {
-    TetMaker maker(octree);
-    for (std::uint32_t cell = 0; cell < octree.cells().size(); ++cell) {
-        if (octree[cell].is_leaf()) maker.add_cell(cell);
-    }
+    constexpr std::size_t kBlock = 2048;  // cells
     LatticeTets lattice;
-    lattice.cells = std::move(maker.cells);
-    for (const auto& tet : maker.tets) lattice.points.insert(lattice.points.end(), tet.begin(), tet.end());
-    tbb::parallel_sort(lattice.points);
-    lattice.points.erase(std::unique(lattice.points.begin(), lattice.points.end()), lattice.points.end());
-    lattice.tets.resize(maker.tets.size());
-    tbb::parallel_for(std::size_t{0}, maker.tets.size(), [&](std::size_t t) {
-        for (int k = 0; k < 4; ++k) {
-            const auto found =
-                std::lower_bound(lattice.points.begin(), lattice.points.end(), maker.tets[t][k]);
-            lattice.tets[t][k] = static_cast<std::uint32_t>(found - lattice.points.begin());
+    lattice.points = collect_points(octree);
+    const std::size_t blocks = (octree.cells().size() + kBlock - 1) / kBlock;
+    std::vector<LatticeTets> parts(blocks);
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+        TetMaker maker(octree, lattice.points, parts[b]);
+        const std::size_t end = std::min((b + 1) * kBlock, octree.cells().size());
+        for (std::size_t cell = b * kBlock; cell < end; ++cell) {
+            if (octree.cells()[cell].is_leaf()) maker.add_cell(static_cast<std::uint32_t>(cell));
         }
     });
+    for (LatticeTets& part : parts) {
+        lattice.tets.insert(lattice.tets.end(), part.tets.begin(), part.tets.end());
+        lattice.cells.insert(lattice.cells.end(), part.cells.begin(), part.cells.end());
+        part = {};
+    }
     return lattice;
 }
 

@@ -140,6 +140,97 @@ bool remove_fans(TetMesh& mesh) {
     return true;
 }
 
+// The boundary faces around a node, in sets that are joined by edges with this node.
+std::map<std::uint32_t, std::vector<glm::uvec3>> umbrellas_of(const std::vector<glm::uvec3>& faces, std::uint32_t node) {
+    JoinedSets joined(faces.size());
+    const auto shares_edge = [&](const glm::uvec3& a, const glm::uvec3& b) {
+        for (int i = 0; i < 3; ++i) {
+            for (int j = 0; j < 3; ++j) {
+                if (a[i] == b[j] && a[i] != node) return true;
+            }
+        }
+        return false;
+    };
+    for (std::uint32_t i = 0; i < faces.size(); ++i) {
+        for (std::uint32_t j = 0; j < i; ++j) {
+            if (shares_edge(faces[i], faces[j])) joined.join(i, j);
+        }
+    }
+    std::map<std::uint32_t, std::vector<glm::uvec3>> umbrellas;
+    for (std::uint32_t i = 0; i < faces.size(); ++i) umbrellas[joined.find(i)].push_back(faces[i]);
+    return umbrellas;
+}
+
+bool has_corners(const glm::uvec4& tet, const glm::uvec3& face) {
+    int count = 0;
+    for (int i = 0; i < 4; ++i) count += tet[i] == face[0] || tet[i] == face[1] || tet[i] == face[2] ? 1 : 0;
+    return count == 3;
+}
+
+// The shortest chain of tets around `node`, joined by faces with it, from one of its umbrellas to another.
+std::vector<std::uint32_t> chain_between(const TetMesh& mesh, const std::vector<std::uint32_t>& tets,
+                                         const std::map<std::uint32_t, std::vector<glm::uvec3>>& umbrellas) {
+    const auto touches = [&](std::uint32_t t, const std::vector<glm::uvec3>& faces) {
+        return std::any_of(faces.begin(), faces.end(),
+                           [&](const glm::uvec3& face) { return has_corners(mesh.tets[t], face); });
+    };
+    const auto are_neighbours = [&](const glm::uvec4& a, const glm::uvec4& b) {
+        int common = 0;
+        for (int i = 0; i < 4; ++i) {
+            for (int j = 0; j < 4; ++j) common += a[i] == b[j] ? 1 : 0;
+        }
+        return common == 3;
+    };
+    const auto& start = umbrellas.begin()->second;
+    std::map<std::uint32_t, std::uint32_t> came_from;
+    std::vector<std::uint32_t> queue;
+    for (const std::uint32_t t : tets) {
+        if (!touches(t, start)) continue;
+        came_from[t] = t;
+        queue.push_back(t);
+    }
+    for (std::size_t k = 0; k < queue.size(); ++k) {
+        const bool arrives = std::any_of(std::next(umbrellas.begin()), umbrellas.end(),
+                                         [&](const auto& umbrella) { return touches(queue[k], umbrella.second); });
+        if (arrives) {
+            std::vector<std::uint32_t> chain = {queue[k]};
+            while (came_from[chain.back()] != chain.back()) chain.push_back(came_from[chain.back()]);
+            return chain;
+        }
+        for (const std::uint32_t t : tets) {
+            if (came_from.contains(t) || !are_neighbours(mesh.tets[t], mesh.tets[queue[k]])) continue;
+            came_from[t] = queue[k];
+            queue.push_back(t);
+        }
+    }
+    return {};
+}
+
+// Nodes where the outside is narrowed to a point: a chain of tets is removed from one side to the other.
+bool open_narrows(TetMesh& mesh) {
+    std::vector<std::vector<glm::uvec3>> faces(mesh.positions.size());
+    for (const glm::uvec3& face : boundary_faces(mesh.tets)) {
+        for (int k = 0; k < 3; ++k) faces[face[k]].push_back(face);
+    }
+    std::map<std::uint32_t, std::map<std::uint32_t, std::vector<glm::uvec3>>> narrow;  // umbrellas by node
+    for (std::uint32_t node = 0; node < faces.size(); ++node) {
+        if (faces[node].empty()) continue;
+        auto umbrellas = umbrellas_of(faces[node], node);
+        if (umbrellas.size() > 1) narrow.emplace(node, std::move(umbrellas));
+    }
+    std::map<std::uint32_t, std::vector<std::uint32_t>> around;
+    for (std::uint32_t t = 0; t < mesh.tets.size(); ++t) {
+        for (int k = 0; k < 4; ++k) {
+            if (narrow.contains(mesh.tets[t][k])) around[mesh.tets[t][k]].push_back(t);
+        }
+    }
+    std::vector<bool> keep(mesh.tets.size(), true);
+    for (const auto& [node, umbrellas] : narrow) {
+        for (const std::uint32_t t : chain_between(mesh, around[node], umbrellas)) keep[t] = false;
+    }
+    return keep_tets(mesh, keep) > 0;
+}
+
 }  // namespace
 
 void remove_unused_nodes(TetMesh& mesh) {
@@ -164,7 +255,7 @@ void remove_unused_nodes(TetMesh& mesh) {
 void separate_touching(TetMesh& mesh) {
     do {
         divide_nodes(mesh);
-    } while (remove_fans(mesh));
+    } while (remove_fans(mesh) || open_narrows(mesh));
     remove_unused_nodes(mesh);
     mesh.faces = boundary_faces(mesh.tets);
 }
