@@ -6,12 +6,13 @@
 
 namespace gelatin::lattice {
 
-EnclosedSpace::EnclosedSpace(const SurfaceMesh& surface) : tree_(surface), winding_(tree_) {}
+EnclosedSpace::EnclosedSpace(const SurfaceMesh& surface)
+    : tree_(surface), pieces_(find_pieces(surface)), winding_(tree_) {}
 
 // Halves the segment until one face is left in it that is the boundary, or no length. In holes of the surface no face
 // is, and the bisection goes on.
 glm::dvec3 EnclosedSpace::find_boundary(const glm::dvec3& inside, const glm::dvec3& outside) const {
-    constexpr int kHalvings = 40;
+    constexpr int kHalvings = 20;
     const auto point = [&](double at) { return inside + at * (outside - inside); };
     std::vector<Crossing> crossings;
     tree_.find_crossings(inside, outside, crossings);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "mesh/lattice/face_tree.h"
+#include "mesh/lattice/surface_pieces.h"
 #include "mesh/lattice/winding_numbers.h"
 #include "mesh/surface_mesh.h"
 
@@ -18,6 +19,8 @@ public:
     EnclosedSpace& operator=(const EnclosedSpace&) = delete;
 
     const FaceTree& tree() const { return tree_; }
+    const SurfacePieces& pieces() const { return pieces_; }
+    std::uint32_t piece_of(std::uint32_t face) const { return pieces_.of_face[tree_.sources()[face]]; }
     bool contains(const glm::dvec3& p) const { return winding_(p) > 0.5; }
 
     /// A point of the boundary between `inside`, which this contains, and `outside`, which it does not. It lies on a
@@ -30,6 +33,7 @@ public:
 
 private:
     FaceTree tree_;
+    SurfacePieces pieces_;
     WindingNumbers winding_;
 };
 

@@ -46,7 +46,7 @@ private:
     static Lattice make_root(const FaceTree& tree, const CellSizes& sizes) {
         constexpr std::int32_t kLargest = 1 << 20;  // of key_of
         const FaceTree::Node& all = tree.nodes()[0];
-        const double unit = std::ldexp(sizes.boundary / kSmallest, -sizes.finer_levels);
+        const double unit = smallest_cell(sizes) / kSmallest;
         const glm::dvec3 extent = all.max - all.min;
         const double needed = (std::max({extent.x, extent.y, extent.z}) + 3.0 * sizes.boundary) / unit;
         if (needed > kLargest) refuse_size();
@@ -129,6 +129,10 @@ private:
 };
 
 }  // namespace
+
+double smallest_cell(const CellSizes& sizes) {
+    return std::ldexp(sizes.boundary, -sizes.finer_levels);
+}
 
 Lattice make_lattice(const EnclosedSpace& space, const CellSizes& sizes) {
     return LatticeMaker(space, sizes).make();

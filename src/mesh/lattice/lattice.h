@@ -20,6 +20,9 @@ struct CellSizes {
 /// A part is thin where cells are larger than this fraction of its thickness: then points of the lattice may miss it.
 constexpr double kCellsInThickness = 0.8;
 
+/// The size of the smallest cells.
+double smallest_cell(const CellSizes& sizes);
+
 /// A lattice over the space that a surface encloses, and which of its points are inside.
 struct Lattice {
     glm::dvec3 origin;  ///< of the octree's coordinates [m]

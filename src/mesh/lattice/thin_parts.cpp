@@ -13,7 +13,13 @@ struct Search {
     const EnclosedSpace& space;
     double thickness, spacing, least;
 
-    void add(const Triangle& face, std::vector<ThinPlace>& places) const {
+    std::optional<double> find(const Triangle& face, double piece) const {
+        const bool is_small = piece > 0.0 && piece < thickness && space.contains(ThinPlace{face, piece}.middle());
+        return is_small ? std::optional(piece) : space.find_thickness(face, thickness);
+    }
+
+    // `piece` is the thickness of the whole piece of the surface, or 0.
+    void add(const Triangle& face, double piece, std::vector<ThinPlace>& places) const {
         int longest = 0;
         double length = 0.0;
         for (int k = 0; k < 3; ++k) {
@@ -23,7 +29,7 @@ struct Search {
             longest = k;
         }
         if (length <= spacing) {
-            const auto found = space.find_thickness(face, thickness);
+            const auto found = find(face, piece);
             if (!found) return;
             if (length <= std::max(*found, least)) {
                 places.push_back({face, *found});
@@ -32,8 +38,8 @@ struct Search {
         }
         Triangle first = face, second = face;
         first[(longest + 1) % 3] = second[longest] = 0.5 * (face[longest] + face[(longest + 1) % 3]);
-        add(first, places);
-        add(second, places);
+        add(first, piece, places);
+        add(second, piece, places);
     }
 };
 
@@ -49,6 +55,13 @@ double count_pieces(const FaceTree& tree, double spacing) {
 
 }  // namespace
 
+glm::dvec3 ThinPlace::middle() const {
+    const glm::dvec3 normal = glm::cross(face[1] - face[0], face[2] - face[0]);
+    const double length = glm::length(normal);
+    const glm::dvec3 center = (face[0] + face[1] + face[2]) / 3.0;
+    return length > 0.0 ? center - 0.5 * thickness / length * normal : center;
+}
+
 std::vector<ThinPlace> find_thin_places(const EnclosedSpace& space, double thickness, double spacing, double least) {
     constexpr double kMostPieces = 1e6;  // wider apart on surfaces that are folded again and again
     const double count = count_pieces(space.tree(), spacing);
@@ -56,7 +69,10 @@ std::vector<ThinPlace> find_thin_places(const EnclosedSpace& space, double thick
     const Search search{space, thickness, spacing, least};
     const auto faces = space.tree().faces();
     std::vector<std::vector<ThinPlace>> found(faces.size());
-    tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t f) { search.add(faces[f], found[f]); });
+    tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t f) {
+        const double piece = space.pieces().thickness[space.piece_of(static_cast<std::uint32_t>(f))];
+        search.add(faces[f], piece, found[f]);
+    });
     std::vector<ThinPlace> places;
     for (const auto& of_face : found) places.insert(places.end(), of_face.begin(), of_face.end());
     return places;

@@ -10,9 +10,12 @@ namespace gelatin::lattice {
 struct ThinPlace {
     Triangle face;
     double thickness;  ///< [m]
+
+    /// Half of the thickness behind the middle of the face.
+    glm::dvec3 middle() const;
 };
 
-/// Where the enclosed space is thinner than `thickness`. Faces are divided into pieces: none longer than `spacing`, and
+/// Where the enclosed space is thinner than `thickness`, and all faces of closed pieces that are smaller than that. Faces are divided into pieces: none longer than `spacing`, and
 /// none longer than it is thick, but down to `least`.
 std::vector<ThinPlace> find_thin_places(const EnclosedSpace& space, double thickness, double spacing, double least);
 

@@ -1,0 +1,186 @@
+#include "mesh/lattice/fill_with_lattice.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+#include "gelatin/error.h"
+#include "mesh/lattice/cut_lattice.h"
+#include "mesh/lattice/enclosed_space.h"
+#include "mesh/lattice/improve_tets.h"
+#include "mesh/lattice/lattice.h"
+#include "mesh/lattice/lost_parts.h"
+#include "mesh/lattice/separate_touching.h"
+#include "mesh/topology.h"
+
+namespace gelatin {
+namespace {
+
+using namespace lattice;
+
+constexpr int kUsualNodes = 5000;
+
+/// The surface is moved and scaled into the unit cube, and the tets back.
+struct Frame {
+    glm::dvec3 origin;
+    double scale;
+};
+
+class LatticeFill {
+public:
+    LatticeFill(const SurfaceMesh& surface, std::string name, Notes& notes)
+        : name_(std::move(name)), notes_(notes), frame_(frame_of(surface)), space_(in_frame(surface)) {}
+
+    TetMesh fill(const LatticeSize& size) {
+        if (size.cell_size)
+            make({*size.cell_size / frame_.scale});
+        else if (size.max_volume)
+            find_size_for_volume(*size.max_volume / std::pow(frame_.scale, 3.0));
+        else
+            find_size_for_nodes(size.nodes.value_or(kUsualNodes));
+        if (mesh_.tets.empty()) refuse_emptiness();
+        if (!size.max_volume) improve_tets(mesh_, space_.tree());
+        report_losses();
+        for (glm::dvec3& p : mesh_.positions) p = frame_.origin + frame_.scale * p;
+        return std::move(mesh_);
+    }
+
+private:
+    [[noreturn]] void refuse(const std::string& problem) const {
+        throw InvalidInput({name_, 0, {}, {}, problem});
+    }
+
+    Frame frame_of(const SurfaceMesh& surface) const {
+        if (surface.faces.empty()) refuse("the surface has no faces, so there is nothing to fill");
+        constexpr double kFar = std::numeric_limits<double>::infinity();
+        glm::dvec3 min(kFar), max(-kFar);
+        for (const glm::uvec3& face : surface.faces) {
+            for (int k = 0; k < 3; ++k) {
+                const glm::dvec3& p = surface.positions[face[k]];
+                if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+                    refuse(fmt::format("vertex {} has a coordinate that is not a finite number", face[k] + 1));
+                min = glm::min(min, p);
+                max = glm::max(max, p);
+            }
+        }
+        const glm::dvec3 extent = max - min;
+        const double scale = std::max({extent.x, extent.y, extent.z});
+        if (!std::isfinite(scale)) refuse("its extent is too large for a double-precision number");
+        if (!(scale > 1e-100)) refuse("its vertices are all in one place, so it encloses no volume");
+        return {min, scale};
+    }
+
+    SurfaceMesh in_frame(SurfaceMesh surface) const {
+        for (glm::dvec3& p : surface.positions) p = (p - frame_.origin) / frame_.scale;
+        return surface;
+    }
+
+    // Makes the tets of one size. Those of the last call stay.
+    void make(const CellSizes& sizes) {
+        sizes_ = sizes;
+        try {
+            const Lattice lattice = make_lattice(space_, sizes);
+            mesh_ = cut_lattice(lattice, space_);
+        } catch (const InvalidInput& error) {
+            refuse(fmt::format("with cells of {:.3g} m: {}", frame_.scale * sizes.boundary, error.what()));
+        }
+        separate_touching(mesh_);
+        fragments_ = remove_fragments(space_, 0.5 * sizes.boundary, mesh_);
+    }
+
+    // The count grows with a power of 1 / size that is about 2 for thin bodies and 3 for thick ones.
+    void find_size_for_nodes(int wanted) {
+        constexpr int kTries = 10;
+        constexpr double kClose = 0.08, kAllowed = 0.2;
+        const auto error_of = [&](double count) { return std::abs(count / wanted - 1.0); };
+        double size = 1.0 / 16.0, power = 2.3, last_size = 0.0, last_count = 0.0;
+        double too_small = 0.0, too_large = std::numeric_limits<double>::infinity();
+        for (int k = 0; k < kTries; ++k) {
+            make({size});
+            const auto count = static_cast<double>(mesh_.positions.size());
+            if (error_of(count) < kClose) return;
+            (count > wanted ? too_small : too_large) = size;
+            if (count > 0.0 && last_count > 0.0 && count != last_count)
+                power = std::clamp(std::log(count / last_count) / std::log(last_size / size), 1.5, 4.0);
+            last_size = size;
+            last_count = count;
+            const double next = count > 0.0 ? size * std::pow(count / wanted, 1.0 / power) : 0.5 * size;
+            const bool is_between = next > too_small && next < too_large;
+            size = is_between || too_small == 0.0 ? next : std::sqrt(too_small * std::min(too_large, 4.0 * too_small));
+        }
+        const auto count = static_cast<double>(mesh_.positions.size());
+        if (mesh_.tets.empty() || error_of(count) <= kAllowed) return;
+        notes_.push_back(fmt::format("the lattice has {} nodes; {} were wanted", mesh_.positions.size(), wanted));
+    }
+
+    void find_size_for_volume(double wanted) {
+        constexpr int kTries = 6;
+        double size = std::cbrt(12.0 * wanted);  // a tet of the lattice has a twelfth of its cell
+        for (int k = 0; k < kTries; ++k) {
+            make({size, 2, 0});
+            if (mesh_.tets.empty()) return;
+            improve_tets(mesh_, space_.tree());
+            double largest = 0.0;
+            for (const glm::uvec4& tet : mesh_.tets) largest = std::max(largest, tet_volume(mesh_, tet));
+            if (largest <= wanted) return;
+            size *= std::min(0.98, std::cbrt(0.98 * wanted / largest));
+        }
+    }
+
+    [[noreturn]] void refuse_emptiness() const {
+        const LostParts lost = find_lost_parts(space_, sizes_, mesh_);
+        if (lost.cell_size > 0.0) {
+            refuse(fmt::format(
+                "it is too thin everywhere for cells of {:.3g} m; mesher.cell_size = {:.2g} would fill it",
+                frame_.scale * sizes_.boundary, frame_.scale * lost.cell_size));
+        }
+        refuse(
+            "the surface encloses no volume that could be filled with tets, as a flat sheet does not; close it, or "
+            "give it a thickness");
+    }
+
+    void report_losses() {
+        if (fragments_.removed > 0)
+            notes_.push_back(fmt::format("discarded fragments of thin parts: {}", fragments_.removed));
+        const LostParts lost = find_lost_parts(space_, sizes_, mesh_);
+        const double better = frame_.scale * (lost.cell_size > 0.0 ? lost.cell_size : 0.5 * sizes_.boundary);
+        if (lost.area_fraction > 0.5) {
+            refuse(fmt::format(
+                "most of it is too thin for cells of {:.3g} m; mesher.cell_size = {:.2g} would fill it, with more nodes",
+                frame_.scale * sizes_.boundary, better));
+        }
+        if (fragments_.divided > 0) {
+            notes_.push_back(fmt::format(
+                "connected pieces of the surface that fall apart because they are thin: {}; mesher.cell_size = {:.2g} instead "
+                "of {:.2g} would keep them",
+                fragments_.divided, better, frame_.scale * sizes_.boundary));
+        }
+        if (lost.cell_size == 0.0) return;
+        const glm::dvec3 where = frame_.origin + frame_.scale * lost.where;
+        notes_.push_back(fmt::format(
+            "parts that are thinner than the cells are missing, {:.2g}% of the surface, for instance near ({:.3g}, {:.3g}, "
+            "{:.3g}); mesher.cell_size = {:.2g} instead of {:.2g} would keep them",
+            100.0 * lost.area_fraction, where.x, where.y, where.z, better, frame_.scale * sizes_.boundary));
+    }
+
+    const std::string name_;
+    Notes& notes_;
+    const Frame frame_;
+    const EnclosedSpace space_;
+    CellSizes sizes_{};
+    Fragments fragments_;
+    TetMesh mesh_;
+};
+
+}  // namespace
+
+TetMesh fill_with_lattice(const SurfaceMesh& surface, const LatticeSize& size, const std::string& name, Notes& notes) {
+    return LatticeFill(surface, name, notes).fill(size);
+}
+
+}  // namespace gelatin
