@@ -3,11 +3,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <limits>
 
 #include "mesh/surface_repair.h"
+#include "mesh/tet_quality.h"
 #include "mesh/topology.h"
 
 namespace gelatin {
@@ -85,13 +88,20 @@ Json describe_surface(const SurfaceMesh& mesh) {
 }
 
 Json describe_tets(const TetMesh& mesh) {
-    Spread volumes, ratios;
-    double volume = 0.0;
+    Spread volumes, ratios, radii, angles;
+    double volume = 0.0, sum_of_least = 0.0;
     for (const glm::uvec4& tet : mesh.tets) {
         volumes.add(tet_volume(mesh, tet));
         ratios.add(radius_edge_ratio(mesh, tet));
         volume += tet_volume(mesh, tet);
+        const auto& p = mesh.positions;
+        radii.add(radius_ratio(p[tet[0]], p[tet[1]], p[tet[2]], p[tet[3]]));
+        const std::array<double, 6> of_tet = dihedral_angles(p[tet[0]], p[tet[1]], p[tet[2]], p[tet[3]]);
+        for (const double angle : of_tet) angles.add(glm::degrees(angle));
+        sum_of_least += glm::degrees(*std::min_element(of_tet.begin(), of_tet.end()));
     }
+    Json dihedral_angle = angles.json();
+    dihedral_angle["mean_of_least"] = sum_of_least / static_cast<double>(mesh.tets.size());
     return {{"kind", "tets"},
             {"nodes", mesh.positions.size()},
             {"tets", mesh.tets.size()},
@@ -100,7 +110,9 @@ Json describe_tets(const TetMesh& mesh) {
             {"volume", volume},
             {"extent", extent_json(mesh.positions)},
             {"tet_volume", volumes.json()},
-            {"radius_edge_ratio", ratios.json()}};
+            {"radius_edge_ratio", ratios.json()},
+            {"radius_ratio", radii.json()},
+            {"dihedral_angle", dihedral_angle}};
 }
 
 std::string to_text(const Json& description) {

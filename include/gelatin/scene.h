@@ -145,13 +145,22 @@ struct FileShape {
 };
 using Shape = std::variant<SphereShape, BoxShape, CapsuleShape, TextShape, FileShape>;
 
-enum class MesherKind { automatic, tetgen };
+/// How a surface is filled with tets.
+enum class MesherKind {
+    automatic,  ///< tetgen
+    tetgen,     ///< by TetGen: tets of a closed surface, with its vertices and edges
+    lattice,    ///< by a lattice that is cut along the surface: any surface that encloses something, also a broken one
+};
 
 struct MesherSettings {
     MesherKind kind = MesherKind::automatic;
-    double quality = 2.0;              ///< largest radius-edge ratio of a tet, > 1 (TetGen's -q)
+    double quality = 2.0;              ///< of tetgen: largest radius-edge ratio of a tet, > 1 (its -q)
     std::optional<double> max_volume;  ///< of a tet [m^3], > 0 (TetGen's -a)
-    double time_limit = 120.0;         ///< of the mesher's process [s], > 0
+    double time_limit = 120.0;         ///< of tetgen's process [s], > 0
+
+    // For the lattice, of these and max_volume one at most; without any about 5000 nodes.
+    std::optional<int> nodes = {};         ///< within 20%, from 10 to 1000000
+    std::optional<double> cell_size = {};  ///< edge of the lattice's cells at the surface [m], > 0
     bool operator==(const MesherSettings&) const = default;
 };
 

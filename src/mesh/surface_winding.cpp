@@ -84,11 +84,28 @@ Parts agree_within_parts(const Neighbours& neighbours, std::vector<bool>& turn, 
     return parts;
 }
 
-// Six times the volume [m^3], relative to the part's first vertex. For an open part the result then does not
-// depend on its position.
+// The middle of a part's boundary, by length; of a closed part its first vertex.
+glm::dvec3 middle_of_boundary(const SurfaceMesh& mesh, std::span<const std::uint32_t> faces,
+                              const Neighbours& neighbours) {
+    glm::dvec3 sum(0.0);
+    double length = 0.0;
+    for (const std::uint32_t f : faces) {
+        for (int side = 0; side < 3; ++side) {
+            if (neighbours[f][side].face != kNone) continue;
+            const glm::dvec3 &a = mesh.positions[mesh.faces[f][side]],
+                             &b = mesh.positions[mesh.faces[f][(side + 1) % 3]];
+            const double weight = glm::distance(a, b);
+            sum += weight * 0.5 * (a + b);
+            length += weight;
+        }
+    }
+    return length > 0.0 ? sum / length : mesh.positions[mesh.faces[faces[0]][0]];
+}
+
+// Six times the volume [m^3]. Holes of an open part are closed by cones to the middle of its boundary.
 double part_volume(const SurfaceMesh& mesh, std::span<const std::uint32_t> faces,
-                   const std::vector<bool>& turn) {
-    const glm::dvec3 origin = mesh.positions[mesh.faces[faces[0]][0]];
+                   const Neighbours& neighbours, const std::vector<bool>& turn) {
+    const glm::dvec3 origin = middle_of_boundary(mesh, faces, neighbours);
     double volume = 0.0;
     for (const std::uint32_t f : faces) {
         const glm::uvec3& face = mesh.faces[f];
@@ -182,10 +199,11 @@ WindingRepair orient_faces_outward(SurfaceMesh& mesh) {
     WindingRepair repair;
     std::vector<bool> turn(mesh.faces.size(), false);
     const std::vector<EdgeUse> uses = sorted_edge_uses(mesh.faces);
-    const Parts parts = agree_within_parts(find_neighbours(mesh, uses), turn, repair.contrary_edges);
+    const Neighbours neighbours = find_neighbours(mesh, uses);
+    const Parts parts = agree_within_parts(neighbours, turn, repair.contrary_edges);
     const std::vector<bool> cavity = find_cavities(mesh, parts);
     for (std::uint32_t part = 0; part < parts.count(); ++part) {
-        const double volume = part_volume(mesh, parts.of(part), turn);
+        const double volume = part_volume(mesh, parts.of(part), neighbours, turn);
         if (cavity[part] ? volume <= 0.0 : volume >= 0.0) continue;
         for (const std::uint32_t f : parts.of(part)) turn[f] = !turn[f];
     }

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <tuple>
 
-#include "mesh/lattice/tet_quality.h"
+#include "mesh/tet_quality.h"
 
 namespace gelatin::lattice {
 namespace {

@@ -80,35 +80,43 @@ private:
         return surface;
     }
 
-    // Makes the tets of one size. Those of the last call stay.
-    void make(const CellSizes& sizes) {
+    // Makes the tets of one size, if there are not too many cells. Those of the last call stay.
+    bool try_to_make(const CellSizes& sizes) {
         sizes_ = sizes;
+        mesh_ = {};
         try {
-            const Lattice lattice = make_lattice(space_, sizes);
-            mesh_ = cut_lattice(lattice, space_);
-        } catch (const InvalidInput& error) {
-            refuse(fmt::format("with cells of {:.3g} m: {}", frame_.scale * sizes.boundary, error.what()));
+            mesh_ = cut_lattice(make_lattice(space_, sizes), space_);
+        } catch (const TooManyCells&) {
+            return false;
         }
         separate_touching(mesh_);
         fragments_ = remove_fragments(space_, 0.5 * sizes.boundary, mesh_);
+        return true;
+    }
+
+    void make(const CellSizes& sizes) {
+        if (try_to_make(sizes)) return;
+        refuse(fmt::format("with cells of {:.3g} m there would be more than {} of them, the most that are allowed",
+                           frame_.scale * sizes.boundary, sizes.most_cells));
     }
 
     // The count grows with a power of 1 / size that is about 2 for thin bodies and 3 for thick ones.
     void find_size_for_nodes(int wanted) {
         constexpr int kTries = 10;
         constexpr double kClose = 0.08, kAllowed = 0.2;
+        const std::size_t most_cells = std::min(kMostCells, 20'000 + 60 * static_cast<std::size_t>(wanted));
         const auto error_of = [&](double count) { return std::abs(count / wanted - 1.0); };
         double size = 1.0 / 16.0, power = 2.3, last_size = 0.0, last_count = 0.0;
         double too_small = 0.0, too_large = std::numeric_limits<double>::infinity();
         for (int k = 0; k < kTries; ++k) {
-            make({size});
-            const auto count = static_cast<double>(mesh_.positions.size());
+            const bool is_too_fine = !try_to_make({size, 2, 2, most_cells});
+            const auto count = is_too_fine ? 4.0 * wanted : static_cast<double>(mesh_.positions.size());
             if (error_of(count) < kClose) return;
             (count > wanted ? too_small : too_large) = size;
             if (count > 0.0 && last_count > 0.0 && count != last_count)
                 power = std::clamp(std::log(count / last_count) / std::log(last_size / size), 1.5, 4.0);
             last_size = size;
-            last_count = count;
+            last_count = is_too_fine ? 0.0 : count;
             const double next = count > 0.0 ? size * std::pow(count / wanted, 1.0 / power) : 0.5 * size;
             const bool is_between = next > too_small && next < too_large;
             size = is_between || too_small == 0.0 ? next : std::sqrt(too_small * std::min(too_large, 4.0 * too_small));

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/lattice/tet_quality.h"
+#include "mesh/tet_quality.h"
 
 namespace gelatin::lattice {
 namespace {

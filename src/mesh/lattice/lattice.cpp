@@ -1,6 +1,5 @@
 #include "mesh/lattice/lattice.h"
 
-#include <fmt/core.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -9,7 +8,6 @@
 #include <glm/common.hpp>
 #include <utility>
 
-#include "gelatin/error.h"
 #include "mesh/lattice/overlaps_cube.h"
 #include "mesh/lattice/thin_parts.h"
 
@@ -17,10 +15,6 @@ namespace gelatin::lattice {
 namespace {
 
 constexpr std::int32_t kSmallest = 2;  // size of the smallest cell possible, in units
-
-[[noreturn]] void refuse_size() {
-    throw InvalidInput(fmt::format("cells of this size would be more than {}, the most that are allowed", kMostCells));
-}
 
 class LatticeMaker {
 public:
@@ -49,14 +43,14 @@ private:
         const double unit = smallest_cell(sizes) / kSmallest;
         const glm::dvec3 extent = all.max - all.min;
         const double needed = (std::max({extent.x, extent.y, extent.z}) + 3.0 * sizes.boundary) / unit;
-        if (needed > kLargest) refuse_size();
+        if (needed > kLargest) throw TooManyCells();
         const auto size = static_cast<std::int32_t>(std::bit_ceil(static_cast<std::uint32_t>(std::ceil(needed))));
         const glm::dvec3 margin = sizes.boundary * glm::dvec3(1.137, 1.291, 1.413);
         return {all.min - margin, unit, Octree(size), {}, {}};
     }
 
     void check_count() {
-        if (octree().cells().size() > kMostCells) refuse_size();
+        if (octree().cells().size() > sizes_.most_cells) throw TooManyCells();
     }
 
     // Divides the cells that the face passes through down to `size`.

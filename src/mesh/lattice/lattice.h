@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -10,12 +11,18 @@
 
 namespace gelatin::lattice {
 
+constexpr std::size_t kMostCells = 2'000'000;  // less than 2 GB of memory
+
 /// Which sizes the cells of a lattice have.
 struct CellSizes {
     double boundary;         ///< where the boundary passes [m], > 0
     int finer_levels = 2;    ///< at thin parts cells are halved this often at most
     int coarser_levels = 2;  ///< deep inside they are doubled this often at most
+    std::size_t most_cells = kMostCells;
 };
+
+/// Thrown where a lattice would have more than `CellSizes::most_cells` cells.
+struct TooManyCells {};
 
 /// A part is thin where cells are larger than this fraction of its thickness: then points of the lattice may miss it.
 constexpr double kCellsInThickness = 0.8;
@@ -36,9 +43,7 @@ struct Lattice {
 };
 
 /// All tets that the boundary passes through are of cells of size `boundary`, or smaller at thin parts.
-/// @throws InvalidInput if it would have more than `kMostCells` cells
+/// @throws TooManyCells
 Lattice make_lattice(const EnclosedSpace& space, const CellSizes& sizes);
-
-constexpr std::size_t kMostCells = 4'000'000;
 
 }  // namespace gelatin::lattice

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "mesh/lattice/joined_sets.h"
-#include "mesh/lattice/tet_quality.h"
+#include "mesh/tet_quality.h"
 #include "mesh/topology.h"
 
 namespace gelatin::lattice {

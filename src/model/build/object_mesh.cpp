@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "core/log.h"
+#include "mesh/fill_surface.h"
 #include "mesh/shapes.h"
 #include "mesh/surface_file.h"
 #include "mesh/tet_file.h"
-#include "mesh/tetrahedralise.h"
 #include "model/springs/spring_cache.h"
 #include "model/transform.h"
 
@@ -33,8 +33,8 @@ TetMesh make_local_mesh(const ObjectDescription& object, Notes& notes) {
     const auto* file = std::get_if<FileShape>(&object.shape);
     if (file != nullptr && is_tet_file(file->file)) return read_tets(file->file, notes);
     const SurfaceMesh surface = make_surface(object.shape, notes);
-    return tetrahedralise(surface, object.mesher,
-                          file != nullptr ? file->file.string() : "object '" + object.name + "'");
+    return fill_surface(surface, object.mesher,
+                        file != nullptr ? file->file.string() : "object '" + object.name + "'", notes);
 }
 
 void warn_of_a_poor_fit(const FittedSprings& springs, const std::string& name) {

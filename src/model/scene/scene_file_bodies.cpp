@@ -51,10 +51,14 @@ Shape read_shape(TableReader reader, const std::filesystem::path& folder) {
 
 MesherSettings read_mesher(TableReader reader) {
     MesherSettings mesher;
-    reader.read("kind", mesher.kind, {{"auto", MesherKind::automatic}, {"tetgen", MesherKind::tetgen}});
+    reader.read("kind", mesher.kind, {{"auto", MesherKind::automatic},
+                                      {"tetgen", MesherKind::tetgen},
+                                      {"lattice", MesherKind::lattice}});
     reader.read("quality", mesher.quality);
     reader.read("max_volume", mesher.max_volume);
     reader.read("time_limit", mesher.time_limit);
+    reader.read("nodes", mesher.nodes);
+    reader.read("cell_size", mesher.cell_size);
     reader.finish();
     return mesher;
 }

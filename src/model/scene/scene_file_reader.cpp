@@ -148,6 +148,10 @@ void TableReader::read(const char* key, int& value) {
     if (const toml::node* node = find(key)) value = whole_number(*node, key);
 }
 
+void TableReader::read(const char* key, std::optional<int>& value) {
+    if (const toml::node* node = find(key)) value = whole_number(*node, key);
+}
+
 void TableReader::read(const char* key, bool& value) {
     const toml::node* node = find(key);
     if (node == nullptr) return;

@@ -51,6 +51,7 @@ public:
     void read(const char* key, double& value);
     void read(const char* key, std::optional<double>& value);
     void read(const char* key, int& value);
+    void read(const char* key, std::optional<int>& value);
     void read(const char* key, bool& value);
     void read(const char* key, std::string& value);
     void read(const char* key, glm::dvec3& value);

@@ -75,9 +75,11 @@ Table table_of(const MesherSettings& mesher) {
     const MesherSettings usual;
     Table table;
     if (mesher.kind == MesherKind::tetgen) table.add("kind", "tetgen");
+    if (mesher.kind == MesherKind::lattice) table.add("kind", "lattice");
     table.add_unless(usual.quality, "quality", mesher.quality);
     table.add("max_volume", mesher.max_volume);
-    return table.add_unless(usual.time_limit, "time_limit", mesher.time_limit);
+    table.add_unless(usual.time_limit, "time_limit", mesher.time_limit);
+    return table.add("nodes", mesher.nodes).add("cell_size", mesher.cell_size);
 }
 
 Table table_of(const Keyframe& keyframe) {

@@ -15,6 +15,7 @@ namespace {
 constexpr Limit kSphereFrequency{"from 1 to 500", [](double v) { return v >= 1.0 && v <= 500.0; }};
 constexpr Limit kCapsuleFrequency{"from 2 to 500", [](double v) { return v >= 2.0 && v <= 500.0; }};
 constexpr Limit kSegments{"from 1 to 1000", [](double v) { return v >= 1.0 && v <= 1000.0; }};
+constexpr Limit kNodes{"from 10 to 1000000", [](double v) { return v >= 10.0 && v <= 1e6; }};
 constexpr Limit kQuality{"greater than 1", [](double v) { return v > 1.0; }};
 
 struct ShapeCheck {
@@ -138,6 +139,29 @@ private:
         checks_.check(field / "quality", mesher.quality, kQuality);
         checks_.check(field / "max_volume", mesher.max_volume, kPositive);
         checks_.check(field / "time_limit", mesher.time_limit, kPositive);
+        checks_.check(field / "nodes", mesher.nodes, kNodes);
+        checks_.check(field / "cell_size", mesher.cell_size, kPositive);
+        check_sizes(field, mesher);
+    }
+
+    // Each mesher has settings of its own, and a lattice has one size.
+    void check_sizes(const FieldPath& field, const MesherSettings& mesher) const {
+        const auto refuse = [&](const char* key, const std::string& value, const char* problem) {
+            checks_.fail(field / key, value, problem);
+        };
+        constexpr const char* kForLattice = "is only for kind = \"lattice\"";
+        constexpr const char* kOneSize = "must not be given with another of nodes, cell_size and max_volume";
+        if (mesher.kind != MesherKind::lattice) {
+            if (mesher.nodes) refuse("nodes", text_of(*mesher.nodes), kForLattice);
+            if (mesher.cell_size) refuse("cell_size", text_of(*mesher.cell_size), kForLattice);
+            return;
+        }
+        if (mesher.cell_size && (mesher.nodes || mesher.max_volume))
+            refuse("cell_size", text_of(*mesher.cell_size), kOneSize);
+        else if (mesher.nodes && mesher.max_volume)
+            refuse("nodes", text_of(*mesher.nodes), kOneSize);
+        if (mesher.quality != MesherSettings().quality)
+            refuse("quality", text_of(mesher.quality), "is only for TetGen, not for kind = \"lattice\"");
     }
 
     void check_part(const FieldPath& field, const PartDescription& part, const Material& whole) const {

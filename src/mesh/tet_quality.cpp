@@ -1,11 +1,11 @@
-#include "mesh/lattice/tet_quality.h"
+#include "mesh/tet_quality.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
-namespace gelatin::lattice {
+namespace gelatin {
 namespace {
 
 // The normals of the faces opposite to each corner, twice the area long, outward if the volume is positive.
@@ -35,6 +35,17 @@ double worst_sine(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
     return worst;
 }
 
+// With u, v, w the edges from d: R = |u.u (v x w) + v.v (w x u) + w.w (u x v)| / (12 V), r = 3 V / area.
+double radius_ratio(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
+    double area = 0.0;
+    for (const glm::dvec3& normal : face_normals(a, b, c, d)) area += 0.5 * glm::length(normal);
+    const glm::dvec3 u = a - d, v = b - d, w = c - d;
+    const double volume = std::abs(glm::dot(u, glm::cross(v, w))) / 6.0;
+    const double vector = glm::length(glm::dot(u, u) * glm::cross(v, w) + glm::dot(v, v) * glm::cross(w, u) +
+                                      glm::dot(w, w) * glm::cross(u, v));
+    return volume > 0.0 ? 108.0 * volume * volume / (area * vector) : 0.0;
+}
+
 std::array<double, 6> dihedral_angles(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
                                       const glm::dvec3& d) {
     const std::array<glm::dvec3, 4> n = face_normals(a, b, c, d);
@@ -47,4 +58,4 @@ std::array<double, 6> dihedral_angles(const glm::dvec3& a, const glm::dvec3& b, 
     return angles;
 }
 
-}  // namespace gelatin::lattice
+}  // namespace gelatin

@@ -1,0 +1,90 @@
+#include "mesh/lattice/winding_numbers.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "mesh/mesh_samples.h"
+#include "mesh/shapes.h"
+
+namespace gelatin::lattice {
+namespace {
+
+std::vector<Triangle> triangles_of(const SurfaceMesh& surface) {
+    std::vector<Triangle> triangles;
+    for (const glm::uvec3& f : surface.faces)
+        triangles.push_back({surface.positions[f[0]], surface.positions[f[1]], surface.positions[f[2]]});
+    return triangles;
+}
+
+std::vector<glm::dvec3> random_points(int count, double reach) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> along(-reach, reach);
+    std::vector<glm::dvec3> points;
+    for (int k = 0; k < count; ++k) points.emplace_back(along(random), along(random), along(random));
+    return points;
+}
+
+double largest_error(const SurfaceMesh& surface, const std::vector<glm::dvec3>& points) {
+    const FaceTree tree(surface);
+    const WindingNumbers fast(tree);
+    const std::vector<Triangle> triangles = triangles_of(surface);
+    double worst = 0.0;
+    for (const glm::dvec3& p : points) worst = std::max(worst, std::abs(fast(p) - exact_winding_number(triangles, p)));
+    return worst;
+}
+
+TEST(WindingNumbersTest, AreOneWithinAClosedSurfaceAndZeroOutside) {
+    const std::vector<Triangle> box = triangles_of(cube({0.0, 0.0, 0.0}, 1.0));
+    EXPECT_NEAR(exact_winding_number(box, {0.5, 0.5, 0.5}), 1.0, 1e-14);
+    EXPECT_NEAR(exact_winding_number(box, {0.01, 0.02, 0.99}), 1.0, 1e-13);
+    EXPECT_NEAR(exact_winding_number(box, {1.2, 0.5, 0.5}), 0.0, 1e-14);
+}
+
+// A cube's face is seen from its centre under a sixth of all directions.
+TEST(WindingNumbersTest, CountSolidAngles) {
+    SurfaceMesh open = cube({0.0, 0.0, 0.0}, 1.0);
+    open.faces.resize(open.faces.size() - 2);
+    EXPECT_NEAR(exact_winding_number(triangles_of(open), {0.5, 0.5, 0.5}), 5.0 / 6.0, 1e-14);
+    for (glm::uvec3& face : open.faces) std::swap(face[0], face[1]);
+    EXPECT_NEAR(exact_winding_number(triangles_of(open), {0.5, 0.5, 0.5}), -5.0 / 6.0, 1e-14);
+}
+
+TEST(WindingNumbersTest, OfASphereAgreeWithTheExactSum) {
+    EXPECT_LT(largest_error(make_sphere({0.5, 30}), random_points(2000, 0.8)), 1e-4);
+}
+
+TEST(WindingNumbersTest, OfSeveralNestedSurfacesAgreeWithTheExactSum) {
+    SurfaceMesh surface = make_sphere({0.5, 12});
+    append(surface, make_sphere({0.3, 12}));
+    append(surface, cube({-0.2, -0.2, 0.1}, 0.7));
+    EXPECT_LT(largest_error(surface, random_points(2000, 1.0)), 5e-4);
+}
+
+// Faces at random cancel no errors of each other.
+TEST(WindingNumbersTest, OfLooseFacesAgreeWithTheExactSum) {
+    SurfaceMesh surface;
+    surface.positions = random_points(3000, 0.5);
+    for (std::uint32_t f = 0; f < 1000; ++f) {
+        for (std::uint32_t k = 1; k < 3; ++k)  // a tenth as large as all of them
+            surface.positions[3 * f + k] = 0.9 * surface.positions[3 * f] + 0.1 * surface.positions[3 * f + k];
+        surface.faces.emplace_back(3 * f, 3 * f + 1, 3 * f + 2);
+    }
+    EXPECT_LT(largest_error(surface, random_points(2000, 0.8)), 2e-3);
+}
+
+TEST(WindingNumbersTest, OfFacesWithoutAreaAreZero) {
+    SurfaceMesh surface;
+    surface.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+    surface.faces = {{0, 1, 2}, {0, 0, 0}};
+    const FaceTree tree(surface);
+    EXPECT_EQ(WindingNumbers(tree)({0.5, 0.5, 0.5}), 0.0);
+    const FaceTree empty{SurfaceMesh{}};
+    EXPECT_EQ(WindingNumbers(empty)({0.5, 0.5, 0.5}), 0.0);
+}
+
+}  // namespace
+}  // namespace gelatin::lattice
