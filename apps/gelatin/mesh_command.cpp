@@ -73,7 +73,8 @@ void write_tets_and_report(const fs::path& file, const TetMesh& mesh,
     Json description = describe_tets(mesh);
     if (filled) {
         if (measure_openness(filled->surface).is_closed())
-            description["volume_by_surface"] = description["volume"].get<double>() / signed_volume(filled->surface);
+            description["volume_by_surface"] =
+                description["volume"].get<double>() / signed_volume(filled->surface);
         description["seconds"] = filled->seconds;
     }
     std::fprintf(message_stream({file}), "%sfile: %s\n", to_text(description).c_str(), file.c_str());
@@ -121,7 +122,8 @@ void run_mesh(MeshOptions& options) {
     const bool from_tets = is_tet_file(options.input);
     if (options.has_mesher_options && (from_tets || to_surface)) {
         throw InvalidInput(
-            "--mesher, --nodes, --cell-size, --quality, --max-volume and --time-limit are for making tets of a surface; " +
+            "--mesher, --nodes, --cell-size, --quality, --max-volume and --time-limit are for making tets of "
+            "a surface; " +
             (from_tets ? options.input.string() + " has tets already"
                        : options.output.string() + " takes none"));
     }

@@ -149,7 +149,8 @@ using Shape = std::variant<SphereShape, BoxShape, CapsuleShape, TextShape, FileS
 enum class MesherKind {
     automatic,  ///< tetgen
     tetgen,     ///< by TetGen: tets of a closed surface, with its vertices and edges
-    lattice,    ///< by a lattice that is cut along the surface: any surface that encloses something, also a broken one
+    lattice,    ///< by a lattice that is cut along the surface: any surface that encloses something, also a
+                ///< broken one
 };
 
 struct MesherSettings {

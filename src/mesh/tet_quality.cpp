@@ -17,7 +17,8 @@ std::array<glm::dvec3, 4> face_normals(const glm::dvec3& a, const glm::dvec3& b,
 
 }  // namespace
 
-// sine of the angle at the edge of two faces = 3 V |edge| / (2 A1 A2), with twice the areas 6 V |edge| / (N1 N2).
+// sine of the angle at the edge of two faces = 3 V |edge| / (2 A1 A2), with twice the areas 6 V |edge| / (N1
+// N2).
 double worst_sine(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
     const std::array<glm::dvec3, 4> normals = face_normals(a, b, c, d), corners = {a, b, c, d};
     std::array<double, 4> lengths = {};

@@ -73,10 +73,10 @@ TEST_F(MeshCommand, RefusesWrongCalls) {
                  "--max-volume = 0: must be greater than 0");
     expect_error({"mesh", "tetrahedron.obj", "-o", "out.msh", "--mesher", "tetgn"}, 2,
                  "--mesher = tetgn: must be auto, tetgen or lattice (did you mean \"tetgen\"?)");
-    expect_error(
-        {"mesh", "tetrahedron.obj", "-o", "out.ply", "--quality", "1.5"}, 2,
-        "--mesher, --nodes, --cell-size, --quality, --max-volume and --time-limit are for making tets of a surface; out.ply takes "
-        "none");
+    expect_error({"mesh", "tetrahedron.obj", "-o", "out.ply", "--quality", "1.5"}, 2,
+                 "--mesher, --nodes, --cell-size, --quality, --max-volume and --time-limit are for making "
+                 "tets of a surface; out.ply takes "
+                 "none");
     EXPECT_EQ(run({"mesh", "tetrahedron.obj"}).exit_code, 2);
 }
 

@@ -17,8 +17,8 @@
 namespace gelatin::lattice {
 namespace {
 
-// Closer to the boundary than these fractions of an edge a point moves there; of edges along an axis and of the diagonal ones.
-// Table 1 of the paper, for the least angles between faces.
+// Closer to the boundary than these fractions of an edge a point moves there; of edges along an axis and of
+// the diagonal ones. Table 1 of the paper, for the least angles between faces.
 constexpr double kAlphaLong = 0.24999, kAlphaShort = 0.41189;
 
 using Edge = std::array<std::uint32_t, 2>;
@@ -87,7 +87,8 @@ private:
     void for_each_edge(const Visit& visit) const {
         for (const auto& tet : lattice_.tets.tets) {
             for (int i = 0; i < 3; ++i) {
-                for (int j = i + 1; j < 4; ++j) visit(Edge{std::min(tet[i], tet[j]), std::max(tet[i], tet[j])});
+                for (int j = i + 1; j < 4; ++j)
+                    visit(Edge{std::min(tet[i], tet[j]), std::max(tet[i], tet[j])});
             }
         }
     }
@@ -117,8 +118,8 @@ private:
         return shortest;
     }
 
-    // Moves points that are close to a cut to it, the closest first. Edges between a moved point and another are cut no
-    // more.
+    // Moves points that are close to a cut to it, the closest first. Edges between a moved point and another
+    // are cut no more.
     void move_points() {
         std::vector<Move> moves;
         const std::vector<double> shortest = shortest_edges();
@@ -167,8 +168,9 @@ private:
 
     std::uint32_t node_of_cut(std::uint32_t a, std::uint32_t b) const {
         const Edge key = {std::min(a, b), std::max(a, b)};
-        const auto found = std::lower_bound(edges_.begin(), edges_.end(), key,
-                                            [](const CutEdge& edge, const Edge& k) { return edge.points < k; });
+        const auto found =
+            std::lower_bound(edges_.begin(), edges_.end(), key,
+                             [](const CutEdge& edge, const Edge& k) { return edge.points < k; });
         return static_cast<std::uint32_t>(lattice_.tets.points.size() + (found - edges_.begin()));
     }
 

@@ -45,8 +45,9 @@ public:
         return least;
     }
 
-    // Between two inner nodes, p and q, and the cuts on the edges from these to two outer ones. On the two faces that neighbours
-    // share, the rule decides; the quadrilateral of the cuts is the boundary and takes the better diagonal.
+    // Between two inner nodes, p and q, and the cuts on the edges from these to two outer ones. On the two
+    // faces that neighbours share, the rule decides; the quadrilateral of the cuts is the boundary and takes
+    // the better diagonal.
     void add_wedge(std::uint32_t p, std::uint32_t q, const Rail& first, const Rail& second) {
         const Rail inner{p, q};
         const bool before_first = comes_first({p, first.from}, {q, first.to});

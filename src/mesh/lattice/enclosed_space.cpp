@@ -9,8 +9,8 @@ namespace gelatin::lattice {
 EnclosedSpace::EnclosedSpace(const SurfaceMesh& surface)
     : tree_(surface), pieces_(find_pieces(surface)), winding_(tree_) {}
 
-// Halves the segment until one face is left in it that is the boundary, or no length. In holes of the surface no face
-// is, and the bisection goes on.
+// Halves the segment until one face is left in it that is the boundary, or no length. In holes of the surface
+// no face is, and the bisection goes on.
 glm::dvec3 EnclosedSpace::find_boundary(const glm::dvec3& inside, const glm::dvec3& outside) const {
     constexpr int kHalvings = 20;
     const auto point = [&](double at) { return inside + at * (outside - inside); };
@@ -37,7 +37,8 @@ glm::dvec3 EnclosedSpace::find_boundary(const glm::dvec3& inside, const glm::dve
 }
 
 std::optional<double> EnclosedSpace::find_thickness(const Triangle& face, double limit) const {
-    constexpr double kParallel = -0.7;  // cosine between outward normals; edges and tips of wedges are not thin
+    constexpr double kParallel =
+        -0.7;  // cosine between outward normals; edges and tips of wedges are not thin
     constexpr std::size_t kMostCrossings = 32;
     const glm::dvec3 area = glm::cross(face[1] - face[0], face[2] - face[0]);
     const double length = glm::length(area);

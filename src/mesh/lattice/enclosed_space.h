@@ -10,8 +10,8 @@
 
 namespace gelatin::lattice {
 
-/// What a surface encloses: the points with a winding number above 1/2. Defined for any faces, also those that
-/// are open, cross each other or are there twice.
+/// What a surface encloses: the points with a winding number above 1/2. Defined for any faces, also those
+/// that are open, cross each other or are there twice.
 class EnclosedSpace {
 public:
     explicit EnclosedSpace(const SurfaceMesh& surface);
@@ -23,12 +23,12 @@ public:
     std::uint32_t piece_of(std::uint32_t face) const { return pieces_.of_face[tree_.sources()[face]]; }
     bool contains(const glm::dvec3& p) const { return winding_(p) > 0.5; }
 
-    /// A point of the boundary between `inside`, which this contains, and `outside`, which it does not. It lies on a
-    /// face, to rounding, where a face is the boundary.
+    /// A point of the boundary between `inside`, which this contains, and `outside`, which it does not. It
+    /// lies on a face, to rounding, where a face is the boundary.
     glm::dvec3 find_boundary(const glm::dvec3& inside, const glm::dvec3& outside) const;
 
-    /// How thick this is behind a face, from its centre against its normal, if it is less than `limit` and the opposite
-    /// faces are nearly parallel. Empty also where the face is not part of the boundary.
+    /// How thick this is behind a face, from its centre against its normal, if it is less than `limit` and
+    /// the opposite faces are nearly parallel. Empty also where the face is not part of the boundary.
     std::optional<double> find_thickness(const Triangle& face, double limit) const;
 
 private:

@@ -36,10 +36,12 @@ public:
 
     explicit FaceTree(const SurfaceMesh& surface);
 
-    std::span<const Node> nodes() const { return nodes_; }         ///< parents before their children
-    std::span<const Triangle> faces() const { return faces_; }     ///< in the tree's order
+    std::span<const Node> nodes() const { return nodes_; }               ///< parents before their children
+    std::span<const Triangle> faces() const { return faces_; }           ///< in the tree's order
     std::span<const std::uint32_t> sources() const { return sources_; }  ///< each face's index in the surface
-    std::span<const Triangle> faces_of(const Node& node) const { return faces().subspan(node.first, node.count); }
+    std::span<const Triangle> faces_of(const Node& node) const {
+        return faces().subspan(node.first, node.count);
+    }
 
     /// Where the segment from `a` to `b` crosses faces, in ascending order. Replaces what `found` contains.
     void find_crossings(const glm::dvec3& a, const glm::dvec3& b, std::vector<Crossing>& found) const;

@@ -63,7 +63,8 @@ private:
             for (int k = 0; k < 3; ++k) {
                 const glm::dvec3& p = surface.positions[face[k]];
                 if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-                    refuse(fmt::format("vertex {} has a coordinate that is not a finite number", face[k] + 1));
+                    refuse(
+                        fmt::format("vertex {} has a coordinate that is not a finite number", face[k] + 1));
                 min = glm::min(min, p);
                 max = glm::max(max, p);
             }
@@ -96,17 +97,19 @@ private:
 
     void make(const CellSizes& sizes) {
         if (try_to_make(sizes)) return;
-        refuse(fmt::format("with cells of {:.3g} m there would be more than {} of them, the most that are allowed",
-                           frame_.scale * sizes.boundary, sizes.most_cells));
+        refuse(fmt::format(
+            "with cells of {:.3g} m there would be more than {} of them, the most that are allowed",
+            frame_.scale * sizes.boundary, sizes.most_cells));
     }
 
     // The count grows with a power of 1 / size that is about 2 for thin bodies and 3 for thick ones.
     void find_size_for_nodes(int wanted) {
-        constexpr int kTries = 10;
+        constexpr int kTries = 8, kEmptyTries = 2;
         constexpr double kClose = 0.08, kAllowed = 0.2;
         const std::size_t most_cells = std::min(kMostCells, 20'000 + 60 * static_cast<std::size_t>(wanted));
         const auto error_of = [&](double count) { return std::abs(count / wanted - 1.0); };
         double size = 1.0 / 16.0, power = 2.3, last_size = 0.0, last_count = 0.0;
+        bool has_any = false;
         double too_small = 0.0, too_large = std::numeric_limits<double>::infinity();
         for (int k = 0; k < kTries; ++k) {
             const bool is_too_fine = !try_to_make({size, 2, 2, most_cells});
@@ -117,13 +120,23 @@ private:
                 power = std::clamp(std::log(count / last_count) / std::log(last_size / size), 1.5, 4.0);
             last_size = size;
             last_count = is_too_fine ? 0.0 : count;
+            if (count == 0.0) {  // nothing is inside, or it is too thin
+                const double fitting = find_lost_parts(space_, sizes_, mesh_).cell_size;
+                if (fitting == 0.0 && k >= kEmptyTries) break;
+                if (fitting > 0.0) size = std::clamp(2.0 * fitting, 0.25 * size, size);
+            }
+            has_any = has_any || (!is_too_fine && count > 0.0);
+            if (is_too_fine && !has_any && k > 0) break;
             const double next = count > 0.0 ? size * std::pow(count / wanted, 1.0 / power) : 0.5 * size;
             const bool is_between = next > too_small && next < too_large;
-            size = is_between || too_small == 0.0 ? next : std::sqrt(too_small * std::min(too_large, 4.0 * too_small));
+            size = is_between || too_small == 0.0
+                       ? next
+                       : std::sqrt(too_small * std::min(too_large, 4.0 * too_small));
         }
         const auto count = static_cast<double>(mesh_.positions.size());
         if (mesh_.tets.empty() || error_of(count) <= kAllowed) return;
-        notes_.push_back(fmt::format("the lattice has {} nodes; {} were wanted", mesh_.positions.size(), wanted));
+        notes_.push_back(
+            fmt::format("the lattice has {} nodes; {} were wanted", mesh_.positions.size(), wanted));
     }
 
     void find_size_for_volume(double wanted) {
@@ -148,30 +161,46 @@ private:
                 frame_.scale * sizes_.boundary, frame_.scale * lost.cell_size));
         }
         refuse(
-            "the surface encloses no volume that could be filled with tets, as a flat sheet does not; close it, or "
+            "the surface encloses no volume that could be filled with tets, as a flat sheet does not; close "
+            "it, or "
             "give it a thickness");
     }
 
     void report_losses() {
         if (fragments_.removed > 0)
             notes_.push_back(fmt::format("discarded fragments of thin parts: {}", fragments_.removed));
+        constexpr double kWorthReporting = 1e-3;  // of the surface; tips of horns are always lost
         const LostParts lost = find_lost_parts(space_, sizes_, mesh_);
         const double better = frame_.scale * (lost.cell_size > 0.0 ? lost.cell_size : 0.5 * sizes_.boundary);
         if (lost.area_fraction > 0.5) {
-            refuse(fmt::format(
-                "most of it is too thin for cells of {:.3g} m; mesher.cell_size = {:.2g} would fill it, with more nodes",
-                frame_.scale * sizes_.boundary, better));
+            refuse(
+                fmt::format("most of it is too thin for cells of {:.3g} m; mesher.cell_size = {:.2g} would "
+                            "fill it, with more nodes",
+                            frame_.scale * sizes_.boundary, better));
         }
         if (fragments_.divided > 0) {
-            notes_.push_back(fmt::format(
-                "connected pieces of the surface that fall apart because they are thin: {}; mesher.cell_size = {:.2g} instead "
-                "of {:.2g} would keep them",
-                fragments_.divided, better, frame_.scale * sizes_.boundary));
+            notes_.push_back(
+                fmt::format("connected pieces of the surface that fall apart because they are thin: {}; "
+                            "mesher.cell_size = {:.2g} instead "
+                            "of {:.2g} would keep them",
+                            fragments_.divided, better, frame_.scale * sizes_.boundary));
         }
-        if (lost.cell_size == 0.0) return;
+        if (lost.pieces > 0) {
+            notes_.push_back(
+                fmt::format("pieces of the surface that are smaller than the cells are missing: {}; "
+                            "mesher.cell_size = {:.2g} instead of "
+                            "{:.2g} would keep them",
+                            lost.pieces, better, frame_.scale * sizes_.boundary));
+        } else if (lost.area_fraction > kWorthReporting) {
+            report_thin_parts(lost, better);
+        }
+    }
+
+    void report_thin_parts(const LostParts& lost, double better) {
         const glm::dvec3 where = frame_.origin + frame_.scale * lost.where;
         notes_.push_back(fmt::format(
-            "parts that are thinner than the cells are missing, {:.2g}% of the surface, for instance near ({:.3g}, {:.3g}, "
+            "parts that are thinner than the cells are missing, {:.2g}% of the surface, for instance near "
+            "({:.3g}, {:.3g}, "
             "{:.3g}); mesher.cell_size = {:.2g} instead of {:.2g} would keep them",
             100.0 * lost.area_fraction, where.x, where.y, where.z, better, frame_.scale * sizes_.boundary));
     }
@@ -187,7 +216,8 @@ private:
 
 }  // namespace
 
-TetMesh fill_with_lattice(const SurfaceMesh& surface, const LatticeSize& size, const std::string& name, Notes& notes) {
+TetMesh fill_with_lattice(const SurfaceMesh& surface, const LatticeSize& size, const std::string& name,
+                          Notes& notes) {
     return LatticeFill(surface, name, notes).fill(size);
 }
 

@@ -15,12 +15,15 @@ struct LatticeSize {
     std::optional<double> max_volume;  ///< of a tet [m^3], > 0
 };
 
-/// Fills what a surface encloses with tetrahedra of a body-centred lattice (docs/decisions/0032-lattice-mesher.md). The surface may have
-/// holes, cross itself, or have faces that are flipped or there twice. Parts that are too thin are lost and reported in
-/// `notes`. The result is the same for any number of threads.
+/// Fills what a surface encloses with tetrahedra of a body-centred lattice
+/// (docs/decisions/0032-lattice-mesher.md). The surface may have holes, cross itself, or have faces that are
+/// flipped or there twice. Parts that are too thin are lost and reported in `notes`. The result is the same
+/// for any number of threads.
 /// @param name for messages: the object's or the file's
-/// @throws InvalidInput if a position is not finite, if the surface encloses nothing, or nothing that the size
+/// @throws InvalidInput if a position is not finite, if the surface encloses nothing, or nothing that the
+/// size
 ///   can resolve, or if there would be too many cells
-TetMesh fill_with_lattice(const SurfaceMesh& surface, const LatticeSize& size, const std::string& name, Notes& notes);
+TetMesh fill_with_lattice(const SurfaceMesh& surface, const LatticeSize& size, const std::string& name,
+                          Notes& notes);
 
 }  // namespace gelatin

@@ -19,7 +19,8 @@ constexpr double kGoodSine = 0.42262;  // of 25 degrees
 
 // The tets of each node.
 struct TetsOfNodes {
-    explicit TetsOfNodes(const TetMesh& mesh) : starts(mesh.positions.size() + 1, 0), tets(4 * mesh.tets.size()) {
+    explicit TetsOfNodes(const TetMesh& mesh)
+        : starts(mesh.positions.size() + 1, 0), tets(4 * mesh.tets.size()) {
         for (const glm::uvec4& tet : mesh.tets) {
             for (int k = 0; k < 4; ++k) ++starts[tet[k] + 1];
         }
@@ -43,12 +44,17 @@ constexpr double kLeash = 0.3;  // of the shortest edge
 class Improvement {
 public:
     Improvement(TetMesh& mesh, const FaceTree& tree)
-        : mesh_(mesh), tree_(tree), tets_(mesh), starts_(mesh.positions), freedom_(mesh.positions.size(), Freedom::free) {
+        : mesh_(mesh),
+          tree_(tree),
+          tets_(mesh),
+          starts_(mesh.positions),
+          freedom_(mesh.positions.size(), Freedom::free) {
         for (const glm::uvec3& face : mesh.faces) {
             for (int k = 0; k < 3; ++k) freedom_[face[k]] = Freedom::on_surface;
         }
         for (std::uint32_t n = 0; n < freedom_.size(); ++n) {
-            if (freedom_[n] == Freedom::on_surface && !tree.find_nearest(mesh.positions[n], 1e-6 * shortest_edge(n)))
+            if (freedom_[n] == Freedom::on_surface &&
+                !tree.find_nearest(mesh.positions[n], 1e-6 * shortest_edge(n)))
                 freedom_[n] = Freedom::near_start;
         }
     }
@@ -75,7 +81,8 @@ private:
             for (int k = 0; k < 4; ++k) {
                 const std::uint32_t other = mesh_.tets[t][k];
                 if (other != node)
-                    shortest = std::min(shortest, glm::distance(mesh_.positions[node], mesh_.positions[other]));
+                    shortest =
+                        std::min(shortest, glm::distance(mesh_.positions[node], mesh_.positions[other]));
             }
         }
         return shortest;

@@ -10,7 +10,9 @@ namespace gelatin::lattice {
 /// Disjoint sets of the numbers below `count`, which are joined one pair after the other.
 class JoinedSets {
 public:
-    explicit JoinedSets(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0u); }
+    explicit JoinedSets(std::size_t count) : parents_(count) {
+        std::iota(parents_.begin(), parents_.end(), 0u);
+    }
 
     /// The smallest number of the set of `k`.
     std::uint32_t find(std::uint32_t k) {

@@ -44,7 +44,8 @@ private:
         const glm::dvec3 extent = all.max - all.min;
         const double needed = (std::max({extent.x, extent.y, extent.z}) + 3.0 * sizes.boundary) / unit;
         if (needed > kLargest) throw TooManyCells();
-        const auto size = static_cast<std::int32_t>(std::bit_ceil(static_cast<std::uint32_t>(std::ceil(needed))));
+        const auto size =
+            static_cast<std::int32_t>(std::bit_ceil(static_cast<std::uint32_t>(std::ceil(needed))));
         const glm::dvec3 margin = sizes.boundary * glm::dvec3(1.137, 1.291, 1.413);
         return {all.min - margin, unit, Octree(size), {}, {}};
     }
@@ -72,9 +73,8 @@ private:
 
     void divide_thin_parts() {
         if (sizes_.finer_levels == 0) return;
-        const double least = kSmallest * lattice_.unit;
         for (const ThinPlace& place :
-             find_thin_places(space_, sizes_.boundary / kCellsInThickness, sizes_.boundary, least)) {
+             find_thin_places(space_, sizes_.boundary / kCellsInThickness, sizes_.boundary)) {
             std::int32_t size = boundary_size();
             while (size > kSmallest && size * lattice_.unit > kCellsInThickness * place.thickness) size /= 2;
             divide_along(place.face, size);
@@ -96,8 +96,8 @@ private:
         });
     }
 
-    // Divides cells that are too large where the boundary passes through a tet, as it does in holes of the surface, and
-    // cells that are too large for the inside. Returns whether there were any.
+    // Divides cells that are too large where the boundary passes through a tet, as it does in holes of the
+    // surface, and cells that are too large for the inside. Returns whether there were any.
     bool divide_by_signs() {
         std::vector<std::uint32_t> large;
         const std::int32_t largest = boundary_size() << sizes_.coarser_levels;

@@ -24,7 +24,8 @@ struct CellSizes {
 /// Thrown where a lattice would have more than `CellSizes::most_cells` cells.
 struct TooManyCells {};
 
-/// A part is thin where cells are larger than this fraction of its thickness: then points of the lattice may miss it.
+/// A part is thin where cells are larger than this fraction of its thickness: then points of the lattice may
+/// miss it.
 constexpr double kCellsInThickness = 0.8;
 
 /// The size of the smallest cells.

@@ -17,7 +17,8 @@ std::vector<std::uint64_t> collect_points(const Octree& octree) {
         if (!cell.is_leaf()) continue;
         points.push_back(key_of(cell.center()));
         for (int corner = 0; corner < 8; ++corner)
-            points.push_back(key_of(cell.min + cell.size * glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2)));
+            points.push_back(
+                key_of(cell.min + cell.size * glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2)));
     }
     tbb::parallel_sort(points);
     points.erase(std::unique(points.begin(), points.end()), points.end());
@@ -57,8 +58,8 @@ private:
         }
     }
 
-    // Around the line between the centres of two cells of one size: a tet for each edge of their common face, or two
-    // where that edge has a midpoint.
+    // Around the line between the centres of two cells of one size: a tet for each edge of their common face,
+    // or two where that edge has a midpoint.
     void add_equal(std::uint32_t index, std::uint32_t other, const glm::ivec3& face, const glm::ivec3& u,
                    const glm::ivec3& v, int axis) {
         const glm::ivec3 a = octree_[index].center(), b = octree_[other].center();
@@ -91,19 +92,22 @@ private:
     void add_quarters(std::uint32_t index, std::uint32_t other, const glm::ivec3& face, const glm::ivec3& u,
                       const glm::ivec3& v) {
         const glm::ivec3 center = octree_[index].center();
-        const std::array<glm::ivec3, 9> ring = {face - u - v, face - v,     face + u - v, face + u,    face + u + v,
-                                                face + v,     face - u + v, face - u,     face - u - v};
+        const std::array<glm::ivec3, 9> ring = {face - u - v, face - v,     face + u - v,
+                                                face + u,     face + u + v, face + v,
+                                                face - u + v, face - u,     face - u - v};
         for (int k = 0; k < 8; ++k) add({center, face, ring[k], ring[k + 1]}, index, other);
     }
 
-    // The neighbour is larger: a pyramid, divided along the diagonal that meets the centre of the neighbour's face.
+    // The neighbour is larger: a pyramid, divided along the diagonal that meets the centre of the neighbour's
+    // face.
     void add_half_pyramids(std::uint32_t index, std::uint32_t other, int axis, const glm::ivec3& face,
                            const glm::ivec3& u, const glm::ivec3& v) {
         glm::ivec3 hub = octree_[other].center();
         hub[axis] = face[axis];
         const glm::ivec3 corner = 2 * face - hub, center = octree_[index].center();
         const glm::ivec3 along = hub - face;  // to the hub, by components of u and v
-        const glm::ivec3 first = face + u * (along[axis_of(u)] > 0 ? 1 : -1) - v * (along[axis_of(v)] > 0 ? 1 : -1);
+        const glm::ivec3 first =
+            face + u * (along[axis_of(u)] > 0 ? 1 : -1) - v * (along[axis_of(v)] > 0 ? 1 : -1);
         const glm::ivec3 second = 2 * face - first;
         add({center, hub, corner, first}, index, other);
         add({center, hub, corner, second}, index, other);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <map>
+#include <set>
 
 #include "mesh/lattice/joined_sets.h"
 #include "mesh/lattice/separate_touching.h"
@@ -77,7 +78,7 @@ LostParts find_lost_parts(const EnclosedSpace& space, const CellSizes& sizes, co
     const double smallest = smallest_cell(sizes);
     const EnclosedSpace filled({mesh.positions, mesh.faces});
     const std::vector<ThinPlace> places =
-        find_thin_places(space, sizes.boundary / kCellsInThickness, sizes.boundary, smallest);
+        find_thin_places(space, sizes.boundary / kCellsInThickness, sizes.boundary);
     std::vector<std::uint8_t> is_lost(places.size(), 0);
     tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t p) {
         const glm::dvec3 middle = places[p].middle();
@@ -86,16 +87,19 @@ LostParts find_lost_parts(const EnclosedSpace& space, const CellSizes& sizes, co
     });
     LostParts lost;
     std::vector<ThinPlace> gone;
+    std::set<std::uint32_t> pieces;
     double area = 0.0, lost_area = 0.0, thickest = 0.0;
     for (const Triangle& face : space.tree().faces()) area += area_of(face);
     for (std::size_t p = 0; p < places.size(); ++p) {
         if (is_lost[p] == 0) continue;
         gone.push_back(places[p]);
         lost_area += area_of(places[p].face);
+        if (places[p].small_piece) pieces.insert(*places[p].small_piece);
         if (places[p].thickness <= thickest) continue;
         thickest = places[p].thickness;
         lost.where = places[p].middle();
     }
+    lost.pieces = pieces.size();
     if (gone.empty()) return lost;
     lost.area_fraction = lost_area / area;
     const double fits = std::ldexp(kCellsInThickness * thin_end(std::move(gone)), sizes.finer_levels);

@@ -14,8 +14,10 @@ namespace gelatin::lattice {
 /// What of the enclosed space is in none of the tets, because it is too thin for the cells.
 struct LostParts {
     double area_fraction = 0.0;  ///< of the surface
+    std::size_t pieces = 0;      ///< closed pieces of the surface that are lost as a whole
     glm::dvec3 where{0.0};       ///< in the thickest part [m]
-    double cell_size = 0.0;      ///< `CellSizes::boundary` that would keep all but the thinnest tenth [m]; 0: nothing is lost
+    double cell_size =
+        0.0;  ///< `CellSizes::boundary` that would keep all but the thinnest tenth [m]; 0: nothing is lost
 };
 LostParts find_lost_parts(const EnclosedSpace& space, const CellSizes& sizes, const TetMesh& mesh);
 
@@ -24,8 +26,8 @@ struct Fragments {
     std::size_t removed = 0;  ///< sets that are removed: each along less than a fiftieth of its piece's area
     std::size_t divided = 0;  ///< pieces that are still divided among several sets
 };
-/// Removes such fragments of thin parts. A set belongs to the pieces of the surface whose faces it is closest to, closer than
-/// `radius`.
+/// Removes such fragments of thin parts. A set belongs to the pieces of the surface whose faces it is closest
+/// to, closer than `radius`.
 Fragments remove_fragments(const EnclosedSpace& space, double radius, TetMesh& mesh);
 
 }  // namespace gelatin::lattice

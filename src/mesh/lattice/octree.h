@@ -6,13 +6,13 @@
 
 namespace gelatin::lattice {
 
-/// A cube that is divided into eight, again and again. Coordinates are integers in halves of the smallest cell
-/// possible, so that corners, centres and midpoints of edges of all cells have such coordinates.
+/// A cube that is divided into eight, again and again. Coordinates are integers in halves of the smallest
+/// cell possible, so that corners, centres and midpoints of edges of all cells have such coordinates.
 class Octree {
 public:
     struct Cell {
         glm::ivec3 min;
-        std::int32_t size;        ///< of an edge, even
+        std::int32_t size;          ///< of an edge, even
         std::uint32_t first_child;  ///< of eight, by x + 2 y + 4 z; 0: not divided
         bool is_leaf() const { return first_child == 0; }
         glm::ivec3 center() const { return min + size / 2; }

@@ -22,7 +22,8 @@ bool overlaps_cube(const Triangle& face, const glm::dvec3& center, double half_e
     const Triangle edges = {v[1] - v[0], v[2] - v[1], v[0] - v[2]};
     if (separates(glm::cross(edges[0], edges[1]))) return false;
     for (const glm::dvec3& e : edges) {
-        if (separates({0.0, -e.z, e.y}) || separates({e.z, 0.0, -e.x}) || separates({-e.y, e.x, 0.0})) return false;
+        if (separates({0.0, -e.z, e.y}) || separates({e.z, 0.0, -e.x}) || separates({-e.y, e.x, 0.0}))
+            return false;
     }
     return true;
 }

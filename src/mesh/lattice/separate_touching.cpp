@@ -23,7 +23,8 @@ std::uint32_t corner_of(const glm::uvec4& tet, std::uint32_t node) {
 }
 
 double worst_of(const TetMesh& mesh, const glm::uvec4& tet) {
-    return worst_sine(mesh.positions[tet[0]], mesh.positions[tet[1]], mesh.positions[tet[2]], mesh.positions[tet[3]]);
+    return worst_sine(mesh.positions[tet[0]], mesh.positions[tet[1]], mesh.positions[tet[2]],
+                      mesh.positions[tet[3]]);
 }
 
 // Towards the middle of its tets, as far as these keep half of their quality.
@@ -31,7 +32,8 @@ void move_inwards(TetMesh& mesh, std::uint32_t node, const std::vector<std::uint
     glm::dvec3 middle(0.0);
     double before = 1.0;
     for (const std::uint32_t t : tets) {
-        for (int k = 0; k < 4; ++k) middle += mesh.positions[mesh.tets[t][k]] / (4.0 * static_cast<double>(tets.size()));
+        for (int k = 0; k < 4; ++k)
+            middle += mesh.positions[mesh.tets[t][k]] / (4.0 * static_cast<double>(tets.size()));
         before = std::min(before, worst_of(mesh, mesh.tets[t]));
     }
     const glm::dvec3 start = mesh.positions[node];
@@ -47,7 +49,9 @@ void move_inwards(TetMesh& mesh, std::uint32_t node, const std::vector<std::uint
 // A node for each set of tets around it that are joined by faces with this node.
 void divide_nodes(TetMesh& mesh) {
     JoinedSets corners(4 * mesh.tets.size());
-    const auto corner = [&](std::uint32_t tet, std::uint32_t node) { return 4 * tet + corner_of(mesh.tets[tet], node); };
+    const auto corner = [&](std::uint32_t tet, std::uint32_t node) {
+        return 4 * tet + corner_of(mesh.tets[tet], node);
+    };
     for (const InnerFace& face : inner_faces(mesh.tets)) {
         const auto [a, b] = face.tets;
         for (int k = 0; k < 4; ++k) {
@@ -91,7 +95,9 @@ std::vector<Edge> find_crowded_edges(const TetMesh& mesh) {
 }
 
 // The tets around an edge, in sets that are joined by faces with this edge.
-std::vector<std::vector<std::uint32_t>> fans_around(const TetMesh& mesh, const std::vector<std::uint32_t>& tets, const Edge& edge) {
+std::vector<std::vector<std::uint32_t>> fans_around(const TetMesh& mesh,
+                                                    const std::vector<std::uint32_t>& tets,
+                                                    const Edge& edge) {
     JoinedSets joined(tets.size());
     const auto shares_face = [&](const glm::uvec4& a, const glm::uvec4& b) {
         for (int i = 0; i < 4; ++i) {
@@ -111,7 +117,8 @@ std::vector<std::vector<std::uint32_t>> fans_around(const TetMesh& mesh, const s
     for (std::uint32_t i = 0; i < tets.size(); ++i) fans[joined.find(i)].push_back(tets[i]);
     std::vector<std::vector<std::uint32_t>> sorted;
     for (auto& [set, fan] : fans) sorted.push_back(std::move(fan));
-    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const auto& a, const auto& b) { return a.size() > b.size(); });
     return sorted;
 }
 
@@ -141,7 +148,8 @@ bool remove_fans(TetMesh& mesh) {
 }
 
 // The boundary faces around a node, in sets that are joined by edges with this node.
-std::map<std::uint32_t, std::vector<glm::uvec3>> umbrellas_of(const std::vector<glm::uvec3>& faces, std::uint32_t node) {
+std::map<std::uint32_t, std::vector<glm::uvec3>> umbrellas_of(const std::vector<glm::uvec3>& faces,
+                                                              std::uint32_t node) {
     JoinedSets joined(faces.size());
     const auto shares_edge = [&](const glm::uvec3& a, const glm::uvec3& b) {
         for (int i = 0; i < 3; ++i) {
@@ -190,8 +198,9 @@ std::vector<std::uint32_t> chain_between(const TetMesh& mesh, const std::vector<
         queue.push_back(t);
     }
     for (std::size_t k = 0; k < queue.size(); ++k) {
-        const bool arrives = std::any_of(std::next(umbrellas.begin()), umbrellas.end(),
-                                         [&](const auto& umbrella) { return touches(queue[k], umbrella.second); });
+        const bool arrives =
+            std::any_of(std::next(umbrellas.begin()), umbrellas.end(),
+                        [&](const auto& umbrella) { return touches(queue[k], umbrella.second); });
         if (arrives) {
             std::vector<std::uint32_t> chain = {queue[k]};
             while (came_from[chain.back()] != chain.back()) chain.push_back(came_from[chain.back()]);

@@ -11,15 +11,18 @@ namespace {
 
 struct Search {
     const EnclosedSpace& space;
-    double thickness, spacing, least;
+    double thickness, spacing;
 
-    std::optional<double> find(const Triangle& face, double piece) const {
-        const bool is_small = piece > 0.0 && piece < thickness && space.contains(ThinPlace{face, piece}.middle());
-        return is_small ? std::optional(piece) : space.find_thickness(face, thickness);
+    std::optional<ThinPlace> find(const Triangle& face, std::uint32_t piece) const {
+        const double whole = space.pieces().thickness[piece];
+        const bool is_small =
+            whole > 0.0 && whole < thickness && space.contains(ThinPlace{face, whole}.middle());
+        if (is_small) return ThinPlace{face, whole, piece};
+        const auto found = space.find_thickness(face, thickness);
+        return found ? std::optional(ThinPlace{face, *found}) : std::nullopt;
     }
 
-    // `piece` is the thickness of the whole piece of the surface, or 0.
-    void add(const Triangle& face, double piece, std::vector<ThinPlace>& places) const {
+    void add(const Triangle& face, std::uint32_t piece, std::vector<ThinPlace>& places) const {
         int longest = 0;
         double length = 0.0;
         for (int k = 0; k < 3; ++k) {
@@ -31,8 +34,8 @@ struct Search {
         if (length <= spacing) {
             const auto found = find(face, piece);
             if (!found) return;
-            if (length <= std::max(*found, least)) {
-                places.push_back({face, *found});
+            if (length <= std::max(found->thickness, 0.5 * spacing)) {
+                places.push_back(*found);
                 return;
             }
         }
@@ -48,7 +51,9 @@ double count_pieces(const FaceTree& tree, double spacing) {
     double count = 0.0;
     for (const Triangle& face : tree.faces()) {
         const double area = 0.5 * glm::length(glm::cross(face[1] - face[0], face[2] - face[0]));
-        count += 1.0 + 2.0 * area / (spacing * spacing);
+        const double around = glm::distance(face[0], face[1]) + glm::distance(face[1], face[2]) +
+                              glm::distance(face[2], face[0]);
+        count += 1.0 + around / spacing + 2.0 * area / (spacing * spacing);
     }
     return count;
 }
@@ -62,16 +67,15 @@ glm::dvec3 ThinPlace::middle() const {
     return length > 0.0 ? center - 0.5 * thickness / length * normal : center;
 }
 
-std::vector<ThinPlace> find_thin_places(const EnclosedSpace& space, double thickness, double spacing, double least) {
-    constexpr double kMostPieces = 1e6;  // wider apart on surfaces that are folded again and again
-    const double count = count_pieces(space.tree(), spacing);
-    if (count > kMostPieces) spacing *= std::sqrt(count / kMostPieces);
-    const Search search{space, thickness, spacing, least};
+std::vector<ThinPlace> find_thin_places(const EnclosedSpace& space, double thickness, double spacing) {
+    constexpr double kMostPieces = 5e4;
+    const double most = std::max(kMostPieces, 2.0 * static_cast<double>(space.tree().faces().size()));
+    while (count_pieces(space.tree(), spacing) > most) spacing *= 1.5;
+    const Search search{space, thickness, spacing};
     const auto faces = space.tree().faces();
     std::vector<std::vector<ThinPlace>> found(faces.size());
     tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t f) {
-        const double piece = space.pieces().thickness[space.piece_of(static_cast<std::uint32_t>(f))];
-        search.add(faces[f], piece, found[f]);
+        search.add(faces[f], space.piece_of(static_cast<std::uint32_t>(f)), found[f]);
     });
     std::vector<ThinPlace> places;
     for (const auto& of_face : found) places.insert(places.end(), of_face.begin(), of_face.end());

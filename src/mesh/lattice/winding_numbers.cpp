@@ -13,18 +13,49 @@ namespace {
 constexpr double kNear = 2.0;  // the accuracy that the header states follows from this
 constexpr std::size_t kDeepest = 64;
 
-// Twice the solid angle's half: atan2 of the triple product.
-double half_solid_angle(const Triangle& face, const glm::dvec3& p) {
-    const glm::dvec3 a = face[0] - p, b = face[1] - p, c = face[2] - p;
-    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-    const double triple = glm::dot(a, glm::cross(b, c));
-    return std::atan2(triple, la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
-}
+/// Adds up half solid angles, each the angle of a complex number. The numbers are multiplied, so that one
+/// atan2 does for several: with the signs of the angles that are added it is known where the sum passes pi.
+class AngleSum {
+public:
+    void add(double real, double imaginary) {
+        if (real == 0.0 && imaginary == 0.0) return;  // at a corner of the face
+        const bool is_up = imaginary_ > 0.0, is_down = imaginary_ < 0.0;
+        const double product = real_ * real - imaginary_ * imaginary;
+        imaginary_ = real_ * imaginary + imaginary_ * real;
+        real_ = product;
+        if (is_up && imaginary > 0.0 && imaginary_ < 0.0) ++turns_;
+        if (is_down && imaginary < 0.0 && imaginary_ > 0.0) --turns_;
+        if (++factors_ == kMostFactors || std::abs(real_) + std::abs(imaginary_) < kSmall) finish();
+    }
+    double sum() {
+        finish();
+        return sum_;
+    }
+
+private:
+    static constexpr int kMostFactors = 8;
+    static constexpr double kSmall = 1e-100;  // before they underflow
+
+    void finish() {
+        sum_ += std::atan2(imaginary_, real_) + 2.0 * std::numbers::pi * turns_;
+        real_ = 1.0;
+        imaginary_ = 0.0;
+        turns_ = factors_ = 0;
+    }
+
+    double sum_ = 0.0, real_ = 1.0, imaginary_ = 0.0;
+    int turns_ = 0, factors_ = 0;
+};
 
 double sum_of_half_angles(std::span<const Triangle> faces, const glm::dvec3& p) {
-    double sum = 0.0;
-    for (const Triangle& face : faces) sum += half_solid_angle(face, p);
-    return sum;
+    AngleSum sum;
+    for (const Triangle& face : faces) {
+        const glm::dvec3 a = face[0] - p, b = face[1] - p, c = face[2] - p;
+        const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+        sum.add(la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb,
+                glm::dot(a, glm::cross(b, c)));
+    }
+    return sum.sum();
 }
 
 glm::dvec3 area_vector(const Triangle& face) {

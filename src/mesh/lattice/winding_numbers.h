@@ -9,9 +9,10 @@
 
 namespace gelatin::lattice {
 
-/// The generalized winding number of `faces` about `p`: the sum of the solid angles under which they are seen,
-/// divided by 4 pi, positive from behind. Within a closed surface that winds outwards it is 1, outside it is 0;
-/// holes make it vary smoothly. Jacobson et al. 2013, eq. 6; solid angles by Van Oosterom and Strackee 1983.
+/// The generalized winding number of `faces` about `p`: the sum of the solid angles under which they are
+/// seen, divided by 4 pi, positive from behind. Within a closed surface that winds outwards it is 1, outside
+/// it is 0; holes make it vary smoothly. Jacobson et al. 2013, eq. 6; solid angles by Van Oosterom and
+/// Strackee 1983.
 double exact_winding_number(std::span<const Triangle> faces, const glm::dvec3& p);
 
 /// The same in logarithmic time. Faces that are far from `p` relative to their extent are summarised by the
@@ -28,11 +29,12 @@ private:
     /// Integrals over a node's faces, of their normal n and of x relative to the center.
     struct Moments {
         glm::dvec3 center{0.0};
-        double near = 0.0;            // closer than this the expansion is not used
-        glm::dvec3 normal{0.0};       // of n_i
+        double near = 0.0;              // closer than this the expansion is not used
+        glm::dvec3 normal{0.0};         // of n_i
         std::array<double, 6> first{};  // of n_i x_j, made symmetric: xx, yy, zz, xy, yz, zx
         glm::dvec3 trace{0.0};          // of x n.x + n x.x / 2
-        std::array<double, 10> second{};  // of n_i x_j x_k, symmetric: xxx, yyy, zzz, xxy, xxz, yyx, yyz, zzx, zzy, xyz
+        std::array<double, 10>
+            second{};  // of n_i x_j x_k, symmetric: xxx, yyy, zzz, xxy, xxz, yyx, yyz, zzx, zzy, xyz
     };
     static Moments moments_of(std::span<const Triangle> faces);
     static double expand(const Moments& moments, const glm::dvec3& d, double distance);

@@ -51,9 +51,9 @@ Shape read_shape(TableReader reader, const std::filesystem::path& folder) {
 
 MesherSettings read_mesher(TableReader reader) {
     MesherSettings mesher;
-    reader.read("kind", mesher.kind, {{"auto", MesherKind::automatic},
-                                      {"tetgen", MesherKind::tetgen},
-                                      {"lattice", MesherKind::lattice}});
+    reader.read(
+        "kind", mesher.kind,
+        {{"auto", MesherKind::automatic}, {"tetgen", MesherKind::tetgen}, {"lattice", MesherKind::lattice}});
     reader.read("quality", mesher.quality);
     reader.read("max_volume", mesher.max_volume);
     reader.read("time_limit", mesher.time_limit);

@@ -22,14 +22,30 @@ public:
         const int faults = below(4);
         for (int k = 0; k < faults; ++k) {
             switch (below(8)) {
-                case 0: remove_faces(surface); break;
-                case 1: flip_faces(surface); break;
-                case 2: repeat_faces(surface); break;
-                case 3: append(surface, scaled(surface, 0.3 + 0.6 * fraction())); break;    // nested
-                case 4: append(surface, moved(surface, 0.4 * direction())); break;          // crossing
-                case 5: scatter(surface); break;
-                case 6: stretch(surface); break;
-                default: separate_faces(surface); break;
+                case 0:
+                    remove_faces(surface);
+                    break;
+                case 1:
+                    flip_faces(surface);
+                    break;
+                case 2:
+                    repeat_faces(surface);
+                    break;
+                case 3:
+                    append(surface, scaled(surface, 0.3 + 0.6 * fraction()));
+                    break;  // nested
+                case 4:
+                    append(surface, moved(surface, 0.4 * direction()));
+                    break;  // crossing
+                case 5:
+                    scatter(surface);
+                    break;
+                case 6:
+                    stretch(surface);
+                    break;
+                default:
+                    separate_faces(surface);
+                    break;
             }
         }
         return surface;
@@ -38,16 +54,24 @@ public:
 private:
     int below(int count) { return std::uniform_int_distribution<int>(0, count - 1)(random_); }
     double fraction() { return std::uniform_real_distribution<double>(0.0, 1.0)(random_); }
-    glm::dvec3 direction() { return {2.0 * fraction() - 1.0, 2.0 * fraction() - 1.0, 2.0 * fraction() - 1.0}; }
+    glm::dvec3 direction() {
+        return {2.0 * fraction() - 1.0, 2.0 * fraction() - 1.0, 2.0 * fraction() - 1.0};
+    }
 
     SurfaceMesh start() {
         switch (below(6)) {
-            case 0: return make_sphere({0.5, 1 + below(12)});
-            case 1: return make_box({{0.1 + fraction(), 0.02 + 0.5 * fraction(), 0.1 + fraction()}, {3, 1, 4}});
-            case 2: return make_capsule({0.05 + 0.2 * fraction(), 1.0, 4});
-            case 3: return crumbs();
-            case 4: return loose_faces();
-            default: return sheet();
+            case 0:
+                return make_sphere({0.5, 1 + below(12)});
+            case 1:
+                return make_box({{0.1 + fraction(), 0.02 + 0.5 * fraction(), 0.1 + fraction()}, {3, 1, 4}});
+            case 2:
+                return make_capsule({0.05 + 0.2 * fraction(), 1.0, 4});
+            case 3:
+                return crumbs();
+            case 4:
+                return loose_faces();
+            default:
+                return sheet();
         }
     }
 
@@ -55,7 +79,8 @@ private:
     SurfaceMesh crumbs() {
         SurfaceMesh surface;
         const int count = 1 + below(300);
-        for (int k = 0; k < count; ++k) append(surface, cube(direction(), 0.01 + 0.2 * fraction() * fraction()));
+        for (int k = 0; k < count; ++k)
+            append(surface, cube(direction(), 0.01 + 0.2 * fraction() * fraction()));
         return surface;
     }
     SurfaceMesh loose_faces() {
@@ -107,7 +132,8 @@ private:
         SurfaceMesh apart;
         for (const glm::uvec3& face : surface.faces) {
             const auto first = static_cast<std::uint32_t>(apart.positions.size());
-            for (int k = 0; k < 3; ++k) apart.positions.push_back(surface.positions[face[k]] + 0.01 * direction());
+            for (int k = 0; k < 3; ++k)
+                apart.positions.push_back(surface.positions[face[k]] + 0.01 * direction());
             apart.faces.emplace_back(first, first + 1, first + 2);
         }
         surface = apart;

@@ -26,7 +26,8 @@ protected:
             if (is_new) positions_.push_back(positions_[a] + t * (positions_[b] - positions_[a]));
             return found->second;
         };
-        for (std::uint32_t a = 0; a < 4; ++a) {  // before, because the cutter keeps a reference to the positions
+        for (std::uint32_t a = 0; a < 4;
+             ++a) {  // before, because the cutter keeps a reference to the positions
             for (std::uint32_t b = 0; b < a; ++b) {
                 if (values_[a] * values_[b] < 0.0) node_of_cut(a, b);
             }
@@ -70,7 +71,8 @@ TEST_F(CutTetTest, KeepsTheVolumeThatIsInside) {
                 if (tet_volume(mesh, tet) < 0.0) std::swap(tet[2], tet[3]);
             }
             return mesh.tets;
-        }()))) << k;
+        }())))
+            << k;
     }
 }
 

@@ -33,7 +33,8 @@ TEST(FaceTreeTest, FindsTheNearestPoint) {
     for (int k = 0; k < 300; ++k) {
         const glm::dvec3 p(along(random), along(random), along(random));
         double least = std::numeric_limits<double>::infinity();
-        for (const Triangle& face : tree.faces()) least = std::min(least, glm::distance(p, nearest_point(face, p)));
+        for (const Triangle& face : tree.faces())
+            least = std::min(least, glm::distance(p, nearest_point(face, p)));
         const auto nearest = tree.find_nearest(p, 2.0);
         ASSERT_TRUE(nearest);
         EXPECT_NEAR(glm::distance(p, nearest->point), least, 1e-15);

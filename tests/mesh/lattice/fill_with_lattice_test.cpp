@@ -197,8 +197,9 @@ TEST(FillWithLatticeTest, RefusesSurfacesThatEncloseNothing) {
     SurfaceMesh sheet;
     sheet.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     sheet.faces = {{0, 1, 2}, {0, 2, 3}};
-    EXPECT_THAT(error_of(sheet), HasSubstr("thing: the surface encloses no volume that could be filled with tets, as a "
-                                           "flat sheet does not; close it, or give it a thickness"));
+    EXPECT_THAT(error_of(sheet),
+                HasSubstr("thing: the surface encloses no volume that could be filled with tets, as a "
+                          "flat sheet does not; close it, or give it a thickness"));
     EXPECT_THAT(error_of(sheet, with_cells(0.1)), HasSubstr("encloses no volume"));
     EXPECT_THAT(error_of(sheet, with_volume(1e-4)), HasSubstr("encloses no volume"));
     EXPECT_THAT(error_of({}), HasSubstr("no faces"));
@@ -207,8 +208,7 @@ TEST(FillWithLatticeTest, RefusesSurfacesThatEncloseNothing) {
 }
 
 TEST(FillWithLatticeTest, RefusesBodiesThatAreTooThinAndNamesTheSize) {
-    EXPECT_THAT(error_of(make_box({{1.0, 0.004, 1.0}, {1, 1, 1}}), with_cells(0.2)),
-                HasSubstr("too thin"));
+    EXPECT_THAT(error_of(make_box({{1.0, 0.004, 1.0}, {1, 1, 1}}), with_cells(0.2)), HasSubstr("too thin"));
     EXPECT_THAT(error_of(make_box({{1.0, 0.004, 1.0}, {1, 1, 1}}), with_cells(0.2)),
                 HasSubstr("mesher.cell_size = 0.013 would fill it"));
 }
@@ -223,8 +223,10 @@ TEST(FillWithLatticeTest, RefusesNumbersThatAreNotFinite) {
 }
 
 TEST(FillWithLatticeTest, RefusesTooManyCells) {
-    EXPECT_THAT(error_of(make_sphere({0.5, 4}), with_cells(1e-4)), HasSubstr("cells of this size would be more than"));
-    EXPECT_THAT(error_of(make_sphere({0.5, 4}), with_volume(1e-30)), HasSubstr("cells of this size would be more than"));
+    EXPECT_THAT(error_of(make_sphere({0.5, 4}), with_cells(1e-4)),
+                HasSubstr("cells of this size would be more than"));
+    EXPECT_THAT(error_of(make_sphere({0.5, 4}), with_volume(1e-30)),
+                HasSubstr("cells of this size would be more than"));
 }
 
 // A body, or an error that says why not; with less than a hundred nodes also where it is hard.

@@ -44,7 +44,8 @@ TEST(OctreeTest, KeysKeepCoordinates) {
     EXPECT_EQ(point_of(key_of(p)), p);
 }
 
-// Tets share whole faces, have no angles but those of the lattice's few shapes, and fill what is between the centres.
+// Tets share whole faces, have no angles but those of the lattice's few shapes, and fill what is between the
+// centres.
 TEST(LatticeTetsTest, ShareWholeFacesAcrossSizes) {
     for (unsigned seed = 0; seed < 5; ++seed) {
         const Octree octree = random_octree(seed);
@@ -59,7 +60,8 @@ TEST(LatticeTetsTest, ShareWholeFacesAcrossSizes) {
         mesh.faces = boundary_faces(mesh.tets);
         EXPECT_EQ(mesh.faces.size() + 2 * inner_faces(mesh.tets).size(), 4 * mesh.tets.size());
         EXPECT_TRUE(is_manifold(mesh.faces));
-        for (const glm::uvec3& face : mesh.faces) {  // only along the octree's sides, where there is no neighbour
+        for (const glm::uvec3& face :
+             mesh.faces) {  // only along the octree's sides, where there is no neighbour
             double nearest = 64.0;
             for (int k = 0; k < 3; ++k) {
                 const glm::dvec3& p = mesh.positions[face[k]];

@@ -62,8 +62,8 @@ inline bool is_manifold(const std::vector<glm::uvec3>& faces) {
     return true;
 }
 
-/// What every result must be: tets of positive volume that share whole faces, each node in one at least and none twice
-/// at one place, a boundary that is a closed manifold.
+/// What every result must be: tets of positive volume that share whole faces, each node in one at least and
+/// none twice at one place, a boundary that is a closed manifold.
 inline void expect_sound(const TetMesh& mesh) {
     ASSERT_FALSE(mesh.tets.empty());
     std::vector<bool> is_used(mesh.positions.size(), false);

@@ -33,7 +33,8 @@ double largest_error(const SurfaceMesh& surface, const std::vector<glm::dvec3>& 
     const WindingNumbers fast(tree);
     const std::vector<Triangle> triangles = triangles_of(surface);
     double worst = 0.0;
-    for (const glm::dvec3& p : points) worst = std::max(worst, std::abs(fast(p) - exact_winding_number(triangles, p)));
+    for (const glm::dvec3& p : points)
+        worst = std::max(worst, std::abs(fast(p) - exact_winding_number(triangles, p)));
     return worst;
 }
 
@@ -70,7 +71,8 @@ TEST(WindingNumbersTest, OfLooseFacesAgreeWithTheExactSum) {
     surface.positions = random_points(3000, 0.5);
     for (std::uint32_t f = 0; f < 1000; ++f) {
         for (std::uint32_t k = 1; k < 3; ++k)  // a tenth as large as all of them
-            surface.positions[3 * f + k] = 0.9 * surface.positions[3 * f] + 0.1 * surface.positions[3 * f + k];
+            surface.positions[3 * f + k] =
+                0.9 * surface.positions[3 * f] + 0.1 * surface.positions[3 * f + k];
         surface.faces.emplace_back(3 * f, 3 * f + 1, 3 * f + 2);
     }
     EXPECT_LT(largest_error(surface, random_points(2000, 0.8)), 2e-3);
