@@ -41,16 +41,17 @@ protected:
 // Of the unit tet's volume with values v at corners, what is above zero.
 double volume_above_zero(const std::array<double, 4>& v) {
     constexpr int kPieces = 120;  // by summing up little cubes' centres
-    double volume = 0.0;
+    double inside = 0.0, all = 0.0;
     for (int i = 0; i < kPieces; ++i) {
         for (int j = 0; j + i < kPieces; ++j) {
             for (int k = 0; k + j + i < kPieces; ++k) {
                 const double x = (i + 0.25) / kPieces, y = (j + 0.25) / kPieces, z = (k + 0.25) / kPieces;
-                if ((1.0 - x - y - z) * v[0] + x * v[1] + y * v[2] + z * v[3] > 0.0) volume += 1.0;
+                if ((1.0 - x - y - z) * v[0] + x * v[1] + y * v[2] + z * v[3] > 0.0) inside += 1.0;
+                all += 1.0;
             }
         }
     }
-    return volume / std::pow(kPieces, 3.0);
+    return inside / all / 6.0;
 }
 
 TEST_F(CutTetTest, KeepsTheVolumeThatIsInside) {
@@ -65,14 +66,10 @@ TEST_F(CutTetTest, KeepsTheVolumeThatIsInside) {
         double volume = 0.0;
         for (const glm::uvec4& tet : mesh.tets) volume += std::abs(tet_volume(mesh, tet));
         EXPECT_NEAR(volume, volume_above_zero(values_), 3e-3) << k;
-        EXPECT_EQ(mesh.faces.size() + 0u, 0u);
-        EXPECT_TRUE(is_manifold(boundary_faces([&] {
-            for (glm::uvec4& tet : mesh.tets) {
-                if (tet_volume(mesh, tet) < 0.0) std::swap(tet[2], tet[3]);
-            }
-            return mesh.tets;
-        }())))
-            << k;
+        for (glm::uvec4& tet : mesh.tets) {
+            if (tet_volume(mesh, tet) < 0.0) std::swap(tet[2], tet[3]);
+        }
+        EXPECT_TRUE(is_manifold(boundary_faces(mesh.tets))) << k;
     }
 }
 

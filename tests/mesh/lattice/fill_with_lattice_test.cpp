@@ -107,7 +107,7 @@ TEST(FillWithLatticeTest, IsCoarserInside) {
         if (glm::length(center) < 0.2 || glm::length(center) > 0.47)
             largest = std::max(largest, tet_volume(mesh, tet));
     }
-    EXPECT_GT(inner, 30.0 * outer);  // 4^3, less what moved points add outside
+    EXPECT_GT(inner, 15.0 * outer);  // 4^3 in the lattice; points that move add some outside
 }
 
 TEST(FillWithLatticeTest, GivesTheSameBitsForAnyNumberOfThreads) {
@@ -132,7 +132,7 @@ TEST(FillWithLatticeTest, DoesNotDependOnPlaceAndUnits) {
     for (glm::dvec3& p : small.positions) p = 1e-6 * p + glm::dvec3(3e-5);
     const TetMesh other = fill(small, with_nodes(500)).mesh;
     EXPECT_EQ(other.tets.size(), mesh.tets.size());
-    EXPECT_NEAR(volume_of(other), 1e-18 * volume_of(mesh), 1e-24);
+    EXPECT_NEAR(volume_of(other) / volume_of(mesh), 1e-18, 1e-21);
 }
 
 TEST(FillWithLatticeTest, ClosesHoles) {
@@ -178,6 +178,7 @@ TEST(FillWithLatticeTest, ResolvesThinPartsByFinerCells) {
 TEST(FillWithLatticeTest, ReportsThinPartsThatAreLost) {
     SurfaceMesh surface = cube({0.0, 0.0, 0.0}, 1.0);
     append(surface, make_box({{3.0, 0.004, 1.0}, {1, 1, 1}}));
+    surface.faces.emplace_back(0, 8, 8);  // without area: both are one piece
     const Filled filled = fill(surface, with_cells(0.1));
     expect_sound(filled.mesh);
     ASSERT_FALSE(filled.notes.empty());
@@ -190,7 +191,8 @@ TEST(FillWithLatticeTest, ReportsPiecesThatAreLost) {
     append(surface, cube({2.0, 0.0, 0.0}, 0.002));
     const Filled filled = fill(surface, with_cells(0.1));
     ASSERT_FALSE(filled.notes.empty());
-    EXPECT_THAT(filled.notes.back(), HasSubstr("pieces"));
+    EXPECT_THAT(filled.notes.back(),
+                HasSubstr("pieces of the surface that are smaller than the cells are missing: 1"));
 }
 
 TEST(FillWithLatticeTest, RefusesSurfacesThatEncloseNothing) {
@@ -224,9 +226,9 @@ TEST(FillWithLatticeTest, RefusesNumbersThatAreNotFinite) {
 
 TEST(FillWithLatticeTest, RefusesTooManyCells) {
     EXPECT_THAT(error_of(make_sphere({0.5, 4}), with_cells(1e-4)),
-                HasSubstr("cells of this size would be more than"));
+                HasSubstr("there would be more than 2000000 of them"));
     EXPECT_THAT(error_of(make_sphere({0.5, 4}), with_volume(1e-30)),
-                HasSubstr("cells of this size would be more than"));
+                HasSubstr("there would be more than 2000000 of them"));
 }
 
 // A body, or an error that says why not; with less than a hundred nodes also where it is hard.
