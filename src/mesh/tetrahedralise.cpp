@@ -113,8 +113,9 @@ void check_surface(const SurfaceMesh& surface, const MesherSettings& settings, c
         };
         count(openness.boundary_edges, "one face");
         count(openness.non_manifold_edges, "more than two faces");
-        refuse(fmt::format("the surface is not closed: {}; tetrahedra can only fill a closed one",
-                           fmt::join(wrong, ", ")));
+        refuse(fmt::format(
+            "the surface is not closed: {}; TetGen can only fill a closed one, mesher.kind = \"lattice\" any",
+            fmt::join(wrong, ", ")));
     }
     if (!settings.max_volume) return;
     const double least_tets = std::abs(signed_volume(surface)) / *settings.max_volume;

@@ -106,7 +106,7 @@ private:
     void find_size_for_nodes(int wanted) {
         constexpr int kTries = 8, kEmptyTries = 2;
         constexpr double kClose = 0.08, kAllowed = 0.2;
-        const std::size_t most_cells = std::min(kMostCells, 20'000 + 60 * static_cast<std::size_t>(wanted));
+        const std::size_t most_cells = std::min(kMostCells, 10'000 + 30 * static_cast<std::size_t>(wanted));
         const auto error_of = [&](double count) { return std::abs(count / wanted - 1.0); };
         double size = 1.0 / 16.0, power = 2.3, last_size = 0.0, last_count = 0.0;
         bool has_any = false;

@@ -234,18 +234,18 @@ TEST(FillWithLatticeTest, RefusesTooManyCells) {
 // A body, or an error that says why not; with less than a hundred nodes also where it is hard.
 TEST(FillWithLatticeTest, AnyBrokenSurfaceGivesABodyOrAnError) {
     int bodies = 0;
-    for (unsigned seed = 0; seed < 60; ++seed) {
+    for (unsigned seed = 0; seed < 30; ++seed) {
         SCOPED_TRACE(seed);
         const SurfaceMesh surface = BrokenSurfaces(seed).make();
         try {
-            const TetMesh mesh = fill(surface, with_nodes(seed % 3 == 0 ? 1500 : 200)).mesh;
+            const TetMesh mesh = fill(surface, with_nodes(seed % 3 == 0 ? 1000 : 100)).mesh;
             expect_sound(mesh);
             ++bodies;
         } catch (const InvalidInput& error) {
             EXPECT_THAT(error.what(), HasSubstr("thing: "));
         }
     }
-    EXPECT_GT(bodies, 20);
+    EXPECT_GT(bodies, 10);
 }
 
 }  // namespace
