@@ -61,7 +61,7 @@ private:
     SurfaceMesh start() {
         switch (below(6)) {
             case 0:
-                return make_sphere({0.5, 1 + below(12)});
+                return make_sphere({0.5, 1 + below(6)});
             case 1:
                 return make_box({{0.1 + fraction(), 0.02 + 0.5 * fraction(), 0.1 + fraction()}, {3, 1, 4}});
             case 2:
@@ -78,7 +78,7 @@ private:
     // Many small closed surfaces.
     SurfaceMesh crumbs() {
         SurfaceMesh surface;
-        const int count = 1 + below(300);
+        const int count = 1 + below(60);
         for (int k = 0; k < count; ++k)
             append(surface, cube(direction(), 0.01 + 0.2 * fraction() * fraction()));
         return surface;
@@ -126,7 +126,7 @@ private:
         for (glm::dvec3& p : surface.positions) p += size * direction();
     }
     void stretch(SurfaceMesh& surface) {  // faces become slivers
-        for (glm::dvec3& p : surface.positions) p.x *= 50.0;
+        for (glm::dvec3& p : surface.positions) p.x *= 20.0;
     }
     void separate_faces(SurfaceMesh& surface) {
         SurfaceMesh apart;

@@ -231,21 +231,34 @@ TEST(FillWithLatticeTest, RefusesTooManyCells) {
                 HasSubstr("there would be more than 2000000 of them"));
 }
 
-// A body, or an error that says why not; with less than a hundred nodes also where it is hard.
-TEST(FillWithLatticeTest, AnyBrokenSurfaceGivesABodyOrAnError) {
-    int bodies = 0;
-    for (unsigned seed = 0; seed < 30; ++seed) {
+TEST(FillWithLatticeTest, FillsThousandsOfPieces) {
+    SurfaceMesh crumbs;
+    for (int k = 0; k < 3000; ++k)
+        append(crumbs, cube({0.05 * (k % 20), 0.05 * (k / 20 % 15), 0.05 * (k / 300)}, 0.04));
+    expect_sound(fill(crumbs, with_cells(0.04)).mesh);
+}
+
+// A body, or an error that says why not.
+void expect_bodies_or_errors(unsigned first, unsigned end) {
+    unsigned bodies = 0;
+    for (unsigned seed = first; seed < end; ++seed) {
         SCOPED_TRACE(seed);
-        const SurfaceMesh surface = BrokenSurfaces(seed).make();
         try {
-            const TetMesh mesh = fill(surface, with_nodes(seed % 3 == 0 ? 1000 : 100)).mesh;
-            expect_sound(mesh);
+            expect_sound(fill(BrokenSurfaces(seed).make(), with_nodes(seed % 3 == 0 ? 1000 : 100)).mesh);
             ++bodies;
         } catch (const InvalidInput& error) {
             EXPECT_THAT(error.what(), HasSubstr("thing: "));
         }
     }
-    EXPECT_GT(bodies, 10);
+    EXPECT_GT(bodies, (end - first) / 3);
+}
+
+TEST(BrokenSurfacesTest, GiveABodyOrAnError) {
+    expect_bodies_or_errors(5, 20);
+}
+
+TEST(BrokenSurfacesLong, GiveABodyOrAnError) {
+    expect_bodies_or_errors(20, 400);
 }
 
 }  // namespace
