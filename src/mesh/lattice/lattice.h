@@ -11,7 +11,7 @@
 
 namespace gelatin::lattice {
 
-constexpr std::size_t kMostCells = 2'000'000;  // less than 2 GB of memory
+constexpr std::size_t kMostCells = 1'500'000;  // less than 2 GB of memory
 
 /// Which sizes the cells of a lattice have.
 struct CellSizes {
