@@ -10,7 +10,8 @@
 namespace gelatin::lattice {
 namespace {
 
-constexpr double kNear = 3.0;  // times the radius of the faces; the accuracy that the header states follows from this
+constexpr double kNear =
+    3.0;  // times the radius of the faces; the accuracy that the header states follows from this
 constexpr std::size_t kDeepest = 64;
 
 /// Adds up half solid angles, each the angle of a complex number. The numbers are multiplied, so that one

@@ -330,9 +330,10 @@ TEST_F(SceneFile, RefusesUnknownChoices) {
               "rk4 or vbd (did you mean \"rk4\"?)");
     EXPECT_EQ(error(std::string(kBall) + "[simulation]\nforces = 'quick'"),
               "scene.toml:5: simulation.forces = \"quick\": must be divide_and_merge or fused");
-    EXPECT_EQ(object_error("shape = {sphere = 1}\nmesher = {kind = 'netgen'}"),
-              "scene.toml:5: object.ball.mesher.kind = \"netgen\": must be auto, tetgen or lattice (did you mean "
-              "\"tetgen\"?)");
+    EXPECT_EQ(
+        object_error("shape = {sphere = 1}\nmesher = {kind = 'netgen'}"),
+        "scene.toml:5: object.ball.mesher.kind = \"netgen\": must be auto, tetgen or lattice (did you mean "
+        "\"tetgen\"?)");
 }
 
 TEST_F(SceneFile, RefusesSpringsThatAreNoListOfKinds) {
