@@ -17,8 +17,9 @@ constexpr double kMostMoves = 6.0, kMovesASecond = 360.0;
 constexpr double kUsedRoom = 0.9, kUsedOwnRoom = 0.8;
 // Of a room in its own body: where a node has used more, the map follows.
 constexpr double kFollowed = 0.6;
-// If none has come so far, another detection would give them hardly more.
-constexpr double kFreshRoom = 0.3;
+// If none has come so far, another detection would give them hardly more. Nor would another look at a body
+// whose map keeps this of all distances.
+constexpr double kFreshRoom = 0.3, kFreshMap = 0.8;
 
 }  // namespace
 
@@ -80,18 +81,18 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
             const TimedStage part(timer, "advance_nodes.guess");
             guard_.drift(list_, aims_, guess_, positions);
             const bool is_free = guard_.plan(list_, aims_, positions, guess_, Closeness::guess);
-            if (is_free || is_fresh || !(guard_.lacks_room() || guard_.lacks_own_room())) {
+            if (is_free || is_fresh || !(guard_.lacks_room() || any_restless(positions))) {
                 guard_.go(list_, guess_, false, positions);
                 ++moves;
                 is_fresh = false;
                 if (is_free || moves == most_moves) break;
             }
         }
-        const bool lacks_room = guard_.lacks_room(), lacks_own_room = guard_.lacks_own_room();
+        const bool lacks_room = guard_.lacks_room();
         if (lacks_room) detect(positions, guess_, timer);
-        if (lacks_own_room) look_at_restless(positions, timer);
-        is_fresh = lacks_room || lacks_own_room;
-        aim(positions, timer);
+        const bool looked = look_at_restless(positions, timer);
+        is_fresh = lacks_room || looked;
+        if (is_fresh) aim(positions, timer);
     }
 }
 
@@ -106,8 +107,7 @@ bool Contacts<Real>::plan_rest(std::span<const Vec4<Real>> positions, std::span<
         guard_.plan(list_, aims_, positions, guess_, Closeness::guess, Movers::nodes);
     };
     plan();
-    if (guard_.lacks_own_room()) {
-        look_at_restless(positions, timer);
+    if (look_at_restless(positions, timer)) {
         aim(positions, timer);
         plan();
     }
@@ -175,11 +175,28 @@ void Contacts<Real>::renew(std::span<const Vec4<Real>> positions, StageTimer* ti
     aim(positions, timer);
 }
 
-// Bodies whose rooms in themselves were not enough for a plan.
+// Whether its rooms in itself were not enough for a plan, and would be larger after a look.
 template <class Real>
-void Contacts<Real>::look_at_restless(std::span<const Vec4<Real>> positions, StageTimer* timer) {
-    detect_own(
-        positions, true, [&](std::uint32_t o) { return guard_.lacks_own_room(o); }, timer);
+bool Contacts<Real>::is_restless(std::uint32_t object, std::span<const Vec4<Real>> positions) const {
+    const OwnRooms<Real>& own = list_.own;
+    return guard_.lacks_own_room(object) &&
+           (own.used(object, positions) > Real(kFreshRoom) || !own.keeps(object, Real(kFreshMap)));
+}
+
+template <class Real>
+bool Contacts<Real>::any_restless(std::span<const Vec4<Real>> positions) const {
+    if (!guard_.lacks_own_room()) return false;
+    bool any = false;
+    for (std::uint32_t o = 0; o < model_->body_count() && !any; ++o) any = is_restless(o, positions);
+    return any;
+}
+
+// @return whether there were any
+template <class Real>
+bool Contacts<Real>::look_at_restless(std::span<const Vec4<Real>> positions, StageTimer* timer) {
+    if (!guard_.lacks_own_room()) return false;
+    const auto is_one = [&](std::uint32_t o) { return is_restless(o, positions); };
+    return !detect_own(positions, true, is_one, timer).empty();
 }
 
 // The map follows. What it does not explain is looked at again.
@@ -187,7 +204,7 @@ template <class Real>
 bool Contacts<Real>::uses_own_room(std::uint32_t object, std::span<const Vec4<Real>> positions) {
     OwnRooms<Real>& own = list_.own;
     if (!(own.used(object, positions) > Real(kFollowed))) return false;
-    own.follow(object, own.bent(object, own.carried(object, positions), positions));
+    own.follow(object, own.fitted(object, positions));
     return own.used(object, positions) > Real(kUsedOwnRoom);
 }
 

@@ -99,7 +99,9 @@ public:
 private:
     Vec4<Real> outside(const Vec4<Real>& position) const;
     std::vector<std::uint8_t> find_staying(std::span<const Vec4<Real>> positions) const;
-    void look_at_restless(std::span<const Vec4<Real>> positions, StageTimer* timer);
+    bool is_restless(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
+    bool any_restless(std::span<const Vec4<Real>> positions) const;
+    bool look_at_restless(std::span<const Vec4<Real>> positions, StageTimer* timer);
     // @param ends where nodes are expected to go; empty: nowhere
     void detect(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends, StageTimer* timer);
     bool uses_own_room(std::uint32_t object, std::span<const Vec4<Real>> positions);

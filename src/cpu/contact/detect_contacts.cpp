@@ -106,16 +106,21 @@ void DetectContacts<Real>::run_own(std::span<const std::uint32_t> objects, bool 
                                    std::span<const Vec4<Real>> positions, ContactList<Real>& list) {
     for_each_index(0, objects.size(), 1, [&](std::size_t k) {
         const std::uint32_t o = objects[k];
+        const bool dbg=getenv("DBG")!=nullptr;
+        if(dbg) fprintf(stderr, "look %d steep %d slope-used %.3f ", anew, list.own.map(o).is_steep, double(list.own.used(o,positions)));
         if (anew || !list.own.is_found(o)) {
+            if(dbg) fprintf(stderr, "WHOLE\n");
             own_.run(o, positions, list.own);
             return;
         }
         const std::vector<std::uint32_t> places = restless_places(o, positions, list);
         if (static_cast<double>(places.size()) < kMostRestless * list.own.places(o).count) {
-            own_.run_again(o, places, positions, list.own);
+            const bool is_done = own_.run_again(o, places, positions, list.own);
+            if(dbg) fprintf(stderr, "AGAIN %zu then %.2f\n", places.size(), double(list.own.used(o,positions)));
             // Beside them, rooms may have become smaller than what their nodes have used.
-            if (list.own.used(o, positions) < static_cast<Real>(OwnRooms<Real>::kByNodes)) return;
+            if (is_done && list.own.used(o, positions) < static_cast<Real>(OwnRooms<Real>::kByNodes)) return;
         }
+        if(dbg) fprintf(stderr, "MANY %zu\n", places.size());
         own_.run(o, positions, list.own);
     });
     put_together(list);
@@ -130,8 +135,7 @@ std::vector<std::uint32_t> DetectContacts<Real>::restless_places(std::uint32_t o
     const Range& all = list.own.places(object);
     for (std::uint32_t s = all.first; s < all.end(); ++s) {
         const Vec3<Real> position(positions[model_->surface_parts.nodes[s]]);
-        if (glm::length(list.own.deviation(s, position)) > static_cast<Real>(kRestless) * list.own.radius(s))
-            places.push_back(s);
+        if (list.own.used_by(s, position) > static_cast<Real>(kRestless)) places.push_back(s);
     }
     return places;
 }

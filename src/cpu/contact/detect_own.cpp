@@ -16,14 +16,17 @@
 namespace gelatin::cpu {
 namespace {
 
-// Pairs are looked for up to this times the distance up to which they are listed: the farther, the larger
-// rooms can be, and the more there is to measure.
-constexpr double kSearched = 2.0;
+// How far others are looked for from a node, over the longest edge of its faces, and at least over the
+// distance up to which pairs are listed: the farther, the larger rooms can be, and the more there is to
+// measure.
+constexpr double kSearched = 0.55, kLeastSearched = 1.1;
 // Of what is nearer than the distance up to which pairs are listed, only that is which is nearer than this
 // times its gap at rest, or than this times that distance.
 constexpr double kNearer = 0.6, kAlways = 0.4;
 // Cells of the lattice of a body's map, over the body's thickness, which is a twentieth of an edge.
 constexpr double kCell = 80.0;
+// Leaves beside each other whose surroundings are looked for at once.
+constexpr std::size_t kLeavesAWalk = 8;
 constexpr std::size_t kLeavesATask = 32;
 
 // The same whatever the order.
@@ -47,7 +50,9 @@ DetectOwn<Real>::DetectOwn(std::shared_ptr<const Model> model, std::shared_ptr<c
       edge_boxes_(model_->surface_parts.edges.size()),
       face_boxes_(model_->faces.size()),
       tree_boxes_(model_->face_trees.nodes.size()),
-      apart_(model_->surface_parts.nodes.size()) {
+      searched_(model_->surface_parts.nodes.size()),
+      apart_(model_->surface_parts.nodes.size()),
+      has_changed_(model_->surface_parts.nodes.size()) {
     const std::vector<std::uint32_t>& leaves = model_->face_trees.levels[0];
     for (std::uint32_t k = 0; k < leaves.size(); ++k) {
         const TreeNode& leaf = model_->face_trees.nodes[leaves[k]];
@@ -88,7 +93,9 @@ void DetectOwn<Real>::run(std::uint32_t object, std::span<const Vec4<Real>> posi
                           OwnRooms<Real>& rooms) {
     rooms.find(object, static_cast<Real>(kCell * surface_->thicknesses[object]), positions);
     const Range& places = rooms.places(object);
-    std::fill_n(apart_.begin() + places.first, places.count, static_cast<Real>(kSearched * listed(object)));
+    for (std::uint32_t s = places.first; s < places.end(); ++s)
+        apart_[s] = searched_[s] = search_distance(object, s, rooms);
+    std::fill_n(has_changed_.begin() + places.first, places.count, std::uint8_t(1));
     update_boxes(object, rooms);
     const Range range = leaves_of(object);
     std::vector<std::uint32_t> leaves(range.count);
@@ -96,24 +103,38 @@ void DetectOwn<Real>::run(std::uint32_t object, std::span<const Vec4<Real>> posi
     search(object, leaves, rooms);
 }
 
+// No nearer than what may have to be listed. Where faces are small, deviations from a smooth motion are, too.
+template <class Real>
+Real DetectOwn<Real>::search_distance(std::uint32_t object, std::uint32_t place,
+                                      const OwnRooms<Real>& rooms) const {
+    const Real least = static_cast<Real>(kLeastSearched * listed(object));
+    return std::clamp(static_cast<Real>(kSearched) * rooms.longest_edge_at(place), least,
+                      std::max(least, rooms.most_apart(object)));
+}
+
 // Leaves with faces that have these nodes, and all that is near them.
 template <class Real>
-void DetectOwn<Real>::run_again(std::uint32_t object, std::span<const std::uint32_t> places,
+bool DetectOwn<Real>::run_again(std::uint32_t object, std::span<const std::uint32_t> places,
                                 std::span<const Vec4<Real>> positions, OwnRooms<Real>& rooms) {
-    rooms.find_again(object, places, positions);
-    for (const std::uint32_t s : places) apart_[s] = static_cast<Real>(kSearched * listed(object));
+    if (!rooms.find_again(object, places, positions)) return false;
+    const Range& own = rooms.places(object);
+    std::fill_n(has_changed_.begin() + own.first, own.count, std::uint8_t(0));
+    for (const std::uint32_t s : places) {
+        apart_[s] = searched_[s] = search_distance(object, s, rooms);
+        has_changed_[s] = 1;
+    }
     update_boxes(object, rooms);
     const BoxTree& trees = model_->face_trees;
     const Range range = leaves_of(object);
-    std::vector<std::uint8_t> has_changed(range.count), is_near(range.count);
+    std::vector<std::uint8_t> changes(range.count), is_near(range.count);
     const NodeFaces& around = model_->node_faces;
     for (const std::uint32_t s : places) {
         const std::uint32_t node = model_->surface_parts.nodes[s];
         for (std::uint32_t k = around.starts[node]; k < around.starts[node + 1]; ++k)
-            has_changed[leaf_of_faces_[around.faces[k]] - range.first] = 1;
+            changes[leaf_of_faces_[around.faces[k]] - range.first] = 1;
     }
     for (std::uint32_t k = 0; k < range.count; ++k) {
-        if (has_changed[k] == 0) continue;
+        if (changes[k] == 0) continue;
         const AxisBox<Real>& box = tree_boxes_[trees.levels[0][range.first + k]];
         for_leaves_near<Real>(trees, tree_boxes_, trees.roots[object], box, [&](std::uint32_t leaf) {
             is_near[leaf_of_faces_[trees.nodes[leaf].first_item] - range.first] = 1;
@@ -123,6 +144,7 @@ void DetectOwn<Real>::run_again(std::uint32_t object, std::span<const std::uint3
     for (std::uint32_t k = 0; k < range.count; ++k)
         if (is_near[k] != 0) leaves.push_back(range.first + k);
     search(object, leaves, rooms);
+    return true;
 }
 
 // @param leaves among all, in the order of faces
@@ -133,18 +155,17 @@ void DetectOwn<Real>::search(std::uint32_t object, std::span<const std::uint32_t
     tbb::parallel_for(std::size_t(0), tasks, [&](std::size_t task) {
         Search search;
         const std::size_t end = std::min((task + 1) * kLeavesATask, leaves.size());
-        for (std::size_t k = task * kLeavesATask; k < end; ++k) {
-            Found& found = found_[leaves[k]];
-            found.of_nodes.clear();
-            found.of_edges.clear();
-            search_leaf(model_->face_trees.levels[0][leaves[k]], static_cast<Real>(listed(object)), search,
-                        found);
+        for (std::size_t first = task * kLeavesATask; first < end; first += kLeavesAWalk) {
+            const auto walk = leaves.subspan(first, std::min(kLeavesAWalk, end - first));
+            find_near(object, walk, search);
+            for (const std::uint32_t leaf : walk)
+                search_leaf(model_->face_trees.levels[0][leaf], static_cast<Real>(listed(object)), search,
+                            found_[leaf]);
         }
     });
-    constexpr auto kPart = static_cast<Real>(OwnRooms<Real>::kRoom * OwnRooms<Real>::kLeastStretch);
     const Range& places = rooms.places(object);
-    for (std::uint32_t s = places.first; s < places.end(); ++s) rooms.set_radius(s, kPart * apart_[s]);
-    rooms.set_largest_radius(object, kPart * static_cast<Real>(kSearched * listed(object)));
+    for (std::uint32_t s = places.first; s < places.end(); ++s) rooms.set_apart(s, apart_[s]);
+    rooms.make_rooms(object);
 }
 
 template <class Real>
@@ -152,10 +173,11 @@ void DetectOwn<Real>::update_boxes(std::uint32_t object, const OwnRooms<Real>& r
     const Range &faces = model_->objects[object].faces, &places = rooms.places(object);
     for (std::uint32_t s = places.first; s < places.end(); ++s)
         found_at_[model_->surface_parts.nodes[s]] = Vec4<Real>(rooms.offset(s), Real(0));
-    const auto margin = BoxMargin<Real>::for_distance(kSearched * listed(object));
     const auto box_of = [&](const auto& nodes) {
         AxisBox<Real> box;
-        for (const std::uint32_t n : nodes) box.add(Vec3<Real>(found_at_[n]), margin);
+        for (const std::uint32_t n : nodes)
+            box.add(Vec3<Real>(found_at_[n]),
+                    BoxMargin<Real>::for_distance(static_cast<double>(searched_[surface_->places[n]])));
         return box;
     };
     const SurfaceParts& parts = model_->surface_parts;
@@ -171,31 +193,51 @@ void DetectOwn<Real>::update_boxes(std::uint32_t object, const OwnRooms<Real>& r
     update_tree_boxes<Real>(model_->face_trees, model_->face_trees.roots[object], face_boxes_, tree_boxes_);
 }
 
-// The nodes and edges of a leaf together.
+// Of a body. @param leaves among all
 template <class Real>
-void DetectOwn<Real>::search_leaf(std::uint32_t leaf, Real listed, Search& search, Found& found) {
+void DetectOwn<Real>::find_near(std::uint32_t object, std::span<const std::uint32_t> leaves,
+                                Search& search) const {
     const BoxTree& trees = model_->face_trees;
     const SurfaceParts& parts = model_->surface_parts;
-    const auto starts_of = [&](std::uint32_t n) { return parts.face_starts[trees.nodes[n].first_item]; };
-    const auto ends_of = [&](std::uint32_t n) {
-        return parts.face_starts[trees.nodes[n].first_item + trees.nodes[n].item_count];
+    AxisBox<Real> around;
+    for (const std::uint32_t leaf : leaves) around.add(tree_boxes_[trees.levels[0][leaf]]);
+    const std::uint32_t first_edge = parts.face_starts[trees.nodes[trees.levels[0][leaves[0]]].first_item].y;
+    for (const Which which : {all, changed}) {
+        search.faces[which].clear();
+        search.edges[which].clear();
+    }
+    const auto add = [&](std::array<NearBoxes<Real>, 2>& near, std::uint32_t index, const AxisBox<Real>& box,
+                         bool changes) {
+        if (!meet(around, box)) return;
+        near[all].add(index, box);
+        if (changes) near[changed].add(index, box);
     };
-    const glm::uvec2 first = starts_of(leaf), end = ends_of(leaf);
-    if (first == end) return;
-    const std::uint32_t object = model_->faces[trees.nodes[leaf].first_item].object;
-    const AxisBox<Real>& box = tree_boxes_[leaf];
-    search.faces.clear();
-    search.edges.clear();
-    for_leaves_near<Real>(trees, tree_boxes_, trees.roots[object], box, [&](std::uint32_t near) {
-        const TreeNode& faces = trees.nodes[near];
-        for (std::uint32_t f = faces.first_item; f < faces.first_item + faces.item_count; ++f)
-            if (meet(box, face_boxes_[f])) search.faces.add(f, face_boxes_[f]);
-        for (std::uint32_t e = starts_of(near).y; e < ends_of(near).y; ++e)
-            if (e > first.y && meet(box, edge_boxes_[e])) search.edges.add(e, edge_boxes_[e]);
+    for_leaves_near<Real>(trees, tree_boxes_, trees.roots[object], around, [&](std::uint32_t near) {
+        const std::uint32_t first = trees.nodes[near].first_item, end = first + trees.nodes[near].item_count;
+        for (std::uint32_t f = first; f < end; ++f) {
+            const Face& face = model_->faces[f];
+            add(search.faces, f, face_boxes_[f],
+                has_changed(face.a) || has_changed(face.b) || has_changed(face.c));
+        }
+        for (std::uint32_t e = std::max(parts.face_starts[first].y, first_edge + 1);
+             e < parts.face_starts[end].y; ++e)
+            add(search.edges, e, edge_boxes_[e],
+                has_changed(parts.edges[e].a) || has_changed(parts.edges[e].b));
     });
+}
+
+// The nodes and edges of a leaf together: those that have changed with all, others with what has.
+template <class Real>
+void DetectOwn<Real>::search_leaf(std::uint32_t leaf, Real listed, Search& search, Found& found) {
+    const SurfaceParts& parts = model_->surface_parts;
+    const TreeNode& faces = model_->face_trees.nodes[leaf];
+    const glm::uvec2 first = parts.face_starts[faces.first_item],
+                     end = parts.face_starts[faces.first_item + faces.item_count];
+    const std::uint32_t object = model_->faces[faces.first_item].object;
+    forget_changed(found.of_nodes);
     for (std::uint32_t s = first.x; s < end.x; ++s) {
         const std::uint32_t node = parts.nodes[s];
-        search.faces.for_meeting(node_boxes_[s], [&](std::uint32_t f) {
+        search.faces[has_changed_[s] != 0 ? all : changed].for_meeting(node_boxes_[s], [&](std::uint32_t f) {
             const Face& face = model_->faces[f];
             if (!has_corner(face, node))
                 search.waiting.push_back(
@@ -203,9 +245,11 @@ void DetectOwn<Real>::search_leaf(std::uint32_t leaf, Real listed, Search& searc
         });
     }
     keep_near(search, listed, found.of_nodes);
+    forget_changed(found.of_edges);
     for (std::uint32_t e = first.y; e < end.y; ++e) {
         const FaceEdge& edge = parts.edges[e];
-        search.edges.for_meeting(edge_boxes_[e], [&](std::uint32_t other) {
+        const Which which = has_changed(edge.a) || has_changed(edge.b) ? all : changed;
+        search.edges[which].for_meeting(edge_boxes_[e], [&](std::uint32_t other) {
             const FaceEdge& second = parts.edges[other];
             if (other > e && !share_end(edge, second))
                 search.waiting.push_back(
@@ -215,9 +259,19 @@ void DetectOwn<Real>::search_leaf(std::uint32_t leaf, Real listed, Search& searc
     keep_near(search, listed, found.of_edges);
 }
 
+// Those with nodes that have changed, which are looked for again.
+template <class Real>
+void DetectOwn<Real>::forget_changed(std::vector<ContactPair>& pairs) const {
+    std::erase_if(pairs, [&](const ContactPair& pair) {
+        return std::any_of(pair.nodes.begin(), pair.nodes.end(),
+                           [&](std::uint32_t n) { return has_changed(n); });
+    });
+}
+
 // Others tell their nodes how far apart they are.
 template <class Real>
 void DetectOwn<Real>::keep_near(Search& search, Real listed, std::vector<ContactPair>& kept) {
+    search.near.clear();
     search.gaps.clear();
     const auto keep = [&](std::size_t p, const auto& measured, std::size_t column) {
         const Real gap = measured.gaps[column];
@@ -225,12 +279,22 @@ void DetectOwn<Real>::keep_near(Search& search, Real listed, std::vector<Contact
             tell_apart(search.waiting[p], gap);
             return;
         }
-        kept.push_back(search.waiting[p]);
+        search.near.push_back(search.waiting[p]);
         search.gaps.push_back(gap);
     };
     for_measured<Real>(search.waiting, found_at_, keep);
     search.waiting.clear();
-    leave_out_resting(search.gaps, static_cast<Real>(kAlways) * listed, kept);
+    leave_out_resting(search.gaps, static_cast<Real>(kAlways) * listed, search.near);
+    const bool is_mixed = !kept.empty();
+    kept.insert(kept.end(), search.near.begin(), search.near.end());
+    if (is_mixed) sort(kept);
+}
+
+template <class Real>
+void DetectOwn<Real>::sort(std::vector<ContactPair>& pairs) const {
+    std::sort(pairs.begin(), pairs.end(), [&](const ContactPair& a, const ContactPair& b) {
+        return a.rank(surface_->places) < b.rank(surface_->places);
+    });
 }
 
 // Where a mesh is narrow, parts are near each other already at rest. They need not be listed before they are

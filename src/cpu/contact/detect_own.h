@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -25,7 +26,8 @@ public:
     /// Looks at a body that meets itself.
     void run(std::uint32_t object, std::span<const Vec4<Real>> positions, OwnRooms<Real>& rooms);
     /// Looks again at some surface nodes of a body, which have used up their rooms.
-    void run_again(std::uint32_t object, std::span<const std::uint32_t> places,
+    /// @return false if it has to be looked at as a whole
+    bool run_again(std::uint32_t object, std::span<const std::uint32_t> places,
                    std::span<const Vec4<Real>> positions, OwnRooms<Real>& rooms);
     /// Forgets all bodies.
     void restart();
@@ -39,16 +41,23 @@ private:
     struct Found {
         std::vector<ContactPair> of_nodes, of_edges;
     };
+    // What is near some leaves: all, and what has changed.
     struct Search {
-        NearBoxes<Real> faces, edges;
-        std::vector<ContactPair> waiting;  // to be measured
-        std::vector<Real> gaps;            // of those that are near [m]
+        std::array<NearBoxes<Real>, 2> faces, edges;
+        std::vector<ContactPair> waiting, near;  // to be measured; those that are near
+        std::vector<Real> gaps;                  // of these [m]
     };
+    enum Which { all, changed };
     double listed(std::uint32_t object) const;
     Range leaves_of(std::uint32_t object) const;
     void update_boxes(std::uint32_t object, const OwnRooms<Real>& rooms);
     void search(std::uint32_t object, std::span<const std::uint32_t> leaves, OwnRooms<Real>& rooms);
+    void find_near(std::uint32_t object, std::span<const std::uint32_t> leaves, Search& search) const;
     void search_leaf(std::uint32_t leaf, Real listed, Search& search, Found& found);
+    void forget_changed(std::vector<ContactPair>& pairs) const;
+    void sort(std::vector<ContactPair>& pairs) const;
+    bool has_changed(std::uint32_t node) const { return has_changed_[surface_->places[node]] != 0; }
+    Real search_distance(std::uint32_t object, std::uint32_t place, const OwnRooms<Real>& rooms) const;
     void keep_near(Search& search, Real listed, std::vector<ContactPair>& kept);
     void leave_out_resting(std::span<const Real> gaps, Real always, std::vector<ContactPair>& pairs);
     void tell_apart(const ContactPair& pair, Real gap);
@@ -58,7 +67,10 @@ private:
     std::vector<std::uint32_t> leaf_of_faces_;
     std::vector<Vec4<Real>> found_at_;  // by node, from the middle of its body [m]
     std::vector<AxisBox<Real>> node_boxes_, edge_boxes_, face_boxes_, tree_boxes_;
-    std::vector<Real> apart_;   // by surface node: from the nearest that is not listed [m]
+    // By surface node: how far others are looked for, and from the nearest that is not listed [m]; whether it
+    // is looked at.
+    std::vector<Real> searched_, apart_;
+    std::vector<std::uint8_t> has_changed_;
     std::vector<Found> found_;  // by leaf, in the order of faces
 };
 

@@ -48,8 +48,11 @@ Real OwnGuard<Real>::keep_to_rooms(std::uint32_t object, const OwnRooms<Real>& r
             const std::uint32_t n = model_->surface_parts.nodes[s];
             const Vec3<Real> before = rooms.deviation(s, Vec3<Real>(positions[n])),
                              after = Vec3<Real>(ends[n]) - rooms.mapped(object, map, s);
-            part = std::min(part, part_within(before, after - before, rooms.radius(s)));
-            anew = std::min(anew, part_within(Vec3<Real>(0), after - before, rooms.radius(s)));
+            const Real radius = rooms.radius(object, map, s);
+            const bool stays = glm::length(after) <= radius && glm::length(before) <= rooms.radius(s);
+            if (!stays)
+                part = std::min(part, part_within(before, after - before, std::min(radius, rooms.radius(s))));
+            anew = std::min(anew, part_within(Vec3<Real>(0), after - before, rooms.fresh_radius(s)));
         }
         return part;
     };

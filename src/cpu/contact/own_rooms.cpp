@@ -5,33 +5,29 @@
 #include <glm/matrix.hpp>
 #include <utility>
 
+#include "cpu/contact/least_stretch.h"
+
 namespace gelatin::cpu {
 namespace {
 
-// A map with the linear part L keeps |L x|^2 >= (1 - |L^T L - 1|) |x|^2. Those between L and M keep the
-// lesser of both squares, less |L - M|^2 |x|^2 / 4. What bends takes away as much as its steepest slope.
-constexpr double kMostStrain = 0.28, kMostTurnSquared = 0.4, kMostSlope = 0.25;
-constexpr double kLeft = OwnRooms<double>::kLeastStretch + kMostSlope;
-static_assert(1.0 - kMostStrain - 0.25 * kMostTurnSquared >= kLeft * kLeft);
-// A lattice has no more cells than this along an axis.
-constexpr double kMostCells = 16.0;
+// The linear part of a map leaves at least this of a length.
+constexpr double kLeastLinear = 0.5;
+// Of the least and greatest part of distances that must be kept: for rounding.
+constexpr double kMargin = 0.98;
+// In cells: longer edges of faces reach over what a map is known to do near their ends. A point of a face is
+// no farther from a corner than the edge by the root of three, and kNear leads on from there.
+constexpr double kLongestEdge = 0.85;
+static_assert(kLongestEdge * 0.5774 + OwnRooms<double>::kNear <= 1.0);
 // The second time brings in what nodes on one side of a point left out.
-constexpr int kBendings = 2;
-constexpr int kFillings = 6;
-// What bends moves a node by, changes with where it is found: each correction leaves at most 0.3 of the rest.
-constexpr int kCorrections = 5;
+constexpr int kBendings = 3;
+// What bends moves a node by, changes with where it is found: each correction leaves at most 0.7 of the rest.
+constexpr int kCorrections = 8;
 // Of the mean square of the offsets: bodies that are flatter are displaced, but not otherwise mapped.
 constexpr double kFlat = 1e-6;
 
 template <class Real>
 Real squared_norm(const glm::mat<3, 3, Real>& m) {
     return glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]);
-}
-
-template <class Real>
-bool keeps_distances(const glm::mat<3, 3, Real>& linear) {
-    const Real strain = squared_norm(glm::transpose(linear) * linear - glm::mat<3, 3, Real>(1));
-    return strain <= static_cast<Real>(kMostStrain * kMostStrain);
 }
 
 // Of a symmetric matrix, or 0 if it is nearly singular.
@@ -41,6 +37,22 @@ glm::mat<3, 3, Real> safe_inverse(const glm::mat<3, 3, Real>& m) {
     if (!(glm::determinant(m) > static_cast<Real>(kFlat) * mean * mean * mean))
         return glm::mat<3, 3, Real>(0);
     return glm::inverse(m);
+}
+
+// How steep the bends of a map with this linear part may be.
+template <class Real>
+Real most_slope(const glm::mat<3, 3, Real>& linear) {
+    return least_stretch(linear) - static_cast<Real>(OwnRooms<double>::kLeastKept);
+}
+
+// The part of the way from a map to another one, with linear parts that leave at least `least` of a length,
+// on which all between them do that leave `kept`: L and M leave the lesser of both squares, less |L - M|^2
+// / 4.
+template <class Real>
+Real part_kept(Real least, Real kept, Real squared_turn) {
+    const Real allowed = Real(4) * (least * least - kept * kept);
+    if (!(allowed > Real(0))) return Real(0);
+    return squared_turn > allowed ? std::sqrt(allowed / squared_turn) : Real(1);
 }
 
 }  // namespace
@@ -56,10 +68,19 @@ void OwnRooms<Real>::restart(std::shared_ptr<const Model> model, std::vector<std
         const std::uint32_t first = parts.face_starts[faces.first].x;
         shapes_[o].places = {first, parts.face_starts[faces.end()].x - first};
     }
-    in_lattice_.assign(parts.nodes.size(), {});
-    offsets_.assign(parts.nodes.size(), Vec3<Real>(0));
-    mapped_.assign(parts.nodes.size(), Vec3<Real>(0));
-    radii_.assign(parts.nodes.size(), std::numeric_limits<Real>::infinity());
+    const std::size_t count = parts.nodes.size();
+    in_lattice_.assign(count, {});
+    offsets_.assign(count, Vec3<Real>(0));
+    mapped_.assign(count, Vec3<Real>(0));
+    radii_.assign(count, std::numeric_limits<Real>::infinity());
+    apart_.assign(count, Real(0));
+    longest_edges_.assign(count, Real(0));
+    face_edges_.assign(model_->faces.size(), Real(0));
+    std::vector<std::uint32_t> places(model_->node_count());
+    for (std::uint32_t s = 0; s < count; ++s) places[parts.nodes[s]] = s;
+    corners_.clear();
+    for (const Face& face : model_->faces)
+        corners_.emplace_back(places[face.a], places[face.b], places[face.c]);
 }
 
 // Relative to the first of them, for precision.
@@ -74,158 +95,109 @@ Vec3<Real> OwnRooms<Real>::middle(const Range& places, std::span<const Vec4<Real
 template <class Real>
 void OwnRooms<Real>::find(std::uint32_t object, Real cell, std::span<const Vec4<Real>> positions) {
     Shape& shape = shapes_[object];
+    const Range& places = shape.places;
     shape.is_found = true;
-    shape.map = {glm::mat<3, 3, Real>(1), middle(shape.places, positions), {}, true, false};
+    shape.map = {};
+    shape.map.is_carried = true;
+    shape.map.center = middle(places, positions);
     glm::mat<3, 3, Real> moment(0);
-    for (std::uint32_t s = shape.places.first; s < shape.places.end(); ++s) {
+    for (std::uint32_t s = places.first; s < places.end(); ++s) {
         mapped_[s] = at(s, positions);
         offsets_[s] = mapped_[s] - shape.map.center;
         moment += glm::outerProduct(offsets_[s], offsets_[s]);
     }
     shape.inverse_moment = safe_inverse(moment);
-    make_lattice(shape, cell);
-    shape.can_bend = !(longest_edge(object, positions) > shape.lattice.cell);
-    shape.map.bends.assign(shape.lattice.weights.size(), Vec3<Real>(0));
+    const Real least_cell = longest_edge(object) / static_cast<Real>(kLongestEdge);
+    shape.lattice.surround(std::span(offsets_).subspan(places.first, places.count),
+                           std::max(cell, Real(1.001f) * least_cell));
+    for (std::uint32_t s = places.first; s < places.end(); ++s)
+        in_lattice_[s] = shape.lattice.place(offsets_[s]);
+    shape.lattice.weigh(in_lattice(shape));
+    shape.map.bends = shape.lattice.straight();
 }
 
-// Of its faces.
+// Of faces as they were found. Each node learns the longest of its own.
 template <class Real>
-Real OwnRooms<Real>::longest_edge(std::uint32_t object, std::span<const Vec4<Real>> positions) const {
-    Real squared = 0;
-    const Range& faces = model_->objects[object].faces;
+Real OwnRooms<Real>::longest_edge(std::uint32_t object) {
+    const Range &faces = model_->objects[object].faces, &places = shapes_[object].places;
+    std::fill_n(longest_edges_.begin() + places.first, places.count, Real(0));
     for (std::uint32_t f = faces.first; f < faces.end(); ++f) {
-        const Face& face = model_->faces[f];
-        const std::array corners{face.a, face.b, face.c};
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3<Real> edge(positions[corners[k]] - positions[corners[(k + 1) % 3]]);
-            squared = std::max(squared, glm::dot(edge, edge));
-        }
+        const glm::uvec3& corners = corners_[f];
+        const Vec3<Real> a = offsets_[corners.y] - offsets_[corners.x],
+                         b = offsets_[corners.z] - offsets_[corners.y],
+                         c = offsets_[corners.x] - offsets_[corners.z];
+        face_edges_[f] = std::sqrt(std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)}));
+        for (int k = 0; k < 3; ++k)
+            longest_edges_[corners[k]] = std::max(longest_edges_[corners[k]], face_edges_[f]);
     }
-    return std::sqrt(squared);
+    return *std::max_element(face_edges_.begin() + faces.first, face_edges_.begin() + faces.end());
 }
 
 template <class Real>
-void OwnRooms<Real>::make_lattice(Shape& shape, Real cell) {
-    Vec3<Real> low(std::numeric_limits<Real>::infinity()), high(-low);
-    for (std::uint32_t s = shape.places.first; s < shape.places.end(); ++s) {
-        low = glm::min(low, offsets_[s]);
-        high = glm::max(high, offsets_[s]);
-    }
-    const Vec3<Real> size = high - low;
-    Lattice& lattice = shape.lattice;
-    lattice.low = low;
-    lattice.cell = std::max(cell, std::max({size.x, size.y, size.z}) / static_cast<Real>(kMostCells));
-    for (int axis = 0; axis < 3; ++axis)
-        lattice.points[axis] = 2 + static_cast<std::uint32_t>(size[axis] / lattice.cell);
-    lattice.weights.assign(std::size_t(lattice.points.x) * lattice.points.y * lattice.points.z, Real(0));
-    for (std::uint32_t s = shape.places.first; s < shape.places.end(); ++s) {
-        place_in_lattice(lattice, s);
-        for_points(lattice, s, [&](std::size_t p, Real weight) { lattice.weights[p] += weight; });
-    }
-}
-
-// Beyond its last points a lattice bends as there.
-template <class Real>
-void OwnRooms<Real>::place_in_lattice(const Lattice& lattice, std::uint32_t place) {
-    const Vec3<Real> in_cells = (offsets_[place] - lattice.low) / lattice.cell;
-    glm::uvec3 first(0);
-    for (int axis = 0; axis < 3; ++axis) {
-        const Real last = static_cast<Real>(lattice.points[axis] - 2);
-        first[axis] = static_cast<std::uint32_t>(std::clamp(in_cells[axis], Real(0), last));
-    }
-    in_lattice_[place] = {first.x + lattice.points.x * (first.y + lattice.points.y * first.z),
-                          glm::clamp(in_cells - Vec3<Real>(first), Vec3<Real>(0), Vec3<Real>(1))};
-}
-
-template <class Real>
-void OwnRooms<Real>::find_again(std::uint32_t object, std::span<const std::uint32_t> places,
+bool OwnRooms<Real>::find_again(std::uint32_t object, std::span<const std::uint32_t> places,
                                 std::span<const Vec4<Real>> positions) {
-    const Shape& shape = shapes_[object];
+    Shape& shape = shapes_[object];
     const glm::mat<3, 3, Real> back = glm::inverse(shape.map.linear);
     for (const std::uint32_t s : places) {
         for (int correction = 0; correction < kCorrections; ++correction) {
             offsets_[s] += back * deviation(s, at(s, positions));
-            place_in_lattice(shape.lattice, s);
+            if (!shape.lattice.contains(offsets_[s])) return false;
+            in_lattice_[s] = shape.lattice.place(offsets_[s]);
             mapped_[s] = mapped(object, shape.map, s);
         }
     }
-}
-
-// use(point, weight) for the points of a node's cell; weights add up to 1.
-template <class Real>
-template <class Use>
-void OwnRooms<Real>::for_points(const Lattice& lattice, std::uint32_t place, const Use& use) const {
-    const InLattice& in = in_lattice_[place];
-    const std::size_t row = lattice.points.x, layer = row * lattice.points.y;
-    for (std::size_t k = 0; k < 8; ++k) {
-        const Real x = (k & 1) != 0 ? in.within.x : Real(1) - in.within.x;
-        const Real y = (k & 2) != 0 ? in.within.y : Real(1) - in.within.y;
-        const Real z = (k & 4) != 0 ? in.within.z : Real(1) - in.within.z;
-        use(in.point + (k & 1) + (k >> 1 & 1) * row + (k >> 2) * layer, x * y * z);
-    }
+    shape.lattice.weigh(in_lattice(shape));
+    return longest_edge(object) <= static_cast<Real>(kLongestEdge) * shape.lattice.cell();
 }
 
 template <class Real>
-Vec3<Real> OwnRooms<Real>::bend(const Lattice& lattice, const std::vector<Vec3<Real>>& bends,
-                                std::uint32_t place) const {
-    Vec3<Real> sum(0);
-    for_points(lattice, place, [&](std::size_t p, Real weight) { sum += weight * bends[p]; });
-    return sum;
+void OwnRooms<Real>::make_rooms(std::uint32_t object) {
+    Shape& shape = shapes_[object];
+    complete(object, shape.map);
+    std::copy(shape.map.rooms.begin(), shape.map.rooms.end(), radii_.begin() + shape.places.first);
 }
 
-// Points that no node is near are between their neighbours.
+// What a map keeps, and the rooms with it. Within a face rooms are interpolated, and what bends is not linear
+// there: how far it is from that, rooms are smaller by.
 template <class Real>
-void OwnRooms<Real>::fill_empty(const Lattice& lattice, std::vector<Vec3<Real>>& bends) const {
-    const glm::ivec3 points(lattice.points);
-    const auto index = [&](const glm::ivec3& p) {
-        return std::size_t(p.x) + lattice.points.x * (std::size_t(p.y) + lattice.points.y * std::size_t(p.z));
+void OwnRooms<Real>::complete(std::uint32_t object, ShapeMap<Real>& map) const {
+    const Shape& shape = shapes_[object];
+    const Range &places = shape.places, &faces = model_->objects[object].faces;
+    map.least = least_stretch(map.linear);
+    map.slope = shape.lattice.steepest(map.bends);
+    map.around = shape.lattice.local_maps(map.linear, map.bends);
+    const std::vector<Real> curvatures = shape.lattice.curvatures(map.bends);
+    struct Near {
+        Real kept, bulge;
     };
-    for (int filling = 0; filling < kFillings; ++filling) {
-        glm::ivec3 p(0);
-        for (p.z = 0; p.z < points.z; ++p.z)
-            for (p.y = 0; p.y < points.y; ++p.y)
-                for (p.x = 0; p.x < points.x; ++p.x) {
-                    if (lattice.weights[index(p)] > Real(0)) continue;
-                    Vec3<Real> sum(0);
-                    Real count = 0;
-                    for (int axis = 0; axis < 3; ++axis)
-                        for (const int side : {-1, 1}) {
-                            glm::ivec3 q = p;
-                            q[axis] += side;
-                            if (q[axis] < 0 || q[axis] >= points[axis]) continue;
-                            sum += bends[index(q)];
-                            count += Real(1);
-                        }
-                    bends[index(p)] = sum / count;
-                }
+    std::vector<Near> near(places.count, {Real(1), Real(0)});
+    for (std::uint32_t f = faces.first; f < faces.end(); ++f) {
+        Near face{Real(1), Real(0)};
+        Real spread = 0, apart = std::numeric_limits<Real>::infinity();
+        for (int k = 0; k < 3; ++k) {
+            const LocalMap<Real>& local = map.around[in_lattice_[corners_[f][k]].used];
+            face.kept = std::min(face.kept, local.kept());
+            spread = std::max(spread, local.spread);
+            apart = std::min(apart, apart_[corners_[f][k]]);
+        }
+        face.bulge = static_cast<Real>(0.5774) * face_edges_[f] * spread;
+        if (face.bulge > static_cast<Real>(kRoomBent - kRoom) * face.kept * apart) {
+            const auto at_corner = [&](int k) { return &in_lattice_[corners_[f][k]]; };
+            face.bulge = std::min(
+                face.bulge, shape.lattice.bulge(map.bends, curvatures,
+                                                {at_corner(0), at_corner(1), at_corner(2)}, face_edges_[f]));
+        }
+        for (int k = 0; k < 3; ++k) {
+            Near& corner = near[corners_[f][k] - places.first];
+            corner = {std::min(corner.kept, face.kept), std::max(corner.bulge, face.bulge)};
+        }
     }
-}
-
-// A bound of the slope in all cells: along each axis, it is between those of the edges of a cell.
-template <class Real>
-Real OwnRooms<Real>::steepest(const Lattice& lattice, const std::vector<Vec3<Real>>& bends) const {
-    const glm::uvec3& points = lattice.points;
-    const std::size_t row = points.x, layer = row * points.y;
-    const std::array<std::size_t, 3> strides{1, row, layer};
-    Real most = 0;
-    for (std::uint32_t z = 0; z + 1 < points.z; ++z)
-        for (std::uint32_t y = 0; y + 1 < points.y; ++y)
-            for (std::uint32_t x = 0; x + 1 < points.x; ++x) {
-                const std::size_t first = x + y * row + z * layer;
-                Real squared = 0;
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    const std::size_t along = strides[axis], a = strides[(axis + 1) % 3],
-                                      b = strides[(axis + 2) % 3];
-                    Real steep = 0;
-                    for (const std::size_t p : {first, first + a, first + b, first + a + b}) {
-                        const Vec3<Real> change = bends[p + along] - bends[p];
-                        steep = std::max(steep, glm::dot(change, change));
-                    }
-                    squared += steep;
-                }
-                most = std::max(most, squared);
-            }
-    return std::sqrt(most) / lattice.cell;
+    map.rooms.resize(places.count);
+    for (std::uint32_t k = 0; k < places.count; ++k) {
+        const Real kept = near[k].kept * apart_[places.first + k];
+        const Real room = std::min(Real(kRoom) * kept, Real(kRoomBent) * kept - near[k].bulge);
+        map.rooms[k] = std::max(room, Real(0));
+    }
 }
 
 template <class Real>
@@ -233,8 +205,14 @@ Real OwnRooms<Real>::used(std::uint32_t object, std::span<const Vec4<Real>> posi
     const Range& places = shapes_[object].places;
     Real most = 0;
     for (std::uint32_t s = places.first; s < places.end(); ++s)
-        most = std::max(most, glm::length(deviation(s, at(s, positions))) / radii_[s]);
+        most = std::max(most, used_by(s, at(s, positions)));
     return most;
+}
+
+template <class Real>
+bool OwnRooms<Real>::keeps(std::uint32_t object, Real part) const {
+    const std::vector<LocalMap<Real>>& around = shapes_[object].map.around;
+    return std::all_of(around.begin(), around.end(), [&](const auto& local) { return local.kept() >= part; });
 }
 
 template <class Real>
@@ -253,28 +231,42 @@ std::optional<ShapeMap<Real>> OwnRooms<Real>::moved(std::uint32_t object,
     const Shape& shape = shapes_[object];
     const Vec3<Real> from = middle(shape.places, positions), to = middle(shape.places, ends);
     const glm::mat<3, 3, Real> before = moment(shape, from, positions) * shape.inverse_moment;
-    if (!keeps_distances(before)) return std::nullopt;
+    if (!(least_stretch(before) > static_cast<Real>(kLeastLinear))) return std::nullopt;
     const glm::mat<3, 3, Real> motion = moment(shape, to, ends) * shape.inverse_moment * glm::inverse(before);
     ShapeMap<Real> map = shape.map;
     map.linear = motion * map.linear;
     map.center = to + motion * (map.center - from);
     for (Vec3<Real>& bend : map.bends) bend = motion * bend;
+    for (LocalMap<Real>& local : map.around) local.linear = motion * local.linear;
     return map;
 }
 
-// By least squares over the surface nodes.
 template <class Real>
 ShapeMap<Real> OwnRooms<Real>::carried(std::uint32_t object, std::span<const Vec4<Real>> positions) const {
+    ShapeMap<Real> map = carried_alone(object, positions);
+    complete(object, map);
+    return map;
+}
+
+template <class Real>
+ShapeMap<Real> OwnRooms<Real>::fitted(std::uint32_t object, std::span<const Vec4<Real>> positions) const {
+    return bent(object, carried_alone(object, positions), positions);
+}
+
+// By least squares over the surface nodes. What it keeps is not known yet.
+template <class Real>
+ShapeMap<Real> OwnRooms<Real>::carried_alone(std::uint32_t object,
+                                             std::span<const Vec4<Real>> positions) const {
     const Shape& shape = shapes_[object];
     ShapeMap<Real> map = shape.map;
     map.center = middle(shape.places, positions);
     const glm::mat<3, 3, Real> linear = moment(shape, map.center, positions) * shape.inverse_moment;
-    map.is_carried = keeps_distances(linear);
+    map.is_carried = least_stretch(linear) >= static_cast<Real>(kLeastLinear);
     if (!map.is_carried) return map;
     const glm::mat<3, 3, Real> turn = linear * glm::inverse(map.linear);
     map.linear = linear;
     for (Vec3<Real>& bend : map.bends) bend = turn * bend;
-    flatten(shape.lattice, map.bends);
+    shape.lattice.flatten(map.bends, most_slope(map.linear));
     return map;
 }
 
@@ -282,41 +274,35 @@ template <class Real>
 ShapeMap<Real> OwnRooms<Real>::bent(std::uint32_t object, ShapeMap<Real> map,
                                     std::span<const Vec4<Real>> positions) const {
     const Shape& shape = shapes_[object];
-    if (!shape.can_bend) {
-        map.is_steep = true;
-        return map;
-    }
-    const Lattice& lattice = shape.lattice;
-    std::vector<Vec3<Real>> sums(lattice.weights.size());
+    const std::uint32_t first = shape.places.first;
     for (int bending = 0; bending < kBendings; ++bending) {
-        std::fill(sums.begin(), sums.end(), Vec3<Real>(0));
-        for (std::uint32_t s = shape.places.first; s < shape.places.end(); ++s) {
-            const Vec3<Real> left = at(s, positions) - mapped(object, map, s);
-            for_points(lattice, s, [&](std::size_t p, Real weight) { sums[p] += weight * left; });
-        }
-        for (std::size_t p = 0; p < sums.size(); ++p)
-            if (lattice.weights[p] > Real(0)) map.bends[p] += sums[p] / lattice.weights[p];
+        const auto left = [&](std::size_t k) {
+            const std::uint32_t s = first + static_cast<std::uint32_t>(k);
+            return at(s, positions) - mapped(object, map, s);
+        };
+        shape.lattice.add(in_lattice(shape), left, map.bends);
     }
-    fill_empty(lattice, map.bends);
-    map.is_steep = flatten(lattice, map.bends) || !map.is_carried;
+    shape.lattice.fill_empty(map.bends);
+    map.is_steep = shape.lattice.flatten(map.bends, most_slope(map.linear)) || !map.is_carried;
+    complete(object, map);
     return map;
 }
 
-// Where bends are too steep, they become less. @return whether they were
-template <class Real>
-bool OwnRooms<Real>::flatten(const Lattice& lattice, std::vector<Vec3<Real>>& bends) const {
-    const Real slope = steepest(lattice, bends);
-    if (!(slope > static_cast<Real>(kMostSlope))) return false;
-    const Real part = static_cast<Real>(0.999 * kMostSlope) / slope;
-    for (Vec3<Real>& bend : bends) bend *= part;
-    return true;
-}
-
+// What is farther apart than kNear of a cell is kept apart by what the map as a whole keeps; what is nearer,
+// by what it does round the cells where it is.
 template <class Real>
 Real OwnRooms<Real>::part_between(std::uint32_t object, const ShapeMap<Real>& to) const {
-    const auto most = static_cast<Real>(kMostTurnSquared);
-    const Real turn = squared_norm(to.linear - shapes_[object].map.linear);
-    return turn > most ? std::sqrt(most / turn) : Real(1);
+    const ShapeMap<Real>& from = shapes_[object].map;
+    const Real kept = static_cast<Real>(kMargin * kLeastKept) + std::max(from.slope, to.slope);
+    Real part = part_kept(std::min(from.least, to.least), kept, squared_norm(to.linear - from.linear));
+    for (std::size_t k = 0; k < from.around.size(); ++k) {
+        const LocalMap<Real>&a = from.around[k], &b = to.around[k];
+        const Real least = std::min(a.least, b.least), spread = std::max(a.spread, b.spread);
+        constexpr auto kPart = static_cast<Real>(kRoomBent / kRoomBetween);
+        const Real local = kPart * least + (Real(1) - kPart) * spread;
+        part = std::min(part, part_kept(least, local, squared_norm(b.linear - a.linear)));
+    }
+    return part;
 }
 
 template <class Real>
@@ -325,6 +311,7 @@ ShapeMap<Real> OwnRooms<Real>::between(std::uint32_t object, const ShapeMap<Real
     map.linear += part * (to.linear - map.linear);
     map.center += part * (to.center - map.center);
     for (std::size_t p = 0; p < map.bends.size(); ++p) map.bends[p] += part * (to.bends[p] - map.bends[p]);
+    complete(object, map);
     return map;
 }
 
@@ -334,6 +321,7 @@ void OwnRooms<Real>::follow(std::uint32_t object, const ShapeMap<Real>& map) {
     shape.map = map;
     for (std::uint32_t s = shape.places.first; s < shape.places.end(); ++s)
         mapped_[s] = mapped(object, map, s);
+    std::copy(map.rooms.begin(), map.rooms.end(), radii_.begin() + shape.places.first);
 }
 
 template <class Real>

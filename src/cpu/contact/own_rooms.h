@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -10,35 +9,42 @@
 #include <span>
 #include <vector>
 
+#include "cpu/contact/bend_lattice.h"
 #include "cpu/contact/part_within.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
 
 namespace gelatin::cpu {
 
-/// A map of a body's surface, from where it was found to about where it is: an affine one, and what it bends,
-/// at the points of a lattice, linear between them along each axis.
+/// A map of a body's surface, from where it was found to about where it is: an affine one, and what it bends.
 template <class Real>
 struct ShapeMap {
     glm::mat<3, 3, Real> linear{1};
-    Vec3<Real> center{0};           ///< of the middle of what was found [m]
-    std::vector<Vec3<Real>> bends;  ///< [m]
-    bool is_carried = false;        ///< the affine one is the nearest, not one that is only displaced
-    bool is_steep = false;          ///< it could not be bent as far as it should
+    Vec3<Real> center{0};                     ///< of the middle of what was found [m]
+    typename BendLattice<Real>::Bends bends;  ///< [m]
+    Real least = 1, slope = 0;                ///< length that `linear` leaves of 1; bound of that of bends
+    std::vector<LocalMap<Real>> around;       ///< by cell of the lattice that is in use
+    std::vector<Real> rooms;                  ///< radius with this map, by surface node of the body [m]
+    bool is_carried = false;  ///< the affine one is the nearest, not one that is only displaced
+    bool is_steep = false;    ///< it could not be bent as far as it should
 };
 
 /// How far nodes may go before others of their own body could meet them. When a body is found, all its pairs
-/// are listed that are nearer than a distance. Until it is found again, no others meet while each node is
-/// nearer than its radius to where a map has it that keeps at least kLeastStretch of all distances. Any such
-/// map will do. So it follows the body, and neither motion nor smooth deformation use up rooms
-/// (docs/contact.md).
+/// are listed that are nearer than a distance. Until it is found again, no others meet while each node is in
+/// its room: round where a map has it, with a radius by what this map keeps of the distances near the node.
+/// Any map will do that keeps some of all distances. So it follows the body, and neither motion nor smooth
+/// deformation use up rooms (docs/contact.md).
 template <class Real>
 class OwnRooms {
 public:
-    /// What maps keep of a distance, and what two nodes may each use of that.
-    static constexpr double kLeastStretch = 0.53, kRoom = 0.45;
-    /// Of its room, what a node may use by itself.
-    static constexpr double kByNodes = 0.9;
+    /// What two nodes may each use of what a map leaves of the distance between what they are in; of that,
+    /// what a node may use by itself.
+    static constexpr double kRoom = 0.45, kByNodes = 0.9;
+    /// What all maps keep of any distance; and what rooms with bends, and those between two maps, may use up.
+    static constexpr double kLeastKept = 0.3, kRoomBent = 0.47, kRoomBetween = 0.49;
+    /// Of a cell of the lattice: what is farther apart than this is kept apart by what maps keep of any
+    /// distance.
+    static constexpr double kNear = 0.5;
 
     /// Forgets all. @param meets_themselves by object
     void restart(std::shared_ptr<const Model> model, std::vector<std::uint8_t> meets_themselves);
@@ -49,22 +55,29 @@ public:
     /// The surface nodes of an object among all of them.
     const Range& places(std::size_t object) const { return shapes_[object].places; }
 
-    /// The body is found where it is. Radii have to be written after this.
-    /// @param cell of the lattice, unless that has too many [m]
+    /// The body is found where it is. What its nodes are apart has to be told after this.
+    /// @param cell of the lattice, unless that has too many, or edges are too long for it [m]
     void find(std::uint32_t object, Real cell, std::span<const Vec4<Real>> positions);
     bool is_found(std::size_t object) const { return shapes_[object].is_found; }
     /// Some of its surface nodes are found again: about where the map has them then.
-    void find_again(std::uint32_t object, std::span<const std::uint32_t> places,
+    /// @return false if the body has to be found as a whole
+    bool find_again(std::uint32_t object, std::span<const std::uint32_t> places,
                     std::span<const Vec4<Real>> positions);
     /// From the middle of its body when a surface node was found [m].
     const Vec3<Real>& offset(std::uint32_t place) const { return offsets_[place]; }
-    /// Of a surface node [m].
-    void set_radius(std::uint32_t place, Real radius) { radii_[place] = radius; }
-    /// That of nodes that nothing is near.
-    void set_largest_radius(std::uint32_t object, Real radius) { shapes_[object].largest_radius = radius; }
-    Real largest_radius(std::uint32_t object) const { return shapes_[object].largest_radius; }
-    Real radius(std::uint32_t place) const { return radii_[place]; }
+    /// Of the faces that a surface node is in, when it was found [m].
+    Real longest_edge_at(std::uint32_t place) const { return longest_edges_[place]; }
+    /// The most that may be told to be apart [m].
+    Real most_apart(std::uint32_t object) const {
+        return static_cast<Real>(kLeastKept * kNear) * shapes_[object].lattice.cell();
+    }
+    /// How far apart what a surface node is in and what is not listed with it are at least [m], when it was
+    /// found. Of two nodes that are told different distances, the mean of both is meant.
+    void set_apart(std::uint32_t place, Real apart) { apart_[place] = apart; }
+    /// All of a body's were set: its rooms follow from these.
+    void make_rooms(std::uint32_t object);
 
+    Real radius(std::uint32_t place) const { return radii_[place]; }
     /// From where the map has a surface node [m].
     Vec3<Real> deviation(std::uint32_t place, const Vec3<Real>& position) const {
         return position - mapped_[place];
@@ -84,25 +97,43 @@ public:
         if (meets_themselves_.empty()) return std::numeric_limits<Real>::infinity();
         return Real(kByNodes) * radii_[place] - glm::length(deviation(place, position));
     }
+    /// The part of its room that a surface node uses.
+    Real used_by(std::uint32_t place, const Vec3<Real>& position) const {
+        const Real used = glm::length(deviation(place, position));
+        return radii_[place] > Real(0) ? used / radii_[place] : std::numeric_limits<Real>::infinity();
+    }
     /// The largest part of its room that a node of a body uses.
     Real used(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
+    /// Whether rooms would hardly be larger if the body was found where it is: the map keeps at least this
+    /// part of distances everywhere.
+    bool keeps(std::uint32_t object, Real part) const;
 
     const ShapeMap<Real>& map(std::size_t object) const { return shapes_[object].map; }
     /// Where a map has a surface node [m].
     Vec3<Real> mapped(std::uint32_t object, const ShapeMap<Real>& map, std::uint32_t place) const {
-        return map.center + map.linear * offsets_[place] + bend(shapes_[object].lattice, map.bends, place);
+        return map.center + map.linear * offsets_[place] +
+               shapes_[object].lattice.bend(map.bends, in_lattice_[place]);
     }
+    /// The radius of a surface node's room with a map [m].
+    Real radius(std::uint32_t object, const ShapeMap<Real>& map, std::uint32_t place) const {
+        return map.rooms[place - shapes_[object].places.first];
+    }
+    /// That in the middle of which it would be if the body was found now [m].
+    Real fresh_radius(std::uint32_t place) const { return Real(kRoom) * apart_[place]; }
+
     /// The present map, carried to `positions` by the affine one that is nearest; by a displacement if that
     /// does not keep enough of all distances.
     ShapeMap<Real> carried(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
     /// The same, and bent to `positions` as far as it may be.
     ShapeMap<Real> bent(std::uint32_t object, ShapeMap<Real> map,
                         std::span<const Vec4<Real>> positions) const;
-    /// The present map, moved as all nodes are that go from `positions` to `ends` by one affine motion: they
+    /// The present map, carried and bent to `positions`.
+    ShapeMap<Real> fitted(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
+    /// The present map, moved as all nodes are that go from `positions` to `ends` by one rigid motion: they
     /// stay where they are in their rooms. None if the motion cannot be found from them.
     std::optional<ShapeMap<Real>> moved(std::uint32_t object, std::span<const Vec4<Real>> positions,
                                         std::span<const Vec4<Real>> ends) const;
-    /// The part of the way from the present map to another one on which all maps between them keep enough.
+    /// The part of the way from the present map to another one on which rooms between both hold, too.
     Real part_between(std::uint32_t object, const ShapeMap<Real>& to) const;
     /// What is between the present map and another one, at a part of the way.
     ShapeMap<Real> between(std::uint32_t object, const ShapeMap<Real>& to, Real part) const;
@@ -110,37 +141,21 @@ public:
     void shift(std::uint32_t object, const Vec3<Real>& motion);
 
 private:
-    struct Lattice {
-        Vec3<Real> low{0};  // its first point, as an offset [m]
-        Real cell = 1;      // [m]
-        glm::uvec3 points{1};
-        std::vector<Real> weights;  // of the nodes near a point
-    };
-    // Where a node is in the lattice: the first point of its cell, and from there in cells.
-    struct InLattice {
-        std::uint32_t point = 0;
-        Vec3<Real> within{0};
-    };
     struct Shape {
         Range places;
         bool is_found = false;
         glm::mat<3, 3, Real> inverse_moment{0};  // of the offsets [1/m^2]; 0: too flat
-        Lattice lattice;
-        bool can_bend = true;     // where the lattice can tell what its faces do
-        Real largest_radius = 0;  // [m]
+        BendLattice<Real> lattice;
         ShapeMap<Real> map;
     };
-    Real longest_edge(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
-    void make_lattice(Shape& shape, Real cell);
-    void place_in_lattice(const Lattice& lattice, std::uint32_t place);
-    template <class Use>
-    void for_points(const Lattice& lattice, std::uint32_t place, const Use& use) const;
-    Vec3<Real> bend(const Lattice& lattice, const std::vector<Vec3<Real>>& bends, std::uint32_t place) const;
-    void fill_empty(const Lattice& lattice, std::vector<Vec3<Real>>& bends) const;
-    bool flatten(const Lattice& lattice, std::vector<Vec3<Real>>& bends) const;
-    Real steepest(const Lattice& lattice, const std::vector<Vec3<Real>>& bends) const;
+    Real longest_edge(std::uint32_t object);
+    ShapeMap<Real> carried_alone(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
+    void complete(std::uint32_t object, ShapeMap<Real>& map) const;
     Vec3<Real> at(std::uint32_t place, std::span<const Vec4<Real>> positions) const {
         return Vec3<Real>(positions[model_->surface_parts.nodes[place]]);
+    }
+    std::span<const typename BendLattice<Real>::Place> in_lattice(const Shape& shape) const {
+        return std::span(in_lattice_).subspan(shape.places.first, shape.places.count);
     }
     glm::mat<3, 3, Real> moment(const Shape& shape, const Vec3<Real>& center,
                                 std::span<const Vec4<Real>> positions) const;
@@ -149,10 +164,13 @@ private:
     std::shared_ptr<const Model> model_;
     std::vector<std::uint8_t> meets_themselves_;  // by object
     std::vector<Shape> shapes_;                   // by object
-    // By surface node [m]: from the middle when its body was found; where the map has it; its room.
+    std::vector<glm::uvec3> corners_;             // of faces, among the surface nodes
+    // By surface node [m]: from the middle when its body was found; where the map has it; what it is in and
+    // is not listed is as far apart; its room; the longest edge of its faces when it was found.
     std::vector<Vec3<Real>> offsets_, mapped_;
-    std::vector<InLattice> in_lattice_;
-    std::vector<Real> radii_;
+    std::vector<Real> apart_, radii_, longest_edges_;
+    std::vector<Real> face_edges_;  // the longest of each face when it was found [m]
+    std::vector<typename BendLattice<Real>::Place> in_lattice_;
 };
 
 }  // namespace gelatin::cpu
