@@ -10,6 +10,7 @@ namespace gelatin {
 
 /// Fills a surface with tetrahedra by the mesher that `settings` names: TetGen (tetrahedralise.h), or the
 /// lattice (lattice/fill_with_lattice.h), which also takes surfaces that are not closed.
+/// MesherKind::automatic is TetGen, and the lattice where TetGen fails or is missing; a note tells why.
 /// @param name for messages: the object's or the file's
 /// @param notes gets a line for each thing that the user should know about the result
 /// @throws InvalidInput, SystemError as these do

@@ -58,7 +58,8 @@ TEST_F(CommandLine, NamesFileLineKeyAndValueOfAWrongScene) {
 TEST_F(CommandLine, NamesTheMeshThatIsWrong) {
     write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n");
     write("open.toml",
-          "material = [{name = 'm'}]\n[[object]]\nname = 'thing'\nshape = {file = 'open.obj'}\n");
+          "material = [{name = 'm'}]\n[[object]]\nname = 'thing'\nshape = {file = 'open.obj'}\n"
+          "mesher = {kind = 'tetgen'}\n");
     const ProgramResult result = run({"run", "open.toml"});
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_THAT(result.err, StartsWith("gelatin: error: "));

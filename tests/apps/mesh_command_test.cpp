@@ -82,7 +82,7 @@ TEST_F(MeshCommand, RefusesWrongCalls) {
 
 TEST_F(MeshCommand, RefusesASurfaceThatIsNotClosed) {
     write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n");
-    const ProgramResult result = run({"mesh", "open.obj", "-o", "out.msh"});
+    const ProgramResult result = run({"mesh", "open.obj", "-o", "out.msh", "--mesher", "tetgen"});
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_THAT(result.err, HasSubstr("not closed"));
     EXPECT_FALSE(exists("out.msh"));
