@@ -56,7 +56,9 @@ typename BendLattice<Real>::Place BendLattice<Real>::place(const Vec3<Real>& off
     glm::uvec3 first(0);
     for (int axis = 0; axis < 3; ++axis) {
         const auto last = static_cast<Real>(points_[axis] - 2);
-        first[axis] = static_cast<std::uint32_t>(std::clamp(in_cells[axis] + Real(0.5f), Real(1), last));
+        // At least 1, even of what is not a number, so that there are points on all sides.
+        const Real in_range = std::clamp(in_cells[axis] + Real(0.5f), Real(1), last);
+        first[axis] = in_range > Real(1) ? static_cast<std::uint32_t>(in_range) : 1u;
     }
     const std::uint32_t point = first.x + points_.x * (first.y + points_.y * first.z);
     if (numbers_[point] == kNoNode) {
