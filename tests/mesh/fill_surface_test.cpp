@@ -13,8 +13,7 @@
 namespace gelatin {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
+using testing::StartsWith;
 
 MesherSettings by(MesherKind kind) {
     MesherSettings settings;
@@ -51,6 +50,7 @@ TEST(FillSurface, ByTheLatticeWhereTetGenCannot) {
     EXPECT_THROW(fill_surface(open_cube(), by(MesherKind::tetgen), "cube", notes), InvalidInput);
 }
 
+// Nor is there the program that TetGen's output goes through.
 TEST(FillSurface, ByTheLatticeWithoutTetGen) {
     const TemporaryFolder nothing;
     const char* path = std::getenv("PATH");
@@ -64,7 +64,7 @@ TEST(FillSurface, ByTheLatticeWithoutTetGen) {
     ::setenv("PATH", old_path.c_str(), 1);
     EXPECT_FALSE(mesh.tets.empty());
     ASSERT_FALSE(notes.empty());
-    EXPECT_THAT(notes.front(), AllOf(HasSubstr("filled by the lattice mesher"), HasSubstr("tetgen")));
+    EXPECT_THAT(notes.front(), StartsWith("filled by the lattice mesher, because of "));
 }
 
 TEST(FillSurface, RefusesWhatNeitherCanFill) {
