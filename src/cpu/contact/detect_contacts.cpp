@@ -106,24 +106,16 @@ void DetectContacts<Real>::run_own(std::span<const std::uint32_t> objects, bool 
                                    std::span<const Vec4<Real>> positions, ContactList<Real>& list) {
     for_each_index(0, objects.size(), 1, [&](std::size_t k) {
         const std::uint32_t o = objects[k];
-        const bool dbg = getenv("DBG") != nullptr;
-        if (dbg)
-            fprintf(stderr, "look %d steep %d slope-used %.3f ", anew, list.own.map(o).is_steep,
-                    double(list.own.used(o, positions)));
         if (anew || !list.own.is_found(o)) {
-            if (dbg) fprintf(stderr, "WHOLE\n");
             own_.run(o, positions, list.own);
             return;
         }
         const std::vector<std::uint32_t> places = restless_places(o, positions, list);
         if (static_cast<double>(places.size()) < kMostRestless * list.own.places(o).count) {
             const bool is_done = own_.run_again(o, places, positions, list.own);
-            if (dbg)
-                fprintf(stderr, "AGAIN %zu then %.2f\n", places.size(), double(list.own.used(o, positions)));
             // Beside them, rooms may have become smaller than what their nodes have used.
             if (is_done && list.own.used(o, positions) < static_cast<Real>(OwnRooms<Real>::kByNodes)) return;
         }
-        if (dbg) fprintf(stderr, "MANY %zu\n", places.size());
         own_.run(o, positions, list.own);
     });
     put_together(list);
