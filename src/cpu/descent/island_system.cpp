@@ -1,0 +1,287 @@
+#include "cpu/descent/island_system.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "cpu/contact/contact_law.h"
+#include "model/for_each_index.h"
+
+namespace gelatin::cpu {
+namespace {
+
+// Conjugate gradients end when the residual is this small, or after so many steps. The first solution tells
+// no more than how contacts press.
+constexpr double kResidual = 1e-6, kRoughResidual = 1e-3;
+constexpr int kMostSteps = 100;
+// The line search ends when the slope is this small, of that at the start, or after so many looks.
+constexpr double kLevel = 1e-3;
+constexpr int kMostLooks = 12;
+
+using Matrix = Eigen::Matrix3d;
+
+Eigen::Vector3d vector(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+Matrix cross_matrix(const Eigen::Vector3d& v) {
+    Matrix m;
+    m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+    return m;
+}
+
+double dot(const std::vector<Motion>& a, const std::vector<Motion>& b) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < a.size(); ++k) sum += a[k].dot(b[k]);
+    return sum;
+}
+
+// What a force that acts at an arm is for the body.
+Motion wrench(const Eigen::Vector3d& arm, const Eigen::Vector3d& force) {
+    Motion m;
+    m << force, arm.cross(force);
+    return m;
+}
+
+// How a point at an arm moves along a direction.
+double along(const Motion& motion, const glm::dvec3& arm, const glm::dvec3& direction) {
+    const glm::dvec3 turn = glm::cross(arm, direction);
+    return motion(0) * direction.x + motion(1) * direction.y + motion(2) * direction.z + motion(3) * turn.x +
+           motion(4) * turn.y + motion(5) * turn.z;
+}
+
+// Adds a stiffness between points at two arms, as what their bodies feel: J_a^T K J_b with J = (1, -[r]x).
+void add_stiffness(const Matrix& stiffness, const Matrix& arm_a, const Matrix& arm_b, double sign,
+                   MotionMatrix& sum) {
+    const Matrix turned = -sign * stiffness * arm_b;
+    sum.topLeftCorner<3, 3>() += sign * stiffness;
+    sum.topRightCorner<3, 3>() += turned;
+    sum.bottomLeftCorner<3, 3>() += sign * arm_a * stiffness;
+    sum.bottomRightCorner<3, 3>() += arm_a * turned;
+}
+
+// What a contact adds to second order.
+struct Terms {
+    Matrix stiffness = Matrix::Zero();                // against the displacement of one side by the other
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();  // on the second side [N]
+};
+
+Terms terms_of(const IslandSystem::Touch& touch) {
+    Terms terms;
+    const Eigen::Vector3d normal = vector(touch.normal);
+    const double pressing = contact_force(touch.gap, touch.reach, touch.stiffness);
+    if (pressing > 0.0) {
+        terms.force = pressing * normal;
+        terms.stiffness =
+            contact_hessian(touch.gap, touch.reach, touch.stiffness) * normal * normal.transpose();
+    }
+    const double limit =
+        touch.friction * contact_force(touch.gap + touch.change, touch.reach, touch.stiffness);
+    if (!(limit > 0.0)) return terms;
+    const Eigen::Vector3d hold = vector(touch.hold - glm::dot(touch.hold, touch.normal) * touch.normal);
+    const double length = hold.norm(), part = length > limit ? limit / length : 1.0;
+    terms.force -= part * hold;
+    terms.stiffness += part * touch.stiffness * (Matrix::Identity() - normal * normal.transpose());
+    if (part < 1.0) {  // along a slip the force does not change with it
+        const double left = (1.0 - kSlipShare<double>)*part * touch.stiffness;
+        terms.stiffness -= left / (length * length) * hold * hold.transpose();
+    }
+    return terms;
+}
+
+}  // namespace
+
+// Friction depends on how contacts press, of which sweeps find far too much in stiff bodies: it is taken by
+// what a first solution leaves of that.
+std::vector<Motion> IslandSystem::find_motions() {
+    find_couplings();
+    Motions newton(bodies.size(), Motion::Zero());
+    const auto holds = [](const Touch& touch) { return touch.friction > 0.0; };
+    if (std::any_of(touches.begin(), touches.end(), holds)) {
+        assemble();
+        solve(kRoughResidual, newton);
+        shortened(newton);
+    }
+    assemble();
+    solve(kResidual, newton);
+    return shortened(newton);
+}
+
+void IslandSystem::find_couplings() {
+    couplings_.clear();
+    for (std::uint32_t k = 0; k < touches.size(); ++k) {
+        if (couplings_.empty() || couplings_.back().bodies != touches[k].bodies) {
+            Coupling& coupling = couplings_.emplace_back();
+            coupling.bodies = touches[k].bodies;
+            coupling.touches.first = k;
+        }
+        ++couplings_.back().touches.count;
+    }
+}
+
+void IslandSystem::sum_touches(Coupling& coupling) const {
+    for (std::size_t side = 0; side < 2; ++side) {
+        coupling.own[side].setZero();
+        coupling.forces[side].setZero();
+    }
+    coupling.across.setZero();
+    for (std::uint32_t k = coupling.touches.first; k < coupling.touches.end(); ++k) {
+        const Terms terms = terms_of(touches[k]);
+        if (terms.stiffness.isZero(0.0)) continue;
+        const std::array<Eigen::Vector3d, 2> arms{vector(touches[k].arms[0]), vector(touches[k].arms[1])};
+        const std::array<Matrix, 2> turns{cross_matrix(arms[0]), cross_matrix(arms[1])};
+        for (std::size_t side = 0; side < 2; ++side) {
+            if (coupling.bodies[side] == kNoNode) continue;
+            add_stiffness(terms.stiffness, turns[side], turns[side], 1.0, coupling.own[side]);
+            coupling.forces[side] += (side == 0 ? -1.0 : 1.0) * wrench(arms[side], terms.force);
+        }
+        if (coupling.bodies[0] != kNoNode && coupling.bodies[1] != kNoNode)
+            add_stiffness(terms.stiffness, turns[0], turns[1], -1.0, coupling.across);
+    }
+}
+
+void IslandSystem::assemble() {
+    for_each_index(0, couplings_.size(), 4, [&](std::size_t k) { sum_touches(couplings_[k]); });
+    const std::size_t count = bodies.size();
+    matrices_.resize(count);
+    inverses_.resize(count);
+    forces_.resize(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        matrices_[k] = bodies[k].matrix;
+        forces_[k] = bodies[k].force;
+    }
+    for (const Coupling& coupling : couplings_) {
+        for (std::size_t side = 0; side < 2; ++side) {
+            const std::uint32_t body = coupling.bodies[side];
+            if (body == kNoNode) continue;
+            matrices_[body] += coupling.own[side];
+            forces_[body] += coupling.forces[side];
+        }
+    }
+    for (std::size_t k = 0; k < count; ++k)
+        inverses_[k] = Eigen::LLT<MotionMatrix>(matrices_[k]).solve(MotionMatrix::Identity());
+}
+
+// By conjugate gradients, preconditioned with the bodies' own blocks. @param motions where they start
+void IslandSystem::solve(double residual, Motions& motions) const {
+    const std::size_t count = bodies.size();
+    const auto precondition = [&](const Motions& r, Motions& z) {
+        for (std::size_t k = 0; k < count; ++k) z[k].noalias() = inverses_[k] * r[k];
+        return dot(r, z);
+    };
+    Motions left = forces_, pulled(count);
+    const double enough = residual * residual * precondition(left, pulled);
+    const Motions held = product(motions);
+    for (std::size_t k = 0; k < count; ++k) left[k] -= held[k];
+    double now = precondition(left, pulled);
+    Motions direction = pulled;
+    for (int i = 0; i < kMostSteps && now > enough; ++i) {
+        const Motions resisted = product(direction);
+        const double curvature = dot(direction, resisted);
+        if (!(curvature > 0.0)) break;
+        const double length = now / curvature;
+        for (std::size_t k = 0; k < count; ++k) {
+            motions[k] += length * direction[k];
+            left[k] -= length * resisted[k];
+        }
+        const double before = std::exchange(now, precondition(left, pulled));
+        for (std::size_t k = 0; k < count; ++k) direction[k] = pulled[k] + now / before * direction[k];
+    }
+}
+
+// Contacts cancel in the sum of all forces, so that momentum does not depend on how well the rest was solved.
+// Tells each contact how its gap changes.
+std::vector<Motion> IslandSystem::shortened(const Motions& newton) {
+    Motions motions = newton;
+    Motion common = is_held ? Motion::Zero() : mean_translation(motions);
+    for (Motion& motion : motions) motion -= common;
+    if (!is_held && !is_outside_touched) common = free_translation();
+    const double part = least_along(motions, common);
+    for (Touch& touch : touches) touch.change *= part;
+    for (Motion& motion : motions) motion = part * motion + common;
+    return motions;
+}
+
+// By mass; it changes no gap.
+Motion IslandSystem::mean_translation(const Motions& motions) const {
+    Motion sum = Motion::Zero();
+    double stiffness = 0.0;
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        sum.head<3>() += bodies[k].stiffness * motions[k].head<3>();
+        stiffness += bodies[k].stiffness;
+    }
+    return sum / stiffness;
+}
+
+// What brings all of them to their targets on average.
+Motion IslandSystem::free_translation() const {
+    Motion sum = Motion::Zero();
+    double stiffness = 0.0;
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        sum.head<3>() += forces_[k].head<3>();
+        stiffness += bodies[k].stiffness;
+    }
+    return sum / stiffness;
+}
+
+// The part of the motions, after the common one, at which the objective is least: contacts as they are, the
+// rest to second order. Newton's step alone would throw bodies through the reach of others.
+double IslandSystem::least_along(const Motions& motions, const Motion& common) {
+    const Motions resisted = product(motions);
+    double pull = 0.0, curvature = dot(motions, resisted);
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+        pull += forces_[k].dot(motions[k]) - common.dot(resisted[k]);
+    std::vector<const Touch*> pressing;  // on the way
+    for (Touch& touch : touches) {
+        touch.change = 0.0;
+        for (std::size_t side = 0; side < 2; ++side) {
+            if (touch.bodies[side] == kNoNode) continue;
+            const double way = along(motions[touch.bodies[side]], touch.arms[side], touch.normal);
+            touch.change += side == 0 ? -way : way;
+        }
+        if (!(std::min(touch.gap, touch.gap + touch.change) < touch.reach)) continue;
+        pressing.push_back(&touch);
+        pull -= contact_force(touch.gap, touch.reach, touch.stiffness) * touch.change;
+        curvature -= contact_hessian(touch.gap, touch.reach, touch.stiffness) * touch.change * touch.change;
+    }
+    struct Slope {
+        double value, change;
+    };
+    const auto slope_at = [&](double part) {
+        Slope slope{part * curvature - pull, curvature};
+        for (const Touch* touch : pressing) {
+            const double gap = touch->gap + part * touch->change;
+            slope.value -= contact_force(gap, touch->reach, touch->stiffness) * touch->change;
+            slope.change +=
+                contact_hessian(gap, touch->reach, touch->stiffness) * touch->change * touch->change;
+        }
+        return slope;
+    };
+    const double enough = kLevel * std::abs(slope_at(0.0).value);
+    double low = 0.0, high = 1.0, part = 1.0;
+    for (int i = 0; i < kMostLooks; ++i) {
+        const Slope slope = slope_at(part);
+        if (std::abs(slope.value) <= enough || (part == 1.0 && !(slope.value > 0.0))) return part;
+        (slope.value > 0.0 ? high : low) = part;
+        part -= slope.value / slope.change;
+        if (!(part > low && part < high)) part = 0.5 * (low + high);
+    }
+    return low;
+}
+
+std::vector<Motion> IslandSystem::product(const Motions& motions) const {
+    Motions q(motions.size());
+    for (std::size_t k = 0; k < bodies.size(); ++k) q[k].noalias() = matrices_[k] * motions[k];
+    for (const Coupling& coupling : couplings_) {
+        const auto [a, b] = coupling.bodies;
+        if (a == kNoNode || b == kNoNode) continue;
+        q[a].noalias() += coupling.across * motions[b];
+        q[b].noalias() += coupling.across.transpose() * motions[a];
+    }
+    return q;
+}
+
+}  // namespace gelatin::cpu

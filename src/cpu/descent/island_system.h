@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "model/model.h"
+#include "model/spring_packing.h"
+
+namespace gelatin::cpu {
+
+using Motion = Eigen::Matrix<double, 6, 1>;  ///< a translation [m] and a rotation, or a force and a moment
+using MotionMatrix = Eigen::Matrix<double, 6, 6>;
+
+/// Newton's system of the rigid motions of an island's bodies, with the contacts between them, friction among
+/// these (docs/contact.md, "Joint rigid motions").
+class IslandSystem {
+public:
+    struct Body {
+        explicit Body(std::uint32_t of) : object(of) {}
+
+        std::uint32_t object;
+        glm::dvec3 origin{0.0};  ///< centre of mass [m]
+        // Of all that acts on it but contacts with others:
+        MotionMatrix matrix = MotionMatrix::Zero();
+        Motion force = Motion::Zero();
+        double stiffness = 0.0;  ///< sum of m / h^2 [N/m]
+    };
+
+    /// A contact of bodies, which are numbered within the island; kNoNode: what is held.
+    struct Touch {
+        std::array<std::uint32_t, 2> bodies{kNoNode, kNoNode};
+        std::array<glm::dvec3, 2> arms{};  ///< of the nearest points, from the bodies' origins [m]
+        glm::dvec3 normal{0.0};            ///< from the first to the second, unit
+        double gap = 0.0, reach = 0.0;     ///< [m]
+        double stiffness = 0.0;            ///< [N/m]
+        double friction = 0.0;             ///< Coulomb's coefficient
+        glm::dvec3 hold{0.0};              ///< what would hold the first if nothing slid [N]
+        double change = 0.0;               ///< of the gap by the last solution [m]
+    };
+
+    std::vector<Body> bodies;
+    std::vector<Touch> touches;       ///< those of the same two bodies beside each other
+    bool is_held = false;             ///< something that is held is part of the island
+    bool is_outside_touched = false;  ///< a body is in contact with a collider
+
+    /// The motions of all bodies to where the objective is least along Newton's step.
+    std::vector<Motion> find_motions();
+
+private:
+    // What all contacts of two bodies add.
+    struct Coupling {
+        std::array<std::uint32_t, 2> bodies{kNoNode, kNoNode};
+        Range touches;
+        std::array<MotionMatrix, 2> own{MotionMatrix::Zero(), MotionMatrix::Zero()};
+        MotionMatrix across = MotionMatrix::Zero();  // rows of the first body, columns of the second
+        std::array<Motion, 2> forces{Motion::Zero(), Motion::Zero()};
+    };
+    using Motions = std::vector<Motion>;
+
+    void find_couplings();
+    void sum_touches(Coupling& coupling) const;
+    void assemble();
+    void solve(double residual, Motions& motions) const;
+    Motions shortened(const Motions& newton);
+    double least_along(const Motions& motions, const Motion& common);
+    Motion mean_translation(const Motions& motions) const;
+    Motion free_translation() const;
+    Motions product(const Motions& motions) const;
+
+    std::vector<Coupling> couplings_;
+    // With contacts, by body:
+    std::vector<MotionMatrix> matrices_, inverses_;
+    Motions forces_;
+};
+
+}  // namespace gelatin::cpu
