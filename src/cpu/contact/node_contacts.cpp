@@ -111,13 +111,16 @@ template <class Real>
 void NodeContacts<Real>::add(std::uint32_t node, const Vec3<Real>& position, NodeTerms<Real>& terms) const {
     const std::uint32_t place = surface_->places[node];
     const Vec3<Real> displacement = position - aimed_at(node);
-    for (ContactShare<Real> share : shares_of(place)) {
+    for (const ContactShare<Real>& share : shares_of(place)) {
+        const Real gap = share.gap_at(displacement);
+        if (gap >= share.reach) continue;
         add_contact_share(share, displacement, terms);
         if (!(share.limit > Real(0))) continue;
         // Less where the node presses less than at the aim: few sweeps find far too much of that at first.
-        const Real pressing = contact_force(share.gap_at(displacement), share.reach, share.stiffness);
-        share.limit = std::min(share.limit, share.friction * pressing);
-        if (share.limit > Real(0)) add_friction_share(share, displacement, terms);
+        ContactShare<Real> pressing = share;
+        pressing.limit =
+            std::min(share.limit, share.friction * contact_force(gap, share.reach, share.stiffness));
+        if (pressing.limit > Real(0)) add_friction_share(pressing, displacement, terms);
     }
 }
 
@@ -177,7 +180,9 @@ Real NodeContacts<Real>::least_along(std::span<const ContactShare<Real>> shares,
                                      const NodeTerms<Real>& all) const {
     Real pull = glm::dot(all.force, motion), curvature = glm::dot(product(all.hessian, motion), motion);
     for (const ContactShare<Real>& share : shares) {  // what is left without contacts
-        const Real along = glm::dot(share.towards, motion), gap = share.gap_at(displacement);
+        const Real gap = share.gap_at(displacement);
+        if (gap >= share.reach) continue;
+        const Real along = glm::dot(share.towards, motion);
         pull += contact_force(gap, share.reach, share.stiffness) * along;
         curvature -= share.inverse_share * contact_hessian(gap, share.reach, share.stiffness) * along * along;
     }
@@ -189,6 +194,7 @@ Real NodeContacts<Real>::least_along(std::span<const ContactShare<Real>> shares,
         for (const ContactShare<Real>& share : shares) {
             const Real along = glm::dot(share.towards, motion);
             const Real gap = share.gap_at(displacement) - part * share.inverse_share * along;
+            if (gap >= share.reach) continue;
             slope.value += contact_force(gap, share.reach, share.stiffness) * along;
             slope.change +=
                 share.inverse_share * contact_hessian(gap, share.reach, share.stiffness) * along * along;

@@ -18,13 +18,21 @@ Vec3<Real> shortest(const ContactPair& pair, const std::array<Vec3<Real>, 4>& no
     return nearest_points<Real>(nodes[0], std::array{nodes[1], nodes[2], nodes[3]}).apart;
 }
 
-// At right angles to the face, or to both edges, and towards the second side. What slides over an edge is
-// ahead of it now and behind it then, and above it all the time.
+// The shortest way between the sides as seen along their relative motion. What slides over an edge is ahead
+// of it now and behind it then, and above it all the time.
 template <class Real>
-Vec3<Real> across_both(const ContactPair& pair, const std::array<Vec3<Real>, 4>& nodes) {
-    const Vec3<Real> across = pair.is_edges() ? glm::cross(nodes[1] - nodes[0], nodes[3] - nodes[2])
-                                              : glm::cross(nodes[2] - nodes[1], nodes[3] - nodes[1]);
-    return glm::dot(across, nodes[2] - nodes[0]) < Real(0) ? -across : across;
+Vec3<Real> shortest_aside(const ContactPair& pair, std::array<Vec3<Real>, 4> nodes,
+                          const std::array<Vec3<Real>, 4>& motions) {
+    std::array<Vec3<Real>, 2> means{Vec3<Real>(0), Vec3<Real>(0)};
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::uint32_t count = pair.side_of(k) == 0 ? pair.first_count : 4 - pair.first_count;
+        means[pair.side_of(k)] += motions[k] / static_cast<Real>(count);
+    }
+    const Vec3<Real> motion = means[1] - means[0], first = nodes[0];
+    const Real squared = glm::dot(motion, motion);
+    if (!(squared > Real(0))) return Vec3<Real>(0);
+    for (Vec3<Real>& node : nodes) node -= first + glm::dot(node - first, motion) / squared * motion;
+    return shortest(pair, nodes);
 }
 
 template <class Real>
@@ -70,7 +78,7 @@ PairCourse<Real> best_course(const ContactPair& pair, const PairAim<Real>& aim, 
             course = course_along(pair, aim, reach, between / length, nodes, motions, closeness);
     }
     if (course.is_free()) return course;
-    for (const Vec3<Real>& direction : {shortest(pair, moved), across_both(pair, nodes)}) {
+    for (const Vec3<Real>& direction : {shortest(pair, moved), shortest_aside(pair, nodes, motions)}) {
         const Real length = glm::length(direction);
         if (!(length > Real(0))) continue;
         const PairCourse<Real> other =

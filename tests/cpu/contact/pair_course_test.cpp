@@ -173,6 +173,32 @@ TEST(PairCourse, IsFreeForWhatStaysOrPartsOrGoesTogether) {
     }
 }
 
+// Whatever their shapes: corners that slide over faces, and edges along each other.
+TEST(PairCourse, IsFreeForWhatPassesBeside) {
+    test::RandomMaker random(5);
+    for (unsigned seed = 1; seed < 3000; ++seed) {
+        MovingPair moving(seed, random.uniform(0.0, 1.0));
+        const glm::dvec3 direction = glm::normalize(random.point(1.0)), way = random.point(1.0);
+        double top = -1e9, low = 1e9;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const double height = glm::dot(direction, moving.nodes[k]);
+            (moving.pair.side_of(k) == 0 ? top : low) =
+                moving.pair.side_of(k) == 0 ? std::max(top, height) : std::min(low, height);
+        }
+        const double gap = random.magnitude(0.06, 2.0) * kReach;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const bool is_first = moving.pair.side_of(k) == 0;
+            if (!is_first) moving.nodes[k] += (top - low + gap) * direction;
+            moving.motions[k] = is_first ? glm::dvec3(0) : way - glm::dot(way, direction) * direction;
+        }
+        const glm::dvec3 between = apart(moving.pair, moving.nodes);
+        moving.aim.normal = glm::normalize(between);
+        moving.aim.gap = glm::length(between);
+        for (const Closeness closeness : {Closeness::motion, Closeness::guess})
+            EXPECT_TRUE(moving.course(closeness).is_free()) << seed;
+    }
+}
+
 TEST(PairCourse, KnowsTheGapWhateverTheAim) {
     for (unsigned seed = 1; seed < 500; ++seed) {
         MovingPair moving(seed, 0.5);
@@ -200,9 +226,9 @@ TEST(PairCourse, IsFreeForWhatSlidesAbove) {
             const Corners motions{motion, pair.is_edges() ? motion : glm::dvec3(0), {0, 0, 0}, {0, 0, 0}};
             EXPECT_TRUE(
                 cpu::best_course<double>(pair, aim, kReach, nodes, motions, Closeness::motion).is_free());
-            Corners through = motions;  // but not if it goes down on the way
-            through[0].z -= side;
-            if (pair.is_edges()) through[1].z -= side;
+            Corners through = motions;  // but not if it goes through on the way
+            through[0].z -= 0.6 * side;
+            if (pair.is_edges()) through[1].z -= 0.6 * side;
             EXPECT_FALSE(
                 cpu::best_course<double>(pair, aim, kReach, nodes, through, Closeness::motion).is_free());
         }
