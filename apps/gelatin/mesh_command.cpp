@@ -11,7 +11,6 @@
 #include "commands.h"
 #include "common/choice.h"
 #include "common/output_file.h"
-#include "mesh/file_ending.h"
 #include "mesh/fill_surface.h"
 #include "mesh/surface_file.h"
 #include "mesh/surface_repair.h"
@@ -32,11 +31,6 @@ struct MeshOptions {
     MesherSettings settings;
     bool has_mesher_options = false;
 };
-
-bool is_surface_file(const fs::path& file) {
-    const std::string ending = lower_case_ending(file);
-    return std::find(kSurfaceEndings.begin(), kSurfaceEndings.end(), ending) != kSurfaceEndings.end();
-}
 
 // The boundary faces over the nodes that they use, in the nodes' order.
 SurfaceMesh boundary_of(const TetMesh& tets) {
@@ -100,12 +94,11 @@ void check_settings(const MesherSettings& settings) {
         check("--cell-size", *size, *size > 0.0, "must be greater than 0");
     if (const auto nodes = settings.nodes)
         check("--nodes", *nodes, *nodes >= 10 && *nodes <= 1'000'000, "must be from 10 to 1000000");
-    if (settings.kind != MesherKind::lattice && (settings.nodes || settings.cell_size))
-        throw InvalidInput("--nodes and --cell-size are only for --mesher lattice");
+    if (settings.kind == MesherKind::tetgen && settings.cell_size)
+        throw InvalidInput("--cell-size is only for the lattice, not for --mesher tetgen");
     if (settings.kind == MesherKind::lattice && settings.quality != MesherSettings().quality)
         throw InvalidInput("--quality is only for TetGen, not for --mesher lattice");
-    if (settings.nodes.has_value() + settings.cell_size.has_value() + settings.max_volume.has_value() > 1 &&
-        settings.kind == MesherKind::lattice)
+    if (settings.nodes.has_value() + settings.cell_size.has_value() + settings.max_volume.has_value() > 1)
         throw InvalidInput("of --nodes, --cell-size and --max-volume one at most can be given");
 }
 
@@ -139,7 +132,7 @@ void run_mesh(MeshOptions& options) {
     if (to_surface) return write_surface_and_report(options.output, surface);
     const auto start = std::chrono::steady_clock::now();
     notes.clear();
-    const TetMesh mesh = fill_surface(surface, options.settings, options.input.string(), notes);
+    const TetMesh mesh = fill_surface(surface, sized(options.settings), options.input.string(), notes);
     print_notes(notes);
     write_tets_and_report(options.output, mesh, FillReport{surface, seconds_since(start)});
 }
@@ -159,7 +152,7 @@ void add_mesh_command(CLI::App& app) {
     MesherSettings& settings = options->settings;
     const std::vector<CLI::Option*> for_mesher = {
         command->add_option("--mesher", options->mesher, "auto, tetgen or lattice")->capture_default_str(),
-        command->add_option("--nodes", settings.nodes, "Of the lattice, within 20%; 5000 without a size"),
+        command->add_option("--nodes", settings.nodes, "About so many, within 20%; 5000 without a size"),
         command->add_option("--cell-size", settings.cell_size, "Of the lattice's cells at the surface, > 0"),
         command->add_option("--quality", settings.quality, "Largest radius-edge ratio of TetGen's tets, > 1")
             ->capture_default_str(),

@@ -21,7 +21,7 @@ void load_font(float scale) {
         const FontFile font = find_font("DejaVu Sans");
         if (fonts.AddFontFromFileTTF(font.file.c_str(), kFontSize * scale) != nullptr) return;
     } catch (const InvalidInput& problem) {
-        log_info(problem.what());
+        log_debug(problem.what());
     }
     ImFontConfig config;
     config.SizePixels = kFontSize * scale;

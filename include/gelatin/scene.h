@@ -147,7 +147,7 @@ using Shape = std::variant<SphereShape, BoxShape, CapsuleShape, TextShape, FileS
 
 /// How a surface is filled with tets.
 enum class MesherKind {
-    automatic,  ///< by TetGen, or by the lattice where that fails; a line tells
+    automatic,  ///< by TetGen, or by the lattice where that fails or would be finer than wanted; a line tells
     tetgen,     ///< by TetGen: tets of a closed surface, with its vertices and edges
     lattice,    ///< by a lattice that is cut along the surface: any surface that encloses something, also a
                 ///< broken one
@@ -155,13 +155,16 @@ enum class MesherKind {
 
 struct MesherSettings {
     MesherKind kind = MesherKind::automatic;
-    double quality = 2.0;              ///< of tetgen: largest radius-edge ratio of a tet, > 1 (its -q)
-    std::optional<double> max_volume;  ///< of a tet [m^3], > 0 (TetGen's -a)
-    double time_limit = 120.0;         ///< of tetgen's process [s], > 0
+    double quality = 2.0;       ///< of tetgen: largest radius-edge ratio of a tet, > 1 (its -q)
+    double time_limit = 120.0;  ///< of tetgen's process [s], > 0
 
-    // For the lattice, of these and max_volume one at most; without any about 5000 nodes.
-    std::optional<int> nodes = {};         ///< within 20%, from 10 to 1000000
-    std::optional<double> cell_size = {};  ///< edge of the lattice's cells at the surface [m], > 0
+    // Of these one at most. Without any, surfaces from files and lattices get about 5000 nodes; TetGen makes
+    // as few of other surfaces as their triangles and `quality` need.
+    std::optional<int> nodes = {};          ///< within 20%, from 10 to 1000000
+    std::optional<double> max_volume = {};  ///< of a tet [m^3], > 0
+    std::optional<double> cell_size = {};   ///< of the lattice: edge of its cells at the surface [m], > 0
+
+    bool has_size() const { return nodes || max_volume || cell_size; }
     bool operator==(const MesherSettings&) const = default;
 };
 

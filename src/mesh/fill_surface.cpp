@@ -1,39 +1,125 @@
 #include "mesh/fill_surface.h"
 
+#include <fmt/core.h>
+
+#include <optional>
+#include <utility>
+
 #include "gelatin/error.h"
 #include "mesh/lattice/fill_with_lattice.h"
 #include "mesh/tetrahedralise.h"
+#include "mesh/tetrahedralise_to_nodes.h"
 
 namespace gelatin {
 namespace {
 
 constexpr const char* kTooManyTets = "mesher.max_volume";
+constexpr double kAllowed = 0.2;  // deviation from the wanted number of nodes
 
 // The first sentence of an error about a surface: what there is to do about it does not matter any more.
 std::string reason_of(const std::string& problem) {
     return problem.substr(0, problem.find(';'));
 }
 
+bool is_too_many(std::size_t nodes, int wanted) {
+    return static_cast<double>(nodes) > (1.0 + kAllowed) * wanted;
+}
+
+bool is_about(std::size_t nodes, int wanted) {
+    return !is_too_many(nodes, wanted) && static_cast<double>(nodes) >= (1.0 - kAllowed) * wanted;
+}
+
+class SurfaceFill {
+public:
+    SurfaceFill(const SurfaceMesh& surface, const MesherSettings& settings, const std::string& name,
+                Notes& notes)
+        : surface_(surface), settings_(settings), name_(name), notes_(notes) {}
+
+    TetMesh by_lattice() {
+        return fill_with_lattice(surface_, {settings_.nodes, settings_.cell_size, settings_.max_volume},
+                                 name_, notes_);
+    }
+
+    TetMesh by_tetgen() {
+        TetMesh mesh = run_tetgen();
+        if (settings_.nodes && !is_about(mesh.positions.size(), *settings_.nodes)) {
+            notes_.push_back(
+                fmt::format("TetGen makes {} nodes of this surface, which has {} vertices; {} were "
+                            "wanted",
+                            mesh.positions.size(), surface_.positions.size(), *settings_.nodes));
+        }
+        return mesh;
+    }
+
+    TetMesh by_either() {
+        std::string reason;  // for the lattice
+        if (std::optional<TetMesh> mesh = try_tetgen(reason)) return std::move(*mesh);
+        notes_.push_back("filled by the lattice mesher, because " + reason);
+        return by_lattice();
+    }
+
+private:
+    TetMesh run_tetgen() const {
+        return settings_.nodes ? tetrahedralise_to_nodes(surface_, settings_, *settings_.nodes, name_)
+                               : tetrahedralise(surface_, settings_, name_);
+    }
+
+    std::optional<TetMesh> try_tetgen(std::string& reason) {
+        const std::size_t vertices = surface_.positions.size();
+        if (settings_.cell_size) {
+            reason = "mesher.cell_size is a size of its cells";
+            return {};
+        }
+        if (settings_.nodes && is_too_many(vertices, *settings_.nodes)) {
+            reason = fmt::format("the surface alone has {} vertices, and {} nodes are wanted", vertices,
+                                 *settings_.nodes);
+            return {};
+        }
+        try {
+            TetMesh mesh = run_tetgen();
+            if (!settings_.nodes) return mesh;
+            const std::size_t nodes = mesh.positions.size();
+            if (is_about(nodes, *settings_.nodes)) {
+                notes_.push_back(fmt::format(
+                    "filled by TetGen with {} nodes: the surface is closed and no finer than wanted", nodes));
+                return mesh;
+            }
+            reason = fmt::format("TetGen makes {} nodes of this surface, and {} are wanted", nodes,
+                                 *settings_.nodes);
+        } catch (const InvalidInput& error) {
+            const bool is_about_surface = error.problem().field != kTooManyTets;
+            if (!is_about_surface || surface_.faces.empty()) throw;
+            reason = reason_of(error.problem().problem);
+        } catch (const SystemError& error) {
+            reason = "of " + reason_of(error.what());
+        }
+        return {};
+    }
+
+    const SurfaceMesh& surface_;
+    const MesherSettings& settings_;
+    const std::string& name_;
+    Notes& notes_;
+};
+
 }  // namespace
 
 TetMesh fill_surface(const SurfaceMesh& surface, const MesherSettings& settings, const std::string& name,
                      Notes& notes) {
-    const auto by_lattice = [&] {
-        return fill_with_lattice(surface, {settings.nodes, settings.cell_size, settings.max_volume}, name,
-                                 notes);
-    };
-    if (settings.kind == MesherKind::lattice) return by_lattice();
-    try {
-        return tetrahedralise(surface, settings, name);
-    } catch (const InvalidInput& error) {
-        const bool is_about_surface = error.problem().field != kTooManyTets;
-        if (settings.kind == MesherKind::tetgen || !is_about_surface || surface.faces.empty()) throw;
-        notes.push_back("filled by the lattice mesher, because " + reason_of(error.problem().problem));
-    } catch (const SystemError& error) {
-        if (settings.kind == MesherKind::tetgen) throw;
-        notes.push_back(std::string("filled by the lattice mesher, because of ") + reason_of(error.what()));
+    SurfaceFill fill(surface, settings, name, notes);
+    switch (settings.kind) {
+        case MesherKind::lattice:
+            return fill.by_lattice();
+        case MesherKind::tetgen:
+            return fill.by_tetgen();
+        default:
+            return fill.by_either();
     }
-    return by_lattice();
+}
+
+MesherSettings sized(MesherSettings settings) {
+    if (!settings.has_size()) settings.nodes = kUsualNodes;
+    return settings;
 }
 
 }  // namespace gelatin

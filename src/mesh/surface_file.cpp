@@ -153,10 +153,14 @@ SurfaceMesh read_unrepaired(const fs::path& file, const std::string& ending, con
 
 }  // namespace
 
+bool is_surface_file(const fs::path& file) {
+    constexpr std::array kEndings = {".obj", ".stl", ".ply", ".off"};
+    return std::find(kEndings.begin(), kEndings.end(), lower_case_ending(file)) != kEndings.end();
+}
+
 SurfaceMesh read_surface(const fs::path& file, Notes& notes) {
     const std::string ending = lower_case_ending(file);
-    constexpr std::array kEndings = {".obj", ".stl", ".ply", ".off"};
-    if (std::find(kEndings.begin(), kEndings.end(), ending) == kEndings.end()) {
+    if (!is_surface_file(file)) {
         throw InvalidInput({file.string(), 0, {}, {}, "a surface file must end in .obj, .stl, .ply or .off"});
     }
     std::string content = read_file(file);

@@ -6,6 +6,9 @@
 
 namespace gelatin {
 
+/// True for the extensions that read_surface supports: .obj, .stl, .ply, .off.
+bool is_surface_file(const std::filesystem::path& file);
+
 /// Reads an OBJ, STL, PLY or OFF file through Assimp, in single precision, and repairs it (surface_repair.h).
 /// Each repair adds one line to `notes`. Merging the vertices that STL always repeats adds none.
 /// @throws InvalidInput for a missing, empty, unreadable or unknown file, coordinates that are not finite,

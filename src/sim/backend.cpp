@@ -45,7 +45,7 @@ std::optional<gl::Context> make_context(const SimulatorOptions& options) {
         return context;
     } catch (const NoOpenGl& problem) {
         if (needed) throw;
-        log_info(fmt::format("simulating on the CPU: {}", problem.what()));
+        log_debug(fmt::format("simulating on the CPU: {}", problem.what()));
         return std::nullopt;
     }
 }

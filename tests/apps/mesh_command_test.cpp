@@ -80,6 +80,24 @@ TEST_F(MeshCommand, RefusesWrongCalls) {
     EXPECT_EQ(run({"mesh", "tetrahedron.obj"}).exit_code, 2);
 }
 
+TEST_F(MeshCommand, MakesAboutTheWantedNodes) {
+    const auto nodes_with = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> arguments = {"mesh", "tetrahedron.obj", "-o", "out.msh"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const ProgramResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        Notes notes;
+        return static_cast<double>(read_tets(path("out.msh"), notes).positions.size());
+    };
+    EXPECT_NEAR(nodes_with({}), 5000.0, 1000.0);
+    for (const char* mesher : {"auto", "tetgen", "lattice"})
+        EXPECT_NEAR(nodes_with({"--mesher", mesher, "--nodes", "600"}), 600.0, 120.0) << mesher;
+    expect_error({"mesh", "tetrahedron.obj", "-o", "out.msh", "--mesher", "tetgen", "--cell-size", "1"}, 2,
+                 "--cell-size is only for the lattice, not for --mesher tetgen");
+    expect_error({"mesh", "tetrahedron.obj", "-o", "out.msh", "--nodes", "600", "--max-volume", "1"}, 2,
+                 "of --nodes, --cell-size and --max-volume one at most can be given");
+}
+
 TEST_F(MeshCommand, RefusesASurfaceThatIsNotClosed) {
     write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n");
     const ProgramResult result = run({"mesh", "open.obj", "-o", "out.msh", "--mesher", "tetgen"});

@@ -13,6 +13,9 @@
 namespace gelatin {
 namespace {
 
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::StartsWith;
 
 MesherSettings by(MesherKind kind) {
@@ -65,6 +68,71 @@ TEST(FillSurface, ByTheLatticeWithoutTetGen) {
     EXPECT_FALSE(mesh.tets.empty());
     ASSERT_FALSE(notes.empty());
     EXPECT_THAT(notes.front(), StartsWith("filled by the lattice mesher, because of "));
+}
+
+void expect_about(const TetMesh& mesh, int nodes) {
+    EXPECT_NEAR(static_cast<double>(mesh.positions.size()), nodes, 0.2 * nodes);
+}
+
+// TetGen keeps the 8 and the 252 vertices, and adds what is missing.
+TEST(FillSurface, HasAboutTheWantedNodes) {
+    for (const SurfaceMesh& surface :
+         {make_cube(), make_sphere({0.5, 5}), make_box({{1.0, 0.2, 0.1}, {9, 2, 1}})}) {
+        for (const int nodes : {700, 3000}) {
+            MesherSettings settings = by(MesherKind::tetgen);
+            settings.nodes = nodes;
+            Notes notes;
+            const TetMesh mesh = fill_surface(surface, settings, "thing", notes);
+            expect_about(mesh, nodes);
+            EXPECT_THAT(notes, IsEmpty());
+            settings.kind = MesherKind::automatic;
+            EXPECT_EQ(fill_surface(surface, settings, "thing", notes).tets, mesh.tets);
+            EXPECT_THAT(notes, ElementsAre("filled by TetGen with " + std::to_string(mesh.positions.size()) +
+                                           " nodes: the surface is closed and no finer than wanted"));
+        }
+    }
+}
+
+TEST(FillSurface, ByTheLatticeWhereTheSurfaceIsFinerThanWanted) {
+    const SurfaceMesh sphere = make_sphere({0.5, 10});
+    Notes notes;
+    expect_about(fill_surface(sphere, by(MesherKind::automatic), "ball", notes), 300);
+    EXPECT_THAT(notes,
+                ElementsAre("filled by the lattice mesher, because the surface alone has 1002 vertices, "
+                            "and 300 nodes are wanted"));
+    notes.clear();
+    const TetMesh mesh = fill_surface(sphere, by(MesherKind::tetgen), "ball", notes);
+    EXPECT_EQ(mesh.tets, tetrahedralise(sphere, {}, "ball").tets);
+    EXPECT_THAT(notes, ElementsAre("TetGen makes " + std::to_string(mesh.positions.size()) +
+                                   " nodes of this surface, which has 1002 vertices; 300 were wanted"));
+}
+
+// The vertices are not too many, but with what the inside needs.
+TEST(FillSurface, ByTheLatticeWhereTheInsideNeedsTooManyNodes) {
+    MesherSettings settings;
+    settings.nodes = 850;
+    settings.quality = 1.2;
+    Notes notes;
+    expect_about(fill_surface(make_sphere({0.5, 10}), settings, "ball", notes), 850);
+    EXPECT_THAT(notes, ElementsAre(StartsWith("filled by the lattice mesher, because TetGen makes ")));
+}
+
+TEST(FillSurface, ByTheLatticeForItsCellSize) {
+    MesherSettings settings;
+    settings.cell_size = 0.25;
+    Notes notes, others;
+    const TetMesh mesh = fill_surface(make_cube(), settings, "cube", notes);
+    EXPECT_THAT(notes, ElementsAre(HasSubstr("mesher.cell_size")));
+    settings.kind = MesherKind::lattice;
+    EXPECT_EQ(fill_surface(make_cube(), settings, "cube", others).tets, mesh.tets);
+}
+
+TEST(FillSurface, SizesOfFiles) {
+    EXPECT_EQ(sized({}).nodes, 5000);
+    MesherSettings settings;
+    settings.max_volume = 1.0;
+    EXPECT_EQ(sized(settings), settings);
+    EXPECT_EQ(sized(by(MesherKind::lattice)).nodes, 300);
 }
 
 TEST(FillSurface, RefusesWhatNeitherCanFill) {

@@ -23,8 +23,6 @@ namespace {
 
 using namespace lattice;
 
-constexpr int kUsualNodes = 5000;
-
 /// The surface is moved and scaled into the unit cube, and the tets back.
 struct Frame {
     glm::dvec3 origin;

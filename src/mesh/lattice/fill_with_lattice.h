@@ -8,9 +8,12 @@
 
 namespace gelatin {
 
+/// The number of nodes where no size is set.
+constexpr int kUsualNodes = 5000;
+
 /// How fine a lattice is; one of these at most.
 struct LatticeSize {
-    std::optional<int> nodes;          ///< about so many, > 0; empty like all others: 5000
+    std::optional<int> nodes;          ///< about so many, > 0; empty like all others: kUsualNodes
     std::optional<double> cell_size;   ///< of cells at the surface [m], > 0
     std::optional<double> max_volume;  ///< of a tet [m^3], > 0
 };

@@ -78,7 +78,7 @@ std::vector<ColliderSurface> make_collider_surfaces(const Scene& scene) {
         ColliderSurface surface{name_of_collider(collider, c), {}, collider};
         Notes notes;
         surface.mesh = make_surface(*shape, notes);
-        for (const std::string& note : notes) log_warning(fmt::format("{}: {}", surface.name, note));
+        for (const std::string& note : notes) log_note(fmt::format("{}: {}", surface.name, note));
         if (surface.mesh.faces.empty())
             throw InvalidInput({scene.file.string(), 0, surface.name + ".shape", {}, "has no faces"});
         const glm::dquat rotation = rotation_from_degrees(collider.rotation);

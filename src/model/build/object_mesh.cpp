@@ -33,8 +33,8 @@ TetMesh make_local_mesh(const ObjectDescription& object, Notes& notes) {
     const auto* file = std::get_if<FileShape>(&object.shape);
     if (file != nullptr && is_tet_file(file->file)) return read_tets(file->file, notes);
     const SurfaceMesh surface = make_surface(object.shape, notes);
-    return fill_surface(surface, object.mesher,
-                        file != nullptr ? file->file.string() : "object '" + object.name + "'", notes);
+    return file != nullptr ? fill_surface(surface, sized(object.mesher), file->file.string(), notes)
+                           : fill_surface(surface, object.mesher, "object '" + object.name + "'", notes);
 }
 
 void warn_of_a_poor_fit(const FittedSprings& springs, const std::string& name) {
@@ -76,7 +76,7 @@ ObjectMesher::Known& ObjectMesher::local(const ObjectDescription& object) {
     if (same != known_.rend()) return *same;
     Notes notes;
     TetMesh mesh = make_local_mesh(object, notes);
-    for (const std::string& note : notes) log_warning(fmt::format("object '{}': {}", object.name, note));
+    for (const std::string& note : notes) log_note(fmt::format("object '{}': {}", object.name, note));
     return known_.emplace_back(Known{object.shape, object.mesher, std::move(mesh), nullptr});
 }
 

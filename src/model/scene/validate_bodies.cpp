@@ -144,23 +144,19 @@ private:
         check_sizes(field, mesher);
     }
 
-    // Each mesher has settings of its own, and a lattice has one size.
     void check_sizes(const FieldPath& field, const MesherSettings& mesher) const {
         const auto refuse = [&](const char* key, const std::string& value, const char* problem) {
             checks_.fail(field / key, value, problem);
         };
-        constexpr const char* kForLattice = "is only for kind = \"lattice\"";
         constexpr const char* kOneSize = "must not be given with another of nodes, cell_size and max_volume";
-        if (mesher.kind != MesherKind::lattice) {
-            if (mesher.nodes) refuse("nodes", text_of(*mesher.nodes), kForLattice);
-            if (mesher.cell_size) refuse("cell_size", text_of(*mesher.cell_size), kForLattice);
-            return;
-        }
         if (mesher.cell_size && (mesher.nodes || mesher.max_volume))
             refuse("cell_size", text_of(*mesher.cell_size), kOneSize);
         else if (mesher.nodes && mesher.max_volume)
             refuse("nodes", text_of(*mesher.nodes), kOneSize);
-        if (mesher.quality != MesherSettings().quality)
+        if (mesher.kind == MesherKind::tetgen && mesher.cell_size)
+            refuse("cell_size", text_of(*mesher.cell_size),
+                   "is only for the lattice, not for kind = \"tetgen\"; nodes and max_volume are for both");
+        if (mesher.kind == MesherKind::lattice && mesher.quality != MesherSettings().quality)
             refuse("quality", text_of(mesher.quality), "is only for TetGen, not for kind = \"lattice\"");
     }
 

@@ -62,15 +62,16 @@ const Rule kObjectRules[] = {
     {"cell_size", BALL "mesher = {kind = 'lattice', cell_size = 0}",
      BREAKS(s.objects[0].mesher.kind = MesherKind::lattice; s.objects[0].mesher.cell_size = 0.0),
      "object.ball.mesher.cell_size = 0: must be greater than 0"},
-    {"nodes_of_tetgen", BALL "mesher = {nodes = 100}", BREAKS(s.objects[0].mesher.nodes = 100),
-     "object.ball.mesher.nodes = 100: is only for kind = \"lattice\""},
-    {"two_sizes", BALL "mesher = {kind = 'lattice', nodes = 100, max_volume = 1}",
-     BREAKS(s.objects[0].mesher.kind = MesherKind::lattice; s.objects[0].mesher.nodes = 100;
+    {"cells_of_tetgen", BALL "mesher = {kind = 'tetgen', cell_size = 1}",
+     BREAKS(s.objects[0].mesher.kind = MesherKind::tetgen; s.objects[0].mesher.cell_size = 1.0),
+     "object.ball.mesher.cell_size = 1: is only for the lattice, not for kind = \"tetgen\"; nodes and "
+     "max_volume are for both"},
+    {"two_sizes", BALL "mesher = {kind = 'tetgen', nodes = 100, max_volume = 1}",
+     BREAKS(s.objects[0].mesher.kind = MesherKind::tetgen; s.objects[0].mesher.nodes = 100;
             s.objects[0].mesher.max_volume = 1.0),
      "object.ball.mesher.nodes = 100: must not be given with another of nodes, cell_size and max_volume"},
-    {"size_and_cells", BALL "mesher = {kind = 'lattice', nodes = 100, cell_size = 1}",
-     BREAKS(s.objects[0].mesher.kind = MesherKind::lattice; s.objects[0].mesher.nodes = 100;
-            s.objects[0].mesher.cell_size = 1.0),
+    {"size_and_cells", BALL "mesher = {nodes = 100, cell_size = 1}",
+     BREAKS(s.objects[0].mesher.nodes = 100; s.objects[0].mesher.cell_size = 1.0),
      "object.ball.mesher.cell_size = 1: must not be given with another of nodes, cell_size and max_volume"},
     {"quality_of_the_lattice", BALL "mesher = {kind = 'lattice', quality = 1.5}",
      BREAKS(s.objects[0].mesher.kind = MesherKind::lattice; s.objects[0].mesher.quality = 1.5),
