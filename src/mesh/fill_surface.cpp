@@ -4,9 +4,12 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "core/content_hash.h"
 #include "gelatin/error.h"
 #include "mesh/lattice/fill_with_lattice.h"
+#include "mesh/tet_cache.h"
 #include "mesh/tetrahedralise.h"
 #include "mesh/tetrahedralise_to_nodes.h"
 
@@ -29,15 +32,37 @@ bool is_about(std::size_t nodes, int wanted) {
     return !is_too_many(nodes, wanted) && static_cast<double>(nodes) >= (1.0 - kAllowed) * wanted;
 }
 
+/// A hash of everything that the lattice's tets depend on.
+std::string lattice_key(const SurfaceMesh& surface, const LatticeSize& size) {
+    constexpr double kNone = -1.0;
+    ContentHash hash;
+    hash.add(fmt::format("gelatin lattice {}", kLatticeVersion));
+    hash.add(std::vector<double>{size.nodes ? static_cast<double>(*size.nodes) : kNone,
+                                 size.cell_size.value_or(kNone), size.max_volume.value_or(kNone)});
+    hash.add(surface.positions);
+    hash.add(surface.faces);
+    return hash.hex();
+}
+
 class SurfaceFill {
 public:
     SurfaceFill(const SurfaceMesh& surface, const MesherSettings& settings, const std::string& name,
                 Notes& notes)
         : surface_(surface), settings_(settings), name_(name), notes_(notes) {}
 
+    // From the cache if it is there, with its notes.
     TetMesh by_lattice() {
-        return fill_with_lattice(surface_, {settings_.nodes, settings_.cell_size, settings_.max_volume},
-                                 name_, notes_);
+        const LatticeSize size{settings_.nodes, settings_.cell_size, settings_.max_volume};
+        const TetCache cache;
+        const std::string key = lattice_key(surface_, size);
+        std::optional<CachedTets> tets = cache.find(key);
+        if (!tets) {
+            tets.emplace();
+            tets->mesh = fill_with_lattice(surface_, size, name_, tets->notes);
+            cache.store(key, *tets);
+        }
+        notes_.insert(notes_.end(), tets->notes.begin(), tets->notes.end());
+        return std::move(tets->mesh);
     }
 
     TetMesh by_tetgen() {

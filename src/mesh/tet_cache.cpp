@@ -1,6 +1,8 @@
 #include "mesh/tet_cache.h"
 
+#include <sstream>
 #include <utility>
+#include <vector>
 
 #include "core/packed_arrays.h"
 
@@ -10,22 +12,33 @@ static_assert(sizeof(glm::dvec3) == 24 && sizeof(glm::uvec4) == 16 && sizeof(glm
 
 TetCache::TetCache(std::filesystem::path folder) : cache_(std::move(folder), "tets") {}
 
-std::optional<TetMesh> TetCache::find(const std::string& key) const {
+std::optional<CachedTets> TetCache::find(const std::string& key) const {
     const std::optional<std::string> bytes = cache_.find(key);
     if (!bytes) return std::nullopt;
     ArrayReader reader(*bytes);
-    TetMesh mesh;
+    CachedTets tets;
+    TetMesh& mesh = tets.mesh;
+    std::vector<char> notes;
     const bool is_whole = reader.take(mesh.positions) && reader.take(mesh.tets) && reader.take(mesh.faces) &&
-                          reader.take(mesh.attributes);
-    return is_whole && reader.at_end() ? std::optional(std::move(mesh)) : std::nullopt;
+                          reader.take(mesh.attributes) && reader.take(notes);
+    if (!is_whole || !reader.at_end()) return std::nullopt;
+    std::istringstream lines(std::string(notes.begin(), notes.end()));
+    for (std::string line; std::getline(lines, line);) tets.notes.push_back(line);
+    return tets;
 }
 
-void TetCache::store(const std::string& key, const TetMesh& mesh) const {
+void TetCache::store(const std::string& key, const CachedTets& tets) const {
+    std::vector<char> notes;
+    for (const std::string& note : tets.notes) {
+        notes.insert(notes.end(), note.begin(), note.end());
+        notes.push_back('\n');
+    }
     ArrayWriter writer;
-    writer.add(mesh.positions);
-    writer.add(mesh.tets);
-    writer.add(mesh.faces);
-    writer.add(mesh.attributes);
+    writer.add(tets.mesh.positions);
+    writer.add(tets.mesh.tets);
+    writer.add(tets.mesh.faces);
+    writer.add(tets.mesh.attributes);
+    writer.add(notes);
     cache_.store(key, writer.bytes());
 }
 

@@ -27,7 +27,7 @@ namespace gelatin {
 namespace {
 
 // Part of the key. Increase it when this file processes TetGen's result differently.
-constexpr const char* kCacheFormat = "gelatin tets 2";
+constexpr const char* kCacheFormat = "gelatin tets 3";
 constexpr const char* kSurfaceFile = "surface.smesh";
 constexpr const char* kTetFile = "surface.1.ele";  // the name that TetGen derives
 constexpr double kMostTets = 1e8;  // more would exhaust the memory long before they are complete
@@ -202,10 +202,10 @@ TetMesh tetrahedralise(const SurfaceMesh& surface, const MesherSettings& setting
     const std::string switches = make_switches(settings);
     const std::string key = make_key(surface, switches);
     const TetCache cache;
-    if (std::optional<TetMesh> known = cache.find(key)) return std::move(*known);
-    TetMesh mesh = run_mesher(surface, settings, switches, name);
-    cache.store(key, mesh);
-    return mesh;
+    if (std::optional<CachedTets> known = cache.find(key)) return std::move(known->mesh);
+    CachedTets made{run_mesher(surface, settings, switches, name)};
+    cache.store(key, made);
+    return std::move(made.mesh);
 }
 
 }  // namespace gelatin

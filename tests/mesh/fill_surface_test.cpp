@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 
 #include "core/file.h"
@@ -125,6 +126,46 @@ TEST(FillSurface, ByTheLatticeForItsCellSize) {
     EXPECT_THAT(notes, ElementsAre(HasSubstr("mesher.cell_size")));
     settings.kind = MesherKind::lattice;
     EXPECT_EQ(fill_surface(make_cube(), settings, "cube", others).tets, mesh.tets);
+}
+
+// A damaged entry would be made anew: what is found must be what the entry says.
+TEST(FillSurface, KeepsLatticesInTheCache) {
+    const TemporaryFolder folder;
+    const char* cache = std::getenv("GELATIN_CACHE_DIR");
+    const std::string old_cache = cache == nullptr ? "" : cache;
+    ::setenv("GELATIN_CACHE_DIR", folder.path().c_str(), 1);
+    const auto entries = [&] {
+        return std::distance(std::filesystem::directory_iterator(folder.path()), {});
+    };
+    MesherSettings settings = by(MesherKind::lattice);
+    Notes first, second, third;
+    const SurfaceMesh plate = make_box({{1.0, 1.0, 0.004}, {1, 1, 1}});
+    SurfaceMesh surface = make_sphere({0.5, 6});
+    for (const glm::uvec3& face : plate.faces)
+        surface.faces.push_back(face + static_cast<std::uint32_t>(surface.positions.size()));
+    surface.positions.insert(surface.positions.end(), plate.positions.begin(), plate.positions.end());
+    const TetMesh made = fill_surface(surface, settings, "thing", first);
+    EXPECT_EQ(entries(), 1);
+    const std::filesystem::path entry = std::filesystem::directory_iterator(folder.path())->path();
+    const auto written = std::filesystem::last_write_time(entry);
+    const TetMesh found = fill_surface(surface, settings, "another name", second);
+    EXPECT_EQ(std::filesystem::last_write_time(entry), written) << "made a second time";
+    EXPECT_EQ(found.positions, made.positions);
+    EXPECT_EQ(found.tets, made.tets);
+    EXPECT_FALSE(first.empty()) << "the plate is too thin";
+    EXPECT_EQ(first, second);
+
+    settings.nodes = 400;
+    fill_surface(surface, settings, "thing", third);
+    EXPECT_EQ(entries(), 2);
+    settings.nodes.reset();
+    settings.cell_size = 0.3;
+    fill_surface(surface, settings, "thing", third);
+    EXPECT_EQ(entries(), 3);
+    surface.positions.front().x += 1e-9;
+    fill_surface(surface, settings, "thing", third);
+    EXPECT_EQ(entries(), 4);
+    ::setenv("GELATIN_CACHE_DIR", old_cache.c_str(), 1);
 }
 
 TEST(FillSurface, SizesOfFiles) {

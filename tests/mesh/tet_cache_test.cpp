@@ -21,9 +21,9 @@ TetMesh make_mesh(std::uint32_t seed, std::size_t size = 5000) {
     return mesh;
 }
 
-bool is_same(const std::optional<TetMesh>& found, const TetMesh& mesh) {
-    return found && found->positions == mesh.positions && found->tets == mesh.tets &&
-           found->faces == mesh.faces && found->attributes == mesh.attributes;
+bool is_same(const std::optional<CachedTets>& found, const TetMesh& mesh) {
+    return found && found->mesh.positions == mesh.positions && found->mesh.tets == mesh.tets &&
+           found->mesh.faces == mesh.faces && found->mesh.attributes == mesh.attributes;
 }
 
 fs::path only_entry(const fs::path& folder) {
@@ -35,12 +35,21 @@ TEST(TetCache, GivesBackWhatWasStored) {
     const TemporaryFolder folder;
     const TetCache cache(folder.path() / "made" / "on demand");
     EXPECT_FALSE(cache.find(kKey));
-    cache.store(kKey, make_mesh(3));
+    cache.store(kKey, {make_mesh(3)});
     EXPECT_TRUE(is_same(TetCache(folder.path() / "made" / "on demand").find(kKey), make_mesh(3)));
     EXPECT_FALSE(cache.find("another"));
 
-    cache.store(kKey, make_mesh(4));
+    cache.store(kKey, {make_mesh(4)});
     EXPECT_TRUE(is_same(cache.find(kKey), make_mesh(4)));
+}
+
+TEST(TetCache, KeepsNotes) {
+    const TemporaryFolder folder;
+    const TetCache cache(folder.path());
+    const Notes notes = {"parts are missing, 2%", "", "so"};
+    cache.store(kKey, {make_mesh(1, 10), notes});
+    EXPECT_EQ(cache.find(kKey)->notes, notes);
+    EXPECT_TRUE(is_same(cache.find(kKey), make_mesh(1, 10)));
 }
 
 TEST(TetCache, KeepsAnEmptyMesh) {
@@ -48,13 +57,14 @@ TEST(TetCache, KeepsAnEmptyMesh) {
     const TetCache cache(folder.path());
     cache.store(kKey, {});
     ASSERT_TRUE(cache.find(kKey));
-    EXPECT_TRUE(cache.find(kKey)->positions.empty());
+    EXPECT_TRUE(cache.find(kKey)->mesh.positions.empty());
+    EXPECT_TRUE(cache.find(kKey)->notes.empty());
 }
 
 TEST(TetCache, CutOffOrDamagedEntriesAreMisses) {
     const TemporaryFolder folder;
     const TetCache cache(folder.path());
-    cache.store(kKey, make_mesh(1, 10));
+    cache.store(kKey, {make_mesh(1, 10)});
     const fs::path entry = only_entry(folder.path());
     const std::string good = read_file(entry);
     write_file(entry, good.substr(0, good.size() - 12));
@@ -67,7 +77,7 @@ TEST(TetCache, CutOffOrDamagedEntriesAreMisses) {
 TEST(TetCache, EntriesOfAnotherKindAreMisses) {
     const TemporaryFolder folder;
     const DiskCache any(folder.path(), "tets");
-    for (const std::string& content : {std::string(), std::string(24, '\xff'), std::string(40, '\0')}) {
+    for (const std::string& content : {std::string(), std::string(24, '\xff'), std::string(32, '\0')}) {
         any.store(kKey, content);
         EXPECT_FALSE(TetCache(folder.path()).find(kKey)) << content.size() << " bytes";
     }

@@ -8,6 +8,9 @@
 
 namespace gelatin {
 
+/// Part of the key of cached tets. Increase it when the same surface gets other tets or notes.
+constexpr int kLatticeVersion = 1;
+
 /// The number of nodes where no size is set.
 constexpr int kUsualNodes = 5000;
 
