@@ -189,7 +189,7 @@ void Run::print_summary() const {
 }
 
 void run(const RunOptions& options) {
-    Scene scene = load_scene(options.scene, options.overrides);
+    Scene scene = load_input(options.input);
     if (options.frames) scene.simulation.frames = *options.frames;
     check_outputs(options);
     std::optional<tbb::global_control> thread_limit;
@@ -216,7 +216,8 @@ void run(const RunOptions& options) {
 
 void add_run_command(CLI::App& app) {
     auto options = std::make_shared<RunOptions>();
-    CLI::App* command = app.add_subcommand("run", "Simulate a scene: film it, measure it, export it");
+    CLI::App* command =
+        app.add_subcommand("run", "Simulate a scene, or meshes: film them, measure them, export them");
     add_run_options(*command, *options);
     command->callback([options] { run(*options); });
 }

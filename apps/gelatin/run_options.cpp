@@ -9,6 +9,7 @@
 
 #include "common/choice.h"
 #include "common/output_file.h"
+#include "input_options.h"
 #include "overlay_option.h"
 
 namespace gelatin {
@@ -20,16 +21,10 @@ constexpr double kFilmRate = 60.0;                   // pictures per second
 }  // namespace
 
 void add_run_options(CLI::App& command, RunOptions& options) {
-    command.add_option("SCENE", options.scene, "The scene file")->type_name("FILE.toml")->required();
+    add_input_options(command, options.input)->required();
     command
         .add_option("--frames", options.frames, "Run to this frame instead of the scene's simulation.frames")
         ->check(CLI::NonNegativeNumber);
-    command
-        .add_option("--set", options.overrides,
-                    "Set a value of the scene: simulation.solver=rk4, object.ball.scale=2")
-        ->type_name("KEY=VALUE")
-        ->expected(1)
-        ->take_all();
 
     const char* computing = "Computing";
     command.add_option("--backend", options.backend, "auto, gl or cpu; auto is gl on a GPU")

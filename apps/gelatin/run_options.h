@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/picture_size.h"
+#include "common/scene_input.h"
 #include "gelatin/simulator.h"
 #include "render/renderer.h"
 #include "sim/export.h"
@@ -18,8 +19,7 @@ namespace gelatin {
 
 /// The options of `gelatin run`; empty paths mean that an output is not requested.
 struct RunOptions {
-    std::filesystem::path scene;
-    std::vector<std::string> overrides;  ///< --set
+    SceneInput input;
     std::optional<int> frames;
 
     std::string backend = "auto";

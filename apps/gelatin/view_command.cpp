@@ -3,6 +3,7 @@
 
 #include "commands.h"
 #include "common/choice.h"
+#include "input_options.h"
 #include "run_options.h"
 #include "viewer/viewer.h"
 
@@ -16,6 +17,7 @@ struct ViewOptions {
 };
 
 void view(ViewOptions options) {
+    if (!options.viewer.input.files.empty()) check_input(options.viewer.input);
     options.viewer.backend = parse_backend(options.backend);
     options.viewer.quality = parse_quality(options.quality);
     const PictureSize size = parse_size(options.size);
@@ -28,15 +30,9 @@ void view(ViewOptions options) {
 
 void add_view_command(CLI::App& app) {
     auto options = std::make_shared<ViewOptions>();
-    CLI::App* command = app.add_subcommand("view", "Show a scene in a window and interact with it");
-    command->add_option("SCENE", options->viewer.scene, "A scene file, or a mesh to drop onto a floor")
-        ->type_name("FILE");
-    command
-        ->add_option("--set", options->viewer.overrides,
-                     "Set a value of the scene: simulation.solver=rk4, object.ball.scale=2")
-        ->type_name("KEY=VALUE")
-        ->expected(1)
-        ->take_all();
+    CLI::App* command =
+        app.add_subcommand("view", "Show a scene, or meshes, in a window and interact with them");
+    add_input_options(*command, options->viewer.input);
     command->add_option("--backend", options->backend, "auto, gl or cpu; auto is gl on a GPU")
         ->capture_default_str();
     command

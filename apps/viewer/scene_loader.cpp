@@ -4,8 +4,8 @@
 
 namespace gelatin::viewer {
 
-void SceneLoader::open(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-    ask_for({file, Purpose::show, [=] { return open_scene(file, overrides); }});
+void SceneLoader::open(const SceneInput& input) {
+    ask_for({input.files.front(), Purpose::show, [input] { return build_scene(load_input(input)); }});
 }
 
 void SceneLoader::rebuild(const Scene& scene) {

@@ -25,7 +25,8 @@ public:
         std::filesystem::path file;
     };
 
-    void open(const std::filesystem::path& file, const std::vector<std::string>& overrides);
+    /// @pre there is a file
+    void open(const SceneInput& input);
     /// Builds a scene that was edited.
     void rebuild(const Scene& scene);
 

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <filesystem>
-#include <string>
-#include <vector>
-
+#include "common/scene_input.h"
 #include "gelatin/simulator.h"
 #include "render/renderer.h"
 
@@ -11,8 +8,7 @@ namespace gelatin::viewer {
 
 /// The options of `gelatin view`.
 struct ViewerOptions {
-    std::filesystem::path scene;         ///< or a mesh; empty: the start screen
-    std::vector<std::string> overrides;  ///< as load_scene's
+    SceneInput input;  ///< no files: the start screen
     Backend backend = Backend::automatic;
     render::Quality quality = render::Quality::automatic;
     int width = 1280, height = 720;  ///< of the window

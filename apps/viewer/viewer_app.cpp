@@ -20,19 +20,18 @@ constexpr double kIdle = 0.1;        // between pictures when nothing moves [s]
 
 ViewerApp::ViewerApp(Window& window, const ViewerOptions& options)
     : window_(window), options_(options), samples_(sample_scenes()) {
-    if (!options_.scene.empty()) open(options_.scene);
+    if (!options_.input.files.empty()) open(options_.input.files);
 }
 
 ViewerApp::~ViewerApp() {
     if (film_) end_film();
 }
 
-void ViewerApp::open(const std::filesystem::path& file) {
-    if (file != options_.scene) options_.overrides.clear();  // meant for another
-    options_.scene = file;
+void ViewerApp::open(const std::vector<std::filesystem::path>& files) {
+    if (files != options_.input.files) options_.input = {files};  // options were meant for others
     problem_.clear();
     opened_at_ = window_.now();
-    loader_.open(file, options_.overrides);
+    loader_.open(options_.input);
 }
 
 void ViewerApp::draw_frame() {

@@ -30,7 +30,8 @@ public:
     /// One picture: the user's events, the simulation's results, panels.
     void draw_frame();
 
-    void open(const std::filesystem::path& file);
+    /// A scene, or meshes; what was set for others does not count.
+    void open(const std::vector<std::filesystem::path>& files);
 
     /// Null before a scene is loaded.
     const Session* session() const { return session_.get(); }
@@ -58,6 +59,7 @@ private:
     void obey(Command command);
     void obey(const Requests& requests);
     void throw_body();
+    std::string stem() const;
     void save_scene();
     void show_overlays(const Overlays& overlays);
     void draw_picture(bool is_new);

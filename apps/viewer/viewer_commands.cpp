@@ -44,8 +44,8 @@ void ViewerApp::obey(Command command) {
         shows_panels_ = !shows_panels_;
     } else if (command == Command::quit) {
         window_.ask_to_close();
-    } else if (command == Command::reload && !options_.scene.empty()) {
-        open(options_.scene);
+    } else if (command == Command::reload && !options_.input.files.empty()) {
+        open(options_.input.files);
     } else if (command == Command::screenshot_of_window) {
         wants_window_picture_ = true;
     }
@@ -91,7 +91,7 @@ void ViewerApp::obey(const Requests& requests) {
     if (requests.speed && session_) session_->set_speed(*requests.speed);
     if (requests.overlays) show_overlays(*requests.overlays);
     if (requests.shows_markers) panels_.shows_markers = *requests.shows_markers;
-    if (requests.opened) open(*requests.opened);
+    if (requests.opened) open({*requests.opened});
     if (requests.edited) {
         panels_.edited = *requests.edited;
         loader_.rebuild(panels_.edited);
@@ -112,10 +112,15 @@ void ViewerApp::throw_body() {
     loader_.rebuild(panels_.edited);
 }
 
+// Of the files that are written.
+std::string ViewerApp::stem() const {
+    return options_.input.files.front().stem().string();
+}
+
 // With the present camera and drags.
 void ViewerApp::save_scene() {
     if (loader_.is_busy()) return notify("the scene is still being built");
-    const std::filesystem::path file = free_name(options_.scene.stem().string(), ".toml");
+    const std::filesystem::path file = free_name(stem(), ".toml");
     Scene scene = dragged_scene(panels_.edited, session_->held_nodes());
     const render::Camera camera = camera_.camera();
     scene.camera = CameraDescription{glm::dvec3(camera.eye), glm::dvec3(camera.target),
@@ -137,8 +142,7 @@ void ViewerApp::toggle_film() {
     if (film_) return end_film();
     if (!renderer_) return;
     try {
-        film_.emplace(free_name(options_.scene.stem().string(), ".mp4"), renderer_->width(),
-                      renderer_->height());
+        film_.emplace(free_name(stem(), ".mp4"), renderer_->width(), renderer_->height());
     } catch (const Error& error) {
         fail(error.what());
     }
@@ -170,8 +174,7 @@ void ViewerApp::save_pictures() {
 }
 
 void ViewerApp::save_picture(unsigned framebuffer, int width, int height) {
-    const std::filesystem::path file =
-        free_name(session_ ? options_.scene.stem().string() : "gelatin", ".png");
+    const std::filesystem::path file = free_name(session_ ? stem() : "gelatin", ".png");
     try {
         render::FrameGrabber grabber(width, height);
         grabber.grab(framebuffer);

@@ -24,7 +24,7 @@ void ViewerApp::handle(const Event& event) {
     } else if (const auto* wheel = std::get_if<WheelTurn>(&event)) {
         handle(*wheel);
     } else if (const auto* drop = std::get_if<FileDrop>(&event)) {
-        if (!drop->files.empty()) open(drop->files.front());
+        if (!drop->files.empty()) open(drop->files);
     }
 }
 

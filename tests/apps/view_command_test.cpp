@@ -20,7 +20,8 @@ TEST_F(ViewCommand, SaysInOneLineThatThereIsNoDisplay) {
 TEST_F(ViewCommand, RefusesCallsThatAreWrongBeforeItOpensAnything) {
     expect_error({"view", "--quality", "god"}, 2, "--quality = god: must be auto, high or fast");
     EXPECT_EQ(run({"view", "--size", "0x0"}).exit_code, 2);
-    EXPECT_EQ(run({"view", "cube.toml", "another.toml"}).exit_code, 2);
+    expect_error({"view", "another.toml", "cube.toml"}, 2,
+                 "another.toml: a scene is simulated alone; several files must all be meshes");
 }
 
 }  // namespace

@@ -66,9 +66,9 @@ TEST_F(GlObjectsWindowHeavy, DoNotAddUp) {
         for (int round = 0; round < 2; ++round) {
             edit();
             resize(500 + 20 * round, 400);
-            app().open(path("tetrahedron.obj"));
+            app().open({path("tetrahedron.obj")});
             draw_until([&] { return session().model().objects.size() == 1; });
-            app().open(path("scene.toml"));
+            app().open({path("scene.toml")});
             draw_until([&] { return session().model().objects.size() == 2; });
             resize(kWidth, kHeight);
             folder.add(tone.generic_string(), read_file(root / tone) + std::string(1 + round, '\n'));

@@ -9,7 +9,7 @@
 #include "support/run_program.h"
 #include "support/shader_folder.h"
 #include "support/source_path.h"
-#include "viewer/support/drop_file.h"
+#include "viewer/support/drop_files.h"
 #include "viewer/support/window_test.h"
 
 namespace gelatin::test {
@@ -320,7 +320,7 @@ TEST_F(WindowHeavy, AFileThatIsDroppedOpens) {
     write_file(path("tetrahedron.obj"),
                "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 0 0 100\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
     std::string problem;
-    std::thread hand([&] { problem = drop_file("Gelatin", path("tetrahedron.obj")); });
+    std::thread hand([&] { problem = drop_files("Gelatin", {path("tetrahedron.obj")}); });
     draw_until([&] { return session().scene().file.filename() == "tetrahedron.obj"; });
     hand.join();
     EXPECT_EQ(problem, "");

@@ -6,10 +6,12 @@
 
 #include "core/file.h"
 #include "gelatin/scene.h"
+#include "model/scene/override_scene.h"
 #include "model/scene/scene_file_bodies.h"
 #include "model/scene/scene_file_override.h"
 #include "model/scene/scene_file_places.h"
 #include "model/scene/scene_file_reader.h"
+#include "model/scene/scene_writer.h"
 #include "model/scene/validation.h"
 #include "model/setting_names.h"
 
@@ -17,9 +19,9 @@ namespace gelatin {
 namespace {
 
 constexpr std::string_view kAutomatic = "auto";
-toml::table parse(const std::filesystem::path& file) {
+toml::table parse(const std::string& text, const std::filesystem::path& file) {
     try {
-        return toml::parse(read_file(file), file.string());
+        return toml::parse(text, file.string());
     } catch (const toml::parse_error& error) {
         const int line = static_cast<int>(error.source().begin.line);
         throw InvalidInput({file.string(), line, {}, {}, describe(error)});
@@ -128,11 +130,11 @@ std::vector<Material> read_materials(std::vector<TableReader> tables) {
     return materials;
 }
 
-}  // namespace
-
-Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-    toml::table document = parse(file);
-    for (const std::string& text : overrides) apply_override(document, text);
+/// @param file names the text in messages; paths are relative to its folder
+Scene read_scene(const std::string& text, const std::filesystem::path& file,
+                 const std::vector<std::string>& overrides) {
+    toml::table document = parse(text, file);
+    for (const std::string& change : overrides) apply_override(document, change);
 
     const std::string name = file.string();
     TableReader reader(document, "", name);
@@ -156,6 +158,20 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
         places.report(field, value, problem);
     });
     return scene;
+}
+
+}  // namespace
+
+Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+    return read_scene(read_file(file), file, overrides);
+}
+
+Scene override_scene(const Scene& scene, const std::vector<std::string>& overrides) {
+    if (overrides.empty()) {
+        validate(scene);
+        return scene;
+    }
+    return read_scene(to_toml(scene, scene.file.parent_path()), scene.file, overrides);
 }
 
 }  // namespace gelatin

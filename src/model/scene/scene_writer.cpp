@@ -215,8 +215,7 @@ Table table_of(const ColliderDescription& collider, const std::filesystem::path&
 
 }  // namespace
 
-void save_scene(const std::filesystem::path& file, const Scene& scene) {
-    const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+std::string to_toml(const Scene& scene, const std::filesystem::path& folder) {
     std::string text;
     const auto add = [&](const char* head, const Table& table) {
         text += fmt::format("{}{}\n{}", text.empty() ? "" : "\n", head, table.lines());
@@ -239,7 +238,11 @@ void save_scene(const std::filesystem::path& file, const Scene& scene) {
     }
     for (const ColliderDescription& collider : scene.colliders)
         add("[[collider]]", table_of(collider, folder));
-    write_file(file, text);
+    return text;
+}
+
+void save_scene(const std::filesystem::path& file, const Scene& scene) {
+    write_file(file, to_toml(scene, std::filesystem::absolute(file).parent_path()));
 }
 
 }  // namespace gelatin

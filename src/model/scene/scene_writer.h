@@ -1,10 +1,15 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "gelatin/scene.h"
 
 namespace gelatin {
+
+/// The text of a scene file that load_scene makes the same scene of, copies one by one.
+/// @param folder of the file: paths of meshes are relative to it
+std::string to_toml(const Scene& scene, const std::filesystem::path& folder);
 
 /// Writes a scene file that load_scene makes the same scene of, copies one by one; whole or not at all.
 /// @throws SystemError if it cannot be written.

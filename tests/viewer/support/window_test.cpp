@@ -45,7 +45,7 @@ void WindowHeavy::open_file(const std::filesystem::path& file, Backend backend, 
     viewer::ViewerOptions all;
     all.backend = backend;
     all.quality = quality;
-    all.scene = file;
+    if (!file.empty()) all.input.files = {file};
     all.width = kWidth;
     all.height = kHeight;
     all.gl_debug = true;

@@ -1,4 +1,4 @@
-#include "viewer/support/drop_file.h"
+#include "viewer/support/drop_files.h"
 
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>
@@ -97,12 +97,13 @@ private:
 
 }  // namespace
 
-std::string drop_file(const std::string& title, const std::filesystem::path& file) {
+std::string drop_files(const std::string& title, const std::vector<std::filesystem::path>& files) {
     const Source source;
     if (!source.is_open()) return "no display";
     const Window target = source.find(title);
     if (target == 0) return "no window with that title";
-    const std::string data = "file://" + file.string() + "\r\n";
+    std::string data;
+    for (const std::filesystem::path& file : files) data += "file://" + file.string() + "\r\n";
     source.send(target, "XdndEnter", {kVersion << 24, static_cast<long>(source.atom("text/uri-list")), 0, 0});
     const long place = 300L << 16 | 200L;
     source.send(target, "XdndPosition",

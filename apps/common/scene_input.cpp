@@ -1,0 +1,57 @@
+#include "common/scene_input.h"
+
+#include <algorithm>
+
+#include "core/file.h"
+#include "core/log.h"
+#include "gelatin/error.h"
+#include "mesh/file_ending.h"
+#include "model/scene/override_scene.h"
+
+namespace gelatin {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& problem) {
+    throw InvalidInput({file.string(), 0, {}, {}, problem});
+}
+
+// A file that a user drops onto a window may be anything. One without an ending may be a pipe.
+void check_kind(const fs::path& file) {
+    const std::string ending = lower_case_ending(file);
+    if (ending == ".toml" || ending.empty() || is_mesh_file(file)) return;
+    if (!fs::is_regular_file(file)) read_file(file);  // its message names the problem
+    refuse(file,
+           "is neither a scene (.toml) nor a mesh (.obj, .stl, .ply, .off, .node, .ele, .mesh or .msh)");
+}
+
+// The scene file among the files, if there is one.
+std::vector<fs::path>::const_iterator find_scene(const SceneInput& input) {
+    return std::find_if_not(input.files.begin(), input.files.end(), is_mesh_file);
+}
+
+}  // namespace
+
+void check_input(const SceneInput& input) {
+    if (input.files.empty()) throw InvalidInput("there is no scene and no mesh to simulate");
+    for (const fs::path& file : input.files) check_kind(file);
+    const auto scene = find_scene(input);
+    if (scene == input.files.end()) return;
+    if (input.files.size() > 1)
+        refuse(*scene, "a scene is simulated alone; several files must all be meshes");
+    if (input.meshes != MeshSceneOptions())
+        refuse(*scene, "is a scene; --up, --keep-units and --nodes are for meshes");
+}
+
+Scene load_input(const SceneInput& input) {
+    check_input(input);
+    if (const auto scene = find_scene(input); scene != input.files.end())
+        return load_scene(*scene, input.overrides);
+    Notes notes;
+    const Scene of_meshes = scene_of_meshes(input.files, input.meshes, notes);
+    for (const std::string& note : notes) log_note(note);
+    return override_scene(of_meshes, input.overrides);
+}
+
+}  // namespace gelatin
