@@ -25,8 +25,9 @@ using Axis = MeshSceneOptions::Axis;
 constexpr double kSize = 1.0;       // the largest extent of a mesh that is scaled [m]
 constexpr double kDrop = 0.5;       // height of the first body above the floor, in its heights
 constexpr double kClearance = 0.1;  // between two bodies of a pile, in sizes of the upper one
-constexpr double kAside = 0.1;      // of a pile's bodies from its axis, in their sizes
+constexpr double kAside = 0.25;     // of a pile's bodies from its axis, in their sizes
 constexpr int kFrames = 180;
+constexpr int kSubsteps = 2;  // one damps the swinging of ears visibly
 
 /// A box that a mesh fits into, as it stands in the scene but for scale and position.
 struct Extent {
@@ -60,10 +61,11 @@ Extent measure(const std::filesystem::path& file, const glm::dvec3& rotation) {
     return extent;
 }
 
+// A metre of it stands under its own weight, compressed by about 5%, with ears that swing.
 Material make_jelly() {
     Material jelly;
     jelly.name = "jelly";
-    jelly.youngs_modulus = 5e4;
+    jelly.youngs_modulus = 2e5;
     jelly.poisson_ratio = 0.3;
     jelly.damping = 0.01;
     return jelly;
@@ -146,6 +148,7 @@ Scene scene_of_meshes(const std::vector<std::filesystem::path>& files, const Mes
     Scene scene;
     scene.file = files.at(0);
     scene.simulation.frames = kFrames;
+    scene.simulation.substeps = kSubsteps;
     scene.materials.push_back(make_jelly());
     scene.colliders.push_back({PlaneCollider{}});
     Pile pile(scene, options, files.size(), notes);
