@@ -83,7 +83,9 @@ Json describe(const std::filesystem::path& file) {
     Notes notes;
     Json description;
     if (is_tet_file(file)) {
-        description = describe_tets(read_tets(file, notes));
+        const TetMesh mesh = read_tets(file, notes);
+        description = describe_tets(mesh);
+        add_histograms(mesh, description);
     } else {
         const SurfaceMesh mesh = read_surface(file, notes);
         description = describe_surface(mesh);

@@ -9,6 +9,7 @@
 #include <glm/trigonometric.hpp>
 #include <limits>
 
+#include "histogram.h"
 #include "mesh/surface_repair.h"
 #include "mesh/tet_quality.h"
 #include "mesh/topology.h"
@@ -39,7 +40,9 @@ Json extent_json(const std::vector<glm::dvec3>& positions) {
 void append_text(std::string& text, const Json& object, const std::string& indent) {
     for (const auto& [key, value] : object.items()) {
         text += indent + key + ":";
-        if (value.is_object()) {
+        if (value.is_object() && value.contains("counts") && value.contains("from")) {
+            text += "\n" + draw_histogram(value, indent + "  ");
+        } else if (value.is_object()) {
             text += "\n";
             append_text(text, value, indent + "  ");
         } else if (value.is_number_float()) {
@@ -113,6 +116,18 @@ Json describe_tets(const TetMesh& mesh) {
             {"radius_edge_ratio", ratios.json()},
             {"radius_ratio", radii.json()},
             {"dihedral_angle", dihedral_angle}};
+}
+
+void add_histograms(const TetMesh& mesh, Json& description) {
+    Histogram angles(0.0, 180.0, 18), radii(0.0, 1.0, 10);
+    for (const glm::uvec4& tet : mesh.tets) {
+        const auto& p = mesh.positions;
+        radii.add(radius_ratio(p[tet[0]], p[tet[1]], p[tet[2]], p[tet[3]]));
+        for (const double angle : dihedral_angles(p[tet[0]], p[tet[1]], p[tet[2]], p[tet[3]]))
+            angles.add(glm::degrees(angle));
+    }
+    description["radius_ratio"]["histogram"] = radii.json();
+    description["dihedral_angle"]["histogram"] = angles.json();
 }
 
 std::string to_text(const Json& description) {

@@ -17,7 +17,10 @@ double radius_edge_ratio(const TetMesh& mesh, const glm::uvec4& tet);
 Json describe_surface(const SurfaceMesh& mesh);
 Json describe_tets(const TetMesh& mesh);
 
-/// Human-readable: one "key: value" in each line, nested keys indented.
+/// Adds how often each radius ratio and each angle between two faces occurs to what describe_tets made.
+void add_histograms(const TetMesh& mesh, Json& description);
+
+/// Human-readable, histograms as bars: one "key: value" in each line, nested keys indented.
 std::string to_text(const Json& description);
 
 /// Prints to stderr, one line each, as "gelatin: note: ...".

@@ -1,5 +1,7 @@
 #include <gelatin/version.h>
 
+#include <numeric>
+
 #include "apps/program_test.h"
 
 namespace gelatin::test {
@@ -101,6 +103,28 @@ TEST_F(InfoCommand, TellsAboutTets) {
     EXPECT_EQ(info["edges"], 6);
     EXPECT_NEAR(info["volume"].get<double>(), 1.0 / 6.0, 1e-15);
     EXPECT_EQ(info["notes"].size(), 1u);  // flipped
+}
+
+// A regular tet, whose angles are 70.5 degrees, and the corner of a cube: three right angles, three of 54.7.
+TEST_F(InfoCommand, DrawsHistogramsOfTets) {
+    write("two.mesh",
+          "MeshVersionFormatted 1\nDimension 3\nVertices 8\n1 1 1 0\n1 -1 -1 0\n-1 1 -1 0\n-1 -1 1 0\n"
+          "5 0 0 0\n6 0 0 0\n5 1 0 0\n5 0 1 0\nTetrahedra 2\n1 2 4 3 0\n5 6 7 8 0\nEnd\n");
+    const json info = json::parse(run({"info", "two.mesh", "--json"}).out);
+    const json angles = info["dihedral_angle"]["histogram"], radii = info["radius_ratio"]["histogram"];
+    EXPECT_EQ(angles["to"], 180.0);
+    const auto counts = angles["counts"].get<std::vector<int>>();
+    EXPECT_EQ(counts[5], 3);
+    EXPECT_EQ(counts[7], 6);
+    EXPECT_EQ(counts[8] + counts[9], 3) << "90 degrees, but for rounding";
+    EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0), 12);
+    // The corner's radii are 1 / (3 + sqrt(3)) and sqrt(3) / 2, its ratio is 0.732. The regular one has 1.
+    EXPECT_EQ(radii["counts"], json({0, 0, 0, 0, 0, 0, 0, 1, 0, 1}));
+    const std::string text = run({"info", "two.mesh"}).out;
+    EXPECT_THAT(text, HasSubstr("  50 to   60:        3 " + std::string(25, '#') + "\n"));
+    EXPECT_THAT(text, HasSubstr("  70 to   80:        6 " + std::string(50, '#') + "\n"));
+    EXPECT_THAT(text, HasSubstr("   0 to   10:        0\n"));
+    EXPECT_THAT(text, HasSubstr(" 0.9 to    1:        1 "));
 }
 
 TEST_F(InfoCommand, RefusesWhatItCannotRead) {
