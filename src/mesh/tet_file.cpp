@@ -142,16 +142,20 @@ void write_files(const std::vector<std::pair<fs::path, std::string>>& files) {
 
 bool is_tet_file(const fs::path& file) {
     const std::string ending = lower_case_ending(file);
-    return ending == ".node" || ending == ".ele" || ending == ".mesh" || ending == ".msh";
+    return ending == ".node" || ending == ".ele" || ending == ".mesh" || ending == ".msh" ||
+           ending == ".vtk" || ending == ".vtu";
 }
 
 TetMesh read_tets(const fs::path& file, Notes& notes) {
     const std::string ending = lower_case_ending(file);
     if (!is_tet_file(file)) {
-        throw InvalidInput({file.string(), 0, {}, {}, "a tet file must end in .node, .ele, .mesh or .msh"});
+        throw InvalidInput(
+            {file.string(), 0, {}, {}, "a tet file must end in .node, .ele, .mesh, .msh, .vtk or .vtu"});
     }
     TetMesh mesh = ending == ".mesh"  ? read_medit(file, notes)
                    : ending == ".msh" ? read_gmsh(file, notes)
+                   : ending == ".vtk" ? read_vtk(file, notes)
+                   : ending == ".vtu" ? read_vtu(file, notes)
                                       : read_tetgen(file, notes);
     if (mesh.tets.empty()) {
         const std::string but = notes.empty() ? "" : fmt::format(" ({})", fmt::join(notes, "; "));

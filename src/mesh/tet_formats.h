@@ -13,6 +13,8 @@ namespace gelatin {
 TetMesh read_tetgen(const std::filesystem::path& file, Notes& notes);
 TetMesh read_medit(const std::filesystem::path& file, Notes& notes);
 TetMesh read_gmsh(const std::filesystem::path& file, Notes& notes);
+TetMesh read_vtk(const std::filesystem::path& file, Notes& notes);
+TetMesh read_vtu(const std::filesystem::path& file, Notes& notes);
 
 std::string format_tetgen_nodes(const TetMesh& mesh);
 std::string format_tetgen_tets(const TetMesh& mesh);

@@ -16,20 +16,19 @@ bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f';
 }
 
-// The part of a word that a message can show: binary files have long and unprintable ones.
-std::string printable(std::string_view word) {
-    constexpr std::size_t kLongest = 40;
-    std::string text(word.substr(0, kLongest));
-    for (char& c : text) {
-        if (c < 32 || c == 127) c = '?';
-    }
-    return word.size() > kLongest ? text + "..." : text;
-}
-
 // The mark with which Windows programs begin a text of UTF-8.
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 }  // namespace
+
+std::string printable(std::string_view value) {
+    constexpr std::size_t kLongest = 40;
+    std::string text(value.substr(0, kLongest));
+    for (char& c : text) {
+        if (c < 32 || c == 127) c = '?';
+    }
+    return value.size() > kLongest ? text + "..." : text;
+}
 
 std::string FieldName::text() const {
     return number == 0 ? std::string(name) : fmt::format("{} {}", name, number);
@@ -99,11 +98,20 @@ std::uint64_t TextScanner::integer(const FieldName& field, std::uint64_t low, st
 }
 
 int TextScanner::signed_integer(const FieldName& field) {
+    return parse_signed<int>(field);
+}
+
+std::int64_t TextScanner::large_integer(const FieldName& field) {
+    return parse_signed<std::int64_t>(field);
+}
+
+template <class T>
+T TextScanner::parse_signed(const FieldName& field) {
     const std::string_view text = word(field);
-    int value = 0;
+    T value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size())
-        fail(field, text, "must be a whole number that fits into 32 bits");
+        fail(field, text, fmt::format("must be a whole number that fits into {} bits", 8 * sizeof(T)));
     return value;
 }
 
@@ -151,13 +159,16 @@ std::string_view TextScanner::bytes(std::size_t size, const FieldName& field) {
     return result;
 }
 
+void TextScanner::skip_to(std::size_t position) {
+    line_ += static_cast<int>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(position_),
+                                         text_.begin() + static_cast<std::ptrdiff_t>(position), '\n'));
+    position_ = position;
+}
+
 void TextScanner::skip_past(std::string_view text, const FieldName& field) {
     const std::size_t found = text_.find(text, position_);
     if (found == std::string_view::npos) fail_cut_off(field);
-    const std::size_t end = found + text.size();
-    line_ += static_cast<int>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(position_),
-                                         text_.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
-    position_ = end;
+    skip_to(found + text.size());
 }
 
 void TextScanner::expect(const char* expected) {

@@ -19,6 +19,9 @@ struct FieldName {
     std::string text() const;
 };
 
+/// The part of a value from a file that a message can show: binary files have long and unprintable ones.
+std::string printable(std::string_view value);
+
 /// Reads a mesh file word by word, or byte by byte between words. Every problem is an InvalidInput with file
 /// and line. Keeps references to its arguments.
 class TextScanner {
@@ -39,6 +42,7 @@ public:
     std::uint64_t integer(const FieldName& field, std::uint64_t low = 0,
                           std::uint64_t high = std::numeric_limits<std::uint64_t>::max());
     int signed_integer(const FieldName& field);
+    std::int64_t large_integer(const FieldName& field);  ///< of 64 bits, with a sign
     double number(const FieldName& field);
     /// A number that fits into a float: mesh files with others are refused.
     double coordinate(const FieldName& field);
@@ -51,6 +55,8 @@ public:
     /// The next `size` bytes as they are. From there on, line numbers are unknown.
     std::string_view bytes(std::size_t size, const FieldName& field);
 
+    /// Continues at this byte, which must not lie behind the place where it is.
+    void skip_to(std::size_t position);
     /// Continues after `text`. @throws InvalidInput if it does not occur.
     void skip_past(std::string_view text, const FieldName& field);
 
@@ -61,6 +67,8 @@ public:
 
 private:
     void skip_blanks(bool stop_at_line_end);
+    template <class T>
+    T parse_signed(const FieldName& field);
 
     const std::filesystem::path& file_;
     std::string_view text_;

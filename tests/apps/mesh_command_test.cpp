@@ -38,6 +38,23 @@ TEST_F(MeshCommand, ReportsTheQualityOfARegularTet) {
     EXPECT_THAT(result.out, HasSubstr("volume: 2.66667\n"));
 }
 
+TEST_F(MeshCommand, ReadsFilesOfVtk) {
+    write(
+        "one.vtk",
+        "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0 "
+        "0 0 1\nCELLS 2 9\n3 0 1 2\n4 0 1 2 3\nCELL_TYPES 2\n5 10\nCELL_DATA 2\nSCALARS region int\n0 4\n");
+    const ProgramResult info = run({"info", "one.vtk"});
+    ASSERT_EQ(info.exit_code, 0) << info.err;
+    EXPECT_THAT(info.out, HasSubstr("volume: 0.166667\n"));
+    EXPECT_THAT(info.err, HasSubstr("gelatin: note: skipped cells that are not tets: 1"));
+    ASSERT_EQ(run({"mesh", "one.vtk", "-o", "one.vtu"}).exit_code, 0);
+    ASSERT_EQ(run({"mesh", "one.vtu", "-o", "one.msh"}).exit_code, 0);
+    Notes notes;
+    const TetMesh mesh = read_tets(path("one.msh"), notes);
+    EXPECT_EQ(mesh.tets.size(), 1u);
+    EXPECT_EQ(mesh.attributes, std::vector<int>{4});
+}
+
 TEST_F(MeshCommand, ConvertsTetsToTheirSurface) {
     ASSERT_EQ(run({"mesh", "tetrahedron.obj", "-o", "out.node", "--max-volume", "0.001"}).exit_code, 0);
     const ProgramResult result = run({"mesh", "out.node", "-o", "surface.off"});

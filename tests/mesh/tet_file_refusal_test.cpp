@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "tet_file_fixture.h"
+#include "vtk_samples.h"
 
 namespace gelatin {
 namespace {
@@ -17,11 +18,15 @@ class TetFileRefusalTest : public TetFileTest {
 protected:
     // Every beginning of a file is a mesh or is refused; nothing else.
     void try_every_prefix(const std::string& name, const std::string& content) {
-        for (std::size_t size = 0; size <= content.size(); ++size) try_content(name, content.substr(0, size));
+        try_prefixes(name, content, 1);
     }
-    void try_damaged(const std::string& name, const std::string& content) {
+    void try_prefixes(const std::string& name, const std::string& content, std::size_t stride) {
+        for (std::size_t size = 0; size <= content.size(); size += stride)
+            try_content(name, content.substr(0, size));
+    }
+    void try_damaged(const std::string& name, const std::string& content, int trials = 500) {
         std::mt19937 random(3);
-        for (int trial = 0; trial < 500; ++trial) {
+        for (int trial = 0; trial < trials; ++trial) {
             std::string damaged = content;
             for (int k = 0; k < 3; ++k) {
                 constexpr std::string_view kBytes("\0\xff\n 9-.#eafx$", 13);
@@ -60,11 +65,11 @@ TEST_F(TetFileRefusalTest, RefusesFilesThatAreNotThereOrEmpty) {
     make("orphan.ele", "1 4 0\n0 0 1 2 3\n");
     EXPECT_THAT(refusal([&] { read_tets(path("orphan.ele"), notes_); }),
                 HasSubstr("orphan.node: no such file"));
-    for (const char* name : {"a.node", "a.mesh", "a.msh"}) {
+    for (const char* name : {"a.node", "a.mesh", "a.msh", "a.vtk", "a.vtu"}) {
         EXPECT_THAT(refusal_of(name, ""), HasSubstr(name));
         EXPECT_THAT(refusal_of(name, std::string(200, '\0')), HasSubstr(name));
     }
-    EXPECT_THAT(refusal_of("a.vtk", "x"), HasSubstr(".node, .ele, .mesh or .msh"));
+    EXPECT_THAT(refusal_of("a.tet", "x"), HasSubstr(".node, .ele, .mesh, .msh, .vtk or .vtu"));
 }
 
 TEST_F(TetFileRefusalTest, RefusesFilesWithoutTets) {
@@ -193,6 +198,9 @@ TEST_F(TetFileRefusalTest, TakesEveryPrefixInItsStride) {
     try_every_prefix("a.msh", kGmsh4);
     try_every_prefix("a.msh", binary_gmsh2(false));
     try_every_prefix("a.msh", binary_gmsh4(true));
+    for (const std::string& vtk : {kVtkText, kVtk5Text, vtk_binary(false), vtk_binary(true)})
+        try_every_prefix("a.vtk", vtk);
+    for (const VtuChoice& choice : vtu_choices()) try_prefixes("a.vtu", VtuSample(choice).text(), 23);
     make("b.ele", "1 4 0\n0 0 1 2 3\n");
     try_every_prefix("b.node", "4 3 1 1\n0 0 0 0 5 1\n1 1 0 0 5 1\n2 0 1 0 5 1\n3 0 0 1 5 1\n");
     make("c.node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n");
@@ -205,6 +213,9 @@ TEST_F(TetFileRefusalTest, TakesDamagedBytesInItsStride) {
     try_damaged("a.msh", kGmsh4);
     try_damaged("a.msh", binary_gmsh2(true));
     try_damaged("a.msh", binary_gmsh4(false));
+    for (const std::string& vtk : {kVtkText, kVtk5Text, vtk_binary(false), vtk_binary(true)})
+        try_damaged("a.vtk", vtk);
+    for (const VtuChoice& choice : vtu_choices()) try_damaged("a.vtu", VtuSample(choice).text(), 60);
     make("b.ele", "1 4 0\n0 0 1 2 3\n");
     try_damaged("b.node", "4 3 1 1\n0 0 0 0 5 1\n1 1 0 0 5 1\n2 0 1 0 5 1\n3 0 0 1 5 1\n");
 }

@@ -22,8 +22,9 @@ void expect_pair(const TetMesh& mesh) {
 }
 
 TEST_F(TetFileTest, KnowsItsEndings) {
-    for (const char* name : {"a.node", "a.ele", "a.mesh", "a.MSH"}) EXPECT_TRUE(is_tet_file(name)) << name;
-    for (const char* name : {"a.obj", "a.vtu", "mesh", "a.meshb"}) EXPECT_FALSE(is_tet_file(name)) << name;
+    for (const char* name : {"a.node", "a.ele", "a.mesh", "a.MSH", "a.vtk", "a.vtu"})
+        EXPECT_TRUE(is_tet_file(name)) << name;
+    for (const char* name : {"a.obj", "a.vtp", "mesh", "a.meshb"}) EXPECT_FALSE(is_tet_file(name)) << name;
 }
 
 TEST_F(TetFileTest, ReadsWhatItWrites) {

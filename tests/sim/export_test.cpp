@@ -11,6 +11,7 @@
 #include "core/file.h"
 #include "gelatin/error.h"
 #include "mesh/surface_file.h"
+#include "mesh/tet_file.h"
 
 namespace gelatin {
 namespace {
@@ -107,6 +108,18 @@ TEST(Export, PlyReadsBackAsTheSameSurface) {
     EXPECT_EQ(mesh.faces.size(), 8u);
     EXPECT_EQ(mesh.positions.at(5), glm::dvec3(4.0, 0.0, 0.0));
     EXPECT_EQ(mesh.faces.at(4), glm::uvec3(4, 6, 5));
+}
+
+TEST(Export, VtuReadsBackAsTheSameTets) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "frame.vtu";
+    write_file(file, vtu_text(make_export_topology(two_tets()), frame_of(0)));
+    Notes notes;
+    const TetMesh mesh = read_tets(file, notes);
+    ASSERT_EQ(mesh.positions.size(), 8u);  // one of the nine has no tet
+    EXPECT_EQ(mesh.positions[5], glm::dvec3(4.0, 0.0, 0.0));
+    EXPECT_EQ(mesh.tets, (std::vector<glm::uvec4>{{0, 1, 2, 3}, {4, 5, 6, 7}}));
+    EXPECT_EQ(mesh.attributes, (std::vector<int>{0, 1}));  // the objects
 }
 
 TEST(Export, PlyHasVelocitiesAndObjects) {

@@ -47,7 +47,7 @@ TEST_F(SceneInputTest, SaysWhatIsWrongWithAFile) {
     write_file(path("picture.png"), "\x89PNG");
     EXPECT_EQ(problem_with({{path("wedge.obj"), path("picture.png")}}),
               "picture.png: is neither a scene (.toml) nor a mesh (.obj, .stl, .ply, .off, .node, .ele, "
-              ".mesh or .msh)");
+              ".mesh, .msh, .vtk or .vtu)");
     EXPECT_EQ(problem_with({{path("").parent_path()}}),
               path("").parent_path().string() + ": is a folder, not a file");
     EXPECT_EQ(problem_with({{path("none.OBJ")}}), "none.OBJ: no such file");
