@@ -26,6 +26,7 @@ enum class Command {
     toggle_contact_forces,
     toggle_wireframe,
     toggle_objects,
+    toggle_start_screen,
     toggle_panels,
     save_scene,
     screenshot,

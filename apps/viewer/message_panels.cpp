@@ -51,27 +51,6 @@ void draw_help(float scale, Requests& requests) {
     if (!is_open) requests.commands.push_back(Command::toggle_help);
 }
 
-void draw_start_screen(float scale, const std::vector<std::filesystem::path>& samples, Requests& requests) {
-    constexpr float kButton = 150.0f;
-    put_in_the_middle(scale);
-    ImGui::Begin("start", nullptr, kPlain & ~ImGuiWindowFlags_NoScrollbar);
-    ImGui::TextUnformatted("Gelatin");
-    const float across = room(scale).x / (kButton * scale + ImGui::GetStyle().ItemSpacing.x);
-    const auto columns = static_cast<std::size_t>(std::clamp(across, 1.0f, 3.0f));
-    ImGui::PushTextWrapPos(static_cast<float>(columns) * kButton * scale);
-    ImGui::TextDisabled("Drop a scene or a mesh onto this window, or start with:");
-    ImGui::PopTextWrapPos();
-    ImGui::Spacing();
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        if (i % columns != 0) ImGui::SameLine();
-        const std::string name = samples[i].stem().string();
-        if (ImGui::Button(name.c_str(), {kButton * scale, 0.0f})) requests.opened = samples[i];
-    }
-    ImGui::Spacing();
-    ImGui::TextDisabled("F1: help");
-    ImGui::End();
-}
-
 void draw_notice(float scale, const std::string& text) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5f * size.x, size.y - 16.0f * scale}, ImGuiCond_Always, {0.5f, 1.0f});

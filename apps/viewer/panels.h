@@ -32,7 +32,7 @@ struct Requests {
     std::optional<Overlays> overlays;
     std::optional<bool> shows_markers;
     std::optional<Scene> edited;
-    std::optional<std::filesystem::path> opened;
+    std::vector<std::filesystem::path> opened;  ///< a scene or meshes; empty: nothing
 };
 
 /// The panels are drawn with Dear ImGui and return requests. @pre between Window::begin_frame and
@@ -50,8 +50,6 @@ void draw_markers(float scale, const std::vector<Marker>& markers, const Marker*
 
 /// The list of keys and mouse gestures.
 void draw_help(float scale, Requests& requests);
-/// The start screen with the scenes that come with Gelatin.
-void draw_start_screen(float scale, const std::vector<std::filesystem::path>& samples, Requests& requests);
 /// A line at the lower edge.
 void draw_notice(float scale, const std::string& text);
 /// An error message, in the middle. @return false once the user has closed it

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <filesystem>
 #include <memory>
-#include <vector>
 
 #include "common/scene_input.h"
 #include "gelatin/scene.h"
@@ -18,9 +16,5 @@ struct LoadedScene {
 
 /// Builds a scene's model; without OpenGL, so on any thread. @throws InvalidInput
 LoadedScene build_scene(const Scene& scene);
-
-/// The scenes that come with Gelatin, by name: those of the folder `scenes` here, otherwise those of the
-/// sources.
-std::vector<std::filesystem::path> sample_scenes();
 
 }  // namespace gelatin::viewer

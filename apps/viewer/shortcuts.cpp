@@ -43,6 +43,7 @@ std::span<const Shortcut> shortcuts() {
         Shortcut{GLFW_KEY_C, With::nothing, Command::toggle_contact_forces, "C", "contact forces as arrows"},
         Shortcut{GLFW_KEY_C, With::shift, Command::toggle_pressure, "Shift+C",
                  "pressure of contacts in colours"},
+        Shortcut{GLFW_KEY_G, With::nothing, Command::toggle_start_screen, "G", "choose another scene"},
         Shortcut{GLFW_KEY_TAB, With::nothing, Command::toggle_panels, "Tab", "hide or show the panels"},
         Shortcut{GLFW_KEY_F12, With::nothing, Command::screenshot, "F12", "save the picture as PNG"},
         Shortcut{GLFW_KEY_F12, With::shift, Command::screenshot_of_window, "Shift+F12",
@@ -50,7 +51,8 @@ std::span<const Shortcut> shortcuts() {
         Shortcut{GLFW_KEY_F9, With::nothing, Command::toggle_film, "F9", "start a film, stop it"},
         Shortcut{GLFW_KEY_S, With::control, Command::save_scene, "Ctrl+S", "save the scene with its changes"},
         Shortcut{GLFW_KEY_F1, With::nothing, Command::toggle_help, "F1", "this list"},
-        Shortcut{GLFW_KEY_ESCAPE, With::nothing, Command::dismiss, "Esc", "close a message or this list"},
+        Shortcut{GLFW_KEY_ESCAPE, With::nothing, Command::dismiss, "Esc",
+                 "close a message, this list, the choice of scenes"},
         Shortcut{GLFW_KEY_Q, With::control, Command::quit, "Ctrl+Q", "quit"},
     };
     return kShortcuts;

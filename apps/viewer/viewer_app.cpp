@@ -18,8 +18,7 @@ constexpr double kIdle = 0.1;        // between pictures when nothing moves [s]
 
 }  // namespace
 
-ViewerApp::ViewerApp(Window& window, const ViewerOptions& options)
-    : window_(window), options_(options), samples_(sample_scenes()) {
+ViewerApp::ViewerApp(Window& window, const ViewerOptions& options) : window_(window), options_(options) {
     if (!options_.input.files.empty()) open(options_.input.files);
 }
 
@@ -30,6 +29,7 @@ ViewerApp::~ViewerApp() {
 void ViewerApp::open(const std::vector<std::filesystem::path>& files) {
     if (files != options_.input.files) options_.input = {files};  // options were meant for others
     problem_.clear();
+    shows_start_screen_ = false;
     opened_at_ = window_.now();
     loader_.open(options_.input);
 }
@@ -90,6 +90,7 @@ void ViewerApp::show_scene(SceneLoader::Result result) {
     is_hand_asked_ = false;
     handle_drag_.reset();
     if (goes_on) return;
+    start_screen_.remember(options_.input.files);
     panels_.edited = session_->scene();
     own_bodies_ = session_->scene().objects.size();
     surroundings_ = describe_surroundings(session_->simulator());
@@ -148,16 +149,18 @@ void ViewerApp::reload_shaders() {
 Requests ViewerApp::draw_panels() {
     Requests requests;
     const float scale = window_.scale();
-    const std::vector<Marker> marked = markers();
-    draw_markers(scale, marked, pointed(marked));
-    if (session_ && shows_panels_) draw_session_panel(*session_, panels_, requests);
+    if (session_ && !shows_start_screen()) {
+        const std::vector<Marker> marked = markers();
+        draw_markers(scale, marked, pointed(marked));
+        if (shows_panels_) draw_session_panel(*session_, panels_, requests);
+    }
     // One panel in the middle at a time.
     if (!problem_.empty()) {
         if (!draw_problem(scale, problem_)) problem_.clear();
     } else if (shows_help_) {
         draw_help(scale, requests);
-    } else if (!session_ && !loader_.is_busy()) {
-        draw_start_screen(scale, samples_, requests);
+    } else if (shows_start_screen()) {
+        start_screen_.draw(scale, session_ != nullptr, requests);
     }
     if (loader_.is_busy() && loader_.purpose() == SceneLoader::Purpose::show) {
         const double since = window_.now() - opened_at_;

@@ -12,6 +12,7 @@
 #include "scene_loader.h"
 #include "session.h"
 #include "shader_watch.h"
+#include "start_screen.h"
 #include "viewer.h"
 #include "window.h"
 
@@ -39,6 +40,11 @@ public:
     const PanelState& panels() const { return panels_; }
     /// The error that is shown; empty if there is none.
     const std::string& problem() const { return problem_; }
+    const StartScreen& start_screen() const { return start_screen_; }
+    /// Whether it can be seen: unless a message is.
+    bool shows_start_screen() const {
+        return problem_.empty() && !shows_help_ && (session_ ? shows_start_screen_ : !loader_.is_busy());
+    }
     bool is_filming() const { return film_.has_value(); }
     /// The last line at the lower edge.
     const std::string& notice() const { return notice_; }
@@ -89,8 +95,9 @@ private:
     std::optional<render::Camera> drawn_camera_;  // of the picture; 0 before the first
 
     PanelState panels_;
-    std::vector<std::filesystem::path> samples_;
+    StartScreen start_screen_;
     bool shows_panels_ = true, shows_help_ = false;
+    bool shows_start_screen_ = false;  // although there is a session
     bool wants_picture_ = false, wants_window_picture_ = false;
     std::string problem_, notice_, told_problem_;
     double notice_until_ = 0.0;  // [s]

@@ -38,8 +38,10 @@ void ViewerApp::obey(Command command) {
     if (command == Command::toggle_help) {
         shows_help_ = !shows_help_;
     } else if (command == Command::dismiss) {
-        if (problem_.empty()) shows_help_ = false;
+        if (problem_.empty() && !std::exchange(shows_help_, false)) shows_start_screen_ = false;
         problem_.clear();
+    } else if (command == Command::toggle_start_screen) {
+        shows_start_screen_ = !shows_start_screen_;
     } else if (command == Command::toggle_panels) {
         shows_panels_ = !shows_panels_;
     } else if (command == Command::quit) {
@@ -91,7 +93,7 @@ void ViewerApp::obey(const Requests& requests) {
     if (requests.speed && session_) session_->set_speed(*requests.speed);
     if (requests.overlays) show_overlays(*requests.overlays);
     if (requests.shows_markers) panels_.shows_markers = *requests.shows_markers;
-    if (requests.opened) open({*requests.opened});
+    if (!requests.opened.empty()) open(requests.opened);
     if (requests.edited) {
         panels_.edited = *requests.edited;
         loader_.rebuild(panels_.edited);

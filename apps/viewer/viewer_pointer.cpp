@@ -16,6 +16,7 @@ constexpr float kHandNotch = 1.05f;  // a notch of the wheel multiplies the dist
 
 void ViewerApp::handle(const Event& event) {
     if (const auto* key = std::get_if<KeyPress>(&event)) {
+        if (shows_start_screen() && start_screen_.take(*key)) return;
         if (const std::optional<Command> command = find_command(*key)) obey(*command);
     } else if (const auto* button = std::get_if<ButtonChange>(&event)) {
         handle(*button);

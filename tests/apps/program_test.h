@@ -32,7 +32,8 @@ protected:
               "[[collider]]\n"
               "shape = { plane = [0, 1, 0] }\n");
         settings_.folder = folder_.path();
-        settings_.environment = {"GELATIN_CACHE_DIR=" + path("cache").string()};
+        settings_.environment = {"GELATIN_CACHE_DIR=" + path("cache").string(),
+                                 "XDG_STATE_HOME=" + path("state").string()};
     }
 
     std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }

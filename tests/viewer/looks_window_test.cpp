@@ -57,12 +57,12 @@ protected:
     }
 };
 
-// The last button of the start screen.
-TEST(WindowLooks, AButtonTooFewIsNoticed) {
+// The second card of the start screen without its words.
+TEST(WindowLooks, WordsTooFewAreNoticed) {
     const fs::path file = fs::path(test::source_path()) / "tests" / "viewer" / "references" / "start.png";
     render::Image image = render::read_png(file);
     const render::Image reference = image;
-    for (int y = 156; y < 169; ++y) std::copy_n(image.at(203, y + 13), 3 * 75, image.at(203, y));
+    for (int y = 122; y < 147; ++y) std::copy_n(image.at(162, 152), 3 * 140, image.at(162, y));
     EXPECT_GT(worst_tile(image, reference), kMost);
     EXPECT_EQ(worst_tile(reference, reference), 0.0);
 }

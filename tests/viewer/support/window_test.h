@@ -10,6 +10,7 @@
 
 #include "core/file.h"
 #include "render/image.h"
+#include "support/environment.h"
 #include "viewer/support/display.h"
 #include "viewer/viewer_app.h"
 
@@ -55,6 +56,7 @@ protected:
 
 private:
     TemporaryFolder folder_;
+    const EnvironmentVariable state_{"XDG_STATE_HOME", path("state").string()};  // files opened last
     std::unique_ptr<viewer::Window> window_;
     std::map<std::string, int> own_objects_;  // the window's own
     std::unique_ptr<viewer::ViewerApp> app_;
