@@ -81,7 +81,7 @@ int report_hazards(int code) {
 }
 
 int run_program(int argc, char** argv) {
-    set_up_log(false);
+    set_up_log(LogLevel::notes);
     try {
         return run(argc, argv);
     } catch (const InvalidInput& error) {

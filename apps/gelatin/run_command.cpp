@@ -12,6 +12,7 @@
 #include "common/progress.h"
 #include "core/counted.h"
 #include "core/file.h"
+#include "core/log.h"
 #include "gelatin/error.h"
 #include "interrupt.h"
 #include "recorder.h"
@@ -189,6 +190,7 @@ void Run::print_summary() const {
 }
 
 void run(const RunOptions& options) {
+    if (options.quiet) set_up_log(LogLevel::warnings);
     Scene scene = load_input(options.input);
     if (options.frames) scene.simulation.frames = *options.frames;
     check_outputs(options);

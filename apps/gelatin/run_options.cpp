@@ -86,7 +86,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
         ->type_name("K")
         ->check(CLI::PositiveNumber)
         ->group(outputs);
-    command.add_flag("--quiet", options.quiet, "No progress and no summary")->group(outputs);
+    command.add_flag("--quiet", options.quiet, "No progress, no summary and no notes")->group(outputs);
 
     const char* checkpoints = "Checkpoints";
     CLI::Option* checkpoint =

@@ -24,13 +24,15 @@ public:
 
 }  // namespace
 
-void set_up_log(bool verbose) {
+void set_up_log(LogLevel level) {
     auto logger =
         std::make_shared<spdlog::logger>("gelatin", std::make_shared<spdlog::sinks::stderr_sink_mt>());
     auto formatter = std::make_unique<spdlog::pattern_formatter>();
     formatter->add_flag<LevelName>('*').set_pattern("%n: %*: %v");
     logger->set_formatter(std::move(formatter));
-    logger->set_level(verbose ? spdlog::level::debug : spdlog::level::info);
+    logger->set_level(level == LogLevel::debugging ? spdlog::level::debug
+                      : level == LogLevel::notes   ? spdlog::level::info
+                                                   : spdlog::level::warn);
     spdlog::set_default_logger(std::move(logger));
 }
 

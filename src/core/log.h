@@ -4,10 +4,12 @@
 
 namespace gelatin {
 
+/// The least important messages that are shown.
+enum class LogLevel { warnings, notes, debugging };
+
 /// Sends spdlog's default logger to stderr as "gelatin: warning: ..." or "gelatin: note: ...", one line for
-/// each message; with `verbose` also those for debugging. The library itself only logs; programs call this
-/// once.
-void set_up_log(bool verbose);
+/// each message. The library itself only logs; programs call this.
+void set_up_log(LogLevel level);
 
 /// Messages to spdlog's default logger. Its headers, which take long to compile, are included by log.cpp
 /// alone.

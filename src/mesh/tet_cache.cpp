@@ -10,7 +10,8 @@ namespace gelatin {
 
 static_assert(sizeof(glm::dvec3) == 24 && sizeof(glm::uvec4) == 16 && sizeof(glm::uvec3) == 12);
 
-TetCache::TetCache(std::filesystem::path folder) : cache_(std::move(folder), "tets") {}
+TetCache::TetCache(std::filesystem::path folder)
+    : cache_(folder, "tets"), failures_(std::move(folder), "failure") {}
 
 std::optional<CachedTets> TetCache::find(const std::string& key) const {
     const std::optional<std::string> bytes = cache_.find(key);
@@ -40,6 +41,29 @@ void TetCache::store(const std::string& key, const CachedTets& tets) const {
     writer.add(tets.mesh.attributes);
     writer.add(notes);
     cache_.store(key, writer.bytes());
+}
+
+std::optional<MesherFailure> TetCache::find_failure(const std::string& key) const {
+    const std::optional<std::string> bytes = failures_.find(key);
+    if (!bytes) return std::nullopt;
+    ArrayReader reader(*bytes);
+    std::vector<char> field, value, problem;
+    std::vector<double> limit;
+    const bool is_whole =
+        reader.take(field) && reader.take(value) && reader.take(problem) && reader.take(limit);
+    if (!is_whole || !reader.at_end() || limit.size() != 1) return std::nullopt;
+    const auto text = [](const std::vector<char>& letters) {
+        return std::string(letters.begin(), letters.end());
+    };
+    return MesherFailure{text(field), text(value), text(problem), limit.front()};
+}
+
+void TetCache::store_failure(const std::string& key, const MesherFailure& failure) const {
+    ArrayWriter writer;
+    for (const std::string* text : {&failure.field, &failure.value, &failure.problem})
+        writer.add(std::vector<char>(text->begin(), text->end()));
+    writer.add(std::vector<double>{failure.retry_above});
+    failures_.store(key, writer.bytes());
 }
 
 }  // namespace gelatin

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "core/content_hash.h"
@@ -137,17 +140,27 @@ std::size_t count_crossings(const std::filesystem::path& folder, double time_lim
     return 0;
 }
 
-[[noreturn]] void report_failure(const ProcessResult& result, const std::filesystem::path& folder,
-                                 const MesherSettings& settings, const std::string& name) {
+/// Whether the same would come of another run, or the system may have had a part in it.
+bool is_lasting(const ProcessResult& result) {
+    const bool is_from_outside = result.signal == SIGKILL || result.signal == SIGTERM ||
+                                 result.signal == SIGINT || result.signal == SIGHUP;
+    const bool lacked_memory = result.output.find("ut of memory") != std::string::npos;
+    return !is_from_outside && !lacked_memory;
+}
+
+constexpr double kAlways = std::numeric_limits<double>::infinity();
+
+MesherFailure describe_failure(const ProcessResult& result, const std::filesystem::path& folder,
+                               double time_limit) {
     const std::string words = last_words(result.output);
     if (result.timed_out) {
-        throw InvalidInput(
-            {name, 0, "mesher.time_limit", fmt::format("{} s", settings.time_limit),
-             fmt::format("TetGen was stopped at this limit; its last output was {}; raise the limit, or "
-                         "allow a larger max_volume or quality",
-                         words)});
+        return {"mesher.time_limit", fmt::format("{} s", time_limit),
+                fmt::format("TetGen was stopped at this limit; its last output was {}; raise the limit, or "
+                            "allow a larger max_volume or quality",
+                            words),
+                time_limit};
     }
-    const std::size_t crossings = count_crossings(folder, settings.time_limit);
+    const std::size_t crossings = count_crossings(folder, time_limit);
     const std::string reason = crossings > 0
                                    ? fmt::format("it crosses itself ({} pairs of faces intersect)", crossings)
                                    : "faces that nearly touch are the usual cause";
@@ -156,7 +169,7 @@ std::size_t count_crossings(const std::filesystem::path& folder, double time_lim
                                 : fmt::format("exit code {}", result.exit_code);
     const std::string problem = fmt::format(
         "TetGen cannot fill this surface: {}; it ended with {} after saying {}", reason, end, words);
-    throw InvalidInput({name, 0, {}, {}, problem});
+    return {{}, {}, problem, is_lasting(result) ? kAlways : 0.0};
 }
 
 /// TetGen's tets, with positive volumes. TetGen writes no nodes without tets.
@@ -175,24 +188,26 @@ TetMesh read_result(const std::filesystem::path& file) {
     return mesh;
 }
 
-TetMesh run_mesher(const SurfaceMesh& surface, const MesherSettings& settings, const std::string& switches,
-                   const std::string& name) {
+using Outcome = std::variant<TetMesh, MesherFailure>;
+
+Outcome run_mesher(const SurfaceMesh& surface, double time_limit, const std::string& switches) {
     const TemporaryFolder folder;
     write_file(folder.path() / kSurfaceFile, format_smesh(surface));
-    const ProcessResult result = run_tetgen({switches, kSurfaceFile}, folder.path(), settings.time_limit);
+    const ProcessResult result = run_tetgen({switches, kSurfaceFile}, folder.path(), time_limit);
     const std::filesystem::path tets = folder.path() / kTetFile;
     const bool has_result = result.succeeded() && std::filesystem::exists(tets);
-    if (!has_result) report_failure(result, folder.path(), settings, name);
+    if (!has_result) return describe_failure(result, folder.path(), time_limit);
     try {
         return read_result(tets);
     } catch (const InvalidInput& error) {
-        throw InvalidInput(
-            {name,
-             0,
-             {},
-             {},
-             "the mesh that TetGen made of this surface cannot be used: " + error.problem().problem});
+        const std::string problem =
+            "the mesh that TetGen made of this surface cannot be used: " + error.problem().problem;
+        return MesherFailure{{}, {}, problem, kAlways};
     }
+}
+
+[[noreturn]] void refuse(const std::string& name, const MesherFailure& failure) {
+    throw InvalidInput({name, 0, failure.field, failure.value, failure.problem});
 }
 
 }  // namespace
@@ -203,7 +218,17 @@ TetMesh tetrahedralise(const SurfaceMesh& surface, const MesherSettings& setting
     const std::string key = make_key(surface, switches);
     const TetCache cache;
     if (std::optional<CachedTets> known = cache.find(key)) return std::move(known->mesh);
-    CachedTets made{run_mesher(surface, settings, switches, name)};
+    std::optional<MesherFailure> failure = cache.find_failure(key);
+    if (failure && settings.time_limit <= failure->retry_above) {
+        failure->problem += "; this is known from an earlier run";
+        refuse(name, *failure);
+    }
+    Outcome outcome = run_mesher(surface, settings.time_limit, switches);
+    if (const auto* failed = std::get_if<MesherFailure>(&outcome)) {
+        if (failed->retry_above > 0.0) cache.store_failure(key, *failed);
+        refuse(name, *failed);
+    }
+    CachedTets made{std::get<TetMesh>(std::move(outcome))};
     cache.store(key, made);
     return std::move(made.mesh);
 }

@@ -10,7 +10,8 @@
 namespace gelatin {
 
 /// Fills a closed surface with tetrahedra. Runs TetGen as a separate process (`-p -q -a`; paper 2.3) in a
-/// private temporary folder, or takes the result from the cache (tet_cache.h). The surface may have several
+/// private temporary folder, or takes the result from the cache (tet_cache.h): the tets, or the failure of a
+/// run whose time limit was not lower. The surface may have several
 /// pieces; a piece inside another is filled too, it is not a cavity. Faces may be split where the quality
 /// requires it. Flat tets that TetGen leaves on the boundary are removed.
 /// @param name for messages: the object's or the file's

@@ -5,6 +5,7 @@ namespace gelatin::test {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -36,6 +37,17 @@ TEST_F(RunMeshes, DropsAMeshOntoAFloor) {
     EXPECT_LT(stats["frames"][180]["kinetic_energy"].get<double>(),
               0.01 * stats["frames"][15]["kinetic_energy"].get<double>());
     EXPECT_NEAR(stats["frames"][180]["volume_ratio"]["wedge"].get<double>(), 1.0, 0.1);
+}
+
+TEST_F(RunMeshes, QuietPrintsWarningsButNoNotes) {
+    const std::vector<std::string> drop = {"run",       "wedge.obj", "--nodes",  "100",
+                                           "--backend", "cpu",       "--frames", "1"};
+    std::vector<std::string> quiet = drop;
+    quiet.emplace_back("--quiet");
+    EXPECT_THAT(run(drop).err, AllOf(HasSubstr("gelatin: note: "), HasSubstr("gelatin: warning: ")));
+    const ProgramResult result = run(quiet);
+    EXPECT_THAT(result.err, AllOf(Not(HasSubstr("gelatin: note: ")), HasSubstr("gelatin: warning: ")));
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
 }
 
 TEST_F(RunMeshes, TakesSettingsAndCheckpoints) {

@@ -52,6 +52,35 @@ TEST(TetCache, KeepsNotes) {
     EXPECT_TRUE(is_same(cache.find(kKey), make_mesh(1, 10)));
 }
 
+TEST(TetCache, KeepsFailuresApartFromMeshes) {
+    const TemporaryFolder folder;
+    const TetCache cache(folder.path());
+    cache.store_failure(kKey, {"mesher.time_limit", "5 s", "too slow\n; so it is", 5.0});
+    EXPECT_FALSE(cache.find(kKey));
+    const std::optional<MesherFailure> found = cache.find_failure(kKey);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->field, "mesher.time_limit");
+    EXPECT_EQ(found->value, "5 s");
+    EXPECT_EQ(found->problem, "too slow\n; so it is");
+    EXPECT_EQ(found->retry_above, 5.0);
+    EXPECT_FALSE(cache.find_failure("another"));
+    cache.store(kKey, {make_mesh(1, 10)});
+    EXPECT_TRUE(cache.find_failure(kKey));
+    EXPECT_TRUE(is_same(cache.find(kKey), make_mesh(1, 10)));
+}
+
+TEST(TetCache, ADamagedFailureIsNone) {
+    const TemporaryFolder folder;
+    const TetCache cache(folder.path());
+    cache.store_failure(kKey, {{}, {}, "no", 1.0});
+    const fs::path entry = only_entry(folder.path());
+    const std::string whole = read_file(entry);
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+        write_file(entry, whole.substr(0, size));
+        EXPECT_FALSE(cache.find_failure(kKey)) << size;
+    }
+}
+
 TEST(TetCache, KeepsAnEmptyMesh) {
     const TemporaryFolder folder;
     const TetCache cache(folder.path());

@@ -41,11 +41,11 @@ public:
     }
 
 protected:
-    // `script` is what `tetgen` does with a surface; asked for its version it gives one.
+    // `script` is what `tetgen` does with a surface; asked for its version it gives another one each time.
     void replace_tetgen(const std::string& script) {
         const fs::path program = programs_ / "tetgen";
-        write_file(program,
-                   "#!/bin/sh\nif [ \"$1\" = -h ]; then echo Version 0; exit 0; fi\n" + script + "\n");
+        write_file(program, "#!/bin/sh\nif [ \"$1\" = -h ]; then echo Version " + std::to_string(++version_) +
+                                "; exit 0; fi\n" + script + "\n");
         fs::permissions(program, fs::perms::owner_all);
         ::setenv("PATH", (programs_.string() + ":" + old_path_).c_str(), 1);
     }
@@ -54,7 +54,18 @@ protected:
         return static_cast<std::size_t>(std::distance(fs::directory_iterator(cache_), {}));
     }
 
+    // The same that also counts how often it fills a surface.
+    void replace_tetgen_and_count(const std::string& script) {
+        replace_tetgen("case \"$1\" in -d*) exit 0;; esac; echo run >> " + log_.string() + "\n" + script);
+    }
+    std::ptrdiff_t runs() const {
+        const std::string lines = read_file(log_);
+        return std::count(lines.begin(), lines.end(), '\n');
+    }
+
+    int version_ = 0;
     const TemporaryFolder folder_;
+    const fs::path log_ = folder_.path() / "log";
     const fs::path cache_ = folder_.path() / "cache", programs_ = folder_.path() / "programs";
     const std::string old_cache_ = environment("GELATIN_CACHE_DIR"), old_path_ = environment("PATH");
 };
@@ -155,12 +166,7 @@ TEST_F(Tetrahedralise, FillsLetters) {
 }
 
 TEST_F(Tetrahedralise, RunsTetgenOnceForTheSameInput) {
-    const fs::path log = folder_.path() / "log";
-    replace_tetgen("echo \"$@\" >> " + log.string() + "\nPATH=" + old_path_ + " exec tetgen \"$@\"");
-    const auto runs = [&] {
-        const std::string lines = read_file(log);
-        return std::count(lines.begin(), lines.end(), '\n');
-    };
+    replace_tetgen_and_count("PATH=" + old_path_ + " exec tetgen \"$@\"");
     const TetMesh first = tetrahedralise(make_cube(), {}, "cube");
     const TetMesh second = tetrahedralise(make_cube(), {}, "the same by another name");
     EXPECT_EQ(runs(), 1);
@@ -193,7 +199,7 @@ TEST_F(Tetrahedralise, TellsThatASurfaceCrossesItself) {
     for (const glm::dvec3& position : make_cube().positions) two.positions.push_back(0.9 * position + 0.31);
     for (const glm::uvec3& face : make_cube().faces) two.faces.push_back(face + first);
     EXPECT_THAT(message_of(two), AllOf(HasSubstr("crosses itself"), HasSubstr("faces intersect")));
-    EXPECT_EQ(cache_entries(), 0u);
+    EXPECT_THAT(message_of(two), AllOf(HasSubstr("crosses itself"), HasSubstr("from an earlier run")));
 }
 
 TEST_F(Tetrahedralise, PassesOnTheLastWordsOfACrash) {
@@ -204,14 +210,12 @@ TEST_F(Tetrahedralise, PassesOnTheLastWordsOfACrash) {
     EXPECT_THAT(message_of(make_cube()), AllOf(HasSubstr("exit code 3"), HasSubstr("Sorry")));
     replace_tetgen("exit 0");  // success without a result
     EXPECT_THAT(message_of(make_cube()), HasSubstr("TetGen cannot fill"));
-    EXPECT_EQ(cache_entries(), 0u);
 }
 
 TEST_F(Tetrahedralise, RefusesAResultThatMakesNoSense) {
     replace_tetgen(
         "printf '1 4 0\\n0 0 1 2 9\\n' > surface.1.ele; printf '1 3 0 0\\n0 0 0 0\\n' > surface.1.node");
     EXPECT_THAT(message_of(make_cube()), AllOf(HasSubstr("thing"), HasSubstr("cannot be used")));
-    EXPECT_EQ(cache_entries(), 0u);
 }
 
 // Two tets and a flat one below them: the flat one goes, and an inner one is refused.
@@ -234,6 +238,59 @@ TEST_F(Tetrahedralise, StopsAtTheTimeLimitAndNamesIt) {
     settings.time_limit = 0.3;
     EXPECT_THAT(message_of(make_cube(), settings),
                 AllOf(HasSubstr("mesher.time_limit = 0.3 s"), HasSubstr("Still here."), HasSubstr("raise")));
+}
+
+// Were a failure forgotten, a surface on which TetGen takes too long would delay each run.
+TEST_F(Tetrahedralise, RemembersThatTimeRanOutAndTriesAgainWithMore) {
+    replace_tetgen_and_count("echo Still here.; sleep 60");
+    MesherSettings settings;
+    settings.time_limit = 0.3;
+    const std::string first = message_of(make_cube(), settings);
+    EXPECT_THAT(first, HasSubstr("mesher.time_limit = 0.3 s"));
+    EXPECT_EQ(message_of(make_cube(), settings), first + "; this is known from an earlier run");
+    settings.time_limit = 0.2;
+    EXPECT_THAT(message_of(make_cube(), settings), HasSubstr("mesher.time_limit = 0.3 s"));
+    EXPECT_EQ(runs(), 1);
+    settings.time_limit = 0.4;
+    EXPECT_THAT(message_of(make_cube(), settings), HasSubstr("mesher.time_limit = 0.4 s"));
+    EXPECT_EQ(runs(), 2);
+    settings.time_limit = 0.35;  // the longer one replaced the shorter
+    EXPECT_THAT(message_of(make_cube(), settings), HasSubstr("0.4 s"));
+    settings.quality = 1.5;  // another question
+    EXPECT_THAT(message_of(make_cube(), settings), HasSubstr("0.35 s"));
+    EXPECT_EQ(runs(), 3);
+}
+
+TEST_F(Tetrahedralise, ATryWithMoreTimeMaySucceed) {
+    replace_tetgen_and_count("[ -e " + (folder_.path() / "go").string() +
+                             " ] || sleep 60\nPATH=" + old_path_ + " exec tetgen \"$@\"");
+    MesherSettings settings;
+    settings.time_limit = 0.3;
+    EXPECT_THAT(message_of(make_cube(), settings), HasSubstr("0.3 s"));
+    write_file(folder_.path() / "go", "");
+    settings.time_limit = 30.0;
+    EXPECT_EQ(message_of(make_cube(), settings), "no error");
+    settings.time_limit = 0.1;  // now there are tets
+    EXPECT_EQ(message_of(make_cube(), settings), "no error");
+    EXPECT_EQ(runs(), 2);
+}
+
+TEST_F(Tetrahedralise, RemembersFailuresOfTetgenButNotOfTheSystem) {
+    MesherSettings patient;
+    patient.time_limit = 1e6;
+    replace_tetgen_and_count("echo Sorry; exit 3");
+    const std::string first = message_of(make_cube());
+    EXPECT_EQ(message_of(make_cube(), patient), first + "; this is known from an earlier run");
+    EXPECT_EQ(runs(), 1);
+    for (const char* script : {"kill -KILL $$", "kill -TERM $$", "echo Error:  Out of memory.; exit 1"}) {
+        replace_tetgen_and_count(script);
+        const auto before = runs();
+        const std::size_t entries = cache_entries();
+        message_of(make_cube());
+        EXPECT_THAT(message_of(make_cube()), testing::Not(HasSubstr("earlier run")));
+        EXPECT_EQ(runs(), before + 2) << script;
+        EXPECT_EQ(cache_entries(), entries);
+    }
 }
 
 TEST_F(Tetrahedralise, RefusesAVolumeThatAsksForTooMany) {
