@@ -209,6 +209,7 @@ void StartScreen::draw_card(const Item& item, float scale) const {
         list.AddRectFilled(low, corner, kNoPicture, rounding, ImDrawFlags_RoundCornersTop);
     } else {
         // Dear ImGui's backend takes OpenGL's names.
+        // NOLINTNEXTLINE(performance-no-int-to-ptr)
         const auto texture = reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(item.picture.name()));
         list.AddImageRounded(texture, low, corner, {0.0f, 0.0f}, {1.0f, 1.0f}, IM_COL32_WHITE, rounding,
                              ImDrawFlags_RoundCornersTop);

@@ -233,7 +233,7 @@ private:
                 scanner_.integer({"components of array", k + 1}, 0, kMostComponents);
             const std::uint64_t tuples = scanner_.integer({"length of array", k + 1});
             scanner_.require_room({"length of array", k + 1}, tuples, 1);
-            const std::string type_name(scanner_.word({"type of array", k + 1}));
+            std::string type_name(scanner_.word({"type of array", k + 1}));
             const std::optional<VtkType> type = find_vtk_type(type_name);
             if (!type) return type_name;
             take_array(name, *type, components, tuples);
@@ -267,7 +267,7 @@ private:
             else if (keyword != "scalars" && keyword != "global_ids" && keyword != "pedigree_ids" &&
                      keyword != "edge_flags")
                 return keyword;
-            const std::string type_name(scanner_.word("type of data"));
+            std::string type_name(scanner_.word("type of data"));
             const std::optional<VtkType> known = find_vtk_type(type_name);
             if (!known) return type_name;
             type = *known;

@@ -67,6 +67,11 @@ bool is_tet(std::int64_t type) {
     return type == kTetra || type == kQuadratic || type == kLagrange || type == kBezier;
 }
 
+template <class Stored, class T>
+T load_as(std::string_view bytes, std::size_t offset, bool swapped) {
+    return static_cast<T>(load_bytes<Stored>(bytes, offset, swapped));
+}
+
 }  // namespace
 
 std::optional<VtkType> find_vtk_type(std::string_view name) {
@@ -79,20 +84,24 @@ std::optional<VtkType> find_vtk_type(std::string_view name) {
 
 template <class T>
 T load_vtk_number(VtkType type, std::string_view bytes, std::size_t offset, bool swapped) {
-    const auto load = [&]<class Stored>(Stored) {
-        return static_cast<T>(load_bytes<Stored>(bytes, offset, swapped));
-    };
     const bool has_sign = type.kind == Kind::signed_integer;
-    if (type.kind == Kind::real) return type.size == 4 ? load(float()) : load(double());
+    if (type.kind == Kind::real) {
+        return type.size == 4 ? load_as<float, T>(bytes, offset, swapped)
+                              : load_as<double, T>(bytes, offset, swapped);
+    }
     switch (type.size) {
         case 1:
-            return has_sign ? load(std::int8_t()) : load(std::uint8_t());
+            return has_sign ? load_as<std::int8_t, T>(bytes, offset, swapped)
+                            : load_as<std::uint8_t, T>(bytes, offset, swapped);
         case 2:
-            return has_sign ? load(std::int16_t()) : load(std::uint16_t());
+            return has_sign ? load_as<std::int16_t, T>(bytes, offset, swapped)
+                            : load_as<std::uint16_t, T>(bytes, offset, swapped);
         case 4:
-            return has_sign ? load(std::int32_t()) : load(std::uint32_t());
+            return has_sign ? load_as<std::int32_t, T>(bytes, offset, swapped)
+                            : load_as<std::uint32_t, T>(bytes, offset, swapped);
         default:
-            return has_sign ? load(std::int64_t()) : load(std::uint64_t());
+            return has_sign ? load_as<std::int64_t, T>(bytes, offset, swapped)
+                            : load_as<std::uint64_t, T>(bytes, offset, swapped);
     }
 }
 template double load_vtk_number(VtkType, std::string_view, std::size_t, bool);

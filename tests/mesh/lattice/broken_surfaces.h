@@ -1,8 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <random>
 #include <utility>
 
@@ -21,7 +23,7 @@ public:
         SurfaceMesh surface = start();
         const int faults = below(4);
         for (int k = 0; k < faults; ++k) {
-            switch (below(8)) {
+            switch (below(12)) {
                 case 0:
                     remove_faces(surface);
                     break;
@@ -43,8 +45,20 @@ public:
                 case 6:
                     stretch(surface);
                     break;
-                default:
+                case 7:
                     separate_faces(surface);
+                    break;
+                case 8:
+                    flatten_faces(surface);
+                    break;
+                case 9:
+                    repeat_corners(surface);
+                    break;
+                case 10:
+                    surface = scaled(surface, std::pow(10.0, 20.0 * fraction() - 10.0));
+                    break;
+                default:
+                    spoil_a_number(surface);
                     break;
             }
         }
@@ -59,6 +73,7 @@ private:
     }
 
     SurfaceMesh start() {
+        if (below(100) == 0) return crumbs(1000 + below(4000), 0.05);
         switch (below(6)) {
             case 0:
                 return make_sphere({0.5, 1 + below(6)});
@@ -67,7 +82,7 @@ private:
             case 2:
                 return make_capsule({0.05 + 0.2 * fraction(), 1.0, 4});
             case 3:
-                return crumbs();
+                return crumbs(1 + below(60), 0.2);
             case 4:
                 return loose_faces();
             default:
@@ -76,11 +91,10 @@ private:
     }
 
     // Many small closed surfaces.
-    SurfaceMesh crumbs() {
+    SurfaceMesh crumbs(int count, double largest) {
         SurfaceMesh surface;
-        const int count = 1 + below(60);
         for (int k = 0; k < count; ++k)
-            append(surface, cube(direction(), 0.01 + 0.2 * fraction() * fraction()));
+            append(surface, cube(direction(), 0.01 + largest * fraction() * fraction()));
         return surface;
     }
     SurfaceMesh loose_faces() {
@@ -127,6 +141,32 @@ private:
     }
     void stretch(SurfaceMesh& surface) {  // faces become slivers
         for (glm::dvec3& p : surface.positions) p.x *= 20.0;
+    }
+    // A corner comes to lie on the opposite edge, or almost.
+    void flatten_faces(SurfaceMesh& surface) {
+        const double share = 0.3 * fraction(), height = std::pow(10.0, -16.0 * fraction());
+        for (const glm::uvec3& f : surface.faces) {
+            if (fraction() > share) continue;
+            const glm::dvec3 foot = 0.5 * (surface.positions[f[0]] + surface.positions[f[1]]);
+            surface.positions[f[2]] = foot + height * (surface.positions[f[2]] - foot);
+        }
+    }
+    void repeat_corners(SurfaceMesh& surface) {
+        const double share = 0.2 * fraction();
+        for (glm::uvec3& face : surface.faces) {
+            if (fraction() < share) face[2] = face[1];
+        }
+    }
+    void spoil_a_number(SurfaceMesh& surface) {
+        constexpr double kNumbers[] = {std::numeric_limits<double>::quiet_NaN(),
+                                       std::numeric_limits<double>::infinity(),
+                                       1e300,
+                                       1e35,
+                                       1e12,
+                                       1e-300,
+                                       std::numeric_limits<double>::denorm_min()};
+        const auto vertex = static_cast<std::size_t>(below(static_cast<int>(surface.positions.size())));
+        surface.positions[vertex][below(3)] = kNumbers[below(7)];
     }
     void separate_faces(SurfaceMesh& surface) {
         SurfaceMesh apart;

@@ -258,7 +258,7 @@ TEST(BrokenSurfacesTest, GiveABodyOrAnError) {
 }
 
 TEST(BrokenSurfacesLong, GiveABodyOrAnError) {
-    expect_bodies_or_errors(20, 400);
+    expect_bodies_or_errors(20, 250);
 }
 
 }  // namespace
