@@ -42,7 +42,7 @@ TEST_F(VtkFileTest, ReadsEveryCodingOfVtu) {
 }
 
 TEST_F(VtkFileTest, ReadsLinesOfWindows) {
-    std::string text = vtu();
+    std::string text = replaced(vtu(), " 0 1 2 0 1 2 3 0 2 1 4", "\n0\n1\n2\n0\n1\n2\n3\n0\n2\n1\n4");
     for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");
     expect_pair(read("a.vtu", text));
 }
@@ -95,14 +95,17 @@ TEST_F(VtkFileTest, ChoosesTheAttributeByItsName) {
     EXPECT_THAT(attributes_of("colour", "int"), IsEmpty());
     EXPECT_THAT(attributes_of("material", "float"), IsEmpty());
     // Of two the one with the more exact name, wherever it stands.
-    const std::string two = "FieldData 3\nobject 1 3 int\n1 2 3\n";
-    EXPECT_THAT(read("a.vtk", replaced(kVtkText, "FieldData 2\n", two)).attributes, ElementsAre(3, -5));
+    const std::string object = "object 1 3 int\n1 2 3\n";
+    const std::string three = replaced(kVtkText, "FieldData 2\n", "FieldData 3\n");
+    EXPECT_THAT(read("a.vtk", three + object).attributes, ElementsAre(3, -5));
+    EXPECT_THAT(read("a.vtk", replaced(three, "FieldData 3\n", "FieldData 3\n" + object)).attributes,
+                ElementsAre(3, -5));
     const std::string xml = vtu();
-    const std::string object =
+    const std::string array =
         "<DataArray type=\"Int32\" Name=\"object\" format=\"ascii\">1 2 3</DataArray></CellData>";
-    EXPECT_THAT(read("a.vtu", replaced(xml, "</CellData>", object)).attributes, ElementsAre(3, -5));
+    EXPECT_THAT(read("a.vtu", replaced(xml, "</CellData>", array)).attributes, ElementsAre(3, -5));
     EXPECT_THAT(
-        read("a.vtu", replaced(replaced(xml, "</CellData>", object), "\"material\"", "\"x\"")).attributes,
+        read("a.vtu", replaced(replaced(xml, "</CellData>", array), "\"material\"", "\"x\"")).attributes,
         ElementsAre(2, 3));
 }
 
