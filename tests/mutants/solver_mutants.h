@@ -167,10 +167,11 @@ inline constexpr Mutant kDescentMutants[] = {
      "ratio > kLeastSound && ratio < kMostSound", "true"},
     {"all_guesses_are_taken_back", "sim/descent/take_back_tangled.comp",
      "ratio > kLeastSound && ratio < kMostSound", "false"},
-    {"volumes_count_whole", "sim/descent/find_pressures.comp", "volume += 0.25 *", "volume +="},
+    {"volumes_miss_each_second_tet", "sim/descent/find_pressures.comp", "uintBitsToFloat(two.w) *", "0.0 *"},
     {"pressure_lasts_for_ever", "sim/elasticity/node_terms.glsl", "kappa * u * left * left", "kappa * u"},
     {"pressures_of_tets_are_sums", "sim/descent/find_pressures.comp", "0.25 * sum", "sum"},
-    {"tets_do_not_answer_for_themselves", "sim/descent/find_pressures.comp", " - rest.z * ratios[t]", ""},
+    {"tets_do_not_answer_for_themselves", "sim/descent/find_pressures.comp",
+     " - rest.z * texelFetch(ratios, int(t)).x", ""},
     {"volumes_have_no_stiffness", "sim/elasticity/node_terms.glsl", "add_outer(bound.y, slope, terms);", ""},
 };
 

@@ -1,5 +1,8 @@
 #include "gpu/descent/descent_tables.h"
 
+#include <algorithm>
+#include <bit>
+
 #include "model/elasticity/neo_hookean.h"
 
 namespace gelatin::gpu {
@@ -63,6 +66,30 @@ std::vector<std::uint32_t> rows_of_springs(const Model& model, std::span<const s
         if (node != kNoNode && has_neo_hookean_tets(model, node)) node = kNoNode;
     }
     return result;
+}
+
+VolumeShares volume_shares_of(const Model& model, const NodeTets& node_tets) {
+    constexpr std::uint32_t kSlice = packing::kSlice;
+    const std::vector<std::uint32_t>& starts = node_tets.starts;
+    VolumeShares shares{{0}, {}};
+    for (std::uint32_t first = 0; first < model.node_count(); first += kSlice) {
+        const std::uint32_t end = std::min(first + kSlice, model.node_count());
+        std::uint32_t most = 0;
+        for (std::uint32_t n = first; n < end; ++n) most = std::max(most, starts[n + 1] - starts[n]);
+        const std::uint32_t start = shares.slice_starts.back();
+        shares.slice_starts.push_back(start + kSlice * ((most + 1) / 2));
+        shares.pairs.resize(shares.slice_starts.back(), glm::uvec4(0));
+        for (std::uint32_t n = first; n < end; ++n) {
+            for (std::uint32_t k = 0; k < starts[n + 1] - starts[n]; ++k) {
+                const std::uint32_t tet = node_tets.entries[starts[n] + k] / 4;
+                const float share = 0.25f * model.tet_rests[tet].volume / model.volume_term.nodes[n].x;
+                glm::uvec4& pair = shares.pairs[start + kSlice * (k / 2) + (n - first)];
+                (k % 2 == 0 ? pair.x : pair.z) = tet;
+                (k % 2 == 0 ? pair.y : pair.w) = std::bit_cast<std::uint32_t>(share);
+            }
+        }
+    }
+    return shares;
 }
 
 TetCorners corners_of(const Model& model, std::span<const std::uint32_t> rows) {

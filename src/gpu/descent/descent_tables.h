@@ -27,6 +27,17 @@ std::vector<DescentRow> rows_of(const DescentRows& rows, const Model& model);
 /// With kNoNode for nodes of neo-Hookean tets, whose terms come with those.
 std::vector<std::uint32_t> rows_of_springs(const Model& model, std::span<const std::uint32_t> rows);
 
+/// The tets round nodes, two in an element {tet, share, tet, share}: the bits of the share that a tet has of
+/// the volume there at rest, 0 where a node has no more tets. Of each node, in slices of packing::kSlice
+/// nodes.
+struct VolumeShares {
+    std::vector<std::uint32_t> slice_starts;  ///< shape [slices + 1]
+    std::vector<glm::uvec4> pairs;            ///< shape [slice_starts.back()]
+};
+
+/// @param node_tets of all tets of the model @pre it has a volume term
+VolumeShares volume_shares_of(const Model& model, const NodeTets& node_tets);
+
 /// The tets of each row's node, if it is one of springs.
 TetCorners corners_of(const Model& model, std::span<const std::uint32_t> rows);
 

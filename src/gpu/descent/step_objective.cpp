@@ -40,8 +40,11 @@ StepObjective::Pressures::Pressures(const Model& model, std::span<const std::uin
     const StripSlices<VolumeStep> packed = pack_volume_strips({model, by_node}, rows_of_springs(model, rows));
     strips = {packed.steps, gl::TexelFormat::rgba32ui};
     strip_starts = {packed.slice_starts, gl::TexelFormat::r32ui};
-    node_tet_starts = {by_node.starts, gl::TexelFormat::r32ui};
-    node_tets = {by_node.entries, gl::TexelFormat::r32ui};
+    const VolumeShares shares = volume_shares_of(model, by_node);
+    share_starts = {shares.slice_starts, gl::TexelFormat::r32ui};
+    volume_shares = {shares.pairs, gl::TexelFormat::rgba32ui};
+    ratio_texels = {ratios, gl::TexelFormat::r32f};
+    node_pressure_texels = {node_pressures, gl::TexelFormat::r32f};
     offset_texels = {offsets, gl::TexelFormat::r32f};
 }
 
@@ -80,16 +83,17 @@ StepObjective::StepObjective(const Model& model)
 
 void StepObjective::bind_pressures() const {
     mark_program_.bind("Ratios", pressures_->ratios);
-    for (const gl::Program* program : {&pressures_->node_program, &pressures_->tet_program}) {
-        program->bind("tets", tets);
-        program->bind("tet_rests", tet_rests);
-        program->bind("Ratios", pressures_->ratios);
-        program->bind("Pressures", pressures_->node_pressures);
-    }
-    pressures_->node_program.bind("node_volumes", pressures_->node_volumes);
-    pressures_->node_program.bind("node_tet_starts", pressures_->node_tet_starts);
-    pressures_->node_program.bind("node_tets", pressures_->node_tets);
-    pressures_->tet_program.bind("Offsets", pressures_->offsets);
+    const gl::Program &node_program = pressures_->node_program, &tet_program = pressures_->tet_program;
+    node_program.bind("ratios", pressures_->ratio_texels);
+    node_program.bind("node_volumes", pressures_->node_volumes);
+    node_program.bind("volume_shares", pressures_->volume_shares);
+    node_program.bind("share_starts", pressures_->share_starts);
+    node_program.bind("Pressures", pressures_->node_pressures);
+    tet_program.bind("ratios", pressures_->ratio_texels);
+    tet_program.bind("tets", tets);
+    tet_program.bind("tet_rests", tet_rests);
+    tet_program.bind("pressures", pressures_->node_pressure_texels);
+    tet_program.bind("Offsets", pressures_->offsets);
 }
 
 void StepObjective::bind_springs(const gl::Program& program) const {
@@ -138,7 +142,7 @@ void StepObjective::update(std::span<const gl::Program* const> programs) {
 
     pressures_->node_program.set("element_count", node_count_);
     pressures_->node_program.dispatch(node_count_);
-    gl::barrier(gl::Barrier::storage);
+    gl::barrier(gl::Barrier::texture_fetch);
 
     pressures_->tet_program.set("element_count", tet_count_);
     pressures_->tet_program.dispatch(tet_count_);

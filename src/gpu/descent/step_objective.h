@@ -51,11 +51,12 @@ private:
 
         gl::Program node_program, tet_program;
         gl::TexelTable<glm::vec2> node_volumes;  // [m^3], [Pa]
-        gl::TexelTable<std::uint32_t> node_tet_starts, node_tets;
+        gl::TexelTable<std::uint32_t> share_starts;
+        gl::TexelTable<glm::uvec4> volume_shares;
         gl::TexelTable<VolumeStep> strips;
         gl::TexelTable<std::uint32_t> strip_starts;
         gl::Buffer<float> ratios, node_pressures, offsets;
-        gl::BufferTexture offset_texels;
+        gl::BufferTexture ratio_texels, node_pressure_texels, offset_texels;
     };
 
     // Springs with their dampers in them, anew in each step.
