@@ -144,7 +144,7 @@ void add_mesh_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("mesh", "Fill a surface with tets, or convert between mesh files");
     command
         ->add_option("IN", options->input,
-                     "A surface (.obj, .stl, .ply, .off) or tets (.node, .ele, .mesh, .msh)")
+                     "A surface (.obj, .stl, .ply, .off, .gltf, .glb) or tets (.node, .ele, .mesh, .msh)")
         ->required();
     command->add_option("-o,--output", options->output, "Tets (.node, .mesh, .msh, .vtu) or a surface")
         ->type_name("OUT")
