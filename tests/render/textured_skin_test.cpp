@@ -69,12 +69,16 @@ protected:
         for (int f = 0; f < 12; ++f) simulator.advance_frame();
         return simulator;
     }
-    Image picture_of(Simulator& simulator, const Overlays& overlays = {}) const {
+    Image picture_of(Simulator& simulator, const Overlays& overlays) const {
+        return picture_of(simulator, glm::vec3(-1.0f), overlays);
+    }
+    Image picture_of(Simulator& simulator, const glm::vec3& color = glm::vec3(-1.0f),
+                     const Overlays& overlays = {}) const {
         Renderer renderer({.width = kWidth, .height = kHeight, .quality = GetParam()});
         renderer.set_surroundings({.bounds = {{-0.7f, 0.0f, -0.3f}, {0.7f, 1.0f, 0.3f}},
                                    .floor_height = 0.0f,
                                    .props = {},
-                                   .colors = {}});
+                                   .colors = {color}});
         renderer.draw(simulator.render_view(overlays), kEye);
         FrameGrabber grabber(kWidth, kHeight);
         grabber.grab(renderer.framebuffer());
@@ -149,6 +153,23 @@ TEST_P(TexturedSkinTest, LooksAsItDidOnEitherBackend) {
         EXPECT_LT(test::perceptual_difference(image, read_png(file)), 1.0)
             << "if the new picture is better, set GELATIN_UPDATE_REFERENCES=1 once";
     }
+}
+
+// A material without an image is lit like an object of its colour.
+TEST_P(TexturedSkinTest, OneColorLooksLikeAnObjectsOwn) {
+    write_file(folder_.path() / "bar.mtl", "newmtl paint\nKd 0.8 0.4 0.3\n");
+    Simulator textured = simulate(Backend::cpu);
+    ASSERT_FALSE(model_of(textured).skin.look.is_empty());
+    Scene scene = bar_scene(folder_.path());
+    scene.objects[0].color = glm::dvec3(0.6038, 0.1329, 0.0732);
+    SimulatorOptions options;
+    options.backend = Backend::cpu;
+    options.use_current_context = true;
+    Simulator plain(scene, options);
+    ASSERT_TRUE(model_of(plain).skin.look.is_empty());
+    for (int f = 0; f < 12; ++f) plain.advance_frame();
+    const Image expected = picture_of(plain, glm::vec3(*scene.objects[0].color));
+    EXPECT_LT(test::perceptual_difference(picture_of(textured), expected), 0.5);
 }
 
 // A cut leaves the texture on what is left; objects are told apart by colours alone.
