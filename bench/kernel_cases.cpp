@@ -145,7 +145,7 @@ void add_gl_cases(const std::shared_ptr<const Model>& model, double step, std::v
     const auto divided = solver_for(ForceMethod::divide_and_merge);
     const auto kernels =
         std::make_shared<gpu::DivideAndMerge>(*model, explicit_scheme(SolverKind::semi_implicit_euler));
-    const auto normals = std::make_shared<gpu::UpdateNormals>(*model);
+    const auto normals = std::make_shared<gpu::UpdateNormals>(model->faces, model->surface);
     const DescentRows rows = make_descent_rows(m);
     const auto empty = std::make_shared<gl::Program>(gl::Program::compute("bench/nothing.comp"));
     const auto finish = [] { gl::finish(); };

@@ -23,8 +23,8 @@ void check_kind(const fs::path& file) {
     if (ending == ".toml" || ending.empty() || is_mesh_file(file)) return;
     if (!fs::is_regular_file(file)) read_file(file);  // its message names the problem
     refuse(file,
-           "is neither a scene (.toml) nor a mesh (.obj, .stl, .ply, .off, .node, .ele, .mesh, .msh, .vtk or "
-           ".vtu)");
+           "is neither a scene (.toml) nor a mesh (.obj, .stl, .ply, .off, .gltf, .glb, .node, .ele, .mesh, "
+           ".msh, .vtk or .vtu)");
 }
 
 // The scene file among the files, if there is one.

@@ -143,8 +143,10 @@ void add_mesh_command(CLI::App& app) {
     auto options = std::make_shared<MeshOptions>();
     CLI::App* command = app.add_subcommand("mesh", "Fill a surface with tets, or convert between mesh files");
     command
-        ->add_option("IN", options->input,
-                     "A surface (.obj, .stl, .ply, .off) or tets (.node, .ele, .mesh, .msh, .vtk, .vtu)")
+        ->add_option(
+            "IN", options->input,
+            "A surface (.obj, .stl, .ply, .off, .gltf, .glb) or tets (.node, .ele, .mesh, .msh, .vtk, "
+            ".vtu)")
         ->required();
     command->add_option("-o,--output", options->output, "Tets (.node, .mesh, .msh, .vtu) or a surface")
         ->type_name("OUT")

@@ -5,8 +5,6 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "model/corners.h"
-
 namespace gelatin::viewer {
 namespace {
 
@@ -38,7 +36,28 @@ float reach_of_hand(const Range& nodes, std::span<const float> positions) {
     return 0.5f * kReach * glm::distance(low, high);
 }
 
+// Those that carry the corners of a face that is drawn; each once or more.
+std::vector<std::uint32_t> carrying_nodes(const Model& model, std::uint32_t face) {
+    const Face& f = drawn_faces(model)[face];
+    if (model.skin.is_empty()) return {f.a, f.b, f.c};
+    std::vector<std::uint32_t> nodes;
+    for (const std::uint32_t corner : {f.a, f.b, f.c}) {
+        const SkinPoint& point = model.skin.points[corner];
+        nodes.insert(nodes.end(), {point.a, point.b, point.c, point.d});
+    }
+    return nodes;
+}
+
 }  // namespace
+
+std::span<const Face> drawn_faces(const Model& model) {
+    return model.skin.is_empty() ? model.faces : model.skin.faces;
+}
+
+std::vector<float> drawn_positions(const Model& model, std::vector<float> positions) {
+    if (model.skin.is_empty()) return positions;
+    return carry_skin(model.skin.points, std::span<const float>(positions));
+}
 
 std::optional<Pick> pick(const Ray& ray, std::span<const float> positions, std::span<const Face> faces) {
     std::optional<Pick> nearest;
@@ -54,7 +73,7 @@ std::optional<Pick> pick(const Ray& ray, std::span<const float> positions, std::
 
 Pull take_hold(const Model& model, std::span<const float> positions, const Pick& pick) {
     const ModelObject& object = model.objects[pick.object];
-    const Face& face = model.faces[pick.face];
+    const std::vector<std::uint32_t> carrying = carrying_nodes(model, pick.face);
     const float reach = reach_of_hand(object.nodes, positions);
     Pull pull;
     double sum = 0.0;
@@ -62,7 +81,8 @@ Pull take_hold(const Model& model, std::span<const float> positions, const Pick&
         const glm::vec3 arm = position_of(positions, n) - pick.point;
         const float part = glm::dot(arm, arm) / (reach * reach);
         const float firmness = part < 1.0f ? (1.0f - part) * (1.0f - part) : 0.0f;
-        const float weight = model.masses[n] * std::max(firmness, has_corner(face, n) ? 0.1f : 0.0f);
+        const bool carries = std::find(carrying.begin(), carrying.end(), n) != carrying.end();
+        const float weight = model.masses[n] * std::max(firmness, carries ? 0.1f : 0.0f);
         if (weight == 0.0f) continue;
         pull.nodes.push_back({n, arm, weight});
         sum += static_cast<double>(weight);

@@ -13,22 +13,28 @@
 
 namespace gelatin::viewer {
 
-/// The first face of a body that a ray meets.
+/// The faces that are drawn: those of the skin, or of the boundary of the tets where there is none.
+std::span<const Face> drawn_faces(const Model& model);
+/// What they are between. @param positions x, y, z of each node [m] @return x, y, z of each point, or node
+/// [m]
+std::vector<float> drawn_positions(const Model& model, std::vector<float> positions);
+
+/// The first face that a ray meets.
 struct Pick {
-    std::uint32_t face = 0;    ///< index in Model::faces
+    std::uint32_t face = 0;    ///< index in drawn_faces
     std::uint32_t object = 0;  ///< index in Model::objects
     glm::vec3 point{0.0f};     ///< [m]
     float distance = 0.0f;     ///< along the ray [m]
 };
 
 /// Tests every face, from both sides, except those parallel to the ray.
-/// @param positions x, y, z of each node [m]
+/// @param positions x, y, z of what the faces are between [m]
 std::optional<Pick> pick(const Ray& ray, std::span<const float> positions, std::span<const Face> faces);
 
-/// A pull at the picked point. It holds the object's nodes around it, the nearest most firmly, and always the
-/// three of the face. The springs are as stiff as would make the whole body follow like a critically damped
-/// oscillator of kHandRate.
-/// @param positions present ones
+/// A pull at the picked point. It holds the object's nodes around it, the nearest most firmly, and always
+/// those that carry the face's corners. The springs are as stiff as would make the whole body follow like a
+/// critically damped oscillator of kHandRate.
+/// @param positions present ones of the nodes
 Pull take_hold(const Model& model, std::span<const float> positions, const Pick& pick);
 
 /// The region at rest of the nodes that a pull holds most firmly: half as large as its reach.

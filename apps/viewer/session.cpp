@@ -111,7 +111,8 @@ void Session::follow_hand() {
     }
     if (hand_ == Hand::reaching) {
         const std::vector<float> positions = simulator_.read_frame().positions;
-        const std::optional<Pick> found = pick(reach_, positions, model().faces);
+        const std::optional<Pick> found =
+            pick(reach_, drawn_positions(model(), positions), drawn_faces(model()));
         const bool is_body = found && model().is_body(found->object);  // or a collider
         hand_ = is_body ? Hand::holding : Hand::free;
         if (!is_body) return;

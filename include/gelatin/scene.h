@@ -277,6 +277,10 @@ struct ObjectDescription {
     int line = 0;                     ///< in the scene file, for later messages
 
     std::vector<PartDescription> parts;  ///< later ones win
+
+    /// Draws and exports the shape's own surface where it is not the boundary of the tets; false: this
+    /// boundary, with which it collides.
+    bool skin = true;
 };
 
 struct PlaneCollider {

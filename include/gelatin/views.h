@@ -88,6 +88,9 @@ struct ObjectView {
 /// What a renderer needs for overlays: GL buffer objects as in RenderView; 0 or empty for overlays that were
 /// not requested.
 struct OverlayView {
+    unsigned node_positions =
+        0;  ///< vec4: xyz [m], of all nodes, which surfaces may not name; shape [node_count]
+    std::uint32_t node_count = 0;
     unsigned boxes = 0;  ///< two vec4: lower and upper corner xyz [m]; shape [box_count]
     unsigned shown_boxes =
         0;  ///< two uint: index into boxes, levels below the first shown; shape [shown_box_count]
@@ -105,20 +108,32 @@ struct OverlayView {
     bool wireframe = false;
 };
 
+/// Triangles with the same texture, in place of their object's colour.
+struct TexturedTriangles {
+    std::uint32_t first = 0, count = 0;  ///< of RenderView::triangles
+    unsigned texture = 0;                ///< of linear RGB, GL_TEXTURE_2D
+};
+
 /// What a renderer needs to draw the deformable bodies directly from the simulation's buffers: names of GL
 /// buffer objects (std430) in the simulator's context, and counts. Valid until the simulator's next frame;
 /// with the CPU backend, whose state is in host memory, until the next view.
+///
+/// What is drawn is the bodies' own surfaces, their skins, where they have such. Then the positions are those
+/// of the skins' points, not of nodes. Where overlays show values or marks of the boundary of the tets, it is
+/// drawn.
 struct RenderView {
-    unsigned node_positions = 0;    ///< vec4: xyz [m], inverse mass; shape [nodes]
-    unsigned surface_vertices = 0;  ///< SurfaceVertex (node, object, ...); shape [vertices]
+    unsigned node_positions = 0;    ///< vec4: xyz [m] of nodes, or of points of skins; shape [node_count]
+    unsigned surface_vertices = 0;  ///< SurfaceVertex (node or point, object, ...); shape [vertices]
     unsigned vertex_normals = 0;    ///< vec4: unit normal xyz, 0; shape [vertices]
     unsigned triangles = 0;         ///< three uint indices into surface_vertices; shape [faces]
+    unsigned vertex_uvs = 0;        ///< two floats, texture coordinates; shape [vertices]; 0: no textures
     std::uint32_t node_count = 0;
     std::uint32_t vertex_count = 0;
     std::uint32_t face_count = 0;
     std::uint32_t object_count = 0;
-    float box_min[3] = {};  ///< bounding box of all nodes [m]
+    float box_min[3] = {};  ///< bounding box of all nodes or points [m]
     float box_max[3] = {};
+    std::span<const TexturedTriangles> textured = {};  ///< the last triangles, in ascending order
     bool box_is_late = false;  ///< the box is that of an earlier view, because reading a GPU's would wait
     OverlayView overlay{};
 };

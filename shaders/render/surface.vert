@@ -1,15 +1,21 @@
-// Bodies and colliders, directly from their buffers. CUT: by the plane of an overlay.
+// Bodies and colliders, directly from their buffers. CUT: by the plane of an overlay. TEXTURED: with texture coordinates instead
+// of a colour.
 #include "render/include/surface_fetch.glsl"
 #ifdef CUT
 #include "render/include/cut.glsl"
 #endif
 
+#ifdef TEXTURED
+uniform samplerBuffer vertex_uvs;
+out vec2 uv;
+#else
 uniform samplerBuffer object_colors;  // linear RGB
+flat out vec3 albedo;
+#endif
 uniform mat4 world_to_clip;
 
 out vec3 position;
 out vec3 normal;
-flat out vec3 albedo;
 
 void main() {
     SurfacePoint point = fetch_point(gl_VertexID);
@@ -19,5 +25,9 @@ void main() {
 #endif
     position = point.position;
     normal = fetch_normal(gl_VertexID);
+#ifdef TEXTURED
+    uv = texelFetch(vertex_uvs, gl_VertexID).xy;
+#else
     albedo = texelFetch(object_colors, int(point.object)).rgb;
+#endif
 }

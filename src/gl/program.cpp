@@ -355,13 +355,15 @@ void Program::draw_arrays(Primitive primitive, std::size_t count) const {
     glDrawArrays(mode_of(primitive), 0, static_cast<GLsizei>(count));
 }
 
-void Program::draw_elements(Primitive primitive, unsigned indices, std::size_t count) const {
+void Program::draw_elements(Primitive primitive, unsigned indices, std::size_t count,
+                            std::size_t first) const {
     if (count == 0) return;
     use();
     const VertexInputs inputs(state_->interface.inputs());
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices);
     if (hazard_probe != nullptr) hazard_probe->draws(true);
-    glDrawElements(mode_of(primitive), static_cast<GLsizei>(count), GL_UNSIGNED_INT, nullptr);
+    glDrawElements(mode_of(primitive), static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+                   std::bit_cast<const void*>(first * sizeof(GLuint)));
 }
 
 void Program::draw_arrays_indirect(Primitive primitive, unsigned arguments, std::size_t offset) const {

@@ -96,8 +96,8 @@ public:
     /// Draws `count` vertices, of which nothing but their number is known where the program has no inputs.
     /// Nothing is drawn for 0. @pre a vertex array object is bound; the same for those that follow
     void draw_arrays(Primitive primitive, std::size_t count) const;
-    /// Draws the vertices that `count` uints of GL buffer `indices` name.
-    void draw_elements(Primitive primitive, unsigned indices, std::size_t count) const;
+    /// Draws the vertices that `count` uints of GL buffer `indices` name, from its `first` on.
+    void draw_elements(Primitive primitive, unsigned indices, std::size_t count, std::size_t first = 0) const;
     /// Draws what four uints at `offset` [bytes] in GL buffer `arguments` say. Needs barrier(command) since
     /// they were written.
     void draw_arrays_indirect(Primitive primitive, unsigned arguments, std::size_t offset) const;

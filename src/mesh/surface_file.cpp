@@ -1,15 +1,10 @@
 #include "mesh/surface_file.h"
 
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
-#include <assimp/Importer.hpp>
-#include <cmath>
 #include <cstdint>
-#include <exception>
 #include <numeric>
 #include <string>
 #include <tuple>
@@ -19,6 +14,7 @@
 #include "gelatin/error.h"
 #include "mesh/file_ending.h"
 #include "mesh/surface_check.h"
+#include "mesh/surface_import.h"
 #include "mesh/surface_repair.h"
 
 namespace gelatin {
@@ -39,56 +35,8 @@ std::string without_comments(const std::string& content) {
     return rows;
 }
 
-void append_part(const fs::path& file, const aiMesh& part, SurfaceMesh& mesh) {
-    const std::size_t first = mesh.positions.size();
-    for (unsigned int v = 0; v < part.mNumVertices; ++v) {
-        const aiVector3D& p = part.mVertices[v];
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-            throw InvalidInput({file.string(), 0,
-                                fmt::format("vertex {} of part '{}'", v + 1, part.mName.C_Str()),
-                                fmt::format("({}, {}, {})", p.x, p.y, p.z), "coordinates must be finite"});
-        }
-        mesh.positions.emplace_back(p.x, p.y, p.z);
-    }
-    for (unsigned int f = 0; f < part.mNumFaces; ++f) {
-        const aiFace& face = part.mFaces[f];
-        if (face.mNumIndices != 3) continue;  // points and lines
-        glm::uvec3 corners;
-        for (int corner = 0; corner < 3; ++corner) {
-            if (face.mIndices[corner] >= part.mNumVertices) {
-                throw InvalidInput({file.string(),
-                                    0,
-                                    fmt::format("face {}", f + 1),
-                                    {},
-                                    "names a vertex that is not there"});
-            }
-            corners[corner] = static_cast<std::uint32_t>(first + face.mIndices[corner]);
-        }
-        mesh.faces.push_back(corners);
-    }
-}
-
-SurfaceMesh import(const fs::path& file, const std::string& ending, const std::string& content) {
-    Assimp::Importer importer;
-    const aiScene* scene = nullptr;
-    std::string reason;
-    try {
-        // Validation comes first, because triangulation trusts the indices.
-        scene = importer.ReadFileFromMemory(content.data(), content.size(),
-                                            aiProcess_ValidateDataStructure | aiProcess_Triangulate,
-                                            ending.c_str() + 1);
-        reason = importer.GetErrorString();
-    } catch (const std::exception& error) {
-        reason = error.what();
-    }
-    if (scene == nullptr) throw InvalidInput({file.string(), 0, {}, {}, "cannot be read: " + reason});
-    SurfaceMesh mesh;
-    for (unsigned int m = 0; m < scene->mNumMeshes; ++m) append_part(file, *scene->mMeshes[m], mesh);
-    return mesh;
-}
-
 // Merges vertices with the same position. STL repeats each vertex for every face, and Assimp does the same
-// with those of OBJ.
+// with those of OBJ; glTF repeats them where texture coordinates differ.
 void share_vertices(SurfaceMesh& mesh) {
     const auto order = [&](std::uint32_t a, std::uint32_t b) {
         const glm::dvec3 &p = mesh.positions[a], &q = mesh.positions[b];
@@ -118,7 +66,7 @@ void share_vertices(SurfaceMesh& mesh) {
 
 SurfaceMesh read_obj(const fs::path& file, const std::string& content, Notes& notes) {
     const ObjVertices vertices = check_obj(file, content);
-    SurfaceMesh mesh = import(file, ".obj", content);
+    SurfaceMesh mesh = import_surface(file, ".obj", content, notes);
     share_vertices(mesh);
     if (vertices.used > mesh.positions.size()) {
         notes.push_back(
@@ -130,11 +78,11 @@ SurfaceMesh read_obj(const fs::path& file, const std::string& content, Notes& no
     return mesh;
 }
 
-SurfaceMesh read_stl(const fs::path& file, std::string content) {
+SurfaceMesh read_stl(const fs::path& file, std::string content, Notes& notes) {
     check_stl(file, content);
     const std::size_t binary_size = binary_stl_size(file, content);
     if (binary_size > 0) content.resize(binary_size);  // Assimp refuses anything after it
-    SurfaceMesh mesh = import(file, ".stl", content);
+    SurfaceMesh mesh = import_surface(file, ".stl", content, notes);
     share_vertices(mesh);
     return mesh;
 }
@@ -142,26 +90,32 @@ SurfaceMesh read_stl(const fs::path& file, std::string content) {
 SurfaceMesh read_unrepaired(const fs::path& file, const std::string& ending, const std::string& content,
                             Notes& notes) {
     if (ending == ".obj") return read_obj(file, content, notes);
-    if (ending == ".stl") return read_stl(file, content);
+    if (ending == ".stl") return read_stl(file, content, notes);
+    if (ending == ".gltf" || ending == ".glb") {
+        SurfaceMesh mesh = import_surface(file, ending, content, notes);
+        share_vertices(mesh);
+        return mesh;
+    }
     if (ending == ".ply") {
         check_ply(file, content);
-        return import(file, ending, content);
+        return import_surface(file, ending, content, notes);
     }
     check_off(file, content);
-    return import(file, ending, without_comments(content));
+    return import_surface(file, ending, without_comments(content), notes);
 }
 
 }  // namespace
 
 bool is_surface_file(const fs::path& file) {
-    constexpr std::array kEndings = {".obj", ".stl", ".ply", ".off"};
+    constexpr std::array kEndings = {".obj", ".stl", ".ply", ".off", ".gltf", ".glb"};
     return std::find(kEndings.begin(), kEndings.end(), lower_case_ending(file)) != kEndings.end();
 }
 
 SurfaceMesh read_surface(const fs::path& file, Notes& notes) {
     const std::string ending = lower_case_ending(file);
     if (!is_surface_file(file)) {
-        throw InvalidInput({file.string(), 0, {}, {}, "a surface file must end in .obj, .stl, .ply or .off"});
+        throw InvalidInput(
+            {file.string(), 0, {}, {}, "a surface file must end in .obj, .stl, .ply, .off, .gltf or .glb"});
     }
     std::string content = read_file(file);
     if (content.starts_with("\xef\xbb\xbf"))

@@ -6,11 +6,12 @@
 
 namespace gelatin {
 
-/// True for the extensions that read_surface supports: .obj, .stl, .ply, .off.
+/// True for the extensions that read_surface supports: .obj, .stl, .ply, .off, .gltf, .glb.
 bool is_surface_file(const std::filesystem::path& file);
 
-/// Reads an OBJ, STL, PLY or OFF file through Assimp, in single precision, and repairs it (surface_repair.h).
-/// Each repair adds one line to `notes`. Merging the vertices that STL always repeats adds none.
+/// Reads an OBJ, STL, PLY, OFF or glTF file through Assimp, in single precision, and repairs it
+/// (surface_repair.h). OBJ and glTF files also say how it looks. Each repair adds one line to `notes`, and
+/// each texture that cannot be read. Merging the vertices that STL always repeats adds none.
 /// @throws InvalidInput for a missing, empty, unreadable or unknown file, coordinates that are not finite,
 ///   indices out of range, counts that the file is too short for (checked before anything of that size is
 ///   allocated), or no faces at all.

@@ -34,8 +34,29 @@ bool is_degenerate(const SurfaceMesh& mesh, const glm::uvec3& face) {
     return length(cross(ab, ac)) <= 1e-14 * std::max(dot(ab, ab), dot(ac, ac));
 }
 
+// Of each face, if there are any.
+void drop(auto& values, const std::vector<bool>& is_dropped) {
+    if (values.empty()) return;
+    std::size_t kept = 0;
+    for (std::size_t f = 0; f < is_dropped.size(); ++f) {
+        if (!is_dropped[f]) values[kept++] = values[f];
+    }
+    values.resize(kept);
+}
+
+// Returns how many.
+std::size_t drop_faces(SurfaceMesh& mesh, const std::vector<bool>& is_dropped) {
+    const std::size_t before = mesh.faces.size();
+    drop(mesh.faces, is_dropped);
+    drop(mesh.look.face_materials, is_dropped);
+    drop(mesh.look.corner_uvs, is_dropped);
+    return before - mesh.faces.size();
+}
+
 std::size_t drop_degenerate_faces(SurfaceMesh& mesh) {
-    return std::erase_if(mesh.faces, [&](const glm::uvec3& face) { return is_degenerate(mesh, face); });
+    std::vector<bool> is_dropped;
+    for (const glm::uvec3& face : mesh.faces) is_dropped.push_back(is_degenerate(mesh, face));
+    return drop_faces(mesh, is_dropped);
 }
 
 // Keeps the first face of each set of three vertices, whatever their winding.
@@ -56,13 +77,7 @@ std::size_t drop_repeated_faces(SurfaceMesh& mesh) {
     std::vector<bool> repeated(mesh.faces.size(), false);
     for (std::size_t k = 1; k < keys.size(); ++k)
         repeated[keys[k].face] = keys[k].vertices == keys[k - 1].vertices;
-    std::size_t kept = 0;
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-        if (!repeated[f]) mesh.faces[kept++] = mesh.faces[f];
-    }
-    const std::size_t dropped = mesh.faces.size() - kept;
-    mesh.faces.resize(kept);
-    return dropped;
+    return drop_faces(mesh, repeated);
 }
 
 std::size_t drop_unused_vertices(SurfaceMesh& mesh) {

@@ -210,6 +210,7 @@ WindingRepair orient_faces_outward(SurfaceMesh& mesh) {
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         if (!turn[f]) continue;
         std::swap(mesh.faces[f][1], mesh.faces[f][2]);
+        if (!mesh.look.corner_uvs.empty()) std::swap(mesh.look.corner_uvs[f][1], mesh.look.corner_uvs[f][2]);
         ++repair.flipped_faces;
     }
     return repair;

@@ -28,6 +28,7 @@ using glm::vec4;
 #include "layouts/proximity.glsl"
 #include "layouts/rest_shape.glsl"
 #include "layouts/shape_match.glsl"
+#include "layouts/skin_point.glsl"
 #include "layouts/spring.glsl"
 #include "layouts/surface_vertex.glsl"
 #include "layouts/tet_strip.glsl"
@@ -73,6 +74,7 @@ static_assert(sizeof(RigidMotion) == 80);
 static_assert(sizeof(ShapePlace) == 96);
 static_assert(sizeof(ShapeSums) == 80);
 static_assert(sizeof(ColliderContact) == 32);
+static_assert(sizeof(SkinPoint) == 32);
 static_assert(sizeof(Spring) == 16);
 static_assert(sizeof(SurfaceVertex) == 16);
 static_assert(sizeof(TetCorner) == 16);
@@ -122,6 +124,7 @@ using layouts::RestShape;
 using layouts::RigidMotion;
 using layouts::ShapePlace;
 using layouts::ShapeSums;
+using layouts::SkinPoint;
 using layouts::Spring;
 using layouts::SurfaceVertex;
 using layouts::TetCorner;

@@ -16,16 +16,11 @@
 #include "model/elasticity/node_tets.h"
 #include "model/elasticity/volume_term.h"
 #include "model/layouts.h"
+#include "model/range.h"
 #include "model/shared_constants.h"
+#include "model/skin.h"
 
 namespace gelatin {
-
-struct Range {
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
-
-    std::uint32_t end() const { return first + count; }
-};
 
 /// How a body presses others. @see Material
 struct BodySurface {
@@ -107,14 +102,6 @@ struct BoxTree {
     std::vector<std::vector<std::uint32_t>> levels;  ///< nodes by height; leaves first
 };
 
-/// The surface to draw: faces over surface vertices (nodes, split at creases) and the faces around each
-/// vertex.
-struct DrawSurface {
-    std::vector<SurfaceVertex> vertices;
-    std::vector<std::uint32_t> vertex_faces;  ///< indices into Model::faces
-    std::vector<glm::uvec3> triangles;        ///< indices into vertices, shape [faces]: face f's corners
-};
-
 /// All objects of a scene, packed (paper 3.2) and immutable; shared by every backend.
 ///
 /// An object owns a contiguous range of each array. Nodes are ordered for locality within their object.
@@ -142,7 +129,8 @@ struct Model {
     SurfaceParts surface_parts;
     BoxTree face_trees;      ///< one an object
     RestShapes rest_shapes;  ///< empty where objects do not collide with themselves
-    DrawSurface surface;
+    DrawSurface surface;     ///< over `faces`
+    Skin skin;               ///< empty where this is all that there is to draw
 
     std::vector<Handle> handles;           ///< and pins, object by object: an object's handles, then its pins
     std::vector<HandleNode> handle_nodes;  ///< in the same order

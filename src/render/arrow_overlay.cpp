@@ -17,8 +17,8 @@ void ArrowOverlay::draw_forces(const Frame& frame, const RenderView& bodies) con
 // All of them faintly, then the visible parts over them.
 void ArrowOverlay::draw(const Frame& frame, const RenderView& bodies, const ArrowView& arrows,
                         const Style& style) const {
-    const std::size_t node_bytes = std::size_t{16} * bodies.node_count;
-    const gl::BufferTexture positions(bodies.node_positions, node_bytes, gl::TexelFormat::rgba32f);
+    const std::size_t node_bytes = std::size_t{16} * bodies.overlay.node_count;
+    const gl::BufferTexture positions(bodies.overlay.node_positions, node_bytes, gl::TexelFormat::rgba32f);
     const gl::BufferTexture vectors(arrows.vectors, node_bytes, gl::TexelFormat::rgba32f);
     const gl::BufferTexture nodes(arrows.nodes, std::size_t{4} * arrows.count, gl::TexelFormat::r32ui);
     program_.bind("node_positions", positions);

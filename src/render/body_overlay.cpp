@@ -15,14 +15,13 @@ void BodyOverlay::prepare(const OverlayView& overlay) {
             pressed_program_ =
                 gl::Program::graphics("render/colored_surface.vert", "render/pressed_surface.frag");
     } else if (!cut_light_) {
-        cut_light_.emplace(nullptr, gl::Defines{"CUT"});
+        cut_light_.emplace(nullptr, true);
     }
 }
 
 void BodyOverlay::draw(const Frame& frame, const RenderView& bodies) const {
     const Clipping clipping(frame.bodies.surfaces);
     if (bodies.overlay.color_map) return draw_colored(frame, bodies, *colored_program_);
-    cut_light_->program().set("cut_plane", frame.bodies.surfaces.cut_plane());
     cut_light_->draw(frame, {&frame.bodies});
 }
 

@@ -12,7 +12,8 @@ namespace {
 constexpr float kSideWidth = 0.7f;  // of lines [pixels]
 
 gl::BufferTexture positions_of(const RenderView& bodies) {
-    return {bodies.node_positions, std::size_t{16} * bodies.node_count, gl::TexelFormat::rgba32f};
+    return {bodies.overlay.node_positions, std::size_t{16} * bodies.overlay.node_count,
+            gl::TexelFormat::rgba32f};
 }
 
 gl::BufferTexture tets_of(const CutView& cut) {

@@ -2,33 +2,39 @@
 
 namespace gelatin::render {
 
-namespace {
+PixelLight::PixelLight(const AmbientOcclusion* occlusion, bool is_cut)
+    : occlusion_(occlusion), is_cut_(is_cut), program_(make_program({})) {}
 
-gl::Defines with_occlusion(gl::Defines defines, const AmbientOcclusion* occlusion) {
-    for (const std::string& define : AmbientOcclusion::defines(occlusion)) defines.push_back(define);
-    if (occlusion != nullptr) defines.emplace_back("SOFT_SHADOWS");
-    return defines;
+gl::Program PixelLight::make_program(const gl::Defines& more) const {
+    gl::Defines defines = more;
+    if (is_cut_) defines.emplace_back("CUT");
+    for (const std::string& define : AmbientOcclusion::defines(occlusion_)) defines.push_back(define);
+    if (occlusion_ != nullptr) defines.emplace_back("SOFT_SHADOWS");
+    return gl::Program::graphics("render/surface.vert", "render/surface.frag", defines);
 }
 
-}  // namespace
-
-PixelLight::PixelLight(const AmbientOcclusion* occlusion, const gl::Defines& defines)
-    : occlusion_(occlusion),
-      program_(gl::Program::graphics("render/surface.vert", "render/surface.frag",
-                                     with_occlusion(defines, occlusion))) {}
+void PixelLight::set_uniforms(const gl::Program& program, const Frame& frame, const Layer& layer) const {
+    frame.view.set_uniforms(program);
+    frame.shadows.set_uniforms(program);
+    frame.shadows.bind_textures(program);
+    if (occlusion_ != nullptr) {
+        occlusion_->set_uniforms(program);
+        occlusion_->bind_texture(program);
+    }
+    if (is_cut_) program.set("cut_plane", layer.surfaces.cut_plane());
+    program.set("jelly", layer.jelly);
+    layer.surfaces.bind(program);
+}
 
 void PixelLight::draw(const Frame& frame, std::initializer_list<const Layer*> layers) const {
-    frame.view.set_uniforms(program_);
-    frame.shadows.set_uniforms(program_);
-    frame.shadows.bind_textures(program_);
-    if (occlusion_ != nullptr) {
-        occlusion_->set_uniforms(program_);
-        occlusion_->bind_texture(program_);
-    }
     for (const Layer* layer : layers) {
-        program_.set("jelly", layer->jelly);
+        set_uniforms(program_, frame, *layer);
         program_.bind("object_colors", layer->colors);
-        layer->surfaces.draw(program_);
+        layer->surfaces.draw_plain(program_);
+        if (!layer->surfaces.has_textures()) continue;
+        if (!textured_program_) textured_program_ = make_program({"TEXTURED"});
+        set_uniforms(*textured_program_, frame, *layer);
+        layer->surfaces.draw_textured(*textured_program_);
     }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
 
 #include "gl/program.h"
 #include "render/ambient_occlusion.h"
@@ -12,17 +13,20 @@ namespace gelatin::render {
 class PixelLight {
 public:
     /// @param occlusion of the surfaces drawn; null: all of the ambient light reaches everything
-    /// @param defines CUT: by a plane, "cut_plane" of the program
-    explicit PixelLight(const AmbientOcclusion* occlusion = nullptr, const gl::Defines& defines = {});
+    /// @param is_cut by a plane
+    explicit PixelLight(const AmbientOcclusion* occlusion = nullptr, bool is_cut = false);
 
     /// @pre a vertex array object is bound
     void draw(const Frame& frame, std::initializer_list<const Layer*> layers) const;
 
-    const gl::Program& program() const { return program_; }
-
 private:
+    gl::Program make_program(const gl::Defines& more) const;
+    void set_uniforms(const gl::Program& program, const Frame& frame, const Layer& layer) const;
+
     const AmbientOcclusion* occlusion_;
+    bool is_cut_;
     gl::Program program_;
+    mutable std::optional<gl::Program> textured_program_;  // made when textures are first drawn
 };
 
 }  // namespace gelatin::render

@@ -28,7 +28,7 @@ void SpringOverlay::draw(const Frame& frame, const RenderView& bodies) const {
     }
     glDisable(GL_CULL_FACE);
 
-    const gl::BufferTexture positions(bodies.node_positions, std::size_t{16} * bodies.node_count,
+    const gl::BufferTexture positions(overlay.node_positions, std::size_t{16} * overlay.node_count,
                                       gl::TexelFormat::rgba32f);
     const gl::BufferTexture springs(overlay.springs, std::size_t{16} * overlay.spring_count,
                                     gl::TexelFormat::rgba32ui);

@@ -10,7 +10,10 @@ SurfaceDraw::SurfaceDraw(const RenderView& view)
       surface_vertices_(view.surface_vertices, std::size_t{16} * view.vertex_count,
                         gl::TexelFormat::rgba32ui),
       vertex_normals_(view.vertex_normals, std::size_t{16} * view.vertex_count, gl::TexelFormat::rgba32f),
-      triangles_(view.triangles, std::size_t{12} * view.face_count, gl::TexelFormat::rgb32ui) {}
+      triangles_(view.triangles, std::size_t{12} * view.face_count, gl::TexelFormat::rgb32ui) {
+    if (has_textures())
+        vertex_uvs_ = {view.vertex_uvs, std::size_t{8} * view.vertex_count, gl::TexelFormat::rg32f};
+}
 
 glm::vec4 SurfaceDraw::cut_plane() const {
     if (!is_cut()) return glm::vec4(0.0f);
@@ -26,11 +29,21 @@ void SurfaceDraw::bind(const gl::Program& program) const {
 
 void SurfaceDraw::draw(const gl::Program& program) const {
     bind(program);
-    draw_triangles(program);
+    program.draw_elements(gl::Primitive::triangles, view_.triangles, std::size_t{3} * view_.face_count);
 }
 
-void SurfaceDraw::draw_triangles(const gl::Program& program) const {
-    program.draw_elements(gl::Primitive::triangles, view_.triangles, std::size_t{3} * view_.face_count);
+void SurfaceDraw::draw_plain(const gl::Program& program) const {
+    const std::uint32_t count = has_textures() ? view_.textured.front().first : view_.face_count;
+    program.draw_elements(gl::Primitive::triangles, view_.triangles, std::size_t{3} * count);
+}
+
+void SurfaceDraw::draw_textured(const gl::Program& program) const {
+    program.bind("vertex_uvs", vertex_uvs_);
+    for (const TexturedTriangles& part : view_.textured) {
+        program.bind_texture("albedo_texture", part.texture);
+        program.draw_elements(gl::Primitive::triangles, view_.triangles, std::size_t{3} * part.count,
+                              std::size_t{3} * part.first);
+    }
 }
 
 Clipping::Clipping(const SurfaceDraw& surfaces) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/vec4.hpp>
+#include <optional>
 
 #include "gl/buffer.h"
 #include "gl/program.h"
@@ -11,7 +12,7 @@ namespace gelatin::render {
 
 /// Draws surfaces lit at each vertex by a compute shader (the paper's light, 3.1), which also computes clip
 /// coordinates. Drawing only fetches the results: on software drivers compute shaders run on all threads,
-/// vertex shaders on one.
+/// vertex shaders on one. Textures are looked up at each pixel, and lit by the light at the vertices.
 class VertexLight {
 public:
     VertexLight();
@@ -27,8 +28,13 @@ public:
     const gl::Buffer<std::uint32_t>& display_colors() const { return display_colors_; }
 
 private:
-    gl::Program light_program_;
-    gl::Program draw_program_;
+    struct Programs {
+        gl::Program light, draw;
+        explicit Programs(const gl::Defines& defines);
+    };
+    Programs plain_;
+    std::optional<Programs> textured_;  // made when textures are first drawn
+    gl::Buffer<glm::vec4> texture_lights_;
     gl::Buffer<glm::vec4> clip_positions_;
     gl::Buffer<std::uint32_t> display_colors_;
 };

@@ -54,15 +54,25 @@ void prepare_export_folder(const fs::path& folder) {
 }
 
 FrameExporter::FrameExporter(fs::path folder, ExportFormat format, const Model& model)
-    : folder_(std::move(folder)), format_(format), topology_(make_export_topology(model)) {}
-
-void FrameExporter::write(const HostFrame& frame) {
-    const std::string name = fmt::format("frame_{:06}.{}", frame.frame, ending(format_));
-    write_file(folder_ / name, content(format_, topology_, frame));
-    if (format_ == ExportFormat::vtu) list_in_pvd(frame, name);
+    : folder_(std::move(folder)), format_(format), topology_(make_export_topology(model)) {
+    if (format_ != ExportFormat::obj || topology_.obj_library.empty()) return;
+    write_file(folder_ / kObjLibrary, topology_.obj_library);
+    for (const ObjLook::Image& image : topology_.obj_images) write_file(folder_ / image.name, *image.bytes);
 }
 
-void FrameExporter::list_in_pvd(const HostFrame& frame, const std::string& name) {
+void FrameExporter::write(const HostFrame& frame) {
+    const std::string stem = fmt::format("frame_{:06}.", frame.frame);
+    std::vector<std::string> parts{stem + ending(format_)};
+    write_file(folder_ / parts[0], content(format_, topology_, frame));
+    if (format_ != ExportFormat::vtu) return;
+    if (!topology_.vtp_polys.empty()) {
+        parts.push_back(stem + "vtp");
+        write_file(folder_ / parts[1], vtp_text(topology_, frame));
+    }
+    list_in_pvd(frame, parts);
+}
+
+void FrameExporter::list_in_pvd(const HostFrame& frame, const std::vector<std::string>& parts) {
     const fs::path file = folder_ / "scene.pvd";
     if (!pvd_.is_open()) {
         pvd_.open(file, std::ios::trunc | std::ios::binary);
@@ -70,7 +80,9 @@ void FrameExporter::list_in_pvd(const HostFrame& frame, const std::string& name)
     } else {
         pvd_.seekp(-static_cast<std::streamoff>(std::string_view(kPvdTail).size()), std::ios::end);
     }
-    pvd_ << fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time, name) << kPvdTail;
+    for (std::size_t p = 0; p < parts.size(); ++p)
+        pvd_ << fmt::format("<DataSet timestep=\"{}\" part=\"{}\" file=\"{}\"/>\n", frame.time, p, parts[p]);
+    pvd_ << kPvdTail;
     if (!pvd_.flush()) throw SystemError(file.string() + ": cannot be written");
 }
 

@@ -5,8 +5,9 @@
 #include <bit>
 #include <cstring>
 #include <iterator>
-#include <limits>
 #include <span>
+
+#include "model/build/pack_skin.h"
 
 namespace gelatin {
 namespace {
@@ -65,73 +66,115 @@ std::string vtu_cells(const Model& model) {
            data_array<std::int32_t>("Int32", "Name=\"object\"", object_of_tet) + "</CellData>\n";
 }
 
+std::string ply_faces(std::span<const Face> faces) {
+    std::string bytes;
+    for (const Face& face : faces) {
+        bytes += '\3';
+        for (const std::uint32_t number : {face.a, face.b, face.c, face.object}) append(bytes, &number, 1);
+    }
+    return bytes;
+}
+
+std::string vtp_polys(std::span<const Face> faces) {
+    std::vector<std::int64_t> connectivity, offsets;
+    std::vector<std::int32_t> objects;
+    for (const Face& face : faces) {
+        connectivity.insert(connectivity.end(), {face.a, face.b, face.c});
+        offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+        objects.push_back(static_cast<std::int32_t>(face.object));
+    }
+    return "<Polys>\n" + data_array<std::int64_t>("Int64", "Name=\"connectivity\"", connectivity) +
+           data_array<std::int64_t>("Int64", "Name=\"offsets\"", offsets) +
+           "</Polys>\n<CellData Scalars=\"object\">\n" +
+           data_array<std::int32_t>("Int32", "Name=\"object\"", objects) + "</CellData>\n";
+}
+
+std::string head_of_vtk(const char* kind) {
+    return fmt::format(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"{0}\" version=\"1.0\" byte_order=\"LittleEndian\" "
+        "header_type=\"UInt64\">\n<{0}>\n",
+        kind);
+}
+
+std::string tail_of_vtk(const char* kind) {
+    return fmt::format("</Piece>\n</{0}>\n</VTKFile>\n", kind);
+}
+
+// The <Points> element, and the start of <PointData>.
+std::string vtk_points(std::span<const float> positions, std::span<const float> velocities) {
+    return "<Points>\n" +
+           data_array<float>("Float32", "Name=\"Points\" NumberOfComponents=\"3\"", positions) +
+           "</Points>\n<PointData Vectors=\"velocity\">\n" +
+           data_array<float>("Float32", "Name=\"velocity\" NumberOfComponents=\"3\"", velocities);
+}
+
 }  // namespace
 
 ExportTopology make_export_topology(const Model& model) {
-    constexpr std::uint32_t kInside = std::numeric_limits<std::uint32_t>::max();
+    const bool has_skin = !model.skin.is_empty();
+    const Skin hulls = has_skin ? Skin() : make_hulls(model);
+    const Skin& drawn = has_skin ? model.skin : hulls;
     ExportTopology topology;
+    topology.vertices = drawn.points;
+    topology.face_count = drawn.faces.size();
     topology.node_count = model.body_node_count();
     topology.tet_count = model.tets.size();
-    std::vector<std::uint32_t> vertex_of_node(model.node_count(), kInside);
-    for (const Face& face : model.faces) {
-        for (const std::uint32_t node : {face.a, face.b, face.c}) vertex_of_node[node] = 0;
+    ObjLook look(drawn.look);
+    for (std::size_t o = 0; o < model.objects.size(); ++o) {
+        const SkinObject& object = drawn.objects[o];
+        const auto faces = std::span(drawn.faces).subspan(object.faces.first, object.faces.count);
+        topology.objects.push_back(
+            {model.objects[o].name, object.points, look.face_lines(faces, object.faces.first)});
     }
-    for (const ModelObject& object : model.objects) {
-        const auto first = static_cast<std::uint32_t>(topology.vertex_nodes.size());
-        for (std::uint32_t node = object.nodes.first; node < object.nodes.end(); ++node) {
-            if (vertex_of_node[node] == kInside) continue;
-            vertex_of_node[node] = static_cast<std::uint32_t>(topology.vertex_nodes.size());
-            topology.vertex_nodes.push_back(node);
-        }
-        const auto count = static_cast<std::uint32_t>(topology.vertex_nodes.size()) - first;
-        topology.objects.push_back({object.name, {first, count}, object.faces});
-    }
-    for (const Face& face : model.faces) {
-        topology.faces.emplace_back(vertex_of_node[face.a], vertex_of_node[face.b], vertex_of_node[face.c]);
-    }
+    topology.obj_library = look.library();
+    topology.obj_images = look.images();
+    topology.ply_faces = ply_faces(drawn.faces);
     topology.vtu_cells = vtu_cells(model);
+    if (has_skin) topology.vtp_polys = vtp_polys(drawn.faces);
     return topology;
 }
 
 std::string obj_text(const ExportTopology& topology, const HostFrame& frame) {
+    const std::vector<float> positions = carry_skin(topology.vertices, std::span(frame.positions));
     std::string text = fmt::format("# frame {}, {} s\n", frame.frame, frame.time);
+    if (!topology.obj_library.empty()) text += fmt::format("mtllib {}\n", kObjLibrary);
     auto out = std::back_inserter(text);
     for (const ExportTopology::Object& object : topology.objects) {
         fmt::format_to(out, "o {}\n", object.name);
         for (std::uint32_t v = object.vertices.first; v < object.vertices.end(); ++v) {
-            const float* p = &frame.positions[3 * std::size_t{topology.vertex_nodes[v]}];
+            const float* p = &positions[3 * std::size_t{v}];
             fmt::format_to(out, "v {} {} {}\n", p[0], p[1], p[2]);
         }
-        for (std::uint32_t f = object.faces.first; f < object.faces.end(); ++f) {
-            const glm::uvec3 face = topology.faces[f] + 1u;  // OBJ counts from 1
-            fmt::format_to(out, "f {} {} {}\n", face.x, face.y, face.z);
-        }
+        text += object.obj_faces;
     }
     return text;
 }
 
 std::string ply_bytes(const ExportTopology& topology, const HostFrame& frame) {
+    const std::vector<float> positions = carry_skin(topology.vertices, std::span(frame.positions));
+    const std::vector<float> velocities = carry_skin(topology.vertices, std::span(frame.velocities));
     std::string bytes =
         fmt::format("ply\nformat binary_little_endian 1.0\ncomment frame {}, {} s\nelement vertex {}\n",
-                    frame.frame, frame.time, topology.vertex_nodes.size());
+                    frame.frame, frame.time, topology.vertices.size());
     for (const char* name : {"x", "y", "z", "vx", "vy", "vz"})
         bytes += fmt::format("property float {}\n", name);
     bytes += fmt::format(
         "element face {}\nproperty list uchar uint vertex_indices\nproperty uint object\nend_header\n",
-        topology.faces.size());
-    for (const std::uint32_t node : topology.vertex_nodes) {
-        append(bytes, &frame.positions[3 * std::size_t{node}], 3);
-        append(bytes, &frame.velocities[3 * std::size_t{node}], 3);
+        topology.face_count);
+    for (std::size_t v = 0; v < topology.vertices.size(); ++v) {
+        append(bytes, &positions[3 * v], 3);
+        append(bytes, &velocities[3 * v], 3);
     }
-    for (std::uint32_t o = 0; o < topology.objects.size(); ++o) {
-        const Range faces = topology.objects[o].faces;
-        for (std::uint32_t f = faces.first; f < faces.end(); ++f) {
-            bytes += '\3';
-            append(bytes, &topology.faces[f].x, 3);
-            append(bytes, &o, 1);
-        }
-    }
-    return bytes;
+    return bytes + topology.ply_faces;
+}
+
+std::string vtp_text(const ExportTopology& topology, const HostFrame& frame) {
+    return head_of_vtk("PolyData") +
+           fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfPolys=\"{}\">\n", topology.vertices.size(),
+                       topology.face_count) +
+           vtk_points(carry_skin(topology.vertices, std::span(frame.positions)),
+                      carry_skin(topology.vertices, std::span(frame.velocities))) +
+           "</PointData>\n" + topology.vtp_polys + tail_of_vtk("PolyData");
 }
 
 std::string vtu_text(const ExportTopology& topology, const HostFrame& frame) {
@@ -144,20 +187,14 @@ std::string vtu_text(const ExportTopology& topology, const HostFrame& frame) {
         return data_array<float>("Float32", fmt::format("Name=\"{}\" NumberOfComponents=\"3\"", name),
                                  of_nodes(forces));
     };
-    return fmt::format(
-               "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-               "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n"
-               "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n",
-               topology.node_count, topology.tet_count) +
-           data_array<float>("Float32", "Name=\"Points\" NumberOfComponents=\"3\"",
-                             of_nodes(frame.positions)) +
-           "</Points>\n<PointData Vectors=\"velocity\">\n" +
-           data_array<float>("Float32", "Name=\"velocity\" NumberOfComponents=\"3\"",
-                             of_nodes(frame.velocities)) +
+    return head_of_vtk("UnstructuredGrid") +
+           fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", topology.node_count,
+                       topology.tet_count) +
+           vtk_points(of_nodes(frame.positions), of_nodes(frame.velocities)) +
            force_array("contact_force", frame.contact_forces) +
            force_array("contact_friction", frame.contact_friction) +
            force_array("holding_force", frame.holding_forces) + "</PointData>\n" + topology.vtu_cells +
-           "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+           tail_of_vtk("UnstructuredGrid");
 }
 
 }  // namespace gelatin

@@ -7,20 +7,29 @@
 
 #include "gelatin/simulator.h"
 #include "model/model.h"
+#include "sim/export_look.h"
 
 namespace gelatin {
 
-/// The part of exported frames that does not change: which nodes are on the surface, and the connectivity.
+/// The file of the materials of OBJ files, beside them.
+constexpr const char* kObjLibrary = "scene.mtl";
+
+/// The part of exported frames that does not change: how nodes carry the vertices of surfaces, and the
+/// connectivity, as files have it.
 struct ExportTopology {
     struct Object {
         std::string name;
-        Range vertices, faces;
+        Range vertices;
+        std::string obj_faces;  ///< lines, with texture coordinates and materials
     };
     std::vector<Object> objects;
-    std::vector<std::uint32_t> vertex_nodes;  ///< the node of each surface vertex, ascending
-    std::vector<glm::uvec3> faces;            ///< indices into vertex_nodes
-    std::size_t node_count = 0, tet_count = 0;
+    std::vector<SkinPoint> vertices;  ///< of the skins; of the boundaries of the tets where there are none
+    std::size_t face_count = 0, node_count = 0, tet_count = 0;
+    std::string obj_library;  ///< the text of kObjLibrary; empty: no materials
+    std::vector<ObjLook::Image> obj_images;
+    std::string ply_faces;
     std::string vtu_cells;  ///< the <Cells> and <CellData> elements
+    std::string vtp_polys;  ///< the <Polys> and <CellData> elements; empty where no object has a skin
 };
 ExportTopology make_export_topology(const Model& model);
 
@@ -29,6 +38,10 @@ std::string obj_text(const ExportTopology& topology, const HostFrame& frame);
 
 /// Binary little-endian PLY: vertices with velocities, triangles with the index of their object.
 std::string ply_bytes(const ExportTopology& topology, const HostFrame& frame);
+
+/// VTK's XML polygons: the vertices of skins, velocity by vertex, the object's index by face.
+/// @pre the topology has `vtp_polys`
+std::string vtp_text(const ExportTopology& topology, const HostFrame& frame);
 
 /// VTK's XML unstructured grid: every node and tet, velocity by node, the object's index by tet.
 std::string vtu_text(const ExportTopology& topology, const HostFrame& frame);

@@ -48,8 +48,8 @@ glm::vec3 middle_of(const std::vector<glm::vec4>& positions) {
     return 0.5f * (low + high);
 }
 
-gl::BufferTexture texels_of(unsigned nodes, const RenderView& bodies) {
-    return {nodes, std::size_t{16} * bodies.node_count, gl::TexelFormat::rgba32f};
+gl::BufferTexture texels_of(unsigned vectors, std::uint32_t node_count) {
+    return {vectors, std::size_t{16} * node_count, gl::TexelFormat::rgba32f};
 }
 
 }  // namespace
@@ -101,6 +101,8 @@ OverlayView OverlaySource::update(const Overlays& overlays, const RenderView& bo
 OverlayView OverlaySource::update(const Overlays& overlays, const RenderView& bodies, unsigned boxes,
                                   unsigned velocities, const Solver& solver) {
     OverlayView view;
+    view.node_positions = bodies.overlay.node_positions;
+    view.node_count = bodies.overlay.node_count;
     if (needs_boxes(overlays)) {
         view.boxes = boxes;
         view.box_count = static_cast<std::uint32_t>(model_->face_trees.nodes.size());
@@ -109,8 +111,7 @@ OverlayView OverlaySource::update(const Overlays& overlays, const RenderView& bo
     if (overlays.objects) view_objects(view);
     if (overlays.faces) view.face_marks = marks_.id();
     if (overlays.full_strain) view_springs(*overlays.full_strain, view);
-    if (overlays.color_map && !shows_pressures(overlays))
-        view_colors(*overlays.color_map, bodies, velocities, view);
+    if (overlays.color_map && !shows_pressures(overlays)) view_colors(*overlays.color_map, velocities, view);
     if (overlays.cut) view_cut(*overlays.cut, view);
     if (overlays.arrow_time) view_arrows(*overlays.arrow_time, velocities, view);
     if (overlays.contact_forces || shows_pressures(overlays)) view_contacts(overlays, solver, view);
@@ -169,11 +170,10 @@ void OverlaySource::view_cut(const CutPlane& cut, OverlayView& view) {
                        .tet_count = static_cast<std::uint32_t>(tets_.size())};
 }
 
-void OverlaySource::view_colors(const ColorMap& map, const RenderView& bodies, unsigned velocities,
-                                OverlayView& view) {
+void OverlaySource::view_colors(const ColorMap& map, unsigned velocities, OverlayView& view) {
     if (!colors_ || colors_->quantity() != map.quantity) colors_.emplace(*model_, map.quantity);
-    view.color_map =
-        colors_->update(map, texels_of(bodies.node_positions, bodies), texels_of(velocities, bodies));
+    view.color_map = colors_->update(map, texels_of(view.node_positions, view.node_count),
+                                     texels_of(velocities, view.node_count));
 }
 
 void OverlaySource::view_arrows(float time, unsigned velocities, OverlayView& view) {

@@ -22,7 +22,7 @@ public:
     explicit OverlaySource(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
 
     /// Updates the solver's boxes if they are requested. Ends with the barriers that drawing needs.
-    /// @param bodies the surface of the solver's nodes
+    /// @param bodies what is drawn, with the solver's nodes in its overlay
     OverlayView update(const Overlays& overlays, const RenderView& bodies, gpu::GpuSolver& solver);
     OverlayView update(const Overlays& overlays, const RenderView& bodies, cpu::CpuSolver<float>& solver);
 
@@ -33,7 +33,7 @@ private:
     void view_objects(OverlayView& view);
     void view_springs(float full_strain, OverlayView& view);
     void view_cut(const CutPlane& cut, OverlayView& view);
-    void view_colors(const ColorMap& map, const RenderView& bodies, unsigned velocities, OverlayView& view);
+    void view_colors(const ColorMap& map, unsigned velocities, OverlayView& view);
     void view_arrows(float time, unsigned velocities, OverlayView& view);
     void view_contacts(const Overlays& overlays, const Solver& solver, OverlayView& view);
     void make_marks();

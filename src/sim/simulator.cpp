@@ -417,9 +417,9 @@ RenderView Simulator::render_view(const Overlays& overlays) {
     RenderView view;
     gpu::GpuSolver* const on_gpu = d.gpu_solver();
     if (on_gpu != nullptr) {
-        d.run_stage("update_normals", [&] { view = d.draw_source->update(*on_gpu); });
+        d.run_stage("update_normals", [&] { view = d.draw_source->update(*on_gpu, overlays); });
     } else {
-        view = d.draw_source->update(d.solver->read_state());
+        view = d.draw_source->update(d.solver->read_state(), overlays);
     }
     if (!overlays.any()) return view;
     if (!d.overlay_source) d.overlay_source.emplace(d.model);

@@ -91,6 +91,11 @@ TEST_F(LayoutsTest, Face) {
     check("face.glsl", "Face", sizeof(Face),
           {FIELD(Face, a), FIELD(Face, b), FIELD(Face, c), FIELD(Face, object)});
 }
+TEST_F(LayoutsTest, SkinPoint) {
+    check("skin_point.glsl", "SkinPoint", sizeof(SkinPoint),
+          {FIELD(SkinPoint, a), FIELD(SkinPoint, b), FIELD(SkinPoint, c), FIELD(SkinPoint, d),
+           FIELD(SkinPoint, weights)});
+}
 TEST_F(LayoutsTest, SurfaceVertex) {
     check("surface_vertex.glsl", "SurfaceVertex", sizeof(SurfaceVertex),
           {FIELD(SurfaceVertex, node), FIELD(SurfaceVertex, object), FIELD(SurfaceVertex, first_face),

@@ -41,6 +41,7 @@ INSTANTIATE_MUTANTS(NeoHookean, kNeoHookeanMutants,
 INSTANTIATE_MUTANTS(VolumeTerm, kVolumeTermMutants,
                     joined({volume_energy_scenarios(), volume_step_scenarios()}));
 INSTANTIATE_MUTANTS(Watch, kWatchMutants, watch_scenarios());
+INSTANTIATE_MUTANTS(CarrySkin, kCarrySkinMutants, carry_skin_scenarios());
 INSTANTIATE_MUTANTS(TetValues, kTetValueMutants, tet_value_scenarios());
 INSTANTIATE_MUTANTS(Collisions, kCollisionMutants, collision_scenarios());
 INSTANTIATE_MUTANTS(ContinuousCollisions, kContinuousMutants, continuous_collision_scenarios());

@@ -140,7 +140,7 @@ TEST_F(SurfaceFileTest, JoinsTheObjectsOfAFileWhateverElseTheyHave) {
         "usemtl red\nf 1/1/1 3/2/1 2/1/1\nf 1/1/2 2/2/2 4/1/2\n"
         "o two\nusemtl blue\nf -4//1 -1//1 -2//1\nf 2 3 \\\n 4\nl 1 2\np 3\n";
     expect_tetrahedron(read("a.obj", obj));
-    EXPECT_THAT(notes_, IsEmpty());
+    EXPECT_THAT(notes_, ElementsAre(HasSubstr("'no_such.mtl' cannot be read")));
 }
 
 TEST_F(SurfaceFileTest, ReadsWhatWindowsWrites) {
@@ -213,7 +213,7 @@ TEST_F(SurfaceFileTest, RefusesFilesThatAreNotThereOrEmpty) {
 }
 
 TEST_F(SurfaceFileTest, RefusesUnknownEndings) {
-    EXPECT_THAT(refusal_of("a.fbx", "x"), HasSubstr(".obj, .stl, .ply or .off"));
+    EXPECT_THAT(refusal_of("a.fbx", "x"), HasSubstr(".obj, .stl, .ply, .off, .gltf or .glb"));
     EXPECT_THAT(refusal([&] {
                     write_surface(folder_.path() / "a.fbx", cube({0, 0, 0}, 1));
                 }),

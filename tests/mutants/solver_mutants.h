@@ -320,6 +320,22 @@ inline constexpr Mutant kTetValueMutants[] = {
      "n + 64u >= node_count"},
 };
 
+/// Of points of skins.
+inline constexpr Mutant kCarrySkinMutants[] = {
+    {"no_guard_behind_the_points", "sim/view/carry_skin.comp", "if (p >= point_count) return;", ""},
+    {"the_last_points_are_left_out", "sim/view/carry_skin.comp", "p >= point_count",
+     "p + 64u >= point_count"},
+    {"the_first_node_is_forgotten", "sim/view/carry_skin.comp", "vec4(a + from_a", "vec4(from_a"},
+    {"a_node_is_forgotten", "sim/view/carry_skin.comp", "point.weights.w * (node(point.d) - a)", "vec3(0.0)"},
+    {"weights_are_another_nodes", "sim/view/carry_skin.comp", "point.weights.z * (node(point.c)",
+     "point.weights.x * (node(point.c)"},
+    {"nodes_are_mixed_up", "sim/view/carry_skin.comp", "node(point.b)", "node(point.c)"},
+    {"small_differences_of_large_products", "sim/view/carry_skin.comp",
+     "point.weights.y * (node(point.b) - a)", "point.weights.y * node(point.b) - point.weights.y * a"},
+    {"the_mass_is_kept", "sim/view/carry_skin.comp", "a + from_a, 1.0",
+     "a + from_a, texelFetch(positions, int(point.a)).w"},
+};
+
 /// Of a hand that holds nodes.
 inline constexpr Mutant kPullMutants[] = {
     {"nothing_is_held", "sim/explicit/integrate_node.glsl", "force += pull_force",

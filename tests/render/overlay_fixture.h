@@ -57,6 +57,8 @@ protected:
 
     Image draw(const OverlayView& overlay = {}) {
         view_.overlay = overlay;
+        view_.overlay.node_positions = view_.node_positions;  // the surface's points are nodes
+        view_.overlay.node_count = view_.node_count;
         renderer_->draw(view_, kCamera);
         FrameGrabber grabber(kWidth, kHeight);
         grabber.grab(renderer_->framebuffer());

@@ -12,6 +12,7 @@
 #include "gelatin/error.h"
 #include "mesh/surface_file.h"
 #include "mesh/tet_file.h"
+#include "model/build/pack_skin.h"
 
 namespace gelatin {
 namespace {
@@ -149,6 +150,100 @@ TEST(Export, VtuHasEveryNodeAndTet) {
     EXPECT_EQ(data_array<std::int64_t>(vtu, "offsets"), (std::vector<std::int64_t>{4, 8}));
     EXPECT_EQ(data_array<std::uint8_t>(vtu, "types"), (std::vector<std::uint8_t>{10, 10}));
     EXPECT_EQ(data_array<std::int32_t>(vtu, "object"), (std::vector<std::int32_t>{0, 1}));
+}
+
+// The same with a surface for the first tet: a triangle around it, and the second's hull.
+Model tets_with_a_skin() {
+    Model model = two_tets();
+    Skin& skin = model.skin;
+    skin.points = {{0, 2, 3, 4, {-1.0f, 2.0f, 0.0f, 0.0f}},
+                   {0, 2, 3, 4, {0.5f, 0.0f, 0.5f, 0.0f}},
+                   {0, 2, 3, 4, {0.0f, 0.0f, 0.0f, 1.0f}}};
+    skin.faces = {{2, 0, 1, 0}};
+    skin.objects = {{{0, 3}, {0, 1}, 1.0}};
+    append_hull(model, 1, skin);
+    return model;
+}
+
+TEST(Export, ObjHasSkinsInTheOrderOfTheirFiles) {
+    EXPECT_EQ(obj_text(make_export_topology(tets_with_a_skin()), frame_of(2)),
+              "# frame 2, 0.25 s\n"
+              "o left one\nv 2 0 0\nv 0 0.5 0\nv 0 0 1\nf 3 1 2\n"
+              "o right\nv 3 0 0\nv 4 0 0\nv 3 1 0\nv 3 0 1\nf 4 6 5\nf 4 5 7\nf 5 6 7\nf 4 7 6\n");
+}
+
+// A red triangle with a picture, and a hull of no material.
+Model painted_tets() {
+    Model model = tets_with_a_skin();
+    SurfaceLook& look = model.skin.look;
+    look.materials = {
+        {"my paint", {0.0f, 0.0f, 0.214f}, "a/b.png", std::make_shared<const std::string>("\x89PNG")}};
+    look.face_materials = {0, SurfaceLook::kNone, SurfaceLook::kNone, SurfaceLook::kNone, SurfaceLook::kNone};
+    look.corner_uvs.resize(5);
+    look.corner_uvs[0] = {glm::vec2(0.5f, 0.25f), glm::vec2(0.0f), glm::vec2(0.5f, 0.25f)};
+    return model;
+}
+
+TEST(Export, ObjKeepsTextureCoordinatesAndMaterials) {
+    EXPECT_EQ(obj_text(make_export_topology(painted_tets()), frame_of(2)),
+              "# frame 2, 0.25 s\nmtllib scene.mtl\n"
+              "o left one\nv 2 0 0\nv 0 0.5 0\nv 0 0 1\n"
+              "vt 0.5 0.25\nvt 0 0\nusemtl my_paint\nf 3/1 1/2 2/1\n"
+              "o right\nv 3 0 0\nv 4 0 0\nv 3 1 0\nv 3 0 1\n"
+              "vt 0 0\nusemtl none\nf 4/3 6/3 5/3\nf 4/3 5/3 7/3\nf 5/3 6/3 7/3\nf 4/3 7/3 6/3\n");
+}
+
+TEST(Export, MaterialsAreBesideObjFramesAlone) {
+    const TemporaryFolder folder;
+    FrameExporter(folder.path(), ExportFormat::ply, painted_tets()).write(frame_of(3));
+    EXPECT_FALSE(fs::exists(folder.path() / "scene.mtl"));
+    FrameExporter(folder.path(), ExportFormat::obj, painted_tets()).write(frame_of(3));
+    const std::string library = read_file(folder.path() / "scene.mtl");
+    EXPECT_THAT(library, HasSubstr("newmtl none\n"));
+    EXPECT_THAT(library, HasSubstr("newmtl my_paint\nKd 0 0 0.49"));
+    EXPECT_THAT(library, HasSubstr("map_Kd my_paint.png\n"));
+    EXPECT_EQ(read_file(folder.path() / "my_paint.png"), "\x89PNG");
+}
+
+TEST(Export, PlyHasSkinsAndTheirVelocities) {
+    const std::string bytes = ply_bytes(make_export_topology(tets_with_a_skin()), frame_of(0));
+    EXPECT_THAT(bytes, HasSubstr("element vertex 7\n"));
+    EXPECT_THAT(bytes, HasSubstr("element face 5\n"));
+    const std::string end = "end_header\n";
+    const char* data = bytes.data() + bytes.find(end) + end.size();
+    float first[6];
+    std::memcpy(first, data, sizeof first);
+    EXPECT_EQ(first[0], 2.0f);
+    EXPECT_EQ(first[3], 4.0f) << "twice node 2, less node 0";
+    std::uint32_t face[4];
+    std::memcpy(face, data + 7 * 24 + 17 + 1, sizeof face);  // the second
+    EXPECT_THAT(face, testing::ElementsAre(3u, 5u, 4u, 1u));
+}
+
+TEST(Export, VtpHasSkins) {
+    const HostFrame frame = frame_of(0);
+    const std::string vtp = vtp_text(make_export_topology(tets_with_a_skin()), frame);
+    EXPECT_THAT(vtp, HasSubstr("<Piece NumberOfPoints=\"7\" NumberOfPolys=\"5\">"));
+    const std::vector<float> points = data_array<float>(vtp, "Points");
+    ASSERT_EQ(points.size(), 21u);
+    EXPECT_EQ(points[0], 2.0f);
+    EXPECT_EQ(points[4], 0.5f);
+    EXPECT_EQ(data_array<float>(vtp, "velocity")[0], 4.0f);
+    EXPECT_EQ(data_array<std::int64_t>(vtp, "connectivity"),
+              (std::vector<std::int64_t>{2, 0, 1, 3, 5, 4, 3, 4, 6, 4, 5, 6, 3, 6, 5}));
+    EXPECT_EQ(data_array<std::int64_t>(vtp, "offsets"), (std::vector<std::int64_t>{3, 6, 9, 12, 15}));
+    EXPECT_EQ(data_array<std::int32_t>(vtp, "object"), (std::vector<std::int32_t>{0, 1, 1, 1, 1}));
+}
+
+TEST(Export, SkinsAreTheSecondPartOfEachFrame) {
+    const TemporaryFolder folder;
+    FrameExporter exporter(folder.path(), ExportFormat::vtu, tets_with_a_skin());
+    exporter.write(frame_of(12));
+    EXPECT_TRUE(fs::exists(folder.path() / "frame_000012.vtu"));
+    EXPECT_TRUE(fs::exists(folder.path() / "frame_000012.vtp"));
+    EXPECT_THAT(read_file(folder.path() / "scene.pvd"),
+                HasSubstr("<DataSet timestep=\"1.5\" part=\"0\" file=\"frame_000012.vtu\"/>\n"
+                          "<DataSet timestep=\"1.5\" part=\"1\" file=\"frame_000012.vtp\"/>\n"));
 }
 
 TEST(Export, FramesAreNumberedAndListedWithTheirTimes) {

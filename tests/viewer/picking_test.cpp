@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "mesh/shapes.h"
 #include "support/test_models.h"
 
 namespace gelatin::viewer {
@@ -83,6 +84,31 @@ TEST(Picking, AHandHoldsTheFaceAtLeast) {
     for (const std::uint32_t n : {face.a, face.b, face.c}) {
         EXPECT_TRUE(std::any_of(pull.nodes.begin(), pull.nodes.end(),
                                 [&](const Pull::Node& held) { return held.node == n; }));
+    }
+}
+
+// A ball of which the hull is a block of two tets' thickness.
+TEST(Picking, ASkinIsPickedAndItsTetsAreHeld) {
+    Body body = test::make_body(test::make_block({1, 1, 1}, {1.0, 1.0, 1.0}));
+    SurfaceMesh ball = make_sphere({0.9, 6});
+    for (glm::dvec3& p : ball.positions) p += 0.5;
+    body.skin = std::make_shared<const ShapeSkin>(
+        ShapeSkin{ball.faces, carry_surface(ball, body.mesh).vertices, 0.4});
+    const Model model = test::make_model(body);
+    const std::vector<float> positions = positions_of(model);
+    const std::vector<float> points = drawn_positions(model, positions);
+    ASSERT_EQ(drawn_faces(model).size(), ball.faces.size());
+    const auto found = pick({{0.45f, 0.55f, 5.0f}, {0.0f, 0.0f, -1.0f}}, points, drawn_faces(model));
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->point.z, 1.4f, 0.02f);
+    const Pull pull = take_hold(model, positions, *found);
+    const Face& face = drawn_faces(model)[found->face];
+    for (const std::uint32_t corner : {face.a, face.b, face.c}) {
+        const SkinPoint& point = model.skin.points[corner];
+        for (const std::uint32_t n : {point.a, point.b, point.c, point.d}) {
+            EXPECT_TRUE(std::any_of(pull.nodes.begin(), pull.nodes.end(),
+                                    [&](const Pull::Node& held) { return held.node == n; }));
+        }
     }
 }
 

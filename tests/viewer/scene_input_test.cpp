@@ -46,8 +46,8 @@ TEST_F(SceneInputTest, SaysWhatIsWrongWithAFile) {
     EXPECT_EQ(problem_with({{path("picture.png")}}), "picture.png: no such file");
     write_file(path("picture.png"), "\x89PNG");
     EXPECT_EQ(problem_with({{path("wedge.obj"), path("picture.png")}}),
-              "picture.png: is neither a scene (.toml) nor a mesh (.obj, .stl, .ply, .off, .node, .ele, "
-              ".mesh, .msh, .vtk or .vtu)");
+              "picture.png: is neither a scene (.toml) nor a mesh (.obj, .stl, .ply, .off, .gltf, .glb, "
+              ".node, .ele, .mesh, .msh, .vtk or .vtu)");
     EXPECT_EQ(problem_with({{path("").parent_path()}}),
               path("").parent_path().string() + ": is a folder, not a file");
     EXPECT_EQ(problem_with({{path("none.OBJ")}}), "none.OBJ: no such file");

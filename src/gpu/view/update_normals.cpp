@@ -2,18 +2,18 @@
 
 namespace gelatin::gpu {
 
-UpdateNormals::UpdateNormals(const Model& model)
+UpdateNormals::UpdateNormals(std::span<const Face> faces, const DrawSurface& surface)
     : face_program_(gl::Program::compute("sim/view/update_face_normals.comp")),
       vertex_program_(gl::Program::compute("sim/view/update_vertex_normals.comp")),
-      faces_(std::span(model.faces)),
-      vertices_(std::span(model.surface.vertices)),
-      vertex_faces_(std::span(model.surface.vertex_faces)),
-      triangles_(std::span(model.surface.triangles)),
-      face_normals_(model.faces.size()),
-      vertex_normals_(model.surface.vertices.size()),
+      faces_(faces),
+      vertices_(std::span(surface.vertices)),
+      vertex_faces_(std::span(surface.vertex_faces)),
+      triangles_(std::span(surface.triangles)),
+      face_normals_(faces.size()),
+      vertex_normals_(surface.vertices.size()),
       vertex_face_texels_(vertex_faces_, gl::TexelFormat::r32ui),
       face_normal_texels_(face_normals_, gl::TexelFormat::rgba32f),
-      object_count_(static_cast<std::uint32_t>(model.objects.size())) {
+      object_count_(faces.empty() ? 0 : faces.back().object + 1) {
     face_program_.bind("Faces", faces_);
     face_program_.bind("FaceNormals", face_normals_);
     vertex_program_.bind("face_normals", face_normal_texels_);

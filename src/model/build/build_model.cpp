@@ -17,6 +17,7 @@
 #include "model/build/body_handles.h"
 #include "model/build/draw_surface.h"
 #include "model/build/object_mesh.h"
+#include "model/build/pack_skin.h"
 #include "model/build/tet_materials.h"
 #include "model/collision/box_tree.h"
 #include "model/collision/node_faces.h"
@@ -214,10 +215,11 @@ std::shared_ptr<const FittedSprings> fitted_springs(const Body& body) {
     return body.fitted ? body.fitted : std::make_shared<const FittedSprings>(fit_springs(body.mesh));
 }
 
-void append_body(Model& model, const Body& body) {
+// Returns where the nodes of the body's mesh are now, from the object's first.
+std::vector<std::uint32_t> append_body(Model& model, const Body& body) {
     const auto size = [](const auto& array) { return static_cast<std::uint32_t>(array.size()); };
     const std::shared_ptr<const FittedSprings> fitted = fitted_springs(body);
-    const Arranged order = arranged(body.mesh, joined_nodes(body, fitted.get()));
+    Arranged order = arranged(body.mesh, joined_nodes(body, fitted.get()));
     const TetMesh& mesh = order.mesh;
 
     ModelObject object;
@@ -260,6 +262,7 @@ void append_body(Model& model, const Body& body) {
     append_box_tree(object.faces, model.face_trees);
     append_draw_surface(model.positions, model.faces, object.faces, kCreaseAngle, model.surface);
     model.objects.push_back(std::move(object));
+    return std::move(order.new_index);
 }
 
 const Material& find_material(const Scene& scene, const std::string& name) {
@@ -284,6 +287,7 @@ Body make_body(const Scene& scene, const ObjectDescription& object, ObjectMesher
     body.loads = object.loads;
     if (has_springs(body) && !body.material.springs) body.fitted = mesher.fit(object);
     body.scale = object.scale;
+    body.skin = mesher.skin(object);
     if (object.color) body.color = glm::vec3(*object.color);
     check_regions(scene.file, object, body.mesh);
     return body;
@@ -294,8 +298,21 @@ Body make_body(const Scene& scene, const ObjectDescription& object, ObjectMesher
 Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDescription>& colliders,
                   const glm::dvec3& gravity, const std::vector<ColliderSurface>& surfaces) {
     Model model;
-    for (const Body& body : bodies) append_body(model, body);
-    for (const ColliderSurface& surface : surfaces) append_surface(surface, model);
+    const bool has_skins =
+        std::any_of(bodies.begin(), bodies.end(), [](const Body& b) { return b.skin != nullptr; });
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        const std::vector<std::uint32_t> new_index = append_body(model, bodies[b]);
+        if (bodies[b].skin != nullptr) {
+            append_skin(*bodies[b].skin, bodies[b].scale, new_index, model);
+        } else if (has_skins) {
+            append_hull(model, b, model.skin);
+        }
+    }
+    for (const ColliderSurface& surface : surfaces) {
+        append_surface(surface, model);
+        if (has_skins) append_hull(model, model.objects.size() - 1, model.skin);
+    }
+    finish_skin(model, model.skin);
     model.colliders = pack_colliders(colliders);
     model.gravity = glm::vec3(gravity);
     model.half_springs = pack_half_springs(model.node_count(), model.springs);

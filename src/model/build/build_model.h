@@ -5,6 +5,7 @@
 #include "gelatin/scene.h"
 #include "mesh/tet_mesh.h"
 #include "model/build/collider_surface.h"
+#include "model/build/object_mesh.h"
 #include "model/model.h"
 #include "model/springs/fit_springs.h"
 
@@ -32,6 +33,9 @@ struct Body {
     std::shared_ptr<const FittedSprings> fitted;
     double scale = 1.0;  ///< scale of the mesh relative to the one that `fitted` belongs to
 
+    /// What is drawn of it, by the indices of the mesh's nodes; null: the boundary of the tets.
+    std::shared_ptr<const ShapeSkin> skin = {};
+
     /// Of a tet of `mesh`.
     const Material& material_of(std::size_t tet) const {
         const std::uint32_t m = tet_materials.empty() ? 0 : tet_materials[tet];
@@ -40,7 +44,8 @@ struct Body {
 };
 
 /// Packs bodies into the arrays of a model: nodes in an order that keeps neighbours close, lumped masses (a
-/// quarter of each tet's mass), springs, and the surface to draw.
+/// quarter of each tet's mass), springs, and the surface to draw: the boundary of the tets, and, if a body
+/// has a skin, the skins of all.
 /// @throws InvalidInput if a number does not fit into float (stiffness, mass), or the model exceeds 2^31
 ///   elements.
 /// @param colliders planes, and solid spheres, boxes and capsules

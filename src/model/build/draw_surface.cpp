@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 #include "mesh/topology.h"
 
@@ -65,7 +66,8 @@ CornerGroups group_smooth_corners(std::span<const glm::vec4> positions, const st
 }  // namespace
 
 void append_draw_surface(std::span<const glm::vec4> positions, std::span<const Face> all_faces, Range range,
-                         double crease_angle, DrawSurface& surface) {
+                         double crease_angle, DrawSurface& surface,
+                         std::span<const std::array<glm::vec2, 3>> corner_uvs) {
     // Nodes are counted from the object's first. Otherwise each of a thousand objects would search the nodes
     // of all.
     const std::span<const Face> own_faces = all_faces.subspan(range.first, range.count);
@@ -82,23 +84,38 @@ void append_draw_surface(std::span<const glm::vec4> positions, std::span<const F
     const auto node_of = [&](std::uint32_t corner) {
         return faces[corner / 3][static_cast<int>(corner % 3)];
     };
+    const bool has_uvs = !corner_uvs.empty();
+    const auto uv_of = [&](std::uint32_t corner) {
+        return has_uvs ? corner_uvs[range.first + corner / 3][corner % 3] : glm::vec2(0.0f);
+    };
     std::vector<std::uint32_t> root(corners.size());
     for (const std::uint32_t c : corners) root[c] = groups.find(c);
     std::sort(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
         if (node_of(a) != node_of(b)) return node_of(a) < node_of(b);
-        return root[a] != root[b] ? root[a] < root[b] : a < b;
+        if (root[a] != root[b]) return root[a] < root[b];
+        const glm::vec2 p = uv_of(a), q = uv_of(b);
+        return std::tie(p.x, p.y, a) < std::tie(q.x, q.y, b);
     });
 
     const std::size_t first_triangle = surface.triangles.size();
     surface.triangles.resize(first_triangle + faces.size());
+    // Vertices of one smooth side of a node have the same faces, so that their normals are equal.
+    std::size_t side = 0;  // its first vertex
     for (std::size_t n = 0; n < corners.size(); ++n) {
         const std::uint32_t corner = corners[n];
-        if (n == 0 || root[corner] != root[corners[n - 1]]) {
-            surface.vertices.push_back({first_node + node_of(corner), all_faces[range.first].object,
-                                        static_cast<std::uint32_t>(surface.vertex_faces.size()), 0});
+        const bool is_other_side = n == 0 || root[corner] != root[corners[n - 1]];
+        if (is_other_side) side = surface.vertices.size();
+        if (is_other_side || uv_of(corner) != uv_of(corners[n - 1])) {
+            SurfaceVertex vertex{first_node + node_of(corner), all_faces[range.first].object,
+                                 static_cast<std::uint32_t>(surface.vertex_faces.size()), 0};
+            if (!is_other_side) {
+                vertex.first_face = surface.vertices[side].first_face;
+                vertex.face_count = surface.vertices[side].face_count;
+            }
+            surface.vertices.push_back(vertex);
+            if (has_uvs) surface.uvs.push_back(uv_of(corner));
         }
-        SurfaceVertex& vertex = surface.vertices.back();
-        ++vertex.face_count;
+        for (std::size_t v = side; v < surface.vertices.size(); ++v) ++surface.vertices[v].face_count;
         surface.vertex_faces.push_back(range.first + corner / 3);
         surface.triangles[first_triangle + corner / 3][static_cast<int>(corner % 3)] =
             static_cast<std::uint32_t>(surface.vertices.size() - 1);

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "core/log.h"
@@ -29,12 +31,61 @@ struct SurfaceMaker {
     }
 };
 
-TetMesh make_local_mesh(const ObjectDescription& object, Notes& notes) {
+bool has_tets(const Shape& shape) {
+    const auto* file = std::get_if<FileShape>(&shape);
+    return file != nullptr && is_tet_file(file->file);
+}
+
+TetMesh fill(const SurfaceMesh& surface, const ObjectDescription& object, Notes& notes) {
     const auto* file = std::get_if<FileShape>(&object.shape);
-    if (file != nullptr && is_tet_file(file->file)) return read_tets(file->file, notes);
-    const SurfaceMesh surface = make_surface(object.shape, notes);
     return file != nullptr ? fill_surface(surface, sized(object.mesher), file->file.string(), notes)
                            : fill_surface(surface, object.mesher, "object '" + object.name + "'", notes);
+}
+
+double extent_of(const SurfaceMesh& surface) {
+    glm::dvec3 low = surface.positions.front(), high = low;
+    for (const glm::dvec3& p : surface.positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    return glm::distance(low, high);
+}
+
+double longest_edge(const std::vector<glm::dvec3>& positions, const std::vector<glm::uvec3>& faces) {
+    double longest = 0.0;
+    for (const glm::uvec3& face : faces) {
+        for (int k = 0; k < 3; ++k)
+            longest = std::max(longest, glm::distance(positions[face[k]], positions[face[(k + 1) % 3]]));
+    }
+    return longest;
+}
+
+void note_skin(const ObjectDescription& object, const SurfaceMesh& surface, const TetMesh& mesh,
+               double distance) {
+    constexpr double kMuch = 2.0;
+    log_note(fmt::format(
+        "object '{}': {} faces are drawn; it collides with a hull of {} faces, at most {:.2g} m away",
+        object.name, surface.faces.size(), mesh.faces.size(), object.scale * distance));
+    const double drawn = longest_edge(surface.positions, surface.faces);
+    const double hull = longest_edge(mesh.positions, mesh.faces);
+    if (drawn <= kMuch * hull) return;
+    log_note(fmt::format(
+        "object '{}': faces that are drawn are up to {:.2g} m long, and stay flat where the hull bends, "
+        "whose faces are up to {:.2g} m long; skin = false draws the hull",
+        object.name, object.scale * drawn, object.scale * hull));
+}
+
+// Null where the boundary of the tets is the same surface; TetGen only divides its faces.
+std::shared_ptr<const ShapeSkin> make_skin(const ObjectDescription& object, const SurfaceMesh& surface,
+                                           const TetMesh& mesh) {
+    constexpr double kSame = 1e-6;  // of the extent
+    CarriedSurface carried = carry_surface(surface, mesh);
+    const double distance = std::max(carried.skin_to_hull, carried.hull_to_skin);
+    const bool is_plain = surface.look.is_empty() && surface.look.corner_uvs.empty();
+    if (is_plain && distance <= kSame * extent_of(surface)) return nullptr;
+    note_skin(object, surface, mesh, distance);
+    return std::make_shared<const ShapeSkin>(
+        ShapeSkin{surface.faces, std::move(carried.vertices), distance, surface.look});
 }
 
 void warn_of_a_poor_fit(const FittedSprings& springs, const std::string& name) {
@@ -59,6 +110,13 @@ TetMesh ObjectMesher::make(const ObjectDescription& object) {
     return mesh;
 }
 
+std::shared_ptr<const ShapeSkin> ObjectMesher::skin(const ObjectDescription& object) {
+    Known& known = local(object);
+    if (!object.skin || known.surface.faces.empty()) return nullptr;
+    if (!known.skin) known.skin = make_skin(object, known.surface, known.mesh);
+    return *known.skin;
+}
+
 std::shared_ptr<const FittedSprings> ObjectMesher::fit(const ObjectDescription& object) {
     Known& known = local(object);
     if (!known.springs) {
@@ -75,9 +133,15 @@ ObjectMesher::Known& ObjectMesher::local(const ObjectDescription& object) {
     });
     if (same != known_.rend()) return *same;
     Notes notes;
-    TetMesh mesh = make_local_mesh(object, notes);
+    Known known{object.shape, object.mesher, {}, {}, {}, nullptr};
+    if (has_tets(object.shape)) {
+        known.mesh = read_tets(std::get<FileShape>(object.shape).file, notes);
+    } else {
+        known.surface = make_surface(object.shape, notes);
+        known.mesh = fill(known.surface, object, notes);
+    }
     for (const std::string& note : notes) log_note(fmt::format("object '{}': {}", object.name, note));
-    return known_.emplace_back(Known{object.shape, object.mesher, std::move(mesh), nullptr});
+    return known_.emplace_back(std::move(known));
 }
 
 }  // namespace gelatin

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "gelatin/scene.h"
+#include "mesh/carry_surface.h"
 #include "mesh/surface_mesh.h"
 #include "mesh/tet_mesh.h"
 #include "model/springs/fit_springs.h"
@@ -14,7 +16,16 @@ namespace gelatin {
 /// @throws InvalidInput for files that cannot be read
 SurfaceMesh make_surface(const Shape& shape, Notes& notes);
 
-/// Makes the tets of objects and fits springs to them, once for all objects with the same shape and mesher.
+/// A shape's own surface, and how its tets carry it. No position, rotation or scale changes that.
+struct ShapeSkin {
+    std::vector<glm::uvec3> faces;        ///< between vertices, in the order of the file
+    std::vector<CarriedVertex> vertices;  ///< by the indices of the tets' nodes
+    double distance;                      ///< at most, between it and the boundary of the tets [m]
+    SurfaceLook look = {};                ///< of the faces
+};
+
+/// Makes the tets of objects, their skins, and the springs fitted to them, once for all objects with the same
+/// shape and mesher.
 class ObjectMesher {
 public:
     /// The tets of an object in the scene: its shape or file, filled by the mesher if it is a surface, then
@@ -22,6 +33,12 @@ public:
     /// @throws InvalidInput for files that cannot be read, surfaces that cannot be filled, flat or inverted
     ///   results.
     TetMesh make(const ObjectDescription& object);
+
+    /// The object's own surface. Null where the boundary of the tets is the same and the surface has no
+    /// texture coordinates or materials; where the object does not want it; and for files with tets. The log
+    /// says how far the two are apart.
+    /// @throws as make
+    std::shared_ptr<const ShapeSkin> skin(const ObjectDescription& object);
 
     /// The springs fitted to the object's tets before scaling, from the cache on disk if they are there. If
     /// the mesh allows no good fit, the log says so.
@@ -32,8 +49,10 @@ private:
     struct Known {
         Shape shape;
         MesherSettings mesher;
-        TetMesh mesh;                                  // as the shape defines it, not placed yet
-        std::shared_ptr<const FittedSprings> springs;  // empty until they are requested
+        SurfaceMesh surface;  // as the shape defines it; empty for files with tets
+        TetMesh mesh;         // not placed yet
+        std::optional<std::shared_ptr<const ShapeSkin>> skin;  // empty until it is requested
+        std::shared_ptr<const FittedSprings> springs;          // empty until they are requested
     };
     Known& local(const ObjectDescription& object);
 

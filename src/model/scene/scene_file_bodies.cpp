@@ -121,6 +121,7 @@ std::vector<ObjectDescription> read_object(TableReader& reader, const std::vecto
         reader.read("color", color);
         object.color = color;
     }
+    reader.read("skin", object.skin);
     const auto copies = reader.table("copies");
     reader.finish();
     if (copies) return read_copies(*copies, object);

@@ -151,7 +151,7 @@ Table table_of(const ObjectDescription& object, const std::filesystem::path& fol
         .add_unless(usual.start.scatter, "scatter", object.start.scatter);
     if (!start.is_empty()) table.add_text("start", start.in_line());
     if (!object.pins.empty()) table.add_text("pins", list_of_tables(object.pins));
-    return table.add("color", object.color);
+    return table.add("color", object.color).add_unless(usual.skin, "skin", object.skin);
 }
 
 Table table_of(const SimulationSettings& s) {

@@ -7,6 +7,7 @@
 #include "gpu/support/drive_on_gpu.h"
 #include "gpu/support/measure_on_gpu.h"
 #include "gpu/support/pull_on_gpu.h"
+#include "gpu/support/skin_on_gpu.h"
 #include "gpu/support/tet_values.h"
 #include "gpu/support/watched_runs.h"
 #include "model/setting_names.h"
@@ -309,6 +310,11 @@ Scenarios tet_value_scenarios() {
     add("stress", Quantity::stress);
     add("speed", Quantity::speed);
     return scenarios;
+}
+
+Scenarios carry_skin_scenarios() {
+    return {{"at_the_origin", [] { return carry_skin_error(0.0); }},
+            {"far_from_the_origin", [] { return carry_skin_error(1000.0); }}};
 }
 
 }  // namespace gelatin::test

@@ -42,4 +42,7 @@ Scenarios watch_scenarios();
 /// What colours show of deformed bodies.
 Scenarios tet_value_scenarios();
 
+/// Points of skins at the origin and far from it.
+Scenarios carry_skin_scenarios();
+
 }  // namespace gelatin::test

@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "mesh/shapes.h"
 #include "support/gl_fixture.h"
 #include "support/test_models.h"
 
@@ -15,7 +16,7 @@ class UpdateNormalsTest : public test::GlTest {};
 std::vector<glm::vec4> normals_of(const Model& model, const std::vector<glm::vec4>& positions) {
     const gl::Buffer<glm::vec4> buffer{std::span(positions)};
     const gl::BufferTexture texels(buffer, gl::TexelFormat::rgba32f);
-    const gpu::UpdateNormals stage(model);
+    const gpu::UpdateNormals stage(model.faces, model.surface);
     stage.run(texels);
     gl::barrier(gl::Barrier::buffer_update);
     std::vector<glm::vec4> normals(model.surface.vertices.size(), glm::vec4(NAN));
@@ -57,6 +58,28 @@ TEST_F(UpdateNormalsTest, ACollapsedBodyHasFiniteNormals) {
     for (const glm::vec4& n :
          normals_of(model, std::vector<glm::vec4>(model.node_count(), glm::vec4(1.0f)))) {
         EXPECT_EQ(glm::vec3(n), glm::vec3(0, 1, 0));
+    }
+}
+
+// A skin's faces are between points, of which there are more than nodes.
+TEST_F(UpdateNormalsTest, ASkinsNormalsAreThoseOfItsPoints) {
+    Body body = test::make_body(test::make_block({2, 2, 2}, {1, 1, 1}));
+    SurfaceMesh ball = make_sphere({0.7, 9});
+    for (glm::dvec3& p : ball.positions) p += 0.5;
+    body.skin = std::make_shared<const ShapeSkin>(
+        ShapeSkin{ball.faces, carry_surface(ball, body.mesh).vertices, 0.2});
+    const Model model = test::make_model(body);
+    const std::vector<glm::vec4> points = carry_skin(model.skin.points, std::span(model.positions));
+    const gl::Buffer<glm::vec4> buffer{std::span(points)};
+    const gl::BufferTexture texels(buffer, gl::TexelFormat::rgba32f);
+    const gpu::UpdateNormals stage(model.skin.faces, model.skin.surface);
+    stage.run(texels);
+    gl::barrier(gl::Barrier::buffer_update);
+    std::vector<glm::vec4> normals(model.skin.surface.vertices.size(), glm::vec4(NAN));
+    stage.vertex_normals().download(normals);
+    for (std::size_t v = 0; v < normals.size(); ++v) {
+        const glm::vec3 out = glm::vec3(points[model.skin.surface.vertices[v].node]) - 0.5f;
+        EXPECT_GT(glm::dot(glm::vec3(normals[v]), glm::normalize(out)), 0.99f);
     }
 }
 

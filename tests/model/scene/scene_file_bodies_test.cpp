@@ -48,6 +48,19 @@ object = [
               "scene.toml:5: object.ball.start.scatter = -1: must be 0 or more");
 }
 
+TEST_F(SceneFileBodies, ReadsWhetherItsOwnSurfaceIsDrawn) {
+    const Scene scene = load(R"(
+material = [{ name = "jelly" }]
+object = [
+    { name = "a", shape = { sphere = 1 } },
+    { name = "b", shape = { sphere = 1 }, skin = false },
+]
+)");
+    EXPECT_TRUE(scene.objects.at(0).skin);
+    EXPECT_FALSE(scene.objects.at(1).skin);
+    EXPECT_THAT(object_error("shape = {sphere = 1}\nskin = 1"), testing::HasSubstr("object.ball.skin"));
+}
+
 // Parts
 
 TEST_F(SceneFileBodies, ReadsParts) {

@@ -67,6 +67,7 @@ spin = [0, 90, 0]
 start = { scale = [1, 0.5, 1], scatter = 0.01 }
 pins = [{ box = [[-1, 0, -1], [1, 1.7, 1]] }, { sphere = [0, 3, 0], radius = 0.1 }]
 color = [0.1, 0.2, 0.3]
+skin = false
 
 [[object.part]]
 region = { plane = [0, 1, 0], offset = 1.9 }
