@@ -6,6 +6,7 @@
 #include "gelatin/pull.h"
 #include "gelatin/views.h"
 #include "mesh/shapes.h"
+#include "mesh/surface_file.h"
 #include "render/frame_grabber.h"
 #include "render/renderer.h"
 
@@ -182,6 +183,17 @@ void proximities(Scene& scene) {
     scene.collision.proximity_radius = 0.05;
 }
 
+// A body with a surface of its own, which has a material.
+void painted(Scene& scene) {
+    const std::filesystem::path folder = scene.file.parent_path(), file = folder / "ball.obj";
+    write_surface(file, make_sphere({0.2, 6}));
+    write_file(file, "mtllib ball.mtl\nusemtl red\n" + read_file(file));
+    write_file(folder / "ball.mtl", "newmtl red\nKd 1 0 0\n");
+    scene.objects[1].shape = FileShape{file};
+    scene.objects[1].mesher = {.kind = MesherKind::lattice};
+    scene.objects[1].mesher.nodes = 100;
+}
+
 void nothing(Scene&) {}
 
 void drag(Simulator& simulator) {
@@ -217,6 +229,8 @@ std::vector<ShortRun> short_runs() {
         {"contact, volume term", both(contact, volume_term), pull},
         {"contact, neo-Hookean", both(contact, neo_hookean)},
         {"drawn from the CPU", nothing, start_again, true, Backend::cpu},
+        {"painted", painted, start_again, true},
+        {"painted, drawn from the CPU", painted, start_again, true, Backend::cpu},
         {"fused", fused, pull},
         {"fused, volume term", both(fused, volume_term), start_again},
         {"fused, neo-Hookean", both(fused, neo_hookean)},
