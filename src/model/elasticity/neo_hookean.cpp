@@ -9,8 +9,8 @@ namespace gelatin {
 
 NeoHookeanModuli neo_hookean_moduli(double youngs_modulus, double poisson_ratio) {
     const double shear = youngs_modulus / (2.0 * (1.0 + poisson_ratio));
-    const double lame = 2.0 * shear * poisson_ratio / (1.0 - 2.0 * poisson_ratio);
-    const double own = std::min(lame, kMostLambdaOfTets * shear);
+    const double ratio = 2.0 * poisson_ratio / (1.0 - 2.0 * poisson_ratio);  // lambda_L over mu_L
+    const double lame = ratio * shear, own = std::min(ratio, std::max(1.0, 3.0 - ratio)) * shear;
     return {4.0 / 3.0 * shear, own + 5.0 / 6.0 * shear, lame - own};
 }
 

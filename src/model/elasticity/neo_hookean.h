@@ -25,13 +25,11 @@ struct NeoHookeanModuli {
     double kappa;   ///< [Pa], >= 0
 };
 
-/// A tet has so much of lambda_L over mu_L at most: all of it up to nu = 0.3. So bodies of the usual
-/// Poisson's ratios do without the volume term and its cost (docs/finite-elements.md).
-constexpr double kMostLambdaOfTets = 1.5;
-
 /// The constants for which small strains obey Hooke's law. With Lamé's
 ///   mu_L = E / (2 (1 + nu)),   lambda_L = E nu / ((1 + nu) (1 - 2 nu)),
-/// tets take min(lambda_L, kMostLambdaOfTets mu_L), and kappa is the rest. For the tets' part, mu = 4/3 mu_L
+/// tets take lambda_t = min(lambda_L, max(mu_L, 3 mu_L - lambda_L)), and kappa is the rest. That is all of
+/// lambda_L up to nu = 0.3, so that these bodies do without the volume term and its cost, and mu_L from
+/// nu = 1/3 on (docs/finite-elements.md). For the tets' part, mu = 4/3 mu_L
 /// and lambda = lambda_t + 5/6 mu_L (Smith, de Goes, Kim: "Stable Neo-Hookean Flesh Simulation", ACM
 /// Transactions on Graphics 37(2), 2018, 3.4).
 /// @param youngs_modulus [Pa], > 0 @param poisson_ratio in [0, 0.5)

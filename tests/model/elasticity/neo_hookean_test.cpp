@@ -29,9 +29,21 @@ TEST(NeoHookeanModuli, AreLamesAtSmallStrains) {
         EXPECT_NEAR(shear * (3 * lame + 2 * shear) / (lame + shear), 3e5, 1e-6);
         EXPECT_NEAR(0.5 * lame / (lame + shear), nu, 1e-12);
         // The tets' own Poisson's ratio.
-        EXPECT_NEAR(0.5 * own / (own + shear), std::min(nu, 0.3), 1e-12);
+        EXPECT_NEAR(0.5 * own / (own + shear), nu <= 0.3 ? nu : 0.25, 1e-12) << nu;
         EXPECT_EQ(moduli.kappa == 0.0, nu <= 0.3) << nu;
     }
+}
+
+// Between nu = 0.3 and 1/3 the volume term takes over, without a jump.
+TEST(NeoHookeanModuli, HandOverToTheVolumeTermSmoothly) {
+    double before = 0.0;
+    for (double nu = 0.3; nu < 0.34; nu += 1e-3) {
+        const double kappa = neo_hookean_moduli(1.0, nu).kappa;
+        EXPECT_GE(kappa, before) << nu;
+        EXPECT_LT(kappa - before, 0.02) << nu;
+        before = kappa;
+    }
+    EXPECT_NEAR(neo_hookean_moduli(1.0, 1.0 / 3.0).kappa, 0.375, 1e-12);  // mu_L
 }
 
 // sum_k p(x_k) g_k is the gradient of any linear p, and the gradients add up to nothing.
