@@ -99,11 +99,28 @@ TEST_F(SurfaceImportTest, WithoutMaterialsAFileHasNoLook) {
     EXPECT_THAT(notes_, IsEmpty());
 }
 
+// The binary form: a header of three numbers, a chunk with the text, and one with the bytes of its buffer.
+std::string glb_of(std::string text) {
+    const std::string uri = ",\"uri\":\"data:application/octet-stream;base64,";
+    const std::size_t start = text.find(uri), data = start + uri.size(), end = text.find('"', data);
+    const std::string buffer = from_base64(text.substr(data, end - data));
+    text.erase(start, end + 1 - start);
+    while (text.size() % 4 != 0) text += ' ';
+    const auto word = [](std::size_t value) {
+        std::string bytes;
+        for (int k = 0; k < 4; ++k) bytes += static_cast<char>(value >> (8 * k) & 255);
+        return bytes;
+    };
+    return "glTF" + word(2) + word(28 + text.size() + buffer.size()) + word(text.size()) + "JSON" + text +
+           word(buffer.size()) + std::string("BIN\0", 4) + buffer;
+}
+
 TEST_F(SurfaceImportTest, GltfHasItsNodesTransformsAndTextures) {
     make("pa int.png", png_sample());
     make("file.gltf", gltf_sample("pa%20int.png"));
     make("embedded.gltf", gltf_sample("data:image/png;base64," + kPngText));
-    for (const char* name : {"file.gltf", "embedded.gltf"}) {
+    make("binary.glb", glb_of(gltf_sample("data:image/png;base64," + kPngText)));
+    for (const char* name : {"file.gltf", "embedded.gltf", "binary.glb"}) {
         const SurfaceMesh mesh = read(name);
         EXPECT_THAT(notes_, IsEmpty());
         ASSERT_EQ(mesh.faces.size(), 4u);

@@ -12,6 +12,7 @@
 #include "gelatin/error.h"
 #include "mesh/surface_file.h"
 #include "mesh/tet_file.h"
+#include "mesh/texture_samples.h"
 #include "model/build/pack_skin.h"
 
 namespace gelatin {
@@ -60,30 +61,13 @@ HostFrame frame_of(int number) {
     return frame;
 }
 
-std::string decode_base64(const std::string& text) {
-    std::string bytes;
-    unsigned bits = 0;
-    int held = 0;
-    for (const char c : text) {
-        const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-        const auto digit = digits.find(c);
-        if (digit == std::string::npos) break;
-        bits = bits << 6 | static_cast<unsigned>(digit);
-        held += 6;
-        if (held < 8) continue;
-        held -= 8;
-        bytes += static_cast<char>(bits >> held & 255u);
-    }
-    return bytes;
-}
-
 // The values of a VTU's array, its size header checked.
 template <class T>
 std::vector<T> data_array(const std::string& vtu, const std::string& name) {
     const auto tag = vtu.find("Name=\"" + name + "\"");
     if (tag == std::string::npos) return {};
     const auto start = vtu.find('>', tag) + 1;
-    const std::string bytes = decode_base64(vtu.substr(start, vtu.find('<', start) - start));
+    const std::string bytes = from_base64(vtu.substr(start, vtu.find('<', start) - start));
     std::uint64_t size = 0;
     std::memcpy(&size, bytes.data(), sizeof size);
     EXPECT_EQ(size + sizeof size, bytes.size()) << name;
