@@ -26,6 +26,8 @@ struct SimulationSettings {
     int iterations = 10;                  ///< of vbd, a step, >= 1
     glm::dvec3 gravity{0.0, -9.81, 0.0};  ///< [m/s^2]
     int frames = 600;                     ///< length of a run, >= 0
+    /// Leave steps out while all bodies rest; for CollisionResponse::contact.
+    bool sleep = true;
 
     double frame_time() const { return 1.0 / frame_rate; }  ///< [s]
 };

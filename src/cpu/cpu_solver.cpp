@@ -160,6 +160,10 @@ void CpuSolver<Real>::advance_nodes(double step) {
 
 template <class Real>
 void CpuSolver<Real>::descend(Descent& descent, double step) {
+    if (descent.solver.rests(step, load_factors_, pulls_.has_value(), current_)) {
+        previous_ = current_;
+        return;
+    }
     StageTimer* const timer = timer_.for_parts();
     const int parts = descent.solver.parts(step, current_);
     for (int p = 0; p < parts; ++p) {

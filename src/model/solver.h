@@ -30,6 +30,8 @@ struct DescentSettings {
     /// Whether steps in which bodies meet are divided into parts, among which sweeps are shared out; on the
     /// CPU alone.
     bool divides_steps = false;
+    /// Whether steps are left out while all bodies rest; with contacts alone.
+    bool sleeps = false;
 };
 
 /// Whether vertex block descent has contacts between bodies, with colliders, or of bodies with themselves.

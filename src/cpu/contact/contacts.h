@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
@@ -69,6 +71,13 @@ public:
 
     const ContactList<Real>& list() const { return list_; }
     const ContactAims<Real>& aims() const { return aims_; }
+    /// Of a body's surface [m], and the least of all bodies'.
+    double thickness(std::size_t object) const { return surface_->thicknesses[object]; }
+    double least_thickness() const {
+        return *std::min_element(
+            surface_->thicknesses.begin(),
+            surface_->thicknesses.begin() + static_cast<std::ptrdiff_t>(model_->body_count()));
+    }
     bool is_held(std::size_t object) const { return guard_.is_held(object); }
     double restitution(std::uint32_t object, std::uint32_t other) const {
         return surface_->touch(object, other).restitution;

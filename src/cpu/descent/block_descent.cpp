@@ -38,6 +38,20 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
     if (coarse_ && coarse_->is_empty()) coarse_.reset();
     if (coarse_ || bodies_) secant_.emplace(model_);
     if (settings_.divides_steps) division_.emplace(model_);
+    if (settings_.sleeps && bodies_) rest_watch_.emplace(model_);
+}
+
+template <class Real>
+bool BlockDescent<Real>::rests(double step, std::span<const float> load_factors, bool is_pulled,
+                               Nodes<Real>& nodes) {
+    if (!rest_watch_ || !rest_watch_->rests(step, nodes.positions, load_factors, is_pulled, *bodies_))
+        return false;
+    for_each_node(*model_, [&](std::uint32_t n) {
+        Vec4<Real>&position = nodes.positions[n], &velocity = nodes.velocities[n];
+        if (position.w == Real(0)) position = Vec4<Real>(bodies_->came_from(n, Real(0)), Real(0));
+        velocity = Vec4<Real>(Vec3<Real>(0), velocity.w);
+    });
+    return true;
 }
 
 template <class Real>

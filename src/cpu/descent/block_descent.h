@@ -13,6 +13,7 @@
 #include "cpu/descent/contact_forces.h"
 #include "cpu/descent/joint_move.h"
 #include "cpu/descent/node_sweep.h"
+#include "cpu/descent/rest_watch.h"
 #include "cpu/descent/rigid_move.h"
 #include "cpu/descent/rigid_rebound.h"
 #include "cpu/descent/step_division.h"
@@ -53,6 +54,7 @@ public:
     void restart(std::span<const Vec4<Real>> positions) {
         if (bodies_) bodies_->restart(positions);
         if (division_) division_->restart();
+        if (rest_watch_) rest_watch_->restart();
         rebound_.restart();
         last_step_ = 0.0;
     }
@@ -63,6 +65,10 @@ public:
                                             settings_.iterations)
                          : 1;
     }
+
+    /// Whether all bodies rest, and a step of `step` seconds may be left out. Then `nodes` are at rest.
+    /// @param load_factors of the model's loads @param is_pulled whether a hand holds a body
+    bool rests(double step, std::span<const float> load_factors, bool is_pulled, Nodes<Real>& nodes);
 
     /// A step of `step` seconds from `previous`; writes `current`.
     /// @param current's velocities are those one step before `previous` if `has_earlier`, else not looked at
@@ -116,6 +122,7 @@ private:
     int sweeps_;                // of this step
     Real last_step_ = Real(0);  // length of the step before [s]; 0: as this one
     std::optional<StepDivision<Real>> division_;
+    std::optional<RestWatch<Real>> rest_watch_;
     std::unique_ptr<Contacts<Real>> bodies_;
     StepObjective<Real> objective_;
     ColliderContacts<Real> contacts_;

@@ -7,6 +7,7 @@
 #include "core/file.h"
 #include "gelatin/scene.h"
 #include "model/scene/override_scene.h"
+#include "model/scene/parse_scene.h"
 #include "model/scene/scene_file_bodies.h"
 #include "model/scene/scene_file_override.h"
 #include "model/scene/scene_file_places.h"
@@ -49,6 +50,7 @@ SimulationSettings read_simulation(TableReader reader) {
     reader.read("iterations", settings.iterations);
     reader.read("gravity", settings.gravity);
     reader.read("frames", settings.frames);
+    reader.read("sleep", settings.sleep);
     reader.finish();
     return settings;
 }
@@ -164,6 +166,10 @@ Scene read_scene(const std::string& text, const std::filesystem::path& file,
 
 Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
     return read_scene(read_file(file), file, overrides);
+}
+
+Scene parse_scene(const std::string& text, const std::filesystem::path& file) {
+    return read_scene(text, file, {});
 }
 
 Scene override_scene(const Scene& scene, const std::vector<std::string>& overrides) {

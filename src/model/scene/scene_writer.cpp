@@ -159,7 +159,7 @@ Table table_of(const SimulationSettings& s) {
     table.add("solver", name_of(s.solver)).add("forces", name_of(s.forces));
     table.add("frame_rate", s.frame_rate).add("substeps", s.substeps);
     table.add("iterations", s.iterations);
-    return table.add("gravity", s.gravity).add("frames", s.frames);
+    return table.add("gravity", s.gravity).add("frames", s.frames).add("sleep", s.sleep);
 }
 
 Table table_of(const CollisionSettings& c) {

@@ -1,0 +1,162 @@
+#include "cpu/descent/rest_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "cpu/cpu_solver.h"
+#include "support/contact_scenes.h"
+#include "support/test_models.h"
+
+namespace gelatin {
+namespace {
+
+using test::kFrame;
+
+// Of soft bodies above a plane, which sleep unless they are told not to.
+class Sleeper {
+public:
+    explicit Sleeper(std::shared_ptr<const Model> model, bool sleeps = true)
+        : model_(std::move(model)),
+          solver_(model_, SolverKind::vbd, ForceMethod::fused,
+                  CollisionSettings{.response = CollisionResponse::contact, .restitution = 0.0},
+                  DescentSettings{.divides_steps = true, .sleeps = sleeps}) {}
+
+    void advance(int frames) {
+        for (int k = 0; k < frames; ++k) test::advance(solver_, *model_, frame_++);
+    }
+    cpu::CpuSolver<float>& solver() { return solver_; }
+    const Model& model() const { return *model_; }
+    const std::vector<cpu::Vec4<float>>& positions() const { return solver_.nodes().positions; }
+    float fastest() const {
+        float most = 0.0f;
+        for (const auto& velocity : solver_.nodes().velocities)
+            most = std::max(most, glm::length(glm::vec3(velocity)));
+        return most;
+    }
+    // Nothing moves, to the last bit; without sleep speeds are small, but not zero.
+    bool is_asleep() {
+        const std::vector<cpu::Vec4<float>> before = positions();
+        advance(1);
+        return fastest() == 0.0f && positions() == before;
+    }
+    glm::dvec3 center(std::size_t object) const {
+        const Range& nodes = model_->objects[object].nodes;
+        glm::dvec3 sum(0.0);
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) sum += glm::dvec3(positions()[n]);
+        return sum / static_cast<double>(nodes.count);
+    }
+
+private:
+    std::shared_ptr<const Model> model_;
+    cpu::CpuSolver<float> solver_;
+    int frame_ = 0;
+};
+
+const glm::dvec3 kGravity{0, -9.81, 0};
+
+ColliderDescription floor() {
+    ColliderDescription description;
+    description.shape = PlaneCollider{};
+    return description;
+}
+
+// Two blocks of 27 kg, one on the other.
+std::shared_ptr<const Model> make_stack() {
+    return test::make_blocks({{.place = {0, 0.002, 0}}, {.place = {0.01, 0.33, 0.02}}}, kGravity, {floor()});
+}
+
+constexpr int kUntilRest = 900;  // frames
+
+TEST(RestWatch, BodiesAtRestSleepAndAreHeldAsBefore) {
+    Sleeper scene(make_stack());
+    scene.advance(kUntilRest);
+    ASSERT_TRUE(scene.is_asleep());
+    const ContactForces forces = scene.solver().contact_forces();
+    glm::dvec3 sum(0.0);
+    for (const glm::dvec3& force : forces.normal) sum += force;
+    EXPECT_NEAR(sum.y, 2.0 * 27.0 * 9.81, 0.01 * 2.0 * 27.0 * 9.81);
+}
+
+TEST(RestWatch, WithoutItBodiesAtRestAreSimulated) {
+    Sleeper scene(make_stack(), false);
+    scene.advance(kUntilRest);
+    EXPECT_LT(scene.fastest(), 1e-4f);
+    EXPECT_FALSE(scene.is_asleep());
+}
+
+// The upper block comes from far: the lower one rests long before.
+TEST(RestWatch, NoneSleepsWhileOneMoves) {
+    const auto model =
+        test::make_blocks({{.place = {0, 0.002, 0}}, {.place = {5, 30, 0}}}, kGravity, {floor()});
+    Sleeper scene(model);
+    scene.advance(120);
+    EXPECT_NEAR(scene.center(1).y, 30.15 - 0.5 * 9.81 * 4.0, 0.4);
+    EXPECT_FALSE(scene.is_asleep());
+}
+
+TEST(RestWatch, SlowMotionIsNoRest) {
+    const auto model =
+        test::make_blocks({{.velocity = {1e-3, 0, 0}}, {.place = {2, 0, 0}, .velocity = {1e-3, 0, 0}}});
+    Sleeper scene(model);
+    const double start = scene.center(0).x;
+    scene.advance(180);
+    EXPECT_NEAR(scene.center(0).x, start + 3e-3, 5e-6);
+}
+
+TEST(RestWatch, AHandWakes) {
+    Sleeper scene(make_stack());
+    scene.advance(kUntilRest);
+    ASSERT_TRUE(scene.is_asleep());
+    const Range& nodes = scene.model().objects[1].nodes;
+    Pull pull;
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+        pull.nodes.push_back(
+            Pull::Node{n, glm::vec3(scene.positions()[n]) - glm::vec3(scene.center(1)), 400.0f});
+    pull.target = scene.center(1) + glm::dvec3(0, 0.5, 0);
+    scene.solver().set_pull(pull);
+    scene.advance(60);
+    EXPECT_GT(scene.center(1).y, 0.6);
+    scene.solver().set_pull(std::nullopt);  // it falls, and rests again
+    scene.advance(kUntilRest);
+    EXPECT_TRUE(scene.is_asleep());
+    EXPECT_LT(scene.center(1).y, 0.5);
+}
+
+TEST(RestWatch, NodesSetFromOutsideWake) {
+    Sleeper scene(make_stack());
+    scene.advance(kUntilRest);
+    ASSERT_TRUE(scene.is_asleep());
+    State state = scene.solver().read_state();
+    for (glm::vec4& velocity : state.velocities) velocity.y = 3.0f;
+    scene.solver().write_state(state);
+    const double height = scene.center(1).y;
+    scene.advance(10);
+    EXPECT_GT(scene.center(1).y, height + 0.3);
+}
+
+// A wall that has stood still comes and pushes a block, at a speed that no single step shows.
+TEST(RestWatch, CollidersThatBeginToMoveWake) {
+    ColliderDescription wall;
+    wall.shape = BoxShape{.size = {0.1, 1.0, 1.0}};
+    wall.position = {-0.08, 0.51, 0.15};
+    wall.keyframes = {{.time = 0.0}, {.time = 6.0}, {.time = 16.0, .move = {0.01, 0, 0}}};
+    const auto model =
+        test::make_blocks({{.place = {0, 0.002, 0}, .friction = 0.1}}, kGravity, {floor(), wall});
+    Sleeper scene(model);
+    scene.advance(350);
+    ASSERT_TRUE(scene.is_asleep());
+    const double before = scene.center(0).x;
+    scene.advance(960 - 350);
+    EXPECT_NEAR(scene.center(0).x, before, 0.011);
+    Sleeper awake(model, false);
+    awake.advance(961);
+    EXPECT_NEAR(scene.center(0).x, awake.center(0).x, 5e-4);
+}
+
+}  // namespace
+}  // namespace gelatin
