@@ -13,6 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kRecordingEnding = ".gel";
+
 [[noreturn]] void refuse(const fs::path& file, const std::string& problem) {
     throw InvalidInput({file.string(), 0, {}, {}, problem});
 }
@@ -21,6 +23,7 @@ namespace fs = std::filesystem;
 void check_kind(const fs::path& file) {
     const std::string ending = lower_case_ending(file);
     if (ending == ".toml" || ending.empty() || is_mesh_file(file)) return;
+    if (ending == kRecordingEnding) refuse(file, "is a recording: gelatin render, export and view take one");
     if (!fs::is_regular_file(file)) read_file(file);  // its message names the problem
     refuse(file,
            "is neither a scene (.toml) nor a mesh (.obj, .stl, .ply, .off, .gltf, .glb, .node, .ele, .mesh, "
@@ -33,6 +36,10 @@ std::vector<fs::path>::const_iterator find_scene(const SceneInput& input) {
 }
 
 }  // namespace
+
+bool is_recording_input(const SceneInput& input) {
+    return input.files.size() == 1 && lower_case_ending(input.files.front()) == kRecordingEnding;
+}
 
 void check_input(const SceneInput& input) {
     if (input.files.empty()) throw InvalidInput("there is no scene and no mesh to simulate");

@@ -18,8 +18,12 @@ struct SceneInput {
     bool operator==(const SceneInput&) const = default;
 };
 
+/// Whether it is a recording by its name, which is played and not simulated.
+bool is_recording_input(const SceneInput& input);
+
 /// Checks what the names of the files and the options tell.
-/// @throws InvalidInput for no file, files of other kinds, scenes beside other files, and options of meshes
+/// @throws InvalidInput for no file, recordings, files of other kinds, scenes beside other files, and options
+/// of meshes
 ///   for a scene
 void check_input(const SceneInput& input);
 

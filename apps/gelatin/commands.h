@@ -10,6 +10,8 @@ namespace gelatin {
 /// throws gelatin::Error. main() turns exceptions into one line on stderr and the exit codes of
 /// docs/command-line.md.
 void add_run_command(CLI::App& app);
+void add_render_command(CLI::App& app);
+void add_export_command(CLI::App& app);
 void add_view_command(CLI::App& app);
 void add_mesh_command(CLI::App& app);
 void add_info_command(CLI::App& app);

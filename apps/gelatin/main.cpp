@@ -45,6 +45,8 @@ int run(int argc, char** argv) {
     app.set_help_all_flag("--help-all", "Show the options of every command");
     app.require_subcommand(1);
     add_run_command(app);
+    add_render_command(app);
+    add_export_command(app);
     add_view_command(app);
     add_mesh_command(app);
     add_info_command(app);

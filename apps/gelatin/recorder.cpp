@@ -1,9 +1,11 @@
 #include "recorder.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "overlay_option.h"
 #include "render/image.h"
+#include "render/palette.h"
 #include "sim/simulator_internals.h"
 
 namespace gelatin {
@@ -19,12 +21,31 @@ render::FrameRate film_rate(double frame_rate, int interval) {
     return {all.numerator / common, all.denominator * (interval / common)};
 }
 
+// Frames from one picture to the next. Of a recording, a multiple of those from one that it has to the next.
+int picture_interval(const RunOptions& options, const Simulator& simulator) {
+    const int wanted = record_interval(options, simulator.scene().simulation.frame_rate);
+    const Recording* const recording = simulator.recording();
+    if (recording == nullptr || recording->frame_count() < 2) return wanted;
+    const int spacing = std::max(1, recording->frame(1) - recording->frame(0));
+    return (wanted + spacing - 1) / spacing * spacing;
+}
+
+std::vector<glm::vec3> object_colors(const Model& model) {
+    std::vector<glm::vec3> colors;
+    for (std::size_t o = 0; o < model.objects.size(); ++o) {
+        const glm::vec3& given = model.objects[o].color;
+        colors.push_back(given.r < 0.0f ? render::palette_color(o) : given);
+    }
+    return colors;
+}
+
 }  // namespace
 
 Recorder::Recorder(const RunOptions& options, Simulator& simulator)
     : options_(options),
       simulator_(simulator),
-      interval_(record_interval(options, simulator.scene().simulation.frame_rate)),
+      interval_(picture_interval(options, simulator)),
+      kept_(options.every.value_or(1)),
       pipeline_(simulator) {
     const PictureSize size = picture_size(options);
     if (options.draws()) {
@@ -41,6 +62,20 @@ Recorder::Recorder(const RunOptions& options, Simulator& simulator)
         exporter_ = std::make_unique<FrameExporter>(options.export_folder, export_format(options),
                                                     model_of(simulator));
     }
+    if (!options.animation.empty()) {
+        animation_ = make_animation_file(
+            options.animation, model_of(simulator_),
+            {simulator_.scene().simulation.frame_rate, object_colors(model_of(simulator_))});
+    }
+    if (!options.record.empty()) recording_.emplace(options.record, simulator_);
+}
+
+// The last frame, too, from which a run can continue.
+void Recorder::keep(bool is_last) {
+    const int frame = simulator_.frame();
+    if (!recording_ || recorded_ == frame || (!is_last && frame % kept_ != 0)) return;
+    recording_->write(simulator_);
+    recorded_ = frame;
 }
 
 bool Recorder::is_due() const {
@@ -48,14 +83,16 @@ bool Recorder::is_due() const {
 }
 
 void Recorder::record() {
+    keep(true);
     if (!is_due()) return;
     if (video_) film(painter_->view());
-    if (exporter_) export_frame();
+    write_frame();
 }
 
 void Recorder::record_and_advance() {
+    keep(false);
     if (!is_due()) return simulator_.advance_frame();
-    if (exporter_) export_frame();
+    write_frame();
     if (!video_) return simulator_.advance_frame();
     const RenderView bodies = painter_->view();
     pipeline_.advance_beside([&] { film(bodies); });
@@ -68,12 +105,17 @@ void Recorder::finish() {
         video_.reset();
     }
     if (!options_.image.empty()) write_image();
+    if (animation_) animation_->finish();
+    if (recording_) recording_->finish();
 }
 
-// No frame with invalid numbers is recorded.
-void Recorder::export_frame() {
+// No frame with invalid numbers is exported.
+void Recorder::write_frame() {
+    if (!exporter_ && !animation_) return;
     simulator_.check();
-    exporter_->write(simulator_.read_frame());
+    const HostFrame frame = simulator_.read_frame();
+    if (exporter_) exporter_->write(frame);
+    if (animation_) animation_->write(frame);
 }
 
 void Recorder::film(const RenderView& bodies) {

@@ -5,15 +5,18 @@
 
 #include "common/frame_pipeline.h"
 #include "common/scene_painter.h"
+#include "gelatin/recording.h"
 #include "gelatin/simulator.h"
 #include "render/frame_grabber.h"
 #include "render/video_writer.h"
 #include "run_options.h"
+#include "sim/animation/animation_file.h"
 #include "sim/export.h"
 
 namespace gelatin {
 
-/// Records the pictures of a run: the film, the exported frames, the picture of the last frame.
+/// Records a run, or what a recording plays: the film, the exported frames, the picture of the last frame,
+/// and the recording.
 ///
 /// Needs the simulator's context. Without `finish` there is no film at all.
 class Recorder {
@@ -33,18 +36,23 @@ public:
 
 private:
     bool is_due() const;
-    void export_frame();
+    void keep(bool is_last);
+    void write_frame();
     void film(const RenderView& bodies);
     void write(std::optional<render::Image> picture);
     void write_image();
 
     const RunOptions& options_;
     Simulator& simulator_;
-    int interval_;  // frames
+    int interval_;  // of frames that are filmed and exported
+    int kept_;      // of those that are recorded
     std::unique_ptr<ScenePainter> painter_;
     std::unique_ptr<render::FrameGrabber> grabber_;
     std::unique_ptr<render::VideoWriter> video_;
     std::unique_ptr<FrameExporter> exporter_;
+    std::unique_ptr<AnimationFile> animation_;
+    std::optional<RecordingWriter> recording_;
+    std::optional<int> recorded_;  // frame
     FramePipeline pipeline_;
 };
 

@@ -185,6 +185,8 @@ void Run::print_summary() const {
     report("film", options_.video);
     report("picture", options_.image);
     report("frames", options_.export_folder);
+    report("animation", options_.animation);
+    report("recording", options_.record);
     report("statistics", options_.stats);
     if (saved_frame_) report("checkpoint", options_.checkpoint);
 }
@@ -201,7 +203,7 @@ void run(const RunOptions& options) {
     }
     Simulator simulator(scene, simulator_options(options));
     if (!options.resume.empty()) {
-        simulator.load_checkpoint(options.resume);
+        simulator.load_checkpoint(options.resume, options.resume_frame);
         if (simulator.frame() >= scene.simulation.frames) {
             throw InvalidInput({options.resume.string(),
                                 0,

@@ -11,6 +11,7 @@
 #include "common/output_file.h"
 #include "input_options.h"
 #include "overlay_option.h"
+#include "sim/animation/animation_file.h"
 
 namespace gelatin {
 namespace {
@@ -18,7 +19,57 @@ namespace {
 constexpr int kLeastSide = 16, kLargestSide = 8192;  // pixels; OpenGL 4.3 guarantees 16384
 constexpr double kFilmRate = 60.0;                   // pictures per second
 
+constexpr const char* kOutputs = "Outputs";
+
 }  // namespace
+
+void add_output_options(CLI::App& command, RunOptions& options) {
+    command.add_option("--image", options.image, "Draw the last frame; - is stdout")
+        ->type_name("FILE.png")
+        ->group(kOutputs);
+    command.add_option("--video", options.video, "Film the run; in real time without --every")
+        ->type_name("FILE.mp4")
+        ->group(kOutputs);
+    command.add_option("--size", options.size, "Size of image and film in pixels")
+        ->type_name("WIDTHxHEIGHT")
+        ->capture_default_str()
+        ->group(kOutputs);
+    command
+        .add_option("--quality", options.quality,
+                    "Of image and film: auto, high or fast; auto is fast on software drivers, else high")
+        ->capture_default_str()
+        ->group(kOutputs);
+    command
+        .add_option(
+            "--overlay", options.overlays,
+            "Show in image and film: boxes (boxes:3 with three levels of the trees below), faces that touch, "
+            "springs by strain (springs:0.02 colours fully at 2%), stretch, stress or speed (stress:2e4 "
+            "colours "
+            "fully at 20 kPa), cut (cut:z, cut:x:0.2, cut:1:0:1), velocity, objects, wireframe")
+        ->type_name("NAME")
+        ->delimiter(',')
+        ->expected(1)
+        ->take_all()
+        ->group(kOutputs);
+    CLI::Option* folder =
+        command.add_option("--export", options.export_folder, "Write frames as meshes into this folder")
+            ->type_name("DIR")
+            ->group(kOutputs);
+    command.add_option("--format", options.export_format, "Of the exported frames: vtu, obj or ply")
+        ->capture_default_str()
+        ->needs(folder)
+        ->group(kOutputs);
+    command
+        .add_option("--animation", options.animation,
+                    "Write all frames into one file for other programs: glTF (.glb), USD (.usda), or a point "
+                    "cache (.pc2, .mdd)")
+        ->type_name("FILE")
+        ->group(kOutputs);
+    command.add_option("--every", options.every, "Film, export and record every K-th frame")
+        ->type_name("K")
+        ->check(CLI::PositiveNumber)
+        ->group(kOutputs);
+}
 
 void add_run_options(CLI::App& command, RunOptions& options) {
     add_input_options(command, options.input)->required();
@@ -42,51 +93,17 @@ void add_run_options(CLI::App& command, RunOptions& options) {
         .add_flag("--gl-debug", options.gl_debug, "Show the OpenGL driver's messages and missing barriers")
         ->group(computing);
 
-    const char* outputs = "Outputs";
     command
         .add_option("--stats", options.stats, "Write energies, contacts and times to this file; - is stdout")
         ->type_name("FILE.json")
-        ->group(outputs);
-    command.add_option("--image", options.image, "Draw the last frame; - is stdout")
-        ->type_name("FILE.png")
-        ->group(outputs);
-    command.add_option("--video", options.video, "Film the run; in real time without --every")
-        ->type_name("FILE.mp4")
-        ->group(outputs);
-    command.add_option("--size", options.size, "Size of image and film in pixels")
-        ->type_name("WIDTHxHEIGHT")
-        ->capture_default_str()
-        ->group(outputs);
+        ->group(kOutputs);
+    add_output_options(command, options);
     command
-        .add_option("--quality", options.quality,
-                    "Of image and film: auto, high or fast; auto is fast on software drivers, else high")
-        ->capture_default_str()
-        ->group(outputs);
-    command
-        .add_option(
-            "--overlay", options.overlays,
-            "Show in image and film: boxes (boxes:3 with three levels of the trees below), faces that touch, "
-            "springs by strain (springs:0.02 colours fully at 2%), stretch, stress or speed (stress:2e4 "
-            "colours "
-            "fully at 20 kPa), cut (cut:z, cut:x:0.2, cut:1:0:1), velocity, objects, wireframe")
-        ->type_name("NAME")
-        ->delimiter(',')
-        ->expected(1)
-        ->take_all()
-        ->group(outputs);
-    CLI::Option* folder =
-        command.add_option("--export", options.export_folder, "Write frames as meshes into this folder")
-            ->type_name("DIR")
-            ->group(outputs);
-    command.add_option("--format", options.export_format, "Of the exported frames: vtu, obj or ply")
-        ->capture_default_str()
-        ->needs(folder)
-        ->group(outputs);
-    command.add_option("--every", options.every, "Film and export every K-th frame")
-        ->type_name("K")
-        ->check(CLI::PositiveNumber)
-        ->group(outputs);
-    command.add_flag("--quiet", options.quiet, "No progress, no summary and no notes")->group(outputs);
+        .add_option("--record", options.record,
+                    "Write every frame, or every K-th, to this recording: to draw, export and view it later")
+        ->type_name("FILE.gel")
+        ->group(kOutputs);
+    command.add_flag("--quiet", options.quiet, "No progress, no summary and no notes")->group(kOutputs);
 
     const char* checkpoints = "Checkpoints";
     CLI::Option* checkpoint =
@@ -98,8 +115,13 @@ void add_run_options(CLI::App& command, RunOptions& options) {
         ->check(CLI::PositiveNumber)
         ->needs(checkpoint)
         ->group(checkpoints);
-    command.add_option("--resume", options.resume, "Continue from this checkpoint")
-        ->type_name("FILE")
+    CLI::Option* resume =
+        command.add_option("--resume", options.resume, "Continue from this checkpoint or recording")
+            ->type_name("FILE")
+            ->group(checkpoints);
+    command.add_option("--resume-frame", options.resume_frame, "Of the recording; its last one by default")
+        ->check(CLI::NonNegativeNumber)
+        ->needs(resume)
         ->group(checkpoints);
 }
 
@@ -107,6 +129,8 @@ void check_outputs(const RunOptions& options) {
     if (!options.stats.empty()) check_output_file("--stats", options.stats);
     if (!options.image.empty()) check_output_file("--image", options.image, {".png"});
     if (!options.video.empty()) check_output_file("--video", options.video, {".mp4"});
+    if (!options.animation.empty()) check_output_file("--animation", options.animation, animation_endings());
+    if (!options.record.empty()) check_output_file("--record", options.record, {".gel"});
     if (!options.checkpoint.empty()) check_output_file("--checkpoint", options.checkpoint);
     export_format(options);
     picture_size(options);

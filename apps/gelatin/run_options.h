@@ -27,15 +27,16 @@ struct RunOptions {
     std::optional<int> threads;  ///< of the CPU backend; empty: as many as the machine has
     bool gl_debug = false;
 
-    std::filesystem::path stats, image, video, export_folder;
+    std::filesystem::path stats, image, video, export_folder, animation, record;
     std::string export_format = "vtu";
-    std::optional<int> every;  ///< frames from one recorded frame to the next
+    std::optional<int> every;  ///< frames from one that is filmed, exported and recorded to the next
     std::string size = "1280x720";
     std::string quality = "auto";
     std::vector<std::string> overlays;  ///< see overlay_option.h
 
     std::filesystem::path checkpoint, resume;
     std::optional<int> checkpoint_every;  ///< frames
+    std::optional<int> resume_frame;      ///< of a recording
 
     bool quiet = false;
 
@@ -43,6 +44,9 @@ struct RunOptions {
 };
 
 void add_run_options(CLI::App& command, RunOptions& options);
+
+/// What is drawn and exported, and how. @param command has no other options with these names
+void add_output_options(CLI::App& command, RunOptions& options);
 
 /// Refuses outputs that cannot be written, before anything is simulated; creates the export folder.
 /// @throws InvalidInput

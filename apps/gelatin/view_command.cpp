@@ -17,7 +17,8 @@ struct ViewOptions {
 };
 
 void view(ViewOptions options) {
-    if (!options.viewer.input.files.empty()) check_input(options.viewer.input);
+    const SceneInput& input = options.viewer.input;
+    if (!input.files.empty() && !is_recording_input(input)) check_input(input);
     options.viewer.backend = parse_backend(options.backend);
     options.viewer.quality = parse_quality(options.quality);
     const PictureSize size = parse_size(options.size);
@@ -31,7 +32,7 @@ void view(ViewOptions options) {
 void add_view_command(CLI::App& app) {
     auto options = std::make_shared<ViewOptions>();
     CLI::App* command =
-        app.add_subcommand("view", "Show a scene, or meshes, in a window and interact with them");
+        app.add_subcommand("view", "Show a scene, meshes or a recording in a window and interact with them");
     add_input_options(*command, options->viewer.input);
     command->add_option("--backend", options->backend, "auto, gl or cpu; auto is gl on a GPU")
         ->capture_default_str();

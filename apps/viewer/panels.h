@@ -29,6 +29,7 @@ struct PanelState {
 struct Requests {
     std::vector<Command> commands;
     std::optional<double> speed;
+    std::optional<std::size_t> recorded;  ///< frame to show, by its index in the recording
     std::optional<Overlays> overlays;
     std::optional<bool> shows_markers;
     std::optional<Scene> edited;

@@ -5,7 +5,7 @@
 namespace gelatin::viewer {
 
 void SceneLoader::open(const SceneInput& input) {
-    ask_for({input.files.front(), Purpose::show, [input] { return build_scene(load_input(input)); }});
+    ask_for({input.files.front(), Purpose::show, [input] { return load_scene_source(input); }});
 }
 
 void SceneLoader::rebuild(const Scene& scene) {

@@ -1,8 +1,18 @@
 #include "scene_source.h"
 
+#include <utility>
+
 #include "model/build/build_model.h"
 
 namespace gelatin::viewer {
+
+LoadedScene load_scene_source(const SceneInput& input) {
+    if (!is_recording_input(input)) return build_scene(load_input(input));
+    auto recording = std::make_shared<const Recording>(input.files.front());
+    LoadedScene loaded = build_scene(recording->scene());
+    loaded.recording = std::move(recording);
+    return loaded;
+}
 
 LoadedScene build_scene(const Scene& scene) {
     return {scene, std::make_shared<const Model>(build_model(scene))};

@@ -18,12 +18,27 @@ SimulatorOptions simulator_options(Backend backend) {
     return options;
 }
 
+Simulator make_simulator(LoadedScene loaded, Backend backend) {
+    const SimulatorOptions options = simulator_options(backend);
+    if (loaded.recording)
+        return SimulatorInternals::make(std::move(loaded.recording), std::move(loaded.model), options);
+    return SimulatorInternals::make(loaded.scene, std::move(loaded.model), options);
+}
+
+// From one step, or recorded frame, to the next [s].
+double step_of(const Simulator& simulator) {
+    const Recording* const recording = simulator.recording();
+    if (recording == nullptr) return simulator.step_size();
+    return recording->frame_count() > 1 ? recording->time(1) - recording->time(0)
+                                        : simulator.scene().simulation.frame_time();
+}
+
 }  // namespace
 
 Session::Session(LoadedScene loaded, Backend backend, const Session* earlier)
-    : simulator_(SimulatorInternals::make(loaded.scene, std::move(loaded.model), simulator_options(backend))),
+    : simulator_(make_simulator(std::move(loaded), backend)),
       device_(simulator_.device()),
-      pace_(simulator_.step_size()),
+      pace_(step_of(simulator_)),
       held_nodes_(simulator_.held_nodes()) {
     if (earlier == nullptr) return;
     simulator_.go_on_from(earlier->simulator_);
@@ -79,8 +94,12 @@ void Session::take_over() {
     if (step_ms > 0.0) pace_.note_cost(1e-3 * step_ms);
     for (const FrameStatistics& statistics : std::exchange(measured_, {})) readings_.add(statistics);
     if (std::exchange(is_reset_asked_, false)) go_back();
-    follow_hand();
-    follow_drags();
+    if (simulator_.recording() != nullptr) {
+        follow_recording();
+    } else {
+        follow_hand();
+        follow_drags();
+    }
     time_ = simulator_.time();
     frame_ = simulator_.frame();
 }
@@ -92,6 +111,24 @@ void Session::go_back() {
     readings_.clear();
     pace_.restart();
     is_view_old_ = true;
+}
+
+// Nobody can take hold of what has happened already.
+void Session::follow_recording() {
+    hand_ = Hand::free;
+    drags_asked_.clear();
+    const Recording& recording = *simulator_.recording();
+    if (index_asked_) {
+        try {
+            simulator_.show_recorded(*index_asked_);
+        } catch (const Error& error) {
+            fail(error.what());
+        }
+        index_asked_.reset();
+        is_view_old_ = true;
+    }
+    index_ = recording.index_of(simulator_.frame());
+    if (index_ + 1 == recording.frame_count()) is_playing_ = false;
 }
 
 void Session::reach(const Ray& ray) {

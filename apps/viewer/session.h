@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -40,6 +41,10 @@ public:
     /// Makes steps while paused; many, in several batches.
     void make_steps(int count) { steps_asked_ += count; }
     void reset();
+    /// What it plays; null: it simulates.
+    const Recording* recording() const { return simulator_.recording(); }
+    /// Shows a frame of the recording, once the running batch is done. @param index in the recording
+    void show_recorded(std::size_t index) { index_asked_ = index; }
     void set_speed(double speed) { pace_.set_speed(speed); }
     const Pace& pace() const { return pace_; }
     void show(const Overlays& overlays);
@@ -71,6 +76,7 @@ public:
     /// As of the last completed batch.
     double time() const { return time_; }
     int frame() const { return frame_; }
+    std::size_t index() const { return index_; }  ///< of the frame in the recording; 0 without one
     const RenderView& view() const { return view_; }
     const Readings& readings() const { return readings_; }
     /// The error that stopped it; empty if there is none. reset() continues.
@@ -87,6 +93,7 @@ public:
 private:
     void take_over();
     void go_back();
+    void follow_recording();
     void follow_hand();
     void follow_drags();
     void start_batch(int steps, double now);
@@ -113,6 +120,8 @@ private:
     double last_update_ = 0.0, last_measure_ = -1.0;  // [s]
     double time_ = 0.0;
     int frame_ = 0;
+    std::size_t index_ = 0;
+    std::optional<std::size_t> index_asked_;
     std::string problem_;
     std::vector<FrameStatistics> measured_;  // of the running batch
     gl::Fence fence_;                        // of the batch, if the GPU simulates

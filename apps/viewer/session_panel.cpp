@@ -1,6 +1,8 @@
 #include <fmt/core.h>
 #include <imgui.h>
 
+#include <string>
+
 #include "panels.h"
 
 namespace gelatin::viewer {
@@ -14,6 +16,17 @@ bool button(const char* label, float width) {
 
 void print(const std::string& text) {
     ImGui::TextUnformatted(text.c_str());
+}
+
+// Goes to any frame of a recording, or on from there as a simulation.
+void draw_timeline(const Session& session, const PanelState& state, Requests& requests) {
+    const Recording& recording = *session.recording();
+    int index = static_cast<int>(session.index());
+    const int last = static_cast<int>(recording.frame_count()) - 1;
+    if (ImGui::SliderInt("frame", &index, 0, last, std::to_string(session.frame()).c_str(),
+                         ImGuiSliderFlags_AlwaysClamp))
+        requests.recorded = static_cast<std::size_t>(index);
+    if (ImGui::Button("Simulate from here", {-1.0f, 0.0f})) requests.edited = state.edited;
 }
 
 }  // namespace
@@ -54,6 +67,7 @@ void draw_playback(const Session& session, const PanelState& state, Requests& re
     if (ImGui::SliderFloat("speed", &speed, 1.0f / 64.0f, 1.0f, "%.3f x real time",
                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
         requests.speed = static_cast<double>(speed);
+    if (session.recording() != nullptr) draw_timeline(session, state, requests);
     print(fmt::format("{:.3f} s, frame {}", session.time(), session.frame()));
     ImGui::SameLine(ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize("F1: help").x);
     ImGui::TextDisabled("F1: help");

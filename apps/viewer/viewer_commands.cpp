@@ -91,6 +91,7 @@ void ViewerApp::obey(Command command) {
 void ViewerApp::obey(const Requests& requests) {
     for (const Command command : requests.commands) obey(command);
     if (requests.speed && session_) session_->set_speed(*requests.speed);
+    if (requests.recorded && session_) session_->show_recorded(*requests.recorded);
     if (requests.overlays) show_overlays(*requests.overlays);
     if (requests.shows_markers) panels_.shows_markers = *requests.shows_markers;
     if (!requests.opened.empty()) open(requests.opened);

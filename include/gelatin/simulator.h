@@ -16,6 +16,7 @@
 
 namespace gelatin {
 
+class Recording;
 struct Model;  // tets and springs, as the solvers have them; not public
 
 enum class Backend { automatic, gl, cpu };
@@ -109,6 +110,11 @@ public:
     /// @throws InvalidInput as validate(), for scenes that cannot be built, and for a fixed step that is not
     ///   stable (naming the largest stable one); NoOpenGl if GL is requested and there is none.
     explicit Simulator(const Scene& scene, const SimulatorOptions& options = {});
+    /// Plays a recording, from its first frame on: advance_frame() and step() go to the next recorded frame,
+    /// if there is one. What is drawn, read and measured is as in the run; nobody can pull or drag.
+    /// @param options the backend is not looked at
+    /// @throws InvalidInput if its meshes are not there, or are others now, or the file is damaged
+    explicit Simulator(std::shared_ptr<const Recording> recording, const SimulatorOptions& options = {});
     Simulator(Simulator&&) noexcept;
     Simulator& operator=(Simulator&&) noexcept;
     ~Simulator();
@@ -125,6 +131,12 @@ public:
 
     /// Returns to the start and discards pending measurements. Allowed after Diverged.
     void reset();
+
+    /// What it plays; null: it simulates.
+    const Recording* recording() const;
+    /// Goes to a frame of the recording, in any order. @param index below Recording::frame_count()
+    /// @throws InvalidInput if the file is damaged @pre it plays one
+    void show_recorded(std::size_t index);
 
     /// Continues from the state of another simulation, with the masses, materials and settings of this one's
     /// own scene. Bodies with the same name and tets get the other one's positions, velocities and drags;
@@ -180,12 +192,18 @@ public:
     /// Saves the complete, exact state, so that a run can continue later. The file is written completely or
     /// not at all. @throws SystemError; Diverged as check(): a diverged state is never saved.
     void save_checkpoint(const std::filesystem::path& file) const;
-    /// @throws InvalidInput if the file is not a checkpoint, is damaged, or belongs to another scene.
-    void load_checkpoint(const std::filesystem::path& file);
+    /// Continues from a checkpoint, or from a frame of a recording.
+    /// @param frame its number in the recording; empty: the last one
+    /// @throws InvalidInput if the file is neither, is damaged, or belongs to another scene, or if there is
+    /// no
+    ///   such frame.
+    void load_checkpoint(const std::filesystem::path& file, std::optional<int> frame = {});
 
 private:
     friend struct SimulatorInternals;
     Simulator(const Scene& scene, std::shared_ptr<const Model> model, const SimulatorOptions& options);
+    Simulator(std::shared_ptr<const Recording> recording, std::shared_ptr<const Model> model,
+              const SimulatorOptions& options);
 
     struct Impl;
     std::unique_ptr<Impl> impl_;

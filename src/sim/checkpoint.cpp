@@ -34,10 +34,6 @@ std::uint64_t hash(const std::vector<T>& values, std::uint64_t seed) {
     return XXH3_64bits_withSeed(values.data(), values.size() * sizeof(T), seed);
 }
 
-std::uint64_t topology_hash(const Model& model) {
-    return hash(model.tets, hash(model.faces, model.positions.size()));
-}
-
 // Whether a handle is anywhere but where its keyframes have it.
 bool is_any_away(const Checkpoint& checkpoint) {
     const auto is_away = [](const Drag& drag) { return drag != Drag(); };
@@ -72,6 +68,10 @@ void take(const char*& next, std::size_t count, std::vector<T>& array) {
 }
 
 }  // namespace
+
+std::uint64_t topology_hash(const Model& model) {
+    return hash(model.tets, hash(model.faces, model.positions.size()));
+}
 
 void write_checkpoint(const std::filesystem::path& file, const Model& model, const Checkpoint& checkpoint) {
     const State& state = checkpoint.state;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct Checkpoint {
     std::vector<Drag> drags = {}, drag_targets = {};  ///< shape [handles], or none
     std::vector<double> delays = {};                  ///< of handles [s], shape [handles], or none
 };
+
+/// A model's tets and faces, as a number: what a state belongs to.
+std::uint64_t topology_hash(const Model& model);
 
 /// Writes the exact bits, with the model's topology and a checksum; completely or not at all. @throws
 /// SystemError

@@ -9,6 +9,7 @@
 #include "core/log.h"
 #include "cpu/cpu_solver.h"
 #include "gelatin/error.h"
+#include "gelatin/recording.h"
 #include "gl/object_name.h"
 #include "gpu/gpu_solver.h"
 #include "model/build/build_model.h"
@@ -25,6 +26,8 @@
 #include "sim/forces.h"
 #include "sim/move_apart.h"
 #include "sim/overlay_source.h"
+#include "sim/recording/playback_solver.h"
+#include "sim/recording/recording_internals.h"
 #include "sim/shared_solver.h"
 #include "sim/simulator_internals.h"
 #include "sim/standstills.h"
@@ -56,10 +59,18 @@ struct Simulator::Impl {
     std::uint32_t reported_losses = 0;
     bool lost_proximities = false;  // and reported
 
+    std::shared_ptr<const Recording> recording;  // that is played; null: it simulates
+    std::size_t shown = 0;                       // of its frames
+
     void make_solver() {
+        if (recording) {
+            solver = std::make_unique<PlaybackSolver>(model);
+            return;
+        }
         const SimulationSettings& settings = scene.simulation;
         DescentSettings descent{settings.iterations};
         descent.divides_steps = scene.has_contact() && !settings.substeps;
+        descent.sleeps = scene.has_contact() && settings.sleep;
         if (choose_gl(options, context) && has_contacts(*model, scene.collision)) {
             solver = std::make_unique<SharedSolver>(model, settings.forces, scene.collision, descent);
         } else if (choose_gl(options, context)) {
@@ -125,6 +136,27 @@ struct Simulator::Impl {
         }
         if (scene.collision.self_collision)
             require_whole(model, scene, start_state ? start_state->positions : model->positions);
+    }
+
+    Checkpoint checkpoint() const {
+        return {now().frame,    now().time,       solver->read_state(),
+                drags->drags(), drags->targets(), clocks->delays()};
+    }
+
+    // As of a recorded frame. Measurements of others stay pending.
+    void show(std::size_t index) {
+        const RecordedFrame& frame = RecordingInternals::frame(*recording, *model, index);
+        shown = index;
+        dynamic_cast<PlaybackSolver&>(*solver).show(frame);
+        drags->go_on_with(frame.moment.drags, frame.moment.drag_targets);
+        clocks->go_on_with(frame.moment.delays);
+        go_on_from(moment_of(frame.moment));
+        watch->begin(frame.moment.state, now());
+    }
+
+    Moment moment_of(const Checkpoint& checkpoint) const {
+        return {checkpoint.frame, checkpoint.time,
+                static_cast<std::uint64_t>(checkpoint.frame) * static_cast<std::uint64_t>(substeps)};
     }
 
     // Continues from this state. Pending measurements belong to the old one.
@@ -212,6 +244,28 @@ Simulator::Simulator(const Scene& scene, std::shared_ptr<const Model> model, con
         log_warning(line);
 }
 
+Simulator::Simulator(std::shared_ptr<const Recording> recording, const SimulatorOptions& options)
+    : Simulator(recording, std::make_shared<const Model>(build_model(recording->scene())), options) {}
+
+Simulator::Simulator(std::shared_ptr<const Recording> recording, std::shared_ptr<const Model> model,
+                     const SimulatorOptions& options)
+    : impl_(std::make_unique<Impl>()) {
+    Impl& d = *impl_;
+    d.recording = std::move(recording);
+    d.scene = d.recording->scene();
+    d.scene.collision.response = d.scene.collision.response_with(d.scene.simulation.solver);
+    d.options = options;
+    d.options.backend = Backend::cpu;
+    d.model = std::move(model);
+    d.substeps = choose_substeps(d.scene, *d.model);
+    d.context = make_context(d.options);
+    d.make_solver();
+    d.watch.emplace(d.scene, d.model, d.substeps);
+    d.drags.emplace(d.model);
+    d.clocks.emplace(d.model);
+    d.show(0);
+}
+
 Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 Simulator::~Simulator() = default;
@@ -219,6 +273,10 @@ Simulator::~Simulator() = default;
 void Simulator::step() {
     gl::forget_state();  // the application may have used OpenGL since
     Impl& d = *impl_;
+    if (d.recording) {
+        if (d.shown + 1 < d.recording->frame_count()) d.show(d.shown + 1);
+        return;
+    }
     d.move_held_nodes();
     if (!d.model->loads.empty())
         d.solver->set_load_factors(load_factors(d.model->loads, d.time(), d.step_size()));
@@ -246,7 +304,16 @@ void Simulator::step() {
         d.watch->check(d.solver->alarm(false), now, now);
 }
 
+const Recording* Simulator::recording() const {
+    return impl_->recording.get();
+}
+
+void Simulator::show_recorded(std::size_t index) {
+    impl_->show(index);
+}
+
 void Simulator::reset() {
+    if (impl_->recording) return impl_->show(0);
     impl_->drags->restart();
     impl_->clocks->restart();
     impl_->take_state(impl_->first_state(), {});
@@ -297,7 +364,8 @@ void Simulator::check() const {
 }
 
 void Simulator::advance_frame() {
-    for (int s = 0; s < impl_->substeps; ++s) step();
+    const int steps = impl_->recording ? 1 : impl_->substeps;
+    for (int s = 0; s < steps; ++s) step();
 }
 
 int Simulator::frame() const {
@@ -330,6 +398,11 @@ const Model& SimulatorInternals::model(const Simulator& simulator) {
 Simulator SimulatorInternals::make(const Scene& scene, std::shared_ptr<const Model> model,
                                    const SimulatorOptions& options) {
     return {scene, std::move(model), options};
+}
+
+Simulator SimulatorInternals::make(std::shared_ptr<const Recording> recording,
+                                   std::shared_ptr<const Model> model, const SimulatorOptions& options) {
+    return {std::move(recording), std::move(model), options};
 }
 
 Counts Simulator::counts() const {
@@ -432,21 +505,31 @@ RenderView Simulator::render_view(const Overlays& overlays) {
     return view;
 }
 
-void Simulator::save_checkpoint(const std::filesystem::path& file) const {
-    check();
-    const Drags& drags = *impl_->drags;
-    write_checkpoint(file, *impl_->model,
-                     {frame(), time(), impl_->solver->read_state(), drags.drags(), drags.targets(),
-                      impl_->clocks->delays()});
+RecordedFrame SimulatorInternals::recorded_frame(const Simulator& simulator) {
+    const Simulator::Impl& d = *simulator.impl_;
+    RecordedFrame frame{d.checkpoint(), {}, d.solver->holding_forces()};
+    if (d.has_contact_forces()) frame.contacts = d.solver->contact_forces();
+    return frame;
 }
 
-void Simulator::load_checkpoint(const std::filesystem::path& file) {
-    const Checkpoint checkpoint = read_checkpoint(file, *impl_->model);
-    impl_->drags->go_on_with(checkpoint.drags, checkpoint.drag_targets);
-    impl_->clocks->go_on_with(checkpoint.delays);
-    impl_->take_state(checkpoint.state, {checkpoint.frame, checkpoint.time,
-                                         static_cast<std::uint64_t>(checkpoint.frame) *
-                                             static_cast<std::uint64_t>(substeps())});
+void Simulator::save_checkpoint(const std::filesystem::path& file) const {
+    check();
+    write_checkpoint(file, *impl_->model, impl_->checkpoint());
+}
+
+void Simulator::load_checkpoint(const std::filesystem::path& file, std::optional<int> frame) {
+    Impl& d = *impl_;
+    Checkpoint checkpoint;
+    if (is_recording(file)) {
+        const Recording recording(file);
+        const std::size_t index = frame ? recording.index_of(*frame) : recording.frame_count() - 1;
+        checkpoint = RecordingInternals::frame(recording, *d.model, index).moment;
+    } else {
+        checkpoint = read_checkpoint(file, *d.model);
+    }
+    d.drags->go_on_with(checkpoint.drags, checkpoint.drag_targets);
+    d.clocks->go_on_with(checkpoint.delays);
+    d.take_state(checkpoint.state, d.moment_of(checkpoint));
 }
 
 }  // namespace gelatin

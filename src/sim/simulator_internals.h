@@ -4,6 +4,7 @@
 
 #include "gelatin/simulator.h"
 #include "model/model.h"
+#include "sim/recording/recorded_frame.h"
 
 namespace gelatin {
 
@@ -15,6 +16,13 @@ struct SimulatorInternals {
     /// @param model what build_model made of this very scene
     static Simulator make(const Scene& scene, std::shared_ptr<const Model> model,
                           const SimulatorOptions& options);
+
+    /// The same that plays a recording. @param model what build_model made of its scene
+    static Simulator make(std::shared_ptr<const Recording> recording, std::shared_ptr<const Model> model,
+                          const SimulatorOptions& options);
+
+    /// The present frame, for a recording.
+    static RecordedFrame recorded_frame(const Simulator& simulator);
 };
 
 inline const Model& model_of(const Simulator& simulator) {

@@ -1,0 +1,84 @@
+#include <csignal>
+
+#include "apps/program_test.h"
+#include "core/file.h"
+
+namespace gelatin::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class PlayCommands : public ProgramTest {};
+class PlayCommandsDraw : public DrawingProgramTest {};
+
+TEST_F(PlayCommands, ARecordingIsExportedAsTheRunWas) {
+    const ProgramResult run_result = run(
+        {"run", "cube.toml", "--backend", "cpu", "--record", "cube.gel", "--export", "live", "--every", "5"});
+    ASSERT_EQ(run_result.exit_code, 0) << run_result.err;
+    EXPECT_THAT(run_result.out, HasSubstr("recording: cube.gel"));
+    const ProgramResult result = run({"export", "cube.gel", "played", "--format", "vtu"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("5 frames of cube.gel\nframes: played\n"));
+    for (const char* name : {"frame_000000.vtu", "frame_000010.vtu", "frame_000020.vtu", "scene.pvd"})
+        EXPECT_EQ(read_file(path("live") / name), read_file(path("played") / name)) << name;
+    ASSERT_EQ(run({"export", "cube.gel", "cube.glb", "--from", "5", "--to", "15", "--quiet"}).exit_code, 0);
+    EXPECT_EQ(read_file(path("cube.glb")).substr(0, 4), "glTF");
+}
+
+TEST_F(PlayCommands, ARunContinuesFromAFrame) {
+    ASSERT_EQ(
+        run({"run", "cube.toml", "--backend", "cpu", "--record", "cube.gel", "--checkpoint", "a"}).exit_code,
+        0);
+    const ProgramResult result = run({"run", "cube.toml", "--backend", "cpu", "--resume", "cube.gel",
+                                      "--resume-frame", "7", "--checkpoint", "b"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(read_file(path("a")), read_file(path("b")));
+    EXPECT_THAT(run({"run", "cube.toml", "--resume", "cube.gel", "--resume-frame", "70"}).err,
+                HasSubstr("cube.gel: frame = 70: is not recorded; there are 21 from 0 to 20"));
+}
+
+TEST_F(PlayCommands, WhatAKilledRunHasWrittenOpens) {
+    ProgramSettings settings = settings_;
+    settings.signal_after = "10%";
+    settings.signals = {SIGKILL};
+    settings.signal_delay = std::chrono::milliseconds(20);
+    const ProgramResult killed = run_gelatin(
+        {"run", "cube.toml", "--backend", "cpu", "--frames", "200000", "--record", "cube.gel"}, settings);
+    ASSERT_EQ(killed.signal, SIGKILL);
+    const ProgramResult result = run({"export", "cube.gel", "cube.pc2", "--every", "1000"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("frames of cube.gel"));
+}
+
+TEST_F(PlayCommands, WrongInputIsOneLine) {
+    ASSERT_EQ(
+        run({"run", "cube.toml", "--backend", "cpu", "--frames", "2", "--record", "cube.gel"}).exit_code, 0);
+    const auto expect_error = [&](const std::vector<std::string>& arguments, const std::string& problem) {
+        const ProgramResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, 2) << problem;
+        EXPECT_THAT(result.err, HasSubstr(problem));
+        EXPECT_THAT(result.out, IsEmpty());
+    };
+    expect_error({"export", "cube.toml", "out"}, "cube.toml: is not a recording of Gelatin");
+    expect_error({"export", "none.gel", "out"}, "none.gel: no such file");
+    expect_error({"export", "cube.gel", "out", "--from", "3"},
+                 "no such frames are recorded; there are those from 0 to 2");
+    expect_error({"render", "cube.gel"}, "nothing to make");
+    expect_error({"run", "cube.gel"}, "cube.gel: is a recording: gelatin render, export and view take one");
+    expect_error({"run", "cube.toml", "--record", "cube.mp4"}, "must end in .gel");
+}
+
+TEST_F(PlayCommandsDraw, ARecordingIsDrawnAsTheRunWas) {
+    const ProgramResult run_result = run({"run", "cube.toml", "--backend", "cpu", "--frames", "6", "--record",
+                                          "cube.gel", "--image", "live.png", "--size", "64x64"});
+    ASSERT_EQ(run_result.exit_code, 0) << run_result.err;
+    const ProgramResult result =
+        run({"render", "cube.gel", "--image", "played.png", "--video", "played.mp4", "--size", "64x64"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(read_file(path("live.png")), read_file(path("played.png")));
+    EXPECT_GT(std::filesystem::file_size(path("played.mp4")), 0u);
+}
+
+}  // namespace
+}  // namespace gelatin::test

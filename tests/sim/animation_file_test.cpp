@@ -1,0 +1,193 @@
+#include "sim/animation/animation_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <assimp/scene.h>
+#include <assimp/Importer.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/file.h"
+#include "gelatin/error.h"
+#include "model/skin.h"
+#include "sim/animation/animated_surface.h"
+#include "sim/simulator_internals.h"
+#include "support/simulator_fixture.h"
+
+namespace gelatin {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Two balls and a box on which they fall.
+class AnimationFileTest : public testing::Test {
+protected:
+    AnimationFileTest()
+        : simulator_(scene(), on_cpu()), surface_(make_animated_surface(model_of(simulator_))) {
+        for (int k = 0; k < 5; ++k) {
+            if (k > 0) simulator_.advance_frame();
+            simulator_.advance_frame();
+            frames_.push_back(simulator_.read_frame());
+        }
+    }
+
+    static Scene scene() {
+        Scene scene = test::falling_balls();
+        scene.simulation.solver = SolverKind::vbd;
+        scene.objects[0].name = "1st ball, \"red\"";
+        ColliderDescription box;
+        box.shape = BoxShape{.size = {2, 0.2, 2}};
+        scene.colliders.push_back(box);
+        return scene;
+    }
+    static SimulatorOptions on_cpu() {
+        SimulatorOptions options;
+        options.backend = Backend::cpu;
+        return options;
+    }
+
+    fs::path write(const std::string& name) const {
+        const fs::path file = folder_.path() / name;
+        AnimationSettings settings{500.0, std::vector<glm::vec3>(3, glm::vec3(0.5f, 0.25f, 0.125f))};
+        const auto animation = make_animation_file(file, model_of(simulator_), settings);
+        for (const HostFrame& frame : frames_) animation->write(frame);
+        animation->finish();
+        return file;
+    }
+
+    // x, y, z of the drawn points of a frame.
+    std::vector<float> points(std::size_t frame) const {
+        return carry_skin(surface_.points, std::span(frames_[frame].positions));
+    }
+
+    TemporaryFolder folder_;
+    Simulator simulator_;
+    AnimatedSurface surface_;
+    std::vector<HostFrame> frames_;
+};
+
+std::uint32_t number_at(const std::string& bytes, std::size_t offset, bool is_big = false) {
+    std::uint32_t number = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+        number |= std::uint32_t{static_cast<unsigned char>(bytes[offset + k])} << (8 * (is_big ? 3 - k : k));
+    return number;
+}
+float float_at(const std::string& bytes, std::size_t offset, bool is_big = false) {
+    return std::bit_cast<float>(number_at(bytes, offset, is_big));
+}
+
+TEST_F(AnimationFileTest, Pc2HasThePointsOfEachFrame) {
+    const std::string bytes = read_file(write("balls.pc2"));
+    const std::size_t count = surface_.points.size();
+    ASSERT_EQ(bytes.size(), 32 + frames_.size() * count * 12);
+    EXPECT_EQ(bytes.substr(0, 12), std::string("POINTCACHE2\0", 12));
+    EXPECT_EQ(number_at(bytes, 12), 1u);
+    EXPECT_EQ(number_at(bytes, 16), count);
+    EXPECT_EQ(float_at(bytes, 20), 1.0f);  // first frame
+    EXPECT_EQ(float_at(bytes, 24), 2.0f);  // frames from one to the next
+    EXPECT_EQ(number_at(bytes, 28), frames_.size());
+    for (std::size_t f = 0; f < frames_.size(); ++f) {
+        const std::vector<float> expected = points(f);
+        for (std::size_t k = 0; k < expected.size(); ++k)
+            ASSERT_EQ(float_at(bytes, 32 + 4 * (f * expected.size() + k)), expected[k]);
+    }
+}
+
+TEST_F(AnimationFileTest, MddHasTimesAndPointsOfEachFrame) {
+    const std::string bytes = read_file(write("balls.mdd"));
+    const std::size_t count = surface_.points.size(), first = 8 + 4 * frames_.size();
+    ASSERT_EQ(bytes.size(), first + frames_.size() * count * 12);
+    EXPECT_EQ(number_at(bytes, 0, true), frames_.size());
+    EXPECT_EQ(number_at(bytes, 4, true), count);
+    for (std::size_t f = 0; f < frames_.size(); ++f) {
+        EXPECT_EQ(float_at(bytes, 8 + 4 * f, true), static_cast<float>(frames_[f].time));
+        const std::vector<float> expected = points(f);
+        for (std::size_t k = 0; k < expected.size(); ++k)
+            ASSERT_EQ(float_at(bytes, first + 4 * (f * expected.size() + k), true), expected[k]);
+    }
+}
+
+// Read by Assimp.
+TEST_F(AnimationFileTest, GltfHasAMorphTargetForEachFrame) {
+    Assimp::Importer importer;
+    const aiScene* const read = importer.ReadFile(write("balls.glb").string(), 0);
+    ASSERT_NE(read, nullptr) << importer.GetErrorString();
+    ASSERT_EQ(read->mNumMeshes, 3u);
+    for (std::size_t o = 0; o < 3; ++o) {
+        const aiMesh& mesh = *read->mMeshes[o];
+        const AnimatedSurface::Object& object = surface_.objects[o];
+        const bool moves = o < 2;
+        ASSERT_EQ(mesh.mNumVertices, object.vertices.size());
+        ASSERT_EQ(mesh.mNumFaces, object.parts[0].corners.size() / 3);
+        ASSERT_EQ(mesh.mNumAnimMeshes, moves ? frames_.size() - 1 : 0);
+        for (std::size_t f = 0; f < (moves ? frames_.size() : 1); ++f) {
+            const aiVector3D* const vertices = f == 0 ? mesh.mVertices : mesh.mAnimMeshes[f - 1]->mVertices;
+            const aiVector3D* const normals = f == 0 ? mesh.mNormals : mesh.mAnimMeshes[f - 1]->mNormals;
+            const std::vector<glm::vec3> positions = vertex_positions(object, points(f)),
+                                         expected = vertex_normals(object, points(f));
+            for (std::size_t v = 0; v < positions.size(); ++v) {
+                EXPECT_LT(glm::distance(glm::vec3(vertices[v].x, vertices[v].y, vertices[v].z), positions[v]),
+                          1e-6f);
+                EXPECT_LT(glm::distance(glm::vec3(normals[v].x, normals[v].y, normals[v].z), expected[v]),
+                          1e-6f);
+            }
+        }
+    }
+    ASSERT_EQ(read->mNumAnimations, 1u);
+    ASSERT_EQ(read->mAnimations[0]->mNumMorphMeshChannels, 2u);
+    const aiMeshMorphAnim& channel = *read->mAnimations[0]->mMorphMeshChannels[0];
+    ASSERT_EQ(channel.mNumKeys, frames_.size());
+    for (std::size_t f = 0; f < frames_.size(); ++f)
+        for (unsigned w = 0; w < channel.mKeys[f].mNumValuesAndWeights; ++w)
+            EXPECT_EQ(channel.mKeys[f].mWeights[w], w + 1 == f ? 1.0 : 0.0);
+    aiColor4D color;
+    read->mMaterials[0]->Get(AI_MATKEY_COLOR_DIFFUSE, color);
+    EXPECT_EQ(color, aiColor4D(0.5f, 0.25f, 0.125f, 1.0f));
+}
+
+TEST_F(AnimationFileTest, NormalsPointOutwards) {
+    const std::vector<glm::vec3> positions = vertex_positions(surface_.objects[2], points(0)),
+                                 normals = vertex_normals(surface_.objects[2], points(0));
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        EXPECT_GT(glm::dot(positions[v], normals[v]), 0.0f);
+        EXPECT_NEAR(glm::length(normals[v]), 1.0f, 1e-6f);
+    }
+}
+
+TEST_F(AnimationFileTest, UsdHasTimeSamplesOfSurfacesAndTets) {
+    const std::string text = read_file(write("balls.usda"));
+    EXPECT_TRUE(text.starts_with("#usda 1.0\n"));
+    EXPECT_THAT(text,
+                testing::HasSubstr("startTimeCode = 1\n    endTimeCode = 9\n    timeCodesPerSecond = 500\n"));
+    EXPECT_THAT(text,
+                testing::HasSubstr(
+                    "def Mesh \"_1st_ball___red_\" (\n        displayName = \"1st ball, \\\"red\\\"\"\n"));
+    EXPECT_THAT(text, testing::HasSubstr("def Mesh \"ball_1\""));
+    EXPECT_THAT(text, testing::HasSubstr("def TetMesh \"ball_1_tets\""));
+    EXPECT_EQ(std::count(text.begin(), text.end(), '{'), std::count(text.begin(), text.end(), '}'));
+    // The first vertex of each frame.
+    const std::size_t mesh = text.find("def Mesh \"ball_1\"");
+    std::size_t at = text.find("point3f[] points.timeSamples", mesh);
+    for (std::size_t f = 0; f < frames_.size(); ++f) {
+        const glm::vec3 first = vertex_positions(surface_.objects[1], points(f))[0];
+        const std::string start = std::to_string(frames_[f].frame) + ": [(";
+        at = text.find(start, at);
+        ASSERT_NE(at, std::string::npos);
+        EXPECT_EQ(std::stof(text.substr(at + start.size(), 20)), first.x);
+    }
+}
+
+TEST_F(AnimationFileTest, OtherEndingsAreRefused) {
+    EXPECT_THROW(write("balls.fbx"), InvalidInput);
+}
+
+}  // namespace
+}  // namespace gelatin

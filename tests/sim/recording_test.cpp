@@ -1,0 +1,245 @@
+#include "gelatin/recording.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/file.h"
+#include "gelatin/error.h"
+#include "sim/recording/earlier_neighbours.h"
+#include "sim/recording/recorded_frame.h"
+#include "sim/recording/residuals.h"
+#include "sim/simulator_internals.h"
+#include "support/random_maker.h"
+#include "support/simulator_fixture.h"
+
+namespace gelatin {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool operator==(const HostFrame& a, const HostFrame& b) {
+    return a.frame == b.frame && a.time == b.time && a.positions == b.positions &&
+           a.velocities == b.velocities && a.contact_forces == b.contact_forces &&
+           a.contact_friction == b.contact_friction && a.holding_forces == b.holding_forces;
+}
+
+class RecordingTest : public testing::Test {
+protected:
+    static SimulatorOptions on_cpu() {
+        SimulatorOptions options;
+        options.backend = Backend::cpu;
+        return options;
+    }
+
+    fs::path file() const { return folder_.path() / "run.gel"; }
+
+    // The frames of a run of so many, of which every k-th and the last are recorded.
+    std::vector<HostFrame> record(const Scene& scene, int frames, int every = 1) const {
+        Simulator simulator(scene, on_cpu());
+        RecordingWriter writer(file(), simulator);
+        std::vector<HostFrame> all;
+        for (int frame = 0; frame <= frames; ++frame) {
+            if (frame > 0) simulator.advance_frame();
+            if (frame % every != 0 && frame < frames) continue;
+            writer.write(simulator);
+            all.push_back(simulator.read_frame());
+        }
+        writer.finish();
+        return all;
+    }
+
+    std::shared_ptr<const Recording> open() const { return std::make_shared<const Recording>(file()); }
+
+    void expect_refused(const std::string& problem) const {
+        try {
+            Simulator(open(), on_cpu());
+            ADD_FAILURE() << "it was not refused";
+        } catch (const InvalidInput& error) {
+            EXPECT_THAT(error.what(), testing::HasSubstr(problem));
+            EXPECT_THAT(error.what(), testing::HasSubstr("run.gel"));
+        }
+    }
+
+    TemporaryFolder folder_;
+};
+
+Scene balls_that_meet() {
+    Scene scene = test::falling_balls();
+    scene.simulation.solver = SolverKind::vbd;
+    scene.simulation.frame_rate = 60.0;
+    scene.objects[0].velocity = {1.5, 0, 0};
+    return scene;
+}
+
+TEST_F(RecordingTest, PlaysWhatTheRunWasToTheLastBit) {
+    const std::vector<HostFrame> frames = record(balls_that_meet(), 70);  // over two key frames
+    Simulator player(open(), on_cpu());
+    for (const HostFrame& frame : frames) {
+        EXPECT_TRUE(player.read_frame() == frame) << "frame " << frame.frame;
+        player.advance_frame();
+    }
+    EXPECT_EQ(player.frame(), 70) << "there it stays";
+    const auto is_pressed = [](const HostFrame& frame) {
+        return std::any_of(frame.contact_forces.begin(), frame.contact_forces.end(),
+                           [](float value) { return value != 0.0f; });
+    };
+    EXPECT_TRUE(std::any_of(frames.begin(), frames.end(), is_pressed));
+}
+
+TEST_F(RecordingTest, FramesCanBeShownInAnyOrder) {
+    const std::vector<HostFrame> frames = record(balls_that_meet(), 70, 2);
+    const auto recording = open();
+    ASSERT_EQ(recording->frame_count(), frames.size());
+    Simulator player(recording, on_cpu());
+    for (const std::size_t k : {35u, 0u, 33u, 34u, 3u, 3u, 35u, 1u}) {
+        player.show_recorded(k);
+        EXPECT_TRUE(player.read_frame() == frames[k]) << k;
+        EXPECT_EQ(player.frame(), recording->frame(k));
+        EXPECT_EQ(player.time(), recording->time(k));
+    }
+    EXPECT_EQ(recording->index_of(6), 3u);
+    EXPECT_THROW(recording->index_of(7), InvalidInput);
+}
+
+TEST_F(RecordingTest, MeasuresAsInTheRun) {
+    const Scene scene = test::driven_balls(SolverKind::vbd);
+    Simulator run(scene, on_cpu());
+    RecordingWriter writer(file(), run);
+    for (int k = 0; k < 40; ++k) run.advance_frame();
+    writer.write(run);
+    writer.finish();
+    run.begin_statistics();
+    const FrameStatistics measured = run.take_statistics();
+    Simulator player(open(), on_cpu());
+    player.begin_statistics();
+    const FrameStatistics played = player.take_statistics();
+    EXPECT_EQ(played.frame, 40);
+    EXPECT_EQ(played.kinetic_energy, measured.kinetic_energy);
+    EXPECT_EQ(played.elastic_energy, measured.elastic_energy);
+    EXPECT_EQ(played.volume_ratio, measured.volume_ratio);
+    ASSERT_EQ(played.contact_forces.size(), measured.contact_forces.size());
+    ASSERT_EQ(played.holding_forces.size(), measured.holding_forces.size());
+    for (std::size_t h = 0; h < measured.holding_forces.size(); ++h)
+        for (int k = 0; k < 3; ++k)
+            EXPECT_EQ(played.holding_forces[h].force[k], measured.holding_forces[h].force[k]);
+}
+
+// Without contact a checkpoint is all that a run needs to go on as if nothing had happened.
+TEST_F(RecordingTest, RunsContinueFromAnyFrame) {
+    Scene scene = test::driven_balls(SolverKind::vbd);
+    scene.collision.response = CollisionResponse::restore;
+    const std::vector<HostFrame> frames = record(scene, 50);
+    for (const int frame : {0, 17, 32, 40}) {
+        Simulator later(scene, on_cpu());
+        later.load_checkpoint(file(), frame);
+        EXPECT_EQ(later.frame(), frame);
+        while (later.frame() < 50) later.advance_frame();
+        EXPECT_TRUE(later.read_frame() == frames[50]) << "from frame " << frame;
+    }
+    Simulator later(scene, on_cpu());
+    later.load_checkpoint(file());
+    EXPECT_EQ(later.frame(), 50);
+    EXPECT_THROW(later.load_checkpoint(file(), 51), InvalidInput);
+}
+
+// As after a process was killed: whatever was written last, what is before opens.
+TEST_F(RecordingTest, WhatIsCutOffOpensUpToTheLastWholeFrame) {
+    const std::vector<HostFrame> frames = record(balls_that_meet(), 40);
+    const std::string whole = read_file(file());
+    const std::size_t first = 3000;  // of the head there are fewer
+    test::RandomMaker random(7);
+    for (int k = 0; k < 50; ++k) {
+        const auto size = static_cast<std::size_t>(
+            random.integer(static_cast<int>(first), static_cast<int>(whole.size() - 1)));
+        write_file(file(), whole.substr(0, size));
+        std::shared_ptr<const Recording> recording;
+        try {
+            recording = open();
+        } catch (const InvalidInput& error) {
+            EXPECT_THAT(error.what(), testing::HasSubstr("no complete frame"));
+            continue;
+        }
+        Simulator player(recording, on_cpu());
+        const std::size_t last = recording->frame_count() - 1;
+        player.show_recorded(last);
+        EXPECT_TRUE(player.read_frame() == frames[last]) << size;
+    }
+}
+
+TEST_F(RecordingTest, DamageIsFoundAndNamed) {
+    record(balls_that_meet(), 3);
+    const std::string whole = read_file(file());
+    std::string damaged = whole;
+    damaged[damaged.size() - 5] ^= 1;  // within the last frame
+    write_file(file(), damaged);
+    Simulator player(open(), on_cpu());
+    EXPECT_THROW(player.show_recorded(3), InvalidInput);
+    player.show_recorded(2);  // as good as before
+    EXPECT_EQ(player.frame(), 2);
+
+    damaged = whole;
+    damaged[100] ^= 1;  // within the head
+    write_file(file(), damaged);
+    expect_refused("is damaged");
+    write_file(file(), "GELATRECxxxx");
+    expect_refused("is not a recording");
+    write_file(file(), "");
+    expect_refused("is not a recording");
+    fs::remove(file());
+    expect_refused("no such file");
+}
+
+TEST_F(RecordingTest, OtherMeshesAreRefused) {
+    Scene scene = balls_that_meet();
+    record(scene, 2);
+    std::get<SphereShape>(scene.objects[0].shape).frequency += 1;
+    Simulator other(scene, on_cpu());
+    EXPECT_THROW(other.load_checkpoint(file()), InvalidInput);
+}
+
+TEST_F(RecordingTest, WhatCannotBeWrittenIsAnError) {
+    const Simulator simulator(balls_that_meet(), on_cpu());
+    EXPECT_THROW(RecordingWriter(folder_.path() / "none" / "run.gel", simulator), SystemError);
+    EXPECT_THROW(RecordingWriter("/dev/full", simulator), SystemError);
+}
+
+TEST(Residuals, NoBitIsLost) {
+    test::RandomMaker random(3);
+    const auto any_float = [&] {
+        const auto bits = static_cast<std::uint32_t>(random.integer(0, 0xFFFF)) << 16 |
+                          static_cast<std::uint32_t>(random.integer(0, 0xFFFF));
+        return std::bit_cast<float>(bits);
+    };
+    for (int k = 0; k < 10000; ++k) {
+        const float value = any_float(), predicted = any_float();
+        const float back = with_residual(predicted, residual(value, predicted));
+        EXPECT_EQ(std::bit_cast<std::uint32_t>(back), std::bit_cast<std::uint32_t>(value));
+    }
+    EXPECT_EQ(residual(1.0f, 1.0f), 0u);
+    EXPECT_EQ(residual(std::nextafter(1.0f, 2.0f), 1.0f), 2u);
+    EXPECT_EQ(residual(1.0f, std::nextafter(1.0f, 2.0f)), 1u);
+    EXPECT_LT(residual(1e-44f, -1e-44f), 100u);
+}
+
+TEST(Residuals, PlanesAreRead) {
+    const std::vector<std::uint32_t> numbers{1u, 0x12345678u, 0xFFFFFFFFu};
+    std::string bytes = "x";
+    append_planes(numbers, bytes);
+    ASSERT_EQ(bytes.size(), 13u);
+    EXPECT_EQ(bytes.substr(1, 3), "\x01\x78\xFF");
+    std::vector<std::uint32_t> read(3);
+    read_planes(std::string_view(bytes).substr(1), read);
+    EXPECT_EQ(read, numbers);
+}
+
+}  // namespace
+}  // namespace gelatin
