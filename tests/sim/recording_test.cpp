@@ -234,10 +234,27 @@ TEST(Residuals, PlanesAreRead) {
     const std::vector<std::uint32_t> numbers{1u, 0x12345678u, 0xFFFFFFFFu};
     std::string bytes = "x";
     append_planes(numbers, bytes);
-    ASSERT_EQ(bytes.size(), 13u);
-    EXPECT_EQ(bytes.substr(1, 3), "\x01\x78\xFF");
+    ASSERT_EQ(bytes.size(), 14u);
+    EXPECT_EQ(bytes[1], 15);
+    EXPECT_EQ(bytes.substr(2, 3), "\x01\x78\xFF");
+    std::vector<std::uint32_t> read(3, 7u);
+    bytes += "end";
+    std::string_view left = std::string_view(bytes).substr(1);
+    ASSERT_TRUE(read_planes(left, read));
+    EXPECT_EQ(left, "end");
+    EXPECT_EQ(read, numbers);
+    left = std::string_view(bytes).substr(1, 12);
+    EXPECT_FALSE(read_planes(left, read));
+}
+
+TEST(Residuals, PlanesOfZerosAreLeftOut) {
+    const std::vector<std::uint32_t> numbers{0x00120000u, 0u, 0x00FF0000u};
+    std::string bytes;
+    append_planes(numbers, bytes);
+    EXPECT_EQ(bytes, std::string("\x04\x12\x00\xFF", 4));
     std::vector<std::uint32_t> read(3);
-    read_planes(std::string_view(bytes).substr(1), read);
+    std::string_view left = bytes;
+    ASSERT_TRUE(read_planes(left, read));
     EXPECT_EQ(read, numbers);
 }
 

@@ -3,7 +3,7 @@
 #include <zstd.h>
 
 #include <algorithm>
-#include <cstring>
+#include <span>
 #include <vector>
 
 #include "core/packed_arrays.h"
@@ -104,7 +104,7 @@ private:
     Values bases_;
 };
 
-// Values of nodes by column, so that like ones are beside each other.
+// Values of nodes by column.
 void append_array(const Values& values, const Prediction& prediction, std::string& bytes) {
     const std::size_t count = values.size();
     std::vector<std::uint32_t> residuals(kColumns * count);
@@ -115,13 +115,15 @@ void append_array(const Values& values, const Prediction& prediction, std::strin
             residuals[c * count + n] = residual(values[n][k], predicted[k]);
         }
     }
-    append_planes(residuals, bytes);
+    for (std::size_t c = 0; c < kColumns; ++c)
+        append_planes(std::span(residuals).subspan(c * count, count), bytes);
 }
 
-void read_array(std::string_view bytes, const Prediction& prediction, Values& values) {
+bool read_array(std::string_view& bytes, const Prediction& prediction, Values& values) {
     const std::size_t count = values.size();
     std::vector<std::uint32_t> residuals(kColumns * count);
-    read_planes(bytes, residuals);
+    for (std::size_t c = 0; c < kColumns; ++c)
+        if (!read_planes(bytes, std::span(residuals).subspan(c * count, count))) return false;
     for (std::size_t n = 0; n < count; ++n) {
         const glm::vec4 predicted = prediction.of(n, values);
         for (std::size_t c = 0; c < kColumns; ++c) {
@@ -129,6 +131,7 @@ void read_array(std::string_view bytes, const Prediction& prediction, Values& va
             values[n][k] = with_residual(predicted[k], residuals[c * count + n]);
         }
     }
+    return true;
 }
 
 std::string compressed(const std::string& bytes) {
@@ -223,11 +226,9 @@ RecordedFrame decoded_frame(std::string_view encoded, const Model& model, const 
     for (std::size_t a = 0; a < kArrays; ++a) {
         const std::uint64_t count = fixed[0].counts[a];
         if (count != nodes && (count != 0 || a == positions || a == velocities)) refuse();
-        if (left.size() < count * sizeof(glm::vec4)) refuse();
         prediction.begin(a, arrays, count);
         arrays.of[a].resize(count);
-        read_array(left.substr(0, count * sizeof(glm::vec4)), prediction, arrays.of[a]);
-        left.remove_prefix(count * sizeof(glm::vec4));
+        if (!read_array(left, prediction, arrays.of[a])) refuse();
     }
     if (!left.empty()) refuse();
     moment.state = {arrays.of[positions], arrays.of[velocities], arrays.of[earlier_velocities]};

@@ -41,10 +41,12 @@ inline float with_residual(float predicted, std::uint32_t residual) {
 }
 
 /// Appends numbers as bytes: all lowest ones, then all second ones and so on, so that a compressor finds
-/// the zeros of small numbers beside each other.
+/// like ones beside each other. Before them is a byte that says which of these four are not all zero; the
+/// others are left out.
 void append_planes(std::span<const std::uint32_t> numbers, std::string& bytes);
 
-/// @param bytes as append_planes has made them of so many numbers
-void read_planes(std::string_view bytes, std::span<std::uint32_t> numbers);
+/// @param bytes that begin as append_planes has made them of so many numbers; output: what follows
+/// @return false if there are too few
+bool read_planes(std::string_view& bytes, std::span<std::uint32_t> numbers);
 
 }  // namespace gelatin
