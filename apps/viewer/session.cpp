@@ -53,6 +53,8 @@ Session::Session(LoadedScene loaded, Backend backend, const Session* earlier)
 
 void Session::play(bool is_playing) {
     if (is_playing && !is_playing_) pace_.restart();
+    const Recording* const played = recording();
+    if (is_playing && played != nullptr && index_ + 1 == played->frame_count()) show_recorded(0);
     is_playing_ = is_playing && problem_.empty();
 }
 
