@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gelatin/simulator.h"
 #include "model/model.h"
 #include "sim/export_look.h"
+#include "sim/tet_strains.h"
 
 namespace gelatin {
 
@@ -28,7 +30,9 @@ struct ExportTopology {
     std::string obj_library;  ///< the text of kObjLibrary; empty: no materials
     std::vector<ObjLook::Image> obj_images;
     std::string ply_faces;
-    std::string vtu_cells;  ///< the <Cells> and <CellData> elements
+    std::string vtu_cells;           ///< the <Cells> element, and the beginning of <CellData>
+    std::vector<float> start;        ///< x, y, z of each body's nodes [m]
+    std::optional<TetStrains> tets;  ///< of all
     std::string vtp_polys;  ///< the <Polys> and <CellData> elements; empty where no object has a skin
 };
 ExportTopology make_export_topology(const Model& model);
@@ -43,7 +47,8 @@ std::string ply_bytes(const ExportTopology& topology, const HostFrame& frame);
 /// @pre the topology has `vtp_polys`
 std::string vtp_text(const ExportTopology& topology, const HostFrame& frame);
 
-/// VTK's XML unstructured grid: every node and tet, velocity by node, the object's index by tet.
+/// VTK's XML unstructured grid: every node and tet; by node velocity, displacement since the start and
+/// forces, by tet the object's index, strain and stress.
 std::string vtu_text(const ExportTopology& topology, const HostFrame& frame);
 
 }  // namespace gelatin

@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Two balls and a box on which they fall.
+// Two balls above a plane, and a box below it.
 class AnimationFileTest : public testing::Test {
 protected:
     AnimationFileTest()
@@ -45,6 +45,7 @@ protected:
         scene.objects[0].name = "1st ball, \"red\"";
         ColliderDescription box;
         box.shape = BoxShape{.size = {2, 0.2, 2}};
+        box.position = {0, -0.2, 0};
         scene.colliders.push_back(box);
         return scene;
     }
@@ -157,7 +158,7 @@ TEST_F(AnimationFileTest, NormalsPointOutwards) {
     const std::vector<glm::vec3> positions = vertex_positions(surface_.objects[2], points(0)),
                                  normals = vertex_normals(surface_.objects[2], points(0));
     for (std::size_t v = 0; v < positions.size(); ++v) {
-        EXPECT_GT(glm::dot(positions[v], normals[v]), 0.0f);
+        EXPECT_GT(glm::dot(positions[v] + glm::vec3(0, 0.2f, 0), normals[v]), 0.0f);
         EXPECT_NEAR(glm::length(normals[v]), 1.0f, 1e-6f);
     }
 }

@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <zlib.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 
@@ -22,10 +25,15 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::StartsWith;
 
+// Of unit tets, 3 m apart.
+constexpr std::array<float, 3> kCorners[9] = {{0, 0, 0}, {.25f, .25f, .25f}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
+                                              {3, 0, 0}, {4, 0, 0},          {3, 1, 0}, {3, 0, 1}};
+
 // Two tets. The first has a node in no face, so that node and vertex numbers differ from there on.
 Model two_tets() {
     Model model;
-    model.positions.resize(9);
+    for (const std::array<float, 3>& p : kCorners) model.positions.emplace_back(p[0], p[1], p[2], 1.0f);
+    model.shear_moduli = {2e4f, 3e4f};
     model.tets = {{0, 2, 3, 4}, {5, 6, 7, 8}};
     for (std::uint32_t object = 0; object < 2; ++object) {
         const glm::uvec4 t = model.tets[object];
@@ -47,32 +55,39 @@ Model two_tets() {
     return model;
 }
 
-// Corners of unit tets, 3 m apart; velocities name their node.
+// At rest; velocities name their node.
 HostFrame frame_of(int number) {
     HostFrame frame;
     frame.frame = number;
     frame.time = 0.125 * number;
-    const std::array<float, 3> corners[9] = {{0, 0, 0}, {.25f, .25f, .25f}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
-                                             {3, 0, 0}, {4, 0, 0},          {3, 1, 0}, {3, 0, 1}};
     for (int node = 0; node < 9; ++node) {
-        frame.positions.insert(frame.positions.end(), corners[node].begin(), corners[node].end());
+        frame.positions.insert(frame.positions.end(), kCorners[node].begin(), kCorners[node].end());
         frame.velocities.insert(frame.velocities.end(), {static_cast<float>(node), 0.5f, -1.0f});
     }
     return frame;
 }
 
-// The values of a VTU's array, its size header checked.
+// The values of a VTU's array, of which this test has one block or none.
 template <class T>
 std::vector<T> data_array(const std::string& vtu, const std::string& name) {
     const auto tag = vtu.find("Name=\"" + name + "\"");
     if (tag == std::string::npos) return {};
     const auto start = vtu.find('>', tag) + 1;
-    const std::string bytes = from_base64(vtu.substr(start, vtu.find('<', start) - start));
-    std::uint64_t size = 0;
-    std::memcpy(&size, bytes.data(), sizeof size);
-    EXPECT_EQ(size + sizeof size, bytes.size()) << name;
-    std::vector<T> values((bytes.size() - sizeof size) / sizeof(T));
-    std::memcpy(values.data(), bytes.data() + sizeof size, values.size() * sizeof(T));
+    const std::string text = vtu.substr(start, vtu.find('<', start) - start);
+    constexpr std::size_t kHead = 44;  // characters of four numbers, or 32 of three
+    std::uint64_t head[4] = {};        // blocks, size of each, of the last, of what it has become
+    const std::string head_bytes = from_base64(text.substr(0, kHead));
+    std::memcpy(head, head_bytes.data(), std::min(sizeof head, head_bytes.size()));
+    if (head[0] == 0) return {};
+    EXPECT_EQ(head[0], 1u) << name;
+    const std::string bytes = from_base64(text.substr(kHead));
+    EXPECT_EQ(bytes.size(), head[3]) << name;
+    std::vector<T> values(head[2] / sizeof(T));
+    uLongf size = head[2];
+    EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(values.data()), &size,
+                         reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()),
+              Z_OK);
+    EXPECT_EQ(size, head[2]) << name;
     return values;
 }
 
@@ -123,6 +138,29 @@ TEST(Export, PlyHasVelocitiesAndObjects) {
     EXPECT_EQ(object[1], 1u);
 }
 
+// The second tet is stretched by a tenth along x, and sheared by a fifth of y along x.
+TEST(Export, VtuHasStrainAndStress) {
+    HostFrame frame = frame_of(0);
+    for (std::size_t n = 5; n < 9; ++n)
+        frame.positions[3 * n] += 0.1f * (kCorners[n][0] - 3.0f) + 0.2f * kCorners[n][1];
+    const std::string vtu = vtu_text(make_export_topology(two_tets()), frame);
+    const std::vector<float> moved = data_array<float>(vtu, "displacement"),
+                             strains = data_array<float>(vtu, "strain"),
+                             stresses = data_array<float>(vtu, "stress");
+    EXPECT_NEAR(moved[3 * 6], 0.1f, 1e-6f);
+    EXPECT_NEAR(moved[3 * 7], 0.2f, 1e-6f);
+    // F = (1.1 0.2 0; 0 1 0; 0 0 1)
+    const float expected[9] = {0.105f, 0.11f, 0, 0.11f, 0.02f, 0, 0, 0, 0};
+    for (std::size_t k = 0; k < 9; ++k) EXPECT_NEAR(strains[9 + k], expected[k], 1e-6f) << k;
+    for (std::size_t k = 0; k < 9; ++k) EXPECT_EQ(strains[k], 0.0f);
+    // Stretches squared are the roots of x^2 - 2.25 x + 1.21, and 1.
+    const double root = std::sqrt(0.25 * 2.25 * 2.25 - 1.21), a = std::sqrt(1.125 + root),
+                 b = std::sqrt(1.125 - root);
+    EXPECT_NEAR(stresses[1],
+                3e4 * std::sqrt(2.0 * ((a - b) * (a - b) + (a - 1) * (a - 1) + (b - 1) * (b - 1))), 0.1);
+    EXPECT_EQ(stresses[0], 0.0f);
+}
+
 TEST(Export, VtuHasEveryNodeAndTet) {
     const HostFrame frame = frame_of(0);
     const std::string vtu = vtu_text(make_export_topology(two_tets()), frame);
@@ -134,6 +172,9 @@ TEST(Export, VtuHasEveryNodeAndTet) {
     EXPECT_EQ(data_array<std::int64_t>(vtu, "offsets"), (std::vector<std::int64_t>{4, 8}));
     EXPECT_EQ(data_array<std::uint8_t>(vtu, "types"), (std::vector<std::uint8_t>{10, 10}));
     EXPECT_EQ(data_array<std::int32_t>(vtu, "object"), (std::vector<std::int32_t>{0, 1}));
+    EXPECT_EQ(data_array<float>(vtu, "displacement"), std::vector<float>(27));
+    EXPECT_EQ(data_array<float>(vtu, "strain"), std::vector<float>(18));
+    EXPECT_EQ(data_array<float>(vtu, "stress"), std::vector<float>(2));
 }
 
 // The same with a surface for the first tet: a triangle around it, and the second's hull.
