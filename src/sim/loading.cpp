@@ -59,6 +59,7 @@ bool Loading::is_ready() const {
 }
 
 bool Loading::wait_for(double seconds) const {
+    if (!impl_->model.valid()) return true;  // it was taken
     return impl_->model.wait_for(std::chrono::duration<double>(seconds)) == std::future_status::ready;
 }
 
@@ -67,6 +68,7 @@ void Loading::cancel() {
 }
 
 Simulator Loading::get() {
+    if (!impl_->model.valid()) throw InvalidInput("a loading gives its simulator once");
     return SimulatorInternals::make(impl_->scene, impl_->model.get(), impl_->options);
 }
 

@@ -35,7 +35,10 @@ TEST_F(LoadingTest, GivesTheSimulatorThatTheConstructorMakes) {
         EXPECT_TRUE(loading.wait_for(600.0));
         EXPECT_TRUE(loading.is_ready());
         EXPECT_EQ(loading.progress().share, 1.0);
-        Simulator simulator = loading.get(), expected(test::falling_balls(), on(backend));
+        Simulator simulator = loading.get();
+        EXPECT_TRUE(loading.is_ready());
+        EXPECT_THROW(loading.get(), InvalidInput);
+        Simulator expected(test::falling_balls(), on(backend));
         for (int f = 0; f < 3; ++f) {
             simulator.advance_frame();
             expected.advance_frame();
