@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "common/picture_size.h"
 #include "common/scene_input.h"
 #include "gelatin/simulator.h"
+#include "picture/picture_size.h"
 #include "render/renderer.h"
 #include "sim/export.h"
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "gelatin/export.h"
 #include "gelatin/scene.h"
 #include "gelatin/simulator.h"
 
@@ -12,7 +13,7 @@ namespace gelatin {
 /// Writes frames of a run to a file, from which it can be drawn, exported and continued without simulating
 /// again. Frames are kept to the last bit, and compressed on a thread of their own. Each one is in the file
 /// once it is written: what a process has recorded until it is killed can be opened.
-class RecordingWriter {
+class GELATIN_API RecordingWriter {
 public:
     /// Creates the file; an older one is replaced. @throws SystemError
     RecordingWriter(const std::filesystem::path& file, const Simulator& simulator);
@@ -35,7 +36,7 @@ private:
 };
 
 /// A file of a RecordingWriter. A Simulator plays it.
-class Recording {
+class GELATIN_API Recording {
 public:
     /// @throws InvalidInput if it cannot be read, is no recording, or is damaged before its first frame
     explicit Recording(const std::filesystem::path& file);
@@ -60,6 +61,6 @@ private:
 };
 
 /// Whether a file begins as recordings do.
-bool is_recording(const std::filesystem::path& file);
+GELATIN_API bool is_recording(const std::filesystem::path& file);
 
 }  // namespace gelatin

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "gelatin/simulator.h"
+#include "gl/host_state.h"
 #include "model/model.h"
 #include "sim/recording/recorded_frame.h"
 
@@ -11,6 +12,10 @@ namespace gelatin {
 /// What this repository's own programs and tests need of a simulator beyond its public interface.
 struct SimulatorInternals {
     static const Model& model(const Simulator& simulator);
+
+    /// Keeps the state of OpenGL of the application in whose context the simulator works, while the result
+    /// lives; null if the context is its own.
+    static std::unique_ptr<gl::HostState> keep_host_state(const Simulator& simulator);
 
     /// A simulator with tets and springs that were made before.
     /// @param model what build_model made of this very scene

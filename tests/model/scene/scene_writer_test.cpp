@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/file.h"
+#include "gelatin/error.h"
 #include "model/build/build_model.h"
 #include "support/source_path.h"
 
@@ -237,6 +238,13 @@ TEST(SceneWriter, MeshFilesAreFoundFromWhereItIsWritten) {
     const Scene scene = load_scene(copy);
     EXPECT_EQ(fs::weakly_canonical(std::get<FileShape>(scene.objects[0].shape).file),
               fs::weakly_canonical(folder.path() / "a.obj"));
+}
+
+TEST(SceneWriter, SaysThatAMeshInMemoryCannotBeWritten) {
+    Scene scene;
+    scene.objects.resize(1);
+    scene.objects[0].shape = MeshShape{std::make_shared<Mesh>()};
+    EXPECT_THROW(to_toml(scene, "."), InvalidInput);
 }
 
 // The scenes that come with Gelatin, among them copies and text.

@@ -1,6 +1,6 @@
-#include "common/scene_painter.h"
+#include "picture/scene_painter.h"
 
-#include "common/surroundings.h"
+#include "picture/surroundings.h"
 
 namespace gelatin {
 namespace {
@@ -22,6 +22,10 @@ ScenePainter::ScenePainter(Simulator& simulator, const PictureSize& size, render
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
     camera_ = choose_camera(simulator.scene(), surroundings, aspect);
     renderer_.set_surroundings(surroundings);
+}
+
+void ScenePainter::set_camera(const CameraDescription& camera) {
+    camera_ = camera_of(camera);
 }
 
 }  // namespace gelatin

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "common/picture_size.h"
 #include "gelatin/simulator.h"
+#include "picture/picture_size.h"
 #include "render/renderer.h"
 
 namespace gelatin {
@@ -24,6 +24,9 @@ public:
 
     /// Draws `view`, without access to the simulator.
     void draw(const RenderView& bodies) { renderer_.draw(bodies, camera_); }
+
+    void set_camera(const CameraDescription& camera);
+    void set_overlays(const Overlays& overlays) { overlays_ = overlays; }
 
     unsigned framebuffer() const { return renderer_.framebuffer(); }
 
