@@ -327,6 +327,12 @@ const Scene& Simulator::scene() const {
 const Model& SimulatorInternals::model(const Simulator& simulator) {
     return *simulator.impl_->model;
 }
+const Solver& SimulatorInternals::solver(const Simulator& simulator) {
+    return *simulator.impl_->solver;
+}
+void SimulatorInternals::make_current(Simulator& simulator) {
+    if (simulator.impl_->context) simulator.impl_->context->make_current();
+}
 Simulator SimulatorInternals::make(const Scene& scene, std::shared_ptr<const Model> model,
                                    const SimulatorOptions& options) {
     return {scene, std::move(model), options};

@@ -4,12 +4,17 @@
 
 #include "gelatin/simulator.h"
 #include "model/model.h"
+#include "model/solver.h"
 
 namespace gelatin {
 
 /// What this repository's own programs and tests need of a simulator beyond its public interface.
 struct SimulatorInternals {
     static const Model& model(const Simulator& simulator);
+    static const Solver& solver(const Simulator& simulator);
+
+    /// Makes its OpenGL context, if it has one, current on the calling thread.
+    static void make_current(Simulator& simulator);
 
     /// A simulator with tets and springs that were made before.
     /// @param model what build_model made of this very scene

@@ -1,0 +1,58 @@
+"""Gelatin: soft bodies. SI units, +y is up.
+
+>>> import gelatin
+>>> scene = gelatin.Scene()
+>>> scene.add_material("jelly", youngs_modulus=2e4)
+>>> scene.add("ball", gelatin.Sphere(radius=0.5), material="jelly", position=(0, 2, 0))
+>>> scene.add_collider(gelatin.Plane())
+>>> sim = gelatin.Simulator(scene)
+>>> sim.advance(60)
+>>> sim["ball"].positions
+"""
+
+from ._gelatin import (
+    Diverged,
+    Error,
+    GlError,
+    InvalidInput,
+    NoOpenGl,
+    SystemError,
+    commit,
+    set_log_level,
+    version,
+)
+from .bodies import Body
+from .objects import (
+    Camera,
+    Collider,
+    Drag,
+    Force,
+    Handle,
+    Keyframe,
+    Load,
+    Mesher,
+    Object,
+    Part,
+    Pressure,
+    Start,
+    TetAttribute,
+    Traction,
+)
+from .scene import CollisionSettings, Material, MaterialPair, Scene, SimulationSettings, SpringKinds, load
+from .shapes import (
+    Box,
+    BoxRegion,
+    Capsule,
+    File,
+    HalfSpaceRegion,
+    Plane,
+    Region,
+    Shape,
+    Sphere,
+    SphereRegion,
+    Text,
+)
+from .simulator import Simulator
+
+__version__ = version()
+__all__ = [name for name in dir() if not name.startswith("_")]

@@ -1,0 +1,77 @@
+#include "python_simulator.h"
+
+#include <chrono>
+
+#include "gelatin/error.h"
+#include "scene_conversion.h"
+#include "sim/simulator_internals.h"
+
+namespace gelatin::python {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// How long a signal may have to wait, besides the step that runs. To ask needs the interpreter's lock, for
+// which other threads may let us wait as long as a hundred short steps.
+constexpr auto kSignalInterval = std::chrono::milliseconds(50);
+
+SimulatorOptions options_of(const std::string& backend, std::optional<int> gl_device, bool gl_debug) {
+    SimulatorOptions options;
+    options.gl_device = gl_device;
+    options.gl_debug = gl_debug;
+    if (backend == "auto") return options;
+    if (backend != "gl" && backend != "cpu")
+        throw InvalidInput({{}, 0, "backend", "\"" + backend + "\"", "must be \"auto\", \"gl\" or \"cpu\""});
+    options.backend = backend == "gl" ? Backend::gl : Backend::cpu;
+    return options;
+}
+
+// Meshes are made in it, for seconds.
+Simulator make_simulator(nb::handle source, const SimulatorOptions& options) {
+    const Scene scene = scene_of(source);
+    const nb::gil_scoped_release released;
+    return Simulator(scene, options);
+}
+
+}  // namespace
+
+PythonSimulator::PythonSimulator(nb::handle scene, const std::string& backend, std::optional<int> gl_device,
+                                 bool gl_debug)
+    : simulator_(make_simulator(scene, options_of(backend, gl_device, gl_debug))) {}
+
+std::unique_lock<std::mutex> PythonSimulator::take() {
+    std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
+    if (!lock.owns_lock()) throw std::runtime_error("the simulator is in use by another thread");
+    if (simulator_.uses_gl() && std::this_thread::get_id() != maker_)
+        throw std::runtime_error("a simulator that uses OpenGL belongs to the thread that made it");
+    SimulatorInternals::make_current(simulator_);
+    return lock;
+}
+
+void PythonSimulator::make_steps(std::int64_t count) {
+    Clock::time_point asked = Clock::now();
+    for (std::int64_t s = 0; s < count; ++s) {
+        simulator_.step();
+        const Clock::time_point now = Clock::now();
+        if (now - asked < kSignalInterval) continue;
+        const nb::gil_scoped_acquire acquired;
+        if (PyErr_CheckSignals() != 0) throw nb::python_error();
+        asked = now;
+    }
+}
+
+void PythonSimulator::step(std::int64_t count) {
+    if (count < 0) throw InvalidInput({{}, 0, "count", std::to_string(count), "must be 0 or more"});
+    use([&](Simulator& simulator) {
+        const nb::gil_scoped_release released;
+        make_steps(count);
+        if (simulator.uses_gl()) simulator.check();
+    });
+}
+
+void PythonSimulator::advance(std::int64_t frames) {
+    if (frames < 0) throw InvalidInput({{}, 0, "frames", std::to_string(frames), "must be 0 or more"});
+    step(frames * simulator_.substeps());
+}
+
+}  // namespace gelatin::python
