@@ -188,6 +188,7 @@ private:
     Simulator(const Scene& scene, std::shared_ptr<const Model> model, const SimulatorOptions& options);
 
     struct Impl;
+    explicit Simulator(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;
 };
 

@@ -21,6 +21,7 @@ from ._gelatin import (
     set_log_level,
     version,
 )
+from .batch import Batch
 from .bodies import Body
 from .objects import (
     Camera,

@@ -45,29 +45,39 @@ class Simulator:
     ) -> None:
         if isinstance(scene, (str, os.PathLike)):
             scene = load(scene)
+        self._begin(_gelatin.Simulator(scene, backend, gl_device), scene)
+
+    @classmethod
+    def _of(cls, core: _gelatin.Simulator, scene: Scene) -> Simulator:
+        """One that exists already, in a batch."""
+        simulator = cls.__new__(cls)
+        simulator._begin(core, scene)
+        return simulator
+
+    def _begin(self, core: _gelatin.Simulator, scene: Scene) -> None:
         self.scene = scene
-        self._core = _gelatin.Simulator(scene, backend, gl_device)
-        self._bodies = {fields["name"]: Body(self, fields) for fields in self._core.objects()}
+        self._core = core
+        self._objects = {fields["name"]: fields for fields in self._core.objects()}
         self._step_callbacks: list[Callable[[Simulator], object]] = []
         self._frame_callbacks: list[Callable[[Simulator], object]] = []
 
     def __repr__(self) -> str:
         nodes = len(self.masses)
-        return f"<gelatin.Simulator: {len(self._bodies)} bodies, {nodes} nodes, frame {self.frame}, {self.device}>"
+        return f"<gelatin.Simulator: {len(self._objects)} bodies, {nodes} nodes, frame {self.frame}, {self.device}>"
 
     # Bodies
 
     def __getitem__(self, name: str) -> Body:
         """The body of the object with this name. Raises KeyError."""
-        if name not in self._bodies:
-            raise KeyError(f"there is no object '{name}'; there are {', '.join(map(repr, self._bodies))}")
-        return self._bodies[name]
+        if name not in self._objects:
+            raise KeyError(f"there is no object '{name}'; there are {', '.join(map(repr, self._objects))}")
+        return Body(self, self._objects[name])
 
     def __iter__(self) -> Iterator[Body]:
-        return iter(self._bodies.values())
+        return (self[name] for name in self._objects)
 
     def __len__(self) -> int:
-        return len(self._bodies)
+        return len(self._objects)
 
     # Time
 

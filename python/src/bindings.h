@@ -5,5 +5,6 @@
 namespace gelatin::python {
 
 void bind_simulator(nanobind::module_& module);
+void bind_batch(nanobind::module_& module);
 
 }  // namespace gelatin::python

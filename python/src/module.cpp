@@ -16,6 +16,7 @@ NB_MODULE(_gelatin, module) {
     set_up_log(LogLevel::notes);
     bind_errors(module);
     bind_simulator(module);
+    bind_batch(module);
     module.def("version", &version);
     module.def("commit", &commit);
     module.def(

@@ -1,6 +1,8 @@
 #include "python_simulator.h"
 
+#include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "gelatin/error.h"
 #include "scene_conversion.h"
@@ -11,7 +13,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// How long a signal may have to wait, besides the step that runs. To ask needs the interpreter's lock, for
+// How long a signal may have to wait, besides the call that runs. To ask needs the interpreter's lock, for
 // which other threads may let us wait as long as a hundred short steps.
 constexpr auto kSignalInterval = std::chrono::milliseconds(50);
 
@@ -27,51 +29,63 @@ SimulatorOptions options_of(const std::string& backend, std::optional<int> gl_de
 }
 
 // Meshes are made in it, for seconds.
-Simulator make_simulator(nb::handle source, const SimulatorOptions& options) {
+std::unique_ptr<Simulator> make_simulator(nb::handle source, const SimulatorOptions& options) {
     const Scene scene = scene_of(source);
     const nb::gil_scoped_release released;
-    return Simulator(scene, options);
+    return std::make_unique<Simulator>(scene, options);
 }
 
 }  // namespace
 
-PythonSimulator::PythonSimulator(nb::handle scene, const std::string& backend, std::optional<int> gl_device,
-                                 bool gl_debug)
-    : simulator_(make_simulator(scene, options_of(backend, gl_device, gl_debug))) {}
-
-std::unique_lock<std::mutex> PythonSimulator::take() {
-    std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
+std::unique_lock<std::mutex> Turn::take() const {
+    std::unique_lock<std::mutex> lock(*mutex_, std::try_to_lock);
     if (!lock.owns_lock()) throw std::runtime_error("the simulator is in use by another thread");
-    if (simulator_.uses_gl() && std::this_thread::get_id() != maker_)
-        throw std::runtime_error("a simulator that uses OpenGL belongs to the thread that made it");
-    SimulatorInternals::make_current(simulator_);
     return lock;
 }
 
-void PythonSimulator::make_steps(std::int64_t count) {
-    Clock::time_point asked = Clock::now();
-    for (std::int64_t s = 0; s < count; ++s) {
-        simulator_.step();
-        const Clock::time_point now = Clock::now();
-        if (now - asked < kSignalInterval) continue;
+void make_in_pieces(std::int64_t count, const std::function<void(std::int64_t)>& make) {
+    const nb::gil_scoped_release released;
+    std::int64_t piece = 1;
+    while (count > 0) {
+        const std::int64_t now = std::min(piece, count);
+        const Clock::time_point start = Clock::now();
+        make(now);
+        count -= now;
+        const auto taken = Clock::now() - start;
+        if (taken < kSignalInterval / 2) piece *= 2;
+        if (taken > kSignalInterval) piece = std::max<std::int64_t>(1, piece / 2);
         const nb::gil_scoped_acquire acquired;
         if (PyErr_CheckSignals() != 0) throw nb::python_error();
-        asked = now;
     }
+}
+
+PythonSimulator::PythonSimulator(nb::handle scene, const std::string& backend, std::optional<int> gl_device,
+                                 bool gl_debug)
+    : own_(make_simulator(scene, options_of(backend, gl_device, gl_debug))), simulator_(own_.get()) {}
+
+PythonSimulator::PythonSimulator(Simulator& simulator, const Turn& turn, nb::object owner)
+    : simulator_(&simulator), owner_(std::move(owner)), turn_(turn) {}
+
+void PythonSimulator::make_current() {
+    if (simulator_->uses_gl() && std::this_thread::get_id() != maker_)
+        throw std::runtime_error("a simulator that uses OpenGL belongs to the thread that made it");
+    SimulatorInternals::make_current(*simulator_);
 }
 
 void PythonSimulator::step(std::int64_t count) {
     if (count < 0) throw InvalidInput({{}, 0, "count", std::to_string(count), "must be 0 or more"});
     use([&](Simulator& simulator) {
+        make_in_pieces(count, [&](std::int64_t steps) {
+            for (std::int64_t s = 0; s < steps; ++s) simulator.step();
+        });
         const nb::gil_scoped_release released;
-        make_steps(count);
         if (simulator.uses_gl()) simulator.check();
     });
 }
 
 void PythonSimulator::advance(std::int64_t frames) {
     if (frames < 0) throw InvalidInput({{}, 0, "frames", std::to_string(frames), "must be 0 or more"});
-    step(frames * simulator_.substeps());
+    step(frames * simulator_->substeps());
 }
 
 }  // namespace gelatin::python

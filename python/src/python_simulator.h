@@ -2,8 +2,11 @@
 
 #include <nanobind/nanobind.h>
 
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -13,34 +16,50 @@ namespace gelatin::python {
 
 namespace nb = nanobind;
 
-/// A simulator for Python: every call of it goes through `use`.
-///
-/// Calls from several threads never run at once, since the interpreter's lock is released while it steps: a
-/// second one raises RuntimeError. With OpenGL all calls must come from the thread that made it.
+/// What one thread of Python uses at a time: the interpreter's lock, which is released during steps, does not
+/// see to that.
+class Turn {
+public:
+    /// @throws std::runtime_error, Python's RuntimeError, if another thread has it
+    std::unique_lock<std::mutex> take() const;
+
+private:
+    std::shared_ptr<std::mutex> mutex_ = std::make_shared<std::mutex>();
+};
+
+/// Calls `make(n)` with numbers that sum to `count`, without the interpreter's lock. Asks for signals twenty
+/// times a second.
+/// @throws nanobind's python_error for a signal (Ctrl-C), between two calls
+void make_in_pieces(std::int64_t count, const std::function<void(std::int64_t)>& make);
+
+/// A simulator for Python: every call of it goes through `use`. With OpenGL all calls must come from the
+/// thread that made it.
 class PythonSimulator {
 public:
     PythonSimulator(nb::handle scene, const std::string& backend, std::optional<int> gl_device,
                     bool gl_debug);
+    /// One of a batch. @param owner of the simulator; it must have a reference to this of its own
+    PythonSimulator(Simulator& simulator, const Turn& turn, nb::object owner);
 
     /// Runs `work` with the simulator, its context being current.
     template <class Work>
     decltype(auto) use(const Work& work) {
-        const std::unique_lock<std::mutex> lock = take();
-        return work(simulator_);
+        const std::unique_lock<std::mutex> lock = turn_.take();
+        make_current();
+        return work(*simulator_);
     }
 
-    /// Makes `count` steps, or frames, without the interpreter's lock, and asks for signals every now and
-    /// then.
-    /// @throws Diverged; nanobind's python_error for a signal (Ctrl-C), after a whole step
+    /// Makes `count` steps, or frames. @throws Diverged; as make_in_pieces
     void step(std::int64_t count);
     void advance(std::int64_t frames);
 
 private:
-    std::unique_lock<std::mutex> take();
-    void make_steps(std::int64_t count);
+    void make_current();
 
-    Simulator simulator_;
-    std::mutex mutex_;
+    std::unique_ptr<Simulator> own_;  // null: the owner has it
+    Simulator* simulator_;
+    nb::object owner_;
+    Turn turn_;
     std::thread::id maker_ = std::this_thread::get_id();
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cassert>
 #include <deque>
 
 #include "core/current_stage.h"
@@ -127,6 +128,16 @@ struct Simulator::Impl {
             require_whole(model, scene, start_state ? start_state->positions : model->positions);
     }
 
+    // Makes what a run changes. @pre all that it is made of is there
+    void begin() {
+        make_solver();
+        if (start_state) solver->write_state(*start_state);
+        watch.emplace(scene, model, substeps);
+        drags.emplace(model);
+        clocks.emplace(model);
+        if (start_state) watch->begin(*start_state, {});
+    }
+
     // Continues from this state. Pending measurements belong to the old one.
     void take_state(const State& state, const Moment& moment) {
         for (; !measured.empty(); measured.pop_front()) solver->end_measure();
@@ -197,20 +208,16 @@ Simulator::Simulator(const Scene& scene, std::shared_ptr<const Model> model, con
     d.model = std::move(model);
     d.substeps = choose_substeps(scene, *d.model);
     d.context = make_context(d.options);
-    d.make_solver();
     d.start_state = deformed_start(scene, *d.model);
     if (d.scene.has_contact()) d.start_apart();
-    const std::optional<State>& start = d.start_state;
-    if (start) d.solver->write_state(*start);
-    d.watch.emplace(d.scene, d.model, d.substeps);
-    d.drags.emplace(d.model);
-    d.clocks.emplace(d.model);
-    if (start) d.watch->begin(*start, {});
+    d.begin();
     for (const std::string& line : check_model(*d.model, scene, d.step_size())) log_warning(line);
     for (const std::string& line :
-         check_starts(*d.model, scene, start ? start->positions : d.model->positions))
+         check_starts(*d.model, scene, d.start_state ? d.start_state->positions : d.model->positions))
         log_warning(line);
 }
+
+Simulator::Simulator(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
 Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator&&) noexcept = default;
@@ -336,6 +343,17 @@ void SimulatorInternals::make_current(Simulator& simulator) {
 Simulator SimulatorInternals::make(const Scene& scene, std::shared_ptr<const Model> model,
                                    const SimulatorOptions& options) {
     return {scene, std::move(model), options};
+}
+Simulator SimulatorInternals::another(const Simulator& like) {
+    assert(!like.impl_->context);
+    auto impl = std::make_unique<Simulator::Impl>();
+    impl->scene = like.impl_->scene;
+    impl->options = like.impl_->options;
+    impl->model = like.impl_->model;
+    impl->substeps = like.impl_->substeps;
+    impl->start_state = like.impl_->start_state;
+    impl->begin();
+    return Simulator(std::move(impl));
 }
 
 Counts Simulator::counts() const {

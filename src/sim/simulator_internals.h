@@ -20,6 +20,10 @@ struct SimulatorInternals {
     /// @param model what build_model made of this very scene
     static Simulator make(const Scene& scene, std::shared_ptr<const Model> model,
                           const SimulatorOptions& options);
+
+    /// Another simulator of the same scene and model, at the start. It repeats no check and no message.
+    /// @pre `like` has no OpenGL context
+    static Simulator another(const Simulator& like);
 };
 
 inline const Model& model_of(const Simulator& simulator) {
