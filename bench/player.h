@@ -5,7 +5,7 @@
 #include "bench/paper_cases.h"
 #include "bench/windows.h"
 #include "common/frame_pipeline.h"
-#include "common/scene_painter.h"
+#include "picture/scene_painter.h"
 #include "gelatin/simulator.h"
 
 namespace gelatin {

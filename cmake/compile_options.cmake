@@ -1,7 +1,10 @@
-# Compiler settings shared by every target.
+# Compiler settings shared by every target of this project; none reaches a project around it.
 
 set(gelatin_warnings -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast
-                     -Wcast-qual -Wformat=2 -Wundef -Werror)
+                     -Wcast-qual -Wformat=2 -Wundef)
+if(GELATIN_WERROR)
+    list(APPEND gelatin_warnings -Werror)
+endif()
 add_compile_options(${gelatin_warnings})
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # False alarms on std::string +, some of which precompiled headers bring out (GCC bugs 105329, 105651).

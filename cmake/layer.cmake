@@ -4,11 +4,11 @@
 # by DEPENDS, the layers below it; scripts/check_layers holds the includes against the same list.
 function(gelatin_layer name)
     cmake_parse_arguments(arg "" "" "DEPENDS;LIBRARIES" ${ARGN})
-    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*.cpp)
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
     add_library(gelatin_${name} STATIC ${sources})
     add_library(gelatin::${name} ALIAS gelatin_${name})
-    target_include_directories(gelatin_${name} PUBLIC ${CMAKE_SOURCE_DIR}/include ${CMAKE_SOURCE_DIR}/src
-                                                      ${CMAKE_SOURCE_DIR}/shaders)
+    target_include_directories(gelatin_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src
+                                                      ${PROJECT_SOURCE_DIR}/shaders)
     list(TRANSFORM arg_DEPENDS PREPEND gelatin_)
     target_link_libraries(gelatin_${name} PUBLIC ${arg_DEPENDS} ${arg_LIBRARIES})
     gelatin_precompile(gelatin_${name})

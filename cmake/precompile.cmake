@@ -8,6 +8,9 @@ set(gelatin_common_headers
     <span> <string> <utility> <vector> <fmt/core.h> <glm/geometric.hpp> <glm/glm.hpp>)
 
 function(gelatin_precompile target)
+    if(NOT PROJECT_IS_TOP_LEVEL)
+        return()  # a project around this one may forbid them, or have its own
+    endif()
     if(target STREQUAL gelatin_core)
         target_precompile_headers(gelatin_core PRIVATE ${gelatin_common_headers})
     else()

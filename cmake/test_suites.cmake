@@ -11,7 +11,7 @@ function(gelatin_test_suites target prefix)
         TARGET ${target} POST_BUILD
         BYPRODUCTS ${suites}
         COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${target}> -D PREFIX=${prefix} -D OUTPUT=${suites}
-                -D REPORTS=${CMAKE_BINARY_DIR}/reports -P ${CMAKE_SOURCE_DIR}/cmake/write_test_suites.cmake
+                -D REPORTS=${PROJECT_BINARY_DIR}/reports -P ${PROJECT_SOURCE_DIR}/cmake/write_test_suites.cmake
         VERBATIM)
     set(include ${CMAKE_CURRENT_BINARY_DIR}/${target}_include.cmake)
     file(WRITE ${include} "if(EXISTS \"${suites}\")\n  include(\"${suites}\")\nelse()\n"

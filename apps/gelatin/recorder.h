@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "common/frame_pipeline.h"
-#include "common/scene_painter.h"
+#include "picture/scene_painter.h"
 #include "gelatin/simulator.h"
 #include "render/frame_grabber.h"
 #include "render/video_writer.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/picture_size.h"
+#include "picture/picture_size.h"
 #include "common/scene_input.h"
 #include "gelatin/simulator.h"
 #include "render/renderer.h"

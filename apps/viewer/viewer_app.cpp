@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <utility>
 
-#include "common/surroundings.h"
+#include "picture/surroundings.h"
 #include "core/log.h"
 #include "gelatin/error.h"
 

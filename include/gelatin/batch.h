@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gelatin/export.h"
 #include "gelatin/scene.h"
 #include "gelatin/simulator.h"
 
@@ -17,7 +18,7 @@ namespace gelatin {
 ///
 /// Worlds are advanced beside each other on all threads, with the CPU backend. Use it from one thread.
 /// Move-only.
-class Batch {
+class GELATIN_API Batch {
 public:
     /// @param worlds >= 1
     /// @throws InvalidInput as Simulator, without worlds, and for a scene that needs OpenGL.

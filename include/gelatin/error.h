@@ -5,10 +5,12 @@
 #include <string>
 #include <utility>
 
+#include "gelatin/export.h"
+
 namespace gelatin {
 
 /// Base of every exception that Gelatin throws on purpose; `what()` is one line for the user.
-class Error : public std::runtime_error {
+class GELATIN_API Error : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
@@ -23,7 +25,7 @@ struct InputProblem {
 };
 
 /// The input or the call is wrong (exit code 2).
-class InvalidInput : public Error {
+class GELATIN_API InvalidInput : public Error {
 public:
     explicit InvalidInput(InputProblem problem);
     explicit InvalidInput(const std::string& problem) : InvalidInput(InputProblem{{}, 0, {}, {}, problem}) {}
@@ -44,7 +46,7 @@ struct Divergence {
 };
 
 /// The simulation produced numbers that are not finite, or energy without a cause (exit code 3).
-class Diverged : public Error {
+class GELATIN_API Diverged : public Error {
 public:
     explicit Diverged(const std::string& message, Divergence where = {})
         : Error(message), where_(std::move(where)) {}
@@ -56,19 +58,25 @@ private:
 };
 
 /// OpenGL failed; contains the driver's messages (exit code 1).
-class GlError : public Error {
+class GELATIN_API GlError : public Error {
 public:
     using Error::Error;
 };
 
 /// There is no OpenGL that Gelatin can use (exit code 4).
-class NoOpenGl : public GlError {
+class GELATIN_API NoOpenGl : public GlError {
 public:
     using GlError::GlError;
 };
 
 /// The operating system or a helper program failed: disk full, a program missing (exit code 1).
-class SystemError : public Error {
+class GELATIN_API SystemError : public Error {
+public:
+    using Error::Error;
+};
+
+/// The caller has cancelled what was under way (Loading::cancel).
+class GELATIN_API Cancelled : public Error {
 public:
     using Error::Error;
 };

@@ -2,10 +2,14 @@
 
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "gelatin/export.h"
 
 namespace gelatin {
 
@@ -143,7 +147,20 @@ struct FileShape {
     std::filesystem::path file;  ///< a surface or a tet mesh; a relative path is relative to the scene file
     bool operator==(const FileShape&) const = default;
 };
-using Shape = std::variant<SphereShape, BoxShape, CapsuleShape, TextShape, FileShape>;
+/// A mesh in memory: a surface, or tets.
+struct Mesh {
+    std::vector<glm::dvec3> vertices;   ///< [m], finite
+    std::vector<glm::uvec3> triangles;  ///< of a surface, counter-clockwise from outside; or
+    std::vector<glm::uvec4> tets;       ///< none of them flat
+    std::vector<int> attributes;        ///< of the tets, for TetAttribute, shape [tets]; empty: none
+};
+/// Treated as the same mesh in a file: a surface is repaired and filled by the mesher, with its skin; tets
+/// are used as they are. Scene files cannot contain it.
+struct MeshShape {
+    std::shared_ptr<const Mesh> mesh;                   ///< not null; must not change any more
+    bool operator==(const MeshShape&) const = default;  ///< whether it is the same one in memory
+};
+using Shape = std::variant<SphereShape, BoxShape, CapsuleShape, TextShape, FileShape, MeshShape>;
 
 /// How a surface is filled with tets.
 enum class MesherKind {
@@ -240,8 +257,8 @@ struct LoadDescription {
     int line = 0;                                ///< in the scene file, for later messages
 };
 
-/// Tets that have this number in their file: TetGen's first attribute, Gmsh's physical group, Medit's
-/// reference.
+/// Tets that have this number in Mesh::attributes, or in their file: TetGen's first attribute, Gmsh's
+/// physical group, Medit's reference.
 struct TetAttribute {
     int number;
 };
@@ -331,11 +348,12 @@ struct Scene {
 /// Reads and checks a scene file. `overrides` are "section.key=value" with TOML values
 /// (bare words are taken as strings), applied before the check.
 /// @throws InvalidInput naming file, line, key, value and what is allowed.
-Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+GELATIN_API Scene load_scene(const std::filesystem::path& file,
+                             const std::vector<std::string>& overrides = {});
 
 /// Checks every value of a scene, however it was made: numbers finite and in range, names there and free,
 /// materials that exist, settings that go together. Simulator does so by itself.
 /// @throws InvalidInput naming field, value and what is allowed, as load_scene does
-void validate(const Scene& scene);
+GELATIN_API void validate(const Scene& scene);
 
 }  // namespace gelatin

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gelatin/drag.h"
+#include "gelatin/export.h"
 #include "gelatin/pull.h"
 #include "gelatin/scene.h"
 #include "gelatin/views.h"
@@ -103,7 +104,7 @@ struct HostFrame {
 /// Use it from one thread. With the GL backend (or `need_gl`) the simulator's context must be current on that
 /// thread, as it is after construction. With the CPU backend, `advance_frame` and `step` make no GL call, so
 /// another thread may run them while this one draws an earlier RenderView. Move-only.
-class Simulator {
+class GELATIN_API Simulator {
 public:
     /// Makes tets, springs and buffers of everything in the scene.
     /// @throws InvalidInput as validate(), for scenes that cannot be built, and for a fixed step that is not

@@ -46,6 +46,7 @@ from .shapes import (
     Capsule,
     File,
     HalfSpaceRegion,
+    Mesh,
     Plane,
     Region,
     Shape,

@@ -7,6 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Union
 
+import numpy as np
+import numpy.typing as npt
+
 #: Three numbers: a tuple, a list or an array of shape (3,).
 Vector = Sequence[float]
 
@@ -63,7 +66,39 @@ class File:
     file: str | os.PathLike[str]
 
 
-Shape = Union[Sphere, Box, Capsule, Text, File]
+class Mesh:
+    """A mesh in memory: a surface, or tets. Treated as the same mesh in a file; scene files cannot contain it.
+
+    vertices: [m], array of shape (vertices, 3).
+    triangles: of a surface, which is repaired and filled with tets: vertices, counter-clockwise from outside; shape (triangles, 3).
+    tets: used as they are: shape (tets, 4), none of them flat. Instead of triangles.
+    attributes: of the tets, integers for TetAttribute, shape (tets,).
+    """
+
+    __slots__ = ("vertices", "triangles", "tets", "attributes")
+
+    def __init__(
+        self,
+        vertices: npt.ArrayLike,
+        triangles: npt.ArrayLike = (),
+        tets: npt.ArrayLike = (),
+        attributes: npt.ArrayLike = (),
+    ) -> None:
+        self.vertices = vertices
+        self.triangles = triangles
+        self.tets = tets
+        self.attributes = attributes
+
+    def __repr__(self) -> str:
+        return f"<gelatin.Mesh: {len(self.vertices)} vertices, {len(self.triangles)} triangles, {len(self.tets)} tets>"
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Mesh):
+            return NotImplemented
+        return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in self.__slots__)
+
+
+Shape = Union[Sphere, Box, Capsule, Text, File, Mesh]
 
 
 @dataclass(slots=True)

@@ -28,6 +28,7 @@ void read(nb::handle source, const std::string& where, std::string& value);
 void read(nb::handle source, const std::string& where, std::filesystem::path& value);
 void read(nb::handle source, const std::string& where, glm::dvec3& value);
 void read(nb::handle source, const std::string& where, glm::ivec3& value);
+void read(nb::handle source, const std::string& where, MeshShape& value);  // mesh_conversion.cpp
 
 nb::object to_python(bool value);
 nb::object to_python(int value);
@@ -36,6 +37,7 @@ nb::object to_python(const std::string& value);
 nb::object to_python(const std::filesystem::path& value);
 nb::object to_python(const glm::dvec3& value);
 nb::object to_python(const glm::ivec3& value);
+nb::object to_python(const MeshShape& value);
 
 /// Raises "WHERE must be ALLOWED, not TYPE".
 [[noreturn]] void raise_type_error(const std::string& where, const std::string& allowed, nb::handle source);

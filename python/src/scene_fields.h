@@ -146,6 +146,12 @@ struct Fields<FileShape> {
     }
 };
 
+/// Converted by mesh_conversion.cpp, from and to arrays.
+template <>
+struct Fields<MeshShape> {
+    static constexpr const char* kClass = "Mesh";
+};
+
 template <>
 struct Fields<MesherSettings> {
     static constexpr const char* kClass = "Mesher";

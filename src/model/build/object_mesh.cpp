@@ -9,6 +9,7 @@
 
 #include "core/log.h"
 #include "mesh/fill_surface.h"
+#include "mesh/mesh_in_memory.h"
 #include "mesh/shapes.h"
 #include "mesh/surface_file.h"
 #include "mesh/tet_file.h"
@@ -29,17 +30,33 @@ struct SurfaceMaker {
         const TetMesh tets = read_tets(shape.file, notes);
         return {tets.positions, tets.faces};
     }
+    SurfaceMesh operator()(const MeshShape& shape) const {
+        const std::string name = "a mesh in memory";
+        if (shape.mesh->tets.empty()) return surface_in_memory(*shape.mesh, name, notes);
+        const TetMesh tets = tets_in_memory(*shape.mesh, name, notes);
+        return {tets.positions, tets.faces};
+    }
 };
 
-bool has_tets(const Shape& shape) {
-    const auto* file = std::get_if<FileShape>(&shape);
-    return file != nullptr && is_tet_file(file->file);
+std::string name_of(const ObjectDescription& object) {
+    return "object '" + object.name + "'";
+}
+
+// Of a shape that has tets already.
+std::optional<TetMesh> tets_of(const ObjectDescription& object, Notes& notes) {
+    if (const auto* file = std::get_if<FileShape>(&object.shape); file && is_tet_file(file->file))
+        return read_tets(file->file, notes);
+    if (const auto* mesh = std::get_if<MeshShape>(&object.shape); mesh && !mesh->mesh->tets.empty())
+        return tets_in_memory(*mesh->mesh, name_of(object), notes);
+    return {};
 }
 
 TetMesh fill(const SurfaceMesh& surface, const ObjectDescription& object, Notes& notes) {
-    const auto* file = std::get_if<FileShape>(&object.shape);
-    return file != nullptr ? fill_surface(surface, sized(object.mesher), file->file.string(), notes)
-                           : fill_surface(surface, object.mesher, "object '" + object.name + "'", notes);
+    // Triangles of others were not made for a simulation.
+    if (const auto* file = std::get_if<FileShape>(&object.shape))
+        return fill_surface(surface, sized(object.mesher), file->file.string(), notes);
+    const bool is_others = std::holds_alternative<MeshShape>(object.shape);
+    return fill_surface(surface, is_others ? sized(object.mesher) : object.mesher, name_of(object), notes);
 }
 
 double extent_of(const SurfaceMesh& surface) {
@@ -134,8 +151,8 @@ ObjectMesher::Known& ObjectMesher::local(const ObjectDescription& object) {
     if (same != known_.rend()) return *same;
     Notes notes;
     Known known{object.shape, object.mesher, {}, {}, {}, nullptr};
-    if (has_tets(object.shape)) {
-        known.mesh = read_tets(std::get<FileShape>(object.shape).file, notes);
+    if (std::optional<TetMesh> tets = tets_of(object, notes)) {
+        known.mesh = std::move(*tets);
     } else {
         known.surface = make_surface(object.shape, notes);
         known.mesh = fill(known.surface, object, notes);

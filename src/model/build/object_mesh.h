@@ -12,7 +12,7 @@
 
 namespace gelatin {
 
-/// The surface of a shape, as it is before it is placed; of a file with tets, that of the tets.
+/// The surface of a shape, as it is before it is placed; of tets, their boundary.
 /// @throws InvalidInput for files that cannot be read
 SurfaceMesh make_surface(const Shape& shape, Notes& notes);
 
@@ -35,7 +35,7 @@ public:
     TetMesh make(const ObjectDescription& object);
 
     /// The object's own surface. Null where the boundary of the tets is the same and the surface has no
-    /// texture coordinates or materials; where the object does not want it; and for files with tets. The log
+    /// texture coordinates or materials; where the object does not want it; and for shapes with tets. The log
     /// says how far the two are apart.
     /// @throws as make
     std::shared_ptr<const ShapeSkin> skin(const ObjectDescription& object);
@@ -49,8 +49,8 @@ private:
     struct Known {
         Shape shape;
         MesherSettings mesher;
-        SurfaceMesh surface;  // as the shape defines it; empty for files with tets
-        TetMesh mesh;         // not placed yet
+        SurfaceMesh surface;                                   // as the shape defines it; empty for tets
+        TetMesh mesh;                                          // not placed yet
         std::optional<std::shared_ptr<const ShapeSkin>> skin;  // empty until it is requested
         std::shared_ptr<const FittedSprings> springs;          // empty until they are requested
     };

@@ -41,6 +41,7 @@ struct ColliderPacker {
     }
     Collider operator()(const TextShape&) const { return refused(); }
     Collider operator()(const FileShape&) const { return refused(); }
+    Collider operator()(const MeshShape&) const { return refused(); }
 
     Collider refused() const {
         assert(!"no solid shape: validate() refuses it");

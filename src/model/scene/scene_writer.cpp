@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/file.h"
+#include "gelatin/error.h"
 #include "model/scene/value_text.h"
 #include "model/setting_names.h"
 
@@ -58,6 +59,10 @@ struct ShapeTable {
     // From the new file's place.
     Table operator()(const FileShape& s) const {
         return Table().add("file", std::filesystem::proximate(s.file, folder).string());
+    }
+    Table operator()(const MeshShape&) const {
+        throw InvalidInput(
+            "a scene with a mesh in memory cannot be written: scene files name files of meshes");
     }
 };
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "mesh/mesh_in_memory.h"
 #include "model/scene/names.h"
 
 namespace gelatin {
@@ -43,6 +44,14 @@ struct ShapeCheck {
     }
     void operator()(const FileShape& shape) const {
         checks.check_text(field / "file", shape.file.filename().string());
+    }
+    void operator()(const MeshShape& shape) const {
+        if (!shape.mesh) return checks.fail(field / "mesh", "null", "must be there");
+        const std::optional<MeshProblem> problem = find_problem(*shape.mesh);
+        if (!problem) return;
+        FieldPath where = field / "mesh";
+        if (*problem->array != '\0') where = where / problem->array;
+        checks.fail(problem->index ? where[*problem->index] : where, problem->value, problem->problem);
     }
 };
 
@@ -95,6 +104,8 @@ private:
                 checks_.fail(field / "shape" / "text", text_of(text->text), kNeedsContact);
             if (const auto* file = std::get_if<FileShape>(shape))
                 checks_.fail(field / "shape" / "file", text_of(file->file.string()), kNeedsContact);
+            if (std::holds_alternative<MeshShape>(*shape))
+                checks_.fail(field / "shape" / "mesh", {}, kNeedsContact);
         }
         if (!collider.keyframes.empty()) checks_.fail(field / "keyframes", "[{...}]", kNeedsContact);
         if (collider.surface_velocity != glm::dvec3(0.0))

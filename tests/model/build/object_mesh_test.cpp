@@ -74,5 +74,42 @@ TEST(ObjectMesher, FilesWithTetsHaveNoSkin) {
     EXPECT_EQ(mesher.skin(block), nullptr);
 }
 
+MeshShape in_memory(const SurfaceMesh& surface) {
+    return {std::make_shared<Mesh>(Mesh{surface.positions, surface.faces, {}, {}})};
+}
+
+TEST(ObjectMesher, TetsInMemoryAreThoseOfAFile) {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "block.mesh";
+    const TetMesh block = test::make_block({2, 2, 2}, {1, 1, 1});
+    write_tets(file, block);
+    ObjectMesher mesher;
+    ObjectDescription from_file, from_memory;
+    from_file.shape = FileShape{file};
+    from_memory.shape = MeshShape{std::make_shared<Mesh>(Mesh{block.positions, {}, block.tets, {}})};
+    const TetMesh expected = mesher.make(from_file), made = mesher.make(from_memory);
+    EXPECT_EQ(made.positions, expected.positions);
+    EXPECT_EQ(made.tets, expected.tets);
+    EXPECT_EQ(made.faces, expected.faces);
+    EXPECT_EQ(mesher.skin(from_memory), nullptr);
+}
+
+TEST(ObjectMesher, ASurfaceInMemoryIsFilledAndHasItsSkin) {
+    ObjectMesher mesher;
+    ObjectDescription ball;
+    ball.name = "ball";
+    ball.shape = in_memory(make_sphere({0.5, 6}));
+    ball.mesher.kind = MesherKind::lattice;
+    ball.mesher.nodes = 400;
+    ball.scale = 2.0;
+    const TetMesh mesh = mesher.make(ball);
+    EXPECT_NEAR(static_cast<double>(mesh.positions.size()), 400.0, 80.0);
+    const auto skin = mesher.skin(ball);
+    ASSERT_NE(skin, nullptr);
+    EXPECT_EQ(skin->faces.size(), make_sphere({0.5, 6}).faces.size());
+    ball.mesher = {};  // a size as for files
+    EXPECT_NEAR(static_cast<double>(mesher.make(ball).positions.size()), 5000.0, 1000.0);
+}
+
 }  // namespace
 }  // namespace gelatin

@@ -239,6 +239,13 @@ TEST(SceneWriter, MeshFilesAreFoundFromWhereItIsWritten) {
               fs::weakly_canonical(folder.path() / "a.obj"));
 }
 
+TEST(SceneWriter, SaysThatAMeshInMemoryCannotBeWritten) {
+    Scene scene;
+    scene.objects.resize(1);
+    scene.objects[0].shape = MeshShape{std::make_shared<Mesh>()};
+    EXPECT_THROW(to_toml(scene, "."), InvalidInput);
+}
+
 // The scenes that come with Gelatin, among them copies and text.
 TEST(SceneWriter, ScenesStayWhatTheyAre) {
     const TemporaryFolder folder;

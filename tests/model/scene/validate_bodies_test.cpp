@@ -202,6 +202,38 @@ const Rule kObjectRules[] = {
      "object.ball.load[0].until = 1: must be greater than from, 2"},
 };
 
+// Files cannot contain them.
+TEST(MeshShape, IsCheckedWhereItStands) {
+    const auto error_of = [](const std::function<void(Scene&)>& breaks) {
+        Scene scene = scene_of_file();
+        breaks(scene);
+        try {
+            validate(scene);
+        } catch (const InvalidInput& problem) {
+            return std::string(problem.what());
+        }
+        return std::string("no error");
+    };
+    const auto tet = std::make_shared<Mesh>();
+    tet->vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    tet->tets = {{0, 1, 2, 3}};
+    EXPECT_EQ(error_of([&](Scene& s) { s.objects[0].shape = MeshShape{tet}; }), "no error");
+    EXPECT_EQ(error_of([&](Scene& s) { s.objects[0].shape = MeshShape{}; }),
+              "object.ball.shape.mesh = null: must be there");
+    const auto far = std::make_shared<Mesh>(*tet);
+    far->tets[0].w = 9;
+    EXPECT_EQ(error_of([&](Scene& s) { s.objects[0].shape = MeshShape{far}; }),
+              "object.ball.shape.mesh.tets[0] = 9: must name one of the 4 vertices, from 0");
+    const auto empty = std::make_shared<Mesh>();
+    EXPECT_EQ(error_of([&](Scene& s) { s.objects[0].shape = MeshShape{empty}; }),
+              "object.ball.shape.mesh: has neither triangles nor tets");
+    EXPECT_EQ(error_of([&](Scene& s) {
+                  s.collision.response = CollisionResponse::restore;
+                  add_collider(s).shape = MeshShape{tet};
+              }),
+              "collider[0].shape.mesh: needs collision.response = \"contact\"");
+}
+
 INSTANTIATE_TEST_SUITE_P(Objects, ObjectRule, testing::ValuesIn(kObjectRules), rule_name);
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "common/surroundings.h"
+#include "picture/surroundings.h"
 
 #include <utility>
 

@@ -1,6 +1,6 @@
-#include "common/scene_painter.h"
+#include "picture/scene_painter.h"
 
-#include "common/surroundings.h"
+#include "picture/surroundings.h"
 
 namespace gelatin {
 namespace {

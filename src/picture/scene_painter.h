@@ -1,7 +1,7 @@
 #pragma once
 
-#include "common/picture_size.h"
 #include "gelatin/simulator.h"
+#include "picture/picture_size.h"
 #include "render/renderer.h"
 
 namespace gelatin {
