@@ -106,7 +106,7 @@ void Session::let_go() {
 
 void Session::follow_hand() {
     if (is_pulled_ && hand_ != Hand::holding) {
-        simulator_.set_pull({});
+        simulator_.set_pulls({});
         is_pulled_ = false;
     }
     if (hand_ == Hand::reaching) {
@@ -118,10 +118,10 @@ void Session::follow_hand() {
         if (!is_body) return;
         held_point_ = hand_target_ = found->point;
         pull_ = take_hold(model(), positions, *found);
-        simulator_.set_pull(pull_);
+        simulator_.set_pulls({pull_});
         is_pulled_ = true;
     } else if (hand_ == Hand::holding) {
-        simulator_.move_pull(glm::dvec3(hand_target_));
+        simulator_.move_pull(0, glm::dvec3(hand_target_));
     }
 }
 

@@ -1,11 +1,17 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -35,6 +41,22 @@ struct SimulatorOptions {
 /// Nodes and faces include those of colliders' surfaces.
 struct Counts {
     std::size_t objects = 0, nodes = 0, springs = 0, faces = 0, tets = 0;
+};
+
+/// A contiguous part of an array.
+struct IndexRange {
+    std::uint32_t first = 0, count = 0;
+    std::uint32_t end() const { return first + count; }
+};
+
+/// What belongs to one object in the arrays of all objects.
+struct ObjectInfo {
+    std::string name;
+    IndexRange nodes;          ///< of Simulator::positions and others
+    IndexRange faces;          ///< of Simulator::faces
+    IndexRange tets;           ///< of Simulator::tets
+    double mass = 0.0;         ///< [kg]
+    double rest_volume = 0.0;  ///< [m^3]
 };
 
 /// Nodes, faces and edges that were near each other in a step, before its response.
@@ -132,11 +154,69 @@ public:
     /// other bodies start as their scene says.
     void go_on_from(const Simulator& other);
 
-    /// Sets the user's pull; empty: ends it, and bodies keep their momentum. Its work is unknown, so the
-    /// energy balance is not checked while it lasts. @pre nodes are in the model, their stiffnesses positive
-    void set_pull(const std::optional<Pull>& pull);
-    /// Moves the pull's target [m]. @pre set_pull with a pull
-    void move_pull(const glm::dvec3& target);
+    /// The bodies come first in every array of objects, in the order of Scene::objects.
+    /// @throws InvalidInput if no body has this name, naming those that there are
+    std::size_t object_index(std::string_view name) const;
+    /// @param object index of a body @throws InvalidInput if there is none
+    ObjectInfo object(std::size_t object) const;
+    /// The boundary triangles of all objects' tets: nodes, counter-clockwise from outside; shape [faces].
+    /// They never change, and the spans are valid as long as the simulator, until set_material or pin.
+    std::span<const glm::uvec3> faces() const;
+    /// The nodes of all tets; shape [tets]. As faces().
+    std::span<const glm::uvec4> tets() const;
+
+    /// The nodes at present: xyz [m], inverse mass [1/kg], 0 for those that are held; shape [nodes]. The CPU
+    /// backend's own array, without a copy. With the GL backend a copy, which waits for the GPU, once for
+    /// each state. Valid until the state changes: by a step, a setter, a checkpoint, reset.
+    std::span<const glm::vec4> positions() const;
+    /// xyz [m/s], damping time of the material [s]; shape [nodes]. As positions().
+    std::span<const glm::vec4> velocities() const;
+    /// The force of contacts on each node [N], friction included, 0; shape [nodes]. Zero without
+    /// CollisionResponse::contact. Found at the first call for each state, and valid as positions().
+    std::span<const glm::vec4> node_contact_forces() const;
+    /// What presses objects at present; empty without CollisionResponse::contact.
+    std::vector<ContactForce> contact_forces() const;
+
+    // What programs change between steps. Each throws InvalidInput, and then nothing has changed: for an
+    // object that is no body, a wrong number of values, values that are not finite.
+
+    /// Puts an object's nodes somewhere else, with the velocities that they have [m]; shape [nodes of the
+    /// object]. Held nodes stay where their pin or handle has them. With CollisionResponse::contact bodies
+    /// that overlap afterwards are moved apart, as at the start, each with a warning.
+    /// @throws InvalidInput if they cannot be moved apart, or a body overlaps itself where
+    ///   CollisionSettings::self_collision
+    void set_positions(std::size_t object, std::span<const glm::vec3> positions);
+    /// Velocities of an object's nodes [m/s]; shape [nodes of the object]. Held nodes keep theirs.
+    void set_velocities(std::size_t object, std::span<const glm::vec3> velocities);
+    /// Forces on an object's nodes [N], which act until others are set; shape [nodes of the object]; empty:
+    /// none. Their work is unknown, so the energy balance is not checked while they act.
+    void set_forces(std::size_t object, std::span<const glm::vec3> forces);
+    /// Holds nodes where they are, until unpin. They are one pin more of held_nodes(), and may be dragged.
+    /// Not part of checkpoints; reset() releases them. It makes the solver's tables anew, which takes about
+    /// as long as making the simulator with its meshes from the cache.
+    /// @param nodes by their index in the object, distinct, not held yet, at least one
+    void pin(std::size_t object, std::span<const std::uint32_t> nodes);
+    /// Releases all nodes of an object that pin() holds. Takes as long as pin().
+    void unpin(std::size_t object);
+    /// Replaces the scene's material of the same name, with any other values. Makes the tets' and the
+    /// solver's tables anew, as pin(); a fixed step must be stable with it.
+    void set_material(const Material& material);
+
+    /// Sets the users' pulls, all at once; a node may be in several. Bodies keep their momentum when a pull
+    /// ends. The work is unknown, so the energy balance is not checked while any lasts.
+    /// @throws InvalidInput for nodes that there are not, or twice in a pull, and stiffnesses that are not
+    ///   positive
+    void set_pulls(std::vector<Pull> pulls);
+    /// Moves a pull's target [m]. @param pull index in the last set_pulls @throws InvalidInput if there is
+    /// none
+    void move_pull(std::size_t pull, const glm::dvec3& target);
+
+    /// Called at the begin and at the end of each step, on its thread; empty: not any more. It may read and
+    /// change the state, but not step. What it throws comes out of step(); if that is at the end, the step
+    /// has been made.
+    using StepCallback = std::function<void(Simulator&)>;
+    void before_step(StepCallback callback);
+    void after_step(StepCallback callback);
 
     /// What the scene's pins and handles hold at present, in a fixed order.
     std::vector<HeldNodes> held_nodes() const;

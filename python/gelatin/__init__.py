@@ -10,19 +10,11 @@
 >>> sim["ball"].positions
 """
 
-from ._gelatin import (
-    Diverged,
-    Error,
-    GlError,
-    InvalidInput,
-    NoOpenGl,
-    SystemError,
-    commit,
-    set_log_level,
-    version,
-)
+from ._gelatin import commit, version
 from .batch import Batch
 from .bodies import Body
+from .errors import Diverged, Error, GlError, InvalidInput, NoOpenGl, SystemError
+from .hands import Hand
 from .objects import (
     Camera,
     Collider,
@@ -39,6 +31,7 @@ from .objects import (
     TetAttribute,
     Traction,
 )
+from .pictures import Film, Picture, film
 from .scene import CollisionSettings, Material, MaterialPair, Scene, SimulationSettings, SpringKinds, load
 from .shapes import (
     Box,

@@ -31,7 +31,8 @@ class Batch:
         self.scene = scene
         self._core = _gelatin.Batch(scene, worlds)
         self._worlds = [self._core.world(w) for w in range(worlds)]
-        self._first = self[0]
+        self._simulators = [Simulator._of(world, scene) for world in self._worlds]
+        self._first = self._simulators[0]
 
     def __repr__(self) -> str:
         return f"<gelatin.Batch: {len(self)} worlds of {len(self.masses)} nodes>"
@@ -42,10 +43,10 @@ class Batch:
 
     def __getitem__(self, world: int) -> Simulator:
         """One world. Raises IndexError."""
-        return Simulator._of(self._worlds[world], self.scene)
+        return self._simulators[world]
 
     def __iter__(self) -> Iterator[Simulator]:
-        return (self[world] for world in range(len(self)))
+        return iter(self._simulators)
 
     def step(self, count: int = 1) -> None:
         """Advances every world by `count` steps. Ctrl-C ends it after a whole step of all worlds.
@@ -69,11 +70,13 @@ class Batch:
             self.advance(1)
 
     def reset(self, mask: npt.ArrayLike | None = None) -> None:
-        """Returns worlds to their start. mask: True for those, shape (worlds,); None: all."""
+        """Returns worlds to their start, as Simulator.reset. mask: True for those, shape (worlds,); None: all."""
         chosen = np.ones(len(self), bool) if mask is None else np.asarray(mask)
         if chosen.shape != (len(self),) or chosen.dtype != bool:
             raise ValueError(f"mask must be of bool and of shape ({len(self)},), not {chosen.dtype} and {chosen.shape}")
         self._core.reset(chosen.astype(np.uint8).tolist())
+        for world in np.flatnonzero(chosen):
+            self._simulators[world]._forget_changes()
 
     def nodes(self, name: str) -> slice:
         """The nodes of an object: batch.positions[:, batch.nodes("ball")]. Raises KeyError."""

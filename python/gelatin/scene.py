@@ -9,7 +9,7 @@ import json
 import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, Literal, Union
+from typing import Any, Literal, Union, cast
 
 from . import _gelatin
 from .objects import Camera, Collider, Object
@@ -187,7 +187,7 @@ def load(
         overrides = [f"{key}={_toml(value)}" for key, value in overrides.items()]
     elif isinstance(overrides, str):
         raise TypeError("overrides must be a mapping or a list of str, not str")
-    return _gelatin.load(os.fspath(file), list(overrides))
+    return cast(Scene, _gelatin.load(os.fspath(file), list(overrides)))
 
 
 def _toml(value: Any) -> str:

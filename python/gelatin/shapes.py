@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Union
+from typing import Any, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -90,12 +90,17 @@ class Mesh:
         self.attributes = attributes
 
     def __repr__(self) -> str:
-        return f"<gelatin.Mesh: {len(self.vertices)} vertices, {len(self.triangles)} triangles, {len(self.tets)} tets>"
+        vertices, triangles, tets = (len(np.asarray(part)) for part in (self.vertices, self.triangles, self.tets))
+        return f"<gelatin.Mesh: {vertices} vertices, {triangles} triangles, {tets} tets>"
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Mesh):
             return NotImplemented
-        return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in self.__slots__)
+
+        def same(a: npt.NDArray[Any], b: npt.NDArray[Any]) -> bool:
+            return a.size == b.size == 0 or np.array_equal(a, b)
+
+        return all(same(np.asarray(getattr(self, name)), np.asarray(getattr(other, name))) for name in self.__slots__)
 
 
 Shape = Union[Sphere, Box, Capsule, Text, File, Mesh]

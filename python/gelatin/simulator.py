@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, Literal, TypeVar, Union
 
 import numpy as np
@@ -11,6 +12,10 @@ import numpy.typing as npt
 
 from . import _gelatin
 from .bodies import Body
+from .errors import InvalidInput
+from .hands import Hand
+from .objects import Camera
+from .pictures import Picture
 from .progress import frames_with_bar
 from .scene import Scene, load
 
@@ -58,6 +63,8 @@ class Simulator:
         self.scene = scene
         self._core = core
         self._objects = {fields["name"]: fields for fields in self._core.objects()}
+        self._hands: list[Hand] = []
+        self._forced: set[int] = set()  # indices of objects
         self._step_callbacks: list[Callable[[Simulator], object]] = []
         self._frame_callbacks: list[Callable[[Simulator], object]] = []
 
@@ -71,7 +78,7 @@ class Simulator:
         """The body of the object with this name. Raises KeyError."""
         if name not in self._objects:
             raise KeyError(f"there is no object '{name}'; there are {', '.join(map(repr, self._objects))}")
-        return Body(self, self._objects[name])
+        return Body(self, list(self._objects).index(name), self._objects[name])
 
     def __iter__(self) -> Iterator[Body]:
         return (self[name] for name in self._objects)
@@ -140,8 +147,9 @@ class Simulator:
         raise ValueError("this is no callback of the simulator")
 
     def reset(self) -> None:
-        """Returns to the start. Allowed after Diverged."""
+        """Returns to the start: hands, forces and pins of programs are gone. Allowed after Diverged."""
         self._core.reset()
+        self._forget_changes()
 
     @property
     def frame(self) -> int:
@@ -229,6 +237,44 @@ class Simulator:
         """
         return self._core.statistics()
 
+    def set_material(self, name: str, **fields: Any) -> None:
+        """Changes fields of a material, which are those of `gelatin.Material`. It takes as long as making the simulator.
+
+        Raises InvalidInput for a material that there is not, or values that are not allowed.
+        """
+        found = [material for material in self.scene.materials if material.name == name]
+        if not found:
+            raise InvalidInput(f"there is no material '{name}'")
+        changed = dataclasses.replace(found[0], **fields)
+        self._core.set_material(changed)
+        materials = [changed if material is found[0] else material for material in self.scene.materials]
+        self.scene = dataclasses.replace(self.scene, materials=materials)
+
+    # Pictures
+
+    def render(
+        self,
+        width: int = 1280,
+        height: int = 720,
+        *,
+        quality: Literal["auto", "high", "fast"] = "auto",
+        camera: Camera | None = None,
+        overlays: Sequence[str] = (),
+    ) -> Picture:
+        """Draws the present state, as `gelatin run` does: shape (height, width, 3), uint8. Notebooks show it.
+
+        width, height: [pixels]
+        quality: "fast" is light at each vertex, about a tenth of the time on software drivers.
+        camera: None: the scene's, or one that shows all of it.
+        overlays: as of `gelatin run --overlay`: ["stress", "cut:x"].
+
+        OpenGL is needed for this alone. The first picture takes longer: it compiles shaders. Pictures of a simulator belong
+        to one thread.
+
+        Raises NoOpenGl if there is none; InvalidInput for a size or an overlay that is not allowed.
+        """
+        return self._core.render(width, height, quality, camera, list(overlays)).view(Picture)
+
     # Files
 
     def save_checkpoint(self, file: str | os.PathLike[str]) -> None:
@@ -238,6 +284,14 @@ class Simulator:
     def load_checkpoint(self, file: str | os.PathLike[str]) -> None:
         """Continues from a saved state, bit for bit. Raises InvalidInput for a file of another scene, or a damaged one."""
         self._core.load_checkpoint(os.fspath(file))
+
+    def _forget_changes(self) -> None:
+        if self._hands:
+            self._hands.clear()
+            self._core.set_pulls([])
+        for body in self._forced:
+            self._core.set_forces(body, np.zeros((0, 3), np.float32))
+        self._forced.clear()
 
     def _call(self, callbacks: list[Callable[[Simulator], object]]) -> None:
         for callback in list(callbacks):

@@ -1,6 +1,8 @@
+#include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
 
 #include <exception>
+#include <memory>
 #include <vector>
 
 #include "arrays.h"
@@ -16,6 +18,7 @@ namespace {
 Batch make_batch(nb::handle source, std::int64_t worlds) {
     if (worlds < 1) throw InvalidInput({{}, 0, "worlds", std::to_string(worlds), "must be 1 or more"});
     const Scene scene = scene_of(source);
+    const MessagesAtEnd messages;
     const nb::gil_scoped_release released;
     return Batch(scene, static_cast<std::size_t>(worlds));
 }
@@ -41,6 +44,7 @@ public:
     }
 
     void reset(const std::vector<std::uint8_t>& mask) {
+        const MessagesAtEnd messages;
         const std::unique_lock<std::mutex> lock = turn_.take();
         const nb::gil_scoped_release released;
         batch_.reset(mask);
@@ -48,7 +52,9 @@ public:
 
     std::vector<bool> diverged() const { return {batch_.diverged().begin(), batch_.diverged().end()}; }
 
-    PythonSimulator world(std::size_t index) { return {batch_[index], turn_, nb::find(*this)}; }
+    std::unique_ptr<PythonSimulator> world(std::size_t index) {
+        return std::make_unique<PythonSimulator>(batch_[index], turn_, nb::find(*this));
+    }
 
 private:
     Batch batch_;

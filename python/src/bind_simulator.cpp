@@ -11,23 +11,32 @@
 namespace gelatin::python {
 namespace {
 
-// Null with OpenGL, which has the nodes in memory of its own.
-const cpu::Nodes<float>* nodes_on_host(const Simulator& simulator) {
-    const auto* solver = dynamic_cast<const cpu::CpuSolver<float>*>(&SimulatorInternals::solver(simulator));
-    return solver == nullptr ? nullptr : &solver->nodes();
-}
+using Numbers = nb::ndarray<nb::numpy, const float, nb::ndim<1>>;
 
 // Without the nodes of colliders' surfaces, which come last.
 Vectors vectors_of(PythonSimulator& self, std::vector<glm::vec4> cpu::Nodes<float>::*member,
                    std::vector<float> HostFrame::*copied) {
     return self.use([&](const Simulator& simulator) {
         const std::size_t count = model_of(simulator).body_node_count();
-        if (const cpu::Nodes<float>* nodes = nodes_on_host(simulator))
-            return view_of(std::span(nodes->*member).first(count), nb::find(self));
+        const auto cpu_solver = std::dynamic_pointer_cast<const cpu::CpuSolver<float>>(
+            SimulatorInternals::share_solver(simulator));
+        if (cpu_solver) return view_of(std::span(cpu_solver->nodes().*member).first(count), cpu_solver);
+        // OpenGL has them in memory of its own.
         std::vector<float> values = std::move(simulator.read_frame().*copied);
         values.resize(3 * count);
         return array_of(std::move(values));
     });
+}
+
+// What never changes of a simulator without pins of programs.
+template <class View>
+auto model_view(const View& view) {
+    return [view](PythonSimulator& self) {
+        return self.use([&](const Simulator& simulator) {
+            const std::shared_ptr<const Model> model = SimulatorInternals::share_model(simulator);
+            return view(*model, model);
+        });
+    };
 }
 
 // Empty where a solver does not find it.
@@ -83,7 +92,8 @@ auto getter(Result (Simulator::*member)() const) {
 }  // namespace
 
 void bind_simulator(nb::module_& module) {
-    nb::class_<PythonSimulator>(module, "Simulator")
+    nb::class_<PythonSimulator> simulator(module, "Simulator");
+    simulator
         .def(nb::init<nb::handle, const std::string&, std::optional<int>, bool>(), nb::arg("scene"),
              nb::arg("backend"), nb::arg("gl_device") = nb::none(), nb::arg("gl_debug") = false)
         .def("step", &PythonSimulator::step, nb::arg("count"))
@@ -110,38 +120,20 @@ void bind_simulator(nb::module_& module) {
              [](PythonSimulator& self) { return forces_of(self, &HostFrame::contact_friction); })
         .def("holding_forces",
              [](PythonSimulator& self) { return forces_of(self, &HostFrame::holding_forces); })
-        .def("rest_positions",
-             [](PythonSimulator& self) {
-                 return self.use([&](const Simulator& simulator) {
-                     const Model& model = model_of(simulator);
-                     return view_of(std::span(model.positions).first(model.body_node_count()),
-                                    nb::find(self));
-                 });
-             })
-        .def("faces",
-             [](PythonSimulator& self) {
-                 return self.use([&](const Simulator& simulator) {
-                     const Model& model = model_of(simulator);
-                     return view_of(&model.faces[0].a, body_face_count(model), 3, nb::find(self));
-                 });
-             })
-        .def("tets",
-             [](PythonSimulator& self) {
-                 return self.use([&](const Simulator& simulator) {
-                     const Model& model = model_of(simulator);
-                     return view_of(&model.tets[0].x, model.tets.size(), 4, nb::find(self));
-                 });
-             })
-        .def("masses",
-             [](PythonSimulator& self) {
-                 return self.use([&](const Simulator& simulator) {
-                     const Model& model = model_of(simulator);
-                     return nb::ndarray<nb::numpy, const float, nb::ndim<1>>(
-                         model.masses.data(), {model.body_node_count()}, nb::find(self));
-                 });
-             })
-        .def("objects", &objects_of)
-        .def("statistics", &statistics_of)
+        .def("rest_positions", model_view([](const Model& model, const Owner& owner) {
+                 return view_of(std::span(model.positions).first(model.body_node_count()), owner);
+             }))
+        .def("faces", model_view([](const Model& model, const Owner& owner) {
+                 return view_of(&model.faces[0].a, body_face_count(model), 3, owner);
+             }))
+        .def("tets", model_view([](const Model& model, const Owner& owner) {
+                 return view_of(&model.tets[0].x, model.tets.size(), 4, owner);
+             }))
+        .def("masses", model_view([](const Model& model, const Owner& owner) {
+                 return Numbers(model.masses.data(), {model.body_node_count()}, capsule_of(owner));
+             }))
+        .def("objects", &objects_of, nb::sig("def objects(self) -> list[dict[str, typing.Any]]"))
+        .def("statistics", &statistics_of, nb::sig("def statistics(self) -> dict[str, typing.Any]"))
         .def(
             "save_checkpoint",
             [](PythonSimulator& self, const std::string& file) {
@@ -154,6 +146,8 @@ void bind_simulator(nb::module_& module) {
                 self.use([&](Simulator& s) { s.load_checkpoint(file); });
             },
             nb::arg("file"));
+    bind_changes(simulator);
+    bind_picture(simulator);
 }
 
 }  // namespace gelatin::python

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "gelatin/error.h"
+#include "names.h"
 #include "scene_fields.h"
 
 namespace gelatin::python {

@@ -1,12 +1,9 @@
 #pragma once
 
-#include <nanobind/nanobind.h>
-#include <nanobind/stl/string.h>
-
 namespace gelatin::python {
 
-/// Makes Gelatin's exceptions classes of the module, and translates them with their text and what else they
+/// Has Gelatin's exceptions become those of python/gelatin/errors.py, with their text and what else they
 /// tell.
-void bind_errors(nanobind::module_& module);
+void translate_errors();
 
 }  // namespace gelatin::python

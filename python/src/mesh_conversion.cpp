@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 
+#include "arrays.h"
 #include "convert.h"
 
 namespace gelatin::python {

@@ -31,6 +31,7 @@ SimulatorOptions options_of(const std::string& backend, std::optional<int> gl_de
 // Meshes are made in it, for seconds.
 std::unique_ptr<Simulator> make_simulator(nb::handle source, const SimulatorOptions& options) {
     const Scene scene = scene_of(source);
+    const MessagesAtEnd messages;
     const nb::gil_scoped_release released;
     return std::make_unique<Simulator>(scene, options);
 }
@@ -55,21 +56,63 @@ void make_in_pieces(std::int64_t count, const std::function<void(std::int64_t)>&
         if (taken < kSignalInterval / 2) piece *= 2;
         if (taken > kSignalInterval) piece = std::max<std::int64_t>(1, piece / 2);
         const nb::gil_scoped_acquire acquired;
+        tell_messages();
         if (PyErr_CheckSignals() != 0) throw nb::python_error();
     }
 }
 
 PythonSimulator::PythonSimulator(nb::handle scene, const std::string& backend, std::optional<int> gl_device,
                                  bool gl_debug)
-    : own_(make_simulator(scene, options_of(backend, gl_device, gl_debug))), simulator_(own_.get()) {}
+    : own_(make_simulator(scene, options_of(backend, gl_device, gl_debug))), simulator_(own_.get()) {
+    if (simulator_->uses_gl()) gl_thread_ = std::this_thread::get_id();
+}
 
 PythonSimulator::PythonSimulator(Simulator& simulator, const Turn& turn, nb::object owner)
     : simulator_(&simulator), owner_(std::move(owner)), turn_(turn) {}
 
+PythonSimulator::~PythonSimulator() {
+    if (!gl_thread_) return;
+    try {
+        make_current();  // what OpenGL has of it is in its own context
+    } catch (const std::exception&) {
+        // On another thread it stays there until the process ends.
+        static_cast<void>(new std::optional<Painter>(std::move(painter_)));
+        static_cast<void>(own_.release());
+        return;
+    }
+    painter_.reset();
+}
+
 void PythonSimulator::make_current() {
-    if (simulator_->uses_gl() && std::this_thread::get_id() != maker_)
-        throw std::runtime_error("a simulator that uses OpenGL belongs to the thread that made it");
+    if (std::this_thread::get_id() != gl_thread_)
+        throw std::runtime_error("what uses OpenGL of a simulator belongs to the thread that used it first");
     SimulatorInternals::make_current(*simulator_);
+}
+
+bool PythonSimulator::can_paint(const PictureOptions& options) const {
+    if (!painter_) return false;
+    const PictureOptions& made = painter_->options;
+    // Without one the first picture chose a camera, which stays: bodies move, and not the picture's frame.
+    return made.width == options.width && made.height == options.height && made.quality == options.quality &&
+           made.camera.has_value() == options.camera.has_value();
+}
+
+Picture PythonSimulator::paint(const PictureOptions& options) {
+    return use([&](Simulator& simulator) {
+        const nb::gil_scoped_release released;
+        if (!gl_thread_) {
+            SimulatorInternals::need_context(simulator);
+            gl_thread_ = std::this_thread::get_id();
+        }
+        make_current();
+        if (!can_paint(options)) {
+            painter_.reset();
+            painter_.emplace(Painter{PicturePainter(simulator, options), options});
+        }
+        painter_->painter.set_overlays(options.overlays);
+        if (options.camera) painter_->painter.set_camera(*options.camera);
+        return painter_->painter.paint();
+    });
 }
 
 void PythonSimulator::step(std::int64_t count) {

@@ -10,7 +10,9 @@
 #include <string>
 #include <thread>
 
+#include "gelatin/picture.h"
 #include "gelatin/simulator.h"
+#include "messages.h"
 
 namespace gelatin::python {
 
@@ -40,12 +42,16 @@ public:
                     bool gl_debug);
     /// One of a batch. @param owner of the simulator; it must have a reference to this of its own
     PythonSimulator(Simulator& simulator, const Turn& turn, nb::object owner);
+    PythonSimulator(const PythonSimulator&) = delete;
+    PythonSimulator& operator=(const PythonSimulator&) = delete;
+    ~PythonSimulator();
 
-    /// Runs `work` with the simulator, its context being current.
+    /// Runs `work` with the simulator, its context being current. Messages are told at the end.
     template <class Work>
     decltype(auto) use(const Work& work) {
+        const MessagesAtEnd messages;
         const std::unique_lock<std::mutex> lock = turn_.take();
-        make_current();
+        if (simulator_->uses_gl()) make_current();
         return work(*simulator_);
     }
 
@@ -53,14 +59,24 @@ public:
     void step(std::int64_t count);
     void advance(std::int64_t frames);
 
+    /// A picture of the present state. It makes an OpenGL context where there is none, and keeps what is
+    /// compiled for the next picture of the same size and quality.
+    Picture paint(const PictureOptions& options);
+
 private:
+    struct Painter {
+        PicturePainter painter;
+        PictureOptions options;
+    };
     void make_current();
+    bool can_paint(const PictureOptions& options) const;
 
     std::unique_ptr<Simulator> own_;  // null: the owner has it
     Simulator* simulator_;
+    std::optional<Painter> painter_;
+    std::optional<std::thread::id> gl_thread_;  // where its context is current
     nb::object owner_;
     Turn turn_;
-    std::thread::id maker_ = std::this_thread::get_id();
 };
 
 }  // namespace gelatin::python

@@ -19,12 +19,25 @@ nb::dict defaults_of() {
     return all;
 }
 
+template <class Struct>
+Struct read_as(nb::handle source, const char* where) {
+    Struct value{};
+    read(source, where, value);
+    return value;
+}
+
 }  // namespace
 
 Scene scene_of(nb::handle source) {
-    Scene scene;
-    read(source, "scene", scene);
-    return scene;
+    return read_as<Scene>(source, "scene");
+}
+
+Material material_of(nb::handle source) {
+    return read_as<Material>(source, "material");
+}
+
+CameraDescription camera_of(nb::handle source) {
+    return read_as<CameraDescription>(source, "camera");
 }
 
 nb::object python_scene(const Scene& scene) {

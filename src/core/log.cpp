@@ -5,7 +5,10 @@
 #include <spdlog/spdlog.h>
 
 #include <memory>
+#include <mutex>
 #include <utility>
+
+#include "gelatin/log.h"
 
 namespace gelatin {
 namespace {
@@ -22,6 +25,20 @@ public:
     std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<LevelName>(); }
 };
 
+std::mutex callback_mutex;
+std::shared_ptr<const LogCallback> current_callback;
+
+// False: there is none. It may set another one.
+bool call_back(Severity severity, std::string_view message) {
+    std::shared_ptr<const LogCallback> callback;
+    {
+        const std::lock_guard lock(callback_mutex);
+        callback = current_callback;
+    }
+    if (callback) (*callback)(severity, message);
+    return callback != nullptr;
+}
+
 }  // namespace
 
 void set_up_log(LogLevel level) {
@@ -36,20 +53,26 @@ void set_up_log(LogLevel level) {
     spdlog::set_default_logger(std::move(logger));
 }
 
+void set_log_callback(LogCallback callback) {
+    const auto next = callback ? std::make_shared<const LogCallback>(std::move(callback)) : nullptr;
+    const std::lock_guard lock(callback_mutex);
+    current_callback = next;
+}
+
 void log_debug(std::string_view message) {
-    spdlog::debug(message);
+    if (!call_back(Severity::debug, message)) spdlog::debug(message);
 }
 
 void log_note(std::string_view message) {
-    spdlog::info(message);
+    if (!call_back(Severity::note, message)) spdlog::info(message);
 }
 
 void log_warning(std::string_view message) {
-    spdlog::warn(message);
+    if (!call_back(Severity::warning, message)) spdlog::warn(message);
 }
 
 void log_error(std::string_view message) {
-    spdlog::error(message);
+    if (!call_back(Severity::error, message)) spdlog::error(message);
 }
 
 }  // namespace gelatin

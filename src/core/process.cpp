@@ -17,6 +17,7 @@
 #include <cstring>
 #include <utility>
 
+#include "core/progress.h"
 #include "gelatin/error.h"
 
 namespace gelatin {
@@ -160,6 +161,13 @@ ProcessResult run_process(const std::vector<std::string>& command, const std::fi
             ::kill(-pid, SIGKILL);
             status = wait_for_end(pid);
             break;
+        }
+        try {
+            check_cancelled();
+        } catch (...) {
+            ::kill(-pid, SIGKILL);
+            wait_for_end(pid);
+            throw;
         }
         pollfd waiting{open ? reading.get() : -1, POLLIN, 0};
         ::poll(&waiting, 1, kLookEvery);

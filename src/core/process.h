@@ -17,9 +17,9 @@ struct ProcessResult {
 };
 
 /// Runs a program by posix_spawnp (no shell) in its own process group, with stdin from /dev/null, and waits.
-/// Kills the group after `time_limit` [s].
+/// Kills the group after `time_limit` [s], or when this thread's listener cancels (progress.h).
 /// @param folder the child's working folder
-/// @throws SystemError if the program does not exist or cannot be started.
+/// @throws SystemError if the program does not exist or cannot be started; Cancelled.
 ProcessResult run_process(const std::vector<std::string>& command, const std::filesystem::path& folder,
                           double time_limit);
 

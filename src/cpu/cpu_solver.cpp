@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include <cassert>
+#include <type_traits>
 #include <utility>
 
 #include "core/counted.h"
@@ -82,6 +83,7 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
     : model_(std::move(model)),
       scheme_(explicit_scheme(solver)),
       forces_(forces),
+      pulls_(model_->node_count()),
       collision_(model_, collision.broad_phase, collision.detection, margin_for<Real>(collision)),
       contact_{collision.friction, collision.restitution} {
     current_ = {converted<Real>(model_->positions), converted<Real>(model_->velocities)};
@@ -128,24 +130,29 @@ void CpuSolver<Real>::set_load_factors(std::span<const float> factors) {
 }
 
 template <class Real>
-void CpuSolver<Real>::set_pull(const std::optional<Pull>& pull) {
-    if (pulls_) clear_pulled_forces();
-    pulls_.reset();
-    if (pull) pulls_.emplace(*pull, model_->node_count());
+void CpuSolver<Real>::set_pulls(std::vector<Pull> pulls) {
+    clear_pulled_forces();
+    pulls_.set_pulls(std::move(pulls));
+}
+
+template <class Real>
+void CpuSolver<Real>::set_forces(std::span<const glm::vec3> forces) {
+    clear_pulled_forces();
+    pulls_.set_forces(forces);
 }
 
 template <class Real>
 void CpuSolver<Real>::clear_pulled_forces() {
     if (load_forces_.empty()) return;
-    for (const std::uint32_t n : pulls_->nodes()) load_forces_[n] = Vec4<Real>(0);
+    for (const std::uint32_t n : pulls_.nodes()) load_forces_[n] = Vec4<Real>(0);
 }
 
 // Adds to the loads, for explicit schemes.
 template <class Real>
 void CpuSolver<Real>::add_pulls(const Nodes<Real>& nodes, Real step) {
-    for (const std::uint32_t n : pulls_->nodes()) {
+    for (const std::uint32_t n : pulls_.nodes()) {
         const Vec3<Real> velocity(nodes.velocities[n]);
-        load_forces_[n] += Vec4<Real>(pulls_->force(n, nodes.positions[n], velocity, step), 0);
+        load_forces_[n] += Vec4<Real>(pulls_.force(n, nodes.positions[n], velocity, step), 0);
     }
 }
 
@@ -171,7 +178,7 @@ void CpuSolver<Real>::descend(Descent& descent, double step) {
         }
         sum_loads(previous_);
         descent.solver.run(static_cast<Real>(step / parts), std::exchange(has_earlier_, true), previous_,
-                           current_, load_forces_, pulls_ ? &*pulls_ : nullptr, timer, parts);
+                           current_, load_forces_, acting_pulls(), timer, parts);
     }
 }
 
@@ -180,10 +187,11 @@ void CpuSolver<Real>::run_scheme(double step) {
     const Nodes<Real>* from = &current_;
     for (int p = 0; p < scheme_.pass_count; ++p) {
         Nodes<Real>& to = p + 1 == scheme_.pass_count ? previous_ : stage_[p % 2];
-        if (pulls_ && load_forces_.empty()) load_forces_.assign(model_->node_count(), Vec4<Real>(0));
-        if (pulls_) clear_pulled_forces();
+        const bool is_pulled = acting_pulls() != nullptr;
+        if (is_pulled && load_forces_.empty()) load_forces_.assign(model_->node_count(), Vec4<Real>(0));
+        clear_pulled_forces();
         sum_loads(*from);
-        if (pulls_) add_pulls(*from, static_cast<Real>(step));
+        if (is_pulled) add_pulls(*from, static_cast<Real>(step));
         find_volume_stresses(*from);
         Pass<Real> pass = make_pass(*model_, scheme_, p, step, current_, *from, to, sums_);
         if (!load_forces_.empty()) pass.load_forces = load_forces_.data();
@@ -272,8 +280,7 @@ template <class Real>
 HoldingForces CpuSolver<Real>::holding_forces() const {
     const bool holds_bodies = !model_->handles.empty() && model_->is_body(model_->handles[0].object);
     if (!descent_ || !holds_bodies) return {};
-    std::vector<glm::dvec3> others =
-        descent_->solver.forces_on_held(current_.positions, pulls_ ? &*pulls_ : nullptr);
+    std::vector<glm::dvec3> others = descent_->solver.forces_on_held(current_.positions, acting_pulls());
     if (!load_forces_.empty())
         for (std::size_t n = 0; n < others.size(); ++n) others[n] += glm::dvec3(load_forces_[n]);
     std::vector<glm::dvec3> accelerations = held_changes_;
@@ -288,6 +295,19 @@ State CpuSolver<Real>::read_state() const {
                 {}};
     if (has_earlier_) state.earlier_velocities = {previous_.velocities.begin(), previous_.velocities.end()};
     return state;
+}
+
+// The float solver's are the state itself; the reference's are not in single precision.
+template <class Real>
+std::span<const glm::vec4> CpuSolver<Real>::host_positions() const {
+    if constexpr (std::is_same_v<Real, float>) return current_.positions;
+    return {};
+}
+
+template <class Real>
+std::span<const glm::vec4> CpuSolver<Real>::host_velocities() const {
+    if constexpr (std::is_same_v<Real, float>) return current_.velocities;
+    return {};
 }
 
 // The arrays stay where they are: whoever looks at nodes() keeps addresses that are valid.

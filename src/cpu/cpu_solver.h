@@ -31,8 +31,9 @@ public:
 
     void apply_kinematics(std::span<const HandleMotion> motions) override;
     void set_load_factors(std::span<const float> factors) override;
-    void set_pull(const std::optional<Pull>& pull) override;
-    void move_pull(const glm::dvec3& target) override { pulls_->move(target); }
+    void set_pulls(std::vector<Pull> pulls) override;
+    void move_pull(std::size_t pull, const glm::dvec3& target) override { pulls_.move_pull(pull, target); }
+    void set_forces(std::span<const glm::vec3> forces) override;
     void advance_nodes(double step) override;
     void update_boxes() override { collision_.update_boxes(current_.positions, previous_.positions); }
     void find_object_pairs() override { collision_.find_object_pairs(); }
@@ -52,6 +53,8 @@ public:
     HoldingForces holding_forces() const override;
     std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) const override;
     State read_state() const override;
+    std::span<const glm::vec4> host_positions() const override;
+    std::span<const glm::vec4> host_velocities() const override;
     void write_state(const State& state) override;
     StageTimer& stage_timer() override { return timer_; }
     std::string device() const override;
@@ -66,6 +69,7 @@ private:
     void sum_loads(const Nodes<Real>& nodes);
     void add_pulls(const Nodes<Real>& nodes, Real step);
     void clear_pulled_forces();
+    const Pulls<Real>* acting_pulls() const { return pulls_.nodes().empty() ? nullptr : &pulls_; }
     void find_volume_stresses(const Nodes<Real>& nodes);
     void run_pass(const Pass<Real>& pass);
     void run_scheme(double step);
@@ -90,9 +94,9 @@ private:
     std::vector<glm::dvec3> held_changes_;  // of handle nodes' velocities as it began [m/s]
     std::vector<float> load_factors_;
     std::vector<Vec4<Real>> load_forces_;  // [N], shape [nodes]; empty without loads
-    std::optional<Pulls<Real>> pulls_;     // while a user pulls
-    TetBlocks pass_tets_;                  // in float, for explicit schemes
-    std::vector<Real> volume_stresses_;    // [Pa], shape [nodes]; empty if no explicit scheme needs them
+    Pulls<Real> pulls_;
+    TetBlocks pass_tets_;                // in float, for explicit schemes
+    std::vector<Real> volume_stresses_;  // [Pa], shape [nodes]; empty if no explicit scheme needs them
     Collision<Real> collision_;
     ContactProperties contact_;
     struct SelfStages {

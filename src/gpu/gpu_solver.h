@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include "gl/timer.h"
@@ -29,8 +30,11 @@ public:
 
     void apply_kinematics(std::span<const HandleMotion> motions) override;
     void set_load_factors(std::span<const float> factors) override { sum_loads_->set_factors(factors); }
-    void set_pull(const std::optional<Pull>& pull) override { buffers_.pulls.set(pull); }
-    void move_pull(const glm::dvec3& target) override { buffers_.pulls.move(target); }
+    void set_pulls(std::vector<Pull> pulls) override { buffers_.pulls.set_pulls(std::move(pulls)); }
+    void move_pull(std::size_t pull, const glm::dvec3& target) override {
+        buffers_.pulls.move_pull(pull, target);
+    }
+    void set_forces(std::span<const glm::vec3> forces) override { buffers_.pulls.set_forces(forces); }
     void advance_nodes(double step) override;
     void update_boxes() override;
     void find_object_pairs() override;

@@ -11,8 +11,8 @@
 
 namespace gelatin::gpu {
 
-/// The immutable parts of a model that the solver's kernels read, on the GPU, and what a user's hand holds of
-/// it.
+/// The immutable parts of a model that the solver's kernels read, on the GPU, and what acts on
+/// it from outside.
 struct ModelBuffers {
     gl::TexelTable<HalfSpringPair> half_springs;
     gl::TexelTable<glm::vec2> stiffnesses;  ///< of the pairs [N/m]

@@ -101,10 +101,11 @@ public:
     /// For scenes with loads: how much of the next steps each of them acts, 1 until somebody says otherwise.
     virtual void set_load_factors(std::span<const float> factors) = 0;
 
-    /// What a hand holds from now on; empty: nothing.
-    virtual void set_pull(const std::optional<Pull>& pull) = 0;
-    /// @pre a hand holds something
-    virtual void move_pull(const glm::dvec3& target) = 0;
+    /// What hands hold from now on. @pre as of ActedNodes
+    virtual void set_pulls(std::vector<Pull> pulls) = 0;
+    virtual void move_pull(std::size_t pull, const glm::dvec3& target) = 0;
+    /// Forces that act on nodes from now on [N], shape [nodes], or empty.
+    virtual void set_forces(std::span<const glm::vec3> forces) = 0;
 
     /// Forces and integration over one step of `step` seconds, collisions with colliders included.
     virtual void advance_nodes(double step) = 0;
@@ -158,6 +159,10 @@ public:
     }
 
     virtual State read_state() const = 0;
+    /// The present positions and velocities where they are in host memory in single precision, as of State,
+    /// valid until the state changes; else empty.
+    virtual std::span<const glm::vec4> host_positions() const { return {}; }
+    virtual std::span<const glm::vec4> host_velocities() const { return {}; }
     /// Discards what watching has found so far.
     virtual void write_state(const State& state) = 0;
 

@@ -24,4 +24,8 @@ ScenePainter::ScenePainter(Simulator& simulator, const PictureSize& size, render
     renderer_.set_surroundings(surroundings);
 }
 
+void ScenePainter::set_camera(const CameraDescription& camera) {
+    camera_ = camera_of(camera);
+}
+
 }  // namespace gelatin

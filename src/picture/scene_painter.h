@@ -25,6 +25,9 @@ public:
     /// Draws `view`, without access to the simulator.
     void draw(const RenderView& bodies) { renderer_.draw(bodies, camera_); }
 
+    void set_camera(const CameraDescription& camera);
+    void set_overlays(const Overlays& overlays) { overlays_ = overlays; }
+
     unsigned framebuffer() const { return renderer_.framebuffer(); }
 
 private:

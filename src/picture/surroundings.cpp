@@ -29,10 +29,13 @@ render::Surroundings describe_surroundings(const Simulator& simulator) {
     return surroundings;
 }
 
+render::Camera camera_of(const CameraDescription& description) {
+    return {glm::vec3(description.eye), glm::vec3(description.target),
+            static_cast<float>(description.field_of_view)};
+}
+
 render::Camera choose_camera(const Scene& scene, const render::Surroundings& surroundings, float aspect) {
-    if (const auto& camera = scene.camera) {
-        return {glm::vec3(camera->eye), glm::vec3(camera->target), static_cast<float>(camera->field_of_view)};
-    }
+    if (scene.camera) return camera_of(*scene.camera);
     render::Bounds bounds = surroundings.bounds;
     for (const SurfaceMesh& prop : surroundings.props) {
         for (const glm::dvec3& p : prop.positions) bounds.add(glm::vec3(p));

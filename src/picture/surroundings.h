@@ -9,6 +9,8 @@ namespace gelatin {
 /// positions. The highest level plane is the floor.
 render::Surroundings describe_surroundings(const Simulator& simulator);
 
+render::Camera camera_of(const CameraDescription& description);
+
 /// The scene's own camera, or one that shows the whole scene.
 /// @param aspect width divided by height of the picture
 render::Camera choose_camera(const Scene& scene, const render::Surroundings& surroundings, float aspect);

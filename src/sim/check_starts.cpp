@@ -106,7 +106,7 @@ std::vector<std::string> check_starts(const Model& model, const Scene& scene,
 }
 
 void require_apart(const std::shared_ptr<const Model>& model, const Scene& scene,
-                   std::span<const glm::vec4> positions) {
+                   std::span<const glm::vec4> positions, std::string_view when) {
     const std::vector<glm::dvec4> exact(positions.begin(), positions.end());
     cpu::Collision<double> collision(model);
     collision.update_boxes(exact);
@@ -115,22 +115,21 @@ void require_apart(const std::shared_ptr<const Model>& model, const Scene& scene
     for (const cpu::ObjectPair& pair : collision.pairs()) {
         if (!model->is_body(pair.object) && !model->is_body(pair.other)) continue;
         if (!collision.collide(pair)) continue;
-        refuse(scene, fmt::format("needs objects that are apart at the start; '{}' and '{}' overlap",
+        refuse(scene, fmt::format("needs objects that are apart {}; '{}' and '{}' overlap", when,
                                   model->objects[pair.object].name, model->objects[pair.other].name));
     }
 }
 
 void require_whole(const std::shared_ptr<const Model>& model, const Scene& scene,
-                   std::span<const glm::vec4> positions) {
+                   std::span<const glm::vec4> positions, std::string_view when) {
     const std::vector<glm::dvec4> exact(positions.begin(), positions.end());
     cpu::Collision<double> collision(model);
     collision.update_boxes(exact);
     for (std::uint32_t o = 0; o < model->body_count(); ++o) {
         if (!passes_through_itself(*model, o, collision, exact)) continue;
-        refuse(scene,
-               fmt::format("needs objects that do not pass through themselves at the start; '{}' does; "
-                           "self_collision = false leaves that alone",
-                           model->objects[o].name));
+        refuse(scene, fmt::format("needs objects that do not pass through themselves {}; '{}' does; "
+                                  "self_collision = false leaves that alone",
+                                  when, model->objects[o].name));
     }
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gelatin/scene.h"
@@ -18,11 +19,11 @@ namespace gelatin {
 std::vector<std::string> check_starts(const Model& model, const Scene& scene,
                                       std::span<const glm::vec4> positions);
 
-/// @throws InvalidInput naming the two objects, if faces of two of them overlap
+/// @throws InvalidInput naming the two objects, if faces of two of them overlap @param when "at the start"
 void require_apart(const std::shared_ptr<const Model>& model, const Scene& scene,
-                   std::span<const glm::vec4> positions);
+                   std::span<const glm::vec4> positions, std::string_view when = "at the start");
 /// @throws InvalidInput naming the body, if faces of one overlap that have no common corner
 void require_whole(const std::shared_ptr<const Model>& model, const Scene& scene,
-                   std::span<const glm::vec4> positions);
+                   std::span<const glm::vec4> positions, std::string_view when = "at the start");
 
 }  // namespace gelatin

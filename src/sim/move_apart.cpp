@@ -65,11 +65,11 @@ public:
         return any;
     }
 
-    MovedApart take() {
+    MovedApart take(std::string_view when) {
         MovedApart result{std::move(positions_), {}};
         for (const auto& [first, second] : overlapping_) {
             std::string line =
-                fmt::format("objects '{}' and '{}' overlap at the start;", name(first), name(second));
+                fmt::format("objects '{}' and '{}' overlap {};", name(first), name(second), when);
             for (const std::uint32_t o : {first, second}) {
                 if (moved_[o] == glm::dvec3(0.0)) continue;
                 line += fmt::format(" '{}' was moved by [{:.3g}, {:.3g}, {:.3g}] m", name(o), moved_[o].x,
@@ -146,12 +146,12 @@ private:
 }  // namespace
 
 std::optional<MovedApart> move_apart(const std::shared_ptr<const Model>& model,
-                                     std::span<const glm::vec4> positions) {
+                                     std::span<const glm::vec4> positions, std::string_view when) {
     Mover mover(model, positions);
     if (!mover.make_round(kStep)) return std::nullopt;
     for (int round = 1; round < kMostRounds; ++round)
         if (!mover.make_round(kStep * std::exp2(round / kRoundsADoubling))) break;
-    return mover.take();
+    return mover.take(when);
 }
 
 }  // namespace gelatin

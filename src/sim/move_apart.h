@@ -5,13 +5,14 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/model.h"
 
 namespace gelatin {
 
-/// Where a run starts whose objects overlapped.
+/// Where objects are that overlapped.
 struct MovedApart {
     std::vector<glm::vec4> positions;  ///< of all nodes: xyz [m], inverse mass
     std::vector<std::string> lines;  ///< what to tell: which objects overlapped, and how far they were moved
@@ -20,9 +21,11 @@ struct MovedApart {
 /// Moves bodies that overlap others, or colliders, as a whole until they are apart, each along the normals of
 /// the faces that overlap, a little at a time. Bodies share a way by their masses. Those of which a node is
 /// held stay, and so do colliders.
-/// @param positions of all nodes at the start
+/// @param positions of all nodes
+/// @param when for the lines: "at the start"
 /// @return none if nothing overlaps; where objects cannot be moved apart, or both stay, some still overlap
 std::optional<MovedApart> move_apart(const std::shared_ptr<const Model>& model,
-                                     std::span<const glm::vec4> positions);
+                                     std::span<const glm::vec4> positions,
+                                     std::string_view when = "at the start");
 
 }  // namespace gelatin

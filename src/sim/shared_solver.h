@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cpu/cpu_solver.h"
@@ -21,8 +22,11 @@ public:
 
     void apply_kinematics(std::span<const HandleMotion> motions) override { host_.apply_kinematics(motions); }
     void set_load_factors(std::span<const float> factors) override { host_.set_load_factors(factors); }
-    void set_pull(const std::optional<Pull>& pull) override { host_.set_pull(pull); }
-    void move_pull(const glm::dvec3& target) override { host_.move_pull(target); }
+    void set_pulls(std::vector<Pull> pulls) override { host_.set_pulls(std::move(pulls)); }
+    void move_pull(std::size_t pull, const glm::dvec3& target) override { host_.move_pull(pull, target); }
+    void set_forces(std::span<const glm::vec3> forces) override { host_.set_forces(forces); }
+    std::span<const glm::vec4> host_positions() const override { return host_.host_positions(); }
+    std::span<const glm::vec4> host_velocities() const override { return host_.host_velocities(); }
     void advance_nodes(double step) override;
     ContactForces contact_forces() const override { return host_.contact_forces(); }
     HoldingForces holding_forces() const override { return host_.holding_forces(); }

@@ -340,13 +340,15 @@ inline constexpr Mutant kCarrySkinMutants[] = {
 inline constexpr Mutant kPullMutants[] = {
     {"nothing_is_held", "sim/explicit/integrate_node.glsl", "force += pull_force",
      "vec3 unused = pull_force"},
-    {"light_nodes_are_not_spared", "sim/drive/pull.glsl", "1.0 + pull.w * inverse_mass * h * time", "1.0"},
-    {"damping_is_forgotten", "sim/drive/pull.glsl", "h + pull_damping_time", "h"},
-    {"arms_are_forgotten", "sim/drive/pull.glsl", "offset = pull_target + pull.xyz", "offset = pull_target"},
-    {"descent_has_no_damping", "sim/drive/pull.glsl", "pull_damping_time / h", "0.0"},
+    {"light_nodes_are_not_spared", "sim/drive/pull.glsl", "1.0 + spring.w * inverse_mass * h * time", "1.0"},
+    {"damping_is_forgotten", "sim/drive/pull.glsl", "h + force.w", "h"},
+    {"places_are_forgotten", "sim/drive/pull.glsl", "offset = spring.xyz - position", "offset = -position"},
+    {"descent_has_no_damping", "sim/drive/pull.glsl", "force.w / h", "0.0"},
     {"descent_has_no_curvature", "sim/drive/pull.glsl", "weight = target.w + stiffness", "weight = target.w"},
     {"descent_is_not_held", "sim/descent/start_descent.comp", "target = with_pull",
      "vec4 unused = with_pull"},
+    {"forces_are_forgotten", "sim/drive/pull.glsl", "force.xyz + spring.w /", "spring.w /"},
+    {"descent_forgets_forces", "sim/drive/pull.glsl", " + force.xyz) / weight", ") / weight"},
 };
 
 }  // namespace gelatin::test

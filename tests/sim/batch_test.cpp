@@ -13,7 +13,9 @@ namespace {
 // Three objects that meet a floor and each other, with a handle: much that a step could share by mistake.
 Scene busy_scene() {
     Scene scene;
-    scene.materials.push_back({.name = "jelly", .youngs_modulus = 2e4});
+    Material& jelly = scene.materials.emplace_back();
+    jelly.name = "jelly";
+    jelly.youngs_modulus = 2e4;
     const auto add = [&](const char* name, const Shape& shape,
                          const glm::dvec3& position) -> ObjectDescription& {
         ObjectDescription& object = scene.objects.emplace_back();
@@ -48,7 +50,9 @@ TEST(BatchTest, WorldsInAnyStateHaveTheBitsOfSimulatorsOfTheirOwn) {
         for (std::size_t s = 0; s < 5 * w; ++s) batch[w].step();
     batch.advance(30);
     for (std::size_t w = 0; w < batch.size(); ++w) {
-        Simulator alone(scene, {.backend = Backend::cpu});
+        SimulatorOptions options;
+        options.backend = Backend::cpu;
+        Simulator alone(scene, options);
         for (std::size_t s = 0; s < 5 * w; ++s) alone.step();
         for (int f = 0; f < 30; ++f) alone.advance_frame();
         expect_same(batch[w].read_frame(), alone.read_frame());

@@ -82,7 +82,7 @@ public:
             pull.nodes.push_back({n, place - glm::vec3(hand_), 50.0f});
         }
         pull.damping_time = 0.05;
-        simulator_.set_pull(pull);
+        simulator_.set_pulls({pull});
     }
     // The hand goes straight to `place`. @param speed [m/s]
     void drag_to(const glm::dvec3& place, double speed) {
@@ -90,11 +90,11 @@ public:
         while (glm::distance(hand_, place) > 1e-6) {
             const glm::dvec3 left = place - hand_;
             hand_ += std::min(1.0, way / glm::length(left)) * left;
-            simulator_.move_pull(hand_);
+            simulator_.move_pull(0, hand_);
             advance_to(simulator_.frame() + 1, 1);
         }
     }
-    void let_go() { simulator_.set_pull({}); }
+    void let_go() { simulator_.set_pulls({}); }
     int frame() const { return simulator_.frame(); }
 
 private:

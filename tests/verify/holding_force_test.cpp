@@ -62,7 +62,7 @@ public:
         pull_.damping_time = 0.1;
         for (std::uint32_t n = 0; n < model_->node_count(); ++n)
             pull_.nodes.push_back({n, glm::vec3(model_->positions[n]), model_->masses[n]});
-        solver_.set_pull(pull_);
+        solver_.set_pulls({pull_});
     }
     glm::dvec3 force_of_hand() const {
         glm::dvec3 force(0.0);

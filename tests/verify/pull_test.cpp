@@ -57,8 +57,8 @@ void expect_critical_damping(const MakeSolver& make_solver) {
         const double step = std::min(1e-3, 0.5 * largest_stable_step(kind, *model));
         const std::unique_ptr<Solver> solver = make_solver(model, kind);
         const glm::dvec3 start = center_of(*model, solver->read_state()).position;
-        solver->set_pull(hold_all(*model));
-        solver->move_pull(way);
+        solver->set_pulls({hold_all(*model)});
+        solver->move_pull(0, way);
         const int steps = static_cast<int>(1.0 / kRate / step);
         for (int s = 0; s < steps; ++s) solver->advance_nodes(step);
         const double phase = kRate * steps * step;
@@ -67,7 +67,7 @@ void expect_critical_damping(const MakeSolver& make_solver) {
                   (2.0 * kRate * step + 1e-4) * glm::length(way))
             << name_of(kind);
 
-        solver->set_pull({});
+        solver->set_pulls({});
         for (int s = 0; s < 20; ++s) solver->advance_nodes(step);
         EXPECT_LT(glm::distance(center_of(*model, solver->read_state()).velocity, center.velocity),
                   1e-3 * glm::length(center.velocity))
@@ -91,6 +91,45 @@ TEST_F(PullOnGpuTest, ABodyFollowsTheHandAndKeepsItsMomentum) {
     });
 }
 
+// A force on each node as its mass has it moves the body as gravity would.
+template <class MakeSolver>
+void expect_fall(const MakeSolver& make_solver) {
+    const auto model = make_block_model(glm::dvec3(0.0));
+    const glm::vec3 acceleration(1.0f, -2.0f, 3.0f);
+    std::vector<glm::vec3> forces;
+    for (const float mass : model->masses) forces.push_back(mass * acceleration);
+    for (const SolverKind kind : test::kSolvers) {
+        const double step = std::min(1e-3, 0.5 * largest_stable_step(kind, *model));
+        const std::unique_ptr<Solver> solver = make_solver(model, kind);
+        solver->set_forces(forces);
+        const int steps = 50;
+        for (int s = 0; s < steps; ++s) solver->advance_nodes(step);
+        const glm::dvec3 expected = step * steps * glm::dvec3(acceleration);
+        const glm::dvec3 velocity = center_of(*model, solver->read_state()).velocity;
+        EXPECT_LT(glm::distance(velocity, expected), 1e-3 * glm::length(expected)) << name_of(kind);
+        solver->set_forces({});
+        for (int s = 0; s < steps; ++s) solver->advance_nodes(step);
+        EXPECT_LT(glm::distance(center_of(*model, solver->read_state()).velocity, velocity),
+                  1e-3 * glm::length(expected))
+            << name_of(kind);
+    }
+}
+
+TEST(Pull, ForcesAccelerateUntilTheyEnd) {
+    expect_fall([](const auto& model, SolverKind kind) {
+        return std::make_unique<cpu::CpuSolver<double>>(model, kind, ForceMethod::divide_and_merge);
+    });
+    expect_fall([](const auto& model, SolverKind kind) {
+        return std::make_unique<cpu::CpuSolver<float>>(model, kind, ForceMethod::fused);
+    });
+}
+
+TEST_F(PullOnGpuTest, ForcesAccelerateUntilTheyEnd) {
+    expect_fall([](const auto& model, SolverKind kind) {
+        return std::make_unique<gpu::GpuSolver>(model, kind, ForceMethod::fused);
+    });
+}
+
 // A few nodes at one end carry the whole body, at the step of a picture: their springs are a thousand times
 // what those nodes' masses would bear in an explicit scheme. At rest they give way by its weight.
 TEST(Pull, AFewNodesCarryTheBodyInLongSteps) {
@@ -109,7 +148,7 @@ TEST(Pull, AFewNodesCarryTheBodyInLongSteps) {
         held.stiffness = static_cast<float>(stiffness / static_cast<double>(pull.nodes.size()));
     pull.damping_time = 2.0 / kRate;
     cpu::CpuSolver<float> solver(model, SolverKind::vbd, ForceMethod::fused, {}, {40});
-    solver.set_pull(pull);
+    solver.set_pulls({pull});
     for (int s = 0; s < 240; ++s) solver.advance_nodes(1.0 / 60.0);
     const State state = solver.read_state();
     glm::dvec3 force(0.0);
@@ -131,7 +170,7 @@ TEST(Pull, AStrongHandIsStableInExplicitSchemes) {
         pull.damping_time = 0.01;
         pull.target = {0.02, 0.0, 0.0};
         cpu::CpuSolver<float> solver(model, kind, ForceMethod::fused);
-        solver.set_pull(pull);
+        solver.set_pulls({pull});
         for (int s = 0; s < 2000; ++s) solver.advance_nodes(step);
         for (const glm::vec4& p : solver.read_state().positions) ASSERT_LT(glm::length(glm::vec3(p)), 1.0f);
     }

@@ -1,36 +1,48 @@
 #include "gpu/drive/pulls.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace gelatin::gpu {
 
-Pulls::Pulls(std::size_t node_count) : node_count_(node_count) {
+Pulls::Pulls(std::size_t node_count) : acted_(node_count) {
     allocate(1);
 }
 
-void Pulls::allocate(std::size_t size) {
-    by_node_.assign(size, glm::vec4(0.0f));
-    buffer_ = gl::Buffer<glm::vec4>(std::span<const glm::vec4>(by_node_));
+void Pulls::allocate(std::size_t node_count) {
+    const std::vector<NodeActions> none(node_count);
+    buffer_ = gl::Buffer<NodeActions>(std::span<const NodeActions>(none));
     texels_ = gl::BufferTexture(buffer_, gl::TexelFormat::rgba32f);
 }
 
-void Pulls::set(const std::optional<Pull>& pull) {
-    for (const std::uint32_t n : held_) by_node_[n] = glm::vec4(0.0f);
-    held_.clear();
-    if (!pull) return;
-    if (by_node_.size() != node_count_) allocate(node_count_);
-    target_ = glm::vec3(pull->target);
-    damping_time_ = static_cast<float>(pull->damping_time);
-    for (const Pull::Node& held : pull->nodes) {
-        held_.push_back(held.node);
-        by_node_[held.node] = {held.arm, held.stiffness};
-    }
-    buffer_.upload(by_node_);
+void Pulls::set_pulls(std::vector<Pull> pulls) {
+    acted_.set_pulls(std::move(pulls));
+    upload();
+}
+
+void Pulls::move_pull(std::size_t pull, const glm::dvec3& target) {
+    acted_.move_pull(pull, target);
+    upload();
+}
+
+void Pulls::set_forces(std::span<const glm::vec3> forces) {
+    acted_.set_forces(forces);
+    upload();
+}
+
+// What acted before and does not any more is in the first nodes, too.
+void Pulls::upload() {
+    const std::span<const NodeActions> by_node = acted_.by_node();
+    if (by_node.empty()) return;
+    if (buffer_.size() != by_node.size()) allocate(by_node.size());
+    const std::size_t end = acted_.nodes().empty() ? 0 : acted_.nodes().back() + std::size_t{1};
+    buffer_.upload(by_node.first(std::max(end, uploaded_)));
+    uploaded_ = end;
 }
 
 void Pulls::bind(const gl::Program& program) const {
     program.bind("pulls", texels_);
-    program.set("is_pulled", held_.empty() ? 0u : 1u);
-    program.set("pull_target", target_);
-    program.set("pull_damping_time", damping_time_);
+    program.set("is_pulled", acted_.nodes().empty() ? 0u : 1u);
 }
 
 }  // namespace gelatin::gpu

@@ -1,37 +1,34 @@
 #pragma once
 
 #include <glm/vec4.hpp>
-#include <optional>
 #include <vector>
 
-#include "gelatin/pull.h"
 #include "gl/buffer.h"
 #include "gl/program.h"
+#include "model/drive/acted_nodes.h"
 
 namespace gelatin::gpu {
 
-/// Nodes that a hand holds, for programs that include sim/drive/pull.glsl. CPU twin: cpu::Pulls.
+/// Pulls and forces that act on nodes from outside, for programs that include sim/drive/pull.glsl. CPU twin:
+/// cpu::Pulls.
 class Pulls {
 public:
     explicit Pulls(std::size_t node_count);
 
-    /// What a hand holds from now on; empty: nothing.
-    void set(const std::optional<Pull>& pull);
-    void move(const glm::dvec3& target) { target_ = glm::vec3(target); }
+    void set_pulls(std::vector<Pull> pulls);
+    void move_pull(std::size_t pull, const glm::dvec3& target);
+    void set_forces(std::span<const glm::vec3> forces);
 
     void bind(const gl::Program& program) const;
 
 private:
-    void allocate(std::size_t size);
+    void allocate(std::size_t node_count);
+    void upload();
 
-    std::size_t node_count_;
-    std::vector<std::uint32_t> held_;
-    // As in the buffer: place from the target [m], stiffness [N/m]; of one node until a hand holds something.
-    std::vector<glm::vec4> by_node_;
-    gl::Buffer<glm::vec4> buffer_;
+    ActedNodes acted_;
+    std::size_t uploaded_ = 0;  // nodes from the first to the last on which something acts in the buffer
+    gl::Buffer<NodeActions> buffer_;  // of one node until something acts
     gl::BufferTexture texels_;
-    glm::vec3 target_{0.0f};
-    float damping_time_ = 0.0f;
 };
 
 }  // namespace gelatin::gpu

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/progress.h"
 #include "gelatin/error.h"
 #include "mesh/lattice/cut_lattice.h"
 #include "mesh/lattice/enclosed_space.h"
@@ -81,6 +82,7 @@ private:
 
     // Makes the tets of one size, if there are not too many cells. Those of the last call stay.
     bool try_to_make(const CellSizes& sizes) {
+        check_cancelled();
         sizes_ = sizes;
         mesh_ = {};
         try {

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "core/progress.h"
 #include "mesh/tet_quality.h"
 
 namespace gelatin::lattice {
@@ -62,6 +63,7 @@ public:
     void run() {
         constexpr int kSweeps = 20;
         for (int sweep = 0; sweep < kSweeps; ++sweep) {
+            check_cancelled();
             bool has_moved = false;
             for (const std::uint32_t node : nodes_of_poor_tets()) has_moved |= improve(node);
             if (!has_moved) return;

@@ -12,6 +12,7 @@
 #include <span>
 #include <utility>
 
+#include "core/progress.h"
 #include "gelatin/error.h"
 #include "mesh/topology.h"
 #include "model/build/body_handles.h"
@@ -293,6 +294,23 @@ Body make_body(const Scene& scene, const ObjectDescription& object, ObjectMesher
     return body;
 }
 
+// What remains is for packing the model.
+constexpr double kShareOfMeshing = 0.9;
+
+// What is done before each object. Copies of the object before take no time of their own.
+std::vector<double> shares_of_meshing(const Scene& scene) {
+    std::vector<double> shares;
+    double done = 0.0;
+    for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+        const ObjectDescription &object = scene.objects[o], &before = scene.objects[o > 0 ? o - 1 : 0];
+        const bool is_copy = o > 0 && object.shape == before.shape && object.mesher == before.mesher;
+        shares.push_back(done);
+        if (!is_copy) done += 1.0;
+    }
+    for (double& share : shares) share *= kShareOfMeshing / done;
+    return shares;
+}
+
 }  // namespace
 
 Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDescription>& colliders,
@@ -329,7 +347,12 @@ Model build_model(const Scene& scene) {
     validate(scene);
     std::vector<Body> bodies;
     ObjectMesher mesher;
-    for (const ObjectDescription& object : scene.objects) bodies.push_back(make_body(scene, object, mesher));
+    const std::vector<double> shares = shares_of_meshing(scene);
+    for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+        report_progress(shares[o], "object '" + scene.objects[o].name + "'");
+        bodies.push_back(make_body(scene, scene.objects[o], mesher));
+    }
+    report_progress(kShareOfMeshing, "tables");
     Model model =
         pack_bodies(bodies, solid_colliders(scene), scene.simulation.gravity, make_collider_surfaces(scene));
     if (scene.collision.self_collision && !scene.has_contact()) model.rest_shapes = make_rest_shapes(model);

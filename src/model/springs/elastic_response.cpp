@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/progress.h"
 #include "model/for_each_index.h"
 
 namespace gelatin {
@@ -71,6 +72,7 @@ public:
         const Columns enough = tolerance * dot(forces, displacements).abs();
         Columns left = dot(residual, z);
         for (int k = 0; k < kMostIterations && (left > enough).any(); ++k) {
+            check_cancelled();
             apply(search, image);
             const Columns step = ratio(left, dot(search, image));
             for_each_index(forces.size(), [&](std::size_t n) {

@@ -19,21 +19,29 @@ double largest(const std::vector<glm::vec4>& values) {
     return most;
 }
 
-StepBounds bounds_for(const Model& model, const Pull& pull, SolverKind solver, double step) {
+StepBounds bounds_for(const Model& model, const std::vector<Pull>& pulls, SolverKind solver, double step) {
     const bool descends = solver == SolverKind::vbd;
     const SolverKind alike = descends ? SolverKind::semi_implicit_euler : solver;
     StepBounds bounds = rounding_bounds(model, alike, step);
-    const double x = largest(model.positions) + glm::length(pull.target), v = largest(model.velocities);
-    const double time = step + pull.damping_time;
+    const double v = largest(model.velocities);
     const int passes = explicit_scheme(alike).pass_count;
-    for (const Pull::Node& held : pull.nodes) {
-        const double strength =
-            static_cast<double>(held.stiffness) * static_cast<double>(model.positions[held.node].w);
-        const double acceleration = passes * 16.0 * kEps * strength / (1.0 + strength * step * time) *
-                                    (x + static_cast<double>(glm::length(held.arm)) + time * v);
-        bounds.velocity[held.node] += step * acceleration;
-        bounds.position[held.node] += step * step * acceleration;
+    const auto add = [&](std::uint32_t node, double rounded) {  // [m/s^2]
+        const double acceleration = passes * 16.0 * kEps * rounded;
+        bounds.velocity[node] += step * acceleration;
+        bounds.position[node] += step * step * acceleration;
+    };
+    for (const Pull& pull : pulls) {
+        const double x = largest(model.positions) + glm::length(pull.target), time = step + pull.damping_time;
+        for (const Pull::Node& held : pull.nodes) {
+            const double strength =
+                static_cast<double>(held.stiffness) * static_cast<double>(model.positions[held.node].w);
+            add(held.node, strength / (1.0 + strength * step * time) *
+                               (x + static_cast<double>(glm::length(held.arm)) + time * v));
+        }
     }
+    const std::vector<glm::vec3> forces = make_forces(model);
+    for (std::uint32_t n = 0; n < model.node_count(); ++n)
+        add(n, static_cast<double>(glm::length(forces[n]) * model.positions[n].w));
     if (!descends) return bounds;
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
         bounds.position[n] *= kSweeps.iterations;
@@ -44,8 +52,9 @@ StepBounds bounds_for(const Model& model, const Pull& pull, SolverKind solver, d
 
 }  // namespace
 
-Pull make_pull(const Model& model) {
-    Pull pull;
+std::vector<Pull> make_pulls(const Model& model) {
+    std::vector<Pull> pulls(2);
+    Pull& pull = pulls[0];
     pull.target = {0.4, 1.5, -0.3};
     pull.damping_time = 0.03;
     const Range& nodes = model.objects[0].nodes;
@@ -53,20 +62,37 @@ Pull make_pull(const Model& model) {
         const glm::vec3 arm(0.01f * static_cast<float>(n % 7), 0.02f, -0.01f * static_cast<float>(n % 5));
         pull.nodes.push_back({n, arm, model.masses[n] * static_cast<float>(500 + n % 11)});
     }
-    return pull;
+    pulls[1].target = {-0.5, 0.2, 0.7};
+    pulls[1].damping_time = 0.01;
+    for (std::uint32_t n = nodes.first; n < nodes.end(); n += 3)
+        pulls[1].nodes.push_back({n, glm::vec3(0.02f), model.masses[n] * 300.0f});
+    return pulls;
+}
+
+std::vector<glm::vec3> make_forces(const Model& model) {
+    std::vector<glm::vec3> forces(model.node_count(), glm::vec3(0.0f));
+    for (std::uint32_t n = 0; n < model.node_count(); n += 5)
+        forces[n] = model.masses[n] * glm::vec3(100.0f, -200.0f + static_cast<float>(n % 7), 50.0f);
+    return forces;
 }
 
 double worst_pull_error(const Model& model, SolverKind solver, ForceMethod forces, double step) {
     const auto shared = std::make_shared<const Model>(model);
     cpu::CpuSolver<double> reference(shared, solver, forces, {}, kSweeps);
     gpu::GpuSolver actual(shared, solver, forces, {}, kSweeps);
-    const Pull pull = make_pull(model);
+    const std::vector<Pull> pulls = make_pulls(model);
+    Pull away = pulls[0];
+    for (Pull::Node& held : away.nodes) held.node += model.node_count() - 1 - away.nodes.back().node;
     for (Solver* each : {static_cast<Solver*>(&reference), static_cast<Solver*>(&actual)}) {
-        each->set_pull(pull);
+        each->set_pulls({away});
+        each->set_pulls({pulls[1], pulls[0]});
+        each->move_pull(0, {9.0, 9.0, 9.0});
+        each->move_pull(0, pulls[1].target);
+        each->set_forces(make_forces(model));
         each->advance_nodes(step);
     }
     const State state = actual.read_state();
-    return worst_error(model, bounds_for(model, pull, solver, step), reference.nodes(), state.positions,
+    return worst_error(model, bounds_for(model, pulls, solver, step), reference.nodes(), state.positions,
                        state.velocities);
 }
 

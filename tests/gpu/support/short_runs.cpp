@@ -59,7 +59,7 @@ void pull(Simulator& simulator) {
     Pull hand;
     hand.nodes = {{0, glm::vec3(0.0f), 50.0f}, {7, glm::vec3(0.1f, 0.0f, 0.0f), 50.0f}};
     hand.target = {0.0, 1.0, 0.0};
-    simulator.set_pull(hand);
+    simulator.set_pulls({hand});
 }
 
 Overlays everything() {

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/file.h"
+#include "gelatin/error.h"
 #include "model/build/build_model.h"
 #include "support/source_path.h"
 
