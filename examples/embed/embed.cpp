@@ -77,7 +77,10 @@ gelatin::Picture read_window() {
 
 gelatin::Scene make_scene() {
     gelatin::Scene scene;
-    scene.materials.emplace_back().name = "jelly";
+    gelatin::Material& jelly = scene.materials.emplace_back();
+    jelly.name = "jelly";
+    jelly.youngs_modulus = 1e5;  // [Pa]
+    jelly.damping = 0.01;        // [s]
     gelatin::ObjectDescription ball;
     ball.name = "ball";
     ball.shape = gelatin::SphereShape{};

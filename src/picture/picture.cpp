@@ -23,11 +23,17 @@ render::Quality quality_of(PictureQuality quality) {
     return render::Quality::automatic;
 }
 
+// @throws NoOpenGl, before anything calls OpenGL
+Simulator& with_context(Simulator& simulator) {
+    simulator.render_view();
+    return simulator;
+}
+
 }  // namespace
 
 struct PicturePainter::Impl {
     Impl(Simulator& s, const PictureOptions& options)
-        : simulator(s),
+        : simulator(with_context(s)),
           painter(s, {options.width, options.height}, quality_of(options.quality), options.overlays),
           grabber(options.width, options.height) {
         if (options.camera) painter.set_camera(*options.camera);
