@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "common/frame_pipeline.h"
-#include "picture/scene_painter.h"
 #include "gelatin/simulator.h"
+#include "picture/scene_painter.h"
 #include "render/frame_grabber.h"
 #include "render/video_writer.h"
 #include "run_options.h"
