@@ -288,6 +288,7 @@ private:
               const SimulatorOptions& options);
 
     struct Impl;
+    explicit Simulator(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;
 };
 

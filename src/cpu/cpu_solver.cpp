@@ -5,6 +5,7 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
+#include <cassert>
 #include <type_traits>
 #include <utility>
 
@@ -313,12 +314,16 @@ std::span<const glm::vec4> CpuSolver<Real>::host_velocities() const {
     return {};
 }
 
+// The arrays stay where they are: whoever looks at nodes() keeps addresses that are valid.
 template <class Real>
 void CpuSolver<Real>::write_state(const State& state) {
-    current_ = {converted<Real>(state.positions), converted<Real>(state.velocities)};
+    assert(state.positions.size() == current_.positions.size());
+    current_.positions.assign(state.positions.begin(), state.positions.end());
+    current_.velocities.assign(state.velocities.begin(), state.velocities.end());
     previous_ = current_;
     has_earlier_ = !state.earlier_velocities.empty();
-    if (has_earlier_) previous_.velocities = converted<Real>(state.earlier_velocities);
+    if (has_earlier_)
+        previous_.velocities.assign(state.earlier_velocities.begin(), state.earlier_velocities.end());
     if (descent_) descent_->solver.restart(current_.positions);
     held_changes_.clear();
     alarm_ = kNoAlarm;

@@ -57,18 +57,12 @@ Simulator::Simulator(const Scene& scene, std::shared_ptr<const Model> model, con
     d.unpinned = d.model;
     d.context = make_context(d.options);
     const auto host = d.keep_host_state();
-    d.solver = d.make_solver(d.scene, d.model);
     d.start_state = deformed_start(scene, *d.model);
     if (d.scene.has_contact()) d.start_apart();
-    const std::optional<State>& start = d.start_state;
-    if (start) d.solver->write_state(*start);
-    d.watch.emplace(d.scene, d.model, d.substeps);
-    d.drags.emplace(d.model);
-    d.clocks.emplace(d.model);
-    if (start) d.watch->begin(*start, {});
+    d.begin();
     for (const std::string& line : check_model(*d.model, scene, d.step_size())) log_warning(line);
     for (const std::string& line :
-         check_starts(*d.model, scene, start ? start->positions : d.model->positions))
+         check_starts(*d.model, scene, d.start_state ? d.start_state->positions : d.model->positions))
         log_warning(line);
 }
 

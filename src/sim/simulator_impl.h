@@ -43,7 +43,7 @@ struct Simulator::Impl {
     std::optional<gl::Context> context;  // declared before everything that owns GL objects
     std::shared_ptr<const Model> model;
     int substeps = 1;
-    std::unique_ptr<Solver> solver;
+    std::shared_ptr<Solver> solver;  // shared by who looks at its nodes
     std::optional<DrawSource> draw_source;
     std::optional<OverlaySource> overlay_source;
     std::optional<State> start_state;  // if it is not the model's
@@ -71,7 +71,15 @@ struct Simulator::Impl {
     std::uint32_t reported_losses = 0;
     bool lost_proximities = false;  // and reported
 
+    Impl() = default;
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+    /// What OpenGL has of it is given back in its own context.
+    ~Impl();
+
     std::unique_ptr<Solver> make_solver(const Scene& of, const std::shared_ptr<const Model>& from) const;
+    /// Makes what a run changes. @pre all that it is made of is there
+    void begin();
 
     /// Keeps the state of OpenGL of an application whose context this uses, while the result lives. Null
     /// where nothing has to be kept.

@@ -5,13 +5,25 @@
 #include "gelatin/simulator.h"
 #include "gl/host_state.h"
 #include "model/model.h"
+#include "model/solver.h"
 #include "sim/recording/recorded_frame.h"
 
 namespace gelatin {
 
 /// What this repository's own programs and tests need of a simulator beyond its public interface.
 struct SimulatorInternals {
+    using Impl = Simulator::Impl;
+
     static const Model& model(const Simulator& simulator);
+
+    /// The model and the solver that it has at present: others after set_material or pin.
+    static std::shared_ptr<const Model> share_model(const Simulator& simulator);
+    static std::shared_ptr<const Solver> share_solver(const Simulator& simulator);
+
+    /// Makes its OpenGL context, if it has one, current on the calling thread.
+    static void make_current(Simulator& simulator);
+    /// Makes a context to draw in, if it has none, and that current. @throws NoOpenGl
+    static void need_context(Simulator& simulator);
 
     /// Keeps the state of OpenGL of the application in whose context the simulator works, while the result
     /// lives; null if the context is its own.
@@ -28,6 +40,10 @@ struct SimulatorInternals {
 
     /// The present frame, for a recording.
     static RecordedFrame recorded_frame(const Simulator& simulator);
+
+    /// Another simulator of the same scene and model, at the start. It repeats no check and no message.
+    /// @pre `like` has no OpenGL context
+    static Simulator another(const Simulator& like);
 };
 
 inline const Model& model_of(const Simulator& simulator) {

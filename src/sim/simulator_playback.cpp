@@ -26,10 +26,7 @@ Simulator::Simulator(std::shared_ptr<const Recording> recording, std::shared_ptr
     d.model = d.unpinned = std::move(model);
     d.substeps = choose_substeps(d.scene, *d.model);
     d.context = make_context(d.options);
-    d.solver = d.make_solver(d.scene, d.model);
-    d.watch.emplace(d.scene, d.model, d.substeps);
-    d.drags.emplace(d.model);
-    d.clocks.emplace(d.model);
+    d.begin();
     d.show(0);
 }
 

@@ -11,6 +11,13 @@ PASSED = '<testcase name="{}" status="run" result="completed" />'
 SKIPPED = '<testcase name="{}" status="run" result="skipped"><skipped message="no GL" /></testcase>'
 FAILED = '<testcase name="{}" status="run" result="completed"><failure message="1 != 2" /></testcase>'
 
+PYTEST = [
+    '<testcase classname="a" name="x" time="0.1" />',
+    '<testcase classname="a" name="y" time="0.1"><failure message="1 != 2" /></testcase>',
+    '<testcase classname="a" name="z" time="0.1"><error message="no fixture" /></testcase>',
+    '<testcase classname="a" name="w" time="0.1"><skipped message="no GL" /></testcase>',
+]
+
 
 def count(suites, reports):
     """The program's lines: `suites` are CTest's verdicts by name, `reports` the test cases of suites."""
@@ -43,6 +50,10 @@ class CountTests(unittest.TestCase):
 
     def test_a_suite_that_failed_after_its_tests_is_named(self):
         self.assertEqual(count({"cpu.A": "fail"}, {"cpu/A": [PASSED.format("x")]}), ["FAILED: cpu.A", "1 1"])
+
+    def test_reports_of_pytest_count_too(self):
+        lines = ["FAILED: python.pytest.y", "FAILED: python.pytest.z", "1 2"]
+        self.assertEqual(count({"python.pytest": "fail"}, {"python/pytest": PYTEST}), lines)
 
     def test_what_is_skipped_or_was_not_run_does_not_count(self):
         reports = {"gl/A": [SKIPPED.format("x"), PASSED.format("y")]}

@@ -1,0 +1,102 @@
+"""Gelatin: soft bodies. SI units, +y is up.
+
+>>> import gelatin
+>>> scene = gelatin.Scene()
+>>> scene.add_material("jelly", youngs_modulus=2e4)
+>>> scene.add("ball", gelatin.Sphere(radius=0.5), material="jelly", position=(0, 2, 0))
+>>> scene.add_collider(gelatin.Plane())
+>>> sim = gelatin.Simulator(scene)
+>>> sim.advance(60)
+>>> sim["ball"].positions
+"""
+
+from ._gelatin import commit, version
+from .batch import Batch
+from .bodies import Body
+from .errors import Diverged, Error, GlError, InvalidInput, NoOpenGl, SystemError
+from .hands import Hand
+from .objects import (
+    Camera,
+    Collider,
+    Drag,
+    Force,
+    Handle,
+    Keyframe,
+    Load,
+    Mesher,
+    Object,
+    Part,
+    Pressure,
+    Start,
+    TetAttribute,
+    Traction,
+)
+from .pictures import Film, Picture, film
+from .scene import CollisionSettings, Material, MaterialPair, Scene, SimulationSettings, SpringKinds, load
+from .shapes import (
+    Box,
+    BoxRegion,
+    Capsule,
+    File,
+    HalfSpaceRegion,
+    Mesh,
+    Plane,
+    Region,
+    Shape,
+    Sphere,
+    SphereRegion,
+    Text,
+)
+from .simulator import Simulator
+
+__version__ = version()
+__all__ = [
+    "Batch",
+    "Body",
+    "Box",
+    "BoxRegion",
+    "Camera",
+    "Capsule",
+    "Collider",
+    "CollisionSettings",
+    "Diverged",
+    "Drag",
+    "Error",
+    "File",
+    "Film",
+    "Force",
+    "GlError",
+    "HalfSpaceRegion",
+    "Hand",
+    "Handle",
+    "InvalidInput",
+    "Keyframe",
+    "Load",
+    "Material",
+    "MaterialPair",
+    "Mesh",
+    "Mesher",
+    "NoOpenGl",
+    "Object",
+    "Part",
+    "Picture",
+    "Plane",
+    "Pressure",
+    "Region",
+    "Scene",
+    "Shape",
+    "SimulationSettings",
+    "Simulator",
+    "Sphere",
+    "SphereRegion",
+    "SpringKinds",
+    "Start",
+    "SystemError",
+    "TetAttribute",
+    "Text",
+    "Traction",
+    "commit",
+    "film",
+    "load",
+    "version",
+]

@@ -1,0 +1,185 @@
+"""One body of a simulator."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from .errors import InvalidInput
+from .hands import Hand
+from .shapes import BoxRegion, HalfSpaceRegion, Region, SphereRegion
+
+if TYPE_CHECKING:
+    from .simulator import Simulator
+
+Array = npt.NDArray[np.float32]
+#: The nodes in a region, as the body is now; or their indices in the body; or True for those, shape (nodes,).
+Nodes = Union[Region, npt.ArrayLike]
+
+
+class Body:
+    """One body of a simulator: `simulator["ball"]`.
+
+    Arrays are slices of the simulator's, and follow the same rules. Nodes are in an order of the simulator's own.
+    """
+
+    def __init__(self, simulator: Simulator, index: int, fields: dict[str, Any]) -> None:
+        self._simulator = simulator
+        self._index = index
+        self.name: str = fields["name"]
+        #: the body's nodes, among those of the simulator
+        self.nodes = slice(*fields["nodes"])
+        self._faces = slice(*fields["faces"])
+        self._tets = slice(*fields["tets"])
+        #: [kg]
+        self.mass: float = fields["mass"]
+        #: [m^3]
+        self.rest_volume: float = fields["rest_volume"]
+
+    def __repr__(self) -> str:
+        return f"<gelatin.Body '{self.name}': {len(self)} nodes>"
+
+    def __len__(self) -> int:
+        """The number of nodes."""
+        return int(self.nodes.stop - self.nodes.start)
+
+    @property
+    def positions(self) -> Array:
+        """[m], shape (nodes, 3). A view, as Simulator.positions."""
+        return self._simulator.positions[self.nodes]
+
+    @property
+    def velocities(self) -> Array:
+        """[m/s], shape (nodes, 3). A view, as Simulator.velocities."""
+        return self._simulator.velocities[self.nodes]
+
+    @property
+    def rest_positions(self) -> Array:
+        """Where the scene places the nodes at the start [m], shape (nodes, 3)."""
+        return self._simulator.rest_positions[self.nodes]
+
+    @property
+    def masses(self) -> Array:
+        """[kg], shape (nodes,)."""
+        return self._simulator.masses[self.nodes]
+
+    @property
+    def faces(self) -> npt.NDArray[np.uint32]:
+        """The surface's triangles, by the body's own nodes, shape (faces, 3)."""
+        return self._simulator.faces[self._faces] - np.uint32(self.nodes.start)
+
+    @property
+    def tets(self) -> npt.NDArray[np.uint32]:
+        """By the body's own nodes, shape (tets, 4)."""
+        return self._simulator.tets[self._tets] - np.uint32(self.nodes.start)
+
+    @property
+    def center(self) -> npt.NDArray[np.float64]:
+        """The centre of mass [m], shape (3,)."""
+        return _mean(self.positions, self.masses)
+
+    @property
+    def velocity(self) -> npt.NDArray[np.float64]:
+        """The velocity of the centre of mass [m/s], shape (3,)."""
+        return _mean(self.velocities, self.masses)
+
+    @property
+    def volume(self) -> float:
+        """[m^3]"""
+        a, b, c, d = self.positions[self.tets.T].astype(np.float64)
+        return float(np.einsum("ij,ij->i", b - a, np.cross(c - a, d - a)).sum() / 6.0)
+
+    @property
+    def contact_forces(self) -> Array:
+        """The force of contacts on each node, normal and friction [N], shape (nodes, 3); (0, 3) without contact."""
+        return self._simulator.contact_forces[self.nodes]
+
+    @property
+    def contact_force(self) -> npt.NDArray[np.float64]:
+        """Their sum: what other bodies and colliders exert on the body [N], shape (3,)."""
+        return np.asarray(self.contact_forces.sum(axis=0, dtype=np.float64))
+
+    # What can be changed between steps. Each call raises InvalidInput for values that are not allowed.
+
+    def nodes_in(self, region: Region) -> npt.NDArray[np.int64]:
+        """The nodes that are in a region now, by their indices in the body, ascending."""
+        return np.flatnonzero(_is_in(region, self.positions.astype(np.float64)))
+
+    def set_positions(self, positions: npt.ArrayLike) -> None:
+        """Puts the nodes somewhere else [m], shape (nodes, 3), with the velocities that they have.
+
+        Held nodes stay. With contact, bodies that overlap afterwards are moved apart, as at the start.
+        """
+        self._simulator._core.set_positions(self._index, self._vectors(positions, "positions"))
+
+    def set_velocity(self, velocity: npt.ArrayLike) -> None:
+        """Sets the velocity of all nodes [m/s], shape (3,), or of each, shape (nodes, 3). Held nodes keep theirs."""
+        self._simulator._core.set_velocities(self._index, self._vectors(velocity, "velocity"))
+
+    def set_force(self, force: npt.ArrayLike) -> None:
+        """Sets a force on the body [N], shape (3,), distributed by mass, or on each node, shape (nodes, 3).
+
+        It acts until another one is set; 0 ends it. Its work is unknown, so that the energy is not checked meanwhile.
+        """
+        vector = np.asarray(force, np.float64)
+        if vector.shape == (3,):
+            masses = self.masses.astype(np.float64)
+            vector = vector * (masses / masses.sum())[:, None]
+        self._simulator._core.set_forces(self._index, self._vectors(vector, "force"))
+        self._simulator._forced.add(self._index)
+
+    def pin(self, nodes: Nodes) -> None:
+        """Holds nodes where they are, until `unpin` or Simulator.reset. It takes as long as making the simulator again."""
+        self._simulator._core.pin(self._index, self._indices(nodes).tolist())
+
+    def unpin(self) -> None:
+        """Releases all nodes that `pin` holds. It takes as long as `pin`."""
+        self._simulator._core.unpin(self._index)
+
+    def hold(self, nodes: Nodes, stiffness: float | None = None, damping_time: float | None = None) -> Hand:
+        """Takes hold of nodes, with damped springs to a target that is where they are now.
+
+        stiffness: of all springs together [N/m]; None: the body's weight stretches them by a hundredth of its size.
+        damping_time: damping divided by stiffness [s]; None: critical for the body's mass.
+        """
+        chosen = self._indices(nodes)
+        if len(chosen) == 0:
+            raise InvalidInput("there is no node to hold")
+        if stiffness is None:
+            stiffness = 9.81 * self.mass / (0.01 * self.rest_volume ** (1 / 3))
+        if damping_time is None:
+            damping_time = 2.0 * float(np.sqrt(self.mass / stiffness))
+        return Hand(self._simulator, self.nodes.start + chosen, stiffness, damping_time)
+
+    def _vectors(self, values: npt.ArrayLike, what: str) -> npt.NDArray[np.float32]:
+        vectors = np.asarray(values, np.float32)
+        if vectors.shape not in ((3,), (len(self), 3)):
+            raise InvalidInput(f"{what} must have the shape (3,) or ({len(self)}, 3), not {vectors.shape}")
+        return np.ascontiguousarray(np.broadcast_to(vectors, (len(self), 3)))
+
+    def _indices(self, nodes: Nodes) -> npt.NDArray[np.int64]:
+        if isinstance(nodes, (BoxRegion, SphereRegion, HalfSpaceRegion)):
+            return self.nodes_in(nodes)
+        chosen = np.atleast_1d(np.asarray(nodes))
+        if chosen.dtype == bool and chosen.shape == (len(self),):
+            return np.flatnonzero(chosen)
+        if chosen.size == 0:
+            return np.zeros(0, np.int64)
+        if chosen.ndim != 1 or chosen.dtype.kind not in "iu" or chosen.min() < 0 or chosen.max() >= len(self):
+            raise InvalidInput(f"nodes must be a region, indices below {len(self)}, or a mask of the shape ({len(self)},)")
+        return chosen.astype(np.int64)
+
+
+def _is_in(region: Region, points: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
+    if isinstance(region, BoxRegion):
+        return np.asarray(((points >= np.asarray(region.min)) & (points <= np.asarray(region.max))).all(axis=1))
+    if isinstance(region, SphereRegion):
+        return np.asarray(np.linalg.norm(points - np.asarray(region.center), axis=1) <= region.radius)
+    return np.asarray(points @ np.asarray(region.normal, np.float64) <= region.offset)
+
+
+def _mean(values: Array, masses: Array) -> npt.NDArray[np.float64]:
+    weights = masses.astype(np.float64)
+    return np.asarray(weights @ values.astype(np.float64) / weights.sum())

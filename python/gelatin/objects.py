@@ -1,0 +1,207 @@
+"""Objects of a scene, what holds and loads them, and colliders. SI units, +y is up."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal, Union
+
+from .shapes import Plane, Region, Shape, Vector
+
+
+@dataclass(slots=True)
+class Mesher:
+    """How a surface is filled with tets. One of nodes, max_volume and cell_size at most."""
+
+    #: "auto": by TetGen, or by the lattice where that fails or would be finer than wanted
+    kind: Literal["auto", "tetgen", "lattice"] = "auto"
+    #: of TetGen: largest radius-edge ratio of a tet, > 1
+    quality: float = 2.0
+    #: of TetGen's process [s], > 0
+    time_limit: float = 120.0
+    #: within 20%, from 10 to 1000000
+    nodes: int | None = None
+    #: of a tet [m^3], > 0
+    max_volume: float | None = None
+    #: of the lattice: edge of its cells at the surface [m], > 0
+    cell_size: float | None = None
+
+
+@dataclass(slots=True)
+class Keyframe:
+    """The placement of a handle or collider at one time, relative to the start."""
+
+    #: [s], >= 0
+    time: float = 0.0
+    #: displacement of the pivot [m]
+    move: Vector = (0.0, 0.0, 0.0)
+    #: rotation about x, then y, then z [degrees]; 720 is two full rotations
+    turn: Vector = (0.0, 0.0, 0.0)
+    #: about the pivot, > 0
+    scale: float = 1.0
+
+
+@dataclass(slots=True)
+class Drag:
+    """A displacement in addition to a handle's keyframes, which it approaches as fast as its body can follow."""
+
+    #: [m]
+    move: Vector = (0.0, 0.0, 0.0)
+    #: rotation about x, then y, then z [degrees]
+    turn: Vector = (0.0, 0.0, 0.0)
+
+
+@dataclass(slots=True)
+class Handle:
+    """Nodes that follow keyframes. They are at rest before the first and after the last."""
+
+    region: Region
+    #: in ascending order of time; the first is the start; none: a pin
+    keyframes: list[Keyframe] = field(default_factory=list)
+    #: point about which it rotates and scales [m]; None: its nodes' centre
+    pivot: Vector | None = None
+    interpolation: Literal["linear", "smooth"] = "linear"
+    #: time from which the nodes are free [s], > 0
+    release: float | None = None
+    drag: Drag = field(default_factory=Drag)
+    #: what happens while bodies leave it no room: the time of its keyframes goes on, or stands still
+    when_blocked: Literal["goes_on", "stops"] = "goes_on"
+    line: int = field(default=0, repr=False)
+
+
+@dataclass(slots=True)
+class Force:
+    """A force, distributed over the region's nodes by mass."""
+
+    #: [N]
+    sum: Vector = (0.0, 0.0, 0.0)
+
+
+@dataclass(slots=True)
+class Traction:
+    """A stress on the rest area of faces whose three nodes are in the region."""
+
+    #: [Pa]
+    stress: Vector = (0.0, 0.0, 0.0)
+
+
+@dataclass(slots=True)
+class Pressure:
+    """A pressure inwards, perpendicular to the faces whose three nodes are in the region."""
+
+    #: [Pa]
+    pressure: float = 0.0
+
+
+@dataclass(slots=True)
+class Load:
+    """A force, a traction or a pressure on a region of an object."""
+
+    region: Region
+    kind: Force | Traction | Pressure
+    #: when it begins [s], >= 0; None: at once (`from` in scene files)
+    start: float | None = None
+    #: when it ends [s]; None: never
+    until: float | None = None
+    line: int = field(default=0, repr=False)
+
+
+@dataclass(slots=True)
+class TetAttribute:
+    """Tets that have this number in their file."""
+
+    number: int
+
+
+@dataclass(slots=True)
+class Part:
+    """A part of an object with its own material."""
+
+    #: a region selects the tets whose centroid is in it
+    where: Union[Region, TetAttribute]
+    #: name of a material
+    material: str
+    line: int = field(default=0, repr=False)
+
+
+@dataclass(slots=True)
+class Start:
+    """The deformation of an object at the start; pinned nodes stay at rest."""
+
+    #: along the world's axes, about the centre of mass, >= 0; 0 flattens it
+    scale: Vector = (1.0, 1.0, 1.0)
+    #: then a random displacement of each coordinate by up to this [m], >= 0
+    scatter: float = 0.0
+
+
+@dataclass(slots=True)
+class Object:
+    """One deformable body of a scene."""
+
+    name: str
+    shape: Shape
+    #: name of a material
+    material: str
+    #: [m]
+    position: Vector = (0.0, 0.0, 0.0)
+    #: about x, then y, then z [degrees]
+    rotation: Vector = (0.0, 0.0, 0.0)
+    #: > 0, applied first
+    scale: float = 1.0
+    #: [m/s]
+    velocity: Vector = (0.0, 0.0, 0.0)
+    #: angular velocity about the centre of mass [degrees/s]
+    spin: Vector = (0.0, 0.0, 0.0)
+    mesher: Mesher = field(default_factory=Mesher)
+    start: Start = field(default_factory=Start)
+    #: nodes in any of these stay where they are
+    pins: list[Region] = field(default_factory=list)
+    #: those that move share no node with each other or a pin
+    handles: list[Handle] = field(default_factory=list)
+    loads: list[Load] = field(default_factory=list)
+    #: linear RGB from 0 to 1; None: one of a palette
+    color: Vector | None = None
+    #: later ones win
+    parts: list[Part] = field(default_factory=list)
+    #: draw and export the shape's own surface, where it is not the boundary of the tets
+    skin: bool = True
+    line: int = field(default=0, repr=False)
+
+
+@dataclass(slots=True)
+class Collider:
+    """What bodies cannot enter. With contact every shape but a plane is a rigid surface with two sides."""
+
+    shape: Union[Plane, Shape]
+    #: [m]; this, rotation and scale are not for planes
+    position: Vector = (0.0, 0.0, 0.0)
+    #: about x, then y, then z [degrees]
+    rotation: Vector = (0.0, 0.0, 0.0)
+    #: Coulomb's coefficient, >= 0
+    friction: float = 0.4
+    #: normal speed after a contact relative to before, from 0 to 1
+    restitution: float = 0.3
+    #: in ascending order of time; the first is the start; none: it rests
+    keyframes: list[Keyframe] = field(default_factory=list)
+    interpolation: Literal["linear", "smooth"] = "linear"
+    #: about which it rotates and scales [m]; None: its position
+    pivot: Vector | None = None
+    #: of the surface within itself, as of a belt [m/s]
+    surface_velocity: Vector = (0.0, 0.0, 0.0)
+    #: in messages and statistics; empty: "collider 1", by its place in the scene
+    name: str = ""
+    #: > 0, applied first
+    scale: float = 1.0
+    #: what happens while bodies leave it no room: the time of its keyframes goes on, or stands still
+    when_blocked: Literal["goes_on", "stops"] = "goes_on"
+
+
+@dataclass(slots=True)
+class Camera:
+    """From where pictures are taken."""
+
+    #: [m]
+    eye: Vector
+    #: [m]
+    target: Vector
+    #: vertical [degrees]
+    field_of_view: float = 35.0

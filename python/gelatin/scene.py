@@ -1,0 +1,195 @@
+"""Scenes: what is simulated, and how. SI units, +y is up.
+
+A scene is plain data. Nothing is checked until a simulator is made of it, or until `Scene.validate`.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal, Union, cast
+
+from . import _gelatin
+from .objects import Camera, Collider, Object
+from .shapes import File, Plane, Shape, Vector
+
+
+@dataclass(slots=True)
+class SimulationSettings:
+    #: four explicit schemes, and "vbd", an implicit one that is stable at any step
+    solver: Literal["explicit_euler", "semi_implicit_euler", "midpoint", "rk4", "vbd"] = "vbd"
+    #: how spring forces reach the nodes: the paper's two kernels, or one fused with the integration
+    forces: Literal["divide_and_merge", "fused"] = "fused"
+    #: frames a second of simulated time [1/s], > 0
+    frame_rate: float = 60.0
+    #: steps a frame, >= 1; None: the fewest that are stable
+    substeps: int | None = None
+    #: of vbd, a step, >= 1
+    iterations: int = 10
+    #: [m/s^2]
+    gravity: Vector = (0.0, -9.81, 0.0)
+    #: length of a run, >= 0
+    frames: int = 600
+
+
+@dataclass(slots=True)
+class MaterialPair:
+    """How bodies of two materials, or of one, press each other. None: the geometric mean of both materials'."""
+
+    #: name of a material
+    first: str
+    #: name of a material
+    second: str
+    #: Coulomb's coefficient, >= 0
+    friction: float | None = None
+    #: as a factor, > 0
+    contact_stiffness: float | None = None
+    #: from 0 to 1
+    restitution: float | None = None
+
+
+@dataclass(slots=True)
+class CollisionSettings:
+    #: how faces that cannot touch are excluded before face is tested against face
+    broad_phase: Literal["none", "boxes", "hierarchy", "depth"] = "hierarchy"
+    #: whether faces are tested at the end of a step only, or during the whole step
+    detection: Literal["discrete", "continuous"] = "discrete"
+    #: what happens to objects whose faces touch; None: "contact" with vbd, else "restore"
+    response: Literal["restore", "contact"] | None = None
+    #: whether objects collide with themselves, too
+    self_collision: bool = False
+    #: find nodes and faces, and pairs of edges, nearer than this [m], > 0; None: off
+    proximity_radius: float | None = None
+    #: Coulomb's coefficient, >= 0
+    friction: float = 0.4
+    #: normal speed after a contact relative to before, from 0 to 1
+    restitution: float = 0.3
+    #: each pair of materials at most once
+    pairs: list[MaterialPair] = field(default_factory=list)
+
+
+@dataclass(slots=True)
+class SpringKinds:
+    """Which of the paper's springs a material has. At least one."""
+
+    #: the edges of the tets
+    structural: bool = True
+    #: the opposite corners of two tets that share a face
+    shear: bool = False
+    #: across a surface edge, and two edges apart inside
+    flex: bool = False
+
+
+@dataclass(slots=True)
+class Material:
+    name: str
+    #: springs between nodes, or linear finite elements
+    model: Literal["mass_spring", "neo_hookean"] = "mass_spring"
+    #: [Pa], > 0
+    youngs_modulus: float = 5e4
+    #: [kg/m^3], > 0
+    density: float = 1000.0
+    #: from 0 to 0.49; for neo_hookean below 0.5
+    poisson_ratio: float = 0.25
+    #: Kelvin-Voigt relaxation time [s], >= 0
+    damping: float = 0.0
+    #: for mass_spring; None: springs fitted to each mesh, so that the body has youngs_modulus
+    springs: SpringKinds | None = None
+    #: Coulomb's coefficient of a body's surface, >= 0; None: the collision settings'
+    friction: float | None = None
+    #: two surfaces begin to press at the sum of both [m], > 0; None: a twentieth of the body's median edge
+    thickness: float | None = None
+    #: of contacts, as a factor, > 0
+    contact_stiffness: float = 1.0
+    #: from 0 to 1; None: the collision settings'
+    restitution: float | None = None
+    line: int = field(default=0, repr=False)
+
+
+@dataclass(slots=True)
+class Scene:
+    """What is simulated. Build one in code, or load one with `gelatin.load`.
+
+    >>> scene = gelatin.Scene()
+    >>> scene.add_material("jelly", youngs_modulus=2e4)
+    >>> scene.add("ball", gelatin.Sphere(radius=0.5), material="jelly", position=(0, 2, 0))
+    >>> scene.add_collider(gelatin.Plane())
+    """
+
+    #: where it came from; empty if it was made in code
+    file: str | os.PathLike[str] = ""
+    simulation: SimulationSettings = field(default_factory=SimulationSettings)
+    collision: CollisionSettings = field(default_factory=CollisionSettings)
+    materials: list[Material] = field(default_factory=list)
+    objects: list[Object] = field(default_factory=list)
+    colliders: list[Collider] = field(default_factory=list)
+    #: None: chosen so that pictures show the whole scene
+    camera: Camera | None = None
+
+    def add_material(self, name: str, **fields: Any) -> Material:
+        """Adds a material. `fields` are those of `gelatin.Material`."""
+        material = Material(name, **fields)
+        self.materials.append(material)
+        return material
+
+    def add(
+        self,
+        name: str,
+        shape: Union[Shape, str, os.PathLike[str]],
+        *,
+        material: Union[str, Material],
+        **fields: Any,
+    ) -> Object:
+        """Adds an object. `shape` may be the path of a mesh; `fields` are those of `gelatin.Object`."""
+        if isinstance(shape, (str, os.PathLike)):
+            shape = File(shape)
+        if isinstance(material, Material):
+            material = material.name
+        added = Object(name, shape, material, **fields)
+        self.objects.append(added)
+        return added
+
+    def add_collider(self, shape: Union[Plane, Shape, str, os.PathLike[str]] = Plane(), **fields: Any) -> Collider:
+        """Adds a collider, with the scene's friction and restitution where `fields` does not say.
+
+        `shape` may be the path of a mesh; `fields` are those of `gelatin.Collider`.
+        """
+        if isinstance(shape, (str, os.PathLike)):
+            shape = File(shape)
+        fields.setdefault("friction", self.collision.friction)
+        fields.setdefault("restitution", self.collision.restitution)
+        collider = Collider(shape, **fields)
+        self.colliders.append(collider)
+        return collider
+
+    def validate(self) -> None:
+        """Checks every value, as a simulator does by itself.
+
+        Raises InvalidInput, naming the field, its value and what is allowed; TypeError for a value of a wrong type.
+        """
+        _gelatin.validate(self)
+
+
+def load(
+    file: str | os.PathLike[str],
+    overrides: Union[Mapping[str, Any], Iterable[str]] = (),
+) -> Scene:
+    """Reads and checks a scene file.
+
+    overrides: values to change before the check, as {"material.jelly.youngs_modulus": 1e5} or as
+        ["material.jelly.youngs_modulus=1e5"], with the keys of docs/scene-files.md.
+
+    Raises InvalidInput, naming file, line, key, value and what is allowed.
+    """
+    if isinstance(overrides, Mapping):
+        overrides = [f"{key}={_toml(value)}" for key, value in overrides.items()]
+    elif isinstance(overrides, str):
+        raise TypeError("overrides must be a mapping or a list of str, not str")
+    return cast(Scene, _gelatin.load(os.fspath(file), list(overrides)))
+
+
+def _toml(value: Any) -> str:
+    """Numbers, truth values, texts and lists of these in TOML, which writes them like JSON."""
+    return json.dumps(value.tolist() if hasattr(value, "tolist") else value)

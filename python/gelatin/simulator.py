@@ -1,0 +1,298 @@
+"""A scene that runs."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, Literal, TypeVar, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _gelatin
+from .bodies import Body
+from .errors import InvalidInput
+from .hands import Hand
+from .objects import Camera
+from .pictures import Picture
+from .progress import frames_with_bar
+from .scene import Scene, load
+
+Array = npt.NDArray[np.float32]
+Callback = TypeVar("Callback", bound=Callable[["Simulator"], object])
+
+
+class Simulator:
+    """A scene that runs.
+
+    scene: a Scene, or the path of a scene file.
+    backend: "auto" takes OpenGL on a GPU, and the CPU otherwise.
+    gl_device: index of an EGL device; None: the best.
+
+    Raises InvalidInput for a scene that cannot be built, and NoOpenGl if "gl" is asked for and there is none.
+
+    Arrays. With the CPU backend `positions` and `velocities` are views of the simulator's own memory, without a copy, and
+    read-only. A view keeps the simulator alive. It shows the state at which it was taken until the next call that steps,
+    resets or loads; after that its contents are those of some other step. So take a property again after each step, and
+    `.copy()` what you want to keep. With OpenGL they are copies.
+
+    Threads. Other threads of Python run while it steps. They must not use the same simulator meanwhile: RuntimeError. With
+    OpenGL a simulator belongs to the thread that made it.
+    """
+
+    def __init__(
+        self,
+        scene: Union[Scene, str, os.PathLike[str]],
+        backend: Literal["auto", "gl", "cpu"] = "auto",
+        *,
+        gl_device: int | None = None,
+    ) -> None:
+        if isinstance(scene, (str, os.PathLike)):
+            scene = load(scene)
+        self._begin(_gelatin.Simulator(scene, backend, gl_device), scene)
+
+    @classmethod
+    def _of(cls, core: _gelatin.Simulator, scene: Scene) -> Simulator:
+        """One that exists already, in a batch."""
+        simulator = cls.__new__(cls)
+        simulator._begin(core, scene)
+        return simulator
+
+    def _begin(self, core: _gelatin.Simulator, scene: Scene) -> None:
+        self.scene = scene
+        self._core = core
+        self._objects = {fields["name"]: fields for fields in self._core.objects()}
+        self._hands: list[Hand] = []
+        self._forced: set[int] = set()  # indices of objects
+        self._step_callbacks: list[Callable[[Simulator], object]] = []
+        self._frame_callbacks: list[Callable[[Simulator], object]] = []
+
+    def __repr__(self) -> str:
+        nodes = len(self.masses)
+        return f"<gelatin.Simulator: {len(self._objects)} bodies, {nodes} nodes, frame {self.frame}, {self.device}>"
+
+    # Bodies
+
+    def __getitem__(self, name: str) -> Body:
+        """The body of the object with this name. Raises KeyError."""
+        if name not in self._objects:
+            raise KeyError(f"there is no object '{name}'; there are {', '.join(map(repr, self._objects))}")
+        return Body(self, list(self._objects).index(name), self._objects[name])
+
+    def __iter__(self) -> Iterator[Body]:
+        return (self[name] for name in self._objects)
+
+    def __len__(self) -> int:
+        return len(self._objects)
+
+    # Time
+
+    def step(self, count: int = 1) -> None:
+        """Makes `count` steps; `substeps` of them are a frame. Ctrl-C ends it after a whole step.
+
+        Raises Diverged after a step with nodes that are not finite, or faster than the scene's energy allows.
+        The state is then invalid until `reset` or `load_checkpoint`.
+        """
+        if not self._step_callbacks and not self._frame_callbacks:
+            self._core.step(count)
+            return
+        for _ in range(count):
+            frame = self.frame
+            self._core.step(1)
+            self._call(self._step_callbacks)
+            if self.frame != frame:
+                self._call(self._frame_callbacks)
+
+    def advance(self, frames: int = 1) -> None:
+        """Makes `frames` frames. Raises as `step`."""
+        if self._step_callbacks:
+            self.step(frames * self.substeps)
+        elif not self._frame_callbacks:
+            self._core.advance(frames)
+        else:
+            for _ in range(frames):
+                self._core.advance(1)
+                self._call(self._frame_callbacks)
+
+    def run(self, frames: int | None = None, progress: bool = False) -> None:
+        """Makes `frames` frames; None: to the end of the scene's.
+
+        progress: shows a bar, if the package tqdm is installed.
+        """
+        if frames is None:
+            frames = max(0, self.scene.simulation.frames - self.frame)
+        if not progress:
+            self.advance(frames)
+            return
+        for _ in frames_with_bar(frames):
+            self.advance(1)
+
+    def on_step(self, callback: Callback) -> Callback:
+        """Has `callback(simulator)` called after every step. Works as a decorator."""
+        self._step_callbacks.append(callback)
+        return callback
+
+    def on_frame(self, callback: Callback) -> Callback:
+        """Has `callback(simulator)` called after every frame. Works as a decorator."""
+        self._frame_callbacks.append(callback)
+        return callback
+
+    def remove_callback(self, callback: Callable[[Simulator], object]) -> None:
+        """No longer calls it. Raises ValueError if it is none of the callbacks."""
+        for callbacks in (self._step_callbacks, self._frame_callbacks):
+            if callback in callbacks:
+                callbacks.remove(callback)
+                return
+        raise ValueError("this is no callback of the simulator")
+
+    def reset(self) -> None:
+        """Returns to the start: hands, forces and pins of programs are gone. Allowed after Diverged."""
+        self._core.reset()
+        self._forget_changes()
+
+    @property
+    def frame(self) -> int:
+        """Completed frames; 0 is the start."""
+        return self._core.frame
+
+    @property
+    def time(self) -> float:
+        """[s]"""
+        return self._core.time
+
+    @property
+    def substeps(self) -> int:
+        """Steps per frame."""
+        return self._core.substeps
+
+    @property
+    def step_size(self) -> float:
+        """[s]"""
+        return self._core.step_size
+
+    @property
+    def backend(self) -> str:
+        """"gl" or "cpu"."""
+        return self._core.backend
+
+    @property
+    def device(self) -> str:
+        """Name of the GPU, or of the CPU's instruction set."""
+        return self._core.device
+
+    # State: nodes of all bodies, one body after the other, in the order of the scene
+
+    @property
+    def positions(self) -> Array:
+        """[m], shape (nodes, 3), float32. A view; see the class."""
+        return self._core.positions()
+
+    @property
+    def velocities(self) -> Array:
+        """[m/s], shape (nodes, 3), float32. A view; see the class."""
+        return self._core.velocities()
+
+    @property
+    def rest_positions(self) -> Array:
+        """Where the scene places the nodes at the start [m], shape (nodes, 3), float32. Never changes."""
+        return self._core.rest_positions()
+
+    @property
+    def masses(self) -> Array:
+        """[kg], shape (nodes,), float32. Never changes."""
+        return self._core.masses()
+
+    @property
+    def faces(self) -> npt.NDArray[np.uint32]:
+        """Nodes of the surfaces' triangles, counter-clockwise from outside, shape (faces, 3). Never changes."""
+        return self._core.faces()
+
+    @property
+    def tets(self) -> npt.NDArray[np.uint32]:
+        """Nodes of the tets, shape (tets, 4). Never changes."""
+        return self._core.tets()
+
+    # Forces
+
+    @property
+    def contact_forces(self) -> Array:
+        """The force of contacts on each node, normal and friction [N], shape (nodes, 3); (0, 3) without contact."""
+        return self._core.contact_forces()
+
+    @property
+    def contact_friction(self) -> Array:
+        """The part of `contact_forces` that is friction [N], the same shape."""
+        return self._core.contact_friction()
+
+    @property
+    def holding_forces(self) -> Array:
+        """What pins and handles exert on each node [N], shape (nodes, 3); (0, 3) if there are none."""
+        return self._core.holding_forces()
+
+    def statistics(self) -> dict[str, Any]:
+        """Measures the present state: energies, momentum, contacts, with the keys of `gelatin run --stats`.
+
+        Raises Diverged if the bodies have more energy than the start, gravity and loads explain.
+        """
+        return self._core.statistics()
+
+    def set_material(self, name: str, **fields: Any) -> None:
+        """Changes fields of a material, which are those of `gelatin.Material`. It takes as long as making the simulator.
+
+        Raises InvalidInput for a material that there is not, or values that are not allowed.
+        """
+        found = [material for material in self.scene.materials if material.name == name]
+        if not found:
+            raise InvalidInput(f"there is no material '{name}'")
+        changed = dataclasses.replace(found[0], **fields)
+        self._core.set_material(changed)
+        materials = [changed if material is found[0] else material for material in self.scene.materials]
+        self.scene = dataclasses.replace(self.scene, materials=materials)
+
+    # Pictures
+
+    def render(
+        self,
+        width: int = 1280,
+        height: int = 720,
+        *,
+        quality: Literal["auto", "high", "fast"] = "auto",
+        camera: Camera | None = None,
+        overlays: Sequence[str] = (),
+    ) -> Picture:
+        """Draws the present state, as `gelatin run` does: shape (height, width, 3), uint8. Notebooks show it.
+
+        width, height: [pixels]
+        quality: "fast" is light at each vertex, about a tenth of the time on software drivers.
+        camera: None: the scene's, or one that shows all of it.
+        overlays: as of `gelatin run --overlay`: ["stress", "cut:x"].
+
+        OpenGL is needed for this alone. The first picture takes longer: it compiles shaders. Pictures of a simulator belong
+        to one thread.
+
+        Raises NoOpenGl if there is none; InvalidInput for a size or an overlay that is not allowed.
+        """
+        return self._core.render(width, height, quality, camera, list(overlays)).view(Picture)
+
+    # Files
+
+    def save_checkpoint(self, file: str | os.PathLike[str]) -> None:
+        """Saves the complete, exact state. The file is written completely or not at all. Raises SystemError."""
+        self._core.save_checkpoint(os.fspath(file))
+
+    def load_checkpoint(self, file: str | os.PathLike[str]) -> None:
+        """Continues from a saved state, bit for bit. Raises InvalidInput for a file of another scene, or a damaged one."""
+        self._core.load_checkpoint(os.fspath(file))
+
+    def _forget_changes(self) -> None:
+        if self._hands:
+            self._hands.clear()
+            self._core.set_pulls([])
+        for body in self._forced:
+            self._core.set_forces(body, np.zeros((0, 3), np.float32))
+        self._forced.clear()
+
+    def _call(self, callbacks: list[Callable[[Simulator], object]]) -> None:
+        for callback in list(callbacks):
+            callback(self)

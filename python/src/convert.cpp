@@ -1,0 +1,107 @@
+#include "convert.h"
+
+namespace gelatin::python {
+namespace {
+
+template <class Vector>
+void read_vector(nb::handle source, const std::string& where, const char* kind, Vector& value) {
+    const auto fail = [&] { raise_type_error(where, std::string("three ") + kind, source); };
+    if (nb::isinstance<nb::str>(source) || !PySequence_Check(source.ptr()) ||
+        PySequence_Size(source.ptr()) != 3) {
+        PyErr_Clear();
+        fail();
+    }
+    for (int k = 0; k < 3; ++k) {
+        const nb::object element = nb::steal(PySequence_GetItem(source.ptr(), k));
+        read(element, where + "[" + std::to_string(k) + "]", value[k]);
+    }
+}
+
+template <class Vector>
+nb::object tuple_of(const Vector& value) {
+    return nb::make_tuple(value.x, value.y, value.z);
+}
+
+}  // namespace
+
+void raise_type_error(const std::string& where, const std::string& allowed, nb::handle source) {
+    const std::string type = nb::cast<std::string>(nb::str(nb::getattr(source.type(), "__name__")));
+    throw nb::type_error((where + " must be " + allowed + ", not " + type).c_str());
+}
+
+nb::object class_named(const char* name) {
+    return nb::module_::import_("gelatin").attr(name);
+}
+
+nb::object list_of(nb::handle source, const std::string& where) {
+    if (nb::isinstance<nb::str>(source) || !nb::hasattr(source, "__iter__"))
+        raise_type_error(where, "a list", source);
+    return nb::list(nb::borrow(source));
+}
+
+void read(nb::handle source, const std::string& where, bool& value) {
+    if (!nb::try_cast(source, value)) raise_type_error(where, "True or False", source);
+}
+
+void read(nb::handle source, const std::string& where, int& value) {
+    const nb::object index = nb::steal(PyNumber_Index(source.ptr()));
+    if (!index.is_valid()) {
+        PyErr_Clear();
+        raise_type_error(where, "an integer", source);
+    }
+    if (!nb::try_cast(index, value))
+        throw InvalidInput({{}, 0, where, nb::cast<std::string>(nb::str(index)), "is too large"});
+}
+
+void read(nb::handle source, const std::string& where, double& value) {
+    value = PyFloat_AsDouble(source.ptr());
+    if (PyErr_Occurred() == nullptr) return;
+    PyErr_Clear();
+    raise_type_error(where, "a number", source);
+}
+
+void read(nb::handle source, const std::string& where, std::string& value) {
+    if (!nb::try_cast(source, value)) raise_type_error(where, "a str", source);
+}
+
+void read(nb::handle source, const std::string& where, std::filesystem::path& value) {
+    const nb::object text = nb::steal(PyOS_FSPath(source.ptr()));
+    std::string path;
+    if (!text.is_valid() || !nb::try_cast(text, path)) {
+        PyErr_Clear();
+        raise_type_error(where, "a path", source);
+    }
+    value = path;
+}
+
+void read(nb::handle source, const std::string& where, glm::dvec3& value) {
+    read_vector(source, where, "numbers", value);
+}
+
+void read(nb::handle source, const std::string& where, glm::ivec3& value) {
+    read_vector(source, where, "integers", value);
+}
+
+nb::object to_python(bool value) {
+    return nb::bool_(value);
+}
+nb::object to_python(int value) {
+    return nb::int_(value);
+}
+nb::object to_python(double value) {
+    return nb::float_(value);
+}
+nb::object to_python(const std::string& value) {
+    return nb::str(value.c_str(), value.size());
+}
+nb::object to_python(const std::filesystem::path& value) {
+    return to_python(value.string());
+}
+nb::object to_python(const glm::dvec3& value) {
+    return tuple_of(value);
+}
+nb::object to_python(const glm::ivec3& value) {
+    return tuple_of(value);
+}
+
+}  // namespace gelatin::python

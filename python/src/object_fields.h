@@ -1,0 +1,188 @@
+#pragma once
+
+#include "fields.h"
+#include "gelatin/scene.h"
+
+namespace gelatin::python {
+
+template <>
+struct Fields<MesherSettings> {
+    static constexpr const char* kClass = "Mesher";
+    static void visit(MesherSettings& m, auto&& field) {
+        auto& [kind, quality, time_limit, nodes, max_volume, cell_size] = m;
+        field("kind", kind);
+        field("quality", quality);
+        field("time_limit", time_limit);
+        field("nodes", nodes);
+        field("max_volume", max_volume);
+        field("cell_size", cell_size);
+    }
+};
+
+template <>
+struct Fields<Keyframe> {
+    static constexpr const char* kClass = "Keyframe";
+    static void visit(Keyframe& k, auto&& field) {
+        auto& [time, move, turn, scale] = k;
+        field("time", time);
+        field("move", move);
+        field("turn", turn);
+        field("scale", scale);
+    }
+};
+
+template <>
+struct Fields<DragDescription> {
+    static constexpr const char* kClass = "Drag";
+    static void visit(DragDescription& d, auto&& field) {
+        auto& [move, turn] = d;
+        field("move", move);
+        field("turn", turn);
+    }
+};
+
+template <>
+struct Fields<HandleDescription> {
+    static constexpr const char* kClass = "Handle";
+    static void visit(HandleDescription& h, auto&& field) {
+        auto& [region, pivot, interpolation, release, keyframes, line, drag, when_blocked] = h;
+        field("region", region);
+        field("pivot", pivot);
+        field("interpolation", interpolation);
+        field("release", release);
+        field("keyframes", keyframes);
+        field("drag", drag);
+        field("when_blocked", when_blocked);
+        field("line", line);
+    }
+};
+
+template <>
+struct Fields<ForceLoad> {
+    static constexpr const char* kClass = "Force";
+    static void visit(ForceLoad& f, auto&& field) {
+        auto& [sum] = f;
+        field("sum", sum);
+    }
+};
+
+template <>
+struct Fields<TractionLoad> {
+    static constexpr const char* kClass = "Traction";
+    static void visit(TractionLoad& t, auto&& field) {
+        auto& [stress] = t;
+        field("stress", stress);
+    }
+};
+
+template <>
+struct Fields<PressureLoad> {
+    static constexpr const char* kClass = "Pressure";
+    static void visit(PressureLoad& p, auto&& field) {
+        auto& [pressure] = p;
+        field("pressure", pressure);
+    }
+};
+
+template <>
+struct Fields<LoadDescription> {
+    static constexpr const char* kClass = "Load";
+    static void visit(LoadDescription& l, auto&& field) {
+        auto& [region, kind, from, until, line] = l;
+        field("region", region);
+        field("kind", kind);
+        field("start", from);  // `from` is a word of Python's own
+        field("until", until);
+        field("line", line);
+    }
+};
+
+template <>
+struct Fields<TetAttribute> {
+    static constexpr const char* kClass = "TetAttribute";
+    static void visit(TetAttribute& a, auto&& field) {
+        auto& [number] = a;
+        field("number", number);
+    }
+};
+
+template <>
+struct Fields<PartDescription> {
+    static constexpr const char* kClass = "Part";
+    static void visit(PartDescription& p, auto&& field) {
+        auto& [where, material, line] = p;
+        field("where", where);
+        field("material", material);
+        field("line", line);
+    }
+};
+
+template <>
+struct Fields<StartDescription> {
+    static constexpr const char* kClass = "Start";
+    static void visit(StartDescription& s, auto&& field) {
+        auto& [scale, scatter] = s;
+        field("scale", scale);
+        field("scatter", scatter);
+    }
+};
+
+template <>
+struct Fields<ObjectDescription> {
+    static constexpr const char* kClass = "Object";
+    static void visit(ObjectDescription& o, auto&& field) {
+        auto& [name, shape, mesher, material, position, rotation, scale, velocity, spin, start, pins, handles,
+               loads, color, line, parts, skin] = o;
+        field("name", name);
+        field("shape", shape);
+        field("mesher", mesher);
+        field("material", material);
+        field("position", position);
+        field("rotation", rotation);
+        field("scale", scale);
+        field("velocity", velocity);
+        field("spin", spin);
+        field("start", start);
+        field("pins", pins);
+        field("handles", handles);
+        field("loads", loads);
+        field("color", color);
+        field("parts", parts);
+        field("skin", skin);
+        field("line", line);
+    }
+};
+
+template <>
+struct Fields<ColliderDescription> {
+    static constexpr const char* kClass = "Collider";
+    static void visit(ColliderDescription& c, auto&& field) {
+        auto& [shape, position, rotation, friction, restitution, keyframes, interpolation, pivot,
+               surface_velocity, name, scale, when_blocked] = c;
+        field("shape", shape);
+        field("position", position);
+        field("rotation", rotation);
+        field("friction", friction);
+        field("restitution", restitution);
+        field("keyframes", keyframes);
+        field("interpolation", interpolation);
+        field("pivot", pivot);
+        field("surface_velocity", surface_velocity);
+        field("name", name);
+        field("scale", scale);
+        field("when_blocked", when_blocked);
+    }
+};
+
+template <>
+struct Fields<CameraDescription> {
+    static constexpr const char* kClass = "Camera";
+    static void visit(CameraDescription& c, auto&& field) {
+        auto& [eye, target, field_of_view] = c;
+        field("eye", eye);
+        field("target", target);
+        field("field_of_view", field_of_view);
+    }
+};
+
+}  // namespace gelatin::python

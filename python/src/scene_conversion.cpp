@@ -1,0 +1,55 @@
+#include "scene_conversion.h"
+
+#include "convert.h"
+
+namespace gelatin::python {
+namespace {
+
+template <class... Structs>
+nb::dict defaults_of() {
+    nb::dict all;
+    const auto add = [&](auto value) {
+        nb::dict fields;
+        using Struct = decltype(value);
+        Fields<Struct>::visit(value,
+                              [&](const char* name, auto& member) { fields[name] = to_python(member); });
+        all[Fields<Struct>::kClass] = fields;
+    };
+    (add(Structs{}), ...);
+    return all;
+}
+
+template <class Struct>
+Struct read_as(nb::handle source, const char* where) {
+    Struct value{};
+    read(source, where, value);
+    return value;
+}
+
+}  // namespace
+
+Scene scene_of(nb::handle source) {
+    return read_as<Scene>(source, "scene");
+}
+
+Material material_of(nb::handle source) {
+    return read_as<Material>(source, "material");
+}
+
+CameraDescription camera_of(nb::handle source) {
+    return read_as<CameraDescription>(source, "camera");
+}
+
+nb::object python_scene(const Scene& scene) {
+    return to_python(scene);
+}
+
+nb::dict scene_defaults() {
+    return defaults_of<SimulationSettings, MaterialPair, CollisionSettings, SpringKinds, Material,
+                       SphereShape, BoxShape, CapsuleShape, TextShape, MesherSettings, Keyframe,
+                       DragDescription, HandleDescription, ForceLoad, TractionLoad, PressureLoad,
+                       LoadDescription, PartDescription, StartDescription, ObjectDescription, PlaneCollider,
+                       ColliderDescription, CameraDescription, Scene>();
+}
+
+}  // namespace gelatin::python

@@ -1,0 +1,229 @@
+"""Scenes: every field goes to C++ and back; wrong values are exceptions that name them."""
+
+import dataclasses
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import gelatin
+from gelatin import _gelatin
+
+
+def scene_with_everything():
+    scene = gelatin.Scene()
+    scene.simulation = gelatin.SimulationSettings("rk4", "divide_and_merge", 50.0, 3, 7, (1.0, 2.0, 3.0), 20)
+    scene.collision = gelatin.CollisionSettings(
+        "boxes", "continuous", "restore", True, 0.1, 0.2, 0.7, [gelatin.MaterialPair("a", "b", 0.1, 2.0, 0.5)]
+    )
+    scene.add_material(
+        "a",
+        model="neo_hookean",
+        youngs_modulus=1.0,
+        density=2.0,
+        poisson_ratio=0.3,
+        damping=0.1,
+        springs=gelatin.SpringKinds(False, True, True),
+        friction=0.1,
+        thickness=0.01,
+        contact_stiffness=3.0,
+        restitution=0.2,
+        line=5,
+    )
+    region = gelatin.BoxRegion((0.0, 0.0, 0.0), (1.0, 2.0, 3.0))
+    ball = gelatin.SphereRegion((1.0, 0.0, 0.0), 0.5)
+    half = gelatin.HalfSpaceRegion((0.0, 1.0, 0.0), 0.25)
+    frames = [gelatin.Keyframe(), gelatin.Keyframe(1.0, (1.0, 0.0, 0.0), (0.0, 90.0, 0.0), 2.0)]
+    drag = gelatin.Drag((0.1, 0.0, 0.0), (0.0, 5.0, 0.0))
+    scene.add(
+        "o",
+        gelatin.Text("x", 0.3, 2.0, "serif"),
+        material="a",
+        position=(1.0, 2.0, 3.0),
+        rotation=(4.0, 5.0, 6.0),
+        scale=2.0,
+        velocity=(7.0, 8.0, 9.0),
+        spin=(10.0, 11.0, 12.0),
+        mesher=gelatin.Mesher("lattice", 1.5, 60.0, 100, 0.1, 0.2),
+        start=gelatin.Start((0.5, 0.6, 0.7), 0.1),
+        pins=[region, ball, half],
+        handles=[gelatin.Handle(half, frames, (1.0, 1.0, 1.0), "smooth", 2.0, drag, "stops", line=4)],
+        loads=[
+            gelatin.Load(ball, gelatin.Force((1.0, 0.0, 0.0)), 0.5, 1.5, line=3),
+            gelatin.Load(ball, gelatin.Traction((1.0, 0.0, 0.0))),
+            gelatin.Load(ball, gelatin.Pressure(5.0)),
+        ],
+        color=(0.1, 0.2, 0.3),
+        parts=[gelatin.Part(region, "a", line=9), gelatin.Part(gelatin.TetAttribute(3), "a")],
+        skin=False,
+        line=6,
+    )
+    for shape in (
+        gelatin.Sphere(2.0, 3),
+        gelatin.Box((1.0, 2.0, 3.0), (4, 5, 6)),
+        gelatin.Capsule(0.1, 0.2, 4),
+        gelatin.File("a.obj"),
+    ):
+        scene.add("o", shape, material="a")
+    scene.add_collider(gelatin.Plane((1.0, 0.0, 0.0), 0.5))
+    scene.colliders.append(
+        gelatin.Collider(
+            gelatin.Sphere(), (1.0, 2.0, 3.0), (4.0, 5.0, 6.0), 0.7, 0.1, frames, "smooth", (1.0, 0.0, 1.0), (2.0, 0.0, 2.0), "belt", 3.0, "stops"
+        )
+    )
+    scene.camera = gelatin.Camera((1.0, 2.0, 3.0), (4.0, 5.0, 6.0), 40.0)
+    scene.file = "scene.toml"
+    return scene
+
+
+def instances_in(value):
+    """All dataclasses' instances in a value, itself among them."""
+    if dataclasses.is_dataclass(value):
+        yield value
+        for field in dataclasses.fields(value):
+            yield from instances_in(getattr(value, field.name))
+    elif isinstance(value, list):
+        for element in value:
+            yield from instances_in(element)
+
+
+def test_every_field_goes_to_c_and_back():
+    scene = scene_with_everything()
+    assert _gelatin.same(scene) == scene
+
+
+def test_the_scene_with_everything_has_no_default_anywhere():
+    """Otherwise a field that is never transferred could pass the test before this one."""
+    left = {}
+    for instance in instances_in(scene_with_everything()):
+        for field in dataclasses.fields(instance):
+            name = f"{type(instance).__name__}.{field.name}"
+            has_default = field.default is not dataclasses.MISSING or field.default_factory is not dataclasses.MISSING
+            default = field.default_factory() if field.default_factory is not dataclasses.MISSING else field.default
+            left[name] = left.get(name, True) and has_default and getattr(instance, field.name) == default
+    assert [name for name, is_default in left.items() if is_default] == []
+
+
+def test_defaults_are_those_of_c():
+    classes = _gelatin.defaults()
+    assert len(classes) > 20
+    for name, fields in classes.items():
+        for field in dataclasses.fields(getattr(gelatin, name)):
+            if field.default is not dataclasses.MISSING:
+                default = field.default
+            elif field.default_factory is not dataclasses.MISSING:
+                default = field.default_factory()
+            else:
+                continue
+            assert fields[field.name] == default, f"{name}.{field.name}"
+
+
+def test_words_are_those_of_scene_files(tmp_path):
+    file = tmp_path / "words.toml"
+    for solver in ("explicit_euler", "semi_implicit_euler", "midpoint", "rk4", "vbd"):
+        scene = gelatin.load("scenes/bounce.toml", {"simulation.solver": solver})
+        assert scene.simulation.solver == solver
+    for key, word in (
+        ("simulation.forces", "divide_and_merge"),
+        ("collision.broad_phase", "boxes"),
+        ("collision.detection", "continuous"),
+        ("collision.response", "restore"),
+    ):
+        scene = gelatin.load("scenes/bounce.toml", {"simulation.solver": "rk4", key: word})
+        section, field = key.split(".")
+        assert getattr(getattr(scene, section), field) == word
+    file.write_text(
+        '[[material]]\nname = "m"\nmodel = "neo_hookean"\n'
+        '[[object]]\nname = "o"\nmesher = { kind = "lattice" }\nshape = { sphere = 1 }\n'
+        'handle = [{ region = { plane = [0, 1, 0], offset = 0 }, interpolation = "smooth", when_blocked = "stops", '
+        "  keyframes = [{ time = 0 }, { time = 1, move = [0, 1, 0] }] }]\n"
+    )
+    scene = gelatin.load(file)
+    assert scene.materials[0].model == "neo_hookean"
+    assert scene.objects[0].mesher.kind == "lattice"
+    assert (scene.objects[0].handles[0].interpolation, scene.objects[0].handles[0].when_blocked) == ("smooth", "stops")
+
+
+@pytest.mark.parametrize("file", sorted(Path("scenes").glob("*.toml")), ids=lambda file: file.stem)
+def test_loaded_scenes_go_through(file):
+    scene = gelatin.load(file)
+    assert _gelatin.same(scene) == scene
+    scene.validate()
+
+
+def test_overrides():
+    by_dict = gelatin.load("scenes/bounce.toml", {"simulation.frames": 7, "simulation.gravity": (0, -1, 0)})
+    by_list = gelatin.load("scenes/bounce.toml", ["simulation.frames=7", "simulation.gravity=[0,-1,0]"])
+    assert by_dict == by_list
+    assert by_dict.simulation.frames == 7 and by_dict.simulation.gravity == (0, -1, 0)
+    with pytest.raises(TypeError):
+        gelatin.load("scenes/bounce.toml", "simulation.frames=7")
+
+
+def test_vectors_may_be_arrays():
+    scene = scene_with_everything()
+    scene.objects[0].position = np.array([1, 2, 3], dtype=np.float32)
+    scene.objects[1].shape.frequency = np.int64(3)
+    same = _gelatin.same(scene)
+    assert same.objects[0].position == (1.0, 2.0, 3.0)
+    assert same.objects[1].shape.frequency == 3
+
+
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        (lambda s: setattr(s.materials[0], "density", "heavy"), "Material.density must be a number, not str"),
+        (lambda s: setattr(s.simulation, "frames", 2.5), "SimulationSettings.frames must be an integer, not float"),
+        (lambda s: setattr(s.objects[0], "position", (1, 2)), "Object.position must be three numbers, not tuple"),
+        (lambda s: setattr(s.objects[0], "position", "abc"), "Object.position must be three numbers, not str"),
+        (lambda s: setattr(s.objects[0], "position", (1, 2, "x")), r"Object.position\[2\] must be a number, not str"),
+        (lambda s: setattr(s.objects[0], "shape", gelatin.Plane()), "Object.shape must be one of Sphere, Box.* not Plane"),
+        (lambda s: setattr(s.objects[0], "pins", gelatin.Plane()), "Object.pins must be a list, not Plane"),
+        (lambda s: s.objects[0].pins.append(3), r"Object.pins\[3\] must be one of BoxRegion.* not int"),
+        (lambda s: setattr(s.objects[0], "skin", "no"), "Object.skin must be True or False, not str"),
+        (lambda s: setattr(s, "camera", 3), "Scene.camera must be a Camera, not int"),
+        (lambda s: setattr(s.objects[0], "name", 3), "Object.name must be a str, not int"),
+    ],
+)
+def test_wrong_types_are_named(change, message):
+    scene = scene_with_everything()
+    change(scene)
+    with pytest.raises(TypeError, match=message):
+        _gelatin.same(scene)
+
+
+def test_unknown_words_are_named():
+    scene = scene_with_everything()
+    scene.simulation.solver = "vdb"
+    with pytest.raises(gelatin.InvalidInput, match='SimulationSettings.solver.*"vdb".*"midpoint"') as caught:
+        _gelatin.same(scene)
+    assert caught.value.field == "SimulationSettings.solver"
+
+
+def test_misspelled_fields_are_refused():
+    with pytest.raises(TypeError):
+        gelatin.Scene().add_material("jelly", youngs_moduluss=1)
+    with pytest.raises(AttributeError):
+        gelatin.Material("jelly").youngs_moduluss = 1
+
+
+def test_a_wrong_value_has_the_text_and_the_place_of_the_command_line(tmp_path):
+    file = tmp_path / "wrong.toml"
+    file.write_text('[[material]]\nname = "m"\ndensity = -1\n')
+    with pytest.raises(gelatin.InvalidInput) as caught:
+        gelatin.load(file)
+    error = caught.value
+    assert isinstance(error, ValueError) and isinstance(error, gelatin.Error)
+    assert (error.file, error.line) == (str(file), 3)
+    assert error.value == "-1" and "density" in error.field
+    assert "greater than 0" in str(error)
+
+
+def test_add_takes_paths_and_materials():
+    scene = gelatin.Scene()
+    jelly = scene.add_material("jelly")
+    scene.collision.friction = 0.9
+    assert scene.add("crate", "scenes/meshes/crate.obj", material=jelly).shape == gelatin.File("scenes/meshes/crate.obj")
+    assert scene.objects[0].material == "jelly"
+    assert scene.add_collider().friction == 0.9
+    assert scene.add_collider(friction=0.1).friction == 0.1
