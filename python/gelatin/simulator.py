@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import os
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any, Literal, TypeVar, Union
+from typing import Any, Literal, TypeVar, Union, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -323,7 +323,7 @@ class Player(Simulator):
 
     def __init__(self, file: str | os.PathLike[str]) -> None:
         core = _gelatin.play(os.fspath(file))
-        self._begin(core, core.scene())
+        self._begin(core, cast(Scene, core.scene()))
         #: the numbers of the recorded frames
         self.frames: list[int] = core.recorded_frames()
 

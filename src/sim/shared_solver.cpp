@@ -1,5 +1,7 @@
 #include "sim/shared_solver.h"
 
+#include "gl/barrier.h"
+
 namespace gelatin {
 
 SharedSolver::SharedSolver(const std::shared_ptr<const Model>& model, ForceMethod forces,
@@ -11,6 +13,8 @@ SharedSolver::SharedSolver(const std::shared_ptr<const Model>& model, ForceMetho
 void SharedSolver::advance_nodes(double step) {
     host_.advance_nodes(step);
     take_step(host_.nodes().positions, host_.nodes().velocities);
+    // While all bodies rest, no sweep comes between what the last step and this one write.
+    gl::barrier(gl::Barrier::storage);
 }
 
 void SharedSolver::write_state(const State& state) {

@@ -31,9 +31,9 @@ TEST_F(CommandLine, HelpShowsEveryCommandAndOption) {
 
 TEST_F(CommandLine, RefusesCallsThatAreWrong) {
     expect_error({}, 2, "A subcommand is required (see gelatin --help)");
-    expect_error(
-        {"rn", "cube.toml"}, 2,
-        "there is no command \"rn\" (did you mean \"run\"?); there are run, view, mesh, info and bench");
+    expect_error({"rn", "cube.toml"}, 2,
+                 "there is no command \"rn\" (did you mean \"run\"?); there are run, render, export, view, "
+                 "mesh, info and bench");
     expect_error({"run"}, 2, "FILE is required (see gelatin run --help)");
     expect_error({"run", "cube.toml", "--image"}, 2,
                  "--image: 1 required FILE.png missing (see gelatin run --help)");

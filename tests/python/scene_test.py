@@ -12,7 +12,7 @@ from gelatin import _gelatin
 
 def scene_with_everything():
     scene = gelatin.Scene()
-    scene.simulation = gelatin.SimulationSettings("rk4", "divide_and_merge", 50.0, 3, 7, (1.0, 2.0, 3.0), 20)
+    scene.simulation = gelatin.SimulationSettings("rk4", "divide_and_merge", 50.0, 3, 7, (1.0, 2.0, 3.0), 20, False)
     scene.collision = gelatin.CollisionSettings(
         "boxes", "continuous", "restore", True, 0.1, 0.2, 0.7, [gelatin.MaterialPair("a", "b", 0.1, 2.0, 0.5)]
     )

@@ -3,6 +3,7 @@
 #include <zstd.h>
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -21,18 +22,11 @@ constexpr std::size_t kColumns = 4;
 using Values = std::vector<glm::vec4>;
 
 // The arrays of a frame that have a value for each node, in the order in which they are predicted.
-enum Array : std::size_t {
-    positions,
-    velocities,
-    earlier_velocities,
-    contact_forces,
-    friction,
-    holds,
-    kArrays
-};
+enum Array : std::size_t { positions, velocities, earlier_velocities, contact_forces, friction, holds };
+constexpr std::size_t kArrays = holds + 1;
 
 struct Arrays {
-    Values of[kArrays];
+    std::array<Values, kArrays> of;
 };
 
 Values in_single(const std::vector<glm::dvec3>& values) {
@@ -50,8 +44,8 @@ Arrays arrays_of(const RecordedFrame& frame) {
     const State& state = frame.moment.state;
     std::vector<glm::dvec3> forces = frame.contacts.normal;
     for (std::size_t n = 0; n < forces.size(); ++n) forces[n] += frame.contacts.friction[n];
-    return {{state.positions, state.velocities, state.earlier_velocities, in_single(forces),
-             in_single(frame.contacts.friction), in_single(frame.holds.nodes)}};
+    return {{{state.positions, state.velocities, state.earlier_velocities, in_single(forces),
+              in_single(frame.contacts.friction), in_single(frame.holds.nodes)}}};
 }
 
 /// Predicts the values of nodes: from the frame before, and from what nodes before them have done since.
@@ -196,16 +190,16 @@ std::string encoded_frame(const RecordedFrame& frame, const EarlierNeighbours& n
     return compressed(bytes);
 }
 
-RecordedFrame decoded_frame(std::string_view encoded, const Model& model, const EarlierNeighbours& neighbours,
+RecordedFrame decoded_frame(std::string_view bytes, const Model& model, const EarlierNeighbours& neighbours,
                             const RecordedFrame* previous) {
     const std::size_t nodes = model.node_count(), handles = model.handles.size(),
                       objects = model.objects.size();
     const std::size_t most = 4096 + kArrays * nodes * sizeof(glm::vec4) +
                              handles * (2 * sizeof(Drag) + 7 * sizeof(double)) +
                              objects * (objects + model.colliders.size()) * sizeof(ContactForces::Between);
-    const std::string bytes = decompressed(encoded, most);
+    const std::string content = decompressed(bytes, most);
     std::vector<char> head;
-    ArrayReader all(bytes);
+    ArrayReader all(content);
     if (!all.take(head)) refuse();
     const std::string small(head.begin(), head.end());
     ArrayReader reader(small);
@@ -216,11 +210,13 @@ RecordedFrame decoded_frame(std::string_view encoded, const Model& model, const 
                           reader.take(moment.drag_targets) && reader.take(moment.delays) &&
                           reader.take(frame.contacts.between) && reader.take(frame.holds.by_handle) &&
                           reader.take(frame.holds.torques) && reader.at_end() && fixed.size() == 1;
-    if (!is_whole) refuse();
+    if (!is_whole || moment.drags.size() != handles || moment.drag_targets.size() != handles ||
+        moment.delays.size() != handles)
+        refuse();
     moment.frame = fixed[0].frame;
     moment.time = fixed[0].time;
 
-    std::string_view left = std::string_view(bytes).substr(sizeof(std::uint64_t) + small.size());
+    std::string_view left = std::string_view(content).substr(sizeof(std::uint64_t) + small.size());
     Arrays arrays;
     Prediction prediction(neighbours, previous, moment.time);
     for (std::size_t a = 0; a < kArrays; ++a) {

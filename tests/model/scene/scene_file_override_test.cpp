@@ -35,7 +35,7 @@ TEST_F(SceneFileOverride, ErrorsInOverridesNameThem) {
     EXPECT_EQ(
         error(kBall, {"simulation.fps=3"}),
         "--set simulation.fps=3: simulation.fps = 3: unknown key; known here are solver, forces, frame_rate, "
-        "substeps, iterations, gravity and frames");
+        "substeps, iterations, gravity, frames and sleep");
 }
 
 TEST_F(SceneFileOverride, RefusesOverridesThatLeadNowhere) {

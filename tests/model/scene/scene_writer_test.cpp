@@ -24,6 +24,7 @@ substeps = 3
 iterations = 7
 gravity = [0.5, -1.5, 0.125]
 frames = 11
+sleep = false
 
 [collision]
 broad_phase = "boxes"
