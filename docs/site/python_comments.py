@@ -1,10 +1,11 @@
 """An extension of griffe, which reads Python for the site: comments `#:` above a field are its documentation, and a line
-`name: text` of a docstring describes a parameter."""
+`name: text` of a docstring describes a parameter, and `>>>` begins an example."""
 
 import re
 
 from griffe import Docstring, Extension
 
+EXAMPLE = re.compile(r"(?:^>>> .*\n?)+", re.MULTILINE)
 PARAMETER = re.compile(r"^(\w+(?:, \w+)*): ", re.MULTILINE)
 
 
@@ -23,4 +24,5 @@ class Comments(Extension):
 
     def on_object(self, *, obj, **kwargs):
         if obj.docstring:
-            obj.docstring.value = PARAMETER.sub(r"- `\1`: ", obj.docstring.value)
+            text = PARAMETER.sub(r"- `\1`: ", obj.docstring.value)
+            obj.docstring.value = EXAMPLE.sub(lambda m: f"```python\n{m[0].replace('>>> ', '').rstrip()}\n```\n", text)
