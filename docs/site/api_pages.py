@@ -40,7 +40,7 @@ def _prose(text, anchors):
         if word.startswith("`"):
             return word
         if match[1]:
-            return f"[{word}]({match[1]}.md)"
+            return f"[{match[1].replace('-', ' ')}]({match[1]}.md)"
         owner = word.partition("::")[0]
         if owner in anchors and (owner != word or word != "Mesh"):
             return f"[`{word}`](#{anchors[owner]})"

@@ -10,12 +10,14 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 
-# Pages of other names or places than in docs/.
+# Files and folders that have pages of other names or places than in docs/.
 PAGES = {
     "README.md": "index.md",
     "CONTRIBUTING.md": "contributing.md",
     "CHANGELOG.md": "changelog.md",
     "docs/decisions": "decisions/index.md",
+    "scenes": "gallery.md",
+    "include/gelatin": "api-cpp.md",
 }
 LANGUAGES = {".h": "cpp", ".inl": "cpp", ".cpp": "cpp", ".py": "python", ".toml": "toml", ".glsl": "glsl", ".comp": "glsl"}
 IMAGES = {".png", ".gif", ".svg", ".jpg"}

@@ -284,7 +284,8 @@ def _title(path):
 HEAD = """# All keys of scene files
 
 Made from the code that reads scene files, and from the checks of their values. [Scene files](scene-files.md) explains them. A table in
-another one is written as `[object.mesher]` here; in a file `mesher = { ... }` says the same.
+another one is written as `[object.mesher]` here; in a file `mesher = { ... }` says the same. The last column is the comment of
+the field that the key fills, in [include/gelatin/scene.h](api-cpp.md#gelatinsceneh).
 """
 
 
