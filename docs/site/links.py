@@ -83,14 +83,14 @@ def link_within_site(text, origin, page):
 
 
 def separate_lists(text):
-    """With an empty line before each list, which Python-Markdown wants."""
-    lines, fenced = [], False
+    """With an empty line before each list that follows a paragraph, which Python-Markdown wants."""
+    lines, fenced, first = [], False, ""  # the first line since the last empty one
     for line in text.split("\n"):
         fenced ^= bool(FENCE.match(line))
-        before = lines[-1] if lines else ""
-        begins = not fenced and LIST_ITEM.match(line) and before.strip() and not LIST_ITEM.match(before)
-        if begins and not before.startswith(" "):
+        if not fenced and LIST_ITEM.match(line) and first and not LIST_ITEM.match(first):
             lines.append("")
+            first = ""
+        first = (first or line) if line.strip() else ""
         lines.append(line)
     return "\n".join(lines)
 

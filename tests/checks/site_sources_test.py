@@ -73,6 +73,7 @@ class Links(unittest.TestCase):
 
     def test_lists_begin_with_an_empty_line_outside_of_code(self):
         self.assertEqual(links.separate_lists("so:\n- a\n  more\n- b\n1. c"), "so:\n\n- a\n  more\n- b\n1. c")
+        self.assertEqual(links.separate_lists("1. a\n\n   more\n2. b"), "1. a\n\n   more\n\n2. b")
         self.assertEqual(links.separate_lists("```\nso:\n- a\n```"), "```\nso:\n- a\n```")
 
 
