@@ -5,8 +5,8 @@
 #include "bench/paper_cases.h"
 #include "bench/windows.h"
 #include "common/frame_pipeline.h"
-#include "picture/scene_painter.h"
 #include "gelatin/simulator.h"
+#include "picture/scene_painter.h"
 
 namespace gelatin {
 

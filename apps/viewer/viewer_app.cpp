@@ -5,9 +5,9 @@
 #include <glm/common.hpp>
 #include <utility>
 
-#include "picture/surroundings.h"
 #include "core/log.h"
 #include "gelatin/error.h"
+#include "picture/surroundings.h"
 
 namespace gelatin::viewer {
 namespace {

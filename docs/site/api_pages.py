@@ -18,7 +18,7 @@ GROUPS = {  # of the Python page: names of gelatin.__all__, the rest comes last
     "Scenes": "Scene load SimulationSettings CollisionSettings Material MaterialPair SpringKinds Camera",
     "Objects and colliders": "Object Mesher Part TetAttribute Start Handle Keyframe Drag Load Force Traction Pressure Collider",
     "Shapes and regions": "Shape Sphere Box Capsule Text File Mesh Plane Region BoxRegion SphereRegion HalfSpaceRegion",
-    "Running": "Simulator Body Hand Batch",
+    "Running": "Simulator Body Hand Batch Recorder",
     "Pictures and films": "Picture Film film",
     "Errors": "Error InvalidInput Diverged NoOpenGl GlError SystemError",
 }

@@ -47,7 +47,8 @@ from .shapes import (
     SphereRegion,
     Text,
 )
-from .simulator import Simulator
+from .recording import Recorder
+from .simulator import Player, Simulator, play
 
 __version__ = version()
 __all__ = [
@@ -81,7 +82,9 @@ __all__ = [
     "Part",
     "Picture",
     "Plane",
+    "Player",
     "Pressure",
+    "Recorder",
     "Region",
     "Scene",
     "Shape",
@@ -98,5 +101,6 @@ __all__ = [
     "commit",
     "film",
     "load",
+    "play",
     "version",
 ]

@@ -32,6 +32,8 @@ class SimulationSettings:
     gravity: Vector = (0.0, -9.81, 0.0)
     #: length of a run, >= 0
     frames: int = 600
+    #: leave steps out while all bodies rest; with contact
+    sleep: bool = True
 
 
 @dataclass(slots=True)

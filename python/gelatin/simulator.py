@@ -17,6 +17,7 @@ from .hands import Hand
 from .objects import Camera
 from .pictures import Picture
 from .progress import frames_with_bar
+from .recording import Recorder
 from .scene import Scene, load
 
 Array = npt.NDArray[np.float32]
@@ -281,9 +282,25 @@ class Simulator:
         """Saves the complete, exact state. The file is written completely or not at all. Raises SystemError."""
         self._core.save_checkpoint(os.fspath(file))
 
-    def load_checkpoint(self, file: str | os.PathLike[str]) -> None:
-        """Continues from a saved state, bit for bit. Raises InvalidInput for a file of another scene, or a damaged one."""
-        self._core.load_checkpoint(os.fspath(file))
+    def load_checkpoint(self, file: str | os.PathLike[str], frame: int | None = None) -> None:
+        """Continues from a saved state, bit for bit, or from a frame of a recording.
+
+        frame: its number in the recording; None: the last one.
+
+        Raises InvalidInput for a file of another scene, or a damaged one, and for a frame that is not recorded.
+        """
+        self._core.load_checkpoint(os.fspath(file), frame)
+
+    def record(self, file: str | os.PathLike[str], every: int = 1) -> Recorder:
+        """Records the present frame, and in a `with` block every frame, or every so many, and the last one.
+
+        >>> with sim.record("run.gel"):
+        ...     sim.advance(100)
+
+        `gelatin.play`, and `gelatin render`, `export` and `view` take the file. Frames are kept to the last bit; what is
+        written before a crash can be read. Raises SystemError if it cannot be written.
+        """
+        return Recorder(self, file, every)
 
     def _forget_changes(self) -> None:
         if self._hands:
@@ -296,3 +313,29 @@ class Simulator:
     def _call(self, callbacks: list[Callable[[Simulator], object]]) -> None:
         for callback in list(callbacks):
             callback(self)
+
+
+class Player(Simulator):
+    """A recording. `advance` and `step` go to the next recorded frame, if there is one; what changes it raises InvalidInput.
+
+    All that can be read, measured and drawn of a simulator is as it was in the run.
+    """
+
+    def __init__(self, file: str | os.PathLike[str]) -> None:
+        core = _gelatin.play(os.fspath(file))
+        self._begin(core, core.scene())
+        #: the numbers of the recorded frames
+        self.frames: list[int] = core.recorded_frames()
+
+    def show(self, frame: int) -> None:
+        """Goes to a recorded frame, by its number. Raises InvalidInput if it is not recorded."""
+        self._core.show_recorded(frame)
+
+    def reset(self) -> None:
+        """Returns to the first frame."""
+        self._core.reset()
+
+
+def play(file: str | os.PathLike[str]) -> Player:
+    """Opens a recording. Raises InvalidInput if it is none, is damaged, or its meshes are not there."""
+    return Player(file)

@@ -142,12 +142,13 @@ void bind_simulator(nb::module_& module) {
             nb::arg("file"))
         .def(
             "load_checkpoint",
-            [](PythonSimulator& self, const std::string& file) {
-                self.use([&](Simulator& s) { s.load_checkpoint(file); });
+            [](PythonSimulator& self, const std::string& file, std::optional<int> frame) {
+                self.use([&](Simulator& s) { s.load_checkpoint(file, frame); });
             },
-            nb::arg("file"));
+            nb::arg("file"), nb::arg("frame") = nb::none());
     bind_changes(simulator);
     bind_picture(simulator);
+    bind_recording(module, simulator);
 }
 
 }  // namespace gelatin::python

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gelatin/error.h"
+#include "gelatin/recording.h"
 #include "scene_conversion.h"
 #include "sim/simulator_internals.h"
 
@@ -67,6 +68,10 @@ PythonSimulator::PythonSimulator(nb::handle scene, const std::string& backend, s
     if (simulator_->uses_gl()) gl_thread_ = std::this_thread::get_id();
 }
 
+PythonSimulator::PythonSimulator(const std::string& recording)
+    : own_(std::make_unique<Simulator>(std::make_shared<const Recording>(recording))),
+      simulator_(own_.get()) {}
+
 PythonSimulator::PythonSimulator(Simulator& simulator, const Turn& turn, nb::object owner)
     : simulator_(&simulator), owner_(std::move(owner)), turn_(turn) {}
 
@@ -128,7 +133,8 @@ void PythonSimulator::step(std::int64_t count) {
 
 void PythonSimulator::advance(std::int64_t frames) {
     if (frames < 0) throw InvalidInput({{}, 0, "frames", std::to_string(frames), "must be 0 or more"});
-    step(frames * simulator_->substeps());
+    const bool is_played = simulator_->recording() != nullptr;  // where a step goes to the next frame
+    step(is_played ? frames : frames * simulator_->substeps());
 }
 
 }  // namespace gelatin::python

@@ -40,6 +40,8 @@ class PythonSimulator {
 public:
     PythonSimulator(nb::handle scene, const std::string& backend, std::optional<int> gl_device,
                     bool gl_debug);
+    /// Plays a recording.
+    explicit PythonSimulator(const std::string& recording);
     /// One of a batch. @param owner of the simulator; it must have a reference to this of its own
     PythonSimulator(Simulator& simulator, const Turn& turn, nb::object owner);
     PythonSimulator(const PythonSimulator&) = delete;

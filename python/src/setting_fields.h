@@ -9,7 +9,7 @@ template <>
 struct Fields<SimulationSettings> {
     static constexpr const char* kClass = "SimulationSettings";
     static void visit(SimulationSettings& s, auto&& field) {
-        auto& [solver, forces, frame_rate, substeps, iterations, gravity, frames] = s;
+        auto& [solver, forces, frame_rate, substeps, iterations, gravity, frames, sleep] = s;
         field("solver", solver);
         field("forces", forces);
         field("frame_rate", frame_rate);
@@ -17,6 +17,7 @@ struct Fields<SimulationSettings> {
         field("iterations", iterations);
         field("gravity", gravity);
         field("frames", frames);
+        field("sleep", sleep);
     }
 };
 

@@ -4,7 +4,6 @@
 
 #include <glm/geometric.hpp>
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -118,10 +117,10 @@ TEST(RestWatch, AHandWakes) {
         pull.nodes.push_back(
             Pull::Node{n, glm::vec3(scene.positions()[n]) - glm::vec3(scene.center(1)), 400.0f});
     pull.target = scene.center(1) + glm::dvec3(0, 0.5, 0);
-    scene.solver().set_pull(pull);
+    scene.solver().set_pulls({pull});
     scene.advance(60);
     EXPECT_GT(scene.center(1).y, 0.6);
-    scene.solver().set_pull(std::nullopt);  // it falls, and rests again
+    scene.solver().set_pulls({});  // it falls, and rests again
     scene.advance(kUntilRest);
     EXPECT_TRUE(scene.is_asleep());
     EXPECT_LT(scene.center(1).y, 0.5);

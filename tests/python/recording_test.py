@@ -1,0 +1,58 @@
+"""Runs are recorded and played."""
+
+import numpy as np
+import pytest
+
+import gelatin
+from conftest import falling_ball
+
+
+def test_a_recording_plays_the_run(tmp_path):
+    file = tmp_path / "run.gel"
+    simulator = gelatin.Simulator(falling_ball(), backend="cpu")
+    simulator.advance(3)
+    kept = {}
+    with simulator.record(file, every=2):
+        for _ in range(9):
+            simulator.advance()
+            kept[simulator.frame] = simulator.positions.copy()
+    player = gelatin.play(file)
+    assert player.frames == [3, 4, 6, 8, 10, 12]
+    assert player.frame == 3
+    for frame in (12, 4, 8):
+        player.show(frame)
+        assert player.frame == frame
+        np.testing.assert_array_equal(player.positions, kept[frame])
+    player.reset()
+    player.advance(2)
+    assert player.frame == 6
+    np.testing.assert_array_equal(player["ball"].positions, kept[6])
+    assert player.scene.objects[0].name == "ball"
+    assert player.statistics()["kinetic_energy"] > 0
+    with pytest.raises(gelatin.InvalidInput, match="is not recorded; there are 6 from 3 to 12"):
+        player.show(5)
+    with pytest.raises(gelatin.InvalidInput, match="plays a recording"):
+        player["ball"].set_velocity((0, 1, 0))
+
+
+def test_a_run_continues_from_a_frame(tmp_path):
+    file = tmp_path / "run.gel"
+    simulator = gelatin.Simulator(falling_ball(), backend="cpu")
+    with simulator.record(file):
+        simulator.advance(10)
+    last = simulator.positions.copy()
+    simulator.load_checkpoint(file, 4)
+    assert simulator.frame == 4
+    simulator.advance(6)
+    np.testing.assert_array_equal(simulator.positions, last)
+    simulator.load_checkpoint(file)
+    assert simulator.frame == 10
+
+
+def test_what_is_no_recording_is_refused(tmp_path):
+    file = tmp_path / "run.gel"
+    file.write_text("something else")
+    with pytest.raises(gelatin.InvalidInput, match="is not a recording of Gelatin"):
+        gelatin.play(file)
+    with pytest.raises(gelatin.SystemError):
+        gelatin.Simulator(falling_ball(), backend="cpu").record(tmp_path / "none" / "run.gel")
