@@ -30,6 +30,26 @@ def test_worlds_have_the_bits_of_simulators_of_their_own(tmp_path):
     assert not same_bits(batch.positions[0], batch.positions[1])
 
 
+def test_sixty_four_worlds_of_a_ball_that_is_thrown():
+    """Of a few hundred nodes, each with a speed of its own, into the floor."""
+    scene = gelatin.Scene()
+    scene.add_material("jelly", youngs_modulus=2e4)
+    scene.add("ball", gelatin.Sphere(radius=0.5, frequency=7), material="jelly", position=(0, 0.6, 0))
+    scene.add_collider(gelatin.Plane())
+    batch = gelatin.Batch(scene, 64)
+    alone = [gelatin.Simulator(scene, backend="cpu") for _ in range(64)]
+    assert 500 < len(alone[0].positions) < 700
+    for k, (world, sim) in enumerate(zip(batch, alone)):
+        for each in (world, sim):
+            each["ball"].set_velocity((0.1 * k, -2.0, 0.0))
+    batch.advance(20)
+    for sim in alone:
+        sim.advance(20)
+    for k, sim in enumerate(alone):
+        assert same_bits(batch.positions[k], sim.positions) and same_bits(batch.velocities[k], sim.velocities)
+    assert sim["ball"].contact_force[1] > 0
+
+
 @pytest.mark.parametrize("solver", ["semi_implicit_euler", "vbd"])
 def test_worlds_that_begin_alike_stay_alike(solver):
     scene = falling_ball(0.7)
