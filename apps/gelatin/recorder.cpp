@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "overlay_option.h"
+#include "render/collider_props.h"
 #include "render/image.h"
 #include "render/palette.h"
 #include "sim/simulator_internals.h"
@@ -21,19 +22,19 @@ render::FrameRate film_rate(double frame_rate, int interval) {
     return {all.numerator / common, all.denominator * (interval / common)};
 }
 
-// Frames from one picture to the next. Of a recording, a multiple of those from one that it has to the next.
-int picture_interval(const RunOptions& options, const Simulator& simulator) {
-    const int wanted = record_interval(options, simulator.scene().simulation.frame_rate);
+// Frames of the simulation from one that a recording has to the next; 1 where none is played. The first one
+// may be any.
+int recorded_spacing(const Simulator& simulator) {
     const Recording* const recording = simulator.recording();
-    if (recording == nullptr || recording->frame_count() < 2) return wanted;
-    const int spacing = std::max(1, recording->frame(1) - recording->frame(0));
-    return (wanted + spacing - 1) / spacing * spacing;
+    if (recording == nullptr || recording->frame_count() < 2) return 1;
+    const std::size_t k = recording->frame_count() > 2 ? 2 : 1;
+    return std::max(1, recording->frame(k) - recording->frame(k - 1));
 }
 
 std::vector<glm::vec3> object_colors(const Model& model) {
     std::vector<glm::vec3> colors;
     for (std::size_t o = 0; o < model.objects.size(); ++o) {
-        const glm::vec3& given = model.objects[o].color;
+        const glm::vec3 given = model.is_body(o) ? model.objects[o].color : render::kPropColor;
         colors.push_back(given.r < 0.0f ? render::palette_color(o) : given);
     }
     return colors;
@@ -44,7 +45,8 @@ std::vector<glm::vec3> object_colors(const Model& model) {
 Recorder::Recorder(const RunOptions& options, Simulator& simulator)
     : options_(options),
       simulator_(simulator),
-      interval_(picture_interval(options, simulator)),
+      spacing_(recorded_spacing(simulator)),
+      interval_(record_interval(options, simulator.scene().simulation.frame_rate / spacing_)),
       kept_(options.every.value_or(1)),
       pipeline_(simulator) {
     const PictureSize size = picture_size(options);
@@ -56,7 +58,7 @@ Recorder::Recorder(const RunOptions& options, Simulator& simulator)
         grabber_ = std::make_unique<render::FrameGrabber>(size.width, size.height);
         video_ = std::make_unique<render::VideoWriter>(
             options.video, size.width, size.height,
-            film_rate(simulator.scene().simulation.frame_rate, interval_));
+            film_rate(simulator.scene().simulation.frame_rate, spacing_ * interval_));
     }
     if (!options.export_folder.empty()) {
         exporter_ = std::make_unique<FrameExporter>(options.export_folder, export_format(options),
@@ -78,22 +80,27 @@ void Recorder::keep(bool is_last) {
     recorded_ = frame;
 }
 
+// Of a recording, the first frame that is played is.
 bool Recorder::is_due() const {
-    return simulator_.frame() % interval_ == 0;
+    return (simulator_.recording() != nullptr ? played_ : simulator_.frame()) % interval_ == 0;
 }
 
 void Recorder::record() {
     keep(true);
-    if (!is_due()) return;
-    if (video_) film(painter_->view());
-    write_frame();
+    if (is_due()) {
+        if (video_) film(painter_->view());
+        write_frame();
+    } else if (animation_ && !is_animated_) {
+        animate(simulator_.read_frame());  // no frame was due, but a file is expected
+    }
 }
 
 void Recorder::record_and_advance() {
     keep(false);
-    if (!is_due()) return simulator_.advance_frame();
-    write_frame();
-    if (!video_) return simulator_.advance_frame();
+    const bool is_due = this->is_due();
+    ++played_;
+    if (is_due) write_frame();
+    if (!is_due || !video_) return simulator_.advance_frame();
     const RenderView bodies = painter_->view();
     pipeline_.advance_beside([&] { film(bodies); });
 }
@@ -105,7 +112,7 @@ void Recorder::finish() {
         video_.reset();
     }
     if (!options_.image.empty()) write_image();
-    if (animation_) animation_->finish();
+    if (is_animated_) animation_->finish();
     if (recording_) recording_->finish();
 }
 
@@ -115,7 +122,12 @@ void Recorder::write_frame() {
     simulator_.check();
     const HostFrame frame = simulator_.read_frame();
     if (exporter_) exporter_->write(frame);
-    if (animation_) animation_->write(frame);
+    if (animation_) animate(frame);
+}
+
+void Recorder::animate(const HostFrame& frame) {
+    animation_->write(frame);
+    is_animated_ = true;
 }
 
 void Recorder::film(const RenderView& bodies) {

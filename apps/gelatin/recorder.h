@@ -38,19 +38,23 @@ private:
     bool is_due() const;
     void keep(bool is_last);
     void write_frame();
+    void animate(const HostFrame& frame);
     void film(const RenderView& bodies);
     void write(std::optional<render::Image> picture);
     void write_image();
 
     const RunOptions& options_;
     Simulator& simulator_;
-    int interval_;  // of frames that are filmed and exported
-    int kept_;      // of those that are recorded
+    int spacing_;   // frames from one that is played to the next
+    int interval_;  // of those, from one that is filmed and exported to the next
+    int kept_;      // frames from one that is recorded to the next
+    int played_ = 0;
     std::unique_ptr<ScenePainter> painter_;
     std::unique_ptr<render::FrameGrabber> grabber_;
     std::unique_ptr<render::VideoWriter> video_;
     std::unique_ptr<FrameExporter> exporter_;
     std::unique_ptr<AnimationFile> animation_;
+    bool is_animated_ = false;  // it has a frame
     std::optional<RecordingWriter> recording_;
     std::optional<int> recorded_;  // frame
     FramePipeline pipeline_;

@@ -250,6 +250,7 @@ namespace {
 Checkpoint read_moment(const std::filesystem::path& file, std::optional<int> frame, const Model& model) {
     if (!is_recording(file)) return read_checkpoint(file, model);
     const Recording recording(file);
+    RecordingInternals::require_fits(recording, model);
     const std::size_t index = frame ? recording.index_of(*frame) : recording.frame_count() - 1;
     return RecordingInternals::frame(recording, model, index).moment;
 }

@@ -26,6 +26,7 @@ Simulator::Simulator(std::shared_ptr<const Recording> recording, std::shared_ptr
     d.model = d.unpinned = std::move(model);
     d.substeps = choose_substeps(d.scene, *d.model);
     d.context = make_context(d.options);
+    RecordingInternals::require_fits(*d.recording, *d.model);
     d.begin();
     d.show(0);
 }

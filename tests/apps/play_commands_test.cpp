@@ -26,6 +26,31 @@ TEST_F(PlayCommands, ARecordingIsExportedAsTheRunWas) {
     EXPECT_EQ(read_file(path("cube.glb")).substr(0, 4), "glTF");
 }
 
+// Whatever frame comes first, it is the first one that is exported.
+TEST_F(PlayCommands, EveryCountsFromTheFirstFrameThatIsPlayed) {
+    ASSERT_EQ(run({"run", "cube.toml", "--backend", "cpu", "--record", "cube.gel"}).exit_code, 0);
+    for (const char* name : {"cube.glb", "cube.usda", "cube.pc2", "cube.mdd"}) {
+        const ProgramResult result =
+            run({"export", "cube.gel", name, "--from", "1", "--to", "2", "--every", "5"});
+        EXPECT_EQ(result.exit_code, 0) << name << result.err;
+        EXPECT_TRUE(exists(name)) << name;
+    }
+    ASSERT_EQ(run({"export", "cube.gel", "out", "--from", "3", "--every", "7"}).exit_code, 0);
+    for (const char* name : {"frame_000003.vtu", "frame_000010.vtu", "frame_000017.vtu"})
+        EXPECT_TRUE(exists("out/" + std::string(name))) << name;
+    EXPECT_FALSE(exists("out/frame_000007.vtu"));
+}
+
+// Between the frames that are due.
+TEST_F(PlayCommands, ARunWithoutAFrameThatIsDueHasAnAnimation) {
+    ASSERT_EQ(run({"run", "cube.toml", "--backend", "cpu", "--frames", "7", "--checkpoint", "c"}).exit_code,
+              0);
+    const ProgramResult result = run({"run", "cube.toml", "--backend", "cpu", "--frames", "9", "--resume",
+                                      "c", "--every", "10", "--animation", "cube.glb"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(exists("cube.glb"));
+}
+
 TEST_F(PlayCommands, ARunContinuesFromAFrame) {
     ASSERT_EQ(
         run({"run", "cube.toml", "--backend", "cpu", "--record", "cube.gel", "--checkpoint", "a"}).exit_code,

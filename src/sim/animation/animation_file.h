@@ -18,8 +18,8 @@ public:
     virtual ~AnimationFile() = default;
     /// Frames in order; all have the nodes of the model.
     virtual void write(const HostFrame& frame) = 0;
-    /// Writes the file, completely or not at all. @throws SystemError; InvalidInput if the format cannot have
-    /// so much
+    /// Writes the file, completely or not at all. @pre it has a frame @throws SystemError; InvalidInput if
+    /// the format cannot have so much
     virtual void finish() = 0;
 };
 

@@ -156,7 +156,10 @@ std::string UsdFile::tets_text(std::size_t o) const {
         tets, nodes_[o]);
 }
 
-// Images are files beside this one.
+std::string UsdFile::image_name(std::size_t material, const std::string& name) const {
+    return file_.stem().string() + "_" + name + ending_of(*surface_.look.materials[material].image);
+}
+
 std::string UsdFile::materials_text(const std::vector<std::string>& names) const {
     if (names.empty()) return "";
     std::string text = "    def Scope \"materials\"\n    {\n";
@@ -176,8 +179,6 @@ std::string UsdFile::materials_text(const std::vector<std::string>& names) const
             "0.6\n                token outputs:surface\n            }}\n",
             quoted(names[m]), path, color);
         if (material.image) {
-            const std::string image = file_.stem().string() + "_" + names[m] + ending_of(*material.image);
-            write_file(file_.parent_path() / image, *material.image);
             text += fmt::format(
                 "            def Shader \"image\"\n            {{\n                uniform token info:id = "
                 "\"UsdUVTexture\"\n                asset inputs:file = @./{0}@\n                token "
@@ -190,7 +191,7 @@ std::string UsdFile::materials_text(const std::vector<std::string>& names) const
                 "  {{\n     "
                 "           uniform token info:id = \"UsdPrimvarReader_float2\"\n                string "
                 "inputs:varname = \"st\"\n                float2 outputs:result\n            }}\n",
-                image, material.color.r, material.color.g, material.color.b, path);
+                image_name(m, names[m]), material.color.r, material.color.g, material.color.b, path);
         }
         text += "        }\n";
     }
@@ -216,6 +217,9 @@ void UsdFile::finish() {
         text += fmt::format("    def TetMesh {}\n    {{\n{}    }}\n",
                             quoted(identifier(surface_.objects[o].name + "_tets", taken)), tets_text(o));
     }
+    for (std::size_t m = 0; m < materials.size(); ++m)
+        if (const auto& image = surface_.look.materials[m].image)
+            write_file(file_.parent_path() / image_name(m, materials[m]), *image);
     write_file(file_, text + materials_text(materials) + "}\n");
 }
 

@@ -23,6 +23,7 @@ private:
     std::string object_text(std::size_t object, const std::string& name,
                             const std::vector<std::string>& materials) const;
     std::string tets_text(std::size_t object) const;
+    std::string image_name(std::size_t material, const std::string& name) const;  ///< of the file beside this
     std::string materials_text(const std::vector<std::string>& names) const;
 
     std::filesystem::path file_;

@@ -60,6 +60,15 @@ std::size_t Recording::index_of(int frame) const {
     return static_cast<std::size_t>(found - entries.begin());
 }
 
+void RecordingInternals::require_fits(const Recording& recording, const Model& model) {
+    if (recording.impl_->input.head().topology != topology_hash(model))
+        throw InvalidInput({recording.file().string(),
+                            0,
+                            {},
+                            {},
+                            "was made from other meshes than those that its scene has now"});
+}
+
 const RecordedFrame& RecordingInternals::frame(const Recording& recording, const Model& model,
                                                std::size_t index) {
     Recording::Impl& d = *recording.impl_;
@@ -67,8 +76,6 @@ const RecordedFrame& RecordingInternals::frame(const Recording& recording, const
     const auto refuse = [&](const std::string& problem) {
         throw InvalidInput({recording.file().string(), 0, {}, {}, problem});
     };
-    if (d.input.head().topology != topology_hash(model))
-        refuse("was made from other meshes than those that its scene has now");
     if (d.neighbours.empty()) d.neighbours = earlier_neighbours(model);
     std::size_t first = index;
     while (!entries[first].is_key) --first;
