@@ -66,6 +66,30 @@ void add_tet_volumes(uint row, vec3 position, inout NodeTerms terms) {
 #if COLLIDER_KINDS != 0
 layout(std430) buffer Contacts { ColliderContact contacts[]; };  // of nodes
 
+vec2 times(vec3 m, vec2 v) { return vec2(m.x * v.x + m.y * v.y, m.y * v.x + m.z * v.y); }
+
+// (I + yielding * stiffness)^-1
+vec3 inverse_of(vec3 stiffness, float yielding) {
+    vec3 m = vec3(1.0, 0.0, 1.0) + yielding * stiffness;
+    return vec3(m.z, -m.y, m.x) / (m.x * m.z - m.y * m.y);
+}
+
+// Friction against a slip within a plane, at most `most`; see push_outside.h. @param stiffness xx, xy, yy [N/m]
+// @param yielding output: what is left of the slip, by the force
+vec2 slip_with_friction(vec3 stiffness, vec2 slip, float most, out float yielding) {
+    vec2 holding = times(stiffness, slip), force = holding;
+    float length_ = length(holding);
+    most = max(most, 1e-6 * length_);
+    yielding = 0.0;
+    for (int i = 0; i < 3 && length_ > most; ++i) {
+        float falling = dot(force, times(inverse_of(stiffness, yielding), times(stiffness, force)));
+        yielding += (length_ / most - 1.0) * length_ * length_ / falling;
+        force = times(inverse_of(stiffness, yielding), holding);
+        length_ = length(force);
+    }
+    return length_ > most ? force * (most / length_) : force;
+}
+
 // Where the node's own objective, to second order, is least outside the collider's tangent plane, behind which all of it
 // lies: the normal force is what that takes. Friction then takes back what the node has slid along the plane, with as much
 // force as Coulomb's law allows.
@@ -84,22 +108,19 @@ void push_out(uint c, vec4 surface, vec3 start, NodeTerms terms, inout vec3 posi
     contact.force = vec4(contact.force.xyz + pressing * n, stiffness);
     contact.normal = vec4(n, 0.0);
 
-    vec3 displacement = position - start;
-    vec3 slid = displacement - dot(displacement, n) * n;
-    float length_ = length(slid);
-    if (length_ == 0.0) return;
-    vec3 t = slid / length_;
-    vec3 giving = solve(terms, t);
-    giving -= stiffness * dot(n, giving) * yielding;  // within the plane
-    float sliding_compliance = dot(t, giving);
-    if (!(sliding_compliance > 0.0)) return;
-    float needed = length_ / sliding_compliance;
     float most = texelFetch(colliders, int(4u * c + 3u)).y * pressing;
-    position -= min(needed, most) * giving;
-    contact.force.xyz -= min(needed, most) * t;
-    // It falls to nothing where all sliding is taken back.
-    float left = length_ - min(needed, most) * sliding_compliance;
-    contact.normal.w = most < stiffness * left ? most / left : stiffness;
+    if (!(most > 0.0)) return;
+    vec3 u = normalize(cross(n, abs(n.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
+    vec3 v = cross(n, u), of_u = stiffness_times(terms, u), of_v = stiffness_times(terms, v);
+    vec3 displacement = position - start;
+    vec2 slip = vec2(dot(u, displacement), dot(v, displacement));
+    float left;
+    vec2 friction = slip_with_friction(vec3(dot(u, of_u), dot(u, of_v), dot(v, of_v)), slip, most, left);
+    vec2 back = left * friction - slip;
+    position += back.x * u + back.y * v;
+    contact.force.xyz -= friction.x * u + friction.y * v;
+    // It falls to nothing where all slip is taken back.
+    contact.normal.w = left * stiffness > 1.0 ? 1.0 / left : stiffness;
 }
 
 // @param ends of the colliders of each kind, all zero for nodes that are outside: software drivers run all code that is not in

@@ -44,6 +44,8 @@ void add_tet_volume(vec3 slope, float ratio, vec2 bound, inout NodeTerms terms) 
     add_outer(bound.y, slope, terms);
 }
 
+vec3 stiffness_times(NodeTerms terms, vec3 v) { return terms.diagonal * v + terms.beside.zxy * v.yzx + terms.beside.yzx * v.zxy; }
+
 // Of a pivot; one that drowns in the rounding of what it is left over from counts as that.
 float inverse_or_zero(float pivot, float diagonal) {
     float d = max(pivot, 9.5367431640625e-7 * diagonal);  // 8 epsilon

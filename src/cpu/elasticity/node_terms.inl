@@ -19,6 +19,13 @@ struct SymmetricMatrix {
     }
 };
 
+template <class Real>
+Vec3<Real> operator*(const SymmetricMatrix<Real>& m, const Vec3<Real>& v) {
+    return m.diagonal * v + Vec3<Real>(m.beside.z * v.y + m.beside.y * v.z,
+                                       m.beside.z * v.x + m.beside.x * v.z,
+                                       m.beside.y * v.x + m.beside.x * v.y);
+}
+
 /// The contribution of elements to a node's part of the objective of a step: minus its gradient, which is a
 /// force [N], and a positive semi-definite second derivative [N/m]. GLSL twin:
 /// shaders/sim/elasticity/node_terms.glsl.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace gelatin {
@@ -49,11 +50,6 @@ private:
     std::uniform_real_distribution<double> unit_{-1.0, 1.0};
 };
 
-V times(const cpu::SymmetricMatrix<double>& m, const V& v) {
-    return m.diagonal * v + V(m.beside.z * v.y + m.beside.y * v.z, m.beside.z * v.x + m.beside.x * v.z,
-                              m.beside.y * v.x + m.beside.x * v.y);
-}
-
 TEST_F(PushOutside, TheForceIsWhatHoldsTheNodeThere) {
     for (const double friction : {0.0, 0.3, 100.0}) {
         for (int i = 0; i < 100; ++i) {
@@ -63,8 +59,9 @@ TEST_F(PushOutside, TheForceIsWhatHoldsTheNodeThere) {
             const Contact contact = push(friction, start, hessian, at);
             EXPECT_NEAR(height(at), 0.0, 1e-7);  // the plane is one of floats
             // Friction also changes the normal force a little where H couples both, which `force` leaves out.
-            const V lacking = times(hessian, at - newton) - contact.force;
-            EXPECT_LT(glm::length(lacking - glm::dot(lacking, kNormal) * kNormal), 1e-6);
+            const V lacking = hessian * (at - newton) - contact.force;
+            EXPECT_LT(glm::length(lacking - glm::dot(lacking, kNormal) * kNormal),
+                      1e-4 * glm::length(contact.force));
             if (friction == 0.0) {
                 EXPECT_LT(glm::length(lacking), 1e-9);
             }
@@ -81,25 +78,47 @@ TEST_F(PushOutside, FrictionHoldsANodeOrActsAgainstItsSliding) {
     for (int i = 0; i < 200; ++i) {
         const auto hessian = stiffness();
         const V newton = along_plane() - kDepth * kNormal, start = newton + 0.02 * point();
-        V at = newton, without = newton;
+        V at = newton;
         const Contact contact = push(0.5, start, hessian, at);
-        push(0.0, start, hessian, without);
         const double pressing = glm::dot(contact.force, kNormal);
         const V rubbing = contact.force - pressing * kNormal;
+        V slip = at - start;
+        slip -= glm::dot(slip, kNormal) * kNormal;
         if (glm::length(rubbing) < 0.5 * pressing * (1.0 - 1e-5)) {
-            // All of it is taken back along the direction in which the node had slid.
             ++held;
-            V direction = without - start;
-            direction = glm::normalize(direction - glm::dot(direction, kNormal) * kNormal);
-            EXPECT_NEAR(glm::dot(at - start, direction), 0.0, 1e-6);
+            EXPECT_LT(glm::length(slip), 1e-8);  // the plane's normal is one of floats
+            EXPECT_EQ(contact.across, contact.along);
         } else {
             ++slides;
-            EXPECT_NEAR(glm::length(rubbing), 0.5 * pressing, 1e-5 * pressing);
-            EXPECT_LT(glm::dot(rubbing, without - start), 0.0);
+            EXPECT_NEAR(glm::length(rubbing), 0.5 * pressing, 1e-6 * pressing);
+            EXPECT_LT(glm::length(glm::normalize(rubbing) + glm::normalize(slip)), 1e-3);
+            EXPECT_LE(contact.across, contact.along);
         }
     }
     EXPECT_GT(held, 20);
     EXPECT_GT(slides, 20);
+}
+
+// However much stiffer it is across one direction than along it.
+TEST(SlipWithFriction, ActsAlongWhatIsLeft) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> angle(0.0, 6.3), size(-3.0, 3.0);
+    for (int i = 0; i < 1000; ++i) {
+        const double c = std::cos(angle(random)), s = std::sin(angle(random)),
+                     one = std::pow(10.0, size(random));
+        const double other = one * std::pow(10.0, size(random) / 3.0), direction = angle(random);
+        const V k(one * c * c + other * s * s, (one - other) * c * s, one * s * s + other * c * c);
+        const glm::dvec2 slip(std::cos(direction), std::sin(direction));
+        const glm::dvec2 holding(k.x * slip.x + k.y * slip.y, k.y * slip.x + k.z * slip.y);
+        const double most = glm::length(holding) * std::pow(10.0, size(random) / 2.0);
+        const cpu::Slip<double> found = cpu::slip_with_friction(k, slip, most);
+        const glm::dvec2 back = slip - found.yielding * found.force;
+        const glm::dvec2 force(k.x * back.x + k.y * back.y, k.y * back.x + k.z * back.y);
+        const double tolerance = 1e-3 * glm::length(found.force);
+        EXPECT_LT(glm::length(force - found.force), tolerance);
+        EXPECT_LE(glm::length(found.force), most * (1.0 + 1e-12));
+        EXPECT_EQ(found.yielding > 0.0, glm::length(holding) > most);
+    }
 }
 
 // `along` is the slope of the normal force by the depth that a Newton step ends at.

@@ -155,6 +155,20 @@ void contact(Scene& scene) {
     scene.objects[1].position = {0.1, 0.53, 0.0};
 }
 
+// Bodies that nothing moves, for long enough to sleep.
+void at_rest(Scene& scene) {
+    contact(scene);
+    scene.simulation.gravity = {0.0, 0.0, 0.0};
+    scene.simulation.frame_rate = 2.0;
+    scene.objects[0].handles.clear();
+    scene.objects[0].loads.clear();
+    scene.objects[1].velocity = {0.0, 0.0, 0.0};
+}
+
+void fall_asleep(Simulator& simulator) {
+    for (int frame = 0; frame < 3; ++frame) simulator.advance_frame();
+}
+
 // Flat bodies, which get their shapes back.
 void squashed(Scene& scene) {
     for (ObjectDescription& object : scene.objects) {
@@ -228,6 +242,7 @@ std::vector<ShortRun> short_runs() {
         {"contact", contact, start_again, true},
         {"contact, volume term", both(contact, volume_term), pull},
         {"contact, neo-Hookean", both(contact, neo_hookean)},
+        {"contact, asleep", at_rest, fall_asleep},
         {"drawn from the CPU", nothing, start_again, true, Backend::cpu},
         {"painted", painted, start_again, true},
         {"painted, drawn from the CPU", painted, start_again, true, Backend::cpu},
