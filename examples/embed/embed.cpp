@@ -1,12 +1,11 @@
 // A window of one's own, in whose OpenGL context Gelatin simulates; drawn from the simulation's buffers by a
-// shader of one's own. embed [--frames N] [--picture FILE.png]
+// shader of one's own. embed [FRAMES [FILE.png]]: without FRAMES, until the window is closed.
 #include <epoxy/gl.h>
 
 #include <GLFW/glfw3.h>
 
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
@@ -36,17 +35,11 @@ in vec3 normal;
 out vec4 color;
 void main() { color = vec4((0.35 + 0.65 * max(normalize(normal).y, 0.0)) * vec3(1.0, 0.5, 0.2), 1.0); })";
 
-GLuint make_program() {
-    const GLuint program = glCreateProgram();
-    for (const auto& [kind, text] :
-         {std::pair{GL_VERTEX_SHADER, kVertexShader}, {GL_FRAGMENT_SHADER, kFragmentShader}}) {
-        const GLuint shader = glCreateShader(static_cast<GLenum>(kind));
-        glShaderSource(shader, 1, &text, nullptr);
-        glCompileShader(shader);
-        glAttachShader(program, shader);
-    }
-    glLinkProgram(program);
-    return program;
+void attach_shader(GLuint program, GLenum kind, const char* text) {
+    const GLuint shader = glCreateShader(kind);
+    glShaderSource(shader, 1, &text, nullptr);
+    glCompileShader(shader);
+    glAttachShader(program, shader);
 }
 
 void draw(const gelatin::RenderView& view, GLuint program, GLuint vertex_array) {
@@ -96,7 +89,10 @@ void run(GLFWwindow* window, int frames, const char* picture) {
     options.use_current_context = true;
     gelatin::Simulator simulator(make_scene(), options);
     std::printf("simulating on %s\n", simulator.device().c_str());
-    const GLuint program = make_program();
+    const GLuint program = glCreateProgram();
+    attach_shader(program, GL_VERTEX_SHADER, kVertexShader);
+    attach_shader(program, GL_FRAGMENT_SHADER, kFragmentShader);
+    glLinkProgram(program);
     GLuint vertex_array = 0;
     glGenVertexArrays(1, &vertex_array);
     while (!glfwWindowShouldClose(window) && (frames == 0 || simulator.frame() < frames)) {
@@ -111,12 +107,6 @@ void run(GLFWwindow* window, int frames, const char* picture) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    int frames = 0;  // until the window is closed
-    const char* picture = nullptr;
-    for (int i = 1; i + 1 < argc; i += 2) {
-        if (std::strcmp(argv[i], "--frames") == 0) frames = std::atoi(argv[i + 1]);
-        if (std::strcmp(argv[i], "--picture") == 0) picture = argv[i + 1];
-    }
     if (!glfwInit()) return 1;
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
@@ -125,13 +115,11 @@ int main(int argc, char** argv) {
     GLFWwindow* window = glfwCreateWindow(kWidth, kHeight, "jelly", nullptr, nullptr);
     if (window == nullptr) return 1;
     glfwMakeContextCurrent(window);
-    int result = 0;
     try {
-        run(window, frames, picture);
+        run(window, argc > 1 ? std::atoi(argv[1]) : 0, argc > 2 ? argv[2] : nullptr);
     } catch (const gelatin::Error& error) {
         std::fprintf(stderr, "embed: %s\n", error.what());
-        result = 1;
+        return 1;
     }
     glfwTerminate();
-    return result;
 }

@@ -120,8 +120,7 @@ class Installed(unittest.TestCase):
     def test_the_embedding_example_draws_the_body_with_its_own_shader(self):
         folder = self.build(ROOT / "examples/embed", "embed")
         picture = folder / "picture.png"
-        run("xvfb-run", "--auto-servernum", "--server-args=-screen 0 1280x1024x24", folder / "embed", "--frames", "36",
-            "--picture", picture)
+        run("xvfb-run", "--auto-servernum", "--server-args=-screen 0 1280x1024x24", folder / "embed", "36", picture)
         rows = read_png(picture)
         orange = [(x, y) for y, row in enumerate(rows) for x, (r, g, b) in enumerate(row) if r > g > b and r > 60]
         self.assertGreater(len(orange), 3000)
@@ -140,13 +139,33 @@ class Installed(unittest.TestCase):
         self.assertGreater(len({pixel for row in rows for pixel in row}), 100)
 
 
+    def test_snippets_compile(self):
+        """Those of the pages that are no programs, each as the body of a function."""
+        checked = 0
+        for page in sorted(file.relative_to(ROOT) for file in ROOT.glob("docs/*.md")):
+            for snippet in blocks_of(page, "cpp"):
+                if "int main(" in snippet or snippet.startswith(("template", "--8<--")):
+                    continue  # the first have tests of their own, the others are Gelatin's own code
+                includes = re.findall(r"^#include .*$", snippet, re.MULTILINE)
+                body = re.sub(r"^#include .*$", "", snippet, flags=re.MULTILINE)
+                folder = empty_folder("snippet")
+                names = [*self.prefix.glob("include/gelatin/*.h")]
+                text = "".join(f"#include <gelatin/{header.name}>\n" for header in names) + "\n".join(includes)
+                (folder / "snippet.cpp").write_text(f"{text}\nvoid snippet() {{\n{body}\n}}\n", encoding="utf-8")
+                with self.subTest(page=str(page)):
+                    run(OPTIONS.compiler, "-std=c++20", "-fsyntax-only", "-Wall", "-Wno-unused-variable", "-Werror",
+                        "-I", self.prefix / "include", folder / "snippet.cpp")
+                    checked += 1
+        self.assertGreaterEqual(checked, 2)
+
+
 class Subproject(unittest.TestCase):
-    """Configured inside another project, which is not built: that would take as long as everything."""
+    """Configured inside another project; built with --long alone, as that takes as long as everything."""
 
     HOST = """cmake_minimum_required(VERSION 3.25)
 project(host LANGUAGES CXX)
 add_subdirectory("{root}" gelatin EXCLUDE_FROM_ALL)
-file(WRITE "${{CMAKE_BINARY_DIR}}/main.cpp" "int main() {{}}")
+file(WRITE "${{CMAKE_BINARY_DIR}}/main.cpp" [[{program}]])
 add_executable(host "${{CMAKE_BINARY_DIR}}/main.cpp")
 target_link_libraries(host PRIVATE gelatin::gelatin)
 get_property(targets DIRECTORY "{root}" PROPERTY BUILDSYSTEM_TARGETS)
@@ -157,13 +176,17 @@ message(STATUS "leaked: '${{options}}${{CMAKE_CXX_STANDARD}}${{CMAKE_CXX_VISIBIL
 get_property(subfolders DIRECTORY "{root}" PROPERTY SUBDIRECTORIES)
 message(STATUS "subfolders: '${{subfolders}}'")
 """
+    # That of the page, without its picture: it runs on a machine without OpenGL, too.
+    PROGRAM = blocks_of("docs/embedding.md", "cpp")[0].replace("options.need_gl = true;", "")
+    PROGRAM = re.sub(r'gelatin::save_picture.*\n\s*std::printf\("jelly.png: ', 'std::printf("', PROGRAM)
+
     # What only the window, the command line and the tests need.
     MISSING = [word for name in ("glfw3", "CGAL", "CLI11", "GTest", "X11")
                for word in ("-D", f"CMAKE_DISABLE_FIND_PACKAGE_{name}=ON")]
 
     def configure_host(self, name, *settings):
         folder = empty_folder(name)
-        (folder / "CMakeLists.txt").write_text(self.HOST.format(root=ROOT), encoding="utf-8")
+        (folder / "CMakeLists.txt").write_text(self.HOST.format(root=ROOT, program=self.PROGRAM), encoding="utf-8")
         output = configure(folder, folder / "build", *self.MISSING, "-D", "CMAKE_EXPORT_COMPILE_COMMANDS=ON", *settings)
         return output, json.loads((folder / "build/compile_commands.json").read_text(encoding="utf-8"))
 
@@ -188,10 +211,17 @@ message(STATUS "subfolders: '${{subfolders}}'")
 
     def test_brings_the_library_alone(self):
         self.check(*self.configure_host("subproject"))
+        self.build_and_run(OPTIONS.build / "package/subproject/build")
+
+    def build_and_run(self, build):
+        if OPTIONS.long:
+            run(OPTIONS.cmake, "--build", build, "--target", "host")
+            self.assertIn("the ball after 0.58 s", run(build / "host", extra=BLIND))
 
     def test_is_static_where_the_host_wants_that(self):
         self.check(*self.configure_host("static_subproject", "-D", "BUILD_SHARED_LIBS=OFF"))
         build = OPTIONS.build / "package/static_subproject/build"
+        self.build_and_run(build)
         files = [file.read_text(encoding="utf-8") for file in build.glob("*.ninja")]
         self.assertTrue(all("libgelatin.so" not in text for text in files))
 
@@ -201,6 +231,7 @@ def main():
     parser = argparse.ArgumentParser()
     for name in ("cmake", "generator", "compiler", "build"):
         parser.add_argument(f"--{name}", required=True)
+    parser.add_argument("--long", action="store_true", help="build the subprojects, too")
     OPTIONS, rest = parser.parse_known_args()
     OPTIONS.build = Path(OPTIONS.build).resolve()
     unittest.main(argv=[sys.argv[0], *rest], verbosity=2)

@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""Runs the commands of the pages, in the order in which a reader comes to them, in an empty folder.
+
+Each line of a block of shell commands is run as it is printed, or is in OTHERS, with what runs it instead. Blocks that
+a page tells its reader to save are saved. Without --long, runs end after a few frames.
+"""
+
+import argparse
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+OPTIONS = None  # of the command line
+SHORT_RUN = "--frames 6"
+WINDOW_TIME = 20  # [s] that a window is watched for
+
+# Commands that are not run here, and what runs them, or why nothing does.
+OTHERS = {
+    r"scripts/(demo|build|setup)\b.*": "every build of the project begins with these scripts",
+    r"scripts/test\b.*": "runs this test",
+    r"bench/peers/run\.py .*": "downloads other simulators; tests/checks/peers_test.py runs what needs none",
+    r"python examples/python/.*": "tests/python/examples_test.py",
+    r"cmake .*|build/jelly|build/embed/embed": "tests/package/package_test.py",
+    r"python3 -m venv my_environment|my_environment/bin/.*": "compiles everything once more: scripts/build_wheel",
+    r"build/release/bin/scene_in_code": "a test of its own, examples.scene_in_code",
+}
+
+# A closed surface, for the meshes that pages take for granted: a box of 0.2 m.
+BOX = "".join(f"v {x} {y} {z}\n" for x in (0, 0.2) for y in (0, 0.2) for z in (0, 0.2)) + """
+f 1 2 4 3
+f 5 7 8 6
+f 1 5 6 2
+f 3 4 8 7
+f 1 3 7 5
+f 2 6 8 4
+"""
+
+
+def pages():
+    return [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+
+
+def blocks_of(page):
+    """Of each block of code: the paragraph before it, its language, and its text."""
+    text = page.read_text(encoding="utf-8")
+    for found in re.finditer(r"^```(\w*)[^\n]*\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
+        yield text[:found.start()].rstrip().rpartition("\n\n")[2], found[1], found[2]
+
+
+def commands_of(block):
+    for line in block.splitlines():
+        command = re.sub(r"(^|\s)#.*", "", line).strip()
+        if command:
+            yield command
+
+
+def runs_elsewhere(command):
+    return any(re.fullmatch(pattern, command) for pattern in OTHERS)
+
+
+class Reader:
+    """Somebody who does what a page says, in a folder that has the repository's files."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        for name in ("scenes", "docs", "examples"):
+            (folder / name).symlink_to(ROOT / name)
+        (folder / "build").mkdir()
+        (folder / "build/release").symlink_to(OPTIONS.build)
+        for name in ("bunny.obj", "cow.obj", "model.obj"):
+            (folder / name).write_text(BOX, encoding="utf-8")
+        self.environment = {**os.environ, "PATH": f"{OPTIONS.build}/bin:{os.environ['PATH']}"}
+
+    def run(self, command):
+        """Returns the exit code and what was printed."""
+        if re.match(r"\S*gelatin view\b", command):
+            command = f"timeout --signal=KILL {WINDOW_TIME} xvfb-run --auto-servernum --server-args='-screen 0 1280x1024x24' {command}"
+        elif re.match(r"\S*gelatin run\b", command) and not OPTIONS.long and "--frames" not in command:
+            command += f" {SHORT_RUN}"
+        done = subprocess.run(["bash", "-c", command], cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        return done.returncode, done.stdout
+
+
+class Pages(unittest.TestCase):
+    def test_every_command_is_run(self):
+        """By this test, or by what OTHERS names."""
+        ran, others = 0, set()
+        for page in pages():
+            with tempfile.TemporaryDirectory() as folder:
+                reader = Reader(Path(folder))
+                for before, language, text in blocks_of(page):
+                    name = re.search(r"\b[Ss]ave .*? as `([\w.]+)`", before)
+                    if name:
+                        (reader.folder / name[1]).write_text(text, encoding="utf-8")
+                    if language != "sh":
+                        continue
+                    for command in commands_of(text):
+                        if runs_elsewhere(command):
+                            others.add(command)
+                            continue
+                        if not OPTIONS.long and re.search(r"gelatin view|--resume| --from ", command):
+                            continue
+                        with self.subTest(page=page.name, command=command):
+                            code, output = reader.run(command)
+                            # A window is closed by nobody: it must be there until it is killed.
+                            wanted = 137 if "gelatin view" in command else 0
+                            self.assertEqual(code, wanted, output)
+                            self.check_files(reader.folder, command)
+                        ran += 1
+        self.assertGreater(ran, 15)
+        for pattern in OTHERS:
+            self.assertTrue(any(re.fullmatch(pattern, command) for command in others), f"{pattern}: no page has it")
+
+    def check_files(self, folder, command):
+        """Files that a command is asked to write are there."""
+        words = shlex.split(command)
+        for option, file in zip(words, words[1:]):
+            if option in ("--video", "--image", "--record", "--stats", "-o", "--export"):
+                self.assertTrue((folder / file).exists(), f"{file} is missing")
+
+    def test_shown_output_is_what_is_printed(self):
+        """Of blocks with commands behind '$ '."""
+        shown = 0
+        for page in pages():
+            with tempfile.TemporaryDirectory() as folder:
+                reader = Reader(Path(folder))
+                for before, _, text in blocks_of(page):
+                    name = re.search(r"\b[Ss]ave .*? as `([\w.]+)`", before)
+                    if name:
+                        (reader.folder / name[1]).write_text(text, encoding="utf-8")
+                    if not text.startswith("$ "):
+                        continue
+                    command, _, expected = text[2:].partition("\n")
+                    with self.subTest(page=page.name, command=command):
+                        self.assertEqual(reader.run(command)[1].strip(), expected.strip())
+                    shown += 1
+        self.assertGreater(shown, 0)
+
+
+class CommandsOf(unittest.TestCase):
+    def test_leaves_out_comments(self):
+        self.assertEqual(list(commands_of("# so\ngelatin info a.toml  # counts\n\nls --color='#1'\n")),
+                         ["gelatin info a.toml", "ls --color='#1'"])
+
+
+def main():
+    global OPTIONS
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--build", required=True, type=lambda text: Path(text).resolve())
+    parser.add_argument("--long", action="store_true")
+    OPTIONS, rest = parser.parse_known_args()
+    for program in ("xvfb-run", "timeout"):
+        if shutil.which(program) is None:
+            sys.exit(f"{program} is missing")
+    unittest.main(argv=[sys.argv[0], *rest], verbosity=2)
+
+
+if __name__ == "__main__":
+    main()
