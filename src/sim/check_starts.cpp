@@ -42,24 +42,24 @@ double thickness_along(const glm::dvec3& direction, std::span<const glm::vec4> n
 }
 
 // Faces without a corner in common.
-bool passes_through_itself(const Model& model, std::uint32_t object, const cpu::Collision<double>& boxes,
-                           std::span<const glm::dvec4> positions) {
+std::size_t count_own_overlaps(const Model& model, std::uint32_t object, const cpu::Collision<double>& boxes,
+                               std::span<const glm::dvec4> positions) {
     const auto triangle = [&](const Face& f) {
         return cpu::Triangle<double>{glm::dvec3(positions[f.a]), glm::dvec3(positions[f.b]),
                                      glm::dvec3(positions[f.c])};
     };
     const Range& faces = model.objects[object].faces;
-    bool any = false;
-    for (std::uint32_t f = faces.first; f < faces.end() && !any; ++f) {
+    std::size_t count = 0;
+    for (std::uint32_t f = faces.first; f < faces.end(); ++f) {
         const Face& face = model.faces[f];
-        cpu::for_items_near<double>(
-            model.face_trees, boxes.tree_boxes(), model.face_trees.roots[object], boxes.face_boxes()[f],
-            [&](std::uint32_t g) {
-                any = any || (g > f && !share_corner(face, model.faces[g]) &&
-                              cpu::triangles_overlap(triangle(face), triangle(model.faces[g])));
-            });
+        cpu::for_items_near<double>(model.face_trees, boxes.tree_boxes(), model.face_trees.roots[object],
+                                    boxes.face_boxes()[f], [&](std::uint32_t g) {
+                                        if (g > f && !share_corner(face, model.faces[g]) &&
+                                            cpu::triangles_overlap(triangle(face), triangle(model.faces[g])))
+                                            ++count;
+                                    });
     }
-    return any;
+    return count;
 }
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& text) {
@@ -120,17 +120,20 @@ void require_apart(const std::shared_ptr<const Model>& model, const Scene& scene
     }
 }
 
-void require_whole(const std::shared_ptr<const Model>& model, const Scene& scene,
-                   std::span<const glm::vec4> positions, std::string_view when) {
+std::vector<std::string> find_tangled(const std::shared_ptr<const Model>& model,
+                                      std::span<const glm::vec4> positions, std::string_view when) {
+    std::vector<std::string> lines;
     const std::vector<glm::dvec4> exact(positions.begin(), positions.end());
     cpu::Collision<double> collision(model);
     collision.update_boxes(exact);
     for (std::uint32_t o = 0; o < model->body_count(); ++o) {
-        if (!passes_through_itself(*model, o, collision, exact)) continue;
-        refuse(scene, fmt::format("needs objects that do not pass through themselves {}; '{}' does; "
-                                  "self_collision = false leaves that alone",
-                                  when, model->objects[o].name));
+        const std::size_t count = count_own_overlaps(*model, o, collision, exact);
+        if (count == 0) continue;
+        lines.push_back(
+            fmt::format("object '{}' passes through itself {}, in {} pairs of faces: it stays as it is there",
+                        model->objects[o].name, when, count));
     }
+    return lines;
 }
 
 }  // namespace gelatin
