@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -108,6 +109,7 @@ struct BoxTree {
 struct Model {
     std::vector<ModelObject> objects;    ///< bodies, then the surfaces of colliders
     std::vector<RigidSurface> surfaces;  ///< of the last objects
+    std::shared_ptr<const SceneMeshes> meshes;  ///< of the scene's shapes; null: it was not made of a scene
 
     std::vector<glm::vec4> positions;  ///< at the start: xyz [m], inverse mass [1/kg] (0 pins), shape [nodes]
     std::vector<glm::vec4>
