@@ -117,9 +117,12 @@ void bind_meshes(nb::module_& module) {
     nb::class_<HeldMeshes>(module, "SceneMeshes")
         .def("__copy__", [](nb::object self) { return self; })
         .def("__deepcopy__", [](nb::object self, nb::handle /*known*/) { return self; })
-        .def("__reduce__", [](nb::handle /*self*/) {
-            return nb::make_tuple(nb::borrow(nb::none().type()), nb::make_tuple());
-        });
+        .def(
+            "__reduce__",
+            [](nb::handle /*self*/) {
+                return nb::make_tuple(nb::borrow(nb::none().type()), nb::make_tuple());
+            },
+            nb::sig("def __reduce__(self) -> tuple[object, ...]"));
 }
 
 }  // namespace gelatin::python

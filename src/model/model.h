@@ -107,8 +107,8 @@ struct BoxTree {
 ///
 /// An object owns a contiguous range of each array. Nodes are ordered for locality within their object.
 struct Model {
-    std::vector<ModelObject> objects;    ///< bodies, then the surfaces of colliders
-    std::vector<RigidSurface> surfaces;  ///< of the last objects
+    std::vector<ModelObject> objects;           ///< bodies, then the surfaces of colliders
+    std::vector<RigidSurface> surfaces;         ///< of the last objects
     std::shared_ptr<const SceneMeshes> meshes;  ///< of the scene's shapes; null: it was not made of a scene
 
     std::vector<glm::vec4> positions;  ///< at the start: xyz [m], inverse mass [1/kg] (0 pins), shape [nodes]
