@@ -5,6 +5,7 @@
 #include "core/file.h"
 #include "core/log.h"
 #include "gelatin/error.h"
+#include "gelatin/recording.h"
 #include "mesh/file_ending.h"
 #include "model/scene/override_scene.h"
 
@@ -23,7 +24,7 @@ constexpr const char* kRecordingEnding = ".gel";
 void check_kind(const fs::path& file) {
     const std::string ending = lower_case_ending(file);
     if (ending == ".toml" || ending.empty() || is_mesh_file(file)) return;
-    if (ending == kRecordingEnding) refuse(file, "is a recording: gelatin render, export and view take one");
+    if (ending == kRecordingEnding) refuse(file, "is a recording, which is played or simulated alone");
     if (!fs::is_regular_file(file)) read_file(file);  // its message names the problem
     refuse(file,
            "is neither a scene (.toml) nor a mesh (.obj, .stl, .ply, .off, .gltf, .glb, .node, .ele, .mesh, "
@@ -42,6 +43,11 @@ bool is_recording_input(const SceneInput& input) {
 }
 
 void check_input(const SceneInput& input) {
+    if (is_recording_input(input)) {
+        if (input.meshes != MeshSceneOptions())
+            refuse(input.files.front(), "is a recording; --up, --keep-units and --nodes are for meshes");
+        return;
+    }
     if (input.files.empty()) throw InvalidInput("there is no scene and no mesh to simulate");
     for (const fs::path& file : input.files) check_kind(file);
     const auto scene = find_scene(input);
@@ -54,6 +60,8 @@ void check_input(const SceneInput& input) {
 
 Scene load_input(const SceneInput& input) {
     check_input(input);
+    if (is_recording_input(input))
+        return override_scene(Recording(input.files.front()).scene(), input.overrides);
     if (const auto scene = find_scene(input); scene != input.files.end())
         return load_scene(*scene, input.overrides);
     Notes notes;

@@ -11,7 +11,8 @@ CLI::Option* add_input_options(CLI::App& command, SceneInput& input) {
     CLI::Option* files =
         command
             .add_option("FILE", input.files,
-                        "A scene file (.toml), or meshes that drop onto a floor: surfaces or tets")
+                        "A scene file (.toml), meshes that drop onto a floor, surfaces or tets, or a "
+                        "recording (.gel)")
             ->type_name("");
     command
         .add_option("--set", input.overrides,

@@ -191,10 +191,34 @@ void Run::print_summary() const {
     if (saved_frame_) report("checkpoint", options_.checkpoint);
 }
 
-void run(const RunOptions& options) {
+// What the run continues from; empty: it begins at the start.
+std::filesystem::path start_of(const RunOptions& options) {
+    if (!options.resume.empty() || !options.resume_frame) return options.resume;
+    if (!is_recording_input(options.input))
+        throw InvalidInput({"--resume-frame", 0, {}, {}, "needs --resume, or a recording to simulate"});
+    return options.input.files.front();
+}
+
+// The file would be replaced, and lost if the run does not come to its end.
+void refuse_to_replace(const RunOptions& options) {
+    std::error_code error;  // nothing is there yet
+    std::vector<std::filesystem::path> sources = options.input.files;
+    sources.push_back(options.resume);
+    for (const std::filesystem::path& source : sources)
+        if (std::filesystem::equivalent(options.record, source, error))
+            throw InvalidInput({options.record.string(),
+                                0,
+                                {},
+                                {},
+                                "is what the run is made from; --record would replace it"});
+}
+
+void run(RunOptions options) {
+    options.resume = start_of(options);
     if (options.quiet) set_up_log(LogLevel::warnings);
     Scene scene = load_input(options.input);
     if (options.frames) scene.simulation.frames = *options.frames;
+    refuse_to_replace(options);
     check_outputs(options);
     std::optional<tbb::global_control> thread_limit;
     if (options.threads) {

@@ -115,13 +115,13 @@ void add_run_options(CLI::App& command, RunOptions& options) {
         ->check(CLI::PositiveNumber)
         ->needs(checkpoint)
         ->group(checkpoints);
-    CLI::Option* resume =
-        command.add_option("--resume", options.resume, "Continue from this checkpoint or recording")
-            ->type_name("FILE")
-            ->group(checkpoints);
-    command.add_option("--resume-frame", options.resume_frame, "Of the recording; its last one by default")
+    command.add_option("--resume", options.resume, "Continue from this checkpoint or recording")
+        ->type_name("FILE")
+        ->group(checkpoints);
+    command
+        .add_option("--resume-frame", options.resume_frame,
+                    "Of the recording, by default its last one; without --resume, of the recording FILE")
         ->check(CLI::NonNegativeNumber)
-        ->needs(resume)
         ->group(checkpoints);
 }
 

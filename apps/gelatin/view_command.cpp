@@ -18,7 +18,7 @@ struct ViewOptions {
 
 void view(ViewOptions options) {
     const SceneInput& input = options.viewer.input;
-    if (!input.files.empty() && !is_recording_input(input)) check_input(input);
+    if (!input.files.empty()) check_input(input);
     options.viewer.backend = parse_backend(options.backend);
     options.viewer.quality = parse_quality(options.quality);
     const PictureSize size = parse_size(options.size);

@@ -7,7 +7,8 @@
 namespace gelatin::viewer {
 
 LoadedScene load_scene_source(const SceneInput& input) {
-    if (!is_recording_input(input)) return build_scene(load_input(input));
+    const bool is_played = is_recording_input(input) && input.overrides.empty();
+    if (!is_played) return build_scene(load_input(input));
     auto recording = std::make_shared<const Recording>(input.files.front());
     LoadedScene loaded = build_scene(recording->scene());
     loaded.recording = std::move(recording);

@@ -16,7 +16,8 @@ struct LoadedScene {
     std::shared_ptr<const Recording> recording = {};  ///< of it, to be played
 };
 
-/// Reads a scene, meshes or a recording, and builds the model. @throws InvalidInput
+/// Reads a scene, meshes or a recording, and builds the model. A recording whose scene is changed by
+/// overrides is not played. @throws InvalidInput
 LoadedScene load_scene_source(const SceneInput& input);
 
 /// Builds a scene's model; without OpenGL, so on any thread. @throws InvalidInput

@@ -10,9 +10,10 @@
 
 namespace gelatin {
 
-/// Writes frames of a run to a file, from which it can be drawn, exported and continued without simulating
-/// again. Frames are kept to the last bit, and compressed on a thread of their own. Each one is in the file
-/// once it is written: what a process has recorded until it is killed can be opened.
+/// Writes a scene with its meshes, and frames of a run, to a file, from which it can be drawn, exported and
+/// continued without simulating again. Frames are kept to the last bit, and compressed on a thread of their
+/// own. Each one is in the file once it is written: what a process has recorded until it is killed can be
+/// opened.
 class GELATIN_API RecordingWriter {
 public:
     /// Creates the file; an older one is replaced. @throws SystemError
@@ -43,7 +44,7 @@ public:
     ~Recording();
 
     const std::filesystem::path& file() const;
-    /// What was simulated. Its meshes are read again when it is played.
+    /// What was simulated. It has its meshes: a Simulator can be made of it without their files.
     const Scene& scene() const;
 
     std::size_t frame_count() const;       ///< at least 1

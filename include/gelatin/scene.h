@@ -333,6 +333,8 @@ struct CameraDescription {
     double field_of_view = 35.0;  ///< vertical [degrees]
 };
 
+struct SceneMeshes;
+
 struct Scene {
     std::filesystem::path file;  ///< where it came from; empty if it was made by a program
     SimulationSettings simulation;
@@ -341,6 +343,8 @@ struct Scene {
     std::vector<ObjectDescription> objects;
     std::vector<ColliderDescription> colliders;
     std::optional<CameraDescription> camera;  ///< empty: frames the scene by itself
+    /// Meshes that were made of its shapes before, and are used for these: those of a recording. Null: none.
+    std::shared_ptr<const SceneMeshes> meshes = {};
 
     bool has_contact() const {
         return collision.response_with(simulation.solver) == CollisionResponse::contact;

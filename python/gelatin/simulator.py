@@ -337,5 +337,5 @@ class Player(Simulator):
 
 
 def play(file: str | os.PathLike[str]) -> Player:
-    """Opens a recording. Raises InvalidInput if it is none, is damaged, or its meshes are not there."""
+    """Opens a recording. Raises InvalidInput if it is none, or is damaged."""
     return Player(file)

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -30,6 +31,7 @@ void read(nb::handle source, const std::string& where, std::filesystem::path& va
 void read(nb::handle source, const std::string& where, glm::dvec3& value);
 void read(nb::handle source, const std::string& where, glm::ivec3& value);
 void read(nb::handle source, const std::string& where, MeshShape& value);  // mesh_conversion.cpp
+void read(nb::handle source, const std::string& where, std::shared_ptr<const SceneMeshes>& value);
 
 nb::object to_python(bool value);
 nb::object to_python(int value);
@@ -39,6 +41,7 @@ nb::object to_python(const std::filesystem::path& value);
 nb::object to_python(const glm::dvec3& value);
 nb::object to_python(const glm::ivec3& value);
 nb::object to_python(const MeshShape& value);
+nb::object to_python(const std::shared_ptr<const SceneMeshes>& value);
 
 /// Raises "WHERE must be ALLOWED, not TYPE".
 [[noreturn]] void raise_type_error(const std::string& where, const std::string& allowed, nb::handle source);

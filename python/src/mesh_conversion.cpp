@@ -5,10 +5,16 @@
 #include <memory>
 
 #include "arrays.h"
+#include "bindings.h"
 #include "convert.h"
 
 namespace gelatin::python {
 namespace {
+
+// Scene.meshes, of which Python knows nothing else.
+struct HeldMeshes {
+    std::shared_ptr<const SceneMeshes> meshes;
+};
 
 // An array of these numbers in a row, and of `columns` columns, which may be 1.
 template <class Number>
@@ -92,6 +98,31 @@ nb::object to_python(const MeshShape& value) {
         array_of(std::vector<std::int32_t>(mesh.attributes.begin(), mesh.attributes.end()), 1);
     return class_named("Mesh")(array_of<double>(mesh.vertices, 3), array_of<std::uint32_t>(mesh.triangles, 3),
                                array_of<std::uint32_t>(mesh.tets, 4), attributes.attr("reshape")(-1));
+}
+
+void read(nb::handle source, const std::string& where, std::shared_ptr<const SceneMeshes>& value) {
+    value = nullptr;
+    if (source.is_none()) return;
+    if (!nb::isinstance<HeldMeshes>(source))
+        raise_type_error(where, "of a recording's scene, or None", source);
+    value = nb::cast<const HeldMeshes&>(source).meshes;
+}
+
+nb::object to_python(const std::shared_ptr<const SceneMeshes>& value) {
+    return value ? nb::cast(HeldMeshes{value}) : nb::none();
+}
+
+// In another process they are made again.
+void bind_meshes(nb::module_& module) {
+    nb::class_<HeldMeshes>(module, "SceneMeshes")
+        .def("__copy__", [](nb::object self) { return self; })
+        .def("__deepcopy__", [](nb::object self, nb::handle /*known*/) { return self; })
+        .def(
+            "__reduce__",
+            [](nb::handle /*self*/) {
+                return nb::make_tuple(nb::borrow(nb::none().type()), nb::make_tuple());
+            },
+            nb::sig("def __reduce__(self) -> tuple[object, ...]"));
 }
 
 }  // namespace gelatin::python

@@ -14,6 +14,7 @@ namespace nb = nanobind;
 NB_MODULE(_gelatin, module) {
     collect_messages();
     translate_errors();
+    bind_meshes(module);
     bind_simulator(module);
     bind_batch(module);
     module.def("version", &version);

@@ -11,6 +11,7 @@
 #include <optional>
 #include <sstream>
 
+#include "core/file_writer.h"
 #include "gelatin/error.h"
 
 namespace gelatin {
@@ -73,33 +74,18 @@ std::optional<int> descriptor_of(fs::path file) {
     return {};
 }
 
-[[noreturn]] void fail_to_write(const fs::path& file, int reason) {
+}  // namespace
+
+void fail_to_write(const fs::path& file, int reason) {
     const std::string name = file == kStandardOutputName ? "standard output" : file.string();
     throw SystemError(name + ": cannot be written: " + std::strerror(reason));
 }
 
-// The system's reason why not all was written; 0: all was.
-int write_all(int descriptor, const std::string& content) {
-    std::size_t written = 0;
-    while (written < content.size()) {
-        const ssize_t n = ::write(descriptor, content.data() + written, content.size() - written);
-        if (n < 0 && errno != EINTR) return errno;
-        if (n > 0) written += static_cast<std::size_t>(n);
-    }
-    return 0;
-}
-
-void write_through(const fs::path& file, const std::string& content) {
+int open_stream(const fs::path& file) {
     std::fflush(stdout);  // what was printed before comes before
     const std::optional<int> open = descriptor_of(file);
-    const int descriptor = open ? ::dup(*open) : ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
-    if (descriptor < 0) fail_to_write(file, errno);
-    const int reason = write_all(descriptor, content);
-    if (::close(descriptor) != 0 && reason == 0) fail_to_write(file, errno);
-    if (reason != 0) fail_to_write(file, reason);
+    return open ? ::dup(*open) : ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
 }
-
-}  // namespace
 
 bool is_stream(const fs::path& file) {
     if (descriptor_of(file)) return true;
@@ -123,23 +109,9 @@ fs::path link_target(const fs::path& file) {
 }
 
 void write_file(const fs::path& file, const std::string& content) {
-    if (is_stream(file)) return write_through(file, content);
-    const fs::path target = link_target(file), partial = partial_name(target);
-    const auto fail = [&](int reason) {
-        ::unlink(partial.c_str());
-        fail_to_write(file, reason);
-    };
-    const int descriptor = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (descriptor < 0) fail(errno);
-    if (const int reason = write_all(descriptor, content); reason != 0) {
-        ::close(descriptor);
-        fail(reason);
-    }
-    const bool flushed = ::fsync(descriptor) == 0 || errno == EINVAL;
-    const int flush_error = errno;
-    if (::close(descriptor) != 0) fail(errno);
-    if (!flushed) fail(flush_error);
-    if (::rename(partial.c_str(), target.c_str()) != 0) fail(errno);
+    FileWriter writer(file);
+    writer.append(content);
+    writer.finish();
 }
 
 TemporaryFolder::TemporaryFolder() {

@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -106,8 +107,9 @@ struct BoxTree {
 ///
 /// An object owns a contiguous range of each array. Nodes are ordered for locality within their object.
 struct Model {
-    std::vector<ModelObject> objects;    ///< bodies, then the surfaces of colliders
-    std::vector<RigidSurface> surfaces;  ///< of the last objects
+    std::vector<ModelObject> objects;           ///< bodies, then the surfaces of colliders
+    std::vector<RigidSurface> surfaces;         ///< of the last objects
+    std::shared_ptr<const SceneMeshes> meshes;  ///< of the scene's shapes; null: it was not made of a scene
 
     std::vector<glm::vec4> positions;  ///< at the start: xyz [m], inverse mass [1/kg] (0 pins), shape [nodes]
     std::vector<glm::vec4>

@@ -129,6 +129,7 @@ void Simulator::set_material(const Material& material) {
     impl_->require_no_playback();
     Impl& d = *impl_;
     Scene next = d.scene;
+    next.meshes = d.model->meshes;
     std::vector<std::string> names;
     for (const Material& each : next.materials) names.push_back(each.name);
     const auto found = std::find_if(next.materials.begin(), next.materials.end(),

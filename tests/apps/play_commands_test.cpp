@@ -63,6 +63,40 @@ TEST_F(PlayCommands, ARunContinuesFromAFrame) {
                 HasSubstr("cube.gel: frame = 70: is not recorded; there are 21 from 0 to 20"));
 }
 
+// Somebody was sent the recording, and nothing else.
+TEST_F(PlayCommands, ARecordingIsAllThatIsNeeded) {
+    write("wedge.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    write("wedge.toml",
+          "[[material]]\nname = 'jelly'\n[[object]]\nname = 'wedge'\nshape = { file = 'wedge.obj' }\n"
+          "mesher = { nodes = 50 }\nposition = [0, 1, 0]\n[[collider]]\nshape = { plane = [0, 1, 0] }\n");
+    const ProgramResult recorded =
+        run({"run", "wedge.toml", "--backend", "cpu", "--frames", "12", "--record", "wedge.gel", "--export",
+             "live", "--every", "1", "--checkpoint", "a"});
+    ASSERT_EQ(recorded.exit_code, 0) << recorded.err;
+    for (const char* name : {"wedge.obj", "wedge.toml"}) std::filesystem::remove(path(name));
+    std::filesystem::remove_all(path("cache"));
+    std::filesystem::create_directory(path("other"));
+    std::filesystem::rename(path("wedge.gel"), path("other/wedge.gel"));
+
+    const ProgramResult exported = run({"export", "other/wedge.gel", "played"});
+    ASSERT_EQ(exported.exit_code, 0) << exported.err;
+    for (const char* name : {"frame_000000.vtu", "frame_000012.vtu"})
+        EXPECT_EQ(read_file(path("live") / name), read_file(path("played") / name)) << name;
+    for (const std::vector<std::string>& from :
+         {std::vector<std::string>{"--resume-frame", "5"},
+          std::vector<std::string>{"--resume", "other/wedge.gel", "--resume-frame", "5"}}) {
+        std::vector<std::string> arguments{"run", "other/wedge.gel", "--backend", "cpu", "--checkpoint", "b"};
+        arguments.insert(arguments.end(), from.begin(), from.end());
+        const ProgramResult resumed = run(arguments);
+        ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+        EXPECT_EQ(read_file(path("a")), read_file(path("b")));
+        std::filesystem::remove(path("b"));
+    }
+    const ProgramResult anew = run({"run", "other/wedge.gel", "--backend", "cpu", "--checkpoint", "b"});
+    ASSERT_EQ(anew.exit_code, 0) << anew.err;
+    EXPECT_EQ(read_file(path("a")), read_file(path("b")));
+}
+
 TEST_F(PlayCommands, WhatAKilledRunHasWrittenOpens) {
     ProgramSettings settings = settings_;
     settings.signal_after = "10%";
@@ -90,7 +124,14 @@ TEST_F(PlayCommands, WrongInputIsOneLine) {
     expect_error({"export", "cube.gel", "out", "--from", "3"},
                  "no such frames are recorded; there are those from 0 to 2");
     expect_error({"render", "cube.gel"}, "nothing to make");
-    expect_error({"run", "cube.gel"}, "cube.gel: is a recording: gelatin render, export and view take one");
+    expect_error({"run", "cube.gel", "cube.gel"},
+                 "cube.gel: is a recording, which is played or simulated alone");
+    expect_error({"run", "cube.gel", "--up", "z"},
+                 "cube.gel: is a recording; --up, --keep-units and --nodes");
+    expect_error({"run", "cube.toml", "--resume-frame", "3"},
+                 "--resume-frame: needs --resume, or a recording to simulate");
+    expect_error({"run", "cube.gel", "--record", "cube.gel"},
+                 "cube.gel: is what the run is made from; --record would replace it");
     expect_error({"run", "cube.toml", "--record", "cube.mp4"}, "must end in .gel");
 }
 

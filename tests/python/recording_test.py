@@ -1,5 +1,8 @@
 """Runs are recorded and played."""
 
+import copy
+import pickle
+
 import numpy as np
 import pytest
 
@@ -47,6 +50,42 @@ def test_a_run_continues_from_a_frame(tmp_path):
     np.testing.assert_array_equal(simulator.positions, last)
     simulator.load_checkpoint(file)
     assert simulator.frame == 10
+
+
+def test_meshes_in_memory_are_in_the_recording(tmp_path):
+    file = tmp_path / "run.gel"
+    scene = falling_ball()
+    corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1 / 3)]
+    scene.objects[0].shape = gelatin.Mesh(vertices=corners, tets=[(0, 1, 2, 3)])
+    simulator = gelatin.Simulator(scene, backend="cpu")
+    with simulator.record(file):
+        simulator.advance(6)
+    player = gelatin.play(file)
+    np.testing.assert_array_equal(player.scene.objects[0].shape.vertices, corners)
+    player.show(6)
+    np.testing.assert_array_equal(player.positions, simulator.positions)
+
+
+def test_a_run_continues_without_the_files_of_its_scene(tmp_path):
+    file = tmp_path / "run.gel"
+    mesh = tmp_path / "wedge.obj"
+    mesh.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+    scene = falling_ball()
+    scene.objects[0].shape = gelatin.File(mesh)
+    simulator = gelatin.Simulator(scene, backend="cpu")
+    with simulator.record(file):
+        simulator.advance(8)
+    mesh.unlink()
+    player = gelatin.play(file)
+    player.show(8)
+    np.testing.assert_array_equal(player.positions, simulator.positions)
+    later = gelatin.Simulator(copy.deepcopy(player.scene), backend="cpu")
+    later.load_checkpoint(file, 5)
+    later.advance(3)
+    np.testing.assert_array_equal(later.positions, simulator.positions)
+    assert pickle.loads(pickle.dumps(player.scene)).meshes is None
+    with pytest.raises(TypeError, match="Scene.meshes must be of a recording's scene, or None"):
+        gelatin.Simulator(gelatin.Scene(meshes=3), backend="cpu")
 
 
 def test_what_is_no_recording_is_refused(tmp_path):

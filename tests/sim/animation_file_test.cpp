@@ -64,9 +64,14 @@ protected:
         return file;
     }
 
-    // x, y, z of the drawn points of a frame.
+    // x, y, z of the drawn points of a frame, and of those of an object.
     std::vector<float> points(std::size_t frame) const {
         return carry_skin(surface_.points, std::span(frames_[frame].positions));
+    }
+    std::vector<float> points(std::size_t frame, std::size_t object) const {
+        const std::vector<float> all = points(frame);
+        const Range& range = surface_.objects[object].points;
+        return {all.begin() + 3 * range.first, all.begin() + 3 * range.end()};
     }
 
     TemporaryFolder folder_;
@@ -132,8 +137,8 @@ TEST_F(AnimationFileTest, GltfHasAMorphTargetForEachFrame) {
         for (std::size_t f = 0; f < (moves ? frames_.size() : 1); ++f) {
             const aiVector3D* const vertices = f == 0 ? mesh.mVertices : mesh.mAnimMeshes[f - 1]->mVertices;
             const aiVector3D* const normals = f == 0 ? mesh.mNormals : mesh.mAnimMeshes[f - 1]->mNormals;
-            const std::vector<glm::vec3> positions = vertex_positions(object, points(f)),
-                                         expected = vertex_normals(object, points(f));
+            const std::vector<glm::vec3> positions = vertex_positions(object, points(f, o)),
+                                         expected = vertex_normals(object, points(f, o));
             for (std::size_t v = 0; v < positions.size(); ++v) {
                 EXPECT_LT(glm::distance(glm::vec3(vertices[v].x, vertices[v].y, vertices[v].z), positions[v]),
                           1e-6f);
@@ -155,8 +160,8 @@ TEST_F(AnimationFileTest, GltfHasAMorphTargetForEachFrame) {
 }
 
 TEST_F(AnimationFileTest, NormalsPointOutwards) {
-    const std::vector<glm::vec3> positions = vertex_positions(surface_.objects[2], points(0)),
-                                 normals = vertex_normals(surface_.objects[2], points(0));
+    const std::vector<glm::vec3> positions = vertex_positions(surface_.objects[2], points(0, 2)),
+                                 normals = vertex_normals(surface_.objects[2], points(0, 2));
     for (std::size_t v = 0; v < positions.size(); ++v) {
         EXPECT_GT(glm::dot(positions[v] + glm::vec3(0, 0.2f, 0), normals[v]), 0.0f);
         EXPECT_NEAR(glm::length(normals[v]), 1.0f, 1e-6f);
@@ -178,7 +183,7 @@ TEST_F(AnimationFileTest, UsdHasTimeSamplesOfSurfacesAndTets) {
     const std::size_t mesh = text.find("def Mesh \"ball_1\"");
     std::size_t at = text.find("point3f[] points.timeSamples", mesh);
     for (std::size_t f = 0; f < frames_.size(); ++f) {
-        const glm::vec3 first = vertex_positions(surface_.objects[1], points(f))[0];
+        const glm::vec3 first = vertex_positions(surface_.objects[1], points(f, 1))[0];
         const std::string start = std::to_string(frames_[f].frame) + ": [(";
         at = text.find(start, at);
         ASSERT_NE(at, std::string::npos);

@@ -155,7 +155,7 @@ TEST_F(RecordingTest, RunsContinueFromAnyFrame) {
 TEST_F(RecordingTest, WhatIsCutOffOpensUpToTheLastWholeFrame) {
     const std::vector<HostFrame> frames = record(balls_that_meet(), 40);
     const std::string whole = read_file(file());
-    const std::size_t first = 3000;  // of the head there are fewer
+    const std::size_t first = 8;  // within the head, the meshes or the frames
     test::RandomMaker random(7);
     for (int k = 0; k < 50; ++k) {
         const auto size = static_cast<std::size_t>(
@@ -165,7 +165,9 @@ TEST_F(RecordingTest, WhatIsCutOffOpensUpToTheLastWholeFrame) {
         try {
             recording = open();
         } catch (const InvalidInput& error) {
-            EXPECT_THAT(error.what(), testing::HasSubstr("no complete frame"));
+            EXPECT_THAT(error.what(), testing::AnyOf(testing::HasSubstr("no complete frame"),
+                                                     testing::HasSubstr("is cut off before its first frame"),
+                                                     testing::HasSubstr("is not a recording")));
             continue;
         }
         Simulator player(recording, on_cpu());

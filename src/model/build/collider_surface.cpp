@@ -7,10 +7,8 @@
 #include <utility>
 #include <variant>
 
-#include "core/log.h"
 #include "gelatin/error.h"
 #include "model/build/draw_surface.h"
-#include "model/build/object_mesh.h"
 #include "model/collision/box_tree.h"
 #include "model/spring_packing.h"
 #include "model/transform.h"
@@ -69,6 +67,11 @@ std::vector<ColliderDescription> solid_colliders(const Scene& scene) {
 }
 
 std::vector<ColliderSurface> make_collider_surfaces(const Scene& scene) {
+    ObjectMesher mesher(scene.meshes);
+    return make_collider_surfaces(scene, mesher);
+}
+
+std::vector<ColliderSurface> make_collider_surfaces(const Scene& scene, ObjectMesher& mesher) {
     std::vector<ColliderSurface> surfaces;
     if (!scene.has_contact()) return surfaces;
     for (std::size_t c = 0; c < scene.colliders.size(); ++c) {
@@ -76,9 +79,7 @@ std::vector<ColliderSurface> make_collider_surfaces(const Scene& scene) {
         const auto* shape = std::get_if<Shape>(&collider.shape);
         if (shape == nullptr) continue;
         ColliderSurface surface{name_of_collider(collider, c), {}, collider};
-        Notes notes;
-        surface.mesh = make_surface(*shape, notes);
-        for (const std::string& note : notes) log_note(fmt::format("{}: {}", surface.name, note));
+        surface.mesh = mesher.surface(*shape, surface.name);
         if (surface.mesh.faces.empty())
             throw InvalidInput({scene.file.string(), 0, surface.name + ".shape", {}, "has no faces"});
         const glm::dquat rotation = rotation_from_degrees(collider.rotation);

@@ -5,6 +5,7 @@
 
 #include "gelatin/scene.h"
 #include "mesh/surface_mesh.h"
+#include "model/build/object_mesh.h"
 #include "model/model.h"
 
 namespace gelatin {
@@ -21,6 +22,7 @@ std::vector<ColliderDescription> solid_colliders(const Scene& scene);
 
 /// Of the scene's other colliders. Repairs go to the log, one line each.
 /// @throws InvalidInput for files that cannot be read, and surfaces without faces
+std::vector<ColliderSurface> make_collider_surfaces(const Scene& scene, ObjectMesher& mesher);
 std::vector<ColliderSurface> make_collider_surfaces(const Scene& scene);
 
 /// Appends a surface: nodes that are held, by a handle if it moves. @pre all bodies are there

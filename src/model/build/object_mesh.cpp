@@ -105,6 +105,38 @@ std::shared_ptr<const ShapeSkin> make_skin(const ObjectDescription& object, cons
         ShapeSkin{surface.faces, std::move(carried.vertices), distance, surface.look});
 }
 
+// The first one of which that holds; null: there is none.
+template <class Predicate>
+std::shared_ptr<const ShapeMesh> find_mesh(const SceneMeshes* made, const Predicate& holds) {
+    if (made == nullptr) return nullptr;
+    const auto found =
+        std::find_if(made->all.begin(), made->all.end(), [&](const auto& mesh) { return holds(*mesh); });
+    return found != made->all.end() ? *found : nullptr;
+}
+
+bool is_body(const ShapeMesh& mesh) {
+    return !mesh.tets.tets.empty();
+}
+
+ShapeMesh make_mesh(const ObjectDescription& object, const SceneMeshes* made, Notes& notes) {
+    ShapeMesh mesh{object.shape, object.mesher, {}, {}};
+    const auto is_like = [&](const ShapeMesh& each) { return is_body(each) && each.shape == object.shape; };
+    if (const auto like = find_mesh(made, is_like)) {  // by another mesher
+        mesh.surface = like->surface;
+        if (like->surface.faces.empty()) mesh.tets = like->tets;
+    } else if (std::optional<TetMesh> tets = tets_of(object, notes)) {
+        mesh.tets = std::move(*tets);
+    } else {
+        mesh.surface = std::visit(SurfaceMaker{notes}, object.shape);
+    }
+    if (mesh.tets.tets.empty()) mesh.tets = fill(mesh.surface, object, notes);
+    return mesh;
+}
+
+void log_notes(const std::string& name, const Notes& notes) {
+    for (const std::string& note : notes) log_note(fmt::format("{}: {}", name, note));
+}
+
 void warn_of_a_poor_fit(const FittedSprings& springs, const std::string& name) {
     constexpr double kMuch = 0.2;
     if (springs.softest > 1.0 - kMuch && springs.stiffest < 1.0 + kMuch) return;
@@ -116,12 +148,8 @@ void warn_of_a_poor_fit(const FittedSprings& springs, const std::string& name) {
 
 }  // namespace
 
-SurfaceMesh make_surface(const Shape& shape, Notes& notes) {
-    return std::visit(SurfaceMaker{notes}, shape);
-}
-
 TetMesh ObjectMesher::make(const ObjectDescription& object) {
-    TetMesh mesh = local(object).mesh;
+    TetMesh mesh = local(object).made->tets;
     const glm::dquat rotation = rotation_from_degrees(object.rotation);
     for (glm::dvec3& p : mesh.positions) p = rotation * (object.scale * p) + object.position;
     return mesh;
@@ -129,36 +157,54 @@ TetMesh ObjectMesher::make(const ObjectDescription& object) {
 
 std::shared_ptr<const ShapeSkin> ObjectMesher::skin(const ObjectDescription& object) {
     Known& known = local(object);
-    if (!object.skin || known.surface.faces.empty()) return nullptr;
-    if (!known.skin) known.skin = make_skin(object, known.surface, known.mesh);
+    if (!object.skin || known.made->surface.faces.empty()) return nullptr;
+    if (!known.skin) known.skin = make_skin(object, known.made->surface, known.made->tets);
     return *known.skin;
 }
 
 std::shared_ptr<const FittedSprings> ObjectMesher::fit(const ObjectDescription& object) {
     Known& known = local(object);
     if (!known.springs) {
-        known.springs = std::make_shared<const FittedSprings>(SpringCache().fit(known.mesh));
+        known.springs = std::make_shared<const FittedSprings>(SpringCache().fit(known.made->tets));
         warn_of_a_poor_fit(*known.springs, object.name);
     }
     return known.springs;
 }
 
+const SurfaceMesh& ObjectMesher::surface(const Shape& shape, const std::string& name) {
+    const auto is_same = [&](const auto& known) { return known->shape == shape; };
+    const auto same = std::find_if(surfaces_.rbegin(), surfaces_.rend(), is_same);
+    if (same != surfaces_.rend()) return (*same)->surface;
+    const auto fits = [&](const ShapeMesh& mesh) { return !is_body(mesh) && mesh.shape == shape; };
+    if (std::shared_ptr<const ShapeMesh> made = find_mesh(made_.get(), fits))
+        return surfaces_.emplace_back(std::move(made))->surface;
+    Notes notes;
+    ShapeMesh made{shape, {}, std::visit(SurfaceMaker{notes}, shape), {}};
+    log_notes(name, notes);
+    return surfaces_.emplace_back(std::make_shared<const ShapeMesh>(std::move(made)))->surface;
+}
+
+SceneMeshes ObjectMesher::meshes() const {
+    SceneMeshes result{surfaces_};
+    for (const Known& known : known_) result.all.push_back(known.made);
+    return result;
+}
+
 // Searched from the last one, because copies are consecutive.
 ObjectMesher::Known& ObjectMesher::local(const ObjectDescription& object) {
-    const auto same = std::find_if(known_.rbegin(), known_.rend(), [&](const Known& known) {
-        return known.shape == object.shape && known.mesher == object.mesher;
-    });
+    const auto fits = [&](const ShapeMesh& mesh) {
+        return is_body(mesh) && mesh.shape == object.shape && mesh.mesher == object.mesher;
+    };
+    const auto same =
+        std::find_if(known_.rbegin(), known_.rend(), [&](const Known& known) { return fits(*known.made); });
     if (same != known_.rend()) return *same;
-    Notes notes;
-    Known known{object.shape, object.mesher, {}, {}, {}, nullptr};
-    if (std::optional<TetMesh> tets = tets_of(object, notes)) {
-        known.mesh = std::move(*tets);
-    } else {
-        known.surface = make_surface(object.shape, notes);
-        known.mesh = fill(known.surface, object, notes);
+    std::shared_ptr<const ShapeMesh> made = find_mesh(made_.get(), fits);
+    if (made == nullptr) {
+        Notes notes;
+        made = std::make_shared<const ShapeMesh>(make_mesh(object, made_.get(), notes));
+        log_notes(name_of(object), notes);
     }
-    for (const std::string& note : notes) log_note(fmt::format("object '{}': {}", object.name, note));
-    return known_.emplace_back(std::move(known));
+    return known_.emplace_back(Known{std::move(made), {}, nullptr});
 }
 
 }  // namespace gelatin

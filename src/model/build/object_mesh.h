@@ -2,19 +2,18 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "gelatin/scene.h"
 #include "mesh/carry_surface.h"
 #include "mesh/surface_mesh.h"
 #include "mesh/tet_mesh.h"
+#include "model/build/scene_meshes.h"
 #include "model/springs/fit_springs.h"
 
 namespace gelatin {
-
-/// The surface of a shape, as it is before it is placed; of tets, their boundary.
-/// @throws InvalidInput for files that cannot be read
-SurfaceMesh make_surface(const Shape& shape, Notes& notes);
 
 /// A shape's own surface, and how its tets carry it. No position, rotation or scale changes that.
 struct ShapeSkin {
@@ -28,6 +27,9 @@ struct ShapeSkin {
 /// shape and mesher.
 class ObjectMesher {
 public:
+    /// @param made for some of the shapes already; null: for none
+    explicit ObjectMesher(std::shared_ptr<const SceneMeshes> made = {}) : made_(std::move(made)) {}
+
     /// The tets of an object in the scene: its shape or file, filled by the mesher if it is a surface, then
     /// scaled, rotated and moved to its position. Repairs go to the log, one line each.
     /// @throws InvalidInput for files that cannot be read, surfaces that cannot be filled, flat or inverted
@@ -45,18 +47,24 @@ public:
     /// @throws as make
     std::shared_ptr<const FittedSprings> fit(const ObjectDescription& object);
 
+    /// The surface of a collider, not placed yet; of tets, their boundary. Repairs go to the log.
+    /// @throws InvalidInput for files that cannot be read
+    const SurfaceMesh& surface(const Shape& shape, const std::string& name);
+
+    /// All that was asked for.
+    SceneMeshes meshes() const;
+
 private:
     struct Known {
-        Shape shape;
-        MesherSettings mesher;
-        SurfaceMesh surface;                                   // as the shape defines it; empty for tets
-        TetMesh mesh;                                          // not placed yet
+        std::shared_ptr<const ShapeMesh> made;
         std::optional<std::shared_ptr<const ShapeSkin>> skin;  // empty until it is requested
         std::shared_ptr<const FittedSprings> springs;          // empty until they are requested
     };
     Known& local(const ObjectDescription& object);
 
-    std::vector<Known> known_;
+    std::shared_ptr<const SceneMeshes> made_;
+    std::vector<Known> known_;  // of bodies
+    std::vector<std::shared_ptr<const ShapeMesh>> surfaces_;
 };
 
 }  // namespace gelatin

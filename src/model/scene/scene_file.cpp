@@ -6,6 +6,7 @@
 
 #include "core/file.h"
 #include "gelatin/scene.h"
+#include "model/scene/named_meshes.h"
 #include "model/scene/override_scene.h"
 #include "model/scene/parse_scene.h"
 #include "model/scene/scene_file_bodies.h"
@@ -177,7 +178,13 @@ Scene override_scene(const Scene& scene, const std::vector<std::string>& overrid
         validate(scene);
         return scene;
     }
-    return read_scene(to_toml(scene, scene.file.parent_path()), scene.file, overrides);
+    const std::filesystem::path folder = scene.file.parent_path();
+    Scene named = scene;
+    const std::vector<std::shared_ptr<const Mesh>> meshes = name_meshes(named, folder);
+    Scene result = read_scene(to_toml(named, folder), scene.file, overrides);
+    restore_meshes(result, meshes);
+    result.meshes = scene.meshes;
+    return result;
 }
 
 }  // namespace gelatin

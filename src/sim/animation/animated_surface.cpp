@@ -33,7 +33,7 @@ public:
         for (std::size_t k = 0; k < 3; ++k) {
             const glm::vec2 uv = has_look ? look_.corner_uvs[f][k] : glm::vec2(0.0f);
             if (uv != glm::vec2(0.0f)) object_.has_uvs = true;
-            corners.push_back(vertex({points[k], uv}));
+            corners.push_back(vertex({points[k] - object_.points.first, uv}));
         }
     }
 
@@ -67,6 +67,7 @@ AnimatedSurface make_animated_surface(const Model& model) {
     for (std::size_t o = 0; o < model.objects.size(); ++o) {
         AnimatedSurface::Object& object = surface.objects.emplace_back();
         object.name = model.objects[o].name;
+        object.points = drawn.objects[o].points;
         Collector collector(object, drawn.look);
         const Range& faces = drawn.objects[o].faces;
         for (std::uint32_t f = faces.first; f < faces.end(); ++f) collector.add(drawn.faces[f], f);

@@ -16,7 +16,7 @@ namespace gelatin {
 /// texture coordinate each.
 struct AnimatedSurface {
     struct Vertex {
-        std::uint32_t point;  ///< in `points`
+        std::uint32_t point;  ///< among those of the object
         glm::vec2 uv{0.0f};   ///< (0, 0): the image's lower left
         bool operator==(const Vertex&) const = default;
     };
@@ -27,6 +27,7 @@ struct AnimatedSurface {
     };
     struct Object {
         std::string name;
+        Range points;  ///< in `points`
         bool has_uvs = false;
         std::vector<Vertex> vertices;
         std::vector<Part> parts;
@@ -38,7 +39,7 @@ struct AnimatedSurface {
 
 AnimatedSurface make_animated_surface(const Model& model);
 
-/// The positions of an object's vertices. @param points x, y, z of each point
+/// The positions of an object's vertices. @param points x, y, z of each point of the object
 std::vector<glm::vec3> vertex_positions(const AnimatedSurface::Object& object, std::span<const float> points);
 
 /// Unit vectors: means of the normals of faces round each vertex, by their areas; vertices at one point share

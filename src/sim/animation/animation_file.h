@@ -12,11 +12,12 @@
 namespace gelatin {
 
 /// All frames of what is drawn in one file, which other programs play: glTF (.glb), USD (.usda), point caches
-/// (.pc2, .mdd) for an OBJ file of the first frame.
+/// (.pc2, .mdd) for an OBJ file of the first frame. Frames wait on disk, so that memory does not grow with
+/// their number; nothing is left of them if this process is killed.
 class AnimationFile {
 public:
     virtual ~AnimationFile() = default;
-    /// Frames in order; all have the nodes of the model.
+    /// Frames in order; all have the nodes of the model. @throws SystemError
     virtual void write(const HostFrame& frame) = 0;
     /// Writes the file, completely or not at all. @pre it has a frame @throws SystemError; InvalidInput if
     /// the format cannot have so much

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <glm/common.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -12,11 +11,13 @@
 #include <string>
 #include <utility>
 
-#include "core/file.h"
+#include "core/file_writer.h"
 #include "gelatin/error.h"
 #include "gelatin/version.h"
 
 namespace gelatin {
+namespace fs = std::filesystem;
+
 namespace {
 
 using Json = nlohmann::json;
@@ -26,29 +27,42 @@ constexpr int kFloat = 5126, kUnsigned = 5125, kArrayBuffer = 34962, kElementBuf
 
 static_assert(std::endian::native == std::endian::little, "glTF has this order");
 
+std::string padded(std::string text, char with) {
+    text.resize((text.size() + 3) / 4 * 4, with);
+    return text;
+}
+
+}  // namespace
+
 /// The file's one buffer, and what is in it.
 class GltfContent {
 public:
+    /// @param file that it will be
+    explicit GltfContent(fs::path file) : file_(std::move(file)), bytes_(scratch_folder(file_)) {}
+
     Json json = {{"asset", {{"version", "2.0"}, {"generator", std::string("Gelatin ") + version()}}},
                  {"scene", 0},
                  {"accessors", Json::array()},
                  {"bufferViews", Json::array()}};
 
     int add_view(const void* data, std::size_t size, std::optional<int> target = {}) {
-        bytes_.resize((bytes_.size() + 3) / 4 * 4);
-        Json view{{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", size}};
-        if (target) view["target"] = *target;
-        bytes_.append(static_cast<const char*>(data), size);
-        return append("bufferViews", std::move(view));
+        const int view = begin_view(size, target);
+        bytes_.append(data, size);
+        return view;
     }
 
     template <class T>
     int add(const std::vector<T>& values, const char* type, int component, std::optional<int> target = {}) {
-        return append("accessors",
-                      {{"bufferView", add_view(values.data(), values.size() * sizeof(T), target)},
-                       {"componentType", component},
-                       {"count", values.size()},
-                       {"type", type}});
+        const int view = add_view(values.data(), values.size() * sizeof(T), target);
+        return add_accessor(view, values.size(), type, component);
+    }
+
+    /// So many rows of as many floats each, which `row` gives one after the other.
+    template <class Row>
+    int add_rows(std::size_t rows, std::size_t columns, const Row& row) {
+        const int view = begin_view(rows * columns * sizeof(float), {});
+        for (std::size_t r = 0; r < rows; ++r) bytes_.append(row(r).data(), columns * sizeof(float));
+        return add_accessor(view, rows * columns, "SCALAR", kFloat);
     }
 
     /// Positions, or changes of them, have their bounds.
@@ -71,39 +85,56 @@ public:
         return static_cast<int>(values.size()) - 1;
     }
 
-    /// The whole file.
-    std::string finished(const std::filesystem::path& file) {
-        bytes_.resize((bytes_.size() + 3) / 4 * 4);
+    void write() {
+        align();
         json["buffers"] = {{{"byteLength", bytes_.size()}}};
-        std::string text = json.dump();
-        text.resize((text.size() + 3) / 4 * 4, ' ');
+        const std::string text = padded(json.dump(), ' ');
         const std::size_t size = 12 + 8 + text.size() + 8 + bytes_.size();
         if (size > std::numeric_limits<std::uint32_t>::max())
             throw InvalidInput(
-                {file.string(),
+                {file_.string(),
                  0,
                  {},
                  {},
                  fmt::format("would have {} bytes, glTF has at most 4 GiB: export fewer frames (--every)",
                              size)});
-        std::string result;
-        const auto add_number = [&](std::size_t number) {
-            const auto value = static_cast<std::uint32_t>(number);
-            result.append(reinterpret_cast<const char*>(&value), sizeof(value));
-        };
-        result += "glTF";
-        add_number(2);
-        add_number(size);
-        add_number(text.size());
-        result += "JSON" + text;
-        add_number(bytes_.size());
-        result.append("BIN\0", 4);
-        return result + bytes_;
+        FileWriter out(file_);
+        out.append("glTF" + number(2) + number(size) + number(text.size()) + "JSON" + text);
+        out.append(number(bytes_.size()) + std::string("BIN\0", 4));
+        constexpr std::size_t kPiece = std::size_t{1} << 20;
+        for (std::size_t at = 0; at < bytes_.size(); at += kPiece) {
+            std::string piece(std::min(kPiece, bytes_.size() - at), '\0');
+            bytes_.read(at, piece.data(), piece.size());
+            out.append(piece);
+        }
+        out.finish();
     }
 
 private:
-    std::string bytes_;
+    static std::string number(std::size_t number) {
+        const auto value = static_cast<std::uint32_t>(number);
+        return {reinterpret_cast<const char*>(&value), sizeof(value)};
+    }
+
+    void align() { bytes_.append("\0\0\0", (4 - bytes_.size() % 4) % 4); }
+
+    int begin_view(std::size_t size, std::optional<int> target) {
+        align();
+        Json view{{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", size}};
+        if (target) view["target"] = *target;
+        return append("bufferViews", std::move(view));
+    }
+
+    int add_accessor(int view, std::size_t count, const char* type, int component) {
+        return append("accessors",
+                      {{"bufferView", view}, {"componentType", component}, {"count", count}, {"type", type}});
+    }
+
+    fs::path file_;
+    ScratchFile bytes_;
 };
+
+namespace {
 
 Json material_of(const glm::vec3& color) {
     return {{"pbrMetallicRoughness",
@@ -137,86 +168,111 @@ std::vector<glm::vec3> changes(std::vector<glm::vec3> values, const std::vector<
     return values;
 }
 
-// One target at a time, the first frame none.
-std::vector<float> weights_of(std::size_t frames) {
-    const std::size_t targets = frames - 1;
-    std::vector<float> weights(frames * targets);
-    for (std::size_t f = 1; f < frames; ++f) weights[f * targets + f - 1] = 1.0f;
+// At a frame, each target's: one at a time, in the first frame none.
+std::vector<float> weights_at(std::size_t frame, std::size_t targets) {
+    std::vector<float> weights(targets);
+    if (frame > 0) weights[frame - 1] = 1.0f;
     return weights;
 }
 
 }  // namespace
 
 GltfFile::GltfFile(std::filesystem::path file, const Model& model, AnimationSettings settings)
-    : file_(std::move(file)), settings_(std::move(settings)), surface_(make_animated_surface(model)) {}
+    : file_(std::move(file)),
+      settings_(std::move(settings)),
+      surface_(make_animated_surface(model)),
+      frames_(file_, 3 * surface_.points.size()) {}
 
 void GltfFile::write(const HostFrame& frame) {
     times_.push_back(frame.time);
-    points_.push_back(carry_skin(surface_.points, std::span(frame.positions)));
+    frames_.add(carry_skin(surface_.points, std::span(frame.positions)));
+}
+
+std::vector<float> GltfFile::points(const AnimatedSurface::Object& object, std::size_t frame) const {
+    return frames_.read(frame, 3 * std::size_t{object.points.first}, 3 * std::size_t{object.points.count});
+}
+
+bool GltfFile::moves(const AnimatedSurface::Object& object) const {
+    const std::vector<float> first = points(object, 0);
+    for (std::size_t f = 1; f < times_.size(); ++f)
+        if (points(object, f) != first) return true;
+    return false;
+}
+
+// One mesh an object, one primitive a material, all with the same vertices. Empty: there are no faces.
+std::optional<int> GltfFile::add_mesh(std::size_t o, bool moves, GltfContent& content) const {
+    const AnimatedSurface::Object& object = surface_.objects[o];
+    if (object.parts.empty()) return {};
+    const std::vector<float> first = points(object, 0);
+    const std::vector<glm::vec3> positions = vertex_positions(object, first),
+                                 normals = vertex_normals(object, first);
+    Json attributes{{"POSITION", content.add_positions(positions)},
+                    {"NORMAL", content.add(normals, "VEC3", kFloat, kArrayBuffer)}};
+    if (object.has_uvs) {
+        std::vector<glm::vec2> uvs;  // glTF's (0, 0) is the upper left
+        for (const auto& vertex : object.vertices) uvs.emplace_back(vertex.uv.x, 1.0f - vertex.uv.y);
+        attributes["TEXCOORD_0"] = content.add(uvs, "VEC2", kFloat, kArrayBuffer);
+    }
+    Json targets = Json::array();
+    for (std::size_t f = 1; moves && f < times_.size(); ++f) {
+        const std::vector<float> now = points(object, f);
+        targets.push_back(
+            {{"POSITION", content.add_positions(changes(vertex_positions(object, now), positions))},
+             {"NORMAL",
+              content.add(changes(vertex_normals(object, now), normals), "VEC3", kFloat, kArrayBuffer)}});
+    }
+    Json primitives = Json::array();
+    std::optional<int> plain;
+    for (const AnimatedSurface::Part& part : object.parts) {
+        if (part.material == SurfaceLook::kNone && !plain)
+            plain = content.append("materials", material_of(settings_.colors[o]));
+        Json primitive{
+            {"attributes", attributes},
+            {"indices", content.add(part.corners, "SCALAR", kUnsigned, kElementBuffer)},
+            {"material", part.material == SurfaceLook::kNone ? *plain : static_cast<int>(part.material)}};
+        if (moves) primitive["targets"] = targets;
+        primitives.push_back(std::move(primitive));
+    }
+    Json mesh{{"name", object.name}, {"primitives", std::move(primitives)}};
+    if (moves) mesh["weights"] = std::vector<float>(times_.size() - 1);
+    return content.append("meshes", std::move(mesh));
+}
+
+// One channel for each node that moves; they share their keys.
+void GltfFile::add_animation(const std::vector<int>& moving, GltfContent& content) const {
+    if (moving.empty()) return;
+    std::vector<float> seconds;
+    for (const double time : times_) seconds.push_back(static_cast<float>(time - times_.front()));
+    const int input = content.add(seconds, "SCALAR", kFloat);
+    Json& described = content.json["accessors"][static_cast<std::size_t>(input)];
+    described["min"] = {seconds.front()};
+    described["max"] = {seconds.back()};
+    const std::size_t targets = times_.size() - 1;
+    const int output = content.add_rows(times_.size(), targets,
+                                        [&](std::size_t frame) { return weights_at(frame, targets); });
+    Json channels = Json::array();
+    for (const int node : moving)
+        channels.push_back({{"sampler", 0}, {"target", {{"node", node}, {"path", "weights"}}}});
+    content.json["animations"] = {
+        {{"name", "simulation"},
+         {"channels", channels},
+         {"samplers", {{{"input", input}, {"output", output}, {"interpolation", "LINEAR"}}}}}};
 }
 
 void GltfFile::finish() {
-    GltfContent content;
+    GltfContent content(file_);
     add_materials(surface_.look, content);
-    std::vector<float> seconds;
-    for (const double time : times_) seconds.push_back(static_cast<float>(time - times_.front()));
-    std::optional<int> input, output;  // of the animation
-    Json channels = Json::array(), samplers = Json::array(), roots = Json::array();
+    std::vector<int> nodes, moving;
     for (std::size_t o = 0; o < surface_.objects.size(); ++o) {
-        const AnimatedSurface::Object& object = surface_.objects[o];
-        const std::vector<glm::vec3> positions = vertex_positions(object, points_.front()),
-                                     normals = vertex_normals(object, points_.front());
-        Json attributes{{"POSITION", content.add_positions(positions)},
-                        {"NORMAL", content.add(normals, "VEC3", kFloat, kArrayBuffer)}};
-        if (object.has_uvs) {
-            std::vector<glm::vec2> uvs;  // glTF's (0, 0) is the upper left
-            for (const auto& vertex : object.vertices) uvs.emplace_back(vertex.uv.x, 1.0f - vertex.uv.y);
-            attributes["TEXCOORD_0"] = content.add(uvs, "VEC2", kFloat, kArrayBuffer);
-        }
-        const bool moves = std::any_of(points_.begin() + 1, points_.end(), [&](const auto& points) {
-            return vertex_positions(object, points) != positions;
-        });
-        Json targets = Json::array();
-        for (std::size_t f = 1; moves && f < points_.size(); ++f)
-            targets.push_back({{"POSITION", content.add_positions(
-                                                changes(vertex_positions(object, points_[f]), positions))},
-                               {"NORMAL", content.add(changes(vertex_normals(object, points_[f]), normals),
-                                                      "VEC3", kFloat, kArrayBuffer)}});
-        Json primitives = Json::array();
-        std::optional<int> plain;
-        for (const AnimatedSurface::Part& part : object.parts) {
-            if (part.material == SurfaceLook::kNone && !plain)
-                plain = content.append("materials", material_of(settings_.colors[o]));
-            Json primitive{
-                {"attributes", attributes},
-                {"indices", content.add(part.corners, "SCALAR", kUnsigned, kElementBuffer)},
-                {"material", part.material == SurfaceLook::kNone ? *plain : static_cast<int>(part.material)}};
-            if (moves) primitive["targets"] = targets;
-            primitives.push_back(std::move(primitive));
-        }
-        if (primitives.empty()) continue;
-        Json mesh{{"name", object.name}, {"primitives", primitives}};
-        if (moves) mesh["weights"] = std::vector<float>(points_.size() - 1);
-        const int node = content.append(
-            "nodes", {{"name", object.name}, {"mesh", content.append("meshes", std::move(mesh))}});
-        roots.push_back(node);
-        if (!moves) continue;
-        if (!input) {
-            input = content.add(seconds, "SCALAR", kFloat);
-            Json& described = content.json["accessors"][static_cast<std::size_t>(*input)];
-            described["min"] = {seconds.front()};
-            described["max"] = {seconds.back()};
-            output = content.add(weights_of(points_.size()), "SCALAR", kFloat);
-        }
-        samplers.push_back({{"input", *input}, {"output", *output}, {"interpolation", "LINEAR"}});
-        channels.push_back(
-            {{"sampler", samplers.size() - 1}, {"target", {{"node", node}, {"path", "weights"}}}});
+        const bool moves = this->moves(surface_.objects[o]);
+        const std::optional<int> mesh = add_mesh(o, moves, content);
+        if (!mesh) continue;
+        nodes.push_back(content.append("nodes", {{"name", surface_.objects[o].name}, {"mesh", *mesh}}));
+        if (moves) moving.push_back(nodes.back());
     }
-    content.json["scenes"] = {{{"nodes", roots}}};
-    if (!channels.empty())
-        content.json["animations"] = {
-            {{"name", "simulation"}, {"channels", channels}, {"samplers", samplers}}};
-    write_file(file_, content.finished(file_));
+    content.json["scenes"] = {{{"nodes", nodes}}};
+    add_animation(moving, content);
+    content.write();
 }
 
 }  // namespace gelatin

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "core/file.h"
+#include "core/file_writer.h"
 #include "sim/animation/animated_surface.h"
 
 namespace gelatin {
@@ -28,15 +28,22 @@ PointCacheFile::PointCacheFile(std::filesystem::path file, Kind kind, const Mode
     : file_(std::move(file)),
       kind_(kind),
       frame_rate_(frame_rate),
-      points_(make_animated_surface(model).points) {}
+      points_(make_animated_surface(model).points),
+      points_of_frames_(file_, 3 * points_.size()) {}
 
 void PointCacheFile::write(const HostFrame& frame) {
     frames_.push_back(frame.frame);
     times_.push_back(frame.time);
-    for (const float value : carry_skin(points_, std::span(frame.positions))) {
-        if (kind_ == Kind::pc2) append_little(value, samples_);
-        if (kind_ == Kind::mdd) append_big(value, samples_);
+    points_of_frames_.add(carry_skin(points_, std::span(frame.positions)));
+}
+
+std::string PointCacheFile::bytes_of(const std::vector<float>& values) const {
+    std::string bytes;
+    for (const float value : values) {
+        if (kind_ == Kind::pc2) append_little(value, bytes);
+        if (kind_ == Kind::mdd) append_big(value, bytes);
     }
+    return bytes;
 }
 
 // PC2 counts time in frames, MDD in seconds.
@@ -61,7 +68,11 @@ std::string PointCacheFile::head() const {
 }
 
 void PointCacheFile::finish() {
-    write_file(file_, head() + samples_);
+    FileWriter out(file_);
+    out.append(head());
+    for (std::size_t f = 0; f < frames_.size(); ++f)
+        out.append(bytes_of(points_of_frames_.read(f, 0, 3 * points_.size())));
+    out.finish();
 }
 
 }  // namespace gelatin

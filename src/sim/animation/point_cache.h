@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/animation/animation_file.h"
+#include "sim/animation/frame_store.h"
 
 namespace gelatin {
 
@@ -20,6 +21,7 @@ public:
 
 private:
     std::string head() const;
+    std::string bytes_of(const std::vector<float>& values) const;
 
     std::filesystem::path file_;
     Kind kind_;
@@ -27,7 +29,7 @@ private:
     std::vector<SkinPoint> points_;
     std::vector<int> frames_;
     std::vector<double> times_;  // [s]
-    std::string samples_;
+    FrameStore points_of_frames_;
 };
 
 }  // namespace gelatin

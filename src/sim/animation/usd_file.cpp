@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/file.h"
+#include "core/file_writer.h"
 #include "gelatin/version.h"
 
 namespace gelatin {
@@ -54,10 +55,10 @@ std::string sample(int frame, const Vectors& values) {
     return text + ",\n";
 }
 
-std::vector<glm::vec3> range_of(const std::vector<float>& values, const Range& range) {
+std::vector<glm::vec3> vectors_of(const std::vector<float>& values) {
     std::vector<glm::vec3> result;
-    for (std::size_t n = range.first; n < range.end(); ++n)
-        result.emplace_back(values[3 * n], values[3 * n + 1], values[3 * n + 2]);
+    for (std::size_t n = 0; n < values.size(); n += 3)
+        result.emplace_back(values[n], values[n + 1], values[n + 2]);
     return result;
 }
 
@@ -76,25 +77,30 @@ UsdFile::UsdFile(std::filesystem::path file, const Model& model, AnimationSettin
       model_(model),
       settings_(std::move(settings)),
       surface_(make_animated_surface(model)),
-      points_(model.objects.size()),
-      velocities_(model.objects.size()),
-      nodes_(model.objects.size()) {}
+      points_(file_, 3 * surface_.points.size()),
+      velocities_(file_, 3 * surface_.points.size()),
+      nodes_(file_, 3 * std::size_t{model.node_count()}) {}
 
 void UsdFile::write(const HostFrame& frame) {
     frames_.push_back(frame.frame);
-    const std::vector<float> points = carry_skin(surface_.points, std::span(frame.positions)),
-                             velocities = carry_skin(surface_.points, std::span(frame.velocities));
-    for (std::size_t o = 0; o < surface_.objects.size(); ++o) {
-        const AnimatedSurface::Object& object = surface_.objects[o];
-        points_[o] += sample(frame.frame, vertex_positions(object, points));
-        velocities_[o] += sample(frame.frame, vertex_positions(object, velocities));
-        if (model_.is_body(o))
-            nodes_[o] += sample(frame.frame, range_of(frame.positions, model_.objects[o].nodes));
-    }
+    points_.add(carry_skin(surface_.points, std::span(frame.positions)));
+    velocities_.add(carry_skin(surface_.points, std::span(frame.velocities)));
+    nodes_.add(frame.positions);
 }
 
-std::string UsdFile::object_text(std::size_t o, const std::string& name,
-                                 const std::vector<std::string>& materials) const {
+void UsdFile::append_samples(const char* name, const FrameStore& store, const Range& range,
+                             const AnimatedSurface::Object* object, FileWriter& out) const {
+    out.append(fmt::format("        {}.timeSamples = {{\n", name));
+    for (std::size_t f = 0; f < frames_.size(); ++f) {
+        const std::vector<float> values =
+            store.read(f, 3 * std::size_t{range.first}, 3 * std::size_t{range.count});
+        out.append(sample(frames_[f], object ? vertex_positions(*object, values) : vectors_of(values)));
+    }
+    out.append("        }\n");
+}
+
+void UsdFile::append_object(std::size_t o, const std::string& name, const std::vector<std::string>& materials,
+                            FileWriter& out) const {
     const AnimatedSurface::Object& object = surface_.objects[o];
     std::vector<std::uint32_t> corners;
     for (const AnimatedSurface::Part& part : object.parts)
@@ -117,8 +123,10 @@ std::string UsdFile::object_text(std::size_t o, const std::string& name,
                                 object.vertices[v].uv.y);
         text += "] (\n            interpolation = \"vertex\"\n        )\n";
     }
-    text += "        point3f[] points.timeSamples = {\n" + points_[o] + "        }\n";
-    text += "        vector3f[] velocities.timeSamples = {\n" + velocities_[o] + "        }\n";
+    out.append(text);
+    append_samples("point3f[] points", points_, object.points, &object, out);
+    append_samples("vector3f[] velocities", velocities_, object.points, &object, out);
+    text.clear();
     if (has_material)
         text += fmt::format("        rel material:binding = </simulation/materials/{}>\n",
                             materials[object.parts[0].material]);
@@ -139,21 +147,23 @@ std::string UsdFile::object_text(std::size_t o, const std::string& name,
         }
         first += faces;
     }
-    return text + "    }\n";
+    out.append(text + "    }\n");
 }
 
-std::string UsdFile::tets_text(std::size_t o) const {
+void UsdFile::append_tets(std::size_t o, const std::string& name, FileWriter& out) const {
     const ModelObject& object = model_.objects[o];
-    std::string tets = "[";
+    std::string tets;
     for (std::uint32_t t = object.tets.first; t < object.tets.end(); ++t) {
         const glm::uvec4 corners = model_.tets[t] - glm::uvec4(object.nodes.first);
         tets += fmt::format("{}({}, {}, {}, {})", t == object.tets.first ? "" : ", ", corners.x, corners.y,
                             corners.z, corners.w);
     }
-    return fmt::format(
-        "        uniform token purpose = \"guide\"\n        int4[] tetVertexIndices = {}]\n        point3f[] "
-        "points.timeSamples = {{\n{}        }}\n",
-        tets, nodes_[o]);
+    out.append(
+        fmt::format("    def TetMesh {}\n    {{\n        uniform token purpose = \"guide\"\n"
+                    "        int4[] tetVertexIndices = [{}]\n",
+                    quoted(name), tets));
+    append_samples("point3f[] points", nodes_, object.nodes, nullptr, out);
+    out.append("    }\n");
 }
 
 std::string UsdFile::image_name(std::size_t material, const std::string& name) const {
@@ -198,29 +208,30 @@ std::string UsdFile::materials_text(const std::vector<std::string>& names) const
     return text + "    }\n";
 }
 
-void UsdFile::finish() {
-    std::string text = fmt::format(
-        "#usda 1.0\n(\n    defaultPrim = \"simulation\"\n    doc = \"Gelatin {}\"\n    startTimeCode = {}\n  "
-        "  "
-        "endTimeCode = {}\n    timeCodesPerSecond = {}\n    framesPerSecond = {}\n    metersPerUnit = 1\n    "
-        "upAxis = "
-        "\"Y\"\n)\n\ndef Xform \"simulation\" (\n    kind = \"component\"\n)\n{{\n",
+std::string UsdFile::head() const {
+    return fmt::format(
+        "#usda 1.0\n(\n    defaultPrim = \"simulation\"\n    doc = \"Gelatin {}\"\n    startTimeCode = {}\n"
+        "    endTimeCode = {}\n    timeCodesPerSecond = {}\n    framesPerSecond = {}\n    metersPerUnit = 1\n"
+        "    upAxis = \"Y\"\n)\n\ndef Xform \"simulation\" (\n    kind = \"component\"\n)\n{{\n",
         version(), frames_.front(), frames_.back(), settings_.frame_rate, settings_.frame_rate);
+}
+
+void UsdFile::finish() {
+    FileWriter out(file_);
+    out.append(head());
     std::set<std::string> taken{"materials"}, of_materials;
     std::vector<std::string> materials;
     for (const SurfaceMaterial& material : surface_.look.materials)
         materials.push_back(identifier(material.name, of_materials));
     for (std::size_t o = 0; o < surface_.objects.size(); ++o) {
-        const std::string name = identifier(surface_.objects[o].name, taken);
-        text += object_text(o, name, materials);
-        if (!model_.is_body(o)) continue;
-        text += fmt::format("    def TetMesh {}\n    {{\n{}    }}\n",
-                            quoted(identifier(surface_.objects[o].name + "_tets", taken)), tets_text(o));
+        append_object(o, identifier(surface_.objects[o].name, taken), materials, out);
+        if (model_.is_body(o)) append_tets(o, identifier(surface_.objects[o].name + "_tets", taken), out);
     }
+    out.append(materials_text(materials) + "}\n");
     for (std::size_t m = 0; m < materials.size(); ++m)
         if (const auto& image = surface_.look.materials[m].image)
             write_file(file_.parent_path() / image_name(m, materials[m]), *image);
-    write_file(file_, text + materials_text(materials) + "}\n");
+    out.finish();
 }
 
 }  // namespace gelatin

@@ -6,6 +6,7 @@
 
 #include "sim/animation/animated_surface.h"
 #include "sim/animation/animation_file.h"
+#include "sim/animation/frame_store.h"
 
 namespace gelatin {
 
@@ -20,9 +21,13 @@ public:
     void finish() override;
 
 private:
-    std::string object_text(std::size_t object, const std::string& name,
-                            const std::vector<std::string>& materials) const;
-    std::string tets_text(std::size_t object) const;
+    std::string head() const;
+    void append_object(std::size_t object, const std::string& name, const std::vector<std::string>& materials,
+                       FileWriter& out) const;
+    void append_tets(std::size_t object, const std::string& name, FileWriter& out) const;
+    /// Of the vertices of an object, or, if it is null, of all that the range has.
+    void append_samples(const char* name, const FrameStore& store, const Range& range,
+                        const AnimatedSurface::Object* object, FileWriter& out) const;
     std::string image_name(std::size_t material, const std::string& name) const;  ///< of the file beside this
     std::string materials_text(const std::vector<std::string>& names) const;
 
@@ -31,8 +36,8 @@ private:
     AnimationSettings settings_;
     AnimatedSurface surface_;
     std::vector<int> frames_;
-    // By object, with a line for each frame:
-    std::vector<std::string> points_, velocities_, nodes_;
+    FrameStore points_, velocities_;  // x, y, z of each point [m], [m/s]
+    FrameStore nodes_;                // x, y, z of each node [m]
 };
 
 }  // namespace gelatin

@@ -1,7 +1,5 @@
 #include "sim/recording/recorded_frame.h"
 
-#include <zstd.h>
-
 #include <algorithm>
 #include <array>
 #include <span>
@@ -10,6 +8,7 @@
 #include "core/packed_arrays.h"
 #include "gelatin/error.h"
 #include "model/spring_packing.h"
+#include "sim/recording/compression.h"
 #include "sim/recording/residuals.h"
 
 namespace gelatin {
@@ -128,25 +127,8 @@ bool read_array(std::string_view& bytes, const Prediction& prediction, Values& v
     return true;
 }
 
-std::string compressed(const std::string& bytes) {
-    std::string result(ZSTD_compressBound(bytes.size()), '\0');
-    const std::size_t size = ZSTD_compress(result.data(), result.size(), bytes.data(), bytes.size(), kLevel);
-    if (ZSTD_isError(size) != 0) throw Error(std::string("zstd: ") + ZSTD_getErrorName(size));
-    result.resize(size);
-    return result;
-}
-
 [[noreturn]] void refuse() {
     throw InvalidInput({{}, 0, {}, {}, "is damaged"});
-}
-
-// @param most bytes that there can be
-std::string decompressed(std::string_view bytes, std::size_t most) {
-    const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
-    if (size > most) refuse();  // or it is unknown: these values are the largest
-    std::string result(size, '\0');
-    if (ZSTD_decompress(result.data(), result.size(), bytes.data(), bytes.size()) != size) refuse();
-    return result;
 }
 
 // Those of the frame before cost nothing. Others would take a third of the bytes, for the first guess of a
@@ -187,7 +169,7 @@ std::string encoded_frame(const RecordedFrame& frame, const EarlierNeighbours& n
         prediction.begin(a, arrays, arrays.of[a].size());
         append_array(arrays.of[a], prediction, bytes);
     }
-    return compressed(bytes);
+    return compressed(bytes, kLevel);
 }
 
 RecordedFrame decoded_frame(std::string_view bytes, const Model& model, const EarlierNeighbours& neighbours,

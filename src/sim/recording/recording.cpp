@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "gelatin/error.h"
-#include "model/scene/parse_scene.h"
 #include "sim/checkpoint.h"
 #include "sim/recording/recording_file.h"
 #include "sim/recording/recording_internals.h"
@@ -16,8 +15,16 @@
 namespace gelatin {
 
 struct Recording::Impl {
-    explicit Impl(const std::filesystem::path& file)
-        : input(file), scene(parse_scene(input.head().scene, input.head().scene_file)) {}
+    explicit Impl(const std::filesystem::path& file) : input(file), scene(scene_of(input)) {}
+
+    static Scene scene_of(const RecordingInput& input) {
+        try {
+            return restored_scene(input.head().scene);
+        } catch (const InvalidInput& error) {
+            if (!error.problem().file.empty()) throw;
+            throw InvalidInput({input.file().string(), 0, {}, {}, error.problem().problem});
+        }
+    }
 
     RecordingInput input;
     Scene scene;
@@ -62,11 +69,8 @@ std::size_t Recording::index_of(int frame) const {
 
 void RecordingInternals::require_fits(const Recording& recording, const Model& model) {
     if (recording.impl_->input.head().topology != topology_hash(model))
-        throw InvalidInput({recording.file().string(),
-                            0,
-                            {},
-                            {},
-                            "was made from other meshes than those that its scene has now"});
+        throw InvalidInput(
+            {recording.file().string(), 0, {}, {}, "was made from other meshes than those of this scene"});
 }
 
 const RecordedFrame& RecordingInternals::frame(const Recording& recording, const Model& model,

@@ -15,16 +15,17 @@ namespace gelatin {
 namespace {
 
 constexpr char kMagic[8] = {'G', 'E', 'L', 'A', 'T', 'R', 'E', 'C'};
-constexpr std::uint32_t kVersion = 1, kFrameMark = 0x4D415246u;  // "FRAM"
+constexpr std::uint32_t kVersion = 2, kFrameMark = 0x4D415246u;  // "FRAM"
 
-// The file begins with this, followed by JSON text.
+// The file begins with this, followed by JSON text and the meshes' bytes.
 struct FileHeader {
     char magic[8];
     std::uint32_t version;
     std::uint32_t reserved;
-    std::uint64_t size, checksum;  // of the text
+    std::uint64_t text_size, meshes_size;
+    std::uint64_t checksum;  // of both
 };
-static_assert(sizeof(FileHeader) == 32);
+static_assert(sizeof(FileHeader) == 40);
 
 // Each frame begins with this, followed by its bytes.
 struct FrameHeader {
@@ -61,16 +62,18 @@ RecordingOutput::RecordingOutput(std::filesystem::path file, const RecordingHead
     : file_(std::move(file)), stream_(file_, std::ios::binary | std::ios::trunc) {
     const std::string text = nlohmann::json{
         {"gelatin", {{"version", version()}, {"commit", commit()}}},
-        {"scene", head.scene},
-        {"scene_file", head.scene_file.string()},
+        {"scene", head.scene.text},
+        {"scene_file", head.scene.file.string()},
         {"topology",
          head.topology}}.dump();
     FileHeader header{};
     std::memcpy(header.magic, kMagic, sizeof(kMagic));
     header.version = kVersion;
-    header.size = text.size();
-    header.checksum = hash(text);
-    write(bytes_of(header) + text);
+    header.text_size = text.size();
+    header.meshes_size = head.scene.meshes.size();
+    const std::string content = text + head.scene.meshes;
+    header.checksum = hash(content);
+    write(bytes_of(header) + content);
 }
 
 void RecordingOutput::append(RecordingEntry entry, const std::string& bytes) {
@@ -96,17 +99,33 @@ RecordingInput::RecordingInput(std::filesystem::path file)
     FileHeader header{};
     if (!stream_ || !take(stream_, header) || std::memcmp(header.magic, kMagic, sizeof(kMagic)) != 0)
         refuse("is not a recording of Gelatin");
-    if (header.version != kVersion) refuse("was written by another version of Gelatin");
-    if (header.size > std::filesystem::file_size(file_, error)) refuse("is cut off before its first frame");
-    std::string text(header.size, '\0');
-    stream_.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (header.version != kVersion)
+        refuse(fmt::format("was written by another version of Gelatin: its format is {}, not {}",
+                           header.version, kVersion));
+    const std::uint64_t left = std::filesystem::file_size(file_, error) - sizeof(header);
+    if (header.text_size > left || header.meshes_size > left - header.text_size)
+        refuse("is cut off before its first frame");
+    std::string content(header.text_size + header.meshes_size, '\0');
+    stream_.read(content.data(), static_cast<std::streamsize>(content.size()));
     if (!stream_) refuse("is cut off before its first frame");
-    const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
-    if (hash(text) != header.checksum || !json.is_object()) refuse("is damaged: its checksum does not match");
-    head_ = {json.value("scene", ""), json.value("scene_file", ""), json.value("topology", std::uint64_t(0))};
-    find_entries(sizeof(header) + header.size);
+    if (hash(content) != header.checksum) refuse("is damaged: its checksum does not match");
+    take_head(content.substr(0, header.text_size));
+    head_.scene.meshes = content.substr(header.text_size);
+    find_entries(sizeof(header) + content.size());
     if (entries_.empty()) refuse("has no complete frame");
     if (!entries_.front().is_key) refuse("is damaged: its first frame is predicted from another one");
+}
+
+void RecordingInput::take_head(const std::string& text) {
+    const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+    if (!json.is_object()) refuse("is damaged");
+    try {
+        head_.scene.text = json.value("scene", "");
+        head_.scene.file = json.value("scene_file", "");
+        head_.topology = json.value("topology", std::uint64_t(0));
+    } catch (const nlohmann::json::exception&) {
+        refuse("is damaged");
+    }
 }
 
 void RecordingInput::find_entries(std::uint64_t offset) {

@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "sim/recording/recorded_meshes.h"
+
 namespace gelatin {
 
 /// What a recording is of.
 struct RecordingHead {
-    std::string scene;                 ///< as a scene file, in the folder of `scene_file`
-    std::filesystem::path scene_file;  ///< from which it came; in a folder at least
-    std::uint64_t topology = 0;        ///< topology_hash of its model
+    RecordedScene scene;
+    std::uint64_t topology = 0;  ///< topology_hash of its model
 };
 
 /// A frame in the file.
@@ -55,6 +56,7 @@ public:
     std::string read(const RecordingEntry& entry) const;
 
 private:
+    void take_head(const std::string& text);
     void find_entries(std::uint64_t offset);
     [[noreturn]] void refuse(const std::string& problem) const;
 

@@ -8,7 +8,6 @@
 
 #include "core/log.h"
 #include "gelatin/recording.h"
-#include "model/scene/scene_writer.h"
 #include "sim/recording/recorded_frame.h"
 #include "sim/recording/recording_file.h"
 #include "sim/simulator_internals.h"
@@ -22,10 +21,8 @@ constexpr std::size_t kKeyInterval = 32;
 constexpr std::size_t kMostWaiting = 4;
 
 RecordingHead head_of(const Simulator& simulator) {
-    const Scene& scene = simulator.scene();
-    const std::filesystem::path file =
-        std::filesystem::absolute(scene.file.empty() ? "scene.toml" : scene.file);
-    return {to_toml(scene, file.parent_path()), file, topology_hash(model_of(simulator))};
+    const Model& model = model_of(simulator);
+    return {recorded_scene(simulator.scene(), model.meshes.get()), topology_hash(model)};
 }
 
 }  // namespace

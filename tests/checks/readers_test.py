@@ -1,0 +1,234 @@
+"""Other programs read what Gelatin exports, with the numbers of the simulation: USD's library, trimesh, meshio and VTK.
+Needs PyPI, so it is one of the long tests. Assimp reads glTF in tests/sim/animation_file_test.cpp.
+
+The numbers are those of a checkpoint, for nodes, and of a point cache, for what is drawn; tests of C++ compare both with
+the simulation. Files of floats must have the same, bit for bit, and so must text, which has enough digits.
+"""
+
+import os
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+VENV = ROOT / "build/readers-venv"
+REQUIREMENTS = Path(__file__).with_name("readers_requirements.txt")
+PROGRAM = os.environ.get("GELATIN_PROGRAM", str(ROOT / "build/release/bin/gelatin"))
+LAST = 12  # frame
+
+SCENE = f"""
+[simulation]
+frames = {LAST}
+[[material]]
+name = "jelly"
+youngs_modulus = 2e4
+[[object]]
+name = "1st bar"  # no name for USD
+shape = {{ file = "bar.obj" }}
+mesher = {{ nodes = 200 }}
+material = "jelly"
+position = [0, 1, 0]
+[[object]]
+name = "box"
+shape = {{ box = [0.5, 0.5, 0.5], segments = [3, 3, 3] }}
+material = "jelly"
+position = [0, 2, 0]
+[[collider]]
+shape = {{ box = [4, 0.5, 4] }}
+position = [0, -0.25, 0]
+"""
+
+
+def install():
+    """A virtual environment with all readers, unless there is one already."""
+    done = VENV / "requirements.txt"
+    if done.exists() and done.read_bytes() == REQUIREMENTS.read_bytes():
+        return
+    subprocess.run([sys.executable, "-m", "venv", "--clear", VENV], check=True)
+    subprocess.run(
+        [VENV / "bin/pip", "install", "--quiet", "--disable-pip-version-check", "--requirement", REQUIREMENTS], check=True
+    )
+    done.write_bytes(REQUIREMENTS.read_bytes())
+
+
+def png(size):
+    """A checkerboard."""
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    rows = b"".join(b"\0" + bytes(255 * ((x // 8 + y // 8) % 2) for x in range(size) for _ in "rgb") for y in range(size))
+    head = struct.pack(">IIBBBBB", size, size, 8, 2, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+
+
+def textured_bar():
+    """OBJ text: a closed box of 2 x 2 x 6 quads, each side with the whole image."""
+    size = (0.4, 0.4, 1.2)
+    cells = (2, 2, 6)
+    lines, numbers = ["mtllib bar.mtl", "usemtl paint"], {}
+
+    def corner(at, uv):
+        if at not in numbers:
+            numbers[at] = len(numbers) + 1
+            lines.append("v " + " ".join(str(s * (k / n - 0.5)) for s, k, n in zip(size, at, cells)))
+        lines.append(f"vt {uv[0]} {uv[1]}")
+        return numbers[at]
+
+    faces, count = [], 0
+    for axis in range(3):
+        u, v = (axis + 1) % 3, (axis + 2) % 3
+        for side in (0, 1):
+            for i in range(cells[u]):
+                for j in range(cells[v]):
+                    quad = []
+                    for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)):
+                        at = [0, 0, 0]
+                        at[axis], at[u], at[v] = side * cells[axis], i + a, j + b
+                        count += 1
+                        quad.append((corner(tuple(at), (at[u] / cells[u], at[v] / cells[v])), count))
+                    faces.append(quad if side else quad[::-1])
+    lines += ["f " + " ".join(f"{p}/{t}" for p, t in quad) for quad in faces]
+    return "\n".join(lines) + "\n"
+
+
+class Readers(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.kept = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.kept.cleanup)
+        cls.folder = Path(cls.kept.name)
+        (cls.folder / "bar.obj").write_text(textured_bar())
+        (cls.folder / "bar.mtl").write_text("newmtl paint\nKd 1 1 1\nmap_Kd bar.png\n")
+        (cls.folder / "bar.png").write_bytes(png(64))
+        (cls.folder / "scene.toml").write_text(SCENE)
+        cls.gelatin("run", "scene.toml", "--backend", "cpu", "--record", "run.gel", "--checkpoint", "end")
+        for file in ("bar.obj", "bar.mtl", "bar.png"):
+            (cls.folder / file).unlink()  # the recording has them
+        for out in ("run.usda", "run.glb", "run.pc2"):
+            cls.gelatin("export", "run.gel", out)
+        cls.gelatin("export", "run.gel", "frames", "--format", "vtu")
+
+        cache = (cls.folder / "run.pc2").read_bytes()
+        points, samples = struct.unpack_from("<i", cache, 16)[0], struct.unpack_from("<i", cache, 28)[0]
+        assert samples == LAST + 1
+        cls.points = np.frombuffer(cache, "<f4", offset=32).reshape(samples, points, 3)
+        end = (cls.folder / "end").read_bytes()
+        cls.nodes = np.frombuffer(end, "<f4", 4 * struct.unpack_from("<Q", end, 24)[0], 64).reshape(-1, 4)[:, :3]
+
+    @classmethod
+    def gelatin(cls, *arguments):
+        result = subprocess.run(
+            [PROGRAM, *arguments, "--quiet"], cwd=cls.folder, capture_output=True, text=True, check=False
+        )
+        assert result.returncode == 0, result.stderr
+
+    def points_of(self, vertices):
+        """Which points of the first frame these are, exactly."""
+        numbers = {point.tobytes(): k for k, point in enumerate(self.points[0])}
+        return [numbers[vertex.tobytes()] for vertex in np.asarray(vertices, np.float32)]
+
+    def assert_same(self, actual, expected):
+        np.testing.assert_array_equal(np.asarray(actual), expected)
+
+    def test_usd_has_points_and_nodes_of_all_frames_and_is_valid(self):
+        from pxr import Usd, UsdGeom, UsdShade, UsdValidation
+
+        stage = Usd.Stage.Open(str(self.folder / "run.usda"))
+        validators = UsdValidation.ValidationRegistry().GetOrLoadAllValidators()
+        self.assertGreater(len(validators), 10)
+        problems = UsdValidation.ValidationContext(validators).Validate(stage)
+        self.assertEqual([problem.GetMessage() for problem in problems], [])
+
+        meshes = [prim for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
+        self.assertEqual([mesh.GetDisplayName() for mesh in meshes], ["1st bar", "box", "collider 1"])
+        for mesh in meshes:
+            points = UsdGeom.Mesh(mesh).GetPointsAttr()
+            self.assertEqual(points.GetTimeSamples(), list(range(LAST + 1)))
+            numbers = self.points_of(points.Get(0))
+            for frame in range(LAST + 1):
+                self.assert_same(points.Get(frame), self.points[frame][numbers])
+        tets = [prim for prim in stage.Traverse() if prim.IsA(UsdGeom.TetMesh)]
+        nodes = np.concatenate([UsdGeom.TetMesh(prim).GetPointsAttr().Get(LAST) for prim in tets])
+        self.assert_same(nodes, self.nodes[: len(nodes)])
+        material = UsdShade.MaterialBindingAPI(meshes[0]).ComputeBoundMaterial()[0]
+        image = UsdShade.Shader(material.GetPrim().GetChild("image")).GetInput("file").Get()
+        self.assertEqual(Path(image.resolvedPath).read_bytes(), png(64))
+
+    # The line that docs/command-line.md gives.
+    def test_usd_is_converted_to_its_binary_form(self):
+        from pxr import Sdf, Usd
+
+        text, binary = self.folder / "run.usda", self.folder / "run.usdc"
+        Sdf.Layer.FindOrOpen(str(text)).Export(str(binary))
+        self.assertTrue(binary.read_bytes().startswith(b"PXR-USDC"))
+        of_text, of_binary = Usd.Stage.Open(str(text)), Usd.Stage.Open(str(binary))
+        for prim in of_text.Traverse():
+            for attribute in prim.GetAttributes():
+                other = of_binary.GetAttributeAtPath(attribute.GetPath())
+                self.assertEqual(attribute.GetTimeSamples(), other.GetTimeSamples())
+                for time in attribute.GetTimeSamples() or [0]:
+                    self.assertEqual(attribute.Get(time), other.Get(time))
+
+    def test_gltf_has_points_of_any_frame_and_the_texture(self):
+        import trimesh
+
+        numbers = {}
+        for frame in (0, 5, LAST):
+            self.gelatin("export", "run.gel", "one.glb", "--from", str(frame), "--to", str(frame))
+            meshes = trimesh.load(self.folder / "one.glb", process=False).geometry
+            self.assertEqual(sorted(meshes), ["1st bar", "box", "collider 1"])
+            for name, mesh in meshes.items():
+                if frame == 0:
+                    numbers[name] = self.points_of(mesh.vertices)
+                self.assert_same(mesh.vertices.astype(np.float32), self.points[frame][numbers[name]])
+            texture = meshes["1st bar"].visual.material.baseColorTexture
+            self.assertEqual(texture.size, (64, 64))
+            self.assertEqual([texture.getpixel((x, 0)) for x in (0, 8)], [(0, 0, 0), (255, 255, 255)])
+        whole = trimesh.load(self.folder / "run.glb", process=False).geometry
+        for name, mesh in whole.items():
+            self.assert_same(mesh.vertices.astype(np.float32), self.points[0][numbers[name]])
+
+    def test_meshio_reads_nodes_and_values(self):
+        import meshio
+
+        mesh = meshio.read(self.folder / "frames" / f"frame_{LAST:06}.vtu")
+        self.assert_same(mesh.points, self.nodes[: len(mesh.points)])
+        first = meshio.read(self.folder / "frames/frame_000000.vtu")
+        np.testing.assert_allclose(mesh.point_data["displacement"], mesh.points - first.points, atol=1e-6)
+        self.assertEqual([block.type for block in mesh.cells], ["tetra"])
+        self.assertEqual(sorted(mesh.cell_data), ["object", "strain", "stress"])
+
+    def test_vtk_reads_the_series(self):
+        from vtk import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
+        from vtk.util.numpy_support import vtk_to_numpy
+
+        def read(reader, name):
+            reader.SetFileName(str(self.folder / "frames" / name))
+            reader.Update()
+            self.assertEqual(reader.GetErrorCode(), 0)
+            return reader.GetOutput()
+
+        for frame in range(LAST + 1):
+            surface = read(vtkXMLPolyDataReader(), f"frame_{frame:06}.vtp")
+            self.assert_same(vtk_to_numpy(surface.GetPoints().GetData()), self.points[frame])
+        tets = read(vtkXMLUnstructuredGridReader(), f"frame_{LAST:06}.vtu")
+        nodes = vtk_to_numpy(tets.GetPoints().GetData())
+        self.assert_same(nodes, self.nodes[: len(nodes)])
+        values = tets.GetPointData()
+        names = [values.GetArrayName(k) for k in range(values.GetNumberOfArrays())]
+        self.assertEqual(names, ["velocity", "displacement", "contact_force", "contact_friction"])
+
+
+if __name__ == "__main__":
+    install()
+    python = VENV / "bin/python"
+    if Path(sys.prefix).resolve() != VENV.resolve():
+        sys.exit(subprocess.run([python, *sys.argv], check=False).returncode)
+    import numpy as np
+
+    unittest.main()
