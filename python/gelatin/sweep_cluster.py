@@ -88,20 +88,21 @@ def run_on(client: Any, job: Job, plans: list[tuple[Plan, int]]) -> Iterator[Row
     )
     open_runs = {future.key: (future, plan, attempt) for future, (plan, attempt) in zip(futures, plans)}
     try:
-        waiting = distributed.as_completed(futures)
+        waiting = distributed.as_completed(futures, with_results=True, raise_errors=False)
         del futures  # so that what has been read is forgotten, here and by the scheduler
-        for future in waiting:
-            _, plan, attempt = open_runs.pop(future.key)
-            yield _row_of(future, job, plan, attempt)
+        for batch in waiting.batches():
+            for future, result in batch:
+                _, plan, attempt = open_runs.pop(future.key)
+                yield _row_of(future, result, job, plan, attempt)
     finally:
         if open_runs:
             with contextlib.suppress(Exception):
                 client.cancel([future for future, _, _ in open_runs.values()], force=True)
 
 
-def _row_of(future: Any, job: Job, plan: Plan, attempt: int) -> Row:
+def _row_of(future: Any, result: Any, job: Job, plan: Plan, attempt: int) -> Row:
     if future.status == "finished":
-        row: Row = future.result()
+        row: Row = result
         return row
     if future.status == "error":
         problem = future.exception()
