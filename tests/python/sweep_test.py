@@ -16,6 +16,8 @@ from simulator_test import exploding_bar
 import gelatin
 from gelatin import sweep_cluster, sweep_command
 from gelatin.sweep_folder import Folder
+from gelatin.sweep_run import Job, make_run, write_dead_run
+from gelatin.sweep_settings import Plan
 
 MODULI = {"material.jelly.youngs_modulus": [1e4, 1e5, 1e6]}
 OF_THE_CLOCK = ("frame_ms", "seconds", "worker")
@@ -264,6 +266,42 @@ def test_after_everything_was_killed_nothing_is_run_twice(tmp_path):
 
     table = pyarrow.parquet.read_table(out / "table.parquet")
     assert table["square"].to_pylist() == [k * k for k in range(60)]
+
+
+def test_a_worker_makes_no_finished_run_again(tmp_path):
+    """Dask asks for it when it has lost a result with its worker."""
+    calls = []
+    job = Job(lambda run: calls.append(run.name), tmp_path, "", None, 0, [], None, "cpu", 0.0, None)
+    with Folder(tmp_path, {}):
+        plan = Plan({"k": 1}, None)
+        first = make_run(job, plan, 1)
+        assert make_run(job, plan, 1) == write_dead_run(job, plan, 1) == first
+        assert len(calls) == 1
+        assert make_run(job, plan, 2)["attempt"] == 2 and len(calls) == 2
+
+
+def test_a_run_has_its_threads():
+    """Which the library counts once in a process."""
+    program = """
+import os, sys
+from conftest import falling_ball
+import gelatin
+from gelatin.sweep_run import limit_threads
+limit_threads(int(sys.argv[1]) or None)
+gelatin.Simulator(falling_ball(), "cpu").step(5)
+print(len(os.listdir("/proc/self/task")), len(os.sched_getaffinity(0)))
+"""
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(["tests/python", os.environ.get("PYTHONPATH", "")]), "OPENBLAS_NUM_THREADS": "1"}
+    counts = []
+    for limit in ("0", "1"):
+        command = [sys.executable, "-c", program, limit]
+        result = subprocess.run(command, capture_output=True, text=True, env=environment)
+        assert result.returncode == 0, result.stderr
+        counts.append([int(count) for count in result.stdout.split()])
+    processors = len(os.sched_getaffinity(0))
+    assert counts[0][1] == counts[1][1] == processors  # afterwards it may use all again
+    if processors > 1:
+        assert counts[1][0] < counts[0][0], counts
 
 
 def test_a_folder_that_workers_lack_is_one_line(tmp_path):
