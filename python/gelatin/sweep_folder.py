@@ -40,10 +40,13 @@ def write_row(folder: Path, row: Row) -> None:
 
 def read_row(folder: Path, run: str) -> Row | None:
     """None: the run is not finished."""
+    file = folder / "rows" / f"{run}.json"
     try:
-        row: Row = json.loads((folder / "rows" / f"{run}.json").read_bytes())
+        row: Row = json.loads(file.read_bytes())
     except FileNotFoundError:
         return None
+    except ValueError:
+        raise InvalidInput(f"{file}: is damaged; without it, the run is made again") from None
     return row
 
 

@@ -15,7 +15,7 @@ from simulator_test import exploding_bar
 
 import gelatin
 from gelatin import sweep_cluster, sweep_command
-from gelatin.sweep_folder import Folder
+from gelatin.sweep_folder import Folder, read_row, write_row
 from gelatin.sweep_run import Job, make_run, write_dead_run
 from gelatin.sweep_settings import Plan
 
@@ -184,6 +184,20 @@ def test_a_folder_is_used_by_one_call_at_a_time(tmp_path):
             Folder(tmp_path, {"function": "f"})
     with Folder(tmp_path, {"function": "f"}):
         pass
+
+
+def test_a_row_is_whole_or_not_there(tmp_path, monkeypatch):
+    (tmp_path / "rows").mkdir()
+    row = {"run": "a", "attempt": 1}
+    write_row(tmp_path, row)
+    monkeypatch.setattr(os, "replace", lambda *_: 1 / 0)  # killed before it
+    with pytest.raises(ZeroDivisionError):
+        write_row(tmp_path, {**row, "attempt": 2})
+    assert read_row(tmp_path, "a") == row
+    assert read_row(tmp_path, "b") is None
+    (tmp_path / "rows/a.json").write_text('{"run"')
+    with pytest.raises(gelatin.InvalidInput, match="a.json: is damaged; without it, the run is made again"):
+        read_row(tmp_path, "a")
 
 
 # Workers
