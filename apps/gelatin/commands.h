@@ -16,5 +16,6 @@ void add_view_command(CLI::App& app);
 void add_mesh_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_bench_command(CLI::App& app);
+void add_sweep_command(CLI::App& app);
 
 }  // namespace gelatin

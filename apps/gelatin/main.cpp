@@ -51,6 +51,7 @@ int run(int argc, char** argv) {
     add_mesh_command(app);
     add_info_command(app);
     add_bench_command(app);
+    add_sweep_command(app);
     if (argc > 1) check_command_name(app, argv[1]);
     try {
         app.parse(argc, argv);

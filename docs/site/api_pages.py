@@ -19,6 +19,7 @@ GROUPS = {  # of the Python page: names of gelatin.__all__, the rest comes last
     "Objects and colliders": "Object Mesher Part TetAttribute Start Handle Keyframe Drag Load Force Traction Pressure Collider",
     "Shapes and regions": "Shape Sphere Box Capsule Text File Mesh Plane Region BoxRegion SphereRegion HalfSpaceRegion",
     "Running": "Simulator Body Hand Batch Recorder",
+    "Many runs": "sweep Between Run",
     "Pictures and films": "Picture Film film",
     "Errors": "Error InvalidInput Diverged NoOpenGl GlError SystemError",
 }

@@ -49,10 +49,14 @@ from .shapes import (
 )
 from .recording import Recorder
 from .simulator import Player, Simulator, play
+from .sweep_run import Run
+from .sweep_settings import Between
+from .sweeps import sweep
 
 __version__ = version()
 __all__ = [
     "Batch",
+    "Between",
     "Body",
     "Box",
     "BoxRegion",
@@ -86,6 +90,7 @@ __all__ = [
     "Pressure",
     "Recorder",
     "Region",
+    "Run",
     "Scene",
     "Shape",
     "SimulationSettings",
@@ -102,5 +107,6 @@ __all__ = [
     "film",
     "load",
     "play",
+    "sweep",
     "version",
 ]

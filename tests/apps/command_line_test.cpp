@@ -19,7 +19,7 @@ TEST_F(CommandLine, TellsItsVersion) {
 TEST_F(CommandLine, HelpShowsEveryCommandAndOption) {
     EXPECT_EQ(run({"--help"}).exit_code, 0);
     const std::string help = run({"--help"}).out;
-    for (const char* command : {"run", "view", "mesh", "bench", "info"})
+    for (const char* command : {"run", "view", "mesh", "bench", "info", "sweep"})
         EXPECT_THAT(help, HasSubstr(std::string("\n  ") + command));
     const std::string run_help = run({"run", "--help"}).out;
     for (const char* option : {"--frames", "--backend", "--set", "--stats", "--image", "--video", "--export",
@@ -33,7 +33,7 @@ TEST_F(CommandLine, RefusesCallsThatAreWrong) {
     expect_error({}, 2, "A subcommand is required (see gelatin --help)");
     expect_error({"rn", "cube.toml"}, 2,
                  "there is no command \"rn\" (did you mean \"run\"?); there are run, render, export, view, "
-                 "mesh, info and bench");
+                 "mesh, info, bench and sweep");
     expect_error({"run"}, 2, "FILE is required (see gelatin run --help)");
     expect_error({"run", "cube.toml", "--image"}, 2,
                  "--image: 1 required FILE.png missing (see gelatin run --help)");
@@ -65,6 +65,21 @@ TEST_F(CommandLine, NamesTheMeshThatIsWrong) {
     EXPECT_THAT(result.err, StartsWith("gelatin: error: "));
     EXPECT_THAT(result.err, HasSubstr("not closed"));
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+}
+
+// Python gets all that follows, options of the same names as the program's own, too.
+TEST_F(CommandLine, SweepsAreLeftToPython) {
+    write("python", "#!/bin/sh\nshift 2\necho \"$@\"\nexit 5\n");
+    std::filesystem::permissions(path("python"), std::filesystem::perms::owner_all);
+    settings_.environment.push_back("GELATIN_PYTHON=" + path("python").string());
+    const ProgramResult result =
+        run({"sweep", "cube.toml", "--vary", "a=1,2", "--help", "--version", "--out", "x"});
+    EXPECT_EQ(result.out, "cube.toml --vary a=1,2 --help --version --out x\n");
+    EXPECT_EQ(result.exit_code, 5);
+    settings_.environment.back() = "GELATIN_PYTHON=no_such_program";
+    expect_error(
+        {"sweep", "cube.toml"}, 1,
+        "sweep needs the Python package, and no_such_program cannot be run: No such file or directory");
 }
 
 }  // namespace
