@@ -27,11 +27,18 @@ OTHERS = {
     r"scripts/(demo|build|setup)\b.*": "every build of the project begins with these scripts",
     r"scripts/test\b.*": "runs this test",
     r"bench/peers/run\.py .*": "downloads other simulators; tests/checks/peers_test.py runs what needs none",
-    r"python examples/python/.*": "tests/python/examples_test.py",
+    r"python examples/.*": "tests/python/examples_test.py",
+    r"python -c 'from pxr .*": "tests/checks/readers_test.py, which has USD's library",
+    r"pip install '\.\[sweep\]'": "scripts/setup_python installs the same",
     r"cmake .*|build/jelly|build/embed/embed": "tests/package/package_test.py",
     r"python3 -m venv my_environment|my_environment/bin/.*": "compiles everything once more: scripts/build_wheel",
     r"build/release/bin/scene_in_code": "a test of its own, examples.scene_in_code",
 }
+
+CLUSTERS = ("cluster-slurm.md", "cluster-ssh.md")  # nobody has one here
+
+# What a short look leaves out: it takes long, or needs a long recording.
+LONG = r"gelatin (view|sweep)\b|--resume| --from "
 
 # A closed surface, for the meshes that pages take for granted: a box of 0.2 m.
 BOX = "".join(f"v {x} {y} {z}\n" for x in (0, 0.2) for y in (0, 0.2) for z in (0, 0.2)) + """
@@ -45,7 +52,7 @@ f 2 6 8 4
 
 
 def pages():
-    return [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+    return [ROOT / "README.md", *(page for page in sorted((ROOT / "docs").glob("*.md")) if page.name not in CLUSTERS)]
 
 
 def blocks_of(page):
@@ -77,7 +84,8 @@ class Reader:
         (folder / "build/release").symlink_to(OPTIONS.build)
         for name in ("bunny.obj", "cow.obj", "model.obj"):
             (folder / name).write_text(BOX, encoding="utf-8")
-        self.environment = {**os.environ, "PATH": f"{OPTIONS.build}/bin:{os.environ['PATH']}"}
+        self.environment = {**os.environ, "PATH": f"{OPTIONS.build}/bin:{os.environ['PATH']}", "GELATIN_PYTHON": sys.executable,
+                            "PYTHONPATH": str(OPTIONS.build / "python")}
 
     def run(self, command):
         """Returns the exit code and what was printed. A window must stay open until it is killed, which counts as 0."""
@@ -115,7 +123,7 @@ class Pages(unittest.TestCase):
                         if runs_elsewhere(command):
                             others.add(command)
                             continue
-                        if not OPTIONS.long and re.search(r"gelatin view|--resume| --from ", command):
+                        if not OPTIONS.long and re.search(LONG, command):
                             continue
                         with self.subTest(page=page.name, command=command):
                             code, output = reader.run(command)
