@@ -155,6 +155,10 @@ class Readers(unittest.TestCase):
         tets = [prim for prim in stage.Traverse() if prim.IsA(UsdGeom.TetMesh)]
         nodes = np.concatenate([UsdGeom.TetMesh(prim).GetPointsAttr().Get(LAST) for prim in tets])
         self.assert_same(nodes, self.nodes[: len(nodes)])
+        for mesh in meshes:
+            self.assertTrue(UsdShade.MaterialBindingAPI(mesh).ComputeBoundMaterial()[0])
+        box = UsdShade.MaterialBindingAPI(meshes[1]).ComputeBoundMaterial()[0].ComputeSurfaceSource()[0]
+        self.assertEqual([box.GetInput("diffuseColor").Get()], list(UsdGeom.Mesh(meshes[1]).GetDisplayColorAttr().Get()))
         material = UsdShade.MaterialBindingAPI(meshes[0]).ComputeBoundMaterial()[0]
         image = UsdShade.Shader(material.GetPrim().GetChild("image")).GetInput("file").Get()
         self.assertEqual(Path(image.resolvedPath).read_bytes(), png(64))

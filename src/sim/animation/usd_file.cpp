@@ -79,7 +79,20 @@ UsdFile::UsdFile(std::filesystem::path file, const Model& model, AnimationSettin
       surface_(make_animated_surface(model)),
       points_(file_, 3 * surface_.points.size()),
       velocities_(file_, 3 * surface_.points.size()),
-      nodes_(file_, 3 * std::size_t{model.node_count()}) {}
+      nodes_(file_, 3 * std::size_t{model.node_count()}) {
+    give_plain_objects_materials();
+}
+
+// Of their colour: not every program shows displayColor.
+void UsdFile::give_plain_objects_materials() {
+    for (std::size_t o = 0; o < surface_.objects.size(); ++o) {
+        for (AnimatedSurface::Part& part : surface_.objects[o].parts) {
+            if (part.material != SurfaceLook::kNone) continue;
+            part.material = static_cast<std::uint32_t>(surface_.look.materials.size());
+            surface_.look.materials.push_back({surface_.objects[o].name, settings_.colors[o], "", nullptr});
+        }
+    }
+}
 
 void UsdFile::write(const HostFrame& frame) {
     frames_.push_back(frame.frame);

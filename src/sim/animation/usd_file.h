@@ -21,6 +21,7 @@ public:
     void finish() override;
 
 private:
+    void give_plain_objects_materials();
     std::string head() const;
     void append_object(std::size_t object, const std::string& name, const std::vector<std::string>& materials,
                        FileWriter& out) const;
