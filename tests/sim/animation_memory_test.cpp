@@ -16,6 +16,7 @@
 #include "sim/animation/animation_file.h"
 #include "sim/simulator_internals.h"
 
+#ifdef GELATIN_COUNTS_MEMORY
 namespace {
 
 // What this program has from `new` now, and the most that it had.
@@ -56,6 +57,7 @@ void operator delete(void* memory, std::size_t /*size*/) noexcept {
 void operator delete[](void* memory, std::size_t /*size*/) noexcept {
     give_back(memory);
 }
+#endif
 
 namespace gelatin {
 namespace {
@@ -95,6 +97,7 @@ protected:
         }
     }
 
+#ifdef GELATIN_COUNTS_MEMORY
     // Bytes, at most at once, for a file of so many frames.
     std::size_t needed(int frames) const {
         const HostFrame frame = simulator_.read_frame();
@@ -105,6 +108,7 @@ protected:
         file->finish();
         return most - before;
     }
+#endif
 
     std::vector<fs::path> files() const {
         return {fs::directory_iterator(folder_.path()), fs::directory_iterator()};
@@ -114,6 +118,7 @@ protected:
     Simulator simulator_{one_ball(), on_cpu()};
 };
 
+#ifdef GELATIN_COUNTS_MEMORY
 // Of glTF, a few kilobytes a frame are: what its JSON says of each.
 TEST_P(AnimationMemoryTest, DoesNotGrowWithTheFrames) {
     const std::size_t frame = 12 * std::size_t{model_of(simulator_).skin.points.size()};
@@ -121,6 +126,7 @@ TEST_P(AnimationMemoryTest, DoesNotGrowWithTheFrames) {
     const std::size_t few = needed(60), many = needed(160);
     EXPECT_LT(many, few + 12 * frame) << "with " << frame << " bytes a frame";
 }
+#endif
 
 // As if the process was killed before the end: neither under its name nor under another one.
 TEST_P(AnimationMemoryTest, NothingIsThereBeforeItIsWhole) {
