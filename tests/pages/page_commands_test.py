@@ -55,13 +55,6 @@ def pages():
     return [ROOT / "README.md", *(page for page in sorted((ROOT / "docs").glob("*.md")) if page.name not in CLUSTERS)]
 
 
-def blocks_of(page):
-    """Of each block of code: the paragraph before it, its language, and its text."""
-    text = page.read_text(encoding="utf-8")
-    for found in re.finditer(r"^```(\w*)[^\n]*\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
-        yield text[:found.start()].rstrip().rpartition("\n\n")[2], found[1], found[2]
-
-
 def commands_of(block):
     for line in block.splitlines():
         command = re.sub(r"(^|\s)#.*", "", line).strip()
@@ -86,6 +79,16 @@ class Reader:
             (folder / name).write_text(BOX, encoding="utf-8")
         self.environment = {**os.environ, "PATH": f"{OPTIONS.build}/bin:{os.environ['PATH']}", "GELATIN_PYTHON": sys.executable,
                             "PYTHONPATH": str(OPTIONS.build / "python")}
+
+    def read(self, page):
+        """Of each block of code: its language and its text. What is to be saved is, when the reader comes to it."""
+        text = page.read_text(encoding="utf-8")
+        for found in re.finditer(r"^```(\w*)[^\n]*\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
+            before = text[:found.start()].rstrip().rpartition("\n\n")[2]
+            name = re.search(r"\b[Ss]ave .*? as `([\w.]+)`", before)
+            if name:
+                (self.folder / name[1]).write_text(found[2], encoding="utf-8")
+            yield found[1], found[2]
 
     def run(self, command):
         """Returns the exit code and what was printed. A window must stay open until it is killed, which counts as 0."""
@@ -113,10 +116,7 @@ class Pages(unittest.TestCase):
         for page in pages():
             with tempfile.TemporaryDirectory() as folder:
                 reader = Reader(Path(folder))
-                for before, language, text in blocks_of(page):
-                    name = re.search(r"\b[Ss]ave .*? as `([\w.]+)`", before)
-                    if name:
-                        (reader.folder / name[1]).write_text(text, encoding="utf-8")
+                for language, text in reader.read(page):
                     if language != "sh":
                         continue
                     for command in commands_of(text):
@@ -147,10 +147,7 @@ class Pages(unittest.TestCase):
         for page in pages():
             with tempfile.TemporaryDirectory() as folder:
                 reader = Reader(Path(folder))
-                for before, _, text in blocks_of(page):
-                    name = re.search(r"\b[Ss]ave .*? as `([\w.]+)`", before)
-                    if name:
-                        (reader.folder / name[1]).write_text(text, encoding="utf-8")
+                for _, text in reader.read(page):
                     if not text.startswith("$ "):
                         continue
                     command, _, expected = text[2:].partition("\n")
