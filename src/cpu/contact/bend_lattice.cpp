@@ -87,7 +87,7 @@ void BendLattice<Real>::fill_empty(Bends& bends) const {
             for (p.y = 0; p.y < points.y; ++p.y)
                 for (p.x = 0; p.x < points.x; ++p.x, ++index) {
                     if (weights_[index] > Real(0)) continue;
-                    Vec3<Real> sum(0);
+                    Vec4<Real> sum(0);
                     Real count = 0;
                     for (int axis = 0; axis < 3; ++axis) {
                         const std::size_t step = steps[static_cast<std::size_t>(axis)];
@@ -124,7 +124,7 @@ Real BendLattice<Real>::squared_slope(const Bends& bends, std::size_t first) con
         const std::size_t along = steps[axis], a = steps[(axis + 1) % 3], b = steps[(axis + 2) % 3];
         Real steep = 0;
         for (const std::size_t p : {first, first + a, first + b, first + a + b}) {
-            const Vec3<Real> change = bends[p + along] - bends[p];
+            const Vec4<Real> change = bends[p + along] - bends[p];
             steep = std::max(steep, glm::dot(change, change));
         }
         squared += steep;
@@ -145,7 +145,7 @@ Real BendLattice<Real>::steepest(const Bends& bends) const {
             for (std::uint32_t y = 0; y < ends.y; ++y)
                 for (std::uint32_t x = 0; x < ends.x; ++x) {
                     const std::size_t p = x + y * steps[1] + z * steps[2];
-                    const Vec3<Real> change = bends[p + steps[axis]] - bends[p];
+                    const Vec4<Real> change = bends[p + steps[axis]] - bends[p];
                     high[p] = glm::dot(change, change);
                 }
         for (std::size_t across = 0; across < 3; ++across)
@@ -160,7 +160,7 @@ template <class Real>
 void BendLattice<Real>::shrink(Bends& bends, std::size_t first, Real part) const {
     const std::array<std::size_t, 3> steps = strides();
     std::array<std::size_t, 8> corners{};
-    Vec3<Real> mean(0);
+    Vec4<Real> mean(0);
     for (std::size_t k = 0; k < 8; ++k) {
         corners[k] = first + (k & 1) * steps[0] + (k >> 1 & 1) * steps[1] + (k >> 2) * steps[2];
         mean += Real(0.125f) * bends[corners[k]];
@@ -182,7 +182,7 @@ bool BendLattice<Real>::flatten(Bends& bends, Real most) const {
         slope = steepest(bends);
     }
     if (slope > most)
-        for (Vec3<Real>& bend : bends) bend *= Real(0.999f) * most / slope;
+        for (Vec4<Real>& bend : bends) bend *= Real(0.999f) * most / slope;
     return true;
 }
 
@@ -214,20 +214,18 @@ void BendLattice<Real>::widen(std::vector<Real>& low, std::vector<Real>& high, s
     }
 }
 
-template <class Real>
-std::vector<Real> BendLattice<Real>::curvatures(const Bends& bends) const {
-    std::vector<Real> all;
-    for (const std::uint32_t point : used_) all.push_back(curvature(bends, point));
-    return all;
-}
-
 // The linear interpolation of a function in a triangle is no farther from it than its second derivative along
 // any direction times a sixth of the longest edge squared.
 template <class Real>
-Real BendLattice<Real>::bulge(const Bends& bends, const std::vector<Real>& curvatures,
+Real BendLattice<Real>::bulge(const Bends& bends, std::vector<Real>& curvatures,
                               const std::array<const Place*, 3>& corners, Real longest_edge) const {
     const auto [a, b, c] = corners;
-    Real most = std::max({curvatures[a->used], curvatures[b->used], curvatures[c->used]});
+    Real most = 0;
+    for (const Place* corner : corners) {
+        Real& known = curvatures[corner->used];
+        if (known < Real(0)) known = curvature(bends, corner->point);
+        most = std::max(most, known);
+    }
     const glm::uvec3 first = glm::min(a->cell, glm::min(b->cell, c->cell)),
                      last = glm::max(a->cell, glm::max(b->cell, c->cell)), size = last - first;
     if (size.x + size.y + size.z > 1)  // more cells than those of the corners
@@ -250,14 +248,14 @@ Real BendLattice<Real>::curvature(const Bends& bends, std::size_t point) const {
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t j = 0; j < 3; ++j) {
                 const std::size_t p = point + i * a + j * b - a - b;
-                const Vec3<Real> bow = bends[p + s] - Real(2) * bends[p] + bends[p - s];
+                const Vec4<Real> bow = bends[p + s] - Real(2) * bends[p] + bends[p - s];
                 along = std::max(along, glm::dot(bow, bow));
             }
         for (std::size_t k = 0; k < 3; ++k)
             for (std::size_t i = 0; i < 2; ++i)
                 for (std::size_t j = 0; j < 2; ++j) {
                     const std::size_t p = point + k * s - s + i * a - a + j * b - b;
-                    const Vec3<Real> twist = (bends[p + a + b] - bends[p + a]) - (bends[p + b] - bends[p]);
+                    const Vec4<Real> twist = (bends[p + a + b] - bends[p + a]) - (bends[p + b] - bends[p]);
                     mixed = std::max(mixed, glm::dot(twist, twist));
                 }
         squared += along + Real(2) * mixed;

@@ -30,7 +30,7 @@ struct LocalMap {
 template <class Real>
 class BendLattice {
 public:
-    using Bends = std::vector<Vec3<Real>>;  ///< by point [m]
+    using Bends = std::vector<Vec4<Real>>;  ///< by point [m]; w is 0: four lanes cost less than three
     /// Where something is: its cell, which is round a point, by the number of this and among those in use;
     /// and from the point, in cells.
     struct Place {
@@ -48,19 +48,19 @@ public:
     void weigh(std::span<const Place> places);
 
     Real cell() const { return cell_; }  ///< [m]
-    Bends straight() const { return Bends(weights_.size(), Vec3<Real>(0)); }
+    Bends straight() const { return Bends(weights_.size(), Vec4<Real>(0)); }
     Vec3<Real> bend(const Bends& bends, const Place& place) const {
         const std::array<std::size_t, 3> steps = strides();
         const std::array<Vec3<Real>, 3> weights = weights_at(place);
-        const Vec3<Real>* layer = &bends[first_of(place)];
-        Vec3<Real> sum(0);
+        const Vec4<Real>* layer = &bends[first_of(place)];
+        Vec4<Real> sum(0);
         for (std::size_t z = 0; z < 3; ++z, layer += steps[2])
             for (std::size_t y = 0; y < 3; ++y) {
-                const Vec3<Real>* row = layer + y * steps[1];
+                const Vec4<Real>* row = layer + y * steps[1];
                 sum += (weights[y].y * weights[z].z) *
                        (weights[0].x * row[0] + weights[1].x * row[1] + weights[2].x * row[2]);
             }
-        return sum;
+        return Vec3<Real>(sum);
     }
     /// Adds what is left at places, on average. @param left(k) at the k-th of them [m]
     template <class Left>
@@ -71,12 +71,13 @@ public:
     bool flatten(Bends& bends, Real most) const;
     /// A bound of all slopes, and so of the change of bends over any distance.
     Real steepest(const Bends& bends) const;
-    /// Bounds of the second derivative along any direction, in each of the cells in use [1/m].
-    std::vector<Real> curvatures(const Bends& bends) const;
     /// Bound of how far bends within a face are from what is linear between its corners [m].
+    /// @param curvatures bounds of the second derivative along any direction, by cell in use [1/m]; negative:
+    /// not known yet
     /// @param longest_edge of the face [m]
-    Real bulge(const Bends& bends, const std::vector<Real>& curvatures,
-               const std::array<const Place*, 3>& corners, Real longest_edge) const;
+    Real bulge(const Bends& bends, std::vector<Real>& curvatures, const std::array<const Place*, 3>& corners,
+               Real longest_edge) const;
+    std::vector<Real> unknown_curvatures() const { return std::vector<Real>(used_.size(), Real(-1)); }
     /// A map with this linear part round each of the cells in use: in it and all that touch it.
     std::vector<LocalMap<Real>> local_maps(const glm::mat<3, 3, Real>& linear, const Bends& bends) const;
 
@@ -122,7 +123,7 @@ template <class Left>
 void BendLattice<Real>::add(std::span<const Place> places, const Left& left, Bends& bends) const {
     Bends sums = straight();
     for (std::size_t k = 0; k < places.size(); ++k) {
-        const Vec3<Real> here = left(k);
+        const Vec4<Real> here(left(k), Real(0));
         for_points(places[k], [&](std::size_t p, Real weight) { sums[p] += weight * here; });
     }
     for (std::size_t p = 0; p < sums.size(); ++p)

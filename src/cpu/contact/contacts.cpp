@@ -80,9 +80,10 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
         {
             const TimedStage part(timer, "advance_nodes.guess");
             guard_.drift(list_, aims_, guess_, positions);
-            const bool is_free = guard_.plan(list_, aims_, positions, guess_, Closeness::guess);
+            ends_ = guess_;
+            const bool is_free = guard_.plan(list_, aims_, positions, ends_, Closeness::guess);
             if (is_free || is_fresh || !(guard_.lacks_room() || any_restless(positions))) {
-                guard_.go(list_, guess_, false, positions);
+                guard_.go(list_, ends_, false, positions);
                 ++moves;
                 is_fresh = false;
                 if (is_free || moves == most_moves) break;
@@ -104,7 +105,8 @@ bool Contacts<Real>::plan_rest(std::span<const Vec4<Real>> positions, std::span<
     if (!any) return false;
     const auto plan = [&] {
         const TimedStage part(timer, "advance_nodes.guess");
-        guard_.plan(list_, aims_, positions, guess_, Closeness::guess, Movers::nodes);
+        ends_ = guess_;
+        guard_.plan(list_, aims_, positions, ends_, Closeness::guess, Movers::nodes);
     };
     plan();
     if (look_at_restless(positions, timer)) {
@@ -112,15 +114,15 @@ bool Contacts<Real>::plan_rest(std::span<const Vec4<Real>> positions, std::span<
         plan();
     }
     for_each_index(positions.size(), [&](std::size_t n) {
-        displacements[n] = guard_.part(n) * (Vec3<Real>(guess_[n]) - Vec3<Real>(positions[n]));
+        displacements[n] = guard_.part(n) * (Vec3<Real>(ends_[n]) - Vec3<Real>(positions[n]));
     });
     return true;
 }
 
 template <class Real>
 void Contacts<Real>::go_on(std::span<const Real> parts, std::span<Vec4<Real>> positions) {
-    guard_.shorten(list_, aims_, positions, guess_, parts);
-    guard_.go(list_, guess_, false, positions);
+    guard_.shorten(list_, aims_, positions, ends_, parts);
+    guard_.go(list_, ends_, false, positions);
 }
 
 // Of pairs as they are, with both sides under way.
@@ -214,6 +216,7 @@ template <class Real>
 template <class HasTo>
 std::vector<std::uint32_t> Contacts<Real>::detect_own(std::span<const Vec4<Real>> positions, bool anew,
                                                       const HasTo& has_to, StageTimer* timer) {
+    const TimedStage part(timer, "advance_nodes.detect_own");
     std::vector<std::uint8_t> looks_at(model_->body_count());
     for_each_index(0, looks_at.size(), 1, [&](std::size_t o) {
         const auto object = static_cast<std::uint32_t>(o);
@@ -223,7 +226,6 @@ std::vector<std::uint32_t> Contacts<Real>::detect_own(std::span<const Vec4<Real>
     for (std::uint32_t o = 0; o < looks_at.size(); ++o)
         if (looks_at[o] != 0) objects.push_back(o);
     if (objects.empty()) return objects;
-    const TimedStage part(timer, "advance_nodes.detect_own");
     old_pairs_.swap(list_.pairs);
     detection_.run_own(objects, anew, positions, list_);
     aims_.carry_over(old_pairs_, list_);

@@ -132,7 +132,7 @@ private:
     ContactAims<Real> aims_;
     GuardedMove<Real> guard_;
     double longest_ = 0.0;  // motion of a node in this step's guess [m]
-    std::vector<Vec4<Real>> safe_, guess_;
+    std::vector<Vec4<Real>> safe_, guess_, ends_;
     std::vector<std::uint8_t> is_pressed_;  // by object
     std::vector<Real> greatest_;            // of something, by object
 };

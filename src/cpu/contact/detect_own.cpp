@@ -155,8 +155,13 @@ void DetectOwn<Real>::search(std::uint32_t object, std::span<const std::uint32_t
     tbb::parallel_for(std::size_t(0), tasks, [&](std::size_t task) {
         Search search;
         const std::size_t end = std::min((task + 1) * kLeavesATask, leaves.size());
-        for (std::size_t first = task * kLeavesATask; first < end; first += kLeavesAWalk) {
-            const auto walk = leaves.subspan(first, std::min(kLeavesAWalk, end - first));
+        for (std::size_t first = task * kLeavesATask; first < end;) {
+            std::size_t count = 1;  // of leaves beside each other: others may be far apart
+            while (count < kLeavesAWalk && first + count < end &&
+                   leaves[first + count] == leaves[first] + count)
+                ++count;
+            const auto walk = leaves.subspan(first, count);
+            first += count;
             find_near(object, walk, search);
             for (const std::uint32_t leaf : walk)
                 search_leaf(model_->face_trees.levels[0][leaf], static_cast<Real>(listed(object)), search,

@@ -57,9 +57,16 @@ void GuardedMove<Real>::begin(std::span<const Vec4<Real>> positions) {
 
 template <class Real>
 bool GuardedMove<Real>::plan(const ContactList<Real>& list, const ContactAims<Real>& aims,
-                             std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
+                             std::span<const Vec4<Real>> positions, std::span<Vec4<Real>> ends,
                              Closeness closeness, Movers movers, std::span<const std::uint8_t> is_rigid) {
     movers_ = movers;
+    own_.begin();
+    if (movers == Movers::nodes) {
+        tbb::parallel_for(std::size_t(0), model_->body_count(), [&](std::size_t o) {
+            if (list.own.meets_itself(o))
+                own_.bring_into_rooms(static_cast<std::uint32_t>(o), list.own, positions, ends);
+        });
+    }
     common_.assign(list.shifts.size(), Vec3<Real>(0));
     if (movers == Movers::objects) find_common_motions(list, positions, ends);
     const bool may_shift = limit_common_motions(list);
@@ -205,7 +212,9 @@ void GuardedMove<Real>::find_courses(const ContactList<Real>& list, const Contac
         const std::size_t end = std::min((task + 1) * kPairsATask, list.pairs.size());
         for (std::size_t p = task * kPairsATask; p < end; ++p) {
             const ContactPair& pair = list.pairs[p];
-            if (pair.is_own() || are_far_apart(pair, aims, aims.aims()[p], closeness)) continue;
+            // The nodes of a body make the same part, of a motion that may turn (keep_from_themselves).
+            if (pair.is_own() && movers_ == Movers::objects) continue;
+            if (are_far_apart(pair, aims, aims.aims()[p], closeness)) continue;
             const Vec3<Real> common = common_[list.island_of(pair)];
             std::array<Vec3<Real>, 4> nodes, motions;
             for (std::size_t c = 0; c < 4; ++c) {
@@ -298,7 +307,6 @@ void GuardedMove<Real>::keep_from_themselves(const ContactList<Real>& list, cons
                                              std::span<const Vec4<Real>> positions,
                                              std::span<const Vec4<Real>> ends, Closeness closeness,
                                              std::span<const std::uint8_t> is_rigid) {
-    own_.begin();
     std::vector<Real> own_parts(model_->body_count());
     std::vector<Real> before;  // parts of the round before
     for (int round = 0;; ++round) {
@@ -311,8 +319,12 @@ void GuardedMove<Real>::keep_from_themselves(const ContactList<Real>& list, cons
                 own_.stay(o, list, common);
                 return;
             }
-            if (!is_rigid.empty() && is_rigid[o] != 0 && own_.carry(o, list.own, positions, planned_)) return;
-            own_parts[o] = own_.part(o, list, aims, positions, planned_, closeness);
+            const bool moves_rigidly = !is_rigid.empty() && is_rigid[o] != 0 && parts_[o] == Real(1);
+            if (moves_rigidly && own_.carry(o, list.own, positions, planned_)) return;
+            own_parts[o] = own_.part_in_rooms(o, list.own, positions, planned_);
+            if (movers_ == Movers::objects)
+                own_parts[o] =
+                    std::min(own_parts[o], own_.part_of_pairs(o, list, aims, positions, planned_, closeness));
             if (own_parts[o] < Real(1) && round >= kMostOwnRounds) own_parts[o] = Real(0);
         });
         if (std::all_of(own_parts.begin(), own_parts.end(), [](Real part) { return part == Real(1); }))
@@ -367,6 +379,10 @@ template <class Real>
 void GuardedMove<Real>::shorten(const ContactList<Real>& list, const ContactAims<Real>& aims,
                                 std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
                                 std::span<const Real> parts) {
+    for_each_index(0, model_->body_count(), 1, [&](std::size_t o) {
+        if (parts[o] > Real(0) && parts[o] < Real(1) && list.own.meets_itself(o))
+            own_.shorten(static_cast<std::uint32_t>(o), parts[o], list.own);
+    });
     scale_parts(parts);
     keep_pairs_apart(list);
     keep_from_themselves(list, aims, positions, ends, Closeness::guess);

@@ -45,10 +45,11 @@ public:
                std::span<Vec4<Real>> positions);
 
     /// Finds how much of the way to `ends` each mover may go.
+    /// @param ends of a guess: output, too: in the rooms of nodes in their own bodies
     /// @param is_rigid by object: not 0 if its ends are a rigid motion; empty: none are
     /// @return false if movers may go farther after this move and another detection
     bool plan(const ContactList<Real>& list, const ContactAims<Real>& aims,
-              std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends, Closeness closeness,
+              std::span<const Vec4<Real>> positions, std::span<Vec4<Real>> ends, Closeness closeness,
               Movers movers = Movers::objects, std::span<const std::uint8_t> is_rigid = {});
 
     /// Leaves each object no more than a part of what its nodes were to make, and others what that leaves

@@ -27,14 +27,22 @@ public:
     /// To be called when a move is planned.
     void begin() {
         std::fill(lacks_room_.begin(), lacks_room_.end(), std::uint8_t(0));
-        std::fill(is_shortened_.begin(), is_shortened_.end(), std::uint8_t(0));
+        std::fill(has_next_.begin(), has_next_.end(), std::uint8_t(0));
     }
 
-    /// The part of its motion that a body may make, if all of its nodes make the same part.
+    /// Brings the ends of a body's free nodes into their rooms, as these are where the body ends.
+    void bring_into_rooms(std::uint32_t object, const OwnRooms<Real>& rooms,
+                          std::span<const Vec4<Real>> positions, std::span<Vec4<Real>> ends);
+
+    /// The part of their motions that all nodes of a body may make: on which they stay in their rooms.
     /// @param ends of all nodes [m]
-    Real part(std::uint32_t object, const ContactList<Real>& list, const ContactAims<Real>& aims,
-              std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends, Closeness closeness);
-    /// A body moves rigidly, or a part of that: what is apart in it stays so.
+    Real part_in_rooms(std::uint32_t object, const OwnRooms<Real>& rooms,
+                       std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends);
+    /// On which the pairs of a body with itself stay apart.
+    Real part_of_pairs(std::uint32_t object, const ContactList<Real>& list, const ContactAims<Real>& aims,
+                       std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
+                       Closeness closeness) const;
+    /// A body moves rigidly: what is apart in it stays so.
     /// @return false if the map could not follow
     bool carry(std::uint32_t object, const OwnRooms<Real>& rooms, std::span<const Vec4<Real>> positions,
                std::span<const Vec4<Real>> ends);
@@ -43,8 +51,8 @@ public:
     /// The body makes nothing but a displacement.
     void stay(std::uint32_t object, const ContactList<Real>& list, const Vec3<Real>& displacement);
 
-    /// Goes to the ends of the last part(), which was 1, or as it stays. @param more displacement of all [m]
-    void go(std::uint32_t object, const Vec3<Real>& more, ContactList<Real>& list) const;
+    /// Goes to the ends of the last part, which was 1, or as it stays. @param more displacement of all [m]
+    void go(std::uint32_t object, const Vec3<Real>& more, ContactList<Real>& list);
 
     /// Whether its room kept a body from the end of its planned motion, and another look at it would help.
     bool lacks_room() const {
@@ -53,15 +61,13 @@ public:
     bool lacks_room(std::size_t object) const { return lacks_room_[object] != 0; }
 
 private:
-    Real keep_to_rooms(std::uint32_t object, const OwnRooms<Real>& rooms,
-                       std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends);
     Real part_of_pair(const ContactPair& pair, const PairAim<Real>& aim, const ContactAims<Real>& aims,
                       std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
                       Closeness closeness) const;
 
     std::shared_ptr<const Model> model_;
-    std::vector<ShapeMap<Real>> next_;                     // by object
-    std::vector<std::uint8_t> lacks_room_, is_shortened_;  // by object
+    std::vector<MapAhead<Real>> next_;                 // by object
+    std::vector<std::uint8_t> lacks_room_, has_next_;  // by object; whether its end is known already
 };
 
 }  // namespace gelatin::cpu

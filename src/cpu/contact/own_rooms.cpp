@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cpu/contact/least_stretch.h"
+#include "model/nearest_rotation.h"
 
 namespace gelatin::cpu {
 namespace {
@@ -18,8 +19,6 @@ constexpr double kMargin = 0.98;
 // no farther from a corner than the edge by the root of three, and kNear leads on from there.
 constexpr double kLongestEdge = 0.85;
 static_assert(kLongestEdge * 0.5774 + OwnRooms<double>::kNear <= 1.0);
-// The second time brings in what nodes on one side of a point left out.
-constexpr int kBendings = 3;
 // What bends moves a node by, changes with where it is found: each correction leaves at most 0.7 of the rest.
 constexpr int kCorrections = 8;
 // Of the mean square of the offsets: bodies that are flatter are displaced, but not otherwise mapped.
@@ -98,7 +97,6 @@ void OwnRooms<Real>::find(std::uint32_t object, Real cell, std::span<const Vec4<
     const Range& places = shape.places;
     shape.is_found = true;
     shape.map = {};
-    shape.map.is_carried = true;
     shape.map.center = middle(places, positions);
     glm::mat<3, 3, Real> moment(0);
     for (std::uint32_t s = places.first; s < places.end(); ++s) {
@@ -143,7 +141,7 @@ bool OwnRooms<Real>::find_again(std::uint32_t object, std::span<const std::uint3
             offsets_[s] += back * deviation(s, at(s, positions));
             if (!shape.lattice.contains(offsets_[s])) return false;
             in_lattice_[s] = shape.lattice.place(offsets_[s]);
-            mapped_[s] = mapped(object, shape.map, s);
+            mapped_[s] = mapped(shape, shape.map, s);
         }
     }
     shape.lattice.weigh(in_lattice(shape));
@@ -153,20 +151,20 @@ bool OwnRooms<Real>::find_again(std::uint32_t object, std::span<const std::uint3
 template <class Real>
 void OwnRooms<Real>::make_rooms(std::uint32_t object) {
     Shape& shape = shapes_[object];
-    complete(object, shape.map);
-    std::copy(shape.map.rooms.begin(), shape.map.rooms.end(), radii_.begin() + shape.places.first);
+    const std::vector<Real> rooms = find_rooms(object, shape.map);
+    std::copy(rooms.begin(), rooms.end(), radii_.begin() + shape.places.first);
 }
 
 // What a map keeps, and the rooms with it. Within a face rooms are interpolated, and what bends is not linear
 // there: how far it is from that, rooms are smaller by.
 template <class Real>
-void OwnRooms<Real>::complete(std::uint32_t object, ShapeMap<Real>& map) const {
+std::vector<Real> OwnRooms<Real>::find_rooms(std::uint32_t object, ShapeMap<Real>& map) const {
     const Shape& shape = shapes_[object];
     const Range &places = shape.places, &faces = model_->objects[object].faces;
     map.least = least_stretch(map.linear);
     map.slope = shape.lattice.steepest(map.bends);
     map.around = shape.lattice.local_maps(map.linear, map.bends);
-    const std::vector<Real> curvatures = shape.lattice.curvatures(map.bends);
+    std::vector<Real> curvatures = shape.lattice.unknown_curvatures();
     struct Near {
         Real kept, bulge;
     };
@@ -192,12 +190,25 @@ void OwnRooms<Real>::complete(std::uint32_t object, ShapeMap<Real>& map) const {
             corner = {std::min(corner.kept, face.kept), std::max(corner.bulge, face.bulge)};
         }
     }
-    map.rooms.resize(places.count);
+    std::vector<Real> rooms(places.count);
     for (std::uint32_t k = 0; k < places.count; ++k) {
         const Real kept = near[k].kept * apart_[places.first + k];
         const Real room = std::min(Real(kRoom) * kept, Real(kRoomBent) * kept - near[k].bulge);
-        map.rooms[k] = std::max(room, Real(0));
+        rooms[k] = std::max(room, Real(0));
     }
+    return rooms;
+}
+
+template <class Real>
+MapAhead<Real> OwnRooms<Real>::completed(std::uint32_t object, ShapeMap<Real> map) const {
+    MapAhead<Real> ahead;
+    ahead.rooms = find_rooms(object, map);
+    const Shape& shape = shapes_[object];
+    ahead.mapped.reserve(shape.places.count);
+    for (std::uint32_t s = shape.places.first; s < shape.places.end(); ++s)
+        ahead.mapped.push_back(mapped(shape, map, s));
+    ahead.map = std::move(map);
+    return ahead;
 }
 
 template <class Real>
@@ -225,66 +236,62 @@ glm::mat<3, 3, Real> OwnRooms<Real>::moment(const Shape& shape, const Vec3<Real>
 }
 
 template <class Real>
-std::optional<ShapeMap<Real>> OwnRooms<Real>::moved(std::uint32_t object,
-                                                    std::span<const Vec4<Real>> positions,
-                                                    std::span<const Vec4<Real>> ends) const {
-    const Shape& shape = shapes_[object];
-    const Vec3<Real> from = middle(shape.places, positions), to = middle(shape.places, ends);
-    const glm::mat<3, 3, Real> before = moment(shape, from, positions) * shape.inverse_moment;
-    if (!(least_stretch(before) > static_cast<Real>(kLeastLinear))) return std::nullopt;
-    const glm::mat<3, 3, Real> motion = moment(shape, to, ends) * shape.inverse_moment * glm::inverse(before);
-    ShapeMap<Real> map = shape.map;
-    map.linear = motion * map.linear;
-    map.center = to + motion * (map.center - from);
-    for (Vec3<Real>& bend : map.bends) bend = motion * bend;
-    for (LocalMap<Real>& local : map.around) local.linear = motion * local.linear;
-    return map;
+MapAhead<Real> OwnRooms<Real>::displaced(std::uint32_t object, const Vec3<Real>& displacement) const {
+    const Range& places = shapes_[object].places;
+    const auto first = static_cast<std::ptrdiff_t>(places.first), end = first + places.count;
+    MapAhead<Real> ahead{shapes_[object].map,
+                         {mapped_.begin() + first, mapped_.begin() + end},
+                         {radii_.begin() + first, radii_.begin() + end}};
+    ahead.displace(displacement);
+    return ahead;
 }
 
+template <class Real>
+MapAhead<Real> OwnRooms<Real>::moved(std::uint32_t object, std::span<const Vec4<Real>> positions,
+                                     std::span<const Vec4<Real>> ends) const {
+    const Range& places = shapes_[object].places;
+    const Vec3<Real> from = middle(places, positions), to = middle(places, ends);
+    glm::mat<3, 3, Real> moment(0);
+    for (std::uint32_t s = places.first; s < places.end(); ++s)
+        moment += glm::outerProduct(at(s, ends) - to, at(s, positions) - from);
+    const glm::mat<3, 3, Real> turn(nearest_rotation(glm::dmat3(moment)));
+    MapAhead<Real> ahead = displaced(object, Vec3<Real>(0));
+    for (Vec3<Real>& place : ahead.mapped) place = to + turn * (place - from);
+    ShapeMap<Real>& map = ahead.map;
+    map.linear = turn * map.linear;
+    map.center = to + turn * (map.center - from);
+    for (Vec4<Real>& bend : map.bends) bend = Vec4<Real>(turn * Vec3<Real>(bend), Real(0));
+    for (LocalMap<Real>& local : map.around) local.linear = turn * local.linear;
+    return ahead;
+}
+
+template <class Real>
+MapAhead<Real> OwnRooms<Real>::fitted(std::uint32_t object, std::span<const Vec4<Real>> positions) const {
+    const Shape& shape = shapes_[object];
+    const std::uint32_t first = shape.places.first;
+    ShapeMap<Real> map = carried(object, positions);
+    const auto left = [&](std::size_t k) {
+        const std::uint32_t s = first + static_cast<std::uint32_t>(k);
+        return at(s, positions) - mapped(shape, map, s);
+    };
+    shape.lattice.add(in_lattice(shape), left, map.bends);
+    shape.lattice.fill_empty(map.bends);
+    shape.lattice.flatten(map.bends, most_slope(map.linear));
+    return completed(object, std::move(map));
+}
+
+// The affine one by least squares over the surface nodes. What it keeps is not known yet.
 template <class Real>
 ShapeMap<Real> OwnRooms<Real>::carried(std::uint32_t object, std::span<const Vec4<Real>> positions) const {
-    ShapeMap<Real> map = carried_alone(object, positions);
-    complete(object, map);
-    return map;
-}
-
-template <class Real>
-ShapeMap<Real> OwnRooms<Real>::fitted(std::uint32_t object, std::span<const Vec4<Real>> positions) const {
-    return bent(object, carried_alone(object, positions), positions);
-}
-
-// By least squares over the surface nodes. What it keeps is not known yet.
-template <class Real>
-ShapeMap<Real> OwnRooms<Real>::carried_alone(std::uint32_t object,
-                                             std::span<const Vec4<Real>> positions) const {
     const Shape& shape = shapes_[object];
     ShapeMap<Real> map = shape.map;
     map.center = middle(shape.places, positions);
     const glm::mat<3, 3, Real> linear = moment(shape, map.center, positions) * shape.inverse_moment;
-    map.is_carried = least_stretch(linear) >= static_cast<Real>(kLeastLinear);
-    if (!map.is_carried) return map;
+    if (!(least_stretch(linear) >= static_cast<Real>(kLeastLinear))) return map;
     const glm::mat<3, 3, Real> turn = linear * glm::inverse(map.linear);
     map.linear = linear;
-    for (Vec3<Real>& bend : map.bends) bend = turn * bend;
+    for (Vec4<Real>& bend : map.bends) bend = Vec4<Real>(turn * Vec3<Real>(bend), Real(0));
     shape.lattice.flatten(map.bends, most_slope(map.linear));
-    return map;
-}
-
-template <class Real>
-ShapeMap<Real> OwnRooms<Real>::bent(std::uint32_t object, ShapeMap<Real> map,
-                                    std::span<const Vec4<Real>> positions) const {
-    const Shape& shape = shapes_[object];
-    const std::uint32_t first = shape.places.first;
-    for (int bending = 0; bending < kBendings; ++bending) {
-        const auto left = [&](std::size_t k) {
-            const std::uint32_t s = first + static_cast<std::uint32_t>(k);
-            return at(s, positions) - mapped(object, map, s);
-        };
-        shape.lattice.add(in_lattice(shape), left, map.bends);
-    }
-    shape.lattice.fill_empty(map.bends);
-    map.is_steep = shape.lattice.flatten(map.bends, most_slope(map.linear)) || !map.is_carried;
-    complete(object, map);
     return map;
 }
 
@@ -306,22 +313,20 @@ Real OwnRooms<Real>::part_between(std::uint32_t object, const ShapeMap<Real>& to
 }
 
 template <class Real>
-ShapeMap<Real> OwnRooms<Real>::between(std::uint32_t object, const ShapeMap<Real>& to, Real part) const {
+MapAhead<Real> OwnRooms<Real>::between(std::uint32_t object, const ShapeMap<Real>& to, Real part) const {
     ShapeMap<Real> map = shapes_[object].map;
     map.linear += part * (to.linear - map.linear);
     map.center += part * (to.center - map.center);
     for (std::size_t p = 0; p < map.bends.size(); ++p) map.bends[p] += part * (to.bends[p] - map.bends[p]);
-    complete(object, map);
-    return map;
+    return completed(object, std::move(map));
 }
 
 template <class Real>
-void OwnRooms<Real>::follow(std::uint32_t object, const ShapeMap<Real>& map) {
+void OwnRooms<Real>::follow(std::uint32_t object, const MapAhead<Real>& ahead) {
     Shape& shape = shapes_[object];
-    shape.map = map;
-    for (std::uint32_t s = shape.places.first; s < shape.places.end(); ++s)
-        mapped_[s] = mapped(object, map, s);
-    std::copy(map.rooms.begin(), map.rooms.end(), radii_.begin() + shape.places.first);
+    shape.map = ahead.map;
+    std::copy(ahead.mapped.begin(), ahead.mapped.end(), mapped_.begin() + shape.places.first);
+    std::copy(ahead.rooms.begin(), ahead.rooms.end(), radii_.begin() + shape.places.first);
 }
 
 template <class Real>

@@ -5,7 +5,6 @@
 #include <glm/mat3x3.hpp>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,9 +23,20 @@ struct ShapeMap {
     typename BendLattice<Real>::Bends bends;  ///< [m]
     Real least = 1, slope = 0;                ///< length that `linear` leaves of 1; bound of that of bends
     std::vector<LocalMap<Real>> around;       ///< by cell of the lattice that is in use
-    std::vector<Real> rooms;                  ///< radius with this map, by surface node of the body [m]
-    bool is_carried = false;  ///< the affine one is the nearest, not one that is only displaced
-    bool is_steep = false;    ///< it could not be bent as far as it should
+};
+
+/// A map that a body may follow. By surface node of the body: where the map has it, and the radius of its
+/// room there.
+template <class Real>
+struct MapAhead {
+    ShapeMap<Real> map;
+    std::vector<Vec3<Real>> mapped;  ///< [m]
+    std::vector<Real> rooms;         ///< [m]
+
+    void displace(const Vec3<Real>& displacement) {
+        map.center += displacement;
+        for (Vec3<Real>& place : mapped) place += displacement;
+    }
 };
 
 /// How far nodes may go before others of their own body could meet them. When a body is found, all its pairs
@@ -109,35 +119,23 @@ public:
     bool keeps(std::uint32_t object, Real part) const;
 
     const ShapeMap<Real>& map(std::size_t object) const { return shapes_[object].map; }
-    /// Where a map has a surface node [m].
-    Vec3<Real> mapped(std::uint32_t object, const ShapeMap<Real>& map, std::uint32_t place) const {
-        return map.center + map.linear * offsets_[place] +
-               shapes_[object].lattice.bend(map.bends, in_lattice_[place]);
-    }
-    /// The radius of a surface node's room with a map [m].
-    Real radius(std::uint32_t object, const ShapeMap<Real>& map, std::uint32_t place) const {
-        return map.rooms[place - shapes_[object].places.first];
-    }
     /// That in the middle of which it would be if the body was found now [m].
     Real fresh_radius(std::uint32_t place) const { return Real(kRoom) * apart_[place]; }
 
-    /// The present map, carried to `positions` by the affine one that is nearest; by a displacement if that
-    /// does not keep enough of all distances.
-    ShapeMap<Real> carried(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
-    /// The same, and bent to `positions` as far as it may be.
-    ShapeMap<Real> bent(std::uint32_t object, ShapeMap<Real> map,
-                        std::span<const Vec4<Real>> positions) const;
-    /// The present map, carried and bent to `positions`.
-    ShapeMap<Real> fitted(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
-    /// The present map, moved as all nodes are that go from `positions` to `ends` by one rigid motion: they
-    /// stay where they are in their rooms. None if the motion cannot be found from them.
-    std::optional<ShapeMap<Real>> moved(std::uint32_t object, std::span<const Vec4<Real>> positions,
-                                        std::span<const Vec4<Real>> ends) const;
+    /// The present map, displaced.
+    MapAhead<Real> displaced(std::uint32_t object, const Vec3<Real>& displacement) const;
+    /// The present map, moved by the rigid motion that is nearest to the way from `positions` to `ends`:
+    /// rooms stay as large as they are.
+    MapAhead<Real> moved(std::uint32_t object, std::span<const Vec4<Real>> positions,
+                         std::span<const Vec4<Real>> ends) const;
+    /// The one that is nearest to `positions`, as far as it keeps enough of all distances: an affine one, or
+    /// else the present one displaced, and bent.
+    MapAhead<Real> fitted(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
     /// The part of the way from the present map to another one on which rooms between both hold, too.
     Real part_between(std::uint32_t object, const ShapeMap<Real>& to) const;
     /// What is between the present map and another one, at a part of the way.
-    ShapeMap<Real> between(std::uint32_t object, const ShapeMap<Real>& to, Real part) const;
-    void follow(std::uint32_t object, const ShapeMap<Real>& map);
+    MapAhead<Real> between(std::uint32_t object, const ShapeMap<Real>& to, Real part) const;
+    void follow(std::uint32_t object, const MapAhead<Real>& ahead);
     void shift(std::uint32_t object, const Vec3<Real>& motion);
 
 private:
@@ -149,8 +147,12 @@ private:
         ShapeMap<Real> map;
     };
     Real longest_edge(std::uint32_t object);
-    ShapeMap<Real> carried_alone(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
-    void complete(std::uint32_t object, ShapeMap<Real>& map) const;
+    ShapeMap<Real> carried(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
+    Vec3<Real> mapped(const Shape& shape, const ShapeMap<Real>& map, std::uint32_t place) const {
+        return map.center + map.linear * offsets_[place] + shape.lattice.bend(map.bends, in_lattice_[place]);
+    }
+    MapAhead<Real> completed(std::uint32_t object, ShapeMap<Real> map) const;
+    std::vector<Real> find_rooms(std::uint32_t object, ShapeMap<Real>& map) const;
     Vec3<Real> at(std::uint32_t place, std::span<const Vec4<Real>> positions) const {
         return Vec3<Real>(positions[model_->surface_parts.nodes[place]]);
     }

@@ -104,7 +104,8 @@ private:
 
     void start(Real step, bool has_earlier, const Nodes<Real>& previous,
                std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls, Nodes<Real>& current);
-    void take_back_tangled(Positions& positions) const;
+    void shorten_tangled(Positions& positions) const;
+    double objective(const ModelObject& object, const Positions& positions) const;
     void find_calm_bodies(Real step, const Nodes<Real>& previous);
     void go_on_to_guess(Positions& positions, StageTimer* timer);
     void move_together(bool last, Positions& positions, StageTimer* timer);

@@ -6,8 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "cpu/collision/colliders.h"
-#include "cpu/elasticity/neo_hookean.h"
-#include "cpu/elasticity/volume_term.h"
+#include "cpu/elasticity/elastic_energy.h"
 
 namespace gelatin::cpu {
 namespace {
@@ -58,34 +57,13 @@ void add_node(const Model& model, const Nodes<Real>& nodes, std::uint32_t n, Obj
     sums.contacts += touches ? 1 : 0;
 }
 
-// The energy of the volume term around one node [J].
-template <class Position>
-double volume_energy(const VolumeTerm& term, std::uint32_t n, const Position& position) {
-    const glm::dvec2 node(term.nodes[n]);
-    return node.x * node.y * volume_potential(volume_ratio_round<double>(term, n, position), node.y);
-}
-
 template <class Real>
 ObjectMeasure sum_chunk(const Model& model, const Nodes<Real>& nodes, const Chunk& chunk) {
     const auto position = [&](std::uint32_t n) { return glm::dvec3(nodes.positions[n]); };
     ObjectMeasure sums;
-    for (std::uint32_t n = chunk.nodes.first; n < chunk.nodes.end(); ++n) {
-        add_node(model, nodes, n, sums);
-        if (!model.volume_term.is_empty())
-            sums.elastic_energy += volume_energy(model.volume_term, n, position);
-    }
-    for (std::uint32_t s = chunk.springs.first; s < chunk.springs.end(); ++s) {
-        const Spring& spring = model.springs[s];
-        const SpringLaw<double> law{static_cast<double>(spring.rest_length),
-                                    static_cast<double>(spring.stiffness)};
-        sums.elastic_energy += spring_energy(position(spring.j) - position(spring.i), law);
-    }
-    for (std::uint32_t t = chunk.tets.first; t < chunk.tets.end(); ++t) {
-        const NeoHookeanTet& tet = model.neo_hookean_tets[t];
-        const Mat3<double> f = gradient_of<double>(
-            tet, {position(tet.node_0), position(tet.node_1), position(tet.node_2), position(tet.node_3)});
-        sums.elastic_energy += neo_hookean_energy(f, tet_moduli<double>(tet));
-    }
+    for (std::uint32_t n = chunk.nodes.first; n < chunk.nodes.end(); ++n) add_node(model, nodes, n, sums);
+    sums.elastic_energy =
+        elastic_energy<Real>(model, {chunk.nodes, chunk.springs, chunk.tets}, nodes.positions);
     const glm::dvec3 origin = position(model.objects[chunk.object].nodes.first);
     for (std::uint32_t f = chunk.faces.first; f < chunk.faces.end(); ++f) {
         const Face& face = model.faces[f];

@@ -45,7 +45,7 @@ struct Bent {
         for (const glm::dvec3& offset : offsets) places.push_back(lattice.place(offset));
         lattice.weigh(places);
         bends = lattice.straight();
-        for (glm::dvec3& bend : bends) bend = random.point(size);
+        for (glm::dvec4& bend : bends) bend = glm::dvec4(random.point(size), 0.0);
     }
     glm::dvec3 at(const glm::dvec3& offset) {
         EXPECT_TRUE(lattice.contains(offset));
@@ -116,7 +116,7 @@ TEST(BendLattice, BoundsWhatBulgesWithinFaces) {
         const double longest =
             std::max({glm::distance(corners[0], corners[1]), glm::distance(corners[1], corners[2]),
                       glm::distance(corners[2], corners[0])});
-        const std::vector<double> known = bent.lattice.curvatures(bent.bends);  // of cells new in use, too
+        std::vector<double> known = bent.lattice.unknown_curvatures();  // of cells new in use, too
         const double bulge =
             bent.lattice.bulge(bent.bends, known, {&places[0], &places[1], &places[2]}, longest);
         for (int sample = 0; sample < 30; ++sample) {

@@ -219,7 +219,7 @@ TEST(GuardedMove, KeepsBodiesApart) {
     for (unsigned seed = 1; seed < 9; ++seed) {
         Contact<float> contact(make_near_blocks(seed));
         test::RandomMaker random(seed);
-        const auto ends = random_ends(contact, 0.3, random);
+        auto ends = random_ends(contact, 0.3, random);
         contact.guard.plan(contact.list, contact.aims, contact.positions, ends, cpu::Closeness::motion);
         const auto momentum = [&](const std::vector<glm::vec4>& at) {
             glm::dvec3 sum(0.0);
@@ -242,7 +242,7 @@ TEST(GuardedMove, KeepsNodesApart) {
     for (unsigned seed = 1; seed < 9; ++seed) {
         Contact<float> contact(make_near_blocks(seed));
         test::RandomMaker random(seed);
-        const auto ends = random_ends(contact, 0.02, random);
+        auto ends = random_ends(contact, 0.02, random);
         contact.guard.plan(contact.list, contact.aims, contact.positions, ends, cpu::Closeness::guess,
                            cpu::Movers::nodes);
         std::size_t whole = 0;

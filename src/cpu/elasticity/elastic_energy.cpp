@@ -1,0 +1,63 @@
+#include "cpu/elasticity/elastic_energy.h"
+
+#include "cpu/elasticity/neo_hookean.h"
+#include "cpu/elasticity/volume_ratios.h"
+#include "cpu/elasticity/volume_term.h"
+
+namespace gelatin::cpu {
+namespace {
+
+// The energy of the volume term around one node [J].
+template <class Position>
+double volume_energy(const VolumeTerm& term, std::uint32_t n, const Position& position) {
+    const glm::dvec2 node(term.nodes[n]);
+    return node.x * node.y * volume_potential(volume_ratio_round<double>(term, n, position), node.y);
+}
+
+}  // namespace
+
+template <class Real>
+double elastic_energy(const Model& model, const ElasticParts& parts, std::span<const Vec4<Real>> positions) {
+    const auto position = [&](std::uint32_t n) { return glm::dvec3(positions[n]); };
+    double energy = 0.0;
+    if (!model.volume_term.is_empty())
+        for (std::uint32_t n = parts.nodes.first; n < parts.nodes.end(); ++n)
+            energy += volume_energy(model.volume_term, n, position);
+    for (std::uint32_t s = parts.springs.first; s < parts.springs.end(); ++s) {
+        const Spring& spring = model.springs[s];
+        const SpringLaw<double> law{static_cast<double>(spring.rest_length),
+                                    static_cast<double>(spring.stiffness)};
+        energy += spring_energy(position(spring.j) - position(spring.i), law);
+    }
+    for (std::uint32_t t = parts.tets.first; t < parts.tets.end(); ++t) {
+        const NeoHookeanTet& tet = model.neo_hookean_tets[t];
+        const Mat3<double> f = gradient_of<double>(
+            tet, {position(tet.node_0), position(tet.node_1), position(tet.node_2), position(tet.node_3)});
+        energy += neo_hookean_energy(f, tet_moduli<double>(tet));
+    }
+    return energy;
+}
+
+template <class Real>
+double flat_tet_energy(const Model& model, const Range& tets, std::span<const Vec4<Real>> positions) {
+    double energy = 0.0;
+    for (std::uint32_t t = tets.first; t < tets.end(); ++t) {
+        const glm::uvec4& corners = model.tets[t];
+        const TetRest& rest = model.tet_rests[t];
+        const glm::dvec3 first(positions[corners.x]);
+        const glm::dvec3 slope =
+            volume_slope(glm::dvec3(positions[corners.y]) - first, glm::dvec3(positions[corners.z]) - first,
+                         inverse_six_volumes<double>(rest));
+        const double ratio = glm::dot(slope, glm::dvec3(positions[corners.w]) - first);
+        energy +=
+            flat_tet_energy(ratio, static_cast<double>(rest.volume) * static_cast<double>(rest.modulus));
+    }
+    return energy;
+}
+
+template double elastic_energy<float>(const Model&, const ElasticParts&, std::span<const Vec4<float>>);
+template double elastic_energy<double>(const Model&, const ElasticParts&, std::span<const Vec4<double>>);
+template double flat_tet_energy<float>(const Model&, const Range&, std::span<const Vec4<float>>);
+template double flat_tet_energy<double>(const Model&, const Range&, std::span<const Vec4<double>>);
+
+}  // namespace gelatin::cpu

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+
+#include "cpu/nodes.h"
+#include "model/model.h"
+
+namespace gelatin::cpu {
+
+/// Springs, neo-Hookean tets, and nodes whose volume term counts.
+struct ElasticParts {
+    Range nodes, springs, tets;
+};
+
+/// The elastic energy of parts of a model [J], in double for any precision of the positions.
+template <class Real>
+double elastic_energy(const Model& model, const ElasticParts& parts, std::span<const Vec4<Real>> positions);
+
+/// What flat tets of springs hold, which only steps of vertex block descent count [J].
+template <class Real>
+double flat_tet_energy(const Model& model, const Range& tets, std::span<const Vec4<Real>> positions);
+
+}  // namespace gelatin::cpu
