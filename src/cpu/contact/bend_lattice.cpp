@@ -217,13 +217,14 @@ void BendLattice<Real>::widen(std::vector<Real>& low, std::vector<Real>& high, s
 // The linear interpolation of a function in a triangle is no farther from it than its second derivative along
 // any direction times a sixth of the longest edge squared.
 template <class Real>
-Real BendLattice<Real>::bulge(const Bends& bends, std::vector<Real>& curvatures,
+Real BendLattice<Real>::bulge(const Bends& bends, Curvatures& curvatures,
                               const std::array<const Place*, 3>& corners, Real longest_edge) const {
+    if (curvatures.cells.empty()) curvatures = find_differences(bends);
     const auto [a, b, c] = corners;
     Real most = 0;
     for (const Place* corner : corners) {
-        Real& known = curvatures[corner->used];
-        if (known < Real(0)) known = curvature(bends, corner->point);
+        Real& known = curvatures.cells[corner->used];
+        if (known < Real(0)) known = curvature(curvatures, corner->point);
         most = std::max(most, known);
     }
     const glm::uvec3 first = glm::min(a->cell, glm::min(b->cell, c->cell)),
@@ -232,33 +233,61 @@ Real BendLattice<Real>::bulge(const Bends& bends, std::vector<Real>& curvatures,
         for (std::uint32_t z = first.z; z <= last.z; ++z)
             for (std::uint32_t y = first.y; y <= last.y; ++y)
                 for (std::uint32_t x = first.x; x <= last.x; ++x)
-                    most = std::max(most, curvature(bends, x + points_.x * (y + points_.y * std::size_t(z))));
+                    most = std::max(most,
+                                    curvature(curvatures, x + points_.x * (y + points_.y * std::size_t(z))));
     return longest_edge * longest_edge * most / Real(6);
+}
+
+// Second differences: a bow of three points along an axis, a twist of four round a square across it.
+template <class Real>
+typename BendLattice<Real>::Curvatures BendLattice<Real>::find_differences(const Bends& bends) const {
+    Curvatures found;
+    found.cells.assign(used_.size(), Real(-1));
+    const std::array<std::size_t, 3> steps = strides();
+    const auto squared = [](const Vec4<Real>& v) { return glm::dot(v, v); };
+    const auto fill = [&](std::vector<Real>& values, const glm::uvec3& first, const glm::uvec3& end,
+                          const auto& value) {
+        values.assign(bends.size(), Real(0));
+        for (std::uint32_t z = first.z; z < end.z; ++z)
+            for (std::uint32_t y = first.y; y < end.y; ++y)
+                for (std::uint32_t x = first.x; x < end.x; ++x) {
+                    const std::size_t p = x + y * steps[1] + z * steps[2];
+                    values[p] = value(p);
+                }
+    };
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t s = steps[axis], a = steps[(axis + 1) % 3], b = steps[(axis + 2) % 3];
+        glm::uvec3 inner(0), low = points_, square = points_ - 1u;
+        inner[static_cast<int>(axis)] = 1;
+        --low[static_cast<int>(axis)];
+        ++square[static_cast<int>(axis)];
+        fill(found.bows[axis], inner, low,
+             [&](std::size_t p) { return squared(bends[p + s] - Real(2) * bends[p] + bends[p - s]); });
+        fill(found.twists[axis], glm::uvec3(0), square, [&](std::size_t p) {
+            return squared((bends[p + a + b] - bends[p + a]) - (bends[p + b] - bends[p]));
+        });
+    }
+    return found;
 }
 
 // Along each pair of axes second derivatives are between second differences of the points round a cell. Of
 // the matrix of their lengths, the norm bounds them along any direction.
 template <class Real>
-Real BendLattice<Real>::curvature(const Bends& bends, std::size_t point) const {
+Real BendLattice<Real>::curvature(const Curvatures& curvatures, std::size_t point) const {
     const std::array<std::size_t, 3> steps = strides();
     Real squared = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::size_t s = steps[axis], a = steps[(axis + 1) % 3], b = steps[(axis + 2) % 3];
-        Real along = 0, mixed = 0;  // with itself; of the other two axes
+        const std::size_t corner = point - a - b;
+        const std::vector<Real>&bows = curvatures.bows[axis], &twists = curvatures.twists[axis];
+        Real bow = 0, twist = 0;
         for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t j = 0; j < 3; ++j) {
-                const std::size_t p = point + i * a + j * b - a - b;
-                const Vec4<Real> bow = bends[p + s] - Real(2) * bends[p] + bends[p - s];
-                along = std::max(along, glm::dot(bow, bow));
-            }
+            for (std::size_t j = 0; j < 3; ++j) bow = std::max(bow, bows[corner + i * a + j * b]);
         for (std::size_t k = 0; k < 3; ++k)
             for (std::size_t i = 0; i < 2; ++i)
-                for (std::size_t j = 0; j < 2; ++j) {
-                    const std::size_t p = point + k * s - s + i * a - a + j * b - b;
-                    const Vec4<Real> twist = (bends[p + a + b] - bends[p + a]) - (bends[p + b] - bends[p]);
-                    mixed = std::max(mixed, glm::dot(twist, twist));
-                }
-        squared += along + Real(2) * mixed;
+                for (std::size_t j = 0; j < 2; ++j)
+                    twist = std::max(twist, twists[corner + k * s - s + i * a + j * b]);
+        squared += bow + Real(2) * twist;
     }
     return std::sqrt(squared) / (cell_ * cell_);
 }

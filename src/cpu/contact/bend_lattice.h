@@ -71,13 +71,16 @@ public:
     bool flatten(Bends& bends, Real most) const;
     /// A bound of all slopes, and so of the change of bends over any distance.
     Real steepest(const Bends& bends) const;
+    /// What bounds the second derivatives of bends, found where it is asked for.
+    struct Curvatures {
+        std::array<std::vector<Real>, 3> bows, twists;  ///< squared, by point [m^2]: along an axis, across it
+        std::vector<Real> cells;                        ///< along any direction, by cell in use [1/m]
+    };
     /// Bound of how far bends within a face are from what is linear between its corners [m].
-    /// @param curvatures bounds of the second derivative along any direction, by cell in use [1/m]; negative:
-    /// not known yet
+    /// @param curvatures of these bends; empty before the first call
     /// @param longest_edge of the face [m]
-    Real bulge(const Bends& bends, std::vector<Real>& curvatures, const std::array<const Place*, 3>& corners,
+    Real bulge(const Bends& bends, Curvatures& curvatures, const std::array<const Place*, 3>& corners,
                Real longest_edge) const;
-    std::vector<Real> unknown_curvatures() const { return std::vector<Real>(used_.size(), Real(-1)); }
     /// A map with this linear part round each of the cells in use: in it and all that touch it.
     std::vector<LocalMap<Real>> local_maps(const glm::mat<3, 3, Real>& linear, const Bends& bends) const;
 
@@ -107,7 +110,8 @@ private:
     template <class Use>
     void for_cells(const Use& use) const;
     Real squared_slope(const Bends& bends, std::size_t first) const;
-    Real curvature(const Bends& bends, std::size_t point) const;
+    Curvatures find_differences(const Bends& bends) const;
+    Real curvature(const Curvatures& curvatures, std::size_t point) const;
     void shrink(Bends& bends, std::size_t first, Real part) const;
     void widen(std::vector<Real>& low, std::vector<Real>& high, std::size_t axis, int first, int last) const;
 

@@ -164,7 +164,7 @@ std::vector<Real> OwnRooms<Real>::find_rooms(std::uint32_t object, ShapeMap<Real
     map.least = least_stretch(map.linear);
     map.slope = shape.lattice.steepest(map.bends);
     map.around = shape.lattice.local_maps(map.linear, map.bends);
-    std::vector<Real> curvatures = shape.lattice.unknown_curvatures();
+    typename BendLattice<Real>::Curvatures curvatures;
     struct Near {
         Real kept, bulge;
     };

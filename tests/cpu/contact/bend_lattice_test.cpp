@@ -116,7 +116,7 @@ TEST(BendLattice, BoundsWhatBulgesWithinFaces) {
         const double longest =
             std::max({glm::distance(corners[0], corners[1]), glm::distance(corners[1], corners[2]),
                       glm::distance(corners[2], corners[0])});
-        std::vector<double> known = bent.lattice.unknown_curvatures();  // of cells new in use, too
+        Lattice::Curvatures known;
         const double bulge =
             bent.lattice.bulge(bent.bends, known, {&places[0], &places[1], &places[2]}, longest);
         for (int sample = 0; sample < 30; ++sample) {
