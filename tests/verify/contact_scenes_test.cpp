@@ -97,6 +97,16 @@ public:
     void let_go() { simulator_.set_pulls({}); }
     int frame() const { return simulator_.frame(); }
 
+    // Of the first object's middle, after some frames each [m].
+    double lowest_until(int frame) {
+        double lowest = center(0).y;
+        while (simulator_.frame() < frame) {
+            advance_to(std::min(frame, simulator_.frame() + 5));
+            lowest = std::min(lowest, center(0).y);
+        }
+        return lowest;
+    }
+
 private:
     static SimulatorOptions on(Backend backend) {
         SimulatorOptions options;
@@ -121,8 +131,8 @@ class ContactScenesOnGlHeavy : public test::GlTest {};
 
 TEST(ContactScenesHeavy, ABallFallsThroughAFunnel) {
     ContactScene scene("funnel.toml");
-    scene.advance_to(60);
-    EXPECT_GT(scene.center(0).y, 0.5);
+    scene.advance_to(45);
+    EXPECT_GT(scene.center(0).y, 0.5);  // in free fall it would be on the ground
     scene.advance_to(300);
     EXPECT_LT(scene.center(0).y, 0.4);
 }
@@ -130,9 +140,8 @@ TEST(ContactScenesHeavy, ABallFallsThroughAFunnel) {
 TEST(ContactScenesHeavy, ARodPressesABallThroughARing) {
     ContactScene scene("squeeze.toml");
     scene.advance_to(70);
-    EXPECT_GT(scene.center(0).y, 0.95);  // it is caught
-    scene.advance_to(200);
-    EXPECT_LT(scene.center(0).y, 0.6);
+    EXPECT_GT(scene.center(0).y, 0.95);       // it is caught
+    EXPECT_LT(scene.lowest_until(200), 0.6);  // on the floor, from which it bounces
 }
 
 // Pulled along y, the knot draws together and stays: a bar without one is 0.15 m thick.
@@ -251,8 +260,7 @@ TEST_F(ContactScenesOnGlHeavy, DoWhatTheyDoOnTheCpu) {
     ContactScene squeeze("squeeze.toml", Backend::gl);
     squeeze.advance_to(70);
     EXPECT_GT(squeeze.center(0).y, 0.95);
-    squeeze.advance_to(200);
-    EXPECT_LT(squeeze.center(0).y, 0.6);
+    EXPECT_LT(squeeze.lowest_until(200), 0.6);
     ContactScene gripper("gripper.toml", Backend::gl);
     gripper.advance_to(165);
     EXPECT_NEAR(gripper.center(0).y, 1.35, 0.05);

@@ -297,10 +297,10 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
     objective_.begin(step);
 }
 
-// A guess that tangles a body can hold any energy, which few sweeps would not take out again. So it makes the
-// largest part of its way, of halves, at which the objective is no more than where the body was. If it is
-// left out, a step of a single sweep loses a third of the body's motion. Bodies that meet themselves cannot
-// get to such a guess: theirs is left out, as what they would make of it adds energy.
+// A guess that tangles a body can hold any energy, which few sweeps would not take out again: the body starts
+// where it was. A step of a single sweep would lose a third of its motion so. In divided steps, the guess
+// makes the largest part of its way, of halves, at which the objective is no more than where the body was.
+// Bodies that meet themselves cannot get to such a guess, and what they would make of it adds energy.
 template <class Real>
 void BlockDescent<Real>::shorten_tangled(Positions& positions) const {
     for_each_index(0, model_->objects.size(), 1, [&](std::size_t o) {
@@ -316,7 +316,8 @@ void BlockDescent<Real>::shorten_tangled(Positions& positions) const {
             }
         };
         go(0.0);
-        if (bodies_ && bodies_->list().own.meets_itself(o)) return;
+        const bool has_few_sweeps = division_ || sweeps_ == 1;
+        if (!has_few_sweeps || (bodies_ && bodies_->list().own.meets_itself(o))) return;
         const double at_start = objective(object, positions);
         for (double part = 1.0; part > kLeastOfGuess; part *= 0.5) {
             go(part);
