@@ -316,8 +316,7 @@ void BlockDescent<Real>::shorten_tangled(Positions& positions) const {
             }
         };
         go(0.0);
-        const bool has_few_sweeps = division_ || sweeps_ == 1;
-        if (!has_few_sweeps || (bodies_ && bodies_->list().own.meets_itself(o))) return;
+        if (!division_ || (bodies_ && bodies_->list().own.meets_itself(o))) return;
         const double at_start = objective(object, positions);
         for (double part = 1.0; part > kLeastOfGuess; part *= 0.5) {
             go(part);

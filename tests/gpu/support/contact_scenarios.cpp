@@ -169,7 +169,7 @@ double sweep_error(MaterialModel kind, int frames, int sweeps, double far = 0.0,
     // search of few steps, whose result may change with the last bit near the kinks of the law: some nodes
     // are off by a part of their motion, and in the next sweep their neighbours, and forces.
     constexpr double kBound = 1.5e-6, kPartOfMotion = 0.5;
-    const double most = sweeps == 1 ? 0.85 : 0.75;
+    const double most = sweeps == 1 ? 0.8 : 0.75;
     if (sweeps > 1) forces_off.clear();
     return std::max({quantile(off, most) / kBound, quantile(off, 1.0) / (kPartOfMotion * longest),
                      quantile(forces_off, most), excess / kBound});
