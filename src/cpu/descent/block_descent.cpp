@@ -300,7 +300,8 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
 // A guess that tangles a body can hold any energy, which few sweeps would not take out again: the body starts
 // where it was. A step of a single sweep would lose a third of its motion so. In divided steps, the guess
 // makes the largest part of its way, of halves, at which the objective is no more than where the body was.
-// Bodies that meet themselves cannot get to such a guess, and what they would make of it adds energy.
+// Bodies that others press, or that meet themselves, cannot get to such a guess: what they would make of it
+// crumples them.
 template <class Real>
 void BlockDescent<Real>::shorten_tangled(Positions& positions) const {
     for_each_index(0, model_->objects.size(), 1, [&](std::size_t o) {
@@ -316,7 +317,8 @@ void BlockDescent<Real>::shorten_tangled(Positions& positions) const {
             }
         };
         go(0.0);
-        if (!division_ || (bodies_ && bodies_->list().own.meets_itself(o))) return;
+        const bool is_kept_off = bodies_ && (bodies_->was_pressed(o) || bodies_->list().own.meets_itself(o));
+        if (!division_ || is_kept_off) return;
         const double at_start = objective(object, positions);
         for (double part = 1.0; part > kLeastOfGuess; part *= 0.5) {
             go(part);
