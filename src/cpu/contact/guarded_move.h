@@ -45,7 +45,7 @@ public:
                std::span<Vec4<Real>> positions);
 
     /// Finds how much of the way to `ends` each mover may go.
-    /// @param ends of a guess: output, too: in the rooms of nodes in their own bodies
+    /// @param ends if nodes are movers, output, too: in their rooms in their own bodies
     /// @param is_rigid by object: not 0 if its ends are a rigid motion; empty: none are
     /// @return false if movers may go farther after this move and another detection
     bool plan(const ContactList<Real>& list, const ContactAims<Real>& aims,

@@ -1,0 +1,22 @@
+#include "cpu/elasticity/elastic_energy.h"
+
+#include <gtest/gtest.h>
+
+#include "support/contact_scenes.h"
+
+namespace gelatin {
+namespace {
+
+// Of flat tets: none at rest, and what mirrored ones hold, whose J is -1: V K / 2 (J_0 - J)^2 with J_0 = 1/2.
+TEST(ElasticEnergy, OfFlatTetsIsThatOfMirroredOnes) {
+    const auto model = test::make_blocks({{.size = {0.3, 0.4, 0.5}, .youngs_modulus = 2e4}});
+    const Range& tets = model->objects[0].tets;
+    std::vector<glm::dvec4> positions(model->positions.begin(), model->positions.end());
+    EXPECT_NEAR(cpu::flat_tet_energy<double>(*model, tets, positions), 0.0, 1e-12);
+    for (glm::dvec4& p : positions) p.x = -p.x;
+    const double mirrored = 0.5 * 2e4 * 0.3 * 0.4 * 0.5 * 1.5 * 1.5;
+    EXPECT_NEAR(cpu::flat_tet_energy<double>(*model, tets, positions), mirrored, 1e-4 * mirrored);
+}
+
+}  // namespace
+}  // namespace gelatin
