@@ -7,7 +7,7 @@ namespace gelatin {
 SharedSolver::SharedSolver(const std::shared_ptr<const Model>& model, ForceMethod forces,
                            const CollisionSettings& collision, const DescentSettings& descent)
     : GpuSolver(model, SolverKind::vbd, forces, collision, descent),
-      sweeps_(*model, model_buffers()),
+      sweeps_(*model, model_buffers(), descent),
       host_(model, SolverKind::vbd, forces, collision, descent, &sweeps_) {}
 
 void SharedSolver::advance_nodes(double step) {

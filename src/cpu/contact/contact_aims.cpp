@@ -210,6 +210,8 @@ Real ContactAims<Real>::gap(const ContactPair& pair, const Press<Real>& press,
 
 template <class Real>
 void ContactAims<Real>::carry_over(const std::vector<ContactPair>& old, const ContactList<Real>& list) {
+    aims_.clear();
+    presses_.clear();
     std::vector<Grip<Real>> grips(list.pairs.size());
     const auto rank = [&](const ContactPair& pair) { return pair.rank(surface_->places); };
     std::size_t before = 0;

@@ -45,7 +45,7 @@ public:
     /// Aims all pairs at `positions`. @pre they keep to the list
     void run(const ContactList<Real>& list, std::span<const Vec4<Real>> positions);
 
-    /// Carries what friction holds on to a new list. @param old the pairs of the last run
+    /// Carries what friction holds on to a new list, whose pairs have no aims yet. @param old those before
     void carry_over(const std::vector<ContactPair>& old, const ContactList<Real>& list);
     /// What friction holds when a step ends.
     void end(const ContactList<Real>& list, std::span<const Vec4<Real>> positions);

@@ -15,11 +15,17 @@ namespace {
 constexpr double kMostMoves = 6.0, kMovesASecond = 360.0;
 // Of a room: nodes that have come farther are detected again.
 constexpr double kUsedRoom = 0.9, kUsedOwnRoom = 0.8;
+// With what has to be looked at in a body, nodes that have used so much of their rooms in it are.
+constexpr double kRestless = 0.4;
 // Of a room in its own body: where a node has used more, the map follows.
 constexpr double kFollowed = 0.6;
 // If none has come so far, another detection would give them hardly more. Nor would another look at a body
 // whose map keeps this of all distances.
 constexpr double kFreshRoom = 0.3, kFreshMap = 0.8;
+
+// Bodies that keep this of all distances do not meet themselves; those that have come below are looked at
+// until they keep more. Own pairs do not press before half of their distance is left.
+constexpr double kKept = 0.05, kKeptAgain = 0.15;
 
 }  // namespace
 
@@ -28,11 +34,13 @@ Contacts<Real>::Contacts(std::shared_ptr<const Model> model, const CollisionSett
     : model_(std::move(model)),
       surface_(std::make_shared<const ContactSurface>(make_contact_surface(*model_, collision))),
       meet_themselves_(collision.self_collision),
+      keep_shape_(model_->body_count()),
       object_of_(objects_of_nodes(*model_)),
       detection_(model_, surface_),
       aims_(model_, surface_),
       guard_(model_, surface_->places),
       is_pressed_(model_->objects.size()) {
+    if (meet_themselves_) kept_.emplace(model_, surface_);
     restart(std::vector<Vec4<Real>>(model_->positions.begin(), model_->positions.end()));
 }
 
@@ -44,6 +52,7 @@ void Contacts<Real>::restart(std::span<const Vec4<Real>> positions) {
         std::vector<std::uint8_t> meet_themselves(model_->objects.size());
         std::fill_n(meet_themselves.begin(), model_->body_count(), std::uint8_t(1));
         list_.own.restart(model_, std::move(meet_themselves));
+        std::fill(keep_shape_.begin(), keep_shape_.end(), std::uint8_t(0));
     }
     detection_.restart();
     aims_.forget();
@@ -58,6 +67,75 @@ Vec4<Real> Contacts<Real>::outside(const Vec4<Real>& position) const {
 }
 
 template <class Real>
+bool Contacts<Real>::are_apart(StageTimer* timer) {
+    find_kept_shapes();
+    if (!list_.is_valid || !list_.pairs.empty()) return false;
+    is_aimed_ = false;
+    detect_where_needed(safe_, timer);
+    return list_.pairs.empty();
+}
+
+// Bodies that were looked at may have come back to about their shape.
+template <class Real>
+void Contacts<Real>::find_kept_shapes() {
+    if (!kept_) return;
+    bool any_pairs = false;
+    for (std::uint32_t o = 0; o < keep_shape_.size(); ++o) {
+        if (keep_shape_[o] != 0 || !kept_->keeps(o, Real(kKeptAgain), safe_)) continue;
+        keep_shape_[o] = 1;
+        any_pairs |= list_.own.is_found(o);
+        list_.own.forget(o, false);
+        detection_.forget_own(o);
+    }
+    if (any_pairs && list_.is_valid) {
+        old_pairs_.swap(list_.pairs);
+        detection_.run_own({}, safe_, list_);
+        aims_.carry_over(old_pairs_, list_);
+        is_aimed_ = false;
+    }
+}
+
+// What is known of other bodies is of where the step led to.
+template <class Real>
+bool Contacts<Real>::kept_shape(std::span<const Vec4<Real>> positions, StageTimer* timer) {
+    if (!kept_) return true;
+    const TimedStage part(timer, "advance_nodes.detect_own");
+    bool all = true;
+    for (std::uint32_t o = 0; o < keep_shape_.size(); ++o) {
+        if (keep_shape_[o] == 0 || kept_->keeps(o, Real(kKept), positions)) continue;
+        keep_shape_[o] = 0;
+        all = false;
+    }
+    if (all) return true;
+    for (std::uint32_t o = 0; o < keep_shape_.size(); ++o)
+        if (keep_shape_[o] == 0) list_.own.forget(o, true);
+    list_.is_valid = false;
+    return false;
+}
+
+// Nothing is listed. So whatever way the nodes have taken, it can be exchanged for the straight one from
+// where they were: nothing meets there if all stay in their rooms.
+template <class Real>
+bool Contacts<Real>::end_apart(std::span<const Vec4<Real>> positions, StageTimer* timer) {
+    if (!kept_shape(positions, timer)) return false;
+    guard_.begin(positions);
+    const auto reaches = [&] {
+        const TimedStage part(timer, "advance_nodes.guess");
+        return guard_.reaches(list_, aims_, safe_, positions);
+    };
+    if (!reaches()) {
+        set_longest(positions, safe_);
+        if (guard_.lacks_room()) detect(safe_, positions, timer);
+        look_at_restless(safe_, positions, timer);
+        if (!list_.pairs.empty() || !reaches()) return false;
+    }
+    guard_.go(list_, positions, false, safe_);
+    std::fill(is_pressed_.begin(), is_pressed_.end(), std::uint8_t(0));
+    aims_.forget();
+    return true;
+}
+
+template <class Real>
 void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::span<const Vec4<Real>> starts,
                            std::span<Vec4<Real>> positions, StageTimer* timer) {
     guess_.resize(positions.size());
@@ -67,12 +145,8 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
     });
     aims_.begin(step, targets, starts);
     guard_.begin(positions);
-    const Real longest = greatest_at_nodes([&](std::uint32_t, std::uint32_t n, std::uint32_t) {
-        const Vec3<Real> motion = Vec3<Real>(guess_[n]) - Vec3<Real>(positions[n]);
-        return glm::dot(motion, motion);
-    });
-    longest_ = std::sqrt(static_cast<double>(longest));
-    if (!list_.is_valid || used_room(positions) > Real(kUsedRoom)) renew(positions, timer);
+    set_longest(guess_, positions);
+    if (!is_aimed_ || !list_.is_valid || used_room(positions) > Real(kUsedRoom)) renew(positions, timer);
     bool is_fresh = used_room(positions) < Real(kFreshRoom);
     const int most_moves =
         static_cast<int>(std::clamp(kMovesASecond * static_cast<double>(step), 1.0, kMostMoves));
@@ -91,7 +165,7 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
         }
         const bool lacks_room = guard_.lacks_room();
         if (lacks_room) detect(positions, guess_, timer);
-        const bool looked = look_at_restless(positions, timer);
+        const bool looked = look_at_restless(positions, ends_, timer);
         is_fresh = lacks_room || looked;
         if (is_fresh) aim(positions, timer);
     }
@@ -109,7 +183,7 @@ bool Contacts<Real>::plan_rest(std::span<const Vec4<Real>> positions, std::span<
         guard_.plan(list_, aims_, positions, ends_, Closeness::guess, Movers::nodes);
     };
     plan();
-    if (look_at_restless(positions, timer)) {
+    if (look_at_restless(positions, ends_, timer)) {
         aim(positions, timer);
         plan();
     }
@@ -170,11 +244,30 @@ void Contacts<Real>::move(std::span<Vec4<Real>> ends, std::span<Vec4<Real>> posi
 
 template <class Real>
 void Contacts<Real>::renew(std::span<const Vec4<Real>> positions, StageTimer* timer) {
-    if (!list_.is_valid || used_room(positions) > Real(kUsedRoom)) detect(positions, {}, timer);
-    if (meet_themselves_)
-        detect_own(
-            positions, false, [&](std::uint32_t o) { return uses_own_room(o, positions); }, timer);
+    detect_where_needed(positions, timer);
     aim(positions, timer);
+}
+
+template <class Real>
+void Contacts<Real>::detect_where_needed(std::span<const Vec4<Real>> positions, StageTimer* timer) {
+    if (!list_.is_valid || used_room(positions) > Real(kUsedRoom)) detect(positions, {}, timer);
+    if (!meet_themselves_) return;
+    detect_own(
+        positions, [&](std::uint32_t o) { return uses_own_room(o, positions); },
+        [&](std::uint32_t, std::uint32_t place, std::uint32_t node) {
+            return list_.own.used_by(place, Vec3<Real>(positions[node]));
+        },
+        timer);
+}
+
+// The motion of the node that goes farthest.
+template <class Real>
+void Contacts<Real>::set_longest(std::span<const Vec4<Real>> ends, std::span<const Vec4<Real>> positions) {
+    const Real longest = greatest_at_nodes([&](std::uint32_t, std::uint32_t n, std::uint32_t) {
+        const Vec3<Real> motion = Vec3<Real>(ends[n]) - Vec3<Real>(positions[n]);
+        return glm::dot(motion, motion);
+    });
+    longest_ = std::sqrt(static_cast<double>(longest));
 }
 
 // Whether its rooms in itself were not enough for a plan, and would be larger after a look.
@@ -193,12 +286,18 @@ bool Contacts<Real>::any_restless(std::span<const Vec4<Real>> positions) const {
     return any;
 }
 
-// @return whether there were any
+// At what keeps them from `ends`. @return whether there were any
 template <class Real>
-bool Contacts<Real>::look_at_restless(std::span<const Vec4<Real>> positions, StageTimer* timer) {
+bool Contacts<Real>::look_at_restless(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
+                                      StageTimer* timer) {
     if (!guard_.lacks_own_room()) return false;
-    const auto is_one = [&](std::uint32_t o) { return is_restless(o, positions); };
-    return !detect_own(positions, true, is_one, timer).empty();
+    const auto uses = [&](std::uint32_t o, std::uint32_t place, std::uint32_t node) {
+        if (!list_.own.keeps(o, Real(kFreshMap))) return Real(1);
+        return std::max(list_.own.used_by(place, Vec3<Real>(positions[node])),
+                        guard_.used_at_end(o, list_, place, Vec3<Real>(ends[node])));
+    };
+    return detect_own(
+        positions, [&](std::uint32_t o) { return is_restless(o, positions); }, uses, timer);
 }
 
 // The map follows. What it does not explain is looked at again.
@@ -210,26 +309,31 @@ bool Contacts<Real>::uses_own_room(std::uint32_t object, std::span<const Vec4<Re
     return own.used(object, positions) > Real(kUsedOwnRoom);
 }
 
-// Looks at bodies that meet themselves. @param anew whether at all of them; else at nodes that have come far
-// @param has_to whether one has to be looked at
+// Looks at bodies that meet themselves: at nodes that use much of their rooms, with what is near them.
+// @param uses(object, place, node): the part of its room
+// @return whether it looked at any
 template <class Real>
-template <class HasTo>
-std::vector<std::uint32_t> Contacts<Real>::detect_own(std::span<const Vec4<Real>> positions, bool anew,
-                                                      const HasTo& has_to, StageTimer* timer) {
+template <class IsOne, class Uses>
+bool Contacts<Real>::detect_own(std::span<const Vec4<Real>> positions, const IsOne& is_one, const Uses& uses,
+                                StageTimer* timer) {
     const TimedStage part(timer, "advance_nodes.detect_own");
-    std::vector<std::uint8_t> looks_at(model_->body_count());
-    for_each_index(0, looks_at.size(), 1, [&](std::size_t o) {
-        const auto object = static_cast<std::uint32_t>(o);
-        looks_at[o] = !list_.own.is_found(o) || has_to(object) ? 1 : 0;
+    std::vector<OwnLook> looks(model_->body_count());
+    std::vector<std::uint8_t> looks_at(looks.size());
+    for_each_index(0, looks.size(), 1, [&](std::size_t k) {
+        const auto o = static_cast<std::uint32_t>(k);
+        looks_at[o] = list_.own.meets_itself(o) && (!list_.own.is_found(o) || is_one(o)) ? 1 : 0;
+        looks[o].object = o;
+        if (looks_at[o] == 0 || !list_.own.is_found(o)) return;
+        const Range& all = list_.own.places(o);
+        for (std::uint32_t s = all.first; s < all.end(); ++s)
+            if (uses(o, s, model_->surface_parts.nodes[s]) > Real(kRestless)) looks[o].places.push_back(s);
     });
-    std::vector<std::uint32_t> objects;
-    for (std::uint32_t o = 0; o < looks_at.size(); ++o)
-        if (looks_at[o] != 0) objects.push_back(o);
-    if (objects.empty()) return objects;
+    std::erase_if(looks, [&](const OwnLook& look) { return looks_at[look.object] == 0; });
+    if (looks.empty()) return false;
     old_pairs_.swap(list_.pairs);
-    detection_.run_own(objects, anew, positions, list_);
+    detection_.run_own(looks, positions, list_);
     aims_.carry_over(old_pairs_, list_);
-    return objects;
+    return true;
 }
 
 template <class Real>
@@ -293,6 +397,7 @@ template <class Real>
 void Contacts<Real>::aim(std::span<const Vec4<Real>> positions, StageTimer* timer) {
     const TimedStage part(timer, "advance_nodes.aim");
     aims_.run(list_, positions);
+    is_aimed_ = true;
 }
 
 // The greatest of value(place, node, object) over all surface nodes, at least 0.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "cpu/contact/contact_list.h"
 #include "cpu/contact/detect_contacts.h"
 #include "cpu/contact/guarded_move.h"
+#include "cpu/contact/kept_distances.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
 
@@ -42,6 +44,12 @@ public:
         return o < bodies ? place : place - step * Vec3<Real>(model_->surfaces[o - bodies].velocity);
     }
 
+    /// Whether a step may be tried without contacts, since nothing is near anything else.
+    bool are_apart(StageTimer* timer);
+    /// Ends a step that was made so. @param positions where it leads
+    /// @return false if bodies may have met on the way: then it has to be made again, with contacts
+    bool end_apart(std::span<const Vec4<Real>> positions, StageTimer* timer);
+
     /// Begins a step: goes from where the last one ended as far to a first guess as that is safe.
     /// @param targets as in StepState; they and `starts` must stay where they are until the end of the step
     /// @param positions input: the guess; output: where the sweeps begin
@@ -63,6 +71,9 @@ public:
     /// Aims at the present positions, and detects before if nodes have come far.
     void renew(std::span<const Vec4<Real>> positions, StageTimer* timer);
 
+    /// Whether bodies of which that was expected still cannot have met themselves.
+    /// @return false if not: then the step has to be made again
+    bool kept_shape(std::span<const Vec4<Real>> positions, StageTimer* timer);
     void end(std::span<const Vec4<Real>> positions);
 
     /// Handles with nodes that are farther from where their poses have them than surfaces reach.
@@ -107,16 +118,20 @@ public:
 
 private:
     Vec4<Real> outside(const Vec4<Real>& position) const;
+    void find_kept_shapes();
+    void detect_where_needed(std::span<const Vec4<Real>> positions, StageTimer* timer);
+    void set_longest(std::span<const Vec4<Real>> ends, std::span<const Vec4<Real>> positions);
     std::vector<std::uint8_t> find_staying(std::span<const Vec4<Real>> positions) const;
     bool is_restless(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
     bool any_restless(std::span<const Vec4<Real>> positions) const;
-    bool look_at_restless(std::span<const Vec4<Real>> positions, StageTimer* timer);
+    bool look_at_restless(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
+                          StageTimer* timer);
     // @param ends where nodes are expected to go; empty: nowhere
     void detect(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends, StageTimer* timer);
     bool uses_own_room(std::uint32_t object, std::span<const Vec4<Real>> positions);
-    template <class HasTo>
-    std::vector<std::uint32_t> detect_own(std::span<const Vec4<Real>> positions, bool anew,
-                                          const HasTo& has_to, StageTimer* timer);
+    template <class IsOne, class Uses>
+    bool detect_own(std::span<const Vec4<Real>> positions, const IsOne& is_one, const Uses& uses,
+                    StageTimer* timer);
     void aim(std::span<const Vec4<Real>> positions, StageTimer* timer);
     template <class Value>
     Real greatest_at_nodes(const Value& value);
@@ -124,14 +139,18 @@ private:
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
+    // Bodies meet themselves, but for those that keep so much of all distances that they cannot.
     bool meet_themselves_;
+    std::optional<KeptDistances<Real>> kept_;
+    std::vector<std::uint8_t> keep_shape_;  // by body
     std::vector<std::uint32_t> object_of_;  // by node
     DetectContacts<Real> detection_;
     ContactList<Real> list_;
     std::vector<ContactPair> old_pairs_;
     ContactAims<Real> aims_;
     GuardedMove<Real> guard_;
-    double longest_ = 0.0;  // motion of a node in this step's guess [m]
+    bool is_aimed_ = false;  // at some positions of this step or the last one
+    double longest_ = 0.0;   // motion of a node in this step's guess [m]
     std::vector<Vec4<Real>> safe_, guess_, ends_;
     std::vector<std::uint8_t> is_pressed_;  // by object
     std::vector<Real> greatest_;            // of something, by object

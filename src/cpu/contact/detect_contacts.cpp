@@ -21,9 +21,8 @@ constexpr double kRoom = 0.45;
 // Of the distance between islands: how far from others rooms are looked for.
 constexpr double kSearched = 0.25;
 
-// Nodes that have used more than this of their rooms in their body are looked at again, all together if so
-// many have.
-constexpr double kRestless = 0.4, kMostRestless = 0.15;
+// Of the surface nodes of a body: where more are to be looked at again, all are.
+constexpr double kMostLookedAt = 0.15;
 
 constexpr std::size_t kLeavesATask = 16;
 
@@ -102,37 +101,20 @@ void DetectContacts<Real>::find_pairs() {
 }
 
 template <class Real>
-void DetectContacts<Real>::run_own(std::span<const std::uint32_t> objects, bool anew,
-                                   std::span<const Vec4<Real>> positions, ContactList<Real>& list) {
-    for_each_index(0, objects.size(), 1, [&](std::size_t k) {
-        const std::uint32_t o = objects[k];
-        if (anew || !list.own.is_found(o)) {
-            own_.run(o, positions, list.own);
-            return;
-        }
-        const std::vector<std::uint32_t> places = restless_places(o, positions, list);
-        if (static_cast<double>(places.size()) < kMostRestless * list.own.places(o).count) {
-            const bool is_done = own_.run_again(o, places, positions, list.own);
+void DetectContacts<Real>::run_own(std::span<const OwnLook> looks, std::span<const Vec4<Real>> positions,
+                                   ContactList<Real>& list) {
+    for_each_index(0, looks.size(), 1, [&](std::size_t k) {
+        const auto& [object, places] = looks[k];
+        const auto most = kMostLookedAt * list.own.places(object).count;
+        if (!places.empty() && list.own.is_found(object) && static_cast<double>(places.size()) < most) {
+            const bool is_done = own_.run_again(object, places, positions, list.own);
             // Beside them, rooms may have become smaller than what their nodes have used.
-            if (is_done && list.own.used(o, positions) < static_cast<Real>(OwnRooms<Real>::kByNodes)) return;
+            const auto least = static_cast<Real>(OwnRooms<Real>::kByNodes);
+            if (is_done && list.own.used(object, positions) < least) return;
         }
-        own_.run(o, positions, list.own);
+        own_.run(object, positions, list.own);
     });
     put_together(list);
-}
-
-// Surface nodes that have used up much of their rooms in their body.
-template <class Real>
-std::vector<std::uint32_t> DetectContacts<Real>::restless_places(std::uint32_t object,
-                                                                 std::span<const Vec4<Real>> positions,
-                                                                 const ContactList<Real>& list) const {
-    std::vector<std::uint32_t> places;
-    const Range& all = list.own.places(object);
-    for (std::uint32_t s = all.first; s < all.end(); ++s) {
-        const Vec3<Real> position(positions[model_->surface_parts.nodes[s]]);
-        if (list.own.used_by(s, position) > static_cast<Real>(kRestless)) places.push_back(s);
-    }
-    return places;
 }
 
 // Both kinds are in their order already.

@@ -17,6 +17,12 @@
 
 namespace gelatin::cpu {
 
+/// A body that meets itself, to be looked at.
+struct OwnLook {
+    std::uint32_t object;
+    std::vector<std::uint32_t> places;  ///< of surface nodes, with what is near them; empty: all
+};
+
 /// Lists the pairs of surface nodes and faces, and of edges, that are near each other, and how far every node
 /// may go before others could meet (docs/contact.md).
 template <class Real>
@@ -27,11 +33,11 @@ public:
     /// Looks for pairs of different bodies. Those of single bodies stay as they are.
     void run(std::span<const Vec4<Real>> positions, const Expected<Real>& expected, ContactList<Real>& list);
     /// Looks for pairs of single bodies, of which the others stay as they are.
-    /// @param anew whether at all of a body, or only at nodes that have come far
-    void run_own(std::span<const std::uint32_t> objects, bool anew, std::span<const Vec4<Real>> positions,
+    void run_own(std::span<const OwnLook> looks, std::span<const Vec4<Real>> positions,
                  ContactList<Real>& list);
-    /// Forgets the pairs of single bodies.
+    /// Forgets the pairs of single bodies, or of one: lists have them until the next run.
     void restart() { own_.restart(); }
+    void forget_own(std::uint32_t object) { own_.forget(object); }
 
 private:
     std::uint32_t object_of_leaf(std::uint32_t leaf) const {
@@ -45,8 +51,6 @@ private:
         std::vector<ContactPair> of_nodes, of_edges, waiting;  // waiting: to be measured
     };
     void find_pairs();
-    std::vector<std::uint32_t> restless_places(std::uint32_t object, std::span<const Vec4<Real>> positions,
-                                               const ContactList<Real>& list) const;
     void put_together(ContactList<Real>& list);
     void find_own_pairs(ContactList<Real>& list) const;
     void find_edge_boxes(std::uint32_t leaf);

@@ -67,6 +67,12 @@ void DetectOwn<Real>::restart() {
 }
 
 template <class Real>
+void DetectOwn<Real>::forget(std::uint32_t object) {
+    const Range leaves = leaves_of(object);
+    std::fill_n(found_.begin() + leaves.first, leaves.count, Found{});
+}
+
+template <class Real>
 double DetectOwn<Real>::listed(std::uint32_t object) const {
     return 2.0 * kListedReach * surface_->thicknesses[object];
 }

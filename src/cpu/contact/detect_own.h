@@ -29,8 +29,9 @@ public:
     /// @return false if it has to be looked at as a whole
     bool run_again(std::uint32_t object, std::span<const std::uint32_t> places,
                    std::span<const Vec4<Real>> positions, OwnRooms<Real>& rooms);
-    /// Forgets all bodies.
+    /// Forgets all bodies, or one.
     void restart();
+    void forget(std::uint32_t object);
 
     /// Adds the pairs of all bodies as they were looked at last, in the order of lists.
     void add_node_pairs(std::vector<ContactPair>& pairs) const;

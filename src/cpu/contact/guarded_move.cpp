@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <utility>
 
@@ -85,6 +86,25 @@ bool GuardedMove<Real>::plan(const ContactList<Real>& list, const ContactAims<Re
     for (std::size_t o = 0; o < parts_.size(); ++o)
         if (goes_on(o)) return false;
     return may_shift;
+}
+
+template <class Real>
+bool GuardedMove<Real>::reaches(const ContactList<Real>& list, const ContactAims<Real>& aims,
+                                std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends) {
+    movers_ = Movers::objects;
+    own_.begin();
+    common_.assign(list.shifts.size(), Vec3<Real>(0));
+    find_common_motions(list, positions, ends);
+    limit_common_motions(list);
+    keep_to_rooms(list, aims, positions, ends);
+    room_parts_ = parts_;
+    std::atomic<bool> reaches = !lacks_room();
+    tbb::parallel_for(std::size_t(0), model_->body_count(), [&](std::size_t o) {
+        if (list.own.meets_itself(o) &&
+            !own_.reaches(static_cast<std::uint32_t>(o), list.own, positions, ends))
+            reaches = false;
+    });
+    return reaches;
 }
 
 template <class Real>

@@ -52,6 +52,11 @@ public:
               std::span<const Vec4<Real>> positions, std::span<Vec4<Real>> ends, Closeness closeness,
               Movers movers = Movers::objects, std::span<const std::uint8_t> is_rigid = {});
 
+    /// Whether all objects may make all of their way. If so, go() makes it.
+    /// @pre nothing is listed
+    bool reaches(const ContactList<Real>& list, const ContactAims<Real>& aims,
+                 std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends);
+
     /// Leaves each object no more than a part of what its nodes were to make, and others what that leaves
     /// them. @pre nodes were planned, from and to the same positions @param parts by object
     void shorten(const ContactList<Real>& list, const ContactAims<Real>& aims,
@@ -71,6 +76,10 @@ public:
     /// Whether it was their rooms in themselves that kept bodies, or one.
     bool lacks_own_room() const { return own_.lacks_room(); }
     bool lacks_own_room(std::size_t object) const { return own_.lacks_room(object); }
+    Real used_at_end(std::uint32_t object, const ContactList<Real>& list, std::uint32_t place,
+                     const Vec3<Real>& end) const {
+        return own_.used_at_end(object, list.own, place, end);
+    }
 
     /// The part of the planned motion that an object, or a node, makes.
     Real part(std::size_t mover) const { return parts_[mover]; }

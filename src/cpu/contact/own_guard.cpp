@@ -30,6 +30,33 @@ OwnGuard<Real>::OwnGuard(std::shared_ptr<const Model> model)
       lacks_room_(model_->objects.size()),
       has_next_(model_->objects.size()) {}
 
+template <class Real>
+bool OwnGuard<Real>::reaches(std::uint32_t object, const OwnRooms<Real>& rooms,
+                             std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends) {
+    const auto stays = [&] { return stays_in_rooms(object, rooms, Real(1), positions, ends); };
+    next_[object] = rooms.moved(object, positions, ends);
+    if (stays()) return true;
+    next_[object] = rooms.fitted(object, ends);
+    if (stays()) return true;
+    lacks_room_[object] = 1;
+    return false;
+}
+
+// With the next map at the end of the way. @param of_rooms the part of these that nodes may use there
+template <class Real>
+bool OwnGuard<Real>::stays_in_rooms(std::uint32_t object, const OwnRooms<Real>& rooms, Real of_rooms,
+                                    std::span<const Vec4<Real>> positions,
+                                    std::span<const Vec4<Real>> ends) const {
+    const Range& places = rooms.places(object);
+    const MapAhead<Real>& next = next_[object];
+    for (std::uint32_t k = 0; k < places.count; ++k) {
+        const std::uint32_t s = places.first + k, n = model_->surface_parts.nodes[s];
+        if (glm::length(rooms.deviation(s, Vec3<Real>(positions[n]))) > rooms.radius(s)) return false;
+        if (glm::length(Vec3<Real>(ends[n]) - next.mapped[k]) > of_rooms * next.rooms[k]) return false;
+    }
+    return rooms.part_between(object, next.map) == Real(1);
+}
+
 // The present map is moved as the body is on the whole. Where that is not enough, a map is fitted to the
 // ends. Then few nodes are out of their rooms: those that are stopped while what is beside them goes on. The
 // whole body would make hardly any of its guess because of them.
@@ -42,14 +69,9 @@ void OwnGuard<Real>::bring_into_rooms(std::uint32_t object, const OwnRooms<Real>
         return ends[model_->surface_parts.nodes[places.first + k]];
     };
     const auto radius = [&](std::uint32_t k) { return static_cast<Real>(kOfRooms) * next.rooms[k]; };
-    const auto holds_all = [&] {
-        for (std::uint32_t k = 0; k < places.count; ++k)
-            if (glm::length(Vec3<Real>(end_at(k)) - next.mapped[k]) > radius(k)) return false;
-        return rooms.part_between(object, next.map) == Real(1);
-    };
     has_next_[object] = 1;
     next = rooms.moved(object, positions, ends);
-    if (holds_all()) return;
+    if (stays_in_rooms(object, rooms, static_cast<Real>(kOfRooms), positions, ends)) return;
     next = rooms.fitted(object, ends);
     const Real part = rooms.part_between(object, next.map);
     if (part < Real(1)) next = rooms.between(object, next.map, safe(part));

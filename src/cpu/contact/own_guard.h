@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -29,6 +30,10 @@ public:
         std::fill(lacks_room_.begin(), lacks_room_.end(), std::uint8_t(0));
         std::fill(has_next_.begin(), has_next_.end(), std::uint8_t(0));
     }
+
+    /// Whether all nodes of a body stay in their rooms on the way to `ends`. If so, go() takes its map there.
+    bool reaches(std::uint32_t object, const OwnRooms<Real>& rooms, std::span<const Vec4<Real>> positions,
+                 std::span<const Vec4<Real>> ends);
 
     /// Brings the ends of a body's free nodes into their rooms, as these are where the body ends.
     void bring_into_rooms(std::uint32_t object, const OwnRooms<Real>& rooms,
@@ -59,8 +64,18 @@ public:
         return std::any_of(lacks_room_.begin(), lacks_room_.end(), [](auto lacks) { return lacks != 0; });
     }
     bool lacks_room(std::size_t object) const { return lacks_room_[object] != 0; }
+    /// The part of its room that a surface node of such a body uses where the planned motion ends.
+    Real used_at_end(std::uint32_t object, const OwnRooms<Real>& rooms, std::uint32_t place,
+                     const Vec3<Real>& end) const {
+        const std::uint32_t k = place - rooms.places(object).first;
+        const MapAhead<Real>& next = next_[object];
+        const Real used = glm::length(end - next.mapped[k]);
+        return next.rooms[k] > Real(0) ? used / next.rooms[k] : std::numeric_limits<Real>::infinity();
+    }
 
 private:
+    bool stays_in_rooms(std::uint32_t object, const OwnRooms<Real>& rooms, Real of_rooms,
+                        std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends) const;
     Real part_of_pair(const ContactPair& pair, const PairAim<Real>& aim, const ContactAims<Real>& aims,
                       std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
                       Closeness closeness) const;

@@ -82,6 +82,17 @@ void OwnRooms<Real>::restart(std::shared_ptr<const Model> model, std::vector<std
         corners_.emplace_back(places[face.a], places[face.b], places[face.c]);
 }
 
+template <class Real>
+void OwnRooms<Real>::forget(std::uint32_t object, bool meets_itself) {
+    const Range& places = shapes_[object].places;
+    meets_themselves_[object] = meets_itself ? 1 : 0;
+    shapes_[object].is_found = false;
+    // Squares of lengths must not be infinite, on devices either.
+    constexpr auto kAnyMotion = Real(1e15f);
+    std::fill_n(radii_.begin() + places.first, places.count, kAnyMotion);
+    std::fill_n(mapped_.begin() + places.first, places.count, Vec3<Real>(0));
+}
+
 // Relative to the first of them, for precision.
 template <class Real>
 Vec3<Real> OwnRooms<Real>::middle(const Range& places, std::span<const Vec4<Real>> positions) const {

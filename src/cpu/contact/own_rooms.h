@@ -62,6 +62,8 @@ public:
     bool meets_itself(std::size_t object) const {
         return !meets_themselves_.empty() && meets_themselves_[object] != 0;
     }
+    /// Nothing is known of the body any more. @param meets_itself if not, its nodes have room for any motion
+    void forget(std::uint32_t object, bool meets_itself);
     /// The surface nodes of an object among all of them.
     const Range& places(std::size_t object) const { return shapes_[object].places; }
 

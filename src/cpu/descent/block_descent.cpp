@@ -34,15 +34,15 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
       settings_(settings),
       sweeps_(settings.iterations),
       bodies_(std::move(contacts)),
-      objective_(model_, nodes_a_batch, bodies_.get()),
+      objective_(model_, nodes_a_batch),
       contacts_(*model_),
-      sweep_(model_, bodies_.get()),
+      sweep_(model_),
       rigid_move_(model_),
       joint_move_(model_),
       rebound_(model_),
       is_calm_(bodies_ ? model_->objects.size() : 0),
       device_(bodies_ ? device : nullptr) {
-    if (settings_.coarse_level) coarse_.emplace(model_, bodies_.get());
+    if (settings_.coarse_level) coarse_.emplace(model_);
     if (coarse_ && coarse_->is_empty()) coarse_.reset();
     if (coarse_ || bodies_) secant_.emplace(model_);
     if (settings_.divides_steps) division_.emplace(model_);
@@ -67,16 +67,35 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
                              std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls,
                              StageTimer* timer, int parts) {
     sweeps_ = std::max(1, settings_.iterations / parts);
-    {
+    const auto start_with = [&](const Contacts<Real>* acting) {
         const TimedStage part(timer, "advance_nodes.start");
-        if (bodies_) find_calm_bodies(step, previous);
+        acting_ = acting;
+        if (acting_ != nullptr) find_calm_bodies(step, previous);
         start(step, has_earlier, previous, load_forces, pulls, current);
         shorten_tangled(current.positions);
+    };
+    // A step is tried with what seems to be enough, and made again with more where it was not.
+    for (bool apart = !bodies_ || bodies_->are_apart(timer);; apart = false) {
+        start_with(apart ? nullptr : bodies_.get());
+        if (!apart) {
+            bodies_->begin(step, objective_.step.targets, objective_.step.starts, current.positions, timer);
+            go_on_to_guess(current.positions, timer);
+        }
+        make_moves(step, current.positions, timer);
+        if (!bodies_) break;
+        if (apart ? bodies_->end_apart(current.positions, timer)
+                  : bodies_->kept_shape(current.positions, timer))
+            break;
     }
-    if (bodies_) {
-        bodies_->begin(step, objective_.step.targets, objective_.step.starts, current.positions, timer);
-        go_on_to_guess(current.positions, timer);
-    }
+    const TimedStage part(timer, "advance_nodes.move_bodies");
+    finish(step, previous, current);
+    if (acting_ != nullptr) bodies_->end(current.positions);
+    last_step_ = step;
+}
+
+// From the first guess on.
+template <class Real>
+void BlockDescent<Real>::make_moves(Real step, Positions& positions, StageTimer* timer) {
     if (device_ != nullptr) {
         const TimedStage part(timer, "advance_nodes.start");
         device_->begin(
@@ -84,27 +103,37 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
             std::vector<glm::vec4>(objective_.step.starts.begin(), objective_.step.starts.end()),
             std::vector<glm::vec4>(objective_.step.targets.begin(), objective_.step.targets.end()));
     }
+    if (device_ != nullptr && acting_ == nullptr) {
+        const TimedStage part(timer, "advance_nodes.descend");
+        device_positions_.assign(positions.begin(), positions.end());
+        device_->start_apart(sweeps_, device_positions_);
+        take_from_device(positions);
+        for_batches([&](std::size_t batch) { objective_.update(batch, positions); });  // for forces
+        return;
+    }
     if (coarse_ && end_of_run(0) < sweeps_) {
         const TimedStage part(timer, "advance_nodes.start");
-        coarse_->begin(step, current.positions);
+        coarse_->begin(step, positions);
     }
     for (int first = 0; first < sweeps_;) {
         const int end = end_of_run(first);
         if (device_ != nullptr) {
-            make_sweeps_on_device(first, end, current.positions, timer);
+            make_sweeps_on_device(first, end, positions, timer);
         } else {
-            make_sweeps(first, end, current.positions, timer);
+            make_sweeps(first, end, positions, timer);
         }
         if (end < sweeps_) {
             const TimedStage part(timer, "advance_nodes.correct");
-            coarse_->run(objective_, contacts_, *secant_, current.positions);
+            coarse_->run(objective_, acting_, contacts_, *secant_, positions);
         }
         first = end;
     }
-    const TimedStage part(timer, "advance_nodes.move_bodies");
-    finish(step, previous, current);
-    if (bodies_) bodies_->end(current.positions);
-    last_step_ = step;
+}
+
+template <class Real>
+template <class Visit>
+void BlockDescent<Real>::for_batches(const Visit& visit) const {
+    tbb::parallel_for(std::size_t(0), objective_.rows().batches.size(), visit);
 }
 
 // Bodies that press others and are slower than what gravity adds in two steps. For these, the best guess is
@@ -134,14 +163,13 @@ template <class Real>
 void BlockDescent<Real>::make_sweeps(int first, int end, Positions& positions, StageTimer* timer) {
     const std::vector<DescentBatch>& batches = objective_.rows().batches;
     const auto update = [&](std::size_t batch) { objective_.update(batch, positions); };
-    const auto sweep = [&](std::size_t batch) { sweep_.run(batch, objective_, contacts_, positions); };
+    const auto sweep = [&](std::size_t batch) {
+        sweep_.run(batch, objective_, acting_, contacts_, positions);
+    };
     const auto move_bodies = [&](std::size_t batch, bool last) {
         rigid_move_.run(batches[batch].objects, last, objective_, contacts_, nullptr, positions, positions);
     };
-    const auto for_batches = [&](const auto& work) {
-        tbb::parallel_for(std::size_t(0), batches.size(), work);
-    };
-    if (timer == nullptr && !bodies_) {
+    if (timer == nullptr && acting_ == nullptr) {
         for_batches([&](std::size_t batch) {
             for (int i = first; i < end; ++i) {
                 if (updates_tets(i)) update(batch);
@@ -158,8 +186,8 @@ void BlockDescent<Real>::make_sweeps(int first, int end, Positions& positions, S
     for (int i = first; i < end; ++i) {
         if (updates_tets(i)) time("advance_nodes.update_tets", update);
         time("advance_nodes.descend", sweep);
-        if (moves_bodies(i) && bodies_) move_together(is_last(i), positions, timer);
-        if (moves_bodies(i) && !bodies_)
+        if (moves_bodies(i) && acting_ != nullptr) move_together(is_last(i), positions, timer);
+        if (moves_bodies(i) && acting_ == nullptr)
             time("advance_nodes.move_bodies", [&](std::size_t batch) { move_bodies(batch, is_last(i)); });
     }
 }
@@ -176,20 +204,18 @@ void BlockDescent<Real>::make_sweeps_on_device(int first, int end, Positions& po
             device_positions_.assign(positions.begin(), positions.end());
             bodies_->write_limits(device_limits_);
             device_->start(next - begin, updates_tets(begin), device_limits_, device_positions_);
-            if (updates_tets(begin)) {
-                tbb::parallel_for(std::size_t(0), objective_.rows().batches.size(),
-                                  [&](std::size_t batch) { objective_.update(batch, positions); });
-            }
-            device_->finish(device_positions_, device_contacts_);
-            positions.assign(device_positions_.begin(), device_positions_.end());
-            take_contacts_of_device();
+            if (updates_tets(begin))
+                for_batches([&](std::size_t batch) { objective_.update(batch, positions); });
+            take_from_device(positions);
         }
         if (moves_bodies(next - 1)) move_together(is_last(next - 1), positions, timer);
     }
 }
 
 template <class Real>
-void BlockDescent<Real>::take_contacts_of_device() {
+void BlockDescent<Real>::take_from_device(Positions& positions) {
+    device_->finish(device_positions_, device_contacts_);
+    positions.assign(device_positions_.begin(), device_positions_.end());
     for (std::size_t o = 0; o < contacts_.objects.size(); ++o)
         contacts_.objects[o] = device_contacts_.objects[o] != 0 ? 1 : 0;
     for (std::size_t n = 0; n < contacts_.nodes.size(); ++n) {
@@ -289,12 +315,12 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
                 ? glm::clamp(glm::dot(gained, gravity) / (earlier_step * squared), Real(0), Real(1))
                 : Real(1);
         Vec3<Real> guess = Vec3<Real>(from) + step * (velocity + step * felt * gravity);
-        if (bodies_ && bodies_->was_pressed(contacts_.object_of[n]))
+        if (acting_ != nullptr && acting_->was_pressed(contacts_.object_of[n]))
             guess = Vec3<Real>(from) + (is_calm_[contacts_.object_of[n]] != 0 ? Real(0) : step) * velocity;
         current.positions[n] = Vec4<Real>(guess, from.w);
     });
     contacts_.begin();
-    objective_.begin(step);
+    objective_.begin(step, acting_);
 }
 
 // A guess that tangles a body can hold any energy, which few sweeps would not take out again: the body starts
@@ -317,7 +343,8 @@ void BlockDescent<Real>::shorten_tangled(Positions& positions) const {
             }
         };
         go(0.0);
-        const bool is_kept_off = bodies_ && (bodies_->was_pressed(o) || bodies_->list().own.meets_itself(o));
+        const bool is_kept_off =
+            acting_ != nullptr && (acting_->was_pressed(o) || acting_->list().own.meets_itself(o));
         if (!division_ || is_kept_off) return;
         const double at_start = objective(object, positions);
         for (double part = 1.0; part > kLeastOfGuess; part *= 0.5) {

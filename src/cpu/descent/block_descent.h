@@ -104,6 +104,7 @@ private:
 
     void start(Real step, bool has_earlier, const Nodes<Real>& previous,
                std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls, Nodes<Real>& current);
+    void make_moves(Real step, Positions& positions, StageTimer* timer);
     void shorten_tangled(Positions& positions) const;
     double objective(const ModelObject& object, const Positions& positions) const;
     void find_calm_bodies(Real step, const Nodes<Real>& previous);
@@ -112,7 +113,9 @@ private:
     int end_of_run(int first) const;
     void make_sweeps(int first, int end, Positions& positions, StageTimer* timer);
     void make_sweeps_on_device(int first, int end, Positions& positions, StageTimer* timer);
-    void take_contacts_of_device();
+    void take_from_device(Positions& positions);
+    template <class Visit>
+    void for_batches(const Visit& visit) const;
     bool updates_tets(int sweep) const { return sweep % kSweepsAMotion == 0; }
     bool moves_bodies(int sweep) const { return is_last(sweep) || (sweep + 1) % kSweepsAMotion == 0; }
     bool is_last(int sweep) const { return sweep + 1 == sweeps_; }
@@ -125,6 +128,7 @@ private:
     std::optional<StepDivision<Real>> division_;
     std::optional<RestWatch<Real>> rest_watch_;
     std::unique_ptr<Contacts<Real>> bodies_;
+    const Contacts<Real>* acting_ = nullptr;  // in this step: null while bodies are apart
     StepObjective<Real> objective_;
     ColliderContacts<Real> contacts_;
     NodeSweep<Real> sweep_;

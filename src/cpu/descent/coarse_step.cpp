@@ -14,15 +14,16 @@ constexpr double kFarthest = 2.0;
 }  // namespace
 
 template <class Real>
-CoarseStep<Real>::CoarseStep(std::shared_ptr<const Model> model, const Contacts<Real>* bodies)
-    : model_(std::move(model)), bodies_(bodies), coarse_(model_) {}
+CoarseStep<Real>::CoarseStep(std::shared_ptr<const Model> model)
+    : model_(std::move(model)), coarse_(model_) {}
 
 template <class Real>
-void CoarseStep<Real>::run(const StepObjective<Real>& objective, const ColliderContacts<Real>& contacts,
-                           SecantStep<Real>& secant, std::vector<Vec4<Real>>& positions) {
-    const std::vector<Vec3<Real>>& forces = secant.find_forces(objective, contacts, bodies_, positions);
+void CoarseStep<Real>::run(const StepObjective<Real>& objective, const Contacts<Real>* bodies,
+                           const ColliderContacts<Real>& contacts, SecantStep<Real>& secant,
+                           std::vector<Vec4<Real>>& positions) {
+    const std::vector<Vec3<Real>>& forces = secant.find_forces(objective, contacts, bodies, positions);
     coarse_.find_displacements(positions, forces, secant.displacements);
-    secant.look_ahead(objective, contacts, bodies_, positions);
+    secant.look_ahead(objective, contacts, bodies, positions);
     tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
         if (!coarse_.moves(o)) return;
         // No node goes farther than the object is long.
@@ -32,7 +33,7 @@ void CoarseStep<Real>::run(const StepObjective<Real>& objective, const ColliderC
             longest = std::max(longest, static_cast<double>(glm::length(secant.displacements[n])));
         auto part =
             static_cast<Real>(std::min(secant.part(secant.work(o), kFarthest), coarse_.length(o) / longest));
-        if (bodies_ != nullptr) part = bodies_->allowed_part(nodes, positions, secant.displacements, part);
+        if (bodies != nullptr) part = bodies->allowed_part(nodes, positions, secant.displacements, part);
         if (part > Real(0)) secant.move(o, part, positions);
     });
 }

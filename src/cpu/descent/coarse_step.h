@@ -19,20 +19,20 @@ namespace gelatin::cpu {
 template <class Real>
 class CoarseStep {
 public:
-    /// @param bodies whose contacts limit displacements; null: none; must outlive this
-    CoarseStep(std::shared_ptr<const Model> model, const Contacts<Real>* bodies);
+    explicit CoarseStep(std::shared_ptr<const Model> model);
 
     bool is_empty() const { return coarse_.is_empty(); }  ///< there is nothing for it to move
 
     /// To be called before others of a step of `step` seconds.
     void begin(Real step, std::span<const Vec4<Real>> positions) { coarse_.begin(step, positions); }
 
-    void run(const StepObjective<Real>& objective, const ColliderContacts<Real>& contacts,
-             SecantStep<Real>& secant, std::vector<Vec4<Real>>& positions);
+    /// @param bodies whose contacts limit displacements; null: none
+    void run(const StepObjective<Real>& objective, const Contacts<Real>* bodies,
+             const ColliderContacts<Real>& contacts, SecantStep<Real>& secant,
+             std::vector<Vec4<Real>>& positions);
 
 private:
     std::shared_ptr<const Model> model_;
-    const Contacts<Real>* bodies_;
     CoarseCorrection<Real> coarse_;
 };
 

@@ -8,16 +8,16 @@
 namespace gelatin::cpu {
 
 template <class Real>
-NodeSweep<Real>::NodeSweep(std::shared_ptr<const Model> model, const Contacts<Real>* bodies)
-    : model_(std::move(model)), bodies_(bodies) {}
+NodeSweep<Real>::NodeSweep(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
 
 template <class Real>
 void NodeSweep<Real>::run(std::size_t batch, const StepObjective<Real>& objective,
-                          ColliderContacts<Real>& contacts, std::vector<Vec4<Real>>& positions) const {
+                          const Contacts<Real>* bodies, ColliderContacts<Real>& contacts,
+                          std::vector<Vec4<Real>>& positions) const {
     const DescentRows& rows = objective.rows();
-    const DescentBatch& bodies = rows.batches[batch];
+    const DescentBatch& own = rows.batches[batch];
     const bool any_flat = objective.any_flat_tets(batch);
-    const bool any_contact = contacts.has_contact(bodies.objects);  // in an earlier sweep
+    const bool any_contact = contacts.has_contact(own.objects);  // in an earlier sweep
     const auto stop_group = [&](std::size_t group, std::uint32_t near_colliders,
                                 const typename StepObjective<Real>::Terms& terms) {
         if (contacts.nodes.empty() || (near_colliders == 0 && !any_contact)) return;
@@ -43,10 +43,10 @@ void NodeSweep<Real>::run(std::size_t batch, const StepObjective<Real>& objectiv
         }
         typename StepObjective<Real>::Terms terms;
         stop_group(group, objective.descend(group, any_flat, positions, terms), terms);
-        limit(group, objective, before, terms, positions);
+        limit(group, objective, *bodies, before, terms, positions);
     };
-    for (const Range& color : bodies.colors) {
-        if (bodies_ != nullptr) {
+    for (const Range& color : own.colors) {
+        if (bodies != nullptr) {
             for_each_index(color.first / kGroup, color.end() / kGroup, kGroupsATask, move_limited_group);
         } else {
             for_each_index(color.first / kGroup, color.end() / kGroup, kGroupsATask, move_group);
@@ -71,7 +71,7 @@ void NodeSweep<Real>::stop_at_colliders(std::uint32_t node, const StepObjective<
 // Contacts come last: what a collider does to a node ends at another body.
 template <class Real>
 void NodeSweep<Real>::limit(std::size_t group, const StepObjective<Real>& objective,
-                            const std::array<Vec3<Real>, kGroup>& before,
+                            const Contacts<Real>& bodies, const std::array<Vec3<Real>, kGroup>& before,
                             const typename StepObjective<Real>::Terms& terms,
                             std::vector<Vec4<Real>>& positions) const {
     for (std::uint32_t r = 0; r < kGroup; ++r) {
@@ -79,7 +79,7 @@ void NodeSweep<Real>::limit(std::size_t group, const StepObjective<Real>& object
         if (node == kNoNode || objective.step.targets[node].w == Real(0)) continue;
         Vec4<Real>& position = positions[node];
         position =
-            Vec4<Real>(bodies_->limited(node, before[r], Vec3<Real>(position), terms.row(r)), position.w);
+            Vec4<Real>(bodies.limited(node, before[r], Vec3<Real>(position), terms.row(r)), position.w);
     }
 }
 

@@ -5,16 +5,15 @@
 namespace gelatin::cpu {
 
 template <class Real>
-StepObjective<Real>::StepObjective(std::shared_ptr<const Model> model, std::uint32_t nodes_a_batch,
-                                   const Contacts<Real>* contacts)
+StepObjective<Real>::StepObjective(std::shared_ptr<const Model> model, std::uint32_t nodes_a_batch)
     : step{std::vector<Vec4<Real>>(model->node_count()), std::vector<Vec4<Real>>(model->node_count())},
       rows_(make_descent_rows(*model, nodes_a_batch)),
-      contacts_(contacts),
       flat_tets_(model, rows_),
       elements_(model, rows_, flat_tets_.node_tets()) {}
 
 template <class Real>
-void StepObjective<Real>::begin(Real seconds) {
+void StepObjective<Real>::begin(Real seconds, const Contacts<Real>* contacts) {
+    contacts_ = contacts;
     step.inverse_step = Real(1) / seconds;
     elements_.begin(rows_, step);
 }

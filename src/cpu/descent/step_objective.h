@@ -27,14 +27,12 @@ public:
     using Terms = typename Elements::Terms;  ///< NodeTerms of a group of rows
 
     /// @param nodes_a_batch as make_descent_rows has it
-    /// @param contacts null: none; must outlive this
-    StepObjective(std::shared_ptr<const Model> model, std::uint32_t nodes_a_batch,
-                  const Contacts<Real>* contacts = nullptr);
+    StepObjective(std::shared_ptr<const Model> model, std::uint32_t nodes_a_batch);
 
     /// The step; begin() is to be called when its starts and targets are known.
     StepState<Real> step;
-    /// @param seconds h
-    void begin(Real seconds);
+    /// @param seconds h @param contacts of this step; null: none; must outlive it
+    void begin(Real seconds, const Contacts<Real>* contacts = nullptr);
 
     /// Rows of nodes by batch and colour.
     const DescentRows& rows() const { return rows_; }
@@ -62,7 +60,7 @@ public:
                           Terms& terms) const;
 
     /// Minus the slope by each node that is not held [N].
-    /// @param contacts those of the constructor, or null to leave them out
+    /// @param contacts those of the step, or null to leave them out
     void find_forces(const std::vector<Vec4<Real>>& positions, const Contacts<Real>* contacts,
                      std::vector<Vec3<Real>>& forces) const;
 
@@ -80,7 +78,7 @@ private:
                         const std::vector<Vec4<Real>>& positions, Terms& terms) const;
 
     DescentRows rows_;
-    const Contacts<Real>* contacts_;
+    const Contacts<Real>* contacts_ = nullptr;
     FlatTets<Real> flat_tets_;
     Elements elements_;
 };

@@ -19,65 +19,38 @@ BlockDescent::BlockDescent(const Model& model, const DescentSettings& settings)
       start_program_(gl::Program::compute("sim/descent/start_descent.comp", start_defines(model))),
       find_tangled_program_(gl::Program::compute("sim/descent/take_back_tangled.comp", {"TETS"})),
       take_back_program_(gl::Program::compute("sim/descent/take_back_tangled.comp")),
-      sweep_program_(gl::Program::compute("sim/descent/descend.comp", StepObjective::defines(model))),
       node_objects_(objects_of_nodes(model), gl::TexelFormat::r32ui),
       is_tangled_(model.objects.size()),
-      objective_(model),
-      contacts_(model),
-      rigid_move_(model, objective_, contacts_) {
-    if (settings_.coarse_level) {
-        const CoarseBasis basis = make_coarse_basis(model);
-        if (basis.cluster_count() > 0) coarse_.emplace(model, basis, objective_, contacts_);
-    }
+      moves_(model, settings.coarse_level) {
     bind_buffers();
 }
 
 // What never changes.
 void BlockDescent::bind_buffers() const {
-    start_program_.bind("NearFlat", objective_.near_flat);
+    start_program_.bind("NearFlat", moves_.objective.near_flat);
     start_program_.bind("Tangled", is_tangled_);
-    start_program_.bind("Starts", objective_.starts);
-    start_program_.bind("Targets", objective_.targets);
-    contacts_.bind(start_program_);
-    find_tangled_program_.bind("tets", objective_.tets);
-    find_tangled_program_.bind("tet_rests", objective_.tet_rests);
-    take_back_program_.bind("start_positions", objective_.start_texels);
+    start_program_.bind("Starts", moves_.objective.starts);
+    start_program_.bind("Targets", moves_.objective.targets);
+    moves_.contacts.bind(start_program_);
+    find_tangled_program_.bind("tets", moves_.objective.tets);
+    find_tangled_program_.bind("tet_rests", moves_.objective.tet_rests);
+    take_back_program_.bind("start_positions", moves_.objective.start_texels);
     for (const gl::Program* program : {&find_tangled_program_, &take_back_program_}) {
         program->bind("node_objects", node_objects_);
         program->bind("Tangled", is_tangled_);
     }
-    objective_.bind(sweep_program_);
-    contacts_.bind(sweep_program_);
 }
 
 void BlockDescent::run(const ModelBuffers& model, const SumLoads* loads, const NodeBuffers& previous,
                        const NodeBuffers& current, double step, bool has_earlier, StageTimer* timer) {
-    const auto run_part = [&](const char* name, const auto& work) {
-        const TimedStage part(timer, name);
-        work();
-    };
-    run_part("advance_nodes.start", [&] {
+    {
+        const TimedStage part(timer, "advance_nodes.start");
         start(model, loads, previous, current, step, has_earlier);
-        objective_.begin(previous, current, step);
+        moves_.objective.begin(previous, current, step);
         take_back_tangled(current);
-        begin_moves(model, previous, current, step);
-    });
-    for (int i = 0; i < settings_.iterations; ++i) {
-        if (i % kSweepsAMotion == 0)
-            run_part("advance_nodes.update_tets", [&] { objective_.update(gathering_programs()); });
-        run_part("advance_nodes.descend", [&] { sweep(); });
-        const bool is_last = i + 1 == settings_.iterations;
-        if (coarse_ && !is_last && i % kSweepsACorrection == 0)
-            run_part("advance_nodes.correct", [&] { coarse_->run(current, rigid_move_); });
-        if (is_last || (i + 1) % kSweepsAMotion == 0)
-            run_part("advance_nodes.move_bodies", [&] { rigid_move_.run(is_last); });
+        moves_.begin(model, previous, current, step);
     }
-}
-
-std::vector<const gl::Program*> BlockDescent::gathering_programs() const {
-    std::vector<const gl::Program*> programs = {&sweep_program_};
-    if (coarse_) programs.push_back(&coarse_->force_program());
-    return programs;
+    moves_.run(settings_.iterations, current, timer);
 }
 
 void BlockDescent::start(const ModelBuffers& model, const SumLoads* loads, const NodeBuffers& previous,
@@ -108,28 +81,6 @@ void BlockDescent::take_back_tangled(const NodeBuffers& current) const {
     take_back_program_.set("element_count", node_count_);
     take_back_program_.dispatch(node_count_);
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
-}
-
-// The nodes' two buffers swap places from step to step.
-void BlockDescent::begin_moves(const ModelBuffers& model, const NodeBuffers& previous,
-                               const NodeBuffers& current, double step) {
-    sweep_program_.bind("positions", current.position_texels);
-    sweep_program_.bind("start_velocities", previous.velocity_texels);
-    sweep_program_.bind("OutPositions", current.positions);
-    sweep_program_.set("time_step", static_cast<float>(step));
-    model.bind_colliders(sweep_program_);
-    rigid_move_.begin(model, previous, current, step);
-    if (coarse_) coarse_->begin(model, previous, current, step);
-}
-
-// One colour after another.
-void BlockDescent::sweep() const {
-    for (const Range& rows : objective_.colors()) {
-        sweep_program_.set("first_row", rows.first);
-        sweep_program_.set("row_count", rows.count);
-        sweep_program_.dispatch(rows.count);
-        gl::barrier(gl::Barrier::texture_fetch | gl::Barrier::storage);
-    }
 }
 
 }  // namespace gelatin::gpu

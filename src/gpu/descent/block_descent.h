@@ -1,14 +1,8 @@
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "core/stage_timer.h"
 #include "gl/program.h"
-#include "gpu/descent/coarse_step.h"
-#include "gpu/descent/collider_contacts.h"
-#include "gpu/descent/rigid_move.h"
-#include "gpu/descent/step_objective.h"
+#include "gpu/descent/descent_moves.h"
 #include "gpu/drive/sum_loads.h"
 #include "gpu/model_buffers.h"
 #include "gpu/node_buffers.h"
@@ -17,9 +11,8 @@
 
 namespace gelatin::gpu {
 
-/// Vertex block descent: start_descent.comp and take_back_tangled.comp of shaders/sim/descent/; then three
-/// moves lower a sum of elements (StepObjective) in turn: sweeps over nodes (descend.comp), RigidMove and
-/// CoarseStep. CPU twin: cpu::BlockDescent.
+/// Vertex block descent: start_descent.comp and take_back_tangled.comp of shaders/sim/descent/; then moves
+/// lower a sum of elements in turn (DescentMoves). CPU twin: cpu::BlockDescent.
 class BlockDescent {
 public:
     BlockDescent(const Model& model, const DescentSettings& settings);
@@ -34,23 +27,16 @@ public:
 
 private:
     void bind_buffers() const;
-    std::vector<const gl::Program*> gathering_programs() const;
     void start(const ModelBuffers& model, const SumLoads* loads, const NodeBuffers& previous,
                const NodeBuffers& current, double step, bool has_earlier) const;
     void take_back_tangled(const NodeBuffers& current) const;
-    void begin_moves(const ModelBuffers& model, const NodeBuffers& previous, const NodeBuffers& current,
-                     double step);
-    void sweep() const;
 
     DescentSettings settings_;
     std::uint32_t node_count_, tet_count_, object_count_;
-    gl::Program start_program_, find_tangled_program_, take_back_program_, sweep_program_;
+    gl::Program start_program_, find_tangled_program_, take_back_program_;
     gl::TexelTable<std::uint32_t> node_objects_;
     gl::Buffer<std::uint32_t> is_tangled_;  // by object
-    StepObjective objective_;
-    ColliderContacts contacts_;
-    RigidMove rigid_move_;
-    std::optional<CoarseStep> coarse_;  // where there are clusters
+    DescentMoves moves_;
 };
 
 }  // namespace gelatin::gpu

@@ -22,31 +22,32 @@ void upload(const std::vector<T>& values, gl::Buffer<T>& buffer) {
 
 }  // namespace
 
-LimitedSweeps::LimitedSweeps(const Model& model, const ModelBuffers& buffers)
+LimitedSweeps::LimitedSweeps(const Model& model, const ModelBuffers& buffers, const DescentSettings& settings)
     : buffers_(buffers),
       program_(gl::Program::compute("sim/descent/descend.comp", sweep_defines(model))),
-      objective_(model),
-      contacts_(model),
+      moves_(model, settings.coarse_level),
+      starts_(model.positions, model.velocities),
       nodes_(model.positions, model.velocities),
       limits_(model.surface_parts.nodes.size()),
       planes_(1),
       shares_(1) {
-    objective_.bind(program_);
-    contacts_.bind(program_);
+    moves_.objective.bind(program_);
+    moves_.contacts.bind(program_);
     program_.bind("positions", nodes_.position_texels);
-    program_.bind("start_velocities", nodes_.velocity_texels);
+    program_.bind("start_velocities", starts_.velocity_texels);
     program_.bind("OutPositions", nodes_.positions);
     program_.bind("Limits", limits_);
 }
 
 void LimitedSweeps::begin(double step, std::span<const glm::vec4> starts,
                           std::span<const glm::vec4> targets) {
-    objective_.starts.upload(starts);
-    objective_.targets.upload(targets);
-    objective_.near_flat.fill(0);
-    contacts_.objects.fill(0);
-    contacts_.nodes.upload(std::vector<ColliderContact>(contacts_.nodes.size()));
-    objective_.begin(nodes_, nodes_, step);
+    moves_.objective.starts.upload(starts);
+    moves_.objective.targets.upload(targets);
+    moves_.objective.near_flat.fill(0);
+    moves_.contacts.objects.fill(0);
+    moves_.contacts.nodes.upload(std::vector<ColliderContact>(moves_.contacts.nodes.size()));
+    moves_.objective.begin(starts_, nodes_, step);
+    step_ = step;
     program_.set("time_step", static_cast<float>(step));
     buffers_.bind_colliders(program_);
 }
@@ -59,9 +60,9 @@ void LimitedSweeps::start(int sweeps, bool updates_tets, const ContactLimits& li
     upload(limits.shares, shares_);
     program_.bind("Planes", planes_);
     program_.bind("Shares", shares_);
-    if (updates_tets) objective_.update(std::array{&std::as_const(program_)});
+    if (updates_tets) moves_.objective.update(std::array{&std::as_const(program_)});
     for (int i = 0; i < sweeps; ++i) {
-        for (const Range& rows : objective_.colors()) {
+        for (const Range& rows : moves_.objective.colors()) {
             program_.set("first_row", rows.first);
             program_.set("row_count", rows.count);
             program_.dispatch(rows.count);
@@ -71,12 +72,19 @@ void LimitedSweeps::start(int sweeps, bool updates_tets, const ContactLimits& li
     gl::barrier(gl::Barrier::buffer_update);
 }
 
+void LimitedSweeps::start_apart(int sweeps, std::span<const glm::vec4> positions) {
+    nodes_.positions.upload(positions);
+    moves_.begin(buffers_, starts_, nodes_, step_);
+    moves_.run(sweeps, nodes_);
+    gl::barrier(gl::Barrier::buffer_update);
+}
+
 void LimitedSweeps::finish(std::span<glm::vec4> positions, DeviceContacts& contacts) {
     nodes_.positions.download(positions);
-    contacts.nodes.resize(contacts_.nodes.size());
-    contacts.objects.resize(contacts_.objects.size());
-    contacts_.nodes.download(contacts.nodes);
-    contacts_.objects.download(contacts.objects);
+    contacts.nodes.resize(moves_.contacts.nodes.size());
+    contacts.objects.resize(moves_.contacts.objects.size());
+    moves_.contacts.nodes.download(contacts.nodes);
+    moves_.contacts.objects.download(contacts.objects);
 }
 
 }  // namespace gelatin::gpu

@@ -122,6 +122,36 @@ std::vector<double> find_thicknesses(const Model& model) {
     return thicknesses;
 }
 
+// In one piece, with all edges convex: no corner across an edge is above the plane of the face, but for
+// rounding. That is enough for a closed surface that does not pass through itself.
+bool is_convex(const Model& model, const ContactSurface& surface, const Range& faces) {
+    if (faces.count == 0) return false;
+    constexpr double kOfEdge = 1e-5, kOfPlace = 1e-6;
+    const auto position = [&](std::uint32_t n) { return glm::dvec3(model.positions[n]); };
+    std::vector<std::uint8_t> is_reached(faces.count);
+    std::vector<std::uint32_t> reached = {faces.first};
+    is_reached[0] = 1;
+    for (std::size_t next = 0; next < reached.size(); ++next) {
+        const std::uint32_t f = reached[next];
+        const auto corners = corners_of(model.faces[f]);
+        const glm::dvec3 a = position(corners[0]), ab = position(corners[1]) - a,
+                         ac = position(corners[2]) - a;
+        const glm::dvec3 normal = glm::cross(ab, ac);
+        const glm::dvec3 size = glm::abs(a);
+        const double most = kOfEdge * glm::length(ab) + kOfPlace * std::max({size.x, size.y, size.z});
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const CornerAcross& across = surface.across[3 * f + k];
+            if (across.face == kNoNode) return false;
+            const glm::dvec3 to = position(across.corner) - a;
+            if (glm::dot(normal, to) > most * glm::length(normal)) return false;
+            std::uint8_t& is_known = is_reached[across.face - faces.first];
+            if (is_known == 0) reached.push_back(across.face);
+            is_known = 1;
+        }
+    }
+    return reached.size() == faces.count;
+}
+
 // What a kind has by itself.
 struct Kind {
     std::string material;
@@ -176,6 +206,9 @@ ContactSurface make_contact_surface(const Model& model, const CollisionSettings&
     add_tets(model, traces);
     for (const double trace : traces) surface.stiffness.push_back(static_cast<float>(trace / 3.0));
     surface.thicknesses = find_thicknesses(model);
+    surface.is_convex.resize(model.objects.size());
+    for (std::size_t o = 0; o < model.body_count(); ++o)
+        surface.is_convex[o] = is_convex(model, surface, model.objects[o].faces) ? 1 : 0;
     const std::vector<Kind> kinds = find_kinds(model, collision, surface.kinds);
     surface.kind_count = static_cast<std::uint32_t>(kinds.size());
     for (const Kind& a : kinds)

@@ -27,6 +27,8 @@ struct ContactSurface {
     /// Of each object [m]: two surfaces begin to press each other at the sum of both. A twentieth of a body's
     /// median surface edge; colliders have none.
     std::vector<double> thicknesses;
+    /// By object: not 0 if it is a body whose surface is in one piece, closed and convex at the start.
+    std::vector<std::uint8_t> is_convex;
 
     /// How two kinds of bodies press each other, a kind for each material, or colliders and bodies.
     struct Touch {

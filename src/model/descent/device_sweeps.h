@@ -16,7 +16,8 @@ struct DeviceContacts {
     std::vector<std::uint32_t> objects;  ///< not 0 where they met a collider in this step, shape [objects]
 };
 
-/// The sweeps of block descent on a device, for a solver that makes all other moves on the host.
+/// The sweeps of block descent on a device, for a solver that makes all other moves on the host where bodies
+/// meet.
 class DeviceSweeps {
 public:
     virtual ~DeviceSweeps() = default;
@@ -32,7 +33,10 @@ public:
     /// @param positions [m], shape [nodes]
     virtual void start(int sweeps, bool updates_tets, const ContactLimits& limits,
                        std::span<const glm::vec4> positions) = 0;
-    /// Waits for the sweeps that were started. @param positions output [m], shape [nodes]
+    /// Starts all moves of a step in which nothing meets, and does not wait for them: sweeps, rigid motions
+    /// and coarse corrections. @param positions [m], shape [nodes]
+    virtual void start_apart(int sweeps, std::span<const glm::vec4> positions) = 0;
+    /// Waits for what was started. @param positions output [m], shape [nodes]
     virtual void finish(std::span<glm::vec4> positions, DeviceContacts& contacts) = 0;
 };
 

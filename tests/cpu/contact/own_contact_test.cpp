@@ -129,16 +129,17 @@ TEST(OwnRooms, HoldTheirNodesAfterEachLook) {
     for (int round = 0; round < 20; ++round) {
         cpu::ContactList<double> list;
         list.own.restart(bar.model, {1});
-        const std::vector<std::uint32_t> bars{0};
         detection.run(bar.positions, {}, list);
-        detection.run_own(bars, true, bar.positions, list);
+        detection.run_own(std::vector<cpu::OwnLook>{{0, {}}}, bar.positions, list);
+        cpu::OwnLook look{0, {}};
         std::vector<glm::dvec4> moved = bar.positions;
         for (std::uint32_t s = 0; s < bar.model->surface_parts.nodes.size(); ++s) {
             const double part = random.integer(0, 19) == 0 ? random.uniform(3.0, 30.0) : 0.35;
             const glm::dvec3 motion = part * list.own.radius(s) * glm::normalize(random.point(1.0));
             moved[bar.model->surface_parts.nodes[s]] += glm::dvec4(motion, 0.0);
+            if (part > 1.0) look.places.push_back(s);
         }
-        detection.run_own(bars, false, moved, list);
+        detection.run_own(std::span(&look, 1), moved, list);
         EXPECT_LT(list.own.used(0, moved), cpu::OwnRooms<double>::kByNodes);
     }
 }
@@ -256,7 +257,7 @@ TEST(OwnGuard, KeepsBodiesFromThemselves) {
         cpu::ContactList<double> list;
         list.own.restart(bar.model, {1});
         detection.run(bar.positions, {.longest = 0.5}, list);
-        detection.run_own(std::vector<std::uint32_t>{0}, true, bar.positions, list);
+        detection.run_own(std::vector<cpu::OwnLook>{{0, {}}}, bar.positions, list);
         cpu::ContactAims<double> aims(bar.model, bar.surface);
         cpu::GuardedMove<double> guard(bar.model, bar.surface->places);
         std::vector<glm::dvec4> starts = bar.positions, targets = bar.positions;

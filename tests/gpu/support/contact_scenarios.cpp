@@ -48,7 +48,7 @@ struct BeforeSweeps {
     BeforeSweeps(const std::shared_ptr<const Model>& of, int frames)
         : model(of),
           contacts(model, {.self_collision = true, .friction = kFriction}),
-          objective(model, cpu::BlockDescent<double>::kNodesABatch, &contacts) {
+          objective(model, cpu::BlockDescent<double>::kNodesABatch) {
         cpu::CpuSolver<double> solver = make_solver<double>(model, kFriction);
         for (int frame = 0; frame < frames; ++frame) solver.advance_nodes(kFrame);
         const cpu::Nodes<double>& nodes = solver.nodes();
@@ -62,7 +62,7 @@ struct BeforeSweeps {
                 start[n].w > 0.0 ? glm::dvec4(at + kFrame * (velocity + kFrame * gravity), stiffness)
                                  : glm::dvec4(at, 0.0)));
         }
-        objective.begin(kFrame);
+        objective.begin(kFrame, &contacts);
         for (std::uint32_t n = 0; n < model->node_count(); ++n)
             positions.emplace_back(glm::dvec3(objective.step.targets[n]), start[n].w);
         contacts.begin(kFrame, objective.step.targets, objective.step.starts, positions, nullptr);
@@ -86,7 +86,7 @@ struct BeforeSweeps {
 
 std::vector<glm::vec4> sweep_on_gpu(const BeforeSweeps& before, int sweeps, DeviceContacts& touched) {
     const gpu::ModelBuffers buffers(*before.model);
-    gpu::LimitedSweeps device(*before.model, buffers);
+    gpu::LimitedSweeps device(*before.model, buffers, {});
     ContactLimits limits;
     before.contacts.write_limits(limits);
     device.begin(kFrame, converted<glm::vec4>(before.objective.step.starts),
@@ -145,12 +145,12 @@ double sweep_error(MaterialModel kind, int frames, int sweeps, double far = 0.0,
     const double excess = worst_excess(before, actual);
 
     cpu::ColliderContacts<double> colliders(*before.model);
-    const cpu::NodeSweep<double> sweep(before.model, &before.contacts);
+    const cpu::NodeSweep<double> sweep(before.model);
     const std::size_t batches = before.objective.rows().batches.size();
     for (std::size_t batch = 0; batch < batches; ++batch) before.objective.update(batch, before.positions);
     for (int i = 0; i < sweeps; ++i)
         for (std::size_t batch = 0; batch < batches; ++batch)
-            sweep.run(batch, before.objective, colliders, before.positions);
+            sweep.run(batch, before.objective, &before.contacts, colliders, before.positions);
 
     std::vector<double> off, forces_off;
     double longest = 0.0;

@@ -1,0 +1,171 @@
+// As in advance_nodes_simd.cpp: a tet a lane, compiled once for each instruction set.
+#include "cpu/contact/kept_distances.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <glm/matrix.hpp>
+#include <utility>
+
+#include "cpu/scalars.h"
+#include "model/nearest_rotation.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "cpu/contact/kept_distances.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include "cpu/float_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gelatin::cpu::HWY_NAMESPACE {
+
+#include "cpu/contact/kept_distances.inl"
+
+HWY_FLATTEN bool blocks_keep(std::span<const TetColumns<float>> blocks, const glm::mat3& turn, float part,
+                             std::span<const glm::vec4> positions) {
+    const Lanes d;
+    const auto row = [&](int k) HWY_ATTR {
+        return Vec3Lanes(FloatLanes(turn[k].x), FloatLanes(turn[k].y), FloatLanes(turn[k].z));
+    };
+    const Mat3Lanes r(row(0), row(1), row(2));
+    const FloatLanes least(part);
+    const Vector zero = hn::Zero(d);
+    for (const TetColumns<float>& block : blocks) {
+        for (std::size_t first = 0; first < TetColumns<float>::kCount; first += kLanes) {
+            const auto corner = [&](std::size_t k) HWY_ATTR {
+                return load_columns(
+                    d, [&](std::size_t l) HWY_ATTR { return &positions[block.nodes[k][first + l]].x; });
+            };
+            const auto inverse = [&](std::size_t k)
+                                     HWY_ATTR { return FloatLanes(hn::LoadU(d, &block.inverses[k][first])); };
+            const Columns a = corner(0);
+            const Mat3Lanes edges(difference(corner(1), a), difference(corner(2), a),
+                                  difference(corner(3), a));
+            const auto column = [&](std::size_t j) HWY_ATTR {
+                return edges * Vec3Lanes(inverse(3 * j), inverse(3 * j + 1), inverse(3 * j + 2));
+            };
+            const Minors<FloatLanes> of = minors(r, Mat3Lanes(column(0), column(1), column(2)), least);
+            const LaneMask keep = hn::And(hn::Gt(of.first.v, zero),
+                                          hn::And(hn::Gt(of.second.v, zero), hn::Gt(of.third.v, zero)));
+            if (!hn::AllTrue(d, keep)) return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace gelatin::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gelatin::cpu {
+namespace {
+
+#include "cpu/contact/kept_distances.inl"
+
+HWY_EXPORT(blocks_keep);
+
+bool all_keep(std::span<const TetColumns<float>> blocks, const glm::mat3& turn, float part,
+              std::span<const glm::vec4> positions) {
+    return HWY_DYNAMIC_DISPATCH(blocks_keep)(blocks, turn, part, positions);
+}
+
+bool all_keep(std::span<const TetColumns<double>> blocks, const glm::dmat3& turn, double part,
+              std::span<const glm::dvec4> positions) {
+    for (const TetColumns<double>& block : blocks) {
+        for (std::size_t c = 0; c < TetColumns<double>::kCount; ++c) {
+            const auto corner = [&](std::size_t k) { return glm::dvec3(positions[block.nodes[k][c]]); };
+            const glm::dvec3 a = corner(0);
+            const glm::dmat3 edges(corner(1) - a, corner(2) - a, corner(3) - a);
+            glm::dmat3 gradient;
+            for (std::size_t j = 0; j < 3; ++j)
+                gradient[static_cast<int>(j)] =
+                    edges * glm::dvec3(block.inverses[3 * j][c], block.inverses[3 * j + 1][c],
+                                       block.inverses[3 * j + 2][c]);
+            const Minors<double> of = minors(turn, gradient, part);
+            if (!(of.first > 0.0 && of.second > 0.0 && of.third > 0.0)) return false;
+        }
+    }
+    return true;
+}
+
+// Of a body, in the positions at the start.
+template <class Real>
+std::vector<TetColumns<Real>> make_columns(const Model& model, const Range& tets) {
+    constexpr std::size_t kCount = TetColumns<Real>::kCount;
+    std::vector<TetColumns<Real>> blocks((tets.count + kCount - 1) / kCount);
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        for (std::size_t c = 0; c < kCount; ++c) {
+            const std::size_t index = std::min<std::size_t>(b * kCount + c, tets.count - 1);
+            const glm::uvec4& tet = model.tets[tets.first + index];
+            const auto corner = [&](int k) { return glm::dvec3(model.positions[tet[k]]); };
+            const glm::dvec3 a = corner(0);
+            const glm::dmat3 inverse = glm::inverse(glm::dmat3(corner(1) - a, corner(2) - a, corner(3) - a));
+            for (std::size_t k = 0; k < 4; ++k) blocks[b].nodes[k][c] = tet[static_cast<int>(k)];
+            for (std::size_t j = 0; j < 3; ++j)
+                for (std::size_t k = 0; k < 3; ++k)
+                    blocks[b].inverses[3 * j + k][c] =
+                        static_cast<Real>(inverse[static_cast<int>(j)][static_cast<int>(k)]);
+        }
+    }
+    return blocks;
+}
+
+}  // namespace
+
+template <class Real>
+KeptDistances<Real>::KeptDistances(std::shared_ptr<const Model> model,
+                                   std::shared_ptr<const ContactSurface> surface)
+    : model_(std::move(model)), shapes_(model_->objects.size()) {
+    for (std::size_t o = 0; o < shapes_.size(); ++o)
+        if (surface->is_convex[o] != 0)
+            shapes_[o].tets = make_columns<Real>(*model_, model_->objects[o].tets);
+}
+
+template <class Real>
+bool KeptDistances<Real>::keeps(std::uint32_t object, Real part, std::span<const Vec4<Real>> positions) {
+    Shape& shape = shapes_[object];
+    if (shape.tets.empty()) return false;
+    if (keeps(shape, part, positions)) return true;
+    shape.turn = nearest_turn(object, positions);
+    return keeps(shape, part, positions);
+}
+
+template <class Real>
+bool KeptDistances<Real>::keeps(const Shape& shape, Real part, std::span<const Vec4<Real>> positions) const {
+    constexpr std::size_t kBlocksATask = 64;
+    const std::size_t tasks = (shape.tets.size() + kBlocksATask - 1) / kBlocksATask;
+    std::atomic<bool> keep = true;
+    tbb::parallel_for(std::size_t(0), tasks, [&](std::size_t task) {
+        if (!keep.load(std::memory_order_relaxed)) return;
+        const std::size_t first = task * kBlocksATask;
+        const std::size_t count = std::min(kBlocksATask, shape.tets.size() - first);
+        if (!all_keep(std::span(shape.tets).subspan(first, count), shape.turn, part, positions)) keep = false;
+    });
+    return keep;
+}
+
+template <class Real>
+glm::mat<3, 3, Real> KeptDistances<Real>::nearest_turn(std::uint32_t object,
+                                                       std::span<const Vec4<Real>> positions) const {
+    const Range& nodes = model_->objects[object].nodes;
+    const glm::dvec3 first(model_->positions[nodes.first]), first_now(positions[nodes.first]);
+    glm::dvec3 sum(0.0), sum_now(0.0);
+    glm::dmat3 moment(0.0);
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+        const glm::dvec3 at = glm::dvec3(model_->positions[n]) - first,
+                         now = glm::dvec3(positions[n]) - first_now;
+        sum += at;
+        sum_now += now;
+        moment += glm::outerProduct(now, at);
+    }
+    moment -= glm::outerProduct(sum_now, sum) / static_cast<double>(nodes.count);
+    return glm::mat<3, 3, Real>(nearest_rotation(moment));
+}
+
+template class KeptDistances<float>;
+template class KeptDistances<double>;
+
+}  // namespace gelatin::cpu
+#endif

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cpu/nodes.h"
+#include "model/contact/contact_surface.h"
+#include "model/model.h"
+
+namespace gelatin::cpu {
+
+/// Eight tets, one a column; the last ones of a body again where some are missing.
+template <class Real>
+struct TetColumns {
+    static constexpr std::size_t kCount = 8;
+
+    std::array<std::array<std::uint32_t, kCount>, 4> nodes;
+    /// Of the edges that lead from the first corner at the start: entry 3 j + k is that of row k, column j
+    /// [1/m].
+    std::array<std::array<Real, kCount>, 9> inverses;
+};
+
+/// Tells of bodies whose shape is convex at the start (ContactSurface::is_convex) that they do not meet
+/// themselves, without a look at any pairs. The line between two of its points X and Y is inside such a body
+/// then. So, if sym(R^T F) >= c in all tets, with the gradient F of each since the start and any rotation R,
+///   (x - y) . R (X - Y) >= c |X - Y|^2.
+template <class Real>
+class KeptDistances {
+public:
+    KeptDistances(std::shared_ptr<const Model> model, std::shared_ptr<const ContactSurface> surface);
+
+    /// Whether two points of a convex body are at least `part` of the distance apart that they had at the
+    /// start. Always false for bodies that are not convex. May be called for several bodies at once.
+    bool keeps(std::uint32_t object, Real part, std::span<const Vec4<Real>> positions);
+
+private:
+    struct Shape {
+        std::vector<TetColumns<Real>> tets;  // empty if it is not convex
+        glm::mat<3, 3, Real> turn{1};        // the last R
+    };
+    bool keeps(const Shape& shape, Real part, std::span<const Vec4<Real>> positions) const;
+    glm::mat<3, 3, Real> nearest_turn(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
+
+    std::shared_ptr<const Model> model_;
+    std::vector<Shape> shapes_;  // by object
+};
+
+}  // namespace gelatin::cpu
