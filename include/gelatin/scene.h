@@ -71,8 +71,9 @@ struct CollisionSettings {
     BroadPhase broad_phase = BroadPhase::hierarchy;
     CollisionDetection detection = CollisionDetection::discrete;
     std::optional<CollisionResponse> response = {};  ///< empty: contact with vbd, else restore
-    /// Whether objects collide with themselves, too: by tests of their faces, or by contacts.
-    bool self_collision = false;
+    /// Whether objects collide with themselves, too: by tests of their faces, or by contacts. Empty: where
+    /// they have contacts.
+    std::optional<bool> self_collision = {};
     /// Find nodes and faces, and pairs of edges, nearer than this [m], > 0; empty: off.
     std::optional<double> proximity_radius = std::nullopt;
     double friction = 0.4;                 ///< Coulomb's coefficient, >= 0
@@ -82,6 +83,9 @@ struct CollisionSettings {
     CollisionResponse response_with(SolverKind solver) const {
         const bool presses = solver == SolverKind::vbd;
         return response.value_or(presses ? CollisionResponse::contact : CollisionResponse::restore);
+    }
+    bool self_collision_with(SolverKind solver) const {
+        return self_collision.value_or(response_with(solver) == CollisionResponse::contact);
     }
 };
 

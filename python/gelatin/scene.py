@@ -60,8 +60,8 @@ class CollisionSettings:
     detection: Literal["discrete", "continuous"] = "discrete"
     #: what happens to objects whose faces touch; None: "contact" with vbd, else "restore"
     response: Literal["restore", "contact"] | None = None
-    #: whether objects collide with themselves, too
-    self_collision: bool = False
+    #: whether objects collide with themselves, too; None: where they have contacts
+    self_collision: bool | None = None
     #: find nodes and faces, and pairs of edges, nearer than this [m], > 0; None: off
     proximity_radius: float | None = None
     #: Coulomb's coefficient, >= 0

@@ -97,11 +97,12 @@ CpuSolver<Real>::CpuSolver(std::shared_ptr<const Model> model, SolverKind solver
                     ShapeMatcher<Real>(model_)});
     }
     if (scheme_.pass_count > 1) sums_ = stage_[0] = stage_[1] = current_;
-    if (collision.self_collision && !has_contact) {
+    const bool meets_itself = collision.self_collision.value_or(false);
+    if (meets_itself && !has_contact) {
         self_ = std::make_unique<SelfStages>(SelfStages{{model_, collision_}, {model_, contact_}});
     }
     if (collision.proximity_radius)
-        proximities_.emplace(model_, collision_, *collision.proximity_radius, collision.self_collision);
+        proximities_.emplace(model_, collision_, *collision.proximity_radius, meets_itself);
     if (forces_ == ForceMethod::divide_and_merge) {
         spring_forces_.resize(model_->springs.size());
         node_forces_.resize(model_->node_count());

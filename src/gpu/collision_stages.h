@@ -47,13 +47,13 @@ struct Collision {
           find_object_pairs(model, settings.broad_phase, cull_by_depth.get()),
           find_face_collisions(settings, cull_by_depth.get()),
           respond(model, buffers, settings) {
-        if (settings.self_collision) {
+        if (settings.self_collision.value_or(false)) {
             self.emplace(
                 Self{SelfCollisionBuffers(model), FindSelfCollisions(model), RespondToSelf(model, settings)});
         }
         if (settings.proximity_radius) {
             near.emplace(Near{ProximityBuffers(model, buffers),
-                              FindProximities(*settings.proximity_radius, settings.self_collision)});
+                              FindProximities(*settings.proximity_radius, settings.self_collision.value_or(false))});
         }
     }
 };

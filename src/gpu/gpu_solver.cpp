@@ -16,14 +16,14 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, SolverKind solver, Forc
       current_(model_->positions, model_->velocities),
       previous_(model_->positions, model_->velocities),
       integrator_(make_integrator(*model_, scheme_, solver, forces, collision, descent)),
-      measure_(*model_, collision.self_collision) {
+      measure_(*model_, collision.self_collision.value_or(false)) {
     if (scheme_.pass_count > 1) {
         for (NodeBuffers* nodes : {&stage_[0], &stage_[1], &sums_}) {
             *nodes = NodeBuffers(model_->positions, model_->velocities);
         }
     }
     const bool has_contact = collision.response == CollisionResponse::contact;
-    if (!has_contact && (model_->objects.size() > 1 || collision.self_collision))
+    if (!has_contact && (model_->objects.size() > 1 || collision.self_collision.value_or(false)))
         collision_.emplace(*model_, collision);
     if (!model_->loads.empty()) sum_loads_.emplace(*model_);
     if (!model_->volume_term.is_empty() && solver != SolverKind::vbd) find_volume_stresses_.emplace(*model_);

@@ -38,7 +38,7 @@ struct DescentSettings {
 /// @param collision with a response, as Simulator chooses it; without one there are none
 inline bool has_contacts(const Model& model, const CollisionSettings& collision) {
     return collision.response == CollisionResponse::contact &&
-           (model.objects.size() > 1 || collision.self_collision);
+           (model.objects.size() > 1 || collision.self_collision.value_or(true));
 }
 
 /// A node nearer to a collider than this [m] counts as a contact.

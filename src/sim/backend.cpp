@@ -11,8 +11,8 @@ namespace gelatin {
 
 SimulatorOptions with_needed_backend(SimulatorOptions options, const Scene& scene, const Model& model) {
     if (has_contacts(model, scene.collision)) {
-        // Most of such a step runs on the processor with any backend (docs/contact.md).
-        if (options.backend == Backend::automatic) options.backend = Backend::cpu;
+        // Where bodies meet others, most of a step runs on the processor with any backend (docs/contact.md).
+        if (options.backend == Backend::automatic && model.objects.size() > 1) options.backend = Backend::cpu;
         return options;
     }
     if (scene.collision.broad_phase != BroadPhase::depth) return options;

@@ -30,7 +30,7 @@ Json settings_json(const RunReport& report) {
             {"broad_phase", name_of(report.collision.broad_phase)},
             {"detection", name_of(report.collision.detection)},
             {"response", name_of(report.collision.response_with(settings.solver))},
-            {"self_collision", report.collision.self_collision},
+            {"self_collision", report.collision.self_collision_with(settings.solver)},
             {"proximity_radius", radius},
             {"gravity", {settings.gravity.x, settings.gravity.y, settings.gravity.z}}};
 }

@@ -83,7 +83,7 @@ void Simulator::Impl::step() {
     // Contacts are part of advance_nodes.
     const bool is_apart = scene.has_contact();
     const bool has_others = model->objects.size() > 1, meets_others = has_others && !is_apart;
-    const bool meets_itself = scene.collision.self_collision && !is_apart;
+    const bool meets_itself = scene.collision.self_collision.value_or(false) && !is_apart;
     if (meets_others || meets_itself || seeks_proximities())
         run_stage("update_boxes", [&] { solver->update_boxes(); });
     if (meets_others || (has_others && seeks_proximities()))

@@ -114,7 +114,7 @@ struct Simulator::Impl {
 
     bool seeks_proximities() const {
         return scene.collision.proximity_radius &&
-               (model->objects.size() > 1 || scene.collision.self_collision);
+               (model->objects.size() > 1 || scene.collision.self_collision.value_or(false));
     }
 
     bool has_contact_forces() const { return scene.has_contact(); }

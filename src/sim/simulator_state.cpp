@@ -60,7 +60,7 @@ bool Simulator::Impl::move_bodies_apart(std::vector<glm::vec4>& positions, const
         for (const std::string& line : moved->lines) log_warning(line);
         positions = std::move(moved->positions);
     }
-    if (scene.collision.self_collision)
+    if (scene.collision.self_collision_with(scene.simulation.solver))
         for (const std::string& line : find_tangled(model, positions, when)) log_warning(line);
     return moved.has_value();
 }

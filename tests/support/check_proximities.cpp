@@ -101,7 +101,7 @@ public:
           parts_(model.surface_parts),
           found_(found),
           radius_(*settings.proximity_radius),
-          own_(settings.self_collision),
+          own_(settings.self_collision.value_or(false)),
           positions_(model.positions.begin(), model.positions.end()) {
         for (const Face& face : model.faces) faces_.push_back({at(face.a), at(face.b), at(face.c)});
         for (const FaceEdge& edge : parts_.edges) edges_.push_back({at(edge.a), at(edge.b)});

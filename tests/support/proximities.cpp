@@ -82,7 +82,7 @@ FoundProximities find_proximities_on_cpu(const Model& model, const CollisionSett
     const double radius = *settings.proximity_radius;
     cpu::Collision<Real> collision(shared, settings.broad_phase, settings.detection,
                                    cpu::BoxMargin<Real>::for_distance(radius));
-    cpu::FindProximities<Real> stage(shared, collision, radius, settings.self_collision);
+    cpu::FindProximities<Real> stage(shared, collision, radius, settings.self_collision.value_or(false));
     collision.update_boxes(positions, positions);
     collision.find_object_pairs();
     stage.run(positions);
@@ -120,7 +120,7 @@ FoundOnGpu find_proximities_on_gpu(const Model& model, const CollisionSettings& 
     if (model.objects.size() > 1) collision.find_object_pairs.run(model_buffers, collision.buffers, nodes);
     for (int run = 0; run < 2; ++run)  // nothing is left of the step before
         collision.near->find.run(model_buffers, collision.buffers, buffers, nodes);
-    gpu::Measure measure(model, settings.self_collision);
+    gpu::Measure measure(model, settings.self_collision.value_or(false));
     measure.begin(model_buffers, nodes, &collision.buffers,
                   collision.self ? &collision.self->buffers : nullptr, &buffers);
     measure.end();

@@ -49,6 +49,28 @@ TetMesh make_block(glm::ivec3 cells, glm::dvec3 size, double jitter, unsigned se
     return mesh;
 }
 
+TetMesh without(const TetMesh& mesh, const std::function<bool(const glm::dvec3&)>& leaves_out) {
+    TetMesh rest;
+    std::vector<std::uint32_t> numbers(mesh.positions.size(), kNoNode);
+    for (const glm::uvec4& tet : mesh.tets) {
+        glm::dvec3 middle(0.0);
+        for (int k = 0; k < 4; ++k) middle += 0.25 * mesh.positions[tet[k]];
+        if (leaves_out(middle)) continue;
+        glm::uvec4 kept;
+        for (int k = 0; k < 4; ++k) {
+            std::uint32_t& number = numbers[tet[k]];
+            if (number == kNoNode) {
+                number = static_cast<std::uint32_t>(rest.positions.size());
+                rest.positions.push_back(mesh.positions[tet[k]]);
+            }
+            kept[k] = number;
+        }
+        rest.tets.push_back(kept);
+    }
+    rest.faces = boundary_faces(rest.tets);
+    return rest;
+}
+
 Material structural_material() {
     Material material;
     material.springs = SpringKinds{};

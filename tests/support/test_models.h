@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -15,6 +16,9 @@ TetMesh make_block(glm::ivec3 cells, glm::dvec3 size, double jitter = 0.0, unsig
 
 /// The default material with the paper's structural springs: for tests that do not care how stiff a body is.
 Material structural_material();
+
+/// A mesh without the tets round some places, and without nodes that no other tet has.
+TetMesh without(const TetMesh& mesh, const std::function<bool(const glm::dvec3&)>& leaves_out);
 
 /// A body of that mesh.
 Body make_body(TetMesh mesh, const Material& material = structural_material());

@@ -35,7 +35,8 @@ public:
                 positions.emplace_back(now_.positions[3 * n], now_.positions[3 * n + 1],
                                        now_.positions[3 * n + 2], 0.0f);
             const test::Overlaps which =
-                simulator_.scene().collision.self_collision ? test::Overlaps::all : test::Overlaps::between;
+                simulator_.scene().collision.self_collision.value_or(true) ? test::Overlaps::all
+                                                                     : test::Overlaps::between;
             ASSERT_EQ(test::count_overlaps(model_of(simulator_), positions, which), 0u)
                 << "frame " << simulator_.frame();
         }

@@ -1,6 +1,7 @@
 #include "cpu/contact/contacts.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -23,9 +24,13 @@ constexpr double kFollowed = 0.6;
 // whose map keeps this of all distances.
 constexpr double kFreshRoom = 0.3, kFreshMap = 0.8;
 
-// Bodies that keep this of all distances do not meet themselves; those that have come below are looked at
-// until they keep more. Own pairs do not press before half of their distance is left.
+// Convex bodies that keep this of all distances do not meet themselves; those that have come below, once they
+// keep more.
 constexpr double kKept = 0.05, kKeptAgain = 0.15;
+// Bodies are clear of themselves where all gaps are more than these times that at which they press.
+constexpr double kClear = 1.5;
+// Steps in which a body that may have met itself is not taken to be clear of itself.
+constexpr std::uint8_t kWaits = 8;
 
 }  // namespace
 
@@ -33,14 +38,14 @@ template <class Real>
 Contacts<Real>::Contacts(std::shared_ptr<const Model> model, const CollisionSettings& collision)
     : model_(std::move(model)),
       surface_(std::make_shared<const ContactSurface>(make_contact_surface(*model_, collision))),
-      meet_themselves_(collision.self_collision),
-      keep_shape_(model_->body_count()),
       object_of_(objects_of_nodes(*model_)),
       detection_(model_, surface_),
       aims_(model_, surface_),
       guard_(model_, surface_->places),
       is_pressed_(model_->objects.size()) {
-    if (meet_themselves_) kept_.emplace(model_, surface_);
+    const std::vector<std::uint8_t> none(model_->body_count());
+    if (collision.self_collision.value_or(true))
+        own_.emplace(Own{{model_, surface_}, {model_, surface_}, none, none});
     restart(std::vector<Vec4<Real>>(model_->positions.begin(), model_->positions.end()));
 }
 
@@ -48,11 +53,9 @@ template <class Real>
 void Contacts<Real>::restart(std::span<const Vec4<Real>> positions) {
     safe_.assign(positions.begin(), positions.end());
     list_.clear();
-    if (meet_themselves_) {
-        std::vector<std::uint8_t> meet_themselves(model_->objects.size());
-        std::fill_n(meet_themselves.begin(), model_->body_count(), std::uint8_t(1));
-        list_.own.restart(model_, std::move(meet_themselves));
-        std::fill(keep_shape_.begin(), keep_shape_.end(), std::uint8_t(0));
+    if (own_) {
+        list_.own.restart(model_, std::vector<std::uint8_t>(model_->objects.size()));
+        std::fill(own_->is_clear.begin(), own_->is_clear.end(), std::uint8_t(1));
     }
     detection_.restart();
     aims_.forget();
@@ -68,47 +71,68 @@ Vec4<Real> Contacts<Real>::outside(const Vec4<Real>& position) const {
 
 template <class Real>
 bool Contacts<Real>::are_apart(StageTimer* timer) {
-    find_kept_shapes();
-    if (!list_.is_valid || !list_.pairs.empty()) return false;
+    find_clear_bodies();
+    if (list_.is_valid && !list_.pairs.empty()) return false;
     is_aimed_ = false;
     detect_where_needed(safe_, timer);
     return list_.pairs.empty();
 }
 
-// Bodies that were looked at may have come back to about their shape.
+// Of those that were not, all that are not near themselves any more.
 template <class Real>
-void Contacts<Real>::find_kept_shapes() {
-    if (!kept_) return;
+void Contacts<Real>::find_clear_bodies() {
+    if (!own_) return;
     bool any_pairs = false;
-    for (std::uint32_t o = 0; o < keep_shape_.size(); ++o) {
-        if (keep_shape_[o] != 0 || !kept_->keeps(o, Real(kKeptAgain), safe_)) continue;
-        keep_shape_[o] = 1;
+    for (std::uint32_t o = 0; o < own_->is_clear.size(); ++o) {
+        if (own_->is_clear[o] != 0) continue;
+        if (own_->waits[o] > 0) {
+            --own_->waits[o];
+            continue;
+        }
+        if (is_near_itself(o) && !own_->kept.keeps(o, Real(kKeptAgain), safe_)) continue;
+        own_->is_clear[o] = 1;
         any_pairs |= list_.own.is_found(o);
         list_.own.forget(o, false);
         detection_.forget_own(o);
     }
-    if (any_pairs && list_.is_valid) {
-        old_pairs_.swap(list_.pairs);
-        detection_.run_own({}, safe_, list_);
-        aims_.carry_over(old_pairs_, list_);
-        is_aimed_ = false;
-    }
+    if (!any_pairs || !list_.is_valid) return;
+    old_pairs_.swap(list_.pairs);
+    detection_.run_own({}, safe_, list_);
+    aims_.carry_over(old_pairs_, list_);
+    is_aimed_ = false;
+}
+
+// At the last aim.
+template <class Real>
+bool Contacts<Real>::is_near_itself(std::uint32_t object) const {
+    if (!list_.is_valid) return false;
+    const auto pairs =
+        std::span(list_.own_pairs)
+            .subspan(list_.own_starts[object], list_.own_starts[object + 1] - list_.own_starts[object]);
+    if (aims_.aims().size() != list_.pairs.size()) return !pairs.empty();
+    return std::any_of(pairs.begin(), pairs.end(), [&](std::uint32_t p) {
+        return !(aims_.aims()[p].gap > Real(kClear) * aims_.reach(list_.pairs[p]));
+    });
 }
 
 // What is known of other bodies is of where the step led to.
 template <class Real>
-bool Contacts<Real>::kept_shape(std::span<const Vec4<Real>> positions, StageTimer* timer) {
-    if (!kept_) return true;
+bool Contacts<Real>::stay_clear(std::span<const Vec4<Real>> positions, StageTimer* timer) {
+    if (!own_) return true;
     const TimedStage part(timer, "advance_nodes.detect_own");
-    bool all = true;
-    for (std::uint32_t o = 0; o < keep_shape_.size(); ++o) {
-        if (keep_shape_[o] == 0 || kept_->keeps(o, Real(kKept), positions)) continue;
-        keep_shape_[o] = 0;
+    std::atomic<bool> all = true;
+    for_each_index(0, own_->is_clear.size(), 1, [&](std::size_t index) {
+        const auto o = static_cast<std::uint32_t>(index);
+        if (own_->is_clear[o] == 0 || own_->kept.keeps(o, Real(kKept), positions) ||
+            own_->gaps.stay_open(o, safe_, positions))
+            return;
+        own_->is_clear[o] = 0;
+        own_->waits[o] = kWaits;
         all = false;
-    }
+    });
     if (all) return true;
-    for (std::uint32_t o = 0; o < keep_shape_.size(); ++o)
-        if (keep_shape_[o] == 0) list_.own.forget(o, true);
+    for (std::uint32_t o = 0; o < own_->is_clear.size(); ++o)
+        if (own_->is_clear[o] == 0) list_.own.forget(o, true);
     list_.is_valid = false;
     return false;
 }
@@ -117,7 +141,7 @@ bool Contacts<Real>::kept_shape(std::span<const Vec4<Real>> positions, StageTime
 // where they were: nothing meets there if all stay in their rooms.
 template <class Real>
 bool Contacts<Real>::end_apart(std::span<const Vec4<Real>> positions, StageTimer* timer) {
-    if (!kept_shape(positions, timer)) return false;
+    if (!stay_clear(positions, timer)) return false;
     guard_.begin(positions);
     const auto reaches = [&] {
         const TimedStage part(timer, "advance_nodes.guess");
@@ -251,7 +275,7 @@ void Contacts<Real>::renew(std::span<const Vec4<Real>> positions, StageTimer* ti
 template <class Real>
 void Contacts<Real>::detect_where_needed(std::span<const Vec4<Real>> positions, StageTimer* timer) {
     if (!list_.is_valid || used_room(positions) > Real(kUsedRoom)) detect(positions, {}, timer);
-    if (!meet_themselves_) return;
+    if (!own_) return;
     detect_own(
         positions, [&](std::uint32_t o) { return uses_own_room(o, positions); },
         [&](std::uint32_t, std::uint32_t place, std::uint32_t node) {

@@ -13,6 +13,7 @@
 #include "cpu/contact/detect_contacts.h"
 #include "cpu/contact/guarded_move.h"
 #include "cpu/contact/kept_distances.h"
+#include "cpu/contact/own_gaps.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
 
@@ -71,9 +72,9 @@ public:
     /// Aims at the present positions, and detects before if nodes have come far.
     void renew(std::span<const Vec4<Real>> positions, StageTimer* timer);
 
-    /// Whether bodies of which that was expected still cannot have met themselves.
-    /// @return false if not: then the step has to be made again
-    bool kept_shape(std::span<const Vec4<Real>> positions, StageTimer* timer);
+    /// Whether no body that is clear of itself has met itself in the step. @param positions where it leads
+    /// @return false if one may have: then the step has to be made again
+    bool stay_clear(std::span<const Vec4<Real>> positions, StageTimer* timer);
     void end(std::span<const Vec4<Real>> positions);
 
     /// Handles with nodes that are farther from where their poses have them than surfaces reach.
@@ -118,7 +119,8 @@ public:
 
 private:
     Vec4<Real> outside(const Vec4<Real>& position) const;
-    void find_kept_shapes();
+    void find_clear_bodies();
+    bool is_near_itself(std::uint32_t object) const;
     void detect_where_needed(std::span<const Vec4<Real>> positions, StageTimer* timer);
     void set_longest(std::span<const Vec4<Real>> ends, std::span<const Vec4<Real>> positions);
     std::vector<std::uint8_t> find_staying(std::span<const Vec4<Real>> positions) const;
@@ -139,10 +141,15 @@ private:
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
-    // Bodies meet themselves, but for those that keep so much of all distances that they cannot.
-    bool meet_themselves_;
-    std::optional<KeptDistances<Real>> kept_;
-    std::vector<std::uint8_t> keep_shape_;  // by body
+    // How bodies are kept from passing through themselves; without it they may.
+    struct Own {
+        KeptDistances<Real> kept;
+        OwnGaps<Real> gaps;
+        // By body: not 0 while it is clear of itself, and is looked at after steps; for how many steps it is
+        // not.
+        std::vector<std::uint8_t> is_clear, waits;
+    };
+    std::optional<Own> own_;
     std::vector<std::uint32_t> object_of_;  // by node
     DetectContacts<Real> detection_;
     ContactList<Real> list_;

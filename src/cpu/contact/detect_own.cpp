@@ -25,8 +25,6 @@ constexpr double kSearched = 0.55, kLeastSearched = 1.1;
 constexpr double kNearer = 0.6, kAlways = 0.4;
 // Cells of the lattice of a body's map, over the body's thickness, which is a twentieth of an edge.
 constexpr double kCell = 80.0;
-// Leaves beside each other whose surroundings are looked for at once.
-constexpr std::size_t kLeavesAWalk = 8;
 constexpr std::size_t kLeavesATask = 32;
 
 // The same whatever the order.
@@ -44,20 +42,11 @@ template <class Real>
 DetectOwn<Real>::DetectOwn(std::shared_ptr<const Model> model, std::shared_ptr<const ContactSurface> surface)
     : model_(std::move(model)),
       surface_(std::move(surface)),
-      leaf_of_faces_(model_->faces.size()),
       found_at_(model_->node_count()),
-      node_boxes_(model_->surface_parts.nodes.size()),
-      edge_boxes_(model_->surface_parts.edges.size()),
-      face_boxes_(model_->faces.size()),
-      tree_boxes_(model_->face_trees.nodes.size()),
+      boxes_(model_),
       searched_(model_->surface_parts.nodes.size()),
       apart_(model_->surface_parts.nodes.size()),
       has_changed_(model_->surface_parts.nodes.size()) {
-    const std::vector<std::uint32_t>& leaves = model_->face_trees.levels[0];
-    for (std::uint32_t k = 0; k < leaves.size(); ++k) {
-        const TreeNode& leaf = model_->face_trees.nodes[leaves[k]];
-        std::fill_n(leaf_of_faces_.begin() + leaf.first_item, leaf.item_count, k);
-    }
     restart();
 }
 
@@ -68,20 +57,13 @@ void DetectOwn<Real>::restart() {
 
 template <class Real>
 void DetectOwn<Real>::forget(std::uint32_t object) {
-    const Range leaves = leaves_of(object);
+    const Range leaves = boxes_.leaves_of(object);
     std::fill_n(found_.begin() + leaves.first, leaves.count, Found{});
 }
 
 template <class Real>
 double DetectOwn<Real>::listed(std::uint32_t object) const {
     return 2.0 * kListedReach * surface_->thicknesses[object];
-}
-
-template <class Real>
-Range DetectOwn<Real>::leaves_of(std::uint32_t object) const {
-    const Range& faces = model_->objects[object].faces;
-    const std::uint32_t first = leaf_of_faces_[faces.first];
-    return {first, leaf_of_faces_[faces.end() - 1] + 1 - first};
 }
 
 template <class Real>
@@ -103,7 +85,7 @@ void DetectOwn<Real>::run(std::uint32_t object, std::span<const Vec4<Real>> posi
         apart_[s] = searched_[s] = search_distance(object, s, rooms);
     std::fill_n(has_changed_.begin() + places.first, places.count, std::uint8_t(1));
     update_boxes(object, rooms);
-    const Range range = leaves_of(object);
+    const Range range = boxes_.leaves_of(object);
     std::vector<std::uint32_t> leaves(range.count);
     std::iota(leaves.begin(), leaves.end(), range.first);
     search(object, leaves, rooms);
@@ -130,21 +112,18 @@ bool DetectOwn<Real>::run_again(std::uint32_t object, std::span<const std::uint3
         has_changed_[s] = 1;
     }
     update_boxes(object, rooms);
-    const BoxTree& trees = model_->face_trees;
-    const Range range = leaves_of(object);
+    const Range range = boxes_.leaves_of(object);
     std::vector<std::uint8_t> changes(range.count), is_near(range.count);
     const NodeFaces& around = model_->node_faces;
     for (const std::uint32_t s : places) {
         const std::uint32_t node = model_->surface_parts.nodes[s];
         for (std::uint32_t k = around.starts[node]; k < around.starts[node + 1]; ++k)
-            changes[leaf_of_faces_[around.faces[k]] - range.first] = 1;
+            changes[boxes_.leaf_of_face(around.faces[k]) - range.first] = 1;
     }
     for (std::uint32_t k = 0; k < range.count; ++k) {
         if (changes[k] == 0) continue;
-        const AxisBox<Real>& box = tree_boxes_[trees.levels[0][range.first + k]];
-        for_leaves_near<Real>(trees, tree_boxes_, trees.roots[object], box, [&](std::uint32_t leaf) {
-            is_near[leaf_of_faces_[trees.nodes[leaf].first_item] - range.first] = 1;
-        });
+        boxes_.for_leaves_near_leaf(object, range.first + k,
+                                    [&](std::uint32_t leaf) { is_near[leaf - range.first] = 1; });
     }
     std::vector<std::uint32_t> leaves;
     for (std::uint32_t k = 0; k < range.count; ++k)
@@ -157,22 +136,16 @@ bool DetectOwn<Real>::run_again(std::uint32_t object, std::span<const std::uint3
 template <class Real>
 void DetectOwn<Real>::search(std::uint32_t object, std::span<const std::uint32_t> leaves,
                              OwnRooms<Real>& rooms) {
+    const auto has_changed = [&](std::uint32_t n) { return this->has_changed(n); };
     const std::size_t tasks = (leaves.size() + kLeavesATask - 1) / kLeavesATask;
     tbb::parallel_for(std::size_t(0), tasks, [&](std::size_t task) {
         Search search;
-        const std::size_t end = std::min((task + 1) * kLeavesATask, leaves.size());
-        for (std::size_t first = task * kLeavesATask; first < end;) {
-            std::size_t count = 1;  // of leaves beside each other: others may be far apart
-            while (count < kLeavesAWalk && first + count < end &&
-                   leaves[first + count] == leaves[first] + count)
-                ++count;
-            const auto walk = leaves.subspan(first, count);
-            first += count;
-            find_near(object, walk, search);
+        const std::size_t first = task * kLeavesATask, count = std::min(kLeavesATask, leaves.size() - first);
+        for_walks(leaves.subspan(first, count), [&](std::span<const std::uint32_t> walk) {
+            boxes_.find_near(object, walk, has_changed, search.around);
             for (const std::uint32_t leaf : walk)
-                search_leaf(model_->face_trees.levels[0][leaf], static_cast<Real>(listed(object)), search,
-                            found_[leaf]);
-        }
+                search_leaf(leaf, static_cast<Real>(listed(object)), search, found_[leaf]);
+        });
     });
     const Range& places = rooms.places(object);
     for (std::uint32_t s = places.first; s < places.end(); ++s) rooms.set_apart(s, apart_[s]);
@@ -181,92 +154,25 @@ void DetectOwn<Real>::search(std::uint32_t object, std::span<const std::uint32_t
 
 template <class Real>
 void DetectOwn<Real>::update_boxes(std::uint32_t object, const OwnRooms<Real>& rooms) {
-    const Range &faces = model_->objects[object].faces, &places = rooms.places(object);
+    const Range& places = rooms.places(object);
     for (std::uint32_t s = places.first; s < places.end(); ++s)
         found_at_[model_->surface_parts.nodes[s]] = Vec4<Real>(rooms.offset(s), Real(0));
-    const auto box_of = [&](const auto& nodes) {
-        AxisBox<Real> box;
-        for (const std::uint32_t n : nodes)
-            box.add(Vec3<Real>(found_at_[n]),
-                    BoxMargin<Real>::for_distance(static_cast<double>(searched_[surface_->places[n]])));
-        return box;
-    };
-    const SurfaceParts& parts = model_->surface_parts;
-    for_each_index(faces.count, [&](std::size_t k) {
-        const std::size_t f = faces.first + k;
-        const Face& face = model_->faces[f];
-        face_boxes_[f] = box_of(std::array{face.a, face.b, face.c});
-        const glm::uvec2 first = parts.face_starts[f], end = parts.face_starts[f + 1];
-        for (std::uint32_t s = first.x; s < end.x; ++s) node_boxes_[s] = box_of(std::array{parts.nodes[s]});
-        for (std::uint32_t e = first.y; e < end.y; ++e)
-            edge_boxes_[e] = box_of(std::array{parts.edges[e].a, parts.edges[e].b});
-    });
-    update_tree_boxes<Real>(model_->face_trees, model_->face_trees.roots[object], face_boxes_, tree_boxes_);
-}
-
-// Of a body. @param leaves among all
-template <class Real>
-void DetectOwn<Real>::find_near(std::uint32_t object, std::span<const std::uint32_t> leaves,
-                                Search& search) const {
-    const BoxTree& trees = model_->face_trees;
-    const SurfaceParts& parts = model_->surface_parts;
-    AxisBox<Real> around;
-    for (const std::uint32_t leaf : leaves) around.add(tree_boxes_[trees.levels[0][leaf]]);
-    const std::uint32_t first_edge = parts.face_starts[trees.nodes[trees.levels[0][leaves[0]]].first_item].y;
-    for (const Which which : {all, changed}) {
-        search.faces[which].clear();
-        search.edges[which].clear();
-    }
-    const auto add = [&](std::array<NearBoxes<Real>, 2>& near, std::uint32_t index, const AxisBox<Real>& box,
-                         bool changes) {
-        if (!meet(around, box)) return;
-        near[all].add(index, box);
-        if (changes) near[changed].add(index, box);
-    };
-    for_leaves_near<Real>(trees, tree_boxes_, trees.roots[object], around, [&](std::uint32_t near) {
-        const std::uint32_t first = trees.nodes[near].first_item, end = first + trees.nodes[near].item_count;
-        for (std::uint32_t f = first; f < end; ++f) {
-            const Face& face = model_->faces[f];
-            add(search.faces, f, face_boxes_[f],
-                has_changed(face.a) || has_changed(face.b) || has_changed(face.c));
-        }
-        for (std::uint32_t e = std::max(parts.face_starts[first].y, first_edge + 1);
-             e < parts.face_starts[end].y; ++e)
-            add(search.edges, e, edge_boxes_[e],
-                has_changed(parts.edges[e].a) || has_changed(parts.edges[e].b));
+    boxes_.update(object, [&](std::uint32_t n, AxisBox<Real>& box) {
+        box.add(Vec3<Real>(found_at_[n]),
+                BoxMargin<Real>::for_distance(static_cast<double>(searched_[surface_->places[n]])));
     });
 }
 
-// The nodes and edges of a leaf together: those that have changed with all, others with what has.
+// The nodes and edges of a leaf together.
 template <class Real>
 void DetectOwn<Real>::search_leaf(std::uint32_t leaf, Real listed, Search& search, Found& found) {
-    const SurfaceParts& parts = model_->surface_parts;
-    const TreeNode& faces = model_->face_trees.nodes[leaf];
-    const glm::uvec2 first = parts.face_starts[faces.first_item],
-                     end = parts.face_starts[faces.first_item + faces.item_count];
-    const std::uint32_t object = model_->faces[faces.first_item].object;
+    const auto has_changed = [&](std::uint32_t n) { return this->has_changed(n); };
+    const auto wait = [&](const ContactPair& pair) { search.waiting.push_back(pair); };
     forget_changed(found.of_nodes);
-    for (std::uint32_t s = first.x; s < end.x; ++s) {
-        const std::uint32_t node = parts.nodes[s];
-        search.faces[has_changed_[s] != 0 ? all : changed].for_meeting(node_boxes_[s], [&](std::uint32_t f) {
-            const Face& face = model_->faces[f];
-            if (!has_corner(face, node))
-                search.waiting.push_back(
-                    {{node, face.a, face.b, face.c}, {}, node, f, object, object, 1, 0.0f});
-        });
-    }
+    boxes_.for_node_pairs(leaf, has_changed, search.around, wait);
     keep_near(search, listed, found.of_nodes);
     forget_changed(found.of_edges);
-    for (std::uint32_t e = first.y; e < end.y; ++e) {
-        const FaceEdge& edge = parts.edges[e];
-        const Which which = has_changed(edge.a) || has_changed(edge.b) ? all : changed;
-        search.edges[which].for_meeting(edge_boxes_[e], [&](std::uint32_t other) {
-            const FaceEdge& second = parts.edges[other];
-            if (other > e && !share_end(edge, second))
-                search.waiting.push_back(
-                    {{edge.a, edge.b, second.a, second.b}, {}, e, other, object, object, 2, 0.0f});
-        });
-    }
+    boxes_.for_edge_pairs(leaf, has_changed, search.around, wait);
     keep_near(search, listed, found.of_edges);
 }
 

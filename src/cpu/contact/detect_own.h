@@ -8,8 +8,8 @@
 
 #include "cpu/collision/axis_box.h"
 #include "cpu/contact/contact_list.h"
-#include "cpu/contact/near_boxes.h"
 #include "cpu/contact/nearest_pairs.h"
+#include "cpu/contact/own_boxes.h"
 #include "cpu/contact/own_rooms.h"
 #include "model/contact/contact_surface.h"
 #include "model/model.h"
@@ -42,18 +42,14 @@ private:
     struct Found {
         std::vector<ContactPair> of_nodes, of_edges;
     };
-    // What is near some leaves: all, and what has changed.
     struct Search {
-        std::array<NearBoxes<Real>, 2> faces, edges;
+        typename OwnBoxes<Real>::Near around;
         std::vector<ContactPair> waiting, near;  // to be measured; those that are near
         std::vector<Real> gaps;                  // of these [m]
     };
-    enum Which { all, changed };
     double listed(std::uint32_t object) const;
-    Range leaves_of(std::uint32_t object) const;
     void update_boxes(std::uint32_t object, const OwnRooms<Real>& rooms);
     void search(std::uint32_t object, std::span<const std::uint32_t> leaves, OwnRooms<Real>& rooms);
-    void find_near(std::uint32_t object, std::span<const std::uint32_t> leaves, Search& search) const;
     void search_leaf(std::uint32_t leaf, Real listed, Search& search, Found& found);
     void forget_changed(std::vector<ContactPair>& pairs) const;
     void sort(std::vector<ContactPair>& pairs) const;
@@ -65,9 +61,8 @@ private:
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
-    std::vector<std::uint32_t> leaf_of_faces_;
     std::vector<Vec4<Real>> found_at_;  // by node, from the middle of its body [m]
-    std::vector<AxisBox<Real>> node_boxes_, edge_boxes_, face_boxes_, tree_boxes_;
+    OwnBoxes<Real> boxes_;
     // By surface node: how far others are looked for, and from the nearest that is not listed [m]; whether it
     // is looked at.
     std::vector<Real> searched_, apart_;

@@ -23,6 +23,8 @@ static_assert(kLongestEdge * 0.5774 + OwnRooms<double>::kNear <= 1.0);
 constexpr int kCorrections = 8;
 // Of the mean square of the offsets: bodies that are flatter are displaced, but not otherwise mapped.
 constexpr double kFlat = 1e-6;
+// Of rooms of bodies that do not meet themselves [m]; its square is a number on devices, too.
+constexpr double kAnyMotion = 1e15;
 
 template <class Real>
 Real squared_norm(const glm::mat<3, 3, Real>& m) {
@@ -71,7 +73,7 @@ void OwnRooms<Real>::restart(std::shared_ptr<const Model> model, std::vector<std
     in_lattice_.assign(count, {});
     offsets_.assign(count, Vec3<Real>(0));
     mapped_.assign(count, Vec3<Real>(0));
-    radii_.assign(count, std::numeric_limits<Real>::infinity());
+    radii_.assign(count, static_cast<Real>(kAnyMotion));
     apart_.assign(count, Real(0));
     longest_edges_.assign(count, Real(0));
     face_edges_.assign(model_->faces.size(), Real(0));
@@ -87,9 +89,7 @@ void OwnRooms<Real>::forget(std::uint32_t object, bool meets_itself) {
     const Range& places = shapes_[object].places;
     meets_themselves_[object] = meets_itself ? 1 : 0;
     shapes_[object].is_found = false;
-    // Squares of lengths must not be infinite, on devices either.
-    constexpr auto kAnyMotion = Real(1e15f);
-    std::fill_n(radii_.begin() + places.first, places.count, kAnyMotion);
+    std::fill_n(radii_.begin() + places.first, places.count, static_cast<Real>(kAnyMotion));
     std::fill_n(mapped_.begin() + places.first, places.count, Vec3<Real>(0));
 }
 

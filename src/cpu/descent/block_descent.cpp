@@ -84,7 +84,7 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
         make_moves(step, current.positions, timer);
         if (!bodies_) break;
         if (apart ? bodies_->end_apart(current.positions, timer)
-                  : bodies_->kept_shape(current.positions, timer))
+                  : bodies_->stay_clear(current.positions, timer))
             break;
     }
     const TimedStage part(timer, "advance_nodes.move_bodies");

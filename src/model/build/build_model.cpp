@@ -356,7 +356,8 @@ Model build_model(const Scene& scene) {
     Model model = pack_bodies(bodies, solid_colliders(scene), scene.simulation.gravity,
                               make_collider_surfaces(scene, mesher));
     model.meshes = std::make_shared<const SceneMeshes>(mesher.meshes());
-    if (scene.collision.self_collision && !scene.has_contact()) model.rest_shapes = make_rest_shapes(model);
+    if (scene.collision.self_collision_with(scene.simulation.solver) && !scene.has_contact())
+        model.rest_shapes = make_rest_shapes(model);
     return model;
 }
 

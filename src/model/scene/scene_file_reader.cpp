@@ -159,6 +159,10 @@ void TableReader::read(const char* key, bool& value) {
     value = node->as_boolean()->get();
 }
 
+void TableReader::read(const char* key, std::optional<bool>& value) {
+    if (find(key) != nullptr) read(key, value.emplace());
+}
+
 void TableReader::read(const char* key, std::string& value) {
     const toml::node* node = find(key);
     if (node == nullptr) return;

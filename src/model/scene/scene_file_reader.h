@@ -53,6 +53,7 @@ public:
     void read(const char* key, int& value);
     void read(const char* key, std::optional<int>& value);
     void read(const char* key, bool& value);
+    void read(const char* key, std::optional<bool>& value);
     void read(const char* key, std::string& value);
     void read(const char* key, glm::dvec3& value);
     void read(const char* key, glm::ivec3& value);

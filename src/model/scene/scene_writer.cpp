@@ -171,7 +171,7 @@ Table table_of(const CollisionSettings& c) {
     Table table;
     table.add("broad_phase", name_of(c.broad_phase)).add("detection", name_of(c.detection));
     if (c.response) table.add("response", name_of(*c.response));
-    table.add("self_collision", c.self_collision);
+    if (c.self_collision) table.add("self_collision", *c.self_collision);
     table.add("proximity_radius", c.proximity_radius);
     return table.add("friction", c.friction).add("restitution", c.restitution);
 }

@@ -155,6 +155,12 @@ void contact(Scene& scene) {
     scene.objects[1].position = {0.1, 0.53, 0.0};
 }
 
+// Far from each other.
+void contact_apart(Scene& scene) {
+    scene.collision.response = CollisionResponse::contact;
+    scene.objects[1].position = {0.1, 3.0, 0.0};
+}
+
 // Bodies that nothing moves, for long enough to sleep.
 void at_rest(Scene& scene) {
     contact(scene);
@@ -242,6 +248,7 @@ std::vector<ShortRun> short_runs() {
         {"contact", contact, start_again, true},
         {"contact, volume term", both(contact, volume_term), pull},
         {"contact, neo-Hookean", both(contact, neo_hookean)},
+        {"contact, apart", contact_apart, start_again, true},
         {"contact, asleep", at_rest, fall_asleep},
         {"drawn from the CPU", nothing, start_again, true, Backend::cpu},
         {"painted", painted, start_again, true},
