@@ -89,6 +89,27 @@ TEST_F(SharedSolverTest, DoesWhatTheCpuDoes) {
     EXPECT_NEAR(weight, 9.81 * (model->objects[0].mass + model->objects[1].mass), 0.01 * weight);
 }
 
+// Which is clear of itself: the device makes all moves of its steps, also of divided ones.
+TEST_F(SharedSolverTest, MovesASingleBodyAsTheCpuDoes) {
+    const auto model = test::make_blocks(
+        {{.place = {0, 0.2, 0}, .velocity = {1, -1, 0.5}, .poisson_ratio = 0.4}}, {0, -9.81, 0}, {floor()});
+    SharedSolver solver = make_solver(model, 10, true);
+    auto reference = test::make_solver<float>(model, 0.4, 10, true);
+    const auto touches_floor = [&] { return !solver.contact_forces().between.empty(); };
+    bool touched = false;
+    for (int frame = 0; frame < 60; ++frame) {
+        solver.advance_nodes(kFrame);
+        reference.advance_nodes(kFrame);
+        touched |= touches_floor();
+        const State state = solver.read_state();
+        for (std::uint32_t n = 0; n < model->node_count(); ++n)
+            ASSERT_LT(glm::distance(glm::vec3(state.positions[n]), glm::vec3(reference.nodes().positions[n])),
+                      1e-3f)
+                << frame;
+    }
+    EXPECT_TRUE(touched);
+}
+
 TEST_F(SharedSolverTest, RepeatsBitForBitAndStartsAgain) {
     const auto model = make_stack();
     SharedSolver solver = make_solver(model), again = make_solver(model);

@@ -1,7 +1,6 @@
 #include "cpu/contact/contacts.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -24,13 +23,8 @@ constexpr double kFollowed = 0.6;
 // whose map keeps this of all distances.
 constexpr double kFreshRoom = 0.3, kFreshMap = 0.8;
 
-// Convex bodies that keep this of all distances do not meet themselves; those that have come below, once they
-// keep more.
-constexpr double kKept = 0.05, kKeptAgain = 0.15;
 // Bodies are clear of themselves where all gaps are more than these times that at which they press.
 constexpr double kClear = 1.5;
-// Steps in which a body that may have met itself is not taken to be clear of itself.
-constexpr std::uint8_t kWaits = 8;
 
 }  // namespace
 
@@ -43,9 +37,7 @@ Contacts<Real>::Contacts(std::shared_ptr<const Model> model, const CollisionSett
       aims_(model_, surface_),
       guard_(model_, surface_->places),
       is_pressed_(model_->objects.size()) {
-    const std::vector<std::uint8_t> none(model_->body_count());
-    if (collision.self_collision.value_or(true))
-        own_.emplace(Own{{model_, surface_}, {model_, surface_}, none, none});
+    if (collision.self_collision.value_or(true)) clear_.emplace(model_, surface_);
     restart(std::vector<Vec4<Real>>(model_->positions.begin(), model_->positions.end()));
 }
 
@@ -53,9 +45,9 @@ template <class Real>
 void Contacts<Real>::restart(std::span<const Vec4<Real>> positions) {
     safe_.assign(positions.begin(), positions.end());
     list_.clear();
-    if (own_) {
+    if (clear_) {
+        clear_->restart();
         list_.own.restart(model_, std::vector<std::uint8_t>(model_->objects.size()));
-        std::fill(own_->is_clear.begin(), own_->is_clear.end(), std::uint8_t(1));
     }
     detection_.restart();
     aims_.forget();
@@ -70,27 +62,25 @@ Vec4<Real> Contacts<Real>::outside(const Vec4<Real>& position) const {
 }
 
 template <class Real>
-bool Contacts<Real>::are_apart(StageTimer* timer) {
+bool Contacts<Real>::are_apart(Real step, const Nodes<Real>& nodes, StageTimer* timer) {
+    guard_.begin(nodes.positions);
     find_clear_bodies();
     if (list_.is_valid && !list_.pairs.empty()) return false;
     is_aimed_ = false;
+    const Real fastest = greatest_at_nodes([&](std::uint32_t, std::uint32_t n, std::uint32_t) {
+        const Vec3<Real> velocity(nodes.velocities[n]);
+        return glm::dot(velocity, velocity);
+    });
+    longest_ = static_cast<double>(step * std::sqrt(fastest));
     detect_where_needed(safe_, timer);
     return list_.pairs.empty();
 }
 
-// Of those that were not, all that are not near themselves any more.
 template <class Real>
 void Contacts<Real>::find_clear_bodies() {
-    if (!own_) return;
+    if (!clear_) return;
     bool any_pairs = false;
-    for (std::uint32_t o = 0; o < own_->is_clear.size(); ++o) {
-        if (own_->is_clear[o] != 0) continue;
-        if (own_->waits[o] > 0) {
-            --own_->waits[o];
-            continue;
-        }
-        if (is_near_itself(o) && !own_->kept.keeps(o, Real(kKeptAgain), safe_)) continue;
-        own_->is_clear[o] = 1;
+    for (const std::uint32_t o : clear_->find(safe_, [&](std::uint32_t b) { return is_near_itself(b); })) {
         any_pairs |= list_.own.is_found(o);
         list_.own.forget(o, false);
         detection_.forget_own(o);
@@ -118,21 +108,11 @@ bool Contacts<Real>::is_near_itself(std::uint32_t object) const {
 // What is known of other bodies is of where the step led to.
 template <class Real>
 bool Contacts<Real>::stay_clear(std::span<const Vec4<Real>> positions, StageTimer* timer) {
-    if (!own_) return true;
+    if (!clear_) return true;
     const TimedStage part(timer, "advance_nodes.detect_own");
-    std::atomic<bool> all = true;
-    for_each_index(0, own_->is_clear.size(), 1, [&](std::size_t index) {
-        const auto o = static_cast<std::uint32_t>(index);
-        if (own_->is_clear[o] == 0 || own_->kept.keeps(o, Real(kKept), positions) ||
-            own_->gaps.stay_open(o, safe_, positions))
-            return;
-        own_->is_clear[o] = 0;
-        own_->waits[o] = kWaits;
-        all = false;
-    });
-    if (all) return true;
-    for (std::uint32_t o = 0; o < own_->is_clear.size(); ++o)
-        if (own_->is_clear[o] == 0) list_.own.forget(o, true);
+    if (clear_->stay_clear(safe_, positions)) return true;
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o)
+        if (!clear_->is_clear(o)) list_.own.forget(o, true);
     list_.is_valid = false;
     return false;
 }
@@ -275,7 +255,7 @@ void Contacts<Real>::renew(std::span<const Vec4<Real>> positions, StageTimer* ti
 template <class Real>
 void Contacts<Real>::detect_where_needed(std::span<const Vec4<Real>> positions, StageTimer* timer) {
     if (!list_.is_valid || used_room(positions) > Real(kUsedRoom)) detect(positions, {}, timer);
-    if (!own_) return;
+    if (!clear_) return;
     detect_own(
         positions, [&](std::uint32_t o) { return uses_own_room(o, positions); },
         [&](std::uint32_t, std::uint32_t place, std::uint32_t node) {

@@ -8,12 +8,11 @@
 #include <vector>
 
 #include "core/stage_timer.h"
+#include "cpu/contact/clear_bodies.h"
 #include "cpu/contact/contact_aims.h"
 #include "cpu/contact/contact_list.h"
 #include "cpu/contact/detect_contacts.h"
 #include "cpu/contact/guarded_move.h"
-#include "cpu/contact/kept_distances.h"
-#include "cpu/contact/own_gaps.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
 
@@ -45,8 +44,9 @@ public:
         return o < bodies ? place : place - step * Vec3<Real>(model_->surfaces[o - bodies].velocity);
     }
 
-    /// Whether a step may be tried without contacts, since nothing is near anything else.
-    bool are_apart(StageTimer* timer);
+    /// Whether a step of `step` seconds may be tried without contacts, since nothing is near anything else.
+    /// @param nodes that it begins with
+    bool are_apart(Real step, const Nodes<Real>& nodes, StageTimer* timer);
     /// Ends a step that was made so. @param positions where it leads
     /// @return false if bodies may have met on the way: then it has to be made again, with contacts
     bool end_apart(std::span<const Vec4<Real>> positions, StageTimer* timer);
@@ -141,16 +141,8 @@ private:
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
-    // How bodies are kept from passing through themselves; without it they may.
-    struct Own {
-        KeptDistances<Real> kept;
-        OwnGaps<Real> gaps;
-        // By body: not 0 while it is clear of itself, and is looked at after steps; for how many steps it is
-        // not.
-        std::vector<std::uint8_t> is_clear, waits;
-    };
-    std::optional<Own> own_;
-    std::vector<std::uint32_t> object_of_;  // by node
+    std::optional<ClearBodies<Real>> clear_;  // of themselves; none: bodies may pass through themselves
+    std::vector<std::uint32_t> object_of_;    // by node
     DetectContacts<Real> detection_;
     ContactList<Real> list_;
     std::vector<ContactPair> old_pairs_;

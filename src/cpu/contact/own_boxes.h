@@ -64,6 +64,9 @@ public:
     void for_node_pairs(std::uint32_t leaf, const HasChanged& has_changed, Near& near, const Use& use) const;
     template <class HasChanged, class Use>
     void for_edge_pairs(std::uint32_t leaf, const HasChanged& has_changed, Near& near, const Use& use) const;
+    /// use(face, other) for the faces of a leaf and all that are near.
+    template <class Use>
+    void for_face_pairs(std::uint32_t leaf, Near& near, const Use& use) const;
 
 private:
     std::shared_ptr<const Model> model_;
@@ -188,6 +191,17 @@ void OwnBoxes<Real>::for_edge_pairs(std::uint32_t leaf, const HasChanged& has_ch
             const FaceEdge& second = parts.edges[other];
             if (other > e && !share_end(edge, second))
                 use(ContactPair{{edge.a, edge.b, second.a, second.b}, {}, e, other, object, object, 2, 0.0f});
+        });
+    }
+}
+
+template <class Real>
+template <class Use>
+void OwnBoxes<Real>::for_face_pairs(std::uint32_t leaf, Near& near, const Use& use) const {
+    const TreeNode& faces = node_of(leaf);
+    for (std::uint32_t f = faces.first_item; f < faces.first_item + faces.item_count; ++f) {
+        near.faces[all].for_meeting(face_boxes_[f], [&](std::uint32_t other) {
+            if (other > f && !share_corner(model_->faces[f], model_->faces[other])) use(f, other);
         });
     }
 }

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "cpu/collision/triangle_overlap.h"
 #include "cpu/contact/nearest_pairs.h"
 #include "model/nearest_rotation.h"
 
@@ -15,6 +16,8 @@ namespace gelatin::cpu {
 namespace {
 
 constexpr std::size_t kLeavesATask = 32;
+// Of a way, where it does not tell as a whole that gaps stay open.
+constexpr int kParts = 4;
 
 // What is left of a gap on the way of its nodes, along the line between the nearest points at the start.
 template <class Real>
@@ -46,43 +49,83 @@ OwnGaps<Real>::OwnGaps(std::shared_ptr<const Model> model, std::shared_ptr<const
       ways_(model_->node_count()),
       boxes_(model_) {}
 
+// Where ways are long, single parts of them tell more than the whole: pairs are measured at the start of
+// each.
 template <class Real>
 bool OwnGaps<Real>::stay_open(std::uint32_t object, std::span<const Vec4<Real>> from,
                               std::span<const Vec4<Real>> to) {
     find_ways(object, from, to);
+    if (part_stays_open(object)) return true;
+    const SurfaceParts& parts = model_->surface_parts;
+    const Range& faces = model_->objects[object].faces;
+    const std::uint32_t first = parts.face_starts[faces.first].x, end = parts.face_starts[faces.end()].x;
+    for (std::uint32_t s = first; s < end; ++s) ways_[parts.nodes[s]] /= Real(kParts);
+    for (int part = 0;; ++part) {
+        if (!part_stays_open(object)) return false;
+        if (part + 1 == kParts) return true;
+        for (std::uint32_t s = first; s < end; ++s)
+            starts_[parts.nodes[s]] += Vec4<Real>(ways_[parts.nodes[s]], Real(0));
+    }
+}
+
+template <class Real>
+bool OwnGaps<Real>::part_stays_open(std::uint32_t object) {
     const auto margin = BoxMargin<Real>::for_distance(surface_->reach(object, object));
     boxes_.update(object, [&](std::uint32_t n, AxisBox<Real>& box) {
         const Vec3<Real> start(starts_[n]);
         box.add(start, margin);
         box.add(start + ways_[n], margin);
     });
+    return all_walks(object, [&](std::span<const std::uint32_t> walk, typename OwnBoxes<Real>::Near& near) {
+        const auto all = [](std::uint32_t) { return true; };
+        std::vector<ContactPair> waiting;
+        const auto wait = [&](const ContactPair& pair) { waiting.push_back(pair); };
+        for (const std::uint32_t leaf : walk) boxes_.for_node_pairs(leaf, all, near, wait);
+        if (!are_open(waiting)) return false;
+        for (const std::uint32_t leaf : walk) boxes_.for_edge_pairs(leaf, all, near, wait);
+        return are_open(waiting);
+    });
+}
+
+template <class Real>
+template <class Test>
+bool OwnGaps<Real>::all_walks(std::uint32_t object, const Test& test) const {
     const Range range = boxes_.leaves_of(object);
     std::vector<std::uint32_t> leaves(range.count);
     std::iota(leaves.begin(), leaves.end(), range.first);
-    std::atomic<bool> open = true;
+    std::atomic<bool> all = true;
     tbb::parallel_for(std::size_t(0), (leaves.size() + kLeavesATask - 1) / kLeavesATask,
                       [&](std::size_t task) {
+                          const auto not_twice = [](std::uint32_t) { return false; };
                           typename OwnBoxes<Real>::Near near;
-                          std::vector<ContactPair> waiting;
-                          const auto all = [](std::uint32_t) { return true; };
-        const auto none = [](std::uint32_t) { return false; };  // beside all
-                          const auto wait = [&](const ContactPair& pair) { waiting.push_back(pair); };
                           const std::size_t first = task * kLeavesATask,
                                             count = std::min(kLeavesATask, leaves.size() - first);
                           for_walks(std::span<const std::uint32_t>(leaves).subspan(first, count),
                                     [&](std::span<const std::uint32_t> walk) {
-                                        if (!open.load(std::memory_order_relaxed)) return;
-                                        boxes_.find_near(object, walk, none, near);
-                                        for (const std::uint32_t leaf : walk)
-                                            boxes_.for_node_pairs(leaf, all, near, wait);
-                                        bool are = are_open(waiting);
-                                        for (const std::uint32_t leaf : walk)
-                                            boxes_.for_edge_pairs(leaf, all, near, wait);
-                                        are = are_open(waiting) && are;
-                                        if (!are) open = false;
+                                        if (!all.load(std::memory_order_relaxed)) return;
+                                        boxes_.find_near(object, walk, not_twice, near);
+                                        if (!test(walk, near)) all = false;
                                     });
                       });
-    return open;
+    return all;
+}
+
+template <class Real>
+bool OwnGaps<Real>::passes_through_itself(std::uint32_t object, std::span<const Vec4<Real>> positions) {
+    boxes_.update(object, [&](std::uint32_t n, AxisBox<Real>& box) { box.add(Vec3<Real>(positions[n])); });
+    const auto triangle = [&](std::uint32_t f) {
+        const Face& face = model_->faces[f];
+        return Triangle<Real>{Vec3<Real>(positions[face.a]), Vec3<Real>(positions[face.b]),
+                              Vec3<Real>(positions[face.c])};
+    };
+    return !all_walks(object, [&](std::span<const std::uint32_t> walk, typename OwnBoxes<Real>::Near& near) {
+        bool any = false;
+        for (const std::uint32_t leaf : walk)
+            boxes_.for_face_pairs(leaf, near, [&](std::uint32_t f, std::uint32_t other) {
+                any = any || triangles_overlap(triangle(f), triangle(other));
+            });
+        return !any;
+    });
 }
 
 template <class Real>

@@ -23,14 +23,23 @@ public:
     /// at once. @param from, to [m], shape [nodes]
     bool stay_open(std::uint32_t object, std::span<const Vec4<Real>> from, std::span<const Vec4<Real>> to);
 
+    /// Whether faces of a body overlap that have no corner in common. May be called for several bodies at
+    /// once.
+    bool passes_through_itself(std::uint32_t object, std::span<const Vec4<Real>> positions);
+
 private:
     void find_ways(std::uint32_t object, std::span<const Vec4<Real>> from, std::span<const Vec4<Real>> to);
+    // True if test(walk, near) is, for all leaves of a body.
+    template <class Test>
+    bool all_walks(std::uint32_t object, const Test& test) const;
+    bool part_stays_open(std::uint32_t object);
     bool are_open(std::vector<ContactPair>& pairs) const;
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
-    std::vector<Vec4<Real>> starts_;  // by node, from the middle of its body [m]
-    std::vector<Vec3<Real>> ways_;    // as the body sees them [m]
+    // Of a part of the way, by node: from the middle of its body, and as the body sees it [m].
+    std::vector<Vec4<Real>> starts_;
+    std::vector<Vec3<Real>> ways_;
     OwnBoxes<Real> boxes_;
 };
 

@@ -75,7 +75,7 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
         shorten_tangled(current.positions);
     };
     // A step is tried with what seems to be enough, and made again with more where it was not.
-    for (bool apart = !bodies_ || bodies_->are_apart(timer);; apart = false) {
+    for (bool apart = !bodies_ || bodies_->are_apart(step, previous, timer);; apart = false) {
         start_with(apart ? nullptr : bodies_.get());
         if (!apart) {
             bodies_->begin(step, objective_.step.targets, objective_.step.starts, current.positions, timer);

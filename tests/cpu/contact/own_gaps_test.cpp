@@ -82,6 +82,17 @@ TEST(OwnGaps, AreClosedWhereOnePartPassesThroughAnother) {
     }
 }
 
+TEST(OwnGaps, TellWhetherABodyPassesThroughItself) {
+    Bar bar;
+    for (const double height : {-0.5, -0.22, -0.15, 0.1, 0.19, 0.21, 0.5}) {
+        const std::vector<glm::dvec4> positions = bar.moved(folded(height));
+        EXPECT_EQ(bar.gaps.passes_through_itself(0, positions),
+                  test::count_overlaps(*bar.model, positions, test::Overlaps::all) > 0)
+            << height;
+        EXPECT_EQ(bar.gaps.passes_through_itself(0, positions), std::abs(height) < 0.2) << height;
+    }
+}
+
 // Parts of a mesh that are that near at rest do not press before half of their distance is left.
 TEST(OwnGaps, OfWhatIsNarrowAtRestCloseLater) {
     Bar bar;

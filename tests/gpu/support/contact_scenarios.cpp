@@ -54,6 +54,9 @@ struct BeforeSweeps {
         const cpu::Nodes<double>& nodes = solver.nodes();
         const std::vector<glm::dvec4> start = rounded(nodes.positions);
         contacts.restart(start);
+        std::vector<glm::dvec4> flat = start;
+        for (glm::dvec4& p : flat) p.y *= 1e-3;
+        contacts.stay_clear(flat, nullptr);  // bodies are not clear of themselves: rooms count
         for (std::uint32_t n = 0; n < model->node_count(); ++n) {
             const glm::dvec3 at(start[n]), velocity(nodes.velocities[n]), gravity(model->gravity);
             const double stiffness = start[n].w > 0.0 ? 1.0 / (start[n].w * kFrame * kFrame) : 0.0;
