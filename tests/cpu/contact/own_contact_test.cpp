@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <map>
 #include <set>
 #include <tuple>
 
@@ -12,6 +13,7 @@
 #include "cpu/contact/detect_own.h"
 #include "cpu/contact/guarded_move.h"
 #include "cpu/contact/own_rooms.h"
+#include "cpu/contact/rest_rooms.h"
 #include "cpu/measure/measure.h"
 #include "model/corners.h"
 #include "support/contact_scenes.h"
@@ -119,6 +121,41 @@ TEST(OwnRooms, AreNotUsedUpByMotionAndUniformDeformation) {
     EXPECT_GT(rooms.used(0, moved), 10.0);
     rooms.follow(0, rooms.fitted(0, moved));
     EXPECT_LT(rooms.used(0, moved), 1e-9);
+}
+
+// Where they hold, more than half of each gap is left. They hold in affine motions, and for some of what is
+// random beside these.
+TEST(RestRooms, HoldWhereHalfOfAllGapsIsLeft) {
+    const FoundBar bar;
+    const cpu::RestRooms<double> rooms(bar.model, bar.surface);
+    std::map<std::tuple<bool, std::uint32_t, std::uint32_t>, double> at_rest;
+    for_all_pairs(*bar.model, bar.positions,
+                  [&](bool edges, std::uint32_t a, std::uint32_t b, double gap, const auto&) {
+                      at_rest[{edges, a, b}] = gap;
+                  });
+    test::RandomMaker random(8);
+    int held = 0;
+    for (int round = 0; round < 30; ++round) {
+        glm::dmat3 linear(1.0);
+        for (int k = 0; k < 3; ++k) linear[k] += random.point(0.15);
+        const glm::dquat turn = glm::normalize(glm::dquat(random.uniform(-1.0, 1.0), random.point(1.0)));
+        const double uneven = random.uniform(0.0, 0.03);
+        const auto affine = bar.moved([&](const glm::dvec3& p) { return turn * (linear * p); });
+        EXPECT_TRUE(rooms.hold(0, affine));
+        const auto moved =
+            bar.moved([&](const glm::dvec3& p) { return turn * (linear * p + random.point(uneven)); });
+        if (!rooms.hold(0, moved)) continue;
+        ++held;
+        for_all_pairs(*bar.model, moved,
+                      [&](bool edges, std::uint32_t a, std::uint32_t b, double gap, const auto&) {
+                          ASSERT_GT(gap, 0.5 * at_rest.at({edges, a, b})) << round;
+                      });
+    }
+    EXPECT_GT(held, 5);
+    EXPECT_LT(held, 25);
+    EXPECT_FALSE(
+        rooms.hold(0, bar.moved([](const glm::dvec3& p) { return glm::dvec3(p.x, 0.4 * p.y, p.z); })));
+    EXPECT_FALSE(rooms.hold(0, bar.moved([](const glm::dvec3& p) { return bent(p, 2.0); })));
 }
 
 // Nodes that are looked at again may make the rooms of others smaller, which have used what is gone then.
