@@ -18,7 +18,6 @@ template <class Real>
 ClearBodies<Real>::ClearBodies(std::shared_ptr<const Model> model,
                                std::shared_ptr<const ContactSurface> surface)
     : model_(model),
-      rooms_(model, surface),
       kept_(model, surface),
       gaps_(model, surface),
       is_clear_(model->body_count()),
@@ -48,8 +47,7 @@ bool ClearBodies<Real>::stay_clear(std::span<const Vec4<Real>> from, std::span<c
             waits_[o] = heals_[o] != 0 ? kWaits : 0;
             return;
         }
-        if (rooms_.hold(o, to) || kept_.keeps(o, static_cast<Real>(kKept), to) ||
-            gaps_.stay_open(o, from, to))
+        if (gaps_.hold(o, to) || kept_.keeps(o, static_cast<Real>(kKept), to) || gaps_.stay_open(o, from, to))
             return;
         waits_[o] = kWaits;
         if (was_set_[o] != 0 && has_to_heal(o, from)) {

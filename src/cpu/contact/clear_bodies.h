@@ -7,7 +7,6 @@
 
 #include "cpu/contact/kept_distances.h"
 #include "cpu/contact/own_gaps.h"
-#include "cpu/contact/rest_rooms.h"
 #include "cpu/nodes.h"
 #include "model/contact/contact_surface.h"
 #include "model/model.h"
@@ -45,7 +44,6 @@ private:
     bool has_to_heal(std::uint32_t object, std::span<const Vec4<Real>> positions);
 
     std::shared_ptr<const Model> model_;
-    RestRooms<Real> rooms_;
     KeptDistances<Real> kept_;
     OwnGaps<Real> gaps_;
     // By body: whether it passes through itself, or may since it was set; for how many steps it is not looked

@@ -4,36 +4,59 @@
 
 #include <algorithm>
 #include <atomic>
+#include <glm/matrix.hpp>
 #include <limits>
 #include <numeric>
 #include <utility>
 
 #include "cpu/collision/triangle_overlap.h"
+#include "cpu/contact/least_stretch.h"
 #include "cpu/contact/nearest_pairs.h"
+#include "model/for_each_index.h"
 #include "model/nearest_rotation.h"
 
 namespace gelatin::cpu {
 namespace {
 
 constexpr std::size_t kLeavesATask = 32;
-// Of a way, where it does not tell as a whole that gaps stay open.
-constexpr int kParts = 4;
+// How far others are looked for, over the thickness of the surface, which is a twentieth of its median edge:
+// the farther, the larger rooms are, and the longer a look takes.
+constexpr double kSearched = 8.0, kSearchedAtStart = 20.0;
+// Of what an affine map leaves of a gap, over that at which it presses, what both sides may use; for rounding
+// a little less than half.
+constexpr double kRoom = 0.49;
+// Over the reach: where gaps are less, those at the start are looked at, too.
+constexpr double kNear = 2.0;
+// Of the mean square of what is from the middle: flatter bodies have no rooms.
+constexpr double kFlat = 1e-6;
+// Of a way, where it does not tell as a whole that a gap stays open.
+constexpr int kParts = 16;
 
-// What is left of a gap on the way of its nodes, along the line between the nearest points at the start.
+// The same whatever the order.
+template <class Real>
+void lower_to(Real& value, Real least) {
+    std::atomic_ref<Real> shared(value);
+    Real seen = shared.load(std::memory_order_relaxed);
+    while (least < seen && !shared.compare_exchange_weak(seen, least, std::memory_order_relaxed)) {
+    }
+}
+
+// What is left of a gap on the way of its nodes, along the line between the nearest points where it was
+// measured. @param sign 1: the way leads on from there; -1: it has led there
 template <class Real>
 Real least_gap(const ContactPair& pair, const MeasuredPairs<Real>& measured, std::size_t column,
-               std::span<const Vec3<Real>> ways) {
+               std::span<const Vec3<Real>> ways, Real sign = Real(1)) {
     const Real gap = measured.gaps[column];
     if (!(gap > Real(0))) return Real(0);
     const Vec3<Real> normal =
         Vec3<Real>(measured.apart[0][column], measured.apart[1][column], measured.apart[2][column]) / gap;
     Real top = -std::numeric_limits<Real>::infinity(), low = -top;
     for (std::size_t k = 0; k < 4; ++k) {
-        const Real end = measured.heights[k][column] + glm::dot(normal, ways[pair.nodes[k]]);
+        const Real other_end = measured.heights[k][column] + sign * glm::dot(normal, ways[pair.nodes[k]]);
         if (pair.side_of(k) == 0) {
-            top = std::max(top, end);
+            top = std::max(top, other_end);
         } else {
-            low = std::min(low, end);
+            low = std::min(low, other_end);
         }
     }
     return std::min(gap, low - top) - measured.rounding[column];
@@ -45,32 +68,64 @@ template <class Real>
 OwnGaps<Real>::OwnGaps(std::shared_ptr<const Model> model, std::shared_ptr<const ContactSurface> surface)
     : model_(std::move(model)),
       surface_(std::move(surface)),
+      shapes_(model_->body_count()),
       starts_(model_->node_count()),
       ways_(model_->node_count()),
-      boxes_(model_) {}
+      apart_(model_->surface_parts.nodes.size()),
+      boxes_(model_) {
+    const std::vector<Vec4<Real>> at_start(model_->positions.begin(), model_->positions.end());
+    for_each_index(0, shapes_.size(), 1, [&](std::size_t index) {
+        const auto o = static_cast<std::uint32_t>(index);
+        const Range& faces = model_->objects[o].faces;
+        if (faces.count == 0) return;
+        const std::vector<glm::uvec2>& face_starts = model_->surface_parts.face_starts;
+        const std::uint32_t first = face_starts[faces.first].x;
+        shapes_[o].places = {first, face_starts[faces.end()].x - first};
+        find_ways(o, at_start, at_start);
+        look(o, kSearchedAtStart * surface_->thicknesses[o]);
+    });
+}
 
-// Where ways are long, single parts of them tell more than the whole: pairs are measured at the start of
-// each.
+template <class Real>
+bool OwnGaps<Real>::hold(std::uint32_t object, std::span<const Vec4<Real>> positions) const {
+    const Shape& shape = shapes_[object];
+    if (shape.inverse_moment == glm::dmat3(0.0)) return false;
+    const std::vector<std::uint32_t>& nodes = model_->surface_parts.nodes;
+    const Vec3<Real> first(positions[nodes[shape.places.first]]);
+    glm::dvec3 sum(0.0);
+    glm::dmat3 moment(0.0);
+    for (std::uint32_t s = shape.places.first; s < shape.places.end(); ++s) {
+        const glm::dvec3 at(Vec3<Real>(positions[nodes[s]]) - first);
+        sum += at;
+        moment += glm::outerProduct(at, glm::dvec3(starts_[nodes[s]]));
+    }
+    const glm::dmat3 exact = moment * shape.inverse_moment;
+    const auto linear = glm::mat<3, 3, Real>(exact);
+    const auto least = static_cast<Real>(std::min(least_stretch(exact), 1.0));
+    const Vec3<Real> middle = first + Vec3<Real>(sum / static_cast<double>(shape.places.count));
+    const Real lost = (Real(1) - least) * static_cast<Real>(reach(object));
+    for (std::uint32_t s = shape.places.first; s < shape.places.end(); ++s) {
+        const Vec3<Real> deviation =
+            Vec3<Real>(positions[nodes[s]]) - middle - linear * Vec3<Real>(starts_[nodes[s]]);
+        const Real room = static_cast<Real>(kRoom) * (least * apart_[s] - lost);
+        if (!(room > Real(0)) || !(glm::dot(deviation, deviation) < room * room)) return false;
+    }
+    return true;
+}
+
 template <class Real>
 bool OwnGaps<Real>::stay_open(std::uint32_t object, std::span<const Vec4<Real>> from,
                               std::span<const Vec4<Real>> to) {
     find_ways(object, from, to);
-    if (part_stays_open(object)) return true;
-    const SurfaceParts& parts = model_->surface_parts;
-    const Range& faces = model_->objects[object].faces;
-    const std::uint32_t first = parts.face_starts[faces.first].x, end = parts.face_starts[faces.end()].x;
-    for (std::uint32_t s = first; s < end; ++s) ways_[parts.nodes[s]] /= Real(kParts);
-    for (int part = 0;; ++part) {
-        if (!part_stays_open(object)) return false;
-        if (part + 1 == kParts) return true;
-        for (std::uint32_t s = first; s < end; ++s)
-            starts_[parts.nodes[s]] += Vec4<Real>(ways_[parts.nodes[s]], Real(0));
-    }
+    return look(object, kSearched * surface_->thicknesses[object]);
 }
 
+// Where starts and ways are. @param searched how far others are looked for [m]
 template <class Real>
-bool OwnGaps<Real>::part_stays_open(std::uint32_t object) {
-    const auto margin = BoxMargin<Real>::for_distance(surface_->reach(object, object));
+bool OwnGaps<Real>::look(std::uint32_t object, double searched) {
+    const Range& places = shapes_[object].places;
+    std::fill_n(apart_.begin() + places.first, places.count, static_cast<Real>(searched - reach(object)));
+    const auto margin = BoxMargin<Real>::for_distance(searched);
     boxes_.update(object, [&](std::uint32_t n, AxisBox<Real>& box) {
         const Vec3<Real> start(starts_[n]);
         box.add(start, margin);
@@ -131,25 +186,30 @@ bool OwnGaps<Real>::passes_through_itself(std::uint32_t object, std::span<const 
 template <class Real>
 void OwnGaps<Real>::find_ways(std::uint32_t object, std::span<const Vec4<Real>> from,
                               std::span<const Vec4<Real>> to) {
-    const SurfaceParts& parts = model_->surface_parts;
-    const Range& faces = model_->objects[object].faces;
-    const std::uint32_t first = parts.face_starts[faces.first].x, end = parts.face_starts[faces.end()].x;
-    const glm::dvec3 origin(from[parts.nodes[first]]), origin_after(to[parts.nodes[first]]);
+    const std::vector<std::uint32_t>& nodes = model_->surface_parts.nodes;
+    Shape& shape = shapes_[object];
+    const std::uint32_t first = shape.places.first, end = shape.places.end();
+    const glm::dvec3 origin(from[nodes[first]]), origin_after(to[nodes[first]]);
     glm::dvec3 sum(0.0), sum_after(0.0);
-    glm::dmat3 moment(0.0);
+    glm::dmat3 square(0.0), moment(0.0);
     for (std::uint32_t s = first; s < end; ++s) {
-        const glm::dvec3 before = glm::dvec3(from[parts.nodes[s]]) - origin,
-                         after = glm::dvec3(to[parts.nodes[s]]) - origin_after;
+        const glm::dvec3 before = glm::dvec3(from[nodes[s]]) - origin,
+                         after = glm::dvec3(to[nodes[s]]) - origin_after;
         sum += before;
         sum_after += after;
+        square += glm::outerProduct(before, before);
         moment += glm::outerProduct(after, before);
     }
-    const auto count = static_cast<double>(end - first);
+    const auto count = static_cast<double>(shape.places.count);
+    square -= glm::outerProduct(sum, sum) / count;
     moment -= glm::outerProduct(sum_after, sum) / count;
+    const double mean = (square[0][0] + square[1][1] + square[2][2]) / 3.0;
+    const bool is_flat = !(glm::determinant(square) > kFlat * mean * mean * mean);
+    shape.inverse_moment = is_flat ? glm::dmat3(0.0) : glm::inverse(square);
     const auto back = glm::mat<3, 3, Real>(glm::transpose(nearest_rotation(moment)));
     const Vec3<Real> middle(origin + sum / count), middle_after(origin_after + sum_after / count);
     for (std::uint32_t s = first; s < end; ++s) {
-        const std::uint32_t n = parts.nodes[s];
+        const std::uint32_t n = nodes[s];
         const Vec3<Real> start = Vec3<Real>(from[n]) - middle;
         starts_[n] = Vec4<Real>(start, Real(0));
         ways_[n] = back * (Vec3<Real>(to[n]) - middle_after) - start;
@@ -158,24 +218,67 @@ void OwnGaps<Real>::find_ways(std::uint32_t object, std::span<const Vec4<Real>> 
 
 // Pairs press at the reach, or at half of their gap at the start if that is less. @param pairs output: none
 template <class Real>
-bool OwnGaps<Real>::are_open(std::vector<ContactPair>& pairs) const {
-    bool open = true;
-    std::size_t near = 0;
+bool OwnGaps<Real>::are_open(std::vector<ContactPair>& pairs) {
+    const auto tell_apart = [&](const ContactPair& pair, Real apart) {
+        for (const std::uint32_t n : pair.nodes)
+            lower_to(apart_[surface_->places[n]], std::max(apart, Real(0)));
+    };
+    struct Gap {
+        Real now, least;
+    };
+    std::vector<Gap> gaps;  // of those that are near
     for_measured<Real>(pairs, starts_, [&](std::size_t p, const auto& measured, std::size_t column) {
-        const ContactPair pair = pairs[p];
-        const Real gap = least_gap<Real>(pair, measured, column, ways_);
-        if (!(gap > Real(0))) open = false;
-        if (gap > static_cast<Real>(surface_->reach(pair.object, pair.other))) return;
-        pairs[near] = pair;
-        pairs[near++].reach = static_cast<float>(gap);
+        const Real gap = measured.gaps[column], least = least_gap<Real>(pairs[p], measured, column, ways_);
+        const auto most = static_cast<Real>(reach(pairs[p].object));
+        if (least > most && gap > Real(kNear) * most) {
+            tell_apart(pairs[p], gap - most);
+            return;
+        }
+        pairs[gaps.size()] = pairs[p];
+        gaps.push_back({gap, least});
     });
+    pairs.resize(gaps.size());
+    std::size_t near = 0;
+    for_measured<float>(
+        pairs, model_->positions, [&](std::size_t p, const auto& measured, std::size_t column) {
+            const float press =
+                std::min(static_cast<float>(reach(pairs[p].object)), 0.5f * measured.gaps[column]);
+            tell_apart(pairs[p], gaps[p].now - static_cast<Real>(press));
+            if (gaps[p].least > static_cast<Real>(press)) return;
+            pairs[near] = pairs[p];
+            pairs[near++].reach = press;
+        });
     pairs.resize(near);
-    if (open)
-        for_measured<float>(pairs, model_->positions,
-                            [&](std::size_t p, const auto& measured, std::size_t c) {
-                                if (!(pairs[p].reach > 0.5f * measured.gaps[c])) open = false;
-                            });
+    const bool open = are_open_by_parts(pairs);
     pairs.clear();
+    return open;
+}
+
+// Where ways are long, single parts of them tell more than the whole: pairs are measured at the start of
+// each.
+template <class Real>
+bool OwnGaps<Real>::are_open_by_parts(std::span<const ContactPair> pairs) const {
+    std::vector<ContactPair> own(pairs.begin(), pairs.end());
+    std::vector<Vec4<Real>> positions;  // of the nodes of one pair after the other
+    std::vector<Vec3<Real>> ways;
+    for (ContactPair& pair : own) {
+        for (std::uint32_t& n : pair.nodes) {
+            positions.push_back(starts_[n]);
+            ways.push_back(ways_[n] / Real(kParts));
+            n = static_cast<std::uint32_t>(ways.size() - 1);
+        }
+    }
+    bool open = true;
+    std::vector<std::uint8_t> is_told(own.size(), std::uint8_t(1));  // of the part before
+    for (int part = 0; part <= kParts && open; ++part) {
+        for_measured<Real>(own, positions, [&](std::size_t p, const auto& measured, std::size_t column) {
+            const auto reach = static_cast<Real>(own[p].reach);
+            if (is_told[p] == 0 && !(least_gap<Real>(own[p], measured, column, ways, Real(-1)) > reach))
+                open = false;
+            is_told[p] = part == kParts || least_gap<Real>(own[p], measured, column, ways) > reach ? 1 : 0;
+        });
+        for (std::size_t k = 0; k < ways.size(); ++k) positions[k] += Vec4<Real>(ways[k], Real(0));
+    }
     return open;
 }
 
