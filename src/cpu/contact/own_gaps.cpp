@@ -131,7 +131,7 @@ bool OwnGaps<Real>::look(std::uint32_t object, double searched) {
         box.add(start, margin);
         box.add(start + ways_[n], margin);
     });
-    return all_walks(object, [&](std::span<const std::uint32_t> walk, typename OwnBoxes<Real>::Near& near) {
+    const auto test = [&](std::span<const std::uint32_t> walk, typename OwnBoxes<Real>::Near& near) {
         const auto all = [](std::uint32_t) { return true; };
         std::vector<ContactPair> waiting;
         const auto wait = [&](const ContactPair& pair) { waiting.push_back(pair); };
@@ -139,7 +139,10 @@ bool OwnGaps<Real>::look(std::uint32_t object, double searched) {
         if (!are_open(waiting)) return false;
         for (const std::uint32_t leaf : walk) boxes_.for_edge_pairs(leaf, all, near, wait);
         return are_open(waiting);
-    });
+    };
+    if (all_walks(object, test)) return true;
+    shapes_[object].inverse_moment = glm::dmat3(0.0);  // the look ended before it was at all pairs
+    return false;
 }
 
 template <class Real>

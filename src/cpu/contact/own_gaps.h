@@ -36,8 +36,8 @@ public:
 private:
     struct Shape {
         Range places;  // of its surface nodes
-        glm::dmat3 inverse_moment{
-            0.0};  // of where they were looked at, from their middle [1/m^2]; 0: too flat
+        // Of where they were looked at, from their middle [1/m^2]; 0: there are no rooms.
+        glm::dmat3 inverse_moment{0.0};
     };
     // True if test(walk, near) is, for all leaves of a body.
     template <class Test>

@@ -82,6 +82,18 @@ TEST(OwnGaps, AreClosedWhereOnePartPassesThroughAnother) {
     }
 }
 
+// A look that ends where it finds parts that press tells nothing of others.
+TEST(OwnGaps, HoldNoMoreAfterALookThatEnded) {
+    Bar bar;
+    const auto at_rest = bar.moved(kAtRest), apart = bar.moved(folded(0.5));
+    EXPECT_TRUE(bar.gaps.hold(0, at_rest));
+    EXPECT_TRUE(bar.gaps.stay_open(0, apart, apart));
+    EXPECT_TRUE(bar.gaps.hold(0, apart));
+    EXPECT_FALSE(bar.gaps.stay_open(0, apart, bar.moved(folded(-0.5))));
+    EXPECT_FALSE(bar.gaps.hold(0, apart));
+    EXPECT_FALSE(bar.gaps.hold(0, at_rest));
+}
+
 TEST(OwnGaps, TellWhetherABodyPassesThroughItself) {
     Bar bar;
     for (const double height : {-0.5, -0.22, -0.15, 0.1, 0.19, 0.21, 0.5}) {
