@@ -18,7 +18,7 @@ template <class Real>
 ClearBodies<Real>::ClearBodies(std::shared_ptr<const Model> model,
                                std::shared_ptr<const ContactSurface> surface)
     : model_(model),
-      kept_(model, surface),
+      kept_(model, *surface),
       gaps_(model, surface),
       is_clear_(model->body_count()),
       heals_(model->body_count()),

@@ -62,7 +62,7 @@ HWY_AFTER_NAMESPACE();
 namespace gelatin::cpu {
 namespace {
 
-#include "cpu/contact/kept_distances.inl"
+#include "cpu/contact/kept_distances.inl"  // NOLINT(readability-duplicate-include): for doubles
 
 HWY_EXPORT(blocks_keep);
 
@@ -115,12 +115,10 @@ std::vector<TetColumns<Real>> make_columns(const Model& model, const Range& tets
 }  // namespace
 
 template <class Real>
-KeptDistances<Real>::KeptDistances(std::shared_ptr<const Model> model,
-                                   std::shared_ptr<const ContactSurface> surface)
+KeptDistances<Real>::KeptDistances(std::shared_ptr<const Model> model, const ContactSurface& surface)
     : model_(std::move(model)), shapes_(model_->objects.size()) {
     for (std::size_t o = 0; o < shapes_.size(); ++o)
-        if (surface->is_convex[o] != 0)
-            shapes_[o].tets = make_columns<Real>(*model_, model_->objects[o].tets);
+        if (surface.is_convex[o] != 0) shapes_[o].tets = make_columns<Real>(*model_, model_->objects[o].tets);
 }
 
 template <class Real>

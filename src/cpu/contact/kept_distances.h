@@ -31,7 +31,7 @@ struct TetColumns {
 template <class Real>
 class KeptDistances {
 public:
-    KeptDistances(std::shared_ptr<const Model> model, std::shared_ptr<const ContactSurface> surface);
+    KeptDistances(std::shared_ptr<const Model> model, const ContactSurface& surface);
 
     /// Whether two points of a convex body are at least `part` of the distance apart that they had at the
     /// start. Always false for bodies that are not convex. May be called for several bodies at once.

@@ -75,7 +75,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace gelatin::cpu {
 
-#include "cpu/contact/nearest_pair.inl"
+#include "cpu/contact/nearest_pair.inl"  // NOLINT(readability-duplicate-include): for doubles
 
 HWY_EXPORT(measure_block);
 

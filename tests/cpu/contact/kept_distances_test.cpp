@@ -40,8 +40,8 @@ TEST(ConvexBodies, AreFound) {
 struct ConvexBody {
     std::shared_ptr<const Model> model = std::make_shared<const Model>(
         test::make_model(test::make_body(test::make_block({4, 3, 3}, {0.8, 0.6, 0.5}))));
-    cpu::KeptDistances<double> kept{model, surface_of(*model)};
-    cpu::KeptDistances<float> fast{model, surface_of(*model)};
+    cpu::KeptDistances<double> kept{model, *surface_of(*model)};
+    cpu::KeptDistances<float> fast{model, *surface_of(*model)};
 
     std::vector<glm::dvec4> moved(const auto& move) const {
         std::vector<glm::dvec4> moved;
