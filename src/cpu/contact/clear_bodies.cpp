@@ -20,43 +20,37 @@ ClearBodies<Real>::ClearBodies(std::shared_ptr<const Model> model,
     : model_(model),
       kept_(model, *surface),
       gaps_(model, surface),
-      is_clear_(model->body_count()),
-      heals_(model->body_count()),
-      was_set_(model->body_count()),
-      waits_(model->body_count()) {
-    restart();
-}
+      states_(model->body_count(), State::set),
+      waits_(model->body_count()) {}
 
 template <class Real>
 void ClearBodies<Real>::restart() {
-    std::fill(is_clear_.begin(), is_clear_.end(), std::uint8_t(1));
-    std::fill(heals_.begin(), heals_.end(), std::uint8_t(0));
-    std::fill(was_set_.begin(), was_set_.end(), std::uint8_t(1));
+    std::fill(states_.begin(), states_.end(), State::set);
     std::fill(waits_.begin(), waits_.end(), std::uint8_t(0));
 }
 
 template <class Real>
 bool ClearBodies<Real>::stay_clear(std::span<const Vec4<Real>> from, std::span<const Vec4<Real>> to) {
     std::atomic<bool> all = true;
-    for_each_index(0, is_clear_.size(), 1, [&](std::size_t index) {
+    for_each_index(0, states_.size(), 1, [&](std::size_t index) {
         const auto o = static_cast<std::uint32_t>(index);
-        if (is_clear_[o] == 0) return;
-        if (heals_[o] != 0) {
-            if (waits_[o]-- > 0) return;
-            heals_[o] = gaps_.passes_through_itself(o, to) ? 1 : 0;
-            waits_[o] = heals_[o] != 0 ? kWaits : 0;
+        State& state = states_[o];
+        if (state == State::near_itself) return;
+        if (state == State::heals) {
+            if (waits_[o] > 0) {
+                --waits_[o];
+            } else if (gaps_.passes_through_itself(o, to)) {
+                waits_[o] = kWaits;
+            } else {
+                state = State::clear;
+            }
             return;
         }
         if (gaps_.hold(o, to) || kept_.keeps(o, static_cast<Real>(kKept), to) || gaps_.stay_open(o, from, to))
             return;
         waits_[o] = kWaits;
-        if (was_set_[o] != 0 && has_to_heal(o, from)) {
-            heals_[o] = 1;
-            return;
-        }
-        was_set_[o] = 0;
-        is_clear_[o] = 0;
-        all = false;
+        state = state == State::set && has_to_heal(o, from) ? State::heals : State::near_itself;
+        if (state == State::near_itself) all = false;
     });
     return all;
 }

@@ -24,7 +24,7 @@ public:
 
     /// All are, until a step shows that one is not.
     void restart();
-    bool is_clear(std::size_t object) const { return is_clear_[object] != 0; }
+    bool is_clear(std::size_t object) const { return states_[object] != State::near_itself; }
 
     /// To be called when a step begins.
     /// @param is_near(object) whether a body that is not clear of itself is near itself
@@ -37,6 +37,12 @@ public:
     bool stay_clear(std::span<const Vec4<Real>> from, std::span<const Vec4<Real>> to);
 
 private:
+    enum class State : std::uint8_t {
+        set,    // clear, as far as is known, or passing through itself
+        heals,  // passing through itself since it was set
+        clear,
+        near_itself,
+    };
     // Convex bodies that keep kKept of all distances do not meet themselves; those that have come below, once
     // they keep kKeptAgain.
     static constexpr double kKept = 0.05, kKeptAgain = 0.15;
@@ -46,9 +52,9 @@ private:
     std::shared_ptr<const Model> model_;
     KeptDistances<Real> kept_;
     OwnGaps<Real> gaps_;
-    // By body: whether it passes through itself, or may since it was set; for how many steps it is not looked
-    // at whether it does, or whether it is clear again.
-    std::vector<std::uint8_t> is_clear_, heals_, was_set_, waits_;
+    std::vector<State> states_;  // by body
+    // For how many steps it is not looked at whether a body heals, or is near itself, any more.
+    std::vector<std::uint8_t> waits_;
 };
 
 template <class Real>
@@ -56,14 +62,14 @@ template <class IsNear>
 std::vector<std::uint32_t> ClearBodies<Real>::find(std::span<const Vec4<Real>> positions,
                                                    const IsNear& is_near) {
     std::vector<std::uint32_t> found;
-    for (std::uint32_t o = 0; o < is_clear_.size(); ++o) {
-        if (is_clear_[o] != 0) continue;
+    for (std::uint32_t o = 0; o < states_.size(); ++o) {
+        if (states_[o] != State::near_itself) continue;
         if (waits_[o] > 0) {
             --waits_[o];
             continue;
         }
         if (is_near(o) && !kept_.keeps(o, static_cast<Real>(kKeptAgain), positions)) continue;
-        is_clear_[o] = 1;
+        states_[o] = State::clear;
         found.push_back(o);
     }
     return found;

@@ -258,8 +258,10 @@ void Contacts<Real>::detect_where_needed(std::span<const Vec4<Real>> positions, 
     if (!clear_) return;
     detect_own(
         positions, [&](std::uint32_t o) { return uses_own_room(o, positions); },
-        [&](std::uint32_t, std::uint32_t place, std::uint32_t node) {
-            return list_.own.used_by(place, Vec3<Real>(positions[node]));
+        [&](std::uint32_t o) {
+            return restless_places(o, [&](std::uint32_t place, std::uint32_t node) {
+                return list_.own.used_by(place, Vec3<Real>(positions[node]));
+            });
         },
         timer);
 }
@@ -295,13 +297,26 @@ template <class Real>
 bool Contacts<Real>::look_at_restless(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
                                       StageTimer* timer) {
     if (!guard_.lacks_own_room()) return false;
-    const auto uses = [&](std::uint32_t o, std::uint32_t place, std::uint32_t node) {
-        if (!list_.own.keeps(o, Real(kFreshMap))) return Real(1);
-        return std::max(list_.own.used_by(place, Vec3<Real>(positions[node])),
-                        guard_.used_at_end(o, list_, place, Vec3<Real>(ends[node])));
+    const auto places_of = [&](std::uint32_t o) {
+        if (!list_.own.keeps(o, Real(kFreshMap))) return std::vector<std::uint32_t>();  // a new map is better
+        return restless_places(o, [&](std::uint32_t place, std::uint32_t node) {
+            return std::max(list_.own.used_by(place, Vec3<Real>(positions[node])),
+                            guard_.used_at_end(o, list_, place, Vec3<Real>(ends[node])));
+        });
     };
     return detect_own(
-        positions, [&](std::uint32_t o) { return is_restless(o, positions); }, uses, timer);
+        positions, [&](std::uint32_t o) { return is_restless(o, positions); }, places_of, timer);
+}
+
+// Surface nodes of a body that use much of their rooms. @param uses(place, node): the part of its room
+template <class Real>
+template <class Uses>
+std::vector<std::uint32_t> Contacts<Real>::restless_places(std::uint32_t object, const Uses& uses) const {
+    std::vector<std::uint32_t> places;
+    const Range& all = list_.own.places(object);
+    for (std::uint32_t s = all.first; s < all.end(); ++s)
+        if (uses(s, model_->surface_parts.nodes[s]) > Real(kRestless)) places.push_back(s);
+    return places;
 }
 
 // The map follows. What it does not explain is looked at again.
@@ -313,13 +328,13 @@ bool Contacts<Real>::uses_own_room(std::uint32_t object, std::span<const Vec4<Re
     return own.used(object, positions) > Real(kUsedOwnRoom);
 }
 
-// Looks at bodies that meet themselves: at nodes that use much of their rooms, with what is near them.
-// @param uses(object, place, node): the part of its room
+// Looks at bodies that meet themselves. @param is_one(object) whether at this one
+// @param places_of(object) at which surface nodes, with what is near them; none: at all
 // @return whether it looked at any
 template <class Real>
-template <class IsOne, class Uses>
-bool Contacts<Real>::detect_own(std::span<const Vec4<Real>> positions, const IsOne& is_one, const Uses& uses,
-                                StageTimer* timer) {
+template <class IsOne, class PlacesOf>
+bool Contacts<Real>::detect_own(std::span<const Vec4<Real>> positions, const IsOne& is_one,
+                                const PlacesOf& places_of, StageTimer* timer) {
     const TimedStage part(timer, "advance_nodes.detect_own");
     std::vector<OwnLook> looks(model_->body_count());
     std::vector<std::uint8_t> looks_at(looks.size());
@@ -327,10 +342,7 @@ bool Contacts<Real>::detect_own(std::span<const Vec4<Real>> positions, const IsO
         const auto o = static_cast<std::uint32_t>(k);
         looks_at[o] = list_.own.meets_itself(o) && (!list_.own.is_found(o) || is_one(o)) ? 1 : 0;
         looks[o].object = o;
-        if (looks_at[o] == 0 || !list_.own.is_found(o)) return;
-        const Range& all = list_.own.places(o);
-        for (std::uint32_t s = all.first; s < all.end(); ++s)
-            if (uses(o, s, model_->surface_parts.nodes[s]) > Real(kRestless)) looks[o].places.push_back(s);
+        if (looks_at[o] != 0 && list_.own.is_found(o)) looks[o].places = places_of(o);
     });
     std::erase_if(looks, [&](const OwnLook& look) { return looks_at[look.object] == 0; });
     if (looks.empty()) return false;

@@ -131,9 +131,11 @@ private:
     // @param ends where nodes are expected to go; empty: nowhere
     void detect(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends, StageTimer* timer);
     bool uses_own_room(std::uint32_t object, std::span<const Vec4<Real>> positions);
-    template <class IsOne, class Uses>
-    bool detect_own(std::span<const Vec4<Real>> positions, const IsOne& is_one, const Uses& uses,
+    template <class IsOne, class PlacesOf>
+    bool detect_own(std::span<const Vec4<Real>> positions, const IsOne& is_one, const PlacesOf& places_of,
                     StageTimer* timer);
+    template <class Uses>
+    std::vector<std::uint32_t> restless_places(std::uint32_t object, const Uses& uses) const;
     void aim(std::span<const Vec4<Real>> positions, StageTimer* timer);
     template <class Value>
     Real greatest_at_nodes(const Value& value);

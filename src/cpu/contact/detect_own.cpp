@@ -1,14 +1,12 @@
 #include "cpu/contact/detect_own.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <numeric>
 #include <utility>
 
 #include "cpu/collision/walk_tree.h"
+#include "cpu/contact/lower_to.h"
 #include "cpu/contact/near_objects.h"
 #include "model/corners.h"
 #include "model/for_each_index.h"
@@ -25,16 +23,6 @@ constexpr double kSearched = 0.55, kLeastSearched = 1.1;
 constexpr double kNearer = 0.6, kAlways = 0.4;
 // Cells of the lattice of a body's map, over the body's thickness, which is a twentieth of an edge.
 constexpr double kCell = 80.0;
-constexpr std::size_t kLeavesATask = 32;
-
-// The same whatever the order.
-template <class Real>
-void lower_to(Real& value, Real least) {
-    std::atomic_ref<Real> shared(value);
-    Real seen = shared.load(std::memory_order_relaxed);
-    while (least < seen && !shared.compare_exchange_weak(seen, least, std::memory_order_relaxed)) {
-    }
-}
 
 }  // namespace
 
@@ -137,15 +125,10 @@ template <class Real>
 void DetectOwn<Real>::search(std::uint32_t object, std::span<const std::uint32_t> leaves,
                              OwnRooms<Real>& rooms) {
     const auto has_changed = [&](std::uint32_t n) { return this->has_changed(n); };
-    const std::size_t tasks = (leaves.size() + kLeavesATask - 1) / kLeavesATask;
-    tbb::parallel_for(std::size_t(0), tasks, [&](std::size_t task) {
-        Search search;
-        const std::size_t first = task * kLeavesATask, count = std::min(kLeavesATask, leaves.size() - first);
-        for_walks(leaves.subspan(first, count), [&](std::span<const std::uint32_t> walk) {
-            boxes_.find_near(object, walk, has_changed, search.around);
-            for (const std::uint32_t leaf : walk)
-                search_leaf(leaf, static_cast<Real>(listed(object)), search, found_[leaf]);
-        });
+    for_walks<Search>(leaves, [&](std::span<const std::uint32_t> walk, Search& search) {
+        boxes_.find_near(object, walk, has_changed, search.around);
+        for (const std::uint32_t leaf : walk)
+            search_leaf(leaf, static_cast<Real>(listed(object)), search, found_[leaf]);
     });
     const Range& places = rooms.places(object);
     for (std::uint32_t s = places.first; s < places.end(); ++s) rooms.set_apart(s, apart_[s]);

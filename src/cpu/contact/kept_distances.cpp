@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 #include <utility>
 
+#include "cpu/contact/moment_between.h"
 #include "cpu/scalars.h"
 #include "model/nearest_rotation.h"
 
@@ -147,18 +148,9 @@ bool KeptDistances<Real>::keeps(const Shape& shape, Real part, std::span<const V
 template <class Real>
 glm::mat<3, 3, Real> KeptDistances<Real>::nearest_turn(std::uint32_t object,
                                                        std::span<const Vec4<Real>> positions) const {
-    const Range& nodes = model_->objects[object].nodes;
-    const glm::dvec3 first(model_->positions[nodes.first]), first_now(positions[nodes.first]);
-    glm::dvec3 sum(0.0), sum_now(0.0);
-    glm::dmat3 moment(0.0);
-    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
-        const glm::dvec3 at = glm::dvec3(model_->positions[n]) - first,
-                         now = glm::dvec3(positions[n]) - first_now;
-        sum += at;
-        sum_now += now;
-        moment += glm::outerProduct(now, at);
-    }
-    moment -= glm::outerProduct(sum_now, sum) / static_cast<double>(nodes.count);
+    const auto at_start = [&](std::uint32_t n) { return glm::vec3(model_->positions[n]); };
+    const auto now = [&](std::uint32_t n) { return Vec3<Real>(positions[n]); };
+    const glm::dmat3 moment = moment_between(model_->objects[object].nodes, at_start, now).moment;
     return glm::mat<3, 3, Real>(nearest_rotation(moment));
 }
 

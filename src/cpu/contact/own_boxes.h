@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -74,18 +76,24 @@ private:
     std::vector<AxisBox<Real>> node_boxes_, edge_boxes_, face_boxes_, tree_boxes_;
 };
 
-/// Leaves beside each other, whose surroundings are looked for at once: visit(those of a walk).
-template <class Visit>
+/// Leaves beside each other, whose surroundings are looked for at once: visit(walk, state) for each such
+/// walk, on several threads, each of which has a state of its own.
+template <class State, class Visit>
 void for_walks(std::span<const std::uint32_t> leaves, const Visit& visit) {
-    constexpr std::size_t kLeavesAWalk = 8;
-    for (std::size_t first = 0; first < leaves.size();) {
-        std::size_t count = 1;  // others may be far apart
-        while (count < kLeavesAWalk && first + count < leaves.size() &&
-               leaves[first + count] == leaves[first] + count)
-            ++count;
-        visit(leaves.subspan(first, count));
-        first += count;
-    }
+    constexpr std::size_t kLeavesAWalk = 8, kLeavesATask = 32;
+    tbb::parallel_for(std::size_t(0), (leaves.size() + kLeavesATask - 1) / kLeavesATask,
+                      [&](std::size_t task) {
+                          State state;
+                          const std::size_t end = std::min((task + 1) * kLeavesATask, leaves.size());
+                          for (std::size_t first = task * kLeavesATask; first < end;) {
+                              std::size_t count = 1;  // others may be far apart
+                              while (count < kLeavesAWalk && first + count < end &&
+                                     leaves[first + count] == leaves[first] + count)
+                                  ++count;
+                              visit(leaves.subspan(first, count), state);
+                              first += count;
+                          }
+                      });
 }
 
 template <class Real>

@@ -11,6 +11,8 @@
 
 #include "cpu/collision/triangle_overlap.h"
 #include "cpu/contact/least_stretch.h"
+#include "cpu/contact/lower_to.h"
+#include "cpu/contact/moment_between.h"
 #include "cpu/contact/nearest_pairs.h"
 #include "model/for_each_index.h"
 #include "model/nearest_rotation.h"
@@ -18,7 +20,6 @@
 namespace gelatin::cpu {
 namespace {
 
-constexpr std::size_t kLeavesATask = 32;
 // How far others are looked for, over the thickness of the surface, which is a twentieth of its median edge:
 // the farther, the larger rooms are, and the longer a look takes.
 constexpr double kSearched = 8.0, kSearchedAtStart = 20.0;
@@ -31,15 +32,6 @@ constexpr double kNear = 2.0;
 constexpr double kFlat = 1e-6;
 // Of a way, where it does not tell as a whole that a gap stays open.
 constexpr int kParts = 16;
-
-// The same whatever the order.
-template <class Real>
-void lower_to(Real& value, Real least) {
-    std::atomic_ref<Real> shared(value);
-    Real seen = shared.load(std::memory_order_relaxed);
-    while (least < seen && !shared.compare_exchange_weak(seen, least, std::memory_order_relaxed)) {
-    }
-}
 
 // What is left of a gap on the way of its nodes, along the line between the nearest points where it was
 // measured. @param sign 1: the way leads on from there; -1: it has led there
@@ -91,18 +83,13 @@ bool OwnGaps<Real>::hold(std::uint32_t object, std::span<const Vec4<Real>> posit
     const Shape& shape = shapes_[object];
     if (shape.inverse_moment == glm::dmat3(0.0)) return false;
     const std::vector<std::uint32_t>& nodes = model_->surface_parts.nodes;
-    const Vec3<Real> first(positions[nodes[shape.places.first]]);
-    glm::dvec3 sum(0.0);
-    glm::dmat3 moment(0.0);
-    for (std::uint32_t s = shape.places.first; s < shape.places.end(); ++s) {
-        const glm::dvec3 at(Vec3<Real>(positions[nodes[s]]) - first);
-        sum += at;
-        moment += glm::outerProduct(at, glm::dvec3(starts_[nodes[s]]));
-    }
-    const glm::dmat3 exact = moment * shape.inverse_moment;
+    const MomentBetween between = moment_between(
+        shape.places, [&](std::uint32_t s) { return Vec3<Real>(starts_[nodes[s]]); },
+        [&](std::uint32_t s) { return Vec3<Real>(positions[nodes[s]]); });
+    const glm::dmat3 exact = between.moment * shape.inverse_moment;
     const auto linear = glm::mat<3, 3, Real>(exact);
     const auto least = static_cast<Real>(std::min(least_stretch(exact), 1.0));
-    const Vec3<Real> middle = first + Vec3<Real>(sum / static_cast<double>(shape.places.count));
+    const Vec3<Real> middle(between.middle_b);
     const Real lost = (Real(1) - least) * static_cast<Real>(reach(object));
     for (std::uint32_t s = shape.places.first; s < shape.places.end(); ++s) {
         const Vec3<Real> deviation =
@@ -151,20 +138,14 @@ bool OwnGaps<Real>::all_walks(std::uint32_t object, const Test& test) const {
     const Range range = boxes_.leaves_of(object);
     std::vector<std::uint32_t> leaves(range.count);
     std::iota(leaves.begin(), leaves.end(), range.first);
+    const auto not_twice = [](std::uint32_t) { return false; };
     std::atomic<bool> all = true;
-    tbb::parallel_for(std::size_t(0), (leaves.size() + kLeavesATask - 1) / kLeavesATask,
-                      [&](std::size_t task) {
-                          const auto not_twice = [](std::uint32_t) { return false; };
-                          typename OwnBoxes<Real>::Near near;
-                          const std::size_t first = task * kLeavesATask,
-                                            count = std::min(kLeavesATask, leaves.size() - first);
-                          for_walks(std::span<const std::uint32_t>(leaves).subspan(first, count),
-                                    [&](std::span<const std::uint32_t> walk) {
-                                        if (!all.load(std::memory_order_relaxed)) return;
-                                        boxes_.find_near(object, walk, not_twice, near);
-                                        if (!test(walk, near)) all = false;
-                                    });
-                      });
+    using Near = typename OwnBoxes<Real>::Near;
+    for_walks<Near>(leaves, [&](std::span<const std::uint32_t> walk, Near& near) {
+        if (!all.load(std::memory_order_relaxed)) return;
+        boxes_.find_near(object, walk, not_twice, near);
+        if (!test(walk, near)) all = false;
+    });
     return all;
 }
 
@@ -191,27 +172,16 @@ void OwnGaps<Real>::find_ways(std::uint32_t object, std::span<const Vec4<Real>> 
                               std::span<const Vec4<Real>> to) {
     const std::vector<std::uint32_t>& nodes = model_->surface_parts.nodes;
     Shape& shape = shapes_[object];
-    const std::uint32_t first = shape.places.first, end = shape.places.end();
-    const glm::dvec3 origin(from[nodes[first]]), origin_after(to[nodes[first]]);
-    glm::dvec3 sum(0.0), sum_after(0.0);
-    glm::dmat3 square(0.0), moment(0.0);
-    for (std::uint32_t s = first; s < end; ++s) {
-        const glm::dvec3 before = glm::dvec3(from[nodes[s]]) - origin,
-                         after = glm::dvec3(to[nodes[s]]) - origin_after;
-        sum += before;
-        sum_after += after;
-        square += glm::outerProduct(before, before);
-        moment += glm::outerProduct(after, before);
-    }
-    const auto count = static_cast<double>(shape.places.count);
-    square -= glm::outerProduct(sum, sum) / count;
-    moment -= glm::outerProduct(sum_after, sum) / count;
+    const auto before = [&](std::uint32_t s) { return Vec3<Real>(from[nodes[s]]); };
+    const glm::dmat3 square = moment_between(shape.places, before, before).moment;
+    const MomentBetween between =
+        moment_between(shape.places, before, [&](std::uint32_t s) { return Vec3<Real>(to[nodes[s]]); });
     const double mean = (square[0][0] + square[1][1] + square[2][2]) / 3.0;
     const bool is_flat = !(glm::determinant(square) > kFlat * mean * mean * mean);
     shape.inverse_moment = is_flat ? glm::dmat3(0.0) : glm::inverse(square);
-    const auto back = glm::mat<3, 3, Real>(glm::transpose(nearest_rotation(moment)));
-    const Vec3<Real> middle(origin + sum / count), middle_after(origin_after + sum_after / count);
-    for (std::uint32_t s = first; s < end; ++s) {
+    const auto back = glm::mat<3, 3, Real>(glm::transpose(nearest_rotation(between.moment)));
+    const Vec3<Real> middle(between.middle_a), middle_after(between.middle_b);
+    for (std::uint32_t s = shape.places.first; s < shape.places.end(); ++s) {
         const std::uint32_t n = nodes[s];
         const Vec3<Real> start = Vec3<Real>(from[n]) - middle;
         starts_[n] = Vec4<Real>(start, Real(0));
