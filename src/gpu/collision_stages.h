@@ -52,8 +52,9 @@ struct Collision {
                 Self{SelfCollisionBuffers(model), FindSelfCollisions(model), RespondToSelf(model, settings)});
         }
         if (settings.proximity_radius) {
-            near.emplace(Near{ProximityBuffers(model, buffers),
-                              FindProximities(*settings.proximity_radius, settings.self_collision.value_or(false))});
+            near.emplace(
+                Near{ProximityBuffers(model, buffers),
+                     FindProximities(*settings.proximity_radius, settings.self_collision.value_or(false))});
         }
     }
 };

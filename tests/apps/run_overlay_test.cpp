@@ -85,7 +85,8 @@ TEST_F(RunOverlaysDrawnHeavy, AreTheSameOnBothBackends) {
 // A block on a floor that does not meet itself, whose forces the CPU finds alone. Elsewhere a line says so.
 TEST_F(RunOverlaysDrawnHeavy, ContactForcesNeedTheCpu) {
     write("block.toml",
-          "[simulation]\nframes = 30\n[collision]\nself_collision = false\n[[material]]\nname = 'jelly'\n[[collider]]\nshape = { plane = [0, 1, "
+          "[simulation]\nframes = 30\n[collision]\nself_collision = false\n[[material]]\nname = "
+          "'jelly'\n[[collider]]\nshape = { plane = [0, 1, "
           "0] }\n"
           "[[object]]\nname = 'block'\nshape = { box = [0.4, 0.4, 0.4], segments = [3, 3, 3] }\n"
           "position = [0, 0.2, 0]\n");

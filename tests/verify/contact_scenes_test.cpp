@@ -34,9 +34,9 @@ public:
             for (std::size_t n = 0; 3 * n < now_.positions.size(); ++n)
                 positions.emplace_back(now_.positions[3 * n], now_.positions[3 * n + 1],
                                        now_.positions[3 * n + 2], 0.0f);
-            const test::Overlaps which =
-                simulator_.scene().collision.self_collision.value_or(true) ? test::Overlaps::all
-                                                                     : test::Overlaps::between;
+            const test::Overlaps which = simulator_.scene().collision.self_collision.value_or(true)
+                                             ? test::Overlaps::all
+                                             : test::Overlaps::between;
             ASSERT_EQ(test::count_overlaps(model_of(simulator_), positions, which), 0u)
                 << "frame " << simulator_.frame();
         }
