@@ -11,6 +11,7 @@
 #include "cpu/collision/triangle_overlap.h"
 #include "cpu/collision/walk_tree.h"
 #include "model/collision/face_collision_words.h"
+#include "model/for_each_index.h"
 
 namespace gelatin::cpu {
 namespace {
@@ -37,6 +38,7 @@ Collision<Real>::Collision(std::shared_ptr<const Model> model, BroadPhase broad_
       broad_phase_(broad_phase),
       detection_(detection),
       margin_(margin),
+      node_boxes_(model_->node_count()),
       face_boxes_(model_->faces.size()),
       tree_boxes_(model_->face_trees.nodes.size()),
       bounding_boxes_(model_->objects.size()),
@@ -48,15 +50,21 @@ template <class Real>
 void Collision<Real>::update_boxes(std::span<const Vec4<Real>> positions,
                                    std::span<const Vec4<Real>> previous) {
     const bool continuous = detection_ == CollisionDetection::continuous;
+    const std::vector<std::uint32_t>& nodes = model_->surface_parts.nodes;
+    for_each_index(nodes.size(), [&](std::size_t s) {
+        const std::uint32_t n = nodes[s];
+        AxisBox<Real> box;
+        box.add(Vec3<Real>(positions[n]), margin_);
+        if (continuous) box.add(Vec3<Real>(previous[n]), margin_);
+        node_boxes_[n] = box;
+    });
     const auto faces = static_cast<std::uint32_t>(model_->faces.size());
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, faces, kFacesATask), [&](const auto& range) {
         for (std::uint32_t f = range.begin(); f < range.end(); ++f) {
             const Face& face = model_->faces[f];
-            AxisBox<Real> box;
-            for (const std::uint32_t n : {face.a, face.b, face.c}) {
-                box.add(Vec3<Real>(positions[n]), margin_);
-                if (continuous) box.add(Vec3<Real>(previous[n]), margin_);
-            }
+            AxisBox<Real> box = node_boxes_[face.a];
+            box.add(node_boxes_[face.b]);
+            box.add(node_boxes_[face.c]);
             face_boxes_[f] = box;
         }
     });

@@ -30,7 +30,8 @@ public:
                        CollisionDetection detection = CollisionDetection::discrete,
                        const BoxMargin<Real>& margin = {});
 
-    /// The box of each face, and of each object; with continuous detection over the whole step.
+    /// The box of each node and face of a surface, and of each object; with continuous detection over the
+    /// whole step.
     /// @param previous the positions at its start, which discrete detection does not read
     void update_boxes(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> previous = {});
 
@@ -42,6 +43,8 @@ public:
                               std::span<const Vec4<Real>> previous = {});
 
     const std::vector<AxisBox<Real>>& bounding_boxes() const { return bounding_boxes_; }
+    /// Of the nodes of surfaces, shape [nodes].
+    const std::vector<AxisBox<Real>>& node_boxes() const { return node_boxes_; }
     const std::vector<AxisBox<Real>>& face_boxes() const { return face_boxes_; }
     /// For the nodes of Model::face_trees.
     const std::vector<AxisBox<Real>>& tree_boxes() const { return tree_boxes_; }
@@ -74,6 +77,7 @@ private:
     BroadPhase broad_phase_;
     CollisionDetection detection_;
     BoxMargin<Real> margin_;
+    std::vector<AxisBox<Real>> node_boxes_;      // shape [nodes]
     std::vector<AxisBox<Real>> face_boxes_;      // shape [faces]
     std::vector<AxisBox<Real>> tree_boxes_;      // of Model::face_trees; shape [nodes]
     std::vector<AxisBox<Real>> bounding_boxes_;  // shape [objects]

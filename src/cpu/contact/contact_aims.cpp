@@ -63,7 +63,8 @@ void ContactAims<Real>::begin(Real step, std::span<const Vec4<Real>> targets,
 }
 
 template <class Real>
-void ContactAims<Real>::run(const ContactList<Real>& list, std::span<const Vec4<Real>> positions) {
+void ContactAims<Real>::run(const ContactList<Real>& list, std::span<const Vec4<Real>> positions,
+                            AimFor use) {
     const std::size_t pairs = list.pairs.size(), edges = pairs - list.first_edges;
     aims_.resize(pairs);
     grips_.resize(pairs);
@@ -77,18 +78,23 @@ void ContactAims<Real>::run(const ContactList<Real>& list, std::span<const Vec4<
             is_edges ? list.first_edges + (task - node_tasks) * kPairsATask : task * kPairsATask;
         const std::size_t end = std::min(begin + kPairsATask, is_edges ? pairs : list.first_edges);
         aim_pairs(list, {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin)},
-                  positions, found_[task]);
+                  positions, use, found_[task]);
     });
     presses_.clear();
     for (const std::vector<Press<Real>>& found : found_)
         presses_.insert(presses_.end(), found.begin(), found.end());
+    if (use == AimFor::guess) {
+        nodes_.stay(positions);
+        return;
+    }
     nodes_.share(list, presses_);
     nodes_.select(list, positions);
 }
 
 template <class Real>
 void ContactAims<Real>::aim_pairs(const ContactList<Real>& list, const Range& pairs,
-                                  std::span<const Vec4<Real>> positions, std::vector<Press<Real>>& presses) {
+                                  std::span<const Vec4<Real>> positions, AimFor use,
+                                  std::vector<Press<Real>>& presses) {
     const FeasibleRegion<Real> region(*model_, *surface_, positions);
     const auto aim = [&](std::size_t index, const MeasuredPairs<Real>& measured, std::size_t k) {
         const std::uint32_t p = pairs.first + static_cast<std::uint32_t>(index);
@@ -100,7 +106,7 @@ void ContactAims<Real>::aim_pairs(const ContactList<Real>& list, const Range& pa
         const Vec3<Real> normal = gap > Real(0) ? apart / gap : Vec3<Real>(0);
         const Division division = divide(pair, weights);
         aims_[p] = {normal, gap, division.yielding};
-        divide_gap(pair, measured, k, normal, pair_reach, division.share);
+        if (use == AimFor::sweeps) divide_gap(pair, measured, k, normal, pair_reach, division.share);
         const ContactSurface::Touch& touch = surface_->touch(pair.object, pair.other);
         const Real stiffness =
             static_cast<Real>(touch.stiffness) * division.stiffness * region.weight(pair, apart, weights);

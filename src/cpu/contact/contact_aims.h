@@ -22,6 +22,12 @@ struct PairAim {
     Real yielding;      ///< the part of the nodes' stiffness that is inertia, in (0, 1]
 };
 
+/// What follows an aim.
+enum class AimFor {
+    guess,   ///< a guarded move, which needs nothing but the pairs; then another aim
+    sweeps,  ///< nodes one by one
+};
+
 /// Aims the pairs of a list (docs/contact.md). To aim a pair means to freeze the direction between its
 /// nearest points, and to divide the gap between its sides by a plane. Until the next aim, each node has a
 /// half space of its own for each of its pairs and a convex term (ContactShare) which depends on nothing but
@@ -43,7 +49,8 @@ public:
     }
 
     /// Aims all pairs at `positions`. @pre they keep to the list
-    void run(const ContactList<Real>& list, std::span<const Vec4<Real>> positions);
+    void run(const ContactList<Real>& list, std::span<const Vec4<Real>> positions,
+             AimFor use = AimFor::sweeps);
 
     /// Carries what friction holds on to a new list, whose pairs have no aims yet. @param old those before
     void carry_over(const std::vector<ContactPair>& old, const ContactList<Real>& list);
@@ -76,7 +83,7 @@ private:
         Real stiffness, share, yielding;  // as of Press and PairAim
     };
     void aim_pairs(const ContactList<Real>& list, const Range& pairs, std::span<const Vec4<Real>> positions,
-                   std::vector<Press<Real>>& presses);
+                   AimFor use, std::vector<Press<Real>>& presses);
     Division divide(const ContactPair& pair, const Vec4<Real>& weights) const;
     void divide_gap(const ContactPair& pair, const MeasuredPairs<Real>& measured, std::size_t column,
                     const Vec3<Real>& normal, Real reach, Real share);

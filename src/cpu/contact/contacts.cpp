@@ -54,6 +54,14 @@ void Contacts<Real>::restart(std::span<const Vec4<Real>> positions) {
     std::fill(is_pressed_.begin(), is_pressed_.end(), std::uint8_t(0));
 }
 
+template <class Real>
+std::vector<std::uint8_t> Contacts<Real>::find_meeting(std::span<const Vec3<Real>> motions) const {
+    if (!list_.is_valid) return {};
+    std::vector<std::uint8_t> meeting = detection_.find_meeting(safe_, motions);
+    for (std::size_t o = 0; o < meeting.size(); ++o) meeting[o] |= is_pressed_[o];
+    return meeting;
+}
+
 // Of planes; held nodes stay.
 template <class Real>
 Vec4<Real> Contacts<Real>::outside(const Vec4<Real>& position) const {
@@ -72,7 +80,7 @@ bool Contacts<Real>::are_apart(Real step, const Nodes<Real>& nodes, StageTimer* 
         return glm::dot(velocity, velocity);
     });
     longest_ = static_cast<double>(step * std::sqrt(fastest));
-    detect_where_needed(safe_, timer);
+    detect_where_needed(safe_, {}, timer);
     return list_.pairs.empty();
 }
 
@@ -150,8 +158,11 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
     aims_.begin(step, targets, starts);
     guard_.begin(positions);
     set_longest(guess_, positions);
-    if (!is_aimed_ || !list_.is_valid || used_room(positions) > Real(kUsedRoom)) renew(positions, timer);
-    bool is_fresh = used_room(positions) < Real(kFreshRoom);
+    if (!is_aimed_ || !list_.is_valid || used_room(positions) > Real(kUsedRoom)) {
+        detect_where_needed(positions, guess_, timer);
+        aim(positions, AimFor::guess, timer);
+    }
+    bool is_fresh = used_room(positions) < Real(kFreshRoom), is_looked_at = false;
     const int most_moves =
         static_cast<int>(std::clamp(kMovesASecond * static_cast<double>(step), 1.0, kMostMoves));
     for (int moves = 0;;) {
@@ -159,19 +170,23 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
             const TimedStage part(timer, "advance_nodes.guess");
             guard_.drift(list_, aims_, guess_, positions);
             ends_ = guess_;
-            const bool is_free = guard_.plan(list_, aims_, positions, ends_, Closeness::guess);
-            if (is_free || is_fresh || !(guard_.lacks_room() || any_restless(positions))) {
+            const bool is_free =
+                guard_.plan(list_, aims_, positions, ends_, Closeness::guess, Movers::objects, {}, is_fresh);
+            const bool needs_more =
+                (guard_.lacks_room() && !is_fresh) || (!is_looked_at && any_restless(positions));
+            if (is_free || !needs_more) {
                 guard_.go(list_, ends_, false, positions);
                 ++moves;
-                is_fresh = false;
+                is_fresh = is_looked_at = false;
                 if (is_free || moves == most_moves) break;
             }
         }
-        const bool lacks_room = guard_.lacks_room();
+        const bool lacks_room = guard_.lacks_room() && !is_fresh;
         if (lacks_room) detect(positions, guess_, timer);
-        const bool looked = look_at_restless(positions, ends_, timer);
-        is_fresh = lacks_room || looked;
-        if (is_fresh) aim(positions, timer);
+        const bool looks = look_at_restless(positions, ends_, timer);
+        is_fresh |= lacks_room;
+        is_looked_at = true;
+        if (lacks_room || looks) aim(positions, AimFor::guess, timer);
     }
 }
 
@@ -188,7 +203,7 @@ bool Contacts<Real>::plan_rest(std::span<const Vec4<Real>> positions, std::span<
     };
     plan();
     if (look_at_restless(positions, ends_, timer)) {
-        aim(positions, timer);
+        aim(positions, AimFor::guess, timer);
         plan();
     }
     for_each_index(positions.size(), [&](std::size_t n) {
@@ -248,13 +263,14 @@ void Contacts<Real>::move(std::span<Vec4<Real>> ends, std::span<Vec4<Real>> posi
 
 template <class Real>
 void Contacts<Real>::renew(std::span<const Vec4<Real>> positions, StageTimer* timer) {
-    detect_where_needed(positions, timer);
-    aim(positions, timer);
+    detect_where_needed(positions, {}, timer);
+    aim(positions, AimFor::sweeps, timer);
 }
 
 template <class Real>
-void Contacts<Real>::detect_where_needed(std::span<const Vec4<Real>> positions, StageTimer* timer) {
-    if (!list_.is_valid || used_room(positions) > Real(kUsedRoom)) detect(positions, {}, timer);
+void Contacts<Real>::detect_where_needed(std::span<const Vec4<Real>> positions,
+                                         std::span<const Vec4<Real>> ends, StageTimer* timer) {
+    if (!list_.is_valid || used_room(positions) > Real(kUsedRoom)) detect(positions, ends, timer);
     if (!clear_) return;
     detect_own(
         positions, [&](std::uint32_t o) { return uses_own_room(o, positions); },
@@ -410,9 +426,9 @@ void Contacts<Real>::detect(std::span<const Vec4<Real>> positions, std::span<con
 }
 
 template <class Real>
-void Contacts<Real>::aim(std::span<const Vec4<Real>> positions, StageTimer* timer) {
+void Contacts<Real>::aim(std::span<const Vec4<Real>> positions, AimFor use, StageTimer* timer) {
     const TimedStage part(timer, "advance_nodes.aim");
-    aims_.run(list_, positions);
+    aims_.run(list_, positions, use);
     is_aimed_ = true;
 }
 

@@ -36,6 +36,10 @@ public:
     /// Whether the object pressed another one when the last step ended.
     bool was_pressed(std::size_t object) const { return is_pressed_[object] != 0; }
 
+    /// By body: whether it pressed another object then, or may do so on these motions of bodies [m]; empty
+    /// before the first detection.
+    std::vector<std::uint8_t> find_meeting(std::span<const Vec3<Real>> motions) const;
+
     /// Where a held node is when a step begins: where the last one ended; of a belt, from where its velocity
     /// would take it there [m].
     Vec3<Real> came_from(std::uint32_t node, Real step) const {
@@ -51,7 +55,8 @@ public:
     /// @return false if bodies may have met on the way: then it has to be made again, with contacts
     bool end_apart(std::span<const Vec4<Real>> positions, StageTimer* timer);
 
-    /// Begins a step: goes from where the last one ended as far to a first guess as that is safe.
+    /// Begins a step: goes from where the last one ended as far to a first guess as that is safe. Before
+    /// sweeps, renew() has to follow.
     /// @param targets as in StepState; they and `starts` must stay where they are until the end of the step
     /// @param positions input: the guess; output: where the sweeps begin
     void begin(Real step, std::span<const Vec4<Real>> targets, std::span<const Vec4<Real>> starts,
@@ -69,7 +74,7 @@ public:
     /// @param ends input; output: outside of planes
     void move(std::span<Vec4<Real>> ends, std::span<Vec4<Real>> positions);
 
-    /// Aims at the present positions, and detects before if nodes have come far.
+    /// Aims at the present positions for sweeps, and detects before if nodes have come far.
     void renew(std::span<const Vec4<Real>> positions, StageTimer* timer);
 
     /// Whether no body that is clear of itself has met itself in the step. @param positions where it leads
@@ -121,7 +126,8 @@ private:
     Vec4<Real> outside(const Vec4<Real>& position) const;
     void find_clear_bodies();
     bool is_near_itself(std::uint32_t object) const;
-    void detect_where_needed(std::span<const Vec4<Real>> positions, StageTimer* timer);
+    void detect_where_needed(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
+                             StageTimer* timer);
     void set_longest(std::span<const Vec4<Real>> ends, std::span<const Vec4<Real>> positions);
     std::vector<std::uint8_t> find_staying(std::span<const Vec4<Real>> positions) const;
     bool is_restless(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
@@ -136,7 +142,7 @@ private:
                     StageTimer* timer);
     template <class Uses>
     std::vector<std::uint32_t> restless_places(std::uint32_t object, const Uses& uses) const;
-    void aim(std::span<const Vec4<Real>> positions, StageTimer* timer);
+    void aim(std::span<const Vec4<Real>> positions, AimFor use, StageTimer* timer);
     template <class Value>
     Real greatest_at_nodes(const Value& value);
     Real used_room(std::span<const Vec4<Real>> positions);

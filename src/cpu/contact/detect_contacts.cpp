@@ -34,9 +34,9 @@ DetectContacts<Real>::DetectContacts(std::shared_ptr<const Model> model,
     : model_(std::move(model)),
       surface_(std::move(surface)),
       object_of_(objects_of_nodes(*model_)),
-      margin_(BoxMargin<Real>::for_distance(NearObjects<Real>::most_listed(*surface_))),
-      collision_(std::make_unique<Collision<Real>>(model_, BroadPhase::hierarchy,
-                                                   CollisionDetection::continuous, margin_)),
+      collision_(std::make_unique<Collision<Real>>(
+          model_, BroadPhase::hierarchy, CollisionDetection::continuous,
+          BoxMargin<Real>::for_distance(NearObjects<Real>::most_listed(*surface_)))),
       objects_(model_, *surface_, *collision_),
       own_(model_, surface_),
       ends_(model_->positions.begin(), model_->positions.end()),
@@ -157,11 +157,8 @@ void DetectContacts<Real>::find_edge_boxes(std::uint32_t leaf) {
     const std::uint32_t end = face_starts[faces.first_item + faces.item_count].y;
     for (std::uint32_t e = face_starts[faces.first_item].y; e < end; ++e) {
         const FaceEdge& edge = model_->surface_parts.edges[e];
-        AxisBox<Real> box;
-        for (const std::uint32_t n : {edge.a, edge.b}) {
-            box.add(Vec3<Real>(positions_[n]), margin_);
-            box.add(Vec3<Real>(ends_[n]), margin_);
-        }
+        AxisBox<Real> box = collision_->node_boxes()[edge.a];
+        box.add(collision_->node_boxes()[edge.b]);
         edge_boxes_[e] = box;
     }
 }
@@ -221,10 +218,7 @@ void DetectContacts<Real>::find_near(std::uint32_t object, const AxisBox<Real>& 
 template <class Real>
 void DetectContacts<Real>::pair_node(std::uint32_t place, Found& found) const {
     const std::uint32_t node = model_->surface_parts.nodes[place], object = object_of_[node];
-    AxisBox<Real> box;
-    box.add(Vec3<Real>(positions_[node]), margin_);
-    box.add(Vec3<Real>(ends_[node]), margin_);
-    found.faces.for_meeting(box, [&](std::uint32_t f) {
+    found.faces.for_meeting(collision_->node_boxes()[node], [&](std::uint32_t f) {
         const Face& face = model_->faces[f];
         found.waiting.push_back({{node, face.a, face.b, face.c},
                                  {},

@@ -35,6 +35,11 @@ public:
     /// Looks for pairs of single bodies, of which the others stay as they are.
     void run_own(std::span<const OwnLook> looks, std::span<const Vec4<Real>> positions,
                  ContactList<Real>& list);
+    /// NearObjects::find_meeting, of objects that were near each other in the last run.
+    std::vector<std::uint8_t> find_meeting(std::span<const Vec4<Real>> positions,
+                                           std::span<const Vec3<Real>> motions) const {
+        return objects_.find_meeting(positions, motions);
+    }
     /// Forgets the pairs of single bodies, or of one: lists have them until the next run.
     void restart() { own_.restart(); }
     void forget_own(std::uint32_t object) { own_.forget(object); }
@@ -79,7 +84,6 @@ private:
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
     std::vector<std::uint32_t> object_of_;  // by node
-    BoxMargin<Real> margin_;
     std::unique_ptr<Collision<Real>> collision_;
     NearObjects<Real> objects_;
     DetectOwn<Real> own_;

@@ -59,7 +59,8 @@ void GuardedMove<Real>::begin(std::span<const Vec4<Real>> positions) {
 template <class Real>
 bool GuardedMove<Real>::plan(const ContactList<Real>& list, const ContactAims<Real>& aims,
                              std::span<const Vec4<Real>> positions, std::span<Vec4<Real>> ends,
-                             Closeness closeness, Movers movers, std::span<const std::uint8_t> is_rigid) {
+                             Closeness closeness, Movers movers, std::span<const std::uint8_t> is_rigid,
+                             bool is_final) {
     movers_ = movers;
     own_.begin();
     if (movers == Movers::nodes) {
@@ -73,6 +74,7 @@ bool GuardedMove<Real>::plan(const ContactList<Real>& list, const ContactAims<Re
     const bool may_shift = limit_common_motions(list);
     keep_to_rooms(list, aims, positions, ends);
     room_parts_ = parts_;
+    if (!is_final && lacks_room()) return false;
     find_courses(list, aims, positions, ends, closeness);
     keep_pairs_apart(list);
     keep_from_themselves(list, aims, positions, ends, closeness, is_rigid);

@@ -47,10 +47,12 @@ public:
     /// Finds how much of the way to `ends` each mover may go.
     /// @param ends if nodes are movers, output, too: in their rooms in their own bodies
     /// @param is_rigid by object: not 0 if its ends are a rigid motion; empty: none are
+    /// @param is_final false: where rooms are in the way, no more than that is found, and there is no move
     /// @return false if movers may go farther after this move and another detection
     bool plan(const ContactList<Real>& list, const ContactAims<Real>& aims,
               std::span<const Vec4<Real>> positions, std::span<Vec4<Real>> ends, Closeness closeness,
-              Movers movers = Movers::objects, std::span<const std::uint8_t> is_rigid = {});
+              Movers movers = Movers::objects, std::span<const std::uint8_t> is_rigid = {},
+              bool is_final = true);
 
     /// Whether all objects may make all of their way. If so, go() makes it.
     /// @pre nothing is listed

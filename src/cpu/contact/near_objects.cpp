@@ -53,20 +53,35 @@ void NearObjects<Real>::run(std::span<const Vec4<Real>> positions, const Expecte
     island_distance_ = 4.0 * (listed_ + 3.0 * expected.longest);
     list.most_shift = static_cast<Real>(kShifted * island_distance_);
     positions_ = positions;
-    find_boxes();
+    boxes_ = boxes_at(positions);
     find_near_objects();
     find_islands(list);
     find_drifts(expected, list);
 }
 
 template <class Real>
-void NearObjects<Real>::find_boxes() {
-    tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
+std::vector<AxisBox<Real>> NearObjects<Real>::boxes_at(std::span<const Vec4<Real>> positions) const {
+    std::vector<AxisBox<Real>> boxes(model_->objects.size());
+    tbb::parallel_for(std::size_t(0), boxes.size(), [&](std::size_t o) {
         const Range& nodes = model_->objects[o].nodes;
-        boxes_[o] = {};
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-            boxes_[o].add(Vec3<Real>(positions_[n]), margin_);
+            boxes[o].add(Vec3<Real>(positions[n]), margin_);
     });
+    return boxes;
+}
+
+template <class Real>
+std::vector<std::uint8_t> NearObjects<Real>::find_meeting(std::span<const Vec4<Real>> positions,
+                                                          std::span<const Vec3<Real>> motions) const {
+    const std::vector<AxisBox<Real>> boxes = boxes_at(positions);
+    std::vector<std::uint8_t> meeting(model_->body_count());
+    tbb::parallel_for(std::size_t(0), meeting.size(), [&](std::size_t o) {
+        meeting[o] = std::any_of(near_[o].begin(), near_[o].end(), [&](std::uint32_t other) {
+            return !model_->is_body(other) ||
+                   meet(swept(boxes[o], motions[o] - motions[other]), boxes[other]);
+        });
+    });
+    return meeting;
 }
 
 template <class Real>

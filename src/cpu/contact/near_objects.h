@@ -59,6 +59,11 @@ public:
         return by_distance_[object];
     }
 
+    /// By body: whether it comes near enough to another object to press it, as boxes of bodies that go
+    /// straight tell. Beside colliders it may. @param motions of bodies [m]
+    std::vector<std::uint8_t> find_meeting(std::span<const Vec4<Real>> positions,
+                                           std::span<const Vec3<Real>> motions) const;
+
     /// What an object's island does [m].
     const Vec3<Real>& drift(std::uint32_t object) const { return drifts_[object]; }
     /// The same as another object sees it. Bodies of one island go together.
@@ -79,7 +84,7 @@ public:
     Real squared_gap(const AxisBox<Real>& box, const Vec3<Real>& drift, std::uint32_t leaf) const;
 
 private:
-    void find_boxes();
+    std::vector<AxisBox<Real>> boxes_at(std::span<const Vec4<Real>> positions) const;
     void find_near_objects();
     bool reaches(std::uint32_t collider, const AxisBox<Real>& box, Real most) const;
     void find_islands(ContactList<Real>& list);

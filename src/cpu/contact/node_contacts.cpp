@@ -82,6 +82,16 @@ void NodeContacts<Real>::select(const ContactList<Real>& list, std::span<const V
     });
 }
 
+template <class Real>
+void NodeContacts<Real>::stay(std::span<const Vec4<Real>> positions) {
+    const std::vector<std::uint32_t>& nodes = model_->surface_parts.nodes;
+    for_each_index(nodes.size(), [&](std::size_t s) {
+        free_[nodes[s]] = Vec4<Real>(Vec3<Real>(positions[nodes[s]]), Real(-1));
+        is_stuck_[s] = 1;
+    });
+    std::fill(presses_.begin(), presses_.end(), std::uint8_t(0));
+}
+
 // Keeps of a node's planes those that it can reach within its room.
 template <class Real>
 void NodeContacts<Real>::select(const ContactList<Real>& list, std::uint32_t place,

@@ -58,6 +58,9 @@ public:
     /// Keeps the planes that nodes at `positions` can reach within their rooms.
     void select(const ContactList<Real>& list, std::span<const Vec4<Real>> positions);
 
+    /// Instead of these: no surface node may move until the next aim.
+    void stay(std::span<const Vec4<Real>> positions);
+
     /// Where a surface node was aimed [m].
     Vec3<Real> aimed_at(std::uint32_t node) const { return Vec3<Real>(free_[node]); }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -41,6 +42,15 @@ Real part_outside_planes(std::span<const Collider> colliders, const Vec3<Real>& 
     return part;
 }
 
+/// The least of any along a direction [m].
+template <class Real>
+Real least_height(std::span<const Vec4<Real>> positions, const Vec3<Real>& direction) {
+    Real least = std::numeric_limits<Real>::infinity();
+    for (const Vec4<Real>& position : positions)
+        least = std::min(least, glm::dot(direction, Vec3<Real>(position)));
+    return least;
+}
+
 /// Shortens the motions of islands, with all of their bodies' nodes, so.
 /// @param motions by island [m]
 template <class Real>
@@ -50,11 +60,15 @@ void keep_outside_planes(const Model& model, const ContactList<Real>& list,
     std::vector<Real> parts(motions.size(), Real(1));
     for (std::size_t o = 0; o < model.body_count(); ++o) {
         const std::uint32_t i = list.islands[o];
-        if (motions[i] == Vec3<Real>(0)) continue;
-        const Range& nodes = model.objects[o].nodes;
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-            parts[i] = std::min(
-                parts[i], part_outside_planes<Real>(model.colliders, Vec3<Real>(positions[n]), motions[i]));
+        for (const Collider& collider : model.colliders) {
+            const Vec3<Real> normal(collider.center);
+            const Real approach = -glm::dot(normal, motions[i]);
+            if (collider.kind != 0 || !(approach > Real(0))) continue;
+            const Range& nodes = model.objects[o].nodes;
+            const Real least = least_height(positions.subspan(nodes.first, nodes.count), normal) -
+                               static_cast<Real>(collider.center.w);
+            parts[i] = std::min(parts[i], std::max(least, Real(0)) / approach);
+        }
     }
     for (std::size_t i = 0; i < motions.size(); ++i) motions[i] *= parts[i];
 }

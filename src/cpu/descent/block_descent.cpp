@@ -16,6 +16,11 @@ namespace {
 // part lowers it by. A single sweep does not bring back what is left out of the motion: a hundredth of it in
 // each sixteenth of a frame would be a quarter of all energy.
 constexpr double kNearlyAll = 0.95;
+// Of a node's acceleration in the last step: what the guess of a soft body that others press goes on with.
+// With all of it an impact gives a little more back, but guesses are rough and list far more pairs.
+constexpr double kKeptAcceleration = 0.5;
+// A body is soft where a pressure wave takes more than so many steps through it.
+constexpr double kStepsAWave = 8.0;
 // A guess that tangles a body makes more than this part of its way, or nothing.
 constexpr double kLeastOfGuess = 0.1;
 
@@ -40,7 +45,7 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
       rigid_move_(model_),
       joint_move_(model_),
       rebound_(model_),
-      is_calm_(bodies_ ? model_->objects.size() : 0),
+      outlooks_(bodies_ ? model_->objects.size() : 0),
       device_(bodies_ ? device : nullptr) {
     if (settings_.coarse_level) coarse_.emplace(model_);
     if (coarse_ && coarse_->is_empty()) coarse_.reset();
@@ -70,7 +75,7 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
     const auto start_with = [&](const Contacts<Real>* acting) {
         const TimedStage part(timer, "advance_nodes.start");
         acting_ = acting;
-        if (acting_ != nullptr) find_calm_bodies(step, previous);
+        if (acting_ != nullptr) find_outlooks(step, parts > 1, previous);
         start(step, has_earlier, previous, load_forces, pulls, current);
         shorten_tangled(current.positions);
     };
@@ -136,13 +141,14 @@ void BlockDescent<Real>::for_batches(const Visit& visit) const {
     tbb::parallel_for(std::size_t(0), objective_.rows().batches.size(), visit);
 }
 
-// Bodies that press others and are slower than what gravity adds in two steps. For these, the best guess is
-// that they stay: a guess that presses them together would topple stacks.
+// Of bodies that press others. Those slower than what gravity adds in two steps stay: a guess that presses
+// them together would topple stacks. Others go on as they do; in short steps soft ones also with what bends
+// them, which sweeps that are that few hardly find.
 template <class Real>
-void BlockDescent<Real>::find_calm_bodies(Real step, const Nodes<Real>& previous) {
+void BlockDescent<Real>::find_outlooks(Real step, bool is_part, const Nodes<Real>& previous) {
     const double fast = 2.0 * static_cast<double>(step) * glm::length(glm::dvec3(model_->gravity));
-    tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
-        is_calm_[o] = 0;
+    tbb::parallel_for(std::size_t(0), model_->body_count(), [&](std::size_t o) {
+        outlooks_[o] = {};
         if (!bodies_->was_pressed(o)) return;
         glm::dvec3 momentum(0.0);
         double mass = 0.0;
@@ -152,7 +158,9 @@ void BlockDescent<Real>::find_calm_bodies(Real step, const Nodes<Real>& previous
             momentum += own * glm::dvec3(previous.velocities[n]);
             mass += own;
         }
-        is_calm_[o] = glm::length(momentum) < fast * mass ? 1 : 0;
+        if (glm::length(momentum) < fast * mass) return;
+        const bool is_soft = is_part && division_->wave_time(o) > kStepsAWave * static_cast<double>(step);
+        outlooks_[o] = {Real(1), is_soft ? Real(kKeptAcceleration) : Real(0)};
     });
 }
 
@@ -315,8 +323,11 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
                 ? glm::clamp(glm::dot(gained, gravity) / (earlier_step * squared), Real(0), Real(1))
                 : Real(1);
         Vec3<Real> guess = Vec3<Real>(from) + step * (velocity + step * felt * gravity);
-        if (acting_ != nullptr && acting_->was_pressed(contacts_.object_of[n]))
-            guess = Vec3<Real>(from) + (is_calm_[contacts_.object_of[n]] != 0 ? Real(0) : step) * velocity;
+        if (acting_ != nullptr && acting_->was_pressed(contacts_.object_of[n])) {
+            const Outlook& outlook = outlooks_[contacts_.object_of[n]];
+            guess = Vec3<Real>(from) + step * (outlook.velocity * velocity);
+            if (has_earlier) guess += step * step / earlier_step * (outlook.acceleration * gained);
+        }
         current.positions[n] = Vec4<Real>(guess, from.w);
     });
     contacts_.begin();

@@ -107,7 +107,7 @@ private:
     void make_moves(Real step, Positions& positions, StageTimer* timer);
     void shorten_tangled(Positions& positions) const;
     double objective(const ModelObject& object, const Positions& positions) const;
-    void find_calm_bodies(Real step, const Nodes<Real>& previous);
+    void find_outlooks(Real step, bool is_part, const Nodes<Real>& previous);
     void go_on_to_guess(Positions& positions, StageTimer* timer);
     void move_together(bool last, Positions& positions, StageTimer* timer);
     int end_of_run(int first) const;
@@ -136,8 +136,12 @@ private:
     JointMove<Real> joint_move_;
     RigidRebound<Real> rebound_;
     std::optional<SecantStep<Real>> secant_;
-    Positions ends_;                          // of bodies' motions
-    std::vector<std::uint8_t> is_calm_;       // by object: it presses another, and hardly moves
+    Positions ends_;  // of bodies' motions
+    // What the guess of a body that presses others has of its last step: its velocity, its acceleration.
+    struct Outlook {
+        Real velocity, acceleration;
+    };
+    std::vector<Outlook> outlooks_;           // by object
     std::optional<CoarseStep<Real>> coarse_;  // where there are clusters
     DeviceSweeps* device_;
     std::vector<glm::vec4> device_positions_;

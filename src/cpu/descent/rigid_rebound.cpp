@@ -192,12 +192,15 @@ typename RigidRebound<Real>::Body RigidRebound<Real>::measure(const Step& step, 
                                                               std::span<const Vec4<Real>> velocities) const {
     const Range& nodes = model_->objects[object].nodes;
     const glm::dvec3 origin(step.positions[nodes.first]);
-    RigidSums before, after;  // with masses for stiffnesses, and momenta for forces
+    RigidSums before;                     // with masses for stiffnesses, and momenta for forces
+    glm::dvec3 momentum(0.0), spin(0.0);  // after
     for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
         const glm::dvec3 arm = glm::dvec3(step.positions[n]) - origin;
         const double mass = 1.0 / static_cast<double>(step.positions[n].w);
         before.add(arm, mass, mass * glm::dvec3(step.before[n]));
-        after.add(arm, mass, mass * glm::dvec3(velocities[n]));
+        const glm::dvec3 own = mass * glm::dvec3(velocities[n]);
+        momentum += own;
+        spin += glm::cross(arm, own);
     }
     Body body;
     const glm::dvec3 center = before.arm / before.stiffness;
@@ -211,12 +214,12 @@ typename RigidRebound<Real>::Body RigidRebound<Real>::measure(const Step& step, 
     if (trace > 0.0)
         body.inverse_inertia =
             glm::inverse(glm::dmat3(own.x, -b.z, -b.y, -b.z, own.y, -b.x, -b.y, -b.x, own.z));
-    const auto twist = [&](const RigidSums& sums) {
-        return Twist{body.inverse_mass * sums.force,
-                     body.inverse_inertia * (sums.moment - glm::cross(center, sums.force))};
+    const auto twist = [&](const glm::dvec3& linear, const glm::dvec3& angular) {
+        return Twist{body.inverse_mass * linear,
+                     body.inverse_inertia * (angular - glm::cross(center, linear))};
     };
-    body.before = twist(before);
-    body.after = twist(after);
+    body.before = twist(before.force, before.moment);
+    body.after = twist(momentum, spin);
     return body;
 }
 

@@ -18,7 +18,7 @@ constexpr double kPartsAWave = 48.0;
 // help.
 constexpr double kWavesAnImpact = 8.0, kLeastParts = 2.0;
 // Contacts of all parts cost up to so much of what sweeps do: by nodes and pairs.
-constexpr double kPairsASweptNode = 2.0;
+constexpr double kPairsASweptNode = 1.3;
 
 }  // namespace
 
@@ -47,7 +47,7 @@ int StepDivision<Real>::parts(double step, std::span<const Vec4<Real>> velocitie
                               std::span<const std::uint8_t> touched_colliders, const Contacts<Real>* contacts,
                               int sweeps) {
     find_velocities(velocities);
-    find_speeds(touched_colliders, contacts);
+    find_speeds(step, touched_colliders, contacts);
     double parts = 1.0;
     for (std::size_t o = 0; o < speeds_.size(); ++o) {
         const double wave = wave_times_[o], impact = kWavesAnImpact * wave;
@@ -80,31 +80,37 @@ void StepDivision<Real>::find_velocities(std::span<const Vec4<Real>> velocities)
 }
 
 // Relative to the mean of the island; to what does not move, where something is held or a collider is
-// touched.
+// touched. None of bodies that meet nothing in this step.
 template <class Real>
-void StepDivision<Real>::find_speeds(std::span<const std::uint8_t> touched_colliders,
+void StepDivision<Real>::find_speeds(double step, std::span<const std::uint8_t> touched_colliders,
                                      const Contacts<Real>* contacts) {
-    const bool has_islands = contacts != nullptr && contacts->list().is_valid;
     const std::size_t objects = speeds_.size();
+    std::vector<std::uint8_t> meets;
+    if (contacts != nullptr) {
+        std::vector<Vec3<Real>> motions(objects);
+        for (std::size_t o = 0; o < objects; ++o) motions[o] = Vec3<Real>(step * velocities_[o]);
+        meets = contacts->find_meeting(motions);
+    }
+    const bool has_islands = !meets.empty();
+    meets.resize(objects);
     const auto island_of = [&](std::size_t o) { return has_islands ? contacts->list().islands[o] : o; };
     const std::size_t islands = has_islands ? contacts->list().shifts.size() : objects;
     std::vector<glm::dvec3> momenta(islands, glm::dvec3(0.0));
     std::vector<double> masses(islands);
-    std::vector<std::uint8_t> meets(islands), is_held(islands);
+    std::vector<std::uint8_t> is_held(islands);
     for (std::size_t o = 0; o < objects; ++o) {
         const std::size_t i = island_of(o);
         momenta[i] += masses_[o] * velocities_[o];
         masses[i] += masses_[o];
-        if (touched_colliders[o] != 0) meets[i] = is_held[i] = 1;
+        if (touched_colliders[o] != 0) meets[o] = is_held[i] = 1;
         if (!has_islands) continue;
-        if (!contacts->list().is_alone_at(o)) meets[i] = 1;
         if (contacts->is_held(o) || contacts->list().is_fixed[i] != 0) is_held[i] = 1;
     }
     for (std::size_t o = 0; o < objects; ++o) {
         const std::size_t i = island_of(o);
         const bool moves = is_held[i] == 0 && masses[i] > 0.0;
         const glm::dvec3 mean = moves ? momenta[i] / masses[i] : glm::dvec3(0.0);
-        speeds_[o] = meets[i] != 0 ? glm::length(velocities_[o] - mean) : 0.0;
+        speeds_[o] = meets[o] != 0 ? glm::length(velocities_[o] - mean) : 0.0;
     }
 }
 

@@ -26,9 +26,13 @@ public:
     int parts(double step, std::span<const Vec4<Real>> velocities,
               std::span<const std::uint8_t> touched_colliders, const Contacts<Real>* contacts, int sweeps);
 
+    /// That a pressure wave takes through a body [s].
+    double wave_time(std::size_t object) const { return wave_times_[object]; }
+
 private:
     void find_velocities(std::span<const Vec4<Real>> velocities);
-    void find_speeds(std::span<const std::uint8_t> touched_colliders, const Contacts<Real>* contacts);
+    void find_speeds(double step, std::span<const std::uint8_t> touched_colliders,
+                     const Contacts<Real>* contacts);
 
     std::shared_ptr<const Model> model_;
     // By object:
