@@ -45,7 +45,7 @@ private:
     };
     // Convex bodies that keep kKept of all distances do not meet themselves; those that have come below, once
     // they keep kKeptAgain.
-    static constexpr double kKept = 0.05, kKeptAgain = 0.15;
+    static constexpr double kKept = 0.01, kKeptAgain = 0.15;
 
     bool has_to_heal(std::uint32_t object, std::span<const Vec4<Real>> positions);
 

@@ -292,6 +292,43 @@ TEST(GuardedMove, AsksForRoomWhereThatHelps) {
     EXPECT_LT(contact.guard.part(1), 0.9f);
 }
 
+// A plan that rooms end is not made if another detection can follow.
+TEST(GuardedMove, LooksNoFurtherThanAtRoomsUnlessItIsFinal) {
+    Contact<float> contact(make_block_above(0.01));
+    const auto far_apart = [&](float way, bool is_final) {
+        auto ends = contact.positions;
+        for (std::size_t n = contact.model->objects[1].nodes.first; n < ends.size(); ++n) ends[n].y += way;
+        const bool is_free = contact.guard.plan(contact.list, contact.aims, contact.positions, ends,
+                                                cpu::Closeness::guess, cpu::Movers::objects, {}, is_final);
+        return std::pair(is_free, contact.guard.lacks_room());
+    };
+    EXPECT_EQ(far_apart(-0.5f, false), std::pair(false, true));
+    EXPECT_EQ(far_apart(-0.5f, true), std::pair(true, true));
+    EXPECT_EQ(far_apart(-0.012f, false), std::pair(true, false));  // in its room, but another is in the way
+    EXPECT_LT(contact.guard.part(1), 1.0f);
+}
+
+// They have no planes.
+TEST(ContactAims, LetNothingMoveThatWasAimedForAGuess) {
+    Contact<float> contact(make_block_above(0.01));
+    const auto count_moved = [&] {
+        std::size_t moved = 0;
+        for (const std::uint32_t n : contact.model->surface_parts.nodes) {
+            const glm::vec3 from(contact.positions[n]), to = from + glm::vec3(1e-5f, 0.0f, 0.0f);
+            moved += contact.aims.nodes().limited(contact.list, n, from, to, {}) != from ? 1 : 0;
+        }
+        return moved;
+    };
+    EXPECT_EQ(count_moved(), contact.model->surface_parts.nodes.size());
+    const std::vector<cpu::PairAim<float>> before = contact.aims.aims();
+    contact.aims.run(contact.list, contact.positions, cpu::AimFor::guess);
+    EXPECT_EQ(count_moved(), 0u);
+    ASSERT_EQ(contact.aims.aims().size(), before.size());
+    for (std::size_t p = 0; p < before.size(); ++p) EXPECT_EQ(contact.aims.aims()[p].gap, before[p].gap);
+    contact.aims.run(contact.list, contact.positions);
+    EXPECT_EQ(count_moved(), contact.model->surface_parts.nodes.size());
+}
+
 // What was above at the aim and is beside now is not separated along the direction of the aim any more.
 TEST(GuardedMove, FindsAnotherDirectionThanThatOfAnOldAim) {
     Contact<float> contact(make_block_above(0.01, 0.995));

@@ -193,7 +193,10 @@ TEST(StepDivision, IsForBodiesThatMeet) {
     EXPECT_EQ(most_of_impact(0.05, 2e5), 1u);
     EXPECT_LT(most_of_impact(3.0, 1e3), 8u);   // so soft that impacts take long
     EXPECT_EQ(most_of_impact(3.0, 1e10), 1u);  // so stiff that no part is short enough
-    // One that flies past, far away; and a lone one that falls on a floor, and comes to rest.
+    // Two that are near and fly past each other; one that flies past, far away; and a lone one that falls on
+    // a floor, and comes to rest.
+    const std::vector<Block> beside{{.velocity = {3, 0, 0}}, {.place = {-0.5, 0.5, 0}}};
+    EXPECT_EQ(most_parts(make_blocks(beside), 10).first, 1u);
     EXPECT_EQ(most_parts(make_blocks({{.velocity = {9, 0, 0}}, {.place = {0, 9, 0}}}), 10).first, 1u);
     ColliderDescription floor;
     floor.shape = PlaneCollider{};
