@@ -91,7 +91,7 @@ void StepDivision<Real>::find_speeds(double step, std::span<const std::uint8_t> 
         for (std::size_t o = 0; o < objects; ++o) motions[o] = Vec3<Real>(step * velocities_[o]);
         meets = contacts->find_meeting(motions);
     }
-    const bool has_islands = !meets.empty();
+    const bool has_islands = contacts != nullptr && !meets.empty();
     meets.resize(objects);
     const auto island_of = [&](std::size_t o) { return has_islands ? contacts->list().islands[o] : o; };
     const std::size_t islands = has_islands ? contacts->list().shifts.size() : objects;
