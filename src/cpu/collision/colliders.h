@@ -81,24 +81,19 @@ Vec3<Real> bounce(const Vec3<Real>& velocity, const Vec3<Real>& normal, Real fri
     return kept * tangential + rebound * normal;
 }
 
-/// Moves a node that is inside a collider to its surface and lets it bounce.
-template <class Real>
-void push_out(const Collider& collider, const SurfaceDistance<Real>& surface, Real resting_speed,
-              Vec4<Real>& position, Vec4<Real>& velocity) {
-    position -= Vec4<Real>(surface.distance * surface.normal, 0);
-    velocity = Vec4<Real>(bounce(Vec3<Real>(velocity), surface.normal, static_cast<Real>(collider.friction),
-                                 static_cast<Real>(collider.restitution), resting_speed),
-                          velocity.w);
-}
-
-/// The same for all colliders; the fourth components do not change. Small, to be inlined: most nodes are
-/// outside. GLSL twin: sim/collision/colliders.glsl.
+/// Moves a node that is inside a collider to its surface and lets it bounce; the fourth components do not
+/// change. GLSL twin: sim/collision/colliders.glsl.
 template <class Real>
 void resolve_colliders(std::span<const Collider> colliders, Real resting_speed, Vec4<Real>& position,
                        Vec4<Real>& velocity) {
     for (const Collider& collider : colliders) {
         const SurfaceDistance<Real> surface = surface_distance(collider, Vec3<Real>(position));
-        if (surface.distance < Real(0)) push_out(collider, surface, resting_speed, position, velocity);
+        if (surface.distance >= Real(0)) continue;
+        position -= Vec4<Real>(surface.distance * surface.normal, 0);
+        velocity =
+            Vec4<Real>(bounce(Vec3<Real>(velocity), surface.normal, static_cast<Real>(collider.friction),
+                              static_cast<Real>(collider.restitution), resting_speed),
+                       velocity.w);
     }
 }
 

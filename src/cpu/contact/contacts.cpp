@@ -56,7 +56,6 @@ void Contacts<Real>::restart(std::span<const Vec4<Real>> positions) {
 
 template <class Real>
 std::vector<std::uint8_t> Contacts<Real>::find_meeting(std::span<const Vec3<Real>> motions) const {
-    if (!list_.is_valid) return {};
     std::vector<std::uint8_t> meeting = detection_.find_meeting(safe_, motions);
     for (std::size_t o = 0; o < meeting.size(); ++o) meeting[o] |= is_pressed_[o];
     return meeting;

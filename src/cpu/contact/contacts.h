@@ -36,8 +36,8 @@ public:
     /// Whether the object pressed another one when the last step ended.
     bool was_pressed(std::size_t object) const { return is_pressed_[object] != 0; }
 
-    /// By body: whether it pressed another object then, or may do so on these motions of bodies [m]; empty
-    /// before the first detection.
+    /// By body: whether it pressed another object when the last step ended, or may do so on these motions of
+    /// bodies [m]. @pre list() is valid
     std::vector<std::uint8_t> find_meeting(std::span<const Vec3<Real>> motions) const;
 
     /// Where a held node is when a step begins: where the last one ended; of a belt, from where its velocity

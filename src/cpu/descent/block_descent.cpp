@@ -45,7 +45,7 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
       rigid_move_(model_),
       joint_move_(model_),
       rebound_(model_),
-      outlooks_(bodies_ ? model_->objects.size() : 0),
+      outlooks_(bodies_ ? model_->body_count() : 0),
       device_(bodies_ ? device : nullptr) {
     if (settings_.coarse_level) coarse_.emplace(model_);
     if (coarse_ && coarse_->is_empty()) coarse_.reset();

@@ -101,6 +101,11 @@ public:
 
 private:
     using Positions = std::vector<Vec4<Real>>;
+    // The parts of its last step's velocity and acceleration with which the guess of a body goes on that
+    // presses others.
+    struct Outlook {
+        Real velocity, acceleration;
+    };
 
     void start(Real step, bool has_earlier, const Nodes<Real>& previous,
                std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls, Nodes<Real>& current);
@@ -136,11 +141,7 @@ private:
     JointMove<Real> joint_move_;
     RigidRebound<Real> rebound_;
     std::optional<SecantStep<Real>> secant_;
-    Positions ends_;  // of bodies' motions
-    // What the guess of a body that presses others has of its last step: its velocity, its acceleration.
-    struct Outlook {
-        Real velocity, acceleration;
-    };
+    Positions ends_;                          // of bodies' motions
     std::vector<Outlook> outlooks_;           // by object
     std::optional<CoarseStep<Real>> coarse_;  // where there are clusters
     DeviceSweeps* device_;

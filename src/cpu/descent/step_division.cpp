@@ -84,15 +84,14 @@ void StepDivision<Real>::find_velocities(std::span<const Vec4<Real>> velocities)
 template <class Real>
 void StepDivision<Real>::find_speeds(double step, std::span<const std::uint8_t> touched_colliders,
                                      const Contacts<Real>* contacts) {
+    const bool has_islands = contacts != nullptr && contacts->list().is_valid;
     const std::size_t objects = speeds_.size();
-    std::vector<std::uint8_t> meets;
-    if (contacts != nullptr) {
+    std::vector<std::uint8_t> meets(objects);
+    if (has_islands) {
         std::vector<Vec3<Real>> motions(objects);
         for (std::size_t o = 0; o < objects; ++o) motions[o] = Vec3<Real>(step * velocities_[o]);
         meets = contacts->find_meeting(motions);
     }
-    const bool has_islands = contacts != nullptr && !meets.empty();
-    meets.resize(objects);
     const auto island_of = [&](std::size_t o) { return has_islands ? contacts->list().islands[o] : o; };
     const std::size_t islands = has_islands ? contacts->list().shifts.size() : objects;
     std::vector<glm::dvec3> momenta(islands, glm::dvec3(0.0));
