@@ -46,13 +46,21 @@ bool ClearBodies<Real>::stay_clear(std::span<const Vec4<Real>> from, std::span<c
             }
             return;
         }
-        if (gaps_.hold(o, to) || kept_.keeps(o, static_cast<Real>(kKept), to) || gaps_.stay_open(o, from, to))
-            return;
+        if (gaps_.hold(o, to) || stays_open(o, from, to)) return;
         waits_[o] = kWaits;
         state = state == State::set && has_to_heal(o, from) ? State::heals : State::near_itself;
         if (state == State::near_itself) all = false;
     });
     return all;
+}
+
+// Of a convex body, only what has lost tets between its parts is looked at.
+template <class Real>
+bool ClearBodies<Real>::stays_open(std::uint32_t object, std::span<const Vec4<Real>> from,
+                                   std::span<const Vec4<Real>> to) {
+    if (!kept_.is_convex(object)) return gaps_.stay_open(object, from, to);
+    const std::vector<AxisBox<Real>> lost = kept_.find_lost(object, static_cast<Real>(kKept), to);
+    return lost.empty() || gaps_.stay_open(object, from, to, lost);
 }
 
 template <class Real>

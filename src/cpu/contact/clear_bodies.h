@@ -47,6 +47,7 @@ private:
     // they keep kKeptAgain.
     static constexpr double kKept = 0.01, kKeptAgain = 0.15;
 
+    bool stays_open(std::uint32_t object, std::span<const Vec4<Real>> from, std::span<const Vec4<Real>> to);
     bool has_to_heal(std::uint32_t object, std::span<const Vec4<Real>> positions);
 
     std::shared_ptr<const Model> model_;

@@ -125,8 +125,9 @@ template <class Real>
 void DetectOwn<Real>::search(std::uint32_t object, std::span<const std::uint32_t> leaves,
                              OwnRooms<Real>& rooms) {
     const auto has_changed = [&](std::uint32_t n) { return this->has_changed(n); };
+    const auto all = [](std::uint32_t) { return true; };
     for_walks<Search>(leaves, [&](std::span<const std::uint32_t> walk, Search& search) {
-        boxes_.find_near(object, walk, has_changed, search.around);
+        boxes_.find_near(object, walk, has_changed, all, search.around);
         for (const std::uint32_t leaf : walk)
             search_leaf(leaf, static_cast<Real>(listed(object)), search, found_[leaf]);
     });

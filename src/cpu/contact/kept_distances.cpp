@@ -118,8 +118,16 @@ std::vector<TetColumns<Real>> make_columns(const Model& model, const Range& tets
 template <class Real>
 KeptDistances<Real>::KeptDistances(std::shared_ptr<const Model> model, const ContactSurface& surface)
     : model_(std::move(model)), shapes_(model_->objects.size()) {
-    for (std::size_t o = 0; o < shapes_.size(); ++o)
-        if (surface.is_convex[o] != 0) shapes_[o].tets = make_columns<Real>(*model_, model_->objects[o].tets);
+    for (std::size_t o = 0; o < shapes_.size(); ++o) {
+        if (surface.is_convex[o] == 0) continue;
+        Shape& shape = shapes_[o];
+        shape.tets = make_columns<Real>(*model_, model_->objects[o].tets);
+        for (const TetColumns<Real>& block : shape.tets) {
+            AxisBox<Real>& box = shape.boxes.emplace_back();
+            for (const auto& corners : block.nodes)
+                for (const std::uint32_t n : corners) box.add(Vec3<Real>(glm::vec3(model_->positions[n])));
+        }
+    }
 }
 
 template <class Real>
@@ -132,17 +140,43 @@ bool KeptDistances<Real>::keeps(std::uint32_t object, Real part, std::span<const
 }
 
 template <class Real>
+std::vector<AxisBox<Real>> KeptDistances<Real>::find_lost(std::uint32_t object, Real part,
+                                                          std::span<const Vec4<Real>> positions) {
+    if (keeps(object, part, positions)) return {};
+    const Shape& shape = shapes_[object];
+    std::vector<std::uint8_t> are_lost(shape.tets.size());
+    all_blocks(shape, [&](std::span<const TetColumns<Real>> blocks, std::size_t first) {
+        if (all_keep(blocks, shape.turn, part, positions)) return true;
+        for (std::size_t k = 0; k < blocks.size(); ++k)
+            are_lost[first + k] = all_keep(blocks.subspan(k, 1), shape.turn, part, positions) ? 0 : 1;
+        return true;
+    });
+    std::vector<AxisBox<Real>> lost;
+    for (std::size_t k = 0; k < are_lost.size(); ++k)
+        if (are_lost[k] != 0) lost.push_back(shape.boxes[k]);
+    return lost;
+}
+
+template <class Real>
 bool KeptDistances<Real>::keeps(const Shape& shape, Real part, std::span<const Vec4<Real>> positions) const {
+    return all_blocks(shape, [&](std::span<const TetColumns<Real>> blocks, std::size_t) {
+        return all_keep(blocks, shape.turn, part, positions);
+    });
+}
+
+template <class Real>
+template <class Visit>
+bool KeptDistances<Real>::all_blocks(const Shape& shape, const Visit& visit) {
     constexpr std::size_t kBlocksATask = 64;
     const std::size_t tasks = (shape.tets.size() + kBlocksATask - 1) / kBlocksATask;
-    std::atomic<bool> keep = true;
+    std::atomic<bool> all = true;
     tbb::parallel_for(std::size_t(0), tasks, [&](std::size_t task) {
-        if (!keep.load(std::memory_order_relaxed)) return;
+        if (!all.load(std::memory_order_relaxed)) return;
         const std::size_t first = task * kBlocksATask;
         const std::size_t count = std::min(kBlocksATask, shape.tets.size() - first);
-        if (!all_keep(std::span(shape.tets).subspan(first, count), shape.turn, part, positions)) keep = false;
+        if (!visit(std::span<const TetColumns<Real>>(shape.tets).subspan(first, count), first)) all = false;
     });
-    return keep;
+    return all;
 }
 
 template <class Real>

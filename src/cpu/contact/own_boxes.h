@@ -57,9 +57,10 @@ public:
     }
 
     /// Finds what is near leaves beside each other. @param has_changed(node)
-    template <class HasChanged>
+    /// @param counts(leaf) whether what is in one is looked for
+    template <class HasChanged, class Counts>
     void find_near(std::uint32_t object, std::span<const std::uint32_t> leaves, const HasChanged& has_changed,
-                   Near& near) const;
+                   const Counts& counts, Near& near) const;
     /// use(pair) for what of a leaf meets what is near it: what has changed with all, the rest with what has.
     /// Each pair once if this is done for all leaves. Pairs have no slots, and no reach.
     template <class HasChanged, class Use>
@@ -134,9 +135,9 @@ void OwnBoxes<Real>::update(std::uint32_t object, const AddNode& add_node) {
 }
 
 template <class Real>
-template <class HasChanged>
+template <class HasChanged, class Counts>
 void OwnBoxes<Real>::find_near(std::uint32_t object, std::span<const std::uint32_t> leaves,
-                               const HasChanged& has_changed, Near& near) const {
+                               const HasChanged& has_changed, const Counts& counts, Near& near) const {
     const BoxTree& trees = model_->face_trees;
     const SurfaceParts& parts = model_->surface_parts;
     AxisBox<Real> around;
@@ -153,6 +154,7 @@ void OwnBoxes<Real>::find_near(std::uint32_t object, std::span<const std::uint32
         if (changes) found[changed].add(index, box);
     };
     for_leaves_near<Real>(trees, tree_boxes_, trees.roots[object], around, [&](std::uint32_t node) {
+        if (!counts(leaf_of(trees.nodes[node]))) return;
         const std::uint32_t first = trees.nodes[node].first_item, end = first + trees.nodes[node].item_count;
         for (std::uint32_t f = first; f < end; ++f) {
             const Face& face = model_->faces[f];

@@ -64,7 +64,11 @@ OwnGaps<Real>::OwnGaps(std::shared_ptr<const Model> model, std::shared_ptr<const
       starts_(model_->node_count()),
       ways_(model_->node_count()),
       apart_(model_->surface_parts.nodes.size()),
-      boxes_(model_) {
+      boxes_(model_),
+      leaves_at_start_(model_->face_trees.levels[0].size()) {
+    for (std::uint32_t f = 0; f < model_->faces.size(); ++f)
+        for (const std::uint32_t n : corners_of(model_->faces[f]))
+            leaves_at_start_[boxes_.leaf_of_face(f)].add(Vec3<Real>(glm::vec3(model_->positions[n])));
     const std::vector<Vec4<Real>> at_start(model_->positions.begin(), model_->positions.end());
     for_each_index(0, shapes_.size(), 1, [&](std::size_t index) {
         const auto o = static_cast<std::uint32_t>(index);
@@ -74,7 +78,7 @@ OwnGaps<Real>::OwnGaps(std::shared_ptr<const Model> model, std::shared_ptr<const
         const std::uint32_t first = face_starts[faces.first].x;
         shapes_[o].places = {first, face_starts[faces.end()].x - first};
         find_ways(o, at_start, at_start);
-        look(o, kSearchedAtStart * surface_->thicknesses[o]);
+        look(o, kSearchedAtStart * surface_->thicknesses[o], std::nullopt);
     });
 }
 
@@ -102,14 +106,15 @@ bool OwnGaps<Real>::hold(std::uint32_t object, std::span<const Vec4<Real>> posit
 
 template <class Real>
 bool OwnGaps<Real>::stay_open(std::uint32_t object, std::span<const Vec4<Real>> from,
-                              std::span<const Vec4<Real>> to) {
+                              std::span<const Vec4<Real>> to,
+                              Between between) {
     find_ways(object, from, to);
-    return look(object, kSearched * surface_->thicknesses[object]);
+    return look(object, kSearched * surface_->thicknesses[object], between);
 }
 
 // Where starts and ways are. @param searched how far others are looked for [m]
 template <class Real>
-bool OwnGaps<Real>::look(std::uint32_t object, double searched) {
+bool OwnGaps<Real>::look(std::uint32_t object, double searched, const Between& between) {
     const Range& places = shapes_[object].places;
     std::fill_n(apart_.begin() + places.first, places.count, static_cast<Real>(searched - reach(object)));
     const auto margin = BoxMargin<Real>::for_distance(searched);
@@ -127,14 +132,15 @@ bool OwnGaps<Real>::look(std::uint32_t object, double searched) {
         for (const std::uint32_t leaf : walk) boxes_.for_edge_pairs(leaf, all, near, wait);
         return are_open(waiting);
     };
-    if (all_walks(object, test)) return true;
-    shapes_[object].inverse_moment = glm::dmat3(0.0);  // the look ended before it was at all pairs
-    return false;
+    const bool open = all_walks(object, between, test);
+    // Rooms are of all pairs: this look ended before it was at them, or left some out.
+    if (!open || between) shapes_[object].inverse_moment = glm::dmat3(0.0);
+    return open;
 }
 
 template <class Real>
 template <class Test>
-bool OwnGaps<Real>::all_walks(std::uint32_t object, const Test& test) const {
+bool OwnGaps<Real>::all_walks(std::uint32_t object, const Between& between, const Test& test) const {
     const Range range = boxes_.leaves_of(object);
     std::vector<std::uint32_t> leaves(range.count);
     std::iota(leaves.begin(), leaves.end(), range.first);
@@ -143,7 +149,16 @@ bool OwnGaps<Real>::all_walks(std::uint32_t object, const Test& test) const {
     using Near = typename OwnBoxes<Real>::Near;
     for_walks<Near>(leaves, [&](std::span<const std::uint32_t> walk, Near& near) {
         if (!all.load(std::memory_order_relaxed)) return;
-        boxes_.find_near(object, walk, not_twice, near);
+        AxisBox<Real> at_start;
+        for (const std::uint32_t leaf : walk) at_start.add(leaves_at_start_[leaf]);
+        const auto counts = [&](std::uint32_t leaf) {
+            if (!between) return true;
+            AxisBox<Real> both = at_start;
+            both.add(leaves_at_start_[leaf]);
+            return std::any_of(between->begin(), between->end(),
+                               [&](const AxisBox<Real>& box) { return meet(both, box); });
+        };
+        boxes_.find_near(object, walk, not_twice, counts, near);
         if (!test(walk, near)) all = false;
     });
     return all;
@@ -157,14 +172,15 @@ bool OwnGaps<Real>::passes_through_itself(std::uint32_t object, std::span<const 
         return Triangle<Real>{Vec3<Real>(positions[face.a]), Vec3<Real>(positions[face.b]),
                               Vec3<Real>(positions[face.c])};
     };
-    return !all_walks(object, [&](std::span<const std::uint32_t> walk, typename OwnBoxes<Real>::Near& near) {
+    const auto test = [&](std::span<const std::uint32_t> walk, typename OwnBoxes<Real>::Near& near) {
         bool any = false;
         for (const std::uint32_t leaf : walk)
             boxes_.for_face_pairs(leaf, near, [&](std::uint32_t f, std::uint32_t other) {
                 any = any || triangles_overlap(triangle(f), triangle(other));
             });
         return !any;
-    });
+    };
+    return !all_walks(object, std::nullopt, test);
 }
 
 template <class Real>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,7 +29,10 @@ public:
     /// Looks at a body where a step began: whether no parts of it have come so near each other on their way
     /// that they press. Each node goes straight, as the body sees it, which moves as a rigid one meanwhile.
     /// @param from, to [m], shape [nodes]
-    bool stay_open(std::uint32_t object, std::span<const Vec4<Real>> from, std::span<const Vec4<Real>> to);
+    /// @param between leaves out parts between which none of these boxes is at the start [m]: there are no
+    /// rooms then; none: looks at all
+    bool stay_open(std::uint32_t object, std::span<const Vec4<Real>> from, std::span<const Vec4<Real>> to,
+                   std::optional<std::span<const AxisBox<Real>>> between = std::nullopt);
 
     /// Whether faces of a body overlap that have no corner in common.
     bool passes_through_itself(std::uint32_t object, std::span<const Vec4<Real>> positions);
@@ -39,11 +43,13 @@ private:
         // Of where they were looked at, from their middle [1/m^2]; 0: there are no rooms.
         glm::dmat3 inverse_moment{0.0};
     };
+    using Between = std::optional<std::span<const AxisBox<Real>>>;
+
     // True if test(walk, near) is, for all leaves of a body.
     template <class Test>
-    bool all_walks(std::uint32_t object, const Test& test) const;
+    bool all_walks(std::uint32_t object, const Between& between, const Test& test) const;
     void find_ways(std::uint32_t object, std::span<const Vec4<Real>> from, std::span<const Vec4<Real>> to);
-    bool look(std::uint32_t object, double searched);
+    bool look(std::uint32_t object, double searched, const Between& between);
     bool are_open(std::vector<ContactPair>& pairs);
     bool are_open_by_parts(std::span<const ContactPair> pairs) const;
     double reach(std::uint32_t object) const { return surface_->reach(object, object); }
@@ -57,6 +63,7 @@ private:
     // farther apart than they press each other.
     std::vector<Real> apart_;
     OwnBoxes<Real> boxes_;
+    std::vector<AxisBox<Real>> leaves_at_start_;  // their boxes [m]
 };
 
 }  // namespace gelatin::cpu
