@@ -236,16 +236,25 @@ void BlockDescent<Real>::take_from_device(Positions& positions) {
 }
 
 // Of bodies that others were in the way of, each node goes on to the guess as far as others let it, and the
-// body makes the part of that at which the objective is least.
+// body makes the part of that at which the objective is least. Of soft ones in short steps, in which inertia
+// decides, that is all or nearly all.
 template <class Real>
 void BlockDescent<Real>::go_on_to_guess(Positions& positions, StageTimer* timer) {
     if (bodies_->plan_rest(positions, secant_->displacements, timer)) {
-        std::vector<Real> parts(model_->objects.size());
+        std::vector<Real> parts(model_->objects.size(), Real(1));
         const TimedStage part(timer, "advance_nodes.guess");
+        const auto is_sought = [&](std::size_t o) { return o >= outlooks_.size() || !outlooks_[o].is_soft(); };
+        secant_->wanted.resize(positions.size());
+        for_each_node(*model_, [&](std::uint32_t n) {
+            const bool moves = secant_->displacements[n] != Vec3<Real>(0);
+            secant_->wanted[n] = moves && is_sought(contacts_.object_of[n]) ? 1 : 0;
+        });
         secant_->find_forces(objective_, contacts_, nullptr, positions);
         secant_->look_ahead(objective_, contacts_, nullptr, positions);
+        secant_->wanted.clear();
         const std::vector<Work> of_contacts = bodies_->works(positions, secant_->displacements);
         tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t o) {
+            if (!is_sought(o)) return;
             Work work = secant_->work(o);
             work.here += of_contacts[o].here;
             work.ahead += of_contacts[o].ahead;

@@ -19,7 +19,7 @@ const std::vector<Vec3<Real>>& SecantStep<Real>::find_forces(const StepObjective
                                                              const ColliderContacts<Real>& colliders,
                                                              const Contacts<Real>* contacts,
                                                              const std::vector<Vec4<Real>>& positions) {
-    objective.find_forces(positions, contacts, forces_);
+    objective.find_forces(positions, contacts, forces_, wanted);
     for_each_index(positions.size(), [&](std::size_t n) {
         if (colliders.has_contact(n)) forces_[n] += colliders.nodes[n].force;
     });
@@ -32,7 +32,7 @@ void SecantStep<Real>::look_ahead(const StepObjective<Real>& objective,
                                   const std::vector<Vec4<Real>>& positions) {
     for_each_index(positions.size(),
                    [&](std::size_t n) { ahead_[n] = positions[n] + Vec4<Real>(displacements[n], Real(0)); });
-    objective.find_forces(ahead_, contacts, forces_ahead_);
+    objective.find_forces(ahead_, contacts, forces_ahead_, wanted);
     for_each_index(positions.size(), [&](std::size_t n) {
         if (!colliders.has_contact(n)) return;
         const ColliderContact<Real>& contact = colliders.nodes[n];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -21,6 +22,8 @@ public:
 
     /// The displacements to be tried [m], shape [nodes].
     std::vector<Vec3<Real>> displacements;
+    /// By node: 0 where no forces are wanted, as nothing is made of its displacement; empty: all are.
+    std::vector<std::uint8_t> wanted;
 
     /// The force by each node before them [N]. @param contacts null: those between bodies are left out
     const std::vector<Vec3<Real>>& find_forces(const StepObjective<Real>& objective,
@@ -30,7 +33,8 @@ public:
     /// Finds the forces after them. @pre find_forces was called
     void look_ahead(const StepObjective<Real>& objective, const ColliderContacts<Real>& colliders,
                     const Contacts<Real>* contacts, const std::vector<Vec4<Real>>& positions);
-    /// The work of the forces by an object's displacements.
+    /// The work of the forces by an object's displacements. @pre forces were wanted of all its nodes that are
+    /// displaced
     Work work(std::size_t object) const;
     /// The part at which the work is zero, in [0, most]; 0 where forces do not pull along the displacements.
     static double part(const Work& work, double most);

@@ -58,9 +58,16 @@ std::uint32_t StepObjective<Real>::descend(std::size_t group, bool any_flat,
 
 template <class Real>
 void StepObjective<Real>::find_forces(const std::vector<Vec4<Real>>& positions,
-                                      const Contacts<Real>* contacts, std::vector<Vec3<Real>>& forces) const {
+                                      const Contacts<Real>* contacts, std::vector<Vec3<Real>>& forces,
+                                      std::span<const std::uint8_t> wanted) const {
     const bool any_flat = any_flat_tets();
+    const auto is_wanted = [&](std::size_t row) {
+        return rows_.nodes[row] != kNoNode && (wanted.empty() || wanted[rows_.nodes[row]] != 0);
+    };
     for_each_index(0, group_count(), kGroupsATask, [&](std::size_t group) {
+        bool any_wanted = false;
+        for (std::uint32_t r = 0; r < kGroup; ++r) any_wanted |= is_wanted(group * kGroup + r);
+        if (!any_wanted) return;
         const Terms terms = gather(group, any_flat, contacts, positions);
         for (std::uint32_t r = 0; r < kGroup; ++r) {
             const std::uint32_t node = rows_.nodes[group * kGroup + r];

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -61,8 +63,9 @@ public:
 
     /// Minus the slope by each node that is not held [N].
     /// @param contacts those of the step, or null to leave them out
+    /// @param wanted by node: 0 where nothing has to be written; empty: of all
     void find_forces(const std::vector<Vec4<Real>>& positions, const Contacts<Real>* contacts,
-                     std::vector<Vec3<Real>>& forces) const;
+                     std::vector<Vec3<Real>>& forces, std::span<const std::uint8_t> wanted = {}) const;
 
     /// The forces of all elements but contacts on each held node [N].
     void find_held_forces(const std::vector<Vec4<Real>>& positions, std::vector<Vec3<Real>>& forces) const;
