@@ -118,5 +118,64 @@ TEST(KeptDistances, AreLostWhereATetIsInsideOut) {
     EXPECT_FALSE(body.kept.keeps(0, 0.01, positions));
 }
 
+// Whether a straight line passes through a box.
+bool meets(const cpu::AxisBox<double>& box, const glm::dvec3& a, const glm::dvec3& b) {
+    double first = 0.0, last = 1.0;
+    for (int k = 0; k < 3; ++k) {
+        const double way = b[k] - a[k];
+        if (way == 0.0 && (a[k] < box.min[k] || a[k] > box.max[k])) return false;
+        if (way == 0.0) continue;
+        const double to_min = (box.min[k] - a[k]) / way, to_max = (box.max[k] - a[k]) / way;
+        first = std::max(first, std::min(to_min, to_max));
+        last = std::min(last, std::max(to_min, to_max));
+    }
+    return first <= last;
+}
+
+// One node after another is drawn somewhere else, up to where tets are inside out.
+TEST(KeptDistances, AreLostAtMostBetweenWhatIsTold) {
+    ConvexBody body;
+    const std::vector<glm::vec4>& at_start = body.model->positions;
+    test::RandomMaker random(11);
+    constexpr double kPart = 0.3;
+    int kept = 0, between = 0;
+    for (int round = 0; round < 60; ++round) {
+        std::vector<glm::dvec4> positions = body.moved([](const glm::dvec3& p) { return p; });
+        const auto drawn = static_cast<std::size_t>(random.integer(0, static_cast<int>(at_start.size()) - 1));
+        positions[drawn] += glm::dvec4(random.point(0.2), 0.0);
+        const auto lost = body.kept.find_lost(0, kPart, positions);
+        EXPECT_EQ(lost.empty(), body.kept.keeps(0, kPart, positions)) << round;
+        for (std::size_t a = 0; a < positions.size(); ++a) {
+            for (std::size_t b = 0; b < a; ++b) {
+                const glm::dvec3 first(at_start[a]), second(at_start[b]);
+                if (std::any_of(lost.begin(), lost.end(),
+                                [&](const auto& box) { return meets(box, first, second); })) {
+                    ++between;
+                    continue;
+                }
+                ++kept;
+                EXPECT_GE(glm::distance(glm::dvec3(positions[a]), glm::dvec3(positions[b])),
+                          0.999 * kPart * glm::distance(first, second))
+                    << round;
+            }
+        }
+    }
+    EXPECT_GT(kept, 1000);
+    EXPECT_GT(between, 1000);
+}
+
+TEST(KeptDistances, TellOfNoMoreThanATenthOfABodyWhereOneTetIsLost) {
+    const auto model = std::make_shared<const Model>(
+        test::make_model(test::make_body(test::make_block({10, 10, 10}, {1.0, 1.0, 1.0}))));
+    cpu::KeptDistances<float> kept(model, *surface_of(*model));
+    std::vector<glm::vec4> positions = model->positions;
+    const glm::uvec4& tet = model->tets[model->tets.size() / 2];
+    positions[tet.x] += 1.5f * (positions[tet.y] - positions[tet.x]);
+    const auto lost = kept.find_lost(0, 0.01f, positions);
+    ASSERT_FALSE(lost.empty());
+    EXPECT_LT(8 * lost.size(), model->tets.size() / 10);
+    EXPECT_TRUE(kept.find_lost(0, 0.01f, model->positions).empty());
+}
+
 }  // namespace
 }  // namespace gelatin

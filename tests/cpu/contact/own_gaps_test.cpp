@@ -94,6 +94,23 @@ TEST(OwnGaps, HoldNoMoreAfterALookThatEnded) {
     EXPECT_FALSE(bar.gaps.hold(0, at_rest));
 }
 
+// The gap of the bar is between its pieces at the start; what is beside it, and one end, are not.
+TEST(OwnGaps, AreLookedAtWhereSomethingIsBetween) {
+    Bar bar;
+    const auto above = bar.moved(folded(0.5)), below = bar.moved(folded(-0.5));
+    using Boxes = std::vector<cpu::AxisBox<double>>;
+    const Boxes gap = {{{0.55, -1.0, -1.0}, {0.65, 1.0, 1.0}}}, beside = {{{0.0, 0.5, 0.0}, {1.2, 1.0, 0.3}}},
+                none;
+    EXPECT_FALSE(bar.gaps.stay_open(0, above, below, gap));
+    EXPECT_TRUE(bar.gaps.stay_open(0, above, below, beside));
+    EXPECT_TRUE(bar.gaps.stay_open(0, above, below, none));
+    EXPECT_FALSE(bar.gaps.stay_open(0, above, below));
+    EXPECT_TRUE(bar.gaps.stay_open(0, above, above, gap));
+    EXPECT_FALSE(bar.gaps.hold(0, above));  // others were not looked at
+    EXPECT_TRUE(bar.gaps.stay_open(0, above, above));
+    EXPECT_TRUE(bar.gaps.hold(0, above));
+}
+
 TEST(OwnGaps, TellWhetherABodyPassesThroughItself) {
     Bar bar;
     for (const double height : {-0.5, -0.22, -0.15, 0.1, 0.19, 0.21, 0.5}) {
