@@ -1,9 +1,13 @@
 #include "cpu/contact/contact_aims.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "cpu/contact/feasible_region.h"
@@ -220,12 +224,17 @@ void ContactAims<Real>::carry_over(const std::vector<ContactPair>& old, const Co
     presses_.clear();
     std::vector<Grip<Real>> grips(list.pairs.size());
     const auto rank = [&](const ContactPair& pair) { return pair.rank(surface_->places); };
-    std::size_t before = 0;
-    for (std::size_t p = 0; p < list.pairs.size() && before < grips_.size(); ++p) {
-        const auto wanted = rank(list.pairs[p]);
-        while (before < grips_.size() && rank(old[before]) < wanted) ++before;
-        if (before < grips_.size() && rank(old[before]) == wanted) grips[p] = grips_[before];
-    }
+    const auto is_before = [&](const ContactPair& a, const ContactPair& b) { return rank(a) < rank(b); };
+    const std::span known(old.data(), grips_.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grips.size(), kPairsATask), [&](const auto& range) {
+        auto next = std::lower_bound(known.begin(), known.end(), list.pairs[range.begin()], is_before);
+        for (std::size_t p = range.begin(); p != range.end() && next != known.end(); ++p) {
+            const auto wanted = rank(list.pairs[p]);
+            while (next != known.end() && rank(*next) < wanted) ++next;
+            if (next != known.end() && rank(*next) == wanted)
+                grips[p] = grips_[static_cast<std::size_t>(next - known.begin())];
+        }
+    });
     grips_ = std::move(grips);
 }
 

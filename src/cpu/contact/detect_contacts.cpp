@@ -92,12 +92,6 @@ void DetectContacts<Real>::find_pairs() {
             first = k;
         }
     });
-    node_pairs_.clear();
-    edge_pairs_.clear();
-    for (const Found& found : found_) {
-        node_pairs_.insert(node_pairs_.end(), found.of_nodes.begin(), found.of_nodes.end());
-        edge_pairs_.insert(edge_pairs_.end(), found.of_edges.begin(), found.of_edges.end());
-    }
 }
 
 template <class Real>
@@ -123,23 +117,46 @@ void DetectContacts<Real>::put_together(ContactList<Real>& list) {
     const auto goes_before = [&](const ContactPair& a, const ContactPair& b) {
         return a.rank(surface_->places) < b.rank(surface_->places);
     };
-    const auto merge = [&](const std::vector<ContactPair>& pairs, const auto& add_own) {
+    bool any_own = false;
+    const auto add = [&](std::vector<ContactPair> Found::*kind, const auto& add_own) {
         own_pairs_.clear();
         add_own(own_pairs_);
-        std::merge(pairs.begin(), pairs.end(), own_pairs_.begin(), own_pairs_.end(),
+        if (own_pairs_.empty()) {
+            append(kind, list.pairs);
+            return;
+        }
+        any_own = true;
+        others_.clear();
+        append(kind, others_);
+        std::merge(others_.begin(), others_.end(), own_pairs_.begin(), own_pairs_.end(),
                    std::back_inserter(list.pairs), goes_before);
     };
     list.pairs.clear();
-    merge(node_pairs_, [&](std::vector<ContactPair>& own) { own_.add_node_pairs(own); });
+    add(&Found::of_nodes, [&](std::vector<ContactPair>& own) { own_.add_node_pairs(own); });
     list.first_edges = list.pairs.size();
-    merge(edge_pairs_, [&](std::vector<ContactPair>& own) { own_.add_edge_pairs(own); });
-    find_own_pairs(list);
+    add(&Found::of_edges, [&](std::vector<ContactPair>& own) { own_.add_edge_pairs(own); });
+    find_own_pairs(any_own, list);
     assign_slots(list);
 }
 
+// Of all tasks, one after the other.
 template <class Real>
-void DetectContacts<Real>::find_own_pairs(ContactList<Real>& list) const {
+void DetectContacts<Real>::append(std::vector<ContactPair> Found::*kind,
+                                  std::vector<ContactPair>& pairs) const {
+    std::vector<std::size_t> starts(found_.size() + 1, pairs.size());
+    for (std::size_t k = 0; k < found_.size(); ++k) starts[k + 1] = starts[k] + (found_[k].*kind).size();
+    pairs.resize(starts.back());
+    for_each_index(0, found_.size(), 16, [&](std::size_t k) {
+        std::copy((found_[k].*kind).begin(), (found_[k].*kind).end(),
+                  pairs.begin() + static_cast<std::ptrdiff_t>(starts[k]));
+    });
+}
+
+template <class Real>
+void DetectContacts<Real>::find_own_pairs(bool any_own, ContactList<Real>& list) const {
     list.own_starts.assign(model_->objects.size() + 1, 0);
+    list.own_pairs.clear();
+    if (!any_own) return;
     for (const ContactPair& pair : list.pairs)
         if (pair.is_own()) ++list.own_starts[pair.object + 1];
     std::partial_sum(list.own_starts.begin(), list.own_starts.end(), list.own_starts.begin());

@@ -57,7 +57,8 @@ private:
     };
     void find_pairs();
     void put_together(ContactList<Real>& list);
-    void find_own_pairs(ContactList<Real>& list) const;
+    void append(std::vector<ContactPair> Found::*kind, std::vector<ContactPair>& pairs) const;
+    void find_own_pairs(bool any_own, ContactList<Real>& list) const;
     void find_edge_boxes(std::uint32_t leaf);
     void search(std::span<const std::uint32_t> leaves, Found& found) const;
     void search(std::uint32_t leaf, Found& found) const;
@@ -92,8 +93,8 @@ private:
     std::vector<AxisBox<Real>> edge_boxes_;  // of leaves that are near others
     // From leaves to what is nearest of other bodies [m], shape [nodes of all trees].
     std::vector<Real> distances_;
-    std::vector<Found> found_;  // in the leaves' order
-    std::vector<ContactPair> node_pairs_, edge_pairs_, own_pairs_;
+    std::vector<Found> found_;                     // in the leaves' order
+    std::vector<ContactPair> own_pairs_, others_;  // while they are put together
 };
 
 }  // namespace gelatin::cpu

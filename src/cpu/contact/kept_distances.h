@@ -38,8 +38,8 @@ public:
     /// Whether two points of a convex body are at least `part` of the distance apart that they had at the
     /// start. Always false for bodies that are not convex. May be called for several bodies at once.
     bool keeps(std::uint32_t object, Real part, std::span<const Vec4<Real>> positions);
-    /// Boxes round those tets of a convex body, at the start [m], that keep less than `part`, and others beside
-    /// them. Of two points whose line at the start meets none of them, keeps() would be true.
+    /// Boxes round those tets of a convex body, at the start [m], that keep less than `part`, and others
+    /// beside them. Of two points whose line at the start meets none of them, keeps() would be true.
     std::vector<AxisBox<Real>> find_lost(std::uint32_t object, Real part,
                                          std::span<const Vec4<Real>> positions);
     bool is_convex(std::uint32_t object) const { return !shapes_[object].tets.empty(); }

@@ -39,38 +39,43 @@ void NodeContacts<Real>::resize(const ContactList<Real>& list) {
     planes_.resize(list.slot_count());
 }
 
+// Each node's in the order of the pairs.
 template <class Real>
 void NodeContacts<Real>::share(const ContactList<Real>& list, const std::vector<Press<Real>>& presses) {
-    const auto for_shares = [&](const auto& use) {
-        for (const Press<Real>& press : presses) {
-            const ContactPair& pair = list.pairs[press.pair];
-            for (std::size_t k = 0; k < 4; ++k) {
-                const Real part = pair.side_of(k) == 0 ? press.share : Real(1) - press.share;
-                if (part > Real(0) && press.weights[static_cast<int>(k)] > Real(0)) use(press, pair, k, part);
-            }
+    const auto for_shares = [&](std::size_t index, const auto& use) {
+        const Press<Real>& press = presses[index];
+        const ContactPair& pair = list.pairs[press.pair];
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Real part = pair.side_of(k) == 0 ? press.share : Real(1) - press.share;
+            if (part > Real(0) && press.weights[static_cast<int>(k)] > Real(0)) use(pair, k, part);
         }
     };
     std::fill(share_starts_.begin(), share_starts_.end(), 0u);
     std::fill(presses_.begin(), presses_.end(), std::uint8_t(0));
-    for_shares([&](const auto&, const ContactPair& pair, std::size_t k, Real) {
-        ++share_starts_[surface_->places[pair.nodes[k]] + 1];
-        presses_[pair.nodes[k]] = 1;
-    });
+    share_places_.resize(presses.size());
+    for (std::size_t p = 0; p < presses.size(); ++p) {
+        for_shares(p, [&](const ContactPair& pair, std::size_t k, Real) {
+            share_places_[p][k] = share_starts_[surface_->places[pair.nodes[k]] + 1]++;
+            presses_[pair.nodes[k]] = 1;
+        });
+    }
     std::partial_sum(share_starts_.begin(), share_starts_.end(), share_starts_.begin());
     shares_.resize(share_starts_.back());
-    next_.assign(share_starts_.begin(), share_starts_.end() - 1);
-    for_shares([&](const Press<Real>& press, const ContactPair& pair, std::size_t k, Real part) {
-        const Real sign = pair.side_of(k) == 0 ? Real(1) : Real(-1),
-                   weight = press.weights[static_cast<int>(k)];
-        shares_[next_[surface_->places[pair.nodes[k]]]++] = {
-            sign * press.normal,
-            press.gap,
-            Real(1) / part,
-            weight * press.stiffness,
-            press.reach,
-            (-sign * weight) * press.hold,
-            press.friction,
-            weight * press.friction * contact_force(press.gap, press.reach, press.stiffness)};
+    for_each_index(presses.size(), [&](std::size_t p) {
+        const Press<Real>& press = presses[p];
+        for_shares(p, [&](const ContactPair& pair, std::size_t k, Real part) {
+            const Real sign = pair.side_of(k) == 0 ? Real(1) : Real(-1),
+                       weight = press.weights[static_cast<int>(k)];
+            shares_[share_starts_[surface_->places[pair.nodes[k]]] + share_places_[p][k]] = {
+                sign * press.normal,
+                press.gap,
+                Real(1) / part,
+                weight * press.stiffness,
+                press.reach,
+                (-sign * weight) * press.hold,
+                press.friction,
+                weight * press.friction * contact_force(press.gap, press.reach, press.stiffness)};
+        });
     });
 }
 

@@ -111,8 +111,9 @@ private:
     std::vector<NodePlane<Real>> planes_;     // by slot; of each node's first those that are counted
     std::vector<ContactShare<Real>> shares_;  // node by node
     // By surface node:
-    std::vector<std::uint32_t> first_planes_, plane_counts_, share_starts_, next_;
-    std::vector<std::uint8_t> is_stuck_;  // a pair could not be divided
+    std::vector<std::uint32_t> first_planes_, plane_counts_, share_starts_;
+    std::vector<std::array<std::uint32_t, 4>> share_places_;  // of presses, among those of their nodes
+    std::vector<std::uint8_t> is_stuck_;                      // a pair could not be divided
     // By node:
     std::vector<std::uint8_t> presses_;
     // Where it was aimed [m], and the square of how far it may go from there in any direction [m^2]: not

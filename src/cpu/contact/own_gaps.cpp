@@ -106,8 +106,7 @@ bool OwnGaps<Real>::hold(std::uint32_t object, std::span<const Vec4<Real>> posit
 
 template <class Real>
 bool OwnGaps<Real>::stay_open(std::uint32_t object, std::span<const Vec4<Real>> from,
-                              std::span<const Vec4<Real>> to,
-                              Between between) {
+                              std::span<const Vec4<Real>> to, Between between) {
     find_ways(object, from, to);
     return look(object, kSearched * surface_->thicknesses[object], between);
 }

@@ -243,7 +243,9 @@ void BlockDescent<Real>::go_on_to_guess(Positions& positions, StageTimer* timer)
     if (bodies_->plan_rest(positions, secant_->displacements, timer)) {
         std::vector<Real> parts(model_->objects.size(), Real(1));
         const TimedStage part(timer, "advance_nodes.guess");
-        const auto is_sought = [&](std::size_t o) { return o >= outlooks_.size() || !outlooks_[o].is_soft(); };
+        const auto is_sought = [&](std::size_t o) {
+            return o >= outlooks_.size() || !outlooks_[o].is_soft();
+        };
         secant_->wanted.resize(positions.size());
         for_each_node(*model_, [&](std::uint32_t n) {
             const bool moves = secant_->displacements[n] != Vec3<Real>(0);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <utility>
 
 #include "cpu/contact/contact_law.h"
@@ -20,6 +21,8 @@ constexpr int kMostSteps = 100;
 // The line search ends when the slope is this small, of that at the start, or after so many looks.
 constexpr double kLevel = 1e-3;
 constexpr int kMostLooks = 12;
+// On one thread, where fewer bodies would not pay for more.
+constexpr std::size_t kBodiesATask = 64, kTouchesATask = 512;
 
 using Matrix = Eigen::Matrix3d;
 
@@ -120,6 +123,17 @@ void IslandSystem::find_couplings() {
         }
         ++couplings_.back().touches.count;
     }
+    const auto for_sides = [&](const auto& use) {
+        for (std::uint32_t k = 0; k < couplings_.size(); ++k)
+            for (std::size_t side = 0; side < 2; ++side)
+                if (couplings_[k].bodies[side] != kNoNode) use(couplings_[k].bodies[side], Use{k, side});
+    };
+    use_starts_.assign(bodies.size() + 1, 0);
+    for_sides([&](std::uint32_t body, const Use&) { ++use_starts_[body + 1]; });
+    std::partial_sum(use_starts_.begin(), use_starts_.end(), use_starts_.begin());
+    uses_.resize(use_starts_.back());
+    std::vector<std::uint32_t> next(use_starts_.begin(), use_starts_.end() - 1);
+    for_sides([&](std::uint32_t body, const Use& use) { uses_[next[body]++] = use; });
 }
 
 void IslandSystem::sum_touches(Coupling& coupling) const {
@@ -149,27 +163,22 @@ void IslandSystem::assemble() {
     matrices_.resize(count);
     inverses_.resize(count);
     forces_.resize(count);
-    for (std::size_t k = 0; k < count; ++k) {
+    for_each_index(0, count, kBodiesATask, [&](std::size_t k) {
         matrices_[k] = bodies[k].matrix;
         forces_[k] = bodies[k].force;
-    }
-    for (const Coupling& coupling : couplings_) {
-        for (std::size_t side = 0; side < 2; ++side) {
-            const std::uint32_t body = coupling.bodies[side];
-            if (body == kNoNode) continue;
-            matrices_[body] += coupling.own[side];
-            forces_[body] += coupling.forces[side];
+        for (const auto& [coupling, side] : uses_of(k)) {
+            matrices_[k] += couplings_[coupling].own[side];
+            forces_[k] += couplings_[coupling].forces[side];
         }
-    }
-    for (std::size_t k = 0; k < count; ++k)
         inverses_[k] = Eigen::LLT<MotionMatrix>(matrices_[k]).solve(MotionMatrix::Identity());
+    });
 }
 
 // By conjugate gradients, preconditioned with the bodies' own blocks. @param motions where they start
 void IslandSystem::solve(double residual, Motions& motions) const {
     const std::size_t count = bodies.size();
     const auto precondition = [&](const Motions& r, Motions& z) {
-        for (std::size_t k = 0; k < count; ++k) z[k].noalias() = inverses_[k] * r[k];
+        for_each_index(0, count, kBodiesATask, [&](std::size_t k) { z[k].noalias() = inverses_[k] * r[k]; });
         return dot(r, z);
     };
     Motions left = forces_, pulled(count);
@@ -234,14 +243,17 @@ double IslandSystem::least_along(const Motions& motions, const Motion& common) {
     double pull = 0.0, curvature = dot(motions, resisted);
     for (std::size_t k = 0; k < bodies.size(); ++k)
         pull += forces_[k].dot(motions[k]) - common.dot(resisted[k]);
-    std::vector<const Touch*> pressing;  // on the way
-    for (Touch& touch : touches) {
+    for_each_index(0, touches.size(), kTouchesATask, [&](std::size_t k) {
+        Touch& touch = touches[k];
         touch.change = 0.0;
         for (std::size_t side = 0; side < 2; ++side) {
             if (touch.bodies[side] == kNoNode) continue;
             const double way = along(motions[touch.bodies[side]], touch.arms[side], touch.normal);
             touch.change += side == 0 ? -way : way;
         }
+    });
+    std::vector<const Touch*> pressing;  // on the way
+    for (const Touch& touch : touches) {
         if (!(std::min(touch.gap, touch.gap + touch.change) < touch.reach)) continue;
         pressing.push_back(&touch);
         pull -= contact_force(touch.gap, touch.reach, touch.stiffness) * touch.change;
@@ -274,13 +286,19 @@ double IslandSystem::least_along(const Motions& motions, const Motion& common) {
 
 std::vector<Motion> IslandSystem::product(const Motions& motions) const {
     Motions q(motions.size());
-    for (std::size_t k = 0; k < bodies.size(); ++k) q[k].noalias() = matrices_[k] * motions[k];
-    for (const Coupling& coupling : couplings_) {
-        const auto [a, b] = coupling.bodies;
-        if (a == kNoNode || b == kNoNode) continue;
-        q[a].noalias() += coupling.across * motions[b];
-        q[b].noalias() += coupling.across.transpose() * motions[a];
-    }
+    for_each_index(0, bodies.size(), kBodiesATask, [&](std::size_t k) {
+        q[k].noalias() = matrices_[k] * motions[k];
+        for (const auto& [index, side] : uses_of(k)) {
+            const Coupling& coupling = couplings_[index];
+            const std::uint32_t other = coupling.bodies[1 - side];
+            if (other == kNoNode) continue;
+            if (side == 0) {
+                q[k].noalias() += coupling.across * motions[other];
+            } else {
+                q[k].noalias() += coupling.across.transpose() * motions[other];
+            }
+        }
+    });
     return q;
 }
 

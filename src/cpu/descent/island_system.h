@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "model/model.h"
@@ -70,7 +71,19 @@ private:
     Motion free_translation() const;
     Motions product(const Motions& motions) const;
 
+    // A body's part in a coupling.
+    struct Use {
+        std::uint32_t coupling;
+        std::size_t side;
+    };
+    // In the order of the couplings, so that sums do not depend on the number of threads.
+    std::span<const Use> uses_of(std::size_t body) const {
+        return {uses_.data() + use_starts_[body], use_starts_[body + 1] - use_starts_[body]};
+    }
+
     std::vector<Coupling> couplings_;
+    std::vector<Use> uses_;  // body by body
+    std::vector<std::uint32_t> use_starts_;
     // With contacts, by body:
     std::vector<MotionMatrix> matrices_, inverses_;
     Motions forces_;
