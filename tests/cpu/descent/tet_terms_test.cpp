@@ -97,5 +97,25 @@ TEST(TetTerms, OfCrushedBodiesInLanesAreThePlainOnes) {
     }
 }
 
+TEST(StepObjective, FindsForcesWhereTheyAreWanted) {
+    const auto model = std::make_shared<const Model>(test::make_lively_tets(0.0));
+    auto objective = make_objective<float>(model);
+    objective.update(0, model->positions);
+    std::vector<glm::vec3> all(model->node_count()), some(all);
+    objective.find_forces(model->positions, nullptr, all);
+    std::vector<std::uint8_t> wanted(all.size());
+    for (std::size_t n = 0; n < wanted.size(); n += 37) wanted[n] = 1;
+    objective.find_forces(model->positions, nullptr, some, wanted);
+    std::size_t found = 0;
+    for (std::size_t n = 0; n < wanted.size(); ++n) {
+        found += some[n] != glm::vec3(0.0f) ? 1 : 0;
+        if (wanted[n] == 0) continue;
+        EXPECT_EQ(some[n], all[n]) << n;
+        EXPECT_TRUE(all[n] != glm::vec3(0.0f) || model->positions[n].w == 0.0f) << n;
+    }
+    EXPECT_GT(found, 0u);
+    EXPECT_LT(found, wanted.size() / 2);  // and few beside them
+}
+
 }  // namespace
 }  // namespace gelatin
