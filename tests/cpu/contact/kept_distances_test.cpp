@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "support/contact_scenes.h"
 #include "support/random_maker.h"
@@ -132,32 +133,50 @@ bool meets(const cpu::AxisBox<double>& box, const glm::dvec3& a, const glm::dvec
     return first <= last;
 }
 
-// One node after another is drawn somewhere else, up to where tets are inside out.
+// One node after another is drawn somewhere else, up to where tets are inside out. Looked at are points in
+// the tets beside it, and in these or others.
 TEST(KeptDistances, AreLostAtMostBetweenWhatIsTold) {
     ConvexBody body;
-    const std::vector<glm::vec4>& at_start = body.model->positions;
+    const std::vector<glm::dvec4> at_start = body.moved([](const glm::dvec3& p) { return p; });
     test::RandomMaker random(11);
+    const auto any_of = [&](const std::vector<glm::uvec4>& tets) {
+        return tets[static_cast<std::size_t>(random.integer(0, static_cast<int>(tets.size()) - 1))];
+    };
     constexpr double kPart = 0.3;
     int kept = 0, between = 0;
     for (int round = 0; round < 60; ++round) {
-        std::vector<glm::dvec4> positions = body.moved([](const glm::dvec3& p) { return p; });
-        const auto drawn = static_cast<std::size_t>(random.integer(0, static_cast<int>(at_start.size()) - 1));
-        positions[drawn] += glm::dvec4(random.point(0.2), 0.0);
+        std::vector<glm::dvec4> positions = at_start;
+        const auto drawn =
+            static_cast<std::uint32_t>(random.integer(0, static_cast<int>(at_start.size()) - 1));
+        positions[drawn] += glm::dvec4(random.point(0.4), 0.0);
+        std::vector<glm::uvec4> beside;
+        for (const glm::uvec4& tet : body.model->tets)
+            if (glm::any(glm::equal(tet, glm::uvec4(drawn)))) beside.push_back(tet);
         const auto lost = body.kept.find_lost(0, kPart, positions);
         EXPECT_EQ(lost.empty(), body.kept.keeps(0, kPart, positions)) << round;
-        for (std::size_t a = 0; a < positions.size(); ++a) {
-            for (std::size_t b = 0; b < a; ++b) {
-                const glm::dvec3 first(at_start[a]), second(at_start[b]);
-                if (std::any_of(lost.begin(), lost.end(),
-                                [&](const auto& box) { return meets(box, first, second); })) {
-                    ++between;
-                    continue;
-                }
-                ++kept;
-                EXPECT_GE(glm::distance(glm::dvec3(positions[a]), glm::dvec3(positions[b])),
-                          0.999 * kPart * glm::distance(first, second))
-                    << round;
+        struct Point {
+            glm::dvec3 at_start{0.0}, now{0.0};
+        };
+        const auto point_in = [&](const glm::uvec4& tet) {
+            glm::dvec4 weights = 0.5 + glm::dvec4(random.point(0.5), random.uniform(-0.5, 0.5));
+            weights /= weights.x + weights.y + weights.z + weights.w;
+            Point point;
+            for (int k = 0; k < 4; ++k) {
+                point.at_start += weights[k] * glm::dvec3(at_start[tet[k]]);
+                point.now += weights[k] * glm::dvec3(positions[tet[k]]);
             }
+            return point;
+        };
+        for (int k = 0; k < 2000; ++k) {
+            const Point a = point_in(any_of(beside)), b = point_in(any_of(k % 2 ? beside : body.model->tets));
+            if (std::any_of(lost.begin(), lost.end(),
+                            [&](const auto& box) { return meets(box, a.at_start, b.at_start); })) {
+                ++between;
+                continue;
+            }
+            ++kept;
+            EXPECT_GE(glm::distance(a.now, b.now), 0.999 * kPart * glm::distance(a.at_start, b.at_start))
+                << round;
         }
     }
     EXPECT_GT(kept, 1000);
