@@ -29,7 +29,7 @@ struct TetColumns {
 /// themselves, without a look at any pairs. The line between two of its points X and Y is inside such a body
 /// then. So, if sym(R^T F) >= c in all tets, with the gradient F of each since the start and any rotation R,
 ///   (x - y) . R (X - Y) >= c |X - Y|^2.
-/// That holds for single lines that meet no other tets, too.
+/// It holds for each single line that meets no other tets, too.
 template <class Real>
 class KeptDistances {
 public:
@@ -40,6 +40,7 @@ public:
     bool keeps(std::uint32_t object, Real part, std::span<const Vec4<Real>> positions);
     /// Boxes round those tets of a convex body, at the start [m], that keep less than `part`, and others
     /// beside them. Of two points whose line at the start meets none of them, keeps() would be true.
+    /// @pre is_convex(object)
     std::vector<AxisBox<Real>> find_lost(std::uint32_t object, Real part,
                                          std::span<const Vec4<Real>> positions);
     bool is_convex(std::uint32_t object) const { return !shapes_[object].tets.empty(); }
@@ -47,7 +48,7 @@ public:
 private:
     struct Shape {
         std::vector<TetColumns<Real>> tets;  // empty if it is not convex
-        std::vector<AxisBox<Real>> boxes;    // of each column of tets at the start [m]
+        std::vector<AxisBox<Real>> boxes;    // of each eight tets at the start [m]
         glm::mat<3, 3, Real> turn{1};        // the last R
     };
     // True if visit(blocks, first) is, for all of a body's blocks of tets; ends early if not.

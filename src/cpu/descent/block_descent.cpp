@@ -45,7 +45,7 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
       rigid_move_(model_),
       joint_move_(model_),
       rebound_(model_),
-      outlooks_(bodies_ ? model_->body_count() : 0),
+      outlooks_(bodies_ ? model_->objects.size() : 0),
       device_(bodies_ ? device : nullptr) {
     if (settings_.coarse_level) coarse_.emplace(model_);
     if (coarse_ && coarse_->is_empty()) coarse_.reset();
@@ -243,20 +243,16 @@ void BlockDescent<Real>::go_on_to_guess(Positions& positions, StageTimer* timer)
     if (bodies_->plan_rest(positions, secant_->displacements, timer)) {
         std::vector<Real> parts(model_->objects.size(), Real(1));
         const TimedStage part(timer, "advance_nodes.guess");
-        const auto is_sought = [&](std::size_t o) {
-            return o >= outlooks_.size() || !outlooks_[o].is_soft();
-        };
-        secant_->wanted.resize(positions.size());
+        std::vector<std::uint8_t> wanted(positions.size());
         for_each_node(*model_, [&](std::uint32_t n) {
             const bool moves = secant_->displacements[n] != Vec3<Real>(0);
-            secant_->wanted[n] = moves && is_sought(contacts_.object_of[n]) ? 1 : 0;
+            wanted[n] = moves && !outlooks_[contacts_.object_of[n]].is_soft() ? 1 : 0;
         });
-        secant_->find_forces(objective_, contacts_, nullptr, positions);
-        secant_->look_ahead(objective_, contacts_, nullptr, positions);
-        secant_->wanted.clear();
+        secant_->find_forces(objective_, contacts_, nullptr, positions, wanted);
+        secant_->look_ahead(objective_, contacts_, nullptr, positions, wanted);
         const std::vector<Work> of_contacts = bodies_->works(positions, secant_->displacements);
         tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t o) {
-            if (!is_sought(o)) return;
+            if (outlooks_[o].is_soft()) return;
             Work work = secant_->work(o);
             work.here += of_contacts[o].here;
             work.ahead += of_contacts[o].ahead;

@@ -105,7 +105,7 @@ private:
     // presses others.
     struct Outlook {
         Real velocity, acceleration;
-        bool is_soft() const { return acceleration > Real(0); }  // and presses others, in a part of a step
+        bool is_soft() const { return acceleration > Real(0); }  // for this part of a step
     };
 
     void start(Real step, bool has_earlier, const Nodes<Real>& previous,

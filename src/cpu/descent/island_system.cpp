@@ -21,7 +21,7 @@ constexpr int kMostSteps = 100;
 // The line search ends when the slope is this small, of that at the start, or after so many looks.
 constexpr double kLevel = 1e-3;
 constexpr int kMostLooks = 12;
-// On one thread, where fewer bodies would not pay for more.
+// Each thread takes at least so many at a time.
 constexpr std::size_t kBodiesATask = 64, kTouchesATask = 512;
 
 using Matrix = Eigen::Matrix3d;

@@ -7,6 +7,13 @@
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
+namespace {
+
+bool is_wanted(std::span<const std::uint8_t> wanted, std::size_t node) {
+    return wanted.empty() || wanted[node] != 0;
+}
+
+}  // namespace
 
 template <class Real>
 SecantStep<Real>::SecantStep(std::shared_ptr<const Model> model)
@@ -18,10 +25,11 @@ template <class Real>
 const std::vector<Vec3<Real>>& SecantStep<Real>::find_forces(const StepObjective<Real>& objective,
                                                              const ColliderContacts<Real>& colliders,
                                                              const Contacts<Real>* contacts,
-                                                             const std::vector<Vec4<Real>>& positions) {
+                                                             const std::vector<Vec4<Real>>& positions,
+                                                             std::span<const std::uint8_t> wanted) {
     objective.find_forces(positions, contacts, forces_, wanted);
     for_each_index(positions.size(), [&](std::size_t n) {
-        if (colliders.has_contact(n)) forces_[n] += colliders.nodes[n].force;
+        if (is_wanted(wanted, n) && colliders.has_contact(n)) forces_[n] += colliders.nodes[n].force;
     });
     return forces_;
 }
@@ -29,12 +37,13 @@ const std::vector<Vec3<Real>>& SecantStep<Real>::find_forces(const StepObjective
 template <class Real>
 void SecantStep<Real>::look_ahead(const StepObjective<Real>& objective,
                                   const ColliderContacts<Real>& colliders, const Contacts<Real>* contacts,
-                                  const std::vector<Vec4<Real>>& positions) {
+                                  const std::vector<Vec4<Real>>& positions,
+                                  std::span<const std::uint8_t> wanted) {
     for_each_index(positions.size(),
                    [&](std::size_t n) { ahead_[n] = positions[n] + Vec4<Real>(displacements[n], Real(0)); });
     objective.find_forces(ahead_, contacts, forces_ahead_, wanted);
     for_each_index(positions.size(), [&](std::size_t n) {
-        if (!colliders.has_contact(n)) return;
+        if (!is_wanted(wanted, n) || !colliders.has_contact(n)) return;
         const ColliderContact<Real>& contact = colliders.nodes[n];
         const Real along = glm::dot(contact.normal, displacements[n]);
         forces_ahead_[n] += contact.force - contact.across * displacements[n] -

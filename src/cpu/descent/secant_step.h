@@ -22,17 +22,18 @@ public:
 
     /// The displacements to be tried [m], shape [nodes].
     std::vector<Vec3<Real>> displacements;
-    /// By node: 0 where no forces are wanted, as nothing is made of its displacement; empty: all are.
-    std::vector<std::uint8_t> wanted;
 
     /// The force by each node before them [N]. @param contacts null: those between bodies are left out
+    /// @param wanted by node: 0 where none is, as nothing is made of its displacement; empty: all are
     const std::vector<Vec3<Real>>& find_forces(const StepObjective<Real>& objective,
                                                const ColliderContacts<Real>& colliders,
                                                const Contacts<Real>* contacts,
-                                               const std::vector<Vec4<Real>>& positions);
-    /// Finds the forces after them. @pre find_forces was called
+                                               const std::vector<Vec4<Real>>& positions,
+                                               std::span<const std::uint8_t> wanted = {});
+    /// Finds the forces after them. @pre find_forces was called, for the same nodes
     void look_ahead(const StepObjective<Real>& objective, const ColliderContacts<Real>& colliders,
-                    const Contacts<Real>* contacts, const std::vector<Vec4<Real>>& positions);
+                    const Contacts<Real>* contacts, const std::vector<Vec4<Real>>& positions,
+                    std::span<const std::uint8_t> wanted = {});
     /// The work of the forces by an object's displacements. @pre forces were wanted of all its nodes that are
     /// displaced
     Work work(std::size_t object) const;

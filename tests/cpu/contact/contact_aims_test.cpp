@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <map>
 #include <set>
 #include <tuple>
 
@@ -306,6 +307,44 @@ TEST(GuardedMove, LooksNoFurtherThanAtRoomsUnlessItIsFinal) {
     EXPECT_EQ(far_apart(-0.5f, true), std::pair(true, true));
     EXPECT_EQ(far_apart(-0.012f, false), std::pair(true, false));  // in its room, but another is in the way
     EXPECT_LT(contact.guard.part(1), 1.0f);
+}
+
+// Of more pairs than a thread takes at a time, every third is not listed any more.
+TEST(ContactAims, CarryOverTheGripsOfPairsThatStayListed) {
+    std::vector<Body> plates(2, test::make_body(test::make_block({12, 1, 12}, {1.2, 0.1, 1.2})));
+    for (glm::dvec3& p : plates[1].mesh.positions) p += glm::dvec3(0.03, 0.103, 0.04);
+    Contact<float> contact(pack_bodies(plates, {}, {0.0, 0.0, 0.0}));
+    ASSERT_GT(contact.list.pairs.size(), 2000u);
+    const glm::vec4* first = contact.positions.data();
+    std::vector<glm::vec4> moved = contact.positions;  // each pair slips by its own
+    for (std::size_t n = contact.model->objects[1].nodes.first; n < moved.size(); ++n)
+        moved[n].x += 1e-4f * (1.0f + first[n].x + 3.0f * first[n].z);
+    contact.aims.end(contact.list, moved);
+    const std::vector<cpu::ContactPair> old = contact.list.pairs;
+    const auto key = [](const cpu::ContactPair& pair) {
+        return std::tuple(pair.is_edges(), pair.first, pair.second);
+    };
+    contact.aims.run(contact.list, moved, cpu::AimFor::guess);
+    std::map<Key, glm::vec3> held;
+    for (const cpu::Press<float>& press : contact.aims.presses())
+        if (press.grip.grips) held[key(old[press.pair])] = press.grip.held;
+    ASSERT_GT(held.size(), 100u);
+
+    std::size_t p = 0;
+    std::erase_if(contact.list.pairs, [&](const cpu::ContactPair&) { return p++ % 3 == 0; });
+    contact.list.first_edges -= (contact.list.first_edges + 2) / 3;
+    contact.aims.carry_over(old, contact.list);
+    contact.aims.run(contact.list, moved, cpu::AimFor::guess);
+    std::size_t kept = 0;
+    for (const cpu::Press<float>& press : contact.aims.presses()) {
+        const auto before = held.find(key(contact.list.pairs[press.pair]));
+        if (before == held.end()) continue;
+        ++kept;
+        EXPECT_TRUE(press.grip.grips);
+        EXPECT_EQ(press.grip.held, before->second);
+    }
+    EXPECT_GT(kept, held.size() / 2);
+    EXPECT_LT(kept, held.size());
 }
 
 // They have no planes.

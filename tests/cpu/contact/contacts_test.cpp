@@ -223,14 +223,25 @@ TEST(ContactsHeavy, BodiesBounceInDividedSteps) {
     EXPECT_LT(left_after(1, 10, false), 0.8 * fine);
 }
 
+// Two that meet, and a carpet of bodies that press each other: an island so large that threads share it.
 TEST(Contacts, GivesTheSameBitsForAnyNumberOfThreads) {
-    const auto run = [](std::size_t threads) {
+    const auto run = [](const std::shared_ptr<const Model>& model, int frames, std::size_t threads) {
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-        cpu::CpuSolver<float> solver = make_solver<float>(make_impact(5.0), 0.4, 10, true);
-        for (int frame = 0; frame < 20; ++frame) solver.advance_nodes(kFrame);
+        cpu::CpuSolver<float> solver = make_solver<float>(model, 0.4, 10, true);
+        for (int frame = 0; frame < frames; ++frame) solver.advance_nodes(kFrame);
         return solver.nodes().positions;
     };
-    EXPECT_EQ(run(1), run(2));
+    std::vector<Block> carpet;
+    for (int k = 0; k < 144; ++k) {
+        const double x = k % 12, z = k / 12;
+        carpet.push_back(
+            {.place = {0.31 * x, 0, 0.31 * z}, .velocity = {6 - x, 0, 6 - z}, .cells = {1, 1, 1}});
+    }
+    for (const auto& [model, frames] : {std::pair(make_impact(5.0), 20), std::pair(make_blocks(carpet), 3)}) {
+        const std::vector<glm::vec4> alone = run(model, frames, 1);
+        EXPECT_NE(alone, model->positions);
+        for (int again = 0; again < 3; ++again) EXPECT_EQ(alone, run(model, frames, 2));
+    }
 }
 
 TEST(ContactsHeavy, AStackStandsAndRests) {
