@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -110,10 +111,11 @@ private:
     std::vector<std::uint32_t> object_of_;    // by node
     std::vector<NodePlane<Real>> planes_;     // by slot; of each node's first those that are counted
     std::vector<ContactShare<Real>> shares_;  // node by node
+    // By press, of its four nodes: the places of their shares among those of the node.
+    std::vector<std::array<std::uint32_t, 4>> share_places_;
     // By surface node:
     std::vector<std::uint32_t> first_planes_, plane_counts_, share_starts_;
-    std::vector<std::array<std::uint32_t, 4>> share_places_;  // of presses, among those of their nodes
-    std::vector<std::uint8_t> is_stuck_;                      // a pair could not be divided
+    std::vector<std::uint8_t> is_stuck_;  // a pair could not be divided
     // By node:
     std::vector<std::uint8_t> presses_;
     // Where it was aimed [m], and the square of how far it may go from there in any direction [m^2]: not

@@ -45,7 +45,7 @@ private:
     };
     using Between = std::optional<std::span<const AxisBox<Real>>>;
 
-    // True if test(walk, near) is, for all leaves of a body.
+    // True if test(walk, near) is, for all leaves of a body and what is near them with some of `between`.
     template <class Test>
     bool all_walks(std::uint32_t object, const Between& between, const Test& test) const;
     void find_ways(std::uint32_t object, std::span<const Vec4<Real>> from, std::span<const Vec4<Real>> to);
