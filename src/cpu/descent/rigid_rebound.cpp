@@ -291,11 +291,12 @@ void RigidRebound<Real>::push_apart(std::vector<Push>& pushes) {
     }
 }
 
-// Of two that still press each other: over where they hardly approach any more, and what they press each
-// other with would hardly throw them apart while a pressure wave passes.
+// An impact is over where two hardly approach any more, and what they press each other with would hardly throw
+// them apart while a pressure wave passes. Those that approach, but do not press each other in a step, are in
+// the middle of it: surfaces of soft bodies bounce by themselves.
 template <class Real>
 bool RigidRebound<Real>::is_over(const Step& step, const Meeting& meeting, const std::array<Body*, 2>& sides,
-                                 double wave_time) const {
+                                 bool presses, double wave_time) const {
     double before = 0.0, after = 0.0;
     for (const Touch& touch : meeting.touches) {
         const Push push{sides, touch};
@@ -303,7 +304,7 @@ bool RigidRebound<Real>::is_over(const Step& step, const Meeting& meeting, const
         after += push.opening([&](std::size_t side) { return sides[side]->after; });
     }
     const double little = kLeft * meeting.approach * static_cast<double>(meeting.touches.size());
-    return after > -little && (after - before) * wave_time < little * step.length;
+    return after > -little && (!presses || (after - before) * wave_time < little * step.length);
 }
 
 // So that impulses keep angular momentum.
@@ -329,9 +330,9 @@ std::vector<typename RigidRebound<Real>::Push> RigidRebound<Real>::end_meetings(
         const bool presses = std::exchange(meeting.presses, false), is_short = meeting.age < kLongestImpact;
         const double wave_time =
             std::max(pair.has_plane ? 0.0 : wave_times_[pair.first], wave_times_[pair.second]);
-        const bool goes_on = is_short ? !is_over(step, meeting, sides, wave_time)
-                                      : meeting.latest_approach > step.resting_speed;
-        if (presses && goes_on) {
+        const bool goes_on = is_short ? !is_over(step, meeting, sides, presses, wave_time)
+                                      : presses && meeting.latest_approach > step.resting_speed;
+        if (goes_on) {
             ++next;
             continue;
         }
