@@ -146,6 +146,22 @@ bool Contacts<Real>::end_apart(std::span<const Vec4<Real>> positions, StageTimer
     return true;
 }
 
+// Nodes that a handle has are where it has them: what bodies keep of their way is not forgotten.
+template <class Real>
+void Contacts<Real>::follow(Real step, std::span<const Vec4<Real>> targets,
+                            std::span<const Vec4<Real>> starts, Nodes<Real>& nodes, StageTimer* timer) {
+    std::vector<Vec4<Real>> positions;
+    are_apart(step, nodes, timer);
+    do {
+        positions = nodes.positions;
+        begin(step, targets, starts, positions, timer);
+    } while (!stay_clear(positions, timer));
+    safe_ = positions;
+    for_each_index(positions.size(), [&](std::size_t n) {
+        if (positions[n].w != Real(0)) nodes.positions[n] = positions[n];
+    });
+}
+
 template <class Real>
 void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::span<const Vec4<Real>> starts,
                            std::span<Vec4<Real>> positions, StageTimer* timer) {

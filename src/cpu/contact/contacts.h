@@ -48,6 +48,12 @@ public:
         return o < bodies ? place : place - step * Vec3<Real>(model_->surfaces[o - bodies].velocity);
     }
 
+    /// Goes to where bodies were put between steps, as far as that is safe.
+    /// @param targets and starts as for begin(), of where they were put
+    /// @param nodes input: so; output: where they are
+    void follow(Real step, std::span<const Vec4<Real>> targets, std::span<const Vec4<Real>> starts,
+                Nodes<Real>& nodes, StageTimer* timer);
+
     /// Whether a step of `step` seconds may be tried without contacts, since nothing is near anything else.
     /// @param nodes that it begins with
     bool are_apart(Real step, const Nodes<Real>& nodes, StageTimer* timer);

@@ -68,6 +68,18 @@ bool BlockDescent<Real>::rests(double step, std::span<const float> load_factors,
 }
 
 template <class Real>
+void BlockDescent<Real>::follow(Real step, Nodes<Real>& nodes, StageTimer* timer) {
+    if (!bodies_) return;
+    for_each_node(*model_, [&](std::uint32_t n) {
+        const Vec4<Real>& place = nodes.positions[n];
+        const Real inertia = place.w > Real(0) ? Real(1) / (place.w * step * step) : Real(0);
+        objective_.step.starts[n] = Vec4<Real>(Vec3<Real>(place), nodes.velocities[n].w);
+        objective_.step.targets[n] = Vec4<Real>(Vec3<Real>(place), inertia);
+    });
+    bodies_->follow(step, objective_.step.targets, objective_.step.starts, nodes, timer);
+}
+
+template <class Real>
 void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& previous, Nodes<Real>& current,
                              std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls,
                              StageTimer* timer, int parts) {

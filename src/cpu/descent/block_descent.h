@@ -70,6 +70,10 @@ public:
     /// @param load_factors of the model's loads @param is_pulled whether a hand holds a body
     bool rests(double step, std::span<const float> load_factors, bool is_pulled, Nodes<Real>& nodes);
 
+    /// To be called where bodies were put elsewhere since the last step: goes there as far as others let them.
+    /// @param nodes input: where they were put; output: where they are
+    void follow(Real step, Nodes<Real>& nodes, StageTimer* timer);
+
     /// A step of `step` seconds from `previous`; writes `current`.
     /// @param current's velocities are those one step before `previous` if `has_earlier`, else not looked at
     /// @param load_forces [N], shape [nodes], or empty @param pulls null: no hand holds anything

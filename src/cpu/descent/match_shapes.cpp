@@ -29,12 +29,15 @@ ShapeMatcher<Real>::ShapeMatcher(std::shared_ptr<const Model> model)
       inverted_(model_->objects.size()) {}
 
 template <class Real>
-void ShapeMatcher<Real>::run(Nodes<Real>& nodes) {
+bool ShapeMatcher<Real>::run(Nodes<Real>& nodes) {
     count_inverted_tets(nodes.positions);
+    std::atomic<bool> any = false;
     tbb::parallel_for(std::size_t(0), model_->body_count(), [&](std::size_t o) {
-        if (static_cast<float>(inverted_[o]) > shapes_.objects[o].inverse_y.w)
-            match(static_cast<std::uint32_t>(o), nodes);
+        if (static_cast<float>(inverted_[o]) > shapes_.objects[o].inverse_y.w &&
+            match(static_cast<std::uint32_t>(o), nodes))
+            any = true;
     });
+    return any;
 }
 
 template <class Real>
@@ -58,7 +61,7 @@ void ShapeMatcher<Real>::count_inverted_tets(const std::vector<Vec4<Real>>& posi
 }
 
 template <class Real>
-void ShapeMatcher<Real>::match(std::uint32_t object, Nodes<Real>& nodes) const {
+bool ShapeMatcher<Real>::match(std::uint32_t object, Nodes<Real>& nodes) const {
     const Range& range = model_->objects[object].nodes;
     const glm::dvec3 origin(nodes.positions[range.first]);
     glm::dmat3 moment(0.0);  // m x X^T
@@ -80,7 +83,7 @@ void ShapeMatcher<Real>::match(std::uint32_t object, Nodes<Real>& nodes) const {
                              glm::dvec3(rest.inverse_z));
     center /= mass;
     square -= mass * glm::dot(center, center);
-    if (trace(moment * inverse * glm::transpose(moment)) > kLeastExplained * square) return;
+    if (trace(moment * inverse * glm::transpose(moment)) > kLeastExplained * square) return false;
 
     const glm::dmat3 rotation = nearest_rotation(moment), square_at_rest = glm::inverse(inverse);
     const glm::dmat3 inertia = trace(square_at_rest) * glm::dmat3(1.0) - square_at_rest;
@@ -94,6 +97,7 @@ void ShapeMatcher<Real>::match(std::uint32_t object, Nodes<Real>& nodes) const {
         position = Vec4<Real>(Vec3<Real>(origin + center + r), position.w);
         velocity_of_node = Vec4<Real>(Vec3<Real>(velocity + glm::cross(spin, r)), velocity_of_node.w);
     }
+    return true;
 }
 
 template class ShapeMatcher<float>;

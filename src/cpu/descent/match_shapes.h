@@ -19,11 +19,12 @@ class ShapeMatcher {
 public:
     explicit ShapeMatcher(std::shared_ptr<const Model> model);
 
-    void run(Nodes<Real>& nodes);
+    /// @return whether any body was put elsewhere
+    bool run(Nodes<Real>& nodes);
 
 private:
     void count_inverted_tets(const std::vector<Vec4<Real>>& positions);
-    void match(std::uint32_t object, Nodes<Real>& nodes) const;
+    bool match(std::uint32_t object, Nodes<Real>& nodes) const;
 
     std::shared_ptr<const Model> model_;
     MatchShapes shapes_;
