@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "cpu/collision/colliders.h"
-#include "cpu/elasticity/elastic_energy.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -45,6 +44,8 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
       rigid_move_(model_),
       joint_move_(model_),
       rebound_(model_),
+      crushed_bodies_(model_),
+      is_crushed_(model_->objects.size()),
       outlooks_(bodies_ ? model_->objects.size() : 0),
       device_(bodies_ ? device : nullptr) {
     if (settings_.coarse_level) coarse_.emplace(model_);
@@ -108,6 +109,7 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
     finish(step, previous, current);
     if (acting_ != nullptr) bodies_->end(current.positions);
     last_step_ = step;
+    slow_down_crushed(previous, load_forces, pulls, current);
 }
 
 // From the first guess on.
@@ -359,9 +361,10 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
 // Bodies that others press, or that meet themselves, cannot get to such a guess: what they would make of it
 // crumples them.
 template <class Real>
-void BlockDescent<Real>::shorten_tangled(Positions& positions) const {
+void BlockDescent<Real>::shorten_tangled(Positions& positions) {
     for_each_index(0, model_->objects.size(), 1, [&](std::size_t o) {
         const ModelObject& object = model_->objects[o];
+        is_crushed_[o] = 0;
         if (!objective_.is_tangled(object, positions)) return;
         const Positions guess(positions.begin() + object.nodes.first, positions.begin() + object.nodes.end());
         const auto go = [&](double part) {
@@ -373,6 +376,7 @@ void BlockDescent<Real>::shorten_tangled(Positions& positions) const {
             }
         };
         go(0.0);
+        is_crushed_[o] = objective_.is_tangled(object, positions) ? 1 : 0;
         const bool is_kept_off =
             acting_ != nullptr && (acting_->was_pressed(o) || acting_->list().own.meets_itself(o));
         if (!division_ || is_kept_off) return;
@@ -388,9 +392,7 @@ void BlockDescent<Real>::shorten_tangled(Positions& positions) const {
 // Of a body by itself [J].
 template <class Real>
 double BlockDescent<Real>::objective(const ModelObject& object, const Positions& positions) const {
-    double energy =
-        elastic_energy<Real>(*model_, {object.nodes, object.springs, object.neo_hookean_tets}, positions);
-    if (object.neo_hookean_tets.count == 0) energy += flat_tet_energy<Real>(*model_, object.tets, positions);
+    double energy = body_energy<Real>(*model_, object, positions);
     for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
         const Vec4<Real>& target = objective_.step.targets[n];
         const glm::dvec3 left = glm::dvec3(positions[n]) - glm::dvec3(target);
@@ -419,6 +421,25 @@ void BlockDescent<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Re
         rebound_.run({static_cast<double>(step), static_cast<double>(least), previous.velocities,
                       objective_.step.starts, current.positions},
                      *bodies_, contacts_, current.velocities);
+}
+
+// Bodies without contacts come out of it by themselves.
+template <class Real>
+void BlockDescent<Real>::slow_down_crushed(const Nodes<Real>& previous,
+                                           std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls,
+                                           Nodes<Real>& current) {
+    if (!bodies_) return;
+    std::vector<std::uint32_t> objects;
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
+        const auto is_own = [&](std::uint32_t n) { return contacts_.object_of[n] == o; };
+        const bool is_pulled =
+            pulls != nullptr && std::any_of(pulls->nodes().begin(), pulls->nodes().end(), is_own);
+        if (is_crushed_[o] != 0 && !is_pulled && !bodies_->is_held(o)) objects.push_back(o);
+    }
+    if (objects.empty()) return;
+    crushed_bodies_.run({objective_.step.starts, current.positions, previous.velocities, load_forces,
+                         contact_forces(current.positions)},
+                        objects, current.velocities);
 }
 
 template <class Real>

@@ -11,6 +11,7 @@
 #include "cpu/descent/coarse_step.h"
 #include "cpu/descent/collider_contacts.h"
 #include "cpu/descent/contact_forces.h"
+#include "cpu/descent/crushed_bodies.h"
 #include "cpu/descent/joint_move.h"
 #include "cpu/descent/node_sweep.h"
 #include "cpu/descent/rest_watch.h"
@@ -70,7 +71,8 @@ public:
     /// @param load_factors of the model's loads @param is_pulled whether a hand holds a body
     bool rests(double step, std::span<const float> load_factors, bool is_pulled, Nodes<Real>& nodes);
 
-    /// To be called where bodies were put elsewhere since the last step: goes there as far as others let them.
+    /// To be called where bodies were put elsewhere since the last step: goes there as far as others let
+    /// them.
     /// @param nodes input: where they were put; output: where they are
     void follow(Real step, Nodes<Real>& nodes, StageTimer* timer);
 
@@ -115,8 +117,10 @@ private:
     void start(Real step, bool has_earlier, const Nodes<Real>& previous,
                std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls, Nodes<Real>& current);
     void make_moves(Real step, Positions& positions, StageTimer* timer);
-    void shorten_tangled(Positions& positions) const;
+    void shorten_tangled(Positions& positions);
     double objective(const ModelObject& object, const Positions& positions) const;
+    void slow_down_crushed(const Nodes<Real>& previous, std::span<const Vec4<Real>> load_forces,
+                           const Pulls<Real>* pulls, Nodes<Real>& current);
     void find_outlooks(Real step, bool is_part, const Nodes<Real>& previous);
     void go_on_to_guess(Positions& positions, StageTimer* timer);
     void move_together(bool last, Positions& positions, StageTimer* timer);
@@ -145,6 +149,8 @@ private:
     RigidMove<Real> rigid_move_;
     JointMove<Real> joint_move_;
     RigidRebound<Real> rebound_;
+    CrushedBodies<Real> crushed_bodies_;
+    std::vector<std::uint8_t> is_crushed_;  // by object: whether it was tangled where the step began
     std::optional<SecantStep<Real>> secant_;
     Positions ends_;                          // of bodies' motions
     std::vector<Outlook> outlooks_;           // by object

@@ -291,9 +291,9 @@ void RigidRebound<Real>::push_apart(std::vector<Push>& pushes) {
     }
 }
 
-// An impact is over where two hardly approach any more, and what they press each other with would hardly throw
-// them apart while a pressure wave passes. Those that approach, but do not press each other in a step, are in
-// the middle of it: surfaces of soft bodies bounce by themselves.
+// An impact is over where two hardly approach any more, and what they press each other with would hardly
+// throw them apart while a pressure wave passes. Those that approach, but do not press each other in a step,
+// are in the middle of it: surfaces of soft bodies bounce by themselves.
 template <class Real>
 bool RigidRebound<Real>::is_over(const Step& step, const Meeting& meeting, const std::array<Body*, 2>& sides,
                                  bool presses, double wave_time) const {

@@ -90,8 +90,8 @@ private:
     static void meet_in_one_point(Push& push);
     static void push_apart(std::vector<Push>& pushes);
     std::vector<Push> end_meetings(const Step& step, const Contacts<Real>& contacts, Bodies& bodies);
-    bool is_over(const Step& step, const Meeting& meeting, const std::array<Body*, 2>& sides,
-                 bool presses, double wave_time) const;
+    bool is_over(const Step& step, const Meeting& meeting, const std::array<Body*, 2>& sides, bool presses,
+                 double wave_time) const;
 
     std::shared_ptr<const Model> model_;
     std::vector<double> wave_times_;  // by object [s]

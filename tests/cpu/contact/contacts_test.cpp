@@ -365,9 +365,9 @@ void fuzz(unsigned first, unsigned count, int most_substeps = 4, int most_iterat
         for (int step = 0; step < 20 * substeps; ++step) {
             ASSERT_TRUE(test::stays_apart(solver, *model, 1, kFrame / substeps))
                 << "scene " << seed << ", step " << step;
-            // Few sweeps leave elastic energy in stiff bodies, and motion in what is crushed.
+            // Few sweeps leave elastic energy in stiff bodies.
             const Sums now = sums_of(*model, solver.nodes());
-            ASSERT_LT(now.energy - now.elastic, before.energy + 0.5 * before.kinetic)
+            ASSERT_LT(now.energy - now.elastic, before.energy + 0.2 * before.kinetic)
                 << "scene " << seed << ", step " << step;
         }
     }
