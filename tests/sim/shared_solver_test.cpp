@@ -144,9 +144,16 @@ void fuzz(unsigned first, unsigned count) {
         const int substeps = random.integer(1, 16), iterations = random.integer(1, 60);
         const bool divides_steps = random.integer(0, 1) == 0;
         SharedSolver solver = make_solver(model, iterations, divides_steps);
+        const auto energy_of = [&] {
+            const State state = solver.read_state();
+            return test::motion_energy<float>(*model, {state.positions, state.velocities});
+        };
+        const test::MotionEnergy energy = energy_of();
         for (int step = 0; step < 15; ++step) {
             solver.advance_nodes(kFrame / substeps);
             ASSERT_EQ(overlaps_of(*model, solver), 0u) << "scene " << seed << ", step " << step;
+            ASSERT_LE(energy_of().sum(), energy.sum() + 0.2 * energy.kinetic)
+                << "scene " << seed << ", step " << step;
         }
     }
 }

@@ -1,5 +1,6 @@
 #include "support/contact_scenes.h"
 
+#include "cpu/measure/measure.h"
 #include "model/build/build_model.h"
 #include "model/drive/handles.h"
 #include "support/overlaps.h"
@@ -54,19 +55,37 @@ void advance(cpu::CpuSolver<Real>& solver, const Model& model, int number, doubl
 }
 
 template <class Real>
-testing::AssertionResult stays_apart(cpu::CpuSolver<Real>& solver, const Model& model, int steps,
-                                     double step) {
+MotionEnergy motion_energy(const Model& model, const cpu::Nodes<Real>& nodes) {
+    MotionEnergy energy;
+    for (const ObjectMeasure& object : cpu::measure(model, nodes)) {
+        energy.kinetic += object.kinetic_energy;
+        energy.potential += object.potential_energy;
+    }
+    return energy;
+}
+
+template <class Real>
+testing::AssertionResult stays_apart(cpu::CpuSolver<Real>& solver, const Model& model, int steps, double step,
+                                     double most_energy) {
     for (int number = 0; number < steps; ++number) {
         advance(solver, model, number, step);
         const std::size_t overlaps = count_overlaps(model, solver.nodes().positions);
         if (overlaps > 0) return testing::AssertionFailure() << overlaps << " overlaps after step " << number;
+        const double energy = motion_energy(model, solver.nodes()).sum();
+        if (!(energy <= most_energy))
+            return testing::AssertionFailure()
+                   << energy << " J after step " << number << ", at most " << most_energy;
     }
     return testing::AssertionSuccess();
 }
 
 template void advance<float>(cpu::CpuSolver<float>&, const Model&, int, double);
 template void advance<double>(cpu::CpuSolver<double>&, const Model&, int, double);
-template testing::AssertionResult stays_apart<float>(cpu::CpuSolver<float>&, const Model&, int, double);
-template testing::AssertionResult stays_apart<double>(cpu::CpuSolver<double>&, const Model&, int, double);
+template MotionEnergy motion_energy<float>(const Model&, const cpu::Nodes<float>&);
+template MotionEnergy motion_energy<double>(const Model&, const cpu::Nodes<double>&);
+template testing::AssertionResult stays_apart<float>(cpu::CpuSolver<float>&, const Model&, int, double,
+                                                     double);
+template testing::AssertionResult stays_apart<double>(cpu::CpuSolver<double>&, const Model&, int, double,
+                                                      double);
 
 }  // namespace gelatin::test

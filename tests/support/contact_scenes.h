@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -51,9 +52,19 @@ cpu::CpuSolver<Real> make_solver(const std::shared_ptr<const Model>& model, doub
 template <class Real>
 void advance(cpu::CpuSolver<Real>& solver, const Model& model, int number, double step = kFrame);
 
-/// Makes steps from the start, until faces overlap after one. @return whether none did
+/// Of all bodies [J].
+struct MotionEnergy {
+    double kinetic = 0.0, potential = 0.0;
+    double sum() const { return kinetic + potential; }
+};
+template <class Real>
+MotionEnergy motion_energy(const Model& model, const cpu::Nodes<Real>& nodes);
+
+/// Makes steps from the start, until faces overlap after one, or bodies have more kinetic and potential
+/// energy than `most_energy` [J]. @return whether they never do
 template <class Real>
 testing::AssertionResult stays_apart(cpu::CpuSolver<Real>& solver, const Model& model, int steps,
-                                     double step = kFrame);
+                                     double step = kFrame,
+                                     double most_energy = std::numeric_limits<double>::infinity());
 
 }  // namespace gelatin::test

@@ -188,12 +188,19 @@ void fuzz(unsigned first, unsigned count) {
         const auto model = make_blocks(blocks, {0, -9.81, 0}, colliders);
         cpu::CpuSolver<float> solver =
             make_solver<float>(model, 0.4, random.integer(1, 12), random.integer(0, 1) == 0);
-        ASSERT_TRUE(test::stays_apart(solver, *model, 30)) << "scene " << seed;
+        // What colliders give is not known. Bodies that explode have far more.
+        double mass = 0.0;
+        for (const ModelObject& object : model->objects) mass += object.mass;
+        const double fastest = 100.0;  // [m/s]
+        const double most =
+            test::motion_energy(*model, solver.nodes()).sum() + 0.5 * mass * fastest * fastest;
+        ASSERT_TRUE(test::stays_apart(solver, *model, 30, kFrame, most)) << "scene " << seed;
     }
 }
 
 TEST(ColliderSurfaces, NothingPassesThroughThem) {
     fuzz(1, 12);
+    fuzz(251, 1);  // a ball tears a soft body, which stays tangled
 }
 
 TEST(ColliderSurfacesLong, NothingPassesThroughThem) {
