@@ -20,8 +20,6 @@ constexpr double kNearlyAll = 0.95;
 constexpr double kKeptAcceleration = 0.5;
 // A body is soft where a pressure wave takes more than so many steps through it.
 constexpr double kStepsAWave = 8.0;
-// A guess that tangles a body makes more than this part of its way, or nothing.
-constexpr double kLeastOfGuess = 0.1;
 
 template <class Work>
 void for_each_node(const Model& model, const Work& work) {
@@ -44,8 +42,7 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
       rigid_move_(model_),
       joint_move_(model_),
       rebound_(model_),
-      crushed_bodies_(model_),
-      is_crushed_(model_->objects.size()),
+      tangled_(model_),
       outlooks_(bodies_ ? model_->objects.size() : 0),
       device_(bodies_ ? device : nullptr) {
     if (settings_.coarse_level) coarse_.emplace(model_);
@@ -109,7 +106,7 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
     finish(step, previous, current);
     if (acting_ != nullptr) bodies_->end(current.positions);
     last_step_ = step;
-    slow_down_crushed(previous, load_forces, pulls, current);
+    slow_down_tangled(previous, load_forces, pulls, current);
 }
 
 // From the first guess on.
@@ -355,50 +352,17 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
     objective_.begin(step, acting_);
 }
 
-// A guess that tangles a body can hold any energy, which few sweeps would not take out again: the body starts
-// where it was. A step of a single sweep would lose a third of its motion so. In divided steps, the guess
-// makes the largest part of its way, of halves, at which the objective is no more than where the body was.
-// Bodies that others press, or that meet themselves, cannot get to such a guess: what they would make of it
-// crumples them.
+// Bodies that others press, or that meet themselves, cannot get to a part of a guess that tangles them: what
+// they would make of it crumples them.
 template <class Real>
 void BlockDescent<Real>::shorten_tangled(Positions& positions) {
-    for_each_index(0, model_->objects.size(), 1, [&](std::size_t o) {
-        const ModelObject& object = model_->objects[o];
-        is_crushed_[o] = 0;
-        if (!objective_.is_tangled(object, positions)) return;
-        const Positions guess(positions.begin() + object.nodes.first, positions.begin() + object.nodes.end());
-        const auto go = [&](double part) {
-            for (std::uint32_t k = 0; k < object.nodes.count; ++k) {
-                const std::uint32_t n = object.nodes.first + k;
-                if (positions[n].w == Real(0)) continue;  // held ones are where their handle takes them
-                const Vec3<Real> start(objective_.step.starts[n]), way = Vec3<Real>(guess[k]) - start;
-                positions[n] = Vec4<Real>(start + static_cast<Real>(part) * way, positions[n].w);
-            }
-        };
-        go(0.0);
-        is_crushed_[o] = objective_.is_tangled(object, positions) ? 1 : 0;
+    std::vector<std::uint8_t> may_be_part(model_->objects.size());
+    for (std::size_t o = 0; o < may_be_part.size(); ++o) {
         const bool is_kept_off =
             acting_ != nullptr && (acting_->was_pressed(o) || acting_->list().own.meets_itself(o));
-        if (!division_ || is_kept_off) return;
-        const double at_start = objective(object, positions);
-        for (double part = 1.0; part > kLeastOfGuess; part *= 0.5) {
-            go(part);
-            if (objective(object, positions) <= at_start) return;
-        }
-        go(0.0);
-    });
-}
-
-// Of a body by itself [J].
-template <class Real>
-double BlockDescent<Real>::objective(const ModelObject& object, const Positions& positions) const {
-    double energy = body_energy<Real>(*model_, object, positions);
-    for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
-        const Vec4<Real>& target = objective_.step.targets[n];
-        const glm::dvec3 left = glm::dvec3(positions[n]) - glm::dvec3(target);
-        energy += 0.5 * static_cast<double>(target.w) * glm::dot(left, left);
+        may_be_part[o] = division_ && !is_kept_off ? 1 : 0;
     }
-    return energy;
+    tangled_.shorten_guess(objective_, may_be_part, positions);
 }
 
 // Restitution: of bodies that meet others, as rigid ones; else nodes that a collider has stopped go back with
@@ -425,7 +389,7 @@ void BlockDescent<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Re
 
 // Bodies without contacts come out of it by themselves.
 template <class Real>
-void BlockDescent<Real>::slow_down_crushed(const Nodes<Real>& previous,
+void BlockDescent<Real>::slow_down_tangled(const Nodes<Real>& previous,
                                            std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls,
                                            Nodes<Real>& current) {
     if (!bodies_) return;
@@ -434,12 +398,12 @@ void BlockDescent<Real>::slow_down_crushed(const Nodes<Real>& previous,
         const auto is_own = [&](std::uint32_t n) { return contacts_.object_of[n] == o; };
         const bool is_pulled =
             pulls != nullptr && std::any_of(pulls->nodes().begin(), pulls->nodes().end(), is_own);
-        if (is_crushed_[o] != 0 && !is_pulled && !bodies_->is_held(o)) objects.push_back(o);
+        if (tangled_.was_tangled(o) && !is_pulled && !bodies_->is_held(o)) objects.push_back(o);
     }
     if (objects.empty()) return;
-    crushed_bodies_.run({objective_.step.starts, current.positions, previous.velocities, load_forces,
-                         contact_forces(current.positions)},
-                        objects, current.velocities);
+    tangled_.slow_down({objective_.step.starts, current.positions, previous.velocities, load_forces,
+                        contact_forces(current.positions)},
+                       objects, current.velocities);
 }
 
 template <class Real>

@@ -11,7 +11,6 @@
 #include "cpu/descent/coarse_step.h"
 #include "cpu/descent/collider_contacts.h"
 #include "cpu/descent/contact_forces.h"
-#include "cpu/descent/crushed_bodies.h"
 #include "cpu/descent/joint_move.h"
 #include "cpu/descent/node_sweep.h"
 #include "cpu/descent/rest_watch.h"
@@ -19,6 +18,7 @@
 #include "cpu/descent/rigid_rebound.h"
 #include "cpu/descent/step_division.h"
 #include "cpu/descent/step_objective.h"
+#include "cpu/descent/tangled_bodies.h"
 #include "cpu/drive/pulls.h"
 #include "cpu/nodes.h"
 #include "model/descent/device_sweeps.h"
@@ -118,8 +118,7 @@ private:
                std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls, Nodes<Real>& current);
     void make_moves(Real step, Positions& positions, StageTimer* timer);
     void shorten_tangled(Positions& positions);
-    double objective(const ModelObject& object, const Positions& positions) const;
-    void slow_down_crushed(const Nodes<Real>& previous, std::span<const Vec4<Real>> load_forces,
+    void slow_down_tangled(const Nodes<Real>& previous, std::span<const Vec4<Real>> load_forces,
                            const Pulls<Real>* pulls, Nodes<Real>& current);
     void find_outlooks(Real step, bool is_part, const Nodes<Real>& previous);
     void go_on_to_guess(Positions& positions, StageTimer* timer);
@@ -149,8 +148,7 @@ private:
     RigidMove<Real> rigid_move_;
     JointMove<Real> joint_move_;
     RigidRebound<Real> rebound_;
-    CrushedBodies<Real> crushed_bodies_;
-    std::vector<std::uint8_t> is_crushed_;  // by object: whether it was tangled where the step began
+    TangledBodies<Real> tangled_;
     std::optional<SecantStep<Real>> secant_;
     Positions ends_;                          // of bodies' motions
     std::vector<Outlook> outlooks_;           // by object

@@ -1,4 +1,4 @@
-#include "cpu/descent/crushed_bodies.h"
+#include "cpu/descent/tangled_bodies.h"
 
 #include <gtest/gtest.h>
 
@@ -14,14 +14,14 @@ namespace {
 using Nodes = std::vector<glm::dvec4>;
 
 // A block of which all nodes have moved and go on at random, pushed by forces at random.
-struct CrushedBodiesTest : testing::Test {
+struct TangledBodiesTest : testing::Test {
     std::shared_ptr<const Model> model =
         test::make_blocks({{.youngs_modulus = 1e4}}, glm::dvec3(0, -9.81, 0));
     Nodes starts{model->positions.begin(), model->positions.end()},
         positions = starts, before{model->velocities.begin(), model->velocities.end()}, loads, after;
     ContactForces contacts;
 
-    CrushedBodiesTest() {
+    TangledBodiesTest() {
         test::RandomMaker random(3);
         contacts.normal.resize(starts.size());
         contacts.friction.resize(starts.size());
@@ -74,11 +74,12 @@ struct CrushedBodiesTest : testing::Test {
     }
     void run() {
         const std::vector<std::uint32_t> objects{0};
-        cpu::CrushedBodies<double>(model).run({starts, positions, before, loads, contacts}, objects, after);
+        cpu::TangledBodies<double>(model).slow_down({starts, positions, before, loads, contacts}, objects,
+                                                    after);
     }
 };
 
-TEST_F(CrushedBodiesTest, HaveNoMoreEnergyThanTheyWereGiven) {
+TEST_F(TangledBodiesTest, HaveNoMoreEnergyThanTheyWereGiven) {
     go(3.0);
     const Nodes fast = after;
     ASSERT_GT(kinetic(fast), 1.5 * most());
@@ -89,7 +90,7 @@ TEST_F(CrushedBodiesTest, HaveNoMoreEnergyThanTheyWereGiven) {
     EXPECT_LT(glm::length(spin(after) - spin(fast)), 1e-5 * glm::length(spin(fast)));
 }
 
-TEST_F(CrushedBodiesTest, KeepWhatTheyWereGiven) {
+TEST_F(TangledBodiesTest, KeepWhatTheyWereGiven) {
     go(0.5);
     const Nodes slow = after;
     ASSERT_LT(kinetic(slow), most());
@@ -98,7 +99,7 @@ TEST_F(CrushedBodiesTest, KeepWhatTheyWereGiven) {
 }
 
 // What others have pushed it into takes all motion but the rigid one.
-TEST_F(CrushedBodiesTest, StayRigidWhereNothingIsLeft) {
+TEST_F(TangledBodiesTest, StayRigidWhereNothingIsLeft) {
     go(1.0);
     for (glm::dvec4& velocity : before) velocity *= 1e-3;
     for (glm::dvec3& force : contacts.normal) force = glm::dvec3(0.0);

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "cpu/descent/step_objective.h"
+#include "cpu/nodes.h"
+#include "model/model.h"
+#include "model/solver.h"
+
+namespace gelatin::cpu {
+
+/// The elastic energy of a body, with that of flat tets [J].
+template <class Real>
+double body_energy(const Model& model, const ModelObject& object, std::span<const Vec4<Real>> positions);
+
+/// Bodies that the guess of a step would tangle, and those that are tangled where it begins.
+template <class Real>
+class TangledBodies {
+public:
+    struct End {
+        std::span<const Vec4<Real>> starts, positions;  ///< of the step [m]
+        std::span<const Vec4<Real>> before;             ///< velocities when it began [m/s]
+        std::span<const Vec4<Real>> load_forces;        ///< [N], or empty
+        const ContactForces& contacts;
+    };
+
+    explicit TangledBodies(std::shared_ptr<const Model> model)
+        : model_(std::move(model)), is_tangled_(model_->objects.size()) {}
+
+    /// A guess that tangles a body can hold any energy, which few sweeps would not take out again: the body
+    /// starts where it was. A step of a single sweep would lose a third of its motion so.
+    /// @param may_be_part by object: not 0 where the guess makes, in place of that, the largest part of its
+    /// way, of halves, at which the objective is no more than where the body was
+    /// @param positions input: the guess; output: where the step starts its moves
+    void shorten_guess(const StepObjective<Real>& objective, std::span<const std::uint8_t> may_be_part,
+                       std::vector<Vec4<Real>>& positions);
+
+    /// Whether a body was tangled where the step began. @pre shorten_guess()
+    bool was_tangled(std::size_t object) const { return is_tangled_[object] != 0; }
+
+    /// Keeps bodies that were tangled from gaining energy. Few sweeps of them are far from a minimum: what
+    /// they leave as motion can be more than what tets and contacts had to give, in each step. What a body
+    /// does besides its rigid motion is slowed down until
+    ///   K_1 + E(x_1) <= K_0 + E(x_0) + sum_i f_i . (x_1i - x_0i)
+    /// holds, with the forces of gravity, loads and contacts where the step ends, as for every step of
+    /// implicit Euler that is solved. Momentum and angular momentum stay as they are.
+    /// @param objects nothing else but these forces acts on their nodes
+    void slow_down(const End& end, std::span<const std::uint32_t> objects,
+                   std::span<Vec4<Real>> velocities) const;
+
+private:
+    double objective_of(const StepObjective<Real>& objective, const ModelObject& object,
+                        const std::vector<Vec4<Real>>& positions) const;
+    void slow_down(const End& end, const ModelObject& object, std::span<Vec4<Real>> velocities) const;
+
+    std::shared_ptr<const Model> model_;
+    std::vector<std::uint8_t> is_tangled_;  // by object, where the step began
+};
+
+}  // namespace gelatin::cpu
