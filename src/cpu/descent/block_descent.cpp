@@ -395,10 +395,10 @@ void BlockDescent<Real>::slow_down_tangled(const Nodes<Real>& previous,
     if (!bodies_) return;
     std::vector<std::uint32_t> objects;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
+        if (!tangled_.was_tangled(o) || bodies_->is_held(o)) continue;
         const auto is_own = [&](std::uint32_t n) { return contacts_.object_of[n] == o; };
-        const bool is_pulled =
-            pulls != nullptr && std::any_of(pulls->nodes().begin(), pulls->nodes().end(), is_own);
-        if (tangled_.was_tangled(o) && !is_pulled && !bodies_->is_held(o)) objects.push_back(o);
+        if (pulls == nullptr || std::none_of(pulls->nodes().begin(), pulls->nodes().end(), is_own))
+            objects.push_back(o);
     }
     if (objects.empty()) return;
     tangled_.slow_down({objective_.step.starts, current.positions, previous.velocities, load_forces,

@@ -202,24 +202,13 @@ typename RigidRebound<Real>::Body RigidRebound<Real>::measure(const Step& step, 
         momentum += own;
         spin += glm::cross(arm, own);
     }
+    const RigidInertia inertia(before);
     Body body;
-    const glm::dvec3 center = before.arm / before.stiffness;
-    body.center = origin + center;
-    body.inverse_mass = 1.0 / before.stiffness;
-    before.square.add_outer(-before.stiffness, center);
-    const glm::dvec3 &d = before.square.diagonal, &b = before.square.beside;
-    const double trace = d.x + d.y + d.z;
-    constexpr double kThin = 1e-6;  // a row of nodes has no inertia about itself
-    const glm::dvec3 own = (1.0 + kThin) * glm::dvec3(trace) - d;
-    if (trace > 0.0)
-        body.inverse_inertia =
-            glm::inverse(glm::dmat3(own.x, -b.z, -b.y, -b.z, own.y, -b.x, -b.y, -b.x, own.z));
-    const auto twist = [&](const glm::dvec3& linear, const glm::dvec3& angular) {
-        return Twist{body.inverse_mass * linear,
-                     body.inverse_inertia * (angular - glm::cross(center, linear))};
-    };
-    body.before = twist(before.force, before.moment);
-    body.after = twist(momentum, spin);
+    body.center = origin + inertia.center;
+    body.inverse_mass = inertia.inverse_mass;
+    body.inverse_inertia = inertia.inverse_inertia;
+    body.before = inertia.twist(before.force, before.moment);
+    body.after = inertia.twist(momentum, spin);
     return body;
 }
 

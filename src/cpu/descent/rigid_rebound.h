@@ -11,19 +11,11 @@
 
 #include "cpu/contact/contacts.h"
 #include "cpu/descent/collider_contacts.h"
+#include "cpu/descent/rigid_inertia.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
 
 namespace gelatin::cpu {
-
-/// How a body moves as a rigid one.
-struct Twist {
-    glm::dvec3 velocity{0.0}, spin{0.0};  ///< of the centre of mass [m/s]; [rad/s]
-
-    /// @param arm from the centre of mass [m]
-    glm::dvec3 at(const glm::dvec3& arm) const { return velocity + glm::cross(spin, arm); }
-    Twist operator+(const Twist& other) const { return {velocity + other.velocity, spin + other.spin}; }
-};
 
 /// Restitution (docs/contact.md). Bodies bounce by their elasticity, of which implicit steps leave little
 /// where bodies are stiff. Those that leave each other with less than the restitution times the speed at

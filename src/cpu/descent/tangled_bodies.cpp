@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 
+#include "cpu/descent/rigid_inertia.h"
 #include "cpu/elasticity/elastic_energy.h"
 #include "model/for_each_index.h"
 
@@ -105,21 +104,14 @@ void TangledBodies<Real>::slow_down(const End& end, const ModelObject& object,
                           body_energy<Real>(*model_, object, end.positions);
     if (kinetic(velocity_after) <= energy) return;
 
-    const double mass = sum(mass_of);
-    const glm::dvec3 velocity = sum([&](std::uint32_t n) { return mass_of(n) * velocity_after(n); }) / mass;
-    const glm::dvec3 first(end.positions[nodes.first]);
-    const auto from_first = [&](std::uint32_t n) { return glm::dvec3(end.positions[n]) - first; };
-    const glm::dvec3 center = sum([&](std::uint32_t n) { return mass_of(n) * from_first(n); }) / mass;
-    const auto arm = [&](std::uint32_t n) { return from_first(n) - center; };
-    const glm::dvec3 spin =
-        sum([&](std::uint32_t n) { return mass_of(n) * glm::cross(arm(n), velocity_after(n) - velocity); });
-    const glm::dmat3 inertia = sum([&](std::uint32_t n) {
-        constexpr double kThin = 1e-6;  // a row of nodes has no inertia about itself
-        const glm::dvec3 r = arm(n);
-        return mass_of(n) * ((1.0 + kThin) * glm::dot(r, r) * glm::dmat3(1.0) - glm::outerProduct(r, r));
-    });
-    const glm::dvec3 rotation = glm::inverse(inertia) * spin;
-    const auto rigid = [&](std::uint32_t n) { return velocity + glm::cross(rotation, arm(n)); };
+    const glm::dvec3 origin(end.positions[nodes.first]);
+    const auto arm = [&](std::uint32_t n) { return glm::dvec3(end.positions[n]) - origin; };
+    RigidSums sums;  // with masses for stiffnesses, and momenta for forces
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+        sums.add(arm(n), mass_of(n), mass_of(n) * velocity_after(n));
+    const RigidInertia inertia(sums);
+    const Twist twist = inertia.twist(sums.force, sums.moment);
+    const auto rigid = [&](std::uint32_t n) { return twist.at(arm(n) - inertia.center); };
     const double besides = kinetic([&](std::uint32_t n) { return velocity_after(n) - rigid(n); });
     if (!(besides > 0.0)) return;
     const double part = std::sqrt(std::clamp((energy - kinetic(rigid)) / besides, 0.0, 1.0));
