@@ -13,28 +13,24 @@
 HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {
 
-HWY_INLINE TermLanes load_terms(Lanes d, std::uint32_t row, const TermColumns& terms) {
-    const auto load = [&](const std::array<TermColumns::Column, 3>& columns) HWY_ATTR {
-        return Vec3Lanes(hn::LoadU(d, &columns[0][row]), hn::LoadU(d, &columns[1][row]),
-                         hn::LoadU(d, &columns[2][row]));
-    };
-    return {load(terms.force), {load(terms.diagonal), load(terms.beside)}};
+using VectorColumns = std::array<TermColumns::Column, 3>;
+
+HWY_INLINE Vec3Lanes load_vectors(Lanes d, const VectorColumns& columns, std::uint32_t row) {
+    return Vec3Lanes(hn::LoadU(d, &columns[0][row]), hn::LoadU(d, &columns[1][row]),
+                     hn::LoadU(d, &columns[2][row]));
 }
 
-HWY_INLINE void store_terms(Lanes d, std::uint32_t row, const TermLanes& terms, TermColumns& stored) {
-    const auto store = [&](const Vec3Lanes& v, std::array<TermColumns::Column, 3>& columns) HWY_ATTR {
-        hn::StoreU(v.x.v, d, &columns[0][row]);
-        hn::StoreU(v.y.v, d, &columns[1][row]);
-        hn::StoreU(v.z.v, d, &columns[2][row]);
-    };
-    store(terms.force, stored.force);
-    store(terms.hessian.diagonal, stored.diagonal);
-    store(terms.hessian.beside, stored.beside);
+HWY_INLINE void store_vectors(Lanes d, const Vec3Lanes& v, VectorColumns& columns, std::uint32_t row) {
+    hn::StoreU(v.x.v, d, &columns[0][row]);
+    hn::StoreU(v.y.v, d, &columns[1][row]);
+    hn::StoreU(v.z.v, d, &columns[2][row]);
 }
 
+// Terms here and below: TermLanes or ForceLanes.
+template <class Terms>
 HWY_INLINE void gather_spring_lanes(Lanes d, const SpringBlocks& springs, std::size_t group,
                                     std::uint32_t row, const Columns& self, const float* positions,
-                                    TermLanes& terms) {
+                                    Terms& terms) {
     for (std::uint32_t b = springs.starts[group]; b < springs.starts[group + 1]; ++b) {
         const SpringBlock& block = springs.blocks[b];
         prefetch_block(&block);
@@ -63,9 +59,10 @@ HWY_INLINE std::uint32_t near_colliders(Lanes d, std::span<const ColliderBound> 
 }
 
 // What inertia and all elements but flat tets add to the terms of kLanes rows of nodes, which are at `self`.
+template <class Terms>
 HWY_INLINE void gather_terms(Lanes d, const DescentGroups& from, std::size_t group, std::uint32_t row,
                              const std::uint32_t* shown, const Columns& self, const Columns& target,
-                             std::span<const glm::vec4> positions, TermLanes& terms) {
+                             std::span<const glm::vec4> positions, Terms& terms) {
     add_point_spring<FloatLanes>(difference(target, self), target.w, terms);
     gather_spring_lanes(d, from.springs, group, row, self, &positions[0].x, terms);
     if (from.tets.blocks.is_empty()) return;
@@ -74,16 +71,17 @@ HWY_INLINE void gather_terms(Lanes d, const DescentGroups& from, std::size_t gro
 }
 
 // Flattened: calls of formulas would pass lanes through memory.
-HWY_FLATTEN void gather_rows(const DescentGroups& from, std::size_t group,
-                             std::span<const glm::vec4> positions, TermColumns& terms) {
+HWY_FLATTEN void gather_forces(const DescentGroups& from, std::size_t group,
+                               std::span<const glm::vec4> positions, TermColumns& terms) {
     const Lanes d;
     const std::array<std::uint32_t, kGroup> shown = shown_nodes(&from.nodes[group * kGroup]);
     for (std::uint32_t row = 0; row < kGroup; row += kLanes) {
         const Columns self = load_nodes(d, &positions[0].x, &shown[row]);
         const Columns target = load_nodes(d, &from.targets[0].x, &shown[row]);
-        TermLanes sum = load_terms(d, row, terms);
+        ForceLanes sum;
+        sum.force = load_vectors(d, terms.force, row);
         gather_terms(d, from, group, row, shown.data(), self, target, positions, sum);
-        store_terms(d, row, sum, terms);
+        store_vectors(d, sum.force, terms.force, row);
     }
 }
 
@@ -96,9 +94,12 @@ HWY_FLATTEN std::uint32_t descend_rows(const DescentGroups& from, std::size_t gr
     for (std::uint32_t row = 0; row < kGroup; row += kLanes) {
         const Columns self = load_nodes(d, &positions[0].x, &shown[row]);
         const Columns target = load_nodes(d, &from.targets[0].x, &shown[row]);
-        TermLanes sum = load_terms(d, row, terms);
+        TermLanes sum(load_vectors(d, terms.force, row),
+                      {load_vectors(d, terms.diagonal, row), load_vectors(d, terms.beside, row)});
         gather_terms(d, from, group, row, shown.data(), self, target, positions, sum);
-        store_terms(d, row, sum, terms);
+        store_vectors(d, sum.force, terms.force, row);
+        store_vectors(d, sum.hessian.diagonal, terms.diagonal, row);
+        store_vectors(d, sum.hessian.beside, terms.beside, row);
         const Vec3Lanes moved = Vec3Lanes(self.x, self.y, self.z) + solve(sum);
         may_be_inside |= near_colliders(d, from.colliders, moved) << row;
         HWY_ALIGN float rows[4 * kLanes];
@@ -122,13 +123,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace gelatin::cpu {
 
-HWY_EXPORT(gather_rows);
+HWY_EXPORT(gather_forces);
 HWY_EXPORT(descend_rows);
 
-void gather_group(const DescentGroups& from, std::size_t group, std::span<const glm::vec4> positions,
-                  TermColumns& terms) {
+void gather_group_forces(const DescentGroups& from, std::size_t group, std::span<const glm::vec4> positions,
+                         TermColumns& terms) {
     if (is_empty_group(&from.nodes[group * kGroup])) return;
-    HWY_DYNAMIC_DISPATCH(gather_rows)(from, group, positions, terms);
+    HWY_DYNAMIC_DISPATCH(gather_forces)(from, group, positions, terms);
 }
 
 std::uint32_t descend_group(const DescentGroups& from, std::size_t group, TermColumns& terms,

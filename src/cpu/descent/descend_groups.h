@@ -47,9 +47,10 @@ struct DescentGroups {
     std::span<const ColliderBound> colliders;
 };
 
-/// What inertia, springs and tets, but for flat ones, add to the terms of each node of a group.
-void gather_group(const DescentGroups& from, std::size_t group, std::span<const glm::vec4> positions,
-                  TermColumns& terms);
+/// What inertia, springs and tets, but for flat ones, add to the force on each node of a group.
+/// @param terms of which only the forces change
+void gather_group_forces(const DescentGroups& from, std::size_t group, std::span<const glm::vec4> positions,
+                         TermColumns& terms);
 
 /// Newton's step of each node of a group that is not held, with SIMD for the processor it runs on.
 /// @param terms what flat tets add; those of all other elements are added to it

@@ -13,9 +13,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace gelatin::cpu::HWY_NAMESPACE {
 
+// Terms: TermLanes or ForceLanes.
+template <class Terms>
 HWY_INLINE void gather_neo_hookean_lanes(Lanes d, const DescentTets& tets, std::size_t group,
                                          std::uint32_t row, const std::uint32_t* shown, const Columns& self,
-                                         const float* positions, TermLanes& terms) {
+                                         const float* positions, Terms& terms) {
     const TetBlocks& blocks = tets.blocks;
     const std::uint32_t first = blocks.neo_hookean_starts[group], end = blocks.neo_hookean_starts[group + 1];
     if (first == end) return;
@@ -44,8 +46,9 @@ HWY_INLINE void gather_neo_hookean_lanes(Lanes d, const DescentTets& tets, std::
     }
 }
 
+template <class Terms>
 HWY_INLINE void gather_volume_lanes(Lanes d, const DescentTets& tets, std::size_t group, std::uint32_t row,
-                                    const Columns& self, const float* positions, TermLanes& terms) {
+                                    const Columns& self, const float* positions, Terms& terms) {
     const TetBlocks& blocks = tets.blocks;
     const std::uint32_t first = blocks.volume_starts[group], end = blocks.volume_starts[group + 1];
     StripLanes strip;
@@ -55,9 +58,10 @@ HWY_INLINE void gather_volume_lanes(Lanes d, const DescentTets& tets, std::size_
         const Vector modulus = hn::LoadU(d, &block.modulus[row]);
         strip.step(d, positions, &block.nodes[row], self, oldest_stays(d, modulus));
         if (b < first + TetBlocks::kEmptyBlocks) continue;
-        const Vec3Lanes slope = load(d, block.inverse_six_volumes, row) * strip.area();
+        // By 6 V J in place of J: its slope is the area.
+        const Vec3Lanes area = strip.area();
         const VolumeBound<FloatLanes> bound{load(d, tets.offsets.volumes[b].values, row), hn::Abs(modulus)};
-        add_tet_volume(slope, -dot(strip.a, slope), bound, terms);
+        add_tet_volume(area, -dot(strip.a, area), bound, terms);
     }
 }
 

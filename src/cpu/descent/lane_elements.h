@@ -27,9 +27,9 @@ public:
 
     void begin(const DescentRows& rows, const StepState<float>& step);
     void update(const DescentRows& rows, const DescentBatch& batch, std::span<const float> ratios);
-    void gather(const DescentRows& rows, const StepState<float>& step, std::size_t group,
-                std::span<const glm::vec4> positions, TermColumns& terms) const {
-        gather_group(groups(rows, step), group, positions, terms);
+    void add_forces(const DescentRows& rows, const StepState<float>& step, std::size_t group,
+                    std::span<const glm::vec4> positions, TermColumns& terms) const {
+        gather_group_forces(groups(rows, step), group, positions, terms);
     }
     std::uint32_t descend(const DescentRows& rows, const StepState<float>& step, std::size_t group,
                           std::span<glm::vec4> positions, TermColumns& terms) const {

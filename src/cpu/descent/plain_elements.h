@@ -39,9 +39,12 @@ public:
     /// Finds VolumeBound of a batch's tets. @param ratios J of each tet, shape [tets]
     void update(const DescentRows& rows, const DescentBatch& batch, std::span<const double> ratios);
 
-    /// Adds what inertia and all elements but flat tets contribute to each node of a group.
-    void gather(const DescentRows& rows, const StepState<double>& step, std::size_t group,
-                std::span<const glm::dvec4> positions, PlainTerms& terms) const;
+    /// Adds what inertia and all elements but flat tets contribute to the force on each node of a group. Here
+    /// with Hessians.
+    void add_forces(const DescentRows& rows, const StepState<double>& step, std::size_t group,
+                    std::span<const glm::dvec4> positions, PlainTerms& terms) const {
+        gather(rows, step, group, positions, terms);
+    }
 
     /// Newton's step of each node of a group that is not held.
     /// @param terms what flat tets add; those of all other elements are added to it
@@ -50,6 +53,8 @@ public:
                           std::span<glm::dvec4> positions, PlainTerms& terms) const;
 
 private:
+    void gather(const DescentRows& rows, const StepState<double>& step, std::size_t group,
+                std::span<const glm::dvec4> positions, PlainTerms& terms) const;
     void add_springs(const DescentRows& rows, const StepState<double>& step, std::uint32_t row,
                      std::span<const glm::dvec4> positions, NodeTerms<double>& terms) const;
     void add_neo_hookean_tets(const StepState<double>& step, std::uint32_t node,

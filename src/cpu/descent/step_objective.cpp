@@ -40,12 +40,12 @@ void StepObjective<Real>::add_rare_terms(std::size_t group, bool any_flat, const
 }
 
 template <class Real>
-typename StepObjective<Real>::Terms StepObjective<Real>::gather(
+typename StepObjective<Real>::Terms StepObjective<Real>::gather_forces(
     std::size_t group, bool any_flat, const Contacts<Real>* contacts,
     const std::vector<Vec4<Real>>& positions) const {
     Terms terms;
     if (any_flat || contacts != nullptr) add_rare_terms(group, any_flat, contacts, positions, terms);
-    elements_.gather(rows_, step, group, positions, terms);
+    elements_.add_forces(rows_, step, group, positions, terms);
     return terms;
 }
 
@@ -68,7 +68,7 @@ void StepObjective<Real>::find_forces(const std::vector<Vec4<Real>>& positions,
         bool any_wanted = false;
         for (std::uint32_t r = 0; r < kGroup; ++r) any_wanted |= is_wanted(group * kGroup + r);
         if (!any_wanted) return;
-        const Terms terms = gather(group, any_flat, contacts, positions);
+        const Terms terms = gather_forces(group, any_flat, contacts, positions);
         for (std::uint32_t r = 0; r < kGroup; ++r) {
             const std::uint32_t node = rows_.nodes[group * kGroup + r];
             if (node != kNoNode && step.targets[node].w != Real(0)) forces[node] = terms.row(r).force;
@@ -85,7 +85,7 @@ void StepObjective<Real>::find_held_forces(const std::vector<Vec4<Real>>& positi
         bool any_held = false;
         for (std::size_t r = 0; r < kGroup; ++r) any_held |= is_held(first + r);
         if (!any_held) return;
-        const Terms terms = gather(group, any_flat, nullptr, positions);
+        const Terms terms = gather_forces(group, any_flat, nullptr, positions);
         for (std::size_t r = 0; r < kGroup; ++r)
             if (is_held(first + r)) forces[rows_.nodes[first + r]] = terms.row(r).force;
     });

@@ -50,12 +50,8 @@ public:
     bool any_flat_tets(std::size_t batch) const { return flat_tets_.any(batch); }  ///< at the last update
     bool any_flat_tets() const { return flat_tets_.any(); }                        ///< of any batch
 
-    /// All terms of each node of a group. @param any_flat whether flat tets are to be looked for
-    Terms gather(std::size_t group, bool any_flat, const std::vector<Vec4<Real>>& positions) const {
-        return gather(group, any_flat, contacts_, positions);
-    }
-
     /// Newton's step of each node of a group that is not held.
+    /// @param any_flat whether flat tets are to be looked for
     /// @param terms input: none; output: those of each node, where it was
     /// @return a bit for each row: whether its node may have come into a collider
     std::uint32_t descend(std::size_t group, bool any_flat, std::vector<Vec4<Real>>& positions,
@@ -74,8 +70,9 @@ private:
     bool is_held(std::size_t row) const {
         return rows_.nodes[row] != kNoNode && step.targets[rows_.nodes[row]].w == Real(0);
     }
-    Terms gather(std::size_t group, bool any_flat, const Contacts<Real>* contacts,
-                 const std::vector<Vec4<Real>>& positions) const;
+    // Of which the forces count.
+    Terms gather_forces(std::size_t group, bool any_flat, const Contacts<Real>* contacts,
+                        const std::vector<Vec4<Real>>& positions) const;
     // Those of flat tets and contacts, which few nodes have.
     void add_rare_terms(std::size_t group, bool any_flat, const Contacts<Real>* contacts,
                         const std::vector<Vec4<Real>>& positions, Terms& terms) const;

@@ -46,14 +46,18 @@ void find_group_pressures(const VolumeTerm& term, const TetBlocks& blocks, std::
 void take_group_offsets(const TetBlocks& blocks, std::size_t group, const float* offsets,
                         TetOffsets& in_blocks) {
     const Lanes d;
-    const auto take = [&](const BlockTets& tets, BlockColumn& column) HWY_ATTR {
-        for (std::uint32_t row = 0; row < kGroup; row += kLanes)
-            hn::StoreU(gather(d, offsets, &tets[row]).v, d, &column.values[row]);
-    };
-    for (std::uint32_t b = blocks.neo_hookean_starts[group]; b < blocks.neo_hookean_starts[group + 1]; ++b)
-        take(blocks.neo_hookean_tets[b], in_blocks.neo_hookean[b]);
-    for (std::uint32_t b = blocks.volume_starts[group]; b < blocks.volume_starts[group + 1]; ++b)
-        take(blocks.volume_tets[b], in_blocks.volumes[b]);
+    for (std::uint32_t row = 0; row < kGroup; row += kLanes) {
+        const auto of = [&](const BlockTets& tets) HWY_ATTR { return gather(d, offsets, &tets[row]); };
+        const auto store = [&](FloatLanes values, BlockColumn& column)
+                               HWY_ATTR { hn::StoreU(values.v, d, &column.values[row]); };
+        for (std::uint32_t b = blocks.neo_hookean_starts[group]; b < blocks.neo_hookean_starts[group + 1];
+             ++b)
+            store(of(blocks.neo_hookean_tets[b]), in_blocks.neo_hookean[b]);
+        for (std::uint32_t b = blocks.volume_starts[group]; b < blocks.volume_starts[group + 1]; ++b)
+            store(FloatLanes(hn::LoadU(d, &blocks.inverse_six_volumes[b].values[row])) *
+                      of(blocks.volume_tets[b]),
+                  in_blocks.volumes[b]);
+    }
 }
 
 }  // namespace gelatin::cpu::HWY_NAMESPACE

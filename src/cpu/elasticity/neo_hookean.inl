@@ -78,9 +78,9 @@ Vec3<Real> neo_hookean_force(const TetAtCorner<Real>& tet, const TetModuli<Real>
 /// which is exact, because J is linear in one corner, and positive semi-definite for any F.
 /// @param moduli times V @param bound of the tet's part of the volume term, which is added as in
 /// add_tet_volume
-template <class Real>
+template <class Real, class Hessian>
 void add_neo_hookean(const TetAtCorner<Real>& tet, const TetModuli<Real>& moduli,
-                     const VolumeBound<Real>& bound, NodeTerms<Real>& terms) {
+                     const VolumeBound<Real>& bound, NodeTerms<Real, Hessian>& terms) {
     const Real inverse = Real(1) / (tet.squares + Real(1));
     const NeoHookeanStress<Real> stress = neo_hookean_stress(tet.squares, inverse, tet.ratio, moduli);
     const Real pressure = stress.pressure + multiply_add(bound.modulus, tet.ratio, bound.offset);
@@ -135,9 +135,9 @@ Vec3<Real> viscous_force(const Vec3<Real>& g, const Mat3<Real>& f, const Mat3<Re
 ///   V t a / (2 h) dE : C : dE,   dE = (F^T F - start^T start) / 2,
 /// with C the stiffness of the viscous stress, and a that at the start. The part of the Hessian that is
 /// negative where the tet gets shorter is omitted. @param moduli times V @param damping t / h
-template <class Real>
+template <class Real, class Hessian>
 void add_viscosity(const Vec3<Real>& g, const Mat3<Real>& f, const Mat3<Real>& start,
-                   const TetModuli<Real>& moduli, Real damping, NodeTerms<Real>& terms) {
+                   const TetModuli<Real>& moduli, Real damping, NodeTerms<Real, Hessian>& terms) {
     const Real scale = damping * viscous_share(double_dot(start, start));
     const Mat3<Real> middle = Real(0.5f) * (f + start), change = f - start;
     const Vec3<Real> traction = viscous_traction<Real>(g, middle, change, moduli);

@@ -26,16 +26,25 @@ Vec3<Real> operator*(const SymmetricMatrix<Real>& m, const Vec3<Real>& v) {
                                        m.beside.y * v.x + m.beside.x * v.y);
 }
 
+/// In its place where forces are enough.
+template <class Real>
+struct NoHessian {
+    NoHessian() {}
+
+    void add_identity(Real) {}
+    void add_outer(Real, const Vec3<Real>&) {}
+};
+
 /// The contribution of elements to a node's part of the objective of a step: minus its gradient, which is a
 /// force [N], and a positive semi-definite second derivative [N/m]. GLSL twin:
 /// shaders/sim/elasticity/node_terms.glsl.
-template <class Real>
+template <class Real, class Hessian = SymmetricMatrix<Real>>
 struct NodeTerms {
     Vec3<Real> force;
-    SymmetricMatrix<Real> hessian;
+    Hessian hessian;
 
     NodeTerms() : force(Real(0)) {}
-    NodeTerms(const Vec3<Real>& own_force, const SymmetricMatrix<Real>& own_hessian)
+    NodeTerms(const Vec3<Real>& own_force, const Hessian& own_hessian)
         : force(own_force), hessian(own_hessian) {}
 };
 

@@ -14,8 +14,8 @@ Real point_spring_energy(const Vec3<Real>& apart, Real stiffness) {
 }
 
 ///   force   k d,   hessian k.
-template <class Real>
-void add_point_spring(const Vec3<Real>& apart, Real stiffness, NodeTerms<Real>& terms) {
+template <class Real, class Hessian>
+void add_point_spring(const Vec3<Real>& apart, Real stiffness, NodeTerms<Real, Hessian>& terms) {
     terms.force = multiply_add(stiffness, apart, terms.force);
     terms.hessian.add_identity(stiffness);
 }

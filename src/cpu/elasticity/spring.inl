@@ -51,8 +51,8 @@ SpringLaw<Real> damped_spring(const SpringLaw<Real>& spring, Real start_length, 
 ///   force   s d
 ///   hessian max(0, s) + (k - max(0, s)) d d^T / l^2.
 /// The part of the energy's own Hessian that is negative where the spring is shorter than L is omitted.
-template <class Real>
-void add_spring(const Vec3<Real>& apart, const SpringLaw<Real>& spring, NodeTerms<Real>& terms) {
+template <class Real, class Hessian>
+void add_spring(const Vec3<Real>& apart, const SpringLaw<Real>& spring, NodeTerms<Real, Hessian>& terms) {
     const Real inverse = inverse_length<Real>(apart);
     const Real pull = multiply_add(-(spring.stiffness * spring.rest_length), inverse, spring.stiffness);
     terms.force = multiply_add(pull, apart, terms.force);

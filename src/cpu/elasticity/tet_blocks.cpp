@@ -66,6 +66,7 @@ private:
 
     void append_volume_block() {
         blocks_.volumes.emplace_back().nodes = shown_;
+        blocks_.inverse_six_volumes.emplace_back();
         blocks_.volume_tets.emplace_back().fill(tet_count_);
     }
 
@@ -88,8 +89,9 @@ private:
     void set(const VolumeStep& step, std::size_t index, std::uint32_t row) {
         VolumeBlock& block = blocks_.volumes[index];
         block.nodes[row] = step.vertex & ~TetStrips::kKeepsOldest;
-        block.inverse_six_volumes[row] = step.inverse_six_volumes;
-        block.modulus[row] = with_sign(step.modulus, step.vertex);
+        const float inverse = step.inverse_six_volumes;
+        block.modulus[row] = with_sign(inverse * inverse * step.modulus, step.vertex);
+        blocks_.inverse_six_volumes[index].values[row] = inverse;
         blocks_.volume_tets[index][row] = index_of(step.tet);
     }
 

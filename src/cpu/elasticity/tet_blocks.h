@@ -22,11 +22,9 @@ struct alignas(32) NeoHookeanBlock {  // 288 bytes
 };
 
 /// A VolumeStep of each.
-struct alignas(32) VolumeBlock {              // 96 bytes
+struct alignas(32) VolumeBlock {              // 64 bytes
     std::array<std::uint32_t, kGroup> nodes;  ///< as above
-    /// 1 / (6 V) [1/m^3]; negative where they come clockwise
-    std::array<float, kGroup> inverse_six_volumes;
-    /// VolumeBound's [J]; the sign bit is set where the oldest vertex stays
+    /// VolumeBound's by 6 V J in place of J [J/m^6]; the sign bit is set where the oldest vertex stays
     std::array<float, kGroup> modulus;
 };
 
@@ -48,6 +46,8 @@ struct TetBlocks {
     std::vector<BlockColumn> neo_hookean_moduli;          ///< VolumeBound's [J]; none without a volume term
     std::vector<std::array<glm::vec3, kGroup>> openings;  ///< mu V g, read where a tet is collapsed [N]
     std::vector<VolumeBlock> volumes;                     ///< none without a volume term
+    /// Of their steps, 1 / (6 V) [1/m^3]; negative where vertices come clockwise.
+    std::vector<BlockColumn> inverse_six_volumes;
     std::vector<BlockTets> volume_tets;
     std::vector<std::uint32_t> neo_hookean_starts;  ///< of each group, and the end, shape [groups + 1]
     std::vector<std::uint32_t> volume_starts;
@@ -64,9 +64,10 @@ enum class VolumesOf { springs, all };
 TetBlocks make_tet_blocks(const Model& model, std::span<const std::uint32_t> nodes, const NodeTets& node_tets,
                           VolumesOf volumes);
 
-/// VolumeBound's offsets of the tets of blocks [J]; empty without a volume term.
+/// VolumeBound's offsets of the tets of blocks; empty without a volume term.
 struct TetOffsets {
-    std::vector<BlockColumn> neo_hookean, volumes;
+    std::vector<BlockColumn> neo_hookean;  ///< [J]
+    std::vector<BlockColumn> volumes;      ///< by 6 V J, negative where vertices come clockwise [J/m^3]
 
     TetOffsets() = default;
     explicit TetOffsets(const TetBlocks& blocks);

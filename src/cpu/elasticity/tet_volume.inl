@@ -21,8 +21,8 @@ Real flat_tet_energy(Real ratio, Real stiffness) {
 
 ///   force   V K (J_0 - J) dJ/dx,   hessian V K dJ/dx dJ/dx^T where J < J_0.
 /// @param slope dJ/dx [1/m]
-template <class Real>
-void add_flat_tet(const Vec3<Real>& slope, Real ratio, Real stiffness, NodeTerms<Real>& terms) {
+template <class Real, class Hessian>
+void add_flat_tet(const Vec3<Real>& slope, Real ratio, Real stiffness, NodeTerms<Real, Hessian>& terms) {
     const Real lack = Real(kFlattest) - ratio;
     const Real resisting = select(lack > Real(0), stiffness, Real(0));
     terms.force = multiply_add(resisting * lack, slope, terms.force);
@@ -69,10 +69,10 @@ Real volume_bound_energy(Real ratio, const VolumeBound<Real>& bound) {
     return multiply_add(Real(0.5f) * bound.modulus, ratio, bound.offset) * ratio;
 }
 
-/// @param slope, ratio as in add_flat_tet
-template <class Real>
+/// @param slope, ratio as in add_flat_tet; or of another measure of the volume, of which the bound is, too
+template <class Real, class Hessian>
 void add_tet_volume(const Vec3<Real>& slope, Real ratio, const VolumeBound<Real>& bound,
-                    NodeTerms<Real>& terms) {
+                    NodeTerms<Real, Hessian>& terms) {
     const Real pressure = multiply_add(bound.modulus, ratio, bound.offset);
     terms.force = multiply_add(-pressure, slope, terms.force);
     terms.hessian.add_outer(bound.modulus, slope);

@@ -58,7 +58,7 @@ HWY_INLINE void for_each_volume(Lanes d, const TetBlocks& blocks, const Vec4<flo
         prefetch_block(&block);
         const LaneMask keeps = oldest_stays(d, hn::LoadU(d, &block.modulus[row]));
         strip.step(d, &positions[0].x, &block.nodes[row], self, keeps);
-        const Vector inverse = hn::LoadU(d, &block.inverse_six_volumes[row]);
+        const Vector inverse = hn::LoadU(d, &blocks.inverse_six_volumes[b].values[row]);
         const FloatLanes side =
             hn::IfThenElseZero(hn::Ne(inverse, hn::Zero(d)), hn::CopySign(hn::Set(d, 1.0f), inverse));
         visit(block, keeps, side * strip.area(), strip);

@@ -33,7 +33,7 @@ void DescentMoves::run(int sweeps, const NodeBuffers& current, StageTimer* timer
         work();
     };
     for (int i = 0; i < sweeps; ++i) {
-        if (i % kSweepsAMotion == 0)
+        if (i % kSweepsAnUpdate == 0)
             run_part("advance_nodes.update_tets", [&] { objective.update(gathering_programs()); });
         run_part("advance_nodes.descend", [&] { sweep(); });
         const bool is_last = i + 1 == sweeps;

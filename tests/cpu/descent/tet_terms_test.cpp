@@ -40,10 +40,16 @@ void expect_the_plain_terms_here(const Model& model) {
     const std::vector<glm::dvec4> positions_d(positions.begin(), positions.end());
     fast.update(0, positions);
     plain.update(0, positions_d);
+    std::vector<glm::vec3> forces(positions.size());
+    fast.find_forces(positions, nullptr, forces);
     int compared = 0;
     for (std::size_t group = 0; group < fast.group_count(); ++group) {
-        const cpu::TermColumns lanes = fast.gather(group, fast.any_flat_tets(), positions);
-        const cpu::PlainTerms rows = plain.gather(group, plain.any_flat_tets(), positions_d);
+        std::vector<glm::vec4> moved = positions;
+        std::vector<glm::dvec4> moved_d = positions_d;
+        cpu::TermColumns lanes;
+        cpu::PlainTerms rows;
+        fast.descend(group, fast.any_flat_tets(), moved, lanes);
+        plain.descend(group, plain.any_flat_tets(), moved_d, rows);
         for (std::size_t r = 0; r < cpu::kGroup; ++r) {
             const std::uint32_t node = fast.rows().nodes[group * cpu::kGroup + r];
             if (node == kNoNode || model.positions[node].w == 0.0f) continue;
@@ -53,6 +59,7 @@ void expect_the_plain_terms_here(const Model& model) {
             const glm::dvec3& d = expected.hessian.diagonal;
             const double stiffness = d.x + d.y + d.z;
             EXPECT_LT(glm::distance(glm::dvec3(actual.force), expected.force), 2e-6 * stiffness) << node;
+            EXPECT_EQ(forces[node], actual.force) << node;
             EXPECT_LT(glm::distance(glm::dvec3(actual.hessian.diagonal), d), 2e-5 * stiffness) << node;
             EXPECT_LT(glm::distance(glm::dvec3(actual.hessian.beside), expected.hessian.beside),
                       2e-5 * stiffness)
