@@ -124,7 +124,7 @@ void BlockDescent<Real>::make_moves(Real step, Positions& positions, StageTimer*
         device_positions_.assign(positions.begin(), positions.end());
         device_->start_apart(sweeps_, device_positions_);
         take_from_device(positions);
-        for_batches([&](std::size_t batch) { objective_.update(batch, positions); });  // for forces
+        for_batches([&](std::size_t batch) { objective_.update(batch, TetUpdate::all, positions); });
         return;
     }
     if (coarse_ && end_of_run(0) < sweeps_) {
@@ -181,7 +181,6 @@ void BlockDescent<Real>::find_outlooks(Real step, bool is_part, const Nodes<Real
 template <class Real>
 void BlockDescent<Real>::make_sweeps(int first, int end, Positions& positions, StageTimer* timer) {
     const std::vector<DescentBatch>& batches = objective_.rows().batches;
-    const auto update = [&](std::size_t batch) { objective_.update(batch, positions); };
     const auto sweep = [&](std::size_t batch) {
         sweep_.run(batch, objective_, acting_, contacts_, positions);
     };
@@ -191,7 +190,7 @@ void BlockDescent<Real>::make_sweeps(int first, int end, Positions& positions, S
     if (timer == nullptr && acting_ == nullptr) {
         for_batches([&](std::size_t batch) {
             for (int i = first; i < end; ++i) {
-                if (updates_tets(i)) update(batch);
+                objective_.update(batch, tet_update_before(i), positions);
                 sweep(batch);
                 if (moves_bodies(i)) move_bodies(batch, is_last(i));
             }
@@ -203,7 +202,9 @@ void BlockDescent<Real>::make_sweeps(int first, int end, Positions& positions, S
         for_batches(work);
     };
     for (int i = first; i < end; ++i) {
-        if (updates_tets(i)) time("advance_nodes.update_tets", update);
+        if (const TetUpdate update = tet_update_before(i); update != TetUpdate::none)
+            time("advance_nodes.update_tets",
+                 [&](std::size_t batch) { objective_.update(batch, update, positions); });
         time("advance_nodes.descend", sweep);
         if (moves_bodies(i) && acting_ != nullptr) move_together(is_last(i), positions, timer);
         if (moves_bodies(i) && acting_ == nullptr)
@@ -222,9 +223,9 @@ void BlockDescent<Real>::make_sweeps_on_device(int first, int end, Positions& po
             const TimedStage part(timer, "advance_nodes.descend");
             device_positions_.assign(positions.begin(), positions.end());
             bodies_->write_limits(device_limits_);
-            device_->start(next - begin, updates_tets(begin), device_limits_, device_positions_);
-            if (updates_tets(begin))
-                for_batches([&](std::size_t batch) { objective_.update(batch, positions); });
+            const TetUpdate update = tet_update_before(begin);
+            device_->start(next - begin, update, device_limits_, device_positions_);
+            for_batches([&](std::size_t batch) { objective_.update(batch, update, positions); });
             take_from_device(positions);
         }
         if (moves_bodies(next - 1)) move_together(is_last(next - 1), positions, timer);

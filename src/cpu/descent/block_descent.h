@@ -129,7 +129,6 @@ private:
     void take_from_device(Positions& positions);
     template <class Visit>
     void for_batches(const Visit& visit) const;
-    bool updates_tets(int sweep) const { return sweep % kSweepsAnUpdate == 0; }
     bool moves_bodies(int sweep) const { return is_last(sweep) || (sweep + 1) % kSweepsAMotion == 0; }
     bool is_last(int sweep) const { return sweep + 1 == sweeps_; }
     void finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current);

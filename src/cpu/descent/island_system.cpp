@@ -49,11 +49,10 @@ Motion wrench(const Eigen::Vector3d& arm, const Eigen::Vector3d& force) {
     return m;
 }
 
-// How a point at an arm moves along a direction.
-double along(const Motion& motion, const glm::dvec3& arm, const glm::dvec3& direction) {
-    const glm::dvec3 turn = glm::cross(arm, direction);
-    return motion(0) * direction.x + motion(1) * direction.y + motion(2) * direction.z + motion(3) * turn.x +
-           motion(4) * turn.y + motion(5) * turn.z;
+// How a point at an arm moves.
+glm::dvec3 displacement(const Motion& motion, const glm::dvec3& arm) {
+    return glm::dvec3(motion(0), motion(1), motion(2)) +
+           glm::cross(glm::dvec3(motion(3), motion(4), motion(5)), arm);
 }
 
 // Adds a stiffness between points at two arms, as what their bodies feel: J_a^T K J_b with J = (1, -[r]x).
@@ -65,6 +64,72 @@ void add_stiffness(const Matrix& stiffness, const Matrix& arm_a, const Matrix& a
     sum.bottomLeftCorner<3, 3>() += sign * arm_a * stiffness;
     sum.bottomRightCorner<3, 3>() += arm_a * turned;
 }
+
+glm::dvec3 without_part_along(const glm::dvec3& v, const glm::dvec3& normal) {
+    return v - glm::dot(v, normal) * normal;
+}
+
+// Of an energy, by the part that is made of a motion.
+struct Slope {
+    double value = 0.0, change = 0.0;  // [J]
+};
+
+// A contact on the way of its bodies.
+class Course {
+public:
+    Course() = default;
+    // @param apart how far the second side goes from the first [m]
+    Course(const IslandSystem::Touch& touch, const glm::dvec3& apart)
+        : touch_(&touch), hold_(without_part_along(touch.hold, touch.normal)) {
+        const glm::dvec3 aside = without_part_along(apart, touch.normal);
+        along_ = glm::dot(hold_, aside);
+        held_squared_ = glm::dot(hold_, hold_);
+        aside_squared_ = glm::dot(aside, aside);
+    }
+
+    bool acts() const {
+        return std::min(touch_->gap, touch_->gap + touch_->change) < touch_->reach || touch_->limit > 0.0;
+    }
+
+    void add_slope(double part, Slope& slope) const {
+        const double gap = touch_->gap + part * touch_->change;
+        slope.value -= contact_force(gap, touch_->reach, touch_->stiffness) * touch_->change;
+        slope.change +=
+            contact_hessian(gap, touch_->reach, touch_->stiffness) * touch_->change * touch_->change;
+        add_friction(part, 0.0, slope);
+    }
+
+    // What is assembled: the slope where nothing has moved, and its change by Newton's system.
+    Slope second_order() const {
+        Slope slope;
+        const double pressing = contact_force(touch_->gap, touch_->reach, touch_->stiffness);
+        slope.value = -pressing * touch_->change;
+        if (pressing > 0.0)
+            slope.change = contact_hessian(touch_->gap, touch_->reach, touch_->stiffness) * touch_->change *
+                           touch_->change;
+        add_friction(0.0, kSlipShare<double>, slope);
+        return slope;
+    }
+
+private:
+    // @param slip_share the part of the stiffness that is left along a slip
+    void add_friction(double part, double slip_share, Slope& slope) const {
+        if (!(touch_->limit > 0.0)) return;
+        const double k = touch_->stiffness, way = part * k;
+        const double along = along_ + way * aside_squared_;
+        const double squared = held_squared_ + way * (2.0 * along_ + way * aside_squared_);
+        const double limit = touch_->limit;
+        const bool slides = squared > limit * limit;
+        const double share = slides ? limit / std::sqrt(squared) : 1.0;
+        slope.value += share * along;
+        slope.change +=
+            share * k * (aside_squared_ - (slides ? (1.0 - slip_share) * along * along / squared : 0.0));
+    }
+
+    const IslandSystem::Touch* touch_ = nullptr;
+    glm::dvec3 hold_{0.0};
+    double along_ = 0.0, held_squared_ = 0.0, aside_squared_ = 0.0;
+};
 
 // What a contact adds to second order.
 struct Terms {
@@ -81,11 +146,9 @@ Terms terms_of(const IslandSystem::Touch& touch) {
         terms.stiffness =
             contact_hessian(touch.gap, touch.reach, touch.stiffness) * normal * normal.transpose();
     }
-    const double limit =
-        touch.friction * contact_force(touch.gap + touch.change, touch.reach, touch.stiffness);
-    if (!(limit > 0.0)) return terms;
-    const Eigen::Vector3d hold = vector(touch.hold - glm::dot(touch.hold, touch.normal) * touch.normal);
-    const double length = hold.norm(), part = length > limit ? limit / length : 1.0;
+    if (!(touch.limit > 0.0)) return terms;
+    const Eigen::Vector3d hold = vector(without_part_along(touch.hold, touch.normal));
+    const double length = hold.norm(), part = length > touch.limit ? touch.limit / length : 1.0;
     terms.force -= part * hold;
     terms.stiffness += part * touch.stiffness * (Matrix::Identity() - normal * normal.transpose());
     if (part < 1.0) {  // along a slip the force does not change with it
@@ -158,6 +221,10 @@ void IslandSystem::sum_touches(Coupling& coupling) const {
 }
 
 void IslandSystem::assemble() {
+    for_each_index(0, touches.size(), kTouchesATask, [&](std::size_t k) {
+        Touch& touch = touches[k];
+        touch.limit = touch.friction * contact_force(touch.gap + touch.change, touch.reach, touch.stiffness);
+    });
     for_each_index(0, couplings_.size(), 4, [&](std::size_t k) { sum_touches(couplings_[k]); });
     const std::size_t count = bodies.size();
     matrices_.resize(count);
@@ -236,40 +303,35 @@ Motion IslandSystem::free_translation() const {
     return sum / stiffness;
 }
 
-// The part of the motions, after the common one, at which the objective is least: contacts as they are, the
-// rest to second order. Newton's step alone would throw bodies through the reach of others.
+// The part of the motions, after the common one, at which the objective is least: contacts and friction as
+// they are, the rest to second order. Newton's step alone would throw bodies through the reach of others, and
+// friction would move them farther than what they lie on.
 double IslandSystem::least_along(const Motions& motions, const Motion& common) {
     const Motions resisted = product(motions);
     double pull = 0.0, curvature = dot(motions, resisted);
     for (std::size_t k = 0; k < bodies.size(); ++k)
         pull += forces_[k].dot(motions[k]) - common.dot(resisted[k]);
+    std::vector<Course> courses(touches.size());
     for_each_index(0, touches.size(), kTouchesATask, [&](std::size_t k) {
         Touch& touch = touches[k];
-        touch.change = 0.0;
+        glm::dvec3 apart(0.0);
         for (std::size_t side = 0; side < 2; ++side) {
             if (touch.bodies[side] == kNoNode) continue;
-            const double way = along(motions[touch.bodies[side]], touch.arms[side], touch.normal);
-            touch.change += side == 0 ? -way : way;
+            const glm::dvec3 way = displacement(motions[touch.bodies[side]], touch.arms[side]);
+            apart += side == 0 ? -way : way;
         }
+        touch.change = glm::dot(apart, touch.normal);
+        courses[k] = Course(touch, apart);
     });
-    std::vector<const Touch*> pressing;  // on the way
-    for (const Touch& touch : touches) {
-        if (!(std::min(touch.gap, touch.gap + touch.change) < touch.reach)) continue;
-        pressing.push_back(&touch);
-        pull -= contact_force(touch.gap, touch.reach, touch.stiffness) * touch.change;
-        curvature -= contact_hessian(touch.gap, touch.reach, touch.stiffness) * touch.change * touch.change;
+    std::erase_if(courses, [](const Course& course) { return !course.acts(); });
+    for (const Course& course : courses) {
+        const Slope second_order = course.second_order();
+        pull += second_order.value;
+        curvature -= second_order.change;
     }
-    struct Slope {
-        double value, change;
-    };
     const auto slope_at = [&](double part) {
         Slope slope{part * curvature - pull, curvature};
-        for (const Touch* touch : pressing) {
-            const double gap = touch->gap + part * touch->change;
-            slope.value -= contact_force(gap, touch->reach, touch->stiffness) * touch->change;
-            slope.change +=
-                contact_hessian(gap, touch->reach, touch->stiffness) * touch->change * touch->change;
-        }
+        for (const Course& course : courses) course.add_slope(part, slope);
         return slope;
     };
     const double enough = kLevel * std::abs(slope_at(0.0).value);

@@ -39,6 +39,7 @@ public:
         double stiffness = 0.0;            ///< [N/m]
         double friction = 0.0;             ///< Coulomb's coefficient
         glm::dvec3 hold{0.0};              ///< what would hold the first if nothing slid [N]
+        double limit = 0.0;                ///< of friction [N]
         double change = 0.0;               ///< of the gap by the last solution [m]
     };
 

@@ -19,9 +19,11 @@ void StepObjective<Real>::begin(Real seconds, const Contacts<Real>* contacts) {
 }
 
 template <class Real>
-void StepObjective<Real>::update(std::size_t batch, const std::vector<Vec4<Real>>& positions) {
+void StepObjective<Real>::update(std::size_t batch, TetUpdate update,
+                                 const std::vector<Vec4<Real>>& positions) {
+    if (update == TetUpdate::none) return;
     flat_tets_.update(batch, rows_, positions);
-    elements_.update(rows_, rows_.batches[batch], flat_tets_.ratios());
+    if (update == TetUpdate::all) elements_.update(rows_, rows_.batches[batch], flat_tets_.ratios());
 }
 
 template <class Real>

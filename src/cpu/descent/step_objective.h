@@ -44,8 +44,8 @@ public:
     bool is_tangled(const ModelObject& object, const std::vector<Vec4<Real>>& positions) const {
         return flat_tets_.is_tangled(object, positions);
     }
-    /// Looks at the tets of a batch of rows(): which are flat, and how the volume term changes with them.
-    void update(std::size_t batch, const std::vector<Vec4<Real>>& positions);
+    /// Looks at the tets of a batch of rows().
+    void update(std::size_t batch, TetUpdate update, const std::vector<Vec4<Real>>& positions);
 
     bool any_flat_tets(std::size_t batch) const { return flat_tets_.any(batch); }  ///< at the last update
     bool any_flat_tets() const { return flat_tets_.any(); }                        ///< of any batch

@@ -33,8 +33,8 @@ void DescentMoves::run(int sweeps, const NodeBuffers& current, StageTimer* timer
         work();
     };
     for (int i = 0; i < sweeps; ++i) {
-        if (i % kSweepsAnUpdate == 0)
-            run_part("advance_nodes.update_tets", [&] { objective.update(gathering_programs()); });
+        if (const TetUpdate update = tet_update_before(i); update != TetUpdate::none)
+            run_part("advance_nodes.update_tets", [&] { objective.update(update, gathering_programs()); });
         run_part("advance_nodes.descend", [&] { sweep(); });
         const bool is_last = i + 1 == sweeps;
         if (coarse_ && !is_last && i % kSweepsACorrection == 0)

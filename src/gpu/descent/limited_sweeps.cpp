@@ -52,7 +52,7 @@ void LimitedSweeps::begin(double step, std::span<const glm::vec4> starts,
     buffers_.bind_colliders(program_);
 }
 
-void LimitedSweeps::start(int sweeps, bool updates_tets, const ContactLimits& limits,
+void LimitedSweeps::start(int sweeps, TetUpdate update, const ContactLimits& limits,
                           std::span<const glm::vec4> positions) {
     nodes_.positions.upload(positions);
     limits_.upload(limits.nodes);
@@ -60,7 +60,7 @@ void LimitedSweeps::start(int sweeps, bool updates_tets, const ContactLimits& li
     upload(limits.shares, shares_);
     program_.bind("Planes", planes_);
     program_.bind("Shares", shares_);
-    if (updates_tets) moves_.objective.update(std::array{&std::as_const(program_)});
+    moves_.objective.update(update, std::array{&std::as_const(program_)});
     for (int i = 0; i < sweeps; ++i) {
         for (const Range& rows : moves_.objective.colors()) {
             program_.set("first_row", rows.first);

@@ -20,7 +20,7 @@ public:
     LimitedSweeps(const Model& model, const ModelBuffers& buffers, const DescentSettings& settings);
 
     void begin(double step, std::span<const glm::vec4> starts, std::span<const glm::vec4> targets) override;
-    void start(int sweeps, bool updates_tets, const ContactLimits& limits,
+    void start(int sweeps, TetUpdate update, const ContactLimits& limits,
                std::span<const glm::vec4> positions) override;
     void start_apart(int sweeps, std::span<const glm::vec4> positions) override;
     void finish(std::span<glm::vec4> positions, DeviceContacts& contacts) override;

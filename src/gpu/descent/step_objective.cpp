@@ -131,14 +131,15 @@ void StepObjective::begin(const NodeBuffers& previous, const NodeBuffers& curren
 }
 
 // Marks of earlier updates count no more.
-void StepObjective::update(std::span<const gl::Program* const> programs) {
+void StepObjective::update(TetUpdate update, std::span<const gl::Program* const> programs) {
+    if (update == TetUpdate::none) return;
     ++mark_;
     for (const gl::Program* program : programs) program->set("mark", mark_);
     mark_program_.set("mark", mark_);
     mark_program_.set("tet_count", tet_count_);
     mark_program_.dispatch(tet_count_);
     gl::barrier(gl::Barrier::storage | gl::Barrier::texture_fetch);
-    if (!pressures_) return;
+    if (!pressures_ || update != TetUpdate::all) return;
 
     pressures_->node_program.set("element_count", node_count_);
     pressures_->node_program.dispatch(node_count_);

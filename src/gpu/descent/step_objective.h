@@ -40,9 +40,8 @@ public:
     /// To be called when starts and targets are those of a step of `step` seconds.
     void begin(const NodeBuffers& previous, const NodeBuffers& current, double step);
 
-    /// Finds which tets are flat and how the volume term changes with them, and tells the programs that
-    /// gather them.
-    void update(std::span<const gl::Program* const> programs);
+    /// Looks at the tets, and tells the programs that gather them which are flat.
+    void update(TetUpdate update, std::span<const gl::Program* const> programs);
 
 private:
     // What the volume term needs, in models that have one.

@@ -9,14 +9,28 @@
 
 namespace gelatin {
 
-/// After so many sweeps bodies move as rigid ones. With fewer motions stiff bodies that slide are held back
-/// by what they lie on.
+/// After so many sweeps bodies move as rigid ones, and before them flat tets are found. With fewer motions
+/// stiff bodies that slide are held back by what they lie on; with fewer updates bodies gain energy that turn
+/// inside out.
 constexpr int kSweepsAMotion = 2;
 
-/// Before so many sweeps flat tets are found, and bounds of the volume term. With two in place of four, steps
-/// come no closer to converged ones; with far fewer updates bodies gain energy that turn inside out.
-constexpr int kSweepsAnUpdate = 4;
-static_assert(kSweepsAnUpdate % kSweepsAMotion == 0);
+/// Before so many sweeps the volume term's bounds are found. With bounds before every second sweep, steps
+/// come no closer to converged ones.
+constexpr int kSweepsABound = 4;
+static_assert(kSweepsABound % kSweepsAMotion == 0);
+
+/// What is found out about tets before a sweep.
+enum class TetUpdate {
+    none,
+    flat,  ///< which are flat
+    all,   ///< and the bounds of the volume term
+};
+
+/// @param sweep its number in the step
+constexpr TetUpdate tet_update_before(int sweep) {
+    if (sweep % kSweepsABound == 0) return TetUpdate::all;
+    return sweep % kSweepsAMotion == 0 ? TetUpdate::flat : TetUpdate::none;
+}
 
 /// Of so many sweeps the first is followed by a coarse correction (model/descent/coarse_basis.h), which has
 /// the tets as the last update found them.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/contact/contact_limits.h"
+#include "model/descent/descent_rows.h"
 #include "model/layouts.h"
 
 namespace gelatin {
@@ -28,10 +29,9 @@ public:
                        std::span<const glm::vec4> targets) = 0;
 
     /// Starts sweeps, and does not wait for them.
-    /// @param updates_tets whether flat tets and the volume term are looked at first, as for the first sweeps
-    /// of a step
+    /// @param update of tets, before them
     /// @param positions [m], shape [nodes]
-    virtual void start(int sweeps, bool updates_tets, const ContactLimits& limits,
+    virtual void start(int sweeps, TetUpdate update, const ContactLimits& limits,
                        std::span<const glm::vec4> positions) = 0;
     /// Starts all moves of a step in which nothing meets, and does not wait for them: sweeps, rigid motions
     /// and coarse corrections. @param positions [m], shape [nodes]

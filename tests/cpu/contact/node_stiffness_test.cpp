@@ -22,7 +22,7 @@ void expect_trace_of_elements(MaterialModel kind, double poisson_ratio) {
     for (glm::dvec4& target : objective.step.targets) target.w = 0.0;  // without inertia
     objective.begin(1.0 / 60.0);
     for (std::size_t batch = 0; batch < objective.rows().batches.size(); ++batch)
-        objective.update(batch, positions);
+        objective.update(batch, TetUpdate::all, positions);
     std::size_t count = 0;
     for (std::size_t group = 0; group < objective.group_count(); ++group) {
         cpu::PlainTerms terms;

@@ -38,8 +38,8 @@ void expect_the_plain_terms_here(const Model& model) {
     auto plain = make_objective<double>(shared);
     const std::vector<glm::vec4>& positions = model.positions;
     const std::vector<glm::dvec4> positions_d(positions.begin(), positions.end());
-    fast.update(0, positions);
-    plain.update(0, positions_d);
+    fast.update(0, TetUpdate::all, positions);
+    plain.update(0, TetUpdate::all, positions_d);
     std::vector<glm::vec3> forces(positions.size());
     fast.find_forces(positions, nullptr, forces);
     int compared = 0;
@@ -107,7 +107,7 @@ TEST(TetTerms, OfCrushedBodiesInLanesAreThePlainOnes) {
 TEST(StepObjective, FindsForcesWhereTheyAreWanted) {
     const auto model = std::make_shared<const Model>(test::make_lively_tets(0.0));
     auto objective = make_objective<float>(model);
-    objective.update(0, model->positions);
+    objective.update(0, TetUpdate::all, model->positions);
     std::vector<glm::vec3> all(model->node_count()), some(all);
     objective.find_forces(model->positions, nullptr, all);
     std::vector<std::uint8_t> wanted(all.size());
