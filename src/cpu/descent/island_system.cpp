@@ -65,71 +65,20 @@ void add_stiffness(const Matrix& stiffness, const Matrix& arm_a, const Matrix& a
     sum.bottomRightCorner<3, 3>() += arm_a * turned;
 }
 
-glm::dvec3 without_part_along(const glm::dvec3& v, const glm::dvec3& normal) {
-    return v - glm::dot(v, normal) * normal;
+// Friction to second order.
+struct Grip {
+    double share;  // of what would hold if nothing slid
+    double left;   // of its stiffness along the slip
+};
+
+// Along a slip the force does not change with it. After a solution, the grip is that of the least quadratic
+// energy which is friction's where that led, and above it elsewhere. So another one does not lead past the
+// end of a slip.
+Grip grip_of(const IslandSystem::Touch& touch) {
+    const double length = glm::length(touch.hold + touch.stiffness * touch.slip);
+    const bool slides = length > touch.limit, is_first = touch.slip == glm::dvec3(0.0);
+    return {slides ? touch.limit / length : 1.0, slides && is_first ? kSlipShare<double> : 1.0};
 }
-
-// Of an energy, by the part that is made of a motion.
-struct Slope {
-    double value = 0.0, change = 0.0;  // [J]
-};
-
-// A contact on the way of its bodies.
-class Course {
-public:
-    Course() = default;
-    // @param apart how far the second side goes from the first [m]
-    Course(const IslandSystem::Touch& touch, const glm::dvec3& apart)
-        : touch_(&touch), hold_(without_part_along(touch.hold, touch.normal)) {
-        const glm::dvec3 aside = without_part_along(apart, touch.normal);
-        along_ = glm::dot(hold_, aside);
-        held_squared_ = glm::dot(hold_, hold_);
-        aside_squared_ = glm::dot(aside, aside);
-    }
-
-    bool acts() const {
-        return std::min(touch_->gap, touch_->gap + touch_->change) < touch_->reach || touch_->limit > 0.0;
-    }
-
-    void add_slope(double part, Slope& slope) const {
-        const double gap = touch_->gap + part * touch_->change;
-        slope.value -= contact_force(gap, touch_->reach, touch_->stiffness) * touch_->change;
-        slope.change +=
-            contact_hessian(gap, touch_->reach, touch_->stiffness) * touch_->change * touch_->change;
-        add_friction(part, 0.0, slope);
-    }
-
-    // What is assembled: the slope where nothing has moved, and its change by Newton's system.
-    Slope second_order() const {
-        Slope slope;
-        const double pressing = contact_force(touch_->gap, touch_->reach, touch_->stiffness);
-        slope.value = -pressing * touch_->change;
-        if (pressing > 0.0)
-            slope.change = contact_hessian(touch_->gap, touch_->reach, touch_->stiffness) * touch_->change *
-                           touch_->change;
-        add_friction(0.0, kSlipShare<double>, slope);
-        return slope;
-    }
-
-private:
-    // @param slip_share the part of the stiffness that is left along a slip
-    void add_friction(double part, double slip_share, Slope& slope) const {
-        if (!(touch_->limit > 0.0)) return;
-        const double k = touch_->stiffness, way = part * k;
-        const double along = along_ + way * aside_squared_;
-        const double squared = held_squared_ + way * (2.0 * along_ + way * aside_squared_);
-        const double limit = touch_->limit;
-        const bool slides = squared > limit * limit;
-        const double share = slides ? limit / std::sqrt(squared) : 1.0;
-        slope.value += share * along;
-        slope.change +=
-            share * k * (aside_squared_ - (slides ? (1.0 - slip_share) * along * along / squared : 0.0));
-    }
-
-    const IslandSystem::Touch* touch_ = nullptr;
-    glm::dvec3 hold_{0.0};
-    double along_ = 0.0, held_squared_ = 0.0, aside_squared_ = 0.0;
-};
 
 // What a contact adds to second order.
 struct Terms {
@@ -147,16 +96,70 @@ Terms terms_of(const IslandSystem::Touch& touch) {
             contact_hessian(touch.gap, touch.reach, touch.stiffness) * normal * normal.transpose();
     }
     if (!(touch.limit > 0.0)) return terms;
-    const Eigen::Vector3d hold = vector(without_part_along(touch.hold, touch.normal));
-    const double length = hold.norm(), part = length > touch.limit ? touch.limit / length : 1.0;
-    terms.force -= part * hold;
-    terms.stiffness += part * touch.stiffness * (Matrix::Identity() - normal * normal.transpose());
-    if (part < 1.0) {  // along a slip the force does not change with it
-        const double left = (1.0 - kSlipShare<double>)*part * touch.stiffness;
-        terms.stiffness -= left / (length * length) * hold * hold.transpose();
-    }
+    const Eigen::Vector3d hold = vector(touch.hold);
+    const Grip grip = grip_of(touch);
+    const double stiffness = grip.share * touch.stiffness;
+    terms.force -= grip.share * hold;
+    terms.stiffness += stiffness * (Matrix::Identity() - normal * normal.transpose());
+    if (grip.left < 1.0)
+        terms.stiffness -= (1.0 - grip.left) * stiffness / hold.squaredNorm() * hold * hold.transpose();
     return terms;
 }
+
+// Of an energy, by the part that is made of a motion.
+struct Slope {
+    double value, change;  // [J]
+};
+
+// A contact on the way of its bodies.
+class Course {
+public:
+    Course() = default;
+    // @param slip of the second side beside the first [m]
+    Course(const IslandSystem::Touch& touch, const Grip& grip, const glm::dvec3& slip)
+        : touch_(&touch),
+          grip_(grip),
+          held_squared_(glm::dot(touch.hold, touch.hold)),
+          held_along_(glm::dot(touch.hold, slip)),
+          slip_squared_(glm::dot(slip, slip)) {}
+
+    bool acts() const {
+        return std::min(touch_->gap, touch_->gap + touch_->change) < touch_->reach || touch_->limit > 0.0;
+    }
+
+    Slope slope_at(double part) const {
+        Slope slope = pressing_at(part);
+        if (!(touch_->limit > 0.0)) return slope;
+        const double way = part * touch_->stiffness;  // of what would hold, by the slip
+        const double along = held_along_ + way * slip_squared_;
+        const double squared = held_squared_ + way * (held_along_ + along);
+        const bool slides = squared > touch_->limit * touch_->limit;
+        const double share = slides ? touch_->limit / std::sqrt(squared) : 1.0;
+        const double turning = slip_squared_ - (slides ? along * along / squared : 0.0);
+        return {slope.value + share * along, slope.change + share * touch_->stiffness * turning};
+    }
+
+    // As it is assembled, where nothing has moved.
+    Slope second_order() const {
+        Slope slope = touch_->gap < touch_->reach ? pressing_at(0.0) : Slope{0.0, 0.0};
+        if (!(touch_->limit > 0.0)) return slope;
+        double across = slip_squared_;
+        if (grip_.left < 1.0) across -= (1.0 - grip_.left) * held_along_ * held_along_ / held_squared_;
+        return {slope.value + grip_.share * held_along_,
+                slope.change + grip_.share * touch_->stiffness * across};
+    }
+
+private:
+    Slope pressing_at(double part) const {
+        const double gap = touch_->gap + part * touch_->change;
+        return {-contact_force(gap, touch_->reach, touch_->stiffness) * touch_->change,
+                contact_hessian(gap, touch_->reach, touch_->stiffness) * touch_->change * touch_->change};
+    }
+
+    const IslandSystem::Touch* touch_ = nullptr;
+    Grip grip_{1.0, 1.0};
+    double held_squared_ = 0.0, held_along_ = 0.0, slip_squared_ = 0.0;
+};
 
 }  // namespace
 
@@ -276,7 +279,10 @@ std::vector<Motion> IslandSystem::shortened(const Motions& newton) {
     for (Motion& motion : motions) motion -= common;
     if (!is_held && !is_outside_touched) common = free_translation();
     const double part = least_along(motions, common);
-    for (Touch& touch : touches) touch.change *= part;
+    for (Touch& touch : touches) {
+        touch.change *= part;
+        touch.slip *= part;
+    }
     for (Motion& motion : motions) motion = part * motion + common;
     return motions;
 }
@@ -320,8 +326,10 @@ double IslandSystem::least_along(const Motions& motions, const Motion& common) {
             const glm::dvec3 way = displacement(motions[touch.bodies[side]], touch.arms[side]);
             apart += side == 0 ? -way : way;
         }
+        const Grip grip = grip_of(touch);
         touch.change = glm::dot(apart, touch.normal);
-        courses[k] = Course(touch, apart);
+        touch.slip = apart - touch.change * touch.normal;
+        courses[k] = Course(touch, grip, touch.slip);
     });
     std::erase_if(courses, [](const Course& course) { return !course.acts(); });
     for (const Course& course : courses) {
@@ -331,7 +339,11 @@ double IslandSystem::least_along(const Motions& motions, const Motion& common) {
     }
     const auto slope_at = [&](double part) {
         Slope slope{part * curvature - pull, curvature};
-        for (const Course& course : courses) course.add_slope(part, slope);
+        for (const Course& course : courses) {
+            const Slope own = course.slope_at(part);
+            slope.value += own.value;
+            slope.change += own.change;
+        }
         return slope;
     };
     const double enough = kLevel * std::abs(slope_at(0.0).value);

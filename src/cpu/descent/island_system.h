@@ -40,7 +40,9 @@ public:
         double friction = 0.0;             ///< Coulomb's coefficient
         glm::dvec3 hold{0.0};              ///< what would hold the first if nothing slid [N]
         double limit = 0.0;                ///< of friction [N]
-        double change = 0.0;               ///< of the gap by the last solution [m]
+        // By the last solution:
+        double change = 0.0;   ///< of the gap [m]
+        glm::dvec3 slip{0.0};  ///< how far the second went beside the first [m]
     };
 
     std::vector<Body> bodies;

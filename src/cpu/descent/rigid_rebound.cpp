@@ -15,6 +15,8 @@
 namespace gelatin::cpu {
 namespace {
 
+// Sides that end a step within so many reaches, and would have pressed each other by themselves, have met.
+constexpr double kNear = 2.0;
 // What is little of the speed at which two have met.
 constexpr double kLeft = 0.1;
 // What takes longer is seen: softness, which bounces by itself [s].
@@ -122,16 +124,23 @@ typename RigidRebound<Real>::Touches RigidRebound<Real>::find_touches(
         const bool may_meet = is_fast[pair.first] != 0 || is_fast[pair.second] != 0;
         if (sides.is_own() || !(may_meet || meetings_.contains(pair))) continue;
         if (contacts.restitution(pair.first, pair.second) == 0.0) continue;
-        if (!(aims.gap(sides, press, step.positions) < press.reach)) continue;
+        const Real gap = aims.gap(sides, press, step.positions);
+        if (!(gap < Real(kNear) * press.reach)) continue;
         Touch touch;
         touch.normal = glm::dvec3(press.normal);
+        double kept = 0.0;  // how much smaller the gap would be, had nothing been in the way [m]
         for (std::size_t k = 0; k < 4; ++k) {
             const auto weight = static_cast<double>(press.weights[static_cast<int>(k)]);
+            const std::uint32_t n = sides.nodes[k];
             const std::size_t side = sides.side_of(k);
-            touch.points[side] += weight * glm::dvec3(step.positions[sides.nodes[k]]);
-            touch.velocities[side] += weight * glm::dvec3(velocity_before(step, sides.nodes[k]));
+            const glm::dvec3 position(step.positions[n]), velocity(velocity_before(step, n));
+            touch.points[side] += weight * position;
+            touch.velocities[side] += weight * velocity;
+            const glm::dvec3 left = glm::dvec3(step.starts[n]) + step.length * velocity - position;
+            kept += (side == 0 ? weight : -weight) * glm::dot(touch.normal, left);
         }
-        touches[pair].push_back(touch);
+        if (static_cast<double>(gap) - kept < static_cast<double>(press.reach) || gap < press.reach)
+            touches[pair].push_back(touch);
     }
     for (std::uint32_t o = 0; o < model_->body_count(); ++o)
         if (planes.objects[o] != 0 && !planes.nodes.empty())

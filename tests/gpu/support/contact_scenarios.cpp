@@ -94,7 +94,7 @@ std::vector<glm::vec4> sweep_on_gpu(const BeforeSweeps& before, int sweeps, Devi
     before.contacts.write_limits(limits);
     device.begin(kFrame, converted<glm::vec4>(before.objective.step.starts),
                  converted<glm::vec4>(before.objective.step.targets));
-    device.start(sweeps, true, limits, converted<glm::vec4>(before.positions));
+    device.start(sweeps, TetUpdate::all, limits, converted<glm::vec4>(before.positions));
     std::vector<glm::vec4> positions(before.positions.size(),
                                      glm::vec4(std::numeric_limits<float>::quiet_NaN()));
     device.finish(positions, touched);
@@ -150,7 +150,8 @@ double sweep_error(MaterialModel kind, int frames, int sweeps, double far = 0.0,
     cpu::ColliderContacts<double> colliders(*before.model);
     const cpu::NodeSweep<double> sweep(before.model);
     const std::size_t batches = before.objective.rows().batches.size();
-    for (std::size_t batch = 0; batch < batches; ++batch) before.objective.update(batch, before.positions);
+    for (std::size_t batch = 0; batch < batches; ++batch)
+        before.objective.update(batch, TetUpdate::all, before.positions);
     for (int i = 0; i < sweeps; ++i)
         for (std::size_t batch = 0; batch < batches; ++batch)
             sweep.run(batch, before.objective, &before.contacts, colliders, before.positions);

@@ -1,0 +1,44 @@
+#include "cpu/descent/island_system.h"
+
+#include <gtest/gtest.h>
+
+namespace gelatin {
+namespace {
+
+using cpu::IslandSystem, cpu::Motion, cpu::MotionMatrix;
+
+// A body of m / h^2 = 1 MN/m that lies on a belt, which has moved by `slip` along x in the step and presses
+// it up by some 10 kN [m].
+IslandSystem on_a_belt(double slip) {
+    IslandSystem island;
+    IslandSystem::Body& body = island.bodies.emplace_back(0u);
+    body.stiffness = 1e6;
+    body.matrix = MotionMatrix::Identity() * 1e6;
+    body.force << 0.0, -1e4, 0.0, 0.0, 0.0, 0.0;
+    island.is_held = true;
+    for (const double x : {-1.0, 1.0}) {
+        IslandSystem::Touch touch;
+        touch.bodies = {kNoNode, 0};
+        touch.arms[1] = {x, 0.0, 0.0};
+        touch.normal = {0.0, 1.0, 0.0};
+        touch.reach = 5e-3;
+        touch.stiffness = 1e8;
+        touch.gap = touch.reach - 5e-5;
+        touch.friction = 0.5;
+        touch.hold = {-touch.stiffness * slip, 0.0, 0.0};  // the belt is ahead of the body
+        island.touches.push_back(touch);
+    }
+    return island;
+}
+
+// Newton's step takes the force of a slip for one without an end: 5 kN, which are 5 mm.
+TEST(IslandSystem, FrictionMovesABodyNoFartherThanABelt) {
+    for (const double slip : {0.1e-3, 1e-3, 3e-3}) {
+        const std::vector<Motion> motions = on_a_belt(slip).find_motions();
+        EXPECT_NEAR(motions[0](0), slip, 0.05 * slip) << slip;
+    }
+    EXPECT_NEAR(on_a_belt(20e-3).find_motions()[0](0), 5e-3, 0.3e-3);
+}
+
+}  // namespace
+}  // namespace gelatin
