@@ -179,8 +179,9 @@ void CpuSolver<Real>::descend(Descent& descent, double step) {
         std::swap(current_, previous_);
         {
             const TimedStage part(timer, "advance_nodes.match_shapes");
-            if (descent.shape_matcher.run(previous_))
-                descent.solver.follow(static_cast<Real>(step / parts), previous_, timer);
+            const std::vector<std::uint32_t> matched = descent.shape_matcher.run(previous_);
+            if (!matched.empty())
+                descent.solver.follow(static_cast<Real>(step / parts), matched, previous_, timer);
         }
         sum_loads(previous_);
         descent.solver.run(static_cast<Real>(step / parts), std::exchange(has_earlier_, true), previous_,

@@ -66,7 +66,8 @@ bool BlockDescent<Real>::rests(double step, std::span<const float> load_factors,
 }
 
 template <class Real>
-void BlockDescent<Real>::follow(Real step, Nodes<Real>& nodes, StageTimer* timer) {
+void BlockDescent<Real>::follow(Real step, std::span<const std::uint32_t> bodies, Nodes<Real>& nodes,
+                                StageTimer* timer) {
     if (!bodies_) return;
     for_each_node(*model_, [&](std::uint32_t n) {
         const Vec4<Real>& place = nodes.positions[n];
@@ -74,7 +75,10 @@ void BlockDescent<Real>::follow(Real step, Nodes<Real>& nodes, StageTimer* timer
         objective_.step.starts[n] = Vec4<Real>(Vec3<Real>(place), nodes.velocities[n].w);
         objective_.step.targets[n] = Vec4<Real>(Vec3<Real>(place), inertia);
     });
+    const Positions shapes = nodes.positions;
     bodies_->follow(step, objective_.step.targets, objective_.step.starts, nodes, timer);
+    for (const std::uint32_t o : bodies)
+        if (!bodies_->is_held(o)) tangled_.move_rigidly(o, shapes, nodes);
 }
 
 template <class Real>

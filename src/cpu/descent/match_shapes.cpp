@@ -29,15 +29,17 @@ ShapeMatcher<Real>::ShapeMatcher(std::shared_ptr<const Model> model)
       inverted_(model_->objects.size()) {}
 
 template <class Real>
-bool ShapeMatcher<Real>::run(Nodes<Real>& nodes) {
+std::vector<std::uint32_t> ShapeMatcher<Real>::run(Nodes<Real>& nodes) {
     count_inverted_tets(nodes.positions);
-    std::atomic<bool> any = false;
-    tbb::parallel_for(std::size_t(0), model_->body_count(), [&](std::size_t o) {
-        if (static_cast<float>(inverted_[o]) > shapes_.objects[o].inverse_y.w &&
-            match(static_cast<std::uint32_t>(o), nodes))
-            any = true;
-    });
-    return any;
+    std::vector<std::uint32_t> lost;
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o)
+        if (static_cast<float>(inverted_[o]) > shapes_.objects[o].inverse_y.w) lost.push_back(o);
+    std::vector<std::uint8_t> is_matched(lost.size());
+    tbb::parallel_for(std::size_t(0), lost.size(),
+                      [&](std::size_t k) { is_matched[k] = match(lost[k], nodes) ? 1 : 0; });
+    std::size_t k = 0;
+    std::erase_if(lost, [&](std::uint32_t) { return is_matched[k++] == 0; });
+    return lost;
 }
 
 template <class Real>

@@ -19,8 +19,8 @@ class ShapeMatcher {
 public:
     explicit ShapeMatcher(std::shared_ptr<const Model> model);
 
-    /// @return whether any body was put elsewhere
-    bool run(Nodes<Real>& nodes);
+    /// @return the bodies that were put elsewhere, ascending
+    std::vector<std::uint32_t> run(Nodes<Real>& nodes);
 
 private:
     void count_inverted_tets(const std::vector<Vec4<Real>>& positions);

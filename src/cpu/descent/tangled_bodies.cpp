@@ -70,6 +70,25 @@ double TangledBodies<Real>::objective_of(const StepObjective<Real>& objective, c
 }
 
 template <class Real>
+void TangledBodies<Real>::move_rigidly(std::uint32_t object, std::span<const Vec4<Real>> shape,
+                                       Nodes<Real>& nodes) const {
+    const Range& range = model_->objects[object].nodes;
+    const glm::dvec3 origin(nodes.positions[range.first]);
+    RigidSums had, has;  // with masses for stiffnesses, and momenta for forces
+    for (std::uint32_t n = range.first; n < range.end(); ++n) {
+        const auto mass = static_cast<double>(model_->masses[n]);
+        had.add(glm::dvec3(shape[n]) - origin, mass, mass * glm::dvec3(nodes.velocities[n]));
+        has.add(glm::dvec3(nodes.positions[n]) - origin, mass, glm::dvec3(0.0));
+    }
+    const RigidInertia inertia(has);
+    const Twist twist = inertia.twist(had.force, had.moment);
+    for (std::uint32_t n = range.first; n < range.end(); ++n) {
+        const glm::dvec3 arm = glm::dvec3(nodes.positions[n]) - origin - inertia.center;
+        nodes.velocities[n] = Vec4<Real>(Vec3<Real>(twist.at(arm)), nodes.velocities[n].w);
+    }
+}
+
+template <class Real>
 void TangledBodies<Real>::slow_down(const End& end, std::span<const std::uint32_t> objects,
                                     std::span<Vec4<Real>> velocities) const {
     tbb::parallel_for(std::size_t(0), objects.size(),

@@ -31,6 +31,12 @@ public:
     explicit TangledBodies(std::shared_ptr<const Model> model)
         : model_(std::move(model)), is_tangled_(model_->objects.size()) {}
 
+    /// Makes a body move as a rigid one, with the momentum and angular momentum that its velocities would
+    /// have with the nodes elsewhere: it was to get there, but others are in the way. With the velocities
+    /// alone, a body that is stretched in each step would turn faster with each.
+    /// @param shape where its nodes would be, shape [nodes]
+    void move_rigidly(std::uint32_t object, std::span<const Vec4<Real>> shape, Nodes<Real>& nodes) const;
+
     /// A guess that tangles a body can hold any energy, which few sweeps would not take out again: the body
     /// starts where it was. A step of a single sweep would lose a third of its motion so.
     /// @param may_be_part by object: not 0 where the guess makes, in place of that, the largest part of its
