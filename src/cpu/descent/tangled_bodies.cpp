@@ -81,7 +81,8 @@ void TangledBodies<Real>::move_rigidly(std::uint32_t object, std::span<const Vec
         has.add(glm::dvec3(nodes.positions[n]) - origin, mass, glm::dvec3(0.0));
     }
     const RigidInertia inertia(has);
-    const Twist twist = inertia.twist(had.force, had.moment);
+    const glm::dvec3 spin = had.moment - glm::cross(RigidInertia(had).center, had.force);
+    const Twist twist{inertia.inverse_mass * had.force, inertia.inverse_inertia * spin};
     for (std::uint32_t n = range.first; n < range.end(); ++n) {
         const glm::dvec3 arm = glm::dvec3(nodes.positions[n]) - origin - inertia.center;
         nodes.velocities[n] = Vec4<Real>(Vec3<Real>(twist.at(arm)), nodes.velocities[n].w);

@@ -31,9 +31,9 @@ public:
     explicit TangledBodies(std::shared_ptr<const Model> model)
         : model_(std::move(model)), is_tangled_(model_->objects.size()) {}
 
-    /// Makes a body move as a rigid one, with the momentum and angular momentum that its velocities would
-    /// have with the nodes elsewhere: it was to get there, but others are in the way. With the velocities
-    /// alone, a body that is stretched in each step would turn faster with each.
+    /// Makes a body move as a rigid one, with the momentum and the angular momentum, about its centre, that
+    /// its velocities would have with the nodes elsewhere: it was to get there, but others are in the way.
+    /// With the velocities alone, a body that is stretched in each step would turn faster with each.
     /// @param shape where its nodes would be, shape [nodes]
     void move_rigidly(std::uint32_t object, std::span<const Vec4<Real>> shape, Nodes<Real>& nodes) const;
 

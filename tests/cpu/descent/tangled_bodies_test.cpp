@@ -114,5 +114,25 @@ TEST_F(TangledBodiesTest, StayRigidWhereNothingIsLeft) {
     EXPECT_LT(between, 1e-5);  // distances do not change
 }
 
+// A body that is stretched and was to get its shape back turns as one of its size does.
+TEST_F(TangledBodiesTest, TurnWithTheAngularMomentumOfTheShapeTheyWereToHave) {
+    go(0.0);
+    cpu::Nodes<double> nodes{positions, after};
+    for (glm::dvec4& p : nodes.positions) p = glm::dvec4(5.0 * glm::dvec3(p), p.w);
+    cpu::TangledBodies<double>(model).move_rigidly(0, positions, nodes);
+    const auto own_spin = [&](const Nodes& velocities) {  // about the centre of mass
+        return spin(velocities) -
+               glm::cross(momentum(positions) / model->objects[0].mass, momentum(velocities));
+    };
+    const glm::dvec3 had_spin = own_spin(after);
+    positions = nodes.positions;
+    EXPECT_LT(glm::length(momentum(nodes.velocities) - momentum(after)), 1e-9 * glm::length(momentum(after)));
+    EXPECT_LT(glm::length(own_spin(nodes.velocities) - had_spin), 1e-5 * glm::length(had_spin));
+    const double rate = glm::length(glm::dvec3(nodes.velocities.front() - nodes.velocities.back())) /
+                        glm::length(glm::dvec3(positions.front() - positions.back()));
+    EXPECT_LT(rate, 0.5 / 20.0);
+    for (std::size_t n = 0; n < after.size(); ++n) EXPECT_EQ(nodes.velocities[n].w, after[n].w);
+}
+
 }  // namespace
 }  // namespace gelatin
