@@ -167,8 +167,9 @@ void NearObjects<Real>::sort() {
             if (!(near.squared > Real(0))) meeting_[o].push_back(near);
             by_distance_[o].push_back(near);
         }
-        std::stable_sort(by_distance_[o].begin(), by_distance_[o].end(),
-                         [](const auto& a, const auto& b) { return a.squared < b.squared; });
+        std::sort(by_distance_[o].begin(), by_distance_[o].end(), [](const auto& a, const auto& b) {
+            return a.squared < b.squared || (a.squared == b.squared && a.object < b.object);
+        });
     });
 }
 
