@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cpu/collision/colliders.h"
+#include "cpu/descent/shift_outside.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -20,6 +21,9 @@ constexpr double kNearlyAll = 0.95;
 constexpr double kKeptAcceleration = 0.5;
 // A body is soft where a pressure wave takes more than so many steps through it.
 constexpr double kStepsAWave = 8.0;
+
+// Of the least thickness: stiff bodies that a guess takes deeper into planes are put outside as a whole.
+constexpr double kDepth = 0.01;
 
 template <class Work>
 void for_each_node(const Model& model, const Work& work) {
@@ -91,6 +95,8 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
         acting_ = acting;
         if (acting_ != nullptr) find_outlooks(step, parts > 1, previous);
         start(step, has_earlier, previous, load_forces, pulls, current);
+        if (bodies_)
+            shift_outside(*model_, objective_, kDepth * bodies_->least_thickness(), current.positions);
         shorten_tangled(current.positions);
     };
     // A step is tried with what seems to be enough, and made again with more where it was not.
