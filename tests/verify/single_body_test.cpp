@@ -50,7 +50,7 @@ TEST_F(SingleBodyTest, BouncesByItsRestitution) {
             if (momentum < lowest) highest = lowest = momentum;
             highest = std::max(highest, momentum);
         }
-        EXPECT_GT(highest, 0.84 * -lowest);  // 0.9, less what gravity takes in a frame
+        EXPECT_GT(highest, 0.85 * -lowest);
         EXPECT_LT(highest, 0.91 * -lowest);
     }
 }

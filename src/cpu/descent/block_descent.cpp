@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "cpu/collision/colliders.h"
-#include "cpu/descent/shift_outside.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -21,9 +20,6 @@ constexpr double kNearlyAll = 0.95;
 constexpr double kKeptAcceleration = 0.5;
 // A body is soft where a pressure wave takes more than so many steps through it.
 constexpr double kStepsAWave = 8.0;
-
-// Of the least thickness: stiff bodies that a guess takes deeper into planes are put outside as a whole.
-constexpr double kDepth = 0.01;
 
 template <class Work>
 void for_each_node(const Model& model, const Work& work) {
@@ -70,7 +66,7 @@ bool BlockDescent<Real>::rests(double step, std::span<const float> load_factors,
 }
 
 template <class Real>
-void BlockDescent<Real>::follow(Real step, std::span<const std::uint32_t> bodies, Nodes<Real>& nodes,
+void BlockDescent<Real>::follow(Real step, std::span<const std::uint32_t> matched, Nodes<Real>& nodes,
                                 StageTimer* timer) {
     if (!bodies_) return;
     for_each_node(*model_, [&](std::uint32_t n) {
@@ -81,7 +77,7 @@ void BlockDescent<Real>::follow(Real step, std::span<const std::uint32_t> bodies
     });
     const Positions shapes = nodes.positions;
     bodies_->follow(step, objective_.step.targets, objective_.step.starts, nodes, timer);
-    for (const std::uint32_t o : bodies)
+    for (const std::uint32_t o : matched)
         if (!bodies_->is_held(o)) tangled_.move_rigidly(o, shapes, nodes);
 }
 
@@ -95,8 +91,6 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
         acting_ = acting;
         if (acting_ != nullptr) find_outlooks(step, parts > 1, previous);
         start(step, has_earlier, previous, load_forces, pulls, current);
-        if (bodies_)
-            shift_outside(*model_, objective_, kDepth * bodies_->least_thickness(), current.positions);
         shorten_tangled(current.positions);
     };
     // A step is tried with what seems to be enough, and made again with more where it was not.
@@ -134,6 +128,7 @@ void BlockDescent<Real>::make_moves(Real step, Positions& positions, StageTimer*
         device_positions_.assign(positions.begin(), positions.end());
         device_->start_apart(sweeps_, device_positions_);
         take_from_device(positions);
+        // Forces are asked for later.
         for_batches([&](std::size_t batch) { objective_.update(batch, TetUpdate::all, positions); });
         return;
     }

@@ -73,9 +73,9 @@ public:
 
     /// To be called where bodies were put elsewhere since the last step: goes there as far as others let
     /// them.
-    /// @param bodies that were put elsewhere, and move as rigid ones
+    /// @param matched bodies that were put elsewhere, and move as rigid ones
     /// @param nodes input: where they were put; output: where they are
-    void follow(Real step, std::span<const std::uint32_t> bodies, Nodes<Real>& nodes, StageTimer* timer);
+    void follow(Real step, std::span<const std::uint32_t> matched, Nodes<Real>& nodes, StageTimer* timer);
 
     /// A step of `step` seconds from `previous`; writes `current`.
     /// @param current's velocities are those one step before `previous` if `has_earlier`, else not looked at

@@ -66,15 +66,15 @@ void add_stiffness(const Matrix& stiffness, const Matrix& arm_a, const Matrix& a
 }
 
 // Friction to second order.
-struct Grip {
+struct Friction {
     double share;  // of what would hold if nothing slid
     double left;   // of its stiffness along the slip
 };
 
-// Along a slip the force does not change with it. After a solution, the grip is that of the least quadratic
+// Along a slip the force does not change with it. After a solution, it is that of the least quadratic
 // energy which is friction's where that led, and above it elsewhere. So another one does not lead past the
 // end of a slip.
-Grip grip_of(const IslandSystem::Touch& touch) {
+Friction friction_of(const IslandSystem::Touch& touch) {
     const double length = glm::length(touch.hold + touch.stiffness * touch.slip);
     const bool slides = length > touch.limit, is_first = touch.slip == glm::dvec3(0.0);
     return {slides ? touch.limit / length : 1.0, slides && is_first ? kSlipShare<double> : 1.0};
@@ -97,12 +97,12 @@ Terms terms_of(const IslandSystem::Touch& touch) {
     }
     if (!(touch.limit > 0.0)) return terms;
     const Eigen::Vector3d hold = vector(touch.hold);
-    const Grip grip = grip_of(touch);
-    const double stiffness = grip.share * touch.stiffness;
-    terms.force -= grip.share * hold;
+    const Friction friction = friction_of(touch);
+    const double stiffness = friction.share * touch.stiffness;
+    terms.force -= friction.share * hold;
     terms.stiffness += stiffness * (Matrix::Identity() - normal * normal.transpose());
-    if (grip.left < 1.0)
-        terms.stiffness -= (1.0 - grip.left) * stiffness / hold.squaredNorm() * hold * hold.transpose();
+    if (friction.left < 1.0)
+        terms.stiffness -= (1.0 - friction.left) * stiffness / hold.squaredNorm() * hold * hold.transpose();
     return terms;
 }
 
@@ -116,9 +116,9 @@ class Course {
 public:
     Course() = default;
     // @param slip of the second side beside the first [m]
-    Course(const IslandSystem::Touch& touch, const Grip& grip, const glm::dvec3& slip)
+    Course(const IslandSystem::Touch& touch, const Friction& friction, const glm::dvec3& slip)
         : touch_(&touch),
-          grip_(grip),
+          friction_(friction),
           held_squared_(glm::dot(touch.hold, touch.hold)),
           held_along_(glm::dot(touch.hold, slip)),
           slip_squared_(glm::dot(slip, slip)) {}
@@ -144,9 +144,10 @@ public:
         Slope slope = touch_->gap < touch_->reach ? pressing_at(0.0) : Slope{0.0, 0.0};
         if (!(touch_->limit > 0.0)) return slope;
         double across = slip_squared_;
-        if (grip_.left < 1.0) across -= (1.0 - grip_.left) * held_along_ * held_along_ / held_squared_;
-        return {slope.value + grip_.share * held_along_,
-                slope.change + grip_.share * touch_->stiffness * across};
+        if (friction_.left < 1.0)
+            across -= (1.0 - friction_.left) * held_along_ * held_along_ / held_squared_;
+        return {slope.value + friction_.share * held_along_,
+                slope.change + friction_.share * touch_->stiffness * across};
     }
 
 private:
@@ -157,7 +158,7 @@ private:
     }
 
     const IslandSystem::Touch* touch_ = nullptr;
-    Grip grip_{1.0, 1.0};
+    Friction friction_{1.0, 1.0};
     double held_squared_ = 0.0, held_along_ = 0.0, slip_squared_ = 0.0;
 };
 
@@ -326,10 +327,10 @@ double IslandSystem::least_along(const Motions& motions, const Motion& common) {
             const glm::dvec3 way = displacement(motions[touch.bodies[side]], touch.arms[side]);
             apart += side == 0 ? -way : way;
         }
-        const Grip grip = grip_of(touch);
+        const Friction friction = friction_of(touch);
         touch.change = glm::dot(apart, touch.normal);
         touch.slip = apart - touch.change * touch.normal;
-        courses[k] = Course(touch, grip, touch.slip);
+        courses[k] = Course(touch, friction, touch.slip);
     });
     std::erase_if(courses, [](const Course& course) { return !course.acts(); });
     for (const Course& course : courses) {

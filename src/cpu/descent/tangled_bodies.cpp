@@ -47,20 +47,20 @@ void TangledBodies<Real>::shorten_guess(const StepObjective<Real>& objective,
         go(0.0);
         is_tangled_[o] = objective.is_tangled(object, positions) ? 1 : 0;
         if (may_be_part[o] == 0) return;
-        const auto value = [&] { return body_objective<Real>(*model_, objective, object, positions); };
-        const double at_start = value();
+        const double at_start = objective_of(objective, object, positions);
         for (double part = 1.0; part > kLeastOfGuess; part *= 0.5) {
             go(part);
-            if (value() <= at_start) return;
+            if (objective_of(objective, object, positions) <= at_start) return;
         }
         go(0.0);
     });
 }
 
+// Of a body by itself [J].
 template <class Real>
-double body_objective(const Model& model, const StepObjective<Real>& objective, const ModelObject& object,
-                      std::span<const Vec4<Real>> positions) {
-    double energy = body_energy<Real>(model, object, positions);
+double TangledBodies<Real>::objective_of(const StepObjective<Real>& objective, const ModelObject& object,
+                                         const std::vector<Vec4<Real>>& positions) const {
+    double energy = body_energy<Real>(*model_, object, positions);
     for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
         const Vec4<Real>& target = objective.step.targets[n];
         const glm::dvec3 left = glm::dvec3(positions[n]) - glm::dvec3(target);
@@ -143,10 +143,6 @@ void TangledBodies<Real>::slow_down(const End& end, const ModelObject& object,
 
 template double body_energy<float>(const Model&, const ModelObject&, std::span<const Vec4<float>>);
 template double body_energy<double>(const Model&, const ModelObject&, std::span<const Vec4<double>>);
-template double body_objective<float>(const Model&, const StepObjective<float>&, const ModelObject&,
-                                      std::span<const Vec4<float>>);
-template double body_objective<double>(const Model&, const StepObjective<double>&, const ModelObject&,
-                                       std::span<const Vec4<double>>);
 template class TangledBodies<float>;
 template class TangledBodies<double>;
 

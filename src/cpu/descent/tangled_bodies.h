@@ -17,11 +17,6 @@ namespace gelatin::cpu {
 template <class Real>
 double body_energy(const Model& model, const ModelObject& object, std::span<const Vec4<Real>> positions);
 
-/// What a step minimises for a body by itself: its inertia and its elastic energy [J].
-template <class Real>
-double body_objective(const Model& model, const StepObjective<Real>& objective, const ModelObject& object,
-                      std::span<const Vec4<Real>> positions);
-
 /// Bodies that the guess of a step would tangle, and those that are tangled where it begins.
 template <class Real>
 class TangledBodies {
@@ -64,6 +59,8 @@ public:
                    std::span<Vec4<Real>> velocities) const;
 
 private:
+    double objective_of(const StepObjective<Real>& objective, const ModelObject& object,
+                        const std::vector<Vec4<Real>>& positions) const;
     void slow_down(const End& end, const ModelObject& object, std::span<Vec4<Real>> velocities) const;
 
     std::shared_ptr<const Model> model_;

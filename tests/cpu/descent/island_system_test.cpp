@@ -7,8 +7,8 @@ namespace {
 
 using cpu::IslandSystem, cpu::Motion, cpu::MotionMatrix;
 
-// A body of m / h^2 = 1 MN/m that lies on a belt, which has moved by `slip` along x in the step and presses
-// it up by some 10 kN [m].
+// A body of m / h^2 = 1 MN/m that lies on a belt, which presses it up by some 10 kN.
+// @param slip by which the belt has moved along x in the step [m]
 IslandSystem on_a_belt(double slip) {
     IslandSystem island;
     IslandSystem::Body& body = island.bodies.emplace_back(0u);
