@@ -43,8 +43,9 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
       joint_move_(model_),
       rebound_(model_),
       tangled_(model_),
-      outlooks_(bodies_ ? model_->objects.size() : 0),
+      outlooks_(model_->objects.size()),
       device_(bodies_ ? device : nullptr) {
+    if (bodies_) landing_.emplace(model_);
     if (settings_.coarse_level) coarse_.emplace(model_);
     if (coarse_ && coarse_->is_empty()) coarse_.reset();
     if (coarse_ || bodies_) secant_.emplace(model_);
@@ -89,13 +90,17 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
     const auto start_with = [&](const Contacts<Real>* acting) {
         const TimedStage part(timer, "advance_nodes.start");
         acting_ = acting;
-        if (acting_ != nullptr) find_outlooks(step, parts > 1, previous);
         start(step, has_earlier, previous, load_forces, pulls, current);
+        const bool lands =
+            landing_ && landing_->begin(static_cast<double>(step), objective_, current.positions);
         shorten_tangled(current.positions);
+        return lands;
     };
+    if (bodies_) find_outlooks(step, parts > 1, previous);
     // A step is tried with what seems to be enough, and made again with more where it was not.
     for (bool apart = !bodies_ || bodies_->are_apart(step, previous, timer);; apart = false) {
-        start_with(apart ? nullptr : bodies_.get());
+        const bool lands = start_with(apart ? nullptr : bodies_.get());
+        if (apart && lands && device_ != nullptr) continue;  // rigid motions on a device know no landing
         if (!apart) {
             bodies_->begin(step, objective_.step.targets, objective_.step.starts, current.positions, timer);
             go_on_to_guess(current.positions, timer);
@@ -164,8 +169,8 @@ template <class Real>
 void BlockDescent<Real>::find_outlooks(Real step, bool is_part, const Nodes<Real>& previous) {
     const double fast = 2.0 * static_cast<double>(step) * glm::length(glm::dvec3(model_->gravity));
     tbb::parallel_for(std::size_t(0), model_->body_count(), [&](std::size_t o) {
-        outlooks_[o] = {};
-        if (!bodies_->was_pressed(o)) return;
+        outlooks_[o] = {bodies_->was_pressed(o) || contacts_.objects[o] != 0};
+        if (!outlooks_[o].is_pressed) return;
         glm::dvec3 momentum(0.0);
         double mass = 0.0;
         const Range& nodes = model_->objects[o].nodes;
@@ -176,7 +181,7 @@ void BlockDescent<Real>::find_outlooks(Real step, bool is_part, const Nodes<Real
         }
         if (glm::length(momentum) < fast * mass) return;
         const bool is_soft = is_part && division_->wave_time(o) > kStepsAWave * static_cast<double>(step);
-        outlooks_[o] = {Real(1), is_soft ? Real(kKeptAcceleration) : Real(0)};
+        outlooks_[o] = {true, Real(1), is_soft ? Real(kKeptAcceleration) : Real(0)};
     });
 }
 
@@ -190,7 +195,8 @@ void BlockDescent<Real>::make_sweeps(int first, int end, Positions& positions, S
         sweep_.run(batch, objective_, acting_, contacts_, positions);
     };
     const auto move_bodies = [&](std::size_t batch, bool last) {
-        rigid_move_.run(batches[batch].objects, last, objective_, contacts_, nullptr, positions, positions);
+        rigid_move_.run(batches[batch].objects, last, objective_, contacts_, nullptr,
+                        landing_ ? &*landing_ : nullptr, positions, positions);
     };
     if (timer == nullptr && acting_ == nullptr) {
         for_batches([&](std::size_t batch) {
@@ -292,8 +298,8 @@ void BlockDescent<Real>::move_together(bool last, Positions& positions, StageTim
             if (ends_[n].w == Real(0)) ends_[n] = objective_.step.targets[n];
         });
         const Range all{0, static_cast<std::uint32_t>(model_->objects.size())};
-        rigid_move_.run(all, last, objective_, contacts_, bodies_.get(), positions, ends_);
-        joint_move_.run(last, *bodies_, objective_, contacts_, positions, ends_);
+        rigid_move_.run(all, last, objective_, contacts_, bodies_.get(), &*landing_, positions, ends_);
+        joint_move_.run(last, *bodies_, objective_, contacts_, *landing_, positions, ends_);
         bodies_->move(ends_, positions);
     }
     if (!last) bodies_->renew(positions, timer);
@@ -347,8 +353,7 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
                 ? glm::clamp(glm::dot(gained, gravity) / (earlier_step * squared), Real(0), Real(1))
                 : Real(1);
         Vec3<Real> guess = Vec3<Real>(from) + step * (velocity + step * felt * gravity);
-        if (acting_ != nullptr && acting_->was_pressed(contacts_.object_of[n])) {
-            const Outlook& outlook = outlooks_[contacts_.object_of[n]];
+        if (const Outlook& outlook = outlooks_[contacts_.object_of[n]]; outlook.is_pressed) {
             guess = Vec3<Real>(from) + step * (outlook.velocity * velocity);
             if (has_earlier) guess += step * step / earlier_step * (outlook.acceleration * gained);
         }

@@ -13,6 +13,7 @@
 #include "cpu/descent/contact_forces.h"
 #include "cpu/descent/joint_move.h"
 #include "cpu/descent/node_sweep.h"
+#include "cpu/descent/plane_landing.h"
 #include "cpu/descent/rest_watch.h"
 #include "cpu/descent/rigid_move.h"
 #include "cpu/descent/rigid_rebound.h"
@@ -62,9 +63,9 @@ public:
 
     /// Into how many equal steps a step of `step` seconds from `nodes` is to be divided.
     int parts(double step, const Nodes<Real>& nodes) {
-        return division_ ? division_->parts(step, nodes.velocities, contacts_.objects, bodies_.get(),
-                                            settings_.iterations)
-                         : 1;
+        return division_
+                   ? division_->parts(step, nodes, contacts_.objects, bodies_.get(), settings_.iterations)
+                   : 1;
     }
 
     /// Whether all bodies rest, and a step of `step` seconds may be left out. Then `nodes` are at rest.
@@ -109,9 +110,10 @@ public:
 private:
     using Positions = std::vector<Vec4<Real>>;
     // The parts of its last step's velocity and acceleration with which the guess of a body goes on that
-    // presses others.
+    // something presses.
     struct Outlook {
-        Real velocity, acceleration;
+        bool is_pressed = false;
+        Real velocity = Real(0), acceleration = Real(0);
         bool is_soft() const { return acceleration > Real(0); }  // for this part of a step
     };
 
@@ -150,9 +152,10 @@ private:
     RigidRebound<Real> rebound_;
     TangledBodies<Real> tangled_;
     std::optional<SecantStep<Real>> secant_;
-    Positions ends_;                          // of bodies' motions
-    std::vector<Outlook> outlooks_;           // by object
-    std::optional<CoarseStep<Real>> coarse_;  // where there are clusters
+    Positions ends_;                             // of bodies' motions
+    std::vector<Outlook> outlooks_;              // by object
+    std::optional<PlaneLanding<Real>> landing_;  // where bodies meet
+    std::optional<CoarseStep<Real>> coarse_;     // where there are clusters
     DeviceSweeps* device_;
     std::vector<glm::vec4> device_positions_;
     ContactLimits device_limits_;

@@ -166,7 +166,7 @@ private:
 
 // Friction depends on how contacts press, of which sweeps find far too much in stiff bodies: it is taken by
 // what a first solution leaves of that.
-std::vector<Motion> IslandSystem::find_motions() {
+std::vector<Motion> IslandSystem::find_motions(const Land& land) {
     find_couplings();
     Motions newton(bodies.size(), Motion::Zero());
     const auto holds = [](const Touch& touch) { return touch.friction > 0.0; };
@@ -177,6 +177,11 @@ std::vector<Motion> IslandSystem::find_motions() {
     }
     assemble();
     solve(kResidual, newton);
+    if (land) {
+        std::vector<std::uint8_t> lands(bodies.size());
+        for_each_index(0, bodies.size(), 1, [&](std::size_t k) { lands[k] = land(k, newton[k]) ? 1 : 0; });
+        has_landed_ = std::any_of(lands.begin(), lands.end(), [](std::uint8_t l) { return l != 0; });
+    }
     return shortened(newton);
 }
 
@@ -276,9 +281,10 @@ void IslandSystem::solve(double residual, Motions& motions) const {
 // Tells each contact how its gap changes.
 std::vector<Motion> IslandSystem::shortened(const Motions& newton) {
     Motions motions = newton;
-    Motion common = is_held ? Motion::Zero() : mean_translation(motions);
+    Motion common = common_motion(motions);
     for (Motion& motion : motions) motion -= common;
-    if (!is_held && !is_outside_touched) common = free_translation();
+    const bool is_free = !is_held && !is_outside_touched && !has_landed_;
+    if (is_free) common = free_translation();
     const double part = least_along(motions, common);
     for (Touch& touch : touches) {
         touch.change *= part;
@@ -286,6 +292,19 @@ std::vector<Motion> IslandSystem::shortened(const Motions& newton) {
     }
     for (Motion& motion : motions) motion = part * motion + common;
     return motions;
+}
+
+// What all bodies do before the rest is shortened. Where colliders hold them, no more of it than lowers the
+// objective by itself: what they yield to it with by rotating is part of the rest. Where one lands, none:
+// only parts of the whole motion end outside of planes.
+Motion IslandSystem::common_motion(const Motions& motions) const {
+    if (is_held || has_landed_) return Motion::Zero();
+    const Motion mean = mean_translation(motions);
+    if (!is_outside_touched) return mean;
+    const Motions all(motions.size(), mean);
+    const double resisted = dot(all, product(all));
+    const double part = resisted > 0.0 ? std::clamp(dot(forces_, all) / resisted, 0.0, 1.0) : 0.0;
+    return part * mean;
 }
 
 // By mass; it changes no gap.

@@ -1,19 +1,17 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
+#include "cpu/descent/motion.h"
 #include "model/model.h"
 #include "model/spring_packing.h"
 
 namespace gelatin::cpu {
-
-using Motion = Eigen::Matrix<double, 6, 1>;  ///< a translation [m] and a rotation, or a force and a moment
-using MotionMatrix = Eigen::Matrix<double, 6, 6>;
 
 /// Newton's system of the rigid motions of an island's bodies, with the contacts between them, friction among
 /// these (docs/contact.md, "Joint rigid motions").
@@ -50,8 +48,11 @@ public:
     bool is_held = false;             ///< something that is held is part of the island
     bool is_outside_touched = false;  ///< a body is in contact with a collider
 
+    /// Puts the motion of a body, by its number, outside of planes. @return whether it was not
+    using Land = std::function<bool(std::size_t, Motion&)>;
     /// The motions of all bodies to where the objective is least along Newton's step.
-    std::vector<Motion> find_motions();
+    /// @param land may be called on several threads; none: nothing is in the way
+    std::vector<Motion> find_motions(const Land& land = {});
 
 private:
     // What all contacts of two bodies add.
@@ -70,6 +71,7 @@ private:
     void solve(double residual, Motions& motions) const;
     Motions shortened(const Motions& newton);
     double least_along(const Motions& motions, const Motion& common);
+    Motion common_motion(const Motions& motions) const;
     Motion mean_translation(const Motions& motions) const;
     Motion free_translation() const;
     Motions product(const Motions& motions) const;
@@ -84,6 +86,7 @@ private:
         return {uses_.data() + use_starts_[body], use_starts_[body + 1] - use_starts_[body]};
     }
 
+    bool has_landed_ = false;  // a body, in this motion
     std::vector<Coupling> couplings_;
     std::vector<Use> uses_;  // body by body
     std::vector<std::uint32_t> use_starts_;

@@ -17,17 +17,6 @@ namespace {
 // Longest rotation of a step.
 constexpr double kMostRotation = 1.0;
 
-Motion motion(const glm::dvec3& translation, const glm::dvec3& rotation) {
-    Motion m;
-    m << translation.x, translation.y, translation.z, rotation.x, rotation.y, rotation.z;
-    return m;
-}
-
-// How a point at r from the origin moves along a direction.
-Motion along(const glm::dvec3& r, const glm::dvec3& direction) {
-    return motion(direction, glm::cross(r, direction));
-}
-
 template <class Real>
 IslandSystem::Body make_body(std::uint32_t object, const Range& nodes, const StepObjective<Real>& objective,
                              const ColliderContacts<Real>& colliders, std::span<const Vec4<Real>> positions) {
@@ -41,14 +30,9 @@ IslandSystem::Body make_body(std::uint32_t object, const Range& nodes, const Ste
     body.stiffness = sums.stiffness;
     sums.square.add_outer(-sums.stiffness, center);  // round the centre of mass
     sums.moment -= glm::cross(center, sums.force);
+    sums.arm = glm::dvec3(0.0);
     body.force = motion(sums.force, sums.moment);
-    const glm::dvec3 &d = sums.square.diagonal, &b = sums.square.beside;
-    const double trace = d.x + d.y + d.z;
-    constexpr double kThin = 1e-6;  // a row of nodes has no inertia about itself
-    body.matrix.diagonal() = motion(glm::dvec3(sums.stiffness), (1.0 + kThin) * glm::dvec3(trace) - d);
-    body.matrix(3, 4) = body.matrix(4, 3) = -b.z;
-    body.matrix(4, 5) = body.matrix(5, 4) = -b.x;
-    body.matrix(5, 3) = body.matrix(3, 5) = -b.y;
+    body.matrix = inertia_matrix(sums);
     if (colliders.objects[object] == 0) return body;
     const auto add = [&](const Motion& row, double stiffness, double force) {
         body.matrix += stiffness * row * row.transpose();
@@ -97,8 +81,8 @@ JointMove<Real>::JointMove(std::shared_ptr<const Model> model) : model_(std::mov
 
 template <class Real>
 void JointMove<Real>::run(bool is_last, const Contacts<Real>& contacts, const StepObjective<Real>& objective,
-                          const ColliderContacts<Real>& colliders, std::span<const Vec4<Real>> positions,
-                          std::span<Vec4<Real>> ends) const {
+                          const ColliderContacts<Real>& colliders, const PlaneLanding<Real>& landing,
+                          std::span<const Vec4<Real>> positions, std::span<Vec4<Real>> ends) const {
     const ContactList<Real>& list = contacts.list();
     const std::size_t objects = model_->objects.size();
     std::vector<IslandSystem> islands(list.shifts.size());
@@ -143,7 +127,10 @@ void JointMove<Real>::run(bool is_last, const Contacts<Real>& contacts, const St
             island.touches[k] =
                 make_touch(list.pairs[press.pair], contacts.aims(), press, numbers, positions, island);
         });
-        const std::vector<Motion> motions = island.find_motions();
+        const std::vector<Motion> motions = island.find_motions([&](std::size_t k, Motion& motion) {
+            const IslandSystem::Body& body = island.bodies[k];
+            return landing.land(body.object, objective, positions, body.origin, motion);
+        });
         if (!std::all_of(motions.begin(), motions.end(), [](const Motion& m) { return m.allFinite(); }))
             return;
         tbb::parallel_for(std::size_t(0), motions.size(), [&](std::size_t k) {

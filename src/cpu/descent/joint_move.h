@@ -6,6 +6,7 @@
 
 #include "cpu/contact/contacts.h"
 #include "cpu/descent/collider_contacts.h"
+#include "cpu/descent/plane_landing.h"
 #include "cpu/descent/step_objective.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
@@ -23,8 +24,8 @@ public:
     /// Finds where the nodes would go. @param is_last whether no sweep follows
     /// @param ends output: of the bodies that move; others' are left as they are
     void run(bool is_last, const Contacts<Real>& contacts, const StepObjective<Real>& objective,
-             const ColliderContacts<Real>& colliders, std::span<const Vec4<Real>> positions,
-             std::span<Vec4<Real>> ends) const;
+             const ColliderContacts<Real>& colliders, const PlaneLanding<Real>& landing,
+             std::span<const Vec4<Real>> positions, std::span<Vec4<Real>> ends) const;
 
 private:
     std::shared_ptr<const Model> model_;

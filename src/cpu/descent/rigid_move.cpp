@@ -29,7 +29,8 @@ RigidMove<Real>::RigidMove(std::shared_ptr<const Model> model) : model_(std::mov
 template <class Real>
 void RigidMove<Real>::run(const Range& objects, bool is_last, const StepObjective<Real>& objective,
                           const ColliderContacts<Real>& contacts, const Contacts<Real>* bodies,
-                          const std::vector<Vec4<Real>>& positions, std::span<Vec4<Real>> ends) const {
+                          const PlaneLanding<Real>* landing, const std::vector<Vec4<Real>>& positions,
+                          std::span<Vec4<Real>> ends) const {
     tbb::parallel_for(objects.first, objects.end(), [&](std::uint32_t o) {
         if (bodies != nullptr && !bodies->list().is_alone_at(o)) return;
         const Range& nodes = model_->objects[o].nodes;
@@ -46,6 +47,7 @@ void RigidMove<Real>::run(const Range& objects, bool is_last, const StepObjectiv
                 add_contact(contacts.nodes[n], glm::dvec3(positions[n]) - origin, body);
         }
         move_rigid_nodes(body.solve(origin), ends.subspan(nodes.first, nodes.count));
+        if (landing != nullptr) landing->land(o, objective, ends);
     });
 }
 

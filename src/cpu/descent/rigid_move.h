@@ -6,6 +6,7 @@
 
 #include "cpu/contact/contacts.h"
 #include "cpu/descent/collider_contacts.h"
+#include "cpu/descent/plane_landing.h"
 #include "cpu/descent/rigid_motion.h"
 #include "cpu/descent/step_objective.h"
 #include "cpu/nodes.h"
@@ -22,10 +23,12 @@ public:
 
     /// Moves some bodies. @param is_last whether no sweep follows
     /// @param bodies whose contacts move those that are not alone (JointMove); null: none
+    /// @param landing null: each node by itself is put outside of planes, by sweeps
     /// @param ends output: where the nodes of those that move go; may be the positions themselves
     void run(const Range& objects, bool is_last, const StepObjective<Real>& objective,
              const ColliderContacts<Real>& contacts, const Contacts<Real>* bodies,
-             const std::vector<Vec4<Real>>& positions, std::span<Vec4<Real>> ends) const;
+             const PlaneLanding<Real>* landing, const std::vector<Vec4<Real>>& positions,
+             std::span<Vec4<Real>> ends) const;
 
 private:
     std::shared_ptr<const Model> model_;

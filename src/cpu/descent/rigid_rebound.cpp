@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <iterator>
@@ -29,11 +30,11 @@ constexpr int kMostPasses = 32;
 
 template <class Real>
 struct RigidRebound<Real>::Body {
-    glm::dvec3 center{0.0};           // [m]
-    double inverse_mass = 0.0;        // [1/kg]
-    glm::dmat3 inverse_inertia{0.0};  // about the centre [1/(kg m^2)]
-    Twist before, after, change;      // in this step without restitution, and by it
-    double pushes = 0.0;              // how many points it is pushed at
+    glm::dvec3 center{0.0};                         // [m]
+    double inverse_mass = 0.0;                      // [1/kg]
+    glm::dmat3 inertia{0.0}, inverse_inertia{0.0};  // about the centre [kg m^2], [1/(kg m^2)]
+    Twist before, after, change;                    // in this step without restitution, and by it
+    double pushes = 0.0;                            // how many points it is pushed at
 
     // By how much an impulse changes the velocity along it there [1/kg].
     double yielding(const glm::dvec3& arm, const glm::dvec3& direction) const {
@@ -43,6 +44,11 @@ struct RigidRebound<Real>::Body {
     Twist change_by(const glm::dvec3& arm, const glm::dvec3& impulse) const {
         return {inverse_mass * impulse, inverse_inertia * glm::cross(arm, impulse)};
     }
+    // [J]
+    double energy(const Twist& twist) const {
+        return 0.5 * (glm::dot(twist.velocity, twist.velocity) / inverse_mass +
+                      glm::dot(twist.spin, inertia * twist.spin));
+    }
 };
 
 // A touch at which sides are to come apart. Those of null are not bodies that move as a whole.
@@ -50,9 +56,11 @@ template <class Real>
 struct RigidRebound<Real>::Push {
     std::array<Body*, 2> sides;
     Touch touch;
-    double wanted = 0.0;   // [m/s]
-    double inertia = 0.0;  // that yields to its impulse [kg]
-    double impulse = 0.0;  // [N s]
+    double wanted = 0.0;    // [m/s]
+    double inertia = 0.0;   // that yields to its impulse [kg]
+    double impulse = 0.0;   // [N s]
+    double lost = 0.0;      // of the energy with which the sides met [J]
+    std::size_t first = 0;  // the number of the first push of this meeting
 
     // The speed at which the sides come apart. @param twist of a side, which is a body
     double opening(const auto& twist) const {
@@ -60,6 +68,20 @@ struct RigidRebound<Real>::Push {
         for (std::size_t side = 0; side < 2; ++side)
             if (sides[side] != nullptr) velocities[side] = twist(side).at(touch.points[side]);
         return glm::dot(touch.normal, velocities[1] - velocities[0]);
+    }
+    double opening_before_pushes() const {
+        return opening([&](std::size_t side) { return sides[side]->after; });
+    }
+    double opening_now() const {
+        return opening([&](std::size_t side) { return sides[side]->after + sides[side]->change; });
+    }
+
+    void add_impulse(double more) {
+        impulse += more;
+        for (std::size_t side = 0; side < 2; ++side)
+            if (Body* body = sides[side])
+                body->change = body->change +
+                               body->change_by(touch.points[side], (side == 0 ? -more : more) * touch.normal);
     }
 };
 
@@ -78,6 +100,10 @@ void RigidRebound<Real>::run(const Step& step, const Contacts<Real>& contacts,
     meet(step, std::move(touches), bodies);
     std::vector<Push> pushes = end_meetings(step, contacts, bodies);
     push_apart(pushes);
+    for (std::size_t first = 0, end = 0; first < pushes.size(); first = end) {
+        while (end < pushes.size() && pushes[end].first == first) ++end;
+        limit_energy(std::span(pushes).subspan(first, end - first));
+    }
     for (const auto& [object, body] : bodies) {
         if (body.pushes == 0.0) continue;
         const Range& nodes = model_->objects[object].nodes;
@@ -216,9 +242,27 @@ typename RigidRebound<Real>::Body RigidRebound<Real>::measure(const Step& step, 
     body.center = origin + inertia.center;
     body.inverse_mass = inertia.inverse_mass;
     body.inverse_inertia = inertia.inverse_inertia;
+    if (glm::determinant(body.inverse_inertia) > 0.0) body.inertia = glm::inverse(body.inverse_inertia);
     body.before = inertia.twist(before.force, before.moment);
     body.after = inertia.twist(momentum, spin);
     return body;
+}
+
+// Of what moves as a whole; where the other side does not, as seen from there.
+template <class Real>
+template <class TwistOf>
+double RigidRebound<Real>::energy_of(const std::array<Body*, 2>& sides, std::span<const Touch> touches,
+                                     const TwistOf& twist_of) {
+    double energy = 0.0;
+    for (std::size_t side = 0; side < 2; ++side) {
+        if (sides[side] == nullptr) continue;
+        Twist twist = twist_of(*sides[side]);
+        if (sides[1 - side] == nullptr)
+            for (const Touch& touch : touches)
+                twist.velocity -= touch.velocities[1 - side] / static_cast<double>(touches.size());
+        energy += sides[side]->energy(twist);
+    }
+    return energy;
 }
 
 // Meetings begin where two press each other that came together faster than the resting speed, and again where
@@ -242,7 +286,8 @@ void RigidRebound<Real>::meet(const Step& step, Touches touches, Bodies& bodies)
             std::array<Twist, 2> twists;
             for (std::size_t side = 0; side < 2; ++side)
                 if (sides[side] != nullptr) twists[side] = sides[side]->before;
-            meetings_[pair] = {twists, approach, approach, step.length, std::move(of_pair), true};
+            const double energy = energy_of(sides, of_pair, [](const Body& body) { return body.before; });
+            meetings_[pair] = {twists, energy, approach, approach, step.length, std::move(of_pair), true};
         } else if (is_known) {
             known->second.latest_approach = approach;
             known->second.touches = std::move(of_pair);
@@ -270,23 +315,28 @@ void RigidRebound<Real>::push_apart(std::vector<Push>& pushes) {
         lacks = false;
         std::vector<double> changes;  // of impulses
         for (Push& push : pushes) {
-            const double lacking = push.wanted - push.opening([&](std::size_t side) {
-                return push.sides[side]->after + push.sides[side]->change;
-            });
-            const double before = push.impulse;
-            push.impulse = std::max(before + lacking * push.inertia, 0.0);
-            changes.push_back(push.impulse - before);
+            const double lacking = push.wanted - push.opening_now();
+            changes.push_back(std::max(lacking * push.inertia, -push.impulse));
             lacks = lacks || lacking > kEnough * push.wanted;
         }
-        for (std::size_t k = 0; k < pushes.size(); ++k) {
-            const Push& push = pushes[k];
-            const std::array<double, 2> impulses{-changes[k], changes[k]};
-            for (std::size_t side = 0; side < 2; ++side)
-                if (Body* body = push.sides[side])
-                    body->change = body->change + body->change_by(push.touch.points[side],
-                                                                  impulses[side] * push.touch.normal);
-        }
+        for (std::size_t k = 0; k < pushes.size(); ++k) pushes[k].add_impulse(changes[k]);
     }
+}
+
+// Impulses times s add s sum_k j_k u_k + s^2 / 2 sum_k j_k (u'_k - u_k), with the speeds u of separation
+// before them and u' after them. Soft bodies have bounced by themselves, and turned since they met.
+template <class Real>
+void RigidRebound<Real>::limit_energy(std::span<Push> of_meeting) {
+    double linear = 0.0, square = 0.0;
+    for (const Push& push : of_meeting) {
+        const double before = push.opening_before_pushes();
+        linear += push.impulse * before;
+        square += 0.5 * push.impulse * (push.opening_now() - before);
+    }
+    const double most = of_meeting.front().lost;
+    if (!(linear + square > most) || !(square > 0.0)) return;
+    const double part = (std::sqrt(linear * linear + 4.0 * square * most) - linear) / (2.0 * square);
+    for (Push& push : of_meeting) push.add_impulse((std::clamp(part, 0.0, 1.0) - 1.0) * push.impulse);
 }
 
 // An impact is over where two hardly approach any more, and what they press each other with would hardly
@@ -338,8 +388,13 @@ std::vector<typename RigidRebound<Real>::Push> RigidRebound<Real>::end_meetings(
             const double restitution = pair.has_plane
                                            ? static_cast<double>(model_->colliders[pair.first].restitution)
                                            : contacts.restitution(pair.first, pair.second);
+            const double energy =
+                energy_of(sides, meeting.touches, [](const Body& body) { return body.after; });
+            const std::size_t first = pushes.size();
             for (const Touch& touch : meeting.touches) {
                 Push push{sides, touch};
+                push.lost = std::max(meeting.energy - energy, 0.0);
+                push.first = first;
                 push.wanted =
                     -restitution * push.opening([&](std::size_t side) { return meeting.twists[side]; });
                 if (!(push.wanted > 0.0)) continue;

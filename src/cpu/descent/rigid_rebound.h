@@ -57,6 +57,7 @@ private:
     // Two that have met, since then.
     struct Meeting {
         std::array<Twist, 2> twists;   // when they met
+        double energy = 0.0;           // then, of their motion as rigid ones [J]
         double approach = 0.0;         // then, of their fastest point [m/s]
         double latest_approach = 0.0;  // when they pressed each other last
         double age = 0.0;              // [s]
@@ -79,8 +80,12 @@ private:
                    std::span<const Vec4<Real>> velocities) const;
     Body measure(const Step& step, std::uint32_t object, std::span<const Vec4<Real>> velocities) const;
     void meet(const Step& step, Touches touches, Bodies& bodies);
+    template <class TwistOf>
+    static double energy_of(const std::array<Body*, 2>& sides, std::span<const Touch> touches,
+                            const TwistOf& twist_of);
     static void meet_in_one_point(Push& push);
     static void push_apart(std::vector<Push>& pushes);
+    static void limit_energy(std::span<Push> of_meeting);
     std::vector<Push> end_meetings(const Step& step, const Contacts<Real>& contacts, Bodies& bodies);
     bool is_over(const Step& step, const Meeting& meeting, const std::array<Body*, 2>& sides, bool presses,
                  double wave_time) const;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cpu/contact/planes.h"
 #include "cpu/descent/wave_times.h"
 
 namespace gelatin::cpu {
@@ -43,11 +44,11 @@ void StepDivision<Real>::restart() {
 }
 
 template <class Real>
-int StepDivision<Real>::parts(double step, std::span<const Vec4<Real>> velocities,
+int StepDivision<Real>::parts(double step, const Nodes<Real>& nodes,
                               std::span<const std::uint8_t> touched_colliders, const Contacts<Real>* contacts,
                               int sweeps) {
-    find_velocities(velocities);
-    find_speeds(step, touched_colliders, contacts);
+    find_velocities(nodes.velocities);
+    find_speeds(step, nodes.positions, touched_colliders, contacts);
     double parts = 1.0;
     for (std::size_t o = 0; o < speeds_.size(); ++o) {
         const double wave = wave_times_[o], impact = kWavesAnImpact * wave;
@@ -82,7 +83,8 @@ void StepDivision<Real>::find_velocities(std::span<const Vec4<Real>> velocities)
 // Relative to the mean of the island; to what does not move, where something is held or a collider is
 // touched. None of bodies that meet nothing in this step.
 template <class Real>
-void StepDivision<Real>::find_speeds(double step, std::span<const std::uint8_t> touched_colliders,
+void StepDivision<Real>::find_speeds(double step, std::span<const Vec4<Real>> positions,
+                                     std::span<const std::uint8_t> touched_colliders,
                                      const Contacts<Real>* contacts) {
     const bool has_islands = contacts != nullptr && contacts->list().is_valid;
     const std::size_t objects = speeds_.size();
@@ -101,7 +103,7 @@ void StepDivision<Real>::find_speeds(double step, std::span<const std::uint8_t> 
         const std::size_t i = island_of(o);
         momenta[i] += masses_[o] * velocities_[o];
         masses[i] += masses_[o];
-        if (touched_colliders[o] != 0) meets[o] = is_held[i] = 1;
+        if (touched_colliders[o] != 0 || reaches_plane(step, positions, o)) meets[o] = is_held[i] = 1;
         if (!has_islands) continue;
         if (contacts->is_held(o) || contacts->list().is_fixed[i] != 0) is_held[i] = 1;
     }
@@ -111,6 +113,21 @@ void StepDivision<Real>::find_speeds(double step, std::span<const std::uint8_t> 
         const glm::dvec3 mean = moves ? momenta[i] / masses[i] : glm::dvec3(0.0);
         speeds_[o] = meets[o] != 0 ? glm::length(velocities_[o] - mean) : 0.0;
     }
+}
+
+// In this step, as it goes on average.
+template <class Real>
+bool StepDivision<Real>::reaches_plane(double step, std::span<const Vec4<Real>> positions,
+                                       std::size_t object) const {
+    const Range& nodes = model_->objects[object].nodes;
+    return std::any_of(model_->colliders.begin(), model_->colliders.end(), [&](const Collider& collider) {
+        const glm::dvec3 normal(collider.center);
+        const double approach = -step * glm::dot(normal, velocities_[object]);
+        if (collider.kind != 0 || !(approach > 0.0)) return false;
+        const auto least =
+            least_height<Real>(positions.subspan(nodes.first, nodes.count), Vec3<Real>(collider.center));
+        return static_cast<double>(least) - static_cast<double>(collider.center.w) < approach;
+    });
 }
 
 template class StepDivision<float>;

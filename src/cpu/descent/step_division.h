@@ -21,18 +21,20 @@ public:
     /// To be called when nodes were set from outside.
     void restart();
 
-    /// @param step to be divided [s] @param touched_colliders by object, in the last step
+    /// @param step to be divided [s] @param nodes that it begins with @param touched_colliders by object, in
+    /// the last step
     /// @param contacts null: there is one body @param sweeps of the step
-    int parts(double step, std::span<const Vec4<Real>> velocities,
-              std::span<const std::uint8_t> touched_colliders, const Contacts<Real>* contacts, int sweeps);
+    int parts(double step, const Nodes<Real>& nodes, std::span<const std::uint8_t> touched_colliders,
+              const Contacts<Real>* contacts, int sweeps);
 
     /// That a pressure wave takes through a body [s].
     double wave_time(std::size_t object) const { return wave_times_[object]; }
 
 private:
     void find_velocities(std::span<const Vec4<Real>> velocities);
-    void find_speeds(double step, std::span<const std::uint8_t> touched_colliders,
-                     const Contacts<Real>* contacts);
+    void find_speeds(double step, std::span<const Vec4<Real>> positions,
+                     std::span<const std::uint8_t> touched_colliders, const Contacts<Real>* contacts);
+    bool reaches_plane(double step, std::span<const Vec4<Real>> positions, std::size_t object) const;
 
     std::shared_ptr<const Model> model_;
     // By object:

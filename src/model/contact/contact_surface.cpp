@@ -197,14 +197,20 @@ ContactSurface::Touch touch_of(const Kind& a, const Kind& b, const std::vector<M
 
 }  // namespace
 
+std::vector<float> stiffnesses_at_rest(const Model& model) {
+    std::vector<double> traces(model.node_count());
+    add_springs(model, traces);
+    add_tets(model, traces);
+    std::vector<float> stiffnesses;
+    for (const double trace : traces) stiffnesses.push_back(static_cast<float>(trace / 3.0));
+    return stiffnesses;
+}
+
 ContactSurface make_contact_surface(const Model& model, const CollisionSettings& collision) {
     ContactSurface surface;
     surface.places = places_on_surface(model);
     add_neighbors(model, surface);
-    std::vector<double> traces(model.node_count());
-    add_springs(model, traces);
-    add_tets(model, traces);
-    for (const double trace : traces) surface.stiffness.push_back(static_cast<float>(trace / 3.0));
+    surface.stiffness = stiffnesses_at_rest(model);
     surface.thicknesses = find_thicknesses(model);
     surface.is_convex.resize(model.objects.size());
     for (std::size_t o = 0; o < model.body_count(); ++o)

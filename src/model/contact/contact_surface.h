@@ -48,6 +48,9 @@ struct ContactSurface {
     }
 };
 
+/// ContactSurface::stiffness.
+std::vector<float> stiffnesses_at_rest(const Model& model);
+
 /// @param collision friction and restitution of bodies whose materials have none, and pairs of materials
 ContactSurface make_contact_surface(const Model& model, const CollisionSettings& collision);
 

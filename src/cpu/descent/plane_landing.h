@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cpu/descent/motion.h"
+#include "cpu/descent/step_objective.h"
+#include "cpu/nodes.h"
+#include "model/model.h"
+
+namespace gelatin::cpu {
+
+/// How stiff bodies come down on planes among the colliders: as rigid ones. Where each of their nodes was put
+/// outside by itself, that would bring far more energy into them than they have (docs/contact.md).
+template <class Real>
+class PlaneLanding {
+public:
+    explicit PlaneLanding(std::shared_ptr<const Model> model);
+
+    /// Begins a step. @param positions input: its first guess; output: outside of planes, for stiff bodies
+    /// @return whether a body lands
+    bool begin(double step, const StepObjective<Real>& objective, std::span<Vec4<Real>> positions);
+
+    /// Makes the motion of a body that which is nearest to it while planes press: the least of
+    ///   1/2 (m - m_0)^T A (m - m_0) + sum_i k_i / 2 min(0, h_i(m))^2,
+    /// with A the inertia, h_i the heights of surface nodes above planes, to first order, and k_i how stiff
+    /// the body is at these at rest. @param origin of rotations [m]
+    /// @return whether it was another one
+    bool land(std::uint32_t object, const StepObjective<Real>& objective,
+              std::span<const Vec4<Real>> positions, const glm::dvec3& origin, Motion& motion) const;
+
+    /// Takes the nodes of a body outside so, with rotations of any size.
+    void land(std::uint32_t object, const StepObjective<Real>& objective,
+              std::span<Vec4<Real>> positions) const;
+
+private:
+    struct Row;
+
+    template <class Visit>
+    bool any_row(std::uint32_t object, std::span<const Vec4<Real>> positions, const glm::dvec3& origin,
+                 const Visit& visit) const;
+    bool is_inside(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
+
+    std::shared_ptr<const Model> model_;
+    std::vector<float> stiffnesses_;   // of nodes [N/m]
+    std::vector<double> wave_times_;   // by body [s]
+    std::vector<std::uint8_t> lands_;  // by object: stiff bodies that nothing holds, in this step
+};
+
+}  // namespace gelatin::cpu
