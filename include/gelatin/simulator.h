@@ -256,7 +256,7 @@ public:
     /// later, it does not wait.
     void begin_statistics();
     std::size_t pending_statistics() const;
-    /// @pre pending_statistics() > 0. @throws Diverged as advance_frame, for the steps until that frame; and
+    /// @throws InvalidInput unless pending_statistics() > 0; Diverged as advance_frame, for the steps until that frame; and
     /// if all bodies together have more energy than the start, gravity and loads explain.
     FrameStatistics take_statistics();
 

@@ -23,6 +23,7 @@ std::size_t Simulator::pending_statistics() const {
 
 FrameStatistics Simulator::take_statistics() {
     Impl& d = *impl_;
+    if (d.measured.empty()) throw InvalidInput("take_statistics: begin_statistics was not called before");
     const auto host = d.keep_host_state_of_solver();
     const std::vector<ObjectMeasure> objects = d.solver->end_measure();
     const Moment moment = d.measured.front();

@@ -58,6 +58,7 @@ public:
         if (division_) division_->restart();
         if (rest_watch_) rest_watch_->restart();
         rebound_.restart();
+        contacts_.restart();
         last_step_ = 0.0;
     }
 

@@ -33,6 +33,12 @@ struct ColliderContacts {
     /// To be called when a step begins, after those of its nodes were taken back.
     void begin() { std::fill(objects.begin(), objects.end(), std::uint8_t(0)); }
 
+    /// To be called when nodes were set from outside.
+    void restart() {
+        begin();
+        std::fill(nodes.begin(), nodes.end(), ColliderContact<Real>());
+    }
+
     /// Whether the object of the node met a collider.
     bool has_contact(std::size_t node) const { return objects[object_of[node]] != 0; }
     bool has_contact(const Range& of_objects) const {

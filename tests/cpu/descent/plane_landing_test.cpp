@@ -1,0 +1,99 @@
+#include "cpu/descent/plane_landing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/gtx/rotate_vector.hpp>
+
+#include "support/contact_scenes.h"
+
+namespace gelatin {
+namespace {
+
+constexpr double kStep = 1.0 / 60.0;  // [s]
+
+// A block that is turned round z and leads into a floor, and into a wall where x = 0.
+struct Landing {
+    std::shared_ptr<const Model> model;
+    std::vector<glm::dvec4> guess, positions;
+    bool lands = false;
+
+    Landing(double youngs_modulus, double angle, const glm::dvec2& depth) {
+        std::vector<ColliderDescription> planes(2);
+        planes[0].shape = PlaneCollider{{0, 1, 0}, 0.0};
+        planes[1].shape = PlaneCollider{{1, 0, 0}, 0.0};
+        model = test::make_blocks({{.youngs_modulus = youngs_modulus}}, {}, planes);
+        glm::dvec3 least(1e9);
+        for (const glm::vec4& p : model->positions)
+            guess.emplace_back(glm::rotateZ(glm::dvec3(p), angle), static_cast<double>(p.w));
+        for (const glm::dvec4& p : guess) least = glm::min(least, glm::dvec3(p));
+        cpu::StepObjective<double> objective(model, model->node_count());
+        for (std::size_t n = 0; n < guess.size(); ++n) {
+            guess[n] -= glm::dvec4(least.x + depth.x, least.y + depth.y, 0.0, 0.0);
+            objective.step.targets[n] =
+                glm::dvec4(glm::dvec3(guess[n]), static_cast<double>(model->masses[n]) / (kStep * kStep));
+        }
+        positions = guess;
+        cpu::PlaneLanding<double> landing(model);
+        lands = landing.begin(kStep, objective, positions);
+    }
+
+    double least(int axis) const {
+        double least = 1e9;
+        for (const glm::dvec4& p : positions) least = std::min(least, p[axis]);
+        return least;
+    }
+    glm::dvec3 center(const std::vector<glm::dvec4>& of) const {
+        glm::dvec3 sum(0.0);
+        double mass = 0.0;
+        for (std::size_t n = 0; n < of.size(); ++n) {
+            sum += static_cast<double>(model->masses[n]) * glm::dvec3(of[n]);
+            mass += static_cast<double>(model->masses[n]);
+        }
+        return sum / mass;
+    }
+};
+
+TEST(PlaneLanding, FlatBodiesGoStraightOut) {
+    const Landing landing(1e9, 0.0, {0.03, 0.05});
+    EXPECT_TRUE(landing.lands);
+    for (std::size_t n = 0; n < landing.guess.size(); ++n)
+        EXPECT_LT(glm::distance(landing.positions[n], landing.guess[n] + glm::dvec4(0.03, 0.05, 0.0, 0.0)), 5e-4)
+            << n;
+}
+
+TEST(PlaneLanding, BodiesKeepTheirShapeAndTurnWhereACornerIsInTheWay) {
+    const double depth = 0.05;
+    const Landing landing(1e9, 0.3, {-1.0, depth});
+    EXPECT_NEAR(landing.least(1), 0.0, 0.1 * depth);  // to first order in the rotation
+    for (std::size_t a = 0; a < landing.guess.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b)
+            EXPECT_NEAR(glm::distance(landing.positions[a], landing.positions[b]),
+                        glm::distance(landing.guess[a], landing.guess[b]), 1e-9);
+    // A push at a lever r, with the radius of gyration k, moves the centre 1 / (1 + r^2 / k^2) as far as the corner.
+    const glm::dvec3 lifted = landing.center(landing.positions) - landing.center(landing.guess);
+    EXPECT_NEAR(lifted.x, 0.0, 1e-9);
+    EXPECT_GT(lifted.y, 0.3 * depth);
+    EXPECT_LT(lifted.y, 0.8 * depth);
+}
+
+// Rotations are large here, and the other end comes down.
+TEST(PlaneLanding, AllNodesEndOutside) {
+    for (const double angle : {-1.2, -0.5, -0.1, 0.02, 0.4, 0.8})
+        for (const double depth : {0.01, 0.1, 0.2}) {
+            const Landing landing(1e9, angle, {0.5 * depth, depth});
+            EXPECT_GT(std::min(landing.least(0), landing.least(1)), -0.005 * depth) << angle << ' ' << depth;
+        }
+}
+
+TEST(PlaneLanding, LeavesSoftBodiesAndThoseOutside) {
+    const Landing soft(1e4, 0.3, {0.05, 0.05}), outside(1e9, 0.3, {-0.01, -0.01});
+    EXPECT_FALSE(soft.lands);
+    EXPECT_EQ(soft.positions, soft.guess);
+    EXPECT_FALSE(outside.lands);
+    EXPECT_EQ(outside.positions, outside.guess);
+}
+
+}  // namespace
+}  // namespace gelatin

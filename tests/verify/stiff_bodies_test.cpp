@@ -1,0 +1,116 @@
+// Stiff bodies among planes, of which few sweeps do not find how they are deformed: they gain no motion, and rest.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "gelatin/simulator.h"
+#include "support/gl_fixture.h"
+#include "support/random_maker.h"
+
+namespace gelatin {
+namespace {
+
+class StiffBodiesTest : public test::GlTest {
+protected:
+    static Simulator simulator(const Scene& scene, Backend backend) {
+        SimulatorOptions options;
+        options.backend = backend;
+        options.use_current_context = backend == Backend::gl;
+        return Simulator(scene, options);
+    }
+    static Scene scene(double youngs_modulus, double restitution) {
+        Scene scene;
+        Material& material = scene.materials.emplace_back();
+        material.name = "stiff";
+        material.youngs_modulus = youngs_modulus;
+        material.poisson_ratio = 0.3;
+        scene.collision.restitution = restitution;
+        return scene;
+    }
+    static void add_plane(const glm::dvec3& normal, double offset, double friction, Scene& scene) {
+        ColliderDescription& plane = scene.colliders.emplace_back();
+        plane.shape = PlaneCollider{normal, offset};
+        plane.restitution = scene.collision.restitution;
+        plane.friction = friction;
+    }
+    // Kinetic and potential energy after each frame, from the start.
+    static std::vector<double> motion_energies(Simulator& simulator, int frames) {
+        std::vector<double> energies;
+        for (int frame = 0; frame <= frames; ++frame) {
+            if (frame > 0) simulator.advance_frame();
+            simulator.begin_statistics();
+            const FrameStatistics statistics = simulator.take_statistics();
+            energies.push_back(statistics.kinetic_energy + statistics.potential_energy);
+        }
+        return energies;
+    }
+};
+
+// Eight balls in a box of planes, without gravity and friction.
+TEST_F(StiffBodiesTest, BilliardBallsGainNoMotion) {
+    for (const double youngs_modulus : {1e8, 1e9})
+        for (const double restitution : {0.0, 1.0}) {
+            Scene box = scene(youngs_modulus, restitution);
+            box.simulation.gravity = {0, 0, 0};
+            box.collision.friction = 0.0;
+            test::RandomMaker random(4);
+            for (int i = 0; i < 8; ++i) {
+                ObjectDescription& ball = box.objects.emplace_back();
+                ball.name = "ball" + std::to_string(i);
+                ball.shape = SphereShape{.radius = 0.2, .frequency = 3};
+                ball.material = "stiff";
+                ball.position = 0.9 * glm::dvec3(i % 2, i / 2 % 2, i / 4) - 0.45;
+                ball.velocity = random.point(2.0);
+            }
+            for (int axis = 0; axis < 3; ++axis)
+                for (const double side : {-1.0, 1.0}) {
+                    glm::dvec3 normal(0.0);
+                    normal[axis] = side;
+                    add_plane(normal, -1.0, 0.0, box);
+                }
+            for (const Backend backend : {Backend::cpu, Backend::gl}) {
+                Simulator balls = simulator(box, backend);
+                const std::vector<double> energies =
+                    motion_energies(balls, backend == Backend::cpu ? 240 : 60);
+                for (std::size_t i = 1; i < energies.size(); ++i) {
+                    const std::size_t first = restitution > 0.0 || i < 12 ? 0 : i - 12;
+                    const double before = *std::max_element(energies.data() + first, energies.data() + i);
+                    EXPECT_LT(energies[i], 1.1 * before)
+                        << youngs_modulus << ' ' << restitution << " frame " << i;
+                }
+            }
+        }
+}
+
+// They fall on the floor at an angle, and on each other.
+TEST_F(StiffBodiesTest, BarsFallAndRest) {
+    for (const double youngs_modulus : {1e8, 1.5e9}) {
+        Scene bars = scene(youngs_modulus, 0.0);
+        bars.collision.friction = 0.5;
+        for (int i = 0; i < 3; ++i) {
+            ObjectDescription& bar = bars.objects.emplace_back();
+            bar.name = "bar" + std::to_string(i);
+            bar.shape = BoxShape{.size = {1.0, 0.1, 0.1}, .segments = {10, 1, 1}};
+            bar.material = "stiff";
+            bar.position = {-0.05 * i, 0.6 + 1.2 * i, -0.03 * i};
+            if (i == 0) bar.rotation = {87, 54, 60};
+        }
+        add_plane({0, 1, 0}, 0.0, 0.5, bars);
+        for (const Backend backend : {Backend::cpu, Backend::gl}) {
+            Simulator falling = simulator(bars, backend);
+            const std::vector<double> energies = motion_energies(falling, 300);
+            double least = energies[0];
+            for (const double energy : energies) {
+                EXPECT_LT(energy, least + 0.03 * energies[0]) << youngs_modulus;
+                least = std::min(least, energy);
+            }
+            falling.begin_statistics();
+            EXPECT_LT(falling.take_statistics().kinetic_energy, 1e-6) << youngs_modulus;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace gelatin
