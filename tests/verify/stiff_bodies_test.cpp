@@ -100,7 +100,7 @@ TEST_F(StiffBodiesTest, BarsFallAndRest) {
         add_plane({0, 1, 0}, 0.0, 0.5, bars);
         for (const Backend backend : {Backend::cpu, Backend::gl}) {
             Simulator falling = simulator(bars, backend);
-            const std::vector<double> energies = motion_energies(falling, 300);
+            const std::vector<double> energies = motion_energies(falling, 420);
             double least = energies[0];
             for (const double energy : energies) {
                 EXPECT_LT(energy, least + 0.03 * energies[0]) << youngs_modulus;

@@ -15,6 +15,9 @@ namespace {
 constexpr double kMostMoves = 6.0, kMovesASecond = 360.0;
 // Of a room: nodes that have come farther are detected again.
 constexpr double kUsedRoom = 0.9, kUsedOwnRoom = 0.8;
+// Of all objects. So few that have used so much keep to what is left for the rest of a step: all would be
+// detected again.
+constexpr double kFew = 0.01;
 // With what has to be looked at in a body, nodes that have used so much of their rooms in it are.
 constexpr double kRestless = 0.4;
 // Of a room in its own body: where a node has used more, the map follows.
@@ -79,7 +82,7 @@ bool Contacts<Real>::are_apart(Real step, const Nodes<Real>& nodes, StageTimer* 
         return glm::dot(velocity, velocity);
     });
     longest_ = static_cast<double>(step * std::sqrt(fastest));
-    detect_where_needed(safe_, {}, timer);
+    detect_where_needed(safe_, {}, 0.0, timer);
     return list_.pairs.empty();
 }
 
@@ -174,7 +177,7 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
     guard_.begin(positions);
     set_longest(guess_, positions);
     if (!is_aimed_ || !list_.is_valid || used_room(positions) > Real(kUsedRoom)) {
-        detect_where_needed(positions, guess_, timer);
+        detect_where_needed(positions, guess_, 0.0, timer);
         aim(positions, AimFor::guess, timer);
     }
     // Rooms are made anew, and bodies looked at where they lack room in themselves, once before each move.
@@ -279,14 +282,19 @@ void Contacts<Real>::move(std::span<Vec4<Real>> ends, std::span<Vec4<Real>> posi
 
 template <class Real>
 void Contacts<Real>::renew(std::span<const Vec4<Real>> positions, StageTimer* timer) {
-    detect_where_needed(positions, {}, timer);
+    detect_where_needed(positions, {}, kFew * static_cast<double>(model_->objects.size()), timer);
     aim(positions, AimFor::sweeps, timer);
 }
 
 template <class Real>
 void Contacts<Real>::detect_where_needed(std::span<const Vec4<Real>> positions,
-                                         std::span<const Vec4<Real>> ends, StageTimer* timer) {
-    if (!list_.is_valid || used_room(positions) > Real(kUsedRoom)) detect(positions, ends, timer);
+                                         std::span<const Vec4<Real>> ends, double few, StageTimer* timer) {
+    const auto lack_room = [&] {
+        if (!(used_room(positions) > Real(kUsedRoom))) return false;
+        const auto lacks = [](Real used) { return used > Real(kUsedRoom); };
+        return static_cast<double>(std::count_if(greatest_.begin(), greatest_.end(), lacks)) > few;
+    };
+    if (!list_.is_valid || lack_room()) detect(positions, ends, timer);
     if (!clear_) return;
     detect_own(
         positions, [&](std::uint32_t o) { return uses_own_room(o, positions); },

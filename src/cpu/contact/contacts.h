@@ -132,8 +132,9 @@ private:
     Vec4<Real> outside(const Vec4<Real>& position) const;
     void find_clear_bodies();
     bool is_near_itself(std::uint32_t object) const;
+    // @param few objects that may be short of room
     void detect_where_needed(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
-                             StageTimer* timer);
+                             double few, StageTimer* timer);
     void set_longest(std::span<const Vec4<Real>> ends, std::span<const Vec4<Real>> positions);
     std::vector<std::uint8_t> find_staying(std::span<const Vec4<Real>> positions) const;
     bool is_restless(std::uint32_t object, std::span<const Vec4<Real>> positions) const;

@@ -62,18 +62,17 @@ bool PlaneLanding<Real>::begin(double step, const StepObjective<Real>& objective
         const auto is_held = [](const Vec4<Real>& p) { return p.w == Real(0); };
         const bool is_stiff = wave_times_[o] < kMostSteps * step;
         lands_[o] = is_stiff && std::none_of(own.begin(), own.end(), is_held) ? 1 : 0;
-        if (!is_inside(o, positions)) return;
+        if (lands_[o] == 0 || !is_inside(o, positions)) return;
         any = true;
         land(o, objective, positions);
     });
     return any;
 }
 
-// Calls visit(row) for each node above each plane, until that returns true. @return whether it did
 template <class Real>
-template <class Visit>
-bool PlaneLanding<Real>::any_row(std::uint32_t object, std::span<const Vec4<Real>> positions,
-                                 const glm::dvec3& origin, const Visit& visit) const {
+std::vector<typename PlaneLanding<Real>::Row> PlaneLanding<Real>::find_rows(
+    std::uint32_t object, std::span<const Vec4<Real>> positions, const glm::dvec3& origin) const {
+    std::vector<Row> rows;
     const SurfaceParts& parts = model_->surface_parts;
     const Range& faces = model_->objects[object].faces;
     const std::uint32_t first = parts.face_starts[faces.first].x, end = parts.face_starts[faces.end()].x;
@@ -83,13 +82,12 @@ bool PlaneLanding<Real>::any_row(std::uint32_t object, std::span<const Vec4<Real
         for (std::uint32_t place = first; place < end; ++place) {
             const std::uint32_t n = parts.nodes[place];
             const glm::dvec3 position(positions[n]);
-            if (visit(Row{along(position - origin, normal),
-                          glm::dot(normal, position) - static_cast<double>(collider.center.w),
-                          static_cast<double>(stiffnesses_[n])}))
-                return true;
+            rows.push_back({along(position - origin, normal),
+                            glm::dot(normal, position) - static_cast<double>(collider.center.w),
+                            static_cast<double>(stiffnesses_[n])});
         }
     }
-    return false;
+    return rows;
 }
 
 // Newton's method for a convex function: of nodes that press, until it is the same ones.
@@ -97,17 +95,12 @@ template <class Real>
 bool PlaneLanding<Real>::land(std::uint32_t object, const StepObjective<Real>& objective,
                               std::span<const Vec4<Real>> positions, const glm::dvec3& origin,
                               Motion& motion) const {
-    const auto is_inside = [&](const Row& row) { return row.height_after(motion) < 0.0; };
-    if (lands_[object] == 0 || !any_row(object, positions, origin, is_inside)) return false;
-    std::vector<Row> rows;
-    any_row(object, positions, origin, [&](const Row& row) {
-        rows.push_back(row);
-        return false;
-    });
+    if (lands_[object] == 0 || !is_inside(object, positions, origin, motion)) return false;
+    const std::vector<Row> rows = find_rows(object, positions, origin);
     const auto find_pressing = [&] {
         std::vector<std::size_t> pressing;
         for (std::size_t k = 0; k < rows.size(); ++k)
-            if (is_inside(rows[k])) pressing.push_back(k);
+            if (rows[k].height_after(motion) < 0.0) pressing.push_back(k);
         return pressing;
     };
     std::vector<std::size_t> pressing = find_pressing();
@@ -146,6 +139,7 @@ template <class Real>
 void PlaneLanding<Real>::land(std::uint32_t object, const StepObjective<Real>& objective,
                               std::span<Vec4<Real>> positions) const {
     const Range& nodes = model_->objects[object].nodes;
+    if (lands_[object] == 0) return;
     for (int i = 0; i < kMostMotions && is_inside(object, positions); ++i) {
         const glm::dvec3 origin(positions[nodes.first]);
         const auto targets = std::span(objective.step.targets).subspan(nodes.first, nodes.count);
@@ -160,14 +154,19 @@ void PlaneLanding<Real>::land(std::uint32_t object, const StepObjective<Real>& o
     }
 }
 
+// A node at r from the origin is n . s + (n x w) . r higher after a motion (s, w).
 template <class Real>
-bool PlaneLanding<Real>::is_inside(std::uint32_t object, std::span<const Vec4<Real>> positions) const {
-    if (lands_[object] == 0) return false;
+bool PlaneLanding<Real>::is_inside(std::uint32_t object, std::span<const Vec4<Real>> positions,
+                                   const glm::dvec3& origin, const Motion& motion) const {
     const Range& nodes = model_->objects[object].nodes;
-    const auto own = positions.subspan(nodes.first, nodes.count);
+    const glm::dvec3 translation(motion(0), motion(1), motion(2)), rotation(motion(3), motion(4), motion(5));
     return std::any_of(model_->colliders.begin(), model_->colliders.end(), [&](const Collider& collider) {
-        return collider.kind == 0 &&
-               least_height<Real>(own, Vec3<Real>(collider.center)) < static_cast<Real>(collider.center.w);
+        if (collider.kind != 0) return false;
+        const glm::dvec3 normal(collider.center), turned = glm::cross(normal, rotation);
+        const double least = static_cast<double>(
+            least_height<Real>(positions.subspan(nodes.first, nodes.count), Vec3<Real>(normal + turned)));
+        const double lifted = glm::dot(normal, translation) - glm::dot(turned, origin);
+        return least + lifted < static_cast<double>(collider.center.w);
     });
 }
 

@@ -38,10 +38,10 @@ public:
 private:
     struct Row;
 
-    template <class Visit>
-    bool any_row(std::uint32_t object, std::span<const Vec4<Real>> positions, const glm::dvec3& origin,
-                 const Visit& visit) const;
-    bool is_inside(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
+    std::vector<Row> find_rows(std::uint32_t object, std::span<const Vec4<Real>> positions,
+                               const glm::dvec3& origin) const;
+    bool is_inside(std::uint32_t object, std::span<const Vec4<Real>> positions,
+                   const glm::dvec3& origin = glm::dvec3(0.0), const Motion& motion = Motion::Zero()) const;
 
     std::shared_ptr<const Model> model_;
     std::vector<float> stiffnesses_;   // of nodes [N/m]
