@@ -1,4 +1,5 @@
-// Stiff bodies among planes, of which few sweeps do not find how they are deformed: they gain no motion, and rest.
+// Stiff bodies among planes, of which few sweeps do not find how they are deformed: they gain no motion, and
+// rest.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -59,7 +59,8 @@ TEST(PlaneLanding, FlatBodiesGoStraightOut) {
     const Landing landing(1e9, 0.0, {0.03, 0.05});
     EXPECT_TRUE(landing.lands);
     for (std::size_t n = 0; n < landing.guess.size(); ++n)
-        EXPECT_LT(glm::distance(landing.positions[n], landing.guess[n] + glm::dvec4(0.03, 0.05, 0.0, 0.0)), 5e-4)
+        EXPECT_LT(glm::distance(landing.positions[n], landing.guess[n] + glm::dvec4(0.03, 0.05, 0.0, 0.0)),
+                  5e-4)
             << n;
 }
 
@@ -71,7 +72,8 @@ TEST(PlaneLanding, BodiesKeepTheirShapeAndTurnWhereACornerIsInTheWay) {
         for (std::size_t b = 0; b < a; ++b)
             EXPECT_NEAR(glm::distance(landing.positions[a], landing.positions[b]),
                         glm::distance(landing.guess[a], landing.guess[b]), 1e-9);
-    // A push at a lever r, with the radius of gyration k, moves the centre 1 / (1 + r^2 / k^2) as far as the corner.
+    // A push at a lever r, with the radius of gyration k, moves the centre 1 / (1 + r^2 / k^2) as far as the
+    // corner.
     const glm::dvec3 lifted = landing.center(landing.positions) - landing.center(landing.guess);
     EXPECT_NEAR(lifted.x, 0.0, 1e-9);
     EXPECT_GT(lifted.y, 0.3 * depth);
