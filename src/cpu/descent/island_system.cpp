@@ -299,12 +299,13 @@ std::vector<Motion> IslandSystem::shortened(const Motions& newton) {
 // only parts of the whole motion end outside of planes.
 Motion IslandSystem::common_motion(const Motions& motions) const {
     if (is_held || has_landed_) return Motion::Zero();
-    const Motion mean = mean_translation(motions);
-    if (!is_outside_touched) return mean;
-    const Motions all(motions.size(), mean);
-    const double resisted = dot(all, product(all));
-    const double part = resisted > 0.0 ? std::clamp(dot(forces_, all) / resisted, 0.0, 1.0) : 0.0;
-    return part * mean;
+    Motion common = mean_translation(motions);
+    if (is_outside_touched) {
+        const Motions all(motions.size(), common);
+        const double resisted = dot(all, product(all));
+        common *= resisted > 0.0 ? std::clamp(dot(forces_, all) / resisted, 0.0, 1.0) : 0.0;
+    }
+    return common;
 }
 
 // By mass; it changes no gap.

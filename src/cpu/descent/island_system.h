@@ -48,7 +48,8 @@ public:
     bool is_held = false;             ///< something that is held is part of the island
     bool is_outside_touched = false;  ///< a body is in contact with a collider
 
-    /// Puts the motion of a body, by its number, outside of planes. @return whether it was not
+    /// Changes the motion of a body, by its number, so that it stays outside of planes.
+    /// @return whether it led into one
     using Land = std::function<bool(std::size_t, Motion&)>;
     /// The motions of all bodies to where the objective is least along Newton's step.
     /// @param land may be called on several threads; none: nothing is in the way

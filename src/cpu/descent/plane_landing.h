@@ -23,15 +23,15 @@ public:
     /// @return whether a body lands
     bool begin(double step, const StepObjective<Real>& objective, std::span<Vec4<Real>> positions);
 
-    /// Makes the motion of a body that which is nearest to it while planes press: the least of
+    /// Changes the motion m_0 of a body to the nearest one while planes press: to the least of
     ///   1/2 (m - m_0)^T A (m - m_0) + sum_i k_i / 2 min(0, h_i(m))^2,
     /// with A the inertia, h_i the heights of surface nodes above planes, to first order, and k_i how stiff
     /// the body is at these at rest. @param origin of rotations [m]
-    /// @return whether it was another one
+    /// @return whether it led into a plane
     bool land(std::uint32_t object, const StepObjective<Real>& objective,
               std::span<const Vec4<Real>> positions, const glm::dvec3& origin, Motion& motion) const;
 
-    /// Takes the nodes of a body outside so, with rotations of any size.
+    /// Takes the nodes of a body outside in this way, with rotations of any size.
     void land(std::uint32_t object, const StepObjective<Real>& objective,
               std::span<Vec4<Real>> positions) const;
 
