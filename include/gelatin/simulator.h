@@ -256,8 +256,8 @@ public:
     /// later, it does not wait.
     void begin_statistics();
     std::size_t pending_statistics() const;
-    /// @throws InvalidInput unless pending_statistics() > 0; Diverged as advance_frame, for the steps until that frame; and
-    /// if all bodies together have more energy than the start, gravity and loads explain.
+    /// @throws InvalidInput unless pending_statistics() > 0; Diverged as advance_frame, for the steps until
+    /// that frame, and if all bodies together have more energy than the start, gravity and loads explain.
     FrameStatistics take_statistics();
 
     /// Durations of each stage since the last call [ms]; empty unless `time_stages`. With `time_parts` also

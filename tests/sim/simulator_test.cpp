@@ -59,6 +59,11 @@ TEST_F(SimulatorTest, BackendsAgreeThroughAnImpact) {
     EXPECT_LT(largest_difference(gl.read_frame(), cpu.read_frame()), 1e-4);
 }
 
+TEST_F(SimulatorTest, StatisticsHaveToBeBegun) {
+    Simulator cpu(falling_balls(), on(Backend::cpu));
+    EXPECT_THROW(cpu.take_statistics(), InvalidInput);
+}
+
 TEST_F(SimulatorTest, DepthNeedsGl) {
     Scene scene = falling_balls();
     scene.file = "balls.toml";

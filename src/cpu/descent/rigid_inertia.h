@@ -19,9 +19,10 @@ struct Twist {
 
 /// What a body as a rigid one has against impulses.
 struct RigidInertia {
-    glm::dvec3 center{0.0};           ///< from the origin of the sums [m]
-    double inverse_mass = 0.0;        ///< [1/kg]
-    glm::dmat3 inverse_inertia{0.0};  ///< about the centre [1/(kg m^2)]
+    glm::dvec3 center{0.0};     ///< from the origin of the sums [m]
+    double inverse_mass = 0.0;  ///< [1/kg]
+    /// About the centre [kg m^2], [1/(kg m^2)].
+    glm::dmat3 inertia{0.0}, inverse_inertia{0.0};
 
     /// @param sums over its nodes, with masses for stiffnesses
     explicit RigidInertia(RigidSums sums)
@@ -31,9 +32,8 @@ struct RigidInertia {
         const double trace = d.x + d.y + d.z;
         constexpr double kThin = 1e-6;  // a row of nodes has no inertia about itself
         const glm::dvec3 own = (1.0 + kThin) * glm::dvec3(trace) - d;
-        if (trace > 0.0)
-            inverse_inertia =
-                glm::inverse(glm::dmat3(own.x, -b.z, -b.y, -b.z, own.y, -b.x, -b.y, -b.x, own.z));
+        inertia = glm::dmat3(own.x, -b.z, -b.y, -b.z, own.y, -b.x, -b.y, -b.x, own.z);
+        if (trace > 0.0) inverse_inertia = glm::inverse(inertia);
     }
 
     /// @param angular momentum about the origin

@@ -242,7 +242,7 @@ typename RigidRebound<Real>::Body RigidRebound<Real>::measure(const Step& step, 
     body.center = origin + inertia.center;
     body.inverse_mass = inertia.inverse_mass;
     body.inverse_inertia = inertia.inverse_inertia;
-    if (glm::determinant(body.inverse_inertia) > 0.0) body.inertia = glm::inverse(body.inverse_inertia);
+    body.inertia = inertia.inertia;
     body.before = inertia.twist(before.force, before.moment);
     body.after = inertia.twist(momentum, spin);
     return body;

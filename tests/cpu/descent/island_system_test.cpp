@@ -40,5 +40,33 @@ TEST(IslandSystem, FrictionMovesABodyNoFartherThanABelt) {
     EXPECT_NEAR(on_a_belt(20e-3).find_motions()[0](0), 5e-3, 0.3e-3);
 }
 
+// A collider holds a corner of the lower body: its way up is a turn about that. The upper body lets it make
+// little of it, and then it must not go up without turning.
+TEST(IslandSystem, WhatCollidersHoldDoesNotJump) {
+    IslandSystem island;
+    for (std::uint32_t k = 0; k < 2; ++k) {
+        IslandSystem::Body& body = island.bodies.emplace_back(k);
+        body.stiffness = 1e4;
+        body.matrix = MotionMatrix::Identity() * 1e4;
+    }
+    const Motion corner = cpu::along({1.0, 0.0, 0.0}, {0.0, 1.0, 0.0});
+    island.bodies[0].matrix += 1e8 * corner * corner.transpose();
+    island.bodies[0].force << 0.0, 300.0, 0.0, 0.0, 0.0, 0.0;
+    island.is_outside_touched = true;
+    IslandSystem::Touch touch;
+    touch.bodies = {0, 1};
+    touch.normal = {0.0, 1.0, 0.0};
+    touch.gap = touch.reach = 5e-3;
+    touch.stiffness = 1e8;
+    island.touches.push_back(touch);
+    const std::vector<Motion> motions = island.find_motions();
+    double objective = 0.0;  // of all but the contact, whose energy can only rise
+    for (std::size_t k = 0; k < 2; ++k) {
+        const IslandSystem::Body& body = island.bodies[k];
+        objective += 0.5 * motions[k].dot(body.matrix * motions[k]) - motions[k].dot(body.force);
+    }
+    EXPECT_LT(objective, 0.0);
+}
+
 }  // namespace
 }  // namespace gelatin
