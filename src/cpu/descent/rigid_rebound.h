@@ -54,10 +54,14 @@ private:
         std::array<glm::dvec3, 2> velocities{};  // of other sides [m/s]
         glm::dvec3 normal{0.0};                  // from the first side to the second
     };
+    // Of two: of their motion as rigid ones, and with what they will give back of all else [J].
+    struct Energy {
+        double rigid = 0.0, sum = 0.0;
+    };
     // Two that have met, since then.
     struct Meeting {
         std::array<Twist, 2> twists;   // when they met
-        double energy = 0.0;           // then, of their motion as rigid ones [J]
+        Energy energy;                 // then
         double approach = 0.0;         // then, of their fastest point [m/s]
         double latest_approach = 0.0;  // when they pressed each other last
         double age = 0.0;              // [s]
@@ -66,6 +70,12 @@ private:
     };
     struct Body;
     struct Push;
+    // Of all nodes, at the start or the end of a step of so many seconds; and the twists of bodies then.
+    struct State {
+        double step;
+        std::span<const Vec4<Real>> positions, velocities;
+        Twist Body::*twist;
+    };
     using Bodies = std::map<std::uint32_t, Body>;  // by object
     using Touches = std::map<Pair, std::vector<Touch>>;
 
@@ -80,13 +90,14 @@ private:
                    std::span<const Vec4<Real>> velocities) const;
     Body measure(const Step& step, std::uint32_t object, std::span<const Vec4<Real>> velocities) const;
     void meet(const Step& step, Touches touches, Bodies& bodies);
-    template <class TwistOf>
-    static double energy_of(const std::array<Body*, 2>& sides, std::span<const Touch> touches,
-                            const TwistOf& twist_of);
+    Energy energy_of(const Pair& pair, const std::array<Body*, 2>& sides, std::span<const Touch> touches,
+                     const State& state) const;
+    double internal_energy(std::uint32_t object, const Body* body, const State& state) const;
     static void meet_in_one_point(Push& push);
     static void push_apart(std::vector<Push>& pushes);
     static void limit_energy(std::span<Push> of_meeting);
-    std::vector<Push> end_meetings(const Step& step, const Contacts<Real>& contacts, Bodies& bodies);
+    std::vector<Push> end_meetings(const Step& step, const Contacts<Real>& contacts,
+                                   std::span<const Vec4<Real>> velocities, Bodies& bodies);
     bool is_over(const Step& step, const Meeting& meeting, const std::array<Body*, 2>& sides, bool presses,
                  double wave_time) const;
 

@@ -19,14 +19,6 @@ constexpr double kLeastOfGuess = 0.1;
 }  // namespace
 
 template <class Real>
-double body_energy(const Model& model, const ModelObject& object, std::span<const Vec4<Real>> positions) {
-    const double energy =
-        elastic_energy<Real>(model, {object.nodes, object.springs, object.neo_hookean_tets}, positions);
-    const bool has_flat_tets = object.neo_hookean_tets.count == 0;
-    return has_flat_tets ? energy + flat_tet_energy<Real>(model, object.tets, positions) : energy;
-}
-
-template <class Real>
 void TangledBodies<Real>::shorten_guess(const StepObjective<Real>& objective,
                                         std::span<const std::uint8_t> may_be_part,
                                         std::vector<Vec4<Real>>& positions) {
@@ -141,8 +133,6 @@ void TangledBodies<Real>::slow_down(const End& end, const ModelObject& object,
     }
 }
 
-template double body_energy<float>(const Model&, const ModelObject&, std::span<const Vec4<float>>);
-template double body_energy<double>(const Model&, const ModelObject&, std::span<const Vec4<double>>);
 template class TangledBodies<float>;
 template class TangledBodies<double>;
 

@@ -13,10 +13,6 @@
 
 namespace gelatin::cpu {
 
-/// The elastic energy of a body, with that of flat tets [J].
-template <class Real>
-double body_energy(const Model& model, const ModelObject& object, std::span<const Vec4<Real>> positions);
-
 /// Bodies that the guess of a step would tangle, and those that are tangled where it begins.
 template <class Real>
 class TangledBodies {

@@ -55,9 +55,19 @@ double flat_tet_energy(const Model& model, const Range& tets, std::span<const Ve
     return energy;
 }
 
+template <class Real>
+double body_energy(const Model& model, const ModelObject& object, std::span<const Vec4<Real>> positions) {
+    const double energy =
+        elastic_energy<Real>(model, {object.nodes, object.springs, object.neo_hookean_tets}, positions);
+    const bool has_flat_tets = object.neo_hookean_tets.count == 0;
+    return has_flat_tets ? energy + flat_tet_energy<Real>(model, object.tets, positions) : energy;
+}
+
 template double elastic_energy<float>(const Model&, const ElasticParts&, std::span<const Vec4<float>>);
 template double elastic_energy<double>(const Model&, const ElasticParts&, std::span<const Vec4<double>>);
 template double flat_tet_energy<float>(const Model&, const Range&, std::span<const Vec4<float>>);
 template double flat_tet_energy<double>(const Model&, const Range&, std::span<const Vec4<double>>);
+template double body_energy<float>(const Model&, const ModelObject&, std::span<const Vec4<float>>);
+template double body_energy<double>(const Model&, const ModelObject&, std::span<const Vec4<double>>);
 
 }  // namespace gelatin::cpu

@@ -20,4 +20,8 @@ double elastic_energy(const Model& model, const ElasticParts& parts, std::span<c
 template <class Real>
 double flat_tet_energy(const Model& model, const Range& tets, std::span<const Vec4<Real>> positions);
 
+/// The elastic energy of a body, with that of flat tets [J].
+template <class Real>
+double body_energy(const Model& model, const ModelObject& object, std::span<const Vec4<Real>> positions);
+
 }  // namespace gelatin::cpu

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "cpu/elasticity/elastic_energy.h"
 #include "support/contact_scenes.h"
 #include "support/random_maker.h"
 
