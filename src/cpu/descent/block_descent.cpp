@@ -20,6 +20,8 @@ constexpr double kNearlyAll = 0.95;
 constexpr double kKeptAcceleration = 0.5;
 // A body is soft where a pressure wave takes more than so many steps through it.
 constexpr double kStepsAWave = 8.0;
+// A step is longer than the last one where it is so many times that.
+constexpr double kLonger = 1.5;
 
 template <class Work>
 void for_each_node(const Model& model, const Work& work) {
@@ -91,10 +93,8 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
         const TimedStage part(timer, "advance_nodes.start");
         acting_ = acting;
         start(step, has_earlier, previous, load_forces, pulls, current);
-        const bool lands =
-            landing_ && landing_->begin(static_cast<double>(step), objective_, current.positions);
-        shorten_tangled(current.positions);
-        return lands;
+        shorten_guess(step, current.positions);
+        return landing_ && landing_->begin(static_cast<double>(step), objective_, current.positions);
     };
     if (bodies_) find_outlooks(step, parts > 1, previous);
     // A step is tried with what seems to be enough, and made again with more where it was not.
@@ -180,9 +180,13 @@ void BlockDescent<Real>::find_outlooks(Real step, bool is_part, const Nodes<Real
             mass += own;
         }
         if (glm::length(momentum) < fast * mass) return;
-        const bool is_soft = is_part && division_->wave_time(o) > kStepsAWave * static_cast<double>(step);
-        outlooks_[o] = {true, Real(1), is_soft ? Real(kKeptAcceleration) : Real(0)};
+        outlooks_[o] = {true, Real(1), is_part && is_soft(o, step) ? Real(kKeptAcceleration) : Real(0)};
     });
+}
+
+template <class Real>
+bool BlockDescent<Real>::is_soft(std::size_t object, Real step) const {
+    return division_->wave_time(object) > kStepsAWave * static_cast<double>(step);
 }
 
 // Sweeps from `first` up to `end`, with what comes between them. The bodies of a batch make theirs one after
@@ -364,16 +368,19 @@ void BlockDescent<Real>::start(Real step, bool has_earlier, const Nodes<Real>& p
 }
 
 // Bodies that others press, or that meet themselves, cannot get to a part of a guess that tangles them: what
-// they would make of it crumples them.
+// they would make of it crumples them. Others may vibrate so fast, after shorter steps, that a guess for a
+// longer one holds many times the energy that they have.
 template <class Real>
-void BlockDescent<Real>::shorten_tangled(Positions& positions) {
-    std::vector<std::uint8_t> may_be_part(model_->objects.size());
-    for (std::size_t o = 0; o < may_be_part.size(); ++o) {
+void BlockDescent<Real>::shorten_guess(Real step, Positions& positions) {
+    const bool is_longer = last_step_ > Real(0) && step > static_cast<Real>(kLonger) * last_step_;
+    std::vector<GuessLimit> limits(model_->objects.size(), GuessLimit::all);
+    for (std::size_t o = 0; o < model_->body_count(); ++o) {
         const bool is_kept_off =
             acting_ != nullptr && (acting_->was_pressed(o) || acting_->list().own.meets_itself(o));
-        may_be_part[o] = division_ && !is_kept_off ? 1 : 0;
+        if (!division_ || is_kept_off) continue;
+        limits[o] = is_longer && !is_soft(o, step) ? GuessLimit::energy : GuessLimit::part;
     }
-    tangled_.shorten_guess(objective_, may_be_part, positions);
+    tangled_.shorten_guess(objective_, limits, positions);
 }
 
 // Restitution: of bodies that meet others, as rigid ones; else nodes that a collider has stopped go back with

@@ -121,7 +121,8 @@ private:
     void start(Real step, bool has_earlier, const Nodes<Real>& previous,
                std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls, Nodes<Real>& current);
     void make_moves(Real step, Positions& positions, StageTimer* timer);
-    void shorten_tangled(Positions& positions);
+    void shorten_guess(Real step, Positions& positions);
+    bool is_soft(std::size_t object, Real step) const;
     void slow_down_tangled(const Nodes<Real>& previous, std::span<const Vec4<Real>> load_forces,
                            const Pulls<Real>* pulls, Nodes<Real>& current);
     void find_outlooks(Real step, bool is_part, const Nodes<Real>& previous);

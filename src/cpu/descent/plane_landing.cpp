@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <utility>
 
@@ -16,10 +17,17 @@ namespace {
 
 // A body is stiff where a pressure wave passes through it in so many steps.
 constexpr double kMostSteps = 2.0;
-// Newton's steps, and looks along each.
-constexpr int kMostRounds = 8, kMostLooks = 12;
-// Motions, each of which is to first order in rotations.
+// Newton's steps, and looks along each; until what is left of all forces would move the body by so much of
+// what it has moved, squared.
+constexpr int kMostRounds = 24, kMostLooks = 16;
+constexpr double kEnough = 1e-6;
+// Friction goes on by how nodes press until that changes by less than this part of it.
+constexpr double kSteady = 1e-3;
+// Nodes that are higher above a plane than so many times what a motion can move them do not reach it.
+constexpr double kReaches = 2.0;
+// Motions, each of which is to first order in rotations; of smaller ones one is enough.
 constexpr int kMostMotions = 3;
+constexpr double kSmallRotation = 1e-3;
 
 // The part of a way at which a function is least whose slope there never falls.
 template <class Slope>
@@ -38,10 +46,47 @@ double least_part(const Slope& slope) {
 // A node above a plane.
 template <class Real>
 struct PlaneLanding<Real>::Row {
-    Motion along;              // what of a motion lifts it
-    double height, stiffness;  // [m], [N/m]
+    Motion along;                  // what of a motion lifts it
+    std::array<Motion, 2> across;  // what moves it along the plane
+    double height, stiffness;      // [m], [N/m]
+    glm::dvec2 slip;               // since the step began [m]
+    double coefficient;            // of friction
+    double most = 0.0;             // of friction, with what presses the node [N]
 
     double height_after(const Motion& motion) const { return height + along.dot(motion); }
+    double pressing(const Motion& motion) const { return stiffness * std::max(0.0, -height_after(motion)); }
+    glm::dvec2 along_plane(const Motion& motion) const {
+        return {across[0].dot(motion), across[1].dot(motion)};
+    }
+
+    // Coulomb's, against the slip: as stiff as the node, up to the most.
+    glm::dvec2 friction(const Motion& motion) const {
+        const glm::dvec2 holding = stiffness * (slip + along_plane(motion));
+        const double size = glm::length(holding);
+        return size > most ? most / size * holding : holding;
+    }
+    Motion force(const Motion& motion) const {
+        const glm::dvec2 held = friction(motion);
+        return pressing(motion) * along - held.x * across[0] - held.y * across[1];
+    }
+    // Of the force there, a way on.
+    double work(const Motion& motion, const Motion& way) const {
+        const double pressed = pressing(motion) * along.dot(way);
+        return most > 0.0 ? pressed - glm::dot(friction(motion), along_plane(way)) : pressed;
+    }
+    // By which the force falls. Nodes that slide hold across their slip only.
+    void add_stiffness(const Motion& motion, MotionMatrix& sum) const {
+        if (height_after(motion) < 0.0) sum += stiffness * along * along.transpose();
+        if (!(most > 0.0)) return;
+        const glm::dvec2 slid = slip + along_plane(motion);
+        const double size = glm::length(slid);
+        if (stiffness * size <= most) {
+            for (const Motion& direction : across) sum += stiffness * direction * direction.transpose();
+        } else {
+            const Motion aside = (across[1] * slid.x - across[0] * slid.y) / size;
+            sum += most / size * aside * aside.transpose();
+        }
+    }
 };
 
 template <class Real>
@@ -69,70 +114,89 @@ bool PlaneLanding<Real>::begin(double step, const StepObjective<Real>& objective
     return any;
 }
 
+// Of nodes that the motion may lead into a plane, or friction back.
 template <class Real>
 std::vector<typename PlaneLanding<Real>::Row> PlaneLanding<Real>::find_rows(
-    std::uint32_t object, std::span<const Vec4<Real>> positions, const glm::dvec3& origin) const {
+    std::uint32_t object, const StepObjective<Real>& objective, std::span<const Vec4<Real>> positions,
+    const glm::dvec3& origin, const Motion& motion) const {
     std::vector<Row> rows;
     const SurfaceParts& parts = model_->surface_parts;
     const Range& faces = model_->objects[object].faces;
     const std::uint32_t first = parts.face_starts[faces.first].x, end = parts.face_starts[faces.end()].x;
+    const double translation = motion.head<3>().norm(), rotation = motion.tail<3>().norm();
     for (const Collider& collider : model_->colliders) {
         if (collider.kind != 0) continue;
         const glm::dvec3 normal(collider.center);
+        const glm::dvec3 u = glm::normalize(
+            glm::cross(normal, std::abs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+        const glm::dvec3 v = glm::cross(normal, u);
         for (std::uint32_t place = first; place < end; ++place) {
             const std::uint32_t n = parts.nodes[place];
-            const glm::dvec3 position(positions[n]);
-            rows.push_back({along(position - origin, normal),
-                            glm::dot(normal, position) - static_cast<double>(collider.center.w),
-                            static_cast<double>(stiffnesses_[n])});
+            const glm::dvec3 position(positions[n]), arm = position - origin;
+            const double height = glm::dot(normal, position) - static_cast<double>(collider.center.w);
+            if (height > kReaches * (translation + rotation * glm::length(arm))) continue;
+            const glm::dvec3 slip = position - glm::dvec3(objective.step.starts[n]);
+            rows.push_back({along(arm, normal),
+                            {along(arm, u), along(arm, v)},
+                            height,
+                            static_cast<double>(stiffnesses_[n]),
+                            {glm::dot(u, slip), glm::dot(v, slip)},
+                            static_cast<double>(collider.friction)});
         }
     }
     return rows;
 }
 
-// Newton's method for a convex function: of nodes that press, until it is the same ones.
+// Newton's method for a convex function: with what presses, then with friction by that too.
 template <class Real>
 bool PlaneLanding<Real>::land(std::uint32_t object, const StepObjective<Real>& objective,
                               std::span<const Vec4<Real>> positions, const glm::dvec3& origin,
                               Motion& motion) const {
     if (lands_[object] == 0 || !is_inside(object, positions, origin, motion)) return false;
-    const std::vector<Row> rows = find_rows(object, positions, origin);
-    const auto find_pressing = [&] {
-        std::vector<std::size_t> pressing;
-        for (std::size_t k = 0; k < rows.size(); ++k)
-            if (rows[k].height_after(motion) < 0.0) pressing.push_back(k);
-        return pressing;
-    };
-    std::vector<std::size_t> pressing = find_pressing();
+    std::vector<Row> rows = find_rows(object, objective, positions, origin, motion);
     const Range& nodes = model_->objects[object].nodes;
     const auto targets = std::span(objective.step.targets).subspan(nodes.first, nodes.count);
     const MotionMatrix inertia =
         inertia_matrix(sum_rigid_nodes(positions.subspan(nodes.first, nodes.count), targets, origin));
+    const Eigen::LDLT<MotionMatrix> yielding(inertia);
     const Motion wanted = motion;
+    bool has_friction = false;
     for (int round = 0; round < kMostRounds; ++round) {
-        MotionMatrix held = inertia;
-        Motion force = inertia * wanted;
-        for (const std::size_t k : pressing) {
-            const Row& row = rows[k];
-            held += row.stiffness * row.along * row.along.transpose();
-            force -= row.stiffness * row.height * row.along;
+        const bool is_steady = has_friction && limit_friction(motion, rows);
+        Motion force = inertia * (wanted - motion);
+        for (const Row& row : rows) force += row.force(motion);
+        const Motion made = motion - wanted;
+        if (force.dot(yielding.solve(force)) <= kEnough * made.dot(inertia * made)) {
+            if (is_steady) break;
+            has_friction = true;
+            continue;
         }
-        const Motion way = Eigen::LDLT<MotionMatrix>(held).solve(force) - motion;
+        MotionMatrix held = inertia;
+        for (const Row& row : rows) row.add_stiffness(motion, held);
+        const Motion way = Eigen::LDLT<MotionMatrix>(held).solve(force);
         if (!way.allFinite()) break;
         motion += least_part([&](double part) {
                       const Motion there = motion + part * way;
                       double slope = way.dot(inertia * (there - wanted));
-                      for (const Row& row : rows)
-                          slope +=
-                              row.stiffness * std::min(0.0, row.height_after(there)) * row.along.dot(way);
+                      for (const Row& row : rows) slope -= row.work(there, way);
                       return slope;
                   }) *
                   way;
-        std::vector<std::size_t> next = find_pressing();
-        if (next == pressing) break;
-        pressing.swap(next);
     }
     return true;
+}
+
+// By how nodes press now. @return whether that is hardly anything new
+template <class Real>
+bool PlaneLanding<Real>::limit_friction(const Motion& motion, std::vector<Row>& rows) {
+    double sum = 0.0, change = 0.0;
+    for (Row& row : rows) {
+        const double most = row.coefficient * row.pressing(motion);
+        sum += most;
+        change += std::abs(most - row.most);
+        row.most = most;
+    }
+    return change <= kSteady * sum;
 }
 
 template <class Real>
@@ -151,6 +215,7 @@ void PlaneLanding<Real>::land(std::uint32_t object, const StepObjective<Real>& o
         move_rigid_nodes(
             {center, {motion(0), motion(1), motion(2)}, cayley_rotation({motion(3), motion(4), motion(5)})},
             positions.subspan(nodes.first, nodes.count));
+        if (motion.tail<3>().norm() < kSmallRotation) break;
     }
 }
 

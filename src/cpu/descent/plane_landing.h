@@ -23,6 +23,9 @@ public:
     /// @return whether a body lands
     bool begin(double step, const StepObjective<Real>& objective, std::span<Vec4<Real>> positions);
 
+    /// Whether it may, in this step: a stiff body that nothing holds.
+    bool lands(std::uint32_t object) const { return lands_[object] != 0; }
+
     /// Changes the motion m_0 of a body to the nearest one while planes press: to the least of
     ///   1/2 (m - m_0)^T A (m - m_0) + sum_i k_i / 2 min(0, h_i(m))^2,
     /// with A the inertia, h_i the heights of surface nodes above planes, to first order, and k_i how stiff
@@ -38,8 +41,10 @@ public:
 private:
     struct Row;
 
-    std::vector<Row> find_rows(std::uint32_t object, std::span<const Vec4<Real>> positions,
-                               const glm::dvec3& origin) const;
+    std::vector<Row> find_rows(std::uint32_t object, const StepObjective<Real>& objective,
+                               std::span<const Vec4<Real>> positions, const glm::dvec3& origin,
+                               const Motion& motion) const;
+    static bool limit_friction(const Motion& motion, std::vector<Row>& rows);
     bool is_inside(std::uint32_t object, std::span<const Vec4<Real>> positions,
                    const glm::dvec3& origin = glm::dvec3(0.0), const Motion& motion = Motion::Zero()) const;
 

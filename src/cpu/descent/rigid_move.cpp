@@ -42,12 +42,13 @@ void RigidMove<Real>::run(const Range& objects, bool is_last, const StepObjectiv
         const std::span<const Vec4<Real>> targets(objective.step.targets.data() + nodes.first, nodes.count);
         RigidStep body;
         body.add(sum_rigid_nodes(body_nodes, targets, origin));
-        if (contacts.objects[o] != 0) {
+        const bool lands = landing != nullptr && landing->lands(o);
+        if (contacts.objects[o] != 0 && !lands) {
             for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
                 add_contact(contacts.nodes[n], glm::dvec3(positions[n]) - origin, body);
         }
         move_rigid_nodes(body.solve(origin), ends.subspan(nodes.first, nodes.count));
-        if (landing != nullptr) landing->land(o, objective, ends);
+        if (lands) landing->land(o, objective, ends);
     });
 }
 

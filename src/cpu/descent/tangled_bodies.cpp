@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "cpu/descent/rigid_inertia.h"
+#include "cpu/descent/rigid_nodes.h"
 #include "cpu/elasticity/elastic_energy.h"
 #include "model/for_each_index.h"
 
@@ -20,32 +21,45 @@ constexpr double kLeastOfGuess = 0.1;
 
 template <class Real>
 void TangledBodies<Real>::shorten_guess(const StepObjective<Real>& objective,
-                                        std::span<const std::uint8_t> may_be_part,
+                                        std::span<const GuessLimit> limits,
                                         std::vector<Vec4<Real>>& positions) {
     for_each_index(0, model_->objects.size(), 1, [&](std::size_t o) {
         const ModelObject& object = model_->objects[o];
+        const Range& nodes = object.nodes;
+        const bool tangles = objective.is_tangled(object, positions);
         is_tangled_[o] = 0;
-        if (!objective.is_tangled(object, positions)) return;
-        const std::vector<Vec4<Real>> guess(positions.begin() + object.nodes.first,
-                                            positions.begin() + object.nodes.end());
-        const auto go = [&](double part) {
-            for (std::uint32_t k = 0; k < object.nodes.count; ++k) {
-                const std::uint32_t n = object.nodes.first + k;
-                if (positions[n].w == Real(0)) continue;  // held ones are where their handle takes them
-                const Vec3<Real> start(objective.step.starts[n]), way = Vec3<Real>(guess[k]) - start;
-                positions[n] = Vec4<Real>(start + static_cast<Real>(part) * way, positions[n].w);
-            }
-        };
-        go(0.0);
-        is_tangled_[o] = objective.is_tangled(object, positions) ? 1 : 0;
-        if (may_be_part[o] == 0) return;
-        const double at_start = objective_of(objective, object, positions);
+        if (!tangles && limits[o] != GuessLimit::energy) return;
+        const std::span<Vec4<Real>> own = std::span(positions).subspan(nodes.first, nodes.count);
+        const std::vector<Vec4<Real>> guess(own.begin(), own.end());
+        for (std::uint32_t k = 0; k < nodes.count; ++k)  // held ones are where their handle takes them
+            if (own[k].w > Real(0))
+                own[k] = Vec4<Real>(Vec3<Real>(objective.step.starts[nodes.first + k]), own[k].w);
+        if (tangles) is_tangled_[o] = objective.is_tangled(object, positions) ? 1 : 0;
+        if (limits[o] == GuessLimit::all) return;
+        move_on_rigidly(objective, nodes, own);
+        const std::vector<Vec4<Real>> rigid(own.begin(), own.end());
+        const double most = objective_of(objective, object, positions);
         for (double part = 1.0; part > kLeastOfGuess; part *= 0.5) {
-            go(part);
-            if (objective_of(objective, object, positions) <= at_start) return;
+            for (std::uint32_t k = 0; k < nodes.count; ++k)
+                own[k] = rigid[k] + static_cast<Real>(part) * (guess[k] - rigid[k]);
+            if (objective_of(objective, object, positions) <= most) return;
         }
-        go(0.0);
+        std::copy(rigid.begin(), rigid.end(), own.begin());
     });
+}
+
+// As near to the targets as that takes a body, where nothing holds it.
+template <class Real>
+void TangledBodies<Real>::move_on_rigidly(const StepObjective<Real>& objective, const Range& nodes,
+                                          std::span<Vec4<Real>> positions) const {
+    const auto is_held = [](const Vec4<Real>& p) { return p.w == Real(0); };
+    if (std::any_of(positions.begin(), positions.end(), is_held)) return;
+    const glm::dvec3 origin(positions.front());
+    RigidStep motion;
+    motion.add(sum_rigid_nodes(
+        std::span<const Vec4<Real>>(positions),
+        std::span<const Vec4<Real>>(objective.step.targets).subspan(nodes.first, nodes.count), origin));
+    move_rigid_nodes(motion.solve(origin), positions);
 }
 
 // Of a body by itself [J].

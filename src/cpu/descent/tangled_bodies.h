@@ -13,6 +13,13 @@
 
 namespace gelatin::cpu {
 
+/// What a body does without of a guess that it cannot come back from within few sweeps.
+enum class GuessLimit : std::uint8_t {
+    all,     ///< where it tangles the body, all of it
+    part,    ///< where it tangles the body, the part that takes more energy than the body has
+    energy,  ///< that part of any guess
+};
+
 /// Bodies that the guess of a step would tangle, and those that are tangled where it begins.
 template <class Real>
 class TangledBodies {
@@ -34,11 +41,13 @@ public:
     void move_rigidly(std::uint32_t object, std::span<const Vec4<Real>> shape, Nodes<Real>& nodes) const;
 
     /// A guess that tangles a body can hold any energy, which few sweeps would not take out again: the body
-    /// starts where it was. A step of a single sweep would lose a third of its motion so.
-    /// @param may_be_part by object: not 0 where the guess makes, in place of that, the largest part of its
-    /// way, of halves, at which the objective is no more than where the body was
+    /// starts where it was. A step of a single sweep would lose a third of its motion so. So bodies whose
+    /// limit is another go on as rigid ones, and from there the largest part of the way to the guess, of
+    /// halves, at which the objective is no more than there: what they have as elastic energy, and as motion
+    /// besides a rigid one.
+    /// @param limits by object
     /// @param positions input: the guess; output: where the step starts its moves
-    void shorten_guess(const StepObjective<Real>& objective, std::span<const std::uint8_t> may_be_part,
+    void shorten_guess(const StepObjective<Real>& objective, std::span<const GuessLimit> limits,
                        std::vector<Vec4<Real>>& positions);
 
     /// Whether a body was tangled where the step began. @pre shorten_guess()
@@ -55,6 +64,8 @@ public:
                    std::span<Vec4<Real>> velocities) const;
 
 private:
+    void move_on_rigidly(const StepObjective<Real>& objective, const Range& nodes,
+                         std::span<Vec4<Real>> positions) const;
     double objective_of(const StepObjective<Real>& objective, const ModelObject& object,
                         const std::vector<Vec4<Real>>& positions) const;
     void slow_down(const End& end, const ModelObject& object, std::span<Vec4<Real>> velocities) const;

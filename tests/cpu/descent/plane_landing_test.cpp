@@ -13,14 +13,17 @@ namespace {
 
 constexpr double kStep = 1.0 / 60.0;  // [s]
 
-// A block that is turned round z and leads into a floor, and into a wall where x = 0.
+// A block that is turned round z and leads into a floor, and into a wall where x = 0. It has slid by `slip`
+// since the step began.
 struct Landing {
     std::shared_ptr<const Model> model;
     std::vector<glm::dvec4> guess, positions;
     bool lands = false;
 
-    Landing(double youngs_modulus, double angle, const glm::dvec2& depth) {
+    Landing(double youngs_modulus, double angle, const glm::dvec2& depth, const glm::dvec3& slip = {},
+            double friction = 0.0) {
         std::vector<ColliderDescription> planes(2);
+        for (ColliderDescription& plane : planes) plane.friction = friction;
         planes[0].shape = PlaneCollider{{0, 1, 0}, 0.0};
         planes[1].shape = PlaneCollider{{1, 0, 0}, 0.0};
         model = test::make_blocks({{.youngs_modulus = youngs_modulus}}, {}, planes);
@@ -31,6 +34,7 @@ struct Landing {
         cpu::StepObjective<double> objective(model, model->node_count());
         for (std::size_t n = 0; n < guess.size(); ++n) {
             guess[n] -= glm::dvec4(least.x + depth.x, least.y + depth.y, 0.0, 0.0);
+            objective.step.starts[n] = guess[n] - glm::dvec4(slip, 0.0);
             objective.step.targets[n] =
                 glm::dvec4(glm::dvec3(guess[n]), static_cast<double>(model->masses[n]) / (kStep * kStep));
         }
@@ -78,6 +82,22 @@ TEST(PlaneLanding, BodiesKeepTheirShapeAndTurnWhereACornerIsInTheWay) {
     EXPECT_NEAR(lifted.x, 0.0, 1e-9);
     EXPECT_GT(lifted.y, 0.3 * depth);
     EXPECT_LT(lifted.y, 0.8 * depth);
+}
+
+// A force of m / h^2 (y - x) presses the block where it has come by h^2 g in a step: Coulomb's force of the
+// coefficient times that takes back so much of its slip.
+TEST(PlaneLanding, FrictionTakesBackWhatItCan) {
+    const double depth = 0.003, coefficient = 0.5;
+    for (const double slid : {0.5, 0.98, 1.02, 3.0}) {
+        const double slip = slid * coefficient * depth;
+        const Landing landing(1e9, 0.0, {-1.0, depth}, slip * glm::normalize(glm::dvec3(1, 0, 2)),
+                              coefficient);
+        const glm::dvec3 back = landing.center(landing.positions) - landing.center(landing.guess);
+        const double most = coefficient * depth;
+        EXPECT_NEAR(glm::length(glm::dvec2(back.x, back.z)), std::min(slip, most), 0.01 * most) << slid;
+        EXPECT_NEAR(glm::dot(back, glm::normalize(glm::dvec3(2, 0, -1))), 0.0, 0.01 * most) << slid;
+        EXPECT_NEAR(landing.least(1), 0.0, 0.01 * depth) << slid;
+    }
 }
 
 // Rotations are large here, and the other end comes down.
