@@ -21,6 +21,9 @@ constexpr double kMostSteps = 2.0;
 // what it has moved, squared.
 constexpr int kMostRounds = 24, kMostLooks = 16;
 constexpr double kEnough = 1e-6;
+// Friction that holds yields, as springs do, which bodies would creep in each step: so often it starts again
+// with what holds by then.
+constexpr int kAnchors = 1;
 // Friction goes on by how nodes press until that changes by less than this part of it.
 constexpr double kSteady = 1e-3;
 // Nodes that are higher above a plane than so many times what a motion can move them do not reach it.
@@ -52,6 +55,7 @@ struct PlaneLanding<Real>::Row {
     glm::dvec2 slip;               // since the step began [m]
     double coefficient;            // of friction
     double most = 0.0;             // of friction, with what presses the node [N]
+    glm::dvec2 anchored{0.0};      // friction without a slip [N]
 
     double height_after(const Motion& motion) const { return height + along.dot(motion); }
     double pressing(const Motion& motion) const { return stiffness * std::max(0.0, -height_after(motion)); }
@@ -61,9 +65,12 @@ struct PlaneLanding<Real>::Row {
 
     // Coulomb's, against the slip: as stiff as the node, up to the most.
     glm::dvec2 friction(const Motion& motion) const {
-        const glm::dvec2 holding = stiffness * (slip + along_plane(motion));
-        const double size = glm::length(holding);
-        return size > most ? most / size * holding : holding;
+        const glm::dvec2 held = holding(motion);
+        const double size = glm::length(held);
+        return size > most ? most / size * held : held;
+    }
+    glm::dvec2 holding(const Motion& motion) const {
+        return anchored + stiffness * (slip + along_plane(motion));
     }
     Motion force(const Motion& motion) const {
         const glm::dvec2 held = friction(motion);
@@ -78,13 +85,13 @@ struct PlaneLanding<Real>::Row {
     void add_stiffness(const Motion& motion, MotionMatrix& sum) const {
         if (height_after(motion) < 0.0) sum += stiffness * along * along.transpose();
         if (!(most > 0.0)) return;
-        const glm::dvec2 slid = slip + along_plane(motion);
-        const double size = glm::length(slid);
-        if (stiffness * size <= most) {
+        const glm::dvec2 held = holding(motion);
+        const double size = glm::length(held);
+        if (size <= most) {
             for (const Motion& direction : across) sum += stiffness * direction * direction.transpose();
         } else {
-            const Motion aside = (across[1] * slid.x - across[0] * slid.y) / size;
-            sum += most / size * aside * aside.transpose();
+            const Motion aside = (across[1] * held.x - across[0] * held.y) / size;
+            sum += stiffness * most / size * aside * aside.transpose();
         }
     }
 };
@@ -161,13 +168,16 @@ bool PlaneLanding<Real>::land(std::uint32_t object, const StepObjective<Real>& o
     const Eigen::LDLT<MotionMatrix> yielding(inertia);
     const Motion wanted = motion;
     bool has_friction = false;
+    int anchors = 0;
     for (int round = 0; round < kMostRounds; ++round) {
         const bool is_steady = has_friction && limit_friction(motion, rows);
         Motion force = inertia * (wanted - motion);
         for (const Row& row : rows) force += row.force(motion);
         const Motion made = motion - wanted;
         if (force.dot(yielding.solve(force)) <= kEnough * made.dot(inertia * made)) {
-            if (is_steady) break;
+            if (is_steady && anchors++ == kAnchors) break;
+            if (is_steady)
+                for (Row& row : rows) row.anchored = row.friction(motion);
             has_friction = true;
             continue;
         }

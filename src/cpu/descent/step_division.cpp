@@ -20,6 +20,7 @@ constexpr double kPartsAWave = 48.0;
 constexpr double kWavesAnImpact = 8.0, kLeastParts = 2.0;
 // Contacts of all parts cost up to so much of what sweeps do: by nodes and pairs.
 constexpr double kPairsASweptNode = 1.3;
+constexpr double kMeetsNothing = -1.0;
 
 }  // namespace
 
@@ -29,6 +30,7 @@ StepDivision<Real>::StepDivision(std::shared_ptr<const Model> model)
       masses_(model_->body_count()),
       wave_times_(wave_times(*model_)),
       velocities_(model_->body_count()),
+      relative_(model_->body_count()),
       speeds_(model_->body_count()),
       liveliness_(model_->body_count()) {
     for (std::size_t o = 0; o < masses_.size(); ++o) {
@@ -55,7 +57,7 @@ int StepDivision<Real>::parts(double step, const Nodes<Real>& nodes,
         // Bodies that are most compressed stand still: what they met with fades by half while an impact
         // takes.
         const double left = std::exp2(-step / impact) * liveliness_[o];
-        liveliness_[o] = speeds_[o] > 0.0 ? std::max(speeds_[o], left) : 0.0;
+        liveliness_[o] = speeds_[o] != kMeetsNothing ? std::max(speeds_[o], left) : 0.0;
         if (impact < kLeastParts * step / kMostParts) continue;
         parts = std::max(parts, std::min(liveliness_[o] / kLivelySpeed, kPartsAWave * step / wave));
     }
@@ -80,54 +82,94 @@ void StepDivision<Real>::find_velocities(std::span<const Vec4<Real>> velocities)
     }
 }
 
-// Relative to the mean of the island; to what does not move, where something is held or a collider is
-// touched. None of bodies that meet nothing in this step.
+// Along the normals of what it presses or will press: what slides meets nothing by that. Of what is only
+// near, no normal is known.
 template <class Real>
 void StepDivision<Real>::find_speeds(double step, std::span<const Vec4<Real>> positions,
                                      std::span<const std::uint8_t> touched_colliders,
                                      const Contacts<Real>* contacts) {
     const bool has_islands = contacts != nullptr && contacts->list().is_valid;
-    const std::size_t objects = speeds_.size();
-    std::vector<std::uint8_t> meets(objects);
-    if (has_islands) {
-        std::vector<Vec3<Real>> motions(objects);
-        for (std::size_t o = 0; o < objects; ++o) motions[o] = Vec3<Real>(step * velocities_[o]);
-        meets = contacts->find_meeting(motions);
+    const bool has_planes_only = std::all_of(model_->colliders.begin(), model_->colliders.end(),
+                                             [](const Collider& collider) { return collider.kind == 0; });
+    for (std::size_t o = 0; o < speeds_.size(); ++o) {
+        speeds_[o] = plane_speed(step, positions, o);
+        if (touched_colliders[o] != 0)
+            speeds_[o] = has_planes_only ? std::max(speeds_[o], 0.0) : glm::length(velocities_[o]);
     }
-    const auto island_of = [&](std::size_t o) { return has_islands ? contacts->list().islands[o] : o; };
-    const std::size_t islands = has_islands ? contacts->list().shifts.size() : objects;
+    leave_islands(has_islands ? contacts : nullptr);
+    if (!has_islands) return;
+    const std::vector<ObjectPair> pressing = add_presses(step, positions, *contacts);
+    std::vector<Vec3<Real>> motions(model_->objects.size());
+    for (std::size_t o = 0; o < speeds_.size(); ++o) motions[o] = Vec3<Real>(step * velocities_[o]);
+    const std::vector<std::uint8_t> meets = contacts->find_meeting(motions, pressing);
+    for (std::size_t o = 0; o < speeds_.size(); ++o)
+        if (meets[o] != 0) speeds_[o] = std::max(speeds_[o], glm::length(relative_[o]));
+}
+
+// What bodies do besides the mean of their island; where something is held, or a plane is met, all they do.
+// @param contacts null: each body is an island
+template <class Real>
+void StepDivision<Real>::leave_islands(const Contacts<Real>* contacts) {
+    const auto island_of = [&](std::size_t o) {
+        return contacts != nullptr ? contacts->list().islands[o] : o;
+    };
+    const std::size_t islands = contacts != nullptr ? contacts->list().shifts.size() : speeds_.size();
     std::vector<glm::dvec3> momenta(islands, glm::dvec3(0.0));
     std::vector<double> masses(islands);
     std::vector<std::uint8_t> is_held(islands);
-    for (std::size_t o = 0; o < objects; ++o) {
+    for (std::size_t o = 0; o < speeds_.size(); ++o) {
         const std::size_t i = island_of(o);
         momenta[i] += masses_[o] * velocities_[o];
         masses[i] += masses_[o];
-        if (touched_colliders[o] != 0 || reaches_plane(step, positions, o)) meets[o] = is_held[i] = 1;
-        if (!has_islands) continue;
-        if (contacts->is_held(o) || contacts->list().is_fixed[i] != 0) is_held[i] = 1;
+        if (speeds_[o] != kMeetsNothing) is_held[i] = 1;
+        if (contacts != nullptr && (contacts->is_held(o) || contacts->list().is_fixed[i] != 0))
+            is_held[i] = 1;
     }
-    for (std::size_t o = 0; o < objects; ++o) {
+    for (std::size_t o = 0; o < speeds_.size(); ++o) {
         const std::size_t i = island_of(o);
         const bool moves = is_held[i] == 0 && masses[i] > 0.0;
-        const glm::dvec3 mean = moves ? momenta[i] / masses[i] : glm::dvec3(0.0);
-        speeds_[o] = meets[o] != 0 ? glm::length(velocities_[o] - mean) : 0.0;
+        relative_[o] = moves ? velocities_[o] - momenta[i] / masses[i] : velocities_[o];
     }
 }
 
-// In this step, as it goes on average.
+// With planes that the body touches, or will within this step, as it goes on average.
 template <class Real>
-bool StepDivision<Real>::reaches_plane(double step, std::span<const Vec4<Real>> positions,
+double StepDivision<Real>::plane_speed(double step, std::span<const Vec4<Real>> positions,
                                        std::size_t object) const {
     const Range& nodes = model_->objects[object].nodes;
-    return std::any_of(model_->colliders.begin(), model_->colliders.end(), [&](const Collider& collider) {
-        const glm::dvec3 normal(collider.center);
-        const double approach = -step * glm::dot(normal, velocities_[object]);
-        if (collider.kind != 0 || !(approach > 0.0)) return false;
+    double fastest = kMeetsNothing;
+    for (const Collider& collider : model_->colliders) {
+        if (collider.kind != 0) continue;
+        const double speed = std::abs(glm::dot(glm::dvec3(collider.center), velocities_[object]));
         const auto least =
             least_height<Real>(positions.subspan(nodes.first, nodes.count), Vec3<Real>(collider.center));
-        return static_cast<double>(least) - static_cast<double>(collider.center.w) < approach;
-    });
+        const double height = static_cast<double>(least) - static_cast<double>(collider.center.w);
+        if (height < step * speed) fastest = std::max(fastest, speed);
+    }
+    return fastest;
+}
+
+// @return pairs of objects that press each other, or may: sorted, the lower number first
+template <class Real>
+std::vector<typename StepDivision<Real>::ObjectPair> StepDivision<Real>::add_presses(
+    double step, std::span<const Vec4<Real>> positions, const Contacts<Real>& contacts) {
+    std::vector<ObjectPair> pressing;
+    for (const Press<Real>& press : contacts.aims().presses()) {
+        const ContactPair& pair = contacts.list().pairs[press.pair];
+        if (pair.is_own()) continue;
+        const ObjectPair objects = std::minmax(pair.object, pair.other);
+        if (pressing.empty() || pressing.back() != objects) pressing.push_back(objects);
+        const glm::dvec3 normal(press.normal);
+        const double coming = step * glm::dot(normal, velocity_of(pair.object) - velocity_of(pair.other));
+        const Real gap = contacts.aims().gap(pair, press, positions);
+        if (!(static_cast<double>(gap - press.reach) < std::max(coming, 0.0))) continue;
+        for (const std::uint32_t o : {pair.object, pair.other})
+            if (o < speeds_.size())
+                speeds_[o] = std::max(speeds_[o], std::abs(glm::dot(normal, relative_[o])));
+    }
+    std::sort(pressing.begin(), pressing.end());
+    pressing.erase(std::unique(pressing.begin(), pressing.end()), pressing.end());
+    return pressing;
 }
 
 template class StepDivision<float>;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cpu/contact/contacts.h"
@@ -31,17 +32,26 @@ public:
     double wave_time(std::size_t object) const { return wave_times_[object]; }
 
 private:
+    using ObjectPair = std::pair<std::uint32_t, std::uint32_t>;
+
     void find_velocities(std::span<const Vec4<Real>> velocities);
     void find_speeds(double step, std::span<const Vec4<Real>> positions,
                      std::span<const std::uint8_t> touched_colliders, const Contacts<Real>* contacts);
-    bool reaches_plane(double step, std::span<const Vec4<Real>> positions, std::size_t object) const;
+    void leave_islands(const Contacts<Real>* contacts);
+    double plane_speed(double step, std::span<const Vec4<Real>> positions, std::size_t object) const;
+    std::vector<ObjectPair> add_presses(double step, std::span<const Vec4<Real>> positions,
+                                        const Contacts<Real>& contacts);
+    glm::dvec3 velocity_of(std::size_t object) const {
+        return object < velocities_.size() ? velocities_[object] : glm::dvec3(0.0);
+    }
 
     std::shared_ptr<const Model> model_;
     // By object:
     std::vector<double> masses_;          // of what is not held [kg]
     std::vector<double> wave_times_;      // a pressure wave's through it [s]
     std::vector<glm::dvec3> velocities_;  // mean [m/s]
-    std::vector<double> speeds_;          // with which it meets others now [m/s]
+    std::vector<glm::dvec3> relative_;    // to its island's, or to what does not move [m/s]
+    std::vector<double> speeds_;          // with which it meets others now, or kMeetsNothing [m/s]
     std::vector<double> liveliness_;      // the greatest of these, fading while it meets them [m/s]
 };
 
