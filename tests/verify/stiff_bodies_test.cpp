@@ -106,10 +106,10 @@ TEST_F(StiffBodiesTest, SingleOnesFallAndStop) {
         const std::vector<double> energies = motion_energies(simulated, 300);
         simulated.begin_statistics();
         EXPECT_LT(simulated.take_statistics().kinetic_energy, 1e-6) << number;
-        double least = energies[0];
-        for (const double energy : energies) {
-            EXPECT_LT(energy, least + 0.02 * energies[0]) << number;
-            least = std::min(least, energy);
+        for (std::size_t i = 1; i < energies.size(); ++i) {
+            const std::size_t first = i < 20 ? 0 : i - 20;  // less in the midst of an impact
+            const double before = *std::max_element(energies.data() + first, energies.data() + i);
+            EXPECT_LT(energies[i], before + 0.02 * energies[0]) << number << " frame " << i;
         }
     }
 }

@@ -55,10 +55,13 @@ struct PlaneLanding<Real>::Row {
     glm::dvec2 slip;               // since the step began [m]
     double coefficient;            // of friction
     double most = 0.0;             // of friction, with what presses the node [N]
+    double pressed = 0.0;          // without a height [N]
     glm::dvec2 anchored{0.0};      // friction without a slip [N]
 
     double height_after(const Motion& motion) const { return height + along.dot(motion); }
-    double pressing(const Motion& motion) const { return stiffness * std::max(0.0, -height_after(motion)); }
+    double pressing(const Motion& motion) const {
+        return std::max(0.0, pressed - stiffness * height_after(motion));
+    }
     glm::dvec2 along_plane(const Motion& motion) const {
         return {across[0].dot(motion), across[1].dot(motion)};
     }
@@ -76,14 +79,20 @@ struct PlaneLanding<Real>::Row {
         const glm::dvec2 held = friction(motion);
         return pressing(motion) * along - held.x * across[0] - held.y * across[1];
     }
+    // From there on without what it yields.
+    void anchor(const Motion& motion) {
+        const double now = pressing(motion);
+        anchored = friction(motion);
+        pressed = now;
+    }
     // Of the force there, a way on.
     double work(const Motion& motion, const Motion& way) const {
-        const double pressed = pressing(motion) * along.dot(way);
-        return most > 0.0 ? pressed - glm::dot(friction(motion), along_plane(way)) : pressed;
+        const double lifted = pressing(motion) * along.dot(way);
+        return most > 0.0 ? lifted - glm::dot(friction(motion), along_plane(way)) : lifted;
     }
     // By which the force falls. Nodes that slide hold across their slip only.
     void add_stiffness(const Motion& motion, MotionMatrix& sum) const {
-        if (height_after(motion) < 0.0) sum += stiffness * along * along.transpose();
+        if (pressing(motion) > 0.0) sum += stiffness * along * along.transpose();
         if (!(most > 0.0)) return;
         const glm::dvec2 held = holding(motion);
         const double size = glm::length(held);
@@ -114,8 +123,8 @@ bool PlaneLanding<Real>::begin(double step, const StepObjective<Real>& objective
         const auto is_held = [](const Vec4<Real>& p) { return p.w == Real(0); };
         const bool is_stiff = wave_times_[o] < kMostSteps * step;
         lands_[o] = is_stiff && std::none_of(own.begin(), own.end(), is_held) ? 1 : 0;
-        if (lands_[o] == 0 || !is_inside(o, positions)) return;
-        any = true;
+        if (lands_[o] == 0) return;
+        if (is_inside(o, objective.step.targets)) any = true;
         land(o, objective, positions);
     });
     return any;
@@ -177,7 +186,7 @@ bool PlaneLanding<Real>::land(std::uint32_t object, const StepObjective<Real>& o
         if (force.dot(yielding.solve(force)) <= kEnough * made.dot(inertia * made)) {
             if (is_steady && anchors++ == kAnchors) break;
             if (is_steady)
-                for (Row& row : rows) row.anchored = row.friction(motion);
+                for (Row& row : rows) row.anchor(motion);
             has_friction = true;
             continue;
         }

@@ -20,7 +20,7 @@ public:
     explicit PlaneLanding(std::shared_ptr<const Model> model);
 
     /// Begins a step. @param positions input: its first guess; output: outside of planes, for stiff bodies
-    /// @return whether a body lands
+    /// @return whether a body may land in this step: its targets lead into a plane
     bool begin(double step, const StepObjective<Real>& objective, std::span<Vec4<Real>> positions);
 
     /// Whether it may, in this step: a stiff body that nothing holds.
