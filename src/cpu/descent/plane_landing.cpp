@@ -55,13 +55,10 @@ struct PlaneLanding<Real>::Row {
     glm::dvec2 slip;               // since the step began [m]
     double coefficient;            // of friction
     double most = 0.0;             // of friction, with what presses the node [N]
-    double pressed = 0.0;          // without a height [N]
     glm::dvec2 anchored{0.0};      // friction without a slip [N]
 
     double height_after(const Motion& motion) const { return height + along.dot(motion); }
-    double pressing(const Motion& motion) const {
-        return std::max(0.0, pressed - stiffness * height_after(motion));
-    }
+    double pressing(const Motion& motion) const { return stiffness * std::max(0.0, -height_after(motion)); }
     glm::dvec2 along_plane(const Motion& motion) const {
         return {across[0].dot(motion), across[1].dot(motion)};
     }
@@ -79,12 +76,6 @@ struct PlaneLanding<Real>::Row {
         const glm::dvec2 held = friction(motion);
         return pressing(motion) * along - held.x * across[0] - held.y * across[1];
     }
-    // From there on without what it yields.
-    void anchor(const Motion& motion) {
-        const double now = pressing(motion);
-        anchored = friction(motion);
-        pressed = now;
-    }
     // Of the force there, a way on.
     double work(const Motion& motion, const Motion& way) const {
         const double lifted = pressing(motion) * along.dot(way);
@@ -92,7 +83,7 @@ struct PlaneLanding<Real>::Row {
     }
     // By which the force falls. Nodes that slide hold across their slip only.
     void add_stiffness(const Motion& motion, MotionMatrix& sum) const {
-        if (pressing(motion) > 0.0) sum += stiffness * along * along.transpose();
+        if (height_after(motion) < 0.0) sum += stiffness * along * along.transpose();
         if (!(most > 0.0)) return;
         const glm::dvec2 held = holding(motion);
         const double size = glm::length(held);
@@ -186,7 +177,7 @@ bool PlaneLanding<Real>::land(std::uint32_t object, const StepObjective<Real>& o
         if (force.dot(yielding.solve(force)) <= kEnough * made.dot(inertia * made)) {
             if (is_steady && anchors++ == kAnchors) break;
             if (is_steady)
-                for (Row& row : rows) row.anchor(motion);
+                for (Row& row : rows) row.anchored = row.friction(motion);
             has_friction = true;
             continue;
         }
