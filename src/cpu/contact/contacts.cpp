@@ -57,6 +57,13 @@ void Contacts<Real>::restart(std::span<const Vec4<Real>> positions) {
     std::fill(is_pressed_.begin(), is_pressed_.end(), std::uint8_t(0));
 }
 
+template <class Real>
+std::vector<std::uint8_t> Contacts<Real>::find_meeting(std::span<const Vec3<Real>> motions) const {
+    std::vector<std::uint8_t> meeting = detection_.find_meeting(safe_, motions);
+    for (std::size_t o = 0; o < meeting.size(); ++o) meeting[o] |= is_pressed_[o];
+    return meeting;
+}
+
 // Of planes; held nodes stay.
 template <class Real>
 Vec4<Real> Contacts<Real>::outside(const Vec4<Real>& position) const {

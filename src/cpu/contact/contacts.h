@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/stage_timer.h"
@@ -37,13 +36,9 @@ public:
     /// Whether the object pressed another one when the last step ended.
     bool was_pressed(std::size_t object) const { return is_pressed_[object] != 0; }
 
-    /// By body: whether it may press another object on these motions of bodies [m]. @pre list() is valid
-    /// @param known pairs of objects that are left out: sorted, the lower number first
-    std::vector<std::uint8_t> find_meeting(
-        std::span<const Vec3<Real>> motions,
-        std::span<const std::pair<std::uint32_t, std::uint32_t>> known) const {
-        return detection_.find_meeting(safe_, motions, known);
-    }
+    /// By body: whether it pressed another object when the last step ended, or may do so on these motions of
+    /// bodies [m]. @pre list() is valid
+    std::vector<std::uint8_t> find_meeting(std::span<const Vec3<Real>> motions) const;
 
     /// Where a held node is when a step begins: where the last one ended; of a belt, from where its velocity
     /// would take it there [m].

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "cpu/collision/collision.h"
@@ -37,10 +36,9 @@ public:
     void run_own(std::span<const OwnLook> looks, std::span<const Vec4<Real>> positions,
                  ContactList<Real>& list);
     /// NearObjects::find_meeting, of objects that were near each other in the last run.
-    std::vector<std::uint8_t> find_meeting(
-        std::span<const Vec4<Real>> positions, std::span<const Vec3<Real>> motions,
-        std::span<const std::pair<std::uint32_t, std::uint32_t>> known) const {
-        return objects_.find_meeting(positions, motions, known);
+    std::vector<std::uint8_t> find_meeting(std::span<const Vec4<Real>> positions,
+                                           std::span<const Vec3<Real>> motions) const {
+        return objects_.find_meeting(positions, motions);
     }
     /// Forgets the pairs of single bodies, or of one: lists have them until the next run.
     void restart() { own_.restart(); }

@@ -71,16 +71,12 @@ std::vector<AxisBox<Real>> NearObjects<Real>::boxes_at(std::span<const Vec4<Real
 }
 
 template <class Real>
-std::vector<std::uint8_t> NearObjects<Real>::find_meeting(
-    std::span<const Vec4<Real>> positions, std::span<const Vec3<Real>> motions,
-    std::span<const std::pair<std::uint32_t, std::uint32_t>> known) const {
+std::vector<std::uint8_t> NearObjects<Real>::find_meeting(std::span<const Vec4<Real>> positions,
+                                                          std::span<const Vec3<Real>> motions) const {
     const std::vector<AxisBox<Real>> boxes = boxes_at(positions);
     std::vector<std::uint8_t> meeting(model_->body_count());
     tbb::parallel_for(std::size_t(0), meeting.size(), [&](std::size_t o) {
         meeting[o] = std::any_of(near_[o].begin(), near_[o].end(), [&](std::uint32_t other) {
-            const auto number = static_cast<std::uint32_t>(o);
-            const std::pair<std::uint32_t, std::uint32_t> pair = std::minmax(number, other);
-            if (std::binary_search(known.begin(), known.end(), pair)) return false;
             return !model_->is_body(other) ||
                    meet(swept(boxes[o], motions[o] - motions[other]), boxes[other]);
         });

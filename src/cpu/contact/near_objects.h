@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "cpu/collision/collision.h"
@@ -62,10 +61,8 @@ public:
 
     /// By body: whether it comes near enough to another object to press it, as boxes of bodies that go
     /// straight tell. Beside colliders it may. @param motions of bodies [m]
-    /// @param known pairs of objects that are left out: sorted, the lower number first
-    std::vector<std::uint8_t> find_meeting(
-        std::span<const Vec4<Real>> positions, std::span<const Vec3<Real>> motions,
-        std::span<const std::pair<std::uint32_t, std::uint32_t>> known) const;
+    std::vector<std::uint8_t> find_meeting(std::span<const Vec4<Real>> positions,
+                                           std::span<const Vec3<Real>> motions) const;
 
     /// What an object's island does [m].
     const Vec3<Real>& drift(std::uint32_t object) const { return drifts_[object]; }

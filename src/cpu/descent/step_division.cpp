@@ -82,8 +82,8 @@ void StepDivision<Real>::find_velocities(std::span<const Vec4<Real>> velocities)
     }
 }
 
-// Along the normals of what it presses or will press: what slides meets nothing by that. Of what is only
-// near, no normal is known.
+// With planes, along their normals: what slides meets nothing by that. Of what meets others all its speed
+// counts: over edges between faces friction is better in short steps.
 template <class Real>
 void StepDivision<Real>::find_speeds(double step, std::span<const Vec4<Real>> positions,
                                      std::span<const std::uint8_t> touched_colliders,
@@ -98,10 +98,9 @@ void StepDivision<Real>::find_speeds(double step, std::span<const Vec4<Real>> po
     }
     leave_islands(has_islands ? contacts : nullptr);
     if (!has_islands) return;
-    const std::vector<ObjectPair> pressing = add_presses(step, positions, *contacts);
     std::vector<Vec3<Real>> motions(model_->objects.size());
     for (std::size_t o = 0; o < speeds_.size(); ++o) motions[o] = Vec3<Real>(step * velocities_[o]);
-    const std::vector<std::uint8_t> meets = contacts->find_meeting(motions, pressing);
+    const std::vector<std::uint8_t> meets = contacts->find_meeting(motions);
     for (std::size_t o = 0; o < speeds_.size(); ++o)
         if (meets[o] != 0) speeds_[o] = std::max(speeds_[o], glm::length(relative_[o]));
 }
@@ -147,29 +146,6 @@ double StepDivision<Real>::plane_speed(double step, std::span<const Vec4<Real>> 
         if (height < step * speed) fastest = std::max(fastest, speed);
     }
     return fastest;
-}
-
-// @return pairs of objects that press each other, or may: sorted, the lower number first
-template <class Real>
-std::vector<typename StepDivision<Real>::ObjectPair> StepDivision<Real>::add_presses(
-    double step, std::span<const Vec4<Real>> positions, const Contacts<Real>& contacts) {
-    std::vector<ObjectPair> pressing;
-    for (const Press<Real>& press : contacts.aims().presses()) {
-        const ContactPair& pair = contacts.list().pairs[press.pair];
-        if (pair.is_own()) continue;
-        const ObjectPair objects = std::minmax(pair.object, pair.other);
-        if (pressing.empty() || pressing.back() != objects) pressing.push_back(objects);
-        const glm::dvec3 normal(press.normal);
-        const double coming = step * glm::dot(normal, velocity_of(pair.object) - velocity_of(pair.other));
-        const Real gap = contacts.aims().gap(pair, press, positions);
-        if (!(static_cast<double>(gap - press.reach) < std::max(coming, 0.0))) continue;
-        for (const std::uint32_t o : {pair.object, pair.other})
-            if (o < speeds_.size())
-                speeds_[o] = std::max(speeds_[o], std::abs(glm::dot(normal, relative_[o])));
-    }
-    std::sort(pressing.begin(), pressing.end());
-    pressing.erase(std::unique(pressing.begin(), pressing.end()), pressing.end());
-    return pressing;
 }
 
 template class StepDivision<float>;

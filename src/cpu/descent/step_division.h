@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "cpu/contact/contacts.h"
@@ -32,18 +31,11 @@ public:
     double wave_time(std::size_t object) const { return wave_times_[object]; }
 
 private:
-    using ObjectPair = std::pair<std::uint32_t, std::uint32_t>;
-
     void find_velocities(std::span<const Vec4<Real>> velocities);
     void find_speeds(double step, std::span<const Vec4<Real>> positions,
                      std::span<const std::uint8_t> touched_colliders, const Contacts<Real>* contacts);
     void leave_islands(const Contacts<Real>* contacts);
     double plane_speed(double step, std::span<const Vec4<Real>> positions, std::size_t object) const;
-    std::vector<ObjectPair> add_presses(double step, std::span<const Vec4<Real>> positions,
-                                        const Contacts<Real>& contacts);
-    glm::dvec3 velocity_of(std::size_t object) const {
-        return object < velocities_.size() ? velocities_[object] : glm::dvec3(0.0);
-    }
 
     std::shared_ptr<const Model> model_;
     // By object:
