@@ -4,12 +4,12 @@
 #include <algorithm>
 
 #include "gelatin/simulator.h"
-#include "support/gl_fixture.h"
+#include "support/simulator_fixture.h"
 
 namespace gelatin {
 namespace {
 
-class SingleBodyTest : public test::GlTest {
+class SingleBodyTest : public test::SimulatorFixture {
 protected:
     static Scene scene(double youngs_modulus, double height) {
         Scene scene;
@@ -27,12 +27,6 @@ protected:
         floor.restitution = 0.9;
         return scene;
     }
-    static Simulator simulator(const Scene& scene, Backend backend) {
-        SimulatorOptions options;
-        options.backend = backend;
-        options.use_current_context = backend == Backend::gl;
-        return Simulator(scene, options);
-    }
     static double upward_momentum(Simulator& simulator) {
         simulator.begin_statistics();
         return simulator.take_statistics().momentum[1];
@@ -42,7 +36,7 @@ protected:
 // Of a stiff body, implicit steps leave hardly anything to bounce with.
 TEST_F(SingleBodyTest, BouncesByItsRestitution) {
     for (const Backend backend : {Backend::cpu, Backend::gl}) {
-        Simulator block = simulator(scene(1e8, 0.5), backend);
+        Simulator block(scene(1e8, 0.5), on(backend));
         double lowest = 0.0, highest = 0.0;
         for (int frame = 0; frame < 40; ++frame) {
             block.advance_frame();
@@ -58,7 +52,7 @@ TEST_F(SingleBodyTest, BouncesByItsRestitution) {
 
 TEST_F(SingleBodyTest, FallsAsleep) {
     for (const Backend backend : {Backend::cpu, Backend::gl}) {
-        Simulator block = simulator(scene(1e5, 0.001), backend);
+        Simulator block(scene(1e5, 0.001), on(backend));
         for (int frame = 0; frame < 240; ++frame) block.advance_frame();
         const std::vector<float> before = block.read_frame().positions;
         block.advance_frame();

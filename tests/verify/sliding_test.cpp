@@ -5,14 +5,14 @@
 #include <glm/geometric.hpp>
 
 #include "gelatin/simulator.h"
-#include "support/gl_fixture.h"
+#include "support/simulator_fixture.h"
 
 namespace gelatin {
 namespace {
 
 constexpr double kGravity = 9.81, kFriction = 0.5;
 
-class SlidingTest : public test::GlTest {
+class SlidingTest : public test::SimulatorFixture {
 protected:
     // A flat block of 16 kg, in gravity that is turned as the slope is.
     // @param tangent of the slope over the coefficient of friction
@@ -39,12 +39,6 @@ protected:
         }
         return scene;
     }
-    static Simulator simulator(const Scene& scene, Backend backend) {
-        SimulatorOptions options;
-        options.backend = backend;
-        options.use_current_context = backend == Backend::gl;
-        return Simulator(scene, options);
-    }
     static double speed_after(Simulator& simulator, int frames) {
         for (int frame = 0; frame < frames; ++frame) simulator.advance_frame();
         simulator.begin_statistics();
@@ -56,8 +50,7 @@ TEST_F(SlidingTest, FrictionHoldsBlocks) {
     for (const bool has_plane : {false, true})
         for (const double youngs_modulus : {1e4, 1e5, 1e6, 1e8}) {
             // On planes, which act on single nodes, some creep where little is missing.
-            Simulator held =
-                simulator(scene(has_plane, youngs_modulus, has_plane ? 0.9 : 0.98), Backend::cpu);
+            Simulator held(scene(has_plane, youngs_modulus, has_plane ? 0.9 : 0.98), on(Backend::cpu));
             EXPECT_LT(std::abs(speed_after(held, 180)), 1e-5) << has_plane << ' ' << youngs_modulus;
         }
 }
@@ -73,7 +66,7 @@ TEST_F(SlidingTest, BlocksSlideAsFastAsFrictionLeaves) {
                 for (const Backend backend : {Backend::cpu, Backend::gl}) {
                     if (backend == Backend::gl && (youngs_modulus != 1e7 || tangent < 1.1))
                         continue;  // to save time
-                    Simulator block = simulator(slope, backend);
+                    Simulator block(slope, on(backend));
                     const double before = speed_after(block, 60), after = speed_after(block, 60);
                     EXPECT_NEAR(after - before, gravity.x - friction, 0.02 * friction)
                         << has_plane << ' ' << youngs_modulus << ' ' << tangent;

@@ -7,20 +7,14 @@
 #include <vector>
 
 #include "gelatin/simulator.h"
-#include "support/gl_fixture.h"
 #include "support/random_maker.h"
+#include "support/simulator_fixture.h"
 
 namespace gelatin {
 namespace {
 
-class StiffBodiesTest : public test::GlTest {
+class StiffBodiesTest : public test::SimulatorFixture {
 protected:
-    static Simulator simulator(const Scene& scene, Backend backend) {
-        SimulatorOptions options;
-        options.backend = backend;
-        options.use_current_context = backend == Backend::gl;
-        return Simulator(scene, options);
-    }
     static Scene scene(double youngs_modulus, double restitution) {
         Scene scene;
         Material& material = scene.materials.emplace_back();
@@ -72,7 +66,7 @@ TEST_F(StiffBodiesTest, BilliardBallsGainNoMotion) {
                     add_plane(normal, -1.0, 0.0, box);
                 }
             for (const Backend backend : {Backend::cpu, Backend::gl}) {
-                Simulator balls = simulator(box, backend);
+                Simulator balls(box, on(backend));
                 const std::vector<double> energies =
                     motion_energies(balls, backend == Backend::cpu ? 240 : 60);
                 for (std::size_t i = 1; i < energies.size(); ++i) {
@@ -102,7 +96,7 @@ TEST_F(StiffBodiesTest, SingleOnesFallAndStop) {
         body.rotation = random.point(90.0);
         body.velocity = {0.0, 0.0, number % 4 == 0 ? 1.0 : 0.0};
         add_plane({0, 1, 0}, 0.0, 0.5, falling);
-        Simulator simulated = simulator(falling, Backend::cpu);
+        Simulator simulated(falling, on(Backend::cpu));
         const std::vector<double> energies = motion_energies(simulated, 300);
         simulated.begin_statistics();
         EXPECT_LT(simulated.take_statistics().kinetic_energy, 1e-6) << number;
@@ -130,7 +124,7 @@ TEST_F(StiffBodiesTest, BarsFallAndRest) {
         add_plane({0, 1, 0}, 0.0, 0.5, bars);
         for (const Backend backend : {Backend::cpu, Backend::gl}) {
             if (backend == Backend::gl && youngs_modulus > 1e9) continue;  // to save time
-            Simulator falling = simulator(bars, backend);
+            Simulator falling(bars, on(backend));
             const std::vector<double> energies = motion_energies(falling, 420);
             double least = energies[0];
             for (const double energy : energies) {

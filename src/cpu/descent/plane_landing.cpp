@@ -26,7 +26,8 @@ constexpr double kEnough = 1e-6;
 constexpr int kAnchors = 1;
 // Friction goes on by how nodes press until that changes by less than this part of it.
 constexpr double kSteady = 1e-3;
-// Nodes that are higher above a plane than so many times what a motion can move them do not reach it.
+// Nodes that are higher above a plane than so many times what the motion moves them do not reach it at first;
+// those that landing itself turns into it do so in the next motion.
 constexpr double kReaches = 2.0;
 // Motions, each of which is to first order in rotations; of smaller ones one is enough.
 constexpr int kMostMotions = 3;

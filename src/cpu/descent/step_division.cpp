@@ -30,7 +30,6 @@ StepDivision<Real>::StepDivision(std::shared_ptr<const Model> model)
       masses_(model_->body_count()),
       wave_times_(wave_times(*model_)),
       velocities_(model_->body_count()),
-      relative_(model_->body_count()),
       speeds_(model_->body_count()),
       liveliness_(model_->body_count()) {
     for (std::size_t o = 0; o < masses_.size(); ++o) {
@@ -88,7 +87,6 @@ template <class Real>
 void StepDivision<Real>::find_speeds(double step, std::span<const Vec4<Real>> positions,
                                      std::span<const std::uint8_t> touched_colliders,
                                      const Contacts<Real>* contacts) {
-    const bool has_islands = contacts != nullptr && contacts->list().is_valid;
     const bool has_planes_only = std::all_of(model_->colliders.begin(), model_->colliders.end(),
                                              [](const Collider& collider) { return collider.kind == 0; });
     for (std::size_t o = 0; o < speeds_.size(); ++o) {
@@ -96,39 +94,34 @@ void StepDivision<Real>::find_speeds(double step, std::span<const Vec4<Real>> po
         if (touched_colliders[o] != 0)
             speeds_[o] = has_planes_only ? std::max(speeds_[o], 0.0) : glm::length(velocities_[o]);
     }
-    leave_islands(has_islands ? contacts : nullptr);
-    if (!has_islands) return;
+    if (contacts == nullptr || !contacts->list().is_valid) return;
+    const std::vector<glm::dvec3> relative = find_relative(*contacts);
     std::vector<Vec3<Real>> motions(model_->objects.size());
     for (std::size_t o = 0; o < speeds_.size(); ++o) motions[o] = Vec3<Real>(step * velocities_[o]);
     const std::vector<std::uint8_t> meets = contacts->find_meeting(motions);
     for (std::size_t o = 0; o < speeds_.size(); ++o)
-        if (meets[o] != 0) speeds_[o] = std::max(speeds_[o], glm::length(relative_[o]));
+        if (meets[o] != 0) speeds_[o] = std::max(speeds_[o], glm::length(relative[o]));
 }
 
-// What bodies do besides the mean of their island; where something is held, or a plane is met, all they do.
-// @param contacts null: each body is an island
+// Velocities of bodies besides the mean of their island; where something is held, or a plane is met, whole.
 template <class Real>
-void StepDivision<Real>::leave_islands(const Contacts<Real>* contacts) {
-    const auto island_of = [&](std::size_t o) {
-        return contacts != nullptr ? contacts->list().islands[o] : o;
-    };
-    const std::size_t islands = contacts != nullptr ? contacts->list().shifts.size() : speeds_.size();
-    std::vector<glm::dvec3> momenta(islands, glm::dvec3(0.0));
-    std::vector<double> masses(islands);
-    std::vector<std::uint8_t> is_held(islands);
+std::vector<glm::dvec3> StepDivision<Real>::find_relative(const Contacts<Real>& contacts) const {
+    const ContactList<Real>& list = contacts.list();
+    std::vector<glm::dvec3> momenta(list.shifts.size(), glm::dvec3(0.0));
+    std::vector<double> masses(list.shifts.size());
+    std::vector<std::uint8_t> is_held(list.shifts.size());
     for (std::size_t o = 0; o < speeds_.size(); ++o) {
-        const std::size_t i = island_of(o);
+        const std::size_t i = list.islands[o];
         momenta[i] += masses_[o] * velocities_[o];
         masses[i] += masses_[o];
-        if (speeds_[o] != kMeetsNothing) is_held[i] = 1;
-        if (contacts != nullptr && (contacts->is_held(o) || contacts->list().is_fixed[i] != 0))
-            is_held[i] = 1;
+        if (speeds_[o] != kMeetsNothing || contacts.is_held(o) || list.is_fixed[i] != 0) is_held[i] = 1;
     }
+    std::vector<glm::dvec3> relative = velocities_;
     for (std::size_t o = 0; o < speeds_.size(); ++o) {
-        const std::size_t i = island_of(o);
-        const bool moves = is_held[i] == 0 && masses[i] > 0.0;
-        relative_[o] = moves ? velocities_[o] - momenta[i] / masses[i] : velocities_[o];
+        const std::size_t i = list.islands[o];
+        if (is_held[i] == 0 && masses[i] > 0.0) relative[o] -= momenta[i] / masses[i];
     }
+    return relative;
 }
 
 // With planes that the body touches, or will within this step, as it goes on average.

@@ -34,7 +34,7 @@ private:
     void find_velocities(std::span<const Vec4<Real>> velocities);
     void find_speeds(double step, std::span<const Vec4<Real>> positions,
                      std::span<const std::uint8_t> touched_colliders, const Contacts<Real>* contacts);
-    void leave_islands(const Contacts<Real>* contacts);
+    std::vector<glm::dvec3> find_relative(const Contacts<Real>& contacts) const;
     double plane_speed(double step, std::span<const Vec4<Real>> positions, std::size_t object) const;
 
     std::shared_ptr<const Model> model_;
@@ -42,7 +42,6 @@ private:
     std::vector<double> masses_;          // of what is not held [kg]
     std::vector<double> wave_times_;      // a pressure wave's through it [s]
     std::vector<glm::dvec3> velocities_;  // mean [m/s]
-    std::vector<glm::dvec3> relative_;    // to its island's, or to what does not move [m/s]
     std::vector<double> speeds_;          // with which it meets others now, or kMeetsNothing [m/s]
     std::vector<double> liveliness_;      // the greatest of these, fading while it meets them [m/s]
 };
