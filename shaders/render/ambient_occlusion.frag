@@ -24,12 +24,12 @@ int tile_index(ivec2 pixel) {
 
 // From the point to the next one on the same surface: of both neighbours the one whose depth differs less.
 vec3 along_surface(vec3 point, ivec2 pixel, ivec2 side) {
-    ivec2 last = textureSize(body_depths, 0) - 1;
-    vec3 after = body_point(min(pixel + side, last)) - point;
-    vec3 before = point - body_point(max(pixel - side, ivec2(0)));
-    // At the picture's edge one of them is the point itself.
-    bool takes_before = after == vec3(0.0) || (before != vec3(0.0) && abs(before.z) < abs(after.z));
-    return takes_before ? before : after;
+    ivec2 last = textureSize(body_depths, 0) - 1, next = pixel + side, previous = pixel - side;
+    if (any(greaterThan(next, last))) return point - body_point(previous);
+    vec3 after = body_point(next) - point;
+    if (any(lessThan(previous, ivec2(0)))) return after;
+    vec3 before = point - body_point(previous);
+    return abs(before.z) < abs(after.z) ? before : after;
 }
 
 vec3 body_normal(vec3 point, ivec2 pixel) {

@@ -85,9 +85,16 @@ RawBuffer::~RawBuffer() {
 void RawBuffer::upload(std::size_t offset, std::size_t bytes, const void* data) {
     if (bytes == 0) return;
     if (hazard_probe != nullptr) hazard_probe->uploads(id(), bytes == bytes_);
+    // Not by glBufferSubData: NVIDIA's driver (580.159) lets it overtake a dispatch that still reads the
+    // buffer (docs/decisions/0047-first-gpu.md).
+    GLuint staging = 0;
+    glGenBuffers(1, &staging);
+    glBindBuffer(GL_COPY_READ_BUFFER, staging);
+    glBufferData(GL_COPY_READ_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_STREAM_DRAW);
     glBindBuffer(GL_COPY_WRITE_BUFFER, id());
-    glBufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
-                    data);
+    glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, static_cast<GLintptr>(offset),
+                        static_cast<GLsizeiptr>(bytes));
+    glDeleteBuffers(1, &staging);
 }
 
 void RawBuffer::download(std::size_t offset, std::size_t bytes, void* out) const {

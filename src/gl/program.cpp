@@ -98,7 +98,8 @@ void apply(const ProgramInterface::Block& block) {
 void apply(const ProgramInterface::Sampler& sampler) {
     glActiveTexture(GL_TEXTURE0 + sampler.unit);
     glBindTexture(sampler.target, sampler.id());
-    if (sampler.target == GL_TEXTURE_BUFFER) return;
+    // A buffer texture ignores samplers, but drivers warn of one for shadows that is left on its unit.
+    if (sampler.target == GL_TEXTURE_BUFFER && !units_with_samplers[sampler.unit]) return;
     glBindSampler(sampler.unit, sampler.sampler_id);
     units_with_samplers[sampler.unit] = sampler.sampler_id != 0;
 }

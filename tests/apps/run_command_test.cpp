@@ -288,7 +288,8 @@ TEST_F(RunCommand, KeepsWhatWasGoodOfARunThatExplodes) {
 // Checkpoints
 
 TEST_F(RunCommand, UsesNoMoreThreadsThanAllowed) {
-    const ProgramResult one = run({"run", "cube.toml", "--frames", "1", "--threads", "1"});
+    const ProgramResult one =
+        run({"run", "cube.toml", "--backend", "cpu", "--frames", "1", "--threads", "1"});
     EXPECT_EQ(one.exit_code, 0) << one.err;
     EXPECT_THAT(one.err, ::testing::HasSubstr("CPU, 1 thread,"));
     EXPECT_EQ(run({"run", "cube.toml", "--threads", "0"}).exit_code, 2);

@@ -54,8 +54,8 @@ TEST_F(ProgramTest, CompileErrorAfterAnIncludeNamesTheIncludingFile) {
 }
 
 TEST_F(ProgramTest, LinkErrorNamesBothFiles) {
-    folder_.add("a.vert", "out vec3 color; void main() { color = vec3(1.0); gl_Position = vec4(0.0); }\n");
-    folder_.add("a.frag", "in vec4 color; out vec4 o; void main() { o = color; }\n");
+    folder_.add("a.vert", "float nowhere(); void main() { gl_Position = vec4(nowhere()); }\n");
+    folder_.add("a.frag", "out vec4 o; void main() { o = vec4(1.0); }\n");
     try {
         Program::graphics("a.vert", "a.frag");
         FAIL() << "expected GlError";

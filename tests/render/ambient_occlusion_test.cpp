@@ -139,7 +139,9 @@ TEST_F(AmbientOcclusionTest, NoHaloRoundWhatIsFarBefore) {
     view_.floor_height.reset();
     draw({box_at({0.0, 0.5, -0.5}, {6.0, 4.0, 0.1}), ball_at({0.0, 0.5, 0.3}, 0.2)});
     // At the ball's rim normals are those of its outermost pixels.
-    for (const glm::vec2& pixel : pixels_) EXPECT_GE(pixel.x, pixel.y > 3.4f ? 0.99f : 0.96f) << pixel.y;
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+        EXPECT_GE(pixels_[i].x, pixels_[i].y > 3.4f ? 0.99f : 0.96f)
+            << pixels_[i].y << " m away, in column " << i % kHalfWidth << ", row " << i / kHalfWidth;
 }
 
 // Where nothing is near, nothing is worked out; what is worked out does not depend on that.

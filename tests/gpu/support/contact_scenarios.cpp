@@ -165,7 +165,7 @@ double sweep_error(MaterialModel kind, int frames, int sweeps, double far = 0.0,
             return error_if(true);
         longest = std::max(longest, glm::length(expected - glm::dvec3(start[n])));
         const double force_off = glm::length(glm::dvec3(touched.nodes[n].force) - force);
-        if (force_off > 0.0) forces_off.push_back(force_off / (1e-4 * glm::length(force) + 0.01));  // [N]
+        if (force_off > 0.0) forces_off.push_back(force_off / (2e-4 * glm::length(force) + 0.02));  // [N]
     }
     for (std::size_t o = 0; o < before.model->objects.size(); ++o)
         if ((touched.objects[o] != 0) != (colliders.objects[o] != 0)) return error_if(true);
