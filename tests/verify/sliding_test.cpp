@@ -49,10 +49,11 @@ protected:
 TEST_F(SlidingTest, FrictionHoldsBlocks) {
     for (const bool has_plane : {false, true})
         for (const double youngs_modulus : {1e4, 1e5, 1e6, 1e8}) {
-            // On planes, which act on single nodes, some creep where little is missing.
-            Simulator held(scene(has_plane, youngs_modulus, has_plane ? 0.9 : 0.98), on(Backend::cpu));
+            Simulator held(scene(has_plane, youngs_modulus, 0.98), on(Backend::cpu));
             EXPECT_LT(std::abs(speed_after(held, 180)), 1e-5) << has_plane << ' ' << youngs_modulus;
         }
+    Simulator held(scene(true, 1e5, 0.98), on(Backend::gl));
+    EXPECT_LT(std::abs(speed_after(held, 180)), 1e-5);
 }
 
 TEST_F(SlidingTest, BlocksSlideAsFastAsFrictionLeaves) {
@@ -68,7 +69,7 @@ TEST_F(SlidingTest, BlocksSlideAsFastAsFrictionLeaves) {
                         continue;  // to save time
                     Simulator block(slope, on(backend));
                     const double before = speed_after(block, 60), after = speed_after(block, 60);
-                    EXPECT_NEAR(after - before, gravity.x - friction, 0.02 * friction)
+                    EXPECT_NEAR(after - before, gravity.x - friction, (has_plane ? 0.003 : 0.02) * friction)
                         << has_plane << ' ' << youngs_modulus << ' ' << tangent;
                 }
             }

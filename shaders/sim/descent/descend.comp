@@ -68,26 +68,49 @@ layout(std430) buffer Contacts { ColliderContact contacts[]; };  // of nodes
 
 vec2 times(vec3 m, vec2 v) { return vec2(m.x * v.x + m.y * v.y, m.y * v.x + m.z * v.y); }
 
-// (I + yielding * stiffness)^-1
-vec3 inverse_of(vec3 stiffness, float yielding) {
-    vec3 m = vec3(1.0, 0.0, 1.0) + yielding * stiffness;
-    return vec3(m.z, -m.y, m.x) / (m.x * m.z - m.y * m.y);
-}
+vec3 inverse_of(vec3 m) { return vec3(m.z, -m.y, m.x) / (m.x * m.z - m.y * m.y); }
 
-// Friction against a slip within a plane, at most `most`; see push_outside.h. @param stiffness xx, xy, yy [N/m]
-// @param yielding output: what is left of the slip, by the force
-vec2 slip_with_friction(vec3 stiffness, vec2 slip, float most, out float yielding) {
-    vec2 holding = times(stiffness, slip), force = holding;
-    float length_ = length(holding);
-    most = max(most, 1e-6 * length_);
-    yielding = 0.0;
-    for (int i = 0; i < 3 && length_ > most; ++i) {
-        float falling = dot(force, times(inverse_of(stiffness, yielding), times(stiffness, force)));
-        yielding += (length_ / most - 1.0) * length_ * length_ / falling;
-        force = times(inverse_of(stiffness, yielding), holding);
-        length_ = length(force);
+// (I + y * stiffness)^-1
+vec3 yields(vec3 stiffness, float y) { return inverse_of(vec3(1.0, 0.0, 1.0) + y * stiffness); }
+
+struct Slip {
+    vec2 way;        // since the step began, along the plane [m]
+    vec3 stiffness;  // within the plane: xx, xy, yy [N/m]
+    float pressing;  // after that way [N]
+    vec2 coupling;   // how much more it presses, by a way along the plane [N/m]
+};
+struct Friction {
+    vec2 force;      // against the slip [N]
+    vec2 back;       // where the node goes [m]
+    float pressing;  // there [N]
+    float yielding;  // what is left of the slip, by the force [m/N]
+};
+
+// Coulomb's, of at most c times what presses; see push_outside.h.
+Friction friction_on(Slip slip, float c) {
+    const int kRounds = 6;
+    const float kEnough = 1e-5;
+    vec2 holding = times(slip.stiffness, slip.way);
+    vec2 relieving = times(inverse_of(slip.stiffness), slip.coupling);
+    float length_ = length(holding), most = 0.0, least = 1e-6 * length_;
+    Friction found = Friction(holding, vec2(0.0), 0.0, 0.0);
+    for (int round_ = 0;; ++round_) {
+        float pressing = slip.pressing - dot(relieving, found.force);
+        found.pressing = max(0.0, pressing);
+        most = max(c * found.pressing, least);
+        bool holds = found.yielding == 0.0 && length_ <= most;
+        if (holds || abs(length_ - most) <= kEnough * most || round_ == kRounds) break;
+        float bound = pressing > 0.0 ? most : c * pressing;
+        vec2 falls = times(yields(slip.stiffness, found.yielding), times(slip.stiffness, found.force));
+        float slope = bound * dot(found.force, falls) / (length_ * length_) + c * dot(relieving, falls);
+        found.yielding = slope > 0.0 ? max(0.0, found.yielding + (length_ - bound) / slope)
+                                     : 2.0 * found.yielding + length(slip.way) / (c * slip.pressing);
+        found.force = times(yields(slip.stiffness, found.yielding), holding);
+        length_ = length(found.force);
     }
-    return length_ > most ? force * (most / length_) : force;
+    if (length_ > most) found.force *= most / length_;
+    found.back = found.yielding * found.force - slip.way;
+    return found;
 }
 
 // Where the node's own objective, to second order, is least outside the collider's tangent plane, behind which all of it
@@ -105,22 +128,23 @@ void push_out(uint c, vec4 surface, vec3 start, NodeTerms terms, inout vec3 posi
     float stiffness = 1.0 / compliance;
     float pressing = -surface.w * stiffness;
     position += pressing * yielding;
-    contact.force = vec4(contact.force.xyz + pressing * n, stiffness);
+    contact.force.w = stiffness;
     contact.normal = vec4(n, 0.0);
-
-    float most = texelFetch(colliders, int(4u * c + 3u)).y * pressing;
-    if (!(most > 0.0)) return;
+    float coefficient = texelFetch(colliders, int(4u * c + 3u)).y;
+    if (!(coefficient > 0.0)) {
+        contact.force.xyz += pressing * n;
+        return;
+    }
     vec3 u = normalize(cross(n, abs(n.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
     vec3 v = cross(n, u), of_u = stiffness_times(terms, u), of_v = stiffness_times(terms, v);
     vec3 displacement = position - start;
-    vec2 slip = vec2(dot(u, displacement), dot(v, displacement));
-    float left;
-    vec2 friction = slip_with_friction(vec3(dot(u, of_u), dot(u, of_v), dot(v, of_v)), slip, most, left);
-    vec2 back = left * friction - slip;
-    position += back.x * u + back.y * v;
-    contact.force.xyz -= friction.x * u + friction.y * v;
+    Slip slip = Slip(vec2(dot(u, displacement), dot(v, displacement)), vec3(dot(u, of_u), dot(u, of_v), dot(v, of_v)),
+                     pressing, vec2(dot(n, of_u), dot(n, of_v)));
+    Friction friction = friction_on(slip, coefficient);
+    position += friction.back.x * u + friction.back.y * v;
+    contact.force.xyz += friction.pressing * n - friction.force.x * u - friction.force.y * v;
     // It falls to nothing where all slip is taken back.
-    contact.normal.w = left * stiffness > 1.0 ? 1.0 / left : stiffness;
+    contact.normal.w = friction.yielding * stiffness > 1.0 ? 1.0 / friction.yielding : stiffness;
 }
 
 // @param ends of the colliders of each kind, all zero for nodes that are outside: software drivers run all code that is not in

@@ -194,13 +194,12 @@ bool BlockDescent<Real>::is_soft(std::size_t object, Real step) const {
 // once, with the same results.
 template <class Real>
 void BlockDescent<Real>::make_sweeps(int first, int end, Positions& positions, StageTimer* timer) {
-    const std::vector<DescentBatch>& batches = objective_.rows().batches;
     const auto sweep = [&](std::size_t batch) {
         sweep_.run(batch, objective_, acting_, contacts_, positions);
     };
     const auto move_bodies = [&](std::size_t batch, bool last) {
-        rigid_move_.run(batches[batch].objects, last, objective_, contacts_, nullptr,
-                        landing_ ? &*landing_ : nullptr, positions, positions);
+        rigid_move_.run(batch, last, objective_, contacts_, nullptr, landing_ ? &*landing_ : nullptr,
+                        positions, positions);
     };
     if (timer == nullptr && acting_ == nullptr) {
         for_batches([&](std::size_t batch) {
@@ -301,8 +300,9 @@ void BlockDescent<Real>::move_together(bool last, Positions& positions, StageTim
         for_each_node(*model_, [&](std::uint32_t n) {
             if (ends_[n].w == Real(0)) ends_[n] = objective_.step.targets[n];
         });
-        const Range all{0, static_cast<std::uint32_t>(model_->objects.size())};
-        rigid_move_.run(all, last, objective_, contacts_, bodies_.get(), &*landing_, positions, ends_);
+        for_batches([&](std::size_t batch) {
+            rigid_move_.run(batch, last, objective_, contacts_, bodies_.get(), &*landing_, positions, ends_);
+        });
         joint_move_.run(last, *bodies_, objective_, contacts_, *landing_, positions, ends_);
         bodies_->move(ends_, positions);
     }

@@ -21,9 +21,6 @@ constexpr double kMostSteps = 2.0;
 // what it has moved, squared.
 constexpr int kMostRounds = 24, kMostLooks = 16;
 constexpr double kEnough = 1e-6;
-// Friction that holds yields, as springs do, which bodies would creep in each step: so often it starts again
-// with what holds by then.
-constexpr int kAnchors = 1;
 // Friction goes on by how nodes press until that changes by less than this part of it.
 constexpr double kSteady = 1e-3;
 // Nodes that are higher above a plane than so many times what the motion moves them do not reach it at first;
@@ -55,11 +52,12 @@ struct PlaneLanding<Real>::Row {
     double height, stiffness;      // [m], [N/m]
     glm::dvec2 slip;               // since the step began [m]
     double coefficient;            // of friction
+    double pressed;                // by what else acts on it [N]
+    glm::dvec2 pulled;             // along the plane [N]
     double most = 0.0;             // of friction, with what presses the node [N]
-    glm::dvec2 anchored{0.0};      // friction without a slip [N]
 
-    double height_after(const Motion& motion) const { return height + along.dot(motion); }
-    double pressing(const Motion& motion) const { return stiffness * std::max(0.0, -height_after(motion)); }
+    double pressing(const Motion& motion) const { return std::max(0.0, pressed - lifting(motion)); }
+    double lifting(const Motion& motion) const { return stiffness * (height + along.dot(motion)); }
     glm::dvec2 along_plane(const Motion& motion) const {
         return {across[0].dot(motion), across[1].dot(motion)};
     }
@@ -71,7 +69,7 @@ struct PlaneLanding<Real>::Row {
         return size > most ? most / size * held : held;
     }
     glm::dvec2 holding(const Motion& motion) const {
-        return anchored + stiffness * (slip + along_plane(motion));
+        return pulled + stiffness * (slip + along_plane(motion));
     }
     Motion force(const Motion& motion) const {
         const glm::dvec2 held = friction(motion);
@@ -84,7 +82,7 @@ struct PlaneLanding<Real>::Row {
     }
     // By which the force falls. Nodes that slide hold across their slip only.
     void add_stiffness(const Motion& motion, MotionMatrix& sum) const {
-        if (height_after(motion) < 0.0) sum += stiffness * along * along.transpose();
+        if (pressing(motion) > 0.0) sum += stiffness * along * along.transpose();
         if (!(most > 0.0)) return;
         const glm::dvec2 held = holding(motion);
         const double size = glm::length(held);
@@ -117,7 +115,7 @@ bool PlaneLanding<Real>::begin(double step, const StepObjective<Real>& objective
         lands_[o] = is_stiff && std::none_of(own.begin(), own.end(), is_held) ? 1 : 0;
         if (lands_[o] == 0) return;
         if (is_inside(o, objective.step.targets)) any = true;
-        land(o, objective, positions);
+        land(o, objective, {}, positions);
     });
     return any;
 }
@@ -126,7 +124,7 @@ bool PlaneLanding<Real>::begin(double step, const StepObjective<Real>& objective
 template <class Real>
 std::vector<typename PlaneLanding<Real>::Row> PlaneLanding<Real>::find_rows(
     std::uint32_t object, const StepObjective<Real>& objective, std::span<const Vec4<Real>> positions,
-    const glm::dvec3& origin, const Motion& motion) const {
+    std::span<const Vec3<Real>> forces, const glm::dvec3& origin, const Motion& motion) const {
     std::vector<Row> rows;
     const SurfaceParts& parts = model_->surface_parts;
     const Range& faces = model_->objects[object].faces;
@@ -142,14 +140,21 @@ std::vector<typename PlaneLanding<Real>::Row> PlaneLanding<Real>::find_rows(
             const std::uint32_t n = parts.nodes[place];
             const glm::dvec3 position(positions[n]), arm = position - origin;
             const double height = glm::dot(normal, position) - static_cast<double>(collider.center.w);
-            if (height > kReaches * (translation + rotation * glm::length(arm))) continue;
+            const glm::dvec3 force = forces.empty() ? glm::dvec3(0.0) : glm::dvec3(forces[n]);
+            const auto stiffness = static_cast<double>(stiffnesses_[n]);
+            const double pressed = -glm::dot(force, normal);
+            if (height > kReaches * (translation + rotation * glm::length(arm)) &&
+                pressed <= stiffness * height)
+                continue;
             const glm::dvec3 slip = position - glm::dvec3(objective.step.starts[n]);
             rows.push_back({along(arm, normal),
                             {along(arm, u), along(arm, v)},
                             height,
-                            static_cast<double>(stiffnesses_[n]),
+                            stiffness,
                             {glm::dot(u, slip), glm::dot(v, slip)},
-                            static_cast<double>(collider.friction)});
+                            static_cast<double>(collider.friction),
+                            pressed,
+                            {glm::dot(u, force), glm::dot(v, force)}});
         }
     }
     return rows;
@@ -158,10 +163,10 @@ std::vector<typename PlaneLanding<Real>::Row> PlaneLanding<Real>::find_rows(
 // Newton's method for a convex function: with what presses, then with friction by that too.
 template <class Real>
 bool PlaneLanding<Real>::land(std::uint32_t object, const StepObjective<Real>& objective,
-                              std::span<const Vec4<Real>> positions, const glm::dvec3& origin,
-                              Motion& motion) const {
+                              std::span<const Vec4<Real>> positions, std::span<const Vec3<Real>> forces,
+                              const glm::dvec3& origin, Motion& motion) const {
     if (lands_[object] == 0 || !is_inside(object, positions, origin, motion)) return false;
-    std::vector<Row> rows = find_rows(object, objective, positions, origin, motion);
+    std::vector<Row> rows = find_rows(object, objective, positions, forces, origin, motion);
     const Range& nodes = model_->objects[object].nodes;
     const auto targets = std::span(objective.step.targets).subspan(nodes.first, nodes.count);
     const MotionMatrix inertia =
@@ -169,16 +174,13 @@ bool PlaneLanding<Real>::land(std::uint32_t object, const StepObjective<Real>& o
     const Eigen::LDLT<MotionMatrix> yielding(inertia);
     const Motion wanted = motion;
     bool has_friction = false;
-    int anchors = 0;
     for (int round = 0; round < kMostRounds; ++round) {
         const bool is_steady = has_friction && limit_friction(motion, rows);
         Motion force = inertia * (wanted - motion);
         for (const Row& row : rows) force += row.force(motion);
         const Motion made = motion - wanted;
         if (force.dot(yielding.solve(force)) <= kEnough * made.dot(inertia * made)) {
-            if (is_steady && anchors++ == kAnchors) break;
-            if (is_steady)
-                for (Row& row : rows) row.anchored = row.friction(motion);
+            if (is_steady) break;
             has_friction = true;
             continue;
         }
@@ -212,7 +214,7 @@ bool PlaneLanding<Real>::limit_friction(const Motion& motion, std::vector<Row>& 
 
 template <class Real>
 void PlaneLanding<Real>::land(std::uint32_t object, const StepObjective<Real>& objective,
-                              std::span<Vec4<Real>> positions) const {
+                              std::span<const Vec3<Real>> forces, std::span<Vec4<Real>> positions) const {
     const Range& nodes = model_->objects[object].nodes;
     if (lands_[object] == 0) return;
     for (int i = 0; i < kMostMotions && is_inside(object, positions); ++i) {
@@ -222,7 +224,7 @@ void PlaneLanding<Real>::land(std::uint32_t object, const StepObjective<Real>& o
             std::span<const Vec4<Real>>(positions.subspan(nodes.first, nodes.count)), targets, origin);
         const glm::dvec3 center = origin + sums.arm / sums.stiffness;
         Motion motion = Motion::Zero();
-        land(object, objective, positions, center, motion);
+        land(object, objective, positions, forces, center, motion);
         move_rigid_nodes(
             {center, {motion(0), motion(1), motion(2)}, cayley_rotation({motion(3), motion(4), motion(5)})},
             positions.subspan(nodes.first, nodes.count));

@@ -32,18 +32,25 @@ public:
     /// the body is at these at rest. @param origin of rotations [m]
     /// @return whether it led into a plane
     bool land(std::uint32_t object, const StepObjective<Real>& objective,
-              std::span<const Vec4<Real>> positions, const glm::dvec3& origin, Motion& motion) const;
+              std::span<const Vec4<Real>> positions, const glm::dvec3& origin, Motion& motion) const {
+        return land(object, objective, positions, {}, origin, motion);
+    }
 
     /// Takes the nodes of a body outside in this way, with rotations of any size.
-    void land(std::uint32_t object, const StepObjective<Real>& objective,
+    /// @param forces by node, on nodes that press planes already: of all but the planes, before the body
+    /// moved [N]; 0 for others; empty: none
+    void land(std::uint32_t object, const StepObjective<Real>& objective, std::span<const Vec3<Real>> forces,
               std::span<Vec4<Real>> positions) const;
 
 private:
     struct Row;
 
+    bool land(std::uint32_t object, const StepObjective<Real>& objective,
+              std::span<const Vec4<Real>> positions, std::span<const Vec3<Real>> forces,
+              const glm::dvec3& origin, Motion& motion) const;
     std::vector<Row> find_rows(std::uint32_t object, const StepObjective<Real>& objective,
-                               std::span<const Vec4<Real>> positions, const glm::dvec3& origin,
-                               const Motion& motion) const;
+                               std::span<const Vec4<Real>> positions, std::span<const Vec3<Real>> forces,
+                               const glm::dvec3& origin, const Motion& motion) const;
     static bool limit_friction(const Motion& motion, std::vector<Row>& rows);
     bool is_inside(std::uint32_t object, std::span<const Vec4<Real>> positions,
                    const glm::dvec3& origin = glm::dvec3(0.0), const Motion& motion = Motion::Zero()) const;

@@ -23,21 +23,23 @@ void add_contact(const ColliderContact<Real>& contact, const glm::dvec3& r, Rigi
 }  // namespace
 
 template <class Real>
-RigidMove<Real>::RigidMove(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
+RigidMove<Real>::RigidMove(std::shared_ptr<const Model> model)
+    : model_(std::move(model)), presses_(model_->node_count()), forces_(model_->node_count()) {}
 
-// The last sweep has left nodes outside colliders: bodies that touch one do not move after it.
 template <class Real>
-void RigidMove<Real>::run(const Range& objects, bool is_last, const StepObjective<Real>& objective,
+void RigidMove<Real>::run(std::size_t batch, bool is_last, const StepObjective<Real>& objective,
                           const ColliderContacts<Real>& contacts, const Contacts<Real>* bodies,
                           const PlaneLanding<Real>* landing, const std::vector<Vec4<Real>>& positions,
-                          std::span<Vec4<Real>> ends) const {
-    tbb::parallel_for(objects.first, objects.end(), [&](std::uint32_t o) {
-        if (bodies != nullptr && !bodies->list().is_alone_at(o)) return;
+                          std::span<Vec4<Real>> ends) {
+    std::vector<std::uint32_t> moved;
+    const Range& objects = objective.rows().batches[batch].objects;
+    for (std::uint32_t o = objects.first; o < objects.end(); ++o)
+        if (is_moved(o, is_last, contacts, bodies, positions)) moved.push_back(o);
+    if (landing != nullptr) find_pressing(batch, objective, contacts, *landing, positions, moved);
+    tbb::parallel_for(std::size_t(0), moved.size(), [&](std::size_t k) {
+        const std::uint32_t o = moved[k];
         const Range& nodes = model_->objects[o].nodes;
         const std::span<const Vec4<Real>> body_nodes(positions.data() + nodes.first, nodes.count);
-        const bool is_held = std::any_of(body_nodes.begin(), body_nodes.end(),
-                                         [](const Vec4<Real>& p) { return p.w == Real(0); });
-        if (is_held || (is_last && contacts.objects[o] != 0)) return;
         const glm::dvec3 origin(positions[nodes.first]);
         const std::span<const Vec4<Real>> targets(objective.step.targets.data() + nodes.first, nodes.count);
         RigidStep body;
@@ -48,8 +50,38 @@ void RigidMove<Real>::run(const Range& objects, bool is_last, const StepObjectiv
                 add_contact(contacts.nodes[n], glm::dvec3(positions[n]) - origin, body);
         }
         move_rigid_nodes(body.solve(origin), ends.subspan(nodes.first, nodes.count));
-        if (lands) landing->land(o, objective, ends);
+        if (lands) landing->land(o, objective, forces_, ends);
     });
+}
+
+// The last sweep has left nodes outside colliders: bodies that touch one do not move after it.
+template <class Real>
+bool RigidMove<Real>::is_moved(std::uint32_t object, bool is_last, const ColliderContacts<Real>& contacts,
+                               const Contacts<Real>* bodies, const std::vector<Vec4<Real>>& positions) const {
+    if (bodies != nullptr && !bodies->list().is_alone_at(object)) return false;
+    if (is_last && contacts.objects[object] != 0) return false;
+    const Range& nodes = model_->objects[object].nodes;
+    const auto first = positions.begin() + nodes.first;
+    return std::none_of(first, first + nodes.count, [](const Vec4<Real>& p) { return p.w == Real(0); });
+}
+
+// With what bodies that land press planes already, at the nodes that did in the last sweep.
+template <class Real>
+void RigidMove<Real>::find_pressing(std::size_t batch, const StepObjective<Real>& objective,
+                                    const ColliderContacts<Real>& contacts, const PlaneLanding<Real>& landing,
+                                    const std::vector<Vec4<Real>>& positions,
+                                    std::span<const std::uint32_t> objects) {
+    bool any = false;
+    for (const std::uint32_t o : objects) {
+        if (!landing.lands(o)) continue;
+        const Range& nodes = model_->objects[o].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            forces_[n] = Vec3<Real>(0);
+            presses_[n] = contacts.objects[o] != 0 && contacts.nodes[n].along > Real(0) ? 1 : 0;
+            any |= presses_[n] != 0;
+        }
+    }
+    if (any) objective.find_forces(batch, positions, forces_, presses_);
 }
 
 template class RigidMove<float>;

@@ -21,17 +21,25 @@ class RigidMove {
 public:
     explicit RigidMove(std::shared_ptr<const Model> model);
 
-    /// Moves some bodies. @param is_last whether no sweep follows
+    /// Moves the bodies of a batch. @param is_last whether no sweep follows
     /// @param bodies whose contacts move those that are not alone (JointMove); null: none
     /// @param landing null: each node by itself is put outside of planes, by sweeps
     /// @param ends output: where the nodes of those that move go; may be the positions themselves
-    void run(const Range& objects, bool is_last, const StepObjective<Real>& objective,
+    void run(std::size_t batch, bool is_last, const StepObjective<Real>& objective,
              const ColliderContacts<Real>& contacts, const Contacts<Real>* bodies,
              const PlaneLanding<Real>* landing, const std::vector<Vec4<Real>>& positions,
-             std::span<Vec4<Real>> ends) const;
+             std::span<Vec4<Real>> ends);
 
 private:
+    bool is_moved(std::uint32_t object, bool is_last, const ColliderContacts<Real>& contacts,
+                  const Contacts<Real>* bodies, const std::vector<Vec4<Real>>& positions) const;
+    void find_pressing(std::size_t batch, const StepObjective<Real>& objective,
+                       const ColliderContacts<Real>& contacts, const PlaneLanding<Real>& landing,
+                       const std::vector<Vec4<Real>>& positions, std::span<const std::uint32_t> objects);
+
     std::shared_ptr<const Model> model_;
+    std::vector<std::uint8_t> presses_;  // by node
+    std::vector<Vec3<Real>> forces_;     // on those nodes, but for what planes do [N]
 };
 
 }  // namespace gelatin::cpu

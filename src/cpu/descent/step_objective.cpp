@@ -62,11 +62,28 @@ template <class Real>
 void StepObjective<Real>::find_forces(const std::vector<Vec4<Real>>& positions,
                                       const Contacts<Real>* contacts, std::vector<Vec3<Real>>& forces,
                                       std::span<const std::uint8_t> wanted) const {
-    const bool any_flat = any_flat_tets();
+    find_forces({0, static_cast<std::uint32_t>(group_count())}, any_flat_tets(), positions, contacts, forces,
+                wanted);
+}
+
+template <class Real>
+void StepObjective<Real>::find_forces(std::size_t batch, const std::vector<Vec4<Real>>& positions,
+                                      std::vector<Vec3<Real>>& forces,
+                                      std::span<const std::uint8_t> wanted) const {
+    for (const Range& color : rows_.batches[batch].colors)
+        find_forces({color.first / kGroup, color.count / kGroup}, any_flat_tets(batch), positions, nullptr,
+                    forces, wanted);
+}
+
+template <class Real>
+void StepObjective<Real>::find_forces(const Range& groups, bool any_flat,
+                                      const std::vector<Vec4<Real>>& positions,
+                                      const Contacts<Real>* contacts, std::vector<Vec3<Real>>& forces,
+                                      std::span<const std::uint8_t> wanted) const {
     const auto is_wanted = [&](std::size_t row) {
         return rows_.nodes[row] != kNoNode && (wanted.empty() || wanted[rows_.nodes[row]] != 0);
     };
-    for_each_index(0, group_count(), kGroupsATask, [&](std::size_t group) {
+    for_each_index(groups.first, groups.end(), kGroupsATask, [&](std::size_t group) {
         bool any_wanted = false;
         for (std::uint32_t r = 0; r < kGroup; ++r) any_wanted |= is_wanted(group * kGroup + r);
         if (!any_wanted) return;

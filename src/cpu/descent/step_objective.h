@@ -63,6 +63,10 @@ public:
     void find_forces(const std::vector<Vec4<Real>>& positions, const Contacts<Real>* contacts,
                      std::vector<Vec3<Real>>& forces, std::span<const std::uint8_t> wanted = {}) const;
 
+    /// The same for nodes of a batch, without contacts.
+    void find_forces(std::size_t batch, const std::vector<Vec4<Real>>& positions,
+                     std::vector<Vec3<Real>>& forces, std::span<const std::uint8_t> wanted) const;
+
     /// The forces of all elements but contacts on each held node [N].
     void find_held_forces(const std::vector<Vec4<Real>>& positions, std::vector<Vec3<Real>>& forces) const;
 
@@ -70,6 +74,9 @@ private:
     bool is_held(std::size_t row) const {
         return rows_.nodes[row] != kNoNode && step.targets[rows_.nodes[row]].w == Real(0);
     }
+    void find_forces(const Range& groups, bool any_flat, const std::vector<Vec4<Real>>& positions,
+                     const Contacts<Real>* contacts, std::vector<Vec3<Real>>& forces,
+                     std::span<const std::uint8_t> wanted) const;
     // Of which the forces count.
     Terms gather_forces(std::size_t group, bool any_flat, const Contacts<Real>* contacts,
                         const std::vector<Vec4<Real>>& positions) const;

@@ -20,8 +20,9 @@ struct Landing {
     std::vector<glm::dvec4> guess, positions;
     bool lands = false;
 
+    // @param push on each node of the lowest layer, before it was led there [N]
     Landing(double youngs_modulus, double angle, const glm::dvec2& depth, const glm::dvec3& slip = {},
-            double friction = 0.0) {
+            double friction = 0.0, const glm::dvec3& push = {}) {
         std::vector<ColliderDescription> planes(2);
         for (ColliderDescription& plane : planes) plane.friction = friction;
         planes[0].shape = PlaneCollider{{0, 1, 0}, 0.0};
@@ -41,6 +42,22 @@ struct Landing {
         positions = guess;
         cpu::PlaneLanding<double> landing(model);
         lands = landing.begin(kStep, objective, positions);
+        if (push == glm::dvec3(0.0)) return;
+        positions = guess;
+        std::vector<glm::dvec3> forces(guess.size());
+        for (std::size_t n = 0; n < guess.size(); ++n)
+            if (guess[n].y < -0.99 * depth.y) forces[n] = push;
+        landing.land(0, objective, forces, positions);
+    }
+    double weight(double depth) const {  // that brings it down by so much in a step [N]
+        double mass = 0.0;
+        for (const float own : model->masses) mass += static_cast<double>(own);
+        return mass * depth / (kStep * kStep);
+    }
+    int lowest_count() const {
+        const double low = std::ranges::min(guess, {}, &glm::dvec4::y).y;
+        return static_cast<int>(
+            std::ranges::count_if(guess, [&](const glm::dvec4& p) { return p.y < low + 1e-6; }));
     }
 
     double least(int axis) const {
@@ -97,6 +114,19 @@ TEST(PlaneLanding, FrictionTakesBackWhatItCan) {
         EXPECT_NEAR(glm::length(glm::dvec2(back.x, back.z)), std::min(slip, most), 0.01 * most) << slid;
         EXPECT_NEAR(glm::dot(back, glm::normalize(glm::dvec3(2, 0, -1))), 0.0, 0.01 * most) << slid;
         EXPECT_NEAR(landing.least(1), 0.0, 0.01 * depth) << slid;
+    }
+}
+
+// A block that lies on a plane is pressed together already. So it stays where its weight leads it out of, and
+// does not yield again as if it came down only now.
+TEST(PlaneLanding, WhatLiesThereStays) {
+    const double down = 0.003;  // h^2 g [m]
+    for (const double youngs_modulus : {1e6, 1e8}) {
+        const Landing guess(youngs_modulus, 0.0, {-1.0, down});
+        const double part = guess.weight(down) / guess.lowest_count();
+        const Landing landing(youngs_modulus, 0.0, {-1.0, down}, {}, 0.5, {0.0, -part, 0.0});
+        const glm::dvec3 back = landing.center(landing.positions) - landing.center(landing.guess);
+        EXPECT_LT(glm::distance(back, {0.0, down, 0.0}), 1e-3 * down) << youngs_modulus;
     }
 }
 

@@ -58,10 +58,8 @@ TEST_F(PushOutside, TheForceIsWhatHoldsTheNodeThere) {
             V at = newton;
             const Contact contact = push(friction, start, hessian, at);
             EXPECT_NEAR(height(at), 0.0, 1e-7);  // the plane is one of floats
-            // Friction also changes the normal force a little where H couples both, which `force` leaves out.
             const V lacking = hessian * (at - newton) - contact.force;
-            EXPECT_LT(glm::length(lacking - glm::dot(lacking, kNormal) * kNormal),
-                      1e-4 * glm::length(contact.force));
+            EXPECT_LT(glm::length(lacking), 1e-3 * glm::length(contact.force));
             if (friction == 0.0) {
                 EXPECT_LT(glm::length(lacking), 1e-9);
             }
@@ -90,7 +88,7 @@ TEST_F(PushOutside, FrictionHoldsANodeOrActsAgainstItsSliding) {
             EXPECT_EQ(contact.across, contact.along);
         } else {
             ++slides;
-            EXPECT_NEAR(glm::length(rubbing), 0.5 * pressing, 1e-6 * pressing);
+            EXPECT_NEAR(glm::length(rubbing), 0.5 * pressing, 1e-5 * pressing);
             EXPECT_LT(glm::length(glm::normalize(rubbing) + glm::normalize(slip)), 1e-3);
             EXPECT_LE(contact.across, contact.along);
         }
@@ -100,7 +98,7 @@ TEST_F(PushOutside, FrictionHoldsANodeOrActsAgainstItsSliding) {
 }
 
 // However much stiffer it is across one direction than along it.
-TEST(SlipWithFriction, ActsAlongWhatIsLeft) {
+TEST(FrictionOnASlip, ActsAlongWhatIsLeft) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> angle(0.0, 6.3), size(-3.0, 3.0);
     for (int i = 0; i < 1000; ++i) {
@@ -111,7 +109,7 @@ TEST(SlipWithFriction, ActsAlongWhatIsLeft) {
         const glm::dvec2 slip(std::cos(direction), std::sin(direction));
         const glm::dvec2 holding(k.x * slip.x + k.y * slip.y, k.y * slip.x + k.z * slip.y);
         const double most = glm::length(holding) * std::pow(10.0, size(random) / 2.0);
-        const cpu::Slip<double> found = cpu::slip_with_friction(k, slip, most);
+        const cpu::Friction<double> found = cpu::friction_on<double>({slip, k, most, {0.0, 0.0}}, 1.0);
         const glm::dvec2 back = slip - found.yielding * found.force;
         const glm::dvec2 force(k.x * back.x + k.y * back.y, k.y * back.x + k.z * back.y);
         const double tolerance = 1e-3 * glm::length(found.force);
