@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cpu/collision/collision.h"
+#include "cpu/contact/planes.h"
 #include "model/corners.h"
 
 namespace gelatin {
@@ -57,6 +58,7 @@ public:
         }
         for (std::size_t o = 0; o < ways.size(); ++o) {
             if (ways[o] == glm::dvec3(0.0)) continue;
+            keep_outside_planes(static_cast<std::uint32_t>(o), ways[o]);
             moved_[o] += ways[o];
             const Range& nodes = model_->objects[o].nodes;
             for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
@@ -90,6 +92,20 @@ private:
         const auto own = std::span(model_->positions).subspan(nodes.first, nodes.count);
         if (std::any_of(own.begin(), own.end(), [](const glm::vec4& p) { return p.w == 0.0f; })) return 0.0;
         return 1.0 / model_->objects[object].mass;
+    }
+
+    // It goes no deeper into a plane than it is.
+    void keep_outside_planes(std::uint32_t object, glm::dvec3& way) const {
+        const Range& nodes = model_->objects[object].nodes;
+        const auto own = std::span(positions_).subspan(nodes.first, nodes.count);
+        for (const Collider& collider : model_->colliders) {
+            if (collider.kind != 0) continue;
+            const glm::vec3 normal(collider.center);
+            const auto height =
+                static_cast<double>(cpu::least_height<float>(own, normal) - collider.center.w);
+            const double approach = -glm::dot(glm::dvec3(normal), way);
+            way += std::max(0.0, approach - std::max(0.0, height)) * glm::dvec3(normal);
+        }
     }
 
     Box box_of(std::uint32_t object) const {

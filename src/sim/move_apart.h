@@ -19,8 +19,8 @@ struct MovedApart {
 };
 
 /// Moves bodies that overlap others, or colliders, as a whole until they are apart, each along the normals of
-/// the faces that overlap, a little at a time. Bodies share a way by their masses. Those of which a node is
-/// held stay, and so do colliders.
+/// the faces that overlap, a little at a time. Bodies share a way by their masses, and go no deeper into
+/// planes. Those of which a node is held stay, and so do colliders.
 /// @param positions of all nodes
 /// @param when for the lines: "at the start"
 /// @return none if nothing overlaps; where objects cannot be moved apart, or both stay, some still overlap

@@ -61,6 +61,22 @@ TEST(MoveApart, WhatIsHeldStays) {
     EXPECT_GT(motion_of(*model, 1, *moved).y, 0.04f);
 }
 
+// A tower on a floor, each block a little within the one below: all go up.
+TEST(MoveApart, NothingGoesBelowAPlane) {
+    ColliderDescription floor;
+    floor.shape = PlaneCollider{{0, 1, 0}, 0.0};
+    std::vector<Block> blocks;
+    for (int k = 0; k < 6; ++k) blocks.push_back({.place = {0.0, 0.29 * k, 0.0}});
+    const auto model = make_blocks(blocks, {0, 0, 0}, {floor});
+    const auto moved = move_apart(model, model->positions);
+    ASSERT_TRUE(moved.has_value());
+    EXPECT_EQ(overlaps_of(*model, moved->positions), 0u);
+    const auto lowest = [](const std::vector<glm::vec4>& positions) {
+        return std::ranges::min(positions, {}, &glm::vec4::y).y;
+    };
+    EXPECT_GE(lowest(moved->positions), std::min(0.0f, lowest(model->positions)) - 1e-6f);
+}
+
 // In one place, and through a collider.
 TEST(MoveApart, FromAnywhere) {
     ColliderDescription wall;

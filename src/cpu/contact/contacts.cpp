@@ -38,6 +38,7 @@ Contacts<Real>::Contacts(std::shared_ptr<const Model> model, const CollisionSett
       object_of_(objects_of_nodes(*model_)),
       detection_(model_, surface_),
       aims_(model_, surface_),
+      eased_(surface_),
       guard_(model_, surface_->places),
       is_pressed_(model_->objects.size()) {
     if (collision.self_collision.value_or(true)) clear_.emplace(model_, surface_);
@@ -54,7 +55,24 @@ void Contacts<Real>::restart(std::span<const Vec4<Real>> positions) {
     }
     detection_.restart();
     aims_.forget();
+    eased_.forget();
+    is_aimed_ = false;
+    longest_ = 0.0;
     std::fill(is_pressed_.begin(), is_pressed_.end(), std::uint8_t(0));
+}
+
+template <class Real>
+void Contacts<Real>::start() {
+    detect(safe_, {}, nullptr);
+    eased_.begin(list_, safe_);
+    eased_.set(list_.pairs);
+}
+
+template <class Real>
+void Contacts<Real>::ease(double seconds) {
+    if (!eased_.any()) return;
+    eased_.grow(seconds);
+    eased_.set(list_.pairs);
 }
 
 template <class Real>
@@ -98,7 +116,7 @@ void Contacts<Real>::find_clear_bodies() {
     if (!any_pairs || !list_.is_valid) return;
     old_pairs_.swap(list_.pairs);
     detection_.run_own({}, safe_, list_);
-    aims_.carry_over(old_pairs_, list_);
+    take_over_pairs();
     is_aimed_ = false;
 }
 
@@ -388,7 +406,7 @@ bool Contacts<Real>::detect_own(std::span<const Vec4<Real>> positions, const IsO
     if (looks.empty()) return false;
     old_pairs_.swap(list_.pairs);
     detection_.run_own(looks, positions, list_);
-    aims_.carry_over(old_pairs_, list_);
+    take_over_pairs();
     return true;
 }
 
@@ -446,6 +464,13 @@ void Contacts<Real>::detect(std::span<const Vec4<Real>> positions, std::span<con
     } else {
         detection_.run(positions, {ends, guard_.mean_motions(positions, ends), stays, longest_}, list_);
     }
+    take_over_pairs();
+}
+
+// What is known of those that were listed before.
+template <class Real>
+void Contacts<Real>::take_over_pairs() {
+    if (eased_.any()) eased_.set(list_.pairs);
     aims_.carry_over(old_pairs_, list_);
 }
 

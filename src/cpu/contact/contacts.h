@@ -12,6 +12,7 @@
 #include "cpu/contact/contact_aims.h"
 #include "cpu/contact/contact_list.h"
 #include "cpu/contact/detect_contacts.h"
+#include "cpu/contact/eased_reaches.h"
 #include "cpu/contact/guarded_move.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
@@ -32,6 +33,11 @@ public:
 
     /// Forgets what was, because nodes were set from outside. @pre no faces of two bodies overlap there
     void restart(std::span<const Vec4<Real>> positions);
+
+    /// Begins a run, where nothing has moved yet: what is nearer than it presses is eased apart.
+    void start();
+    /// Goes on with that: another `seconds` have gone by.
+    void ease(double seconds);
 
     /// Whether the object pressed another one when the last step ended.
     bool was_pressed(std::size_t object) const { return is_pressed_[object] != 0; }
@@ -149,6 +155,7 @@ private:
                     StageTimer* timer);
     template <class Uses>
     std::vector<std::uint32_t> restless_places(std::uint32_t object, const Uses& uses) const;
+    void take_over_pairs();
     void aim(std::span<const Vec4<Real>> positions, AimFor use, StageTimer* timer);
     template <class Value>
     Real greatest_at_nodes(const Value& value);
@@ -162,6 +169,7 @@ private:
     ContactList<Real> list_;
     std::vector<ContactPair> old_pairs_;
     ContactAims<Real> aims_;
+    EasedReaches<Real> eased_;
     GuardedMove<Real> guard_;
     bool is_aimed_ = false;  // at some positions of this step or the last one
     double longest_ = 0.0;   // motion of a node in this step's guess [m]

@@ -89,6 +89,8 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
                              std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls,
                              StageTimer* timer, int parts) {
     sweeps_ = std::max(1, settings_.iterations / parts);
+    if (bodies_ && has_earlier) bodies_->ease(static_cast<double>(step));
+    if (bodies_ && !has_earlier) bodies_->start();
     const auto start_with = [&](const Contacts<Real>* acting) {
         const TimedStage part(timer, "advance_nodes.start");
         acting_ = acting;

@@ -307,7 +307,7 @@ TEST(ContactsHeavy, FrictionIsCoulombs) {
     for (const double youngs_modulus : {1e5, 1e7})
         EXPECT_LT(std::abs(slide(0.5, 0.4, youngs_modulus).distance), 1e-4) << youngs_modulus;
     const double angle = std::atan(0.6), friction = 0.5 * 9.81 * std::cos(angle);  // [m/s^2]
-    EXPECT_NEAR(slide(0.5, 0.6, 1e5).acceleration, 9.81 * std::sin(angle) - friction, 0.04 * friction);
+    EXPECT_NEAR(slide(0.5, 0.6, 1e5).acceleration, 9.81 * std::sin(angle) - friction, 0.05 * friction);
     // The geometric mean of 0.8 and 0.2, and of 0.8 and 0.
     EXPECT_LT(std::abs(slide(0.8, 0.3, 1e5, 0.2).distance), 1e-4);
     EXPECT_NEAR(slide(0.8, 0.1, 1e6, 0.0).acceleration, 9.81 * std::sin(std::atan(0.1)), 0.01);
