@@ -92,7 +92,7 @@ Friction friction_on(Slip slip, float c) {
     const float kEnough = 1e-5;
     vec2 holding = times(slip.stiffness, slip.way);
     vec2 relieving = times(inverse_of(slip.stiffness), slip.coupling);
-    float length_ = length(holding), most = 0.0, least = 1e-6 * length_;
+    float length_ = length(holding), most = 0.0, least = 1e-6 * length_, way = length(slip.way);
     Friction found = Friction(holding, vec2(0.0), 0.0, 0.0);
     for (int round_ = 0;; ++round_) {
         float pressing = slip.pressing - dot(relieving, found.force);
@@ -103,8 +103,9 @@ Friction friction_on(Slip slip, float c) {
         float bound = pressing > 0.0 ? most : c * pressing;
         vec2 falls = times(yields(slip.stiffness, found.yielding), times(slip.stiffness, found.force));
         float slope = bound * dot(found.force, falls) / (length_ * length_) + c * dot(relieving, falls);
-        found.yielding = slope > 0.0 ? max(0.0, found.yielding + (length_ - bound) / slope)
-                                     : 2.0 * found.yielding + length(slip.way) / (c * slip.pressing);
+        float yielding = slope > 0.0 ? found.yielding + (length_ - bound) / slope
+                                     : 2.0 * found.yielding + way / (c * slip.pressing);
+        found.yielding = clamp(yielding, 0.0, way / least);
         found.force = times(yields(slip.stiffness, found.yielding), holding);
         length_ = length(found.force);
     }

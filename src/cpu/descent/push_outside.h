@@ -46,7 +46,8 @@ Friction<Real> friction_on(const Slip<Real>& slip, Real c) {
     const auto yields = [&](Real y) { return inverse(Vec3<Real>(1, 0, 1) + y * slip.stiffness); };
     const Vector holding = times(slip.stiffness, slip.way);
     const Vector relieving = times(inverse(slip.stiffness), slip.coupling);  // of what presses, by f
-    const Real least = Real(1e-6) * glm::length(holding);                    // of less, y is lost in rounding
+    // Of less force, y is lost in rounding.
+    const Real way = glm::length(slip.way), least = Real(1e-6) * glm::length(holding);
     Friction<Real> found{.force = holding};
     Real& y = found.yielding;
     Real length = glm::length(holding), most = 0;
@@ -61,8 +62,8 @@ Friction<Real> friction_on(const Slip<Real>& slip, Real c) {
         const Vector falls = times(yields(y), times(slip.stiffness, found.force));
         const Real slope =
             bound * glm::dot(found.force, falls) / (length * length) + c * glm::dot(relieving, falls);
-        y = slope > Real(0) ? std::max(Real(0), y + (length - bound) / slope)
-                            : Real(2) * y + glm::length(slip.way) / (c * slip.pressing);
+        y = slope > Real(0) ? y + (length - bound) / slope : Real(2) * y + way / (c * slip.pressing);
+        y = std::clamp(y, Real(0), way / least);
         found.force = times(yields(y), holding);
         length = glm::length(found.force);
     }

@@ -66,7 +66,8 @@ TEST(EasedReaches, AreWholeAgainAfterARestart) {
     EXPECT_NEAR(beside.reach(0, 1), beside.whole(), 1e-8);
 }
 
-// A block that starts just above a box is lifted within a third of a second, and not faster, in steps of any length.
+// A block that starts just above a box is lifted within a third of a second, and not faster, in steps of any
+// length.
 TEST(EasedReaches, NothingIsThrownAtTheStart) {
     ColliderDescription box;
     box.shape = BoxShape{{2.0, 0.2, 2.0}};

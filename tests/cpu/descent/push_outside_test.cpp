@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -116,6 +117,32 @@ TEST(FrictionOnASlip, ActsAlongWhatIsLeft) {
         EXPECT_LT(glm::length(force - found.force), tolerance);
         EXPECT_LE(glm::length(found.force), most * (1.0 + 1e-12));
         EXPECT_EQ(found.yielding > 0.0, glm::length(holding) > most);
+    }
+}
+
+// Of nodes that hardly press, far slips and all stiffnesses that meshes of any size have.
+TEST(FrictionOnASlip, IsFiniteAtAllScales) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> unit(-1.0f, 1.0f), size(-12.0f, 9.0f);
+    const auto scale = [&] { return std::pow(10.0f, size(random)); };
+    for (int i = 0; i < 100'000; ++i) {
+        const float stiffness = scale(), way = scale(), coefficient = std::pow(10.0f, 3.0f * unit(random));
+        std::array<glm::vec3, 3> rows;  // of a root of the Hessian, without its scale
+        for (glm::vec3& row : rows) row = {unit(random), unit(random), unit(random)};
+        const auto entry = [&](int a, int b) {
+            float sum = a == b ? 1e-3f : 0.0f;
+            for (const glm::vec3& row : rows) sum += row[a] * row[b];
+            return stiffness * sum;
+        };
+        const cpu::Friction<float> found =
+            cpu::friction_on<float>({.way = way * glm::vec2(unit(random), unit(random)),
+                                     .stiffness = {entry(0, 0), entry(0, 1), entry(1, 1)},
+                                     .pressing = scale(),
+                                     .coupling = {entry(0, 2), entry(1, 2)}},
+                                    coefficient);
+        ASSERT_TRUE(std::isfinite(glm::length(found.back)) && std::isfinite(found.pressing) &&
+                    std::isfinite(found.force.x + found.force.y))
+            << i;
     }
 }
 
