@@ -85,8 +85,8 @@ RawBuffer::~RawBuffer() {
 void RawBuffer::upload(std::size_t offset, std::size_t bytes, const void* data) {
     if (bytes == 0) return;
     if (hazard_probe != nullptr) hazard_probe->uploads(id(), bytes == bytes_);
-    // Not by glBufferSubData: NVIDIA's driver (580.159) lets it overtake a dispatch that still reads the
-    // buffer (docs/decisions/0047-first-gpu.md).
+    // Not by glBufferSubData: with NVIDIA's driver (580.159) later dispatches may not see what it wrote
+    // (docs/decisions/0047-first-gpu.md).
     GLuint staging = 0;
     glGenBuffers(1, &staging);
     glBindBuffer(GL_COPY_READ_BUFFER, staging);

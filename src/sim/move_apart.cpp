@@ -58,7 +58,7 @@ public:
         }
         for (std::size_t o = 0; o < ways.size(); ++o) {
             if (ways[o] == glm::dvec3(0.0)) continue;
-            keep_outside_planes(static_cast<std::uint32_t>(o), ways[o]);
+            stop_at_planes(static_cast<std::uint32_t>(o), ways[o]);
             moved_[o] += ways[o];
             const Range& nodes = model_->objects[o].nodes;
             for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
@@ -95,7 +95,7 @@ private:
     }
 
     // It goes no deeper into a plane than it is.
-    void keep_outside_planes(std::uint32_t object, glm::dvec3& way) const {
+    void stop_at_planes(std::uint32_t object, glm::dvec3& way) const {
         const Range& nodes = model_->objects[object].nodes;
         const auto own = std::span(positions_).subspan(nodes.first, nodes.count);
         for (const Collider& collider : model_->colliders) {

@@ -89,8 +89,6 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
                              std::span<const Vec4<Real>> load_forces, const Pulls<Real>* pulls,
                              StageTimer* timer, int parts) {
     sweeps_ = std::max(1, settings_.iterations / parts);
-    if (bodies_ && has_earlier) bodies_->ease(static_cast<double>(step));
-    if (bodies_ && !has_earlier) bodies_->start();
     const auto start_with = [&](const Contacts<Real>* acting) {
         const TimedStage part(timer, "advance_nodes.start");
         acting_ = acting;
@@ -98,7 +96,14 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
         shorten_guess(step, current.positions);
         return landing_ && landing_->begin(static_cast<double>(step), objective_, current.positions);
     };
-    if (bodies_) find_outlooks(step, parts > 1, previous);
+    if (bodies_) {
+        if (has_earlier) {
+            bodies_->ease(static_cast<double>(step));
+        } else {
+            bodies_->start();
+        }
+        find_outlooks(step, parts > 1, previous);
+    }
     // A step is tried with what seems to be enough, and made again with more where it was not.
     for (bool apart = !bodies_ || bodies_->are_apart(step, previous, timer);; apart = false) {
         const bool lands = start_with(apart ? nullptr : bodies_.get());

@@ -71,17 +71,23 @@ void RigidMove<Real>::find_pressing(std::size_t batch, const StepObjective<Real>
                                     const ColliderContacts<Real>& contacts, const PlaneLanding<Real>& landing,
                                     const std::vector<Vec4<Real>>& positions,
                                     std::span<const std::uint32_t> objects) {
-    bool any = false;
-    for (const std::uint32_t o : objects) {
-        if (!landing.lands(o)) continue;
-        const Range& nodes = model_->objects[o].nodes;
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
-            forces_[n] = Vec3<Real>(0);
-            presses_[n] = contacts.objects[o] != 0 && contacts.nodes[n].along > Real(0) ? 1 : 0;
-            any |= presses_[n] != 0;
+    const auto for_nodes = [&](const auto& use) {
+        for (const std::uint32_t o : objects) {
+            if (!landing.lands(o)) continue;
+            const Range& nodes = model_->objects[o].nodes;
+            for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) use(o, n);
         }
-    }
+    };
+    bool any = false;
+    for_nodes([&](std::uint32_t o, std::uint32_t n) {
+        presses_[n] = contacts.objects[o] != 0 && contacts.nodes[n].along > Real(0) ? 1 : 0;
+        any |= presses_[n] != 0;
+    });
     if (any) objective.find_forces(batch, positions, forces_, presses_);
+    // Of a group of nodes all are found where one is wanted.
+    for_nodes([&](std::uint32_t, std::uint32_t n) {
+        if (std::exchange(presses_[n], std::uint8_t(0)) == 0) forces_[n] = Vec3<Real>(0);
+    });
 }
 
 template class RigidMove<float>;

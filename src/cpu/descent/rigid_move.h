@@ -38,8 +38,8 @@ private:
                        const std::vector<Vec4<Real>>& positions, std::span<const std::uint32_t> objects);
 
     std::shared_ptr<const Model> model_;
-    std::vector<std::uint8_t> presses_;  // by node
-    std::vector<Vec3<Real>> forces_;     // on those nodes, but for what planes do [N]
+    std::vector<std::uint8_t> presses_;  // by node; 0 between runs
+    std::vector<Vec3<Real>> forces_;     // on those nodes, but for what planes do [N]; 0 on others of a body
 };
 
 }  // namespace gelatin::cpu
