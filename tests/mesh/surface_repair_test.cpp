@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mesh_samples.h"
+#include "support/draw_vector.h"
 
 namespace gelatin {
 namespace {
@@ -65,9 +66,9 @@ TEST(RepairSurface, MergesWithinTheToleranceOnly) {
     std::uniform_real_distribution<double> shift(-1.0, 1.0);
     for (int trial = 0; trial < 50; ++trial) {
         SurfaceMesh near = unshare(cube({0.1, 0.2, 0.3}, 1.0));
-        const glm::dvec3 stretch(2.0 + shift(random), 2.0 + shift(random), 2.0 + shift(random));
+        const glm::dvec3 stretch = 2.0 + test::draw_vector<glm::dvec3>(shift, random);
         for (glm::dvec3& p : near.positions) {
-            p = stretch * p + 4e-10 * glm::dvec3(shift(random), shift(random), shift(random));
+            p = stretch * p + 4e-10 * test::draw_vector<glm::dvec3>(shift, random);
         }
         repair(near);
         EXPECT_EQ(near.positions.size(), 8u);

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "render/overlay_fixture.h"
+#include "support/draw_vector.h"
 
 namespace gelatin::render {
 namespace {
@@ -86,7 +87,7 @@ TEST_P(CutOverlayTest, ATetIsFilledWhereThePlaneIsInside) {
     std::uniform_real_distribution<float> some(-1.0f, 1.0f);
     unsigned ways = 0;
     for (int i = 0; i < 80; ++i) {
-        const glm::vec3 normal = glm::normalize(glm::vec3(some(random), some(random), some(random)));
+        const glm::vec3 normal = glm::normalize(test::draw_vector<glm::vec3>(some, random));
         const glm::vec3 inside =
             0.25f * (tet[0] + tet[1] + tet[2] + tet[3]) + 0.15f * glm::vec3(some(random));
         const Plane plane{normal, glm::dot(normal, inside)};

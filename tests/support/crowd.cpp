@@ -13,6 +13,7 @@
 #include "gpu/collision_stages.h"
 #include "gpu/view/mark_faces.h"
 #include "model/collision/face_collision_words.h"
+#include "support/draw_vector.h"
 #include "support/parity.h"
 #include "support/test_models.h"
 
@@ -72,7 +73,7 @@ cpu::Collision<Real> detect_on_cpu(const Model& model, const CollisionSettings& 
 Model make_crowd(int count, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
-    const auto vector = [&] { return glm::dvec3(unit(random), unit(random), unit(random)); };
+    const auto vector = [&] { return draw_vector<glm::dvec3>(unit, random); };
     const double reach = 0.15 + 0.3 * (std::cbrt(count) - 1.0);
     std::vector<Body> bodies;
     for (int i = 0; i < count; ++i) {
@@ -80,8 +81,7 @@ Model make_crowd(int count, unsigned seed) {
         Body body =
             make_body(make_block(cells, 0.3 * glm::dvec3(cells), 0.2, seed + static_cast<unsigned>(i)));
         body.name = "block " + std::to_string(i);
-        const glm::dquat turn =
-            glm::normalize(glm::dquat(unit(random), unit(random), unit(random), unit(random)));
+        const glm::dquat turn = draw_rotation(unit, random);
         const glm::dvec3 place = reach * vector();
         for (glm::dvec3& p : body.mesh.positions) p = turn * (p - 0.15 * glm::dvec3(cells)) + place;
         body.velocity = 2.0 * vector();
@@ -107,15 +107,14 @@ Model make_far_pairs(int count, double extent, unsigned seed) {
     constexpr double kSide = 0.05, kDistance = 0.99 * kSide;  // of the centres: their inner spheres overlap
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
-    const auto vector = [&] { return glm::dvec3(unit(random), unit(random), unit(random)); };
+    const auto vector = [&] { return draw_vector<glm::dvec3>(unit, random); };
     std::vector<Body> bodies;
     for (int i = 0; i < count; ++i) {
         const glm::dvec3 place = 0.5 * extent * vector(), apart = kDistance * glm::normalize(vector());
         for (const glm::dvec3& center : {place, place + apart}) {
             Body cube = make_body(make_block({1, 1, 1}, glm::dvec3(kSide)));
             cube.name = "cube " + std::to_string(bodies.size());
-            const glm::dquat turn =
-                glm::normalize(glm::dquat(unit(random), unit(random), unit(random), unit(random)));
+            const glm::dquat turn = draw_rotation(unit, random);
             for (glm::dvec3& p : cube.mesh.positions) p = center + turn * (p - 0.5 * kSide);
             bodies.push_back(std::move(cube));
         }

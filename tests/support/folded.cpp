@@ -13,6 +13,7 @@
 #include "gpu/collision_stages.h"
 #include "model/corners.h"
 #include "support/crowd.h"
+#include "support/draw_vector.h"
 #include "support/parity.h"
 #include "support/test_models.h"
 
@@ -111,7 +112,7 @@ Model make_folded(Deformation deformation, unsigned seed) {
         for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
             glm::vec4& p = model.positions[n];
             p = glm::vec4(glm::vec3(deform(glm::dvec3(p))), p.w);
-            if (p.w > 0.0f) model.velocities[n] += glm::vec4(unit(random), unit(random), unit(random), 0.0f);
+            if (p.w > 0.0f) model.velocities[n] += glm::vec4(draw_vector<glm::vec3>(unit, random), 0.0f);
         }
     }
     if (deformation == Deformation::poked) poke(model);

@@ -5,6 +5,7 @@
 
 #include "mesh/topology.h"
 #include "model/spring_packing.h"
+#include "support/draw_vector.h"
 
 namespace gelatin::test {
 
@@ -17,8 +18,7 @@ TetMesh make_block(glm::ivec3 cells, glm::dvec3 size, double jitter, unsigned se
         for (int y = 0; y <= cells.y; ++y) {
             for (int x = 0; x <= cells.x; ++x) {
                 const bool inner = x > 0 && y > 0 && z > 0 && x < cells.x && y < cells.y && z < cells.z;
-                const glm::dvec3 move =
-                    inner ? glm::dvec3(offset(random), offset(random), offset(random)) : glm::dvec3(0);
+                const glm::dvec3 move = inner ? draw_vector<glm::dvec3>(offset, random) : glm::dvec3(0);
                 mesh.positions.push_back((glm::dvec3(x, y, z) + move) * cell);
             }
         }

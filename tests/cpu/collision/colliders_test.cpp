@@ -6,6 +6,7 @@
 #include <random>
 
 #include "model/build/build_model.h"
+#include "support/draw_vector.h"
 
 namespace gelatin {
 namespace {
@@ -71,7 +72,7 @@ TEST(SurfaceDistance, NormalIsTheGradient) {
         d.position = {0.1, -0.2, 0.05};
         const Collider collider = pack(d);
         for (int i = 0; i < 200; ++i) {
-            const glm::dvec3 p(coordinate(random), coordinate(random), coordinate(random));
+            const auto p = test::draw_vector<glm::dvec3>(coordinate, random);
             const auto here = cpu::surface_distance(collider, p);
             EXPECT_NEAR(distance(collider, p + 1e-7 * here.normal) - here.distance, 1e-7, 2e-9);
         }

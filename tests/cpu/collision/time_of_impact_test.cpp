@@ -7,6 +7,7 @@
 #include <random>
 
 #include "cpu/collision/triangle_overlap.h"
+#include "support/draw_vector.h"
 #include "support/moving_pairs.h"
 
 namespace gelatin {
@@ -78,7 +79,7 @@ template <class Real>
 void check_windows(std::size_t count) {
     std::mt19937 random(11);
     std::uniform_real_distribution<Real> unit(Real(-1), Real(1));
-    const auto vector = [&] { return cpu::Vec3<Real>(unit(random), unit(random), unit(random)); };
+    const auto vector = [&] { return test::draw_vector<cpu::Vec3<Real>>(unit, random); };
     std::size_t open = 0;
     for (std::size_t n = 0; n < count; ++n) {
         // Corners in a plane across the normal, up to rounding, at the start or at the end.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <random>
@@ -25,11 +26,12 @@ struct BlockOf {
     std::vector<Region> pins{};
     std::vector<ColliderDescription> colliders{};
     glm::dvec3 gravity = kGravity;
+    unsigned seed = 1;  // of the mesh
 };
 
 // An irregular block of 0.3 m.
 Model make_model(const BlockOf& block) {
-    Body body = test::make_body(test::make_block({5, 4, 5}, {0.3, 0.24, 0.3}, 0.2));
+    Body body = test::make_body(test::make_block({5, 4, 5}, {0.3, 0.24, 0.3}, 0.2, block.seed));
     body.material.youngs_modulus = block.youngs_modulus;
     body.material.damping = block.damping;
     body.velocity = block.velocity;
@@ -259,6 +261,7 @@ TEST(BlockDescent, FrictionIsCoulombs) {
 }
 
 // On a slope a block gains g (sin - mu cos), also where ten sweeps find forty times the force that holds it.
+// Of some meshes it then bounces a little from step to step, and has twice the friction.
 TEST(BlockDescent, BlocksSlideDownSlopes) {
     ColliderDescription floor;
     floor.shape = PlaneCollider{{0.0, 1.0, 0.0}, 0.0};
@@ -266,16 +269,22 @@ TEST(BlockDescent, BlocksSlideDownSlopes) {
     const glm::dvec3 gravity(3.0, -9.0, 0.0);
     const int steps = 30;
     const double speed = steps * kFrame * (gravity.x + floor.friction * gravity.y);
-    const auto error = [&](double youngs_modulus, int iterations) {
-        const Model model =
-            make_model({.youngs_modulus = youngs_modulus, .colliders = {floor}, .gravity = gravity});
+    const auto error = [&](double youngs_modulus, int iterations, unsigned seed) {
+        const Model model = make_model(
+            {.youngs_modulus = youngs_modulus, .colliders = {floor}, .gravity = gravity, .seed = seed});
         const double mass = std::accumulate(model.masses.begin(), model.masses.end(), 0.0);
         const cpu::Nodes<double> nodes = run_steps<double>(model, kFrame, steps, iterations);
         return std::abs(momenta_of(nodes).linear.x / mass / speed - 1.0);
     };
-    for (const double youngs_modulus : {1e5, 1e6, 1e7}) EXPECT_LT(error(youngs_modulus, 10), 0.01);
-    EXPECT_LT(error(1e8, 10), 0.1);
-    EXPECT_LT(error(1e8, 20), 0.01);
+    std::vector<double> of_few_sweeps;
+    for (unsigned seed = 1; seed <= 9; ++seed) {
+        for (const double youngs_modulus : {1e5, 1e6, 1e7}) EXPECT_LT(error(youngs_modulus, 10, seed), 0.01);
+        EXPECT_LT(error(1e8, 20, seed), 0.01);
+        of_few_sweeps.push_back(error(1e8, 10, seed));
+        EXPECT_LT(of_few_sweeps.back(), 0.5);
+    }
+    std::sort(of_few_sweeps.begin(), of_few_sweeps.end());
+    EXPECT_LT(of_few_sweeps[4], 0.1);
 }
 
 // SIMD, on bodies in all states that it tells apart: free, held, on the floor, against a sphere, with flat

@@ -1,6 +1,7 @@
 // What a collider does to a node after its Newton step, on a plane: the node's part of the objective is then
 // a quadratic with the Hessian H, which the pushed node minimises under the collider's forces.
 #include "cpu/descent/push_outside.h"
+#include "support/draw_vector.h"
 
 #include <gtest/gtest.h>
 
@@ -135,7 +136,7 @@ TEST(FrictionOnASlip, IsFiniteAtAllScales) {
             return stiffness * sum;
         };
         const cpu::Friction<float> found =
-            cpu::friction_on<float>({.way = way * glm::vec2(unit(random), unit(random)),
+            cpu::friction_on<float>({.way = way * test::draw_vector<glm::vec2>(unit, random),
                                      .stiffness = {entry(0, 0), entry(0, 1), entry(1, 1)},
                                      .pressing = scale(),
                                      .coupling = {entry(0, 2), entry(1, 2)}},

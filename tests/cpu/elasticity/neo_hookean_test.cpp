@@ -8,6 +8,7 @@
 #include <random>
 
 #include "model/elasticity/neo_hookean.h"
+#include "support/draw_vector.h"
 #include "support/eigen_modes.h"
 
 namespace gelatin {
@@ -24,9 +25,7 @@ public:
     double number() { return unit_(random_); }
     V point() { return {number(), number(), number()}; }
     M matrix() { return {point(), point(), point()}; }
-    M rotation() {
-        return glm::mat3_cast(glm::normalize(glm::dquat(number(), number(), number(), number())));
-    }
+    M rotation() { return glm::mat3_cast(test::draw_rotation(unit_, random_)); }
 
 private:
     std::mt19937 random_{11};

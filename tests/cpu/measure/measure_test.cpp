@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "support/draw_vector.h"
 #include "support/implicit_euler.h"
 #include "support/test_models.h"
 
@@ -59,7 +60,7 @@ TEST(Measure, ElasticEnergyHasTheVolumeTerm) {
         std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
         for (const float size : {1e-3f, 0.02f, 0.06f}) {
             for (glm::vec4& p : model.positions)
-                p += size * glm::vec4(unit(random), unit(random), unit(random), 0.0f);
+                p += size * glm::vec4(test::draw_vector<glm::vec3>(unit, random), 0.0f);
             // At rest there, so that inertia has no part in the objective.
             const test::ImplicitEuler reference(model, 1.0);
             const double expected = reference.value(reference.start());

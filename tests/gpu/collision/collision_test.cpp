@@ -8,6 +8,7 @@
 #include "gpu/gpu_solver.h"
 #include "gpu/support/collision_scenarios.h"
 #include "support/crowd.h"
+#include "support/draw_vector.h"
 #include "support/gl_fixture.h"
 #include "support/test_models.h"
 
@@ -106,7 +107,7 @@ TEST_F(CollisionOnGpuTest, SaysHowManyPairsAreLost) {
                                {}, {0.0, 0.0, 0.0});
     std::mt19937 random(3);
     std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
-    for (glm::vec4& p : tangle.positions) p = glm::vec4(unit(random), unit(random), unit(random), p.w);
+    for (glm::vec4& p : tangle.positions) p = glm::vec4(test::draw_vector<glm::vec3>(unit, random), p.w);
     const auto model = std::make_shared<const Model>(tangle);
     gpu::GpuSolver solver(model, SolverKind::semi_implicit_euler, ForceMethod::fused);
     solver.update_boxes();

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "gpu/view/tet_values.h"
+#include "support/draw_vector.h"
 #include "support/test_models.h"
 
 namespace gelatin::test {
@@ -126,7 +127,7 @@ Deformed make_deformed() {
 
     std::mt19937 random(11);
     std::uniform_real_distribution<float> some(-1.0f, 1.0f);
-    const auto some_vector = [&] { return glm::vec3(some(random), some(random), some(random)); };
+    const auto some_vector = [&] { return test::draw_vector<glm::vec3>(some, random); };
     for (const glm::vec4& rest : deformed.model.positions) {
         const float angle = 1.5f * rest.x;  // bent and twisted
         const glm::vec3 turned(rest.x + 0.3f * std::sin(rest.y),

@@ -9,6 +9,7 @@
 
 #include "mesh/mesh_samples.h"
 #include "mesh/shapes.h"
+#include "support/draw_vector.h"
 
 namespace gelatin::lattice {
 namespace {
@@ -31,7 +32,7 @@ TEST(FaceTreeTest, FindsTheNearestPoint) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> along(-1.0, 1.0);
     for (int k = 0; k < 300; ++k) {
-        const glm::dvec3 p(along(random), along(random), along(random));
+        const auto p = test::draw_vector<glm::dvec3>(along, random);
         double least = std::numeric_limits<double>::infinity();
         for (const Triangle& face : tree.faces())
             least = std::min(least, glm::distance(p, nearest_point(face, p)));

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "mesh/lattice/sound_tets.h"
+#include "support/draw_vector.h"
 
 namespace gelatin::lattice {
 namespace {
@@ -15,7 +16,7 @@ Octree random_octree(unsigned seed) {
     Octree octree(64);
     std::uniform_int_distribution<int> along(0, 63);
     for (int k = 0; k < 3; ++k) {
-        const glm::ivec3 p(along(random), along(random), along(random));
+        const auto p = test::draw_vector<glm::ivec3>(along, random);
         for (std::uint32_t leaf = octree.find_leaf(p); octree[leaf].size > 2; leaf = octree.find_leaf(p))
             octree.divide(leaf);
     }

@@ -9,6 +9,7 @@
 
 #include "mesh/mesh_samples.h"
 #include "mesh/shapes.h"
+#include "support/draw_vector.h"
 
 namespace gelatin::lattice {
 namespace {
@@ -26,7 +27,7 @@ std::vector<glm::dvec3> random_points(int count, double reach) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> along(-reach, reach);
     std::vector<glm::dvec3> points;
-    for (int k = 0; k < count; ++k) points.emplace_back(along(random), along(random), along(random));
+    for (int k = 0; k < count; ++k) points.push_back(test::draw_vector<glm::dvec3>(along, random));
     return points;
 }
 
