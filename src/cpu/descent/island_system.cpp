@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -20,7 +21,7 @@ constexpr double kResidual = 1e-6, kRoughResidual = 1e-3;
 constexpr int kMostSteps = 100;
 // The line search ends when the slope is this small, of that at the start, or after so many looks.
 constexpr double kLevel = 1e-3;
-constexpr int kMostLooks = 12;
+constexpr int kMostLooks = 16;
 // Each thread takes at least so many at a time.
 constexpr std::size_t kBodiesATask = 64, kTouchesATask = 512;
 
@@ -368,13 +369,16 @@ double IslandSystem::least_along(const Motions& motions, const Motion& common) {
         return slope;
     };
     const double enough = kLevel * std::abs(slope_at(0.0).value);
-    double low = 0.0, high = 1.0, part = 1.0;
+    double low = 0.0, high = 1.0, part = 1.0, last = std::numeric_limits<double>::infinity();
     for (int i = 0; i < kMostLooks; ++i) {
         const Slope slope = slope_at(part);
-        if (std::abs(slope.value) <= enough || (part == 1.0 && !(slope.value > 0.0))) return part;
+        const double steepness = std::abs(slope.value);
+        if (steepness <= enough || (part == 1.0 && !(slope.value > 0.0))) return part;
         (slope.value > 0.0 ? high : low) = part;
         part -= slope.value / slope.change;
-        if (!(part > low && part < high)) part = 0.5 * (low + high);
+        // Deep within reach, where forces rise without bound, Newton's steps are short.
+        if (!(part > low && part < high) || steepness > 0.5 * last) part = 0.5 * (low + high);
+        last = steepness;
     }
     return low;
 }
