@@ -199,7 +199,7 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
         aim(positions, AimFor::guess, timer);
     }
     // Rooms are made anew, and bodies looked at where they lack room in themselves, once before each move.
-    bool is_fresh = used_room(positions) < Real(kFreshRoom), is_looked_at = false;
+    bool is_fresh = false, is_looked_at = false;
     const int most_moves =
         static_cast<int>(std::clamp(kMovesASecond * static_cast<double>(step), 1.0, kMostMoves));
     for (int moves = 0;;) {

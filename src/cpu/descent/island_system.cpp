@@ -15,9 +15,12 @@
 namespace gelatin::cpu {
 namespace {
 
-// Conjugate gradients end when the residual is this small, or after so many steps. The first solution tells
-// no more than how contacts press.
-constexpr double kResidual = 1e-6, kRoughResidual = 1e-3;
+// Newton's steps end when what is left to gain is this small a part of what was gained, or after so many.
+constexpr double kEnough = 1e-4;
+constexpr int kMostRounds = 8;
+// Conjugate gradients end when the residual is this small, of that at the start of the round, and of the
+// first round, or after so many steps.
+constexpr double kResidual = 1e-3, kLeastResidual = 1e-6;
 constexpr int kMostSteps = 100;
 // The line search ends when the slope is this small, of that at the start, or after so many looks.
 constexpr double kLevel = 1e-3;
@@ -66,44 +69,26 @@ void add_stiffness(const Matrix& stiffness, const Matrix& arm_a, const Matrix& a
     sum.bottomRightCorner<3, 3>() += arm_a * turned;
 }
 
-// Friction to second order.
-struct Friction {
-    double share;  // of what would hold if nothing slid
-    double left;   // of its stiffness along the slip
-};
-
-// Along a slip the force does not change with it. After a solution, it is that of the least quadratic
-// energy which is friction's where that led, and above it elsewhere. So another one does not lead past the
-// end of a slip.
-Friction friction_of(const IslandSystem::Touch& touch) {
-    const double length = glm::length(touch.hold + touch.stiffness * touch.slip);
-    const bool slides = length > touch.limit, is_first = touch.slip == glm::dvec3(0.0);
-    return {slides ? touch.limit / length : 1.0, slides && is_first ? kSlipShare<double> : 1.0};
-}
-
 // What a contact adds to second order.
 struct Terms {
     Matrix stiffness = Matrix::Zero();                // against the displacement of one side by the other
     Eigen::Vector3d force = Eigen::Vector3d::Zero();  // on the second side [N]
 };
 
+// Along a slip the force of friction does not change with it.
 Terms terms_of(const IslandSystem::Touch& touch) {
     Terms terms;
+    if (touch.gap >= touch.reach) return terms;
     const Eigen::Vector3d normal = vector(touch.normal);
-    const double pressing = contact_force(touch.gap, touch.reach, touch.stiffness);
-    if (pressing > 0.0) {
-        terms.force = pressing * normal;
-        terms.stiffness =
-            contact_hessian(touch.gap, touch.reach, touch.stiffness) * normal * normal.transpose();
-    }
+    terms.force = contact_force(touch.gap, touch.reach, touch.stiffness) * normal;
+    terms.stiffness = contact_hessian(touch.gap, touch.reach, touch.stiffness) * normal * normal.transpose();
     if (!(touch.limit > 0.0)) return terms;
     const Eigen::Vector3d hold = vector(touch.hold);
-    const Friction friction = friction_of(touch);
-    const double stiffness = friction.share * touch.stiffness;
-    terms.force -= friction.share * hold;
-    terms.stiffness += stiffness * (Matrix::Identity() - normal * normal.transpose());
-    if (friction.left < 1.0)
-        terms.stiffness -= (1.0 - friction.left) * stiffness / hold.squaredNorm() * hold * hold.transpose();
+    const double length = hold.norm(), share = std::min(1.0, touch.limit / length);
+    terms.force -= share * hold;
+    Matrix across = Matrix::Identity() - normal * normal.transpose();
+    if (length > touch.limit) across -= hold * hold.transpose() / hold.squaredNorm();
+    terms.stiffness += share * touch.stiffness * across;
     return terms;
 }
 
@@ -116,20 +101,22 @@ struct Slope {
 class Course {
 public:
     Course() = default;
-    // @param slip of the second side beside the first [m]
-    Course(const IslandSystem::Touch& touch, const Friction& friction, const glm::dvec3& slip)
+    // @param change of the gap [m] @param slip of the second side beside the first [m]
+    Course(const IslandSystem::Touch& touch, double change, const glm::dvec3& slip)
         : touch_(&touch),
-          friction_(friction),
+          change_(change),
           held_squared_(glm::dot(touch.hold, touch.hold)),
           held_along_(glm::dot(touch.hold, slip)),
           slip_squared_(glm::dot(slip, slip)) {}
 
     bool acts() const {
-        return std::min(touch_->gap, touch_->gap + touch_->change) < touch_->reach || touch_->limit > 0.0;
+        return std::min(touch_->gap, touch_->gap + change_) < touch_->reach || touch_->limit > 0.0;
     }
 
     Slope slope_at(double part) const {
-        Slope slope = pressing_at(part);
+        const double gap = touch_->gap + part * change_;
+        const Slope slope{-contact_force(gap, touch_->reach, touch_->stiffness) * change_,
+                          contact_hessian(gap, touch_->reach, touch_->stiffness) * change_ * change_};
         if (!(touch_->limit > 0.0)) return slope;
         const double way = part * touch_->stiffness;  // of what would hold, by the slip
         const double along = held_along_ + way * slip_squared_;
@@ -140,50 +127,46 @@ public:
         return {slope.value + share * along, slope.change + share * touch_->stiffness * turning};
     }
 
-    // As it is assembled, where nothing has moved.
-    Slope second_order() const {
-        Slope slope = touch_->gap < touch_->reach ? pressing_at(0.0) : Slope{0.0, 0.0};
-        if (!(touch_->limit > 0.0)) return slope;
-        double across = slip_squared_;
-        if (friction_.left < 1.0)
-            across -= (1.0 - friction_.left) * held_along_ * held_along_ / held_squared_;
-        return {slope.value + friction_.share * held_along_,
-                slope.change + friction_.share * touch_->stiffness * across};
-    }
-
 private:
-    Slope pressing_at(double part) const {
-        const double gap = touch_->gap + part * touch_->change;
-        return {-contact_force(gap, touch_->reach, touch_->stiffness) * touch_->change,
-                contact_hessian(gap, touch_->reach, touch_->stiffness) * touch_->change * touch_->change};
-    }
-
     const IslandSystem::Touch* touch_ = nullptr;
-    Friction friction_{1.0, 1.0};
-    double held_squared_ = 0.0, held_along_ = 0.0, slip_squared_ = 0.0;
+    double change_ = 0.0, held_squared_ = 0.0, held_along_ = 0.0, slip_squared_ = 0.0;
 };
 
 }  // namespace
 
-// Friction depends on how contacts press, of which sweeps find far too much in stiff bodies: it is taken by
-// what a first solution leaves of that.
+// Newton's method, with the friction that what presses then allows: sweeps find far too much of both in stiff
+// bodies. In the sum of all forces contacts cancel, so that momentum does not depend on how well the rest was
+// solved.
 std::vector<Motion> IslandSystem::find_motions(const Land& land) {
     find_couplings();
-    Motions newton(bodies.size(), Motion::Zero());
-    const auto holds = [](const Touch& touch) { return touch.friction > 0.0; };
-    if (std::any_of(touches.begin(), touches.end(), holds)) {
+    const bool is_free = !is_held && !is_outside_touched;
+    const Motion common = is_free ? free_translation() : Motion::Zero();
+    motions_.assign(bodies.size(), common);
+    double gained = 0.0, least_residual = 0.0;
+    for (int round = 0; round < kMostRounds; ++round) {
         assemble();
-        solve(kRoughResidual, newton);
-        shortened(newton);
+        const Motions way = newton_step(least_residual);
+        const double gain = dot(forces_, way), part = least_along(way);
+        move(way, part);
+        if (!(part > 0.0) || gain <= kEnough * gained) break;
+        gained += part * gain;
     }
-    assemble();
-    solve(kResidual, newton);
-    if (land) {
-        std::vector<std::uint8_t> lands(bodies.size());
-        for_each_index(0, bodies.size(), 1, [&](std::size_t k) { lands[k] = land(k, newton[k]) ? 1 : 0; });
-        has_landed_ = std::any_of(lands.begin(), lands.end(), [](std::uint8_t l) { return l != 0; });
+    if (is_free) {
+        const Motion off = common - mean_translation(motions_);
+        for (Motion& motion : motions_) motion += off;
     }
-    return shortened(newton);
+    return land ? landed(land) : motions_;
+}
+
+// Where a body lands, all make only a part of the whole motion: no other is outside of planes for sure.
+std::vector<Motion> IslandSystem::landed(const Land& land) {
+    Motions wanted = motions_;
+    std::vector<std::uint8_t> lands(bodies.size());
+    for_each_index(0, bodies.size(), 1, [&](std::size_t k) { lands[k] = land(k, wanted[k]) ? 1 : 0; });
+    if (std::none_of(lands.begin(), lands.end(), [](std::uint8_t l) { return l != 0; })) return motions_;
+    move(Motions(motions_), -1.0);
+    move(wanted, least_along(wanted));
+    return motions_;
 }
 
 void IslandSystem::find_couplings() {
@@ -233,7 +216,7 @@ void IslandSystem::sum_touches(Coupling& coupling) const {
 void IslandSystem::assemble() {
     for_each_index(0, touches.size(), kTouchesATask, [&](std::size_t k) {
         Touch& touch = touches[k];
-        touch.limit = touch.friction * contact_force(touch.gap + touch.change, touch.reach, touch.stiffness);
+        touch.limit = touch.friction * contact_force(touch.gap, touch.reach, touch.stiffness);
     });
     for_each_index(0, couplings_.size(), 4, [&](std::size_t k) { sum_touches(couplings_[k]); });
     const std::size_t count = bodies.size();
@@ -242,7 +225,7 @@ void IslandSystem::assemble() {
     forces_.resize(count);
     for_each_index(0, count, kBodiesATask, [&](std::size_t k) {
         matrices_[k] = bodies[k].matrix;
-        forces_[k] = bodies[k].force;
+        forces_[k] = bodies[k].force - bodies[k].matrix * motions_[k];
         for (const auto& [coupling, side] : uses_of(k)) {
             matrices_[k] += couplings_[coupling].own[side];
             forces_[k] += couplings_[coupling].forces[side];
@@ -251,18 +234,18 @@ void IslandSystem::assemble() {
     });
 }
 
-// By conjugate gradients, preconditioned with the bodies' own blocks. @param motions where they start
-void IslandSystem::solve(double residual, Motions& motions) const {
+// By conjugate gradients, preconditioned with the bodies' own blocks.
+// @param least_residual input: of this solution, 0 in the first round; output: of those to come
+IslandSystem::Motions IslandSystem::newton_step(double& least_residual) const {
     const std::size_t count = bodies.size();
     const auto precondition = [&](const Motions& r, Motions& z) {
         for_each_index(0, count, kBodiesATask, [&](std::size_t k) { z[k].noalias() = inverses_[k] * r[k]; });
         return dot(r, z);
     };
-    Motions left = forces_, pulled(count);
-    const double enough = residual * residual * precondition(left, pulled);
-    const Motions held = product(motions);
-    for (std::size_t k = 0; k < count; ++k) left[k] -= held[k];
+    Motions motions(count, Motion::Zero()), left = forces_, pulled(count);
     double now = precondition(left, pulled);
+    if (least_residual == 0.0) least_residual = kLeastResidual * kLeastResidual * now;
+    const double enough = std::max(kResidual * kResidual * now, least_residual);
     Motions direction = pulled;
     for (int i = 0; i < kMostSteps && now > enough; ++i) {
         const Motions resisted = product(direction);
@@ -276,37 +259,7 @@ void IslandSystem::solve(double residual, Motions& motions) const {
         const double before = std::exchange(now, precondition(left, pulled));
         for (std::size_t k = 0; k < count; ++k) direction[k] = pulled[k] + now / before * direction[k];
     }
-}
-
-// Contacts cancel in the sum of all forces, so that momentum does not depend on how well the rest was solved.
-// Tells each contact how its gap changes.
-std::vector<Motion> IslandSystem::shortened(const Motions& newton) {
-    Motions motions = newton;
-    Motion common = common_motion(motions);
-    for (Motion& motion : motions) motion -= common;
-    const bool is_free = !is_held && !is_outside_touched && !has_landed_;
-    if (is_free) common = free_translation();
-    const double part = least_along(motions, common);
-    for (Touch& touch : touches) {
-        touch.change *= part;
-        touch.slip *= part;
-    }
-    for (Motion& motion : motions) motion = part * motion + common;
     return motions;
-}
-
-// What all bodies do before the rest is shortened. Where colliders hold them, no more of it than lowers the
-// objective by itself: what they yield to it with by rotating is part of the rest. Where one lands, none:
-// only parts of the whole motion end outside of planes.
-Motion IslandSystem::common_motion(const Motions& motions) const {
-    if (is_held || has_landed_) return Motion::Zero();
-    Motion common = mean_translation(motions);
-    if (is_outside_touched) {
-        const Motions all(motions.size(), common);
-        const double resisted = dot(all, product(all));
-        common *= resisted > 0.0 ? std::clamp(dot(forces_, all) / resisted, 0.0, 1.0) : 0.0;
-    }
-    return common;
 }
 
 // By mass; it changes no gap.
@@ -325,40 +278,52 @@ Motion IslandSystem::free_translation() const {
     Motion sum = Motion::Zero();
     double stiffness = 0.0;
     for (std::size_t k = 0; k < bodies.size(); ++k) {
-        sum.head<3>() += forces_[k].head<3>();
+        sum.head<3>() += bodies[k].force.head<3>();
         stiffness += bodies[k].stiffness;
     }
     return sum / stiffness;
 }
 
-// The part of the motions, after the common one, at which the objective is least: contacts and friction as
-// they are, the rest to second order. Newton's step alone would throw bodies through the reach of others, and
-// friction would move them farther than what they lie on.
-double IslandSystem::least_along(const Motions& motions, const Motion& common) {
-    const Motions resisted = product(motions);
-    double pull = 0.0, curvature = dot(motions, resisted);
-    for (std::size_t k = 0; k < bodies.size(); ++k)
-        pull += forces_[k].dot(motions[k]) - common.dot(resisted[k]);
-    std::vector<Course> courses(touches.size());
+// How the second side of a contact goes beside the first [m].
+glm::dvec3 IslandSystem::apart(const Touch& touch, const Motions& way) {
+    glm::dvec3 sum(0.0);
+    for (std::size_t side = 0; side < 2; ++side) {
+        if (touch.bodies[side] == kNoNode) continue;
+        const glm::dvec3 own = displacement(way[touch.bodies[side]], touch.arms[side]);
+        sum += side == 0 ? -own : own;
+    }
+    return sum;
+}
+
+// Contacts know how wide they are then, and what holds them.
+void IslandSystem::move(const Motions& way, double part) {
+    for (std::size_t k = 0; k < bodies.size(); ++k) motions_[k] += part * way[k];
     for_each_index(0, touches.size(), kTouchesATask, [&](std::size_t k) {
         Touch& touch = touches[k];
-        glm::dvec3 apart(0.0);
-        for (std::size_t side = 0; side < 2; ++side) {
-            if (touch.bodies[side] == kNoNode) continue;
-            const glm::dvec3 way = displacement(motions[touch.bodies[side]], touch.arms[side]);
-            apart += side == 0 ? -way : way;
-        }
-        const Friction friction = friction_of(touch);
-        touch.change = glm::dot(apart, touch.normal);
-        touch.slip = apart - touch.change * touch.normal;
-        courses[k] = Course(touch, friction, touch.slip);
+        const glm::dvec3 moved = part * apart(touch, way);
+        const double change = glm::dot(moved, touch.normal);
+        touch.gap += change;
+        touch.hold += touch.stiffness * (moved - change * touch.normal);
+    });
+}
+
+// The part of a way at which the objective is least: contacts and friction as they are, the rest to second
+// order. Newton's step alone would throw bodies through the reach of others, and friction would move them
+// farther than what they lie on.
+double IslandSystem::least_along(const Motions& way) const {
+    double pull = 0.0, curvature = 0.0;
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        const Motion resisted = bodies[k].matrix * way[k];
+        pull += bodies[k].force.dot(way[k]) - resisted.dot(motions_[k]);
+        curvature += resisted.dot(way[k]);
+    }
+    std::vector<Course> courses(touches.size());
+    for_each_index(0, touches.size(), kTouchesATask, [&](std::size_t k) {
+        const glm::dvec3 moved = apart(touches[k], way);
+        const double change = glm::dot(moved, touches[k].normal);
+        courses[k] = Course(touches[k], change, moved - change * touches[k].normal);
     });
     std::erase_if(courses, [](const Course& course) { return !course.acts(); });
-    for (const Course& course : courses) {
-        const Slope second_order = course.second_order();
-        pull += second_order.value;
-        curvature -= second_order.change;
-    }
     const auto slope_at = [&](double part) {
         Slope slope{part * curvature - pull, curvature};
         for (const Course& course : courses) {

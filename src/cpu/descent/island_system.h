@@ -37,21 +37,18 @@ public:
         double stiffness = 0.0;            ///< [N/m]
         double friction = 0.0;             ///< Coulomb's coefficient
         glm::dvec3 hold{0.0};              ///< what would hold the first if nothing slid [N]
-        double limit = 0.0;                ///< of friction [N]
-        // By the last solution:
-        double change = 0.0;   ///< of the gap [m]
-        glm::dvec3 slip{0.0};  ///< how far the second went beside the first [m]
+        double limit = 0.0;                ///< of friction, by what presses [N]
     };
 
     std::vector<Body> bodies;
-    std::vector<Touch> touches;       ///< those of the same two bodies beside each other
-    bool is_held = false;             ///< something that is held is part of the island
+    std::vector<Touch> touches;  ///< those of the same two bodies beside each other; they follow the motions
+    bool is_held = false;        ///< something that is held is part of the island
     bool is_outside_touched = false;  ///< a body is in contact with a collider
 
     /// Changes the motion of a body, by its number, so that it stays outside of planes.
     /// @return whether it led into one
     using Land = std::function<bool(std::size_t, Motion&)>;
-    /// The motions of all bodies to where the objective is least along Newton's step.
+    /// The motions of all bodies to where the objective is least, to first order in rotations.
     /// @param land may be called on several threads; none: nothing is in the way
     std::vector<Motion> find_motions(const Land& land = {});
 
@@ -69,13 +66,14 @@ private:
     void find_couplings();
     void sum_touches(Coupling& coupling) const;
     void assemble();
-    void solve(double residual, Motions& motions) const;
-    Motions shortened(const Motions& newton);
-    double least_along(const Motions& motions, const Motion& common);
-    Motion common_motion(const Motions& motions) const;
+    Motions newton_step(double& least_residual) const;
+    double least_along(const Motions& way) const;
+    void move(const Motions& way, double part);
+    Motions landed(const Land& land);
     Motion mean_translation(const Motions& motions) const;
     Motion free_translation() const;
     Motions product(const Motions& motions) const;
+    static glm::dvec3 apart(const Touch& touch, const Motions& way);
 
     // A body's part in a coupling.
     struct Use {
@@ -87,11 +85,11 @@ private:
         return {uses_.data() + use_starts_[body], use_starts_[body + 1] - use_starts_[body]};
     }
 
-    bool has_landed_ = false;  // a body, in this motion
+    Motions motions_;  // so far
     std::vector<Coupling> couplings_;
     std::vector<Use> uses_;  // body by body
     std::vector<std::uint32_t> use_starts_;
-    // With contacts, by body:
+    // With contacts, after the motions so far, by body:
     std::vector<MotionMatrix> matrices_, inverses_;
     Motions forces_;
 };

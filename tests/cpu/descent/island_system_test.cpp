@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace gelatin {
 namespace {
 
@@ -38,6 +40,23 @@ TEST(IslandSystem, FrictionMovesABodyNoFartherThanABelt) {
         EXPECT_NEAR(motions[0](0), slip, 0.05 * slip) << slip;
     }
     EXPECT_NEAR(on_a_belt(20e-3).find_motions()[0](0), 5e-3, 0.3e-3);
+}
+
+// The body is pulled along the belt, which rests. It presses the belt already, or comes down on it in this step.
+TEST(IslandSystem, BodiesSlideOnWhatTheyFallOnto) {
+    for (const double above : {-5e-5, 1e-5, 1e-3}) {
+        for (const double pull : {3e3, 6e3, 1e4, 5e4}) {
+            IslandSystem island = on_a_belt(0.0);
+            island.bodies[0].force(0) = pull;
+            for (IslandSystem::Touch& touch : island.touches) touch.gap = touch.reach + above;
+            const Motion motion = island.find_motions()[0];
+            const double pressing = (1e4 - 1e6 * above) / (1.0 + 1e6 / 2e8);
+            const double sliding = std::max(0.0, (pull - 0.5 * pressing) / 1e6);
+            EXPECT_NEAR(motion(0), sliding > 0.0 ? sliding : pull / 2e8, 0.01 * pull / 1e6)
+                << above << ' ' << pull;
+            EXPECT_NEAR(motion(1), -above - pressing / 2e8, 1e-7) << above << ' ' << pull;
+        }
+    }
 }
 
 // A collider holds a corner of the lower body: its way up is a turn about that. The upper body lets it make
