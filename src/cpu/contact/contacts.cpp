@@ -280,9 +280,10 @@ std::vector<Work> Contacts<Real>::works(std::span<const Vec4<Real>> positions,
     return works;
 }
 
-// Bodies move rigidly, but for nodes that are held or would end in a plane.
+// Bodies move rigidly, but for nodes that are held or would end in a plane. Where rooms are in the way they
+// are made anew: small bodies would be no faster than these let them.
 template <class Real>
-void Contacts<Real>::move(std::span<Vec4<Real>> ends, std::span<Vec4<Real>> positions) {
+void Contacts<Real>::move(std::span<Vec4<Real>> ends, std::span<Vec4<Real>> positions, StageTimer* timer) {
     std::vector<std::uint8_t> is_rigid(model_->objects.size());
     for_each_index(0, is_rigid.size(), 1, [&](std::size_t o) {
         is_rigid[o] = guard_.is_held(o) ? 0 : 1;
@@ -294,7 +295,15 @@ void Contacts<Real>::move(std::span<Vec4<Real>> ends, std::span<Vec4<Real>> posi
             is_rigid[o] = 0;
         }
     });
-    guard_.plan(list_, aims_, positions, ends, Closeness::motion, Movers::objects, is_rigid);
+    const auto plan = [&](bool is_final) {
+        guard_.plan(list_, aims_, positions, ends, Closeness::motion, Movers::objects, is_rigid, is_final);
+    };
+    plan(false);
+    if (guard_.lacks_room()) {
+        detect(positions, ends, timer);
+        aim(positions, AimFor::guess, timer);
+        plan(true);
+    }
     guard_.go(list_, ends, true, positions);
 }
 

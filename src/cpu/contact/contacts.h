@@ -84,7 +84,7 @@ public:
 
     /// Moves all bodies to `ends`, as far as that is safe. Aims are out of date after it.
     /// @param ends input; output: outside of planes
-    void move(std::span<Vec4<Real>> ends, std::span<Vec4<Real>> positions);
+    void move(std::span<Vec4<Real>> ends, std::span<Vec4<Real>> positions, StageTimer* timer);
 
     /// Aims at the present positions for sweeps, and detects before if nodes have come far.
     void renew(std::span<const Vec4<Real>> positions, StageTimer* timer);

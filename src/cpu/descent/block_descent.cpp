@@ -311,7 +311,7 @@ void BlockDescent<Real>::move_together(bool last, Positions& positions, StageTim
             rigid_move_.run(batch, last, objective_, contacts_, bodies_.get(), &*landing_, positions, ends_);
         });
         joint_move_.run(last, *bodies_, objective_, contacts_, *landing_, positions, ends_);
-        bodies_->move(ends_, positions);
+        bodies_->move(ends_, positions, timer);
     }
     if (!last) bodies_->renew(positions, timer);
 }
