@@ -283,7 +283,8 @@ std::vector<Work> Contacts<Real>::works(std::span<const Vec4<Real>> positions,
 // Bodies move rigidly, but for nodes that are held or would end in a plane. Where rooms are in the way they
 // are made anew: small bodies would be no faster than these let them.
 template <class Real>
-void Contacts<Real>::move(std::span<Vec4<Real>> ends, std::span<Vec4<Real>> positions, StageTimer* timer) {
+void Contacts<Real>::move(double near, std::span<Vec4<Real>> ends, std::span<Vec4<Real>> positions,
+                          StageTimer* timer) {
     std::vector<std::uint8_t> is_rigid(model_->objects.size());
     for_each_index(0, is_rigid.size(), 1, [&](std::size_t o) {
         is_rigid[o] = guard_.is_held(o) ? 0 : 1;
@@ -299,11 +300,11 @@ void Contacts<Real>::move(std::span<Vec4<Real>> ends, std::span<Vec4<Real>> posi
         guard_.plan(list_, aims_, positions, ends, Closeness::motion, Movers::objects, is_rigid, is_final);
     };
     plan(false);
-    if (guard_.lacks_room()) {
+    if (guard_.lacks_room() && guard_.longest_way() <= near) {
         detect(positions, ends, timer);
         aim(positions, AimFor::guess, timer);
-        plan(true);
     }
+    if (guard_.lacks_room()) plan(true);
     guard_.go(list_, ends, true, positions);
 }
 

@@ -83,8 +83,9 @@ public:
     void go_on(std::span<const Real> parts, std::span<Vec4<Real>> positions);
 
     /// Moves all bodies to `ends`, as far as that is safe. Aims are out of date after it.
+    /// @param near where rooms are in the way of no longer ones, they are made anew [m]
     /// @param ends input; output: outside of planes
-    void move(std::span<Vec4<Real>> ends, std::span<Vec4<Real>> positions, StageTimer* timer);
+    void move(double near, std::span<Vec4<Real>> ends, std::span<Vec4<Real>> positions, StageTimer* timer);
 
     /// Aims at the present positions for sweeps, and detects before if nodes have come far.
     void renew(std::span<const Vec4<Real>> positions, StageTimer* timer);

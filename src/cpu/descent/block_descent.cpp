@@ -18,6 +18,8 @@ constexpr double kNearlyAll = 0.95;
 // Of a node's acceleration in the last step: what the guess of a soft body that others press goes on with.
 // With all of it an impact gives a little more back, but guesses are rough and list far more pairs.
 constexpr double kKeptAcceleration = 0.5;
+// A body is slow, of what gravity adds to its speed in a step.
+constexpr double kSlow = 2.0;
 // A body is soft where a pressure wave takes more than so many steps through it.
 constexpr double kStepsAWave = 8.0;
 // A step is longer than the last one where it is so many times that.
@@ -169,12 +171,14 @@ void BlockDescent<Real>::for_batches(const Visit& visit) const {
     tbb::parallel_for(std::size_t(0), objective_.rows().batches.size(), visit);
 }
 
-// Of bodies that press others. Those slower than what gravity adds in two steps stay: a guess that presses
+// Of bodies that press others. Slow ones stay: a guess that presses
 // them together would topple stacks. Others go on as they do; in short steps soft ones also with what bends
 // them, which sweeps that are that few hardly find.
 template <class Real>
 void BlockDescent<Real>::find_outlooks(Real step, bool is_part, const Nodes<Real>& previous) {
-    const double fast = 2.0 * static_cast<double>(step) * glm::length(glm::dvec3(model_->gravity));
+    const double gained = static_cast<double>(step) * glm::length(glm::dvec3(model_->gravity));
+    const double fast = kSlow * gained;
+    slow_way_ = static_cast<double>(step) * (fast + gained);
     tbb::parallel_for(std::size_t(0), model_->body_count(), [&](std::size_t o) {
         outlooks_[o] = {bodies_->was_pressed(o) || contacts_.objects[o] != 0};
         if (!outlooks_[o].is_pressed) return;
@@ -311,7 +315,7 @@ void BlockDescent<Real>::move_together(bool last, Positions& positions, StageTim
             rigid_move_.run(batch, last, objective_, contacts_, bodies_.get(), &*landing_, positions, ends_);
         });
         joint_move_.run(last, *bodies_, objective_, contacts_, *landing_, positions, ends_);
-        bodies_->move(ends_, positions, timer);
+        bodies_->move(slow_way_, ends_, positions, timer);
     }
     if (!last) bodies_->renew(positions, timer);
 }

@@ -156,6 +156,7 @@ private:
     std::optional<SecantStep<Real>> secant_;
     Positions ends_;                             // of bodies' motions
     std::vector<Outlook> outlooks_;              // by object
+    double slow_way_ = 0.0;                      // how far slow bodies come in this step at most [m]
     std::optional<PlaneLanding<Real>> landing_;  // where bodies meet
     std::optional<CoarseStep<Real>> coarse_;     // where there are clusters
     DeviceSweeps* device_;

@@ -18,6 +18,8 @@ namespace {
 // Newton's steps end when what is left to gain is this small a part of what was gained, or after so many.
 constexpr double kEnough = 1e-4;
 constexpr int kMostRounds = 8;
+// Farther than so many times their reach contacts do not know what bodies meet.
+constexpr double kFar = 16.0;
 // Conjugate gradients end when the residual is this small, of that at the start of the round, and of the
 // first round, or after so many steps.
 constexpr double kResidual = 1e-3, kLeastResidual = 1e-6;
@@ -148,7 +150,7 @@ std::vector<Motion> IslandSystem::find_motions(const Land& land) {
         const Motions way = newton_step(least_residual);
         const double gain = dot(forces_, way), part = least_along(way);
         move(way, part);
-        if (!(part > 0.0) || gain <= kEnough * gained) break;
+        if (!(part > 0.0) || gain <= kEnough * gained || leads_far(way)) break;
         gained += part * gain;
     }
     if (is_free) {
@@ -156,6 +158,14 @@ std::vector<Motion> IslandSystem::find_motions(const Land& land) {
         for (Motion& motion : motions_) motion += off;
     }
     return land ? landed(land) : motions_;
+}
+
+// Whether bodies that are stopped would go much farther into each other than contacts reach. Then the planes
+// of contacts tell nothing of where more of Newton's steps would lead: round the other body.
+bool IslandSystem::leads_far(const Motions& way) const {
+    return std::any_of(touches.begin(), touches.end(), [&](const Touch& touch) {
+        return touch.gap < touch.reach && glm::dot(apart(touch, way), touch.normal) < -kFar * touch.reach;
+    });
 }
 
 // Where a body lands, all make only a part of the whole motion: no other is outside of planes for sure.

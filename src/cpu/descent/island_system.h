@@ -69,6 +69,7 @@ private:
     Motions newton_step(double& least_residual) const;
     double least_along(const Motions& way) const;
     void move(const Motions& way, double part);
+    bool leads_far(const Motions& way) const;
     Motions landed(const Land& land);
     Motion mean_translation(const Motions& motions) const;
     Motion free_translation() const;
