@@ -20,6 +20,8 @@ constexpr double kEnough = 1e-4;
 constexpr int kMostRounds = 8;
 // Farther than so many times their reach contacts do not know what bodies meet.
 constexpr double kFar = 16.0;
+// What is held carries bodies along no farther than this part of a gap.
+constexpr double kMostClosed = 0.9;
 // Conjugate gradients end when the residual is this small, of that at the start of the round, and of the
 // first round, or after so many steps.
 constexpr double kResidual = 1e-3, kLeastResidual = 1e-6;
@@ -148,7 +150,7 @@ std::vector<Motion> IslandSystem::find_motions(const Land& land) {
     for (int round = 0; round < kMostRounds; ++round) {
         assemble();
         const Motions way = newton_step(least_residual);
-        const double gain = dot(forces_, way), part = least_along(way);
+        const double gain = dot(forces_, way), part = is_carried() ? carried_along(way) : least_along(way);
         move(way, part);
         if (!(part > 0.0) || gain <= kEnough * gained || leads_far(way)) break;
         gained += part * gain;
@@ -209,8 +211,9 @@ void IslandSystem::sum_touches(Coupling& coupling) const {
     }
     coupling.across.setZero();
     for (std::uint32_t k = coupling.touches.first; k < coupling.touches.end(); ++k) {
-        const Terms terms = terms_of(touches[k]);
+        Terms terms = terms_of(touches[k]);
         if (terms.stiffness.isZero(0.0)) continue;
+        terms.force -= terms.stiffness * vector(touches[k].carried);
         const std::array<Eigen::Vector3d, 2> arms{vector(touches[k].arms[0]), vector(touches[k].arms[1])};
         const std::array<Matrix, 2> turns{cross_matrix(arms[0]), cross_matrix(arms[1])};
         for (std::size_t side = 0; side < 2; ++side) {
@@ -296,7 +299,7 @@ Motion IslandSystem::free_translation() const {
 
 // How the second side of a contact goes beside the first [m].
 glm::dvec3 IslandSystem::apart(const Touch& touch, const Motions& way) {
-    glm::dvec3 sum(0.0);
+    glm::dvec3 sum = touch.carried;
     for (std::size_t side = 0; side < 2; ++side) {
         if (touch.bodies[side] == kNoNode) continue;
         const glm::dvec3 own = displacement(way[touch.bodies[side]], touch.arms[side]);
@@ -314,7 +317,25 @@ void IslandSystem::move(const Motions& way, double part) {
         const double change = glm::dot(moved, touch.normal);
         touch.gap += change;
         touch.hold += touch.stiffness * (moved - change * touch.normal);
+        touch.carried = glm::dvec3(0.0);
     });
+}
+
+bool IslandSystem::is_carried() const {
+    return std::any_of(touches.begin(), touches.end(),
+                       [](const Touch& touch) { return touch.carried != glm::dvec3(0.0); });
+}
+
+// The part of a way, and of that of what is held, which leaves all gaps open. What is held does work: the
+// objective does not tell how far it goes.
+double IslandSystem::carried_along(const Motions& way) const {
+    double part = 1.0;
+    for (const Touch& touch : touches) {
+        const double change = glm::dot(apart(touch, way), touch.normal);
+        const double most = kMostClosed * std::max(0.0, touch.gap);
+        if (change < -most) part = std::min(part, most / -change);
+    }
+    return part;
 }
 
 // The part of a way at which the objective is least: contacts and friction as they are, the rest to second

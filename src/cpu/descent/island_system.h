@@ -38,6 +38,7 @@ public:
         double friction = 0.0;             ///< Coulomb's coefficient
         glm::dvec3 hold{0.0};              ///< what would hold the first if nothing slid [N]
         double limit = 0.0;                ///< of friction, by what presses [N]
+        glm::dvec3 carried{0.0};           ///< how far the second goes beside the first by what is held [m]
     };
 
     std::vector<Body> bodies;
@@ -67,6 +68,8 @@ private:
     void sum_touches(Coupling& coupling) const;
     void assemble();
     Motions newton_step(double& least_residual) const;
+    bool is_carried() const;
+    double carried_along(const Motions& way) const;
     double least_along(const Motions& way) const;
     void move(const Motions& way, double part);
     bool leads_far(const Motions& way) const;

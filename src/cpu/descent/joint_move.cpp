@@ -57,12 +57,18 @@ IslandSystem::Body make_body(std::uint32_t object, const Range& nodes, const Ste
 template <class Real>
 IslandSystem::Touch make_touch(const ContactPair& pair, const ContactAims<Real>& aims,
                                const Press<Real>& press, const std::vector<std::uint32_t>& numbers,
-                               std::span<const Vec4<Real>> positions, const IslandSystem& island) {
+                               std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
+                               const IslandSystem& island) {
     IslandSystem::Touch touch;
     touch.bodies = {numbers[pair.object], numbers[pair.other]};
-    for (std::size_t k = 0; k < 4; ++k)
-        touch.arms[pair.side_of(k)] +=
-            static_cast<double>(press.weights[static_cast<int>(k)]) * glm::dvec3(positions[pair.nodes[k]]);
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::size_t side = pair.side_of(k);
+        const auto weight = static_cast<double>(press.weights[static_cast<int>(k)]);
+        const glm::dvec3 position(positions[pair.nodes[k]]);
+        touch.arms[side] += weight * position;
+        if (touch.bodies[side] == kNoNode)
+            touch.carried += (side == 0 ? -weight : weight) * (glm::dvec3(ends[pair.nodes[k]]) - position);
+    }
     for (std::size_t side = 0; side < 2; ++side)
         if (touch.bodies[side] != kNoNode) touch.arms[side] -= island.bodies[touch.bodies[side]].origin;
     touch.normal = glm::dvec3(press.normal);
@@ -125,7 +131,7 @@ void JointMove<Real>::run(bool is_last, const Contacts<Real>& contacts, const St
         for_each_index(0, own[i].size(), 64, [&](std::size_t k) {
             const Press<Real>& press = presses[own[i][k]];
             island.touches[k] =
-                make_touch(list.pairs[press.pair], contacts.aims(), press, numbers, positions, island);
+                make_touch<Real>(list.pairs[press.pair], contacts.aims(), press, numbers, positions, ends, island);
         });
         const std::vector<Motion> motions = island.find_motions([&](std::size_t k, Motion& motion) {
             const IslandSystem::Body& body = island.bodies[k];
