@@ -22,6 +22,8 @@ constexpr double kFew = 0.01;
 constexpr double kRestless = 0.4;
 // Of a room in its own body: where a node has used more, the map follows.
 constexpr double kFollowed = 0.6;
+// In joint motions, by the thickness of an object: sweeps and motions that follow make up for less.
+constexpr double kKept = 2.0;
 // If none has come so far, another detection would give them hardly more. Nor would another look at a body
 // whose map keeps this of all distances.
 constexpr double kFreshRoom = 0.3, kFreshMap = 0.8;
@@ -283,8 +285,8 @@ std::vector<Work> Contacts<Real>::works(std::span<const Vec4<Real>> positions,
 // Bodies move rigidly, but for nodes that are held or would end in a plane. Where rooms are in the way they
 // are made anew: small bodies would be no faster than these let them.
 template <class Real>
-void Contacts<Real>::move(double near, std::span<Vec4<Real>> ends, std::span<Vec4<Real>> positions,
-                          StageTimer* timer) {
+void Contacts<Real>::move(std::span<const Vec4<Real>> targets, double near, std::span<Vec4<Real>> ends,
+                          std::span<Vec4<Real>> positions, StageTimer* timer) {
     std::vector<std::uint8_t> is_rigid(model_->objects.size());
     for_each_index(0, is_rigid.size(), 1, [&](std::size_t o) {
         is_rigid[o] = guard_.is_held(o) ? 0 : 1;
@@ -300,12 +302,32 @@ void Contacts<Real>::move(double near, std::span<Vec4<Real>> ends, std::span<Vec
         guard_.plan(list_, aims_, positions, ends, Closeness::motion, Movers::objects, is_rigid, is_final);
     };
     plan(false);
-    if (guard_.lacks_room() && guard_.longest_way() <= near) {
+    if (lacks_room_for(targets, near, ends)) {
         detect(positions, ends, timer);
         aim(positions, AimFor::guess, timer);
     }
     if (guard_.lacks_room()) plan(true);
     guard_.go(list_, ends, true, positions);
+}
+
+// Whether its rooms keep an object that goes nearly where it would if nothing pressed it. Others may be on
+// their way round what they have met.
+template <class Real>
+bool Contacts<Real>::lacks_room_for(std::span<const Vec4<Real>> targets, double near,
+                                    std::span<const Vec4<Real>> ends) const {
+    for (std::uint32_t o = 0; o < model_->objects.size(); ++o) {
+        if (!(guard_.kept(o) > Real(kKept) * aims_.thickness(o))) continue;
+        const Range& nodes = model_->objects[o].nodes;
+        glm::dvec3 sum(0.0);
+        double mass = 0.0;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            const auto own = static_cast<double>(model_->masses[n]);
+            sum += own * glm::dvec3(Vec3<Real>(ends[n]) - Vec3<Real>(targets[n]));
+            mass += own;
+        }
+        if (glm::length(sum) <= mass * (near + static_cast<double>(aims_.thickness(o)))) return true;
+    }
+    return false;
 }
 
 template <class Real>

@@ -83,9 +83,12 @@ public:
     void go_on(std::span<const Real> parts, std::span<Vec4<Real>> positions);
 
     /// Moves all bodies to `ends`, as far as that is safe. Aims are out of date after it.
-    /// @param near where rooms are in the way of no longer ones, they are made anew [m]
+    /// @param targets where nodes would go if nothing pressed them [m]
+    /// @param near where rooms keep an object that goes to its target by this or its thickness, they are made
+    /// anew [m]
     /// @param ends input; output: outside of planes
-    void move(double near, std::span<Vec4<Real>> ends, std::span<Vec4<Real>> positions, StageTimer* timer);
+    void move(std::span<const Vec4<Real>> targets, double near, std::span<Vec4<Real>> ends,
+              std::span<Vec4<Real>> positions, StageTimer* timer);
 
     /// Aims at the present positions for sweeps, and detects before if nodes have come far.
     void renew(std::span<const Vec4<Real>> positions, StageTimer* timer);
@@ -143,6 +146,8 @@ private:
     void detect_where_needed(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
                              double few, StageTimer* timer);
     void set_longest(std::span<const Vec4<Real>> ends, std::span<const Vec4<Real>> positions);
+    bool lacks_room_for(std::span<const Vec4<Real>> targets, double near,
+                        std::span<const Vec4<Real>> ends) const;
     std::vector<std::uint8_t> find_staying(std::span<const Vec4<Real>> positions) const;
     bool is_restless(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
     bool any_restless(std::span<const Vec4<Real>> positions) const;

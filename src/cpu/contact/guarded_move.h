@@ -75,10 +75,8 @@ public:
         return std::any_of(room_parts_.begin(), room_parts_.end(), [](Real part) { return part < Real(1); });
     }
 
-    /// Of the nodes of objects, besides what these have in common [m].
-    double longest_way() const {
-        return static_cast<double>(*std::max_element(ways_of_objects_.begin(), ways_of_objects_.end()));
-    }
+    /// How much of a planned motion its rooms keep an object from [m].
+    Real kept(std::size_t object) const { return (Real(1) - room_parts_[object]) * ways_of_objects_[object]; }
 
     /// Whether it was their rooms in themselves that kept bodies, or one.
     bool lacks_own_room() const { return own_.lacks_room(); }

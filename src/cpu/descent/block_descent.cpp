@@ -315,7 +315,7 @@ void BlockDescent<Real>::move_together(bool last, Positions& positions, StageTim
             rigid_move_.run(batch, last, objective_, contacts_, bodies_.get(), &*landing_, positions, ends_);
         });
         joint_move_.run(last, *bodies_, objective_, contacts_, *landing_, positions, ends_);
-        bodies_->move(slow_way_, ends_, positions, timer);
+        bodies_->move(objective_.step.targets, slow_way_, ends_, positions, timer);
     }
     if (!last) bodies_->renew(positions, timer);
 }

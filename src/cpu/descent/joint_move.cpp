@@ -130,8 +130,8 @@ void JointMove<Real>::run(bool is_last, const Contacts<Real>& contacts, const St
         island.touches.resize(own[i].size());
         for_each_index(0, own[i].size(), 64, [&](std::size_t k) {
             const Press<Real>& press = presses[own[i][k]];
-            island.touches[k] =
-                make_touch<Real>(list.pairs[press.pair], contacts.aims(), press, numbers, positions, ends, island);
+            island.touches[k] = make_touch<Real>(list.pairs[press.pair], contacts.aims(), press, numbers,
+                                                 positions, ends, island);
         });
         const std::vector<Motion> motions = island.find_motions([&](std::size_t k, Motion& motion) {
             const IslandSystem::Body& body = island.bodies[k];

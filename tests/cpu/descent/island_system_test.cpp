@@ -42,7 +42,8 @@ TEST(IslandSystem, FrictionMovesABodyNoFartherThanABelt) {
     EXPECT_NEAR(on_a_belt(20e-3).find_motions()[0](0), 5e-3, 0.3e-3);
 }
 
-// The body is pulled along the belt, which rests. It presses the belt already, or comes down on it in this step.
+// The body is pulled along the belt, which rests. It presses the belt already, or comes down on it in this
+// step.
 TEST(IslandSystem, BodiesSlideOnWhatTheyFallOnto) {
     for (const double above : {-5e-5, 1e-5, 1e-3}) {
         for (const double pull : {3e3, 6e3, 1e4, 5e4}) {
