@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace gelatin {
 namespace {
@@ -58,6 +59,26 @@ TEST(IslandSystem, BodiesSlideOnWhatTheyFallOnto) {
             EXPECT_NEAR(motion(1), -above - pressing / 2e8, 1e-7) << above << ' ' << pull;
         }
     }
+}
+
+// The belt, which is held, is still on its way: the body goes with it, as far as friction takes it, and is
+// not pressed before it does.
+TEST(IslandSystem, WhatIsHeldCarriesBodiesAlong) {
+    const auto carried = [](const glm::dvec3& way) {
+        IslandSystem island = on_a_belt(0.0);
+        for (IslandSystem::Touch& touch : island.touches) touch.carried = -way;
+        const std::vector<Motion> motions = island.find_motions();
+        return std::pair(motions[0], island.touches[0].gap);
+    };
+    for (const double way : {0.1e-3, 1e-3, 3e-3}) {
+        EXPECT_NEAR(carried({way, 0.0, 0.0}).first(0), way, 0.05 * way);
+        const auto [motion, gap] = carried({0.0, way, 0.0});
+        const double pressed = 5e-5 + way * 1e6 / 2e8;  // into the reach, by what lifts the body
+        EXPECT_NEAR(motion(1), way + 5e-5 - pressed, 0.01 * way);
+        EXPECT_NEAR(gap, 5e-3 - pressed, 0.01 * pressed);
+    }
+    EXPECT_NEAR(carried({20e-3, 0.0, 0.0}).first(0), 5e-3, 0.3e-3);
+    EXPECT_GT(carried({0.0, 20e-3, 0.0}).second, 0.0);
 }
 
 // A collider holds a corner of the lower body: its way up is a turn about that. The upper body lets it make
