@@ -102,7 +102,7 @@ bool Contacts<Real>::are_apart(Real step, const Nodes<Real>& nodes, StageTimer* 
         return glm::dot(velocity, velocity);
     });
     longest_ = static_cast<double>(step * std::sqrt(fastest));
-    detect_where_needed(safe_, {}, 0.0, timer);
+    detect_where_needed(safe_, {}, 0, timer);
     return list_.pairs.empty();
 }
 
@@ -197,11 +197,13 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
     guard_.begin(positions);
     set_longest(guess_, positions);
     if (!is_aimed_ || !list_.is_valid || used_room(positions) > Real(kUsedRoom)) {
-        detect_where_needed(positions, guess_, 0.0, timer);
+        detect_where_needed(positions, guess_, 0, timer);
         aim(positions, AimFor::guess, timer);
     }
     // Rooms are made anew, and bodies looked at where they lack room in themselves, once before each move.
+    // Few of many bodies keep to rooms that are hardly used.
     bool is_fresh = false, is_looked_at = false;
+    std::size_t most_lacking = used_room(positions) < Real(kFreshRoom) ? few_objects() : 0;
     const int most_moves =
         static_cast<int>(std::clamp(kMovesASecond * static_cast<double>(step), 1.0, kMostMoves));
     for (int moves = 0;;) {
@@ -211,12 +213,17 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
             ends_ = guess_;
             const bool is_free =
                 guard_.plan(list_, aims_, positions, ends_, Closeness::guess, Movers::objects, {}, is_fresh);
+            if (!is_fresh && guard_.lacks_room() && guard_.count_kept() <= most_lacking) {
+                is_fresh = true;
+                continue;
+            }
             const bool needs_more =
                 (guard_.lacks_room() && !is_fresh) || (!is_looked_at && any_restless(positions));
             if (is_free || !needs_more) {
                 guard_.go(list_, ends_, false, positions);
                 ++moves;
                 is_fresh = is_looked_at = false;
+                most_lacking = 0;
                 if (is_free || moves == most_moves) break;
             }
         }
@@ -310,11 +317,12 @@ void Contacts<Real>::move(std::span<const Vec4<Real>> targets, double near, std:
     guard_.go(list_, ends, true, positions);
 }
 
-// Whether its rooms keep an object that goes nearly where it would if nothing pressed it. Others may be on
-// their way round what they have met.
+// Whether rooms keep more than a few objects that go nearly where they would if nothing pressed them. Others
+// may be on their way round what they have met.
 template <class Real>
 bool Contacts<Real>::lacks_room_for(std::span<const Vec4<Real>> targets, double near,
                                     std::span<const Vec4<Real>> ends) const {
+    std::size_t lacking = 0;
     for (std::uint32_t o = 0; o < model_->objects.size(); ++o) {
         if (!(guard_.kept(o) > Real(kKept) * aims_.thickness(o))) continue;
         const Range& nodes = model_->objects[o].nodes;
@@ -325,24 +333,30 @@ bool Contacts<Real>::lacks_room_for(std::span<const Vec4<Real>> targets, double 
             sum += own * glm::dvec3(Vec3<Real>(ends[n]) - Vec3<Real>(targets[n]));
             mass += own;
         }
-        if (glm::length(sum) <= mass * (near + static_cast<double>(aims_.thickness(o)))) return true;
+        if (glm::length(sum) <= mass * (near + static_cast<double>(aims_.thickness(o)))) ++lacking;
     }
-    return false;
+    return lacking > few_objects();
 }
 
 template <class Real>
 void Contacts<Real>::renew(std::span<const Vec4<Real>> positions, StageTimer* timer) {
-    detect_where_needed(positions, {}, kFew * static_cast<double>(model_->objects.size()), timer);
+    detect_where_needed(positions, {}, few_objects(), timer);
     aim(positions, AimFor::sweeps, timer);
 }
 
 template <class Real>
+std::size_t Contacts<Real>::few_objects() const {
+    return static_cast<std::size_t>(kFew * static_cast<double>(model_->objects.size()));
+}
+
+template <class Real>
 void Contacts<Real>::detect_where_needed(std::span<const Vec4<Real>> positions,
-                                         std::span<const Vec4<Real>> ends, double few, StageTimer* timer) {
+                                         std::span<const Vec4<Real>> ends, std::size_t few,
+                                         StageTimer* timer) {
     const auto lack_room = [&] {
         if (!(used_room(positions) > Real(kUsedRoom))) return false;
         const auto lacks = [](Real used) { return used > Real(kUsedRoom); };
-        return static_cast<double>(std::count_if(greatest_.begin(), greatest_.end(), lacks)) > few;
+        return static_cast<std::size_t>(std::count_if(greatest_.begin(), greatest_.end(), lacks)) > few;
     };
     if (!list_.is_valid || lack_room()) detect(positions, ends, timer);
     if (!clear_) return;

@@ -144,7 +144,8 @@ private:
     bool is_near_itself(std::uint32_t object) const;
     // @param few objects that may be short of room
     void detect_where_needed(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
-                             double few, StageTimer* timer);
+                             std::size_t few, StageTimer* timer);
+    std::size_t few_objects() const;
     void set_longest(std::span<const Vec4<Real>> ends, std::span<const Vec4<Real>> positions);
     bool lacks_room_for(std::span<const Vec4<Real>> targets, double near,
                         std::span<const Vec4<Real>> ends) const;

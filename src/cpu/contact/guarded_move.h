@@ -75,6 +75,11 @@ public:
         return std::any_of(room_parts_.begin(), room_parts_.end(), [](Real part) { return part < Real(1); });
     }
 
+    /// How many objects their rooms keep from some of a planned motion.
+    std::size_t count_kept() const {
+        return static_cast<std::size_t>(
+            std::count_if(room_parts_.begin(), room_parts_.end(), [](Real part) { return part < Real(1); }));
+    }
     /// How much of a planned motion its rooms keep an object from [m].
     Real kept(std::size_t object) const { return (Real(1) - room_parts_[object]) * ways_of_objects_[object]; }
 

@@ -18,6 +18,10 @@ namespace {
 // Newton's steps end when what is left to gain is this small a part of what was gained, or after so many.
 constexpr double kEnough = 1e-4;
 constexpr int kMostRounds = 8;
+// In a crowd some body always meets another, which ends a round: more of them cost much and gain little
+// there.
+constexpr std::size_t kCrowd = 64;
+constexpr int kRoundsOfCrowds = 2;
 // Farther than so many times their reach contacts do not know what bodies meet.
 constexpr double kFar = 16.0;
 // What is held carries bodies along no farther than this part of a gap.
@@ -147,7 +151,8 @@ std::vector<Motion> IslandSystem::find_motions(const Land& land) {
     const Motion common = is_free ? free_translation() : Motion::Zero();
     motions_.assign(bodies.size(), common);
     double gained = 0.0, least_residual = 0.0;
-    for (int round = 0; round < kMostRounds; ++round) {
+    const int most_rounds = bodies.size() > kCrowd ? kRoundsOfCrowds : kMostRounds;
+    for (int round = 0; round < most_rounds; ++round) {
         assemble();
         const Motions way = newton_step(least_residual);
         const double gain = dot(forces_, way), part = is_carried() ? carried_along(way) : least_along(way);
