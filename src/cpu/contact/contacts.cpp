@@ -24,8 +24,8 @@ constexpr double kRestless = 0.4;
 constexpr double kFollowed = 0.6;
 // In joint motions, by the thickness of an object: sweeps and motions that follow make up for less.
 constexpr double kKept = 2.0;
-// If none has come so far, another detection would give them hardly more. Nor would another look at a body
-// whose map keeps this of all distances.
+// If none has come so far, few of many bodies wait for more. Nor would another look at a body give it much
+// more whose map keeps this of all distances.
 constexpr double kFreshRoom = 0.3, kFreshMap = 0.8;
 
 // Bodies are clear of themselves where all gaps are more than these times that at which they press.
@@ -213,7 +213,8 @@ void Contacts<Real>::begin(Real step, std::span<const Vec4<Real>> targets, std::
             ends_ = guess_;
             const bool is_free =
                 guard_.plan(list_, aims_, positions, ends_, Closeness::guess, Movers::objects, {}, is_fresh);
-            if (!is_fresh && guard_.lacks_room() && guard_.count_kept() <= most_lacking) {
+            const std::size_t lacking = guard_.count_kept();
+            if (!is_fresh && lacking > 0 && lacking <= most_lacking) {
                 is_fresh = true;
                 continue;
             }

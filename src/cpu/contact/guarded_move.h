@@ -71,15 +71,14 @@ public:
             std::span<Vec4<Real>> positions);
 
     /// Whether it was rooms that kept an object from the end of its planned motion.
-    bool lacks_room() const {
-        return std::any_of(room_parts_.begin(), room_parts_.end(), [](Real part) { return part < Real(1); });
-    }
+    bool lacks_room() const { return count_kept() > 0; }
 
-    /// How many objects their rooms keep from some of a planned motion.
+    /// How many objects rooms kept so.
     std::size_t count_kept() const {
         return static_cast<std::size_t>(
             std::count_if(room_parts_.begin(), room_parts_.end(), [](Real part) { return part < Real(1); }));
     }
+
     /// How much of a planned motion its rooms keep an object from [m].
     Real kept(std::size_t object) const { return (Real(1) - room_parts_[object]) * ways_of_objects_[object]; }
 

@@ -171,9 +171,9 @@ void BlockDescent<Real>::for_batches(const Visit& visit) const {
     tbb::parallel_for(std::size_t(0), objective_.rows().batches.size(), visit);
 }
 
-// Of bodies that press others. Slow ones stay: a guess that presses
-// them together would topple stacks. Others go on as they do; in short steps soft ones also with what bends
-// them, which sweeps that are that few hardly find.
+// Of bodies that press others. Slow ones stay: a guess that presses them together would topple stacks. Others
+// go on as they do; in short steps soft ones also with what bends them, which sweeps that are that few hardly
+// find.
 template <class Real>
 void BlockDescent<Real>::find_outlooks(Real step, bool is_part, const Nodes<Real>& previous) {
     const double gained = static_cast<double>(step) * glm::length(glm::dvec3(model_->gravity));

@@ -19,7 +19,7 @@ namespace {
 constexpr double kEnough = 1e-4;
 constexpr int kMostRounds = 8;
 // In a crowd some body always meets another, which ends a round: more of them cost much and gain little
-// there.
+// there, unless what is held presses it.
 constexpr std::size_t kCrowd = 64;
 constexpr int kRoundsOfCrowds = 2;
 // Farther than so many times their reach contacts do not know what bodies meet.
@@ -151,7 +151,7 @@ std::vector<Motion> IslandSystem::find_motions(const Land& land) {
     const Motion common = is_free ? free_translation() : Motion::Zero();
     motions_.assign(bodies.size(), common);
     double gained = 0.0, least_residual = 0.0;
-    const int most_rounds = bodies.size() > kCrowd ? kRoundsOfCrowds : kMostRounds;
+    const int most_rounds = bodies.size() > kCrowd && !is_carried() ? kRoundsOfCrowds : kMostRounds;
     for (int round = 0; round < most_rounds; ++round) {
         assemble();
         const Motions way = newton_step(least_residual);
