@@ -3,7 +3,9 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -53,8 +55,9 @@ void DetectContacts<Real>::run(std::span<const Vec4<Real>> positions, const Expe
     objects_.run(positions, expected, list);
     find_ways(expected.ends, list);
     collision_->update_boxes(positions, ends_);
-    objects_.sort();
-    find_rooms(list);
+    const auto searched = static_cast<Real>(kSearched * objects_.island_distance());
+    objects_.sort(searched);
+    find_rooms(searched, list);
     find_pairs();
     put_together(list);
     list.is_valid = true;
@@ -315,9 +318,8 @@ void DetectContacts<Real>::assign_slots(ContactList<Real>& list) const {
 // other body's leaf, than that and the distance between the leaves' boxes, which have the margin. Each node
 // may use its part of both, less the reach.
 template <class Real>
-void DetectContacts<Real>::find_rooms(ContactList<Real>& list) {
+void DetectContacts<Real>::find_rooms(Real most, ContactList<Real>& list) {
     const BoxTree& trees = model_->face_trees;
-    const auto most = static_cast<Real>(kSearched * objects_.island_distance());
     list.rooms.assign(model_->surface_parts.nodes.size(), most);
     tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
         find_distances(static_cast<std::uint32_t>(o), most);

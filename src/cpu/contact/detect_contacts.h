@@ -72,7 +72,7 @@ private:
         return static_cast<float>(surface_->reach(object, other));
     }
     void assign_slots(ContactList<Real>& list) const;
-    void find_rooms(ContactList<Real>& list);
+    void find_rooms(Real most, ContactList<Real>& list);
     void find_distances(std::uint32_t object, Real most);
     struct Nearest {
         Real squared;                    // distance [m^2]

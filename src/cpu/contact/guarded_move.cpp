@@ -16,8 +16,9 @@ namespace gelatin::cpu {
 namespace {
 
 // Rounds in which movers that block each other are shortened. After them, those still in the way make nothing
-// of their own.
-constexpr int kMostRounds = 8;
+// of their own, and what comes behind them neither, from body to body. After so many more whole islands stop:
+// none of a crowd that falls would move.
+constexpr int kMostRounds = 8, kMostStops = 100;
 // What others are in the way of, but makes so much of its way, may make more after another detection if much
 // is left: what slides, over the next edges.
 constexpr double kProgress = 0.1;
@@ -300,9 +301,9 @@ void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
         courses_.resize(kept);
         std::swap(parts_, next_parts_);
         if (!is_blocked) return;
-        // In a large island rounds could go on from body to body. Islands stop whole, and colliders, each
-        // time at least one; none is left where faces overlap already.
-        if (round < 2 * kMostRounds) continue;
+        // Islands stop whole, and colliders, each time at least one; none is left where faces overlap
+        // already.
+        if (round < kMostRounds + kMostStops) continue;
         std::vector<std::uint8_t> stops(common_.size());
         for (const PairCourse<Real>& course : courses_) {
             if (is_left(course)) continue;

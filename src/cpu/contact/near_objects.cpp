@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
+#include "cpu/contact/disjoint_sets.h"
 #include "cpu/contact/island_motions.h"
 #include "cpu/contact/planes.h"
 #include "cpu/contact/swept_box.h"
@@ -98,7 +98,6 @@ void NearObjects<Real>::find_near_objects() {
         object_tree_.for_objects_near(around, [&](std::uint32_t other) {
             if (other != o && (other < bodies || reaches(other, boxes_[o], apart))) near_[o].push_back(other);
         });
-        std::sort(near_[o].begin(), near_[o].end());
     });
     for (std::uint32_t c = bodies; c < count; ++c) near_[c].clear();
     for (std::uint32_t o = 0; o < bodies; ++o) {
@@ -155,7 +154,7 @@ Real NearObjects<Real>::squared_gap(const AxisBox<Real>& box, const Vec3<Real>& 
 }
 
 template <class Real>
-void NearObjects<Real>::sort() {
+void NearObjects<Real>::sort(Real most) {
     const std::vector<AxisBox<Real>>& boxes = collision_.bounding_boxes();
     tbb::parallel_for(std::size_t(0), near_.size(), [&](std::size_t index) {
         const auto o = static_cast<std::uint32_t>(index);
@@ -165,8 +164,10 @@ void NearObjects<Real>::sort() {
             NearObject<Real> near{Real(0), other, spare_margin(o, other), drift_towards(o, other)};
             near.squared = squared_distance(trimmed(swept(boxes[o], near.drift), near.spare), boxes[other]);
             if (!(near.squared > Real(0))) meeting_[o].push_back(near);
-            by_distance_[o].push_back(near);
+            if (near.squared < most * most) by_distance_[o].push_back(near);
         }
+        std::sort(meeting_[o].begin(), meeting_[o].end(),
+                  [](const auto& a, const auto& b) { return a.object < b.object; });
         std::sort(by_distance_[o].begin(), by_distance_[o].end(), [](const auto& a, const auto& b) {
             return a.squared < b.squared || (a.squared == b.squared && a.object < b.object);
         });
@@ -177,24 +178,15 @@ void NearObjects<Real>::sort() {
 template <class Real>
 void NearObjects<Real>::find_islands(ContactList<Real>& list) {
     const auto count = static_cast<std::uint32_t>(model_->objects.size());
-    std::vector<std::uint32_t> roots(count);
-    std::iota(roots.begin(), roots.end(), 0u);
-    const auto root = [&](std::uint32_t o) {
-        while (roots[o] != o) o = roots[o] = roots[roots[o]];
-        return o;
-    };
-    for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        for (const std::uint32_t other : near_[o]) {
-            if (!model_->is_body(other)) continue;
-            const std::uint32_t mine = root(o), theirs = root(other);
-            roots[std::max(mine, theirs)] = std::min(mine, theirs);
-        }
-    }
+    DisjointSets islands(count);
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o)
+        for (const std::uint32_t other : near_[o])
+            if (model_->is_body(other)) islands.unite(o, other);
     list.islands.resize(count);
     list.is_alone.clear();
     list.is_fixed.clear();
     for (std::uint32_t o = 0; o < count; ++o) {
-        const std::uint32_t first = root(o);
+        const std::uint32_t first = islands.least(o);
         list.islands[o] = first == o ? static_cast<std::uint32_t>(list.is_alone.size()) : list.islands[first];
         if (first == o) {
             list.is_alone.push_back(1);
@@ -202,7 +194,8 @@ void NearObjects<Real>::find_islands(ContactList<Real>& list) {
         } else {
             list.is_alone[list.islands[o]] = 0;
         }
-        const bool is_near_collider = !near_[o].empty() && !model_->is_body(near_[o].back());
+        const bool is_near_collider = std::any_of(
+            near_[o].begin(), near_[o].end(), [&](std::uint32_t other) { return !model_->is_body(other); });
         if (is_near_collider) list.is_alone[list.islands[o]] = 0;
         if (is_near_collider || !model_->is_body(o)) list.is_fixed[list.islands[o]] = 1;
     }

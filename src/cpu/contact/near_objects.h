@@ -48,13 +48,14 @@ public:
     /// Writes the list's islands and their courses. @param positions must stay until the next run
     void run(std::span<const Vec4<Real>> positions, const Expected<Real>& expected, ContactList<Real>& list);
     /// Sorts what is near an object, once the boxes of faces are those of this run.
-    void sort();
+    /// @param most distance up to which by_distance() is wanted, beyond what is listed [m]
+    void sort(Real most);
 
     /// Beyond what is listed [m]: islands are farther apart.
     double island_distance() const { return island_distance_; }
     /// Objects that an object meets if both go their ways, ascending; not one collider and another.
     const std::vector<NearObject<Real>>& meeting(std::uint32_t object) const { return meeting_[object]; }
-    /// All that are near it, the nearest first.
+    /// Those that are nearer to it than sort() was told, the nearest first.
     const std::vector<NearObject<Real>>& by_distance(std::uint32_t object) const {
         return by_distance_[object];
     }
@@ -100,8 +101,7 @@ private:
     std::vector<AxisBox<Real>> boxes_;  // of objects where they are
     std::vector<Vec3<Real>> drifts_;    // by object
     ObjectTree<Real> object_tree_;
-    // Of each object, those near it that are not both colliders, ascending; those of a body's island, and
-    // colliders.
+    // Of each object, those near it that are not both colliders: those of a body's island, and colliders.
     std::vector<std::vector<std::uint32_t>> near_;
     std::vector<std::vector<NearObject<Real>>> meeting_, by_distance_;
 };

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "cpu/contact/contact_law.h"
+#include "cpu/contact/disjoint_sets.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -18,10 +19,9 @@ namespace {
 // Newton's steps end when what is left to gain is this small a part of what was gained, or after so many.
 constexpr double kEnough = 1e-4;
 constexpr int kMostRounds = 8;
-// In a crowd some body always meets another, which ends a round: more of them cost much and gain little
-// there, unless what is held presses it.
-constexpr std::size_t kCrowd = 64;
-constexpr int kRoundsOfCrowds = 2;
+// From this part of the gap at the start on, of no more than the reach, forces grow linearly. With the
+// barrier the first pair of a crowd to meet would end a round for all.
+constexpr double kStraight = 0.5;
 // Farther than so many times their reach contacts do not know what bodies meet.
 constexpr double kFar = 16.0;
 // What is held carries bodies along no farther than this part of a gap.
@@ -77,6 +77,17 @@ void add_stiffness(const Matrix& stiffness, const Matrix& arm_a, const Matrix& a
     sum.bottomRightCorner<3, 3>() += arm_a * turned;
 }
 
+// As contact_force and contact_hessian, but linear from the least gap on.
+double force_at(const IslandSystem::Touch& touch, double gap) {
+    const double inside = std::max(gap, touch.least);
+    return contact_force(inside, touch.reach, touch.stiffness) +
+           contact_hessian(inside, touch.reach, touch.stiffness) * (inside - gap);
+}
+
+double hessian_at(const IslandSystem::Touch& touch, double gap) {
+    return contact_hessian(std::max(gap, touch.least), touch.reach, touch.stiffness);
+}
+
 // What a contact adds to second order.
 struct Terms {
     Matrix stiffness = Matrix::Zero();                // against the displacement of one side by the other
@@ -88,8 +99,8 @@ Terms terms_of(const IslandSystem::Touch& touch) {
     Terms terms;
     if (touch.gap >= touch.reach) return terms;
     const Eigen::Vector3d normal = vector(touch.normal);
-    terms.force = contact_force(touch.gap, touch.reach, touch.stiffness) * normal;
-    terms.stiffness = contact_hessian(touch.gap, touch.reach, touch.stiffness) * normal * normal.transpose();
+    terms.force = force_at(touch, touch.gap) * normal;
+    terms.stiffness = hessian_at(touch, touch.gap) * normal * normal.transpose();
     if (!(touch.limit > 0.0)) return terms;
     const Eigen::Vector3d hold = vector(touch.hold);
     const double length = hold.norm(), share = std::min(1.0, touch.limit / length);
@@ -123,8 +134,7 @@ public:
 
     Slope slope_at(double part) const {
         const double gap = touch_->gap + part * change_;
-        const Slope slope{-contact_force(gap, touch_->reach, touch_->stiffness) * change_,
-                          contact_hessian(gap, touch_->reach, touch_->stiffness) * change_ * change_};
+        const Slope slope{-force_at(*touch_, gap) * change_, hessian_at(*touch_, gap) * change_ * change_};
         if (!(touch_->limit > 0.0)) return slope;
         const double way = part * touch_->stiffness;  // of what would hold, by the slip
         const double along = held_along_ + way * slip_squared_;
@@ -140,6 +150,24 @@ private:
     double change_ = 0.0, held_squared_ = 0.0, held_along_ = 0.0, slip_squared_ = 0.0;
 };
 
+// The part of a way at which an energy is least. @param slope_at(part): its slope
+template <class SlopeAt>
+double least_part(const SlopeAt& slope_at) {
+    const double enough = kLevel * std::abs(slope_at(0.0).value);
+    double low = 0.0, high = 1.0, part = 1.0, last = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < kMostLooks; ++i) {
+        const Slope slope = slope_at(part);
+        const double steepness = std::abs(slope.value);
+        if (steepness <= enough || (part == 1.0 && !(slope.value > 0.0))) return part;
+        (slope.value > 0.0 ? high : low) = part;
+        part -= slope.value / slope.change;
+        // Deep within reach, where forces rise steeply, Newton's steps are short.
+        if (!(part > low && part < high) || steepness > 0.5 * last) part = 0.5 * (low + high);
+        last = steepness;
+    }
+    return low;
+}
+
 }  // namespace
 
 // Newton's method, with the friction that what presses then allows: sweeps find far too much of both in stiff
@@ -150,15 +178,18 @@ std::vector<Motion> IslandSystem::find_motions(const Land& land) {
     const bool is_free = !is_held && !is_outside_touched;
     const Motion common = is_free ? free_translation() : Motion::Zero();
     motions_.assign(bodies.size(), common);
+    for (Touch& touch : touches) touch.least = kStraight * std::min(touch.gap, touch.reach);
     double gained = 0.0, least_residual = 0.0;
-    const int most_rounds = bodies.size() > kCrowd && !is_carried() ? kRoundsOfCrowds : kMostRounds;
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < kMostRounds; ++round) {
         assemble();
-        const Motions way = newton_step(least_residual);
-        const double gain = dot(forces_, way), part = is_carried() ? carried_along(way) : least_along(way);
-        move(way, part);
-        if (!(part > 0.0) || gain <= kEnough * gained || leads_far(way)) break;
-        gained += part * gain;
+        Motions way = newton_step(least_residual);
+        const double gain = dot(forces_, way);
+        const bool is_far = leads_far(way);
+        shorten(way, is_carried() ? carried_along(way) : least_along(way));
+        const double made = dot(forces_, way);
+        move(way);
+        if (!(made > 0.0) || gain <= kEnough * gained || is_far) break;
+        gained += made;
     }
     if (is_free) {
         const Motion off = common - mean_translation(motions_);
@@ -175,14 +206,17 @@ bool IslandSystem::leads_far(const Motions& way) const {
     });
 }
 
-// Where a body lands, all make only a part of the whole motion: no other is outside of planes for sure.
+// Where a body lands, those that press each other on the whole motion make only a part of it.
 std::vector<Motion> IslandSystem::landed(const Land& land) {
     Motions wanted = motions_;
     std::vector<std::uint8_t> lands(bodies.size());
     for_each_index(0, bodies.size(), 1, [&](std::size_t k) { lands[k] = land(k, wanted[k]) ? 1 : 0; });
     if (std::none_of(lands.begin(), lands.end(), [](std::uint8_t l) { return l != 0; })) return motions_;
-    move(Motions(motions_), -1.0);
-    move(wanted, least_along(wanted));
+    Motions back = motions_;
+    for (Motion& motion : back) motion = -motion;
+    move(back);
+    shorten(wanted, least_along(wanted));
+    move(wanted);
     return motions_;
 }
 
@@ -234,7 +268,7 @@ void IslandSystem::sum_touches(Coupling& coupling) const {
 void IslandSystem::assemble() {
     for_each_index(0, touches.size(), kTouchesATask, [&](std::size_t k) {
         Touch& touch = touches[k];
-        touch.limit = touch.friction * contact_force(touch.gap, touch.reach, touch.stiffness);
+        touch.limit = touch.friction * force_at(touch, touch.gap);
     });
     for_each_index(0, couplings_.size(), 4, [&](std::size_t k) { sum_touches(couplings_[k]); });
     const std::size_t count = bodies.size();
@@ -313,12 +347,17 @@ glm::dvec3 IslandSystem::apart(const Touch& touch, const Motions& way) {
     return sum;
 }
 
+// @param parts by body
+void IslandSystem::shorten(Motions& way, const std::vector<double>& parts) {
+    for (std::size_t k = 0; k < way.size(); ++k) way[k] *= parts[k];
+}
+
 // Contacts know how wide they are then, and what holds them.
-void IslandSystem::move(const Motions& way, double part) {
-    for (std::size_t k = 0; k < bodies.size(); ++k) motions_[k] += part * way[k];
+void IslandSystem::move(const Motions& way) {
+    for (std::size_t k = 0; k < bodies.size(); ++k) motions_[k] += way[k];
     for_each_index(0, touches.size(), kTouchesATask, [&](std::size_t k) {
         Touch& touch = touches[k];
-        const glm::dvec3 moved = part * apart(touch, way);
+        const glm::dvec3 moved = apart(touch, way);
         const double change = glm::dot(moved, touch.normal);
         touch.gap += change;
         touch.hold += touch.stiffness * (moved - change * touch.normal);
@@ -331,59 +370,85 @@ bool IslandSystem::is_carried() const {
                        [](const Touch& touch) { return touch.carried != glm::dvec3(0.0); });
 }
 
-// The part of a way, and of that of what is held, which leaves all gaps open. What is held does work: the
-// objective does not tell how far it goes.
-double IslandSystem::carried_along(const Motions& way) const {
+// The part of a way that leaves all gaps open. What is held makes no more of its own, either. It does work:
+// the objective does not tell how far it goes.
+std::vector<double> IslandSystem::carried_along(const Motions& way) {
     double part = 1.0;
     for (const Touch& touch : touches) {
         const double change = glm::dot(apart(touch, way), touch.normal);
         const double most = kMostClosed * std::max(0.0, touch.gap);
         if (change < -most) part = std::min(part, most / -change);
     }
-    return part;
+    for (Touch& touch : touches) touch.carried *= part;
+    return std::vector<double>(bodies.size(), part);
 }
 
-// The part of a way at which the objective is least: contacts and friction as they are, the rest to second
-// order. Newton's step alone would throw bodies through the reach of others, and friction would move them
-// farther than what they lie on.
-double IslandSystem::least_along(const Motions& way) const {
-    double pull = 0.0, curvature = 0.0;
-    for (std::size_t k = 0; k < bodies.size(); ++k) {
-        const Motion resisted = bodies[k].matrix * way[k];
-        pull += bodies[k].force.dot(way[k]) - resisted.dot(motions_[k]);
-        curvature += resisted.dot(way[k]);
-    }
+// The part of its way that each body makes, so that the objective is least: contacts and friction as they
+// are, the rest to second order. Newton's step alone would throw bodies through the reach of others, and
+// friction would move them farther than what they lie on. Bodies that press each other on the way make the
+// same part. In a crowd the first to meet would stop all.
+std::vector<double> IslandSystem::least_along(const Motions& way) const {
     std::vector<Course> courses(touches.size());
     for_each_index(0, touches.size(), kTouchesATask, [&](std::size_t k) {
         const glm::dvec3 moved = apart(touches[k], way);
         const double change = glm::dot(moved, touches[k].normal);
         courses[k] = Course(touches[k], change, moved - change * touches[k].normal);
     });
-    std::erase_if(courses, [](const Course& course) { return !course.acts(); });
-    const auto slope_at = [&](double part) {
-        Slope slope{part * curvature - pull, curvature};
-        for (const Course& course : courses) {
-            const Slope own = course.slope_at(part);
-            slope.value += own.value;
-            slope.change += own.change;
-        }
-        return slope;
+    const auto is_between = [&](const Touch& touch) {
+        return touch.bodies[0] != kNoNode && touch.bodies[1] != kNoNode;
     };
-    const double enough = kLevel * std::abs(slope_at(0.0).value);
-    double low = 0.0, high = 1.0, part = 1.0, last = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < kMostLooks; ++i) {
-        const Slope slope = slope_at(part);
-        const double steepness = std::abs(slope.value);
-        if (steepness <= enough || (part == 1.0 && !(slope.value > 0.0))) return part;
-        (slope.value > 0.0 ? high : low) = part;
-        part -= slope.value / slope.change;
-        // Deep within reach, where forces rise without bound, Newton's steps are short.
-        if (!(part > low && part < high) || steepness > 0.5 * last) part = 0.5 * (low + high);
-        last = steepness;
+    DisjointSets groups(bodies.size());
+    for (std::size_t k = 0; k < touches.size(); ++k)
+        if (is_between(touches[k]) && courses[k].acts())
+            groups.unite(touches[k].bodies[0], touches[k].bodies[1]);
+    std::vector<double> parts(bodies.size());
+    std::vector<std::uint8_t> is_new(bodies.size(), 1);  // by the least number of a group
+    const auto find_parts = [&] {
+        std::vector<std::vector<std::uint32_t>> members(bodies.size()), own(bodies.size());
+        for (std::uint32_t k = 0; k < bodies.size(); ++k) members[groups.least(k)].push_back(k);
+        for (std::uint32_t k = 0; k < touches.size(); ++k) {
+            const std::uint32_t body = std::min(touches[k].bodies[0], touches[k].bodies[1]);
+            if (body != kNoNode && courses[k].acts()) own[groups.least(body)].push_back(k);
+        }
+        for_each_index(0, members.size(), kBodiesATask, [&](std::size_t group) {
+            if (members[group].empty() || is_new[group] == 0) return;
+            double pull = 0.0, curvature = 0.0;
+            for (const std::uint32_t k : members[group]) {
+                const Motion resisted = bodies[k].matrix * way[k];
+                pull += bodies[k].force.dot(way[k]) - resisted.dot(motions_[k]);
+                curvature += resisted.dot(way[k]);
+            }
+            const double part = least_part([&](double made) {
+                Slope slope{made * curvature - pull, curvature};
+                for (const std::uint32_t k : own[group]) {
+                    const Slope of_one = courses[k].slope_at(made);
+                    slope.value += of_one.value;
+                    slope.change += of_one.change;
+                }
+                return slope;
+            });
+            for (const std::uint32_t k : members[group]) parts[k] = part;
+        });
+    };
+    for (bool any = true; any;) {
+        find_parts();
+        std::fill(is_new.begin(), is_new.end(), std::uint8_t(0));
+        any = false;
+        // Those that go side by side may meet where they make different parts.
+        for (std::size_t k = 0; k < touches.size(); ++k) {
+            const Touch& touch = touches[k];
+            if (!is_between(touch) || courses[k].acts()) continue;
+            const auto [a, b] = touch.bodies;
+            if (parts[a] == parts[b]) continue;
+            const glm::dvec3 moved = parts[b] * displacement(way[b], touch.arms[1]) -
+                                     parts[a] * displacement(way[a], touch.arms[0]);
+            if (touch.gap + glm::dot(moved, touch.normal) >= touch.reach || !groups.unite(a, b)) continue;
+            is_new[groups.least(a)] = 1;
+            any = true;
+        }
     }
-    return low;
+    return parts;
 }
-
 std::vector<Motion> IslandSystem::product(const Motions& motions) const {
     Motions q(motions.size());
     for_each_index(0, bodies.size(), kBodiesATask, [&](std::size_t k) {

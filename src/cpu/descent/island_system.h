@@ -35,6 +35,7 @@ public:
         glm::dvec3 normal{0.0};            ///< from the first to the second, unit
         double gap = 0.0, reach = 0.0;     ///< [m]
         double stiffness = 0.0;            ///< [N/m]
+        double least = 0.0;                ///< gap from which on inwards the force grows linearly [m]
         double friction = 0.0;             ///< Coulomb's coefficient
         glm::dvec3 hold{0.0};              ///< what would hold the first if nothing slid [N]
         double limit = 0.0;                ///< of friction, by what presses [N]
@@ -69,9 +70,10 @@ private:
     void assemble();
     Motions newton_step(double& least_residual) const;
     bool is_carried() const;
-    double carried_along(const Motions& way) const;
-    double least_along(const Motions& way) const;
-    void move(const Motions& way, double part);
+    std::vector<double> carried_along(const Motions& way);
+    std::vector<double> least_along(const Motions& way) const;
+    static void shorten(Motions& way, const std::vector<double>& parts);
+    void move(const Motions& way);
     bool leads_far(const Motions& way) const;
     Motions landed(const Land& land);
     Motion mean_translation(const Motions& motions) const;

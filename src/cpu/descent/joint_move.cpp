@@ -96,12 +96,11 @@ void JointMove<Real>::run(bool is_last, const Contacts<Real>& contacts, const St
     std::vector<std::uint8_t> waits(islands.size());
     for (std::uint32_t o = 0; o < objects; ++o) {
         const std::uint32_t i = list.islands[o];
+        if (list.is_alone[i] != 0) waits[i] = 1;
         // The last sweep has left nodes outside colliders: bodies that touch one do not move after it.
-        if (list.is_alone[i] != 0 || (is_last && colliders.objects[o] != 0)) waits[i] = 1;
-        islands[i].is_held |= list.is_fixed[i] != 0 || contacts.is_held(o);
-        if (contacts.is_held(o)) {
-            continue;
-        }
+        const bool stays = contacts.is_held(o) || (is_last && colliders.objects[o] != 0);
+        islands[i].is_held |= list.is_fixed[i] != 0 || stays;
+        if (stays) continue;
         numbers[o] = static_cast<std::uint32_t>(islands[i].bodies.size());
         islands[i].bodies.emplace_back(o);
     }

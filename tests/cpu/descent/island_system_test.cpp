@@ -109,5 +109,29 @@ TEST(IslandSystem, WhatCollidersHoldDoesNotJump) {
     EXPECT_LT(objective, 0.0);
 }
 
+// Bodies of a crowd, each above a belt of its own, fall onto it from where they are.
+TEST(IslandSystem, BodiesOfACrowdMoveAsEachAlone) {
+    const auto above = [](std::uint32_t body) { return 1e-5 * static_cast<double>(body); };
+    IslandSystem crowd;
+    for (std::uint32_t k = 0; k < 200; ++k) {
+        IslandSystem one = on_a_belt(0.0);
+        one.bodies[0].force(0) = 6e3;
+        for (IslandSystem::Touch& touch : one.touches) touch.gap = touch.reach + above(k);
+        crowd.bodies.push_back(one.bodies[0]);
+        for (IslandSystem::Touch touch : one.touches) {
+            touch.bodies[1] = k;
+            crowd.touches.push_back(touch);
+        }
+    }
+    crowd.is_held = true;
+    const std::vector<Motion> motions = crowd.find_motions();
+    for (std::uint32_t k = 0; k < crowd.bodies.size(); ++k) {
+        IslandSystem one = on_a_belt(0.0);
+        one.bodies[0].force(0) = 6e3;
+        for (IslandSystem::Touch& touch : one.touches) touch.gap = touch.reach + above(k);
+        EXPECT_LT((motions[k] - one.find_motions()[0]).norm(), 2e-4) << k;
+    }
+}
+
 }  // namespace
 }  // namespace gelatin
