@@ -15,10 +15,10 @@
 namespace gelatin::cpu {
 namespace {
 
-// Rounds in which movers that block each other are shortened. After them, those still in the way make nothing
-// of their own, and what comes behind them neither, from body to body. After so many more whole islands stop:
-// none of a crowd that falls would move.
-constexpr int kMostRounds = 8, kMostStops = 100;
+// Rounds in which movers that block each other are shortened: of a row that is stopped, one mover in each.
+// After them, those still in the way make nothing of their own, and what comes behind them neither. After so
+// many more whole islands stop.
+constexpr int kMostRounds = 64, kMostStops = 100;
 // What others are in the way of, but makes so much of its way, may make more after another detection if much
 // is left: what slides, over the next edges.
 constexpr double kProgress = 0.1;
@@ -273,31 +273,42 @@ bool GuardedMove<Real>::are_far_apart(const ContactPair& pair, const ContactAims
     return aim.gap - ways[0] - ways[1] > least;
 }
 
-// In each round every pair that would come too near shortens the movers that approach.
+// In each round every pair that would come too near shortens the movers that approach. Others are as they
+// were in the round before.
 template <class Real>
 void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
     const auto is_left = [&](const PairCourse<Real>& course) {
         return course.gap([&](std::size_t k) { return parts_[course.movers[k]]; }) >= course.least;
     };
+    std::vector<std::uint8_t> is_shortened(parts_.size(), 1), is_next(parts_.size());  // in the round before
     for (int round = 0;; ++round) {
         bool is_blocked = false;
         next_parts_ = parts_;
+        std::fill(is_next.begin(), is_next.end(), std::uint8_t(0));
         std::size_t kept = 0;
         for (std::size_t k = 0; k < courses_.size(); ++k) {
-            const PairCourse<Real> course = courses_[k];
-            if (course.stays_free([&](std::size_t c) { return parts_[course.movers[c]]; })) continue;
-            courses_[kept++] = course;
-            if (is_left(course)) continue;
-            is_blocked = true;
-            const Real start = course.gap(
-                [&](std::size_t c) { return course.approaches(c) ? Real(0) : parts_[course.movers[c]]; });
-            const Real end = course.gap([&](std::size_t c) { return parts_[course.movers[c]]; });
-            const Real left = round < kMostRounds ? part_left(start, end, course.least) : Real(0);
-            for (std::size_t c = 0; c < 4; ++c) {
-                Real& part = next_parts_[course.movers[c]];
-                if (course.approaches(c)) part = std::min(part, left * parts_[course.movers[c]]);
+            const PairCourse<Real>& course = courses_[k];
+            const bool is_old = std::none_of(course.movers.begin(), course.movers.end(),
+                                             [&](std::uint32_t mover) { return is_shortened[mover] != 0; });
+            if (!is_old && course.stays_free([&](std::size_t c) { return parts_[course.movers[c]]; }))
+                continue;
+            if (!is_old && !is_left(course)) {
+                is_blocked = true;
+                const Real start = course.gap(
+                    [&](std::size_t c) { return course.approaches(c) ? Real(0) : parts_[course.movers[c]]; });
+                const Real end = course.gap([&](std::size_t c) { return parts_[course.movers[c]]; });
+                const Real left = round < kMostRounds ? part_left(start, end, course.least) : Real(0);
+                for (std::size_t c = 0; c < 4; ++c) {
+                    if (!course.approaches(c)) continue;
+                    Real& part = next_parts_[course.movers[c]];
+                    part = std::min(part, left * parts_[course.movers[c]]);
+                    is_next[course.movers[c]] = 1;
+                }
             }
+            if (kept != k) courses_[kept] = course;
+            ++kept;
         }
+        std::swap(is_shortened, is_next);
         courses_.resize(kept);
         std::swap(parts_, next_parts_);
         if (!is_blocked) return;
@@ -313,6 +324,7 @@ void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
         for (std::uint32_t m = 0; m < parts_.size(); ++m) {
             if (stops[island_of(list, m)] == 0 || parts_[m] == Real(0)) continue;
             parts_[m] = Real(0);
+            is_shortened[m] = 1;
             any = true;
         }
         if (!any) return;

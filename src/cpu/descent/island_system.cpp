@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <numeric>
 #include <utility>
 
 #include "cpu/contact/contact_law.h"
-#include "cpu/contact/disjoint_sets.h"
+#include "cpu/descent/island_search.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -30,9 +29,6 @@ constexpr double kMostClosed = 0.9;
 // first round, or after so many steps.
 constexpr double kResidual = 1e-3, kLeastResidual = 1e-6;
 constexpr int kMostSteps = 100;
-// The line search ends when the slope is this small, of that at the start, or after so many looks.
-constexpr double kLevel = 1e-3;
-constexpr int kMostLooks = 16;
 // Each thread takes at least so many at a time.
 constexpr std::size_t kBodiesATask = 64, kTouchesATask = 512;
 
@@ -61,12 +57,6 @@ Motion wrench(const Eigen::Vector3d& arm, const Eigen::Vector3d& force) {
     return m;
 }
 
-// How a point at an arm moves.
-glm::dvec3 displacement(const Motion& motion, const glm::dvec3& arm) {
-    return glm::dvec3(motion(0), motion(1), motion(2)) +
-           glm::cross(glm::dvec3(motion(3), motion(4), motion(5)), arm);
-}
-
 // Adds a stiffness between points at two arms, as what their bodies feel: J_a^T K J_b with J = (1, -[r]x).
 void add_stiffness(const Matrix& stiffness, const Matrix& arm_a, const Matrix& arm_b, double sign,
                    MotionMatrix& sum) {
@@ -75,17 +65,6 @@ void add_stiffness(const Matrix& stiffness, const Matrix& arm_a, const Matrix& a
     sum.topRightCorner<3, 3>() += turned;
     sum.bottomLeftCorner<3, 3>() += sign * arm_a * stiffness;
     sum.bottomRightCorner<3, 3>() += arm_a * turned;
-}
-
-// As contact_force and contact_hessian, but linear from the least gap on.
-double force_at(const IslandSystem::Touch& touch, double gap) {
-    const double inside = std::max(gap, touch.least);
-    return contact_force(inside, touch.reach, touch.stiffness) +
-           contact_hessian(inside, touch.reach, touch.stiffness) * (inside - gap);
-}
-
-double hessian_at(const IslandSystem::Touch& touch, double gap) {
-    return contact_hessian(std::max(gap, touch.least), touch.reach, touch.stiffness);
 }
 
 // What a contact adds to second order.
@@ -99,8 +78,8 @@ Terms terms_of(const IslandSystem::Touch& touch) {
     Terms terms;
     if (touch.gap >= touch.reach) return terms;
     const Eigen::Vector3d normal = vector(touch.normal);
-    terms.force = force_at(touch, touch.gap) * normal;
-    terms.stiffness = hessian_at(touch, touch.gap) * normal * normal.transpose();
+    terms.force = touch.force_at(touch.gap) * normal;
+    terms.stiffness = touch.hessian_at(touch.gap) * normal * normal.transpose();
     if (!(touch.limit > 0.0)) return terms;
     const Eigen::Vector3d hold = vector(touch.hold);
     const double length = hold.norm(), share = std::min(1.0, touch.limit / length);
@@ -111,64 +90,17 @@ Terms terms_of(const IslandSystem::Touch& touch) {
     return terms;
 }
 
-// Of an energy, by the part that is made of a motion.
-struct Slope {
-    double value, change;  // [J]
-};
+}  // namespace
 
-// A contact on the way of its bodies.
-class Course {
-public:
-    Course() = default;
-    // @param change of the gap [m] @param slip of the second side beside the first [m]
-    Course(const IslandSystem::Touch& touch, double change, const glm::dvec3& slip)
-        : touch_(&touch),
-          change_(change),
-          held_squared_(glm::dot(touch.hold, touch.hold)),
-          held_along_(glm::dot(touch.hold, slip)),
-          slip_squared_(glm::dot(slip, slip)) {}
-
-    bool acts() const {
-        return std::min(touch_->gap, touch_->gap + change_) < touch_->reach || touch_->limit > 0.0;
-    }
-
-    Slope slope_at(double part) const {
-        const double gap = touch_->gap + part * change_;
-        const Slope slope{-force_at(*touch_, gap) * change_, hessian_at(*touch_, gap) * change_ * change_};
-        if (!(touch_->limit > 0.0)) return slope;
-        const double way = part * touch_->stiffness;  // of what would hold, by the slip
-        const double along = held_along_ + way * slip_squared_;
-        const double squared = held_squared_ + way * (held_along_ + along);
-        const bool slides = squared > touch_->limit * touch_->limit;
-        const double share = slides ? touch_->limit / std::sqrt(squared) : 1.0;
-        const double turning = slip_squared_ - (slides ? along * along / squared : 0.0);
-        return {slope.value + share * along, slope.change + share * touch_->stiffness * turning};
-    }
-
-private:
-    const IslandSystem::Touch* touch_ = nullptr;
-    double change_ = 0.0, held_squared_ = 0.0, held_along_ = 0.0, slip_squared_ = 0.0;
-};
-
-// The part of a way at which an energy is least. @param slope_at(part): its slope
-template <class SlopeAt>
-double least_part(const SlopeAt& slope_at) {
-    const double enough = kLevel * std::abs(slope_at(0.0).value);
-    double low = 0.0, high = 1.0, part = 1.0, last = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < kMostLooks; ++i) {
-        const Slope slope = slope_at(part);
-        const double steepness = std::abs(slope.value);
-        if (steepness <= enough || (part == 1.0 && !(slope.value > 0.0))) return part;
-        (slope.value > 0.0 ? high : low) = part;
-        part -= slope.value / slope.change;
-        // Deep within reach, where forces rise steeply, Newton's steps are short.
-        if (!(part > low && part < high) || steepness > 0.5 * last) part = 0.5 * (low + high);
-        last = steepness;
-    }
-    return low;
+double IslandSystem::Touch::force_at(double gap_there) const {
+    const double inside = std::max(gap_there, least);
+    return contact_force(inside, reach, stiffness) +
+           contact_hessian(inside, reach, stiffness) * (inside - gap_there);
 }
 
-}  // namespace
+double IslandSystem::Touch::hessian_at(double gap_there) const {
+    return contact_hessian(std::max(gap_there, least), reach, stiffness);
+}
 
 // Newton's method, with the friction that what presses then allows: sweeps find far too much of both in stiff
 // bodies. In the sum of all forces contacts cancel, so that momentum does not depend on how well the rest was
@@ -182,13 +114,12 @@ std::vector<Motion> IslandSystem::find_motions(const Land& land) {
     double gained = 0.0, least_residual = 0.0;
     for (int round = 0; round < kMostRounds; ++round) {
         assemble();
-        Motions way = newton_step(least_residual);
-        const double gain = dot(forces_, way);
-        const bool is_far = leads_far(way);
-        shorten(way, is_carried() ? carried_along(way) : least_along(way));
-        const double made = dot(forces_, way);
+        const Motions whole = newton_step(least_residual);
+        Motions way = whole;
+        shorten(way, is_carried() ? carried_along(way) : least_parts(*this, motions_, way));
+        const double gain = dot(forces_, whole), made = dot(forces_, way);
         move(way);
-        if (!(made > 0.0) || gain <= kEnough * gained || is_far) break;
+        if (!(made > 0.0) || gain <= kEnough * gained || leads_far(whole)) break;
         gained += made;
     }
     if (is_free) {
@@ -215,7 +146,7 @@ std::vector<Motion> IslandSystem::landed(const Land& land) {
     Motions back = motions_;
     for (Motion& motion : back) motion = -motion;
     move(back);
-    shorten(wanted, least_along(wanted));
+    shorten(wanted, least_parts(*this, motions_, wanted));
     move(wanted);
     return motions_;
 }
@@ -268,7 +199,7 @@ void IslandSystem::sum_touches(Coupling& coupling) const {
 void IslandSystem::assemble() {
     for_each_index(0, touches.size(), kTouchesATask, [&](std::size_t k) {
         Touch& touch = touches[k];
-        touch.limit = touch.friction * force_at(touch, touch.gap);
+        touch.limit = touch.friction * touch.force_at(touch.gap);
     });
     for_each_index(0, couplings_.size(), 4, [&](std::size_t k) { sum_touches(couplings_[k]); });
     const std::size_t count = bodies.size();
@@ -336,12 +267,11 @@ Motion IslandSystem::free_translation() const {
     return sum / stiffness;
 }
 
-// How the second side of a contact goes beside the first [m].
 glm::dvec3 IslandSystem::apart(const Touch& touch, const Motions& way) {
     glm::dvec3 sum = touch.carried;
     for (std::size_t side = 0; side < 2; ++side) {
         if (touch.bodies[side] == kNoNode) continue;
-        const glm::dvec3 own = displacement(way[touch.bodies[side]], touch.arms[side]);
+        const glm::dvec3 own = touch.displacement(side, way[touch.bodies[side]]);
         sum += side == 0 ? -own : own;
     }
     return sum;
@@ -383,72 +313,6 @@ std::vector<double> IslandSystem::carried_along(const Motions& way) {
     return std::vector<double>(bodies.size(), part);
 }
 
-// The part of its way that each body makes, so that the objective is least: contacts and friction as they
-// are, the rest to second order. Newton's step alone would throw bodies through the reach of others, and
-// friction would move them farther than what they lie on. Bodies that press each other on the way make the
-// same part. In a crowd the first to meet would stop all.
-std::vector<double> IslandSystem::least_along(const Motions& way) const {
-    std::vector<Course> courses(touches.size());
-    for_each_index(0, touches.size(), kTouchesATask, [&](std::size_t k) {
-        const glm::dvec3 moved = apart(touches[k], way);
-        const double change = glm::dot(moved, touches[k].normal);
-        courses[k] = Course(touches[k], change, moved - change * touches[k].normal);
-    });
-    const auto is_between = [&](const Touch& touch) {
-        return touch.bodies[0] != kNoNode && touch.bodies[1] != kNoNode;
-    };
-    DisjointSets groups(bodies.size());
-    for (std::size_t k = 0; k < touches.size(); ++k)
-        if (is_between(touches[k]) && courses[k].acts())
-            groups.unite(touches[k].bodies[0], touches[k].bodies[1]);
-    std::vector<double> parts(bodies.size());
-    std::vector<std::uint8_t> is_new(bodies.size(), 1);  // by the least number of a group
-    const auto find_parts = [&] {
-        std::vector<std::vector<std::uint32_t>> members(bodies.size()), own(bodies.size());
-        for (std::uint32_t k = 0; k < bodies.size(); ++k) members[groups.least(k)].push_back(k);
-        for (std::uint32_t k = 0; k < touches.size(); ++k) {
-            const std::uint32_t body = std::min(touches[k].bodies[0], touches[k].bodies[1]);
-            if (body != kNoNode && courses[k].acts()) own[groups.least(body)].push_back(k);
-        }
-        for_each_index(0, members.size(), kBodiesATask, [&](std::size_t group) {
-            if (members[group].empty() || is_new[group] == 0) return;
-            double pull = 0.0, curvature = 0.0;
-            for (const std::uint32_t k : members[group]) {
-                const Motion resisted = bodies[k].matrix * way[k];
-                pull += bodies[k].force.dot(way[k]) - resisted.dot(motions_[k]);
-                curvature += resisted.dot(way[k]);
-            }
-            const double part = least_part([&](double made) {
-                Slope slope{made * curvature - pull, curvature};
-                for (const std::uint32_t k : own[group]) {
-                    const Slope of_one = courses[k].slope_at(made);
-                    slope.value += of_one.value;
-                    slope.change += of_one.change;
-                }
-                return slope;
-            });
-            for (const std::uint32_t k : members[group]) parts[k] = part;
-        });
-    };
-    for (bool any = true; any;) {
-        find_parts();
-        std::fill(is_new.begin(), is_new.end(), std::uint8_t(0));
-        any = false;
-        // Those that go side by side may meet where they make different parts.
-        for (std::size_t k = 0; k < touches.size(); ++k) {
-            const Touch& touch = touches[k];
-            if (!is_between(touch) || courses[k].acts()) continue;
-            const auto [a, b] = touch.bodies;
-            if (parts[a] == parts[b]) continue;
-            const glm::dvec3 moved = parts[b] * displacement(way[b], touch.arms[1]) -
-                                     parts[a] * displacement(way[a], touch.arms[0]);
-            if (touch.gap + glm::dot(moved, touch.normal) >= touch.reach || !groups.unite(a, b)) continue;
-            is_new[groups.least(a)] = 1;
-            any = true;
-        }
-    }
-    return parts;
-}
 std::vector<Motion> IslandSystem::product(const Motions& motions) const {
     Motions q(motions.size());
     for_each_index(0, bodies.size(), kBodiesATask, [&](std::size_t k) {

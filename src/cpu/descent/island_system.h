@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
@@ -40,12 +41,24 @@ public:
         glm::dvec3 hold{0.0};              ///< what would hold the first if nothing slid [N]
         double limit = 0.0;                ///< of friction, by what presses [N]
         glm::dvec3 carried{0.0};           ///< how far the second goes beside the first by what is held [m]
+
+        /// As contact_force and contact_hessian, but linear from the least gap on [N], [N/m].
+        double force_at(double gap_there) const;
+        double hessian_at(double gap_there) const;
+        /// How a motion of its body moves a side [m].
+        glm::dvec3 displacement(std::size_t side, const Motion& motion) const {
+            return glm::dvec3(motion(0), motion(1), motion(2)) +
+                   glm::cross(glm::dvec3(motion(3), motion(4), motion(5)), arms[side]);
+        }
     };
 
     std::vector<Body> bodies;
     std::vector<Touch> touches;  ///< those of the same two bodies beside each other; they follow the motions
     bool is_held = false;        ///< something that is held is part of the island
     bool is_outside_touched = false;  ///< a body is in contact with a collider
+
+    /// How the second side of a contact goes beside the first on the way of its bodies [m].
+    static glm::dvec3 apart(const Touch& touch, const std::vector<Motion>& way);
 
     /// Changes the motion of a body, by its number, so that it stays outside of planes.
     /// @return whether it led into one
@@ -71,7 +84,6 @@ private:
     Motions newton_step(double& least_residual) const;
     bool is_carried() const;
     std::vector<double> carried_along(const Motions& way);
-    std::vector<double> least_along(const Motions& way) const;
     static void shorten(Motions& way, const std::vector<double>& parts);
     void move(const Motions& way);
     bool leads_far(const Motions& way) const;
@@ -79,7 +91,6 @@ private:
     Motion mean_translation(const Motions& motions) const;
     Motion free_translation() const;
     Motions product(const Motions& motions) const;
-    static glm::dvec3 apart(const Touch& touch, const Motions& way);
 
     // A body's part in a coupling.
     struct Use {

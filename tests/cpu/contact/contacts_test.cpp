@@ -325,6 +325,24 @@ TEST(ContactsHeavy, NothingStopsWhatSlidesWithoutFriction) {
 }
 
 // A ram that a handle moves presses a block on a bed flat, and lets it go.
+// Blocks in a row follow each other, and the first is stopped. The gaps between them are more than the last
+// goes in a step.
+TEST(Contacts, ARowThatStopsDoesNotStopAtOnce) {
+    std::vector<Block> blocks{{.cells = {1, 1, 1}, .pins = {HalfSpaceRegion{{1, 0, 0}, 0.1}}}};
+    constexpr int kBlocks = 60;
+    constexpr double kSpeed = 6.0, kPitch = 0.303;
+    for (int k = 1; k < kBlocks; ++k)
+        blocks.push_back({.place = {k * kPitch, 0, 0}, .velocity = {-kSpeed, 0, 0}, .cells = {1, 1, 1}});
+    const auto model = make_blocks(blocks);
+    for (const int sweeps : {1, 10}) {
+        cpu::CpuSolver<float> solver = make_solver<float>(model, 0.4, sweeps);
+        solver.advance_nodes(kFrame);
+        const Range& nodes = model->objects.back().nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+            EXPECT_NEAR(solver.nodes().velocities[n].x, -kSpeed, 1e-3 * kSpeed) << sweeps;
+    }
+}
+
 TEST(Contacts, AHandlePressesABody) {
     const Region everywhere = HalfSpaceRegion{{1.0, 0.0, 0.0}, 100.0};
     std::vector<Body> bodies;
