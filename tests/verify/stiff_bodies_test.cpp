@@ -125,7 +125,7 @@ TEST_F(StiffBodiesTest, BarsFallAndRest) {
         for (const Backend backend : {Backend::cpu, Backend::gl}) {
             if (backend == Backend::gl && youngs_modulus > 1e9) continue;  // to save time
             Simulator falling(bars, on(backend));
-            const std::vector<double> energies = motion_energies(falling, 420);
+            const std::vector<double> energies = motion_energies(falling, 480);
             double least = energies[0];
             for (const double energy : energies) {
                 EXPECT_LT(energy, least + 0.03 * energies[0]) << youngs_modulus;

@@ -17,7 +17,8 @@ namespace {
 constexpr double kFriction = 0.4;
 
 // Blocks on a plane and against a wall, one of which slides, one is pressed by another, and one flies by.
-std::shared_ptr<const Model> make_crowded(MaterialModel kind) {
+// @param gravity [m/s^2]
+std::shared_ptr<const Model> make_crowded(MaterialModel kind, double gravity) {
     ColliderDescription floor, wall;
     floor.shape = PlaneCollider{{0.1, 1.0, 0.0}, 0.0};
     floor.friction = 0.2;
@@ -29,7 +30,7 @@ std::shared_ptr<const Model> make_crowded(MaterialModel kind) {
     };
     return make_blocks({block({-0.33, 0.04, 0.0}, {-1.0, 0.0, 0.0}), block({-0.3, 0.37, 0.05}, {0, -2, 0.5}),
                         block({0.05, 0.03, 0.1}, {-3.0, 0.0, 0.0}), block({0.4, 0.5, 0.0}, {0.0, 1.0, 3.0})},
-                       {0.0, -9.81, 0.0}, {floor, wall});
+                       {0.0, -gravity, 0.0}, {floor, wall});
 }
 
 template <class To, class From>
@@ -139,8 +140,9 @@ double quantile(std::vector<double> values, double part) {
     return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
 }
 
-double sweep_error(MaterialModel kind, int frames, int sweeps, double far = 0.0, unsigned seed = 0) {
-    BeforeSweeps before(make_crowded(kind), frames);
+double sweep_error(MaterialModel kind, int frames, int sweeps, double far = 0.0, unsigned seed = 0,
+                   double gravity = 9.81) {
+    BeforeSweeps before(make_crowded(kind, gravity), frames);
     if (far > 0.0) before.throw_nodes(far, seed);
     const std::vector<glm::dvec4> start = before.positions;
     DeviceContacts touched;
@@ -201,6 +203,10 @@ Scenarios limited_sweep_scenarios() {
         for (const int frames : {2, 4, 12}) {
             scenarios.push_back({fmt::format("{}_after_{}_frames", name, frames),
                                  [=] { return sweep_error(kind, frames, 2); }});
+        }
+        for (const int frames : {6, 9, 12, 15}) {  // pressed to far less than half of the reach
+            scenarios.push_back({fmt::format("{}_pressed_after_{}_frames", name, frames),
+                                 [=] { return sweep_error(kind, frames, 1, 0.0, 0, 200.0); }});
         }
         for (const double far : {0.01, 0.03, 0.1, 0.3}) {
             for (const unsigned seed : {1u, 3u, 4u, 5u, 6u}) {
