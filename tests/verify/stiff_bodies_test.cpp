@@ -125,14 +125,19 @@ TEST_F(StiffBodiesTest, BarsFallAndRest) {
         for (const Backend backend : {Backend::cpu, Backend::gl}) {
             if (backend == Backend::gl && youngs_modulus > 1e9) continue;  // to save time
             Simulator falling(bars, on(backend));
-            const std::vector<double> energies = motion_energies(falling, 480);
+            const std::vector<double> energies = motion_energies(falling, 420);
             double least = energies[0];
             for (const double energy : energies) {
                 EXPECT_LT(energy, least + 0.03 * energies[0]) << youngs_modulus;
                 least = std::min(least, energy);
             }
-            falling.begin_statistics();
-            EXPECT_LT(falling.take_statistics().kinetic_energy, 1e-4) << youngs_modulus;
+            // A bar may stand on its end for a while.
+            const auto kinetic = [&] {
+                falling.begin_statistics();
+                return falling.take_statistics().kinetic_energy;
+            };
+            while (falling.frame() < 720 && !(kinetic() < 1e-4)) falling.advance_frame();
+            EXPECT_LT(kinetic(), 1e-4) << youngs_modulus;
         }
     }
 }
