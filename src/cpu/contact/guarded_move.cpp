@@ -273,14 +273,14 @@ bool GuardedMove<Real>::are_far_apart(const ContactPair& pair, const ContactAims
     return aim.gap - ways[0] - ways[1] > least;
 }
 
-// In each round every pair that would come too near shortens the movers that approach. Others are as they
-// were in the round before.
+// In each round every pair that would come too near shortens the movers that approach. Pairs without movers
+// of such pairs are as they were.
 template <class Real>
 void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
     const auto is_left = [&](const PairCourse<Real>& course) {
         return course.gap([&](std::size_t k) { return parts_[course.movers[k]]; }) >= course.least;
     };
-    std::vector<std::uint8_t> is_shortened(parts_.size(), 1), is_next(parts_.size());  // in the round before
+    std::vector<std::uint8_t> is_concerned(parts_.size(), 1), is_next(parts_.size());  // by mover
     for (int round = 0;; ++round) {
         bool is_blocked = false;
         next_parts_ = parts_;
@@ -289,7 +289,7 @@ void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
         for (std::size_t k = 0; k < courses_.size(); ++k) {
             const PairCourse<Real>& course = courses_[k];
             const bool is_old = std::none_of(course.movers.begin(), course.movers.end(),
-                                             [&](std::uint32_t mover) { return is_shortened[mover] != 0; });
+                                             [&](std::uint32_t mover) { return is_concerned[mover] != 0; });
             if (!is_old && course.stays_free([&](std::size_t c) { return parts_[course.movers[c]]; }))
                 continue;
             if (!is_old && !is_left(course)) {
@@ -299,16 +299,16 @@ void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
                 const Real end = course.gap([&](std::size_t c) { return parts_[course.movers[c]]; });
                 const Real left = round < kMostRounds ? part_left(start, end, course.least) : Real(0);
                 for (std::size_t c = 0; c < 4; ++c) {
-                    if (!course.approaches(c)) continue;
-                    Real& part = next_parts_[course.movers[c]];
-                    part = std::min(part, left * parts_[course.movers[c]]);
-                    is_next[course.movers[c]] = 1;
+                    const std::uint32_t mover = course.movers[c];
+                    is_next[mover] = 1;
+                    if (course.approaches(c))
+                        next_parts_[mover] = std::min(next_parts_[mover], left * parts_[mover]);
                 }
             }
             if (kept != k) courses_[kept] = course;
             ++kept;
         }
-        std::swap(is_shortened, is_next);
+        std::swap(is_concerned, is_next);
         courses_.resize(kept);
         std::swap(parts_, next_parts_);
         if (!is_blocked) return;
@@ -324,7 +324,7 @@ void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
         for (std::uint32_t m = 0; m < parts_.size(); ++m) {
             if (stops[island_of(list, m)] == 0 || parts_[m] == Real(0)) continue;
             parts_[m] = Real(0);
-            is_shortened[m] = 1;
+            is_concerned[m] = 1;
             any = true;
         }
         if (!any) return;

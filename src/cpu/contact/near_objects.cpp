@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cpu/contact/disjoint_sets.h"
+#include "core/disjoint_sets.h"
 #include "cpu/contact/island_motions.h"
 #include "cpu/contact/planes.h"
 #include "cpu/contact/swept_box.h"

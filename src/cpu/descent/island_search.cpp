@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "cpu/contact/disjoint_sets.h"
+#include "core/disjoint_sets.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {

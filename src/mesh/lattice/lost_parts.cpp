@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "mesh/lattice/joined_sets.h"
+#include "core/disjoint_sets.h"
 #include "mesh/lattice/separate_touching.h"
 #include "mesh/lattice/thin_parts.h"
 #include "mesh/topology.h"
@@ -36,7 +36,7 @@ double thin_end(std::vector<ThinPlace> places) {
 class TetSets {
 public:
     explicit TetSets(const TetMesh& mesh) : sets_(mesh.tets.size()), boundary_({mesh.positions, mesh.faces}) {
-        for (const InnerFace& face : inner_faces(mesh.tets)) sets_.join(face.tets[0], face.tets[1]);
+        for (const InnerFace& face : inner_faces(mesh.tets)) sets_.unite(face.tets[0], face.tets[1]);
         std::map<std::array<std::uint32_t, 3>, std::uint32_t> tet_of_face;
         const auto key = [](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
             std::array<std::uint32_t, 3> nodes = {a, b, c};
@@ -46,7 +46,7 @@ public:
         for (const glm::uvec3& f : mesh.faces) tet_of_face[key(f[0], f[1], f[2])] = 0;
         for (std::uint32_t t = 0; t < mesh.tets.size(); ++t) {
             const glm::uvec4& tet = mesh.tets[t];
-            if (sets_.find(t) == t) ++count_;
+            if (sets_.least(t) == t) ++count_;
             for (int k = 0; k < 4; ++k) {
                 const auto found = tet_of_face.find(key(tet[k], tet[(k + 1) % 4], tet[(k + 2) % 4]));
                 if (found != tet_of_face.end()) found->second = t;
@@ -54,11 +54,11 @@ public:
         }
         for (const std::uint32_t source : boundary_.sources()) {
             const glm::uvec3& f = mesh.faces[source];
-            set_of_face_.push_back(sets_.find(tet_of_face[key(f[0], f[1], f[2])]));
+            set_of_face_.push_back(sets_.least(tet_of_face[key(f[0], f[1], f[2])]));
         }
     }
 
-    std::uint32_t of_tet(std::uint32_t tet) { return sets_.find(tet); }
+    std::uint32_t of_tet(std::uint32_t tet) { return sets_.least(tet); }
     std::size_t count() const { return count_; }
     std::optional<std::uint32_t> find_near(const glm::dvec3& p, double radius) const {
         const auto nearest = boundary_.find_nearest(p, radius);
@@ -66,7 +66,7 @@ public:
     }
 
 private:
-    JoinedSets sets_;
+    DisjointSets sets_;
     FaceTree boundary_;
     std::vector<std::uint32_t> set_of_face_;
     std::size_t count_ = 0;

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/lattice/joined_sets.h"
+#include "core/disjoint_sets.h"
 #include "mesh/tet_quality.h"
 #include "mesh/topology.h"
 
@@ -48,7 +48,7 @@ void move_inwards(TetMesh& mesh, std::uint32_t node, const std::vector<std::uint
 
 // A node for each set of tets around it that are joined by faces with this node.
 void divide_nodes(TetMesh& mesh) {
-    JoinedSets corners(4 * mesh.tets.size());
+    DisjointSets corners(4 * mesh.tets.size());
     const auto corner = [&](std::uint32_t tet, std::uint32_t node) {
         return 4 * tet + corner_of(mesh.tets[tet], node);
     };
@@ -56,7 +56,7 @@ void divide_nodes(TetMesh& mesh) {
         const auto [a, b] = face.tets;
         for (int k = 0; k < 4; ++k) {
             const std::uint32_t node = mesh.tets[a][k];
-            if (node != face.corners[0]) corners.join(corner(a, node), corner(b, node));
+            if (node != face.corners[0]) corners.unite(corner(a, node), corner(b, node));
         }
     }
     constexpr std::uint32_t kNone = ~0u;
@@ -64,7 +64,7 @@ void divide_nodes(TetMesh& mesh) {
     std::map<std::uint32_t, std::vector<std::uint32_t>> others;      // sets that do not, and their corners
     for (std::uint32_t c = 0; c < 4 * mesh.tets.size(); ++c) {
         std::uint32_t& keeper = first[mesh.tets[c / 4][static_cast<int>(c % 4)]];
-        const std::uint32_t set = corners.find(c);
+        const std::uint32_t set = corners.least(c);
         if (keeper == kNone) keeper = set;
         if (keeper != set) others[set].push_back(c);
     }
@@ -98,7 +98,7 @@ std::vector<Edge> find_crowded_edges(const TetMesh& mesh) {
 std::vector<std::vector<std::uint32_t>> fans_around(const TetMesh& mesh,
                                                     const std::vector<std::uint32_t>& tets,
                                                     const Edge& edge) {
-    JoinedSets joined(tets.size());
+    DisjointSets joined(tets.size());
     const auto shares_face = [&](const glm::uvec4& a, const glm::uvec4& b) {
         for (int i = 0; i < 4; ++i) {
             if (a[i] == edge.first || a[i] == edge.second) continue;
@@ -110,11 +110,11 @@ std::vector<std::vector<std::uint32_t>> fans_around(const TetMesh& mesh,
     };
     for (std::uint32_t i = 0; i < tets.size(); ++i) {
         for (std::uint32_t j = 0; j < i; ++j) {
-            if (shares_face(mesh.tets[tets[i]], mesh.tets[tets[j]])) joined.join(i, j);
+            if (shares_face(mesh.tets[tets[i]], mesh.tets[tets[j]])) joined.unite(i, j);
         }
     }
     std::map<std::uint32_t, std::vector<std::uint32_t>> fans;
-    for (std::uint32_t i = 0; i < tets.size(); ++i) fans[joined.find(i)].push_back(tets[i]);
+    for (std::uint32_t i = 0; i < tets.size(); ++i) fans[joined.least(i)].push_back(tets[i]);
     std::vector<std::vector<std::uint32_t>> sorted;
     for (auto& [set, fan] : fans) sorted.push_back(std::move(fan));
     std::stable_sort(sorted.begin(), sorted.end(),
@@ -150,7 +150,7 @@ bool remove_fans(TetMesh& mesh) {
 // The boundary faces around a node, in sets that are joined by edges with this node.
 std::map<std::uint32_t, std::vector<glm::uvec3>> umbrellas_of(const std::vector<glm::uvec3>& faces,
                                                               std::uint32_t node) {
-    JoinedSets joined(faces.size());
+    DisjointSets joined(faces.size());
     const auto shares_edge = [&](const glm::uvec3& a, const glm::uvec3& b) {
         for (int i = 0; i < 3; ++i) {
             for (int j = 0; j < 3; ++j) {
@@ -161,11 +161,11 @@ std::map<std::uint32_t, std::vector<glm::uvec3>> umbrellas_of(const std::vector<
     };
     for (std::uint32_t i = 0; i < faces.size(); ++i) {
         for (std::uint32_t j = 0; j < i; ++j) {
-            if (shares_edge(faces[i], faces[j])) joined.join(i, j);
+            if (shares_edge(faces[i], faces[j])) joined.unite(i, j);
         }
     }
     std::map<std::uint32_t, std::vector<glm::uvec3>> umbrellas;
-    for (std::uint32_t i = 0; i < faces.size(); ++i) umbrellas[joined.find(i)].push_back(faces[i]);
+    for (std::uint32_t i = 0; i < faces.size(); ++i) umbrellas[joined.least(i)].push_back(faces[i]);
     return umbrellas;
 }
 

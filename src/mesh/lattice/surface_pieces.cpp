@@ -3,15 +3,15 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "mesh/lattice/joined_sets.h"
+#include "core/disjoint_sets.h"
 
 namespace gelatin::lattice {
 
 SurfacePieces find_pieces(const SurfaceMesh& surface) {
-    JoinedSets vertices(surface.positions.size());
+    DisjointSets vertices(surface.positions.size());
     for (const glm::uvec3& face : surface.faces) {
-        vertices.join(face[0], face[1]);
-        vertices.join(face[1], face[2]);
+        vertices.unite(face[0], face[1]);
+        vertices.unite(face[1], face[2]);
     }
     struct Sum {
         glm::dvec3 origin, normal{0.0};
@@ -21,7 +21,7 @@ SurfacePieces find_pieces(const SurfaceMesh& surface) {
     std::vector<std::uint32_t> piece_of_vertex(surface.positions.size(), ~0u);
     SurfacePieces pieces;
     for (const glm::uvec3& face : surface.faces) {
-        std::uint32_t& piece = piece_of_vertex[vertices.find(face[0])];
+        std::uint32_t& piece = piece_of_vertex[vertices.least(face[0])];
         const glm::dvec3 &a = surface.positions[face[0]], &b = surface.positions[face[1]],
                          &c = surface.positions[face[2]];
         if (piece == ~0u) {

@@ -4,36 +4,15 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numeric>
 #include <tuple>
 
+#include "core/disjoint_sets.h"
 #include "mesh/topology.h"
 
 namespace gelatin {
 namespace {
 
-// Union-find over corners; corner 3 f + k is vertex k of face f.
-class CornerGroups {
-public:
-    explicit CornerGroups(std::size_t faces) : parent_(3 * faces) {
-        std::iota(parent_.begin(), parent_.end(), 0u);
-    }
-
-    std::uint32_t find(std::uint32_t corner) {
-        while (parent_[corner] != corner) corner = parent_[corner] = parent_[parent_[corner]];
-        return corner;
-    }
-    // The smaller corner becomes the root, so that groups do not depend on the order of merging.
-    void merge(std::uint32_t a, std::uint32_t b) {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
-
+// Corner 3 f + k is vertex k of face f.
 std::uint32_t corner_of(const glm::uvec3& face, std::uint32_t face_index, std::uint32_t node) {
     for (int k = 0; k < 3; ++k) {
         if (face[k] == node) return 3 * face_index + static_cast<std::uint32_t>(k);
@@ -48,16 +27,16 @@ glm::dvec3 unit_normal(std::span<const glm::vec4> positions, const glm::uvec3& f
     return length > 0.0 ? n / length : glm::dvec3(0.0);
 }
 
-CornerGroups group_smooth_corners(std::span<const glm::vec4> positions, const std::vector<glm::uvec3>& faces,
+DisjointSets group_smooth_corners(std::span<const glm::vec4> positions, const std::vector<glm::uvec3>& faces,
                                   double crease_angle) {
-    CornerGroups groups(faces.size());
+    DisjointSets groups(3 * faces.size());
     const double smooth_cosine = std::cos(crease_angle);
     for (const SurfaceEdge& edge : surface_edges(faces)) {
         const auto [f, g] = edge.faces;
         if (glm::dot(unit_normal(positions, faces[f]), unit_normal(positions, faces[g])) < smooth_cosine)
             continue;
         for (const std::uint32_t node : {edge.nodes.x, edge.nodes.y}) {
-            groups.merge(corner_of(faces[f], f, node), corner_of(faces[g], g, node));
+            groups.unite(corner_of(faces[f], f, node), corner_of(faces[g], g, node));
         }
     }
     return groups;
@@ -75,7 +54,7 @@ void append_draw_surface(std::span<const glm::vec4> positions, std::span<const F
     for (const Face& face : own_faces) first_node = std::min({first_node, face.a, face.b, face.c});
     std::vector<glm::uvec3> faces;
     for (const Face& face : own_faces) faces.push_back(glm::uvec3(face.a, face.b, face.c) - first_node);
-    CornerGroups groups =
+    DisjointSets groups =
         group_smooth_corners(positions.subspan(range.count > 0 ? first_node : 0), faces, crease_angle);
 
     // Numbers the groups by their nodes, so that drawing reads memory in the same order as the simulation.
@@ -89,7 +68,7 @@ void append_draw_surface(std::span<const glm::vec4> positions, std::span<const F
         return has_uvs ? corner_uvs[range.first + corner / 3][corner % 3] : glm::vec2(0.0f);
     };
     std::vector<std::uint32_t> root(corners.size());
-    for (const std::uint32_t c : corners) root[c] = groups.find(c);
+    for (const std::uint32_t c : corners) root[c] = groups.least(c);
     std::sort(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
         if (node_of(a) != node_of(b)) return node_of(a) < node_of(b);
         if (root[a] != root[b]) return root[a] < root[b];

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-namespace gelatin::cpu {
+namespace gelatin {
 
 /// Sets of numbers that are united step by step. The least number of each stands for it.
 class DisjointSets {
@@ -33,4 +33,4 @@ private:
     std::vector<std::uint32_t> parents_;
 };
 
-}  // namespace gelatin::cpu
+}  // namespace gelatin
