@@ -93,19 +93,22 @@ def run_on(client: Any, job: Job, plans: list[tuple[Plan, int]]) -> Iterator[Row
         for batch in waiting.batches():
             for future, result in batch:
                 _, plan, attempt = open_runs.pop(future.key)
-                yield _row_of(future, result, job, plan, attempt)
+                yield _row_of(result, job, plan, attempt)
     finally:
         if open_runs:
             with contextlib.suppress(Exception):
                 client.cancel([future for future, _, _ in open_runs.values()], force=True)
 
 
-def _row_of(future: Any, result: Any, job: Job, plan: Plan, attempt: int) -> Row:
-    if future.status == "finished":
-        row: Row = result
-        return row
-    if future.status == "error":
-        problem = future.exception()
+def _row_of(result: Any, job: Job, plan: Plan, attempt: int) -> Row:
+    """The row of a run, from what Dask has read: a row, an error as (type, exception, traceback), or that it was cancelled.
+
+    The future is not asked: when its worker has died since, it counts as lost, although its row was read.
+    """
+    if isinstance(result, dict):
+        return result
+    if isinstance(result, tuple):
+        problem = result[1]
         if type(problem).__name__ == "KilledWorker":
             return write_dead_run(job, plan, attempt)
         raise problem  # not the run's, whose row has its error: of the folder, or of Dask

@@ -242,6 +242,33 @@ def test_a_run_that_kills_its_worker_is_a_row(cluster, tmp_path):
     assert here(function, {"k": [0, 1]}, out=tmp_path)["error"].to_pylist() == errors  # it is not made again
 
 
+def test_a_row_that_was_read_counts_although_its_worker_died_since(tmp_path, monkeypatch):
+    import distributed
+
+    read = tmp_path / "read"
+
+    class ReadLate(distributed.as_completed):
+        """Gives the first results only after Dask has lost them."""
+
+        def next_batch(self, block=True):
+            batch = super().next_batch(block)
+            read.touch()
+            while any(future.key.split("-")[2] == first and future.status == "finished" for future, _ in batch):
+                time.sleep(0.01)
+            return batch
+
+    def function(run):
+        while run["k"] == 1 and not read.exists():
+            time.sleep(0.01)
+        if run["k"] == 1:
+            os.kill(os.getpid(), signal.SIGKILL)
+
+    first = Plan({"k": 0}, None).name
+    monkeypatch.setattr(distributed, "as_completed", ReadLate)
+    errors = gelatin.sweep(function, {"k": [0, 1]}, out=tmp_path / "out", workers=1, progress=False)["error"].to_pylist()
+    assert errors[0] is None and errors[1].startswith("WorkerDied: ")
+
+
 PROGRAM = """
 import sys, time
 from pathlib import Path
