@@ -48,16 +48,22 @@ public:
             sides_[side] = glm::dot(touch.displacement(side, way[touch.bodies[side]]), touch.normal);
     }
 
+    // Whether it does if both bodies make the same part.
     bool acts() const {
         return std::min(touch_->gap, touch_->gap + change_) < touch_->reach || touch_->limit > 0.0;
     }
-    // Whether it would if its bodies made different parts.
+    // Whether it would if they made different parts.
     bool may_act() const {
         return is_between_ &&
                touch_->gap + std::min(sides_[1], 0.0) - std::max(sides_[0], 0.0) < touch_->reach;
     }
-    double gap_after(double first_part, double second_part) const {
-        return touch_->gap + second_part * sides_[1] - first_part * sides_[0];
+    // Of the energy by the part that one side makes, if the other one stops at a part of its own.
+    Slope slope_beside(std::size_t side, double part, double part_of_other) const {
+        if (part <= part_of_other) return {};
+        const double change = side == 0 ? -sides_[0] : sides_[1];
+        const double of_other = side == 0 ? sides_[1] : -sides_[0];
+        const double gap = touch_->gap + part * change + part_of_other * of_other;
+        return {-touch_->force_at(gap) * change, touch_->hessian_at(gap) * change * change};
     }
 
     Slope slope_at(double part) const {
@@ -99,78 +105,136 @@ double least_part(const SlopeAt& slope_at) {
     return low;
 }
 
+class Search {
+public:
+    Search(const IslandSystem& island, std::span<const Motion> motions, const std::vector<Motion>& way);
+    // By body.
+    std::vector<double> parts();
+
+private:
+    // What comes to act only if its bodies make different parts, as one of them sees it.
+    struct Beside {
+        std::uint32_t course;
+        std::size_t side;
+        std::uint32_t group;  // of the other side
+    };
+    // Bodies that make the same part.
+    struct Group {
+        std::vector<std::uint32_t> bodies;
+        std::vector<std::uint32_t> courses;  // of the contacts that act on its way
+        std::vector<Beside> beside;
+        double pull = 0.0, curvature = 0.0;  // of all but contacts [J]
+        double part = 1.0, next_part = 1.0;
+        bool has_stopped = false;  // in the last round
+    };
+
+    void find_part(Group& group) const;
+    bool meets_more(const Group& group) const;
+
+    std::vector<Course> courses_;
+    std::vector<Group> groups_;
+    std::vector<std::uint32_t> numbers_;  // of groups, by body
+};
+
+Search::Search(const IslandSystem& island, std::span<const Motion> motions, const std::vector<Motion>& way)
+    : courses_(island.touches.size()), numbers_(island.bodies.size()) {
+    for_each_index(0, courses_.size(), kTouchesATask,
+                   [&](std::size_t k) { courses_[k] = Course(island.touches[k], way); });
+    DisjointSets sets(numbers_.size());
+    std::vector<std::uint32_t> acting, waiting;
+    for (std::uint32_t k = 0; k < courses_.size(); ++k) {
+        const auto [a, b] = island.touches[k].bodies;
+        if (courses_[k].acts()) {
+            acting.push_back(k);
+            if (a != kNoNode && b != kNoNode) sets.unite(a, b);
+        } else if (courses_[k].may_act()) {
+            waiting.push_back(k);
+        }
+    }
+    for (std::uint32_t body = 0; body < numbers_.size(); ++body) {
+        const std::uint32_t first = sets.least(body);
+        if (first == body) {
+            numbers_[body] = static_cast<std::uint32_t>(groups_.size());
+            groups_.emplace_back();
+        }
+        numbers_[body] = numbers_[first];
+        groups_[numbers_[body]].bodies.push_back(body);
+    }
+    for (const std::uint32_t k : acting) {
+        const std::uint32_t body = std::min(island.touches[k].bodies[0], island.touches[k].bodies[1]);
+        if (body != kNoNode) groups_[numbers_[body]].courses.push_back(k);
+    }
+    for (const std::uint32_t k : waiting) {
+        const auto [a, b] = island.touches[k].bodies;
+        if (numbers_[a] == numbers_[b]) continue;
+        groups_[numbers_[a]].beside.push_back({k, 0, numbers_[b]});
+        groups_[numbers_[b]].beside.push_back({k, 1, numbers_[a]});
+    }
+    for_each_index(0, groups_.size(), kBodiesATask, [&](std::size_t g) {
+        for (const std::uint32_t body : groups_[g].bodies) {
+            const Motion resisted = island.bodies[body].matrix * way[body];
+            groups_[g].pull += island.bodies[body].force.dot(way[body]) - resisted.dot(motions[body]);
+            groups_[g].curvature += resisted.dot(way[body]);
+        }
+    });
+}
+
+// First nothing has stopped. Then those stop that meet what has: parts become less from round to round.
+std::vector<double> Search::parts() {
+    const auto find_parts = [&](const auto& is_one) {
+        for_each_index(0, groups_.size(), kBodiesATask, [&](std::size_t g) {
+            if (is_one(groups_[g])) find_part(groups_[g]);
+        });
+        bool any = false;
+        for (Group& group : groups_) {
+            group.has_stopped = group.next_part < group.part;
+            group.part = group.next_part;
+            any |= group.has_stopped;
+        }
+        return any;
+    };
+    bool any = find_parts([](const Group&) { return true; });
+    while (any) any = find_parts([&](const Group& group) { return meets_more(group); });
+    std::vector<double> parts(numbers_.size());
+    for (std::size_t body = 0; body < parts.size(); ++body) parts[body] = groups_[numbers_[body]].part;
+    return parts;
+}
+
+// Something that has stopped in the last round is in the way.
+bool Search::meets_more(const Group& group) const {
+    return std::any_of(group.beside.begin(), group.beside.end(), [&](const Beside& beside) {
+        const Group& other = groups_[beside.group];
+        return other.has_stopped &&
+               courses_[beside.course].slope_beside(beside.side, group.part, other.part).change > 0.0;
+    });
+}
+
+void Search::find_part(Group& group) const {
+    // Task by task, so that sums do not depend on the number of threads.
+    std::vector<Slope> sums((group.courses.size() + kTouchesATask - 1) / kTouchesATask);
+    const double part = least_part([&](double at) {
+        for_each_index(0, sums.size(), 1, [&](std::size_t task) {
+            sums[task] = {};
+            const std::size_t end = std::min((task + 1) * kTouchesATask, group.courses.size());
+            for (std::size_t k = task * kTouchesATask; k < end; ++k)
+                sums[task] += courses_[group.courses[k]].slope_at(at);
+        });
+        Slope sum{at * group.curvature - group.pull, group.curvature};
+        for (const Slope& slope : sums) sum += slope;
+        for (const Beside& beside : group.beside)
+            sum += courses_[beside.course].slope_beside(beside.side, at, groups_[beside.group].part);
+        return sum;
+    });
+    group.next_part = std::min(group.part, part);
+}
+
 }  // namespace
 
 // Newton's step alone would throw bodies through the reach of others, and friction would move them farther
 // than what they lie on. In a crowd the first to meet would stop all, if all made the same part.
 std::vector<double> least_parts(const IslandSystem& island, std::span<const Motion> motions,
                                 const std::vector<Motion>& way) {
-    const std::vector<Touch>& touches = island.touches;
-    std::vector<Course> courses(touches.size());
-    for_each_index(0, touches.size(), kTouchesATask,
-                   [&](std::size_t k) { courses[k] = Course(touches[k], way); });
-    std::vector<std::uint32_t> acting, waiting;
-    for (std::uint32_t k = 0; k < courses.size(); ++k) {
-        if (courses[k].acts()) acting.push_back(k);
-        if (!courses[k].acts() && courses[k].may_act()) waiting.push_back(k);
-    }
-    DisjointSets groups(island.bodies.size());
-    const auto unite = [&](std::uint32_t touch) {
-        const auto [a, b] = touches[touch].bodies;
-        return a != kNoNode && b != kNoNode && groups.unite(a, b);
-    };
-    for (const std::uint32_t k : acting) unite(k);
-    std::vector<double> parts(island.bodies.size());
-    std::vector<std::uint8_t> is_new(island.bodies.size(), 1);  // by the least number of a group
-    // Of a group, with the contacts that act in it.
-    const auto find_part = [&](const std::vector<std::uint32_t>& members,
-                               const std::vector<std::uint32_t>& own) {
-        double pull = 0.0, curvature = 0.0;
-        for (const std::uint32_t k : members) {
-            const Motion resisted = island.bodies[k].matrix * way[k];
-            pull += island.bodies[k].force.dot(way[k]) - resisted.dot(motions[k]);
-            curvature += resisted.dot(way[k]);
-        }
-        // Task by task, so that sums do not depend on the number of threads.
-        std::vector<Slope> sums((own.size() + kTouchesATask - 1) / kTouchesATask);
-        return least_part([&](double part) {
-            for_each_index(0, sums.size(), 1, [&](std::size_t task) {
-                sums[task] = {};
-                const std::size_t end = std::min((task + 1) * kTouchesATask, own.size());
-                for (std::size_t k = task * kTouchesATask; k < end; ++k)
-                    sums[task] += courses[own[k]].slope_at(part);
-            });
-            Slope sum{part * curvature - pull, curvature};
-            for (const Slope& slope : sums) sum += slope;
-            return sum;
-        });
-    };
-    const auto find_parts = [&] {
-        std::vector<std::vector<std::uint32_t>> members(island.bodies.size()), own(island.bodies.size());
-        for (std::uint32_t k = 0; k < island.bodies.size(); ++k) members[groups.least(k)].push_back(k);
-        for (const std::uint32_t k : acting) {
-            const std::uint32_t body = std::min(touches[k].bodies[0], touches[k].bodies[1]);
-            if (body != kNoNode) own[groups.least(body)].push_back(k);
-        }
-        for_each_index(0, members.size(), kBodiesATask, [&](std::size_t group) {
-            if (members[group].empty() || is_new[group] == 0) return;
-            const double part = find_part(members[group], own[group]);
-            for (const std::uint32_t k : members[group]) parts[k] = part;
-        });
-    };
-    for (bool any = true; any;) {
-        find_parts();
-        std::fill(is_new.begin(), is_new.end(), std::uint8_t(0));
-        any = false;
-        // Those that go side by side may meet where they make different parts.
-        for (const std::uint32_t k : waiting) {
-            const auto [a, b] = touches[k].bodies;
-            if (courses[k].gap_after(parts[a], parts[b]) >= touches[k].reach || !unite(k)) continue;
-            is_new[groups.least(a)] = 1;
-            any = true;
-        }
-    }
-    return parts;
+    return Search(island, motions, way).parts();
 }
 
 }  // namespace gelatin::cpu

@@ -19,7 +19,7 @@ namespace {
 constexpr double kEnough = 1e-4;
 constexpr int kMostRounds = 8;
 // From this part of the gap at the start on, of no more than the reach, forces grow linearly. With the
-// barrier the first pair of a crowd to meet would end a round for all.
+// barrier, which nothing needs here, crowds would keep less of their motion.
 constexpr double kStraight = 0.5;
 // Farther than so many times their reach contacts do not know what bodies meet.
 constexpr double kFar = 16.0;

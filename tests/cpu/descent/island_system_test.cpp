@@ -133,5 +133,54 @@ TEST(IslandSystem, BodiesOfACrowdMoveAsEachAlone) {
     }
 }
 
+// From half of the gap at the start on, of no more than the reach, forces grow linearly.
+TEST(IslandSystem, BodiesGoFarIntoSoftContacts) {
+    const auto depth = [](double gap) {
+        IslandSystem island = on_a_belt(0.0);
+        island.bodies[0].force(1) = -2e4;
+        for (IslandSystem::Touch& touch : island.touches) {
+            touch.stiffness = 5e5;
+            touch.friction = 0.0;
+            touch.hold = {};
+            touch.gap = gap;
+        }
+        return -island.find_motions()[0](1);
+    };
+    EXPECT_NEAR(depth(5e-3), 2e4 / 2e6, 1e-6);
+    EXPECT_NEAR(depth(7e-3), 2e-3 + (2e4 - 2e3) / 2e6, 1e-6);
+    const double least = 0.5e-3, stiffness = 0.25 * 1e6 * 25e-6 / (least * least);  // the barrier's there
+    EXPECT_NEAR(depth(1e-3), 0.5e-3 + (2e4 - 500.0 - stiffness * least) / (1e6 + stiffness), 1e-6);
+}
+
+// A row of bodies falls on a belt. Each meets the next on the way, or presses it from the start. All are in
+// balance in the end.
+TEST(IslandSystem, ARowMeetsInOneMotion) {
+    constexpr std::uint32_t kCount = 12;
+    for (const double between : {1e-3, -1e-5}) {
+        IslandSystem row;
+        for (std::uint32_t k = 0; k < kCount; ++k) {
+            IslandSystem one = on_a_belt(0.0);
+            one.bodies[0].force(1) = -2e4;
+            row.bodies.push_back(one.bodies[0]);
+            for (IslandSystem::Touch touch : one.touches) {
+                touch.bodies = {k == 0 ? kNoNode : k - 1, k};
+                touch.arms[0] = touch.arms[1];
+                touch.gap = touch.reach + (k == 0 ? 1e-3 : between);
+                row.touches.push_back(touch);
+            }
+        }
+        row.is_held = true;
+        const std::vector<Motion> motions = row.find_motions();
+        std::vector<double> pressing(kCount + 1);  // what is below each, by where both went
+        for (std::uint32_t k = 0; k < kCount; ++k) {
+            const double gap = k == 0 ? 1e-3 + motions[0](1) : between + motions[k](1) - motions[k - 1](1);
+            pressing[k] = 2e8 * std::max(0.0, -gap);
+        }
+        for (std::uint32_t k = 0; k < kCount; ++k)
+            EXPECT_NEAR(pressing[k] - pressing[k + 1], 2e4 + 1e6 * motions[k](1), 200.0)
+                << between << ' ' << k;
+    }
+}
+
 }  // namespace
 }  // namespace gelatin
