@@ -48,7 +48,7 @@ public:
             sides_[side] = glm::dot(touch.displacement(side, way[touch.bodies[side]]), touch.normal);
     }
 
-    // Whether it does if both bodies make the same part.
+    // Whether it presses or holds on the way if both bodies make the same part.
     bool acts() const {
         return std::min(touch_->gap, touch_->gap + change_) < touch_->reach || touch_->limit > 0.0;
     }
@@ -105,9 +105,10 @@ double least_part(const SlopeAt& slope_at) {
     return low;
 }
 
-class Search {
+// For each body the part of a way that its group makes.
+class GroupSearch {
 public:
-    Search(const IslandSystem& island, std::span<const Motion> motions, const std::vector<Motion>& way);
+    GroupSearch(const IslandSystem& island, std::span<const Motion> motions, const std::vector<Motion>& way);
     // By body.
     std::vector<double> parts();
 
@@ -136,7 +137,8 @@ private:
     std::vector<std::uint32_t> numbers_;  // of groups, by body
 };
 
-Search::Search(const IslandSystem& island, std::span<const Motion> motions, const std::vector<Motion>& way)
+GroupSearch::GroupSearch(const IslandSystem& island, std::span<const Motion> motions,
+                         const std::vector<Motion>& way)
     : courses_(island.touches.size()), numbers_(island.bodies.size()) {
     for_each_index(0, courses_.size(), kTouchesATask,
                    [&](std::size_t k) { courses_[k] = Course(island.touches[k], way); });
@@ -180,7 +182,7 @@ Search::Search(const IslandSystem& island, std::span<const Motion> motions, cons
 }
 
 // First nothing has stopped. Then those stop that meet what has: parts become less from round to round.
-std::vector<double> Search::parts() {
+std::vector<double> GroupSearch::parts() {
     const auto find_parts = [&](const auto& is_one) {
         for_each_index(0, groups_.size(), kBodiesATask, [&](std::size_t g) {
             if (is_one(groups_[g])) find_part(groups_[g]);
@@ -201,7 +203,7 @@ std::vector<double> Search::parts() {
 }
 
 // Something that has stopped in the last round is in the way.
-bool Search::meets_more(const Group& group) const {
+bool GroupSearch::meets_more(const Group& group) const {
     return std::any_of(group.beside.begin(), group.beside.end(), [&](const Beside& beside) {
         const Group& other = groups_[beside.group];
         return other.has_stopped &&
@@ -209,7 +211,7 @@ bool Search::meets_more(const Group& group) const {
     });
 }
 
-void Search::find_part(Group& group) const {
+void GroupSearch::find_part(Group& group) const {
     // Task by task, so that sums do not depend on the number of threads.
     std::vector<Slope> sums((group.courses.size() + kTouchesATask - 1) / kTouchesATask);
     const double part = least_part([&](double at) {
@@ -234,7 +236,7 @@ void Search::find_part(Group& group) const {
 // than what they lie on. In a crowd the first to meet would stop all, if all made the same part.
 std::vector<double> least_parts(const IslandSystem& island, std::span<const Motion> motions,
                                 const std::vector<Motion>& way) {
-    return Search(island, motions, way).parts();
+    return GroupSearch(island, motions, way).parts();
 }
 
 }  // namespace gelatin::cpu
