@@ -59,8 +59,8 @@ void play(const PlayOptions& options) {
                                 recording->frame(recording->frame_count() - 1)));
     check_outputs(options.outputs);
     Simulator simulator(recording, simulator_options(options.outputs));
+    Recorder recorder(options.outputs, simulator);  // camera and light are those of the first of all frames
     simulator.show_recorded(first);
-    Recorder recorder(options.outputs, simulator);
     const Interrupt interrupt;
     Progress progress(simulator.frame(), recording->frame(last), options.outputs.quiet);
     for (std::size_t k = first; k < last && !interrupt.was_asked(); ++k) {

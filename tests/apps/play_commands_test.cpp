@@ -144,6 +144,9 @@ TEST_F(PlayCommandsDraw, ARecordingIsDrawnAsTheRunWas) {
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(read_file(path("live.png")), read_file(path("played.png")));
     EXPECT_GT(std::filesystem::file_size(path("played.mp4")), 0u);
+    ASSERT_EQ(run({"render", "cube.gel", "--from", "6", "--image", "alone.png", "--size", "64x64"}).exit_code,
+              0);
+    EXPECT_EQ(read_file(path("live.png")), read_file(path("alone.png")));
 }
 
 }  // namespace
