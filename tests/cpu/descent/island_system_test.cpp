@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
+
+#include "cpu/descent/island_search.h"
 
 namespace gelatin {
 namespace {
@@ -152,33 +155,64 @@ TEST(IslandSystem, BodiesGoFarIntoSoftContacts) {
     EXPECT_NEAR(depth(1e-3), 0.5e-3 + (2e4 - 500.0 - stiffness * least) / (1e6 + stiffness), 1e-6);
 }
 
-// A row of bodies falls on a belt. Each meets the next on the way, or presses it from the start. All are in
-// balance in the end.
-TEST(IslandSystem, ARowMeetsInOneMotion) {
-    constexpr std::uint32_t kCount = 12;
-    for (const double between : {1e-3, -1e-5}) {
-        IslandSystem row;
-        for (std::uint32_t k = 0; k < kCount; ++k) {
-            IslandSystem one = on_a_belt(0.0);
-            one.bodies[0].force(1) = -2e4;
-            row.bodies.push_back(one.bodies[0]);
-            for (IslandSystem::Touch touch : one.touches) {
-                touch.bodies = {k == 0 ? kNoNode : k - 1, k};
-                touch.arms[0] = touch.arms[1];
-                touch.gap = touch.reach + (k == 0 ? 1e-3 : between);
-                row.touches.push_back(touch);
+constexpr std::uint32_t kRow = 12;
+
+// Bodies above each other, 1 mm above the reach of a belt; all fall by 20 mm.
+// @param between how much wider than the reach gaps between them are [m]
+// @param is_turned whether the upper body of a contact is its first
+IslandSystem row_above_a_belt(double between, bool is_turned) {
+    IslandSystem row;
+    row.is_held = true;
+    for (std::uint32_t k = 0; k < kRow; ++k) {
+        IslandSystem one = on_a_belt(0.0);
+        one.bodies[0].force(1) = -2e4;
+        row.bodies.push_back(one.bodies[0]);
+        for (IslandSystem::Touch touch : one.touches) {
+            touch.bodies = {k == 0 ? kNoNode : k - 1, k};
+            touch.arms[0] = touch.arms[1];
+            touch.gap = touch.reach + (k == 0 ? 1e-3 : between);
+            if (is_turned) {
+                std::swap(touch.bodies[0], touch.bodies[1]);
+                touch.normal = -touch.normal;
             }
+            row.touches.push_back(touch);
         }
-        row.is_held = true;
-        const std::vector<Motion> motions = row.find_motions();
-        std::vector<double> pressing(kCount + 1);  // what is below each, by where both went
-        for (std::uint32_t k = 0; k < kCount; ++k) {
-            const double gap = k == 0 ? 1e-3 + motions[0](1) : between + motions[k](1) - motions[k - 1](1);
-            pressing[k] = 2e8 * std::max(0.0, -gap);
+    }
+    return row;
+}
+
+// Each meets the next on the way, or presses it from the start. All are in balance in the end.
+TEST(IslandSystem, ARowMeetsInOneMotion) {
+    for (const double between : {1e-3, -1e-5}) {
+        for (const bool is_turned : {false, true}) {
+            const std::vector<Motion> motions = row_above_a_belt(between, is_turned).find_motions();
+            std::vector<double> pressing(kRow + 1);  // what is below each, by where both went
+            for (std::uint32_t k = 0; k < kRow; ++k) {
+                const double gap =
+                    k == 0 ? 1e-3 + motions[0](1) : between + motions[k](1) - motions[k - 1](1);
+                pressing[k] = 2e8 * std::max(0.0, -gap);
+            }
+            for (std::uint32_t k = 0; k < kRow; ++k)
+                EXPECT_NEAR(pressing[k] - pressing[k + 1], 2e4 + 1e6 * motions[k](1), 200.0)
+                    << between << ' ' << is_turned << ' ' << k;
         }
-        for (std::uint32_t k = 0; k < kCount; ++k)
-            EXPECT_NEAR(pressing[k] - pressing[k + 1], 2e4 + 1e6 * motions[k](1), 200.0)
-                << between << ' ' << k;
+    }
+}
+
+// Each stops on what is below it, where that has stopped, and is not pressed by what goes on above.
+TEST(IslandSearch, ARowStopsBodyByBody) {
+    Motion fall = Motion::Zero();
+    fall(1) = -20e-3;
+    for (const bool is_turned : {false, true}) {
+        const std::vector<double> parts =
+            cpu::least_parts(row_above_a_belt(1e-3, is_turned), std::vector<Motion>(kRow, Motion::Zero()),
+                             std::vector<Motion>(kRow, fall));
+        double below = 0.0;  // where what is below ends [m]
+        for (std::uint32_t k = 0; k < kRow; ++k) {
+            const double end = (2e4 + 2e8 * (below + 1e-3)) / (1e6 + 2e8);
+            EXPECT_NEAR(20e-3 * parts[k], end, 2e-6) << is_turned << ' ' << k;
+            below = end;
+        }
     }
 }
 
