@@ -44,6 +44,13 @@ Contacts<Real>::Contacts(std::shared_ptr<const Model> model, const CollisionSett
       guard_(model_, surface_->places),
       is_pressed_(model_->objects.size()) {
     if (collision.self_collision.value_or(true)) clear_.emplace(model_, surface_);
+    std::vector<Range> places;
+    for (const ModelObject& object : model_->objects) {
+        const auto& starts = model_->surface_parts.face_starts;
+        const std::uint32_t first = starts[object.faces.first].x;
+        places.push_back({first, starts[object.faces.end()].x - first});
+    }
+    pieces_ = ObjectPieces(places);
     restart(std::vector<Vec4<Real>>(model_->positions.begin(), model_->positions.end()));
 }
 
@@ -532,16 +539,14 @@ void Contacts<Real>::aim(std::span<const Vec4<Real>> positions, AimFor use, Stag
 template <class Real>
 template <class Value>
 Real Contacts<Real>::greatest_at_nodes(const Value& value) {
-    const SurfaceParts& parts = model_->surface_parts;
     greatest_.assign(model_->objects.size(), Real(0));
-    for_each_index(0, greatest_.size(), 1, [&](std::size_t o) {
-        const Range& faces = model_->objects[o].faces;
-        const std::uint32_t first = parts.face_starts[faces.first].x, end = parts.face_starts[faces.end()].x;
-        for (std::uint32_t place = first; place < end; ++place) {
-            const Real at_node = value(place, parts.nodes[place], static_cast<std::uint32_t>(o));
-            greatest_[o] = std::max(greatest_[o], at_node);
-        }
-    });
+    const auto greatest_of = [&](const ObjectPieces::Piece& piece) {
+        Real greatest = 0;
+        for (std::uint32_t place = piece.range.first; place < piece.range.end(); ++place)
+            greatest = std::max(greatest, value(place, model_->surface_parts.nodes[place], piece.object));
+        return greatest;
+    };
+    pieces_.gather<Real>(greatest_, greatest_of, [](Real a, Real b) { return std::max(a, b); });
     return *std::max_element(greatest_.begin(), greatest_.end());
 }
 

@@ -15,6 +15,7 @@
 #include "cpu/contact/eased_reaches.h"
 #include "cpu/contact/guarded_move.h"
 #include "cpu/nodes.h"
+#include "cpu/object_pieces.h"
 #include "model/model.h"
 
 namespace gelatin::cpu {
@@ -182,6 +183,7 @@ private:
     double longest_ = 0.0;   // motion of a node in this step's guess [m]
     std::vector<Vec4<Real>> safe_, guess_, ends_;
     std::vector<std::uint8_t> is_pressed_;  // by object
+    ObjectPieces pieces_;                   // of surface nodes
     std::vector<Real> greatest_;            // of something, by object
 };
 

@@ -41,11 +41,13 @@ GuardedMove<Real>::GuardedMove(std::shared_ptr<const Model> model, std::vector<s
       parts_(model_->objects.size()),
       own_(model_),
       planned_(model_->node_count()) {
+    std::vector<Range> ranges;
     for (std::size_t o = 0; o < masses_.size(); ++o) {
-        const Range& nodes = model_->objects[o].nodes;
+        const Range& nodes = ranges.emplace_back(model_->objects[o].nodes);
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
             masses_[o] += static_cast<double>(model_->masses[n]);
     }
+    pieces_ = ObjectPieces(ranges);
 }
 
 template <class Real>
@@ -203,26 +205,30 @@ void GuardedMove<Real>::keep_to_rooms(const ContactList<Real>& list, const Conta
                                       std::span<const Vec4<Real>> ends) {
     const bool are_nodes = movers_ == Movers::nodes;
     parts_.assign(are_nodes ? positions.size() : model_->objects.size(), Real(1));
-    tbb::parallel_for(std::size_t(0), model_->objects.size(), [&](std::size_t o) {
-        const std::uint32_t island = list.islands[o];
-        const Range& nodes = model_->objects[o].nodes;
-        longest_ways_[o] = ways_of_objects_[o] = Real(0);
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+    std::vector<Reach> reaches(model_->objects.size());
+    const auto reach_of = [&](const ObjectPieces::Piece& piece) {
+        Reach reach;
+        const Vec3<Real> common = common_[list.islands[piece.object]];
+        for (std::uint32_t n = piece.range.first; n < piece.range.end(); ++n) {
             // The nodes of a handle keep their shape: they go on with whole objects alone.
             if (are_nodes && positions[n].w == Real(0)) parts_[n] = Real(0);
             const std::uint32_t place = places_[n];
             if (place == kNoNode) continue;
-            const Vec3<Real> position(positions[n]);
-            const Vec3<Real> motion = Vec3<Real>(ends[n]) - position - common_[island];
-            const Vec3<Real> moved = list.moved(place, static_cast<std::uint32_t>(o), position);
-            Real& part = parts_[are_nodes ? n : o];
-            part = std::min(part, list.part_within_room(place, moved, motion));
+            const Vec3<Real> position(positions[n]), motion = Vec3<Real>(ends[n]) - position - common;
+            const Real part = list.part_within_room(place, list.moved(place, piece.object, position), motion);
+            if (are_nodes) parts_[n] = std::min(parts_[n], part);
             const Real way = glm::length(motion);
             ways_[n] = glm::length(position - aims.nodes().aimed_at(n)) + way;
-            ways_of_objects_[o] = std::max(ways_of_objects_[o], way);
-            longest_ways_[o] = std::max(longest_ways_[o], ways_[n]);
+            reach = joined(reach, {part, way, ways_[n]});
         }
-    });
+        return reach;
+    };
+    pieces_.gather<Reach>(reaches, reach_of, joined);
+    for (std::size_t o = 0; o < reaches.size(); ++o) {
+        if (!are_nodes) parts_[o] = reaches[o].part;
+        ways_of_objects_[o] = reaches[o].way;
+        longest_ways_[o] = reaches[o].longest_way;
+    }
 }
 
 template <class Real>

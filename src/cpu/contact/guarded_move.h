@@ -12,6 +12,7 @@
 #include "cpu/contact/own_guard.h"
 #include "cpu/contact/pair_course.h"
 #include "cpu/nodes.h"
+#include "cpu/object_pieces.h"
 #include "model/model.h"
 
 namespace gelatin::cpu {
@@ -94,6 +95,15 @@ public:
     Real part(std::size_t mover) const { return parts_[mover]; }
 
 private:
+    // Of nodes, the least part of their ways that rooms let them make, and the longest way, now and since the
+    // aim [m].
+    struct Reach {
+        Real part = 1, way = 0, longest_way = 0;
+    };
+    static Reach joined(const Reach& a, const Reach& b) {
+        return {std::min(a.part, b.part), std::max(a.way, b.way), std::max(a.longest_way, b.longest_way)};
+    }
+
     void find_common_motions(const ContactList<Real>& list, std::span<const Vec4<Real>> positions,
                              std::span<const Vec4<Real>> ends);
     bool limit_common_motions(const ContactList<Real>& list);
@@ -119,6 +129,7 @@ private:
     std::shared_ptr<const Model> model_;
     std::vector<std::uint32_t> places_;     // of nodes among those of the surface
     std::vector<std::uint32_t> object_of_;  // by node
+    ObjectPieces pieces_;                   // of nodes
     std::vector<double> masses_;            // of objects [kg]
     std::vector<std::uint8_t> is_held_;     // by object
     std::vector<Vec3<Real>> means_;         // mean motion of each object [m]

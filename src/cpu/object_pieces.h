@@ -1,0 +1,50 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "model/for_each_index.h"
+#include "model/range.h"
+
+namespace gelatin::cpu {
+
+/// What objects consist of, such as their nodes, in pieces that threads share. Large objects have several.
+class ObjectPieces {
+public:
+    struct Piece {
+        std::uint32_t object;
+        Range range;
+    };
+
+    ObjectPieces() = default;
+    /// @param ranges by object
+    explicit ObjectPieces(std::span<const Range> ranges) {
+        for (std::uint32_t o = 0; o < ranges.size(); ++o)
+            for (std::uint32_t first = ranges[o].first; first < ranges[o].end(); first += kMost)
+                pieces_.push_back({o, {first, std::min(kMost, ranges[o].end() - first)}});
+    }
+
+    /// Of each object the join of what its pieces have. Threads write once a piece: values of objects lie
+    /// beside each other, and threads that write these again and again take the memory from each other.
+    /// @param by_object input: values to join with; output: the joins
+    /// @param of_piece(piece): a value @param join(a, b): of two values; its order is that of the pieces
+    template <class Value, class OfPiece, class Join>
+    void gather(std::span<Value> by_object, const OfPiece& of_piece, const Join& join) const {
+        std::vector<Value> values(pieces_.size());
+        for_each_index(0, values.size(), 1, [&](std::size_t p) { values[p] = of_piece(pieces_[p]); });
+        for (std::size_t p = 0; p < values.size(); ++p) {
+            Value& value = by_object[pieces_[p].object];
+            value = join(value, values[p]);
+        }
+    }
+
+private:
+    static constexpr std::uint32_t kMost = 512;
+
+    std::vector<Piece> pieces_;
+};
+
+}  // namespace gelatin::cpu
