@@ -110,6 +110,10 @@ private:
     void keep_to_rooms(const ContactList<Real>& list, const ContactAims<Real>& aims,
                        std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends);
     void keep_pairs_apart(const ContactList<Real>& list);
+    class CoursesByMover;
+    std::vector<std::uint32_t> shorten_blocked(std::span<const std::uint32_t> looked_at, bool makes_some);
+    bool is_blocked(const PairCourse<Real>& course) const;
+    bool stop_blocked_islands(const ContactList<Real>& list, std::vector<std::uint32_t>& movers);
     std::uint32_t island_of(const ContactList<Real>& list, std::uint32_t mover) const;
 
     void find_courses(const ContactList<Real>& list, const ContactAims<Real>& aims,
@@ -139,6 +143,7 @@ private:
     std::vector<Vec3<Real>> common_;  // by island
     Movers movers_ = Movers::objects;
     std::vector<Real> parts_, next_parts_, room_parts_;  // by mover
+    std::vector<std::uint8_t> is_shortened_;             // by mover, in a round
     OwnGuard<Real> own_;
     std::vector<Vec4<Real>> planned_;  // where bodies that meet themselves go [m]
     std::vector<PairCourse<Real>> courses_;

@@ -13,6 +13,7 @@
 #include "cpu/descent/rigid_motion.h"
 #include "cpu/descent/wave_times.h"
 #include "cpu/elasticity/elastic_energy.h"
+#include "model/for_each_index.h"
 
 namespace gelatin::cpu {
 namespace {
@@ -29,6 +30,7 @@ constexpr double kGivenBack = 0.03;
 // Impulses are repeated until so much of the speed is lacking, or so often.
 constexpr double kEnough = 0.01;
 constexpr int kMostPasses = 32;
+constexpr std::size_t kPressesATask = 512;
 
 }  // namespace
 
@@ -145,37 +147,54 @@ std::vector<std::uint8_t> RigidRebound<Real>::find_fast(const Step& step) const 
 template <class Real>
 typename RigidRebound<Real>::Touches RigidRebound<Real>::find_touches(
     const Step& step, const Contacts<Real>& contacts, const ColliderContacts<Real>& planes) const {
-    Touches touches;
     const std::vector<std::uint8_t> is_fast = find_fast(step);
-    const ContactAims<Real>& aims = contacts.aims();
-    for (const Press<Real>& press : aims.presses()) {
-        const ContactPair& sides = contacts.list().pairs[press.pair];
-        const Pair pair{false, sides.object, sides.other};
-        const bool may_meet = is_fast[pair.first] != 0 || is_fast[pair.second] != 0;
-        if (sides.is_own() || !(may_meet || meetings_.contains(pair))) continue;
-        if (contacts.restitution(pair.first, pair.second) == 0.0) continue;
-        const Real gap = aims.gap(sides, press, step.positions);
-        if (!(gap < Real(kNear) * press.reach)) continue;
-        Touch touch;
-        touch.normal = glm::dvec3(press.normal);
-        double kept = 0.0;  // how much smaller the gap would be, had nothing been in the way [m]
-        for (std::size_t k = 0; k < 4; ++k) {
-            const auto weight = static_cast<double>(press.weights[static_cast<int>(k)]);
-            const std::uint32_t n = sides.nodes[k];
-            const std::size_t side = sides.side_of(k);
-            const glm::dvec3 position(step.positions[n]), velocity(velocity_before(step, n));
-            touch.points[side] += weight * position;
-            touch.velocities[side] += weight * velocity;
-            const glm::dvec3 left = glm::dvec3(step.starts[n]) + step.length * velocity - position;
-            kept += (side == 0 ? weight : -weight) * glm::dot(touch.normal, left);
+    const std::vector<Press<Real>>& presses = contacts.aims().presses();
+    std::vector<std::vector<std::pair<Pair, Touch>>> found((presses.size() + kPressesATask - 1) /
+                                                           kPressesATask);
+    for_each_index(0, found.size(), 1, [&](std::size_t task) {
+        const std::size_t end = std::min((task + 1) * kPressesATask, presses.size());
+        for (std::size_t k = task * kPressesATask; k < end; ++k) {
+            const ContactPair& sides = contacts.list().pairs[presses[k].pair];
+            const Pair pair{false, sides.object, sides.other};
+            const bool may_meet = is_fast[pair.first] != 0 || is_fast[pair.second] != 0;
+            if (sides.is_own() || !(may_meet || meetings_.contains(pair))) continue;
+            if (contacts.restitution(pair.first, pair.second) == 0.0) continue;
+            if (const std::optional<Touch> touch = find_touch(step, contacts, presses[k]))
+                found[task].emplace_back(pair, *touch);
         }
-        if (static_cast<double>(gap) - kept < static_cast<double>(press.reach) || gap < press.reach)
-            touches[pair].push_back(touch);
-    }
+    });
+    Touches touches;
+    for (const auto& of_task : found)
+        for (const auto& [pair, touch] : of_task) touches[pair].push_back(touch);
     for (std::uint32_t o = 0; o < model_->body_count(); ++o)
         if (planes.objects[o] != 0 && !planes.nodes.empty())
             add_planes(step, planes, o, is_fast[o] != 0, touches);
     return touches;
+}
+
+// None if the sides have not met in the step, nor come near.
+template <class Real>
+std::optional<typename RigidRebound<Real>::Touch> RigidRebound<Real>::find_touch(
+    const Step& step, const Contacts<Real>& contacts, const Press<Real>& press) const {
+    const ContactPair& sides = contacts.list().pairs[press.pair];
+    const Real gap = contacts.aims().gap(sides, press, step.positions);
+    if (!(gap < Real(kNear) * press.reach)) return {};
+    Touch touch;
+    touch.normal = glm::dvec3(press.normal);
+    double kept = 0.0;  // how much smaller the gap would be, had nothing been in the way [m]
+    for (std::size_t k = 0; k < 4; ++k) {
+        const auto weight = static_cast<double>(press.weights[static_cast<int>(k)]);
+        const std::uint32_t n = sides.nodes[k];
+        const std::size_t side = sides.side_of(k);
+        const glm::dvec3 position(step.positions[n]), velocity(velocity_before(step, n));
+        touch.points[side] += weight * position;
+        touch.velocities[side] += weight * velocity;
+        const glm::dvec3 left = glm::dvec3(step.starts[n]) + step.length * velocity - position;
+        kept += (side == 0 ? weight : -weight) * glm::dot(touch.normal, left);
+    }
+    const bool has_met = static_cast<double>(gap) - kept < static_cast<double>(press.reach);
+    if (!has_met && !(gap < press.reach)) return {};
+    return touch;
 }
 
 template <class Real>

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -83,6 +84,8 @@ private:
     std::vector<std::uint8_t> find_fast(const Step& step) const;
     Touches find_touches(const Step& step, const Contacts<Real>& contacts,
                          const ColliderContacts<Real>& planes) const;
+    std::optional<Touch> find_touch(const Step& step, const Contacts<Real>& contacts,
+                                    const Press<Real>& press) const;
     void add_planes(const Step& step, const ColliderContacts<Real>& planes, std::uint32_t object,
                     bool is_fast, Touches& touches) const;
     std::array<Body*, 2> sides_of(const Pair& pair, Bodies& bodies) const;

@@ -1,11 +1,24 @@
 #include "cpu/elasticity/elastic_energy.h"
 
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
 #include "cpu/elasticity/neo_hookean.h"
 #include "cpu/elasticity/volume_ratios.h"
 #include "cpu/elasticity/volume_term.h"
+#include "model/for_each_index.h"
 
 namespace gelatin::cpu {
 namespace {
+
+constexpr std::uint32_t kElementsATask = 4096;
+
+// Of equal shares of a range, that of a task.
+Range share_of(const Range& all, std::uint32_t task, std::uint32_t tasks) {
+    const auto start = [&](std::uint64_t k) { return static_cast<std::uint32_t>(k * all.count / tasks); };
+    return {all.first + start(task), start(task + 1) - start(task)};
+}
 
 // The energy of the volume term around one node [J].
 template <class Position>
@@ -55,12 +68,24 @@ double flat_tet_energy(const Model& model, const Range& tets, std::span<const Ve
     return energy;
 }
 
+// In tasks that threads share: the sum is the same for any number of them.
 template <class Real>
 double body_energy(const Model& model, const ModelObject& object, std::span<const Vec4<Real>> positions) {
-    const double energy =
-        elastic_energy<Real>(model, {object.nodes, object.springs, object.neo_hookean_tets}, positions);
-    const bool has_flat_tets = object.neo_hookean_tets.count == 0;
-    return has_flat_tets ? energy + flat_tet_energy<Real>(model, object.tets, positions) : energy;
+    const Range& flat_tets = object.neo_hookean_tets.count == 0 ? object.tets : Range();
+    const std::uint32_t elements =
+        object.nodes.count + object.springs.count + object.neo_hookean_tets.count + flat_tets.count;
+    std::vector<double> energies(elements / kElementsATask + 1);
+    const auto tasks = static_cast<std::uint32_t>(energies.size());
+    for_each_index(0, tasks, 1, [&](std::size_t k) {
+        const auto share = [&](const Range& all) {
+            return share_of(all, static_cast<std::uint32_t>(k), tasks);
+        };
+        energies[k] = elastic_energy<Real>(
+                          model, {share(object.nodes), share(object.springs), share(object.neo_hookean_tets)},
+                          positions) +
+                      flat_tet_energy<Real>(model, share(flat_tets), positions);
+    });
+    return std::accumulate(energies.begin(), energies.end(), 0.0);
 }
 
 template double elastic_energy<float>(const Model&, const ElasticParts&, std::span<const Vec4<float>>);
