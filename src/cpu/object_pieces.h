@@ -27,18 +27,15 @@ public:
                 pieces_.push_back({o, {first, std::min(kMost, ranges[o].end() - first)}});
     }
 
-    /// Of each object the join of what its pieces have. Threads write once a piece: values of objects lie
-    /// beside each other, and threads that write these again and again take the memory from each other.
-    /// @param by_object input: values to join with; output: the joins
-    /// @param of_piece(piece): a value @param join(a, b): of two values; its order is that of the pieces
+    /// Joins what the pieces of each object have. Threads write once a piece: values of objects lie beside
+    /// each other, and threads that write these again and again take the memory from each other.
+    /// @param by_object input: values to join with; output: with those of all pieces, in their order
+    /// @param of_piece(piece): a value @param join(value, more): joins the value with another one
     template <class Value, class OfPiece, class Join>
     void gather(std::span<Value> by_object, const OfPiece& of_piece, const Join& join) const {
         std::vector<Value> values(pieces_.size());
         for_each_index(0, values.size(), 1, [&](std::size_t p) { values[p] = of_piece(pieces_[p]); });
-        for (std::size_t p = 0; p < values.size(); ++p) {
-            Value& value = by_object[pieces_[p].object];
-            value = join(value, values[p]);
-        }
+        for (std::size_t p = 0; p < values.size(); ++p) join(by_object[pieces_[p].object], values[p]);
     }
 
 private:

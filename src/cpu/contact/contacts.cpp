@@ -546,7 +546,7 @@ Real Contacts<Real>::greatest_at_nodes(const Value& value) {
             greatest = std::max(greatest, value(place, model_->surface_parts.nodes[place], piece.object));
         return greatest;
     };
-    pieces_.gather<Real>(greatest_, greatest_of, [](Real a, Real b) { return std::max(a, b); });
+    pieces_.gather<Real>(greatest_, greatest_of, [](Real& a, Real b) { a = std::max(a, b); });
     return *std::max_element(greatest_.begin(), greatest_.end());
 }
 

@@ -256,11 +256,11 @@ void GuardedMove<Real>::keep_to_rooms(const ContactList<Real>& list, const Conta
             if (are_nodes) parts_[n] = std::min(parts_[n], part);
             const Real way = glm::length(motion);
             ways_[n] = glm::length(position - aims.nodes().aimed_at(n)) + way;
-            reach = joined(reach, {part, way, ways_[n]});
+            reach.join({part, way, ways_[n]});
         }
         return reach;
     };
-    pieces_.gather<Reach>(reaches, reach_of, joined);
+    pieces_.gather<Reach>(reaches, reach_of, [](Reach& reach, const Reach& more) { reach.join(more); });
     for (std::size_t o = 0; o < reaches.size(); ++o) {
         if (!are_nodes) parts_[o] = reaches[o].part;
         ways_of_objects_[o] = reaches[o].way;

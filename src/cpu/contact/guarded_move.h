@@ -99,10 +99,13 @@ private:
     // aim [m].
     struct Reach {
         Real part = 1, way = 0, longest_way = 0;
+
+        void join(const Reach& other) {
+            part = std::min(part, other.part);
+            way = std::max(way, other.way);
+            longest_way = std::max(longest_way, other.longest_way);
+        }
     };
-    static Reach joined(const Reach& a, const Reach& b) {
-        return {std::min(a.part, b.part), std::max(a.way, b.way), std::max(a.longest_way, b.longest_way)};
-    }
 
     void find_common_motions(const ContactList<Real>& list, std::span<const Vec4<Real>> positions,
                              std::span<const Vec4<Real>> ends);

@@ -161,6 +161,9 @@ void IslandSystem::find_couplings() {
         }
         ++couplings_.back().touches.count;
     }
+    std::vector<Range> ranges;
+    for (const Coupling& coupling : couplings_) ranges.push_back(coupling.touches);
+    pieces_ = ObjectPieces(ranges);
     const auto for_sides = [&](const auto& use) {
         for (std::uint32_t k = 0; k < couplings_.size(); ++k)
             for (std::size_t side = 0; side < 2; ++side)
@@ -174,13 +177,17 @@ void IslandSystem::find_couplings() {
     for_sides([&](std::uint32_t body, const Use& use) { uses_[next[body]++] = use; });
 }
 
-void IslandSystem::sum_touches(Coupling& coupling) const {
+void IslandSystem::Sums::add(const Sums& other) {
     for (std::size_t side = 0; side < 2; ++side) {
-        coupling.own[side].setZero();
-        coupling.forces[side].setZero();
+        own[side] += other.own[side];
+        forces[side] += other.forces[side];
     }
-    coupling.across.setZero();
-    for (std::uint32_t k = coupling.touches.first; k < coupling.touches.end(); ++k) {
+    across += other.across;
+}
+
+IslandSystem::Sums IslandSystem::sum_touches(const Coupling& coupling, const Range& of) const {
+    Sums sums;
+    for (std::uint32_t k = of.first; k < of.end(); ++k) {
         Terms terms = terms_of(touches[k]);
         if (terms.stiffness.isZero(0.0)) continue;
         terms.force -= terms.stiffness * vector(touches[k].carried);
@@ -188,12 +195,13 @@ void IslandSystem::sum_touches(Coupling& coupling) const {
         const std::array<Matrix, 2> turns{cross_matrix(arms[0]), cross_matrix(arms[1])};
         for (std::size_t side = 0; side < 2; ++side) {
             if (coupling.bodies[side] == kNoNode) continue;
-            add_stiffness(terms.stiffness, turns[side], turns[side], 1.0, coupling.own[side]);
-            coupling.forces[side] += (side == 0 ? -1.0 : 1.0) * wrench(arms[side], terms.force);
+            add_stiffness(terms.stiffness, turns[side], turns[side], 1.0, sums.own[side]);
+            sums.forces[side] += (side == 0 ? -1.0 : 1.0) * wrench(arms[side], terms.force);
         }
         if (coupling.bodies[0] != kNoNode && coupling.bodies[1] != kNoNode)
-            add_stiffness(terms.stiffness, turns[0], turns[1], -1.0, coupling.across);
+            add_stiffness(terms.stiffness, turns[0], turns[1], -1.0, sums.across);
     }
+    return sums;
 }
 
 void IslandSystem::assemble() {
@@ -201,7 +209,11 @@ void IslandSystem::assemble() {
         Touch& touch = touches[k];
         touch.limit = touch.friction * touch.force_at(touch.gap);
     });
-    for_each_index(0, couplings_.size(), 4, [&](std::size_t k) { sum_touches(couplings_[k]); });
+    sums_.assign(couplings_.size(), Sums());
+    pieces_.gather<Sums>(
+        sums_,
+        [&](const ObjectPieces::Piece& piece) { return sum_touches(couplings_[piece.object], piece.range); },
+        [](Sums& sums, const Sums& more) { sums.add(more); });
     const std::size_t count = bodies.size();
     matrices_.resize(count);
     inverses_.resize(count);
@@ -210,8 +222,8 @@ void IslandSystem::assemble() {
         matrices_[k] = bodies[k].matrix;
         forces_[k] = bodies[k].force - bodies[k].matrix * motions_[k];
         for (const auto& [coupling, side] : uses_of(k)) {
-            matrices_[k] += couplings_[coupling].own[side];
-            forces_[k] += couplings_[coupling].forces[side];
+            matrices_[k] += sums_[coupling].own[side];
+            forces_[k] += sums_[coupling].forces[side];
         }
         inverses_[k] = Eigen::LLT<MotionMatrix>(matrices_[k]).solve(MotionMatrix::Identity());
     });
@@ -318,13 +330,12 @@ std::vector<Motion> IslandSystem::product(const Motions& motions) const {
     for_each_index(0, bodies.size(), kBodiesATask, [&](std::size_t k) {
         q[k].noalias() = matrices_[k] * motions[k];
         for (const auto& [index, side] : uses_of(k)) {
-            const Coupling& coupling = couplings_[index];
-            const std::uint32_t other = coupling.bodies[1 - side];
+            const std::uint32_t other = couplings_[index].bodies[1 - side];
             if (other == kNoNode) continue;
             if (side == 0) {
-                q[k].noalias() += coupling.across * motions[other];
+                q[k].noalias() += sums_[index].across * motions[other];
             } else {
-                q[k].noalias() += coupling.across.transpose() * motions[other];
+                q[k].noalias() += sums_[index].across.transpose() * motions[other];
             }
         }
     });

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cpu/descent/motion.h"
+#include "cpu/object_pieces.h"
 #include "model/model.h"
 #include "model/spring_packing.h"
 
@@ -68,18 +69,22 @@ public:
     std::vector<Motion> find_motions(const Land& land = {});
 
 private:
-    // What all contacts of two bodies add.
-    struct Coupling {
-        std::array<std::uint32_t, 2> bodies{kNoNode, kNoNode};
-        Range touches;
+    // What contacts of two bodies add.
+    struct Sums {
         std::array<MotionMatrix, 2> own{MotionMatrix::Zero(), MotionMatrix::Zero()};
         MotionMatrix across = MotionMatrix::Zero();  // rows of the first body, columns of the second
         std::array<Motion, 2> forces{Motion::Zero(), Motion::Zero()};
+
+        void add(const Sums& other);
+    };
+    struct Coupling {
+        std::array<std::uint32_t, 2> bodies{kNoNode, kNoNode};
+        Range touches;
     };
     using Motions = std::vector<Motion>;
 
     void find_couplings();
-    void sum_touches(Coupling& coupling) const;
+    Sums sum_touches(const Coupling& coupling, const Range& of) const;
     void assemble();
     Motions newton_step(double& least_residual) const;
     bool is_carried() const;
@@ -104,7 +109,9 @@ private:
 
     Motions motions_;  // so far
     std::vector<Coupling> couplings_;
-    std::vector<Use> uses_;  // body by body
+    ObjectPieces pieces_;     // of their touches
+    std::vector<Sums> sums_;  // of each coupling
+    std::vector<Use> uses_;   // body by body
     std::vector<std::uint32_t> use_starts_;
     // With contacts, after the motions so far, by body:
     std::vector<MotionMatrix> matrices_, inverses_;
