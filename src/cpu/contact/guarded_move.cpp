@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
-#include <numeric>
-#include <optional>
 #include <utility>
 
 #include "cpu/collision/nearest_points.h"
@@ -27,42 +25,8 @@ constexpr double kProgress = 0.1;
 // Rounds in which bodies that would meet themselves are shortened. After them, they make nothing.
 constexpr int kMostOwnRounds = 4;
 constexpr std::size_t kPairsATask = 1024;
+
 }  // namespace
-
-// Of each mover the courses that it is in.
-template <class Real>
-class GuardedMove<Real>::CoursesByMover {
-public:
-    CoursesByMover(std::span<const PairCourse<Real>> courses, std::size_t movers)
-        : starts_(movers + 1), is_found_(courses.size()) {
-        const auto for_movers = [&](const auto& use) {
-            for (std::uint32_t k = 0; k < courses.size(); ++k) {
-                const auto& of_course = courses[k].movers;
-                for (auto mover = of_course.begin(); mover != of_course.end(); ++mover)
-                    if (std::find(of_course.begin(), mover, *mover) == mover) use(k, *mover);
-            }
-        };
-        for_movers([&](std::uint32_t, std::uint32_t mover) { ++starts_[mover + 1]; });
-        std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
-        courses_.resize(starts_.back());
-        std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
-        for_movers([&](std::uint32_t k, std::uint32_t mover) { courses_[next[mover]++] = k; });
-    }
-
-    // Each course once.
-    std::vector<std::uint32_t> of(std::span<const std::uint32_t> movers) {
-        std::vector<std::uint32_t> found;
-        for (const std::uint32_t mover : movers)
-            for (std::uint32_t k = starts_[mover]; k < starts_[mover + 1]; ++k)
-                if (std::exchange(is_found_[courses_[k]], std::uint8_t(1)) == 0) found.push_back(courses_[k]);
-        for (const std::uint32_t course : found) is_found_[course] = 0;
-        return found;
-    }
-
-private:
-    std::vector<std::uint32_t> starts_, courses_;  // by mover
-    std::vector<std::uint8_t> is_found_;           // by course
-};
 
 template <class Real>
 GuardedMove<Real>::GuardedMove(std::shared_ptr<const Model> model, std::vector<std::uint32_t> places)
@@ -272,9 +236,9 @@ template <class Real>
 void GuardedMove<Real>::find_courses(const ContactList<Real>& list, const ContactAims<Real>& aims,
                                      std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
                                      Closeness closeness) {
-    found_.resize((list.pairs.size() + kPairsATask - 1) / kPairsATask);
-    for_each_index(0, found_.size(), 1, [&](std::size_t task) {
-        found_[task].clear();
+    courses_.resize((list.pairs.size() + kPairsATask - 1) / kPairsATask);
+    for_each_index(0, courses_.size(), 1, [&](std::size_t task) {
+        courses_[task].clear();
         const std::size_t end = std::min((task + 1) * kPairsATask, list.pairs.size());
         for (std::size_t p = task * kPairsATask; p < end; ++p) {
             const ContactPair& pair = list.pairs[p];
@@ -294,12 +258,9 @@ void GuardedMove<Real>::find_courses(const ContactList<Real>& list, const Contac
                 course.movers[c] = movers_ == Movers::nodes ? pair.nodes[c]
                                    : pair.side_of(c) == 0   ? pair.object
                                                             : pair.other;
-            found_[task].push_back(course);
+            courses_[task].push_back(course);
         }
     });
-    courses_.clear();
-    for (const std::vector<PairCourse<Real>>& found : found_)
-        courses_.insert(courses_.end(), found.begin(), found.end());
 }
 
 // Most pairs are too far apart for the ways of their nodes.
@@ -316,83 +277,82 @@ bool GuardedMove<Real>::are_far_apart(const ContactPair& pair, const ContactAims
     return aim.gap - ways[0] - ways[1] > least;
 }
 
-// In each round every pair that would come too near shortens the movers that approach. Only pairs of movers
-// of such pairs are looked at again: others are as they were.
+// In each round every pair that would come too near shortens the movers that approach. Pairs without movers
+// of such pairs are as they were.
 template <class Real>
 void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
-    next_parts_.resize(parts_.size());
-    is_shortened_.assign(parts_.size(), 0);
-    std::vector<std::uint32_t> looked_at(courses_.size());
-    std::iota(looked_at.begin(), looked_at.end(), 0u);
-    std::optional<CoursesByMover> by_mover;
+    next_parts_ = parts_;
+    is_shortened_.assign(parts_.size(), 1);
+    blocked_.resize(courses_.size());
     for (int round = 0;; ++round) {
-        std::vector<std::uint32_t> movers = shorten_blocked(looked_at, round < kMostRounds);
-        if (movers.empty()) return;
-        if (round >= kMostRounds + kMostStops && !stop_blocked_islands(list, movers)) return;
-        if (!by_mover) by_mover.emplace(courses_, parts_.size());
-        looked_at = by_mover->of(movers);
+        for_each_index(0, courses_.size(), 1, [&](std::size_t task) { find_blocked(task); });
+        if (!shorten_blocked(round < kMostRounds)) return;
+        if (round >= kMostRounds + kMostStops && !stop_blocked_islands(list)) return;
     }
 }
 
-// @param makes_some whether those in the way may still make a part
-// @return the movers of pairs that would come too near
+// Those that would come too near now, of pairs of movers that were shortened last. What stays free whatever
+// comes is forgotten.
 template <class Real>
-std::vector<std::uint32_t> GuardedMove<Real>::shorten_blocked(std::span<const std::uint32_t> looked_at,
-                                                              bool makes_some) {
-    std::vector<std::vector<std::uint32_t>> blocked((looked_at.size() + kPairsATask - 1) / kPairsATask);
-    for_each_index(0, blocked.size(), 1, [&](std::size_t task) {
-        const std::size_t first = task * kPairsATask;
-        for (const std::uint32_t k :
-             looked_at.subspan(first, std::min(kPairsATask, looked_at.size() - first)))
-            if (is_blocked(courses_[k])) blocked[task].push_back(k);
-    });
+void GuardedMove<Real>::find_blocked(std::size_t task) {
+    std::vector<PairCourse<Real>>& courses = courses_[task];
+    std::vector<std::uint32_t>& blocked = blocked_[task];
+    blocked.clear();
+    std::uint32_t kept = 0;
+    for (std::size_t k = 0; k < courses.size(); ++k) {
+        const PairCourse<Real>& course = courses[k];
+        const auto part = [&](std::size_t c) { return parts_[course.movers[c]]; };
+        const bool is_old = std::none_of(course.movers.begin(), course.movers.end(),
+                                         [&](std::uint32_t mover) { return is_shortened_[mover] != 0; });
+        if (!is_old && course.stays_free(part)) continue;
+        if (!is_old && !(course.gap(part) >= course.least)) blocked.push_back(kept);
+        if (kept != k) courses[kept] = course;
+        ++kept;
+    }
+    courses.resize(kept);
+}
+
+// @param makes_some whether movers in the way may still make a part
+// @return whether there were any
+template <class Real>
+bool GuardedMove<Real>::shorten_blocked(bool makes_some) {
     std::vector<std::uint32_t> movers;
-    for (const std::vector<std::uint32_t>& of_task : blocked) {
-        for (const std::uint32_t k : of_task) {
-            const PairCourse<Real>& course = courses_[k];
+    std::fill(is_shortened_.begin(), is_shortened_.end(), std::uint8_t(0));
+    for (std::size_t task = 0; task < courses_.size(); ++task) {
+        for (const std::uint32_t k : blocked_[task]) {
+            const PairCourse<Real>& course = courses_[task][k];
             const Real start = course.gap(
                 [&](std::size_t c) { return course.approaches(c) ? Real(0) : parts_[course.movers[c]]; });
             const Real end = course.gap([&](std::size_t c) { return parts_[course.movers[c]]; });
             const Real left = makes_some ? part_left(start, end, course.least) : Real(0);
             for (std::size_t c = 0; c < 4; ++c) {
                 const std::uint32_t mover = course.movers[c];
-                if (std::exchange(is_shortened_[mover], std::uint8_t(1)) == 0) {
-                    next_parts_[mover] = parts_[mover];
-                    movers.push_back(mover);
-                }
+                if (std::exchange(is_shortened_[mover], std::uint8_t(1)) == 0) movers.push_back(mover);
                 if (course.approaches(c))
                     next_parts_[mover] = std::min(next_parts_[mover], left * parts_[mover]);
             }
         }
     }
-    for (const std::uint32_t mover : movers) {
-        parts_[mover] = next_parts_[mover];
-        is_shortened_[mover] = 0;
-    }
-    return movers;
-}
-
-template <class Real>
-bool GuardedMove<Real>::is_blocked(const PairCourse<Real>& course) const {
-    return !(course.gap([&](std::size_t c) { return parts_[course.movers[c]]; }) >= course.least);
+    for (const std::uint32_t mover : movers) parts_[mover] = next_parts_[mover];
+    return !movers.empty();
 }
 
 // Islands stop whole, and colliders, each time at least one.
-// @param movers output: those too that have stopped
 // @return false if none is left, where faces overlap already
 template <class Real>
-bool GuardedMove<Real>::stop_blocked_islands(const ContactList<Real>& list,
-                                             std::vector<std::uint32_t>& movers) {
+bool GuardedMove<Real>::stop_blocked_islands(const ContactList<Real>& list) {
     std::vector<std::uint8_t> stops(common_.size());
-    for (const PairCourse<Real>& course : courses_) {
-        if (!is_blocked(course)) continue;
-        for (const std::uint32_t mover : course.movers) stops[island_of(list, mover)] = 1;
+    for (const std::vector<PairCourse<Real>>& courses : courses_) {
+        for (const PairCourse<Real>& course : courses) {
+            if (course.gap([&](std::size_t c) { return parts_[course.movers[c]]; }) >= course.least) continue;
+            for (const std::uint32_t mover : course.movers) stops[island_of(list, mover)] = 1;
+        }
     }
     bool any = false;
     for (std::uint32_t m = 0; m < parts_.size(); ++m) {
         if (stops[island_of(list, m)] == 0 || parts_[m] == Real(0)) continue;
-        parts_[m] = Real(0);
-        movers.push_back(m);
+        parts_[m] = next_parts_[m] = Real(0);
+        is_shortened_[m] = 1;
         any = true;
     }
     return any;

@@ -113,10 +113,9 @@ private:
     void keep_to_rooms(const ContactList<Real>& list, const ContactAims<Real>& aims,
                        std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends);
     void keep_pairs_apart(const ContactList<Real>& list);
-    class CoursesByMover;
-    std::vector<std::uint32_t> shorten_blocked(std::span<const std::uint32_t> looked_at, bool makes_some);
-    bool is_blocked(const PairCourse<Real>& course) const;
-    bool stop_blocked_islands(const ContactList<Real>& list, std::vector<std::uint32_t>& movers);
+    void find_blocked(std::size_t task);
+    bool shorten_blocked(bool makes_some);
+    bool stop_blocked_islands(const ContactList<Real>& list);
     std::uint32_t island_of(const ContactList<Real>& list, std::uint32_t mover) const;
 
     void find_courses(const ContactList<Real>& list, const ContactAims<Real>& aims,
@@ -146,11 +145,11 @@ private:
     std::vector<Vec3<Real>> common_;  // by island
     Movers movers_ = Movers::objects;
     std::vector<Real> parts_, next_parts_, room_parts_;  // by mover
-    std::vector<std::uint8_t> is_shortened_;             // by mover, in a round
+    std::vector<std::uint8_t> is_shortened_;             // by mover, in the last round
     OwnGuard<Real> own_;
-    std::vector<Vec4<Real>> planned_;  // where bodies that meet themselves go [m]
-    std::vector<PairCourse<Real>> courses_;
-    std::vector<std::vector<PairCourse<Real>>> found_;  // of each task, in the order of the pairs
+    std::vector<Vec4<Real>> planned_;                     // where bodies that meet themselves go [m]
+    std::vector<std::vector<PairCourse<Real>>> courses_;  // task by task, in the order of the pairs
+    std::vector<std::vector<std::uint32_t>> blocked_;     // of these, the numbers within a task
 };
 
 }  // namespace gelatin::cpu
