@@ -138,6 +138,7 @@ TEST(FillSurface, KeepsLatticesInTheCache) {
         return std::distance(std::filesystem::directory_iterator(folder.path()), {});
     };
     MesherSettings settings = by(MesherKind::lattice);
+    settings.nodes = 300;
     Notes first, second, third;
     const SurfaceMesh plate = make_box({{1.0, 1.0, 0.004}, {1, 1, 1}});
     SurfaceMesh surface = make_sphere({0.5, 6});

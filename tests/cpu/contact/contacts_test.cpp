@@ -228,7 +228,7 @@ TEST(ContactsHeavy, BodiesBounceInDividedSteps) {
 }
 
 // Two that meet, and a carpet of bodies that press each other: an island so large that threads share it.
-TEST(Contacts, GivesTheSameBitsForAnyNumberOfThreads) {
+TEST(ContactsHeavy, GivesTheSameBitsForAnyNumberOfThreads) {
     const auto run = [](const std::shared_ptr<const Model>& model, int frames, std::size_t threads) {
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
         cpu::CpuSolver<float> solver = make_solver<float>(model, 0.4, 10, true);

@@ -68,7 +68,7 @@ TEST(EasedReaches, AreWholeAgainAfterARestart) {
 
 // A block that starts just above a box is lifted within a third of a second, and not faster, in steps of any
 // length.
-TEST(EasedReaches, NothingIsThrownAtTheStart) {
+TEST(EasedReachesHeavy, NothingIsThrownAtTheStart) {
     ColliderDescription box;
     box.shape = BoxShape{{2.0, 0.2, 2.0}};
     box.position = {0.15, -0.1, 0.15};

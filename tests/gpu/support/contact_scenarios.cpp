@@ -216,8 +216,8 @@ double sweep_error(MaterialModel kind, int frames, int sweeps, double far = 0.0,
     if (sweeps > 1)
         return std::max({quantile(off, 0.75) / (25.0 * kUnit), quantile(off, 1.0) / (kPartOfMotion * longest),
                          excess / kUnit});
-    return std::max({quantile(off, 0.9) / (3.0 * kUnit), quantile(off, 1.0) / (kPartOfMotion * longest),
-                     quantile(forces_off, 1.0), excess / kUnit});
+    return std::max({quantile(off, 0.8) / (3.0 * kUnit), quantile(off, 1.0) / (kPartOfMotion * longest),
+                     quantile(forces_off, 0.8), excess / kUnit});
 }
 
 // Of nodes that are thrown in all directions from between three others: some have three planes in

@@ -254,11 +254,11 @@ void expect_bodies_or_errors(unsigned first, unsigned end) {
 }
 
 TEST(BrokenSurfacesTest, GiveABodyOrAnError) {
-    expect_bodies_or_errors(5, 14);
+    expect_bodies_or_errors(5, 10);
 }
 
 TEST(BrokenSurfacesLong, GiveABodyOrAnError) {
-    expect_bodies_or_errors(14, 250);
+    expect_bodies_or_errors(10, 250);
 }
 
 }  // namespace
