@@ -41,9 +41,9 @@ namespace gelatin::cpu {
 template <class Real>
 class BlockDescent {
 public:
-    /// Bodies of so many nodes in all make their sweeps one batch after the other, or beside each other: what
-    /// a processor's caches hold.
-    static constexpr std::uint32_t kNodesABatch = 16384;
+    /// Bodies of so many nodes in all make their sweeps one batch after the other, or beside each other on
+    /// several threads: less than a processor's caches hold. Smaller ones would leave lanes of SIMD empty.
+    static constexpr std::uint32_t kNodesABatch = 4096;
 
     /// @param contacts between bodies; null: bodies do not meet within a step
     /// @param device that makes the sweeps of bodies with contacts; null: the host makes them; must outlive
