@@ -282,7 +282,7 @@ bool GuardedMove<Real>::are_far_apart(const ContactPair& pair, const ContactAims
 template <class Real>
 void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
     next_parts_ = parts_;
-    is_shortened_.assign(parts_.size(), 1);
+    is_shortened_.assign(parts_.size(), 1);  // as if all were
     blocked_.resize(courses_.size());
     for (int round = 0;; ++round) {
         for_each_index(0, courses_.size(), 1, [&](std::size_t task) { find_blocked(task); });

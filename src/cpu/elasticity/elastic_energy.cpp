@@ -71,7 +71,7 @@ double flat_tet_energy(const Model& model, const Range& tets, std::span<const Ve
 // In tasks that threads share: the sum is the same for any number of them.
 template <class Real>
 double body_energy(const Model& model, const ModelObject& object, std::span<const Vec4<Real>> positions) {
-    const Range& flat_tets = object.neo_hookean_tets.count == 0 ? object.tets : Range();
+    const Range flat_tets = object.neo_hookean_tets.count == 0 ? object.tets : Range();
     const std::uint32_t elements =
         object.nodes.count + object.springs.count + object.neo_hookean_tets.count + flat_tets.count;
     std::vector<double> energies(elements / kElementsATask + 1);
