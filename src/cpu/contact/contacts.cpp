@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cpu/contact/planes.h"
+#include "model/collision/surface_parts.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -45,11 +46,8 @@ Contacts<Real>::Contacts(std::shared_ptr<const Model> model, const CollisionSett
       is_pressed_(model_->objects.size()) {
     if (collision.self_collision.value_or(true)) clear_.emplace(model_, surface_);
     std::vector<Range> places;
-    for (const ModelObject& object : model_->objects) {
-        const auto& starts = model_->surface_parts.face_starts;
-        const std::uint32_t first = starts[object.faces.first].x;
-        places.push_back({first, starts[object.faces.end()].x - first});
-    }
+    for (const ModelObject& object : model_->objects)
+        places.push_back(surface_places(model_->surface_parts, object.faces));
     pieces_ = ObjectPieces(places);
     restart(std::vector<Vec4<Real>>(model_->positions.begin(), model_->positions.end()));
 }

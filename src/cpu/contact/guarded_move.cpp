@@ -282,7 +282,7 @@ bool GuardedMove<Real>::are_far_apart(const ContactPair& pair, const ContactAims
 template <class Real>
 void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
     next_parts_ = parts_;
-    is_shortened_.assign(parts_.size(), 1);  // as if all were
+    is_concerned_.assign(parts_.size(), 1);
     blocked_.resize(courses_.size());
     for (int round = 0;; ++round) {
         for_each_index(0, courses_.size(), 1, [&](std::size_t task) { find_blocked(task); });
@@ -291,8 +291,8 @@ void GuardedMove<Real>::keep_pairs_apart(const ContactList<Real>& list) {
     }
 }
 
-// Those that would come too near now, of pairs of movers that were shortened last. What stays free whatever
-// comes is forgotten.
+// Those that would come too near now, of pairs of movers that are concerned. What stays free whatever comes
+// is forgotten.
 template <class Real>
 void GuardedMove<Real>::find_blocked(std::size_t task) {
     std::vector<PairCourse<Real>>& courses = courses_[task];
@@ -303,7 +303,7 @@ void GuardedMove<Real>::find_blocked(std::size_t task) {
         const PairCourse<Real>& course = courses[k];
         const auto part = [&](std::size_t c) { return parts_[course.movers[c]]; };
         const bool is_old = std::none_of(course.movers.begin(), course.movers.end(),
-                                         [&](std::uint32_t mover) { return is_shortened_[mover] != 0; });
+                                         [&](std::uint32_t mover) { return is_concerned_[mover] != 0; });
         if (!is_old && course.stays_free(part)) continue;
         if (!is_old && !(course.gap(part) >= course.least)) blocked.push_back(kept);
         if (kept != k) courses[kept] = course;
@@ -317,7 +317,7 @@ void GuardedMove<Real>::find_blocked(std::size_t task) {
 template <class Real>
 bool GuardedMove<Real>::shorten_blocked(bool makes_some) {
     std::vector<std::uint32_t> movers;
-    std::fill(is_shortened_.begin(), is_shortened_.end(), std::uint8_t(0));
+    std::fill(is_concerned_.begin(), is_concerned_.end(), std::uint8_t(0));
     for (std::size_t task = 0; task < courses_.size(); ++task) {
         for (const std::uint32_t k : blocked_[task]) {
             const PairCourse<Real>& course = courses_[task][k];
@@ -327,7 +327,7 @@ bool GuardedMove<Real>::shorten_blocked(bool makes_some) {
             const Real left = makes_some ? part_left(start, end, course.least) : Real(0);
             for (std::size_t c = 0; c < 4; ++c) {
                 const std::uint32_t mover = course.movers[c];
-                if (std::exchange(is_shortened_[mover], std::uint8_t(1)) == 0) movers.push_back(mover);
+                if (std::exchange(is_concerned_[mover], std::uint8_t(1)) == 0) movers.push_back(mover);
                 if (course.approaches(c))
                     next_parts_[mover] = std::min(next_parts_[mover], left * parts_[mover]);
             }
@@ -352,7 +352,7 @@ bool GuardedMove<Real>::stop_blocked_islands(const ContactList<Real>& list) {
     for (std::uint32_t m = 0; m < parts_.size(); ++m) {
         if (stops[island_of(list, m)] == 0 || parts_[m] == Real(0)) continue;
         parts_[m] = next_parts_[m] = Real(0);
-        is_shortened_[m] = 1;
+        is_concerned_[m] = 1;
         any = true;
     }
     return any;

@@ -145,7 +145,7 @@ private:
     std::vector<Vec3<Real>> common_;  // by island
     Movers movers_ = Movers::objects;
     std::vector<Real> parts_, next_parts_, room_parts_;  // by mover
-    std::vector<std::uint8_t> is_shortened_;             // by mover, in the last round
+    std::vector<std::uint8_t> is_concerned_;             // by mover: in a pair that the last round shortened
     OwnGuard<Real> own_;
     std::vector<Vec4<Real>> planned_;                     // where bodies that meet themselves go [m]
     std::vector<std::vector<PairCourse<Real>>> courses_;  // task by task, in the order of the pairs

@@ -14,6 +14,7 @@
 #include "cpu/contact/lower_to.h"
 #include "cpu/contact/moment_between.h"
 #include "cpu/contact/nearest_pairs.h"
+#include "model/collision/surface_parts.h"
 #include "model/for_each_index.h"
 #include "model/nearest_rotation.h"
 
@@ -74,9 +75,7 @@ OwnGaps<Real>::OwnGaps(std::shared_ptr<const Model> model, std::shared_ptr<const
         const auto o = static_cast<std::uint32_t>(index);
         const Range& faces = model_->objects[o].faces;
         if (faces.count == 0) return;
-        const std::vector<glm::uvec2>& face_starts = model_->surface_parts.face_starts;
-        const std::uint32_t first = face_starts[faces.first].x;
-        shapes_[o].places = {first, face_starts[faces.end()].x - first};
+        shapes_[o].places = surface_places(model_->surface_parts, faces);
         find_ways(o, at_start, at_start);
         look(o, kSearchedAtStart * surface_->thicknesses[o], std::nullopt);
     });

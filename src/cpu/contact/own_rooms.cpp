@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cpu/contact/least_stretch.h"
+#include "model/collision/surface_parts.h"
 #include "model/nearest_rotation.h"
 
 namespace gelatin::cpu {
@@ -65,9 +66,7 @@ void OwnRooms<Real>::restart(std::shared_ptr<const Model> model, std::vector<std
     const SurfaceParts& parts = model_->surface_parts;
     shapes_.assign(model_->objects.size(), {});
     for (std::size_t o = 0; o < shapes_.size(); ++o) {
-        const Range& faces = model_->objects[o].faces;
-        const std::uint32_t first = parts.face_starts[faces.first].x;
-        shapes_[o].places = {first, parts.face_starts[faces.end()].x - first};
+        shapes_[o].places = surface_places(parts, model_->objects[o].faces);
     }
     const std::size_t count = parts.nodes.size();
     in_lattice_.assign(count, {});

@@ -9,6 +9,7 @@
 #include "cpu/contact/planes.h"
 #include "cpu/descent/rigid_nodes.h"
 #include "cpu/descent/wave_times.h"
+#include "model/collision/surface_parts.h"
 #include "model/contact/contact_surface.h"
 #include "model/for_each_index.h"
 
@@ -127,8 +128,7 @@ std::vector<typename PlaneLanding<Real>::Row> PlaneLanding<Real>::find_rows(
     std::span<const Vec3<Real>> forces, const glm::dvec3& origin, const Motion& motion) const {
     std::vector<Row> rows;
     const SurfaceParts& parts = model_->surface_parts;
-    const Range& faces = model_->objects[object].faces;
-    const std::uint32_t first = parts.face_starts[faces.first].x, end = parts.face_starts[faces.end()].x;
+    const Range places = surface_places(parts, model_->objects[object].faces);
     const double translation = motion.head<3>().norm(), rotation = motion.tail<3>().norm();
     for (const Collider& collider : model_->colliders) {
         if (collider.kind != 0) continue;
@@ -136,7 +136,7 @@ std::vector<typename PlaneLanding<Real>::Row> PlaneLanding<Real>::find_rows(
         const glm::dvec3 u = glm::normalize(
             glm::cross(normal, std::abs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
         const glm::dvec3 v = glm::cross(normal, u);
-        for (std::uint32_t place = first; place < end; ++place) {
+        for (std::uint32_t place = places.first; place < places.end(); ++place) {
             const std::uint32_t n = parts.nodes[place];
             const glm::dvec3 position(positions[n]), arm = position - origin;
             const double height = glm::dot(normal, position) - static_cast<double>(collider.center.w);

@@ -37,6 +37,18 @@ IslandSystem on_a_belt(double slip) {
     return island;
 }
 
+// More contacts than a task has.
+TEST(IslandSystem, ManySoftContactsAreAFewStiffOnes) {
+    for (const double slip : {0.1e-3, 20e-3}) {
+        IslandSystem many = on_a_belt(slip);
+        for (IslandSystem::Touch& touch : many.touches) touch.stiffness /= 700.0, touch.hold /= 700.0;
+        const std::vector<IslandSystem::Touch> once = many.touches;
+        for (int k = 1; k < 700; ++k) many.touches.insert(many.touches.end(), once.begin(), once.end());
+        const Motion motion = many.find_motions()[0], expected = on_a_belt(slip).find_motions()[0];
+        EXPECT_LT((motion - expected).norm(), 1e-6 * expected.norm()) << slip;
+    }
+}
+
 // Newton's step takes the force of a slip for one without an end: 5 kN, which are 5 mm.
 TEST(IslandSystem, FrictionMovesABodyNoFartherThanABelt) {
     for (const double slip : {0.1e-3, 1e-3, 3e-3}) {

@@ -18,5 +18,22 @@ TEST(ElasticEnergy, OfFlatTetsIsThatOfMirroredOnes) {
     EXPECT_NEAR(cpu::flat_tet_energy<double>(*model, tets, positions), mirrored, 1e-4 * mirrored);
 }
 
+// Bodies with more elements than a task has.
+TEST(ElasticEnergy, OfABodyIsThatOfAllItsElements) {
+    for (const MaterialModel kind : {MaterialModel::mass_spring, MaterialModel::neo_hookean}) {
+        const auto model =
+            test::make_blocks({{}, {.place = {1, 0, 0}, .cells = {10, 10, 10}, .model = kind}});
+        const ModelObject& body = model->objects[1];
+        ASSERT_GT(body.springs.count + body.neo_hookean_tets.count, 4096u);
+        std::vector<glm::dvec4> positions(model->positions.begin(), model->positions.end());
+        for (glm::dvec4& p : positions) p.x = -0.9 * p.x + 0.1 * p.y * p.y;  // mirrored: tets are flat, too
+        double expected =
+            cpu::elastic_energy<double>(*model, {body.nodes, body.springs, body.neo_hookean_tets}, positions);
+        if (kind == MaterialModel::mass_spring)
+            expected += cpu::flat_tet_energy<double>(*model, body.tets, positions);
+        EXPECT_NEAR(cpu::body_energy<double>(*model, body, positions), expected, 1e-12 * expected);
+    }
+}
+
 }  // namespace
 }  // namespace gelatin
