@@ -72,6 +72,27 @@ TEST(RigidRebound, StiffBodiesLeaveWithThatPartOfTheirSpeed) {
         EXPECT_NEAR(speed_apart(two_blocks(kStiff), restitution), 3.0 * restitution, 0.03) << restitution;
 }
 
+// Their contacts are more than a task looks at.
+TEST(RigidRebound, AllOfManyPairsDo) {
+    std::vector<Block> blocks;
+    for (int k = 0; k < 40; ++k) {
+        for (Block block : two_blocks(kStiff)) {
+            block.place.x = k;
+            block.cells = {2, 2, 2};
+            blocks.push_back(block);
+        }
+    }
+    const auto model = make_blocks(blocks);
+    Solver solver = make_solver(model, 0.7);
+    for (int frame = 0; frame < 12; ++frame) solver.advance_nodes(kFrame);
+    for (std::size_t o = 0; o < blocks.size(); o += 2) {
+        const auto velocity = [&](std::size_t object) {
+            return sums_of(*model, solver, object).velocity().y;
+        };
+        EXPECT_NEAR(velocity(o + 1) - velocity(o), 0.7 * 3.0, 0.05) << o;
+    }
+}
+
 // A step may end with them beside each other, after it has taken what they came with. They turn, as they do
 // in short steps.
 TEST(RigidRebound, FastStiffBodiesDoInOneStep) {
