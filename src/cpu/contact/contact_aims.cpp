@@ -241,14 +241,17 @@ void ContactAims<Real>::carry_over(const std::vector<ContactPair>& old, const Co
 template <class Real>
 void ContactAims<Real>::end(const ContactList<Real>& list, std::span<const Vec4<Real>> positions) {
     std::fill(grips_.begin(), grips_.end(), Grip<Real>{});
+    energies_.resize(presses_.size());
     for_each_index(0, presses_.size(), 256, [&](std::size_t k) {
         const Press<Real>& press = presses_[k];
         const ContactPair& pair = list.pairs[press.pair];
-        const Real most = limit(gap(pair, press, positions), press);
+        const Real gap_now = gap(pair, press, positions), most = limit(gap_now, press);
+        energies_[k] = contact_energy(gap_now, press.reach, press.stiffness);
         if (!(most > Real(0))) return;
         Vec3<Real> held = hold(pair, press, positions);
         const Real length = glm::length(held);
         if (length > most) held *= most / length;
+        energies_[k] += glm::dot(held, held) / (Real(2) * press.stiffness);
         grips_[press.pair] = {held, Vec3<Real>(0), true};
     });
 }

@@ -54,7 +54,7 @@ public:
 
     /// Carries what friction holds on to a new list, whose pairs have no aims yet. @param old those before
     void carry_over(const std::vector<ContactPair>& old, const ContactList<Real>& list);
-    /// What friction holds when a step ends.
+    /// What friction and pressure hold when a step ends.
     void end(const ContactList<Real>& list, std::span<const Vec4<Real>> positions);
 
     const std::vector<PairAim<Real>>& aims() const { return aims_; }  ///< in the order of the list's pairs
@@ -63,6 +63,10 @@ public:
     /// Gap at which a pair begins to press [m].
     Real reach(const ContactPair& pair) const { return static_cast<Real>(pair.reach); }
     const NodeContacts<Real>& nodes() const { return nodes_; }
+
+    /// What a press held when the last step ended, which it may give back [J].
+    /// @param number in presses()
+    Real energy(std::size_t number) const { return energies_[number]; }
 
     /// The friction on the first side of a pair when the last step ended [N].
     const Vec3<Real>& held(std::uint32_t pair) const { return grips_[pair].held; }
@@ -100,6 +104,7 @@ private:
     std::vector<Softness> softness_;  // by node
     std::vector<PairAim<Real>> aims_;
     std::vector<Press<Real>> presses_;
+    std::vector<Real> energies_;                   // by press
     std::vector<std::vector<Press<Real>>> found_;  // of each task, in the order of the pairs
     std::vector<Grip<Real>> grips_;                // by pair
     NodeContacts<Real> nodes_;

@@ -43,7 +43,8 @@ Contacts<Real>::Contacts(std::shared_ptr<const Model> model, const CollisionSett
       aims_(model_, surface_),
       eased_(surface_),
       guard_(model_, surface_->places),
-      is_pressed_(model_->objects.size()) {
+      is_pressed_(model_->objects.size()),
+      energies_(model_->objects.size()) {
     if (collision.self_collision.value_or(true)) clear_.emplace(model_, surface_);
     std::vector<Range> places;
     for (const ModelObject& object : model_->objects)
@@ -467,10 +468,15 @@ void Contacts<Real>::end(std::span<const Vec4<Real>> positions) {
     aims_.end(list_, positions);
     safe_.assign(positions.begin(), positions.end());
     std::fill(is_pressed_.begin(), is_pressed_.end(), std::uint8_t(0));
-    for (const Press<Real>& press : aims_.presses()) {
-        const ContactPair& pair = list_.pairs[press.pair];
-        if (!pair.is_own() && aims_.gap(pair, press, positions) < press.reach)
-            is_pressed_[pair.object] = is_pressed_[pair.other] = 1;
+    std::fill(energies_.begin(), energies_.end(), 0.0);
+    for (std::size_t k = 0; k < aims_.presses().size(); ++k) {
+        const Real energy = aims_.energy(k);
+        if (!(energy > Real(0))) continue;
+        const ContactPair& pair = list_.pairs[aims_.presses()[k].pair];
+        const bool are_bodies = model_->is_body(pair.object) && model_->is_body(pair.other);
+        for (const std::uint32_t o : {pair.object, pair.other})
+            energies_[o] += (are_bodies ? 0.5 : 1.0) * static_cast<double>(energy);
+        if (!pair.is_own()) is_pressed_[pair.object] = is_pressed_[pair.other] = 1;
     }
 }
 

@@ -112,6 +112,9 @@ public:
             surface_->thicknesses.begin(),
             surface_->thicknesses.begin() + static_cast<std::ptrdiff_t>(model_->body_count()));
     }
+    /// What contacts held when the last step with contacts ended: of each pair of bodies half for each, of a
+    /// body with itself or a collider all [J].
+    double energy(std::size_t object) const { return energies_[object]; }
     bool is_held(std::size_t object) const { return guard_.is_held(object); }
     double restitution(std::uint32_t object, std::uint32_t other) const {
         return surface_->touch(object, other).restitution;
@@ -183,6 +186,7 @@ private:
     double longest_ = 0.0;   // motion of a node in this step's guess [m]
     std::vector<Vec4<Real>> safe_, guess_, ends_;
     std::vector<std::uint8_t> is_pressed_;  // by object
+    std::vector<double> energies_;          // of contacts, by object [J]
     ObjectPieces pieces_;                   // of surface nodes
     std::vector<Real> greatest_;            // of something, by object
 };

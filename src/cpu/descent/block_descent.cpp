@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cpu/collision/colliders.h"
+#include "cpu/contact/planes.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -22,6 +23,8 @@ constexpr double kKeptAcceleration = 0.5;
 constexpr double kSlow = 2.0;
 // A body is soft where a pressure wave takes more than so many steps through it.
 constexpr double kStepsAWave = 8.0;
+// Bodies go back from what deforms them at most so often in a step.
+constexpr int kMostRounds = 5;
 // A step is longer than the last one where it is so many times that.
 constexpr double kLonger = 1.5;
 
@@ -47,6 +50,7 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
       joint_move_(model_),
       rebound_(model_),
       tangled_(model_),
+      energy_(model_),
       outlooks_(model_->objects.size()),
       device_(bodies_ ? device : nullptr) {
     if (bodies_) landing_.emplace(model_);
@@ -84,6 +88,7 @@ void BlockDescent<Real>::follow(Real step, std::span<const std::uint32_t> matche
     bodies_->follow(step, objective_.step.targets, objective_.step.starts, nodes, timer);
     for (const std::uint32_t o : matched)
         if (!bodies_->is_held(o)) tangled_.move_rigidly(o, shapes, nodes);
+    energy_.restart();
 }
 
 template <class Real>
@@ -116,13 +121,17 @@ void BlockDescent<Real>::run(Real step, bool has_earlier, const Nodes<Real>& pre
         }
         make_moves(step, current.positions, timer);
         if (!bodies_) break;
+        energy_.begin({static_cast<double>(step), previous, objective_.step.starts, load_forces,
+                       pulls != nullptr ? pulls->nodes() : std::span<const std::uint32_t>()},
+                      *bodies_);
+        keep_energy(current.positions, timer);
         if (apart ? bodies_->end_apart(current.positions, timer)
                   : bodies_->stay_clear(current.positions, timer))
             break;
     }
     const TimedStage part(timer, "advance_nodes.move_bodies");
-    finish(step, previous, current);
     if (acting_ != nullptr) bodies_->end(current.positions);
+    finish(step, previous, current);
     last_step_ = step;
     slow_down_tangled(previous, load_forces, pulls, current);
 }
@@ -320,6 +329,29 @@ void BlockDescent<Real>::move_together(bool last, Positions& positions, StageTim
     if (!last) bodies_->renew(positions, timer);
 }
 
+// What the guard keeps deformed, others press: they all move on together, and are looked at again.
+template <class Real>
+void BlockDescent<Real>::keep_energy(Positions& positions, StageTimer* timer) {
+    for (int round = 0;; ++round) {
+        {
+            const TimedStage part(timer, "advance_nodes.keep_energy");
+            energy_.measure(positions);
+            if (round == kMostRounds || !energy_.plan(acting_, positions, ends_)) return;
+        }
+        if (acting_ == nullptr) {
+            for_each_node(*model_, [&](std::uint32_t n) {
+                const Vec3<Real> end(ends_[n]);
+                positions[n] = Vec4<Real>(outside_planes<Real>(model_->colliders, end), positions[n].w);
+            });
+            energy_.measure(positions);
+            return;
+        }
+        bodies_->move(objective_.step.targets, slow_way_, ends_, positions, timer);
+        bodies_->renew(positions, timer);
+        move_together(true, positions, timer);
+    }
+}
+
 // Of sweeps that no correction comes between.
 template <class Real>
 int BlockDescent<Real>::end_of_run(int first) const {
@@ -410,10 +442,11 @@ void BlockDescent<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Re
                           (Vec3<Real>(objective_.step.targets[n]) - start) / step, least, velocity);
         current.velocities[n] = Vec4<Real>(velocity, old.w);
     });
-    if (bodies_)
-        rebound_.run({static_cast<double>(step), static_cast<double>(least), previous.velocities,
-                      objective_.step.starts, current.positions},
-                     *bodies_, contacts_, current.velocities);
+    if (!bodies_) return;
+    energy_.end(acting_, current.positions, current.velocities);
+    rebound_.run({static_cast<double>(step), static_cast<double>(least), previous.velocities,
+                  objective_.step.starts, current.positions},
+                 *bodies_, contacts_, current.velocities);
 }
 
 // Bodies without contacts come out of it by themselves.

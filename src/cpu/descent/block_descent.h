@@ -11,6 +11,7 @@
 #include "cpu/descent/coarse_step.h"
 #include "cpu/descent/collider_contacts.h"
 #include "cpu/descent/contact_forces.h"
+#include "cpu/descent/energy_bound.h"
 #include "cpu/descent/joint_move.h"
 #include "cpu/descent/node_sweep.h"
 #include "cpu/descent/plane_landing.h"
@@ -58,6 +59,7 @@ public:
         if (division_) division_->restart();
         if (rest_watch_) rest_watch_->restart();
         rebound_.restart();
+        energy_.restart();
         contacts_.restart();
         last_step_ = 0.0;
     }
@@ -127,6 +129,7 @@ private:
                            const Pulls<Real>* pulls, Nodes<Real>& current);
     void find_outlooks(Real step, bool is_part, const Nodes<Real>& previous);
     void go_on_to_guess(Positions& positions, StageTimer* timer);
+    void keep_energy(Positions& positions, StageTimer* timer);
     void move_together(bool last, Positions& positions, StageTimer* timer);
     int end_of_run(int first) const;
     void make_sweeps(int first, int end, Positions& positions, StageTimer* timer);
@@ -153,6 +156,7 @@ private:
     JointMove<Real> joint_move_;
     RigidRebound<Real> rebound_;
     TangledBodies<Real> tangled_;
+    EnergyBound<Real> energy_;  // of bodies that meet others
     std::optional<SecantStep<Real>> secant_;
     Positions ends_;                             // of bodies' motions
     std::vector<Outlook> outlooks_;              // by object
