@@ -153,6 +153,8 @@ private:
     void set_longest(std::span<const Vec4<Real>> ends, std::span<const Vec4<Real>> positions);
     bool lacks_room_for(std::span<const Vec4<Real>> targets, double near,
                         std::span<const Vec4<Real>> ends) const;
+    bool turn_in_part(std::span<const Vec4<Real>> positions, std::span<std::uint8_t> is_rigid,
+                      std::span<Vec4<Real>> ends) const;
     std::vector<std::uint8_t> find_staying(std::span<const Vec4<Real>> positions) const;
     bool is_restless(std::uint32_t object, std::span<const Vec4<Real>> positions) const;
     bool any_restless(std::span<const Vec4<Real>> positions) const;

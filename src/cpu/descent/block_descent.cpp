@@ -24,7 +24,7 @@ constexpr double kSlow = 2.0;
 // A body is soft where a pressure wave takes more than so many steps through it.
 constexpr double kStepsAWave = 8.0;
 // Bodies go back from what deforms them at most so often in a step.
-constexpr int kMostRounds = 5;
+constexpr int kMostRounds = 12;
 // A step is longer than the last one where it is so many times that.
 constexpr double kLonger = 1.5;
 
@@ -329,7 +329,7 @@ void BlockDescent<Real>::move_together(bool last, Positions& positions, StageTim
     if (!last) bodies_->renew(positions, timer);
 }
 
-// What the guard keeps deformed, others press: they all move on together, and are looked at again.
+// Others may be in the way of bodies that go back: they all move on together, and are looked at again.
 template <class Real>
 void BlockDescent<Real>::keep_energy(Positions& positions, StageTimer* timer) {
     for (int round = 0;; ++round) {
@@ -338,17 +338,16 @@ void BlockDescent<Real>::keep_energy(Positions& positions, StageTimer* timer) {
             energy_.measure(positions);
             if (round == kMostRounds || !energy_.plan(acting_, positions, ends_)) return;
         }
-        if (acting_ == nullptr) {
+        if (acting_ != nullptr) {
+            bodies_->move(objective_.step.targets, slow_way_, ends_, positions, timer);
+            bodies_->renew(positions, timer);
+            move_together(true, positions, timer);
+        } else {
             for_each_node(*model_, [&](std::uint32_t n) {
                 const Vec3<Real> end(ends_[n]);
                 positions[n] = Vec4<Real>(outside_planes<Real>(model_->colliders, end), positions[n].w);
             });
-            energy_.measure(positions);
-            return;
         }
-        bodies_->move(objective_.step.targets, slow_way_, ends_, positions, timer);
-        bodies_->renew(positions, timer);
-        move_together(true, positions, timer);
     }
 }
 

@@ -149,21 +149,17 @@ double EnergyBound<Real>::rounding(const Group& group) const {
 template <class Real>
 bool EnergyBound<Real>::plan(const Contacts<Real>* acting, std::span<const Vec4<Real>> positions,
                              std::vector<Vec4<Real>>& ends) const {
-    const std::vector<Group> groups = closed_groups(acting);
-    std::vector<std::uint8_t> has_more(groups.size());
-    bool any = false;
-    for (std::size_t i = 0; i < groups.size(); ++i) {
+    std::vector<Group> groups = closed_groups(acting);
+    std::erase_if(groups, [&](const Group& group) {
         double now = 0.0;
-        for (const std::uint32_t o : groups[i]) now += accounts_[o].now();
-        has_more[i] = now > most_energy(groups[i]) + rounding(groups[i]) ? 1 : 0;
-        any = any || has_more[i] != 0;
-    }
-    if (!any) return false;
+        for (const std::uint32_t o : group) now += accounts_[o].now();
+        return now <= most_energy(group) + rounding(group);
+    });
+    if (groups.empty()) return false;
     ends.assign(positions.begin(), positions.end());
     std::vector<std::uint8_t> moves(groups.size());
-    for_each_index(0, groups.size(), 1, [&](std::size_t i) {
-        if (has_more[i] != 0) moves[i] = move_back(groups[i], positions, ends) ? 1 : 0;
-    });
+    for_each_index(0, groups.size(), 1,
+                   [&](std::size_t i) { moves[i] = move_back(groups[i], positions, ends) ? 1 : 0; });
     return std::find(moves.begin(), moves.end(), 1) != moves.end();
 }
 
