@@ -332,8 +332,8 @@ void Contacts<Real>::move(std::span<const Vec4<Real>> targets, double near, std:
 // ones that takes more energy than they have.
 // @return whether any ends have changed
 template <class Real>
-bool Contacts<Real>::turn_in_part(std::span<const Vec4<Real>> positions,
-                                  std::span<std::uint8_t> is_rigid, std::span<Vec4<Real>> ends) const {
+bool Contacts<Real>::turn_in_part(std::span<const Vec4<Real>> positions, std::span<std::uint8_t> is_rigid,
+                                  std::span<Vec4<Real>> ends) const {
     std::vector<std::uint8_t> turns(model_->body_count());
     for_each_index(0, turns.size(), 1, [&](std::size_t o) {
         const auto part = static_cast<double>(guard_.part(o));

@@ -43,7 +43,7 @@ template <class Real>
 void FlatTets<Real>::update_range(const Range& tets, std::uint8_t& any_flat,
                                   const std::vector<Vec4<Real>>& positions) {
     const auto least = static_cast<Real>(kFlattest), most = std::numeric_limits<Real>::infinity();
-    if (volumes_are_within(least, most, *model_, tets, positions.data(), ratios_.data())) return;
+    if (volumes_are_within(least, most, *model_, tets, positions.data(), ratios_.data() + tets.first)) return;
     for (std::uint32_t t = tets.first; t < tets.end(); ++t) {
         if (ratios_[t] >= least) continue;
         std::atomic_ref(any_flat).store(1, std::memory_order_relaxed);

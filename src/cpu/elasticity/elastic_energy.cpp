@@ -1,10 +1,12 @@
 #include "cpu/elasticity/elastic_energy.h"
 
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <vector>
 
 #include "cpu/elasticity/neo_hookean.h"
+#include "cpu/elasticity/spring_energies.h"
 #include "cpu/elasticity/volume_ratios.h"
 #include "cpu/elasticity/volume_term.h"
 #include "model/for_each_index.h"
@@ -14,10 +16,20 @@ namespace {
 
 constexpr std::uint32_t kElementsATask = 4096;
 
-// Of equal shares of a range, that of a task.
-Range share_of(const Range& all, std::uint32_t task, std::uint32_t tasks) {
-    const auto start = [&](std::uint64_t k) { return static_cast<std::uint32_t>(k * all.count / tasks); };
-    return {all.first + start(task), start(task + 1) - start(task)};
+// The sum of of_task(share_of), with share_of(range) a task's share of any range.
+// @param elements that share tasks
+template <class OfTask>
+double sum_tasks(std::uint32_t elements, const OfTask& of_task) {
+    std::vector<double> sums(elements / kElementsATask + 1);
+    for_each_index(0, sums.size(), 1, [&](std::size_t task) {
+        sums[task] = of_task([&](const Range& all) {
+            const auto start = [&](std::size_t k) {
+                return static_cast<std::uint32_t>(k * all.count / sums.size());
+            };
+            return Range{all.first + start(task), start(task + 1) - start(task)};
+        });
+    });
+    return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 // The energy of the volume term around one node [J].
@@ -25,6 +37,37 @@ template <class Position>
 double volume_energy(const VolumeTerm& term, std::uint32_t n, const Position& position) {
     const glm::dvec2 node(term.nodes[n]);
     return node.x * node.y * volume_potential(volume_ratio_round<double>(term, n, position), node.y);
+}
+
+// The same. @param ratios J of the tets of the node's body, from `first` on
+template <class Real>
+double volume_energy(const Model& model, std::uint32_t n, std::uint32_t first,
+                     const std::vector<Real>& ratios) {
+    const glm::dvec2 node(model.volume_term.nodes[n]);
+    if (!(node.x > 0.0)) return 0.0;
+    double volume = 0.0;  // of the tets around it
+    model.volume_term.corners.for_row(n, [&](const TetCorner& corner) {
+        if (corner.tet != packing::kNone)
+            volume += static_cast<double>(ratios[corner.tet - first]) *
+                      static_cast<double>(model.tet_rests[corner.tet].volume);
+    });
+    return node.x * node.y * volume_potential(0.25 * volume / node.x, node.y);
+}
+
+// Volume ratios of tets. @return what flat ones hold, if they are of springs [J]
+template <class Real>
+double find_ratios(const Model& model, const Range& tets, std::span<const Vec4<Real>> positions, Real* ratios,
+                   bool are_springs) {
+    const auto flattest = static_cast<Real>(kFlattest);
+    constexpr Real kAny = std::numeric_limits<Real>::infinity();
+    const bool any_flat = !volumes_are_within(flattest, kAny, model, tets, positions.data(), ratios);
+    double energy = 0.0;
+    for (std::uint32_t t = tets.first; any_flat && are_springs && t < tets.end(); ++t) {
+        const TetRest& rest = model.tet_rests[t];
+        energy += flat_tet_energy(static_cast<double>(ratios[t - tets.first]),
+                                  static_cast<double>(rest.volume) * static_cast<double>(rest.modulus));
+    }
+    return energy;
 }
 
 }  // namespace
@@ -68,24 +111,33 @@ double flat_tet_energy(const Model& model, const Range& tets, std::span<const Ve
     return energy;
 }
 
-// In tasks that threads share: the sum is the same for any number of them.
+// In tasks that threads share: the sum is the same for any number of them. Tets come first: nodes need their
+// volumes.
 template <class Real>
 double body_energy(const Model& model, const ModelObject& object, std::span<const Vec4<Real>> positions) {
-    const Range flat_tets = object.neo_hookean_tets.count == 0 ? object.tets : Range();
-    const std::uint32_t elements =
-        object.nodes.count + object.springs.count + object.neo_hookean_tets.count + flat_tets.count;
-    std::vector<double> energies(elements / kElementsATask + 1);
-    const auto tasks = static_cast<std::uint32_t>(energies.size());
-    for_each_index(0, tasks, 1, [&](std::size_t k) {
-        const auto share = [&](const Range& all) {
-            return share_of(all, static_cast<std::uint32_t>(k), tasks);
-        };
-        energies[k] = elastic_energy<Real>(
-                          model, {share(object.nodes), share(object.springs), share(object.neo_hookean_tets)},
-                          positions) +
-                      flat_tet_energy<Real>(model, share(flat_tets), positions);
-    });
-    return std::accumulate(energies.begin(), energies.end(), 0.0);
+    const bool has_flat_tets = object.neo_hookean_tets.count == 0;
+    const bool has_volumes = !model.volume_term.is_empty();
+    std::vector<Real> ratios(has_flat_tets || has_volumes ? object.tets.count : 0);
+    double energy = 0.0;
+    if (!ratios.empty())
+        energy += sum_tasks(object.tets.count, [&](const auto& share_of) {
+            const Range tets = share_of(object.tets);
+            return find_ratios(model, tets, positions, ratios.data() + (tets.first - object.tets.first),
+                               has_flat_tets);
+        });
+    const std::uint32_t elements = object.nodes.count + object.springs.count + object.neo_hookean_tets.count;
+    return energy + sum_tasks(elements, [&](const auto& share_of) {
+               const Range springs = share_of(object.springs);
+               double sum = sum_spring_energies(
+                   std::span(model.springs).subspan(springs.first, springs.count), positions.data());
+               sum += elastic_energy<Real>(model, {{}, {}, share_of(object.neo_hookean_tets)}, positions);
+               if (has_volumes) {
+                   const Range nodes = share_of(object.nodes);
+                   for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+                       sum += volume_energy(model, n, object.tets.first, ratios);
+               }
+               return sum;
+           });
 }
 
 template double elastic_energy<float>(const Model&, const ElasticParts&, std::span<const Vec4<float>>);

@@ -40,7 +40,7 @@ bool are_within(float least, float most, const Model& model, const Range& tets, 
     for (; t + kLanes <= tets.end(); t += kLanes) {
         const Vector ratio = ratios_of(d, &model.tets[t], &model.tet_rests[t], positions);
         all = within(ratio) && all;
-        if (ratios != nullptr) hn::StoreU(ratio, d, ratios + t);
+        if (ratios != nullptr) hn::StoreU(ratio, d, ratios + (t - tets.first));
     }
     if (t == tets.end()) return all;
     // The last tets, padded with one of them.
@@ -55,7 +55,7 @@ bool are_within(float least, float most, const Model& model, const Range& tets, 
     if (ratios != nullptr) {
         HWY_ALIGN float values[kLanes];
         hn::Store(ratio, d, values);
-        std::copy_n(values, count, ratios + t);
+        std::copy_n(values, count, ratios + (t - tets.first));
     }
     return within(ratio) && all;
 }
@@ -84,7 +84,7 @@ bool volumes_are_within(double least, double most, const Model& model, const Ran
         const double ratio =
             glm::dot(volume_slope(ab, ac, inverse_six_volumes<double>(model.tet_rests[t])), ad);
         all = all && ratio > least && ratio < most;
-        if (ratios != nullptr) ratios[t] = ratio;
+        if (ratios != nullptr) ratios[t - tets.first] = ratio;
     }
     return all;
 }

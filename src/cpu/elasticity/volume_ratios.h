@@ -18,7 +18,7 @@ Real inverse_six_volumes(const TetRest& rest) {
 
 /// True if all of these tets have between `least` and `most` of their volume at rest; in float with SIMD for
 /// the present processor.
-/// @param ratios output: their volume ratios, shape [tets of the model], or null
+/// @param ratios output: their volume ratios, shape [tets.count], or null
 bool volumes_are_within(float least, float most, const Model& model, const Range& tets,
                         const glm::vec4* positions, float* ratios);
 bool volumes_are_within(double least, double most, const Model& model, const Range& tets,
