@@ -174,6 +174,7 @@ bool Contacts<Real>::end_apart(std::span<const Vec4<Real>> positions, StageTimer
     }
     guard_.go(list_, positions, false, safe_);
     std::fill(is_pressed_.begin(), is_pressed_.end(), std::uint8_t(0));
+    std::fill(energies_.begin(), energies_.end(), 0.0);
     aims_.forget();
     return true;
 }

@@ -112,7 +112,7 @@ public:
             surface_->thicknesses.begin(),
             surface_->thicknesses.begin() + static_cast<std::ptrdiff_t>(model_->body_count()));
     }
-    /// What contacts held when the last step with contacts ended: of each pair of bodies half for each, of a
+    /// What contacts held when the last step ended: of each pair of bodies half for each, of a
     /// body with itself or a collider all [J].
     double energy(std::size_t object) const { return energies_[object]; }
     bool is_held(std::size_t object) const { return guard_.is_held(object); }

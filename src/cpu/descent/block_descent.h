@@ -64,8 +64,10 @@ public:
         last_step_ = 0.0;
     }
 
-    /// Into how many equal steps a step of `step` seconds from `nodes` is to be divided.
+    /// Into how many equal steps a step of `step` seconds from `nodes` is to be divided. To be called before
+    /// the first of them.
     int parts(double step, const Nodes<Real>& nodes) {
+        if (bodies_) energy_.begin_parts(*bodies_);
         return division_
                    ? division_->parts(step, nodes, contacts_.objects, bodies_.get(), settings_.iterations)
                    : 1;

@@ -42,6 +42,12 @@ void EnergyBound<Real>::restart() {
 }
 
 template <class Real>
+void EnergyBound<Real>::begin_parts(const Contacts<Real>& contacts) {
+    for (std::size_t o = 0; o < accounts_.size(); ++o)
+        accounts_[o].credit = std::min(accounts_[o].credit, contacts.energy(o));
+}
+
+template <class Real>
 void EnergyBound<Real>::begin(const Start& start, const Contacts<Real>& contacts) {
     length_ = start.length;
     starts_ = start.starts;
@@ -127,23 +133,23 @@ std::vector<typename EnergyBound<Real>::Group> EnergyBound<Real>::closed_groups(
     return groups;
 }
 
-// Where the step ends. In steps of this length contacts hold weights by (g h)^2 / 2 a mass: bodies settle by
-// as much.
+// Where the step ends.
 template <class Real>
 double EnergyBound<Real>::most_energy(const Group& group) const {
-    const double gained = length_ * glm::length(glm::dvec3(model_->gravity));
     double most = 0.0;
     for (const std::uint32_t o : group)
-        most += accounts_[o].before() + accounts_[o].credit + accounts_[o].work +
-                0.5 * masses_[o] * gained * gained;
+        most += accounts_[o].before() + accounts_[o].credit + accounts_[o].work;
     return most;
 }
 
+// In steps of this length contacts hold weights with (g h)^2 / 2 a mass: bodies settle by as much.
 template <class Real>
-double EnergyBound<Real>::rounding(const Group& group) const {
+double EnergyBound<Real>::unsaid(const Group& group) const {
+    const double gained = length_ * glm::length(glm::dvec3(model_->gravity));
     double sum = 0.0;
-    for (const std::uint32_t o : group) sum += accounts_[o].before();
-    return kUnsaid * sum;
+    for (const std::uint32_t o : group)
+        sum += kUnsaid * accounts_[o].before() + 0.5 * masses_[o] * gained * gained;
+    return sum;
 }
 
 template <class Real>
@@ -153,7 +159,7 @@ bool EnergyBound<Real>::plan(const Contacts<Real>* acting, std::span<const Vec4<
     std::erase_if(groups, [&](const Group& group) {
         double now = 0.0;
         for (const std::uint32_t o : group) now += accounts_[o].now();
-        return now <= most_energy(group) + rounding(group);
+        return now <= most_energy(group) + unsaid(group);
     });
     if (groups.empty()) return false;
     ends.assign(positions.begin(), positions.end());
@@ -196,12 +202,12 @@ bool EnergyBound<Real>::move_back(const Group& group, std::span<const Vec4<Real>
         }
         return excess;
     };
-    const double unsaid = rounding(group), least = excess_with(0.0);
+    const double little = unsaid(group), least = excess_with(0.0);
     double part = 1.0, excess = others + of_deformed;
     for (int k = 0; k < kMostTries && least < 0.0; ++k) {
         part *= std::sqrt(least / (least - excess));
         excess = excess_with(part);
-        if (excess <= unsaid) return true;
+        if (excess <= little) return true;
     }
     excess_with(0.0);
     return true;
@@ -238,19 +244,19 @@ void EnergyBound<Real>::end(const Contacts<Real>* acting, std::span<const Vec4<R
         account.elastic = account.elastic_now;
     }
     for (const Group& group : closed_groups(acting)) {
-        double motion = 0.0, kinetic = 0.0, elastic = 0.0, held = 0.0;
+        double motion = 0.0, kinetic = 0.0, elastic = 0.0, before = 0.0;
         for (const std::uint32_t o : group) {
             motion += accounts_[o].kinetic_then + accounts_[o].work;
             kinetic += accounts_[o].kinetic_now;
             elastic += accounts_[o].elastic_now;
-            if (acting != nullptr) held += acting->energy(o);
+            before += accounts_[o].before();
         }
         const double left = most_energy(group) - elastic;
         const double most = std::max(left, std::min(motion, kinetic));
-        if (kinetic > most + rounding(group)) slow_down(group, most, positions, velocities);
-        const double part = held > 0.0 ? std::clamp((left - kinetic) / held, 0.0, 1.0) : 0.0;
+        if (kinetic > most + unsaid(group)) slow_down(group, most, positions, velocities);
+        const double lost = std::max(left - kinetic, 0.0);
         for (const std::uint32_t o : group)
-            accounts_[o].credit = acting != nullptr ? part * acting->energy(o) : 0.0;
+            accounts_[o].credit = before > 0.0 ? lost * accounts_[o].before() / before : 0.0;
     }
     for (std::size_t o = 0; o < accounts_.size(); ++o)
         if (is_open_[o] != 0) accounts_[o] = {};
