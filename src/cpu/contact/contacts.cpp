@@ -304,7 +304,7 @@ std::vector<Work> Contacts<Real>::works(std::span<const Vec4<Real>> positions,
 // are made anew: small bodies would be no faster than these let them.
 template <class Real>
 void Contacts<Real>::move(std::span<const Vec4<Real>> targets, double near, std::span<Vec4<Real>> ends,
-                          std::span<Vec4<Real>> positions, StageTimer* timer) {
+                          std::span<Vec4<Real>> positions, Turning turning, StageTimer* timer) {
     std::vector<std::uint8_t> is_rigid(model_->objects.size());
     for_each_index(0, is_rigid.size(), 1, [&](std::size_t o) {
         is_rigid[o] = guard_.is_held(o) ? 0 : 1;
@@ -325,7 +325,7 @@ void Contacts<Real>::move(std::span<const Vec4<Real>> targets, double near, std:
         aim(positions, AimFor::guess, timer);
     }
     if (guard_.lacks_room()) plan(true);
-    if (turn_in_part(positions, is_rigid, ends)) plan(true);
+    if (turning == Turning::in_part && turn_in_part(positions, is_rigid, ends)) plan(true);
     guard_.go(list_, ends, true, positions);
 }
 

@@ -25,6 +25,12 @@ struct Work {
     double here = 0.0, ahead = 0.0;
 };
 
+/// How bodies make a part of a rotation.
+enum class Turning {
+    straight,  ///< nodes go straight to where it ends: bodies get smaller
+    in_part,   ///< by that part of its angle, in shape
+};
+
 /// The contacts of bodies in the steps of vertex block descent (docs/contact.md): which pairs are near,
 /// aimed at where the nodes are, and the guard of every move.
 template <class Real>
@@ -87,9 +93,9 @@ public:
     /// @param targets where nodes would go if nothing pressed them [m]
     /// @param near where rooms keep an object that goes to its target by this or its thickness, they are made
     /// anew [m]
-    /// @param ends input; output: outside of planes
+    /// @param ends input; output: outside of planes, and other than they were where bodies turn in part
     void move(std::span<const Vec4<Real>> targets, double near, std::span<Vec4<Real>> ends,
-              std::span<Vec4<Real>> positions, StageTimer* timer);
+              std::span<Vec4<Real>> positions, Turning turning, StageTimer* timer);
 
     /// Aims at the present positions for sweeps, and detects before if nodes have come far.
     void renew(std::span<const Vec4<Real>> positions, StageTimer* timer);

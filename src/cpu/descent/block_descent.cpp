@@ -313,7 +313,7 @@ void BlockDescent<Real>::go_on_to_guess(Positions& positions, StageTimer* timer)
 // All bodies as rigid ones, those of an island together. Held nodes that others were in the way of go on:
 // what they press has yielded since.
 template <class Real>
-void BlockDescent<Real>::move_together(bool last, Positions& positions, StageTimer* timer) {
+void BlockDescent<Real>::move_together(bool last, Positions& positions, StageTimer* timer, Turning turning) {
     {
         const TimedStage part(timer, "advance_nodes.move_bodies");
         ends_ = positions;
@@ -324,7 +324,7 @@ void BlockDescent<Real>::move_together(bool last, Positions& positions, StageTim
             rigid_move_.run(batch, last, objective_, contacts_, bodies_.get(), &*landing_, positions, ends_);
         });
         joint_move_.run(last, *bodies_, objective_, contacts_, *landing_, positions, ends_);
-        bodies_->move(objective_.step.targets, slow_way_, ends_, positions, timer);
+        bodies_->move(objective_.step.targets, slow_way_, ends_, positions, turning, timer);
     }
     if (!last) bodies_->renew(positions, timer);
 }
@@ -339,9 +339,9 @@ void BlockDescent<Real>::keep_energy(Positions& positions, StageTimer* timer) {
             if (round == kMostRounds || !energy_.plan(acting_, positions, ends_)) return;
         }
         if (acting_ != nullptr) {
-            bodies_->move(objective_.step.targets, slow_way_, ends_, positions, timer);
+            bodies_->move(objective_.step.targets, slow_way_, ends_, positions, Turning::in_part, timer);
             bodies_->renew(positions, timer);
-            move_together(true, positions, timer);
+            move_together(true, positions, timer, Turning::in_part);
         } else {
             for_each_node(*model_, [&](std::uint32_t n) {
                 const Vec3<Real> end(ends_[n]);

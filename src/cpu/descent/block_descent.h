@@ -132,7 +132,8 @@ private:
     void find_outlooks(Real step, bool is_part, const Nodes<Real>& previous);
     void go_on_to_guess(Positions& positions, StageTimer* timer);
     void keep_energy(Positions& positions, StageTimer* timer);
-    void move_together(bool last, Positions& positions, StageTimer* timer);
+    void move_together(bool last, Positions& positions, StageTimer* timer,
+                       Turning turning = Turning::straight);
     int end_of_run(int first) const;
     void make_sweeps(int first, int end, Positions& positions, StageTimer* timer);
     void make_sweeps_on_device(int first, int end, Positions& positions, StageTimer* timer);
