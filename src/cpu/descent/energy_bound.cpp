@@ -16,8 +16,8 @@
 namespace gelatin::cpu {
 namespace {
 
-// Of an energy, what positions in single precision and sweeps that are nearly done leave unsaid.
-constexpr double kUnsaid = 1e-4;
+// Of an energy, what is too little to go back for. It is owed.
+constexpr double kLittle = 1e-3;
 // How often the part that bodies keep of what deforms them is corrected.
 constexpr int kMostTries = 4;
 
@@ -144,11 +144,11 @@ double EnergyBound<Real>::most_energy(const Group& group) const {
 
 // In steps of this length contacts hold weights with (g h)^2 / 2 a mass: bodies settle by as much.
 template <class Real>
-double EnergyBound<Real>::unsaid(const Group& group) const {
+double EnergyBound<Real>::little(const Group& group) const {
     const double gained = length_ * glm::length(glm::dvec3(model_->gravity));
     double sum = 0.0;
     for (const std::uint32_t o : group)
-        sum += kUnsaid * accounts_[o].before() + 0.5 * masses_[o] * gained * gained;
+        sum += kLittle * accounts_[o].before() + 0.5 * masses_[o] * gained * gained;
     return sum;
 }
 
@@ -159,7 +159,7 @@ bool EnergyBound<Real>::plan(const Contacts<Real>* acting, std::span<const Vec4<
     std::erase_if(groups, [&](const Group& group) {
         double now = 0.0;
         for (const std::uint32_t o : group) now += accounts_[o].now();
-        return now <= most_energy(group) + unsaid(group);
+        return now <= most_energy(group) + little(group);
     });
     if (groups.empty()) return false;
     ends.assign(positions.begin(), positions.end());
@@ -202,12 +202,12 @@ bool EnergyBound<Real>::move_back(const Group& group, std::span<const Vec4<Real>
         }
         return excess;
     };
-    const double little = unsaid(group), least = excess_with(0.0);
+    const double enough = little(group), least = excess_with(0.0);
     double part = 1.0, excess = others + of_deformed;
     for (int k = 0; k < kMostTries && least < 0.0; ++k) {
         part *= std::sqrt(least / (least - excess));
         excess = excess_with(part);
-        if (excess <= little) return true;
+        if (excess <= enough) return true;
     }
     excess_with(0.0);
     return true;
@@ -253,8 +253,8 @@ void EnergyBound<Real>::end(const Contacts<Real>* acting, std::span<const Vec4<R
         }
         const double left = most_energy(group) - elastic;
         const double most = std::max(left, std::min(motion, kinetic));
-        if (kinetic > most + unsaid(group)) slow_down(group, most, positions, velocities);
-        const double lost = std::max(left - kinetic, 0.0);
+        if (kinetic > most + little(group)) slow_down(group, most, positions, velocities);
+        const double lost = left - std::min(kinetic, most);
         for (const std::uint32_t o : group)
             accounts_[o].credit = before > 0.0 ? lost * accounts_[o].before() / before : 0.0;
     }

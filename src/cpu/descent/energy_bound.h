@@ -63,9 +63,9 @@ public:
 private:
     // Of a body [J].
     struct Account {
-        double credit = 0.0;                            // of what was lost before, which may come back
-        double elastic = 0.0;                           // at the end of the last step
-        bool is_known = false;                          // whether that is
+        double credit = 0.0;    // of what was lost before, which may come back; negative: owed
+        double elastic = 0.0;   // at the end of the last step
+        bool is_known = false;  // whether that is
         double kinetic_then = 0.0, elastic_then = 0.0;  // when the step began
         double kinetic_now = 0.0, elastic_now = 0.0;    // at its end
         double work = 0.0;                              // of gravity and loads since
@@ -75,7 +75,7 @@ private:
     using Group = std::vector<std::uint32_t>;  // bodies of an island
     std::vector<Group> closed_groups(const Contacts<Real>* acting) const;
     double most_energy(const Group& group) const;
-    double unsaid(const Group& group) const;
+    double little(const Group& group) const;
     bool move_back(const Group& group, std::span<const Vec4<Real>> positions,
                    std::vector<Vec4<Real>>& ends) const;
     std::vector<glm::dvec3> rigid_motion(std::uint32_t object, std::span<const Vec4<Real>> positions) const;

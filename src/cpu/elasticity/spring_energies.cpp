@@ -14,7 +14,9 @@ namespace gelatin::cpu::HWY_NAMESPACE {
 // Of whole lanes.
 double sum_energies(const Spring* springs, std::size_t count, const glm::vec4* positions) {
     const Lanes d;
-    double sum = 0.0;
+    const hn::CappedTag<double, kLanes> dd;
+    const hn::Rebind<float, decltype(dd)> df;  // as many floats as doubles at a time
+    auto sum = hn::Zero(dd);
     for (std::size_t s = 0; s < count; s += kLanes) {
         const Spring* own = springs + s;
         const Columns from = load_columns(d, [&](std::size_t l) { return &positions[own[l].i].x; });
@@ -26,9 +28,10 @@ double sum_energies(const Spring* springs, std::size_t count, const glm::vec4* p
         }
         const SpringLaw<FloatLanes> law{hn::Load(d, rest_lengths), hn::Load(d, stiffnesses)};
         hn::Store(spring_energy(difference(to, from), law).v, d, energies);
-        for (std::size_t l = 0; l < kLanes; ++l) sum += static_cast<double>(energies[l]);
+        for (std::size_t l = 0; l < kLanes; l += hn::MaxLanes(dd))
+            sum = hn::Add(sum, hn::PromoteTo(dd, hn::Load(df, energies + l)));
     }
-    return sum;
+    return hn::GetLane(hn::SumOfLanes(dd, sum));
 }
 
 std::size_t lane_count() {
