@@ -84,7 +84,8 @@ TEST_F(WatchTest, StopsAtTheFirstStepOnEitherBackend) {
 
         simulator.load_checkpoint(file);
         try {
-            for (int f = 0; f < 4; ++f) simulator.advance_frame();
+            // A device may be some frames behind, and tells of it when it gets there.
+            for (int f = 0; f < 1000; ++f) simulator.advance_frame();
             ADD_FAILURE() << "went on";
         } catch (const Diverged& error) {
             EXPECT_EQ(error.where().step, static_cast<std::uint64_t>(simulator.substeps()) + 1);
