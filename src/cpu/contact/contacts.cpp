@@ -4,18 +4,16 @@
 #include <cmath>
 #include <utility>
 
+#include "cpu/contact/partial_turn.h"
 #include "cpu/contact/planes.h"
 #include "model/collision/surface_parts.h"
 #include "model/for_each_index.h"
-#include "model/nearest_rotation.h"
 
 namespace gelatin::cpu {
 namespace {
 
 // Moves of a guess, between which rooms are made anew. With two in a step of 1/60 s, bodies that slide lose
 // speed to their rooms; shorter steps need fewer.
-// Of a body, what a part of a rotation may make its lengths shorter by.
-constexpr double kLeastShrinking = 1e-4;
 constexpr double kMostMoves = 6.0, kMovesASecond = 360.0;
 // Of a room: nodes that have come farther are detected again.
 constexpr double kUsedRoom = 0.9, kUsedOwnRoom = 0.8;
@@ -329,9 +327,7 @@ void Contacts<Real>::move(std::span<const Vec4<Real>> targets, double near, std:
     guard_.go(list_, ends, true, positions);
 }
 
-// Where bodies are to make a part of a rotation. Nodes go straight, which would make them smaller: of stiff
-// ones that takes more energy than they have.
-// @return whether any ends have changed
+// @param is_rigid input; output: not those whose ends have changed @return whether any have
 template <class Real>
 bool Contacts<Real>::turn_in_part(std::span<const Vec4<Real>> positions, std::span<std::uint8_t> is_rigid,
                                   std::span<Vec4<Real>> ends) const {
@@ -339,32 +335,9 @@ bool Contacts<Real>::turn_in_part(std::span<const Vec4<Real>> positions, std::sp
     for_each_index(0, turns.size(), 1, [&](std::size_t o) {
         const auto part = static_cast<double>(guard_.part(o));
         if (is_rigid[o] == 0 || part == 0.0 || part == 1.0) return;
-        const Range& nodes = model_->objects[o].nodes;
-        glm::dvec3 center(0.0), end(0.0);
-        double mass = 0.0;
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
-            const auto own = static_cast<double>(model_->masses[n]);
-            center += own * glm::dvec3(positions[n]);
-            end += own * glm::dvec3(ends[n]);
-            mass += own;
-        }
-        center /= mass;
-        end /= mass;
-        glm::dmat3 moment(0.0);
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-            moment += static_cast<double>(model_->masses[n]) *
-                      glm::outerProduct(glm::dvec3(ends[n]) - end, glm::dvec3(positions[n]) - center);
-        const glm::dquat rotation = smallest_nearest_rotation(moment);
-        const double sine_squared = glm::dot(glm::dvec3(rotation.x, rotation.y, rotation.z),
-                                             glm::dvec3(rotation.x, rotation.y, rotation.z));
-        if (2.0 * part * (1.0 - part) * sine_squared < kLeastShrinking) return;
+        if (!cpu::turn_in_part(*model_, static_cast<std::uint32_t>(o), part, positions, ends)) return;
         turns[o] = 1;
         is_rigid[o] = 0;
-        const glm::dmat3 turned = glm::mat3_cast(glm::slerp(glm::dquat(1.0, 0.0, 0.0, 0.0), rotation, part));
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
-            const glm::dvec3 arm = glm::dvec3(positions[n]) - center;
-            ends[n] = Vec4<Real>(Vec3<Real>(end + arm + (turned * arm - arm) / part), ends[n].w);
-        }
     });
     return std::find(turns.begin(), turns.end(), 1) != turns.end();
 }

@@ -253,8 +253,11 @@ void EnergyBound<Real>::end(const Contacts<Real>* acting, std::span<const Vec4<R
         }
         const double left = most_energy(group) - elastic;
         const double most = std::max(left, std::min(motion, kinetic));
-        if (kinetic > most + little(group)) slow_down(group, most, positions, velocities);
-        const double lost = left - std::min(kinetic, most);
+        if (kinetic > most + little(group)) {
+            slow_down(group, most, positions, velocities);
+            kinetic = most;
+        }
+        const double lost = left - kinetic;
         for (const std::uint32_t o : group)
             accounts_[o].credit = before > 0.0 ? lost * accounts_[o].before() / before : 0.0;
     }

@@ -221,5 +221,25 @@ TEST_F(EnergyBoundOfAStep, PartsOfAStepMayBringBackWhatTheyLost) {
     EXPECT_TRUE(gains());
 }
 
+// Too little to go back for it, but the next step may have that much less.
+TEST_F(EnergyBoundOfAStep, LittleIsOwed) {
+    const std::vector<glm::dvec4> velocities = nodes_.velocities;
+    const auto gains = [&] {
+        begin();
+        Positions ends = grown(1e-5);
+        for (std::size_t n = 0; n < ends.size(); ++n)
+            ends[n] += 0.004 * kStep * glm::dvec4(glm::dvec3(velocities[n]), 0.0);
+        bound_.measure(ends);
+        const bool goes_back = bound_.plan(nullptr, ends, ends_);
+        Positions after = velocities_of(ends);
+        bound_.end(nullptr, ends, after);
+        nodes_ = {ends, velocities};
+        starts_ = ends;
+        return goes_back;
+    };
+    EXPECT_FALSE(gains());
+    EXPECT_TRUE(gains());
+}
+
 }  // namespace
 }  // namespace gelatin
