@@ -144,12 +144,18 @@ double EnergyBound<Real>::most_energy(const Group& group) const {
 
 // In steps of this length contacts hold weights with (g h)^2 / 2 a mass: bodies settle by as much.
 template <class Real>
-double EnergyBound<Real>::little(const Group& group) const {
+double EnergyBound<Real>::settling(const Group& group) const {
     const double gained = length_ * glm::length(glm::dvec3(model_->gravity));
-    double sum = 0.0;
-    for (const std::uint32_t o : group)
-        sum += kLittle * accounts_[o].before() + 0.5 * masses_[o] * gained * gained;
-    return sum;
+    double mass = 0.0;
+    for (const std::uint32_t o : group) mass += masses_[o];
+    return 0.5 * mass * gained * gained;
+}
+
+template <class Real>
+double EnergyBound<Real>::little(const Group& group) const {
+    double before = 0.0;
+    for (const std::uint32_t o : group) before += accounts_[o].before();
+    return kLittle * before + settling(group);
 }
 
 template <class Real>
@@ -257,9 +263,10 @@ void EnergyBound<Real>::end(const Contacts<Real>* acting, std::span<const Vec4<R
             slow_down(group, most, positions, velocities);
             kinetic = most;
         }
-        const double lost = left - kinetic;
+        const double lost = left - kinetic, owed = std::min(lost + settling(group), 0.0);
         for (const std::uint32_t o : group)
-            accounts_[o].credit = before > 0.0 ? lost * accounts_[o].before() / before : 0.0;
+            accounts_[o].credit =
+                before > 0.0 ? (std::max(lost, 0.0) + owed) * accounts_[o].before() / before : 0.0;
     }
     for (std::size_t o = 0; o < accounts_.size(); ++o)
         if (is_open_[o] != 0) accounts_[o] = {};

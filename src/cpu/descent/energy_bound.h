@@ -75,6 +75,7 @@ private:
     using Group = std::vector<std::uint32_t>;  // bodies of an island
     std::vector<Group> closed_groups(const Contacts<Real>* acting) const;
     double most_energy(const Group& group) const;
+    double settling(const Group& group) const;
     double little(const Group& group) const;
     bool move_back(const Group& group, std::span<const Vec4<Real>> positions,
                    std::vector<Vec4<Real>>& ends) const;
