@@ -30,9 +30,8 @@ public:
 
     explicit EnergyBound(std::shared_ptr<const Model> model);
 
-    /// Forgets what is known of all bodies, or of one, which was put elsewhere.
+    /// To be called where bodies were put elsewhere.
     void restart();
-    void forget(std::uint32_t object) { accounts_[object] = {}; }
 
     /// To be called before the first part of a divided step: of what parts have lost, later ones of the same
     /// step may bring it back, as vibrations do; after it no more than contacts hold.
