@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* const kMethod = R"(
+const char* const kKernelMethod = R"(
 Medians of samples; the stages are sampled alternately. Spread is (90th - 10th percentile) / median. 1x is three spheres of 4,581
 nodes, 22,638 springs and 8,000 faces each, damped, above a plane. MB is what a stage reads and writes at least once. The figures of
 block descent are differences of the shortest times of steps: a sweep with half the cost of what every second sweep adds (a check of
@@ -134,7 +134,7 @@ void write_kernel_report(const std::filesystem::path& file, const KernelBench& b
     add_machine_rows(bench.machine, machine);
     machine.add({"settings", fmt::format("`--runs {}`", bench.options.runs)});
     write_file(file, fmt::format("# Stages\n\n`gelatin bench kernels`\n\n{}\n{}{}", machine.text(),
-                                 kernel_tables(bench), kMethod));
+                                 kernel_tables(bench), kKernelMethod));
 }
 
 }  // namespace gelatin

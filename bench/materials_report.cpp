@@ -9,7 +9,7 @@
 namespace gelatin {
 namespace {
 
-constexpr const char* kMethod = R"(
+constexpr const char* kMaterialMethod = R"(
 ## How it was measured
 
 Steps are `advance_nodes` alone, timed by the host's clock until the device is done. A sample is the mean of as many steps as take
@@ -99,7 +99,7 @@ void write_material_report(const std::filesystem::path& file, const MaterialBenc
     add_machine_rows(bench.machine, machine);
     machine.add({"settings", settings_text(bench.options)});
     write_file(file, fmt::format("# Materials\n\n`gelatin bench materials`\n\n{}\n{}{}", machine.text(),
-                                 material_tables(bench), kMethod));
+                                 material_tables(bench), kMaterialMethod));
 }
 
 }  // namespace gelatin

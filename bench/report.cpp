@@ -68,7 +68,7 @@ std::string machine_table(const PaperBench& bench) {
     return table.text();
 }
 
-constexpr const char* kMethod = R"(
+constexpr const char* kPaperMethod = R"(
 ## How it was measured
 
 A figure is the mean of all runs. Each run's is frames divided by wall-clock seconds, everything included: steps and, if drawn,
@@ -103,7 +103,7 @@ void write_bench_report(const std::filesystem::path& file, const PaperBench& ben
     const std::string chart = file.stem().string() + ".svg";
     write_file(file, fmt::format("# The paper's benchmark\n\n`gelatin bench paper`\n\n{}\n"
                                  "![Frames per second]({})\n\n{}{}",
-                                 machine_table(bench), chart, bench_tables(bench), kMethod));
+                                 machine_table(bench), chart, bench_tables(bench), kPaperMethod));
 }
 
 }  // namespace gelatin

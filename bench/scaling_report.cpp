@@ -110,7 +110,7 @@ PartReport report_of(ScalingPart part) {
     return {"Undeformed bodies with themselves", self_collision_table};
 }
 
-constexpr const char* kMethod = R"(
+constexpr const char* kScalingMethod = R"(
 ## How it was measured
 
 Stages are timed by the clock of the device on which they run, GL_TIMESTAMP with OpenGL. A sample is the mean of a step over
@@ -148,7 +148,7 @@ void write_scaling_report(const std::filesystem::path& file, const ScalingBench&
     machine.add({"settings", fmt::format("`--runs {}`", bench.options.runs)});
     write_file(file, fmt::format("# Collision by size\n\n`gelatin bench scaling`\n\n{}\n"
                                  "![Time by size]({})\n\n{}{}",
-                                 machine.text(), chart, scaling_tables(bench), kMethod));
+                                 machine.text(), chart, scaling_tables(bench), kScalingMethod));
 }
 
 }  // namespace gelatin

@@ -11,8 +11,8 @@
 namespace gelatin {
 namespace {
 
-constexpr double kSampleTime = 20.0;  // [ms]
-constexpr int kMostSteps = 200;
+constexpr double kStageSampleTime = 20.0;  // [ms]
+constexpr int kMostStageSteps = 200;
 constexpr SolverKind kSolver = SolverKind::semi_implicit_euler;
 
 const BenchStage kAdvanceNodes{"advance_nodes", [](Solver& s, double step) { s.advance_nodes(step); }};
@@ -62,7 +62,7 @@ StagePlayer::Trial StagePlayer::try_out() {
     sample(1);
     double ms = 0.0;
     for (const auto& [stage, time] : sample(1)) ms += time;
-    return {ms, std::clamp(static_cast<int>(kSampleTime / std::max(ms, 1e-3)), 1, kMostSteps)};
+    return {ms, std::clamp(static_cast<int>(kStageSampleTime / std::max(ms, 1e-3)), 1, kMostStageSteps)};
 }
 
 std::map<std::string, double> StagePlayer::sample(int steps) {

@@ -11,6 +11,11 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
     add_compile_options(-Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
 
+if(GELATIN_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # Types of anonymous namespaces in others of one source: GCC takes sources that are compiled together for headers.
+    add_compile_options(-Wno-subobject-linkage)
+endif()
+
 # No contraction behind our back: the same source gives the same bits whatever the compiler may fuse.
 add_compile_options(-ffp-contract=off)
 

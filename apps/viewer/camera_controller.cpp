@@ -10,7 +10,7 @@ namespace gelatin::viewer {
 namespace {
 
 constexpr float kHighest = glm::radians(89.0f);      // away from the poles, where right has no direction
-constexpr float kNotch = 0.88f;                      // factor on the distance
+constexpr float kZoomNotch = 0.88f;                  // factor on the distance
 constexpr float kNearest = 1e-4f, kFarthest = 1e5f;  // [m]
 constexpr float kMargin = 1.1f;                      // margin: size of the picture relative to its content
 
@@ -58,7 +58,7 @@ void CameraController::pan(const glm::vec2& motion) {
 // What is under the pointer, at the target's depth, stays there.
 void CameraController::zoom(float notches, const glm::vec2& place) {
     const float before = distance_;
-    distance_ = std::clamp(before * std::pow(kNotch, notches), kNearest, kFarthest);
+    distance_ = std::clamp(before * std::pow(kZoomNotch, notches), kNearest, kFarthest);
     target_ += 2.0f * slope() * (before - distance_) * (place.x * right() + place.y * up());
 }
 

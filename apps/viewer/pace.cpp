@@ -7,7 +7,7 @@ namespace gelatin::viewer {
 namespace {
 
 constexpr double kBudget = 1.0 / 30.0;  // for the steps between two pictures [s]
-constexpr double kLongest = 0.1;        // largest delay of the window that is made up for [s]
+constexpr double kLongestDelay = 0.1;        // largest delay of the window that is made up for [s]
 constexpr double kMemory = 0.5;         // interval over which the achieved speed is averaged [s]
 constexpr double kCostMemory = 0.2;     // weight of the newest cost in the mean
 
@@ -22,7 +22,7 @@ int Pace::most_steps() const {
 }
 
 int Pace::steps_for(double elapsed) {
-    due_ += speed_ * std::min(elapsed, kLongest);
+    due_ += speed_ * std::min(elapsed, kLongestDelay);
     // The sum of many frames' times may be a rounding error short of a step.
     const double wanted = std::floor(due_ / step_size_ + 1e-9);
     const double steps = std::min(wanted, static_cast<double>(most_steps()));

@@ -33,7 +33,7 @@ struct ContextState {
 
 std::mutex mutex;
 std::map<const void*, ContextState> contexts;
-std::vector<std::string> found;
+std::vector<std::string> found_hazards;
 
 // A context that EGL does not know, such as a host application's by GLX, is the only one of its kind.
 ContextState& current_context() {
@@ -44,9 +44,9 @@ void apply(ContextState& context, const GpuEvent& event) {
     if (context.recording) context.recording->push_back(event);
     context.tracker.apply(event);
     for (std::string& hazard : context.tracker.take_hazards()) {
-        if (std::find(found.begin(), found.end(), hazard) != found.end()) continue;
+        if (std::find(found_hazards.begin(), found_hazards.end(), hazard) != found_hazards.end()) continue;
         log_warning("hazard: " + hazard);
-        found.push_back(std::move(hazard));
+        found_hazards.push_back(std::move(hazard));
     }
 }
 
@@ -85,7 +85,7 @@ void enable_hazard_tracking() {
 
 std::vector<std::string> take_hazards() {
     const std::lock_guard lock(mutex);
-    return std::exchange(found, {});
+    return std::exchange(found_hazards, {});
 }
 
 std::vector<HazardTracker::BarrierSite> barrier_sites() {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/log.h"
+#include "gl/get_integer.h"
 #include "gl/object_name.h"
 
 namespace gelatin::gl {
@@ -20,7 +21,7 @@ struct Switch {
     GLenum name;
     bool usual;
 };
-constexpr Switch kSwitches[] = {
+constexpr Switch kHostSwitches[] = {
     {GL_COLOR_LOGIC_OP, false},
     {GL_CULL_FACE, false},
     {GL_DEPTH_CLAMP, false},
@@ -80,18 +81,12 @@ constexpr PixelStorage kPixelStorage[] = {
     {GL_UNPACK_ALIGNMENT, 4},
 };
 
-GLint get(GLenum name) {
-    GLint value = 0;
-    glGetIntegerv(name, &value);
-    return value;
-}
-
 GLuint get_name(GLenum name) {
-    return static_cast<GLuint>(get(name));
+    return static_cast<GLuint>(get_integer(name));
 }
 
 GLint at_most(GLint most, GLenum limit) {
-    return std::min(most, get(limit));
+    return std::min(most, get_integer(limit));
 }
 
 void set_switch(GLenum name, bool on) {
@@ -158,15 +153,15 @@ struct HostState::Saved {
            storage = get_name(GL_SHADER_STORAGE_BUFFER_BINDING);
     std::array<GLuint, std::size(kBuffers)> buffers{};
     std::vector<Block> blocks;
-    GLint active_unit = get(GL_ACTIVE_TEXTURE);
+    GLint active_unit = get_integer(GL_ACTIVE_TEXTURE);
     std::vector<Unit> units;
-    std::array<bool, std::size(kSwitches)> switches{};
+    std::array<bool, std::size(kHostSwitches)> switches{};
     std::array<GLint, std::size(kPixelStorage)> pixels{};
     std::vector<Viewport> viewports;
     std::vector<Blending> blending;
-    GLint depth_function = get(GL_DEPTH_FUNC), cull_face = get(GL_CULL_FACE_MODE),
-          front_face = get(GL_FRONT_FACE), provoking_vertex = get(GL_PROVOKING_VERTEX), polygon_mode = 0,
-          clip_origin = 0, clip_depth = 0;
+    GLint depth_function = get_integer(GL_DEPTH_FUNC), cull_face = get_integer(GL_CULL_FACE_MODE),
+          front_face = get_integer(GL_FRONT_FACE), provoking_vertex = get_integer(GL_PROVOKING_VERTEX),
+          polygon_mode = 0, clip_origin = 0, clip_depth = 0;
     GLboolean depth_mask = GL_TRUE;
     GLdouble clear_depth = 1.0;
     GLfloat offset_factor = 0.0f, offset_units = 0.0f;
@@ -185,7 +180,7 @@ private:
 HostState::Saved::Saved() {
     save_bindings();
     save_tests();
-    for (std::size_t p = 0; p < pixels.size(); ++p) pixels[p] = get(kPixelStorage[p].name);
+    for (std::size_t p = 0; p < pixels.size(); ++p) pixels[p] = get_integer(kPixelStorage[p].name);
 }
 
 void HostState::Saved::save_bindings() {
@@ -199,12 +194,14 @@ void HostState::Saved::save_bindings() {
     units.resize(static_cast<std::size_t>(at_most(kMostUnits, GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS)));
     for (GLuint u = 0; u < units.size(); ++u) {
         glActiveTexture(GL_TEXTURE0 + u);
-        units[u] = {get(GL_TEXTURE_BINDING_2D), get(GL_TEXTURE_BINDING_BUFFER), get(GL_SAMPLER_BINDING)};
+        units[u] = {get_integer(GL_TEXTURE_BINDING_2D), get_integer(GL_TEXTURE_BINDING_BUFFER),
+                    get_integer(GL_SAMPLER_BINDING)};
     }
 }
 
 void HostState::Saved::save_tests() {
-    for (std::size_t s = 0; s < switches.size(); ++s) switches[s] = glIsEnabled(kSwitches[s].name) == GL_TRUE;
+    for (std::size_t s = 0; s < switches.size(); ++s)
+        switches[s] = glIsEnabled(kHostSwitches[s].name) == GL_TRUE;
     viewports.resize(static_cast<std::size_t>(at_most(kMostViewports, GL_MAX_VIEWPORTS)));
     for (GLuint v = 0; v < viewports.size(); ++v) {
         Viewport& viewport = viewports[v];
@@ -233,14 +230,14 @@ void HostState::Saved::save_tests() {
     glGetFloatv(GL_POLYGON_OFFSET_FACTOR, &offset_factor);
     glGetFloatv(GL_POLYGON_OFFSET_UNITS, &offset_units);
     if (has_clip_control()) {
-        clip_origin = get(GL_CLIP_ORIGIN);
-        clip_depth = get(GL_CLIP_DEPTH_MODE);
+        clip_origin = get_integer(GL_CLIP_ORIGIN);
+        clip_depth = get_integer(GL_CLIP_DEPTH_MODE);
     }
 }
 
 // What this library sets by itself whenever it needs it is left as it is.
 void HostState::Saved::set_defaults() const {
-    for (const Switch& each : kSwitches) set_switch(each.name, each.usual);
+    for (const Switch& each : kHostSwitches) set_switch(each.name, each.usual);
     for (const PixelStorage& each : kPixelStorage) glPixelStorei(each.name, each.usual);
     glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
@@ -294,7 +291,7 @@ void HostState::Saved::restore_bindings() const {
 }
 
 void HostState::Saved::restore_tests() const {
-    for (std::size_t s = 0; s < switches.size(); ++s) set_switch(kSwitches[s].name, switches[s]);
+    for (std::size_t s = 0; s < switches.size(); ++s) set_switch(kHostSwitches[s].name, switches[s]);
     for (GLuint v = 0; v < viewports.size(); ++v) {
         const Viewport& viewport = viewports[v];
         glViewportIndexedfv(v, viewport.area.data());

@@ -5,15 +5,10 @@
 #include <map>
 
 #include "gl/block_access.h"
+#include "gl/get_integer.h"
 
 namespace gelatin::gl {
 namespace {
-
-GLint get(GLenum name) {
-    GLint value = 0;
-    glGetIntegerv(name, &value);
-    return value;
-}
 
 // "Lights[0]" is an element of an array of blocks.
 std::string without_index(const std::string& name) {
@@ -66,7 +61,7 @@ unsigned buffer_of_block(GLuint program, GLuint block) {
 
 // With the texture unit of the sampler active.
 unsigned buffer_of_texture() {
-    if (get(GL_TEXTURE_BINDING_BUFFER) == 0) return 0;
+    if (get_integer(GL_TEXTURE_BINDING_BUFFER) == 0) return 0;
     GLint buffer = 0;
     glGetTexLevelParameteriv(GL_TEXTURE_BUFFER, 0, GL_TEXTURE_BUFFER_DATA_STORE_BINDING, &buffer);
     return static_cast<unsigned>(buffer);
@@ -97,7 +92,7 @@ std::vector<BoundBuffer> bound_buffers(unsigned program, const ProgramAccess& ac
             bound.push_back({buffer, Barrier::storage, block.reads, block.writes, "block " + block.name});
     }
     if (access.texels.empty()) return bound;
-    const GLint active_unit = get(GL_ACTIVE_TEXTURE);
+    const GLint active_unit = get_integer(GL_ACTIVE_TEXTURE);
     for (const ProgramAccess::Texels& texels : access.texels) {
         GLint unit = 0;
         glGetUniformiv(program, texels.location, &unit);
@@ -112,7 +107,7 @@ std::vector<BoundBuffer> bound_buffers(unsigned program, const ProgramAccess& ac
 
 std::vector<BoundBuffer> bound_vertex_buffers(bool has_elements) {
     std::vector<BoundBuffer> bound;
-    const GLint count = get(GL_MAX_VERTEX_ATTRIBS);
+    const GLint count = get_integer(GL_MAX_VERTEX_ATTRIBS);
     for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
         GLint enabled = 0, buffer = 0;
         glGetVertexAttribiv(i, GL_VERTEX_ATTRIB_ARRAY_ENABLED, &enabled);
@@ -121,7 +116,7 @@ std::vector<BoundBuffer> bound_vertex_buffers(bool has_elements) {
             bound.push_back({static_cast<unsigned>(buffer), Barrier::vertex_pull, true, false,
                              "vertex attribute " + std::to_string(i)});
     }
-    const GLint elements = has_elements ? get(GL_ELEMENT_ARRAY_BUFFER_BINDING) : 0;
+    const GLint elements = has_elements ? get_integer(GL_ELEMENT_ARRAY_BUFFER_BINDING) : 0;
     if (elements != 0)
         bound.push_back({static_cast<unsigned>(elements), Barrier::vertex_pull, true, false, "indices"});
     return bound;

@@ -8,7 +8,7 @@
 namespace gelatin {
 namespace {
 
-constexpr std::uint32_t kNone = ~0u;
+constexpr std::uint32_t kNoPoint = ~0u;
 
 // The points that are kept, in a grid of cells of a few tolerances, so that a point near to another one is
 // found in the cells around it. Kept points are a tolerance apart, so a cell contains few of them for any
@@ -18,7 +18,7 @@ public:
     PointGrid(const std::vector<glm::dvec3>& positions, const glm::dvec3& origin, double tolerance)
         : positions_(positions), origin_(origin), tolerance_(tolerance), cell_size_(8.0 * tolerance) {
         first_in_cell_.reserve(positions.size());
-        next_in_cell_.assign(positions.size(), kNone);
+        next_in_cell_.assign(positions.size(), kNoPoint);
     }
 
     std::uint32_t find_near(const glm::dvec3& p) const {
@@ -27,11 +27,11 @@ public:
             for (std::int64_t y = low[1]; y <= high[1]; ++y) {
                 for (std::int64_t z = low[2]; z <= high[2]; ++z) {
                     const std::uint32_t found = find_in_cell({x, y, z}, p);
-                    if (found != kNone) return found;
+                    if (found != kNoPoint) return found;
                 }
             }
         }
-        return kNone;
+        return kNoPoint;
     }
 
     void add(std::uint32_t vertex) {
@@ -63,11 +63,11 @@ private:
 
     std::uint32_t find_in_cell(const Cell& cell, const glm::dvec3& p) const {
         const auto entry = first_in_cell_.find(hash(cell));
-        if (entry == first_in_cell_.end()) return kNone;
-        for (std::uint32_t v = entry->second; v != kNone; v = next_in_cell_[v]) {
+        if (entry == first_in_cell_.end()) return kNoPoint;
+        for (std::uint32_t v = entry->second; v != kNoPoint; v = next_in_cell_[v]) {
             if (distance(positions_[v], p) <= tolerance_) return v;
         }
-        return kNone;
+        return kNoPoint;
     }
 
     const std::vector<glm::dvec3>& positions_;
@@ -91,8 +91,8 @@ MergedPoints merge_points(const std::vector<glm::dvec3>& points, double toleranc
     merged.into.resize(points.size());
     for (std::uint32_t v = 0; v < points.size(); ++v) {
         const std::uint32_t near = kept.find_near(points[v]);
-        merged.into[v] = near == kNone ? v : near;
-        if (near == kNone) {
+        merged.into[v] = near == kNoPoint ? v : near;
+        if (near == kNoPoint) {
             kept.add(v);
         } else {
             ++merged.count;

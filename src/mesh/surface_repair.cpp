@@ -16,7 +16,7 @@
 namespace gelatin {
 namespace {
 
-constexpr std::uint32_t kNone = ~0u;
+constexpr std::uint32_t kDiscarded = ~0u;
 
 // Replaces coincident vertices in the faces by the first of them. Returns the number of the others.
 std::size_t merge_vertices(SurfaceMesh& mesh) {
@@ -81,13 +81,13 @@ std::size_t drop_repeated_faces(SurfaceMesh& mesh) {
 }
 
 std::size_t drop_unused_vertices(SurfaceMesh& mesh) {
-    std::vector<std::uint32_t> new_index(mesh.positions.size(), kNone);
+    std::vector<std::uint32_t> new_index(mesh.positions.size(), kDiscarded);
     for (const glm::uvec3& face : mesh.faces) {
         for (int corner = 0; corner < 3; ++corner) new_index[face[corner]] = 0;
     }
     std::uint32_t kept = 0;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        if (new_index[v] == kNone) continue;
+        if (new_index[v] == kDiscarded) continue;
         mesh.positions[kept] = mesh.positions[v];
         new_index[v] = kept++;
     }

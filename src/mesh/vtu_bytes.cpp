@@ -21,7 +21,7 @@ int base64_digit(char c) {
     return c == '+' ? 62 : c == '/' ? 63 : -1;
 }
 
-bool is_blank(char c) {
+bool is_space(char c) {
     return c == ' ' || c == '\n' || c == '\r' || c == '\t';
 }
 
@@ -58,7 +58,7 @@ private:
             if (text_.empty()) throw InvalidInput(kCutOff);
             const char c = text_.front();
             text_.remove_prefix(1);
-            if (is_blank(c)) continue;
+            if (is_space(c)) continue;
             const int digit = base64_digit(c);
             const bool is_padding = c == '=' && digits >= 2;
             if (!is_padding && (digit < 0 || paddings > 0)) throw InvalidInput("is not valid base64");

@@ -21,7 +21,7 @@ constexpr double kStep = 0.01;
 constexpr double kLeastArea = 0.05;
 constexpr int kRoundsADoubling = 20, kMostRounds = 140;
 
-struct Box {
+struct ObjectBox {
     glm::dvec3 min{1e300}, max{-1e300};
     glm::dvec3 center() const { return 0.5 * (min + max); }
     double size() const { return glm::length(max - min); }
@@ -108,8 +108,8 @@ private:
         }
     }
 
-    Box box_of(std::uint32_t object) const {
-        Box box;
+    ObjectBox box_of(std::uint32_t object) const {
+        ObjectBox box;
         const Range& nodes = model_->objects[object].nodes;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
             box.min = glm::min(box.min, glm::dvec3(positions_[n]));

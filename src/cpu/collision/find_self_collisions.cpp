@@ -10,8 +10,8 @@
 namespace gelatin::cpu {
 namespace {
 
-constexpr std::uint32_t kFacesATask = 2048;
-constexpr std::size_t kWalksATask = 64;
+constexpr std::uint32_t kOwnFacesATask = 2048;
+constexpr std::size_t kOwnWalksATask = 64;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ void FindSelfCollisions<Real>::run(std::span<const Vec4<Real>> positions) {
     // counts.
     std::atomic<bool> any = false;
     tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, restless_.size(), kWalksATask), [&](const auto& range) {
+        tbb::blocked_range<std::size_t>(0, restless_.size(), kOwnWalksATask), [&](const auto& range) {
             for (std::size_t i = range.begin(); i < range.end(); ++i) {
                 const std::uint32_t face = restless_[i];
                 for_faces_near(face, [&](std::uint32_t other) {
@@ -54,7 +54,7 @@ void FindSelfCollisions<Real>::find_restless(std::span<const Vec4<Real>> positio
         is_object_calm_[o] = renew_fit(o, positions);
         if (is_object_calm_[o]) return;
         const Range& faces = model_->objects[o].faces;
-        tbb::parallel_for(tbb::blocked_range<std::uint32_t>(faces.first, faces.end(), kFacesATask),
+        tbb::parallel_for(tbb::blocked_range<std::uint32_t>(faces.first, faces.end(), kOwnFacesATask),
                           [&](const auto& range) {
                               for (std::uint32_t f = range.begin(); f < range.end(); ++f)
                                   is_calm_[f] = is_face_calm(f, positions);

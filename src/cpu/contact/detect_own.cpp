@@ -17,7 +17,7 @@ namespace {
 // How far others are looked for from a node, over the longest edge of its faces, and at least over the
 // distance up to which pairs are listed: the farther, the larger rooms can be, and the more there is to
 // measure.
-constexpr double kSearched = 0.55, kLeastSearched = 1.1;
+constexpr double kSearchedOwn = 0.55, kLeastSearchedOwn = 1.1;
 // Of what is nearer than the distance up to which pairs are listed, only that is which is nearer than this
 // times its gap at rest, or than this times that distance.
 constexpr double kNearer = 0.6, kAlways = 0.4;
@@ -83,8 +83,8 @@ void DetectOwn<Real>::run(std::uint32_t object, std::span<const Vec4<Real>> posi
 template <class Real>
 Real DetectOwn<Real>::search_distance(std::uint32_t object, std::uint32_t place,
                                       const OwnRooms<Real>& rooms) const {
-    const Real least = static_cast<Real>(kLeastSearched * listed(object));
-    return std::clamp(static_cast<Real>(kSearched) * rooms.longest_edge_at(place), least,
+    const Real least = static_cast<Real>(kLeastSearchedOwn * listed(object));
+    return std::clamp(static_cast<Real>(kSearchedOwn) * rooms.longest_edge_at(place), least,
                       std::max(least, rooms.most_apart(object)));
 }
 

@@ -24,7 +24,7 @@ constexpr int kMostRounds = 64, kMostStops = 100;
 constexpr double kProgress = 0.1;
 // Rounds in which bodies that would meet themselves are shortened. After them, they make nothing.
 constexpr int kMostOwnRounds = 4;
-constexpr std::size_t kPairsATask = 1024;
+constexpr std::size_t kMovedPairsATask = 1024;
 
 }  // namespace
 
@@ -236,11 +236,11 @@ template <class Real>
 void GuardedMove<Real>::find_courses(const ContactList<Real>& list, const ContactAims<Real>& aims,
                                      std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> ends,
                                      Closeness closeness) {
-    courses_.resize((list.pairs.size() + kPairsATask - 1) / kPairsATask);
+    courses_.resize((list.pairs.size() + kMovedPairsATask - 1) / kMovedPairsATask);
     for_each_index(0, courses_.size(), 1, [&](std::size_t task) {
         courses_[task].clear();
-        const std::size_t end = std::min((task + 1) * kPairsATask, list.pairs.size());
-        for (std::size_t p = task * kPairsATask; p < end; ++p) {
+        const std::size_t end = std::min((task + 1) * kMovedPairsATask, list.pairs.size());
+        for (std::size_t p = task * kMovedPairsATask; p < end; ++p) {
             const ContactPair& pair = list.pairs[p];
             // The nodes of a body make the same part, of a motion that may turn (keep_from_themselves).
             if (pair.is_own() && movers_ == Movers::objects) continue;

@@ -23,14 +23,14 @@ namespace {
 
 // How far others are looked for, over the thickness of the surface, which is a twentieth of its median edge:
 // the farther, the larger rooms are, and the longer a look takes.
-constexpr double kSearched = 8.0, kSearchedAtStart = 20.0;
+constexpr double kSearchedGap = 8.0, kSearchedGapAtStart = 20.0;
 // Of what an affine map leaves of a gap, over that at which it presses, what both sides may use; for rounding
 // a little less than half.
 constexpr double kRoom = 0.49;
 // Over the reach: where gaps are less, those at the start are looked at, too.
 constexpr double kNear = 2.0;
 // Of the mean square of what is from the middle: flatter bodies have no rooms.
-constexpr double kFlat = 1e-6;
+constexpr double kFlatGaps = 1e-6;
 // Of a way, where it does not tell as a whole that a gap stays open.
 constexpr int kParts = 16;
 
@@ -77,7 +77,7 @@ OwnGaps<Real>::OwnGaps(std::shared_ptr<const Model> model, std::shared_ptr<const
         if (faces.count == 0) return;
         shapes_[o].places = surface_places(model_->surface_parts, faces);
         find_ways(o, at_start, at_start);
-        look(o, kSearchedAtStart * surface_->thicknesses[o], std::nullopt);
+        look(o, kSearchedGapAtStart * surface_->thicknesses[o], std::nullopt);
     });
 }
 
@@ -107,7 +107,7 @@ template <class Real>
 bool OwnGaps<Real>::stay_open(std::uint32_t object, std::span<const Vec4<Real>> from,
                               std::span<const Vec4<Real>> to, Between between) {
     find_ways(object, from, to);
-    return look(object, kSearched * surface_->thicknesses[object], between);
+    return look(object, kSearchedGap * surface_->thicknesses[object], between);
 }
 
 // Where starts and ways are. @param searched how far others are looked for [m]
@@ -191,7 +191,7 @@ void OwnGaps<Real>::find_ways(std::uint32_t object, std::span<const Vec4<Real>> 
     const MomentBetween between =
         moment_between(shape.places, before, [&](std::uint32_t s) { return Vec3<Real>(to[nodes[s]]); });
     const double mean = (square[0][0] + square[1][1] + square[2][2]) / 3.0;
-    const bool is_flat = !(glm::determinant(square) > kFlat * mean * mean * mean);
+    const bool is_flat = !(glm::determinant(square) > kFlatGaps * mean * mean * mean);
     shape.inverse_moment = is_flat ? glm::dmat3(0.0) : glm::inverse(square);
     const auto back = glm::mat<3, 3, Real>(glm::transpose(nearest_rotation(between.moment)));
     const Vec3<Real> middle(between.middle_a), middle_after(between.middle_b);

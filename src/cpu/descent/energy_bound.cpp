@@ -276,10 +276,10 @@ template <class Real>
 void EnergyBound<Real>::slow_down(const Group& group, double most_kinetic,
                                   std::span<const Vec4<Real>> positions,
                                   std::span<Vec4<Real>> velocities) const {
-    struct Motion {
+    struct GroupMotion {
         RigidInertia inertia;
         Twist twist;
-        explicit Motion(const RigidSums& sums)
+        explicit GroupMotion(const RigidSums& sums)
             : inertia(sums), twist(inertia.twist(sums.force, sums.moment)) {}
         double energy() const {
             return 0.5 * (glm::dot(twist.velocity, twist.velocity) / inertia.inverse_mass +
@@ -289,7 +289,7 @@ void EnergyBound<Real>::slow_down(const Group& group, double most_kinetic,
     };
     const glm::dvec3 origin(positions[model_->objects[group.front()].nodes.first]);
     const auto arm = [&](std::uint32_t n) { return glm::dvec3(positions[n]) - origin; };
-    std::vector<Motion> motions;
+    std::vector<GroupMotion> motions;
     RigidSums of_all;  // with masses for stiffnesses, and momenta for forces
     double all = 0.0, rigid = 0.0;
     for (const std::uint32_t o : group) {
@@ -304,7 +304,7 @@ void EnergyBound<Real>::slow_down(const Group& group, double most_kinetic,
         rigid += motions.back().energy();
         all += accounts_[o].kinetic_now;
     }
-    const Motion common(of_all);
+    const GroupMotion common(of_all);
     // Of what is there besides a part that stays.
     const auto kept = [&](double stays, double sum) {
         return sum > stays ? std::sqrt(std::clamp((most_kinetic - stays) / (sum - stays), 0.0, 1.0)) : 1.0;

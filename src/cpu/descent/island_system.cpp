@@ -17,7 +17,7 @@ namespace {
 
 // Newton's steps end when what is left to gain is this small a part of what was gained, or after so many.
 constexpr double kEnough = 1e-4;
-constexpr int kMostRounds = 8;
+constexpr int kMostSystemRounds = 8;
 // From this part of the gap at the start on, of no more than the reach, forces grow linearly. With the
 // barrier, which nothing needs here, crowds would keep less of their motion.
 constexpr double kStraight = 0.5;
@@ -30,7 +30,7 @@ constexpr double kMostClosed = 0.9;
 constexpr double kResidual = 1e-3, kLeastResidual = 1e-6;
 constexpr int kMostSteps = 100;
 // Each thread takes at least so many at a time.
-constexpr std::size_t kBodiesATask = 64, kTouchesATask = 512;
+constexpr std::size_t kSystemBodiesATask = 64, kSystemTouchesATask = 512;
 
 using Matrix = Eigen::Matrix3d;
 
@@ -112,7 +112,7 @@ std::vector<Motion> IslandSystem::find_motions(const Land& land) {
     motions_.assign(bodies.size(), common);
     for (Touch& touch : touches) touch.least = kStraight * std::min(touch.gap, touch.reach);
     double gained = 0.0, least_residual = 0.0;
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < kMostSystemRounds; ++round) {
         assemble();
         const Motions whole = newton_step(least_residual);
         Motions way = whole;
@@ -205,7 +205,7 @@ IslandSystem::Sums IslandSystem::sum_touches(const Coupling& coupling, const Ran
 }
 
 void IslandSystem::assemble() {
-    for_each_index(0, touches.size(), kTouchesATask, [&](std::size_t k) {
+    for_each_index(0, touches.size(), kSystemTouchesATask, [&](std::size_t k) {
         Touch& touch = touches[k];
         touch.limit = touch.friction * touch.force_at(touch.gap);
     });
@@ -218,7 +218,7 @@ void IslandSystem::assemble() {
     matrices_.resize(count);
     inverses_.resize(count);
     forces_.resize(count);
-    for_each_index(0, count, kBodiesATask, [&](std::size_t k) {
+    for_each_index(0, count, kSystemBodiesATask, [&](std::size_t k) {
         matrices_[k] = bodies[k].matrix;
         forces_[k] = bodies[k].force - bodies[k].matrix * motions_[k];
         for (const auto& [coupling, side] : uses_of(k)) {
@@ -234,7 +234,8 @@ void IslandSystem::assemble() {
 IslandSystem::Motions IslandSystem::newton_step(double& least_residual) const {
     const std::size_t count = bodies.size();
     const auto precondition = [&](const Motions& r, Motions& z) {
-        for_each_index(0, count, kBodiesATask, [&](std::size_t k) { z[k].noalias() = inverses_[k] * r[k]; });
+        for_each_index(0, count, kSystemBodiesATask,
+                       [&](std::size_t k) { z[k].noalias() = inverses_[k] * r[k]; });
         return dot(r, z);
     };
     Motions motions(count, Motion::Zero()), left = forces_, pulled(count);
@@ -297,7 +298,7 @@ void IslandSystem::shorten(Motions& way, const std::vector<double>& parts) {
 // Contacts know how wide they are then, and what holds them.
 void IslandSystem::move(const Motions& way) {
     for (std::size_t k = 0; k < bodies.size(); ++k) motions_[k] += way[k];
-    for_each_index(0, touches.size(), kTouchesATask, [&](std::size_t k) {
+    for_each_index(0, touches.size(), kSystemTouchesATask, [&](std::size_t k) {
         Touch& touch = touches[k];
         const glm::dvec3 moved = apart(touch, way);
         const double change = glm::dot(moved, touch.normal);
@@ -327,7 +328,7 @@ std::vector<double> IslandSystem::carried_along(const Motions& way) {
 
 std::vector<Motion> IslandSystem::product(const Motions& motions) const {
     Motions q(motions.size());
-    for_each_index(0, bodies.size(), kBodiesATask, [&](std::size_t k) {
+    for_each_index(0, bodies.size(), kSystemBodiesATask, [&](std::size_t k) {
         q[k].noalias() = matrices_[k] * motions[k];
         for (const auto& [index, side] : uses_of(k)) {
             const std::uint32_t other = couplings_[index].bodies[1 - side];

@@ -17,11 +17,11 @@ namespace gelatin::cpu {
 namespace {
 
 // A body is stiff where a pressure wave passes through it in so many steps.
-constexpr double kMostSteps = 2.0;
+constexpr double kMostLandingSteps = 2.0;
 // Newton's steps, and looks along each; until what is left of all forces would move the body by so much of
 // what it has moved, squared.
-constexpr int kMostRounds = 24, kMostLooks = 16;
-constexpr double kEnough = 1e-6;
+constexpr int kMostLandingRounds = 24, kMostLandingLooks = 16;
+constexpr double kEnoughLanding = 1e-6;
 // Friction goes on by how nodes press until that changes by less than this part of it.
 constexpr double kSteady = 1e-3;
 // Nodes that are higher above a plane than so many times what the motion moves them do not reach it at first;
@@ -33,10 +33,10 @@ constexpr double kSmallRotation = 1e-3;
 
 // The part of a way at which a function is least whose slope there never falls.
 template <class Slope>
-double least_part(const Slope& slope) {
+double least_landing_part(const Slope& slope) {
     if (!(slope(1.0) > 0.0)) return 1.0;
     double low = 0.0, high = 1.0;
-    for (int i = 0; i < kMostLooks; ++i) {
+    for (int i = 0; i < kMostLandingLooks; ++i) {
         const double middle = 0.5 * (low + high);
         (slope(middle) > 0.0 ? high : low) = middle;
     }
@@ -112,7 +112,7 @@ bool PlaneLanding<Real>::begin(double step, const StepObjective<Real>& objective
         const Range& nodes = model_->objects[o].nodes;
         const auto own = positions.subspan(nodes.first, nodes.count);
         const auto is_held = [](const Vec4<Real>& p) { return p.w == Real(0); };
-        const bool is_stiff = wave_times_[o] < kMostSteps * step;
+        const bool is_stiff = wave_times_[o] < kMostLandingSteps * step;
         lands_[o] = is_stiff && std::none_of(own.begin(), own.end(), is_held) ? 1 : 0;
         if (lands_[o] == 0) return;
         if (is_inside(o, objective.step.targets)) any = true;
@@ -174,12 +174,12 @@ bool PlaneLanding<Real>::land(std::uint32_t object, const StepObjective<Real>& o
     const Eigen::LDLT<MotionMatrix> yielding(inertia);
     const Motion wanted = motion;
     bool has_friction = false;
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < kMostLandingRounds; ++round) {
         const bool is_steady = has_friction && limit_friction(motion, rows);
         Motion force = inertia * (wanted - motion);
         for (const Row& row : rows) force += row.force(motion);
         const Motion made = motion - wanted;
-        if (force.dot(yielding.solve(force)) <= kEnough * made.dot(inertia * made)) {
+        if (force.dot(yielding.solve(force)) <= kEnoughLanding * made.dot(inertia * made)) {
             if (is_steady) break;
             has_friction = true;
             continue;
@@ -188,7 +188,7 @@ bool PlaneLanding<Real>::land(std::uint32_t object, const StepObjective<Real>& o
         for (const Row& row : rows) row.add_stiffness(motion, held);
         const Motion way = Eigen::LDLT<MotionMatrix>(held).solve(force);
         if (!way.allFinite()) break;
-        motion += least_part([&](double part) {
+        motion += least_landing_part([&](double part) {
                       const Motion there = motion + part * way;
                       double slope = way.dot(inertia * (there - wanted));
                       for (const Row& row : rows) slope -= row.work(there, way);

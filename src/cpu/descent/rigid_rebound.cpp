@@ -28,7 +28,7 @@ constexpr double kLongestImpact = 0.1;
 // takes through them: implicit steps take the rest. Measured with balls that bounce for ever.
 constexpr double kGivenBack = 0.03;
 // Impulses are repeated until so much of the speed is lacking, or so often.
-constexpr double kEnough = 0.01;
+constexpr double kEnoughRebound = 0.01;
 constexpr int kMostPasses = 32;
 constexpr std::size_t kPressesATask = 512;
 
@@ -365,7 +365,7 @@ void RigidRebound<Real>::push_apart(std::vector<Push>& pushes) {
         for (Push& push : pushes) {
             const double lacking = push.wanted - push.opening_now();
             changes.push_back(std::max(lacking * push.inertia, -push.impulse));
-            lacks = lacks || lacking > kEnough * push.wanted;
+            lacks = lacks || lacking > kEnoughRebound * push.wanted;
         }
         for (std::size_t k = 0; k < pushes.size(); ++k) pushes[k].add_impulse(changes[k]);
     }

@@ -79,13 +79,13 @@ double longest_edge(const std::vector<glm::dvec3>& positions, const std::vector<
 
 void note_skin(const ObjectDescription& object, const SurfaceMesh& surface, const TetMesh& mesh,
                double distance) {
-    constexpr double kMuch = 2.0;
+    constexpr double kMuchLonger = 2.0;
     log_note(fmt::format(
         "object '{}': {} faces are drawn; it collides with a hull of {} faces, at most {:.2g} m away",
         object.name, surface.faces.size(), mesh.faces.size(), object.scale * distance));
     const double drawn = longest_edge(surface.positions, surface.faces);
     const double hull = longest_edge(mesh.positions, mesh.faces);
-    if (drawn <= kMuch * hull) return;
+    if (drawn <= kMuchLonger * hull) return;
     log_note(fmt::format(
         "object '{}': faces that are drawn are up to {:.2g} m long, and stay flat where the hull bends, "
         "whose faces are up to {:.2g} m long; skin = false draws the hull",
@@ -138,8 +138,8 @@ void log_notes(const std::string& name, const Notes& notes) {
 }
 
 void warn_of_a_poor_fit(const FittedSprings& springs, const std::string& name) {
-    constexpr double kMuch = 0.2;
-    if (springs.softest > 1.0 - kMuch && springs.stiffest < 1.0 + kMuch) return;
+    constexpr double kMuchSofter = 0.2;
+    if (springs.softest > 1.0 - kMuchSofter && springs.stiffest < 1.0 + kMuchSofter) return;
     log_warning(fmt::format(
         "object '{}': on its mesh springs give {:.2f} to {:.2f} of youngs_modulus, depending on direction; "
         "more nodes across it, or tets of more even shape (mesher.max_volume, mesher.quality), help",

@@ -27,7 +27,7 @@ constexpr double kDrop = 0.5;       // height of the first body above the floor,
 constexpr double kClearance = 0.1;  // between two bodies of a pile, in sizes of the upper one
 constexpr double kAside = 0.25;     // of a pile's bodies from its axis, in their sizes
 constexpr int kFrames = 180;
-constexpr int kSubsteps = 2;  // one damps the swinging of ears visibly
+constexpr int kMeshSubsteps = 2;  // one damps the swinging of ears visibly
 
 /// A box that a mesh fits into, as it stands in the scene but for scale and position.
 struct Extent {
@@ -148,7 +148,7 @@ Scene scene_of_meshes(const std::vector<std::filesystem::path>& files, const Mes
     Scene scene;
     scene.file = files.at(0);
     scene.simulation.frames = kFrames;
-    scene.simulation.substeps = kSubsteps;
+    scene.simulation.substeps = kMeshSubsteps;
     scene.materials.push_back(make_jelly());
     scene.colliders.push_back({PlaneCollider{}});
     Pile pile(scene, options, files.size(), notes);

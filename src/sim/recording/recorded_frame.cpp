@@ -15,7 +15,7 @@ namespace gelatin {
 namespace {
 
 // Faster ones hardly compress better: what predictions leave is noise.
-constexpr int kLevel = 1;
+constexpr int kFrameLevel = 1;
 constexpr std::size_t kColumns = 4;
 
 using Values = std::vector<glm::vec4>;
@@ -169,7 +169,7 @@ std::string encoded_frame(const RecordedFrame& frame, const EarlierNeighbours& n
         prediction.begin(a, arrays, arrays.of[a].size());
         append_array(arrays.of[a], prediction, bytes);
     }
-    return compressed(bytes, kLevel);
+    return compressed(bytes, kFrameLevel);
 }
 
 RecordedFrame decoded_frame(std::string_view bytes, const Model& model, const EarlierNeighbours& neighbours,

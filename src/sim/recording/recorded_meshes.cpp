@@ -19,7 +19,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "recordings have this order");
 
-constexpr int kLevel = 3;
+constexpr int kMeshLevel = 3;
 constexpr std::size_t kMostBytes = std::size_t{1} << 36;
 
 // Where a mesh's shape and mesher are in the scene.
@@ -193,7 +193,7 @@ RecordedScene recorded_scene(const Scene& scene, const SceneMeshes* meshes) {
         add(*mesh, made);
     }
     out.add(places);
-    recorded.meshes = compressed(out.bytes() + made.bytes(), kLevel, true);
+    recorded.meshes = compressed(out.bytes() + made.bytes(), kMeshLevel, true);
     return recorded;
 }
 
