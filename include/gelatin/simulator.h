@@ -69,8 +69,8 @@ struct ProximityStatistics {
     double nearest_gap = std::numeric_limits<double>::infinity();  ///< smallest distance [m]
 };
 
-/// A force on an object from another one, or from a collider, when the last step ended (of a divided step,
-/// its last part). For CollisionResponse::contact.
+/// A force on an object from another one, or from a collider, when the last step ended, or the last of its
+/// adaptive substeps. For CollisionResponse::contact.
 struct ContactForce {
     std::size_t object = 0;                    ///< index in Scene::objects
     std::optional<std::size_t> other = {};     ///< index in Scene::objects, greater than `object`; or
@@ -136,7 +136,7 @@ public:
     /// Plays a recording, from its first frame on: advance_frame() and step() go to the next recorded frame,
     /// if there is one. What is drawn, read and measured is as in the run; what changes it throws
     /// InvalidInput.
-    /// @param options the backend is not looked at
+    /// @param options `backend` is ignored
     /// @throws InvalidInput if its meshes are not there, or are others now, or the file is damaged
     explicit Simulator(std::shared_ptr<const Recording> recording, const SimulatorOptions& options = {});
     Simulator(Simulator&&) noexcept;

@@ -61,7 +61,7 @@ template <class Real>
 ProximityErrors check_proximities(const Model& model, const CollisionSettings& settings,
                                   const FoundProximities& found);
 
-/// A test failure that tells all of them, if there are any.
+/// A test failure that lists all of them, if there are any.
 void expect_none(const ProximityErrors& errors);
 
 /// Shapes that rounding and counting have trouble with, each with a radius at which much is near.
