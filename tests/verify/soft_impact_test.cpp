@@ -42,7 +42,7 @@ double energy_left(bool meets_itself, std::optional<int> substeps) {
     return now.kinetic_energy + now.elastic_energy;
 }
 
-// An adaptive substep has a single sweep, which does not bring back what its initial guess leaves out of
+// An adaptive substep has a single sweep, which does not bring back what its prediction leaves out of
 // the motion: it is hardly ever the tangled guess of the whole body.
 TEST(SoftImpact, DividedStepsKeepTheMotionOfWhatIsCrushed) {
     EXPECT_GT(energy_left(false, std::nullopt), 0.9 * energy_left(false, 16));
