@@ -30,7 +30,7 @@ enum class Backend { automatic, gl, cpu };
 
 struct SimulatorOptions {
     Backend backend =
-        Backend::automatic;            ///< automatic: GL on a GPU, the CPU where OpenGL is a software driver
+        Backend::automatic;  ///< automatic: GL on a GPU, but the CPU where bodies may meet by contact
     bool use_current_context = false;  ///< simulate and draw in the host application's context
     bool need_gl = false;              ///< create a GL context for drawing even if the CPU simulates
     bool gl_debug = false;             ///< create a debug context, with messages to the log
@@ -271,8 +271,8 @@ public:
     /// `need_gl`).
     RenderView render_view(const Overlays& overlays = {});
 
-    /// Saves the exact state, without memory of contacts, to continue later. The file is written completely or
-    /// not at all. @throws SystemError; Diverged as check(): a diverged state is never saved.
+    /// Saves the exact state, without memory of contacts, to continue later. The file is written completely
+    /// or not at all. @throws SystemError; Diverged as check(): a diverged state is never saved.
     void save_checkpoint(const std::filesystem::path& file) const;
     /// Continues from a checkpoint, or from a frame of a recording.
     /// @param frame its number in the recording; empty: the last one

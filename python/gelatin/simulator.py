@@ -28,7 +28,7 @@ class Simulator:
     """A scene that runs.
 
     scene: a Scene, or the path of a scene file.
-    backend: "auto" takes OpenGL on a GPU, and the CPU otherwise.
+    backend: "auto" takes OpenGL on a GPU, but the CPU where bodies can meet others by contact, or where there is no GPU.
     gl_device: index of an EGL device; None: the best.
 
     Raises InvalidInput for a scene that cannot be built, and NoOpenGl if "gl" is asked for and there is none.
