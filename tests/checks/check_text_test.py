@@ -25,7 +25,7 @@ bodies share a way|the slow way|a body is told|a line tells|it is not looked at|
 its rooms|what is held up|bodies hold up a press|a divided step|courses of bodies|looking back|clear of itself|a body that meets itself
 """.replace("\n", "").split("|")
 ALLOWED = """It goes half way, both ways, and on its way in the same way, by way of a table. Give way. Look at it. The camera looks at the ball. The look of a
-surface. There is room. Of course. Hold the key. A clear sky. What has moved. Two bodies meet. The attic, the ticket.
+surface. There is room. Of course. Hold the key. A clear sky. What has moved. Two bodies meet. The attic, the ticket. It held up to 3 J.
 """
 
 
