@@ -14,7 +14,7 @@ namespace gelatin::test {
 namespace {
 
 constexpr double kStep = 1e-3;                     // [s]
-constexpr double kLongStep = 0.1;                  // on its way a block meets others [s]
+constexpr double kLongStep = 0.1;                  // within it a block meets others [s]
 constexpr int kCrowds[] = {7, 30, 2, 3, 90, 200};  // objects
 constexpr BroadPhase kBroadPhases[] = {BroadPhase::hierarchy, BroadPhase::boxes, BroadPhase::none,
                                        BroadPhase::depth};
