@@ -1,7 +1,7 @@
 # gelatin_precompile(TARGET)
 #
 # Compiles the headers that most sources include once, for all static libraries: they take more than half of the time of
-# most sources. scripts/check_tidy looks at sources without them, and so finds those that do not include what they use.
+# most sources. scripts/check_tidy reads sources without them, and so finds those that do not include what they use.
 # fmt/core.h, not fmt/format.h: with the latter GCC compiles all of the formatting again in each source, for 2 seconds.
 set(gelatin_common_headers
     <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory> <numeric> <optional>

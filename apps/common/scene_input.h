@@ -21,7 +21,7 @@ struct SceneInput {
 /// Whether it is a recording by its name.
 bool is_recording_input(const SceneInput& input);
 
-/// Checks what the names of the files and the options tell.
+/// Checks what the names of the files and the options say.
 /// @throws InvalidInput for no file, files of other kinds, scenes and recordings beside other files, and
 /// options of meshes for others
 void check_input(const SceneInput& input);

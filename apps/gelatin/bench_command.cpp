@@ -20,7 +20,7 @@ void add_kernels(CLI::App& bench) {
     kernels->add_option("--runs", options->runs, "Samples of each stage; the median counts")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    kernels->add_option("--scales", options->scales, "Sizes, as multiples of three spheres of 4,580 nodes")
+    kernels->add_option("--scales", options->scales, "Sizes, as multiples of three spheres of 4,581 nodes")
         ->delimiter(',')
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();

@@ -44,8 +44,8 @@ void add_output_options(CLI::App& command, RunOptions& options) {
             "--overlay", options.overlays,
             "Show in image and film: boxes (boxes:3 with three levels of the trees below), faces that touch, "
             "springs by strain (springs:0.02 colours fully at 2%), stretch, stress or speed (stress:2e4 "
-            "colours "
-            "fully at 20 kPa), cut (cut:z, cut:x:0.2, cut:1:0:1), velocity, objects, wireframe")
+            "colours fully at 20 kPa), cut (cut:z, cut:x:0.2, cut:1:0:1), velocity, forces, pressure (of "
+            "contacts), objects, wireframe")
         ->type_name("NAME")
         ->delimiter(',')
         ->expected(1)
@@ -78,7 +78,9 @@ void add_run_options(CLI::App& command, RunOptions& options) {
         ->check(CLI::NonNegativeNumber);
 
     const char* computing = "Computing";
-    command.add_option("--backend", options.backend, "auto, gl or cpu; auto is gl on a GPU")
+    command
+        .add_option("--backend", options.backend,
+                    "auto, gl or cpu; auto is gl on a GPU, but cpu where bodies can meet by contact")
         ->capture_default_str()
         ->group(computing);
     command

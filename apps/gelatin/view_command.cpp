@@ -34,7 +34,9 @@ void add_view_command(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("view", "Show a scene, meshes or a recording in a window and interact with them");
     add_input_options(*command, options->viewer.input);
-    command->add_option("--backend", options->backend, "auto, gl or cpu; auto is gl on a GPU")
+    command
+        ->add_option("--backend", options->backend,
+                     "auto, gl or cpu; auto is gl on a GPU, but cpu where bodies can meet by contact")
         ->capture_default_str();
     command
         ->add_option("--quality", options->quality,

@@ -95,7 +95,7 @@ class Measure:
         )
 
     def momentum(self, before, positions):
-        """By the mean velocities since the frame before [kg m/s]; the same way for all, as not all tell velocities."""
+        """By the mean velocities since the frame before [kg m/s]; the same for all, as not all report velocities."""
         return self.masses @ (positions - before) / self.scene.step
 
     def first_momentum(self):

@@ -27,11 +27,11 @@ diagrams = []
 
 
 def decisions_page():
-    """All decisions, by number."""
+    """All decisions, by number, with what no longer holds of them."""
     lines = ["# Decisions", "", "Choices that had serious alternatives, with what was measured.", ""]
     for file in sorted((ROOT / "docs/decisions").glob("*.md")):
-        title = re.match(r"# (?:\d+[:.]?\s*)?(.*)", file.read_text(encoding="utf-8"))[1]
-        lines.append(f"- [{file.name[:4]}]({file.name}): {title}")
+        title, status = re.match(r"# (?:\d+[:.]?\s*)?(.*)\s+Status: (.*)", file.read_text(encoding="utf-8")).groups()
+        lines.append(f"- [{file.name[:4]}]({file.name}): {title}" + ("" if status == "holds." else f" ({status[:-1]})"))
     return "\n".join(lines) + "\n"
 
 

@@ -170,7 +170,7 @@ using Shape = std::variant<SphereShape, BoxShape, CapsuleShape, TextShape, FileS
 
 /// How a surface is filled with tets.
 enum class MesherKind {
-    automatic,  ///< by TetGen, or by the lattice where that fails or would be finer than wanted; a line tells
+    automatic,  ///< by TetGen, or by the lattice where that fails or is finer than wanted; a line says so
     tetgen,     ///< by TetGen: tets of a closed surface, with its vertices and edges
     lattice,    ///< by a lattice that is cut along the surface: any surface that encloses something, also a
                 ///< broken one

@@ -30,7 +30,7 @@ enum class Backend { automatic, gl, cpu };
 
 struct SimulatorOptions {
     Backend backend =
-        Backend::automatic;            ///< automatic: GL on a GPU, the CPU where OpenGL is a software driver
+        Backend::automatic;  ///< automatic: GL on a GPU, but the CPU where bodies may meet by contact
     bool use_current_context = false;  ///< simulate and draw in the host application's context
     bool need_gl = false;              ///< create a GL context for drawing even if the CPU simulates
     bool gl_debug = false;             ///< create a debug context, with messages to the log
@@ -69,8 +69,8 @@ struct ProximityStatistics {
     double nearest_gap = std::numeric_limits<double>::infinity();  ///< smallest distance [m]
 };
 
-/// A force on an object from another one, or from a collider, when the last step ended (of a divided step,
-/// its last part). For CollisionResponse::contact.
+/// A force on an object from another one, or from a collider, when the last step ended, or the last of its
+/// adaptive substeps. For CollisionResponse::contact.
 struct ContactForce {
     std::size_t object = 0;                    ///< index in Scene::objects
     std::optional<std::size_t> other = {};     ///< index in Scene::objects, greater than `object`; or
@@ -136,7 +136,7 @@ public:
     /// Plays a recording, from its first frame on: advance_frame() and step() go to the next recorded frame,
     /// if there is one. What is drawn, read and measured is as in the run; what changes it throws
     /// InvalidInput.
-    /// @param options the backend is not looked at
+    /// @param options `backend` is ignored
     /// @throws InvalidInput if its meshes are not there, or are others now, or the file is damaged
     explicit Simulator(std::shared_ptr<const Recording> recording, const SimulatorOptions& options = {});
     Simulator(Simulator&&) noexcept;
@@ -271,8 +271,8 @@ public:
     /// `need_gl`).
     RenderView render_view(const Overlays& overlays = {});
 
-    /// Saves the complete, exact state, so that a run can continue later. The file is written completely or
-    /// not at all. @throws SystemError; Diverged as check(): a diverged state is never saved.
+    /// Saves the exact state, without memory of contacts, to continue later. The file is written completely
+    /// or not at all. @throws SystemError; Diverged as check(): a diverged state is never saved.
     void save_checkpoint(const std::filesystem::path& file) const;
     /// Continues from a checkpoint, or from a frame of a recording.
     /// @param frame its number in the recording; empty: the last one

@@ -127,7 +127,7 @@ class _Encoder:
         _, messages = self._process.communicate()
         if self._process.returncode != 0 and (kind is None or kind is BrokenPipeError):
             text = messages.decode(errors="replace").strip()
-            raise SystemError(f"ffmpeg failed: {text.splitlines()[-1] if text else 'it tells no reason'}") from None
+            raise SystemError(f"ffmpeg failed: {text.splitlines()[-1] if text else 'it gives no reason'}") from None
 
     def write(self, picture: npt.NDArray[np.uint8]) -> None:
         assert self._process.stdin is not None

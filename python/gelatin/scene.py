@@ -129,7 +129,7 @@ class Scene:
     colliders: list[Collider] = field(default_factory=list)
     #: None: chosen so that pictures show the whole scene
     camera: Camera | None = None
-    #: of a recording's scene, what it has of the shapes' meshes; None: they are made of the shapes
+    #: the shapes' meshes, if the scene is a recording's; None: they are made of the shapes
     meshes: _gelatin.SceneMeshes | None = field(default=None, repr=False, compare=False)
 
     def add_material(self, name: str, **fields: Any) -> Material:

@@ -28,7 +28,7 @@ class Simulator:
     """A scene that runs.
 
     scene: a Scene, or the path of a scene file.
-    backend: "auto" takes OpenGL on a GPU, and the CPU otherwise.
+    backend: "auto" takes OpenGL on a GPU, but the CPU where bodies can meet others by contact, or where there is no GPU.
     gl_device: index of an EGL device; None: the best.
 
     Raises InvalidInput for a scene that cannot be built, and NoOpenGl if "gl" is asked for and there is none.
@@ -279,11 +279,11 @@ class Simulator:
     # Files
 
     def save_checkpoint(self, file: str | os.PathLike[str]) -> None:
-        """Saves the complete, exact state. The file is written completely or not at all. Raises SystemError."""
+        """Saves the exact state, but nothing of contacts. The file is written completely or not at all. Raises SystemError."""
         self._core.save_checkpoint(os.fspath(file))
 
     def load_checkpoint(self, file: str | os.PathLike[str], frame: int | None = None) -> None:
-        """Continues from a saved state, bit for bit, or from a frame of a recording.
+        """Continues from a saved state, without contact bit for bit, or from a frame of a recording.
 
         frame: its number in the recording; None: the last one.
 

@@ -55,7 +55,7 @@ class Progress:
     def finish(self, rows: Iterable[Row]) -> None:
         failed = sum(row["error"] is not None for row in rows)
         if failed:
-            self._print(f"{failed} of {counted(self._runs, 'run')} failed: the column error tells why")
+            self._print(f"{failed} of {counted(self._runs, 'run')} failed: the column error says why")
 
     def _text(self, now: float) -> str:
         rate = (self._done - self._done_before) / max(now - self._began, 1e-9)

@@ -112,7 +112,7 @@ def make_run(job: Job, plan: Plan, attempt: int) -> Row:
 
 @contextlib.contextmanager
 def _collected(texts: list[str]) -> Iterator[None]:
-    """Gelatin's warnings go to a list, each once, instead of to the log, where nobody could tell of which run they are."""
+    """Gelatin's warnings go to a list, each once, instead of to the log, where nobody could say of which run they are."""
     handler = logging.Handler(logging.WARNING)
     handler.emit = lambda record: texts.append(record.getMessage()) if record.getMessage() not in texts else None  # type: ignore[method-assign]
     logger = logging.getLogger("gelatin")

@@ -257,7 +257,7 @@ def _element(elements: list[Any], part: str, key: str, place: str) -> Any:
     raise InvalidInput(f'vary: {key}: there is no {place} "{part}"; there are {named}')
 
 
-# What tells two sweeps apart
+# What distinguishes two sweeps
 
 
 def with_absolute_paths(scene: Scene) -> Scene:

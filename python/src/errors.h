@@ -3,7 +3,7 @@
 namespace gelatin::python {
 
 /// Has Gelatin's exceptions become those of python/gelatin/errors.py, with their text and what else they
-/// tell.
+/// contain.
 void translate_errors();
 
 }  // namespace gelatin::python

@@ -9,7 +9,7 @@ void collect_messages();
 /// Gives the messages that wait to Python's logger "gelatin". Needs the interpreter's lock.
 void tell_messages() noexcept;
 
-/// Tells messages where it ends, also by an exception.
+/// Reports messages where it ends, also by an exception.
 struct MessagesAtEnd {
     MessagesAtEnd() = default;
     MessagesAtEnd(const MessagesAtEnd&) = delete;

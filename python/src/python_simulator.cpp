@@ -78,7 +78,7 @@ PythonSimulator::PythonSimulator(Simulator& simulator, const Turn& turn, nb::obj
 PythonSimulator::~PythonSimulator() {
     if (!gl_thread_) return;
     try {
-        make_current();  // what OpenGL has of it is in its own context
+        make_current();  // its OpenGL objects are in its own context
     } catch (const std::exception&) {
         // On another thread it stays there until the process ends.
         static_cast<void>(new std::optional<Painter>(std::move(painter_)));

@@ -48,7 +48,7 @@ public:
     PythonSimulator& operator=(const PythonSimulator&) = delete;
     ~PythonSimulator();
 
-    /// Runs `work` with the simulator, its context being current. Messages are told at the end.
+    /// Runs `work` with the simulator, its context being current. Messages are reported at the end.
     template <class Work>
     decltype(auto) use(const Work& work) {
         const MessagesAtEnd messages;

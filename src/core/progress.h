@@ -25,7 +25,7 @@ private:
     ProgressListener* outer_;
 };
 
-/// Tells this thread's listener, if it has one. @throws Cancelled as check_cancelled
+/// Calls this thread's listener, if it has one. @throws Cancelled as check_cancelled
 void report_progress(double share, std::string_view what);
 
 /// @throws Cancelled if this thread has a listener that has cancelled what it does. Cheap; for loops that

@@ -317,7 +317,7 @@ std::span<const glm::vec4> CpuSolver<Real>::host_velocities() const {
     return {};
 }
 
-// The arrays stay where they are: whoever looks at nodes() keeps addresses that are valid.
+// The arrays stay where they are: whoever reads nodes() keeps addresses that are valid.
 template <class Real>
 void CpuSolver<Real>::write_state(const State& state) {
     assert(state.positions.size() == current_.positions.size());

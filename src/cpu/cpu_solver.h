@@ -86,7 +86,7 @@ private:
     ForceMethod forces_;
     std::optional<Descent> descent_;  // instead of the scheme
     Nodes<Real> current_, previous_;  // swapped by each step: its end, and its start
-    bool has_earlier_ = false;        // previous_ is one step earlier: vbd looks back
+    bool has_earlier_ = false;        // previous_ is one step earlier
     Nodes<Real> stage_[2];            // between the passes of one step
     Nodes<Real> sums_;
     std::vector<Vec4<Real>> spring_forces_, node_forces_;

@@ -89,7 +89,7 @@ private:
     NodeBuffers current_, previous_;  // swapped by each step: its end, and its start
     NodeBuffers stage_[2], sums_;     // between the passes of one step
     Integrator integrator_;
-    bool has_earlier_ = false;                                // previous_ is one step earlier: vbd looks back
+    bool has_earlier_ = false;                                // previous_ is one step earlier
     std::optional<ApplyKinematics> apply_kinematics_;         // once a held node moves
     std::optional<SumLoads> sum_loads_;                       // if the model has loads
     std::optional<FindVolumeStresses> find_volume_stresses_;  // if an explicit scheme needs them

@@ -15,7 +15,7 @@ namespace gelatin {
 /// - where TetGen's tets would have over a fifth more nodes than wanted, or fewer: they keep the surface's
 ///   vertices;
 /// - where TetGen fails, is too slow or is missing;
-/// and otherwise TetGen. A note tells which and why, unless no size is set and TetGen works.
+/// and otherwise TetGen. A note says which and why, unless no size is set and TetGen works.
 /// @param name for messages: the object's or the file's
 /// @param notes gets a line for each thing that the user should know about the result
 /// @throws InvalidInput, SystemError as these do

@@ -22,7 +22,7 @@ public:
     /// All 0 without a cut.
     glm::vec4 cut_plane() const;
 
-    /// True if some triangles have textures, and objects do not have to be told apart by their colours.
+    /// True if some triangles have textures, and objects do not have to be distinguished by their colours.
     bool has_textures() const { return !view_.textured.empty() && !view_.overlay.objects; }
 
     /// For programs that include render/include/surface_fetch.glsl.

@@ -41,7 +41,7 @@ public:
         collision_.update_boxes(exact);
         collision_.find_object_pairs();
         collision_.find_face_collisions(exact);
-        std::vector<glm::dvec3> ways(model_->objects.size(), glm::dvec3(0.0));
+        std::vector<glm::dvec3> displacements(model_->objects.size(), glm::dvec3(0.0));
         bool any = false;
         for (const cpu::ObjectPair& pair : collision_.pairs()) {
             // Each pair is there twice, once for the faces of either object.
@@ -52,17 +52,17 @@ public:
             if (first + second == 0.0) continue;
             overlapping_.insert({pair.object, pair.other});
             const double size = std::min(box_of(pair.object).size(), box_of(pair.other).size());
-            const glm::dvec3 way = step * size / (first + second) * direction(pair);
-            ways[pair.object] += first * way;
-            ways[pair.other] -= second * way;
+            const glm::dvec3 displacement = step * size / (first + second) * direction(pair);
+            displacements[pair.object] += first * displacement;
+            displacements[pair.other] -= second * displacement;
         }
-        for (std::size_t o = 0; o < ways.size(); ++o) {
-            if (ways[o] == glm::dvec3(0.0)) continue;
-            stop_at_planes(static_cast<std::uint32_t>(o), ways[o]);
-            moved_[o] += ways[o];
+        for (std::size_t o = 0; o < displacements.size(); ++o) {
+            if (displacements[o] == glm::dvec3(0.0)) continue;
+            stop_at_planes(static_cast<std::uint32_t>(o), displacements[o]);
+            moved_[o] += displacements[o];
             const Range& nodes = model_->objects[o].nodes;
             for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-                positions_[n] += glm::vec4(glm::vec3(ways[o]), 0.0f);
+                positions_[n] += glm::vec4(glm::vec3(displacements[o]), 0.0f);
         }
         return any;
     }
@@ -95,7 +95,7 @@ private:
     }
 
     // It goes no deeper into a plane than it is.
-    void stop_at_planes(std::uint32_t object, glm::dvec3& way) const {
+    void stop_at_planes(std::uint32_t object, glm::dvec3& displacement) const {
         const Range& nodes = model_->objects[object].nodes;
         const auto own = std::span(positions_).subspan(nodes.first, nodes.count);
         for (const Collider& collider : model_->colliders) {
@@ -103,8 +103,8 @@ private:
             const glm::vec3 normal(collider.center);
             const auto height =
                 static_cast<double>(cpu::least_height<float>(own, normal) - collider.center.w);
-            const double approach = -glm::dot(glm::dvec3(normal), way);
-            way += std::max(0.0, approach - std::max(0.0, height)) * glm::dvec3(normal);
+            const double approach = -glm::dot(glm::dvec3(normal), displacement);
+            displacement += std::max(0.0, approach - std::max(0.0, height)) * glm::dvec3(normal);
         }
     }
 
@@ -146,9 +146,9 @@ private:
         const glm::dvec3 apart = box_of(pair.object).center() - others.place;
         glm::dvec3 along = others.area;
         if (!model_->is_body(pair.other) && glm::dot(along, apart) < 0.0) along = -along;
-        const glm::dvec3 way = along - own.area;
-        if (glm::length(way) > kLeastArea * (glm::length(along) + glm::length(own.area)))
-            return glm::normalize(way);
+        const glm::dvec3 difference = along - own.area;
+        if (glm::length(difference) > kLeastArea * (glm::length(along) + glm::length(own.area)))
+            return glm::normalize(difference);
         return glm::length(apart) > 0.0 ? glm::normalize(apart) : glm::dvec3(0.0, 1.0, 0.0);
     }
 

@@ -15,11 +15,11 @@ namespace gelatin {
 /// Where objects are that overlapped.
 struct MovedApart {
     std::vector<glm::vec4> positions;  ///< of all nodes: xyz [m], inverse mass
-    std::vector<std::string> lines;  ///< what to tell: which objects overlapped, and how far they were moved
+    std::vector<std::string> lines;    ///< to report: which objects overlapped, and how far they were moved
 };
 
 /// Moves bodies that overlap others, or colliders, as a whole until they are apart, each along the normals of
-/// the faces that overlap, a little at a time. Bodies share a way by their masses, and go no deeper into
+/// the faces that overlap, a little at a time. Lighter bodies move farther, and all go no deeper into
 /// planes. Those of which a node is held stay, and so do colliders.
 /// @param positions of all nodes
 /// @param when for the lines: "at the start"

@@ -43,7 +43,7 @@ struct Simulator::Impl {
     std::optional<gl::Context> context;  // declared before everything that owns GL objects
     std::shared_ptr<const Model> model;
     int substeps = 1;
-    std::shared_ptr<Solver> solver;  // shared by who looks at its nodes
+    std::shared_ptr<Solver> solver;  // shared by who reads its nodes
     std::optional<DrawSource> draw_source;
     std::optional<OverlaySource> overlay_source;
     std::optional<State> start_state;  // if it is not the model's
@@ -74,7 +74,7 @@ struct Simulator::Impl {
     Impl() = default;
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
-    /// What OpenGL has of it is given back in its own context.
+    /// Its OpenGL objects are deleted in its own context.
     ~Impl();
 
     std::unique_ptr<Solver> make_solver(const Scene& of, const std::shared_ptr<const Model>& from) const;

@@ -8,7 +8,7 @@
 
 namespace gelatin {
 
-/// What exported frames tell of tets.
+/// The values of tets in exported frames.
 class TetStrains {
 public:
     /// @param model its nodes are at rest where they start

@@ -82,7 +82,7 @@ TEST_F(RunOverlaysDrawnHeavy, AreTheSameOnBothBackends) {
     }
 }
 
-// A block on a floor that does not meet itself, whose forces the CPU finds alone. Elsewhere a line says so.
+// A block on a floor without self-contact, whose forces the CPU finds alone. Elsewhere a line says so.
 TEST_F(RunOverlaysDrawnHeavy, ContactForcesNeedTheCpu) {
     write("block.toml",
           "[simulation]\nframes = 30\n[collision]\nself_collision = false\n[[material]]\nname = "

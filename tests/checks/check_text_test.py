@@ -1,15 +1,32 @@
 """scripts/check_text finds each kind of text that does not belong into the project, and nothing else."""
 
+import importlib.machinery
+import importlib.util
 import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-PROGRAM = Path(__file__).resolve().parents[2] / "scripts" / "check_text"
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = ROOT / "scripts" / "check_text"
 
 # Put together here, so that this file itself passes the check.
 UNFINISHED, ISSUE, HOME = "TO" + "DO", "iss" + "ue 12", "/ho" + "me/somebody/mesh.obj"
+
+GLOSSARY = {
+    "CONTRIBUTING.md": "| word | meaning | not |\n| --- | --- | --- |\n| blocked | stopped | stuck, `hold(s\\|ing)? up` (but: `hold on`) |\n"
+}
+
+# What the glossary of this project finds, and what it must not find.
+REFUSED = """
+the actors meet|an obstacle|each tick|a BVH of faces|it is mended|capped at 1|the way of a node|ways of bodies|part of its way|along their ways|
+bodies share a way|the slow way|a body is told|a line tells|it is not looked at|another look|what the node has of velocity|what of it is inside|
+its rooms|what is held up|bodies hold up a press|a divided step|courses of bodies|looking back|clear of itself|a body that meets itself|its liveliness|what is owed
+""".replace("\n", "").split("|")
+ALLOWED = """It goes half way, both ways, and on its way in the same way, by way of a table. Give way. Look at it. The camera looks at the ball. The look of a
+surface. There is room. Of course. Hold the key. A clear sky. What has moved. Two bodies meet. The attic, the ticket. It held up to 3 J.
+"""
 
 
 def run(name, text, **others):
@@ -98,12 +115,53 @@ class CheckText(unittest.TestCase):
         refused("CPU twin: shaders/sim/a/a.comp.", "CPU twin")
         refused("GLSL twin: sim/a/walk.", "sim/a/walk")
 
+    def test_words_of_the_glossary(self):
+        self.assert_refused("src/a.h", "// It holds\n// up the press.\n", "a.h:1", "'holds up'", "'blocked'", **GLOSSARY)
+        self.assert_refused("src/a.cpp", 'log("what is holding "\n    "Up");\n', "a.cpp:1", **GLOSSARY)
+        self.assert_refused("docs/a.md", "`a\nb`\n\nIt holds up.\n", "a.md:4", **GLOSSARY)
+        self.assert_passes("src/a.h", "// Stuck; hold on; upholds up; hold upon; held_up\n", **GLOSSARY)
+        self.assert_passes("docs/a.md", "`holds up`\n```sh\nhold up\n```\n", **GLOSSARY)
+        self.assert_passes("src/cpu/contact/a.h", "// holds up\n", **GLOSSARY)
+        self.assert_refused("src/gpu/contact/a.h", "// holds up\n", "blocked", **GLOSSARY)
+
+    def test_each_pattern_of_our_glossary_finds_what_it_is_for(self):
+        loader = importlib.machinery.SourceFileLoader("check_text", str(PROGRAM))
+        program = importlib.util.module_from_spec(importlib.util.spec_from_loader("check_text", loader))
+        loader.exec_module(program)
+        patterns = [pattern for pattern, _ in program.read_glossary(ROOT)]
+        self.assertGreater(len(patterns), 20)
+        for pattern in patterns:
+            self.assertTrue(any(pattern.search(text) for text in REFUSED), pattern.pattern)
+            self.assertIsNone(pattern.search(ALLOWED), pattern.pattern)
+        for text in REFUSED:
+            self.assertTrue(any(pattern.search(text) for pattern in patterns), text)
+
+    def test_the_status_of_decisions(self):
+        there = {"docs/decisions/0002-b.md": "# 2. B\n\nStatus: holds.\n"}
+        link = "[0002](0002-b.md)"
+
+        def passes(status):
+            self.assert_passes("docs/decisions/0001-a.md", f"# 1. A\n\nStatus: {status}\n\n## Context\n", **there)
+
+        def refused(status, *words):
+            self.assert_refused("docs/decisions/0001-a.md", f"# 1. A\n\n{status}\n", *words, **there)
+
+        passes("holds.")
+        passes(f"replaced by {link}.")
+        passes(f"holds, but for planes (see {link}) and for friction (see {link}, {link}).")
+        refused("## Context", "Status")
+        refused("Status: holds, but for planes.", "Status")
+        refused("Status: replaced.", "Status")
+        refused("Status: replaced by [0003](0003-c.md).", "'0003-c.md': there is no such decision")
+
     def test_long_files_are_only_warned_of(self):
         self.assertIn("500 lines", self.assert_passes("src/a.cpp", "int a;\n" * 500))
         self.assertEqual("", self.assert_passes("src/a.cpp", "int a;\n" * 400))
 
-    def test_what_is_built_is_not_looked_at(self):
+    def test_what_is_built_is_not_read(self):
         self.assert_passes("build/release/a.cpp", f"// {UNFINISHED}\n")
+        self.assert_passes("out/a.md", f"{UNFINISHED}\n")
+        self.assert_refused("src/model/build/a.cpp", f"// {UNFINISHED}\n", "unfinished work")
 
 
 if __name__ == "__main__":

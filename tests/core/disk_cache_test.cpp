@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 const std::string kKey = "0123456789abcdef0123456789abcdef";
 
-// Content whose every byte tells `seed`; large enough that a torn entry shows.
+// Content whose every byte depends on `seed`; large enough that a torn entry shows.
 std::string make_content(std::uint32_t seed, std::size_t size = 200'000) {
     std::string content(size, '\0');
     for (std::size_t k = 0; k < size; ++k) content[k] = static_cast<char>(seed + k / 256);

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 const std::string kKey = "0123456789abcdef0123456789abcdef";
 
-// A mesh whose every number tells `seed`; large enough that a torn entry shows.
+// A mesh whose every number depends on `seed`; large enough that a torn entry shows.
 TetMesh make_mesh(std::uint32_t seed, std::size_t size = 5000) {
     TetMesh mesh;
     for (std::uint32_t k = 0; k < size; ++k) mesh.positions.emplace_back(seed + k, 0.1 * k, -1.0 / (k + 1));

@@ -2,7 +2,7 @@
 """Runs the commands of the pages, in the order in which a reader comes to them, in an empty folder.
 
 Each line of a block of shell commands is run as it is printed, or is in OTHERS, with what runs it instead. Blocks that
-a page tells its reader to save are saved. Without --long, runs end after a few frames.
+a page asks its reader to save are saved. Without --long, runs end after a few frames.
 """
 
 import argparse

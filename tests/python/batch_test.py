@@ -116,7 +116,7 @@ def test_worlds_are_simulators():
 
 
 def test_messages_come_once(caplog):
-    scene = exploding_bar()  # for which a warning tells how stiff its springs are
+    scene = exploding_bar()  # for which a warning says how stiff its springs are
     gelatin.Simulator(scene, backend="cpu")
     once = len(caplog.records)
     caplog.clear()

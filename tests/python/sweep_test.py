@@ -415,4 +415,4 @@ def test_the_command_tells_of_runs_that_failed(tmp_path, capsys):
     too_long = ["--set", "simulation.solver=rk4", "--set", "simulation.substeps=1"]  # which only the simulator finds
     arguments = ["scenes/bounce.toml", "--out", str(tmp_path), "--frames", "1", "--workers", "0", "--no-record"]
     assert sweep_command.main([*arguments, *too_long]) == 1
-    assert "1 of 1 run failed: the column error tells why" in capsys.readouterr().err
+    assert "1 of 1 run failed: the column error says why" in capsys.readouterr().err

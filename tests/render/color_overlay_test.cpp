@@ -1,4 +1,4 @@
-// What overlays tell by colours, arrows, edges and names.
+// What overlays show by colours, arrows, edges and names.
 #include <epoxy/gl.h>
 
 #include <cmath>
@@ -260,7 +260,7 @@ glm::dvec3 oklab(const glm::vec3& srgb) {
             0.0259040371 * lms.x + 0.7827717662 * lms.y - 0.8086757660 * lms.z};
 }
 
-// Equal steps look about equal, and lightness alone orders them: nobody needs to tell red from green.
+// Equal steps look about equal, and lightness alone orders them: nobody needs to distinguish red from green.
 TEST(ValueColors, RiseEvenlyInLightness) {
     const auto& colors = value_colors();
     double least = 1.0, most = 0.0;

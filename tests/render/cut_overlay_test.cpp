@@ -60,9 +60,9 @@ protected:
             glm::inverse(kCamera.projection(static_cast<float>(kWidth) / kHeight) * kCamera.view());
         const glm::vec2 at((static_cast<float>(x) + 0.5f) / kWidth, (static_cast<float>(y) + 0.5f) / kHeight);
         const glm::vec4 far = to_world * glm::vec4(2.0f * at.x - 1.0f, 1.0f - 2.0f * at.y, 1.0f, 1.0f);
-        const glm::vec3 way = glm::vec3(far) / far.w - kCamera.eye;
+        const glm::vec3 ray = glm::vec3(far) / far.w - kCamera.eye;
         return kCamera.eye +
-               way * ((plane.offset - glm::dot(plane.normal, kCamera.eye)) / glm::dot(plane.normal, way));
+               ray * ((plane.offset - glm::dot(plane.normal, kCamera.eye)) / glm::dot(plane.normal, ray));
     }
 
     static glm::mat3 to_barycentric(const Tet& tet) {

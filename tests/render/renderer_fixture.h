@@ -35,7 +35,7 @@ struct Studio {
     RendererOptions options{.width = kWidth, .height = kHeight, .quality = Quality::high};
 };
 
-/// A test that looks at finished pictures.
+/// A test that examines finished pictures.
 class RendererTest : public test::GlTest {
 protected:
     static Image picture_of(const Studio& studio) {

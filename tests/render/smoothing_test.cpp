@@ -28,7 +28,7 @@ TEST_F(SmoothingTest, SmoothingBlendsEdges) {
         int count = 0;
         for (int y = 30; y < 90; ++y) {
             for (int x = 40; x < kWidth / 2; ++x) {
-                // The ball is deep red, the floor light grey: saturation tells how much of each is in a
+                // The ball is deep red, the floor light grey: saturation shows how much of each is in a
                 // pixel.
                 const auto* p = image.at(x, y);
                 const double saturation =

@@ -172,7 +172,7 @@ TEST_P(TexturedSkinTest, OneColorLooksLikeAnObjectsOwn) {
     EXPECT_LT(test::perceptual_difference(picture_of(textured), expected), 0.5);
 }
 
-// A cut leaves the texture on what is left; objects are told apart by colours alone.
+// A cut leaves the texture on what is left; objects are distinguished by colours alone.
 TEST_P(TexturedSkinTest, OverlaysKeepOrReplaceTheTexture) {
     Simulator simulator = simulate(Backend::cpu);
     const auto colorful = [&](const Image& image) {  // pixels of the picture's green quarter

@@ -260,14 +260,14 @@ TEST_F(DragTest, APinThatIsAddedHoldsItsNodesWhereTheyAre) {
         double farthest = 0.0, moved = 0.0;
         std::size_t count = 0;
         for (const HandleNode& held : model_of(after).handle_nodes) {
-            const glm::dvec3 way = node(here, held.node) - node(there, held.node);
+            const glm::dvec3 displacement = node(here, held.node) - node(there, held.node);
             if (held.handle != 0) {
-                moved = std::max(moved, glm::length(way));
+                moved = std::max(moved, glm::length(displacement));
                 continue;
             }
-            mean += way;
+            mean += displacement;
             ++count;
-            farthest = std::max(farthest, glm::length(way));
+            farthest = std::max(farthest, glm::length(displacement));
         }
         ASSERT_GT(count, 8u);
         EXPECT_LT(glm::length(mean) / static_cast<double>(count), 1e-6);

@@ -281,7 +281,7 @@ TEST_P(OverlaySourceTest, MarksAsManyFacesAsCollide) {
             count += mark;
         return count;
     };
-    EXPECT_EQ(marked(), 0u) << "nothing has been looked for yet";
+    EXPECT_EQ(marked(), 0u) << "nothing has been searched yet";
     std::size_t most = 0;
     for (int f = 0; f < 40; ++f) {
         simulator.advance_frame();

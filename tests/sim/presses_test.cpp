@@ -1,4 +1,4 @@
-// Colliders and handles that bodies hold up: what becomes of the rest of their motion (WhenBlocked).
+// Colliders and handles that bodies block: what becomes of the rest of their motion (WhenBlocked).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -172,7 +172,7 @@ Scene bars_scene(double release) {
     scene.colliders.erase(scene.colliders.begin());
     for (const double x : {0.0, 2.0}) {
         ObjectDescription bar = scene.objects[0];
-        bar.name = x == 0.0 ? "held up" : "free";
+        bar.name = x == 0.0 ? "blocked" : "free";
         bar.position = {x, 0.2 + kMeets / kEnd * kDepth, 0.0};
         HandleDescription& handle = bar.handles[0];
         handle.region = SphereRegion{bar.position, 1.0};
@@ -184,7 +184,7 @@ Scene bars_scene(double release) {
     return scene;
 }
 
-// By its own time a handle moves and lets go. One that is held up does not stop another.
+// By its own time a handle moves and lets go. One that is blocked does not stop another.
 TEST_F(PressTest, HandlesOfBodiesStop) {
     for (const Backend backend : {Backend::cpu, Backend::gl}) {
         Simulator simulator(bars_scene(kReleased), on(backend));

@@ -89,7 +89,7 @@ TEST_F(SharedSolverTest, DoesWhatTheCpuDoes) {
     EXPECT_NEAR(weight, 9.81 * (model->objects[0].mass + model->objects[1].mass), 0.01 * weight);
 }
 
-// Which is clear of itself: the device makes all moves of its steps, also of divided ones.
+// Which does not touch itself: the device makes all moves of its steps, also of adaptive substeps.
 TEST_F(SharedSolverTest, MovesASingleBodyAsTheCpuDoes) {
     const auto model = test::make_blocks(
         {{.place = {0, 0.2, 0}, .velocity = {1, -1, 0.5}, .poisson_ratio = 0.4}}, {0, -9.81, 0}, {floor()});

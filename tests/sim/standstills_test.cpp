@@ -68,7 +68,7 @@ TEST(Standstills, AreNoneWhereThereIsRoom) {
     EXPECT_THAT(press.run(solver, standstills), IsEmpty());
 }
 
-// That it stops is told when it does, that it has moved on when nothing has held it up for a while.
+// That it stops is reported when it does, that it has moved on when nothing has blocked it for a while.
 TEST(Standstills, OfWhatStopsAreToldWithTheirEnds) {
     const Press press(0.5, WhenBlocked::stops);
     cpu::CpuSolver<float> solver = test::make_solver<float>(press.model);

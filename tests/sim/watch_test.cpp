@@ -84,7 +84,7 @@ TEST_F(WatchTest, StopsAtTheFirstStepOnEitherBackend) {
 
         simulator.load_checkpoint(file);
         try {
-            // A device may be some frames behind, and tells of it when it gets there.
+            // A device may be some frames behind, and reports it when it gets there.
             for (int f = 0; f < 1000; ++f) simulator.advance_frame();
             ADD_FAILURE() << "went on";
         } catch (const Diverged& error) {

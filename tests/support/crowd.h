@@ -72,8 +72,8 @@ double worst_node_error(const cpu::Nodes<double>& expected, const NodeArrays& ac
 
 /// The largest error of a response against the double reference, over its bound; infinite where something is
 /// not finite. At most 1 is a pass. A response is a quotient of sums over a patch: some 500 corners of speeds
-/// below 5 m/s, summed in single precision over 64 lanes, give 128 eps of the speed, and the same of the way
-/// of a step.
+/// below 5 m/s, summed in single precision over 64 lanes, give 128 eps of the speed, and the same of the
+/// displacement of a step.
 double worst_response_error(const Model& model, const CollisionSettings& settings, double step,
                             const NodeArrays& actual);
 

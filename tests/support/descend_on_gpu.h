@@ -34,7 +34,7 @@ double degenerate_descent_error(int iterations);
 /// its weight on the floor, and too much friction.
 double sliding_descent_error();
 
-/// Bodies in all states that block descent tells apart: free ones in motion, shaken so much that tets are
+/// Bodies in all states that block descent distinguishes: free ones in motion, shaken so much that tets are
 /// inside out, one of them of two chunks of nodes; one with pins; one on a floor and against a sphere; with
 /// damping or without; of any Poisson's ratio. All but the second are made of `model`, that one of springs.
 /// Driven: loads pull and press at the first, and a moving handle holds the second.

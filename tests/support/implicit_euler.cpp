@@ -262,12 +262,13 @@ Eigen::VectorXd ImplicitEuler::minimum() const {
         terms += static_cast<double>(tet.gradient_1.w * tet.gradient_2.w);
     for (int i = 0; slope.norm() > enough; ++i) {
         if (i > 500) throw std::runtime_error("Newton's method does not converge");
-        const Eigen::VectorXd way = direction(x, slope);
-        const double here = value(x), promised = slope.dot(way), rounding = 1e-14 * (std::abs(here) + terms);
+        const Eigen::VectorXd descent = direction(x, slope);
+        const double here = value(x), promised = slope.dot(descent),
+                     rounding = 1e-14 * (std::abs(here) + terms);
         double length = 1.0;
-        while (length > 1e-6 && value(x + length * way) > here + 1e-4 * length * promised + rounding)
+        while (length > 1e-6 && value(x + length * descent) > here + 1e-4 * length * promised + rounding)
             length *= 0.5;
-        x += length * way;
+        x += length * descent;
         slope = gradient(x);
     }
     return x;

@@ -16,8 +16,8 @@
 namespace gelatin::test {
 namespace {
 
-Model moved(Model model, const glm::vec3& way) {
-    for (glm::vec4& p : model.positions) p += glm::vec4(way, 0.0f);
+Model moved(Model model, const glm::vec3& displacement) {
+    for (glm::vec4& p : model.positions) p += glm::vec4(displacement, 0.0f);
     return model;
 }
 

@@ -46,8 +46,8 @@ struct ProximityErrors {
     std::size_t disordered = 0;    ///< neighbours in the result that are not in ascending order
     std::size_t not_mirrored = 0;  ///< pairs of edges that the other edge does not see with the same bits
     double distance = 0.0;         ///< largest error of a distance over its bound
-    double points = 0.0;   ///< largest way from `apart` to the way between the nearest points, over its bound
-    double weights = 0.0;  ///< largest way of a weight out of [0, 1], and of their sums from 1
+    double points = 0.0;           ///< largest error of `apart`, over its bound
+    double weights = 0.0;          ///< largest distance of a weight from [0, 1], and of their sums from 1
 
     bool are_none() const {
         return missing + wrong + disordered + not_mirrored == 0 && distance <= 1.0 && points <= 1.0 &&
@@ -56,12 +56,12 @@ struct ProximityErrors {
 };
 
 /// Distances may be off by 4 eps times the extent of the pair over the sine that its normal is made of, at
-/// least that of kParallel; what closes the way between the points by 32 times that (docs/collision.md).
+/// least that of kParallel; the vector between the points by 32 times that (docs/collision.md).
 template <class Real>
 ProximityErrors check_proximities(const Model& model, const CollisionSettings& settings,
                                   const FoundProximities& found);
 
-/// A test failure that tells all of them, if there are any.
+/// A test failure that lists all of them, if there are any.
 void expect_none(const ProximityErrors& errors);
 
 /// Shapes that rounding and counting have trouble with, each with a radius at which much is near.

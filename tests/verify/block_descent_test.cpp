@@ -57,13 +57,13 @@ TEST_P(ConvergenceHeavy, IsToNewtonsSolution) {
     const Model model = struck_bar(youngs_modulus, poisson_ratio, {8, 3, 3}, model_of_material);
     const test::ImplicitEuler objective(model, kFrame);
     const Eigen::VectorXd exact = objective.minimum();
-    const double way = (exact - objective.start()).norm();
+    const double displacement = (exact - objective.start()).norm();
     // Tets' shapes at rest are in single precision, and the volume term has them twice.
     const double floor = model_of_material == MaterialModel::neo_hookean ? 1e-6 : 1e-11;
     double last = 1.0;
     for (const int iterations : {3, 10, 30, 100, 300, 1000}) {
         const Eigen::VectorXd x = descend(model, {iterations});
-        const double error = (x - exact).norm() / way;
+        const double error = (x - exact).norm() / displacement;
         RecordProperty("error_" + std::to_string(iterations), fmt::format("{:.2e}", error));
         EXPECT_LT(error, std::max(last, floor)) << iterations << " sweeps";
         last = error;
@@ -75,9 +75,9 @@ TEST(CoarseLevel, BringsLongStiffBodiesNearWithFewSweeps) {
     const Model model = struck_bar(1e6, 0.25);
     const test::ImplicitEuler objective(model, kFrame);
     const Eigen::VectorXd exact = objective.minimum();
-    const double way = (exact - objective.start()).norm();
-    EXPECT_LT((descend(model, {10}) - exact).norm() / way, 0.05);
-    EXPECT_GT((descend(model, {10, false}) - exact).norm() / way, 0.25);
+    const double displacement = (exact - objective.start()).norm();
+    EXPECT_LT((descend(model, {10}) - exact).norm() / displacement, 0.05);
+    EXPECT_GT((descend(model, {10, false}) - exact).norm() / displacement, 0.25);
 }
 
 }  // namespace

@@ -120,7 +120,7 @@ TEST_F(BallsTest, DoTheSameByEveryPath) {
                         static_cast<double>(reference.positions[k] - other.positions[k]);
                     largest = std::max(largest, std::abs(difference));
                 }
-                EXPECT_LT(largest, 2e-3) << "of a way of half a metre, through an impact";
+                EXPECT_LT(largest, 2e-3) << "of a displacement of half a metre, through an impact";
             }
         }
     }

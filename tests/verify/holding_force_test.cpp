@@ -56,9 +56,9 @@ public:
             solver_.advance_nodes(kStep);
         }
     }
-    // By springs from all nodes to their places at the start, moved by `way`.
-    void pull(const glm::dvec3& way) {
-        pull_.target = way;
+    // By springs from all nodes to their places at the start, moved by `displacement`.
+    void pull(const glm::dvec3& displacement) {
+        pull_.target = displacement;
         pull_.damping_time = 0.1;
         for (std::uint32_t n = 0; n < model_->node_count(); ++n)
             pull_.nodes.push_back({n, glm::vec3(model_->positions[n]), model_->masses[n]});

@@ -48,7 +48,7 @@ std::shared_ptr<const Model> make_block_model(const glm::dvec3& gravity) {
     return std::make_shared<const Model>(test::make_model(block, gravity));
 }
 
-// The centre goes the way of a critically damped oscillator, x = d (1 - (1 + w t) exp(-w t)), off by the
+// The centre moves like a critically damped oscillator, x = d (1 - (1 + w t) exp(-w t)), off by the
 // step's first order; let go, it keeps its speed.
 template <class MakeSolver>
 void expect_critical_damping(const MakeSolver& make_solver) {

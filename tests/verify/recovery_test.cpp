@@ -96,7 +96,7 @@ void expect_recovery(const TetMesh& mesh, double youngs_modulus) {
     }
 }
 
-// From places that tell nothing of the shape a body of any stiffness is back within a few frames, always.
+// From places that say nothing of the shape a body of any stiffness is back within a few frames, always.
 void expect_quick_recovery(const TetMesh& mesh, std::size_t count) {
     for (const double youngs_modulus : {1e3, 1e4, 1e5, 1e6, 1e7, 1e9}) {
         for (const StartDescription& start : {StartDescription{{0, 0, 0}, 0.5}, {{0, 0, 0}, 1e-6}}) {

@@ -42,13 +42,13 @@ double energy_left(bool meets_itself, std::optional<int> substeps) {
     return now.kinetic_energy + now.elastic_energy;
 }
 
-// A part of a divided step has a single sweep, which does not bring back what its first guess leaves out of
+// An adaptive substep has a single sweep, which does not bring back what its prediction leaves out of
 // the motion: it is hardly ever the tangled guess of the whole body.
 TEST(SoftImpact, DividedStepsKeepTheMotionOfWhatIsCrushed) {
     EXPECT_GT(energy_left(false, std::nullopt), 0.9 * energy_left(false, 16));
 }
 
-// Nor that few of its nodes would leave their rooms in their body, or meet others of it.
+// Nor that few of its nodes would exceed their displacement bounds, or meet others of it.
 TEST(SoftImpact, SoDoBodiesThatMeetThemselves) {
     EXPECT_GT(energy_left(true, std::nullopt), 0.7 * energy_left(true, 16));
 }

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 class GlObjectsWindowHeavy : public WindowHeavy {
 protected:
     // Of what runs now, at rest. Timers keep as many queries as a batch had stages, and readbacks as many
-    // buffers and fences as were under way at once: these are looked at when all is gone.
+    // buffers and fences as were under way at once: these are counted when all is gone.
     std::map<std::string, int> objects_at_rest() {
         if (session().is_playing()) press("space");
         draw_until([&] { return !session().is_computing(); });

@@ -66,7 +66,7 @@ TEST(Pace, AStepThatTakesSecondsIsStillMade) {
     EXPECT_EQ(pace.steps_for(2.0), 1);
 }
 
-// A whole frame that is asked for while paused must not hold up the window either.
+// A whole frame that is asked for while paused must not block the window either.
 TEST(Pace, ManyStepsAreMadeInParts) {
     Pace pace(1.0 / 60.0);
     EXPECT_EQ(pace.most_steps(), 1) << "nothing is known yet";

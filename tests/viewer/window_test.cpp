@@ -243,7 +243,7 @@ TEST_F(WindowHeavy, StiffnessChangesUnderWay) {
     const Counts counts = session().simulator().counts();
     act({"mousemove", "430", "162", "click", "1"});  // opens the settings
     draw(3);
-    // Dear ImGui looks at the keys once a picture.
+    // Dear ImGui reads the keys once a picture.
     const std::vector<std::vector<std::string>> typing = {
         {"mousemove", "405", "310"}, {"keydown", "ctrl"}, {"click", "1"}, {"key", "a"},
         {"keyup", "ctrl"},           {"type", "1e6"}};
@@ -366,7 +366,7 @@ TEST_F(WindowHeavy, ShadersAreReadAgainAndTheOldOnesKept) {
     const std::string original = read_file(root / tone);
     folder.add(tone.generic_string(), original + "\nthis is no GLSL\n");
     draw_until([&] { return !app().problem().empty(); });
-    gl::take_debug_messages();  // the driver tells it too
+    gl::take_debug_messages();  // the driver reports it, too
     EXPECT_NE(app().problem().find("render/include/tone.glsl"), std::string::npos) << app().problem();
     EXPECT_TRUE(is_orange(picture(), kWidth / 2, kHeight / 2)) << "the old ones draw on";
     folder.add(tone.generic_string(), original);

@@ -3,7 +3,7 @@
 
 uniform sampler2D underside;  // height of the lowest surface over the floor
 uniform float underside_range;                    // height of 1 [m]
-uniform float sky_radius;                         // how far round a point its sky is looked for [m]
+uniform float sky_radius;                         // how far round a point its sky is searched for [m]
 
 #ifdef FEW_TAPS
 const int kSkyTaps = 16;

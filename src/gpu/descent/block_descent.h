@@ -20,7 +20,7 @@ public:
     /// A step of `step` seconds from `previous`; writes `current`. Ends with the barrier that whoever gathers
     /// the nodes as textures or storage needs.
     /// @param loads of this step; null in models without
-    /// @param current's velocities are those one step before `previous` if `has_earlier`, else not looked at
+    /// @param current's velocities are those one step before `previous` if `has_earlier`, else ignored
     /// @param timer of the parts of the step, with the names that cpu::BlockDescent has; null: none
     void run(const ModelBuffers& model, const SumLoads* loads, const NodeBuffers& previous,
              const NodeBuffers& current, double step, bool has_earlier, StageTimer* timer = nullptr);

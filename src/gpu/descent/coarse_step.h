@@ -20,7 +20,7 @@ public:
     CoarseStep(const Model& model, const CoarseBasis& basis, const StepObjective& objective,
                const ColliderContacts& contacts);
 
-    /// Gathers from the objective, and is told of its updates.
+    /// Gathers from the objective, and is called at its updates.
     const gl::Program& force_program() const { return force_program_; }
 
     /// To be called when a step of `step` seconds begins.

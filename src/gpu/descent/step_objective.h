@@ -15,7 +15,7 @@
 namespace gelatin::gpu {
 
 /// The sum of elements that a step of block descent minimises, as tables that descend.comp gathers from:
-/// inertia, springs and tets; and what of them changes within a step, by damp_springs.comp,
+/// inertia, springs and tets; and their parts that change within a step, by damp_springs.comp,
 /// mark_flat_tets.comp and find_pressures.comp. CPU twin: cpu::StepObjective.
 class StepObjective {
 public:
@@ -40,7 +40,7 @@ public:
     /// To be called when starts and targets are those of a step of `step` seconds.
     void begin(const NodeBuffers& previous, const NodeBuffers& current, double step);
 
-    /// Looks at the tets, and tells the programs that gather them which are flat.
+    /// Finds which tets are flat, for the programs that gather them.
     void update(TetUpdate update, std::span<const gl::Program* const> programs);
 
 private:

@@ -43,7 +43,7 @@ struct ProximityBuffers {
     ProximityBuffers(const Model& model, const CollisionBuffers& collision,
                      std::optional<std::size_t> capacity = {});
 
-    /// For programs that include sim/proximity/proximities.glsl: what of the surface never changes, and the
+    /// For programs that include sim/proximity/proximities.glsl: what never changes of the surface, and the
     /// boxes of faces.
     void bind_surface(const gl::Program& program) const;
 };

@@ -11,7 +11,7 @@
 
 namespace gelatin::lattice {
 
-/// What of the enclosed space is in none of the tets, because it is too thin for the cells.
+/// The parts of the enclosed space that are in no tet, because it is too thin for the cells.
 struct LostParts {
     double area_fraction = 0.0;  ///< of the surface
     std::size_t pieces = 0;      ///< closed pieces of the surface that are lost as a whole

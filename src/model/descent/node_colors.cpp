@@ -49,7 +49,7 @@ std::vector<std::uint32_t> smallest_last(const Graph& graph) {
     return order;
 }
 
-// Which colours the neighbours of a node have; cleared by another look at them.
+// Which colours the neighbours of a node have; cleared by the search for the next node.
 class Neighbors {
 public:
     explicit Neighbors(std::size_t color_count) : taken_(color_count, 0) {}
@@ -63,7 +63,7 @@ public:
     bool allow(std::uint32_t color) const { return taken_[color] != look_; }
 
 private:
-    std::vector<std::uint32_t> taken_;  // the look that found it
+    std::vector<std::uint32_t> taken_;  // the search that found it
     std::uint32_t look_ = 0;
 };
 

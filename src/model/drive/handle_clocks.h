@@ -26,7 +26,7 @@ public:
     /// By how much handles are late [s], >= 0, shape [handles].
     const std::vector<double>& delays() const { return delays_; }
 
-    /// Which handles bodies hold up from now on; others they do not.
+    /// Which handles bodies block from now on; the others move.
     void set_held_up(std::span<const std::uint32_t> handles);
 
     /// The times of all handles when the simulation's is `time` [s].

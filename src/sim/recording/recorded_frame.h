@@ -10,7 +10,7 @@
 
 namespace gelatin {
 
-/// What a recording has of a moment: all that a run can continue from, and the forces that were found.
+/// A moment in a recording: all that a run can continue from, and the forces that were found.
 struct RecordedFrame {
     Checkpoint moment;
     ContactForces contacts;  ///< on nodes in single precision; no arrays: not found

@@ -32,7 +32,7 @@ public:
     /// @throws SystemError
     RecordingOutput(std::filesystem::path file, const RecordingHead& head);
 
-    /// Appends a frame, of which offset, size and checksum are not looked at. @throws SystemError
+    /// Appends a frame, of which offset, size and checksum are ignored. @throws SystemError
     void append(RecordingEntry entry, const std::string& bytes);
 
 private:

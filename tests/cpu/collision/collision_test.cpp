@@ -89,7 +89,7 @@ TEST(Collision, ContinuousDetectionFindsWhatComesNear) {
     EXPECT_EQ(test::find_collisions_on_cpu<float>(model, continuous(), kStep), expected);
 }
 
-// In one step it flies through a plate, both a tenth as thick as its way.
+// In one step it flies through a plate, both a tenth as thick as its displacement.
 TEST(Collision, ContinuousDetectionSeesAThinFastBody) {
     Body plate = test::make_body(test::make_block({4, 1, 4}, {1, 0.01, 1}));
     Body bullet = test::make_body(test::make_block({1, 1, 1}, {0.05, 0.01, 0.05}));

@@ -10,13 +10,13 @@ using Face = cpu::Moving<double, 3>;
 // A face at rest that looks along +z.
 const Face kFloor{{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}};
 
-// A face through the middle of that one, turned by `angle` about the y axis, that moves by `way`.
-Face make_face(double angle, glm::dvec3 way) {
+// A face through the middle of that one, turned by `angle` about the y axis, that moves by `displacement`.
+Face make_face(double angle, glm::dvec3 displacement) {
     Face face = kFloor;
     for (int k = 0; k < 3; ++k) {
         const glm::dvec3 p = kFloor.start[k] - glm::dvec3(0.25, 0.25, 0.0);
         face.start[k] = {std::cos(angle) * p.x, p.y, -std::sin(angle) * p.x};
-        face.end[k] = face.start[k] + way;
+        face.end[k] = face.start[k] + displacement;
     }
     return face;
 }

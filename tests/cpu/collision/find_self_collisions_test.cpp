@@ -46,7 +46,7 @@ TEST_P(SelfCollisionTest, FindsTheSameWhateverWasBefore) {
     }
 }
 
-// No face of a body that is not deformed, or evenly, is looked at, wherever it is.
+// No face of a body that is not deformed, or evenly, is tested, wherever it is.
 TEST(FindSelfCollisions, LetsUndeformedBodiesBe) {
     for (const Deformation deformation : {Deformation::rigid, Deformation::affine}) {
         Model model = test::make_folded(deformation);

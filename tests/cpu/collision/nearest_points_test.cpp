@@ -55,7 +55,7 @@ TYPED_TEST(NearestPoints, OfWhatIsDegenerate) {
     EXPECT_EQ(cpu::nearest_points(Edge{p, p}, Edge{Vec(0), Vec(4, 0, 0)}).other_fraction, TypeParam(0.25));
 }
 
-// The distance is the reference's; the weights lead to it; a short way keeps its direction.
+// The distance is the reference's; the weights lead to it; a short vector keeps its direction.
 template <class Real>
 void compare_with_reference(PairOf what, const std::vector<test::MovingPair<Real>>& pairs) {
     constexpr double kEps = std::numeric_limits<Real>::epsilon();
@@ -80,7 +80,7 @@ void compare_with_reference(PairOf what, const std::vector<test::MovingPair<Real
         worst_point = std::max(worst_point, glm::distance(glm::dvec3(apart), to - from) /
                                                 (kEps * size + 4e-16 * glm::length(from)));
     }
-    // Normals whose sine is just above the root of kParallel turn the way by some thousand eps, and leave
+    // Normals whose sine is just above the root of kParallel turn the vector by some thousand eps, and leave
     // more open where along two nearly parallel edges it starts and ends.
     const double loss = 1.0 / std::sqrt(static_cast<double>(cpu::kParallel<Real>));
     EXPECT_LT(worst_distance, 2.0 * loss);

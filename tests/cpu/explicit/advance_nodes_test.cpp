@@ -21,7 +21,7 @@ class AdvanceNodesTest : public ::testing::TestWithParam<SolverKind> {};
 INSTANTIATE_TEST_SUITE_P(Solvers, AdvanceNodesTest, ::testing::ValuesIn(test::kExplicitSolvers),
                          [](const auto& test) { return name_of(test.param); });
 
-// SIMD against the double oracle: wrong lanes, tails or transposes would be off by far more than rounding.
+// SIMD against the double reference: wrong lanes, tails or transposes would be off by far more than rounding.
 TEST_P(AdvanceNodesTest, FloatWithSimdMatchesTheOracle) {
     for (const Model& model : {test::make_lively_model(), test::make_driven_model()}) {
         ASSERT_NE(model.node_count() % 64, 0u);

@@ -62,7 +62,7 @@ std::vector<float> times_on_gpu(const Pairs& pairs) {
     return times;
 }
 
-// Rounding differs by driver, so that what nearly touches may be told otherwise: one verdict may differ, and
+// Rounding differs by driver, so that what nearly touches may be found otherwise: one verdict may differ, and
 // one time in a thousand.
 double cpu_disagreement(PairOf what) {
     const Pairs pairs = test::random_moving_pairs<float>(what, 20'001, 40);

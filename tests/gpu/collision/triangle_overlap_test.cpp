@@ -145,7 +145,7 @@ TEST_F(TriangleOverlapHeavyTest, DegeneratePairsInAnyOrder) {
     EXPECT_EQ(cpu_disagreement(and_in_other_orders(pairs_of_all_kinds(5000))), 0.0);
 }
 
-// Broken in these ways, the shader is told from its twin.
+// Broken in these ways, the shader differs from its twin.
 constexpr test::Mutant kMutants[] = {
     {"the_order_of_vertices_matters", "sim/collision/triangle_overlap.glsl", "comes_before(b, a)", "false"},
     {"float_is_trusted", "sim/collision/triangle_overlap.glsl", "float(kOverlapRounding) * kEpsilon", "0.0"},

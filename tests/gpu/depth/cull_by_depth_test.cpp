@@ -143,7 +143,7 @@ TEST_F(CullByDepthTest, LeavesNoneOfObjectsWhoseBoxesAloneMeet) {
         bodies.push_back(bar);
     }
     const Model model = make_still(bodies);
-    ASSERT_EQ(find_left(model, BroadPhase::boxes).pairs, 2u) << "boxes tell them apart";
+    ASSERT_EQ(find_left(model, BroadPhase::boxes).pairs, 2u) << "boxes separate them";
     const Left left = find_left(model);
     EXPECT_EQ(left.faces.size(), 0u);
     EXPECT_EQ(left.objects.size(), 0u);

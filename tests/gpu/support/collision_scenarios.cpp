@@ -14,7 +14,7 @@ namespace gelatin::test {
 namespace {
 
 constexpr double kStep = 1e-3;                     // [s]
-constexpr double kLongStep = 0.1;                  // on its way a block meets others [s]
+constexpr double kLongStep = 0.1;                  // within it a block meets others [s]
 constexpr int kCrowds[] = {7, 30, 2, 3, 90, 200};  // objects
 constexpr BroadPhase kBroadPhases[] = {BroadPhase::hierarchy, BroadPhase::boxes, BroadPhase::none,
                                        BroadPhase::depth};
@@ -44,7 +44,7 @@ double self_response_error(Deformation deformation, const CollisionSettings& set
     const Model model = make_folded(deformation);
     const NodeArrays actual = respond_to_self_on_gpu(model, settings, kStep);
     if (!frames_are_kept(model, actual)) return error_if(true);
-    // In a plane normals are as they are rounded, and tell no direction.
+    // In a plane normals are as they are rounded, and have no direction.
     const double bound = deformation == Deformation::flat ? 1e6 : 1.0;
     return worst_self_response_error(model, settings, kStep, actual) / bound;
 }

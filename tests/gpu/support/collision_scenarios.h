@@ -21,7 +21,7 @@ Scenarios response_scenarios();
 /// What bodies touch of themselves, however deformed, and whatever they were before.
 Scenarios self_collision_scenarios();
 
-/// How much is looked at of bodies that are hardly deformed: what is needless costs.
+/// How many faces are tested in bodies that are hardly deformed: what is needless costs.
 Scenarios calm_scenarios();
 
 /// Responses to what bodies touch of themselves.

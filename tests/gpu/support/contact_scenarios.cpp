@@ -58,7 +58,7 @@ struct BeforeSweeps {
         contacts.restart(start);
         std::vector<glm::dvec4> flat = start;
         for (glm::dvec4& p : flat) p.y *= 1e-3;
-        contacts.stay_clear(flat, nullptr);  // bodies are not clear of themselves: rooms count
+        contacts.stay_clear(flat, nullptr);  // bodies may touch themselves: displacement bounds count
         for (std::uint32_t n = 0; n < model->node_count(); ++n) {
             const glm::dvec3 at(start[n]), velocity(nodes.velocities[n]), gravity(model->gravity);
             const double stiffness = start[n].w > 0.0 ? 1.0 / (start[n].w * kFrame * kFrame) : 0.0;
@@ -103,7 +103,7 @@ std::vector<glm::vec4> sweep_on_gpu(const BeforeSweeps& before, int sweeps, Devi
     return positions;
 }
 
-// How far nodes are beyond what limits them [m]: planes between bodies, rooms, and planes among the
+// How far nodes are beyond what limits them [m]: planes between bodies, displacement bounds, planes among the
 // colliders.
 double worst_excess(const BeforeSweeps& before, const std::vector<glm::vec4>& positions) {
     ContactLimits limits;

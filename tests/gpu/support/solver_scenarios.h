@@ -18,7 +18,7 @@ Scenarios load_scenarios();
 /// A hand that holds nodes, in explicit steps and in block descent, beside loads and without.
 Scenarios pull_scenarios();
 
-/// Block descent of bodies in all states that it tells apart.
+/// Block descent of bodies in all states that it distinguishes.
 Scenarios descent_scenarios();
 
 /// Block descent with loads and moving handles.

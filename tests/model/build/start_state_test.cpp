@@ -58,8 +58,9 @@ TEST(DeformedStart, ScattersWithinItsBoundsAndTheSameWay) {
     EXPECT_EQ(one.positions, two.positions);
     double furthest = 0.0;
     for (std::uint32_t n = 0; n < start.model.node_count(); ++n) {
-        const glm::dvec3 way = glm::abs(glm::dvec3(one.positions[n]) - glm::dvec3(start.model.positions[n]));
-        furthest = std::max({furthest, way.x, way.y, way.z});
+        const glm::dvec3 displacement =
+            glm::abs(glm::dvec3(one.positions[n]) - glm::dvec3(start.model.positions[n]));
+        furthest = std::max({furthest, displacement.x, displacement.y, displacement.z});
     }
     EXPECT_LE(furthest, 0.05 + 1e-7);
     EXPECT_GT(furthest, 0.045);

@@ -36,7 +36,7 @@ TEST(HandleClocks, AreTheSimulationsWhileNothingIsHeldUp) {
     EXPECT_THAT(clocks.delays(), ElementsAre(0.0, 0.0));
 }
 
-// Only those that stop, only while they are held up; each step begins at the times where the last one ended.
+// Only those that stop, only while they are blocked; each step begins at the times where the last one ended.
 TEST(HandleClocks, StandStill) {
     HandleClocks clocks(with({moving(true, 4.0), moving(false, 4.0)}));
     HandleTimes last = clocks.advance(0.0, kStep);

@@ -55,9 +55,9 @@ TEST(Handles, SmoothStartsAndEndsAtRest) {
     }
     constexpr double kMoment = 1e-6;  // [s]
     for (const double time : {1.0, 3.0, 4.0}) {
-        const glm::dvec3 way =
+        const glm::dvec3 displacement =
             pose_at(handle, time + kMoment).center - pose_at(handle, time - kMoment).center;
-        EXPECT_LT(glm::length(way) / kMoment, 1e-5) << time;
+        EXPECT_LT(glm::length(displacement) / kMoment, 1e-5) << time;
     }
 }
 

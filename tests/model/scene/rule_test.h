@@ -10,7 +10,7 @@ namespace gelatin::test {
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// One rule: how a file breaks it, how a program does, and what both are told.
+/// One rule: how a file breaks it, how a program does, and the error of both.
 struct Rule {
     const char* name;
     const char* lines;  ///< of a file, in the place of `section`

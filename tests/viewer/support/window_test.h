@@ -32,7 +32,7 @@ protected:
     /// The same of a scene file or a mesh; empty: on the start screen.
     void open_file(const std::filesystem::path& file, Backend backend = Backend::automatic,
                    render::Quality quality = render::Quality::automatic);
-    /// Closes it, with all that TearDown looks at.
+    /// Closes it, with all that TearDown checks.
     void close();
     /// Two cubes, the smaller at the right, above a floor.
     static std::string two_cubes();
