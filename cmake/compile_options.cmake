@@ -22,8 +22,11 @@ add_compile_options(-ffp-contract=off)
 if(GELATIN_SANITIZE)
     add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
     add_link_options(-fsanitize=address,undefined)
-    # Lanes come from one source, so two instruction sets say as much of it as six: AVX2, and scalar code.
+    # Lanes come from one source, so two instruction sets say as much of it as five: AVX2, and scalar code.
     add_compile_definitions("HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3|HWY_AVX3_DL)")
+else()
+    # Each instruction set is compiled at each place that uses lanes. Processors of before 2008 take scalar code.
+    add_compile_definitions(HWY_DISABLED_TARGETS=HWY_SSSE3)
 endif()
 
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)

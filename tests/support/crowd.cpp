@@ -13,6 +13,7 @@
 #include "gpu/collision_stages.h"
 #include "gpu/view/mark_faces.h"
 #include "model/collision/face_collision_words.h"
+#include "support/converted.h"
 #include "support/draw_vector.h"
 #include "support/parity.h"
 #include "support/test_models.h"
@@ -49,11 +50,6 @@ void run_detection(gpu::Collision& collision, const gpu::ModelBuffers& model,
 cpu::Triangle<double> triangle(const Model& model, const Face& face) {
     const auto at = [&](std::uint32_t n) { return glm::dvec3(model.positions[n]); };
     return {at(face.a), at(face.b), at(face.c)};
-}
-
-template <class Real>
-std::vector<cpu::Vec4<Real>> converted(const std::vector<glm::vec4>& values) {
-    return {values.begin(), values.end()};
 }
 
 template <class Real>

@@ -12,6 +12,7 @@
 #include "cpu/collision/respond_to_self.h"
 #include "gpu/collision_stages.h"
 #include "model/corners.h"
+#include "support/converted.h"
 #include "support/crowd.h"
 #include "support/draw_vector.h"
 #include "support/parity.h"
@@ -68,11 +69,6 @@ void run_self_detection(gpu::Collision& collision, const gpu::ModelBuffers& mode
 CollisionSettings with_self(CollisionSettings settings) {
     settings.self_collision = true;
     return settings;
-}
-
-template <class Real>
-std::vector<cpu::Vec4<Real>> converted(const std::vector<glm::vec4>& values) {
-    return {values.begin(), values.end()};
 }
 
 void poke(Model& model) {

@@ -10,13 +10,13 @@
 namespace gelatin {
 namespace {
 
-struct Sample {
+struct FitSample {
     TetMesh mesh = test::make_block({4, 4, 4}, {1, 1, 1}, 0.25);
     RestNet net;
     std::vector<double> stiffness;
     MomentTargets targets;
 
-    Sample() {
+    FitSample() {
         const std::vector<double> volumes = tet_volumes(mesh);
         std::vector<Link> links = edge_links(mesh, volumes);
         const std::vector<Link> across = without(face_links(mesh, volumes), links);
@@ -80,7 +80,7 @@ struct Sample {
 };
 
 TEST(MomentFit, ComesNearToTheLeastSquares) {
-    const Sample sample;
+    const FitSample sample;
     const std::vector<double> s = fit_to_moments(sample.net, sample.stiffness, sample.targets);
     const double least = sample.miss(s);
     EXPECT_LT(least, 0.25 * sample.miss(std::vector<double>(s.size(), 1.0)));

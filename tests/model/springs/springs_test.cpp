@@ -31,7 +31,7 @@ std::set<std::pair<unsigned, unsigned>> pairs_of(const std::vector<Spring>& spri
     return pairs;
 }
 
-TetMesh one_tet() {
+TetMesh tall_tet() {
     TetMesh mesh;
     mesh.positions = {{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {0, 0, 3}};
     mesh.tets = {{0, 1, 2, 3}};
@@ -50,7 +50,7 @@ TetMesh two_tets() {
 
 // Van Gelder: k = E V / l^2; the tet's volume is 2 * 1 * 3 / 6 = 1.
 TEST(Springs, StructuralStiffnessIsVanGelders) {
-    const std::vector<Spring> springs = make_springs(one_tet(), {true, false, false}, 7e4);
+    const std::vector<Spring> springs = make_springs(tall_tet(), {true, false, false}, 7e4);
     ASSERT_EQ(springs.size(), 6u);
     EXPECT_EQ(springs[0].i, 0u);
     EXPECT_EQ(springs[0].j, 1u);
