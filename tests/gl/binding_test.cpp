@@ -17,7 +17,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::vector<float> content(const Buffer<float>& buffer) {
+std::vector<float> values_in(const Buffer<float>& buffer) {
     std::vector<float> values(buffer.size());
     barrier(Barrier::buffer_update);
     buffer.download(values);
@@ -59,7 +59,7 @@ protected:
     float result() {
         program_->dispatch(1);
         barrier(Barrier::storage);
-        return content(out_)[0];
+        return values_in(out_)[0];
     }
     std::string error() {
         try {
@@ -88,7 +88,7 @@ TEST_F(BindingTest, BindingsStayWithTheirProgram) {
         EXPECT_EQ(result(), 12.0f);
         other.dispatch(1);
         barrier(Barrier::storage);
-        EXPECT_EQ(content(out)[0], 72.0f);
+        EXPECT_EQ(values_in(out)[0], 72.0f);
     }
 }
 

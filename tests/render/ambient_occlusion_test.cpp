@@ -20,7 +20,7 @@
 namespace gelatin::render {
 namespace {
 
-constexpr int kWidth = 320, kHeight = 201;  // an odd one: half of it is not whole
+constexpr int kViewWidth = 320, kViewHeight = 201;  // an odd one: half of it is not whole
 constexpr std::size_t kHalfWidth = 160, kHalfHeight = 101;
 const Bounds kBounds{{-0.6f, 0.0f, -0.6f}, {0.6f, 1.0f, 0.6f}};
 
@@ -42,8 +42,8 @@ SurfaceMesh ball_at(const glm::dvec3& center, double radius) {
 class AmbientOcclusionTest : public test::GlTest {
 protected:
     View view_{.camera = {{0.3f, 1.5f, 3.0f}, {0.0f, 0.3f, 0.0f}, 35.0f},
-               .width = kWidth,
-               .height = kHeight,
+               .width = kViewWidth,
+               .height = kViewHeight,
                .bounds = kBounds,
                .floor_height = 0.0f};
     const float reach_ = AmbientOcclusion::kReach * view_.extent();
@@ -171,15 +171,15 @@ TEST_F(AmbientOcclusionTest, TheKeyLightIsLeftAlone) {
     view_.camera = kNear;
     for (const Smoothing smoothing : {Smoothing::samples, Smoothing::filter}) {
         Renderer renderer(
-            {.width = kWidth, .height = kHeight, .quality = Quality::high, .smoothing = smoothing});
+            {.width = kViewWidth, .height = kViewHeight, .quality = Quality::high, .smoothing = smoothing});
         renderer.set_surroundings({.bounds = kBounds, .floor_height = 0.0f, .props = {}, .colors = {}});
         const StaticMesh wall({box_at({0.0, 0.5, -0.5}, {2.0, 1.0, 1.0})});
         renderer.draw(wall.view(), view_.camera);
-        FrameGrabber grabber(kWidth, kHeight);
+        FrameGrabber grabber(kViewWidth, kViewHeight);
         grabber.grab(renderer.framebuffer());
         const Image image = *grabber.flush();
-        const glm::vec2 place = place_of({0.13f, 0.0f, 0.15f * reach_}) * glm::vec2(kWidth, kHeight);
-        const int x = static_cast<int>(place.x), y = kHeight - 1 - static_cast<int>(place.y);
+        const glm::vec2 place = place_of({0.13f, 0.0f, 0.15f * reach_}) * glm::vec2(kViewWidth, kViewHeight);
+        const int x = static_cast<int>(place.x), y = kViewHeight - 1 - static_cast<int>(place.y);
         const double green = test::mean_color(image, x, y, 1, 1).g;
         EXPECT_GT(green, floor_brightness(0.45));
         EXPECT_LT(green, floor_brightness(0.75));
@@ -203,19 +203,19 @@ TEST_F(AmbientOcclusionTest, SurfacesThatMeetKeepTheirOwn) {
 // ambient light, which is a third of all.
 TEST_F(AmbientOcclusionTest, TheKeyLightOnBodiesIsLeftAlone) {
     view_.camera = kNear;
-    Renderer renderer({.width = kWidth, .height = kHeight, .quality = Quality::high});
+    Renderer renderer({.width = kViewWidth, .height = kViewHeight, .quality = Quality::high});
     renderer.set_surroundings(
         {.bounds = kBounds,
          .floor_height = {},
          .props = {box_at({0.0, 0.5, -0.5}, {4.0, 1.0, 1.0}), box_at({0.0, -0.05, 0.0}, {4.0, 0.1, 4.0})},
          .colors = {}});
     renderer.draw(StaticMesh(std::vector<SurfaceMesh>{}).view(), view_.camera);
-    FrameGrabber grabber(kWidth, kHeight);
+    FrameGrabber grabber(kViewWidth, kViewHeight);
     grabber.grab(renderer.framebuffer());
     const Image image = *grabber.flush();
     const auto light = [&](float from_wall) {
-        const glm::vec2 place = place_of({0.1f, 0.0f, from_wall}) * glm::vec2(kWidth, kHeight);
-        const int x = static_cast<int>(place.x), y = kHeight - 1 - static_cast<int>(place.y);
+        const glm::vec2 place = place_of({0.1f, 0.0f, from_wall}) * glm::vec2(kViewWidth, kViewHeight);
+        const int x = static_cast<int>(place.x), y = kViewHeight - 1 - static_cast<int>(place.y);
         return from_srgb(glm::vec3(test::mean_color(image, x, y, 1, 1) / 255.0)).g;
     };
     EXPECT_LT(light(0.15f * reach_), 0.95f * light(1.2f * reach_));
@@ -226,7 +226,7 @@ TEST_F(AmbientOcclusionTest, TheKeyLightOnBodiesIsLeftAlone) {
 TEST_F(AmbientOcclusionTest, SizeDoesNotMatter) {
     const auto picture = [](float scale) {
         const auto times = [&](const glm::vec3& v) { return scale * v; };
-        Renderer renderer({.width = kWidth, .height = kHeight, .quality = Quality::high});
+        Renderer renderer({.width = kViewWidth, .height = kViewHeight, .quality = Quality::high});
         renderer.set_surroundings({.bounds = {times(kBounds.min), times(kBounds.max)},
                                    .floor_height = 0.0f,
                                    .props = {},
@@ -238,7 +238,7 @@ TEST_F(AmbientOcclusionTest, SizeDoesNotMatter) {
         }
         const StaticMesh mesh(bodies);
         renderer.draw(mesh.view(), {times({0.3f, 1.5f, 3.0f}), times({0.0f, 0.3f, 0.0f}), 35.0f});
-        FrameGrabber grabber(kWidth, kHeight);
+        FrameGrabber grabber(kViewWidth, kViewHeight);
         grabber.grab(renderer.framebuffer());
         return *grabber.flush();
     };

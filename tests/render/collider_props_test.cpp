@@ -9,7 +9,7 @@
 namespace gelatin::render {
 namespace {
 
-const Bounds kBounds{glm::vec3(-1.0f, 0.0f, -1.0f), glm::vec3(1.0f, 2.0f, 1.0f)};
+const Bounds kPropBounds{glm::vec3(-1.0f, 0.0f, -1.0f), glm::vec3(1.0f, 2.0f, 1.0f)};
 
 ColliderDescription collider(std::variant<PlaneCollider, Shape> shape) {
     ColliderDescription description;
@@ -21,7 +21,7 @@ TEST(ColliderPropsTest, TheHighestFlatPlaneIsTheFloor) {
     const ColliderProps all = make_collider_props(
         {collider(PlaneCollider{{0.0, 1.0, 0.0}, -1.0}), collider(PlaneCollider{{0.0, 1.0, 0.0}, 0.25}),
          collider(PlaneCollider{{0.0, -1.0, 0.0}, -9.0})},
-        kBounds);
+        kPropBounds);
     ASSERT_TRUE(all.floor_height);
     EXPECT_FLOAT_EQ(*all.floor_height, 0.25f);
     EXPECT_TRUE(all.props.empty()) << "a ceiling is not drawn";
@@ -29,7 +29,7 @@ TEST(ColliderPropsTest, TheHighestFlatPlaneIsTheFloor) {
 
 TEST(ColliderPropsTest, ATiltedPlaneIsAPieceOfItFacingItsFreeSide) {
     const glm::dvec3 normal = glm::normalize(glm::dvec3(0.5, 1.0, 0.2));
-    const ColliderProps all = make_collider_props({collider(PlaneCollider{normal, -0.3})}, kBounds);
+    const ColliderProps all = make_collider_props({collider(PlaneCollider{normal, -0.3})}, kPropBounds);
     EXPECT_FALSE(all.floor_height);
     ASSERT_EQ(all.props.size(), 1u);
     const SurfaceMesh& piece = all.props[0];
@@ -44,7 +44,7 @@ TEST(ColliderPropsTest, BoxesTurnAboutXThenYThenZ) {
     ColliderDescription box = collider(BoxShape{{2.0, 4.0, 6.0}});
     box.position = {10.0, 0.0, 0.0};
     box.rotation = {90.0, 0.0, 90.0};  // x: y -> z; then z: x -> y
-    const ColliderProps all = make_collider_props({box}, kBounds);
+    const ColliderProps all = make_collider_props({box}, kPropBounds);
     ASSERT_EQ(all.props.size(), 1u);
     glm::dvec3 low(1e9), high(-1e9);
     for (const glm::dvec3& p : all.props[0].positions) {
@@ -58,7 +58,7 @@ TEST(ColliderPropsTest, BoxesTurnAboutXThenYThenZ) {
 
 TEST(ColliderPropsTest, SpheresAndCapsulesHaveTheirSize) {
     const ColliderProps all =
-        make_collider_props({collider(SphereShape{0.5}), collider(CapsuleShape{0.25, 1.0})}, kBounds);
+        make_collider_props({collider(SphereShape{0.5}), collider(CapsuleShape{0.25, 1.0})}, kPropBounds);
     ASSERT_EQ(all.props.size(), 2u);
     constexpr double kPi = 3.14159265358979;
     EXPECT_NEAR(signed_volume(all.props[0]), 4.0 / 3.0 * kPi * 0.125, 0.01);

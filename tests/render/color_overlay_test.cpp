@@ -86,18 +86,19 @@ TEST_P(ColorOverlayTest, NamesStandInTheMiddleOfTheirObjects) {
     };
     const Image without = picture(none), with = picture(names);
     View view;
-    view.height = kHeight;
+    view.height = kOverlayHeight;
     const TextPicture text = Font(view.letter_size()).paint(names.front());
     ASSERT_GT(text.width, 30);
 
     // Lower left corner of the text, whose label is centred in whole pixels.
-    const glm::vec2 middle = project(0.5f * (low + high)) * glm::vec2(1.0f, -1.0f) + glm::vec2(0.0f, kHeight);
+    const glm::vec2 middle =
+        project(0.5f * (low + high)) * glm::vec2(1.0f, -1.0f) + glm::vec2(0.0f, kOverlayHeight);
     const glm::ivec2 corner =
         glm::ivec2(glm::floor(middle - 0.5f * glm::vec2(text.width + 2, text.height + 2))) + 1;
     int white = 0;
-    for (int y = 0; y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) {
-            const int column = x - corner.x, row = kHeight - 1 - y - corner.y;
+    for (int y = 0; y < kOverlayHeight; ++y) {
+        for (int x = 0; x < kOverlayWidth; ++x) {
+            const int column = x - corner.x, row = kOverlayHeight - 1 - y - corner.y;
             const auto* before = without.at(x, y);
             const auto* after = with.at(x, y);
             if (text.at(column, row) == 255) {

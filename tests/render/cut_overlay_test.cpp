@@ -56,9 +56,10 @@ protected:
 
     // Where the eye's ray through a pixel's middle meets the plane.
     static glm::vec3 point_on(const Plane& plane, int x, int y) {
-        static const glm::mat4 to_world =
-            glm::inverse(kCamera.projection(static_cast<float>(kWidth) / kHeight) * kCamera.view());
-        const glm::vec2 at((static_cast<float>(x) + 0.5f) / kWidth, (static_cast<float>(y) + 0.5f) / kHeight);
+        static const glm::mat4 to_world = glm::inverse(
+            kCamera.projection(static_cast<float>(kOverlayWidth) / kOverlayHeight) * kCamera.view());
+        const glm::vec2 at((static_cast<float>(x) + 0.5f) / kOverlayWidth,
+                           (static_cast<float>(y) + 0.5f) / kOverlayHeight);
         const glm::vec4 far = to_world * glm::vec4(2.0f * at.x - 1.0f, 1.0f - 2.0f * at.y, 1.0f, 1.0f);
         const glm::vec3 ray = glm::vec3(far) / far.w - kCamera.eye;
         return kCamera.eye +
@@ -99,8 +100,8 @@ TEST_P(CutOverlayTest, ATetIsFilledWhereThePlaneIsInside) {
         ways |= 1u << way;
         const Image image = draw_cut(plane, {tet});
         int wrong = 0, filled = 0;
-        for (int y = 0; y < kHeight; ++y) {
-            for (int x = 0; x < kWidth; ++x) {
+        for (int y = 0; y < kOverlayHeight; ++y) {
+            for (int x = 0; x < kOverlayWidth; ++x) {
                 const float depth = depth_in(tet, barycentric, point_on(plane, x, y));
                 if (std::abs(depth) < 0.03f) continue;  // an edge may share a pixel
                 const bool is_changed = std::abs(image.at(x, y)[0] - plain.at(x, y)[0]) > 6;

@@ -16,7 +16,7 @@
 namespace gelatin::render {
 namespace {
 
-constexpr int kWidth = 50, kHeight = 37;
+constexpr int kSplatWidth = 50, kSplatHeight = 37;
 
 // What a map holds at a texel: depth, and whether an edge passes so near that rounding decides.
 struct Depth {
@@ -43,18 +43,20 @@ void add_face(const std::array<glm::dvec3, 3>& corner, const glm::dvec2& at, Dep
 }
 
 std::vector<Depth> reference(const std::vector<SurfaceMesh>& surfaces, const glm::mat4& world_to_clip) {
-    std::vector<Depth> depths(static_cast<std::size_t>(kWidth) * kHeight);
+    std::vector<Depth> depths(static_cast<std::size_t>(kSplatWidth) * kSplatHeight);
     for (const SurfaceMesh& surface : surfaces) {
         for (const glm::uvec3& face : surface.faces) {
             std::array<glm::dvec3, 3> corner{};
             for (int k = 0; k < 3; ++k) {
                 const glm::dvec3 clip =
                     glm::dmat4(world_to_clip) * glm::dvec4(surface.positions[face[k]], 1.0);
-                corner[static_cast<std::size_t>(k)] = (0.5 * clip + 0.5) * glm::dvec3(kWidth, kHeight, 1.0);
+                corner[static_cast<std::size_t>(k)] =
+                    (0.5 * clip + 0.5) * glm::dvec3(kSplatWidth, kSplatHeight, 1.0);
             }
-            for (int y = 0; y < kHeight; ++y) {
-                for (int x = 0; x < kWidth; ++x) {
-                    add_face(corner, {x + 0.5, y + 0.5}, depths[static_cast<std::size_t>(y * kWidth + x)]);
+            for (int y = 0; y < kSplatHeight; ++y) {
+                for (int x = 0; x < kSplatWidth; ++x) {
+                    add_face(corner, {x + 0.5, y + 0.5},
+                             depths[static_cast<std::size_t>(y * kSplatWidth + x)]);
                 }
             }
         }
@@ -72,14 +74,14 @@ protected:
 
     static std::vector<float> map_of(DepthSplats& splats, const std::vector<SurfaceMesh>& surfaces,
                                      const glm::mat4& world_to_clip) {
-        const Target map = Target::depth(kWidth, kHeight, GL_DEPTH_COMPONENT32);
+        const Target map = Target::depth(kSplatWidth, kSplatHeight, GL_DEPTH_COMPONENT32);
         const StaticMesh all(surfaces), none;
         const SurfaceDraw draw(all.view()), nothing(none.view());
         // The second of two maps, the first of another size and view.
-        const Target other = Target::depth(kHeight, kWidth, GL_DEPTH_COMPONENT32);
+        const Target other = Target::depth(kSplatHeight, kSplatWidth, GL_DEPTH_COMPONENT32);
         const DepthMap maps[] = {{other, from_above(1.0f, 2.0f)}, {map, world_to_clip}};
         splats.draw(maps, {&draw, &nothing});
-        std::vector<float> depths(static_cast<std::size_t>(kWidth) * kHeight, NAN);
+        std::vector<float> depths(static_cast<std::size_t>(kSplatWidth) * kSplatHeight, NAN);
         glBindTexture(GL_TEXTURE_2D, map.texture());
         glGetTexImage(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
         return depths;
@@ -95,7 +97,8 @@ protected:
         for (std::size_t i = 0; i < actual.size(); ++i) {
             if (!expected[i].is_certain) continue;
             ++certain;
-            EXPECT_NEAR(actual[i], expected[i].value, 1e-5) << "texel " << i % kWidth << ", " << i / kWidth;
+            EXPECT_NEAR(actual[i], expected[i].value, 1e-5)
+                << "texel " << i % kSplatWidth << ", " << i / kSplatWidth;
         }
         EXPECT_GT(certain, actual.size() / 2);
     }

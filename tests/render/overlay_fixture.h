@@ -18,14 +18,15 @@
 
 namespace gelatin::render {
 
-inline constexpr int kWidth = 320, kHeight = 240;
+inline constexpr int kOverlayWidth = 320, kOverlayHeight = 240;
 inline constexpr Camera kCamera{{0.0f, 1.0f, 4.0f}, {0.0f, 0.5f, 0.0f}, 35.0f};
 
 // Where a point in space is in the picture [pixels].
 inline glm::vec2 project(const glm::vec3& point) {
-    const float aspect = static_cast<float>(kWidth) / kHeight;
+    const float aspect = static_cast<float>(kOverlayWidth) / kOverlayHeight;
     const glm::vec4 clip = kCamera.projection(aspect) * kCamera.view() * glm::vec4(point, 1.0f);
-    return {(0.5f + 0.5f * clip.x / clip.w) * kWidth, (0.5f - 0.5f * clip.y / clip.w) * kHeight};
+    return {(0.5f + 0.5f * clip.x / clip.w) * kOverlayWidth,
+            (0.5f - 0.5f * clip.y / clip.w) * kOverlayHeight};
 }
 
 inline glm::dvec3 color_at(const Image& image, const glm::vec3& point) {
@@ -48,7 +49,8 @@ protected:
         surfaces_ = {ball};
         body_ = StaticMesh(surfaces_);
         view_ = body_.view();
-        renderer_.emplace(RendererOptions{.width = kWidth, .height = kHeight, .quality = GetParam()});
+        renderer_.emplace(
+            RendererOptions{.width = kOverlayWidth, .height = kOverlayHeight, .quality = GetParam()});
         renderer_->set_surroundings({.bounds = {{-0.5f, 0.0f, -0.5f}, {0.5f, 1.1f, 0.5f}},
                                      .floor_height = 0.0f,
                                      .props = {},
@@ -60,7 +62,7 @@ protected:
         view_.overlay.node_positions = view_.node_positions;  // the surface's points are nodes
         view_.overlay.node_count = view_.node_count;
         renderer_->draw(view_, kCamera);
-        FrameGrabber grabber(kWidth, kHeight);
+        FrameGrabber grabber(kOverlayWidth, kOverlayHeight);
         grabber.grab(renderer_->framebuffer());
         return *grabber.flush();
     }

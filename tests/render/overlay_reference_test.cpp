@@ -55,14 +55,14 @@ TEST_P(OverlayReferenceTest, LooksAsItDidOnEitherBackend) {
         options.backend = backend;
         options.use_current_context = true;
         Simulator simulator(block_and_ball(), options);
-        Renderer renderer({.width = kWidth, .height = kHeight, .quality = GetParam()});
+        Renderer renderer({.width = kOverlayWidth, .height = kOverlayHeight, .quality = GetParam()});
         renderer.set_surroundings({.bounds = {{-0.8f, 0.0f, -0.4f}, {0.9f, 1.0f, 0.4f}},
                                    .floor_height = 0.0f,
                                    .props = {},
                                    .colors = {}});
         for (const auto& [name, overlays] : kCases) {
             renderer.draw(simulator.render_view(overlays), {{0.3f, 1.3f, 3.2f}, {0.1f, 0.5f, 0.0f}, 35.0f});
-            FrameGrabber grabber(kWidth, kHeight);
+            FrameGrabber grabber(kOverlayWidth, kOverlayHeight);
             grabber.grab(renderer.framebuffer());
             const Image image = *grabber.flush();
             const std::string ending = GetParam() == Quality::fast ? "_fast.png" : ".png";

@@ -107,10 +107,11 @@ TEST_P(BoxOverlayTest, BoxesMayHoldTheEye) {
         EXPECT_LT(lightness(color_at(boxed, point)), 0.75 * lightness(color_at(plain, point))) << z;
     }
     int changed = 0;
-    for (int y = 0; y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) changed += std::abs(boxed.at(x, y)[1] - plain.at(x, y)[1]) > 10;
+    for (int y = 0; y < kOverlayHeight; ++y) {
+        for (int x = 0; x < kOverlayWidth; ++x)
+            changed += std::abs(boxed.at(x, y)[1] - plain.at(x, y)[1]) > 10;
     }
-    EXPECT_LT(changed, kWidth * kHeight / 16) << "lines, not areas";
+    EXPECT_LT(changed, kOverlayWidth * kOverlayHeight / 16) << "lines, not areas";
 }
 
 TEST_P(OverlayTest, MarkedFacesAloneChange) {
@@ -218,7 +219,7 @@ INSTANTIATE_TEST_SUITE_P(Qualities, LegendHeavy, kQualities);
 TEST_P(LegendHeavy, HasTheColorsOfTheScale) {
     const auto springs = buffer_of<Spring>({{0, 1, 1.0f, 1.0f}});
     const Image image = draw({.springs = springs.id(), .spring_count = 1, .full_strain = 0.1f});
-    const auto at = [&](int x) { return test::mean_color(image, x, kHeight - 8, 1, 1); };
+    const auto at = [&](int x) { return test::mean_color(image, x, kOverlayHeight - 8, 1, 1); };
     for (int channel = 0; channel < 3; ++channel) {
         EXPECT_NEAR(at(5)[channel], 255.0 * static_cast<double>(strain_colors().front()[channel]), 12.0);
         EXPECT_NEAR(at(5 + 60)[channel], 255.0 * static_cast<double>(strain_colors()[2][channel]), 12.0);

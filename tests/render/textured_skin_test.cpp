@@ -74,13 +74,13 @@ protected:
     }
     Image picture_of(Simulator& simulator, const glm::vec3& color = glm::vec3(-1.0f),
                      const Overlays& overlays = {}) const {
-        Renderer renderer({.width = kWidth, .height = kHeight, .quality = GetParam()});
+        Renderer renderer({.width = kOverlayWidth, .height = kOverlayHeight, .quality = GetParam()});
         renderer.set_surroundings({.bounds = {{-0.7f, 0.0f, -0.3f}, {0.7f, 1.0f, 0.3f}},
                                    .floor_height = 0.0f,
                                    .props = {},
                                    .colors = {color}});
         renderer.draw(simulator.render_view(overlays), kEye);
-        FrameGrabber grabber(kWidth, kHeight);
+        FrameGrabber grabber(kOverlayWidth, kOverlayHeight);
         grabber.grab(renderer.framebuffer());
         return *grabber.flush();
     }
@@ -95,9 +95,10 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Qualities, TexturedSkinTest, kQualities, name_of_quality);
 
 glm::ivec2 pixel_of(const glm::vec3& point) {
-    const glm::vec4 clip =
-        kEye.projection(static_cast<float>(kWidth) / kHeight) * kEye.view() * glm::vec4(point, 1.0f);
-    return {(0.5f + 0.5f * clip.x / clip.w) * kWidth, (0.5f - 0.5f * clip.y / clip.w) * kHeight};
+    const glm::vec4 clip = kEye.projection(static_cast<float>(kOverlayWidth) / kOverlayHeight) * kEye.view() *
+                           glm::vec4(point, 1.0f);
+    return {(0.5f + 0.5f * clip.x / clip.w) * kOverlayWidth,
+            (0.5f - 0.5f * clip.y / clip.w) * kOverlayHeight};
 }
 
 // Whichever of the three is weak in the picture is weak in the quarter's colour.
@@ -132,7 +133,7 @@ TEST_P(TexturedSkinTest, ThePictureMovesWithTheSurface) {
                 std::abs(std::abs(at.x - 0.5) - 0.25) < 0.15 && std::abs(std::abs(at.y - 0.5) - 0.25) < 0.12;
             if (at.z < 0.999 || !is_in_a_quarter) continue;
             const glm::ivec2 pixel = pixel_of(now);
-            ASSERT_TRUE(pixel.x >= 0 && pixel.x < kWidth && pixel.y >= 0 && pixel.y < kHeight);
+            ASSERT_TRUE(pixel.x >= 0 && pixel.x < kOverlayWidth && pixel.y >= 0 && pixel.y < kOverlayHeight);
             const glm::dvec3 quarter = kQuarters[at.y > 0.5 ? 1 : 0][at.x > 0.5 ? 1 : 0];
             EXPECT_TRUE(has_hue(test::mean_color(image, pixel.x, pixel.y, 1, 1), quarter))
                 << at.x << ' ' << at.y;

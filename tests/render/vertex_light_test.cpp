@@ -17,7 +17,7 @@
 namespace gelatin::render {
 namespace {
 
-constexpr int kWidth = 320, kHeight = 200;
+constexpr int kLightWidth = 320, kLightHeight = 200;
 const glm::vec4 kColor(0.7f, 0.2f, 0.05f, 1.0f);
 
 // The part of light that is mirrored.
@@ -82,8 +82,8 @@ class VertexLightTest : public test::GlTest {
 protected:
     static constexpr int kFrequency = 5;
     const View view_{.camera = {{1.0f, 1.5f, 4.0f}, {0.0f, 0.2f, 0.0f}, 35.0f},
-                     .width = kWidth,
-                     .height = kHeight,
+                     .width = kLightWidth,
+                     .height = kLightHeight,
                      .bounds = {{-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f}},
                      .floor_height = {}};
     const SurfaceMesh ball_ = make_sphere({0.5, kFrequency});
@@ -155,7 +155,7 @@ TEST_F(VertexLightTest, ColorsFollowTheFormula) {
 TEST_F(VertexLightTest, PositionsAreThoseOfTheCamera) {
     light(1.0);
     const glm::mat4 to_clip =
-        view_.camera.projection(static_cast<float>(kWidth) / kHeight) * view_.camera.view();
+        view_.camera.projection(static_cast<float>(kLightWidth) / kLightHeight) * view_.camera.view();
     ASSERT_EQ(clip_positions_.size(), ball_.positions.size());
     for (std::size_t v = 0; v < ball_.positions.size(); ++v) {
         const glm::vec4 expected = to_clip * glm::vec4(glm::vec3(ball_.positions[v]), 1.0f);

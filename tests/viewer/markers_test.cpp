@@ -8,7 +8,7 @@
 namespace gelatin::viewer {
 namespace {
 
-CameraController camera() {
+CameraController marker_camera() {
     CameraController controller;
     controller.set({{0.0f, 0.0f, 4.0f}, {0.0f, 0.0f, 0.0f}, glm::degrees(2.0f * std::atan(0.5f))});
     return controller;
@@ -39,7 +39,7 @@ TEST(Markers, ShowWhatIsHeldWhereItIs) {
     std::vector<HeldNodes> held = {nodes_at({0.0, 0.0, 0.0}, false, 0), nodes_at({1.0, 0.0, 0.0}, false, 1),
                                    nodes_at({0.0, 2.0, 0.0}, true, 0)};
     held[1].target.move = {-2.0, 0.0, 0.0};
-    const std::vector<Marker> markers = make_markers(held, scene, camera());
+    const std::vector<Marker> markers = make_markers(held, scene, marker_camera());
     ASSERT_EQ(markers.size(), 3u);
     EXPECT_EQ(markers[0].name, "pin of 'bar'") << "a handle without keyframes is one";
     EXPECT_EQ(markers[1].name, "handle of 'bar'");
@@ -54,7 +54,7 @@ TEST(Markers, LeaveOutWhatIsNotHeldOrNotSeen) {
     held[0].is_released = true;
     held[1].count = 0;
     held[2].center = held[2].pivot = {0.0, 0.0, 4.5};
-    EXPECT_TRUE(make_markers(held, scene_with(0, 1), camera()).empty());
+    EXPECT_TRUE(make_markers(held, scene_with(0, 1), marker_camera()).empty());
 }
 
 TEST(Markers, ThePointerFindsTheNearest) {

@@ -15,7 +15,7 @@ namespace {
 
 using test::Deformation;
 
-constexpr double kStep = 1e-3;  // [s]
+constexpr double kSelfStep = 1e-3;  // [s]
 
 std::uint32_t total(const test::SelfContacts& counts) {
     return std::accumulate(counts.begin(), counts.end(), 0u);
@@ -96,7 +96,7 @@ TEST(RespondToSelf, KeepsMomentumAndLosesEnergy) {
         const std::vector<glm::dvec4> before(model.velocities.begin(), model.velocities.end());
         for (const CollisionSettings& settings : {CollisionSettings{.friction = 0.0, .restitution = 1.0},
                                                   CollisionSettings{.friction = 0.5, .restitution = 0.3}}) {
-            const auto after = test::respond_to_self_on_cpu<double>(model, settings, kStep).velocities;
+            const auto after = test::respond_to_self_on_cpu<double>(model, settings, kSelfStep).velocities;
             EXPECT_LT(glm::distance(momentum(model, after), momentum(model, before)),
                       1e-13 * glm::length(momentum(model, before)));
             const double energy = kinetic_energy(model, before);
@@ -114,7 +114,7 @@ TEST(RespondToSelf, LeavesPinnedNodesAndOtherFacesAlone) {
         for (const std::uint32_t n : {model.faces[f].a, model.faces[f].b, model.faces[f].c})
             touched[n] = true;
     }
-    const cpu::Nodes<double> after = test::respond_to_self_on_cpu<double>(model, {}, kStep);
+    const cpu::Nodes<double> after = test::respond_to_self_on_cpu<double>(model, {}, kSelfStep);
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
         if (touched[n] && model.positions[n].w > 0.0f) continue;
         EXPECT_EQ(after.positions[n], glm::dvec4(model.positions[n]));
@@ -144,9 +144,9 @@ TEST(RespondToSelf, LumpsPartByTheRestitution) {
 
 TEST(RespondToSelf, GivesTheSameBitsForAnyNumberOfThreads) {
     const Model model = test::make_folded(Deformation::crushed);
-    const cpu::Nodes<float> many = test::respond_to_self_on_cpu<float>(model, {}, kStep);
+    const cpu::Nodes<float> many = test::respond_to_self_on_cpu<float>(model, {}, kSelfStep);
     const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-    const cpu::Nodes<float> one = test::respond_to_self_on_cpu<float>(model, {}, kStep);
+    const cpu::Nodes<float> one = test::respond_to_self_on_cpu<float>(model, {}, kSelfStep);
     EXPECT_EQ(one.positions, many.positions);
     EXPECT_EQ(one.velocities, many.velocities);
 }

@@ -11,7 +11,7 @@
 namespace gelatin {
 namespace {
 
-constexpr double kStep = 1e-3;  // [s]
+constexpr double kResponseStep = 1e-3;  // [s]
 
 Body make_cube(glm::dvec3 place, glm::dvec3 velocity) {
     Body body = test::make_body(test::make_block({1, 1, 1}, {1, 1, 1}));
@@ -42,7 +42,7 @@ glm::dvec3 momentum_of(const Model& model, const std::vector<glm::dvec4>& veloci
 
 template <class Real>
 double momentum_error(const Model& model, const CollisionSettings& settings) {
-    const cpu::Nodes<Real> after = test::respond_on_cpu<Real>(model, settings, kStep);
+    const cpu::Nodes<Real> after = test::respond_on_cpu<Real>(model, settings, kResponseStep);
     const glm::dvec3 change = momentum_of(model, {after.velocities.begin(), after.velocities.end()}) -
                               momentum_of(model, {model.velocities.begin(), model.velocities.end()});
     double scale = 0.0;
@@ -67,7 +67,7 @@ TEST(Respond, ReboundsByTheRestitution) {
     const double up = 3.0, down = -2.0;  // [m/s]
     const Model model = make_stack({0, down, 0}, {0, up, 0});
     const cpu::Nodes<double> after =
-        test::respond_on_cpu<double>(model, {.friction = 0.0, .restitution = 0.6}, kStep);
+        test::respond_on_cpu<double>(model, {.friction = 0.0, .restitution = 0.6}, kResponseStep);
     int lower = 0, upper = 0;
     double lower_speed = 0.0, upper_speed = 0.0;
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
@@ -82,9 +82,9 @@ TEST(Respond, ReboundsByTheRestitution) {
 }
 
 TEST(Respond, SlowerThanGravityNothingBounces) {
-    const Model model = make_stack({0, -1.9 * 9.81 * kStep, 0}, {0, 0, 0});
+    const Model model = make_stack({0, -1.9 * 9.81 * kResponseStep, 0}, {0, 0, 0});
     const cpu::Nodes<double> after =
-        test::respond_on_cpu<double>(model, {.friction = 0.0, .restitution = 1.0}, kStep);
+        test::respond_on_cpu<double>(model, {.friction = 0.0, .restitution = 1.0}, kResponseStep);
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
         EXPECT_LE(after.velocities[n].y, 0.0) << "what moved has the velocity they have in common";
     }
@@ -92,7 +92,7 @@ TEST(Respond, SlowerThanGravityNothingBounces) {
 
 TEST(Respond, LeavesAloneWhatParts) {
     const Model model = make_stack({0, 1, 0}, {0, -1, 0});
-    const cpu::Nodes<double> after = test::respond_on_cpu<double>(model, {}, kStep);
+    const cpu::Nodes<double> after = test::respond_on_cpu<double>(model, {}, kResponseStep);
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
         EXPECT_FALSE(moved(model, after, n));
         EXPECT_EQ(glm::vec3(after.positions[n]), glm::vec3(model.positions[n]));
@@ -101,19 +101,19 @@ TEST(Respond, LeavesAloneWhatParts) {
 
 TEST(Respond, BringsNodesBackAlongTheNormalAlone) {
     const Model model = make_stack({1, -3, 0}, {1, 3, 0});
-    const auto before = test::positions_before(model, kStep);
+    const auto before = test::positions_before(model, kResponseStep);
     const cpu::Nodes<double> after =
-        test::respond_on_cpu<double>(model, {.friction = 0.0, .restitution = 0.0}, kStep);
+        test::respond_on_cpu<double>(model, {.friction = 0.0, .restitution = 0.0}, kResponseStep);
     double common = 0.0;  // the velocity of the contact: what both sides' corners have afterwards
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
         if (moved(model, after, n)) common = after.velocities[n].y;
     }
     EXPECT_GT(common, 0.0) << "the heavier one came from below";
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
-        const double x = static_cast<double>(before[n].x) + kStep;
+        const double x = static_cast<double>(before[n].x) + kResponseStep;
         EXPECT_NEAR(after.positions[n].x, x, 1e-6) << "slid on";
         if (!moved(model, after, n)) continue;
-        EXPECT_NEAR(after.positions[n].y, static_cast<double>(before[n].y) + kStep * common, 1e-6);
+        EXPECT_NEAR(after.positions[n].y, static_cast<double>(before[n].y) + kResponseStep * common, 1e-6);
     }
 }
 
@@ -123,7 +123,7 @@ TEST(Respond, SlowsByFriction) {
     const Model model = make_stack({slide, -fall, 0}, {0, 0, 0});
     for (const double friction : {0.1, 0.3, 50.0}) {
         const cpu::Nodes<double> after =
-            test::respond_on_cpu<double>(model, {.friction = friction, .restitution = 0.0}, kStep);
+            test::respond_on_cpu<double>(model, {.friction = friction, .restitution = 0.0}, kResponseStep);
         glm::dvec3 impulse(0.0);
         glm::dvec3 upper_velocity(0.0), lower_velocity(0.0);
         for (std::uint32_t n = 0; n < model.node_count(); ++n) {
@@ -148,7 +148,7 @@ TEST(Respond, APinnedBodyIsAWall) {
     wall.pins = {BoxRegion{{-9, -9, -9}, {9, 9, 9}}};
     const Model model = pack_bodies({wall, make_cube({0, 0.99, 0}, {0, -4, 0})}, {}, {0.0, -9.81, 0.0});
     const cpu::Nodes<double> after =
-        test::respond_on_cpu<double>(model, {.friction = 0.0, .restitution = 0.5}, kStep);
+        test::respond_on_cpu<double>(model, {.friction = 0.0, .restitution = 0.5}, kResponseStep);
     int bounced = 0;
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
         if (n < model.objects[1].nodes.first) {
@@ -169,7 +169,7 @@ TEST(Respond, AMovingHandlePushes) {
     Model model = pack_bodies({wall, make_cube({0, 0.99, 0}, {0, 0, 0})}, {}, {0.0, -9.81, 0.0});
     test::move_pinned(model, {0.0f, 3.0f, 0.0f});
     const cpu::Nodes<double> after =
-        test::respond_on_cpu<double>(model, {.friction = 0.0, .restitution = 0.5}, kStep);
+        test::respond_on_cpu<double>(model, {.friction = 0.0, .restitution = 0.5}, kResponseStep);
     int pushed = 0;
     for (std::uint32_t n = model.objects[1].nodes.first; n < model.node_count(); ++n) {
         if (!moved(model, after, n)) continue;
@@ -187,8 +187,8 @@ TEST(Respond, DoesNotDependOnTheFrame) {
     Model moving = still;
     for (glm::vec4& v : moving.velocities) v += glm::vec4(common, 0.0f);
     const CollisionSettings settings{.friction = 0.3, .restitution = 0.5};
-    const cpu::Nodes<double> one = test::respond_on_cpu<double>(still, settings, kStep);
-    const cpu::Nodes<double> two = test::respond_on_cpu<double>(moving, settings, kStep);
+    const cpu::Nodes<double> one = test::respond_on_cpu<double>(still, settings, kResponseStep);
+    const cpu::Nodes<double> two = test::respond_on_cpu<double>(moving, settings, kResponseStep);
     for (std::uint32_t n = 0; n < still.node_count(); ++n) {
         EXPECT_LT(
             glm::distance(glm::dvec3(one.velocities[n]) + glm::dvec3(common), glm::dvec3(two.velocities[n])),
@@ -199,9 +199,9 @@ TEST(Respond, DoesNotDependOnTheFrame) {
 
 TEST(Respond, IsTheSameForAnyNumberOfThreads) {
     const Model model = test::make_crowd(60, 5);
-    const cpu::Nodes<float> parallel = test::respond_on_cpu<float>(model, {}, kStep);
+    const cpu::Nodes<float> parallel = test::respond_on_cpu<float>(model, {}, kResponseStep);
     const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-    const cpu::Nodes<float> serial = test::respond_on_cpu<float>(model, {}, kStep);
+    const cpu::Nodes<float> serial = test::respond_on_cpu<float>(model, {}, kResponseStep);
     EXPECT_EQ(parallel.positions, serial.positions);
     EXPECT_EQ(parallel.velocities, serial.velocities);
 }

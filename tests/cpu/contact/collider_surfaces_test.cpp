@@ -173,7 +173,7 @@ double greatest_speed(const ColliderDescription& collider) {
 }
 
 // Violent scenes among boxes, balls and capsules that move and turn.
-void fuzz(unsigned first, unsigned count) {
+void fuzz_colliders(unsigned first, unsigned count) {
     for (unsigned seed = first; seed < first + count; ++seed) {
         test::RandomMaker random(seed);
         std::vector<Block> blocks;
@@ -212,12 +212,12 @@ void fuzz(unsigned first, unsigned count) {
 }
 
 TEST(ColliderSurfaces, NothingPassesThroughThem) {
-    fuzz(1, 12);
-    fuzz(251, 1);  // a ball tears a soft body, which stays tangled
+    fuzz_colliders(1, 12);
+    fuzz_colliders(251, 1);  // a ball tears a soft body, which stays tangled
 }
 
 TEST(ColliderSurfacesLong, NothingPassesThroughThem) {
-    fuzz(100, 400);
+    fuzz_colliders(100, 400);
 }
 
 }  // namespace

@@ -15,11 +15,11 @@ namespace {
 using cpu::Closeness;
 using Corners = std::array<glm::dvec3, 4>;
 
-constexpr double kReach = 0.1;  // [m]
-constexpr int kSamples = 100;
+constexpr double kCourseReach = 0.1;  // [m]
+constexpr int kCourseSamples = 100;
 
 cpu::ContactPair make_pair(bool are_edges) {
-    return {{0, 1, 2, 3}, {}, 0, 0, 0, 0, are_edges ? 2u : 1u, float(kReach)};
+    return {{0, 1, 2, 3}, {}, 0, 0, 0, 0, are_edges ? 2u : 1u, float(kCourseReach)};
 }
 
 glm::dvec3 apart(const cpu::ContactPair& pair, const Corners& at) {
@@ -60,7 +60,7 @@ struct MovingPair {
         aim = {glm::normalize(between), glm::length(between), yielding};
     }
     cpu::PairCourse<double> course(Closeness closeness) const {
-        return cpu::best_course<double>(pair, aim, kReach, nodes, motions, closeness);
+        return cpu::best_course<double>(pair, aim, kCourseReach, nodes, motions, closeness);
     }
 
     cpu::ContactPair pair;
@@ -72,7 +72,7 @@ struct MovingPair {
 // stays as it is, is always free.
 TEST(LeastGap, IsAPartOfTheGap) {
     const auto least = [](double yielding, double gap, Closeness closeness) {
-        return cpu::least_gap<double>({{1, 0, 0}, gap, yielding}, kReach, gap, closeness);
+        return cpu::least_gap<double>({{1, 0, 0}, gap, yielding}, kCourseReach, gap, closeness);
     };
     // Constants are those of float.
     EXPECT_NEAR(least(0.5, 1.0, Closeness::motion), 0.1, 1e-8);
@@ -123,8 +123,8 @@ TEST(PairCourse, LeavesTheGapWhereItIsFree) {
             }
             ++free;
             const double least = std::min(course.least, course.gap_at(0.0));
-            for (int k = 0; k <= kSamples; ++k) {
-                const double part = double(k) / kSamples;
+            for (int k = 0; k <= kCourseSamples; ++k) {
+                const double part = double(k) / kCourseSamples;
                 const double gap = gap_at(moving.pair, moving.nodes, moving.motions, part);
                 ASSERT_GE(gap, least - 1e-12) << seed << ", at " << part;
                 ASSERT_GE(gap, course.gap_at(part) - 1e-12) << seed << ", at " << part;
@@ -149,7 +149,7 @@ TEST(PairCourse, LeavesTheGapWhateverPartsNodesMake) {
             continue;
         }
         ++free;
-        for (int sample = 0; sample < kSamples; ++sample) {
+        for (int sample = 0; sample < kCourseSamples; ++sample) {
             std::array<double, 4> parts;
             for (std::size_t k = 0; k < 4; ++k)
                 parts[k] = most[k] * double(random.integer(0, 4)) / 4.0;  // all and none among them
@@ -185,7 +185,7 @@ TEST(PairCourse, IsFreeForWhatPassesBeside) {
             (moving.pair.side_of(k) == 0 ? top : low) =
                 moving.pair.side_of(k) == 0 ? std::max(top, height) : std::min(low, height);
         }
-        const double gap = random.magnitude(0.06, 2.0) * kReach;
+        const double gap = random.magnitude(0.06, 2.0) * kCourseReach;
         for (std::size_t k = 0; k < 4; ++k) {
             const bool is_first = moving.pair.side_of(k) == 0;
             if (!is_first) moving.nodes[k] += (top - low + gap) * direction;
@@ -224,13 +224,13 @@ TEST(PairCourse, IsFreeForWhatSlidesAbove) {
             const glm::dvec3 between = apart(pair, nodes);
             const cpu::PairAim<double> aim{glm::normalize(between), glm::length(between), 0.5};
             const Corners motions{motion, pair.is_edges() ? motion : glm::dvec3(0), {0, 0, 0}, {0, 0, 0}};
-            EXPECT_TRUE(
-                cpu::best_course<double>(pair, aim, kReach, nodes, motions, Closeness::motion).is_free());
+            EXPECT_TRUE(cpu::best_course<double>(pair, aim, kCourseReach, nodes, motions, Closeness::motion)
+                            .is_free());
             Corners through = motions;  // but not if it goes through on the way
             through[0].z -= 0.6 * side;
             if (pair.is_edges()) through[1].z -= 0.6 * side;
-            EXPECT_FALSE(
-                cpu::best_course<double>(pair, aim, kReach, nodes, through, Closeness::motion).is_free());
+            EXPECT_FALSE(cpu::best_course<double>(pair, aim, kCourseReach, nodes, through, Closeness::motion)
+                             .is_free());
         }
     }
 }
@@ -252,15 +252,15 @@ TEST(PairApart, IsApartAllTheWay) {
         }
         const double start = gap_at(pair, nodes, motions, 0.0);
         const cpu::PairAim<double> aim{{1, 0, 0}, start, 0.5};
-        const double part = cpu::part_apart<double>(pair, aim, kReach, nodes, moved, Closeness::motion);
-        if (is_rigid && start > kReach) {
+        const double part = cpu::part_apart<double>(pair, aim, kCourseReach, nodes, moved, Closeness::motion);
+        if (is_rigid && start > kCourseReach) {
             EXPECT_EQ(part, 1.0) << round;
         }
         if (part < 1.0) {
             ++parts;
-            const double least = cpu::least_gap<double>(aim, kReach, start, Closeness::motion);
-            for (int k = 0; k <= kSamples; ++k)
-                ASSERT_GE(gap_at(pair, nodes, motions, part * k / kSamples), least - 1e-12) << round;
+            const double least = cpu::least_gap<double>(aim, kCourseReach, start, Closeness::motion);
+            for (int k = 0; k <= kCourseSamples; ++k)
+                ASSERT_GE(gap_at(pair, nodes, motions, part * k / kCourseSamples), least - 1e-12) << round;
             continue;
         }
         ++whole;

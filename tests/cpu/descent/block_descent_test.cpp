@@ -16,7 +16,7 @@
 namespace gelatin {
 namespace {
 
-constexpr double kFrame = 1.0 / 60.0;  // [s]
+constexpr double kDescentFrame = 1.0 / 60.0;  // [s]
 const glm::dvec3 kGravity(0.0, -9.81, 0.0);
 
 struct BlockOf {
@@ -124,7 +124,7 @@ double norm(const std::vector<glm::dvec3>& vectors) {
 }
 
 TEST(BlockDescent, FreeFallIsExact) {
-    for (const double step : {1e-5, 1e-3, kFrame, 1.0 / 30.0}) {
+    for (const double step : {1e-5, 1e-3, kDescentFrame, 1.0 / 30.0}) {
         const Model model = make_model({.velocity = {1.0, 2.0, 3.0}});
         const cpu::Nodes<double> nodes = run_steps<double>(model, step, 10, 4);
         for (std::uint32_t n = 0; n < model.node_count(); ++n) {
@@ -143,10 +143,12 @@ TEST(BlockDescent, ConvergesToImplicitEuler) {
     for (const double modulus : {1e4, 1e6}) {
         Model model = make_model({.youngs_modulus = modulus, .pins = {HalfSpaceRegion{{1, 0, 0}, 1e-6}}});
         for (glm::vec4& v : model.velocities) v.y += 0.3f;
-        const double start = norm(gradient(model, kFrame, run_steps<double>(model, kFrame, 1, 1)));
+        const double start =
+            norm(gradient(model, kDescentFrame, run_steps<double>(model, kDescentFrame, 1, 1)));
         double last = start;
         for (const int iterations : {10, 100, 1000, 10000}) {
-            const double now = norm(gradient(model, kFrame, run_steps<double>(model, kFrame, 1, iterations)));
+            const double now =
+                norm(gradient(model, kDescentFrame, run_steps<double>(model, kDescentFrame, 1, iterations)));
             EXPECT_LT(now, std::max(last, 1e-12 * start)) << modulus << " Pa, " << iterations << " sweeps";
             last = now;
         }
@@ -162,7 +164,7 @@ TEST(BlockDescent, AFreeBodyKeepsItsMomentum) {
         for (std::uint32_t n = 0; n < model.node_count(); ++n)
             model.velocities[n] += 2.0f * glm::vec4(-model.positions[n].y, model.positions[n].x, 0.0f, 0.0f);
         const Momenta before = momenta_of(nodes_of<double>(model)),
-                      after = momenta_of(run_steps<double>(model, kFrame, 30, 10));
+                      after = momenta_of(run_steps<double>(model, kDescentFrame, 30, 10));
         EXPECT_LT(glm::distance(after.linear, before.linear), 1e-10 * glm::length(before.linear));
         EXPECT_LT(glm::distance(after.angular, before.angular), 0.02 * glm::length(before.angular));
     }
@@ -180,7 +182,7 @@ int count_recovered(double modulus, Start start, int tries) {
             if (start == Start::point) p = glm::vec4(0.0f, 0.0f, 0.0f, p.w);
         }
         shake(model, start == Start::random ? 0.3f : 1e-6f, static_cast<unsigned>(seed));
-        recovered += worst_strain(model, run_steps<float>(model, kFrame, 300, 20)) < 0.01 ? 1 : 0;
+        recovered += worst_strain(model, run_steps<float>(model, kDescentFrame, 300, 20)) < 0.01 ? 1 : 0;
     }
     return recovered;
 }
@@ -202,7 +204,7 @@ TEST(BlockDescentHeavy, RecoversFromMostStarts) {
 
 TEST(BlockDescent, PinnedNodesStay) {
     const Model model = make_model({.pins = {HalfSpaceRegion{{1, 0, 0}, 1e-6}}});
-    const cpu::Nodes<float> nodes = run_steps<float>(model, kFrame, 20, 5);
+    const cpu::Nodes<float> nodes = run_steps<float>(model, kDescentFrame, 20, 5);
     int pinned = 0;
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
         if (model.positions[n].w > 0.0f) continue;
@@ -217,7 +219,7 @@ TEST(BlockDescent, RestsOnTheFloor) {
     ColliderDescription floor;
     floor.shape = PlaneCollider{{0.0, 1.0, 0.0}, -0.05};
     const Model model = make_model({.youngs_modulus = 2e5, .damping = 0.01, .colliders = {floor}});
-    const cpu::Nodes<float> nodes = run_steps<float>(model, kFrame, 240, 20);
+    const cpu::Nodes<float> nodes = run_steps<float>(model, kDescentFrame, 240, 20);
     double lowest = 1.0, fastest = 0.0;
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
         lowest = std::min(lowest, static_cast<double>(nodes.positions[n].y));
@@ -232,8 +234,8 @@ TEST(BlockDescent, GivesNoSpeedToWhatStartsInsideACollider) {
     ColliderDescription floor;
     floor.shape = PlaneCollider{{0.0, 1.0, 0.0}, 1.0};
     const Model model = make_model({.colliders = {floor}, .gravity = {0, 0, 0}});
-    const cpu::Nodes<double> nodes = run_steps<double>(model, kFrame, 1, 1);
-    const double popped = 0.7 / kFrame;  // [m/s], if the way out of the floor counted
+    const cpu::Nodes<double> nodes = run_steps<double>(model, kDescentFrame, 1, 1);
+    const double popped = 0.7 / kDescentFrame;  // [m/s], if the way out of the floor counted
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
         EXPECT_GE(nodes.positions[n].y, 1.0 - 1e-9);
         EXPECT_LT(glm::length(glm::dvec3(nodes.velocities[n])), 0.5 * popped);
@@ -248,7 +250,7 @@ TEST(BlockDescent, FrictionIsCoulombs) {
     const double speed = 1.0;
     const Model model = make_model(
         {.youngs_modulus = 1e6, .damping = 0.01, .velocity = {speed, 0.0, 0.0}, .colliders = {floor}});
-    const cpu::Nodes<double> nodes = run_steps<double>(model, kFrame, 120, 30);
+    const cpu::Nodes<double> nodes = run_steps<double>(model, kDescentFrame, 120, 30);
     glm::dvec3 displacement(0.0);
     double mass = 0.0;
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
@@ -268,12 +270,12 @@ TEST(BlockDescent, BlocksSlideDownSlopes) {
     floor.friction = 0.1;
     const glm::dvec3 gravity(3.0, -9.0, 0.0);
     const int steps = 30;
-    const double speed = steps * kFrame * (gravity.x + floor.friction * gravity.y);
+    const double speed = steps * kDescentFrame * (gravity.x + floor.friction * gravity.y);
     const auto error = [&](double youngs_modulus, int iterations, unsigned seed) {
         const Model model = make_model(
             {.youngs_modulus = youngs_modulus, .colliders = {floor}, .gravity = gravity, .seed = seed});
         const double mass = std::accumulate(model.masses.begin(), model.masses.end(), 0.0);
-        const cpu::Nodes<double> nodes = run_steps<double>(model, kFrame, steps, iterations);
+        const cpu::Nodes<double> nodes = run_steps<double>(model, kDescentFrame, steps, iterations);
         return std::abs(momenta_of(nodes).linear.x / mass / speed - 1.0);
     };
     std::vector<double> of_few_sweeps;
@@ -318,7 +320,7 @@ TEST(BlockDescent, IsTheSameInAnyBatches) {
             cpu::Nodes<float> previous = nodes_of<float>(*model), current = previous;
             for (int s = 0; s < 3; ++s) {
                 if (s > 0) std::swap(previous, current);
-                descent.run(kFrame, s > 0, previous, current);
+                descent.run(kDescentFrame, s > 0, previous, current);
             }
             return current;
         };
@@ -334,9 +336,9 @@ TEST(BlockDescent, IsTheSameInAnyBatches) {
 TEST(BlockDescent, IsTheSameForAnyNumberOfThreads) {
     Model model = make_model({.youngs_modulus = 1e5});
     shake(model, 0.1f);
-    const cpu::Nodes<float> parallel = run_steps<float>(model, kFrame, 5, 10);
+    const cpu::Nodes<float> parallel = run_steps<float>(model, kDescentFrame, 5, 10);
     const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-    const cpu::Nodes<float> serial = run_steps<float>(model, kFrame, 5, 10);
+    const cpu::Nodes<float> serial = run_steps<float>(model, kDescentFrame, 5, 10);
     EXPECT_EQ(parallel.positions, serial.positions);
     EXPECT_EQ(parallel.velocities, serial.velocities);
 }

@@ -13,7 +13,7 @@ using test::kFrame;
 using test::make_blocks;
 using test::make_solver;
 
-constexpr double kWeight = 27.0 * 9.81;  // of a block [N]
+constexpr double kHeldWeight = 27.0 * 9.81;  // of a block [N]
 
 // A block that is held carries the one on it; both are on no floor.
 TEST(HoldingForces, CarryWhatPressesTheHeldNodes) {
@@ -23,7 +23,7 @@ TEST(HoldingForces, CarryWhatPressesTheHeldNodes) {
     for (int frame = 0; frame < 240; ++frame) solver.advance_nodes(kFrame);
     const HoldingForces forces = solver.holding_forces();
     ASSERT_EQ(forces.by_handle.size(), 1u);
-    EXPECT_NEAR(forces.by_handle[0].y, 2 * kWeight, 0.01 * kWeight);
+    EXPECT_NEAR(forces.by_handle[0].y, 2 * kHeldWeight, 0.01 * kHeldWeight);
 }
 
 // What pins exert is what double precision says, node by node.
@@ -39,9 +39,9 @@ TEST(HoldingForces, AreThoseOfTheReference) {
             reference.advance_nodes(kFrame);
         }
         const HoldingForces forces = solver.holding_forces(), expected = reference.holding_forces();
-        EXPECT_GT(glm::length(expected.by_handle[0]), 0.5 * kWeight);
+        EXPECT_GT(glm::length(expected.by_handle[0]), 0.5 * kHeldWeight);
         for (std::uint32_t n = 0; n < model->node_count(); ++n)
-            EXPECT_LT(glm::distance(forces.nodes[n], expected.nodes[n]), 1e-3 * kWeight) << n;
+            EXPECT_LT(glm::distance(forces.nodes[n], expected.nodes[n]), 1e-3 * kHeldWeight) << n;
     }
 }
 

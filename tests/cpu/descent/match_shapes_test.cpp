@@ -17,14 +17,14 @@
 namespace gelatin {
 namespace {
 
-constexpr double kFrame = 1.0 / 60.0;  // [s]
+constexpr double kMatchFrame = 1.0 / 60.0;  // [s]
 
-struct Momenta {
+struct ObjectMomenta {
     glm::dvec3 linear{0.0}, angular{0.0};  // about the origin
 };
 
-Momenta momenta_of(const Model& model, const ModelObject& object, const cpu::Nodes<double>& nodes) {
-    Momenta sum;
+ObjectMomenta object_momenta(const Model& model, const ModelObject& object, const cpu::Nodes<double>& nodes) {
+    ObjectMomenta sum;
     for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
         const glm::dvec3 p = static_cast<double>(model.masses[n]) * glm::dvec3(nodes.velocities[n]);
         sum.linear += p;
@@ -62,7 +62,8 @@ TEST(ShapeMatcher, GivesLostShapesBackWithTheirMomentum) {
         const ModelObject& object = model.objects[o];
         EXPECT_GT(worst_strain(model, object, before), 1.0);
         EXPECT_LT(worst_strain(model, object, after), 1e-5);
-        const Momenta had = momenta_of(model, object, before), has = momenta_of(model, object, after);
+        const ObjectMomenta had = object_momenta(model, object, before),
+                            has = object_momenta(model, object, after);
         EXPECT_LT(glm::distance(has.linear, had.linear), 1e-6 * glm::length(had.linear));
         EXPECT_LT(glm::distance(has.angular, had.angular), 1e-6 * glm::length(had.angular));
     }
@@ -123,7 +124,7 @@ TEST(ShapeMatcher, LeavesHardImpacts) {
     cpu::CpuSolver<float> solver(model, SolverKind::vbd, ForceMethod::fused, {}, {20});
     double most_inverted = 0.0;
     for (int s = 0; s < 30; ++s) {
-        solver.advance_nodes(kFrame);
+        solver.advance_nodes(kMatchFrame);
         const cpu::Nodes<float> before = solver.nodes();
         cpu::Nodes<float> after = before;
         matcher.run(after);

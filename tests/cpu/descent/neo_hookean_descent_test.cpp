@@ -14,8 +14,8 @@
 namespace gelatin {
 namespace {
 
-constexpr double kFrame = 1.0 / 60.0;  // [s]
-const glm::dvec3 kGravity(0.0, -9.81, 0.0);
+constexpr double kTetFrame = 1.0 / 60.0;  // [s]
+const glm::dvec3 kTetGravity(0.0, -9.81, 0.0);
 
 Material neo_hookean(double youngs_modulus, double poisson_ratio = 0.4, double damping = 0.0) {
     Material material;
@@ -39,12 +39,12 @@ cpu::Nodes<Real> run_steps(const Model& model, int steps, int iterations) {
     cpu::Nodes<Real> current = previous;
     for (int s = 0; s < steps; ++s) {
         if (s > 0) std::swap(previous, current);
-        descent.run(static_cast<Real>(kFrame), s > 0, previous, current);
+        descent.run(static_cast<Real>(kTetFrame), s > 0, previous, current);
     }
     return current;
 }
 
-void shake(Model& model, float extent) {
+void shake_tets(Model& model, float extent) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> unit(-extent, extent);
     for (glm::vec4& p : model.positions) {
@@ -55,7 +55,7 @@ void shake(Model& model, float extent) {
 
 // The largest difference of an edge from its length in `rest`, over that.
 template <class Real>
-double worst_strain(const Model& rest, const cpu::Nodes<Real>& nodes) {
+double worst_tet_strain(const Model& rest, const cpu::Nodes<Real>& nodes) {
     double worst = 0.0;
     for (const glm::uvec2& edge : tet_edges(rest.tets)) {
         const double now =
@@ -74,14 +74,14 @@ double gradient_norm(const Model& model, const cpu::Nodes<double>& nodes) {
     for (const glm::dvec4& p : nodes.positions) {
         for (int axis = 0; axis < 3; ++axis) x[row++] = p[axis];
     }
-    return test::ImplicitEuler(model, kFrame).gradient(x).norm();
+    return test::ImplicitEuler(model, kTetFrame).gradient(x).norm();
 }
 
 TEST(NeoHookeanDescent, FreeFallIsExact) {
-    const Model model = test::make_model(make_block_of(neo_hookean(1e5)), kGravity);
+    const Model model = test::make_model(make_block_of(neo_hookean(1e5)), kTetGravity);
     const cpu::Nodes<double> nodes = run_steps<double>(model, 10, 4);
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
-        const glm::dvec3 fallen = glm::dvec3(model.positions[n]) + 55 * kFrame * kFrame * kGravity;
+        const glm::dvec3 fallen = glm::dvec3(model.positions[n]) + 55 * kTetFrame * kTetFrame * kTetGravity;
         EXPECT_LT(glm::distance(glm::dvec3(nodes.positions[n]), fallen), 1e-6);
     }
 }
@@ -92,7 +92,7 @@ TEST(NeoHookeanDescent, ConvergesToImplicitEuler) {
         const double floor = nu > 0.25 ? 1e-4 : 1e-9;
         Body body = make_block_of(neo_hookean(modulus, nu));
         body.pins = {HalfSpaceRegion{{1, 0, 0}, 1e-6}};
-        Model model = test::make_model(body, kGravity);
+        Model model = test::make_model(body, kTetGravity);
         for (glm::vec4& v : model.velocities) v.y += 0.3f;
         const double start = gradient_norm(model, run_steps<double>(model, 1, 1));
         double last = start;
@@ -105,12 +105,12 @@ TEST(NeoHookeanDescent, ConvergesToImplicitEuler) {
     }
 }
 
-struct Start {
+struct TetStart {
     const char* name;
     void (*make)(Model& model);
 };
-const Start kStarts[] = {
-    {"random", [](Model& model) { shake(model, 0.3f); }},
+const TetStart kStarts[] = {
+    {"random", [](Model& model) { shake_tets(model, 0.3f); }},
     {"plane",
      [](Model& model) {
          for (glm::vec4& p : model.positions) p.y = 0.0f;
@@ -131,16 +131,16 @@ const Start kStarts[] = {
 TEST(NeoHookeanDescentHeavy, RecoversFromAnyStart) {
     for (const double nu : {0.3, 0.45}) {
         for (const double modulus : {1e3, 1e6, 1e9}) {
-            for (const Start& start : kStarts) {
+            for (const TetStart& start : kStarts) {
                 if (nu > 0.4 && std::string(start.name) != "plane") continue;
                 const double damping = modulus < 1e4 ? 0.02 : 0.0;
                 const Model rest =
-                    test::make_model(make_block_of(neo_hookean(modulus, nu, damping)), kGravity);
+                    test::make_model(make_block_of(neo_hookean(modulus, nu, damping)), kTetGravity);
                 Model model = rest;
                 start.make(model);
                 const cpu::Nodes<float> nodes = run_steps<float>(model, modulus < 1e4 ? 600 : 300, 20);
                 // The softest still swing a little.
-                EXPECT_LT(worst_strain(rest, nodes), modulus < 1e4 ? 0.012 : 0.01)
+                EXPECT_LT(worst_tet_strain(rest, nodes), modulus < 1e4 ? 0.012 : 0.01)
                     << modulus << " Pa, Poisson's ratio " << nu << ", start: " << start.name;
             }
         }
@@ -149,7 +149,7 @@ TEST(NeoHookeanDescentHeavy, RecoversFromAnyStart) {
 
 TEST(NeoHookeanDescent, AFreeBodyKeepsItsMomentum) {
     Model model = test::make_model(make_block_of(neo_hookean(1e5, 0.4, 0.01)));
-    shake(model, 0.01f);
+    shake_tets(model, 0.01f);
     glm::dvec3 before(0.0), after(0.0);
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
         model.velocities[n] +=
@@ -167,7 +167,7 @@ double energy_of(const Model& model, const cpu::Nodes<double>& nodes) {
     return sums.kinetic_energy + sums.elastic_energy;
 }
 
-// A spin is damped by the step alone, not by the material; a shake is.
+// A spin is damped by the step alone, not by the material; a shake_tets is.
 TEST(NeoHookeanDescent, DampingTakesOscillationsNotSpin) {
     const auto energy_left = [](double damping, bool spins) {
         Model model = test::make_model(make_block_of(neo_hookean(1e4, 0.3, damping)));
@@ -183,8 +183,8 @@ TEST(NeoHookeanDescent, DampingTakesOscillationsNotSpin) {
 }
 
 TEST(NeoHookeanDescent, IsTheSameForAnyNumberOfThreads) {
-    Model model = test::make_model(make_block_of(neo_hookean(1e5, 0.4, 0.01)), kGravity);
-    shake(model, 0.1f);
+    Model model = test::make_model(make_block_of(neo_hookean(1e5, 0.4, 0.01)), kTetGravity);
+    shake_tets(model, 0.1f);
     const cpu::Nodes<float> parallel = run_steps<float>(model, 5, 10);
     const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
     const cpu::Nodes<float> serial = run_steps<float>(model, 5, 10);

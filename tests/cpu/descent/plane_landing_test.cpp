@@ -11,7 +11,7 @@
 namespace gelatin {
 namespace {
 
-constexpr double kStep = 1.0 / 60.0;  // [s]
+constexpr double kLandingStep = 1.0 / 60.0;  // [s]
 
 // A block that is turned round z and leads into a floor, and into a wall where x = 0. It has slid by `slip`
 // since the step began.
@@ -36,12 +36,12 @@ struct Landing {
         for (std::size_t n = 0; n < guess.size(); ++n) {
             guess[n] -= glm::dvec4(least.x + depth.x, least.y + depth.y, 0.0, 0.0);
             objective.step.starts[n] = guess[n] - glm::dvec4(slip, 0.0);
-            objective.step.targets[n] =
-                glm::dvec4(glm::dvec3(guess[n]), static_cast<double>(model->masses[n]) / (kStep * kStep));
+            objective.step.targets[n] = glm::dvec4(
+                glm::dvec3(guess[n]), static_cast<double>(model->masses[n]) / (kLandingStep * kLandingStep));
         }
         positions = guess;
         cpu::PlaneLanding<double> landing(model);
-        lands = landing.begin(kStep, objective, positions);
+        lands = landing.begin(kLandingStep, objective, positions);
         if (push == glm::dvec3(0.0)) return;
         positions = guess;
         std::vector<glm::dvec3> forces(guess.size());
@@ -52,7 +52,7 @@ struct Landing {
     double weight(double depth) const {  // that brings it down by so much in a step [N]
         double mass = 0.0;
         for (const float own : model->masses) mass += static_cast<double>(own);
-        return mass * depth / (kStep * kStep);
+        return mass * depth / (kLandingStep * kLandingStep);
     }
     int lowest_count() const {
         const double low = std::ranges::min(guess, {}, &glm::dvec4::y).y;

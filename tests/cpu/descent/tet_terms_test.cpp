@@ -10,7 +10,7 @@
 namespace gelatin {
 namespace {
 
-constexpr float kStep = 0.01f;  // [s]
+constexpr float kTermStep = 0.01f;  // [s]
 
 // What a step of the model begins with, but for positions: at rest where the model says, elsewhere `moved`.
 template <class Real>
@@ -23,10 +23,11 @@ cpu::StepObjective<Real> make_objective(const std::shared_ptr<const Model>& mode
         const glm::vec3 start = glm::vec3(model->positions[n]) + 0.01f * glm::vec3(x, y, z);
         objective.step.starts[n] = cpu::Vec4<Real>(cpu::Vec3<Real>(start), model->velocities[n].w);
         const float inverse_mass = model->positions[n].w;
-        objective.step.targets[n] = cpu::Vec4<Real>(
-            cpu::Vec3<Real>(start), inverse_mass > 0.0f ? 1.0f / (inverse_mass * kStep * kStep) : 0.0f);
+        objective.step.targets[n] =
+            cpu::Vec4<Real>(cpu::Vec3<Real>(start),
+                            inverse_mass > 0.0f ? 1.0f / (inverse_mass * kTermStep * kTermStep) : 0.0f);
     }
-    objective.begin(static_cast<Real>(kStep));
+    objective.begin(static_cast<Real>(kTermStep));
     return objective;
 }
 

@@ -20,7 +20,7 @@ using Corners = std::array<V, 4>;
 
 constexpr NeoHookeanModuli kModuli{3e4, 2e5, 0.0};  // [Pa]
 
-class Random {
+class RandomTets {
 public:
     double number() { return unit_(random_); }
     V point() { return {number(), number(), number()}; }
@@ -32,10 +32,10 @@ private:
     std::uniform_real_distribution<double> unit_{-1.0, 1.0};
 };
 
-const Corners kRest{V(0.1, 0, 0), V(0.9, 0.1, 0), V(0.2, 0.8, -0.1), V(0.3, 0.2, 0.7)};
+const Corners kRestTet{V(0.1, 0, 0), V(0.9, 0.1, 0), V(0.2, 0.8, -0.1), V(0.3, 0.2, 0.7)};
 
 NeoHookeanTet make_tet() {
-    return make_neo_hookean_tet({0, 1, 2, 3}, kRest, kModuli);
+    return make_neo_hookean_tet({0, 1, 2, 3}, kRestTet, kModuli);
 }
 double volume_of(const NeoHookeanTet& tet) {
     return static_cast<double>(tet.gradient_1.w);
@@ -83,10 +83,10 @@ double least_eigenvalue(const Eigen::Matrix3d& m) {
 
 // Shapes of all kinds: anything, inverted, flat, a line.
 std::vector<Corners> make_shapes() {
-    Random random;
+    RandomTets random;
     std::vector<Corners> shapes;
     for (int i = 0; i < 40; ++i) {
-        Corners any{random.point(), random.point(), random.point(), random.point()}, mirrored = kRest,
+        Corners any{random.point(), random.point(), random.point(), random.point()}, mirrored = kRestTet,
                                                                                      flat = any, line = any;
         for (V& p : mirrored) p.x *= -1.0 + 0.3 * random.number();
         for (V& p : flat) p.y = 0.5;
@@ -109,8 +109,8 @@ V central_difference(const std::function<double(const V&)>& value) {
 
 TEST(NeoHookean, IsAtRestAtRest) {
     const NeoHookeanTet tet = make_tet();
-    EXPECT_NEAR(energy_of(tet, kRest), 0.0, 1e-4);  // rest in single precision: 1e-7 of mu
-    for (std::uint32_t k = 0; k < 4; ++k) EXPECT_LT(glm::length(force_on(tet, k, kRest)), 0.05);
+    EXPECT_NEAR(energy_of(tet, kRestTet), 0.0, 1e-4);  // rest in single precision: 1e-7 of mu
+    for (std::uint32_t k = 0; k < 4; ++k) EXPECT_LT(glm::length(force_on(tet, k, kRestTet)), 0.05);
 }
 
 TEST(NeoHookean, ForcesAreTheGradientOfTheEnergyForAnyShape) {
@@ -158,7 +158,7 @@ TEST(NeoHookean, HessiansAreExactAndPositiveForAnyShape) {
 }
 
 TEST(NeoHookean, DoesNotSeeRotations) {
-    Random random;
+    RandomTets random;
     for (int i = 0; i < 50; ++i) {
         const M turn = random.rotation(), f = random.matrix();
         const cpu::TetModuli<double> moduli{kModuli.mu, kModuli.lambda};
@@ -170,7 +170,7 @@ TEST(NeoHookean, DoesNotSeeRotations) {
 
 // Small strains: stress 2 mu_L e + lambda_L tr e, to second order in e.
 TEST(NeoHookean, IsHookesLawAtSmallStrains) {
-    Random random;
+    RandomTets random;
     for (const double nu : {0.0, 0.25, 0.45}) {
         const double youngs = 1e5, shear = youngs / (2 * (1 + nu)), lame = 2 * shear * nu / (1 - 2 * nu);
         const NeoHookeanModuli moduli = neo_hookean_moduli(youngs, nu);
@@ -211,7 +211,7 @@ Corners turned(const Corners& x, const M& turn, const V& shift) {
 
 TEST(NeoHookeanViscosity, LeavesRigidMotionAlone) {
     const NeoHookeanTet tet = make_tet();
-    Random random;
+    RandomTets random;
     for (int i = 0; i < 20; ++i) {
         const Corners x{random.point(), random.point(), random.point(), random.point()};
         const V spin = 10.0 * random.point(), drift = random.point();
@@ -234,18 +234,18 @@ TEST(NeoHookeanViscosity, LeavesRigidMotionAlone) {
 // velocity.
 TEST(NeoHookeanViscosity, TakesEnergyAndIsKelvinVoigts) {
     const NeoHookeanTet tet = make_tet();
-    Random random;
+    RandomTets random;
     const double damping_time = 0.02, size = 1e-5;
     for (int i = 0; i < 50; ++i) {
         const Corners x{random.point(), random.point(), random.point(), random.point()};
         const Corners v{random.point(), random.point(), random.point(), random.point()};
         double power = 0.0;
         Corners moved;
-        for (std::size_t k = 0; k < 4; ++k) moved[k] = kRest[k] + size * v[k];
+        for (std::size_t k = 0; k < 4; ++k) moved[k] = kRestTet[k] + size * v[k];
         for (std::uint32_t k = 0; k < 4; ++k) {
             power += glm::dot(v[k], force_on(tet, k, x, v, damping_time) - force_on(tet, k, x));
-            const V viscous = force_on(tet, k, kRest, v, damping_time) - force_on(tet, k, kRest);
-            const V elastic = (force_on(tet, k, moved) - force_on(tet, k, kRest)) / size;
+            const V viscous = force_on(tet, k, kRestTet, v, damping_time) - force_on(tet, k, kRestTet);
+            const V elastic = (force_on(tet, k, moved) - force_on(tet, k, kRestTet)) / size;
             EXPECT_LT(glm::distance(viscous, damping_time * elastic), 2e-3 * glm::length(viscous) + 1.0);
         }
         EXPECT_LT(power, 0.0);
@@ -257,7 +257,7 @@ TEST(NeoHookeanViscosity, TakesEnergyAndIsKelvinVoigts) {
 TEST(NeoHookeanViscosity, DescendsAlongItsDissipation) {
     const NeoHookeanTet tet = make_tet();
     const double shear = 0.75 * mu_of(tet), lame = lambda_of(tet) - 0.625 * mu_of(tet), damping = 1.7;
-    Random random;
+    RandomTets random;
     for (int i = 0; i < 50; ++i) {
         const Corners x{random.point(), random.point(), random.point(), random.point()};
         const M start = random.matrix();

@@ -13,7 +13,7 @@
 namespace gelatin {
 namespace {
 
-constexpr double kStep = 2e-4;  // [s]
+constexpr double kTetStep = 2e-4;  // [s]
 
 class NeoHookeanStepTest : public ::testing::TestWithParam<SolverKind> {};
 INSTANTIATE_TEST_SUITE_P(Solvers, NeoHookeanStepTest, ::testing::ValuesIn(test::kExplicitSolvers),
@@ -23,7 +23,7 @@ TEST_P(NeoHookeanStepTest, FloatWithSimdMatchesTheOracle) {
     for (const double damping : {0.0, 2e-3}) {
         const Model model = test::make_lively_tets(damping);
         ASSERT_NE(model.node_count() % 64, 0u);
-        EXPECT_LE(test::worst_simd_error(model, GetParam(), kStep), 1.0);
+        EXPECT_LE(test::worst_simd_error(model, GetParam(), kTetStep), 1.0);
     }
 }
 
@@ -32,8 +32,8 @@ TEST_P(NeoHookeanStepTest, DivideAndMergeIsTheSameAsFused) {
     cpu::CpuSolver<double> fused(model, GetParam(), ForceMethod::fused);
     cpu::CpuSolver<double> divided(model, GetParam(), ForceMethod::divide_and_merge);
     for (int s = 0; s < 3; ++s) {
-        fused.advance_nodes(kStep);
-        divided.advance_nodes(kStep);
+        fused.advance_nodes(kTetStep);
+        divided.advance_nodes(kTetStep);
     }
     for (std::uint32_t n = 0; n < model->node_count(); ++n) {
         EXPECT_LT(glm::distance(fused.nodes().positions[n], divided.nodes().positions[n]), 1e-13);
@@ -129,8 +129,8 @@ TEST(NeoHookeanStep, BodiesOfSpringsBesideThemAreAsTheyWouldBeAlone) {
         for (std::uint32_t n = 0; n < alone.node_count(); ++n)
             model->positions[n].x *= 1.0f + 0.01f * static_cast<float>(n % 5);
     }
-    const cpu::Nodes<double> one = test::oracle_step(alone, SolverKind::semi_implicit_euler, kStep),
-                             two = test::oracle_step(both, SolverKind::semi_implicit_euler, kStep);
+    const cpu::Nodes<double> one = test::oracle_step(alone, SolverKind::semi_implicit_euler, kTetStep),
+                             two = test::oracle_step(both, SolverKind::semi_implicit_euler, kTetStep);
     for (std::uint32_t n = 0; n < alone.node_count(); ++n) EXPECT_EQ(one.positions[n], two.positions[n]);
     EXPECT_NE(one.positions[5], glm::dvec4(alone.positions[5]));
 }

@@ -11,7 +11,7 @@ namespace {
 
 using test::Deformation;
 
-constexpr double kStep = 1e-3;  // [s]
+constexpr double kSelfStep = 1e-3;  // [s]
 
 class SelfCollisionParityTest : public test::ParityTest {};
 INSTANTIATE_TEST_SUITE_P(All, SelfCollisionParityTest, ::testing::ValuesIn(test::self_collision_scenarios()),
@@ -42,8 +42,8 @@ INSTANTIATE_TEST_SUITE_P(Deformations, SelfCollisionOnGpuTest, ::testing::Values
 
 TEST_P(SelfCollisionOnGpuTest, RepeatsBitForBit) {
     const Model model = test::make_folded(GetParam(), 9);
-    const test::NodeArrays one = test::respond_to_self_on_gpu(model, {}, kStep),
-                           two = test::respond_to_self_on_gpu(model, {}, kStep);
+    const test::NodeArrays one = test::respond_to_self_on_gpu(model, {}, kSelfStep),
+                           two = test::respond_to_self_on_gpu(model, {}, kSelfStep);
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
         EXPECT_EQ(one.positions[n], two.positions[n]);
         EXPECT_EQ(one.velocities[n], two.velocities[n]);

@@ -21,8 +21,8 @@ using test::MutantsTest;
 using test::PairOf;
 using Pairs = std::vector<test::MovingPair<float>>;
 
-constexpr float kPoison = -7.0f, kNever = 2.0f;
-constexpr std::size_t kGuard = 70;
+constexpr float kImpactPoison = -7.0f, kNever = 2.0f;
+constexpr std::size_t kImpactGuard = 70;
 
 constexpr const char* kProbe = R"(
 #include "include/global_index.glsl"
@@ -51,7 +51,7 @@ std::vector<float> times_on_gpu(const Pairs& pairs) {
         }
     }
     const gl::Buffer<glm::vec4> corners{std::span<const glm::vec4>(points)};
-    std::vector<float> times(pairs.size() + kGuard, kPoison);
+    std::vector<float> times(pairs.size() + kImpactGuard, kImpactPoison);
     const gl::Buffer<float> results{std::span<const float>(times)};
     program.bind("Corners", corners);
     program.bind("Times", results);
@@ -76,7 +76,7 @@ double cpu_disagreement(PairOf what) {
         if (touches && expected) differing_times += !(std::abs(times[n] - *expected) < 1e-3f);
     }
     for (std::size_t n = pairs.size(); n < times.size(); ++n) {
-        if (times[n] != kPoison) return test::error_if(true);
+        if (times[n] != kImpactPoison) return test::error_if(true);
     }
     if (touching <= pairs.size() / 100) return test::error_if(true);  // nothing to compare
     return std::max(double(verdicts), double(differing_times) / double(pairs.size() / 1000));

@@ -10,7 +10,7 @@
 namespace gelatin::test {
 namespace {
 
-constexpr double kEps = std::numeric_limits<float>::epsilon();
+constexpr double kPullEps = std::numeric_limits<float>::epsilon();
 constexpr DescentSettings kSweeps{4};
 
 double largest(const std::vector<glm::vec4>& values) {
@@ -26,7 +26,7 @@ StepBounds bounds_for(const Model& model, const std::vector<Pull>& pulls, Solver
     const double v = largest(model.velocities);
     const int passes = explicit_scheme(alike).pass_count;
     const auto add = [&](std::uint32_t node, double rounded) {  // [m/s^2]
-        const double acceleration = passes * 16.0 * kEps * rounded;
+        const double acceleration = passes * 16.0 * kPullEps * rounded;
         bounds.velocity[node] += step * acceleration;
         bounds.position[node] += step * step * acceleration;
     };

@@ -20,7 +20,7 @@
 namespace gelatin::test {
 namespace {
 
-constexpr double kStep = 2e-4;         // [s]
+constexpr double kSolverStep = 2e-4;   // [s]
 constexpr double kFrame = 1.0 / 60.0;  // [s]
 constexpr SolverKind kIntegrators[] = {SolverKind::semi_implicit_euler, SolverKind::rk4,
                                        SolverKind::explicit_euler, SolverKind::midpoint};
@@ -36,10 +36,10 @@ bool guards_are_untouched(const Model& model, const NodeArrays& nodes) {
 }
 
 double step_error(const Model& model, SolverKind solver, ForceMethod forces) {
-    const NodeArrays actual = step_on_gpu(model, solver, forces, kStep);
+    const NodeArrays actual = step_on_gpu(model, solver, forces, kSolverStep);
     if (!guards_are_untouched(model, actual)) return error_if(true);
-    return worst_error(model, rounding_bounds(model, solver, kStep), oracle_step(model, solver, kStep),
-                       actual.positions, actual.velocities);
+    return worst_error(model, rounding_bounds(model, solver, kSolverStep),
+                       oracle_step(model, solver, kSolverStep), actual.positions, actual.velocities);
 }
 
 double descent_error(const Model& model, const Descent& descent) {
@@ -151,7 +151,7 @@ Scenarios pull_scenarios() {
                 scenarios.push_back({name_of_step(solver, forces) + beside, [=] {
                                          const Model model =
                                              driven ? make_driven_model() : make_lively_model();
-                                         return worst_pull_error(model, solver, forces, kStep);
+                                         return worst_pull_error(model, solver, forces, kSolverStep);
                                      }});
             }
         }

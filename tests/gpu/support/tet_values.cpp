@@ -16,7 +16,7 @@
 namespace gelatin::test {
 namespace {
 
-constexpr double kEps = std::numeric_limits<float>::epsilon();
+constexpr double kValueEps = std::numeric_limits<float>::epsilon();
 
 Eigen::Vector3d place_of(const std::vector<glm::vec4>& nodes, std::uint32_t node) {
     return glm::dvec3(nodes[node]).x * Eigen::Vector3d::UnitX() +
@@ -39,19 +39,19 @@ TetValue value_of(const Deformed& bodies, std::size_t t, Quantity quantity) {
     if (quantity == Quantity::speed) {
         double sum = 0.0;
         for (int k = 0; k < 4; ++k) sum += place_of(bodies.velocities, tet[k]).norm();
-        return {0.25 * sum, 8.0 * kEps * sum};
+        return {0.25 * sum, 8.0 * kValueEps * sum};
     }
     const Eigen::Matrix3d ds = edges_of(bodies.positions, tet), dm = edges_of(bodies.model.positions, tet);
     const Eigen::Matrix3d f = ds * dm.inverse();
     Eigen::Vector3d stretches = Eigen::JacobiSVD<Eigen::MatrixXd>(f).singularValues();
     if (f.determinant() < 0.0) stretches.z() = -stretches.z();
 
-    const double of_f = 16.0 * kEps * ds.norm() * dm.inverse().norm() * dm.norm() * dm.inverse().norm();
+    const double of_f = 16.0 * kValueEps * ds.norm() * dm.inverse().norm() * dm.norm() * dm.inverse().norm();
     if (quantity == Quantity::stretch) return {stretches.x(), of_f};
     const auto error = [&](double stretch) {
         const double size = stretches.x();
-        return of_f + std::min(16.0 * kEps * size * size / std::max(std::abs(stretch), 1e-300),
-                               std::sqrt(16.0 * kEps) * size);
+        return of_f + std::min(16.0 * kValueEps * size * size / std::max(std::abs(stretch), 1e-300),
+                               std::sqrt(16.0 * kValueEps) * size);
     };
     const double mu = static_cast<double>(bodies.model.shear_moduli[t]);
     const Eigen::Vector3d differences(stretches.x() - stretches.y(), stretches.y() - stretches.z(),
@@ -181,7 +181,7 @@ double worst_value_error(const Deformed& bodies, Quantity quantity, const GpuVal
     std::vector<double> bounds;
     for (std::size_t t = 0; t < bodies.model.tets.size(); ++t) {
         const TetValue tet = value_of(bodies, t, quantity);
-        bounds.push_back(tet.bound + 8.0 * kEps * std::abs(tet.value));
+        bounds.push_back(tet.bound + 8.0 * kValueEps * std::abs(tet.value));
     }
     std::vector<double> node_bounds = averaged(bodies, bounds);
     double worst = 0.0;
@@ -194,7 +194,7 @@ double worst_value_error(const Deformed& bodies, Quantity quantity, const GpuVal
         if (!look(static_cast<double>(actual.tets[t]), expected.tets[t], bounds[t])) return kInfinity;
     }
     for (std::size_t n = 0; n < node_bounds.size(); ++n) {
-        const double bound = node_bounds[n] + 64.0 * kEps * std::abs(expected.nodes[n]);
+        const double bound = node_bounds[n] + 64.0 * kValueEps * std::abs(expected.nodes[n]);
         if (!look(static_cast<double>(actual.nodes[n]), expected.nodes[n], bound)) return kInfinity;
     }
     const float least = quantity == Quantity::stretch ? 1.0f : 0.0f;
