@@ -7,7 +7,7 @@
 namespace gelatin::lattice {
 
 EnclosedSpace::EnclosedSpace(const SurfaceMesh& surface)
-    : tree_(surface), pieces_(find_pieces(surface)), winding_(tree_) {}
+    : tree_(surface), pieces_(find_pieces(surface)), winding_(surface) {}
 
 // Halves the segment until one face is left in it that is the boundary, or no length. In holes of the surface
 // no face is, and the bisection goes on.
@@ -48,9 +48,7 @@ std::optional<double> EnclosedSpace::find_thickness(const Triangle& face, double
     thread_local std::vector<Crossing> crossings;
     tree_.find_crossings(start, end, crossings);
     if (crossings.empty() || crossings.size() > kMostCrossings) return std::nullopt;
-    // The face itself adds 1/2 on its inner side, and takes 1/2 from its outer one.
-    const double others = winding_(center);
-    if (others <= 0.0 || others >= 1.0) return std::nullopt;
+    if (!contains(start) || contains(center + (center - start))) return std::nullopt;
     for (std::size_t k = 0; k < crossings.size(); ++k) {
         const double at = crossings[k].at, next = k + 1 < crossings.size() ? crossings[k + 1].at : 1.0;
         if (next - at < 1e-9 || contains(start + 0.5 * (at + next) * (end - start))) continue;

@@ -1,4 +1,4 @@
-#include "mesh/lattice/winding_numbers.h"
+#include "mesh/lattice/solid_angles.h"
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ std::vector<glm::dvec3> random_points(int count, double reach) {
 
 double largest_error(const SurfaceMesh& surface, const std::vector<glm::dvec3>& points) {
     const FaceTree tree(surface);
-    const WindingNumbers fast(tree);
+    const SolidAngles fast(tree);
     const std::vector<Triangle> triangles = triangles_of(surface);
     double worst = 0.0;
     for (const glm::dvec3& p : points)
@@ -41,7 +41,7 @@ double largest_error(const SurfaceMesh& surface, const std::vector<glm::dvec3>& 
     return worst;
 }
 
-TEST(WindingNumbersTest, AreOneWithinAClosedSurfaceAndZeroOutside) {
+TEST(SolidAnglesTest, AreOneWithinAClosedSurfaceAndZeroOutside) {
     const std::vector<Triangle> box = triangles_of(cube({0.0, 0.0, 0.0}, 1.0));
     EXPECT_NEAR(exact_winding_number(box, {0.5, 0.5, 0.5}), 1.0, 1e-14);
     EXPECT_NEAR(exact_winding_number(box, {0.01, 0.02, 0.99}), 1.0, 1e-13);
@@ -49,7 +49,7 @@ TEST(WindingNumbersTest, AreOneWithinAClosedSurfaceAndZeroOutside) {
 }
 
 // A cube's face is seen from its centre under a sixth of all directions.
-TEST(WindingNumbersTest, CountSolidAngles) {
+TEST(SolidAnglesTest, CountSolidAngles) {
     SurfaceMesh open = cube({0.0, 0.0, 0.0}, 1.0);
     open.faces.resize(open.faces.size() - 2);
     EXPECT_NEAR(exact_winding_number(triangles_of(open), {0.5, 0.5, 0.5}), 5.0 / 6.0, 1e-14);
@@ -57,11 +57,11 @@ TEST(WindingNumbersTest, CountSolidAngles) {
     EXPECT_NEAR(exact_winding_number(triangles_of(open), {0.5, 0.5, 0.5}), -5.0 / 6.0, 1e-14);
 }
 
-TEST(WindingNumbersTest, OfASphereAgreeWithTheExactSum) {
+TEST(SolidAnglesTest, OfASphereAgreeWithTheExactSum) {
     EXPECT_LT(largest_error(make_sphere({0.5, 30}), random_points(2000, 0.8)), kError);
 }
 
-TEST(WindingNumbersTest, OfSeveralNestedSurfacesAgreeWithTheExactSum) {
+TEST(SolidAnglesTest, OfSeveralNestedSurfacesAgreeWithTheExactSum) {
     SurfaceMesh surface = make_sphere({0.5, 12});
     append(surface, make_sphere({0.3, 12}));
     append(surface, cube({-0.2, -0.2, 0.1}, 0.7));
@@ -69,7 +69,7 @@ TEST(WindingNumbersTest, OfSeveralNestedSurfacesAgreeWithTheExactSum) {
 }
 
 // Faces at random cancel no errors of each other.
-TEST(WindingNumbersTest, OfLooseFacesAgreeWithTheExactSum) {
+TEST(SolidAnglesTest, OfLooseFacesAgreeWithTheExactSum) {
     SurfaceMesh surface;
     surface.positions = random_points(3000, 0.5);
     for (std::uint32_t f = 0; f < 1000; ++f) {
@@ -83,7 +83,7 @@ TEST(WindingNumbersTest, OfLooseFacesAgreeWithTheExactSum) {
 
 // The expansion is of second order: relative to the solid angle, which is of order r^-2, its error is of
 // order r^-3.
-TEST(WindingNumbersTest, ErrorFallsWithTheFifthPowerOfTheDistance) {
+TEST(SolidAnglesTest, ErrorFallsWithTheFifthPowerOfTheDistance) {
     SurfaceMesh patch;  // few enough faces for one node
     patch.positions = {{0, 0, 0}, {1, 0, 0.2}, {0.3, 1, 0}, {0.4, 0.3, 0.6}};
     patch.faces = {{0, 1, 2}, {1, 3, 2}, {0, 3, 1}};
@@ -94,14 +94,14 @@ TEST(WindingNumbersTest, ErrorFallsWithTheFifthPowerOfTheDistance) {
     EXPECT_NEAR(std::log2(largest_error(patch, near) / largest_error(patch, far)), 5.0, 0.3);
 }
 
-TEST(WindingNumbersTest, OfFacesWithoutAreaAreZero) {
+TEST(SolidAnglesTest, OfFacesWithoutAreaAreZero) {
     SurfaceMesh surface;
     surface.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
     surface.faces = {{0, 1, 2}, {0, 0, 0}};
     const FaceTree tree(surface);
-    EXPECT_EQ(WindingNumbers(tree)({0.5, 0.5, 0.5}), 0.0);
+    EXPECT_EQ(SolidAngles(tree)({0.5, 0.5, 0.5}), 0.0);
     const FaceTree empty{SurfaceMesh{}};
-    EXPECT_EQ(WindingNumbers(empty)({0.5, 0.5, 0.5}), 0.0);
+    EXPECT_EQ(SolidAngles(empty)({0.5, 0.5, 0.5}), 0.0);
 }
 
 }  // namespace
