@@ -40,7 +40,7 @@ bool is_beside(const Triangle& face, const Rectangle& rectangle) {
 // How the edge from a to b adds to the winding number of a polygon about p in the plane: by where it crosses
 // the ray from p along the first axis. An edge of two faces gets the same answer from both, up to the sign,
 // so that no ray slips through between them. The crossing is clamped to both ends against rounding.
-int crossing_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& p) {
+inline int crossing_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& p) {
     const bool is_up = b.y > p.y;
     if (is_up == (a.y > p.y)) return 0;
     const glm::dvec3 &low = is_up ? a : b, &high = is_up ? b : a;
@@ -50,8 +50,9 @@ int crossing_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& p) {
 }
 
 // A point on the ray over p, where that is known to cross the face.
-bool is_above(const Triangle& face, double lowest, const glm::dvec3& p) {
-    if (lowest > p.z) return true;
+bool is_above(const Triangle& face, const glm::dvec3& p) {
+    const auto [lowest, highest] = std::minmax({face[0].z, face[1].z, face[2].z});
+    if (lowest > p.z || highest <= p.z) return lowest > p.z;
     const glm::dvec3 normal = glm::cross(face[1] - face[0], face[2] - face[0]);
     return glm::dot(normal, face[0] - p) * normal.z > 0.0;
 }
@@ -91,8 +92,15 @@ struct FaceColumns::Builder {
     void close(const Open& leaf) {
         Node& node = columns.nodes_[leaf.node];
         node.first = static_cast<std::uint32_t>(columns.listed_.size());
-        columns.listed_.insert(columns.listed_.end(), leaf.faces.begin(), leaf.faces.end());
+        for (const std::uint32_t face : leaf.faces) columns.listed_.push_back(list(face));
         node.end = static_cast<std::uint32_t>(columns.listed_.size());
+    }
+
+    Listed list(std::uint32_t face) const {
+        const auto& [a, b, c] = columns.faces_[face];
+        const auto up = [](double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::max()); };
+        const auto down = [](double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::lowest()); };
+        return {down(std::min({a.y, b.y, c.y})), up(std::max({a.y, b.y, c.y})), up(std::max({a.x, b.x, c.x})), up(std::max({a.z, b.z, c.z})), face};
     }
 
     using Lists = std::array<std::vector<std::uint32_t>, 2>;
@@ -171,7 +179,7 @@ FaceColumns::FaceColumns(std::span<const Triangle> faces) {
     Builder{*this, {}, 0}.build({glm::dvec2(turned(min)), glm::dvec2(turned(max))});
 }
 
-std::span<const std::uint32_t> FaceColumns::faces_at(const glm::dvec3& p) const {
+std::span<const FaceColumns::Listed> FaceColumns::faces_over(const glm::dvec3& p) const {
     if (nodes_.empty()) return {};
     std::uint32_t node = 0;
     while (nodes_[node].child != 0)
@@ -182,12 +190,12 @@ std::span<const std::uint32_t> FaceColumns::faces_at(const glm::dvec3& p) const 
 int FaceColumns::winding_number(const glm::dvec3& point) const {
     const glm::dvec3 p = turned(point);
     int number = 0;
-    for (const std::uint32_t index : faces_at(p)) {
-        const Triangle& face = faces_[index];
+    for (const Listed& listed : faces_over(p)) {
+        if (listed.high_z < p.z || listed.high_x < p.x || listed.high_y < p.y || listed.low_y > p.y) continue;
+        const Triangle& face = faces_[listed.face];
         const auto& [a, b, c] = face;
-        if (std::max({a.z, b.z, c.z}) <= p.z) continue;
         const int sign = crossing_of(a, b, p) + crossing_of(b, c, p) + crossing_of(c, a, p);
-        if (sign != 0 && is_above(face, std::min({a.z, b.z, c.z}), p)) number += sign;
+        if (sign != 0 && is_above(face, p)) number += sign;
     }
     return number;
 }

@@ -24,10 +24,15 @@ public:
     /// An integer for any `p`, exact but for points that are on the surface to rounding.
     int winding_number(const glm::dvec3& p) const;
 
-    /// The faces over a point, which winding_number() tests.
-    std::span<const std::uint32_t> faces_over(const glm::dvec3& p) const { return faces_at(turned(p)); }
+    /// The number of faces that winding_number() tests.
+    std::size_t candidates(const glm::dvec3& p) const { return faces_over(turned(p)).size(); }
 
 private:
+    // A face over a rectangle, and its extent, rounded outwards.
+    struct Listed {
+        float low_y, high_y, high_x, high_z;
+        std::uint32_t face;
+    };
     struct Node {
         double at = 0.0;                   // where the rectangle is divided
         int axis = 0;                      // 0 or 1, across which it is divided
@@ -40,12 +45,12 @@ private:
     glm::dvec3 turned(const glm::dvec3& p) const {
         return {p[(axis_ + 1) % 3], p[(axis_ + 2) % 3], p[axis_]};
     }
-    std::span<const std::uint32_t> faces_at(const glm::dvec3& turned) const;
+    std::span<const Listed> faces_over(const glm::dvec3& turned) const;
 
     int axis_ = 0;
     std::vector<Triangle> faces_;  // turned
     std::vector<Node> nodes_;
-    std::vector<std::uint32_t> listed_;
+    std::vector<Listed> listed_;
 };
 
 }  // namespace gelatin::lattice

@@ -86,7 +86,7 @@ private:
         sizes_ = sizes;
         mesh_ = {};
         try {
-            mesh_ = cut_lattice(make_lattice(space_, sizes), space_);
+            mesh_ = cut_lattice(make_lattice(space_, thin_, sizes), space_);
         } catch (const TooManyCells&) {
             return false;
         }
@@ -121,7 +121,7 @@ private:
             last_size = size;
             last_count = is_too_fine ? 0.0 : count;
             if (count == 0.0) {  // nothing is inside, or it is too thin
-                const double fitting = find_lost_parts(space_, sizes_, mesh_).cell_size;
+                const double fitting = find_lost_parts(space_, thin_, sizes_, mesh_).cell_size;
                 if (fitting == 0.0 && k >= kEmptyTries) break;
                 if (fitting > 0.0) size = std::clamp(2.0 * fitting, 0.25 * size, size);
             }
@@ -153,8 +153,8 @@ private:
         }
     }
 
-    [[noreturn]] void refuse_emptiness() const {
-        const LostParts lost = find_lost_parts(space_, sizes_, mesh_);
+    [[noreturn]] void refuse_emptiness() {
+        const LostParts lost = find_lost_parts(space_, thin_, sizes_, mesh_);
         if (lost.cell_size > 0.0) {
             refuse(fmt::format(
                 "it is too thin everywhere for cells of {:.3g} m; mesher.cell_size = {:.2g} would fill it",
@@ -170,7 +170,7 @@ private:
         if (fragments_.removed > 0)
             notes_.push_back(fmt::format("discarded fragments of thin parts: {}", fragments_.removed));
         constexpr double kWorthReporting = 1e-3;  // of the surface; tips of horns are always lost
-        const LostParts lost = find_lost_parts(space_, sizes_, mesh_);
+        const LostParts lost = find_lost_parts(space_, thin_, sizes_, mesh_);
         const double better = frame_.scale * (lost.cell_size > 0.0 ? lost.cell_size : 0.5 * sizes_.boundary);
         if (lost.area_fraction > 0.5) {
             refuse(
@@ -209,6 +209,7 @@ private:
     Notes& notes_;
     const Frame frame_;
     const EnclosedSpace space_;
+    ThinParts thin_{space_};
     CellSizes sizes_{};
     Fragments fragments_;
     TetMesh mesh_;

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "mesh/lattice/overlaps_cube.h"
-#include "mesh/lattice/thin_parts.h"
 
 namespace gelatin::lattice {
 namespace {
@@ -18,8 +17,8 @@ constexpr std::int32_t kSmallest = 2;  // size of the smallest cell possible, in
 
 class LatticeMaker {
 public:
-    LatticeMaker(const EnclosedSpace& space, const CellSizes& sizes)
-        : space_(space), sizes_(sizes), lattice_(make_root(space.tree(), sizes)) {}
+    LatticeMaker(const EnclosedSpace& space, ThinParts& thin, const CellSizes& sizes)
+        : space_(space), thin_(thin), sizes_(sizes), lattice_(make_root(space.tree(), sizes)) {}
 
     Lattice make() {
         for (const Triangle& face : space_.tree().faces()) divide_along(face, boundary_size());
@@ -74,7 +73,7 @@ private:
     void divide_thin_parts() {
         if (sizes_.finer_levels == 0) return;
         for (const ThinPlace& place :
-             find_thin_places(space_, sizes_.boundary / kCellsInThickness, sizes_.boundary)) {
+             thin_.find(sizes_.boundary / kCellsInThickness, sizes_.boundary)) {
             std::int32_t size = boundary_size();
             while (size > kSmallest && size * lattice_.unit > kCellsInThickness * place.thickness) size /= 2;
             divide_along(place.face, size);
@@ -117,6 +116,7 @@ private:
     }
 
     const EnclosedSpace& space_;
+    ThinParts& thin_;
     const CellSizes sizes_;
     Lattice lattice_;
     std::vector<std::uint32_t> stack_;
@@ -128,8 +128,8 @@ double smallest_cell(const CellSizes& sizes) {
     return std::ldexp(sizes.boundary, -sizes.finer_levels);
 }
 
-Lattice make_lattice(const EnclosedSpace& space, const CellSizes& sizes) {
-    return LatticeMaker(space, sizes).make();
+Lattice make_lattice(const EnclosedSpace& space, ThinParts& thin, const CellSizes& sizes) {
+    return LatticeMaker(space, thin, sizes).make();
 }
 
 }  // namespace gelatin::lattice

@@ -8,6 +8,7 @@
 #include "mesh/lattice/enclosed_space.h"
 #include "mesh/lattice/lattice_tets.h"
 #include "mesh/lattice/octree.h"
+#include "mesh/lattice/thin_parts.h"
 
 namespace gelatin::lattice {
 
@@ -45,6 +46,6 @@ struct Lattice {
 
 /// All tets that the boundary passes through are of cells of size `boundary`, or smaller at thin parts.
 /// @throws TooManyCells
-Lattice make_lattice(const EnclosedSpace& space, const CellSizes& sizes);
+Lattice make_lattice(const EnclosedSpace& space, ThinParts& thin, const CellSizes& sizes);
 
 }  // namespace gelatin::lattice

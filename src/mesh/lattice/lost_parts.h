@@ -7,6 +7,7 @@
 
 #include "mesh/lattice/enclosed_space.h"
 #include "mesh/lattice/lattice.h"
+#include "mesh/lattice/thin_parts.h"
 #include "mesh/tet_mesh.h"
 
 namespace gelatin::lattice {
@@ -19,7 +20,8 @@ struct LostParts {
     double cell_size =
         0.0;  ///< `CellSizes::boundary` that would keep all but the thinnest tenth [m]; 0: nothing is lost
 };
-LostParts find_lost_parts(const EnclosedSpace& space, const CellSizes& sizes, const TetMesh& mesh);
+LostParts find_lost_parts(const EnclosedSpace& space, ThinParts& thin, const CellSizes& sizes,
+                          const TetMesh& mesh);
 
 /// What becomes of pieces of the surface of which several sets of tets are made that no face joins.
 struct Fragments {

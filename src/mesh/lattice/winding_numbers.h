@@ -21,8 +21,11 @@ public:
     WindingNumbers& operator=(const WindingNumbers&) = delete;
 
     double operator()(const glm::dvec3& p) const {
-        return closed_.winding_number(p) - (caps_.faces().empty() ? 0.0 : of_caps_(p));
+        return closed_.winding_number(p) - (is_closed() ? 0.0 : of_caps_(p));
     }
+
+    /// Then the numbers change only where faces are.
+    bool is_closed() const { return caps_.faces().empty(); }
 
 private:
     WindingNumbers(const SurfaceMesh& surface, const SurfaceMesh& caps);
