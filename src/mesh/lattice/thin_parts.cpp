@@ -38,25 +38,27 @@ struct ThinParts::FaceSearch {
     double thickness, spacing;
     std::vector<ThinPlace>& places;
 
-    std::optional<double> thickness_behind(const Triangle& face, std::uint64_t part) {
+    Known& known_of(std::uint64_t part) {
         const auto by_part = [](const Known& k, std::uint64_t p) { return k.part < p; };
-        auto at = std::lower_bound(known.begin(), known.end(), part, by_part);
-        if (at == known.end() || at->part != part) at = known.insert(at, {part, {{}, false}, 0.0});
-        if (!at->found.is_final && at->limit < thickness) {
-            at->found = space.find_thickness(face, thickness);
-            at->limit = thickness;
-        }
-        return at->found.value && *at->found.value < thickness ? at->found.value : std::nullopt;
+        const auto at = std::lower_bound(known.begin(), known.end(), part, by_part);
+        return at != known.end() && at->part == part ? *at : *known.insert(at, {part});
     }
 
     std::optional<ThinPlace> find(const Triangle& face, std::uint64_t part) {
+        Known& of_part = known_of(part);
         const double whole = space.pieces().thickness[piece];
         if (whole > 0.0 && whole < thickness) {
             const ThinPlace place{face, whole, piece, true};
-            if (space.contains(place.middle())) return place;
+            if (!of_part.is_inside) of_part.is_inside = space.contains(place.middle());
+            if (*of_part.is_inside) return place;
         }
-        const auto found = thickness_behind(face, part);
-        return found ? std::optional(ThinPlace{face, *found, piece, false}) : std::nullopt;
+        if (!of_part.found.is_final && of_part.limit < thickness) {
+            of_part.found = space.find_thickness(face, thickness);
+            of_part.limit = thickness;
+        }
+        const auto& found = of_part.found.value;
+        if (!found || *found >= thickness) return std::nullopt;
+        return ThinPlace{face, *found, piece, false};
     }
 
     void search(const Triangle& face, std::uint64_t part) {

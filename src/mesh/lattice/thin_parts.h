@@ -35,8 +35,9 @@ private:
     // What is known of a part of a face. Part 1 is the whole face, and 2 k and 2 k + 1 are halves of part k.
     struct Known {
         std::uint64_t part;
-        Thickness found;
-        double limit;  // up to which was searched
+        Thickness found = {{}, false};
+        double limit = 0.0;                   // up to which was searched
+        std::optional<bool> is_inside = {};  // the middle, if the piece of the surface is small
     };
     struct FaceSearch;
 
