@@ -20,12 +20,14 @@ std::vector<Edge> find_open_edges(std::span<const glm::uvec3> faces) {
     for_each_edge(std::span<const EdgeUse>(uses), [&](std::span<const EdgeUse> edge) {
         const EdgeUse& use = edge.front();
         if (use.low == use.high) return;
-        const auto ascending = std::count_if(edge.begin(), edge.end(), [](const EdgeUse& u) { return u.ascending; });
+        const auto ascending =
+            std::count_if(edge.begin(), edge.end(), [](const EdgeUse& u) { return u.ascending; });
         const auto excess = 2 * ascending - static_cast<std::ptrdiff_t>(edge.size());
         const Edge cap = excess > 0 ? Edge{use.high, use.low} : Edge{use.low, use.high};
         edges.insert(edges.end(), static_cast<std::size_t>(std::abs(excess)), cap);
     });
-    std::stable_sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.from < b.from; });
+    std::stable_sort(edges.begin(), edges.end(),
+                     [](const Edge& a, const Edge& b) { return a.from < b.from; });
     return edges;
 }
 
@@ -45,8 +47,8 @@ void close_part(std::span<const std::uint32_t> part, std::vector<glm::uvec3>& ca
 std::vector<glm::uvec3> find_caps(std::span<const glm::uvec3> faces) {
     const std::vector<Edge> edges = find_open_edges(faces);
     struct Vertex {
-        std::size_t next;               // its first edge that is not used yet
-        std::ptrdiff_t on_path = -1;    // where
+        std::size_t next;             // its first edge that is not used yet
+        std::ptrdiff_t on_path = -1;  // where
     };
     std::unordered_map<std::uint32_t, Vertex> vertices;
     for (std::size_t e = edges.size(); e-- > 0;) vertices[edges[e].from].next = e;

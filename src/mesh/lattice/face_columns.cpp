@@ -27,8 +27,7 @@ struct Rectangle {
 bool is_beside(const Triangle& face, const Rectangle& rectangle) {
     const glm::dvec2 center = 0.5 * (rectangle.min + rectangle.max), half = rectangle.max - center;
     for (int k = 0; k < 3; ++k) {
-        const glm::dvec2 a(face[k]), edge = glm::dvec2(face[(k + 1) % 3]) - a,
-                                     opposite(face[(k + 2) % 3]);
+        const glm::dvec2 a(face[k]), edge = glm::dvec2(face[(k + 1) % 3]) - a, opposite(face[(k + 2) % 3]);
         const glm::dvec2 normal(-edge.y, edge.x);
         const double p = glm::dot(a - center, normal), q = glm::dot(opposite - center, normal);
         const double reach = (1.0 + 1e-9) * glm::dot(half, glm::abs(normal));
@@ -98,9 +97,14 @@ struct FaceColumns::Builder {
 
     Listed list(std::uint32_t face) const {
         const auto& [a, b, c] = columns.faces_[face];
-        const auto up = [](double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::max()); };
-        const auto down = [](double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::lowest()); };
-        return {down(std::min({a.y, b.y, c.y})), up(std::max({a.y, b.y, c.y})), up(std::max({a.x, b.x, c.x})), up(std::max({a.z, b.z, c.z})), face};
+        const auto up = [](double x) {
+            return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::max());
+        };
+        const auto down = [](double x) {
+            return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::lowest());
+        };
+        return {down(std::min({a.y, b.y, c.y})), up(std::max({a.y, b.y, c.y})), up(std::max({a.x, b.x, c.x})),
+                up(std::max({a.z, b.z, c.z})), face};
     }
 
     using Lists = std::array<std::vector<std::uint32_t>, 2>;

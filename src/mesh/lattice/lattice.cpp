@@ -38,7 +38,7 @@ private:
     // The octree covers the surface with a margin. Symmetric surfaces do not meet the lattice's planes.
     static Lattice make_root(const FaceTree& tree, const CellSizes& sizes) {
         constexpr std::int32_t kLargest = 1 << 20;  // of key_of
-        const FaceTree::Node& all = tree.nodes()[0];
+        const BoxNode& all = tree.nodes()[0];
         const double unit = smallest_cell(sizes) / kSmallest;
         const glm::dvec3 extent = all.max - all.min;
         const double needed = (std::max({extent.x, extent.y, extent.z}) + 3.0 * sizes.boundary) / unit;
@@ -72,8 +72,7 @@ private:
 
     void divide_thin_parts() {
         if (sizes_.finer_levels == 0) return;
-        for (const ThinPlace& place :
-             thin_.find(sizes_.boundary / kCellsInThickness, sizes_.boundary)) {
+        for (const ThinPlace& place : thin_.find(sizes_.boundary / kCellsInThickness, sizes_.boundary)) {
             std::int32_t size = boundary_size();
             while (size > kSmallest && size * lattice_.unit > kCellsInThickness * place.thickness) size /= 2;
             divide_along(place.face, size);

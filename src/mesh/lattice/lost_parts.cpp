@@ -76,8 +76,7 @@ LostParts find_lost_parts(const EnclosedSpace& space, ThinParts& thin, const Cel
                           const TetMesh& mesh) {
     const double smallest = smallest_cell(sizes);
     const EnclosedSpace filled({mesh.positions, mesh.faces});
-    const std::vector<ThinPlace> places =
-        thin.find(sizes.boundary / kCellsInThickness, sizes.boundary);
+    const std::vector<ThinPlace> places = thin.find(sizes.boundary / kCellsInThickness, sizes.boundary);
     std::vector<std::uint8_t> is_lost(places.size(), 0);
     tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t p) {
         const glm::dvec3 middle = places[p].middle();
@@ -87,8 +86,8 @@ LostParts find_lost_parts(const EnclosedSpace& space, ThinParts& thin, const Cel
     LostParts lost;
     std::vector<ThinPlace> gone;
     std::map<std::uint32_t, bool> is_piece_lost;  // of small ones, as a whole
-    double area = 0.0, lost_area = 0.0, thickest = 0.0;
-    for (const Triangle& face : space.tree().faces()) area += area_of(face);
+    double lost_area = 0.0, thickest = 0.0;
+    for (const Triangle& face : space.tree().faces()) lost.area += area_of(face);
     for (std::size_t p = 0; p < places.size(); ++p) {
         if (places[p].is_small_piece) {
             const auto [known, is_first] = is_piece_lost.emplace(places[p].piece, is_lost[p] != 0);
@@ -103,7 +102,7 @@ LostParts find_lost_parts(const EnclosedSpace& space, ThinParts& thin, const Cel
     }
     for (const auto& [piece, is_whole] : is_piece_lost) lost.pieces += is_whole ? 1 : 0;
     if (gone.empty()) return lost;
-    lost.area_fraction = lost_area / area;
+    lost.area_fraction = lost_area / lost.area;
     const double fits = std::ldexp(kCellsInThickness * thin_end(std::move(gone)), sizes.finer_levels);
     lost.cell_size = std::min(fits, 0.5 * sizes.boundary);
     return lost;

@@ -15,6 +15,7 @@ namespace gelatin::lattice {
 /// What of the enclosed space is in none of the tets, because it is too thin for the cells.
 struct LostParts {
     double area_fraction = 0.0;  ///< of the surface
+    double area = 0.0;           ///< of the surface [m^2]
     std::size_t pieces = 0;      ///< closed pieces of the surface that are lost as a whole
     glm::dvec3 where{0.0};       ///< in the thickest part [m]
     double cell_size =

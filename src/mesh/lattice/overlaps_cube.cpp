@@ -17,7 +17,8 @@ bool overlaps_cube(const Triangle& face, const glm::dvec3& center, double half_e
         return std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach;
     };
     const glm::dvec3 low = glm::min(glm::min(v[0], v[1]), v[2]), high = glm::max(glm::max(v[0], v[1]), v[2]);
-    if (glm::any(glm::greaterThan(low, glm::dvec3(half))) || glm::any(glm::lessThan(high, glm::dvec3(-half)))) return false;
+    if (glm::any(glm::greaterThan(low, glm::dvec3(half))) || glm::any(glm::lessThan(high, glm::dvec3(-half))))
+        return false;
     const Triangle edges = {v[1] - v[0], v[2] - v[1], v[0] - v[2]};
     if (separates(glm::cross(edges[0], edges[1]))) return false;
     for (const glm::dvec3& e : edges) {

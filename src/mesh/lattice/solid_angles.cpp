@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kNear =
     3.0;  // times the radius of the faces; the accuracy that the header states follows from this
-constexpr std::size_t kDeepest = 64;
 
 /// Adds up half solid angles, each the angle of a complex number. The numbers are multiplied, so that one
 /// atan2 does for several: with the signs of the angles that are added it is known where the sum passes pi.
@@ -139,11 +138,11 @@ double SolidAngles::expand(const Moments& m, const glm::dvec3& d, double distanc
 double SolidAngles::operator()(const glm::dvec3& p) const {
     double solid_angle = 0.0;
     if (moments_.empty()) return 0.0;
-    std::array<std::uint32_t, kDeepest> stack{0};
+    std::array<std::uint32_t, BoxNodes::kDeepest> stack{0};
     for (std::size_t size = 1; size > 0;) {
         const std::uint32_t index = stack[--size];
         const Moments& moments = moments_[index];
-        const FaceTree::Node& node = tree_.nodes()[index];
+        const BoxNode& node = tree_.nodes()[index];
         const glm::dvec3 d = moments.center - p;
         const double distance = glm::length(d);
         if (distance > moments.near) {

@@ -33,19 +33,13 @@ glm::dvec3 ThinPlace::middle() const {
 // The search on one face.
 struct ThinParts::FaceSearch {
     const EnclosedSpace& space;
-    std::vector<Known>& known;
+    std::unordered_map<std::uint64_t, Known>& known;
     std::uint32_t piece;
     double thickness, spacing;
     std::vector<ThinPlace>& places;
 
-    Known& known_of(std::uint64_t part) {
-        const auto by_part = [](const Known& k, std::uint64_t p) { return k.part < p; };
-        const auto at = std::lower_bound(known.begin(), known.end(), part, by_part);
-        return at != known.end() && at->part == part ? *at : *known.insert(at, {part});
-    }
-
     std::optional<ThinPlace> find(const Triangle& face, std::uint64_t part) {
-        Known& of_part = known_of(part);
+        Known& of_part = known[part];
         const double whole = space.pieces().thickness[piece];
         if (whole > 0.0 && whole < thickness) {
             const ThinPlace place{face, whole, piece, true};

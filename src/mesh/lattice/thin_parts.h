@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "mesh/lattice/enclosed_space.h"
@@ -34,15 +35,14 @@ public:
 private:
     // What is known of a part of a face. Part 1 is the whole face, and 2 k and 2 k + 1 are halves of part k.
     struct Known {
-        std::uint64_t part;
         Thickness found = {{}, false};
-        double limit = 0.0;                   // up to which was searched
+        double limit = 0.0;                  // up to which was searched
         std::optional<bool> is_inside = {};  // the middle, if the piece of the surface is small
     };
     struct FaceSearch;
 
     const EnclosedSpace& space_;
-    std::vector<std::vector<Known>> known_;  // of each face, by part
+    std::vector<std::unordered_map<std::uint64_t, Known>> known_;  // of each face, by part
 };
 
 }  // namespace gelatin::lattice

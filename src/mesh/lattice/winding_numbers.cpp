@@ -20,6 +20,6 @@ WindingNumbers::WindingNumbers(const SurfaceMesh& surface)
     : WindingNumbers(surface, {surface.positions, find_caps(surface.faces)}) {}
 
 WindingNumbers::WindingNumbers(const SurfaceMesh& surface, const SurfaceMesh& caps)
-    : caps_(caps), of_caps_(caps_), closed_(with_caps(surface, caps)) {}
+    : caps_(caps, 2), of_caps_(caps_), closed_(with_caps(surface, caps)) {}
 
 }  // namespace gelatin::lattice
