@@ -61,7 +61,7 @@ bool is_above(const Triangle& face, const glm::dvec3& p) {
 // Divides the rectangle that costs most, again and again: with as many faces as it has, and as many points in
 // it as its area.
 struct FaceColumns::Builder {
-    static constexpr std::size_t kLeafFaces = 8, kListed = 16, kListedAtLeast = 10'000;
+    static constexpr std::size_t kLeafFaces = 32, kListed = 16, kListedAtLeast = 10'000;
     static constexpr int kMostMisses = 2, kDeepest = 48;
     static constexpr double kWorthIt = 0.9;  // of the cost before
 

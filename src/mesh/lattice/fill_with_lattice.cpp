@@ -115,7 +115,8 @@ private:
         bool has_any = false, was_empty = false;
         double too_small = 0.0, too_large = std::numeric_limits<double>::infinity();
         for (int k = 0; k < kTries; ++k) {
-            const bool is_too_fine = !try_to_make({size, 2, 2, most_cells});
+            const bool is_too_fine =
+                !try_to_make({size, 2, 2, most_cells, 2 * static_cast<std::size_t>(wanted)});
             const auto count = is_too_fine ? 4.0 * wanted : static_cast<double>(mesh_.positions.size());
             if (error_of(count) < kClose) return;
             (count > wanted ? too_small : too_large) = size;

@@ -6,6 +6,8 @@
 #include <bit>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+#include <numeric>
 #include <utility>
 
 #include "mesh/lattice/overlaps_cube.h"
@@ -55,12 +57,18 @@ private:
 
     // Divides the cells that the face passes through down to `size`.
     void divide_along(const Triangle& face, std::int32_t size) {
+        const auto coordinates = [&](const glm::dvec3& p) { return (p - lattice_.origin) / lattice_.unit; };
+        constexpr double kSlack = 1e-3;  // of a unit
+        const glm::dvec3 low = coordinates(glm::min(glm::min(face[0], face[1]), face[2])) - kSlack;
+        const glm::dvec3 high = coordinates(glm::max(glm::max(face[0], face[1]), face[2])) + kSlack;
         stack_.assign(1, 0);
         while (!stack_.empty()) {
             const std::uint32_t index = stack_.back();
             stack_.pop_back();
             const Octree::Cell cell = octree()[index];
-            if (cell.size <= size) continue;
+            if (cell.size <= size || glm::any(glm::lessThan(glm::dvec3(cell.max()), low)) ||
+                glm::any(glm::greaterThan(glm::dvec3(cell.min), high)))
+                continue;
             const glm::dvec3 center = lattice_.position(cell.center());
             if (!overlaps_cube(face, center, 0.5 * cell.size * lattice_.unit)) continue;
             if (cell.is_leaf()) octree().divide(index);
@@ -92,6 +100,8 @@ private:
             lattice_.inside[p] = is_known ? known_inside[static_cast<std::size_t>(found - known.begin())]
                                           : space_.contains(lattice_.position(point_of(points[p])));
         });
+        const auto count = std::accumulate(lattice_.inside.begin(), lattice_.inside.end(), std::size_t{0});
+        if (count > sizes_.most_inside) throw TooManyCells();
     }
 
     // Divides cells that are too large where the boundary passes through a tet, as it does in holes of the
