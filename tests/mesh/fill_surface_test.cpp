@@ -118,6 +118,15 @@ TEST(FillSurface, ByTheLatticeWhereTheInsideNeedsTooManyNodes) {
     EXPECT_THAT(notes, ElementsAre(StartsWith("filled by the lattice mesher, because TetGen makes ")));
 }
 
+// TetGen would need minutes for a plate that is finer than this one.
+TEST(FillSurface, ByTheLatticeWhereTheSurfaceIsFarTooThinForTetGen) {
+    Notes notes;
+    EXPECT_THROW(
+        fill_surface(make_box({{94.0, 64.0, 0.25}, {1, 1, 1}}), by(MesherKind::automatic), "plate", notes),
+        InvalidInput);
+    EXPECT_THAT(notes, ElementsAre(HasSubstr("TetGen would make about 97")));
+}
+
 TEST(FillSurface, ByTheLatticeForItsCellSize) {
     MesherSettings settings;
     settings.cell_size = 0.25;
