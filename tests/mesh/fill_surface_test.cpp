@@ -124,7 +124,7 @@ TEST(FillSurface, ByTheLatticeWhereTheSurfaceIsFarTooThinForTetGen) {
     EXPECT_THROW(
         fill_surface(make_box({{94.0, 64.0, 0.25}, {1, 1, 1}}), by(MesherKind::automatic), "plate", notes),
         InvalidInput);
-    EXPECT_THAT(notes, ElementsAre(HasSubstr("TetGen would make about 97")));
+    EXPECT_THAT(notes, ElementsAre(HasSubstr("TetGen would make about 98")));
 }
 
 TEST(FillSurface, ByTheLatticeForItsCellSize) {
