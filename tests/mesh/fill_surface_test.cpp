@@ -149,7 +149,7 @@ TEST(FillSurface, KeepsLatticesInTheCache) {
     MesherSettings settings = by(MesherKind::lattice);
     settings.nodes = 300;
     Notes first, second, third;
-    const SurfaceMesh plate = make_box({{1.0, 1.0, 0.004}, {1, 1, 1}});
+    const SurfaceMesh plate = make_box({{2.4, 0.3, 0.004}, {1, 1, 1}});
     SurfaceMesh surface = make_sphere({0.5, 6});
     for (const glm::uvec3& face : plate.faces)
         surface.faces.push_back(face + static_cast<std::uint32_t>(surface.positions.size()));

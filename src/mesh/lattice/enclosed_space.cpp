@@ -39,12 +39,13 @@ glm::dvec3 EnclosedSpace::find_boundary(const glm::dvec3& inside, const glm::dve
 
 Thickness EnclosedSpace::find_thickness(const Triangle& face, double limit) const {
     constexpr double kParallel = -0.7;  // cosine between outward normals
+    constexpr double kOffset = 1e-7;    // of the limit: off the face itself
     constexpr std::size_t kMostCrossings = 32;
     const glm::dvec3 area = glm::cross(face[1] - face[0], face[2] - face[0]);
     const double length = glm::length(area);
     if (!(length > 0.0)) return {};
     const glm::dvec3 normal = area / length, center = (face[0] + face[1] + face[2]) / 3.0;
-    const glm::dvec3 start = center - 1e-7 * limit * normal, end = center - limit * normal;
+    const glm::dvec3 start = center - kOffset * limit * normal, end = center - limit * normal;
     thread_local std::vector<Crossing> crossings;
     tree_.find_crossings(start, end, crossings);
     if (crossings.empty()) return {{}, false};
@@ -59,7 +60,8 @@ Thickness EnclosedSpace::find_thickness(const Triangle& face, double limit) cons
         const double at = crossings[k].at, next = k + 1 < crossings.size() ? crossings[k + 1].at : 1.0;
         if (winding > 0.5 || next - at < 1e-9) continue;
         if (!winding_.is_closed() && contains(start + 0.5 * (at + next) * (end - start))) continue;
-        return {cosine < kParallel * glm::length(opposite) ? std::optional(at * limit) : std::nullopt};
+        const double thickness = limit * (kOffset + at * (1.0 - kOffset));
+        return {cosine < kParallel * glm::length(opposite) ? std::optional(thickness) : std::nullopt};
     }
     return {{}, false};
 }
