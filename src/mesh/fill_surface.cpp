@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "core/content_hash.h"
 #include "gelatin/error.h"
 #include "mesh/lattice/fill_with_lattice.h"
+#include "mesh/surface_repair.h"
 #include "mesh/tet_cache.h"
 #include "mesh/tetrahedralise.h"
 #include "mesh/tetrahedralise_to_nodes.h"
@@ -17,7 +20,8 @@ namespace gelatin {
 namespace {
 
 constexpr const char* kTooManyTets = "mesher.max_volume";
-constexpr double kAllowed = 0.2;  // deviation from the wanted number of nodes
+constexpr double kAllowed = 0.2;      // deviation from the wanted number of nodes
+constexpr double kFarTooMany = 10.0;  // times as many: TetGen is not worth the minutes that it takes
 
 // The first sentence of an error about a surface: what there is to do about it does not matter any more.
 std::string reason_of(const std::string& problem) {
@@ -30,6 +34,19 @@ bool is_too_many(std::size_t nodes, int wanted) {
 
 bool is_about(std::size_t nodes, int wanted) {
     return !is_too_many(nodes, wanted) && static_cast<double>(nodes) >= (1.0 - kAllowed) * wanted;
+}
+
+/// About how many nodes TetGen needs where a body is a sheet of the surface's mean thickness: its tets are as
+/// wide as that. Four times as many as it needs for rods and grains.
+double thin_nodes(const SurfaceMesh& surface) {
+    if (!measure_openness(surface).is_closed()) return 0.0;
+    double area = 0.0;
+    for (const glm::uvec3& f : surface.faces) {
+        const glm::dvec3& a = surface.positions[f[0]];
+        area += 0.5 * glm::length(glm::cross(surface.positions[f[1]] - a, surface.positions[f[2]] - a));
+    }
+    const double thickness = 2.0 * std::abs(signed_volume(surface)) / area;
+    return thickness > 0.0 ? 0.5 * area / (thickness * thickness) : 0.0;
 }
 
 /// A hash of everything that the lattice's tets depend on.
@@ -98,6 +115,13 @@ private:
         if (settings_.nodes && is_too_many(vertices, *settings_.nodes)) {
             reason = fmt::format("the surface alone has {} vertices, and {} nodes are wanted", vertices,
                                  *settings_.nodes);
+            return {};
+        }
+        if (const double nodes = thin_nodes(surface_);
+            settings_.nodes && nodes > kFarTooMany * *settings_.nodes) {
+            reason =
+                fmt::format("TetGen would make about {:.0f} nodes of this thin surface, and {} are wanted",
+                            nodes, *settings_.nodes);
             return {};
         }
         try {

@@ -4,8 +4,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <optional>
-#include <vector>
 
+#include "mesh/box_nodes.h"
 #include "mesh/tet_mesh.h"
 
 namespace gelatin {
@@ -31,18 +31,9 @@ public:
     std::optional<TetPoint> find(const glm::dvec3& p) const;
 
 private:
-    struct Node {
-        glm::dvec3 min, max;
-        std::uint32_t first, count;  // of order_
-        std::uint32_t right;         // its second child; the first is the next node; 0: a leaf
-    };
-    void add_node(std::uint32_t first, std::uint32_t count);
-    glm::dvec3 center(std::uint32_t tet) const;
-
     const TetMesh& mesh_;
+    const BoxNodes tree_;
     double slack_ = 0.0;  // of boxes [m]
-    std::vector<std::uint32_t> order_;
-    std::vector<Node> nodes_;
 };
 
 }  // namespace gelatin

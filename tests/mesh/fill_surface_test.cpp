@@ -118,6 +118,15 @@ TEST(FillSurface, ByTheLatticeWhereTheInsideNeedsTooManyNodes) {
     EXPECT_THAT(notes, ElementsAre(StartsWith("filled by the lattice mesher, because TetGen makes ")));
 }
 
+// TetGen would need minutes for a plate that is finer than this one.
+TEST(FillSurface, ByTheLatticeWhereTheSurfaceIsFarTooThinForTetGen) {
+    Notes notes;
+    EXPECT_THROW(
+        fill_surface(make_box({{94.0, 64.0, 0.25}, {1, 1, 1}}), by(MesherKind::automatic), "plate", notes),
+        InvalidInput);
+    EXPECT_THAT(notes, ElementsAre(HasSubstr("TetGen would make about 98")));
+}
+
 TEST(FillSurface, ByTheLatticeForItsCellSize) {
     MesherSettings settings;
     settings.cell_size = 0.25;
@@ -140,7 +149,7 @@ TEST(FillSurface, KeepsLatticesInTheCache) {
     MesherSettings settings = by(MesherKind::lattice);
     settings.nodes = 300;
     Notes first, second, third;
-    const SurfaceMesh plate = make_box({{1.0, 1.0, 0.004}, {1, 1, 1}});
+    const SurfaceMesh plate = make_box({{2.4, 0.3, 0.004}, {1, 1, 1}});
     SurfaceMesh surface = make_sphere({0.5, 6});
     for (const glm::uvec3& face : plate.faces)
         surface.faces.push_back(face + static_cast<std::uint32_t>(surface.positions.size()));

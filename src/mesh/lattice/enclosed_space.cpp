@@ -7,10 +7,10 @@
 namespace gelatin::lattice {
 
 EnclosedSpace::EnclosedSpace(const SurfaceMesh& surface)
-    : tree_(surface), pieces_(find_pieces(surface)), winding_(tree_) {}
+    : tree_(surface), pieces_(find_pieces(surface)), winding_(surface) {}
 
-// Halves the segment until one face is left in it that is the boundary, or no length. In holes of the surface
-// no face is, and the bisection goes on.
+// Halves the segment until one face is left in it that is the boundary, or no length. That face is, if the
+// surface is closed; in holes no face is, and the bisection goes on.
 glm::dvec3 EnclosedSpace::find_boundary(const glm::dvec3& inside, const glm::dvec3& outside) const {
     constexpr int kHalvings = 20;
     const auto point = [&](double at) { return inside + at * (outside - inside); };
@@ -21,6 +21,7 @@ glm::dvec3 EnclosedSpace::find_boundary(const glm::dvec3& inside, const glm::dve
         std::erase_if(crossings, [&](const Crossing& c) { return c.at <= from || c.at >= to; });
         if (!crossings.empty() && crossings.back().at - crossings.front().at < 1e-9) {
             const double at = crossings.front().at;
+            if (winding_.is_closed()) return point(at);
             const double before = 0.5 * (from + at), after = 0.5 * (at + to);
             const bool is_inside_before = contains(point(before)), is_inside_after = contains(point(after));
             if (is_inside_before && !is_inside_after) return point(at);
@@ -36,30 +37,33 @@ glm::dvec3 EnclosedSpace::find_boundary(const glm::dvec3& inside, const glm::dve
     return point(0.5 * (from + to));
 }
 
-std::optional<double> EnclosedSpace::find_thickness(const Triangle& face, double limit) const {
-    constexpr double kParallel =
-        -0.7;  // cosine between outward normals; edges and tips of wedges are not thin
+Thickness EnclosedSpace::find_thickness(const Triangle& face, double limit) const {
+    constexpr double kParallel = -0.7;  // cosine between outward normals
+    constexpr double kOffset = 1e-7;    // of the limit: off the face itself
     constexpr std::size_t kMostCrossings = 32;
     const glm::dvec3 area = glm::cross(face[1] - face[0], face[2] - face[0]);
     const double length = glm::length(area);
-    if (!(length > 0.0)) return std::nullopt;
+    if (!(length > 0.0)) return {};
     const glm::dvec3 normal = area / length, center = (face[0] + face[1] + face[2]) / 3.0;
-    const glm::dvec3 start = center - 1e-7 * limit * normal, end = center - limit * normal;
+    const glm::dvec3 start = center - kOffset * limit * normal, end = center - limit * normal;
     thread_local std::vector<Crossing> crossings;
     tree_.find_crossings(start, end, crossings);
-    if (crossings.empty() || crossings.size() > kMostCrossings) return std::nullopt;
-    // The face itself adds 1/2 on its inner side, and takes 1/2 from its outer one.
-    const double others = winding_(center);
-    if (others <= 0.0 || others >= 1.0) return std::nullopt;
+    if (crossings.empty()) return {{}, false};
+    if (crossings.size() > kMostCrossings) return {};
+    double winding = winding_(start);
+    if (!(winding > 0.5 && winding <= 1.5)) return {};  // the same on both sides of the face
     for (std::size_t k = 0; k < crossings.size(); ++k) {
-        const double at = crossings[k].at, next = k + 1 < crossings.size() ? crossings[k + 1].at : 1.0;
-        if (next - at < 1e-9 || contains(start + 0.5 * (at + next) * (end - start))) continue;
         const Triangle& other = tree_.faces()[crossings[k].face];
         const glm::dvec3 opposite = glm::cross(other[1] - other[0], other[2] - other[0]);
-        const bool is_parallel = glm::dot(normal, opposite) < kParallel * glm::length(opposite);
-        return is_parallel ? std::optional(at * limit) : std::nullopt;
+        const double cosine = glm::dot(normal, opposite);
+        winding += cosine < 0.0 ? -1.0 : 1.0;
+        const double at = crossings[k].at, next = k + 1 < crossings.size() ? crossings[k + 1].at : 1.0;
+        if (winding > 0.5 || next - at < 1e-9) continue;
+        if (!winding_.is_closed() && contains(start + 0.5 * (at + next) * (end - start))) continue;
+        const double thickness = limit * (kOffset + at * (1.0 - kOffset));
+        return {cosine < kParallel * glm::length(opposite) ? std::optional(thickness) : std::nullopt};
     }
-    return std::nullopt;
+    return {{}, false};
 }
 
 }  // namespace gelatin::lattice

@@ -10,6 +10,14 @@
 
 namespace gelatin::lattice {
 
+/// How far it is from a face to the opposite side.
+struct Thickness {
+    /// Of where the face is the boundary and the opposite side is nearly parallel to it. Edges and tips of
+    /// wedges are not thin.
+    std::optional<double> value = {};
+    bool is_final = true;  ///< a search with a larger limit finds the same
+};
+
 /// What a surface encloses: the points with a winding number above 1/2. Defined for any faces, also those
 /// that are open, cross each other or are there twice.
 class EnclosedSpace {
@@ -27,9 +35,8 @@ public:
     /// lies on a face, to rounding, where a face is the boundary.
     glm::dvec3 find_boundary(const glm::dvec3& inside, const glm::dvec3& outside) const;
 
-    /// How thick this is behind a face, from its centre against its normal, if it is less than `limit` and
-    /// the opposite faces are nearly parallel. Empty also where the face is not part of the boundary.
-    std::optional<double> find_thickness(const Triangle& face, double limit) const;
+    /// How thick this is behind a face, from its centre against its normal, up to `limit`.
+    Thickness find_thickness(const Triangle& face, double limit) const;
 
 private:
     FaceTree tree_;

@@ -5,13 +5,19 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numeric>
 
 namespace gelatin::lattice {
 namespace {
 
-constexpr std::uint32_t kLeafFaces = 8;
-constexpr std::size_t kDeepest = 64;  // of a stack of nodes: halves of at most 2^32 faces
+Triangle triangle_of(const SurfaceMesh& surface, const glm::uvec3& face) {
+    return {surface.positions[face[0]], surface.positions[face[1]], surface.positions[face[2]]};
+}
+
+std::vector<BoxItem> items_of(const SurfaceMesh& surface) {
+    std::vector<BoxItem> items;
+    for (const glm::uvec3& face : surface.faces) items.push_back(box_item_of(triangle_of(surface, face)));
+    return items;
+}
 
 // The fraction of the segment a + t d at which it crosses the face. Möller and Trumbore 1997.
 std::optional<double> cross(const Triangle& face, const glm::dvec3& a, const glm::dvec3& d) {
@@ -30,7 +36,7 @@ std::optional<double> cross(const Triangle& face, const glm::dvec3& a, const glm
     return t >= 0.0 && t <= 1.0 ? std::optional(t) : std::nullopt;
 }
 
-bool overlaps_segment(const FaceTree::Node& node, const glm::dvec3& a, const glm::dvec3& d) {
+bool overlaps_segment(const BoxNode& node, const glm::dvec3& a, const glm::dvec3& d) {
     constexpr double kSlack = 1e-12;
     double from = 0.0, to = 1.0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -46,7 +52,7 @@ bool overlaps_segment(const FaceTree::Node& node, const glm::dvec3& a, const glm
     return from <= to;
 }
 
-double squared_distance(const FaceTree::Node& node, const glm::dvec3& p) {
+double squared_distance(const BoxNode& node, const glm::dvec3& p) {
     const glm::dvec3 d = p - glm::clamp(p, node.min, node.max);
     return glm::dot(d, d);
 }
@@ -75,63 +81,19 @@ glm::dvec3 nearest_point(const Triangle& face, const glm::dvec3& p) {
     return best;
 }
 
-// Splits at the median along the longest axis of the box of the faces' centres.
-struct FaceTree::Builder {
-    FaceTree& tree;
-    std::vector<std::uint32_t> order;
-    std::vector<Triangle> faces;
-
-    glm::dvec3 center(std::uint32_t face) const {
-        return (faces[face][0] + faces[face][1] + faces[face][2]) / 3.0;
-    }
-
-    void add_node(std::uint32_t first, std::uint32_t count) {
-        constexpr double kFar = std::numeric_limits<double>::infinity();
-        glm::dvec3 min(kFar), max(-kFar), least(kFar), most(-kFar);
-        for (std::uint32_t k = first; k < first + count; ++k) {
-            for (const glm::dvec3& corner : faces[order[k]]) {
-                min = glm::min(min, corner);
-                max = glm::max(max, corner);
-            }
-            least = glm::min(least, center(order[k]));
-            most = glm::max(most, center(order[k]));
-        }
-        const std::size_t index = tree.nodes_.size();
-        tree.nodes_.push_back({min, max, first, count, 0});
-        if (count <= kLeafFaces) return;
-        const glm::dvec3 extent = most - least;
-        const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-        const std::uint32_t half = count / 2;
-        const auto begin = order.begin() + first;
-        std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t a, std::uint32_t b) {
-            const double x = center(a)[axis], y = center(b)[axis];
-            return x != y ? x < y : a < b;
-        });
-        add_node(first, half);
-        tree.nodes_[index].right = static_cast<std::uint32_t>(tree.nodes_.size());
-        add_node(first + half, count - half);
-    }
-};
-
-FaceTree::FaceTree(const SurfaceMesh& surface) {
-    Builder builder{*this, std::vector<std::uint32_t>(surface.faces.size()), {}};
-    std::iota(builder.order.begin(), builder.order.end(), 0u);
-    for (const glm::uvec3& f : surface.faces)
-        builder.faces.push_back({surface.positions[f[0]], surface.positions[f[1]], surface.positions[f[2]]});
-    if (surface.faces.empty()) return;
-    builder.add_node(0, static_cast<std::uint32_t>(surface.faces.size()));
-    for (const std::uint32_t face : builder.order) faces_.push_back(builder.faces[face]);
-    sources_ = std::move(builder.order);
+FaceTree::FaceTree(const SurfaceMesh& surface, std::uint32_t faces_in_leaf)
+    : tree_(items_of(surface), faces_in_leaf) {
+    for (const std::uint32_t face : tree_.order) faces_.push_back(triangle_of(surface, surface.faces[face]));
 }
 
 void FaceTree::find_crossings(const glm::dvec3& a, const glm::dvec3& b, std::vector<Crossing>& found) const {
     found.clear();
-    if (nodes_.empty()) return;
+    if (tree_.nodes.empty()) return;
     const glm::dvec3 d = b - a;
-    std::array<std::uint32_t, kDeepest> stack{0};
+    std::array<std::uint32_t, BoxNodes::kDeepest> stack{0};
     for (std::size_t size = 1; size > 0;) {
         const std::uint32_t index = stack[--size];
-        const Node& node = nodes_[index];
+        const BoxNode& node = tree_.nodes[index];
         if (!overlaps_segment(node, a, d)) continue;
         if (node.right != 0) {
             stack[size++] = node.right;
@@ -149,16 +111,16 @@ void FaceTree::find_crossings(const glm::dvec3& a, const glm::dvec3& b, std::vec
 
 std::optional<NearestPoint> FaceTree::find_nearest(const glm::dvec3& p, double radius) const {
     std::optional<NearestPoint> nearest;
-    if (nodes_.empty()) return nearest;
+    if (tree_.nodes.empty()) return nearest;
     double best = radius * radius;
-    std::array<std::uint32_t, kDeepest> stack{0};
+    std::array<std::uint32_t, BoxNodes::kDeepest> stack{0};
     for (std::size_t size = 1; size > 0;) {
         const std::uint32_t index = stack[--size];
-        const Node& node = nodes_[index];
+        const BoxNode& node = tree_.nodes[index];
         if (squared_distance(node, p) >= best) continue;
         if (node.right != 0) {  // the nearer child first
             const bool left_first =
-                squared_distance(nodes_[index + 1], p) <= squared_distance(nodes_[node.right], p);
+                squared_distance(tree_.nodes[index + 1], p) <= squared_distance(tree_.nodes[node.right], p);
             stack[size++] = left_first ? node.right : index + 1;
             stack[size++] = left_first ? index + 1 : node.right;
             continue;

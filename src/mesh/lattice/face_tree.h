@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/box_nodes.h"
 #include "mesh/surface_mesh.h"
 
 namespace gelatin::lattice {
@@ -28,18 +29,14 @@ struct NearestPoint {
 /// A binary tree of boxes over the faces of a surface. A node's faces are contiguous in `faces()`.
 class FaceTree {
 public:
-    struct Node {
-        glm::dvec3 min, max;
-        std::uint32_t first, count;  ///< its faces
-        std::uint32_t right;         ///< index of its second child; the first is the next node; 0: a leaf
-    };
+    explicit FaceTree(const SurfaceMesh& surface, std::uint32_t faces_in_leaf = 8);
 
-    explicit FaceTree(const SurfaceMesh& surface);
-
-    std::span<const Node> nodes() const { return nodes_; }               ///< parents before their children
-    std::span<const Triangle> faces() const { return faces_; }           ///< in the tree's order
-    std::span<const std::uint32_t> sources() const { return sources_; }  ///< each face's index in the surface
-    std::span<const Triangle> faces_of(const Node& node) const {
+    std::span<const BoxNode> nodes() const { return tree_.nodes; }  ///< parents before their children
+    std::span<const Triangle> faces() const { return faces_; }      ///< in the tree's order
+    std::span<const std::uint32_t> sources() const {
+        return tree_.order;
+    }  ///< each face's index in the surface
+    std::span<const Triangle> faces_of(const BoxNode& node) const {
         return faces().subspan(node.first, node.count);
     }
 
@@ -50,10 +47,8 @@ public:
     std::optional<NearestPoint> find_nearest(const glm::dvec3& p, double radius) const;
 
 private:
-    struct Builder;
-    std::vector<Node> nodes_;
+    BoxNodes tree_;
     std::vector<Triangle> faces_;
-    std::vector<std::uint32_t> sources_;
 };
 
 /// The point of a triangle that is nearest to `p`.

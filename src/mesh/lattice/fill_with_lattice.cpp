@@ -42,9 +42,9 @@ public:
             find_size_for_volume(*size.max_volume / std::pow(frame_.scale, 3.0));
         else
             find_size_for_nodes(size.nodes.value_or(kUsualNodes));
-        if (mesh_.tets.empty()) refuse_emptiness();
+        if (mesh_.tets.empty()) refuse_thinness(size);
         if (!size.max_volume) improve_tets(mesh_, space_.tree());
-        report_losses();
+        report_losses(size);
         for (glm::dvec3& p : mesh_.positions) p = frame_.origin + frame_.scale * p;
         return std::move(mesh_);
     }
@@ -86,7 +86,7 @@ private:
         sizes_ = sizes;
         mesh_ = {};
         try {
-            mesh_ = cut_lattice(make_lattice(space_, sizes), space_);
+            mesh_ = cut_lattice(make_lattice(space_, thin_, sizes), space_);
         } catch (const TooManyCells&) {
             return false;
         }
@@ -102,6 +102,9 @@ private:
             frame_.scale * sizes.boundary, sizes.most_cells));
     }
 
+    static constexpr double kMostLost = 0.5;                 // of the surface
+    static constexpr std::size_t kMostTriedCells = 400'000;  // some seconds
+
     // The count grows with a power of 1 / size that is about 2 for thin bodies and 3 for thick ones.
     void find_size_for_nodes(int wanted) {
         constexpr int kTries = 8, kEmptyTries = 2;
@@ -109,10 +112,11 @@ private:
         const std::size_t most_cells = std::min(kMostCells, 10'000 + 30 * static_cast<std::size_t>(wanted));
         const auto error_of = [&](double count) { return std::abs(count / wanted - 1.0); };
         double size = 1.0 / 16.0, power = 2.3, last_size = 0.0, last_count = 0.0;
-        bool has_any = false;
+        bool has_any = false, was_empty = false;
         double too_small = 0.0, too_large = std::numeric_limits<double>::infinity();
         for (int k = 0; k < kTries; ++k) {
-            const bool is_too_fine = !try_to_make({size, 2, 2, most_cells});
+            const bool is_too_fine =
+                !try_to_make({size, 2, 2, most_cells, 2 * static_cast<std::size_t>(wanted)});
             const auto count = is_too_fine ? 4.0 * wanted : static_cast<double>(mesh_.positions.size());
             if (error_of(count) < kClose) return;
             (count > wanted ? too_small : too_large) = size;
@@ -120,13 +124,14 @@ private:
                 power = std::clamp(std::log(count / last_count) / std::log(last_size / size), 1.5, 4.0);
             last_size = size;
             last_count = is_too_fine ? 0.0 : count;
+            if (is_too_fine && was_empty && !has_any) break;
             if (count == 0.0) {  // nothing is inside, or it is too thin
-                const double fitting = find_lost_parts(space_, sizes_, mesh_).cell_size;
+                was_empty = true;
+                const double fitting = find_lost_parts(space_, thin_, sizes_, mesh_).cell_size;
                 if (fitting == 0.0 && k >= kEmptyTries) break;
                 if (fitting > 0.0) size = std::clamp(2.0 * fitting, 0.25 * size, size);
             }
             has_any = has_any || (!is_too_fine && count > 0.0);
-            if (is_too_fine && !has_any && k > 0) break;
             const double next = count > 0.0 ? size * std::pow(count / wanted, 1.0 / power) : 0.5 * size;
             const bool is_between = next > too_small && next < too_large;
             size = is_between || too_small == 0.0
@@ -153,62 +158,92 @@ private:
         }
     }
 
-    [[noreturn]] void refuse_emptiness() const {
-        const LostParts lost = find_lost_parts(space_, sizes_, mesh_);
-        if (lost.cell_size > 0.0) {
-            refuse(fmt::format(
-                "it is too thin everywhere for cells of {:.3g} m; mesher.cell_size = {:.2g} would fill it",
-                frame_.scale * sizes_.boundary, frame_.scale * lost.cell_size));
+    // Finds cells that fill the body, by making it of them: about of the size that its thin parts need. What
+    // is advised is what was tried, as it is printed.
+    struct Fitting {
+        double cell_size = 0.0;  // [m]; 0: none
+        std::size_t nodes = 0;
+    };
+    Fitting find_fitting_size(double needed) {
+        constexpr double kMostLostThen = 0.1;
+        for (const double part : {2.0, 1.4, 1.0, 0.7, 0.5}) {
+            const double size = part * needed;
+            const double printed = std::stod(fmt::format("{:.2g}", frame_.scale * size));
+            if (!try_to_make({printed / frame_.scale, 2, 2, kMostTriedCells})) return {};
+            if (mesh_.tets.empty()) continue;
+            if (find_lost_parts(space_, thin_, sizes_, mesh_).area_fraction <= kMostLostThen)
+                return {printed, mesh_.positions.size()};
         }
-        refuse(
-            "the surface encloses no volume that could be filled with tets, as a flat sheet does not; close "
-            "it, or "
-            "give it a thickness");
+        return {};
     }
 
-    void report_losses() {
+    [[noreturn]] void refuse_thinness(const LatticeSize& size) {
+        const LostParts lost = find_lost_parts(space_, thin_, sizes_, mesh_);
+        if (mesh_.tets.empty() && lost.cell_size == 0.0) {
+            refuse(
+                "the surface encloses no volume that could be filled with tets, as a flat sheet does not; "
+                "close "
+                "it, or "
+                "give it a thickness");
+        }
+        const double needed = frame_.scale * lost.cell_size;
+        const std::string wanted = size.nodes || !(size.cell_size || size.max_volume)
+                                       ? fmt::format("{} nodes", size.nodes.value_or(kUsualNodes))
+                                       : fmt::format("cells of {:.3g} m", frame_.scale * sizes_.boundary);
+        const Fitting fitting = find_fitting_size(lost.cell_size);
+        if (fitting.nodes == 0) {
+            refuse(
+                fmt::format("most of it is too thin for {}: it needs cells of {:.2g} m, and more than {} "
+                            "of them; make it thicker",
+                            wanted, needed, kMostTriedCells));
+        }
+        refuse(fmt::format("most of it is too thin for {}; mesher.cell_size = {:.2g} fills it, with {} nodes",
+                           wanted, fitting.cell_size, fitting.nodes));
+    }
+
+    // What to do about thin parts that are lost, if anything helps.
+    std::string advice_on(const LostParts& lost) const {
+        const double size = lost.cell_size > 0.0 ? lost.cell_size : 0.5 * sizes_.boundary;
+        const double least_cells = lost.area / (size * size);
+        if (least_cells > static_cast<double>(sizes_.most_cells)) return "they are too thin for any cells";
+        return fmt::format("cells of about {:.2g} m instead of {:.2g} keep most of them (mesher.cell_size)",
+                           frame_.scale * size, frame_.scale * sizes_.boundary);
+    }
+
+    void report_losses(const LatticeSize& size) {
         if (fragments_.removed > 0)
             notes_.push_back(fmt::format("discarded fragments of thin parts: {}", fragments_.removed));
         constexpr double kWorthReporting = 1e-3;  // of the surface; tips of horns are always lost
-        const LostParts lost = find_lost_parts(space_, sizes_, mesh_);
-        const double better = frame_.scale * (lost.cell_size > 0.0 ? lost.cell_size : 0.5 * sizes_.boundary);
-        if (lost.area_fraction > 0.5) {
-            refuse(
-                fmt::format("most of it is too thin for cells of {:.3g} m; mesher.cell_size = {:.2g} would "
-                            "fill it, with more nodes",
-                            frame_.scale * sizes_.boundary, better));
-        }
+        const LostParts lost = find_lost_parts(space_, thin_, sizes_, mesh_);
+        if (lost.area_fraction > kMostLost) refuse_thinness(size);
         if (fragments_.divided > 0) {
             notes_.push_back(
-                fmt::format("connected pieces of the surface that fall apart because they are thin: {}; "
-                            "mesher.cell_size = {:.2g} instead "
-                            "of {:.2g} would keep them",
-                            fragments_.divided, better, frame_.scale * sizes_.boundary));
+                fmt::format("connected pieces of the surface that fall apart because they are thin: {}; {}",
+                            fragments_.divided, advice_on(lost)));
         }
         if (lost.pieces > 0) {
             notes_.push_back(
-                fmt::format("pieces of the surface that are smaller than the cells are missing: {}; "
-                            "mesher.cell_size = {:.2g} instead of "
-                            "{:.2g} would keep them",
-                            lost.pieces, better, frame_.scale * sizes_.boundary));
+                fmt::format("pieces of the surface that are smaller than the cells are missing: {}; {}",
+                            lost.pieces, advice_on(lost)));
         } else if (lost.area_fraction > kWorthReporting) {
-            report_thin_parts(lost, better);
+            report_thin_parts(lost);
         }
     }
 
-    void report_thin_parts(const LostParts& lost, double better) {
+    void report_thin_parts(const LostParts& lost) {
         const glm::dvec3 where = frame_.origin + frame_.scale * lost.where;
         notes_.push_back(fmt::format(
             "parts that are thinner than the cells are missing, {:.2g}% of the surface, for instance near "
             "({:.3g}, {:.3g}, "
-            "{:.3g}); mesher.cell_size = {:.2g} instead of {:.2g} would keep them",
-            100.0 * lost.area_fraction, where.x, where.y, where.z, better, frame_.scale * sizes_.boundary));
+            "{:.3g}); {}",
+            100.0 * lost.area_fraction, where.x, where.y, where.z, advice_on(lost)));
     }
 
     const std::string name_;
     Notes& notes_;
     const Frame frame_;
     const EnclosedSpace space_;
+    ThinParts thin_{space_};
     CellSizes sizes_{};
     Fragments fragments_;
     TetMesh mesh_;

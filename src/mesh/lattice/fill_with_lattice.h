@@ -9,7 +9,7 @@
 namespace gelatin {
 
 /// Part of the key of cached tets. Increase it when the same surface gets other tets or notes.
-constexpr int kLatticeVersion = 1;
+constexpr int kLatticeVersion = 2;
 
 /// The number of nodes where no size is set.
 constexpr int kUsualNodes = 5000;

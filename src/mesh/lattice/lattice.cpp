@@ -6,10 +6,11 @@
 #include <bit>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+#include <numeric>
 #include <utility>
 
 #include "mesh/lattice/overlaps_cube.h"
-#include "mesh/lattice/thin_parts.h"
 
 namespace gelatin::lattice {
 namespace {
@@ -18,8 +19,8 @@ constexpr std::int32_t kSmallest = 2;  // size of the smallest cell possible, in
 
 class LatticeMaker {
 public:
-    LatticeMaker(const EnclosedSpace& space, const CellSizes& sizes)
-        : space_(space), sizes_(sizes), lattice_(make_root(space.tree(), sizes)) {}
+    LatticeMaker(const EnclosedSpace& space, ThinParts& thin, const CellSizes& sizes)
+        : space_(space), thin_(thin), sizes_(sizes), lattice_(make_root(space.tree(), sizes)) {}
 
     Lattice make() {
         for (const Triangle& face : space_.tree().faces()) divide_along(face, boundary_size());
@@ -39,7 +40,7 @@ private:
     // The octree covers the surface with a margin. Symmetric surfaces do not meet the lattice's planes.
     static Lattice make_root(const FaceTree& tree, const CellSizes& sizes) {
         constexpr std::int32_t kLargest = 1 << 20;  // of key_of
-        const FaceTree::Node& all = tree.nodes()[0];
+        const BoxNode& all = tree.nodes()[0];
         const double unit = smallest_cell(sizes) / kSmallest;
         const glm::dvec3 extent = all.max - all.min;
         const double needed = (std::max({extent.x, extent.y, extent.z}) + 3.0 * sizes.boundary) / unit;
@@ -56,12 +57,18 @@ private:
 
     // Divides the cells that the face passes through down to `size`.
     void divide_along(const Triangle& face, std::int32_t size) {
+        const auto coordinates = [&](const glm::dvec3& p) { return (p - lattice_.origin) / lattice_.unit; };
+        constexpr double kSlack = 1e-3;  // of a unit
+        const glm::dvec3 low = coordinates(glm::min(glm::min(face[0], face[1]), face[2])) - kSlack;
+        const glm::dvec3 high = coordinates(glm::max(glm::max(face[0], face[1]), face[2])) + kSlack;
         stack_.assign(1, 0);
         while (!stack_.empty()) {
             const std::uint32_t index = stack_.back();
             stack_.pop_back();
             const Octree::Cell cell = octree()[index];
-            if (cell.size <= size) continue;
+            if (cell.size <= size || glm::any(glm::lessThan(glm::dvec3(cell.max()), low)) ||
+                glm::any(glm::greaterThan(glm::dvec3(cell.min), high)))
+                continue;
             const glm::dvec3 center = lattice_.position(cell.center());
             if (!overlaps_cube(face, center, 0.5 * cell.size * lattice_.unit)) continue;
             if (cell.is_leaf()) octree().divide(index);
@@ -73,8 +80,7 @@ private:
 
     void divide_thin_parts() {
         if (sizes_.finer_levels == 0) return;
-        for (const ThinPlace& place :
-             find_thin_places(space_, sizes_.boundary / kCellsInThickness, sizes_.boundary)) {
+        for (const ThinPlace& place : thin_.find(sizes_.boundary / kCellsInThickness, sizes_.boundary)) {
             std::int32_t size = boundary_size();
             while (size > kSmallest && size * lattice_.unit > kCellsInThickness * place.thickness) size /= 2;
             divide_along(place.face, size);
@@ -94,6 +100,8 @@ private:
             lattice_.inside[p] = is_known ? known_inside[static_cast<std::size_t>(found - known.begin())]
                                           : space_.contains(lattice_.position(point_of(points[p])));
         });
+        const auto count = std::accumulate(lattice_.inside.begin(), lattice_.inside.end(), std::size_t{0});
+        if (count > sizes_.most_inside) throw TooManyCells();
     }
 
     // Divides cells that are too large where the boundary passes through a tet, as it does in holes of the
@@ -117,6 +125,7 @@ private:
     }
 
     const EnclosedSpace& space_;
+    ThinParts& thin_;
     const CellSizes sizes_;
     Lattice lattice_;
     std::vector<std::uint32_t> stack_;
@@ -128,8 +137,8 @@ double smallest_cell(const CellSizes& sizes) {
     return std::ldexp(sizes.boundary, -sizes.finer_levels);
 }
 
-Lattice make_lattice(const EnclosedSpace& space, const CellSizes& sizes) {
-    return LatticeMaker(space, sizes).make();
+Lattice make_lattice(const EnclosedSpace& space, ThinParts& thin, const CellSizes& sizes) {
+    return LatticeMaker(space, thin, sizes).make();
 }
 
 }  // namespace gelatin::lattice

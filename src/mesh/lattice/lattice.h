@@ -8,6 +8,7 @@
 #include "mesh/lattice/enclosed_space.h"
 #include "mesh/lattice/lattice_tets.h"
 #include "mesh/lattice/octree.h"
+#include "mesh/lattice/thin_parts.h"
 
 namespace gelatin::lattice {
 
@@ -19,9 +20,10 @@ struct CellSizes {
     int finer_levels = 2;    ///< at thin parts cells are halved this often at most
     int coarser_levels = 2;  ///< deep inside they are doubled this often at most
     std::size_t most_cells = kMostCells;
+    std::size_t most_inside = kMostCells;  ///< points of the lattice that are inside
 };
 
-/// Thrown where a lattice would have more than `CellSizes::most_cells` cells.
+/// Thrown where a lattice would have more cells or points inside than `CellSizes` allows.
 struct TooManyCells {};
 
 /// A part is thin where cells are larger than this fraction of its thickness: then points of the lattice may
@@ -45,6 +47,6 @@ struct Lattice {
 
 /// All tets that the boundary passes through are of cells of size `boundary`, or smaller at thin parts.
 /// @throws TooManyCells
-Lattice make_lattice(const EnclosedSpace& space, const CellSizes& sizes);
+Lattice make_lattice(const EnclosedSpace& space, ThinParts& thin, const CellSizes& sizes);
 
 }  // namespace gelatin::lattice

@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <map>
-#include <set>
 
 #include "core/disjoint_sets.h"
 #include "mesh/lattice/separate_touching.h"
-#include "mesh/lattice/thin_parts.h"
 #include "mesh/topology.h"
 
 namespace gelatin::lattice {
@@ -74,11 +72,11 @@ private:
 
 }  // namespace
 
-LostParts find_lost_parts(const EnclosedSpace& space, const CellSizes& sizes, const TetMesh& mesh) {
+LostParts find_lost_parts(const EnclosedSpace& space, ThinParts& thin, const CellSizes& sizes,
+                          const TetMesh& mesh) {
     const double smallest = smallest_cell(sizes);
     const EnclosedSpace filled({mesh.positions, mesh.faces});
-    const std::vector<ThinPlace> places =
-        find_thin_places(space, sizes.boundary / kCellsInThickness, sizes.boundary);
+    const std::vector<ThinPlace> places = thin.find(sizes.boundary / kCellsInThickness, sizes.boundary);
     std::vector<std::uint8_t> is_lost(places.size(), 0);
     tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t p) {
         const glm::dvec3 middle = places[p].middle();
@@ -87,21 +85,24 @@ LostParts find_lost_parts(const EnclosedSpace& space, const CellSizes& sizes, co
     });
     LostParts lost;
     std::vector<ThinPlace> gone;
-    std::set<std::uint32_t> pieces;
-    double area = 0.0, lost_area = 0.0, thickest = 0.0;
-    for (const Triangle& face : space.tree().faces()) area += area_of(face);
+    std::map<std::uint32_t, bool> is_piece_lost;  // of small ones, as a whole
+    double lost_area = 0.0, thickest = 0.0;
+    for (const Triangle& face : space.tree().faces()) lost.area += area_of(face);
     for (std::size_t p = 0; p < places.size(); ++p) {
+        if (places[p].is_small_piece) {
+            const auto [known, is_first] = is_piece_lost.emplace(places[p].piece, is_lost[p] != 0);
+            if (!is_first) known->second = known->second && is_lost[p] != 0;
+        }
         if (is_lost[p] == 0) continue;
         gone.push_back(places[p]);
         lost_area += area_of(places[p].face);
-        if (places[p].small_piece) pieces.insert(*places[p].small_piece);
         if (places[p].thickness <= thickest) continue;
         thickest = places[p].thickness;
         lost.where = places[p].middle();
     }
-    lost.pieces = pieces.size();
+    for (const auto& [piece, is_whole] : is_piece_lost) lost.pieces += is_whole ? 1 : 0;
     if (gone.empty()) return lost;
-    lost.area_fraction = lost_area / area;
+    lost.area_fraction = lost_area / lost.area;
     const double fits = std::ldexp(kCellsInThickness * thin_end(std::move(gone)), sizes.finer_levels);
     lost.cell_size = std::min(fits, 0.5 * sizes.boundary);
     return lost;

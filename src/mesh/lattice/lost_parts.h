@@ -7,6 +7,7 @@
 
 #include "mesh/lattice/enclosed_space.h"
 #include "mesh/lattice/lattice.h"
+#include "mesh/lattice/thin_parts.h"
 #include "mesh/tet_mesh.h"
 
 namespace gelatin::lattice {
@@ -14,12 +15,14 @@ namespace gelatin::lattice {
 /// The parts of the enclosed space that are in no tet, because it is too thin for the cells.
 struct LostParts {
     double area_fraction = 0.0;  ///< of the surface
+    double area = 0.0;           ///< of the surface [m^2]
     std::size_t pieces = 0;      ///< closed pieces of the surface that are lost as a whole
     glm::dvec3 where{0.0};       ///< in the thickest part [m]
     double cell_size =
         0.0;  ///< `CellSizes::boundary` that would keep all but the thinnest tenth [m]; 0: nothing is lost
 };
-LostParts find_lost_parts(const EnclosedSpace& space, const CellSizes& sizes, const TetMesh& mesh);
+LostParts find_lost_parts(const EnclosedSpace& space, ThinParts& thin, const CellSizes& sizes,
+                          const TetMesh& mesh);
 
 /// What becomes of pieces of the surface of which several sets of tets are made that no face joins.
 struct Fragments {

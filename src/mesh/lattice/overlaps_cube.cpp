@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace gelatin::lattice {
 
@@ -14,11 +16,9 @@ bool overlaps_cube(const Triangle& face, const glm::dvec3& center, double half_e
         const double reach = half * (std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z));
         return std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach;
     };
-    for (int k = 0; k < 3; ++k) {
-        glm::dvec3 axis(0.0);
-        axis[k] = 1.0;
-        if (separates(axis)) return false;
-    }
+    const glm::dvec3 low = glm::min(glm::min(v[0], v[1]), v[2]), high = glm::max(glm::max(v[0], v[1]), v[2]);
+    if (glm::any(glm::greaterThan(low, glm::dvec3(half))) || glm::any(glm::lessThan(high, glm::dvec3(-half))))
+        return false;
     const Triangle edges = {v[1] - v[0], v[2] - v[1], v[0] - v[2]};
     if (separates(glm::cross(edges[0], edges[1]))) return false;
     for (const glm::dvec3& e : edges) {

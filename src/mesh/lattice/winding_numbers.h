@@ -1,46 +1,38 @@
 #pragma once
 
-#include <array>
 #include <glm/vec3.hpp>
-#include <span>
 #include <vector>
 
+#include "mesh/lattice/face_columns.h"
 #include "mesh/lattice/face_tree.h"
+#include "mesh/lattice/solid_angles.h"
+#include "mesh/surface_mesh.h"
 
 namespace gelatin::lattice {
 
-/// The generalized winding number of `faces` about `p`: the sum of the solid angles under which they are
-/// seen, divided by 4 pi, positive from behind. Within a closed surface that winds outwards it is 1, outside
-/// it is 0; holes make it vary smoothly. Jacobson et al. 2013, eq. 6; solid angles by Van Oosterom and
-/// Strackee 1983.
-double exact_winding_number(std::span<const Triangle> faces, const glm::dvec3& p);
-
-/// The same in logarithmic time. Faces that are far from `p` relative to their extent are summarised by the
-/// Taylor expansion of Barill et al. 2018, up to second order. The error is below 0.002, as
-/// measured on closed, nested and loose faces (tests/mesh/lattice/winding_numbers_test.cpp).
+/// The generalized winding numbers of a surface (solid_angles.h), whatever the shape of its faces.
+///
+/// The surface is closed by caps (caps.h). What it is together with them winds around a point as often as
+/// crossings along a ray say, and the caps alone by their solid angles. So a closed surface has integers.
 class WindingNumbers {
 public:
-    /// @param tree must outlive this
-    explicit WindingNumbers(const FaceTree& tree);
+    explicit WindingNumbers(const SurfaceMesh& surface);
+    WindingNumbers(const WindingNumbers&) = delete;
+    WindingNumbers& operator=(const WindingNumbers&) = delete;
 
-    double operator()(const glm::dvec3& p) const;
+    double operator()(const glm::dvec3& p) const {
+        return closed_.winding_number(p) - (is_closed() ? 0.0 : of_caps_(p));
+    }
+
+    /// Then the numbers change only where faces are.
+    bool is_closed() const { return caps_.faces().empty(); }
 
 private:
-    /// Integrals over a node's faces, of their normal n and of x relative to the center.
-    struct Moments {
-        glm::dvec3 center{0.0};
-        double near = 0.0;              // closer than this the expansion is not used
-        glm::dvec3 normal{0.0};         // of n_i
-        std::array<double, 6> first{};  // of n_i x_j, made symmetric: xx, yy, zz, xy, yz, zx
-        glm::dvec3 trace{0.0};          // of x n.x + n x.x / 2
-        std::array<double, 10>
-            second{};  // of n_i x_j x_k, symmetric: xxx, yyy, zzz, xxy, xxz, yyx, yyz, zzx, zzy, xyz
-    };
-    static Moments moments_of(std::span<const Triangle> faces);
-    static double expand(const Moments& moments, const glm::dvec3& d, double distance);
+    WindingNumbers(const SurfaceMesh& surface, const SurfaceMesh& caps);
 
-    const FaceTree& tree_;
-    std::vector<Moments> moments_;  // shape [nodes of the tree]
+    FaceTree caps_;
+    SolidAngles of_caps_;
+    FaceColumns closed_;
 };
 
 }  // namespace gelatin::lattice

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "mesh/lattice/broken_surfaces.h"
+#include "mesh/lattice/long_faces.h"
 #include "mesh/lattice/sound_tets.h"
 #include "mesh/surface_repair.h"
 
@@ -183,7 +184,7 @@ TEST(FillWithLatticeTest, ReportsThinPartsThatAreLost) {
     expect_sound(filled.mesh);
     ASSERT_FALSE(filled.notes.empty());
     EXPECT_THAT(filled.notes.back(), HasSubstr("parts that are thinner than the cells are missing"));
-    EXPECT_THAT(filled.notes.back(), HasSubstr("mesher.cell_size = 0.013 instead of 0.1 would keep them"));
+    EXPECT_THAT(filled.notes.back(), HasSubstr("cells of about 0.013 m instead of 0.1 keep most of them"));
 }
 
 TEST(FillWithLatticeTest, ReportsPiecesThatAreLost) {
@@ -209,10 +210,31 @@ TEST(FillWithLatticeTest, RefusesSurfacesThatEncloseNothing) {
     EXPECT_THAT(error_of(sheet), HasSubstr("encloses no volume"));
 }
 
-TEST(FillWithLatticeTest, RefusesBodiesThatAreTooThinAndNamesTheSize) {
-    EXPECT_THAT(error_of(make_box({{1.0, 0.004, 1.0}, {1, 1, 1}}), with_cells(0.2)), HasSubstr("too thin"));
-    EXPECT_THAT(error_of(make_box({{1.0, 0.004, 1.0}, {1, 1, 1}}), with_cells(0.2)),
-                HasSubstr("mesher.cell_size = 0.013 would fill it"));
+TEST(FillWithLatticeTest, RefusesBodiesThatAreTooThinWithASizeThatFillsThem) {
+    const SurfaceMesh plate = make_box({{1.0, 0.03, 1.0}, {1, 1, 1}});
+    const std::string error = error_of(plate, with_cells(1.0));
+    EXPECT_THAT(error, HasSubstr("too thin for cells of 1 m; mesher.cell_size = "));
+    const std::string advice = "mesher.cell_size = ";
+    const Filled filled =
+        fill(plate, with_cells(std::stod(error.substr(error.find(advice) + advice.size()))));
+    expect_sound(filled.mesh);
+    EXPECT_NEAR(volume_of(filled.mesh), 0.03, 0.003);
+    EXPECT_THAT(error,
+                HasSubstr(" fills it, with " + std::to_string(filled.mesh.positions.size()) + " nodes"));
+}
+
+TEST(FillWithLatticeTest, AdvisesNoSizeThatWouldBeRefused) {
+    const std::string error = error_of(make_box({{94.0, 64.0, 0.25}, {1, 1, 1}}));
+    EXPECT_THAT(error, HasSubstr("most of it is too thin for 5000 nodes: it needs cells of "));
+    EXPECT_THAT(error, HasSubstr("make it thicker"));
+    EXPECT_THAT(error, testing::Not(HasSubstr("mesher.cell_size")));
+}
+
+TEST(FillWithLatticeTest, FillsFansOfLongThinFaces) {
+    const Filled filled = fill(make_fan_disc(1000), with_nodes(1000));
+    expect_sound(filled.mesh);
+    EXPECT_THAT(filled.notes, IsEmpty());
+    EXPECT_NEAR(volume_of(filled.mesh), 0.05 * std::numbers::pi, 0.05 * 0.05 * std::numbers::pi);
 }
 
 TEST(FillWithLatticeTest, RefusesNumbersThatAreNotFinite) {
