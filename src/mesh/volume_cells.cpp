@@ -201,9 +201,13 @@ private:
             // Programs do not agree on the order of a wedge's corners.
             inverted_ += cell.shape != CellShape::wedge ? 1 : 0;
         }
-        constexpr double kPoor = 1e-3;
         double least = least_roundness(tets);
-        if (least < kPoor) try_with_centre(tets, least);
+        if (is_poor(least)) {
+            for (const auto& [a, b, c] : triangles_) {
+                for (const std::uint32_t node : {a, b, c}) take_if_better(connect(node), tets, least);
+            }
+        }
+        if (is_poor(least)) try_with_centre(tets, least);
         const auto flat = std::find_if(tets.begin(), tets.end(),
                                        [&](const glm::uvec4& tet) { return is_flat(mesh_, tet); });
         if (flat != tets.end()) refuse(cell);
@@ -213,14 +217,20 @@ private:
         ++divided_[cell.shape];
     }
 
-    // A cell that is flat as a whole gains little: then its corners are enough.
+    static bool is_poor(double roundness) { return roundness < 1e-3; }
+
+    // Cells that are flat as a whole gain little.
+    bool take_if_better(std::vector<glm::uvec4> others, std::vector<glm::uvec4>& tets, double& least) const {
+        const double least_of_others = least_roundness(others);
+        if (!(least_of_others > std::max(least, 2.0 * least))) return false;
+        tets = std::move(others);
+        least = least_of_others;
+        return true;
+    }
+
     void try_with_centre(std::vector<glm::uvec4>& tets, double& least) {
         add_centre();
-        std::vector<glm::uvec4> others = connect(rank_.back());
-        const double least_of_others = least_roundness(others);
-        if (least_of_others > std::max(least, 2.0 * least)) {
-            tets = std::move(others);
-            least = least_of_others;
+        if (take_if_better(connect(rank_.back()), tets, least)) {
             ++centred_;
         } else {
             mesh_.positions.pop_back();
