@@ -7,9 +7,8 @@
 
 namespace gelatin {
 
-/// For each piece of a closed surface that winds inwards, a point in the cavity that it bounds: far from all
-/// faces, and in none of the bodies inside the cavity.
-/// @pre each edge has two faces, of opposite directions, and faces do not cross
+/// For each closed piece of a surface that winds inwards, a point in the cavity that it bounds: far from all
+/// faces, and in none of the bodies inside the cavity, if faces do not cross.
 std::vector<glm::dvec3> find_cavity_points(const SurfaceMesh& surface);
 
 }  // namespace gelatin

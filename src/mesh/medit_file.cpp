@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -44,17 +45,29 @@ constexpr std::array<CellSection, 4> kCellSections = {{{"Tetrahedra", CellShape:
                                                        {"Prisms", CellShape::wedge},
                                                        {"Pyramids", CellShape::pyramid}}};
 
+// How many nodes the rows of a section have. Gmsh writes cells of higher order under the usual keywords, with
+// at least twice as many nodes as corners, and never with a multiple of the usual length.
+std::size_t nodes_in_row(TextScanner ahead, std::size_t corners) {
+    std::size_t numbers = 0;
+    const auto has_more = [&] { return numbers == 0 ? !ahead.at_end() : !ahead.at_line_end(); };
+    while (has_more() && begins_number(ahead.word("row"))) ++numbers;
+    const bool is_curved = numbers > 2 * corners && numbers % (corners + 1) != 0;
+    return is_curved ? numbers - 1 : corners;
+}
+
 void read_cells(TextScanner& scanner, const CellSection& section, VolumeCells& cells) {
     const std::size_t needed = corner_count(section.shape);
     const std::size_t shortest_row = 2 * (needed + 1);  // "1 2 3 4 0\n"
     const std::size_t count =
         scanner.count(("number of " + std::string(section.keyword)).c_str(), shortest_row);
-    std::vector<std::uint32_t> corners(needed);
+    const std::size_t nodes = nodes_in_row(scanner, needed);
+    std::vector<std::uint32_t> corners(nodes);
     for (std::uint64_t row = 1; row <= count; ++row) {
         const FieldName field{section.keyword, row};
         for (std::uint32_t& corner : corners)
             corner = static_cast<std::uint32_t>(scanner.integer(field, 1, cells.positions.size()) - 1);
-        cells.add(section.shape, corners, false, scanner.signed_integer(field));
+        cells.add(section.shape, std::span(corners).first(needed), nodes > needed,
+                  scanner.signed_integer(field));
     }
 }
 

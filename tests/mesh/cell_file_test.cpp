@@ -84,6 +84,10 @@ TEST_F(CellFileTest, TakesTheCornersOfCurvedCells) {
     for (std::size_t at = msh.find(" 0 0 0 0"); (at = msh.find(" 0", at)) != std::string::npos;)
         msh[at + 1] = '1';
     expect_cube("a.msh", msh + "$EndElements\n");
+    std::string medit = mixed_medit();  // as Gmsh writes them
+    medit.erase(medit.find("Prisms"));
+    for (char& c : middles) c = c == '0' ? '1' : c;
+    expect_cube("a.mesh", replaced(medit, "1 2 3 4 5 6 7 8 7", "1 2 3 4 5 6 7 8" + middles + " 7"));
 }
 
 TEST_F(CellFileTest, WarnsOfVolumeThatIsLost) {
