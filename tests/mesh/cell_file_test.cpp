@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "cell_samples.h"
@@ -117,24 +118,32 @@ TEST_F(CellFileTest, RefusesCellsWithOtherNumbersOfCorners) {
 
 // Some programs give each cell its own nodes.
 TEST_F(CellFileTest, JoinsCellsByThePlacesOfTheirNodes) {
-    std::string points, cells;
-    std::uint32_t count = 0;
-    for (const CellSample& cell : kMixedCells) {
-        cells += std::to_string(cell.corners.size());
-        for (auto corner = cell.corners.rbegin(); corner != cell.corners.rend(); ++corner) {  // another order
-            const glm::dvec3& p = kMixedNodes[*corner];
-            points += fmt::format("{} {} {}\n", p.x, p.y, p.z);
+    for (unsigned reversed = 0; reversed < 8; ++reversed) {
+        std::string points, cells;
+        std::uint32_t first = 0;
+        for (std::size_t c = 0; c < kMixedCells.size(); ++c) {
+            std::vector<std::uint32_t> order = kMixedCells[c].corners;
+            const auto size = static_cast<std::uint32_t>(order.size());
+            const bool is_reversed = (reversed >> c & 1u) != 0;
+            if (is_reversed) std::reverse(order.begin(), order.end());
+            for (const std::uint32_t corner : order) {
+                const glm::dvec3& p = kMixedNodes[corner];
+                points += fmt::format("{} {} {}\n", p.x, p.y, p.z);
+            }
+            cells += fmt::format("{}", size);
+            for (std::uint32_t k = 0; k < size; ++k)
+                cells += fmt::format(" {}", first + (is_reversed ? size - 1 - k : k));
+            cells += "\n";
+            first += size;
         }
-        count += static_cast<std::uint32_t>(cell.corners.size());
-        for (std::uint32_t k = 1; k <= cell.corners.size(); ++k) cells += fmt::format(" {}", count - k);
-        cells += "\n";
+        const TetMesh mesh = read("a.vtk",
+                                  "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                                  "POINTS 19 double\n" +
+                                      points + "CELLS 3 22\n" + cells + "CELL_TYPES 3\n12 13 14\n");
+        EXPECT_THAT(notes_, Contains("merged nodes that coincide: 8"));
+        EXPECT_EQ(mesh.faces.size(), 18u);
+        EXPECT_DOUBLE_EQ(volume_of(mesh), kMixedVolume);
     }
-    const TetMesh mesh =
-        read("a.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 19 double\n" +
-                          points + "CELLS 3 22\n" + cells + "CELL_TYPES 3\n12 13 14\n");
-    EXPECT_THAT(notes_, Contains("merged nodes that coincide: 8"));
-    EXPECT_EQ(mesh.faces.size(), 18u);
-    EXPECT_DOUBLE_EQ(volume_of(mesh), kMixedVolume);
 }
 
 }  // namespace
