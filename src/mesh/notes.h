@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,7 +14,7 @@ struct Note {
     // NOLINTNEXTLINE(google-explicit-constructor): most notes are their text
     Note(std::string line, bool warns = false) : text(std::move(line)), is_warning(warns) {}
     Note(const char* line, bool warns = false) : text(line), is_warning(warns) {}  // NOLINT
-    operator std::string_view() const { return text; }                             // NOLINT
+    operator const std::string&() const { return text; }                           // NOLINT
 
     friend bool operator==(const Note&, const Note&) = default;
 };
