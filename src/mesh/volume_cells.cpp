@@ -189,7 +189,9 @@ private:
             return;
         }
         std::uint32_t lowest = triangles_[0][0];
-        for (const auto& [a, b, c] : triangles_) lowest = rank_[a] < rank_[lowest] ? a : lowest;
+        for (const Triangle& triangle : triangles_) {
+            for (const std::uint32_t node : triangle) lowest = rank_[node] < rank_[lowest] ? node : lowest;
+        }
         std::vector<glm::uvec4> tets = connect(lowest);
         if (tets.empty()) {  // two sides on top of each other
             ++collapsed_;
@@ -203,8 +205,8 @@ private:
         }
         double least = least_roundness(tets);
         if (is_poor(least)) {
-            for (const auto& [a, b, c] : triangles_) {
-                for (const std::uint32_t node : {a, b, c}) take_if_better(connect(node), tets, least);
+            for (const Triangle& triangle : triangles_) {
+                for (const std::uint32_t node : triangle) take_if_better(connect(node), tets, least);
             }
         }
         if (is_poor(least)) try_with_centre(tets, least);
@@ -222,7 +224,7 @@ private:
     // Cells that are flat as a whole gain little.
     bool take_if_better(std::vector<glm::uvec4> others, std::vector<glm::uvec4>& tets, double& least) const {
         const double least_of_others = least_roundness(others);
-        if (!(least_of_others > std::max(least, 2.0 * least))) return false;
+        if (others.empty() || !(least_of_others > std::max(least, 2.0 * least))) return false;
         tets = std::move(others);
         least = least_of_others;
         return true;
