@@ -66,7 +66,7 @@ Scene load_input(const SceneInput& input) {
         return load_scene(*scene, input.overrides);
     Notes notes;
     const Scene of_meshes = scene_of_meshes(input.files, input.meshes, notes);
-    for (const std::string& note : notes) log_note(note);
+    for (const Note& note : notes) log_note(note.text);
     return override_scene(of_meshes, input.overrides);
 }
 

@@ -77,10 +77,10 @@ Json describe_scene(const std::filesystem::path& file) {
     return description;
 }
 
-Json describe(const std::filesystem::path& file) {
+// Adds what is to say about the file itself.
+Json describe(const std::filesystem::path& file, Notes& notes) {
     if (file.empty()) return describe_machine();
     if (lower_case_ending(file) == ".toml") return describe_scene(file);
-    Notes notes;
     Json description;
     if (is_tet_file(file)) {
         const TetMesh mesh = read_tets(file, notes);
@@ -91,20 +91,22 @@ Json describe(const std::filesystem::path& file) {
         description = describe_surface(mesh);
         description["crossings"] = count_crossings(mesh);
     }
-    description["notes"] = notes;
     return description;
 }
 
-void print(Json description, bool as_json) {
-    if (as_json) {
-        std::puts(description.dump(1, ' ', false, Json::error_handler_t::replace).c_str());
+void print(const std::filesystem::path& file, bool as_json) {
+    Notes notes;
+    Json description = describe(file, notes);
+    if (!as_json) {
+        print_notes(notes);
+        std::fputs(to_text(description).c_str(), stdout);
         return;
     }
-    if (description.contains("notes")) {
-        print_notes(description["notes"].get<Notes>());
-        description.erase("notes");
+    if (description.value("kind", "scene") != "scene") {
+        Json& lines = description["notes"] = Json::array();
+        for (const Note& note : notes) lines.push_back(note.text);
     }
-    std::fputs(to_text(description).c_str(), stdout);
+    std::puts(description.dump(1, ' ', false, Json::error_handler_t::replace).c_str());
 }
 
 }  // namespace
@@ -119,7 +121,7 @@ void add_info_command(CLI::App& app) {
     command->add_option("FILE", options->file,
                         "A scene (.toml) or a mesh; none: this program and its devices");
     command->add_flag("--json", options->json, "Print one JSON object");
-    command->callback([options] { print(describe(options->file), options->json); });
+    command->callback([options] { print(options->file, options->json); });
 }
 
 }  // namespace gelatin

@@ -137,7 +137,8 @@ std::string to_text(const Json& description) {
 }
 
 void print_notes(const Notes& notes) {
-    for (const std::string& note : notes) std::fprintf(stderr, "gelatin: note: %s\n", note.c_str());
+    for (const Note& note : notes)
+        std::fprintf(stderr, "gelatin: %s: %s\n", note.is_warning ? "warning" : "note", note.text.c_str());
 }
 
 }  // namespace gelatin

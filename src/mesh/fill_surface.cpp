@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
@@ -10,9 +11,12 @@
 
 #include "core/content_hash.h"
 #include "gelatin/error.h"
+#include "mesh/cavity_points.h"
+#include "mesh/lattice/enclosed_space.h"
 #include "mesh/lattice/fill_with_lattice.h"
 #include "mesh/surface_repair.h"
 #include "mesh/tet_cache.h"
+#include "mesh/tet_tree.h"
 #include "mesh/tetrahedralise.h"
 #include "mesh/tetrahedralise_to_nodes.h"
 
@@ -79,6 +83,7 @@ public:
             cache.store(key, *tets);
         }
         notes_.insert(notes_.end(), tets->notes.begin(), tets->notes.end());
+        warn_of_filled_cavities(tets->mesh);
         return std::move(tets->mesh);
     }
 
@@ -101,6 +106,22 @@ public:
     }
 
 private:
+    // The lattice reports what it loses of bodies, but not of the space in them.
+    void warn_of_filled_cavities(const TetMesh& mesh) {
+        const std::vector<glm::dvec3> points = find_cavity_points(surface_);
+        if (points.empty()) return;
+        const TetTree tets(mesh);
+        const lattice::EnclosedSpace space(surface_);
+        const auto filled = std::count_if(points.begin(), points.end(), [&](const glm::dvec3& p) {
+            return tets.find(p) && !space.contains(p);
+        });
+        if (filled == 0) return;
+        notes_.push_back(warning(
+            fmt::format("cavities that are too small for the lattice's cells are filled: {}; a smaller "
+                        "mesher.cell_size, or more mesher.nodes, would keep them",
+                        filled)));
+    }
+
     TetMesh run_tetgen() const {
         return settings_.nodes ? tetrahedralise_to_nodes(surface_, settings_, *settings_.nodes, name_)
                                : tetrahedralise(surface_, settings_, name_);

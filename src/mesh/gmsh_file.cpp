@@ -7,30 +7,49 @@
 #include <optional>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "core/file.h"
 #include "mesh/load_bytes.h"
 #include "mesh/tet_formats.h"
 #include "mesh/text_scanner.h"
+#include "mesh/volume_cells.h"
 
 namespace gelatin {
 namespace {
 
-struct ElementType {
-    std::uint64_t number;
-    int node_count;
-    bool is_tet;  // of any order; the corners come first
+struct ElementTypes {
+    CellShape shape;
+    std::vector<int> numbers;  // of each type its number and how many nodes it has, corners first
 };
 
-// Gmsh's reference manual, "MSH file format".
-constexpr std::array<ElementType, 34> kElementTypes = {{
-    {1, 2, false},   {2, 3, false},   {3, 4, false},    {4, 4, true},    {5, 8, false},   {6, 6, false},
-    {7, 5, false},   {8, 3, false},   {9, 6, false},    {10, 9, false},  {11, 10, true},  {12, 27, false},
-    {13, 18, false}, {14, 14, false}, {15, 1, false},   {16, 8, false},  {17, 20, false}, {18, 15, false},
-    {19, 13, false}, {20, 9, false},  {21, 10, false},  {22, 12, false}, {23, 15, false}, {24, 15, false},
-    {25, 21, false}, {26, 4, false},  {27, 5, false},   {28, 6, false},  {29, 20, true},  {30, 35, true},
-    {31, 56, true},  {92, 64, false}, {93, 125, false}, {36, 16, false},
-}};
+// Gmsh's reference manual, "MSH file format"; those of high order from GmshDefines.h. A trihedron (140) joins
+// a quadrilateral with two triangles and has no volume.
+const std::array<ElementTypes, 5>& element_types() {
+    static const std::array<ElementTypes, 5> kTypes = {{
+        {CellShape::flat, {1,  2,  2,  3,   3,  4,   8,  3,  9,  6,  10, 9,  15, 1,  16, 8,  20,  9,  21, 10,
+                           22, 12, 23, 15,  24, 15,  25, 21, 26, 4,  27, 5,  28, 6,  36, 16, 37,  25, 38, 36,
+                           39, 12, 40, 16,  41, 20,  42, 28, 43, 36, 44, 45, 45, 55, 46, 66, 47,  49, 48, 64,
+                           49, 81, 50, 100, 51, 121, 52, 18, 53, 21, 54, 24, 55, 27, 56, 30, 57,  24, 58, 28,
+                           59, 32, 60, 36,  61, 40,  62, 7,  63, 8,  64, 9,  65, 10, 66, 11, 140, 4}},
+        {CellShape::tet, {4,  4,   11, 10,  29, 20,  30, 35, 31, 56, 32, 22, 33, 28, 71, 84, 72,  120,
+                          73, 165, 74, 220, 75, 286, 79, 34, 80, 40, 81, 46, 82, 52, 83, 58, 137, 16}},
+        {CellShape::hexahedron,
+         {5,   8,  12,   27, 17, 20,  92, 64,  93, 125, 94, 216, 95, 343, 96, 512, 97,
+          729, 98, 1000, 99, 32, 100, 44, 101, 56, 102, 68, 103, 80, 104, 92, 105, 104}},
+        {CellShape::wedge, {6,   6,   13,  18,  18, 15,  90, 40,  91, 75,  106, 126, 107, 196, 108, 288, 109,
+                            405, 110, 550, 111, 24, 112, 33, 113, 42, 114, 51,  115, 60,  116, 69,  117, 78}},
+        {CellShape::pyramid,
+         {7,   5,   14,  14,  19, 13,  118, 30,  119, 55,  120, 91,  121, 140, 122, 204, 123,
+          285, 124, 385, 125, 21, 126, 29,  127, 37,  128, 45,  129, 53,  130, 61,  131, 69}},
+    }};
+    return kTypes;
+}
+
+struct Element {
+    CellShape shape;
+    int node_count;
+};
 
 // Maps the numbers that a file gives its nodes, which need not be consecutive, to indices.
 class NodeTags {
@@ -106,7 +125,8 @@ private:
 
 class GmshReader {
 public:
-    GmshReader(const std::filesystem::path& file, std::string_view content) : scanner_(file, content, 0) {}
+    GmshReader(const std::filesystem::path& file, std::string_view content)
+        : file_(file), scanner_(file, content, 0) {}
 
     TetMesh read(Notes& notes) {
         read_format();
@@ -135,10 +155,7 @@ public:
         }
         if (!has_nodes) scanner_.fail_cut_off("$Nodes");
         if (!has_elements) scanner_.fail_cut_off("$Elements");
-        if (skipped_ > 0) notes.push_back(fmt::format("skipped elements that are not tets: {}", skipped_));
-        if (curved_ > 0)
-            notes.push_back(fmt::format("kept the corners only of tets with more nodes: {}", curved_));
-        return std::move(mesh_);
+        return cells_.divide(file_.string(), notes);
     }
 
 private:
@@ -180,10 +197,10 @@ private:
     void read_nodes_2() {
         const std::size_t count = scanner_.count("number of nodes", numbers_.binary() ? 28 : 8);
         scanner_.skip_line();
-        mesh_.positions.reserve(count);
+        cells_.positions.reserve(count);
         for (std::uint64_t row = 1; row <= count; ++row) {
             tags_.add(numbers_.integer({"number of node", row}));
-            mesh_.positions.push_back(read_position(row));
+            cells_.positions.push_back(read_position(row));
         }
     }
 
@@ -193,11 +210,11 @@ private:
         numbers_.large_integer("smallest node number");
         numbers_.large_integer("largest node number");
         scanner_.require_room("number of nodes", count, numbers_.binary() ? 32 : 8);
-        mesh_.positions.reserve(count);
+        cells_.positions.reserve(count);
         for (std::uint64_t block = 1; block <= blocks; ++block) read_node_block(block);
-        if (mesh_.positions.size() != count) {
+        if (cells_.positions.size() != count) {
             scanner_.fail("number of nodes", fmt::format("{}", count),
-                          fmt::format("but the blocks have {}", mesh_.positions.size()));
+                          fmt::format("but the blocks have {}", cells_.positions.size()));
         }
     }
 
@@ -206,11 +223,11 @@ private:
         numbers_.signed_integer({"entity of node block", block});
         const bool parametric = numbers_.integer({"'parametric' of node block", block}) != 0;
         const std::uint64_t size = numbers_.large_integer({"size of node block", block});
-        const std::uint64_t first = mesh_.positions.size() + 1;
+        const std::uint64_t first = cells_.positions.size() + 1;
         for (std::uint64_t k = 0; k < size; ++k)
             tags_.add(numbers_.large_integer({"number of node", first + k}));
         for (std::uint64_t k = 0; k < size; ++k) {
-            mesh_.positions.push_back(read_position(first + k));
+            cells_.positions.push_back(read_position(first + k));
             const std::uint64_t parameters = parametric ? std::min<std::uint64_t>(dimension, 3) : 0;
             for (std::uint64_t d = 0; d < parameters; ++d) numbers_.real({"parameters of node", first + k});
         }
@@ -237,7 +254,7 @@ private:
         scanner_.skip_line();
         for (std::uint64_t row = 1; row <= count;) {
             if (!numbers_.binary()) numbers_.integer({"number of element", row});
-            const ElementType& type = read_type(row);
+            const Element type = read_type(row);
             const std::uint64_t together = numbers_.binary() ? numbers_.integer({"elements behind", row}) : 1;
             const std::uint64_t tags = numbers_.integer({"number of tags of element", row});
             if (together == 0 || together > count - row + 1) {
@@ -267,7 +284,7 @@ private:
             const int entity = numbers_.signed_integer({"entity of element block", block});
             const auto known = group_of_volume_.find(entity);
             const int group = dimension == 3 && known != group_of_volume_.end() ? known->second : 0;
-            const ElementType& type = read_type(row);
+            const Element type = read_type(row);
             const std::uint64_t size = numbers_.large_integer({"size of element block", block});
             scanner_.require_room({"size of element block", block}, size, numbers_.binary() ? 16 : 4);
             for (const std::uint64_t end = row + size; row < end; ++row) {
@@ -281,42 +298,43 @@ private:
         }
     }
 
-    const ElementType& read_type(std::uint64_t row) {
+    Element read_type(std::uint64_t row) {
         const std::uint64_t number = numbers_.integer({"type of element", row});
-        for (const ElementType& type : kElementTypes) {
-            if (type.number == number) return type;
+        for (const auto& [shape, numbers] : element_types()) {
+            for (std::size_t k = 0; k < numbers.size(); k += 2) {
+                if (static_cast<std::uint64_t>(numbers[k]) == number) return {shape, numbers[k + 1]};
+            }
         }
         scanner_.fail({"type of element", row}, fmt::format("{}", number),
                       "is not one of Gmsh's that Gelatin knows");
     }
 
-    void read_element(const ElementType& type, std::uint64_t row, int group) {
-        glm::uvec4 tet;
+    void read_element(const Element& type, std::uint64_t row, int group) {
+        const int needed = static_cast<int>(corner_count(type.shape));
+        corners_.clear();
         for (int k = 0; k < type.node_count; ++k) {
             const std::uint64_t tag =
                 is_version_4_ ? numbers_.large_integer({"element", row}) : numbers_.integer({"element", row});
-            if (!type.is_tet || k >= 4) continue;
+            if (k >= needed) continue;
             const auto node = tags_.find(tag);
             if (!node)
                 scanner_.fail({"element", row}, fmt::format("{}", tag), "there is no node of this number");
-            tet[k] = *node;
+            corners_.push_back(*node);
         }
-        if (!type.is_tet) {
-            ++skipped_;
-            return;
-        }
-        if (type.node_count > 4) ++curved_;
-        mesh_.tets.push_back(tet);
-        mesh_.attributes.push_back(group);
+        if (needed == 0)
+            cells_.add_other(type.shape, {});
+        else
+            cells_.add(type.shape, corners_, type.node_count > needed, group);
     }
 
+    const std::filesystem::path& file_;
     TextScanner scanner_;
     Numbers numbers_{scanner_};
     bool is_version_4_ = false;
     NodeTags tags_;
     std::unordered_map<int, int> group_of_volume_;
-    TetMesh mesh_;
-    std::size_t skipped_ = 0, curved_ = 0;
+    std::vector<std::uint32_t> corners_;  // of the current element
+    VolumeCells cells_;
 };
 
 }  // namespace

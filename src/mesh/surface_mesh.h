@@ -1,9 +1,9 @@
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <string>
 #include <vector>
 
+#include "mesh/notes.h"
 #include "mesh/surface_look.h"
 
 namespace gelatin {
@@ -14,8 +14,5 @@ struct SurfaceMesh {
     std::vector<glm::uvec3> faces;      ///< vertex indices, shape [faces]
     SurfaceLook look = {};
 };
-
-/// One line for the user for each repair of an input.
-using Notes = std::vector<std::string>;
 
 }  // namespace gelatin

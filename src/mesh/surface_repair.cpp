@@ -110,6 +110,17 @@ void repair_surface(SurfaceMesh& mesh, Notes& notes) {
     note(drop_unused_vertices(mesh) - merged, "discarded vertices without faces: {}");
     const WindingRepair winding = orient_faces_outward(mesh);
     note(winding.flipped_faces, "flipped faces with the wrong orientation: {}");
+    note(winding.cavities,
+         "cavities, as these closed pieces and the body around have opposite orientations: {}");
+    note(winding.enclosed_bodies, "closed pieces inside cavities, which are bodies of their own: {}");
+    if (winding.overlapping_bodies > 0) {
+        drop_faces(mesh, winding.is_enclosed);
+        drop_unused_vertices(mesh);
+    }
+    note(
+        winding.overlapping_bodies,
+        "discarded closed pieces inside a body of the same orientation, which are bodies that overlap it and "
+        "no cavities (reverse their faces to make them cavities): {}");
     note(winding.contrary_edges,
          "edges whose two faces cannot have the same orientation, as on a one-sided surface: {}");
 }
@@ -125,10 +136,12 @@ Openness measure_openness(const SurfaceMesh& mesh) {
 }
 
 double signed_volume(const SurfaceMesh& mesh) {
+    if (mesh.faces.empty()) return 0.0;
     double volume = 0.0;
+    const glm::dvec3 origin = mesh.positions[mesh.faces[0][0]];  // near, against cancellation
     for (const glm::uvec3& face : mesh.faces) {
-        const glm::dvec3 &a = mesh.positions[face[0]], &b = mesh.positions[face[1]],
-                         &c = mesh.positions[face[2]];
+        const glm::dvec3 a = mesh.positions[face[0]] - origin, b = mesh.positions[face[1]] - origin,
+                         c = mesh.positions[face[2]] - origin;
         volume += dot(a, cross(b, c)) / 6.0;
     }
     return volume;

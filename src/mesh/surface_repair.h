@@ -6,9 +6,10 @@ namespace gelatin {
 
 /// Merges coincident vertices (within 1e-9 of the bounding box' diagonal), discards degenerate and duplicate
 /// faces and vertices without faces, and makes the winding consistent across shared edges and outward
-/// (positive volume) in each connected component. A closed component that is completely inside another is a
-/// cavity, and its winding is inward. Adds one line to `notes` for each kind of repair that changed
-/// something.
+/// (positive volume) in each connected component. Closed components inside others become cavities, whose
+/// winding is inward, or bodies (orient_faces_outward); those that overlap another body are discarded. So
+/// faces are between the body and the space around it. Adds one line to `notes` for each kind of repair that
+/// changed something, and for cavities.
 void repair_surface(SurfaceMesh& mesh, Notes& notes);
 
 /// The edges that do not have exactly two faces.

@@ -4,10 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <span>
 #include <utility>
 
 #include "mesh/edge_uses.h"
+#include "mesh/piece_nesting.h"
 
 namespace gelatin {
 namespace {
@@ -116,82 +118,82 @@ double part_volume(const SurfaceMesh& mesh, std::span<const std::uint32_t> faces
     return volume;
 }
 
-// Finds whether a vertex of a part is inside an odd number of other parts: by the parity of the faces that
-// the ray along +x from it crosses.
-struct Query {
-    glm::dvec3 from;
-    std::uint32_t part;
-    bool odd = false;
+/// What becomes of a part of the surface.
+struct Role {
+    bool is_inward = false;
+    bool is_enclosed = false;  ///< the same is on both of its sides: a body
 };
 
-// Whether the edge a-b, projected along x, crosses the ray along +y from `from`. Both faces of an edge get
-// the same answer, so that no ray slips through between them. The crossing is clamped to both ends against
-// rounding.
-bool crosses_in_projection(const SurfaceMesh& mesh, std::uint32_t a, std::uint32_t b,
-                           const glm::dvec3& from) {
-    if (a > b) std::swap(a, b);
-    const glm::dvec3 &p = mesh.positions[a], &q = mesh.positions[b];
-    if ((p.z > from.z) == (q.z > from.z)) return false;
-    const double crossing = p.y + (from.z - p.z) / (q.z - p.z) * (q.y - p.y);
-    return std::clamp(crossing, std::min(p.y, q.y), std::max(p.y, q.y)) > from.y;
-}
+/// Decides about closed parts inside closed parts by their orientation in the file. `winding` is how many
+/// bodies a place is in, less how many cavities: around a part that of all parts that contain it.
+class Nesting {
+public:
+    Nesting(const SurfaceMesh& mesh, const Parts& parts, const std::vector<double>& volumes,
+            const std::vector<bool>& turn, WindingRepair& repair)
+        : parts_(parts), volumes_(volumes), turn_(turn), repair_(repair), roles_(parts.count()) {
+        find_pieces();
+        containers_ = find_containers(mesh, piece_of_face_, static_cast<std::uint32_t>(pieces_.size()));
+    }
 
-bool ray_crosses(const SurfaceMesh& mesh, const glm::uvec3& face, const glm::dvec3& from) {
-    const bool hit = crosses_in_projection(mesh, face[0], face[1], from) ^
-                     crosses_in_projection(mesh, face[1], face[2], from) ^
-                     crosses_in_projection(mesh, face[2], face[0], from);
-    if (!hit) return false;
-    const glm::dvec3& a = mesh.positions[face[0]];
-    const glm::dvec3 normal = cross(mesh.positions[face[1]] - a, mesh.positions[face[2]] - a);
-    return dot(normal, a - from) * normal.x > 0.0;
-}
+    std::vector<Role> decide() {
+        std::vector<std::uint32_t> order(pieces_.size());  // containers before what they contain
+        std::iota(order.begin(), order.end(), 0u);
+        std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return containers_[a].size() < containers_[b].size();
+        });
+        for (const std::uint32_t piece : order) decide(piece);
+        return std::move(roles_);
+    }
 
-// The part's extreme vertices along the axes. If parts merely overlap, one of these is outside.
-std::array<glm::dvec3, 6> extremes(const SurfaceMesh& mesh, std::span<const std::uint32_t> faces) {
-    std::array<glm::dvec3, 6> points;
-    points.fill(mesh.positions[mesh.faces[faces[0]][0]]);
-    for (const std::uint32_t f : faces) {
-        for (int corner = 0; corner < 3; ++corner) {
-            const glm::dvec3& p = mesh.positions[mesh.faces[f][corner]];
-            for (int axis = 0; axis < 3; ++axis) {
-                if (p[axis] < points[2 * axis][axis]) points[2 * axis] = p;
-                if (p[axis] > points[2 * axis + 1][axis]) points[2 * axis + 1] = p;
-            }
+private:
+    void find_pieces() {
+        piece_of_face_.assign(parts_.part_of_face.size(), kNoPiece);
+        for (std::uint32_t part = 0; part < parts_.count(); ++part) {
+            if (!parts_.closed[part]) continue;
+            for (const std::uint32_t f : parts_.of(part))
+                piece_of_face_[f] = static_cast<std::uint32_t>(pieces_.size());
+            pieces_.push_back(part);
         }
     }
-    return points;
-}
 
-std::vector<bool> find_cavities(const SurfaceMesh& mesh, const Parts& parts) {
-    std::vector<bool> cavity(parts.count(), false);
-    if (std::count(parts.closed.begin(), parts.closed.end(), true) < 2) return cavity;
+    Role& role(std::uint32_t piece) { return roles_[pieces_[piece]]; }
 
-    std::vector<Query> queries;
-    for (std::uint32_t part = 0; part < parts.count(); ++part) {
-        if (!parts.closed[part]) continue;
-        cavity[part] = true;
-        for (const glm::dvec3& p : extremes(mesh, parts.of(part))) queries.push_back({p, part});
+    // As most faces have it in the file.
+    bool is_inward_in_file(std::uint32_t piece) const {
+        const std::uint32_t part = pieces_[piece];
+        const auto faces = parts_.of(part);
+        const auto turned = std::count_if(faces.begin(), faces.end(), [&](auto f) { return turn_[f]; });
+        return (volumes_[part] < 0.0) != (2 * static_cast<std::size_t>(turned) > faces.size());
     }
-    // Sorted by y, so that a face tests only the queries in its range.
-    std::sort(queries.begin(), queries.end(),
-              [](const Query& a, const Query& b) { return a.from.y < b.from.y; });
-    for (const std::uint32_t f : parts.faces) {
-        if (!parts.closed[parts.part_of_face[f]]) continue;
-        const glm::uvec3& face = mesh.faces[f];
-        const auto [low, high] =
-            std::minmax({mesh.positions[face[0]].y, mesh.positions[face[1]].y, mesh.positions[face[2]].y});
-        auto query = std::lower_bound(queries.begin(), queries.end(), low,
-                                      [](const Query& q, double y) { return q.from.y < y; });
-        for (; query != queries.end() && query->from.y <= high; ++query) {
-            if (query->part != parts.part_of_face[f] && ray_crosses(mesh, face, query->from))
-                query->odd = !query->odd;
+
+    void decide(std::uint32_t piece) {
+        const std::vector<std::uint32_t>& around = containers_[piece];
+        if (around.empty()) return;
+        int winding = 0;
+        std::uint32_t innermost = around.front();
+        for (const std::uint32_t container : around) {
+            winding += role(container).is_inward ? -1 : 1;
+            if (containers_[container].size() > containers_[innermost].size()) innermost = container;
         }
+        if (winding <= 0) {
+            ++repair_.enclosed_bodies;
+            return;
+        }
+        const bool is_opposite = is_inward_in_file(piece) != is_inward_in_file(innermost);
+        role(piece).is_inward = is_opposite != role(innermost).is_inward;
+        role(piece).is_enclosed = !role(piece).is_inward || winding > 1;
+        ++(role(piece).is_enclosed ? repair_.overlapping_bodies : repair_.cavities);
     }
-    for (const Query& query : queries) {
-        if (!query.odd) cavity[query.part] = false;
-    }
-    return cavity;
-}
+
+    const Parts& parts_;
+    const std::vector<double>& volumes_;
+    const std::vector<bool>& turn_;
+    WindingRepair& repair_;
+    std::vector<Role> roles_;
+    std::vector<std::uint32_t> pieces_;  ///< the closed parts
+    std::vector<std::uint32_t> piece_of_face_;
+    std::vector<std::vector<std::uint32_t>> containers_;
+};
 
 }  // namespace
 
@@ -201,17 +203,22 @@ WindingRepair orient_faces_outward(SurfaceMesh& mesh) {
     const std::vector<EdgeUse> uses = sorted_edge_uses(mesh.faces);
     const Neighbours neighbours = find_neighbours(mesh, uses);
     const Parts parts = agree_within_parts(neighbours, turn, repair.contrary_edges);
-    const std::vector<bool> cavity = find_cavities(mesh, parts);
+    std::vector<double> volumes;
+    for (std::uint32_t part = 0; part < parts.count(); ++part)
+        volumes.push_back(part_volume(mesh, parts.of(part), neighbours, turn));
+    const std::vector<Role> roles = Nesting(mesh, parts, volumes, turn, repair).decide();
+    repair.is_enclosed.assign(mesh.faces.size(), false);
     for (std::uint32_t part = 0; part < parts.count(); ++part) {
-        const double volume = part_volume(mesh, parts.of(part), neighbours, turn);
-        if (cavity[part] ? volume <= 0.0 : volume >= 0.0) continue;
-        for (const std::uint32_t f : parts.of(part)) turn[f] = !turn[f];
-    }
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-        if (!turn[f]) continue;
-        std::swap(mesh.faces[f][1], mesh.faces[f][2]);
-        if (!mesh.look.corner_uvs.empty()) std::swap(mesh.look.corner_uvs[f][1], mesh.look.corner_uvs[f][2]);
-        ++repair.flipped_faces;
+        const Role& role = roles[part];
+        const bool is_wrong = role.is_inward ? volumes[part] > 0.0 : volumes[part] < 0.0;
+        for (const std::uint32_t f : parts.of(part)) {
+            repair.is_enclosed[f] = role.is_enclosed;
+            if (turn[f] == is_wrong || role.is_enclosed) continue;
+            std::swap(mesh.faces[f][1], mesh.faces[f][2]);
+            if (!mesh.look.corner_uvs.empty())
+                std::swap(mesh.look.corner_uvs[f][1], mesh.look.corner_uvs[f][2]);
+            ++repair.flipped_faces;
+        }
     }
     return repair;
 }

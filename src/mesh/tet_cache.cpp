@@ -8,6 +8,12 @@
 
 namespace gelatin {
 
+namespace {
+
+constexpr char kWarning = '\1';  // in front of a note
+
+}  // namespace
+
 static_assert(sizeof(glm::dvec3) == 24 && sizeof(glm::uvec4) == 16 && sizeof(glm::uvec3) == 12);
 
 TetCache::TetCache(std::filesystem::path folder)
@@ -24,14 +30,18 @@ std::optional<CachedTets> TetCache::find(const std::string& key) const {
                           reader.take(mesh.attributes) && reader.take(notes);
     if (!is_whole || !reader.at_end()) return std::nullopt;
     std::istringstream lines(std::string(notes.begin(), notes.end()));
-    for (std::string line; std::getline(lines, line);) tets.notes.push_back(line);
+    for (std::string line; std::getline(lines, line);) {
+        const bool is_warning = line.starts_with(kWarning);
+        tets.notes.emplace_back(line.substr(is_warning ? 1 : 0), is_warning);
+    }
     return tets;
 }
 
 void TetCache::store(const std::string& key, const CachedTets& tets) const {
     std::vector<char> notes;
-    for (const std::string& note : tets.notes) {
-        notes.insert(notes.end(), note.begin(), note.end());
+    for (const Note& note : tets.notes) {
+        if (note.is_warning) notes.push_back(kWarning);
+        notes.insert(notes.end(), note.text.begin(), note.text.end());
         notes.push_back('\n');
     }
     ArrayWriter writer;

@@ -63,8 +63,9 @@ TetMesh read_tets(const fs::path& file, Notes& notes) {
                    : ending == ".vtu" ? read_vtu(file, notes)
                                       : read_tetgen(file, notes);
     if (mesh.tets.empty()) {
-        const std::string but = notes.empty() ? "" : fmt::format(" ({})", fmt::join(notes, "; "));
-        throw InvalidInput({file.string(), 0, {}, {}, "has no tets" + but});
+        std::string problem = "has no tets";
+        for (const Note& note : notes) problem += (&note == &notes.front() ? " (" : "; ") + note.text;
+        throw InvalidInput({file.string(), 0, {}, {}, problem + (notes.empty() ? "" : ")")});
     }
     repair_tets(mesh, file.string(), notes);
     return mesh;

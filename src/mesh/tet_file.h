@@ -13,10 +13,11 @@ bool is_tet_file(const std::filesystem::path& file);
 
 /// Reads a tet mesh: TetGen's .node with its .ele (either may be named), Medit's ASCII .mesh, Gmsh's .msh
 /// versions 2.2 and 4.1 (ASCII and binary), VTK's unstructured grids as legacy .vtk (ASCII and binary) and as
-/// .vtu (all codings, zlib the only compression). Other elements are ignored, duplicate tets and unused nodes
-/// discarded, and inverted tets flipped, each with a note. Boundary faces are computed. Attributes are the
-/// first one of TetGen's, Medit's references, the first of Gmsh's physical groups, and VTK's cell array of
-/// integers with a usual name (attribute_rank, vtk_grid.h); none if all are 0.
+/// .vtu (all codings, zlib the only compression). Hexahedra, wedges, pyramids and prisms are divided
+/// (VolumeCells), elements without volume ignored, duplicate tets and unused nodes discarded, and inverted
+/// tets flipped, each with a note. Volume that cannot be read is a warning. Boundary faces are computed.
+/// Attributes are the first one of TetGen's, Medit's references, the first of Gmsh's physical groups, and
+/// VTK's cell array of integers with a usual name (attribute_rank, vtk_grid.h); none if all are 0.
 /// @throws InvalidInput naming file, line and field: missing, empty or truncated, an unknown version, indices
 ///   out of range, coordinates that are not finite, no tets, flat tets (volume below 1e-12 of the longest
 ///   edge cubed), counts that the file is too short for (checked before anything of that size is allocated).

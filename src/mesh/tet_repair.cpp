@@ -96,8 +96,7 @@ std::size_t drop_unused_nodes(TetMesh& mesh) {
 
 // Tets without common nodes would fall apart. Some programs write each tet with its own nodes.
 void merge_nodes(TetMesh& mesh, Notes& notes) {
-    constexpr double kTolerance = 1e-12;  // of the diagonal
-    const MergedPoints merged = merge_points(mesh.positions, kTolerance);
+    const MergedPoints merged = merge_points(mesh.positions, kCoincidentNodes);
     if (merged.count == 0) return;
     for (glm::uvec4& tet : mesh.tets) {
         for (int corner = 0; corner < 4; ++corner) tet[corner] = merged.into[tet[corner]];

@@ -97,7 +97,8 @@ void read_rows_of_tets(const fs::path& file, const Nodes& nodes, TetMesh& mesh, 
     }
     if (!scanner.at_end())
         scanner.fail("tet", scanner.word("tet"), "there are more rows than the header says");
-    if (corners == 10) notes.push_back(fmt::format("kept the corners only of tets with 10 nodes: {}", count));
+    if (corners == 10)
+        notes.push_back(fmt::format("kept the corners only of cells with more nodes: {}", count));
     keep_whole(regions, mesh, notes);
 }
 

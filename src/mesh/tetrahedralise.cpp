@@ -19,6 +19,7 @@
 #include "core/file.h"
 #include "core/process.h"
 #include "gelatin/error.h"
+#include "mesh/cavity_points.h"
 #include "mesh/flat_tets.h"
 #include "mesh/surface_repair.h"
 #include "mesh/tet_cache.h"
@@ -62,7 +63,8 @@ std::string make_switches(const MesherSettings& settings) {
 }
 
 /// A hash of everything that the tets depend on. `tetgen -h` prints the version.
-std::string make_key(const SurfaceMesh& surface, const std::string& switches) {
+std::string make_key(const SurfaceMesh& surface, const std::vector<glm::dvec3>& holes,
+                     const std::string& switches) {
     const TemporaryFolder folder;
     const std::string help = run_tetgen({"-h"}, folder.path(), 10.0).output;
     const std::string head = fmt::format("{}\n{}\n{}\n{} {}\n", kCacheFormat, help, switches,
@@ -71,11 +73,12 @@ std::string make_key(const SurfaceMesh& surface, const std::string& switches) {
     hash.add(head);
     hash.add(surface.positions);
     hash.add(surface.faces);
+    if (!holes.empty()) hash.add(holes);  // keys of other surfaces stay what they were
     return hash.hex();
 }
 
-/// TetGen's .smesh: the vertices, a facet for each face, no holes, no regions.
-std::string format_smesh(const SurfaceMesh& surface) {
+/// TetGen's .smesh: the vertices, a facet for each face, a point in each hole, no regions.
+std::string format_smesh(const SurfaceMesh& surface, const std::vector<glm::dvec3>& holes) {
     fmt::memory_buffer text;
     const auto out = std::back_inserter(text);
     fmt::format_to(out, "{} 3 0 0\n", surface.positions.size());
@@ -85,7 +88,10 @@ std::string format_smesh(const SurfaceMesh& surface) {
     }
     fmt::format_to(out, "{} 0\n", surface.faces.size());
     for (const glm::uvec3& f : surface.faces) fmt::format_to(out, "3 {} {} {}\n", f[0], f[1], f[2]);
-    fmt::format_to(out, "0\n0\n");
+    fmt::format_to(out, "{}\n", holes.size());
+    for (std::size_t h = 0; h < holes.size(); ++h)
+        fmt::format_to(out, "{} {} {} {}\n", h, holes[h].x, holes[h].y, holes[h].z);
+    fmt::format_to(out, "0\n");
     return fmt::to_string(text);
 }
 
@@ -190,15 +196,29 @@ TetMesh read_result(const std::filesystem::path& file) {
 
 using Outcome = std::variant<TetMesh, MesherFailure>;
 
-Outcome run_mesher(const SurfaceMesh& surface, double time_limit, const std::string& switches) {
+/// Cavities are empty, and nothing else is.
+void check_volume(const TetMesh& mesh, const SurfaceMesh& surface) {
+    constexpr double kRounding = 1e-6;
+    double volume = 0.0;
+    for (const glm::uvec4& tet : mesh.tets) volume += tet_volume(mesh, tet);
+    const double expected = signed_volume(surface);
+    if (std::abs(volume - expected) <= kRounding * expected) return;
+    throw InvalidInput(fmt::format("it fills {:.6g} m^3, and the surface with its cavities encloses {:.6g}",
+                                   volume, expected));
+}
+
+Outcome run_mesher(const SurfaceMesh& surface, const std::vector<glm::dvec3>& holes, double time_limit,
+                   const std::string& switches) {
     const TemporaryFolder folder;
-    write_file(folder.path() / kSurfaceFile, format_smesh(surface));
+    write_file(folder.path() / kSurfaceFile, format_smesh(surface, holes));
     const ProcessResult result = run_tetgen({switches, kSurfaceFile}, folder.path(), time_limit);
     const std::filesystem::path tets = folder.path() / kTetFile;
     const bool has_result = result.succeeded() && std::filesystem::exists(tets);
     if (!has_result) return describe_failure(result, folder.path(), time_limit);
     try {
-        return read_result(tets);
+        TetMesh mesh = read_result(tets);
+        if (!holes.empty()) check_volume(mesh, surface);
+        return mesh;
     } catch (const InvalidInput& error) {
         const std::string problem =
             "the mesh that TetGen made of this surface cannot be used: " + error.problem().problem;
@@ -215,7 +235,8 @@ Outcome run_mesher(const SurfaceMesh& surface, double time_limit, const std::str
 TetMesh tetrahedralise(const SurfaceMesh& surface, const MesherSettings& settings, const std::string& name) {
     check_surface(surface, settings, name);
     const std::string switches = make_switches(settings);
-    const std::string key = make_key(surface, switches);
+    const std::vector<glm::dvec3> holes = find_cavity_points(surface);
+    const std::string key = make_key(surface, holes, switches);
     const TetCache cache;
     if (std::optional<CachedTets> known = cache.find(key)) return std::move(known->mesh);
     std::optional<MesherFailure> failure = cache.find_failure(key);
@@ -223,7 +244,7 @@ TetMesh tetrahedralise(const SurfaceMesh& surface, const MesherSettings& setting
         failure->problem += "; this is known from an earlier run";
         refuse(name, *failure);
     }
-    Outcome outcome = run_mesher(surface, settings.time_limit, switches);
+    Outcome outcome = run_mesher(surface, holes, settings.time_limit, switches);
     if (const auto* failed = std::get_if<MesherFailure>(&outcome)) {
         if (failed->retry_above > 0.0) cache.store_failure(key, *failed);
         refuse(name, *failed);

@@ -44,9 +44,9 @@ public:
             }
         }
         read_data(notes);
-        VtkTets tets(file_);
-        tets.add(grid_, 0);
-        return tets.finish(notes);
+        VtkCells cells(file_);
+        cells.add(grid_, 0);
+        return cells.finish(notes);
     }
 
 private:

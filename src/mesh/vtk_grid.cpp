@@ -60,11 +60,36 @@ std::string lower_case(std::string_view text) {
     return result;
 }
 
-// Of VTK's cell types those that are tets; their corners come first.
-constexpr int kTetra = 10;
-bool is_tet(std::int64_t type) {
-    constexpr int kQuadratic = 24, kLagrange = 71, kBezier = 79;
-    return type == kTetra || type == kQuadratic || type == kLagrange || type == kBezier;
+struct VtkCellTypes {
+    CellShape shape;
+    std::array<std::int64_t, 14> numbers;  // first that of cells without nodes besides their corners
+};
+
+// vtkCellType.h. Corners come first, in the order of CellShape but for voxels.
+constexpr std::int64_t kVoxel = 11, kLastFlat = 9;
+constexpr std::array<VtkCellTypes, 7> kCellTypes = {{
+    {CellShape::tet, {10, 24, 71, 79}},
+    {CellShape::pyramid, {14, 27, 37, 74, 82}},
+    {CellShape::wedge, {13, 26, 31, 32, 73, 81}},
+    {CellShape::hexahedron, {12, 25, 29, 33, 72, 80}},
+    {CellShape::pentagonal_prism, {15}},
+    {CellShape::hexagonal_prism, {16}},
+    {CellShape::flat, {21, 22, 23, 28, 30, 34, 35, 36, 68, 69, 70, 75, 76, 77}},
+}};
+
+struct VtkCellType {
+    CellShape shape;
+    bool is_curved;
+};
+
+VtkCellType find_cell_type(std::int64_t number) {
+    if (number >= 0 && number <= kLastFlat) return {CellShape::flat, true};
+    if (number == kVoxel) return {CellShape::hexahedron, false};
+    for (const auto& [shape, numbers] : kCellTypes) {
+        if (std::find(numbers.begin(), numbers.end(), number) != numbers.end())
+            return {shape, number != numbers.front()};
+    }
+    return {CellShape::unknown, true};
 }
 
 template <class Stored, class T>
@@ -113,7 +138,7 @@ std::optional<std::size_t> attribute_rank(std::string_view name) {
     return static_cast<std::size_t>(found - kAttributeNames.begin());
 }
 
-void VtkTets::add(const VtkGrid& grid, int line) {
+void VtkCells::add(const VtkGrid& grid, int line) {
     const auto refuse = [&](const std::string& field, const std::string& value, const std::string& problem) {
         throw InvalidInput({file_.string(), line, field, value, problem});
     };
@@ -122,7 +147,9 @@ void VtkTets::add(const VtkGrid& grid, int line) {
         refuse("number of cell types", fmt::format("{}", cells),
                fmt::format("but there are {} cells", grid.ends.size()));
     }
-    const auto first_point = static_cast<std::uint32_t>(mesh_.positions.size());
+    std::vector<glm::dvec3>& positions = cells_.positions;
+    const auto first_point = static_cast<std::uint32_t>(positions.size());
+    std::vector<std::uint32_t> corners;
     std::int64_t begin = 0;
     for (std::size_t c = 0; c < cells; ++c) {
         const std::int64_t end = grid.ends[c];
@@ -132,37 +159,36 @@ void VtkTets::add(const VtkGrid& grid, int line) {
                    fmt::format("must be from {} to {}", begin, grid.connectivity.size()));
         }
         const std::int64_t first = std::exchange(begin, end), size = end - first;
-        if (!is_tet(grid.types[c])) {
-            ++skipped_;
+        const VtkCellType type = find_cell_type(grid.types[c]);
+        const auto needed = static_cast<std::int64_t>(corner_count(type.shape));
+        if (needed == 0) {
+            cells_.add_other(type.shape, fmt::format("VTK's cell type {}", grid.types[c]));
             continue;
         }
-        if (size < 4 || (size > 4 && grid.types[c] == kTetra))
-            refuse(cell(), fmt::format("{} points", size), "a tet must have 4, a curved one more");
-        curved_ += size > 4 ? 1 : 0;
-        glm::uvec4 tet;
-        for (int corner = 0; corner < 4; ++corner) {
-            const std::int64_t point = grid.connectivity[static_cast<std::size_t>(first + corner)];
+        if (size < needed || (size > needed && !type.is_curved)) {
+            refuse(cell(), fmt::format("{} points", size),
+                   fmt::format("{} must have {}, curved ones more", plural_of(type.shape), needed));
+        }
+        corners.clear();
+        for (std::int64_t k = first; k < first + needed; ++k) {
+            const std::int64_t point = grid.connectivity[static_cast<std::size_t>(k)];
             if (point < 0 || point >= static_cast<std::int64_t>(grid.points.size())) {
                 refuse(cell(), fmt::format("{}", point),
                        fmt::format("there is no point of this number; there are {}, counted from 0",
                                    grid.points.size()));
             }
-            tet[corner] = first_point + static_cast<std::uint32_t>(point);
+            corners.push_back(first_point + static_cast<std::uint32_t>(point));
+        }
+        if (grid.types[c] == kVoxel) {  // rows, not circles
+            std::swap(corners[2], corners[3]);
+            std::swap(corners[6], corners[7]);
         }
         const std::int64_t attribute = grid.attributes.empty() ? 0 : grid.attributes[c];
         if (attribute != static_cast<int>(attribute))
             refuse("attribute of " + cell(), fmt::format("{}", attribute), "must fit into 32 bits");
-        mesh_.tets.push_back(tet);
-        mesh_.attributes.push_back(static_cast<int>(attribute));
+        cells_.add(type.shape, corners, size > needed, static_cast<int>(attribute));
     }
-    mesh_.positions.insert(mesh_.positions.end(), grid.points.begin(), grid.points.end());
-}
-
-TetMesh VtkTets::finish(Notes& notes) {
-    if (skipped_ > 0) notes.push_back(fmt::format("skipped cells that are not tets: {}", skipped_));
-    if (curved_ > 0)
-        notes.push_back(fmt::format("kept the corners only of tets with more nodes: {}", curved_));
-    return std::move(mesh_);
+    positions.insert(positions.end(), grid.points.begin(), grid.points.end());
 }
 
 }  // namespace gelatin

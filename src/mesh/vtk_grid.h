@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "mesh/surface_mesh.h"
 #include "mesh/tet_mesh.h"
+#include "mesh/volume_cells.h"
 
 namespace gelatin {
 
@@ -39,23 +39,22 @@ struct VtkGrid {
 /// Whether a cell array of this name, if it has integers, is the tets' attribute. The lowest rank is used.
 std::optional<std::size_t> attribute_rank(std::string_view name);
 
-/// Collects the tets of the grids of a file.
-class VtkTets {
+/// Collects the cells of the grids of a file.
+class VtkCells {
 public:
     /// Keeps a reference to it, for messages.
-    explicit VtkTets(const std::filesystem::path& file) : file_(file) {}
+    explicit VtkCells(const std::filesystem::path& file) : file_(file) {}
 
     /// @param line where the cells are, for messages; 0: unknown
     /// @throws InvalidInput for counts that do not agree and for indices out of range.
     void add(const VtkGrid& grid, int line);
 
-    /// Also notes what was ignored.
-    TetMesh finish(Notes& notes);
+    /// @throws as VolumeCells::divide
+    TetMesh finish(Notes& notes) { return cells_.divide(file_.string(), notes); }
 
 private:
     const std::filesystem::path& file_;
-    TetMesh mesh_;
-    std::size_t skipped_ = 0, curved_ = 0;
+    VolumeCells cells_;
 };
 
 }  // namespace gelatin

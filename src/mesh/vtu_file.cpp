@@ -31,9 +31,9 @@ public:
         if (!root) refuse(root, "VTKFile", {}, "is missing: this is no file of VTK's");
         read_coding(root);
         const pugi::xml_node grid = need_child(root, "UnstructuredGrid");
-        VtkTets tets(file_);
-        for (const pugi::xml_node piece : grid.children("Piece")) read_piece(piece, tets);
-        return tets.finish(notes);
+        VtkCells mesh(file_);
+        for (const pugi::xml_node piece : grid.children("Piece")) read_piece(piece, mesh);
+        return mesh.finish(notes);
     }
 
 private:
@@ -82,7 +82,7 @@ private:
         coding_.is_compressed = !compressor.empty();
     }
 
-    void read_piece(const pugi::xml_node& piece, VtkTets& tets) const {
+    void read_piece(const pugi::xml_node& piece, VtkCells& mesh) const {
         const std::uint64_t points = need_count(piece, "NumberOfPoints");
         const std::uint64_t cells = need_count(piece, "NumberOfCells");
         if (points == 0 && cells == 0) return;
@@ -94,7 +94,7 @@ private:
         grid.types = read_integers(need_array(parts, "types"), cells);
         if (const pugi::xml_node attribute = find_attribute(piece.child("CellData")))
             grid.attributes = read_integers(attribute, cells);
-        tets.add(grid, line_of(parts));
+        mesh.add(grid, line_of(parts));
     }
 
     pugi::xml_node find_attribute(const pugi::xml_node& cell_data) const {

@@ -1,4 +1,5 @@
 """Other programs read what Gelatin exports, with the numbers of the simulation: USD's library, trimesh, meshio and VTK.
+Gelatin reads what meshio writes of cells that are no tets.
 Needs PyPI, so it is one of the long tests. Assimp reads glTF in tests/sim/animation_file_test.cpp.
 
 The numbers are those of a checkpoint, for nodes, and of a point cache, for what is drawn; tests of C++ compare both with
@@ -94,6 +95,32 @@ def textured_bar():
                     faces.append(quad if side else quad[::-1])
     lines += ["f " + " ".join(f"{p}/{t}" for p, t in quad) for quad in faces]
     return "\n".join(lines) + "\n"
+
+
+def mixed_cells(size):
+    """A box of cells in columns of hexahedra, of pairs of wedges, and of six pyramids about a node, with random nodes inside."""
+    import meshio
+
+    random = np.random.default_rng(1)
+    points = np.array(list(np.ndindex(size + 1, size + 1, size + 1)), float)
+    inside = np.all((points > 0) & (points < size), axis=1)
+    points[inside] += random.uniform(-0.15, 0.15, (inside.sum(), 3))
+    number = np.arange(len(points)).reshape(size + 1, size + 1, size + 1)
+    cells, centres = {"hexahedron": [], "wedge": [], "pyramid": []}, []
+    for x, y, z in np.ndindex(size, size, size):
+        corners = [number[x + a, y + b, z + c] for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        if (kind := (x + 2 * y) % 3) == 0:
+            cells["hexahedron"].append(corners)
+        elif kind == 1:
+            cells["wedge"] += [[corners[k] for k in half] for half in ((0, 1, 2, 4, 5, 6), (0, 2, 3, 4, 6, 7))]
+        else:
+            tip = len(points) + len(centres)
+            centres.append(points[corners].mean(axis=0))
+            for side in ((0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)):
+                cells["pyramid"].append([corners[k] for k in side] + [tip])
+    order = random.permutation(len(points) + len(centres))  # of the nodes in the file
+    points = np.vstack([points, centres])[np.argsort(order)]
+    return meshio.Mesh(points, [(kind, order[np.array(of_kind)]) for kind, of_kind in cells.items()])
 
 
 class Readers(unittest.TestCase):
@@ -206,6 +233,37 @@ class Readers(unittest.TestCase):
         np.testing.assert_allclose(mesh.point_data["displacement"], mesh.points - first.points, atol=1e-6)
         self.assertEqual([block.type for block in mesh.cells], ["tetra"])
         self.assertEqual(sorted(mesh.cell_data), ["object", "strain", "stress"])
+
+    def test_cells_of_meshio_become_tets(self):
+        import meshio
+
+        size = 5
+        mesh = mixed_cells(size)
+        counts = {block.type: len(block.data) for block in mesh.cells}
+        regions = [np.full(len(block.data), k + 1) for k, block in enumerate(mesh.cells)]
+        for kind, binary, name in [
+            *((kind, binary, "material") for kind in ("vtu", "vtk42", "vtk51") for binary in (True, False)),
+            *(("gmsh22", binary, "gmsh:physical") for binary in (True, False)),
+            ("medit", None, "medit:ref"),
+        ]:
+            with self.subTest(kind=kind, binary=binary):
+                ending = {"vtk42": "vtk", "vtk51": "vtk", "gmsh22": "msh", "medit": "mesh"}.get(kind, kind)
+                file = self.folder / f"mixed.{ending}"
+                data = {name: regions} | ({"gmsh:geometrical": regions} if kind == "gmsh22" else {})
+                options = {} if binary is None else {"binary": binary}
+                meshio.write(file, meshio.Mesh(mesh.points, mesh.cells, cell_data=data), file_format=kind, **options)
+                subprocess.run([PROGRAM, "mesh", file, "-o", "tets.vtu"], cwd=self.folder, capture_output=True, check=True)
+                tets = meshio.read(self.folder / "tets.vtu")
+                corners = tets.points[tets.cells[0].data]
+                volumes = np.linalg.det(corners[:, 1:] - corners[:, :1]) / 6
+                self.assertAlmostEqual(volumes.sum(), size**3, places=9)
+                self.assertGreater(volumes.min(), 0)
+                of_region = np.bincount(tets.cell_data["attribute"][0])[1:]
+                self.assertEqual(list(of_region), [6 * counts["hexahedron"], 3 * counts["wedge"], 2 * counts["pyramid"]])
+                sides = np.sort(tets.cells[0].data[:, [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]]], axis=-1)
+                _, uses = np.unique(sides.reshape(-1, 3), axis=0, return_counts=True)
+                self.assertEqual(np.sum(uses == 1), 12 * size**2)  # two on each square of the box
+                self.assertEqual(uses.max(), 2)
 
     def test_vtk_reads_the_series(self):
         from vtk import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader

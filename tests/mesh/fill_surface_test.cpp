@@ -10,6 +10,8 @@
 #include "gelatin/error.h"
 #include "mesh/shapes.h"
 #include "mesh/tetrahedralise.h"
+#include "mesh/topology.h"
+#include "mesh_samples.h"
 
 namespace gelatin {
 namespace {
@@ -69,6 +71,37 @@ TEST(FillSurface, ByTheLatticeWithoutTetGen) {
     EXPECT_FALSE(mesh.tets.empty());
     ASSERT_FALSE(notes.empty());
     EXPECT_THAT(notes.front(), StartsWith("filled by the lattice mesher, because of "));
+}
+
+SurfaceMesh cube_with_cavity(double size) {
+    SurfaceMesh shell = cube({0, 0, 0}, 1.0), cavity = cube(glm::dvec3(0.5 - 0.5 * size), size);
+    for (glm::uvec3& face : cavity.faces) std::swap(face[1], face[2]);
+    append(shell, cavity);
+    return shell;
+}
+
+double volume_of(const TetMesh& mesh) {
+    double volume = 0.0;
+    for (const glm::uvec4& tet : mesh.tets) volume += tet_volume(mesh, tet);
+    return volume;
+}
+
+TEST(FillSurface, BothMeshersLeaveCavitiesEmpty) {
+    const SurfaceMesh shell = cube_with_cavity(0.5);
+    Notes notes;
+    EXPECT_NEAR(volume_of(fill_surface(shell, by(MesherKind::tetgen), "shell", notes)), 0.875, 1e-9);
+    MesherSettings fine = by(MesherKind::lattice);
+    fine.nodes = 3000;
+    EXPECT_NEAR(volume_of(fill_surface(shell, fine, "shell", notes)), 0.875, 0.02);
+    for (const Note& note : notes) EXPECT_FALSE(note.is_warning) << note.text;
+}
+
+TEST(FillSurface, WarnsOfCavitiesThatTheLatticeFills) {
+    Notes notes;
+    fill_surface(cube_with_cavity(0.03), by(MesherKind::lattice), "shell", notes);
+    EXPECT_THAT(notes,
+                ElementsAre(warning("cavities that are too small for the lattice's cells are filled: 1; a "
+                                    "smaller mesher.cell_size, or more mesher.nodes, would keep them")));
 }
 
 void expect_about(const TetMesh& mesh, int nodes) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <ostream>
 #include <string>
 
 #include "gelatin/error.h"
@@ -19,6 +20,11 @@ inline SurfaceMesh cube(const glm::dvec3& corner, double size) {
     mesh.faces = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                   {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
     return mesh;
+}
+
+/// For GoogleTest's messages.
+inline void PrintTo(const Note& note, std::ostream* out) {
+    *out << (note.is_warning ? "warning: " : "note: ") << note.text;
 }
 
 inline void append(SurfaceMesh& mesh, const SurfaceMesh& other) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <utility>
@@ -160,21 +161,101 @@ TEST(RepairSurface, TurnsAnOpenPartOutward) {
     EXPECT_EQ(mesh.faces, good);
 }
 
-TEST(RepairSurface, KeepsACavityInward) {
-    SurfaceMesh mesh = cube({0, 0, 0}, 4.0);
-    append(mesh, cube({1, 1, 1}, 2.0));
-    for (std::size_t f = 12; f < 24; ++f) turn(mesh.faces[f]);
-    EXPECT_THAT(repair(mesh), IsEmpty());
-    EXPECT_DOUBLE_EQ(signed_volume(mesh), 64.0 - 8.0);
+const char* const kCavity =
+    "cavities, as these closed pieces and the body around have opposite orientations: ";
+const char* const kInCavity = "closed pieces inside cavities, which are bodies of their own: ";
+const char* const kOverlapping =
+    "discarded closed pieces inside a body of the same orientation, which are bodies that overlap it and no "
+    "cavities (reverse their faces to make them cavities): ";
+
+/// Cubes, each inside the one before it; true: its faces look inwards.
+SurfaceMesh nested_cubes(const std::vector<bool>& inward) {
+    SurfaceMesh mesh;
+    for (std::size_t k = 0; k < inward.size(); ++k) {
+        const auto inset = static_cast<double>(k);
+        SurfaceMesh piece = cube(glm::dvec3(inset), 8.0 - 2.0 * inset);
+        if (inward[k]) std::for_each(piece.faces.begin(), piece.faces.end(), turn);
+        append(mesh, piece);
+    }
+    return mesh;
 }
 
-TEST(RepairSurface, AlternatesNestedParts) {
-    SurfaceMesh mesh = cube({0, 0, 0}, 8.0);
-    append(mesh, cube({1, 1, 1}, 6.0));
-    append(mesh, cube({2, 2, 2}, 4.0));
+TEST(RepairSurface, ClosedPiecesInsideABodyAreCavitiesByTheirOrientation) {
+    SurfaceMesh mesh = nested_cubes({false, true});
+    const SurfaceMesh before = mesh;
+    EXPECT_THAT(repair(mesh), ElementsAre(kCavity + std::string("1")));
+    EXPECT_EQ(mesh.faces, before.faces);
+    EXPECT_DOUBLE_EQ(signed_volume(mesh), 512.0 - 216.0);
+
+    mesh = nested_cubes({true, false});  // the file as a whole is inside out
+    EXPECT_THAT(repair(mesh),
+                ElementsAre("flipped faces with the wrong orientation: 24", kCavity + std::string("1")));
+    EXPECT_DOUBLE_EQ(signed_volume(mesh), 512.0 - 216.0);
+
+    for (const bool inward : {false, true}) {
+        mesh = nested_cubes({inward, inward});
+        EXPECT_THAT(repair(mesh), testing::Contains(kOverlapping + std::string("1")));
+        EXPECT_EQ(mesh.positions, cube({0, 0, 0}, 8.0).positions);
+        EXPECT_EQ(mesh.faces, cube({0, 0, 0}, 8.0).faces);
+    }
+}
+
+TEST(RepairSurface, ClosedPiecesInsideCavitiesAreBodies) {
+    for (const bool inward : {false, true}) {  // there is nothing else that it could be
+        SurfaceMesh mesh = nested_cubes({false, true, inward});
+        const Notes notes = repair(mesh);
+        EXPECT_THAT(notes, testing::Contains(kCavity + std::string("1")));
+        EXPECT_THAT(notes, testing::Contains(kInCavity + std::string("1")));
+        EXPECT_DOUBLE_EQ(signed_volume(mesh), 512.0 - 216.0 + 64.0);
+    }
+    SurfaceMesh mesh = nested_cubes({false, true, false, true});
     append(mesh, cube({10, 1, 1}, 1.0));  // beside them
-    repair(mesh);
-    EXPECT_DOUBLE_EQ(signed_volume(mesh), 512.0 - 216.0 + 64.0 + 1.0);
+    const Notes notes = repair(mesh);
+    EXPECT_THAT(notes, ElementsAre(kCavity + std::string("2"), kInCavity + std::string("1")));
+    EXPECT_DOUBLE_EQ(signed_volume(mesh), 512.0 - 216.0 + 64.0 - 8.0 + 1.0);
+}
+
+// A hollow body inside a body, and a cavity of both.
+TEST(RepairSurface, SpaceIsEmptyWhereItIsInACavityOfEachBodyAroundIt) {
+    SurfaceMesh mesh = nested_cubes({false, false, true});
+    EXPECT_THAT(repair(mesh), ElementsAre(kOverlapping + std::string("2")));
+    EXPECT_EQ(mesh.faces.size(), 12u);
+    mesh = nested_cubes({false, false, true, true});
+    EXPECT_THAT(repair(mesh), ElementsAre(kCavity + std::string("1"), kOverlapping + std::string("2")));
+    EXPECT_DOUBLE_EQ(signed_volume(mesh), 512.0 - 8.0);
+}
+
+// What most faces of a piece have counts, if they do not agree.
+TEST(RepairSurface, TheOrientationOfAPieceIsThatOfMostOfItsFaces) {
+    SurfaceMesh mesh = nested_cubes({false, true});
+    for (const std::size_t face : {12, 15, 16, 20, 23}) turn(mesh.faces[face]);
+    EXPECT_THAT(repair(mesh),
+                ElementsAre("flipped faces with the wrong orientation: 5", kCavity + std::string("1")));
+    EXPECT_DOUBLE_EQ(signed_volume(mesh), 512.0 - 216.0);
+}
+
+TEST(RepairSurface, DiscardedPiecesTakeTheirLookWithThem) {
+    SurfaceMesh mesh = nested_cubes({false, false, false});
+    for (int f = 0; f < 36; ++f) {
+        mesh.look.face_materials.push_back(static_cast<std::uint32_t>(f));
+        mesh.look.corner_uvs.push_back({});
+    }
+    EXPECT_THAT(repair(mesh), ElementsAre(kOverlapping + std::string("2")));
+    EXPECT_EQ(mesh.look.face_materials.size(), 12u);
+    EXPECT_EQ(mesh.look.corner_uvs.size(), 12u);
+}
+
+// The inner piece shares a vertex with the outer one.
+TEST(RepairSurface, FindsCavitiesThatTouchTheBody) {
+    for (std::uint32_t v = 0; v < 8; ++v) {
+        SurfaceMesh mesh = cube({0, 0, 0}, 4.0);
+        SurfaceMesh piece = cube({1, 1, 1}, 2.0);
+        std::for_each(piece.faces.begin(), piece.faces.end(), turn);
+        piece.positions[v] = mesh.positions[v];
+        append(mesh, piece);
+        EXPECT_THAT(repair(mesh), ElementsAre("merged vertices that coincide: 1", kCavity + std::string("1")))
+            << v;
+    }
 }
 
 // Corners of the cube lie level with corners and edges of the octahedron around it, where rays go wrong.
@@ -184,6 +265,7 @@ TEST(RepairSurface, FindsCavitiesInAnyPosition) {
         mesh.positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
         mesh.faces = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
         append(mesh, cube(glm::dvec3(place % 3 - 2, place / 3 % 3 - 2, place / 9 - 2) / 8.0, 0.25));
+        for (std::size_t f = 8; f < mesh.faces.size(); ++f) turn(mesh.faces[f]);
         repair(mesh);
         EXPECT_NEAR(signed_volume(mesh), 4.0 / 3.0 - 1.0 / 64.0, 1e-12) << place;
     }

@@ -46,7 +46,7 @@ TEST(TetCache, GivesBackWhatWasStored) {
 TEST(TetCache, KeepsNotes) {
     const TemporaryFolder folder;
     const TetCache cache(folder.path());
-    const Notes notes = {"parts are missing, 2%", "", "so"};
+    const Notes notes = {"parts are missing, 2%", "", "so", warning("but")};
     cache.store(kKey, {make_mesh(1, 10), notes});
     EXPECT_EQ(cache.find(kKey)->notes, notes);
     EXPECT_TRUE(is_same(cache.find(kKey), make_mesh(1, 10)));

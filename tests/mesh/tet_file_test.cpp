@@ -83,7 +83,7 @@ TEST_F(TetFileTest, KeepsTheCornersOfQuadraticTets) {
     const TetMesh mesh = read_tetgen(nodes, "1 10 0\n0 0 1 2 3 4 5 6 7 8 9\n");
     EXPECT_EQ(mesh.positions.size(), 4u);
     EXPECT_EQ(mesh.tets.size(), 1u);
-    EXPECT_THAT(notes_, ElementsAre("kept the corners only of tets with 10 nodes: 1",
+    EXPECT_THAT(notes_, ElementsAre("kept the corners only of cells with more nodes: 1",
                                     "discarded nodes without tets: 6"));
 }
 
@@ -113,9 +113,9 @@ TEST_F(TetFileTest, ReadsGmshInText) {
 TEST_F(TetFileTest, ReadsGmshInBytesOfEitherOrder) {
     for (const bool swapped : {false, true}) {
         expect_pair(read("a.msh", binary_gmsh2(swapped)));
-        EXPECT_THAT(notes_, ElementsAre("skipped elements that are not tets: 2"));
+        EXPECT_THAT(notes_, ElementsAre("ignored points, lines and surfaces: 2"));
         expect_pair(read("a.msh", binary_gmsh4(swapped)));
-        EXPECT_THAT(notes_, ElementsAre("skipped elements that are not tets: 1"));
+        EXPECT_THAT(notes_, ElementsAre("ignored points, lines and surfaces: 1"));
     }
 }
 
@@ -123,18 +123,18 @@ TEST_F(TetFileTest, SkipsOtherElementsOfGmsh) {
     const std::string msh2 =
         replaced(kGmsh2, "$Elements\n2\n", "$Elements\n4\n8 15 2 0 1 10\n9 2 3 0 1 -5 10 20 30\n");
     expect_pair(read("a.msh", msh2));
-    EXPECT_THAT(notes_, ElementsAre("skipped elements that are not tets: 2"));
+    EXPECT_THAT(notes_, ElementsAre("ignored points, lines and surfaces: 2"));
     const std::string msh4 =
         replaced(kGmsh4, "1 2 1 2\n3 1 4 2\n", "2 4 1 9\n2 1 2 2\n8 10 20 30\n9 10 20 5\n3 1 4 2\n");
     expect_pair(read("a.msh", msh4));
-    EXPECT_THAT(notes_, ElementsAre("skipped elements that are not tets: 2"));
+    EXPECT_THAT(notes_, ElementsAre("ignored points, lines and surfaces: 2"));
 }
 
 TEST_F(TetFileTest, KeepsTheCornersOfQuadraticTetsOfGmsh) {
     const std::string msh =
         replaced(kGmsh2, "1 4 2 1 1 10 20 30 5", "1 11 2 1 1 10 20 30 5 10 10 10 10 10 10");
     expect_pair(read("a.msh", msh));
-    EXPECT_THAT(notes_, ElementsAre("kept the corners only of tets with more nodes: 1"));
+    EXPECT_THAT(notes_, ElementsAre("kept the corners only of cells with more nodes: 1"));
 }
 
 // Gmsh writes an element of two physical groups twice.

@@ -14,6 +14,7 @@
 #include "mesh/shapes.h"
 #include "mesh/surface_repair.h"
 #include "mesh/topology.h"
+#include "mesh_samples.h"
 
 namespace gelatin {
 namespace {
@@ -163,6 +164,52 @@ TEST_F(Tetrahedralise, FillsLetters) {
         const SurfaceMesh surface = make_text(shape);
         expect_fills(tetrahedralise(surface, with_max_volume(1e-4), "letter"), surface);
     }
+}
+
+void append_inward(SurfaceMesh& mesh, SurfaceMesh other) {
+    for (glm::uvec3& face : other.faces) std::swap(face[1], face[2]);
+    append(mesh, other);
+}
+
+TEST_F(Tetrahedralise, LeavesCavitiesEmpty) {
+    for (const glm::dvec3& place : {glm::dvec3(0.0), glm::dvec3(5e5, 4e6, 30.0)}) {
+        SurfaceMesh shell = cube(place, 8.0);
+        append_inward(shell, cube(place + 1.0, 6.0));
+        append(shell, cube(place + 2.0, 1.0));  // a body in the cavity, out of its middle
+        append_inward(shell, cube(place + 2.25, 0.5));
+        const TetMesh mesh = tetrahedralise(shell, {}, "shell");
+        expect_fills(mesh, shell);
+        EXPECT_NEAR(total_volume(mesh), 512.0 - 216.0 + 1.0 - 0.125, 1e-4);
+    }
+    SurfaceMesh sponge = make_box({{4.0, 1.0, 1.0}, {8, 2, 2}});
+    for (const double x : {-1.5, -0.5, 0.5, 1.5}) {
+        SurfaceMesh ball = make_sphere({0.3, 3});
+        for (glm::dvec3& p : ball.positions) p.x += x;
+        append_inward(sponge, ball);
+    }
+    expect_fills(tetrahedralise(sponge, {}, "sponge"), sponge);
+}
+
+// The cavity touches the outside in one vertex.
+TEST_F(Tetrahedralise, LeavesCavitiesEmptyThatTouch) {
+    SurfaceMesh shell = cube({0, 0, 0}, 1.0);
+    SurfaceMesh cavity = cube({0.25, 0.25, 0.25}, 0.5);
+    cavity.positions[7] = {1, 1, 1};
+    append_inward(shell, cavity);
+    Notes notes;
+    repair_surface(shell, notes);
+    expect_fills(tetrahedralise(shell, {}, "shell"), shell);
+}
+
+TEST_F(Tetrahedralise, RefusesAResultThatFillsACavity) {
+    // The last three lines of the surface are the number of holes, the hole, and the number of regions.
+    const std::string holes =
+        "head -n -3 surface.smesh > filled; printf '0\\n0\\n' >> filled; mv filled surface.smesh; ";
+    replace_tetgen(holes + "PATH=" + old_path_ + " exec tetgen \"$@\"");
+    SurfaceMesh shell = cube({0, 0, 0}, 1.0);
+    append_inward(shell, cube({0.25, 0.25, 0.25}, 0.5));
+    EXPECT_THAT(message_of(shell),
+                HasSubstr("it fills 1 m^3, and the surface with its cavities encloses 0.875"));
 }
 
 TEST_F(Tetrahedralise, RunsTetgenOnceForTheSameInput) {

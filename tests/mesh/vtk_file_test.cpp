@@ -19,7 +19,7 @@ protected:
         EXPECT_EQ(mesh.tets, kPair.tets);
         EXPECT_EQ(mesh.faces, boundary_faces(kPair.tets));
         EXPECT_THAT(mesh.attributes, ElementsAre(3, -5));
-        EXPECT_THAT(notes_, ElementsAre("skipped cells that are not tets: 1"));
+        EXPECT_THAT(notes_, ElementsAre("ignored points, lines and surfaces: 1"));
     }
     std::string vtu(const VtuChoice& choice = {}) { return VtuSample(choice).text(); }
 };
@@ -79,8 +79,8 @@ TEST_F(VtkFileTest, KeepsTheCornersOfCurvedTets) {
                                     "CELLS 3 20\n3 0 1 2\n10 0 1 2 3 0 0 0 0 0 0\n");
         const TetMesh mesh = read("a.vtk", replaced(text, "5 10 10", std::string("5 ") + type + " 10"));
         EXPECT_EQ(mesh.tets, kPair.tets);
-        EXPECT_THAT(notes_, ElementsAre("skipped cells that are not tets: 1",
-                                        "kept the corners only of tets with more nodes: 1"));
+        EXPECT_THAT(notes_, ElementsAre("ignored points, lines and surfaces: 1",
+                                        "kept the corners only of cells with more nodes: 1"));
     }
 }
 
@@ -114,7 +114,7 @@ TEST_F(VtkFileTest, IgnoresDataThatItDoesNotKnow) {
     const TetMesh mesh = read("a.vtk", replaced(kVtkText, "stress 2 3 double", "stress 2 3 string"));
     EXPECT_EQ(mesh.tets, kPair.tets);
     EXPECT_THAT(notes_, ElementsAre("ignored the data from 'string' on, which Gelatin does not know",
-                                    "skipped cells that are not tets: 1"));
+                                    "ignored points, lines and surfaces: 1"));
 }
 
 TEST_F(VtkFileTest, RefusesOtherKindsOfFiles) {
@@ -147,7 +147,7 @@ TEST_F(VtkFileTest, RefusesIndicesOutOfRange) {
                 HasSubstr("end of cell 2 = 12: must be from 3 to 11"));
     EXPECT_THAT(refusal_of("a.vtu", replaced(vtu(), " 3 7 11", " 3 2 11")), HasSubstr("end of cell 2 = 2"));
     EXPECT_THAT(refusal_of("a.vtu", replaced(vtu(), " 3 7 11", " 3 6 11")),
-                HasSubstr("cell 2 = 3 points: a tet must have 4"));
+                HasSubstr("cell 2 = 3 points: tets must have 4"));
     EXPECT_THAT(refusal_of("a.vtk", replaced(kVtk5Text, "0 3 7 11", "1 3 7 11")), HasSubstr("offset 1 = 1"));
     EXPECT_THAT(refusal_of("a.vtk", replaced(kVtkText, "4 0 2 1 4", "5 0 2 1 4")),
                 HasSubstr("cell 3 = 5 points: CELLS has only 14 numbers"));

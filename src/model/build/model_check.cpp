@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
 
@@ -81,6 +83,29 @@ std::optional<std::string> uneven_masses(const Model& model) {
         heavy->name, heavy->mass / light->mass, light->name, heavy->mass, light->mass, kMuch);
 }
 
+// Mesh files name no unit, and those of CAD are usually in millimetres.
+std::optional<std::string> seems_to_be_in_millimetres(const Model& model, const ModelObject& object,
+                                                      const Scene& scene) {
+    constexpr double kLarge = 100.0, kMillimetre = 1e-3;  // [m]
+    constexpr double kEarth = 9.81, kAbout = 0.05;        // [m/s^2]
+    if (std::abs(glm::length(scene.simulation.gravity) - kEarth) > kAbout) return {};
+    glm::dvec3 low(model.positions[object.nodes.first]), high = low;
+    for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
+        low = glm::min(low, glm::dvec3(model.positions[n]));
+        high = glm::max(high, glm::dvec3(model.positions[n]));
+    }
+    const double size = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+    if (size < kLarge) return {};
+    const auto described = std::find_if(scene.objects.begin(), scene.objects.end(),
+                                        [&](const auto& each) { return each.name == object.name; });
+    const double scale = described != scene.objects.end() ? described->scale : 1.0;
+    return fmt::format(
+        "object '{}': it is {:.3g} m large, and gravity is in metres; if its shape is in millimetres, scale "
+        "= "
+        "{:.3g} makes it {:.3g} m large",
+        object.name, size, kMillimetre * scale, kMillimetre * size);
+}
+
 // The first object's line; the lines of its copies would be the same.
 template <class Check>
 void add_first(const Model& model, const Check& check, std::vector<std::string>& lines) {
@@ -98,6 +123,8 @@ void add_first(const Model& model, const Check& check, std::vector<std::string>&
 
 std::vector<std::string> check_model(const Model& model, const Scene& scene, double step_size) {
     std::vector<std::string> lines;
+    add_first(
+        model, [&](const ModelObject& o) { return seems_to_be_in_millimetres(model, o, scene); }, lines);
     add_first(
         model, [&](const ModelObject& o) { return far_from_origin(model, o); }, lines);
     add_first(

@@ -134,7 +134,8 @@ ShapeMesh make_mesh(const ObjectDescription& object, const SceneMeshes* made, No
 }
 
 void log_notes(const std::string& name, const Notes& notes) {
-    for (const std::string& note : notes) log_note(fmt::format("{}: {}", name, note));
+    for (const Note& note : notes)
+        (note.is_warning ? log_warning : log_note)(fmt::format("{}: {}", name, note.text));
 }
 
 void warn_of_a_poor_fit(const FittedSprings& springs, const std::string& name) {

@@ -33,6 +33,28 @@ TEST(CheckModel, HasNothingToSayAboutUsualScenes) {
     EXPECT_THAT(check({cube()}, SolverKind::vbd, 1.0 / 60.0), IsEmpty());
 }
 
+TEST(CheckModel, HintsAtMillimetres) {
+    Body body = cube();
+    for (glm::dvec3& p : body.mesh.positions) p.y *= 120.0;
+    Scene scene;
+    scene.objects.resize(1);
+    scene.objects[0].name = body.name;
+    scene.objects[0].scale = 2.0;
+    const auto lines = [&] {
+        return check_model(pack_bodies({body}, {}, scene.simulation.gravity), scene, 1e-3);
+    };
+    EXPECT_THAT(lines(),
+                ElementsAre("object 'body': it is 120 m large, and gravity is in metres; if its shape "
+                            "is in millimetres, scale = 0.002 makes it 0.12 m large"));
+    scene.simulation.gravity = {9.8, 0.0, 0.0};
+    EXPECT_EQ(lines().size(), 1u);
+    scene.simulation.gravity = {0.0, -9810.0, 0.0};  // of millimetres
+    EXPECT_THAT(lines(), IsEmpty());
+    scene.simulation.gravity = {0.0, -9.81, 0.0};
+    for (glm::dvec3& p : body.mesh.positions) p.y *= 0.8;
+    EXPECT_THAT(lines(), IsEmpty());
+}
+
 TEST(CheckModel, TellsOfObjectsFarFromTheOriginOnce) {
     EXPECT_THAT(
         check({cube(), cube({1e5, 0, 0}), cube({2e5, 0, 0})}),
