@@ -67,7 +67,7 @@ Recorder::Recorder(const RunOptions& options, Simulator& simulator)
     if (!options.animation.empty()) {
         animation_ = make_animation_file(
             options.animation, model_of(simulator_),
-            {simulator_.scene().simulation.frame_rate, object_colors(model_of(simulator_))});
+            {simulator_.scene().simulation.frame_rate, object_colors(model_of(simulator_)), simulator_.scene().up});
     }
     if (!options.record.empty()) recording_.emplace(options.record, simulator_);
 }

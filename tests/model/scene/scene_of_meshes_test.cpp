@@ -19,8 +19,6 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using Axis = MeshSceneOptions::Axis;
-
 struct Box {
     glm::dvec3 low{HUGE_VAL}, high{-HUGE_VAL};
 };
