@@ -12,7 +12,7 @@
 namespace gelatin::render {
 namespace {
 
-constexpr double kFlat = 0.9999;  // smallest y of the normal of a plane that is drawn as the floor
+constexpr double kFlat = 0.9999;  // smallest upward part of the normal of a plane that is drawn as the floor
 
 SurfaceMesh placed(SurfaceMesh mesh, const ColliderDescription& collider) {
     const glm::dvec3 angles = glm::radians(collider.rotation);
@@ -38,15 +38,17 @@ SurfaceMesh piece_of(const PlaneCollider& plane, const Bounds& bounds) {
 
 }  // namespace
 
-ColliderProps make_collider_props(const std::vector<ColliderDescription>& colliders, const Bounds& bounds) {
+ColliderProps make_collider_props(const std::vector<ColliderDescription>& colliders, const Bounds& bounds,
+                                  Axis up) {
     ColliderProps all;
     for (const ColliderDescription& collider : colliders) {
         const auto* shape = std::get_if<Shape>(&collider.shape);
         if (const auto* plane = std::get_if<PlaneCollider>(&collider.shape)) {
-            if (plane->normal.y >= kFlat) {
-                const auto height = static_cast<float>(plane->offset / plane->normal.y);
+            const double upward = up == Axis::z ? plane->normal.z : plane->normal.y;
+            if (upward >= kFlat) {
+                const auto height = static_cast<float>(plane->offset / upward);
                 all.floor_height = std::max(all.floor_height.value_or(height), height);
-            } else if (plane->normal.y > -kFlat) {
+            } else if (upward > -kFlat) {
                 all.props.push_back(piece_of(*plane, bounds));
             }
         } else if (const auto* box = std::get_if<BoxShape>(shape)) {
