@@ -11,7 +11,7 @@
 namespace gelatin {
 
 FilmFrames::FilmFrames(const std::filesystem::path& film, const Simulator& simulator)
-    : file_(scratch_folder(film) / fmt::format(".gelatin-film-{}.gel", ::getpid())) {
+    : file_(scratch_folder(film) / fmt::format("{}.frames-{}.gel", film.filename().string(), ::getpid())) {
     writer_.emplace(file_, simulator);
 }
 

@@ -8,8 +8,8 @@
 
 namespace gelatin {
 
-/// The frames of a film until all are known and its camera can be chosen: a recording beside the film, which goes
-/// with this object.
+/// The frames of a film until all are known and its camera can be chosen: a recording beside the film, which
+/// goes with this object.
 class FilmFrames {
 public:
     /// @throws SystemError

@@ -1,9 +1,12 @@
 #include "recorder.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <numeric>
 
 #include "common/progress.h"
+#include "core/log.h"
 #include "interrupt.h"
 #include "overlay_option.h"
 #include "render/collider_props.h"
@@ -66,16 +69,16 @@ Recorder::Recorder(const RunOptions& options, Simulator& simulator)
         video_ = std::make_unique<render::VideoWriter>(
             options.video, size.width, size.height,
             film_rate(simulator.scene().simulation.frame_rate, spacing_ * interval_));
-        if (chooses_camera(simulator)) kept_frames_ = std::make_unique<FilmFrames>(options.video, simulator);
+        if (chooses_camera(simulator)) film_frames_ = std::make_unique<FilmFrames>(options.video, simulator);
     }
     if (!options.export_folder.empty()) {
         exporter_ = std::make_unique<FrameExporter>(options.export_folder, export_format(options),
                                                     model_of(simulator));
     }
     if (!options.animation.empty()) {
-        animation_ = make_animation_file(
-            options.animation, model_of(simulator_),
-            {simulator_.scene().simulation.frame_rate, object_colors(model_of(simulator_)), simulator_.scene().up});
+        animation_ = make_animation_file(options.animation, model_of(simulator_),
+                                         {simulator_.scene().simulation.frame_rate,
+                                          object_colors(model_of(simulator_)), simulator_.scene().up});
     }
     if (!options.record.empty()) recording_.emplace(options.record, simulator_);
 }
@@ -96,8 +99,8 @@ bool Recorder::is_due() const {
 void Recorder::record() {
     keep(true);
     if (is_due()) {
-        if (kept_frames_) {
-            kept_frames_->add(simulator_);
+        if (film_frames_) {
+            film_frames_->add(simulator_);
         } else if (video_) {
             film(painter_->view());
         }
@@ -112,14 +115,14 @@ void Recorder::record_and_advance() {
     const bool is_due = this->is_due();
     ++played_;
     if (is_due) write_frame();
-    if (is_due && kept_frames_) kept_frames_->add(simulator_);
-    if (!is_due || !video_ || kept_frames_) return simulator_.advance_frame();
+    if (is_due && film_frames_) film_frames_->add(simulator_);
+    if (!is_due || !video_ || film_frames_) return simulator_.advance_frame();
     const RenderView bodies = painter_->view();
     pipeline_.advance_beside([&] { film(bodies); });
 }
 
 void Recorder::finish() {
-    if (kept_frames_) film_kept();
+    if (film_frames_) film_at_end();
     if (video_) {
         write(grabber_->flush());
         video_->finish();
@@ -149,19 +152,21 @@ void Recorder::film(const RenderView& bodies) {
     write(grabber_->grab(painter_->framebuffer()));
 }
 
-void Recorder::film_kept() {
-    if (kept_frames_->is_empty()) return;
-    Simulator player = kept_frames_->play(simulator_);
+void Recorder::film_at_end() {
+    if (film_frames_->is_empty()) return;
+    Simulator player = film_frames_->play(simulator_);
     painter_->show(Shown::of_all(player));
     const Overlays overlays = parse_overlays(options_.overlays);
     const Interrupt interrupt;
     const auto count = static_cast<int>(player.recording()->frame_count());
     Progress progress(0, count, options_.quiet);
-    for (int k = 0; k < count && !interrupt.was_asked(); ++k) {
+    int k = 0;
+    for (; k < count && !interrupt.was_asked(); ++k) {
         player.show_recorded(static_cast<std::size_t>(k));
         film(player.render_view(overlays));
         progress.update(k + 1);
     }
+    if (k < count) log_warning(fmt::format("interrupted: the film ends after picture {} of {}", k, count));
 }
 
 void Recorder::write(std::optional<render::Image> picture) {

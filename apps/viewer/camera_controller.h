@@ -4,8 +4,8 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "ray.h"
 #include "gelatin/scene.h"
+#include "ray.h"
 #include "render/camera.h"
 
 namespace gelatin::viewer {
@@ -49,7 +49,7 @@ private:
     float slope() const;  // tangent of half the vertical angle of view
 
     glm::vec3 target_{0.0f};
-    float distance_ = 5.0f;        // [m]
+    float distance_ = 5.0f;  // [m]
     Axis up_ = Axis::y;
     // Direction of the eye as seen from the target: about the up axis from the front, +z or, with z up, -y;
     float azimuth_ = 0.0f;         // [radians]

@@ -27,11 +27,11 @@ enum class ForceMethod { divide_and_merge, fused };
 struct SimulationSettings {
     SolverKind solver = SolverKind::vbd;
     ForceMethod forces = ForceMethod::fused;
-    double frame_rate = 60.0;             ///< frames a second of simulated time [1/s], > 0
-    std::optional<int> substeps;          ///< steps a frame, >= 1; empty: the fewest that are stable
-    int iterations = 10;                  ///< of vbd, a step, >= 1
-    std::optional<glm::dvec3> gravity;    ///< [m/s^2]; empty: 9.81 downwards (Scene::gravity)
-    int frames = 600;                     ///< length of a run, >= 0
+    double frame_rate = 60.0;           ///< frames a second of simulated time [1/s], > 0
+    std::optional<int> substeps;        ///< steps a frame, >= 1; empty: the fewest that are stable
+    int iterations = 10;                ///< of vbd, a step, >= 1
+    std::optional<glm::dvec3> gravity;  ///< [m/s^2]; empty: 9.81 downwards (Scene::gravity)
+    int frames = 600;                   ///< length of a run, >= 0
     /// Leave steps out while all bodies rest; for CollisionResponse::contact.
     bool sleep = true;
 
@@ -140,7 +140,7 @@ struct BoxShape {
 };
 struct CapsuleShape {
     double radius = 0.25;  ///< [m], > 0
-    double length = 0.5;   ///< of the straight part, along y [m], > 0
+    double length = 0.5;   ///< of the straight part, upright [m], > 0
     int frequency = 8;     ///< rings on a hemisphere, >= 2
     bool operator==(const CapsuleShape&) const = default;
 };
@@ -308,8 +308,8 @@ struct ObjectDescription {
     bool skin = true;
 
     /// The axis of the shape that points up in the scene before it is rotated. Empty: the scene's up axis
-    /// for boxes, meshes and files; y for glTF files, which have it so, and for the other shapes: capsules and
-    /// texts stand upright.
+    /// for boxes, meshes and files; y for glTF files, which have it so, and for the other shapes: capsules
+    /// and texts stand upright.
     std::optional<Axis> up = {};
 };
 

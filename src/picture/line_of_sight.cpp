@@ -63,8 +63,8 @@ bool LineOfSight::is_hidden(const glm::vec3& from, const glm::vec3& eye) const {
 
 float LineOfSight::seen_from(const glm::vec3& eye) const {
     if (targets_.empty()) return 1.0f;
-    const auto hidden =
-        std::count_if(targets_.begin(), targets_.end(), [&](const glm::vec3& p) { return is_hidden(p, eye); });
+    const auto hidden = std::count_if(targets_.begin(), targets_.end(),
+                                      [&](const glm::vec3& p) { return is_hidden(p, eye); });
     return 1.0f - static_cast<float>(hidden) / static_cast<float>(targets_.size());
 }
 

@@ -8,8 +8,8 @@
 
 namespace gelatin {
 
-/// Whether colliders hide bodies from a camera, at one time. A surface hides only what is behind its front, as it is
-/// not drawn from behind.
+/// Whether colliders hide bodies from a camera, at one time. A surface hides only what is behind its front,
+/// as it is not drawn from behind.
 class LineOfSight {
 public:
     /// @param bodies points of them, of which some are looked at

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <numeric>
 
 #include "gelatin/recording.h"
 #include "model/build/collider_surface.h"
@@ -21,13 +21,13 @@ namespace {
 using render::Bounds;
 using render::ViewAngles;
 
-constexpr float kSteep = 0.1f;       // least upward part of the normal of a plane on which bodies stand
-constexpr float kLongestFall = 20;   // in sizes of the bodies: what is farther below is not shown
-constexpr float kFollowed = 10;      // in sizes of the first frame: how far bodies are followed over the ground,
-constexpr float kFollowedAway = 1;   // and where there is none under them
-constexpr float kBeside = 0.25f;     // in sizes of what is shown: how much of colliders is shown beside bodies
-constexpr float kWholly = 2;         // in the same: colliders not larger than this are shown wholly
-constexpr float kSeen = 0.85f;       // of the bodies, which is enough
+constexpr float kSteep = 0.1f;      // least upward part of the normal of a plane on which bodies stand
+constexpr float kLongestFall = 20;  // in sizes of the bodies: what is farther below is not shown
+constexpr float kFollowed = 10;  // in sizes of the first frame: how far bodies are followed over the ground,
+constexpr float kFollowedAway = 1;  // and where there is none under them
+constexpr float kBeside = 0.25f;    // in sizes of what is shown: how much of colliders is shown beside bodies
+constexpr float kWholly = 2;        // in the same: colliders not larger than this are shown wholly
+constexpr float kSeen = 0.85f;      // of the bodies, which is enough
 constexpr float kClearlyMore = 0.05f;
 constexpr float kWide = 70.0f;  // vertical [degrees]
 
@@ -91,8 +91,8 @@ std::vector<std::vector<glm::vec3>> solids(const Scene& scene) {
     return all;
 }
 
-/// From where bodies are seen: the usual view first, then from other sides and heights, at last from near, inside a
-/// room.
+/// From where bodies are seen: the usual view first, then from other sides and heights, at last from near,
+/// inside a room.
 std::vector<ViewAngles> views() {
     std::vector<ViewAngles> all;
     for (const float field_of_view : {ViewAngles().field_of_view, kWide})
@@ -146,7 +146,8 @@ void Shown::add() {
     }
     std::vector<Bounds> bodies;
     for (const ModelObject& body : model.bodies())
-        if (const Bounds bounds = bounds_of(part(last_, body.nodes)); is_finite(bounds)) bodies.push_back(bounds);
+        if (const Bounds bounds = bounds_of(part(last_, body.nodes)); is_finite(bounds))
+            bodies.push_back(bounds);
     follow(std::move(bodies));
 }
 
@@ -170,7 +171,8 @@ void Shown::follow(std::vector<Bounds> bodies) {
     }
 }
 
-// The highest of what is under the middle of a body: planes, and the tops of what has an end, or what is around it.
+// The highest of what is under the middle of a body: planes, and the tops of what has an end, or what is
+// around it.
 std::optional<float> Shown::ground_under(const Bounds& body) const {
     const glm::vec3 middle = body.center();
     std::optional<float> ground;
@@ -181,7 +183,8 @@ std::optional<float> Shown::ground_under(const Bounds& body) const {
         note((plane.offset - plane.normal.x * middle.x - plane.normal.z * middle.z) / plane.normal.y);
     for (const Obstacle& obstacle : obstacles_) {
         const Bounds& box = obstacle.now;
-        if (box.min.x > body.max.x || box.max.x < body.min.x || box.min.z > body.max.z || box.max.z < body.min.z)
+        if (box.min.x > body.max.x || box.max.x < body.min.x || box.min.z > body.max.z ||
+            box.max.z < body.min.z)
             continue;
         note(box.max.y <= middle.y ? box.max.y : box.min.y);
     }
@@ -189,7 +192,8 @@ std::optional<float> Shown::ground_under(const Bounds& body) const {
 }
 
 Bounds Shown::bodies() const {
-    return render::from_y_up(bodies_.value_or(Bounds{glm::vec3(-0.5f), glm::vec3(0.5f)}), simulator_.scene().up);
+    return render::from_y_up(bodies_.value_or(Bounds{glm::vec3(-0.5f), glm::vec3(0.5f)}),
+                             simulator_.scene().up);
 }
 
 // With the parts of colliders that are near the bodies.
@@ -230,8 +234,7 @@ render::Camera Shown::camera(float aspect) const {
     float most = -1.0f;
     for (const ViewAngles& angles : views()) {
         const bool is_near = angles.field_of_view == kWide;
-        const render::Camera camera =
-            render::frame_bounds(is_near ? *bodies_ : whole, aspect, angles);
+        const render::Camera camera = render::frame_bounds(is_near ? *bodies_ : whole, aspect, angles);
         const float seen = std::min(first.seen_from(camera.eye), last.seen_from(camera.eye));
         if (seen <= most + kClearlyMore) continue;
         best = camera;

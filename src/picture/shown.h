@@ -10,8 +10,8 @@
 
 namespace gelatin {
 
-/// What a picture or a film shows of a scene: bodies where they are in its frames, and what is under them. From that
-/// it chooses the camera (docs/decisions/0057-camera-and-up-axis.md).
+/// What a picture or a film shows of a scene: bodies where they are in its frames, and what is under them.
+/// From that it chooses the camera (docs/decisions/0057-camera-and-up-axis.md).
 class Shown {
 public:
     /// The present frame. @param simulator must outlive this
@@ -26,8 +26,8 @@ public:
     /// The bodies, down to what is under them [m], in the scene's coordinates.
     render::Bounds bodies() const;
 
-    /// The scene's own camera, or one that has all bodies in the picture, with what is under and beside them, from
-    /// a side from which colliders do not hide them.
+    /// The scene's own camera, or one that has all bodies in the picture, with what is under and beside them,
+    /// from a side from which colliders do not hide them.
     /// @param aspect width divided by height of the picture
     render::Camera camera(float aspect) const;
 

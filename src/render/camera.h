@@ -33,8 +33,8 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
-/// From where something is seen [degrees]; by default from the front, 27 degrees to the right and slightly above,
-/// so that objects on a floor are seen against it.
+/// From where something is seen [degrees]; by default from the front, 27 degrees to the right and slightly
+/// above, so that objects on a floor are seen against it.
 struct ViewAngles {
     float azimuth = 27.0f;        ///< of the eye, about +y from +z
     float elevation = 15.0f;      ///< in (-90, 90)

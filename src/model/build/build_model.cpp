@@ -353,8 +353,8 @@ Model build_model(const Scene& scene) {
         bodies.push_back(make_body(scene, scene.objects[o], mesher));
     }
     report_progress(kShareOfMeshing, "tables");
-    Model model = pack_bodies(bodies, solid_colliders(scene), scene.gravity(),
-                              make_collider_surfaces(scene, mesher));
+    Model model =
+        pack_bodies(bodies, solid_colliders(scene), scene.gravity(), make_collider_surfaces(scene, mesher));
     model.meshes = std::make_shared<const SceneMeshes>(mesher.meshes());
     if (scene.collision.self_collision_with(scene.simulation.solver) && !scene.has_contact())
         model.rest_shapes = make_rest_shapes(model);

@@ -20,7 +20,8 @@ struct ColliderSurface {
 /// A collider whose shape is upright by its rotation alone, in any scene.
 ColliderDescription upright(ColliderDescription collider, Axis scene_up);
 
-/// Upright, a scene's colliders that have no surface: all of them, but with CollisionResponse::contact planes alone.
+/// Upright, a scene's colliders that have no surface: all of them, but with CollisionResponse::contact planes
+/// alone.
 std::vector<ColliderDescription> solid_colliders(const Scene& scene);
 
 /// Of the scene's other colliders. Repairs go to the log, one line each.

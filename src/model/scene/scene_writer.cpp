@@ -223,7 +223,8 @@ Table table_of(const ColliderDescription& collider, const std::filesystem::path&
 }  // namespace
 
 std::string to_toml(const Scene& scene, const std::filesystem::path& folder) {
-    std::string text = Table().add("up", name_of(scene.up)).lines();
+    std::string text;
+    if (scene.up != Axis::y) text = Table().add("up", name_of(scene.up)).lines();
     const auto add = [&](const char* head, const Table& table) {
         text += fmt::format("{}{}\n{}", text.empty() ? "" : "\n", head, table.lines());
     };
