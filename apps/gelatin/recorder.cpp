@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <numeric>
 
 #include "common/progress.h"
@@ -157,6 +158,7 @@ void Recorder::film_at_end() {
     Simulator player = film_frames_->play(simulator_);
     painter_->show(Shown::of_all(player));
     const Overlays overlays = parse_overlays(options_.overlays);
+    if (!options_.quiet) std::fprintf(stderr, "gelatin: drawing the film\n");
     const Interrupt interrupt;
     const auto count = static_cast<int>(player.recording()->frame_count());
     Progress progress(0, count, options_.quiet);

@@ -1,4 +1,4 @@
-// Vectors of a z-up scene with y up: turned by -90 degrees about x. CPU twin: gelatin::render::to_y_up.
+// Vectors of a z-up scene with y up: turned by -90 degrees about x, as to_y_up does (src/render/up_axis.h).
 // Test: tests/render/up_axis_test.cpp.
 #include "include/global_index.glsl"
 layout(local_size_x = 64) in;

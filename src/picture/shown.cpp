@@ -21,15 +21,21 @@ namespace {
 using render::Bounds;
 using render::ViewAngles;
 
-constexpr float kSteep = 0.1f;      // least upward part of the normal of a plane on which bodies stand
-constexpr float kLongestFall = 20;  // in sizes of the bodies: what is farther below is not shown
-constexpr float kFollowed = 10;  // in sizes of the first frame: how far bodies are followed over the ground,
-constexpr float kFollowedAway = 1;  // and where there is none under them
-constexpr float kBeside = 0.25f;    // in sizes of what is shown: how much of colliders is shown beside bodies
-constexpr float kWholly = 2;        // in the same: colliders not larger than this are shown wholly
-constexpr float kSeen = 0.85f;      // of the bodies, which is enough
-constexpr float kClearlyMore = 0.05f;
-constexpr float kWide = 70.0f;  // vertical [degrees]
+constexpr float kSteep = 0.1f;  // least upward part of the normal of a plane on which bodies stand
+// How far bodies are followed, and what is under them is shown: in sizes of the largest body, or of all that
+// the first frame shows, whichever is more.
+struct Reach {
+    float of_body, of_all;
+};
+constexpr Reach kOverGround{40.0f, 4.0f};  // where something is under them
+constexpr Reach kOverNothing{5.0f, 1.0f};
+
+constexpr float kBeside = 0.25f;  // in sizes of what is shown: how much of colliders is shown beside bodies
+constexpr float kWholly = 2.0f;   // in the same: colliders not larger than this are shown wholly
+constexpr float kWide = 70.0f;    // vertical field of view, from near [degrees]
+constexpr float kSeen = 0.75f;    // of the bodies, which is enough
+constexpr float kHardlySeen = 0.5f;  // less than this is seen from afar: only then from near
+constexpr float kClearlyMore = 0.1f;
 
 float largest(const glm::vec3& size) {
     return std::max({size.x, size.y, size.z});
@@ -69,11 +75,9 @@ std::span<const glm::vec3> part(const std::vector<glm::vec3>& nodes, const Range
 }
 
 std::vector<glm::vec3> nodes_of(const Simulator& simulator) {
-    const std::vector<float> positions = simulator.read_frame().positions;
     std::vector<glm::vec3> nodes;
-    for (std::size_t p = 0; p + 2 < positions.size(); p += 3)
-        nodes.push_back(
-            render::to_y_up({positions[p], positions[p + 1], positions[p + 2]}, simulator.scene().up));
+    for (const glm::vec4& p : simulator.positions())
+        nodes.push_back(render::to_y_up(glm::vec3(p), simulator.scene().up));
     return nodes;
 }
 
@@ -154,17 +158,20 @@ void Shown::add() {
 // Not into the distance: the others would become tiny.
 void Shown::follow(std::vector<Bounds> bodies) {
     if (bodies.empty()) return;
-    const float size = largest(std::reduce(bodies.begin(), bodies.end(), bodies.front(), both).size());
+    if (!home_)
+        for (const Bounds& body : bodies) size_ = std::max(size_, largest(body.size()));
     std::vector<bool> is_over_ground;
     for (Bounds& body : bodies) {
         const std::optional<float> ground = ground_under(body);
         is_over_ground.push_back(ground.has_value());
-        if (ground && body.min.y - *ground <= kLongestFall * size) body.min.y = std::min(body.min.y, *ground);
+        if (ground && body.min.y - *ground <= kOverGround.of_body * size_)
+            body.min.y = std::min(body.min.y, *ground);
     }
     if (!home_) home_ = std::reduce(bodies.begin(), bodies.end(), bodies.front(), both);
     for (std::size_t b = 0; b < bodies.size(); ++b) {
-        const float distance = (is_over_ground[b] ? kFollowed : kFollowedAway) * largest(home_->size());
-        const Bounds reach = inflated(*home_, distance);
+        const Reach& far = is_over_ground[b] ? kOverGround : kOverNothing;
+        const Bounds reach =
+            inflated(*home_, std::max(far.of_body * size_, far.of_all * largest(home_->size())));
         if (!meet(bodies[b], reach)) continue;
         const Bounds shown = common(bodies[b], reach);
         bodies_ = bodies_ ? both(*bodies_, shown) : shown;
@@ -234,6 +241,7 @@ render::Camera Shown::camera(float aspect) const {
     float most = -1.0f;
     for (const ViewAngles& angles : views()) {
         const bool is_near = angles.field_of_view == kWide;
+        if (is_near && most >= kHardlySeen) break;
         const render::Camera camera = render::frame_bounds(is_near ? *bodies_ : whole, aspect, angles);
         const float seen = std::min(first.seen_from(camera.eye), last.seen_from(camera.eye));
         if (seen <= most + kClearlyMore) continue;

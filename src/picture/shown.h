@@ -52,6 +52,7 @@ private:
     std::vector<Plane> planes_;
     std::vector<Obstacle> obstacles_;
     std::vector<glm::vec3> first_, last_;   // nodes of the first and of the last frame [m]
+    float size_ = 0.0f;                     // of the largest body of the first frame [m]
     std::optional<render::Bounds> home_;    // the bodies of the first frame, with what is under them
     std::optional<render::Bounds> bodies_;  // of all frames
 };

@@ -107,7 +107,7 @@ TEST(ShownTest, TakesScenesOfAnySize) {
                      "\nposition = [0, " + scale + ", 0]\n" + collider("plane = [0, 1, 0]"));
         const Rectangle body = bodies_in(simulator, Shown(simulator).camera(kAspect));
         EXPECT_TRUE(body.is_in_picture()) << scale;
-        EXPECT_GT(body.height(), 0.7f) << scale;
+        EXPECT_GT(body.height(), 0.6f) << scale;
     }
 }
 
