@@ -11,7 +11,8 @@
 namespace gelatin {
 
 FilmFrames::FilmFrames(const std::filesystem::path& film, const Simulator& simulator)
-    : file_(scratch_folder(film) / fmt::format("{}.frames-{}.gel", film.filename().string(), ::getpid())) {
+    : file_((scratch_folder(film) / fmt::format("{}.frames-{}.gel", film.filename().string(), ::getpid()))
+                .lexically_normal()) {
     writer_.emplace(file_, simulator);
 }
 

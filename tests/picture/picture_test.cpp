@@ -120,7 +120,7 @@ TEST_F(PictureTest, ShowsASceneAlikeWhicheverAxisPointsUp) {
         if (auto* plane = std::get_if<PlaneCollider>(&collider.shape)) plane->normal = turned(plane->normal);
     }
     std::vector<Overlays> all(7);
-    all[1].box_levels = 2;
+    all[1].box_levels = 0;  // trees are divided by the axes
     all[2].wireframe = all[2].objects = true;
     all[3].arrow_time = 0.1f;
     all[4].cut = CutPlane{{0.3f, 0.2f, 1.0f}, 0.1f};

@@ -40,12 +40,13 @@ double difference(const std::string& response, int frames) {
     options.backend = Backend::cpu;
     Simulator y(scene_with(Axis::y, response), options), z(scene_with(Axis::z, response), options);
     double largest = 0.0;
-    EXPECT_EQ(y.positions().size(), z.positions().size());
     for (int f = 0; f < frames; ++f) {
         y.advance_frame();
         z.advance_frame();
     }
-    for (std::size_t n = 0; n < y.positions().size(); ++n)
+    const std::size_t end = y.object(1).nodes.end();  // nodes of colliders may have another order
+    EXPECT_EQ(end, z.object(1).nodes.end());
+    for (std::size_t n = 0; n < end; ++n)
         largest = std::max(largest, glm::distance(with_y_up(y.positions()[n], Axis::y),
                                                   with_y_up(z.positions()[n], Axis::z)));
     return largest;
