@@ -99,6 +99,16 @@ TEST(ShownTest, HasABodyInThePictureAndWhatItFallsOn) {
     }
 }
 
+TEST(ShownTest, HasSmallCollidersBesideBodiesWhollyInThePicture) {
+    const std::string alone = ball("[0, 0.11, 0]") + collider("plane = [0, 1, 0]");
+    const Simulator simulator =
+        simulate(alone + collider("box = [0.3, 0.3, 0.3]", "position = [0.26, 0.15, 0]"));
+    const glm::vec3 corner(0.41f, 0.3f, -0.15f);
+    EXPECT_TRUE(shows(simulator, Shown(simulator).camera(kAspect), corner));
+    const Simulator without = simulate(alone);
+    EXPECT_FALSE(shows(without, Shown(without).camera(kAspect), corner));
+}
+
 // Everything that is shown is as large as the scene.
 TEST(ShownTest, TakesScenesOfAnySize) {
     for (const std::string scale : {"0.001", "1", "1000"}) {
