@@ -178,7 +178,7 @@ void Recorder::write(std::optional<render::Image> picture) {
 void Recorder::write_image() {
     const PictureSize size = picture_size(options_);
     render::FrameGrabber grabber(size.width, size.height);
-    if (chooses_camera(simulator_) && options_.video.empty()) painter_->show(Shown(simulator_));
+    if (!simulator_.scene().camera && options_.video.empty()) painter_->show(Shown(simulator_));
     painter_->draw();
     grabber.grab(painter_->framebuffer());
     if (const auto picture = grabber.flush()) render::write_png(options_.image, *picture);
