@@ -26,7 +26,6 @@ CLI::Option* add_input_options(CLI::App& command, SceneInput& input) {
         .add_option_function<std::string>(
             "--up",
             [&input](const std::string& name) {
-                using Axis = MeshSceneOptions::Axis;
                 input.meshes.up =
                     choose<Axis>("--up", name, {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}});
             },

@@ -1,8 +1,14 @@
 #include "recorder.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cstdio>
 #include <numeric>
 
+#include "common/progress.h"
+#include "core/log.h"
+#include "interrupt.h"
 #include "overlay_option.h"
 #include "render/collider_props.h"
 #include "render/image.h"
@@ -29,6 +35,11 @@ int recorded_spacing(const Simulator& simulator) {
     if (recording == nullptr || recording->frame_count() < 2) return 1;
     const std::size_t k = recording->frame_count() > 2 ? 2 : 1;
     return std::max(1, recording->frame(k) - recording->frame(k - 1));
+}
+
+// By the frames of the run; those of a recording are known.
+bool chooses_camera(const Simulator& simulator) {
+    return !simulator.scene().camera && simulator.recording() == nullptr;
 }
 
 std::vector<glm::vec3> object_colors(const Model& model) {
@@ -59,15 +70,16 @@ Recorder::Recorder(const RunOptions& options, Simulator& simulator)
         video_ = std::make_unique<render::VideoWriter>(
             options.video, size.width, size.height,
             film_rate(simulator.scene().simulation.frame_rate, spacing_ * interval_));
+        if (chooses_camera(simulator)) film_frames_ = std::make_unique<FilmFrames>(options.video, simulator);
     }
     if (!options.export_folder.empty()) {
         exporter_ = std::make_unique<FrameExporter>(options.export_folder, export_format(options),
                                                     model_of(simulator));
     }
     if (!options.animation.empty()) {
-        animation_ = make_animation_file(
-            options.animation, model_of(simulator_),
-            {simulator_.scene().simulation.frame_rate, object_colors(model_of(simulator_))});
+        animation_ = make_animation_file(options.animation, model_of(simulator_),
+                                         {simulator_.scene().simulation.frame_rate,
+                                          object_colors(model_of(simulator_)), simulator_.scene().up});
     }
     if (!options.record.empty()) recording_.emplace(options.record, simulator_);
 }
@@ -88,7 +100,11 @@ bool Recorder::is_due() const {
 void Recorder::record() {
     keep(true);
     if (is_due()) {
-        if (video_) film(painter_->view());
+        if (film_frames_) {
+            film_frames_->add(simulator_);
+        } else if (video_) {
+            film(painter_->view());
+        }
         write_frame();
     } else if (animation_ && !is_animated_) {
         animate(simulator_.read_frame());  // no frame was due, but a file is expected
@@ -100,12 +116,14 @@ void Recorder::record_and_advance() {
     const bool is_due = this->is_due();
     ++played_;
     if (is_due) write_frame();
-    if (!is_due || !video_) return simulator_.advance_frame();
+    if (is_due && film_frames_) film_frames_->add(simulator_);
+    if (!is_due || !video_ || film_frames_) return simulator_.advance_frame();
     const RenderView bodies = painter_->view();
     pipeline_.advance_beside([&] { film(bodies); });
 }
 
 void Recorder::finish() {
+    if (film_frames_) film_at_end();
     if (video_) {
         write(grabber_->flush());
         video_->finish();
@@ -135,6 +153,24 @@ void Recorder::film(const RenderView& bodies) {
     write(grabber_->grab(painter_->framebuffer()));
 }
 
+void Recorder::film_at_end() {
+    if (film_frames_->is_empty()) return;
+    Simulator player = film_frames_->play(simulator_);
+    painter_->show(Shown::of_all(player));
+    const Overlays overlays = parse_overlays(options_.overlays);
+    if (!options_.quiet) std::fprintf(stderr, "gelatin: drawing the film\n");
+    const Interrupt interrupt;
+    const auto count = static_cast<int>(player.recording()->frame_count());
+    Progress progress(0, count, options_.quiet);
+    int k = 0;
+    for (; k < count && !interrupt.was_asked(); ++k) {
+        player.show_recorded(static_cast<std::size_t>(k));
+        film(player.render_view(overlays));
+        progress.update(k + 1);
+    }
+    if (k < count) log_warning(fmt::format("interrupted: the film ends after picture {} of {}", k, count));
+}
+
 void Recorder::write(std::optional<render::Image> picture) {
     if (picture) video_->write(*picture);
 }
@@ -142,6 +178,7 @@ void Recorder::write(std::optional<render::Image> picture) {
 void Recorder::write_image() {
     const PictureSize size = picture_size(options_);
     render::FrameGrabber grabber(size.width, size.height);
+    if (!simulator_.scene().camera && options_.video.empty()) painter_->show(Shown(simulator_));
     painter_->draw();
     grabber.grab(painter_->framebuffer());
     if (const auto picture = grabber.flush()) render::write_png(options_.image, *picture);

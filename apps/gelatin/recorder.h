@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "common/frame_pipeline.h"
+#include "film_frames.h"
 #include "gelatin/recording.h"
 #include "gelatin/simulator.h"
 #include "picture/scene_painter.h"
@@ -16,7 +17,8 @@
 namespace gelatin {
 
 /// Records a run, or what a recording plays: the film, the exported frames, the picture of the last frame,
-/// and the recording.
+/// and the recording. The film of a run whose scene has no camera is drawn at the end, when it is known where
+/// bodies have been.
 ///
 /// Needs the simulator's context. Without `finish` there is no film at all.
 class Recorder {
@@ -40,6 +42,7 @@ private:
     void write_frame();
     void animate(const HostFrame& frame);
     void film(const RenderView& bodies);
+    void film_at_end();
     void write(std::optional<render::Image> picture);
     void write_image();
 
@@ -52,6 +55,7 @@ private:
     std::unique_ptr<ScenePainter> painter_;
     std::unique_ptr<render::FrameGrabber> grabber_;
     std::unique_ptr<render::VideoWriter> video_;
+    std::unique_ptr<FilmFrames> film_frames_;  // of a film whose camera they decide
     std::unique_ptr<FrameExporter> exporter_;
     std::unique_ptr<AnimationFile> animation_;
     bool is_animated_ = false;  // it has a frame

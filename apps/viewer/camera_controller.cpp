@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "render/up_axis.h"
+
 namespace gelatin::viewer {
 namespace {
 
@@ -16,8 +18,9 @@ constexpr float kMargin = 1.1f;                      // margin: size of the pict
 
 }  // namespace
 
-void CameraController::set(const render::Camera& camera) {
-    const glm::vec3 back = camera.eye - camera.target;
+void CameraController::set(const render::Camera& camera, Axis up) {
+    const glm::vec3 back = render::to_y_up(camera.eye - camera.target, up);
+    up_ = up;
     target_ = camera.target;
     distance_ = std::clamp(glm::length(back), kNearest, kFarthest);
     azimuth_ = std::atan2(back.x, back.z);
@@ -30,12 +33,13 @@ render::Camera CameraController::camera() const {
 }
 
 glm::vec3 CameraController::forward() const {
-    return -glm::vec3(std::sin(azimuth_) * std::cos(elevation_), std::sin(elevation_),
-                      std::cos(azimuth_) * std::cos(elevation_));
+    const glm::vec3 back(std::sin(azimuth_) * std::cos(elevation_), std::sin(elevation_),
+                         std::cos(azimuth_) * std::cos(elevation_));
+    return -render::from_y_up(back, up_);
 }
 
 glm::vec3 CameraController::right() const {
-    return {std::cos(azimuth_), 0.0f, -std::sin(azimuth_)};
+    return render::from_y_up({std::cos(azimuth_), 0.0f, -std::sin(azimuth_)}, up_);
 }
 
 glm::vec3 CameraController::up() const {

@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
+#include "gelatin/scene.h"
 #include "ray.h"
 #include "render/camera.h"
 
@@ -13,8 +14,8 @@ namespace gelatin::viewer {
 /// picture, from its centre, x to the right, y up: the same for every size and density of screen.
 class CameraController {
 public:
-    /// Starts from this camera; `frame` zooms from there.
-    void set(const render::Camera& camera);
+    /// Starts from this camera; `frame` zooms from there. @param up the scene's up axis
+    void set(const render::Camera& camera, Axis up = Axis::y);
     render::Camera camera() const;
 
     /// Rotates about the target, never over the poles.
@@ -48,8 +49,10 @@ private:
     float slope() const;  // tangent of half the vertical angle of view
 
     glm::vec3 target_{0.0f};
-    float distance_ = 5.0f;        // [m]
-    float azimuth_ = 0.0f;         // direction of the eye as seen from the target, about +y from +z [radians]
+    float distance_ = 5.0f;  // [m]
+    Axis up_ = Axis::y;
+    // Direction of the eye as seen from the target: about the up axis from the front, +z or, with z up, -y;
+    float azimuth_ = 0.0f;         // [radians]
     float elevation_ = 0.0f;       // [radians]
     float field_of_view_ = 35.0f;  // [degrees]
 };

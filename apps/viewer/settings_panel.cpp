@@ -1,6 +1,7 @@
 #include <imgui.h>
 
 #include <array>
+#include <glm/geometric.hpp>
 
 #include "panels.h"
 
@@ -42,7 +43,8 @@ bool slide(const char* label, double& value, double least, double most, const ch
                                ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
 }
 
-bool edit_simulation(SimulationSettings& simulation) {
+bool edit_simulation(Scene& scene) {
+    SimulationSettings& simulation = scene.simulation;
     bool changed = choose_solver(simulation.solver);
     if (changed) simulation.substeps.reset();  // the number for another solver need not be stable
     int substeps = simulation.substeps.value_or(0);
@@ -54,9 +56,11 @@ bool edit_simulation(SimulationSettings& simulation) {
     if (simulation.solver == SolverKind::vbd)
         changed |= ImGui::SliderInt("iterations", &simulation.iterations, 1, 100, "%d",
                                     ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-    auto gravity = static_cast<float>(-simulation.gravity.y);
+    const double upwards = glm::dot(scene.gravity(), scene.up_direction());
+    auto gravity = static_cast<float>(-upwards);
     if (ImGui::SliderFloat("gravity", &gravity, -20.0f, 20.0f, "%.2f m/s2 down")) {
-        simulation.gravity.y = static_cast<double>(-gravity);
+        simulation.gravity =
+            scene.gravity() - (static_cast<double>(gravity) + upwards) * scene.up_direction();
         changed = true;
     }
     return changed;
@@ -77,7 +81,7 @@ bool edit_material(Material& material) {
 
 void draw_settings(const PanelState& state, Requests& requests) {
     Scene scene = state.edited;
-    bool changed = edit_simulation(scene.simulation);
+    bool changed = edit_simulation(scene);
     for (Material& material : scene.materials) changed |= edit_material(material);
     if (changed) requests.edited = std::move(scene);
 }

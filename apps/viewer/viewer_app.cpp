@@ -93,8 +93,9 @@ void ViewerApp::show_scene(SceneLoader::Result result) {
     start_screen_.remember(options_.input.files);
     panels_.edited = session_->scene();
     own_bodies_ = session_->scene().objects.size();
-    surroundings_ = describe_surroundings(session_->simulator());
-    camera_.set(choose_camera(session_->scene(), surroundings_, aspect()));
+    const Shown shown(session_->simulator());
+    surroundings_ = describe_surroundings(session_->simulator(), shown);
+    camera_.set(shown.camera(aspect()), session_->scene().up);
     if (renderer_) renderer_->set_surroundings(surroundings_);
 }
 

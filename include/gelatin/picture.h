@@ -36,7 +36,8 @@ struct Picture {
 /// thread. Move-only; the simulator must outlive it and stay where it is in memory.
 class GELATIN_API PicturePainter {
 public:
-    /// Compiles shaders, and sets the camera by the present state. @throws NoOpenGl without a context;
+    /// Compiles shaders, and sets the camera by the present state, or by all frames of a recording that is
+    /// played. @throws NoOpenGl without a context;
     /// InvalidInput for a size that is not allowed
     explicit PicturePainter(Simulator& simulator, const PictureOptions& options = {});
     PicturePainter(PicturePainter&&) noexcept;

@@ -13,8 +13,10 @@
 
 namespace gelatin {
 
-/// What the user wants simulated, from a scene file or made by a program. SI units, +y is up. See
-/// docs/scene-files.md for the same in TOML; validate() says whether all of it can be.
+/// What the user wants simulated, from a scene file or made by a program. SI units; Scene::up says which axis
+/// points up. See docs/scene-files.md for the same in TOML; validate() says whether all of it can be.
+
+enum class Axis { x, y, z };
 
 /// Four explicit schemes, and vertex block descent on implicit Euler's objective, stable at any step.
 enum class SolverKind { explicit_euler, semi_implicit_euler, midpoint, rk4, vbd };
@@ -25,11 +27,11 @@ enum class ForceMethod { divide_and_merge, fused };
 struct SimulationSettings {
     SolverKind solver = SolverKind::vbd;
     ForceMethod forces = ForceMethod::fused;
-    double frame_rate = 60.0;             ///< frames a second of simulated time [1/s], > 0
-    std::optional<int> substeps;          ///< steps a frame, >= 1; empty: the fewest that are stable
-    int iterations = 10;                  ///< of vbd, a step, >= 1
-    glm::dvec3 gravity{0.0, -9.81, 0.0};  ///< [m/s^2]
-    int frames = 600;                     ///< length of a run, >= 0
+    double frame_rate = 60.0;           ///< frames a second of simulated time [1/s], > 0
+    std::optional<int> substeps;        ///< steps a frame, >= 1; empty: the fewest that are stable
+    int iterations = 10;                ///< of vbd, a step, >= 1
+    std::optional<glm::dvec3> gravity;  ///< [m/s^2]; empty: 9.81 downwards (Scene::gravity)
+    int frames = 600;                   ///< length of a run, >= 0
     /// Leave steps out while all bodies rest; for CollisionResponse::contact.
     bool sleep = true;
 
@@ -138,7 +140,7 @@ struct BoxShape {
 };
 struct CapsuleShape {
     double radius = 0.25;  ///< [m], > 0
-    double length = 0.5;   ///< of the straight part, along y [m], > 0
+    double length = 0.5;   ///< of the straight part, upright [m], > 0
     int frequency = 8;     ///< rings on a hemisphere, >= 2
     bool operator==(const CapsuleShape&) const = default;
 };
@@ -304,10 +306,15 @@ struct ObjectDescription {
     /// Draws and exports the shape's own surface where it is not the boundary of the tets; false: this
     /// boundary, with which it collides.
     bool skin = true;
+
+    /// The axis of the shape that points up in the scene before it is rotated. Empty: the scene's up axis
+    /// for boxes, meshes and files; y for glTF files, which have it so, and for the other shapes: capsules
+    /// and texts stand upright.
+    std::optional<Axis> up = {};
 };
 
 struct PlaneCollider {
-    glm::dvec3 normal{0.0, 1.0, 0.0};  ///< unit, towards the free side
+    glm::dvec3 normal{0.0, 1.0, 0.0};  ///< unit, towards the free side; a z-up floor's is z
     double offset = 0.0;               ///< normal . x on the plane [m]
 };
 
@@ -329,6 +336,7 @@ struct ColliderDescription {
     std::string name = {};  ///< in messages and statistics; empty: "collider 1", by its place in the scene
     double scale = 1.0;     ///< > 0, applied first
     WhenBlocked when_blocked = WhenBlocked::goes_on;  ///< `stops` needs keyframes
+    std::optional<Axis> up = {};                      ///< as ObjectDescription::up; not for planes
 };
 
 struct CameraDescription {
@@ -349,7 +357,14 @@ struct Scene {
     std::optional<CameraDescription> camera;  ///< empty: frames the scene by itself
     /// Meshes that were made of its shapes before, and are used for these: those of a recording. Null: none.
     std::shared_ptr<const SceneMeshes> meshes = {};
+    /// y or z: which way gravity does not pull, what is up in pictures, and how shapes stand. All coordinates
+    /// in and out are those of the scene.
+    Axis up = Axis::y;
 
+    glm::dvec3 up_direction() const {
+        return {up == Axis::x ? 1.0 : 0.0, up == Axis::y ? 1.0 : 0.0, up == Axis::z ? 1.0 : 0.0};
+    }
+    glm::dvec3 gravity() const { return simulation.gravity.value_or(-9.81 * up_direction()); }
     bool has_contact() const {
         return collision.response_with(simulation.solver) == CollisionResponse::contact;
     }

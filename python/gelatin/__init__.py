@@ -1,4 +1,4 @@
-"""Gelatin: soft bodies. SI units, +y is up.
+"""Gelatin: soft bodies. SI units, `Scene.up` says which axis is up.
 
 >>> import gelatin
 >>> scene = gelatin.Scene()

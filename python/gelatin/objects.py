@@ -1,4 +1,4 @@
-"""Objects of a scene, what holds and loads them, and colliders. SI units, +y is up."""
+"""Objects of a scene, what holds and loads them, and colliders. SI units; `Scene.up` says which axis points up."""
 
 from __future__ import annotations
 
@@ -164,6 +164,9 @@ class Object:
     parts: list[Part] = field(default_factory=list)
     #: draw and export the shape's own surface, where it is not the boundary of the tets
     skin: bool = True
+    #: the axis of the shape that points up in the scene before it is rotated; None: the scene's for boxes, meshes and
+    #: files; "y" for glTF files and the other shapes
+    up: Literal["x", "y", "z"] | None = None
     line: int = field(default=0, repr=False)
 
 
@@ -193,6 +196,8 @@ class Collider:
     scale: float = 1.0
     #: what happens while bodies leave it no room: the time of its keyframes goes on, or stands still
     when_blocked: Literal["goes_on", "stops"] = "goes_on"
+    #: as of objects; not for planes
+    up: Literal["x", "y", "z"] | None = None
 
 
 @dataclass(slots=True)

@@ -1,4 +1,4 @@
-"""Scenes: what is simulated, and how. SI units, +y is up.
+"""Scenes: what is simulated, and how. SI units; `Scene.up` says which axis points up.
 
 A scene is plain data. Nothing is checked until a simulator is made of it, or until `Scene.validate`.
 """
@@ -28,8 +28,8 @@ class SimulationSettings:
     substeps: int | None = None
     #: of vbd, a step, >= 1
     iterations: int = 10
-    #: [m/s^2]
-    gravity: Vector = (0.0, -9.81, 0.0)
+    #: [m/s^2]; None: 9.81 downwards
+    gravity: Vector | None = None
     #: length of a run, >= 0
     frames: int = 600
     #: leave steps out while all bodies rest; with contact
@@ -131,6 +131,8 @@ class Scene:
     camera: Camera | None = None
     #: the shapes' meshes, if the scene is a recording's; None: they are made of the shapes
     meshes: _gelatin.SceneMeshes | None = field(default=None, repr=False, compare=False)
+    #: "y" or "z": which way gravity does not pull, what is up in pictures, and how shapes stand
+    up: Literal["y", "z"] = "y"
 
     def add_material(self, name: str, **fields: Any) -> Material:
         """Adds a material. `fields` are those of `gelatin.Material`."""
@@ -155,11 +157,14 @@ class Scene:
         self.objects.append(added)
         return added
 
-    def add_collider(self, shape: Union[Plane, Shape, str, os.PathLike[str]] = Plane(), **fields: Any) -> Collider:
+    def add_collider(self, shape: Union[Plane, Shape, str, os.PathLike[str], None] = None, **fields: Any) -> Collider:
         """Adds a collider, with the scene's friction and restitution where `fields` does not say.
 
-        `shape` may be the path of a mesh; `fields` are those of `gelatin.Collider`.
+        `shape` may be the path of a mesh; None: the level plane through the origin. `fields` are those of
+        `gelatin.Collider`.
         """
+        if shape is None:
+            shape = Plane((0.0, 0.0, 1.0)) if self.up == "z" else Plane()
         if isinstance(shape, (str, os.PathLike)):
             shape = File(shape)
         fields.setdefault("friction", self.collision.friction)

@@ -1,4 +1,4 @@
-"""Shapes of objects and colliders, and regions of space. SI units, +y is up."""
+"""Shapes of objects and colliders, and regions of space. SI units, `Scene.up` says which axis is up."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Box:
 
 @dataclass(slots=True)
 class Capsule:
-    """A cylinder along y with hemispheres at its ends."""
+    """A cylinder along the up axis with hemispheres at its ends."""
 
     #: [m], > 0
     radius: float = 0.25

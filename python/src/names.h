@@ -44,6 +44,11 @@ struct Names<CollisionResponse> {
         {{"restore", CollisionResponse::restore}, {"contact", CollisionResponse::contact}}};
 };
 template <>
+struct Names<Axis> {
+    static constexpr std::array<std::pair<const char*, Axis>, 3> kAll{
+        {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}}};
+};
+template <>
 struct Names<MaterialModel> {
     static constexpr std::array<std::pair<const char*, MaterialModel>, 2> kAll{
         {{"mass_spring", MaterialModel::mass_spring}, {"neo_hookean", MaterialModel::neo_hookean}}};

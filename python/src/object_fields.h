@@ -132,7 +132,7 @@ struct Fields<ObjectDescription> {
     static constexpr const char* kClass = "Object";
     static void visit(ObjectDescription& o, auto&& field) {
         auto& [name, shape, mesher, material, position, rotation, scale, velocity, spin, start, pins, handles,
-               loads, color, line, parts, skin] = o;
+               loads, color, line, parts, skin, up] = o;
         field("name", name);
         field("shape", shape);
         field("mesher", mesher);
@@ -149,6 +149,7 @@ struct Fields<ObjectDescription> {
         field("color", color);
         field("parts", parts);
         field("skin", skin);
+        field("up", up);
         field("line", line);
     }
 };
@@ -158,7 +159,7 @@ struct Fields<ColliderDescription> {
     static constexpr const char* kClass = "Collider";
     static void visit(ColliderDescription& c, auto&& field) {
         auto& [shape, position, rotation, friction, restitution, keyframes, interpolation, pivot,
-               surface_velocity, name, scale, when_blocked] = c;
+               surface_velocity, name, scale, when_blocked, up] = c;
         field("shape", shape);
         field("position", position);
         field("rotation", rotation);
@@ -171,6 +172,7 @@ struct Fields<ColliderDescription> {
         field("name", name);
         field("scale", scale);
         field("when_blocked", when_blocked);
+        field("up", up);
     }
 };
 

@@ -10,7 +10,7 @@ template <>
 struct Fields<Scene> {
     static constexpr const char* kClass = "Scene";
     static void visit(Scene& s, auto&& field) {
-        auto& [file, simulation, collision, materials, objects, colliders, camera, meshes] = s;
+        auto& [file, simulation, collision, materials, objects, colliders, camera, meshes, up] = s;
         field("file", file);
         field("simulation", simulation);
         field("collision", collision);
@@ -19,6 +19,7 @@ struct Fields<Scene> {
         field("colliders", colliders);
         field("camera", camera);
         field("meshes", meshes);
+        field("up", up);
     }
 };
 

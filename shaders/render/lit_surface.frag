@@ -6,7 +6,7 @@ uniform sampler2D albedo_texture;  // linear RGB
 in vec4 light;
 in vec2 uv;
 #else
-noperspective in vec3 color;
+in vec3 color;
 #endif
 layout(location = 0) out vec4 pixel;
 

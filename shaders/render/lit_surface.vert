@@ -9,7 +9,7 @@ out vec2 uv;
 #else
 in vec4 display_color;
 
-noperspective out vec3 color;  // on faces of a few pixels perspective is not visible
+out vec3 color;  // with perspective, without which large faces that reach behind the eye are black
 #endif
 
 void main() {

@@ -46,6 +46,10 @@ const char* name_of(CollisionResponse response) {
     return response == CollisionResponse::contact ? "contact" : "restore";
 }
 
+const char* name_of(Axis axis) {
+    return axis == Axis::x ? "x" : axis == Axis::y ? "y" : "z";
+}
+
 const std::vector<std::string>& spring_kind_names() {
     static const std::vector<std::string> names{"structural", "shear", "flex"};
     return names;

@@ -13,6 +13,7 @@ const char* name_of(ForceMethod forces);
 const char* name_of(BroadPhase broad_phase);
 const char* name_of(CollisionDetection detection);
 const char* name_of(CollisionResponse response);
+const char* name_of(Axis axis);
 
 const std::vector<std::string>& spring_kind_names();
 std::vector<std::string> kind_names(const SpringKinds& kinds);

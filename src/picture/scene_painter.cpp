@@ -18,10 +18,13 @@ render::RendererOptions renderer_options(const PictureSize& size, render::Qualit
 ScenePainter::ScenePainter(Simulator& simulator, const PictureSize& size, render::Quality quality,
                            const Overlays& overlays)
     : simulator_(simulator), overlays_(overlays), renderer_(renderer_options(size, quality)) {
-    const render::Surroundings surroundings = describe_surroundings(simulator);
-    const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
-    camera_ = choose_camera(simulator.scene(), surroundings, aspect);
-    renderer_.set_surroundings(surroundings);
+    show(Shown::of_all(simulator));
+}
+
+void ScenePainter::show(const Shown& shown) {
+    const float aspect = static_cast<float>(renderer_.width()) / static_cast<float>(renderer_.height());
+    camera_ = shown.camera(aspect);
+    renderer_.set_surroundings(describe_surroundings(simulator_, shown));
 }
 
 void ScenePainter::set_camera(const CameraDescription& camera) {

@@ -2,6 +2,7 @@
 
 #include "gelatin/simulator.h"
 #include "picture/picture_size.h"
+#include "picture/shown.h"
 #include "render/renderer.h"
 
 namespace gelatin {
@@ -12,9 +13,12 @@ namespace gelatin {
 /// Needs the simulator's context, which must outlive it.
 class ScenePainter {
 public:
-    /// Sets the camera to show the present state, if the scene has none.
+    /// Shows the present state, or all frames of a recording.
     ScenePainter(Simulator& simulator, const PictureSize& size, render::Quality quality,
                  const Overlays& overlays = {});
+
+    /// Sets floor and light for all of this, and, if the scene has no camera, the camera.
+    void show(const Shown& shown);
 
     /// The present state with the overlays.
     RenderView view() { return simulator_.render_view(overlays_); }

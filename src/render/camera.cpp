@@ -12,11 +12,7 @@
 namespace gelatin::render {
 namespace {
 
-// The direction from the scene to the eye: 30 degrees to the right and slightly above, so that objects on a
-// floor are seen against it.
-constexpr float kAzimuth = 27.0f;    // [degrees]
-constexpr float kElevation = 15.0f;  // [degrees]
-constexpr float kMargin = 1.16f;     // margin: size of the picture relative to its content
+constexpr float kMargin = 1.16f;  // margin: size of the picture relative to its content
 
 // When looking straight up or down, +y has no direction in the picture.
 glm::vec3 up_for(const glm::vec3& forward) {
@@ -77,16 +73,16 @@ glm::mat4 Camera::projection(float aspect) const {
     return glm::perspective(glm::radians(field_of_view), aspect, 0.02f * distance, 100.0f * distance);
 }
 
-Camera frame_bounds(const Bounds& bounds, float aspect, float field_of_view) {
-    const float azimuth = glm::radians(kAzimuth);
-    const float elevation = glm::radians(kElevation);
+Camera frame_bounds(const Bounds& bounds, float aspect, const ViewAngles& angles) {
+    const float azimuth = glm::radians(angles.azimuth);
+    const float elevation = glm::radians(angles.elevation);
     const glm::vec3 towards(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
                             std::cos(azimuth) * std::cos(elevation));
     const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0.0f, 1.0f, 0.0f), towards));
     const glm::vec3 up = glm::cross(towards, right);
 
     const glm::vec3 half = glm::max(0.5f * bounds.size(), glm::vec3(1e-4f));
-    const float slope = std::tan(glm::radians(0.5f * field_of_view)) / kMargin;
+    const float slope = std::tan(glm::radians(0.5f * angles.field_of_view)) / kMargin;
     Fit across(slope * aspect);
     Fit upward(slope);
     for (int corner = 0; corner < 8; ++corner) {
@@ -96,7 +92,7 @@ Camera frame_bounds(const Bounds& bounds, float aspect, float field_of_view) {
         upward.add(glm::dot(point, up), glm::dot(point, towards));
     }
     Camera camera;
-    camera.field_of_view = field_of_view;
+    camera.field_of_view = angles.field_of_view;
     camera.target = bounds.center() + across.center() * right + upward.center() * up;
     camera.eye = camera.target + std::max(across.distance(), upward.distance()) * towards;
     return camera;

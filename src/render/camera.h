@@ -33,8 +33,15 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
-/// A three-quarter view from the front, slightly from above, as near as possible with all of `bounds` visible
-/// and a margin around it.
-Camera frame_bounds(const Bounds& bounds, float aspect, float field_of_view = 26.0f);
+/// From where something is seen [degrees]; by default from the front, 27 degrees to the right and slightly
+/// above, so that objects on a floor are seen against it.
+struct ViewAngles {
+    float azimuth = 27.0f;        ///< of the eye, about +y from +z
+    float elevation = 15.0f;      ///< in (-90, 90)
+    float field_of_view = 26.0f;  ///< vertical
+};
+
+/// A view of `bounds`, as near as possible with all of it visible and a margin around it.
+Camera frame_bounds(const Bounds& bounds, float aspect, const ViewAngles& angles = {});
 
 }  // namespace gelatin::render

@@ -12,7 +12,7 @@
 namespace gelatin::render {
 namespace {
 
-constexpr double kFlat = 0.9999;  // smallest y of the normal of a plane that is drawn as the floor
+constexpr double kFlat = 0.9999;  // smallest upward part of the normal of a plane that is drawn as the floor
 
 SurfaceMesh placed(SurfaceMesh mesh, const ColliderDescription& collider) {
     const glm::dvec3 angles = glm::radians(collider.rotation);
@@ -25,11 +25,11 @@ SurfaceMesh placed(SurfaceMesh mesh, const ColliderDescription& collider) {
 }
 
 // A square of the plane near the bodies. Seen from behind it is not drawn, and hides nothing.
-SurfaceMesh piece_of(const PlaneCollider& plane, const Bounds& bounds) {
+SurfaceMesh piece_of(const PlaneCollider& plane, const Bounds& bounds, const glm::dvec3& up) {
     const glm::dvec3 n = plane.normal;
     const glm::dvec3 middle(bounds.center());
     const glm::dvec3 center = middle - (glm::dot(n, middle) - plane.offset) * n;
-    const glm::dvec3 any = std::abs(n.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
+    const glm::dvec3 any = std::abs(glm::dot(n, up)) < 0.9 ? up : glm::dvec3(1.0, 0.0, 0.0);
     const double half = std::max(1.0 * glm::length(glm::dvec3(bounds.size())), 1e-3);
     const glm::dvec3 u = half * glm::normalize(glm::cross(any, n));
     const glm::dvec3 v = glm::cross(n, u);
@@ -38,16 +38,19 @@ SurfaceMesh piece_of(const PlaneCollider& plane, const Bounds& bounds) {
 
 }  // namespace
 
-ColliderProps make_collider_props(const std::vector<ColliderDescription>& colliders, const Bounds& bounds) {
+ColliderProps make_collider_props(const std::vector<ColliderDescription>& colliders, const Bounds& bounds,
+                                  Axis up) {
+    const glm::dvec3 upwards = up == Axis::z ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(0.0, 1.0, 0.0);
     ColliderProps all;
     for (const ColliderDescription& collider : colliders) {
         const auto* shape = std::get_if<Shape>(&collider.shape);
         if (const auto* plane = std::get_if<PlaneCollider>(&collider.shape)) {
-            if (plane->normal.y >= kFlat) {
-                const auto height = static_cast<float>(plane->offset / plane->normal.y);
+            const double upward = glm::dot(plane->normal, upwards);
+            if (upward >= kFlat) {
+                const auto height = static_cast<float>(plane->offset / upward);
                 all.floor_height = std::max(all.floor_height.value_or(height), height);
-            } else if (plane->normal.y > -kFlat) {
-                all.props.push_back(piece_of(*plane, bounds));
+            } else if (upward > -kFlat) {
+                all.props.push_back(piece_of(*plane, bounds, upwards));
             }
         } else if (const auto* box = std::get_if<BoxShape>(shape)) {
             all.props.push_back(placed(make_box({box->size, glm::ivec3(1)}), collider));

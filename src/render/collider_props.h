@@ -16,6 +16,8 @@ struct ColliderProps {
 };
 
 /// @param bounds of the bodies: pieces of planes are cut out around them
-ColliderProps make_collider_props(const std::vector<ColliderDescription>& colliders, const Bounds& bounds);
+/// @param up the scene's up axis
+ColliderProps make_collider_props(const std::vector<ColliderDescription>& colliders, const Bounds& bounds,
+                                  Axis up = Axis::y);
 
 }  // namespace gelatin::render

@@ -11,6 +11,7 @@
 #include "gl/debug.h"
 #include "render/fast_pipeline.h"
 #include "render/palette.h"
+#include "render/up_axis.h"
 
 namespace gelatin::render {
 namespace {
@@ -80,7 +81,11 @@ void Renderer::resize(int width, int height) {
 
 void Renderer::set_surroundings(const Surroundings& surroundings) {
     surroundings_ = surroundings;
-    props_ = StaticMesh(surroundings.props);
+    up_ = surroundings.up;
+    surroundings_.bounds = to_y_up(surroundings.bounds, up_);
+    for (SurfaceMesh& prop : surroundings_.props)
+        for (glm::dvec3& p : prop.positions) p = up_ == Axis::z ? glm::dvec3(p.x, p.z, -p.y) : p;
+    props_ = StaticMesh(surroundings_.props);
     const std::vector<glm::vec4> prop_colors(std::max<std::size_t>(surroundings.props.size(), 1),
                                              glm::vec4(kPropColor, 1.0f));
     prop_colors_ = gl::Buffer<glm::vec4>(std::span<const glm::vec4>(prop_colors));
@@ -115,7 +120,7 @@ const gl::Buffer<glm::vec4>& Renderer::colors_of(const RenderView& bodies) {
     return buffer;
 }
 
-void Renderer::draw(const RenderView& bodies, const Camera& camera) {
+void Renderer::draw(const RenderView& given, const Camera& given_camera) {
     gl::forget_state();
     const FramebufferGuard guard;
     glBindVertexArray(vertex_array_);
@@ -126,6 +131,9 @@ void Renderer::draw(const RenderView& bodies, const Camera& camera) {
     glDepthFunc(GL_LEQUAL);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 
+    if (up_ != Axis::y && !turned_view_) turned_view_.emplace();
+    const RenderView bodies = up_ == Axis::y ? given : turned_view_->turn(given);
+    const Camera camera = to_y_up(given_camera, up_);
     const SurfaceDraw body_draw(bodies);
     const SurfaceDraw prop_draw(props_.view());
     const gl::BufferTexture body_colors(colors_of(bodies), gl::TexelFormat::rgba32f);

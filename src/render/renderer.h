@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "gelatin/scene.h"
 #include "gelatin/views.h"
 #include "gl/buffer.h"
 #include "mesh/surface_mesh.h"
@@ -14,6 +15,7 @@
 #include "render/overlay.h"
 #include "render/shadows.h"
 #include "render/static_mesh.h"
+#include "render/turned_view.h"
 
 namespace gelatin::render {
 
@@ -38,6 +40,7 @@ struct Surroundings {
     std::vector<SurfaceMesh> props;     ///< surfaces that do not move
     /// Of the bodies, linear RGB; the palette's if one is negative or missing.
     std::vector<glm::vec3> colors;
+    Axis up = Axis::y;  ///< y or z: of all coordinates here, of the bodies and of cameras
 };
 
 /// Draws bodies from their buffers into its own picture: floor, backdrop, soft shadows.
@@ -81,7 +84,9 @@ private:
     Overlay overlay_;
     unsigned vertex_array_ = 0;
 
-    Surroundings surroundings_;
+    Surroundings surroundings_;  // with y up
+    Axis up_ = Axis::y;          // of what is given
+    std::optional<TurnedView> turned_view_;
     StaticMesh props_;
     gl::Buffer<glm::vec4> body_colors_;
     gl::Buffer<glm::vec4> object_colors_;  // if the overlay distinguishes objects

@@ -10,6 +10,7 @@
 #include "cpu/collision/triangle_overlap.h"
 #include "cpu/collision/walk_tree.h"
 #include "gelatin/error.h"
+#include "model/build/collider_surface.h"
 #include "model/collision/pack_colliders.h"
 #include "model/corners.h"
 
@@ -79,7 +80,7 @@ std::vector<std::string> check_starts(const Model& model, const Scene& scene,
     for (std::size_t c = 0; c < scene.colliders.size(); ++c) {
         if (scene.has_contact() && !std::holds_alternative<PlaneCollider>(scene.colliders[c].shape))
             continue;  // a surface, not solid
-        const Collider collider = pack_colliders({scene.colliders[c]}).front();
+        const Collider collider = pack_colliders({upright(scene.colliders[c], scene.up)}).front();
         std::string first;
         std::size_t others = 0;
         for (const ModelObject& object : model.bodies()) {

@@ -18,6 +18,7 @@ using Json = nlohmann::ordered_json;  // keys stay in the documented order
 
 Json settings_json(const RunReport& report) {
     const SimulationSettings& settings = report.settings;
+    const glm::dvec3 gravity = settings.gravity.value_or(Scene().gravity());
     const std::optional<double>& proximity_radius = report.collision.proximity_radius;
     const Json radius = proximity_radius ? Json(*proximity_radius) : Json();
     return {{"solver", name_of(settings.solver)},
@@ -32,7 +33,7 @@ Json settings_json(const RunReport& report) {
             {"response", name_of(report.collision.response_with(settings.solver))},
             {"self_collision", report.collision.self_collision_with(settings.solver)},
             {"proximity_radius", radius},
-            {"gravity", {settings.gravity.x, settings.gravity.y, settings.gravity.z}}};
+            {"gravity", {gravity.x, gravity.y, gravity.z}}};
 }
 
 Json counts_json(const Counts& counts) {
@@ -131,6 +132,7 @@ RunReport describe_run(const Simulator& simulator) {
     report.backend = simulator.backend();
     report.device = simulator.device();
     report.settings = simulator.scene().simulation;
+    report.settings.gravity = simulator.scene().gravity();
     report.collision = simulator.scene().collision;
     report.substeps = simulator.substeps();
     report.step_size = simulator.step_size();

@@ -139,10 +139,22 @@ TEST_F(PlayCommandsDraw, ARecordingIsDrawnAsTheRunWas) {
     const ProgramResult run_result = run({"run", "cube.toml", "--backend", "cpu", "--frames", "6", "--record",
                                           "cube.gel", "--image", "live.png", "--size", "64x64"});
     ASSERT_EQ(run_result.exit_code, 0) << run_result.err;
-    const ProgramResult result =
-        run({"render", "cube.gel", "--image", "played.png", "--video", "played.mp4", "--size", "64x64"});
+    const ProgramResult result = run({"render", "cube.gel", "--image", "played.png", "--size", "64x64"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(read_file(path("live.png")), read_file(path("played.png")));
+    // With a film, the picture has its camera.
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"run", "cube.toml", "--backend", "cpu", "--frames", "6"},
+          {"render", "cube.gel"}}) {
+        std::vector<std::string> arguments = command;
+        const std::string name = command[0] == "run" ? "filmed" : "played";
+        for (const std::string& more : {std::string("--image"), name + ".png", std::string("--video"),
+                                        name + ".mp4", std::string("--size"), std::string("64x64")})
+            arguments.push_back(more);
+        ASSERT_EQ(run(arguments).exit_code, 0);
+    }
+    EXPECT_EQ(read_file(path("filmed.png")), read_file(path("played.png")));
+    EXPECT_NE(read_file(path("filmed.png")), read_file(path("live.png")));
     EXPECT_GT(std::filesystem::file_size(path("played.mp4")), 0u);
     ASSERT_EQ(run({"render", "cube.gel", "--from", "6", "--image", "alone.png", "--size", "64x64"}).exit_code,
               0);

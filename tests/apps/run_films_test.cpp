@@ -1,6 +1,7 @@
 #include <csignal>
 
 #include "apps/program_test.h"
+#include "render/image.h"
 
 namespace gelatin::test {
 namespace {
@@ -51,6 +52,38 @@ TEST_F(RunCommandFilms, FilmingChangesNoNumber) {
     EXPECT_TRUE(exists("out/frame_000020.obj"));
 }
 
+// The camera, if the scene has none, is chosen when all is known; nothing is left of what waits for that.
+TEST_F(RunCommandFilms, ShowsTheBodyInEachPicture) {
+    write("thrown.toml",
+          "[simulation]\nframes = 60\n[[material]]\nname = 'jelly'\n[[object]]\nname = 'cube'\n"
+          "shape = { box = [1, 1, 1] }\nposition = [0, 1, 0]\nvelocity = [9, 3, 0]\ncolor = [1, 0, 0]\n"
+          "[[collider]]\nshape = { box = [40, 1, 4] }\nposition = [15, -0.5, 0]\n");
+    const ProgramResult result =
+        run({"run", "thrown.toml", "--video", "film.mp4", "--image", "end.png", "--size", "160x90"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(probe("film.mp4"), "160,90,60/1,61\n");
+    for (const auto& entry : std::filesystem::directory_iterator(path(".")))
+        EXPECT_NE(entry.path().extension(), ".gel") << entry.path();
+    ASSERT_EQ(
+        run_program({"ffmpeg", "-v", "error", "-i", path("film.mp4").string(), path("p%d.png").string()})
+            .exit_code,
+        0);
+    for (const char* name : {"p1.png", "p30.png", "p61.png", "end.png"}) {
+        const render::Image image = render::read_png(path(name));
+        int red = 0, red_at_edges = 0;
+        for (int y = 0; y < image.height; ++y) {
+            for (int x = 0; x < image.width; ++x) {
+                const std::uint8_t* pixel = image.at(x, y);
+                if (pixel[0] < 2 * pixel[1]) continue;
+                ++red;
+                red_at_edges += x == 0 || y == 0 || x + 1 == image.width || y + 1 == image.height;
+            }
+        }
+        EXPECT_GT(red, 40) << name;
+        EXPECT_EQ(red_at_edges, 0) << name;
+    }
+}
+
 TEST_F(RunCommandFilms, AnInterruptFinishesTheFilm) {
     settings_.signal_after = "steps of";
     settings_.signals = {SIGINT};
@@ -68,7 +101,7 @@ TEST_F(RunCommandFilms, FailsCleanlyOnAFullDisk) {
     const ProgramResult result =
         run({"run", "cube.toml", "--video", "film.mp4", "--frames", "200", "--quiet"});
     EXPECT_EQ(result.exit_code, 1) << result.err;
-    EXPECT_THAT(result.err, HasSubstr("gelatin: error: film.mp4: "));
+    EXPECT_THAT(result.err, HasSubstr("gelatin: error: film.mp4"));
     EXPECT_THAT(partial_files(), IsEmpty());
     EXPECT_FALSE(exists("film.mp4"));
 }

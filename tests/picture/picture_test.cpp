@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+#include <utility>
+#include <variant>
 
 #include "core/file.h"
 #include "gelatin/error.h"
@@ -91,6 +95,57 @@ TEST_F(PictureTest, NeedsAContextAndASize) {
     PictureOptions options;
     options.width = 0;
     EXPECT_THROW(render_picture(seeing, options), InvalidInput);
+}
+
+// The same scene with z up, every overlay in it.
+TEST_F(PictureTest, ShowsASceneAlikeWhicheverAxisPointsUp) {
+    Scene scene = test::falling_balls();
+    ColliderDescription ramp;
+    ramp.shape = PlaneCollider{glm::normalize(glm::dvec3(1.0, 2.0, 0.5)), -0.5};
+    scene.colliders.push_back(ramp);
+    ColliderDescription post;
+    post.shape = CapsuleShape{.radius = 0.1, .length = 0.5};
+    post.position = {0.7, 0.2, 0.4};
+    scene.colliders.push_back(post);
+    scene.simulation.solver = SolverKind::semi_implicit_euler;
+    const auto turned = [](const glm::dvec3& v) { return glm::dvec3(v.x, -v.z, v.y); };
+    Scene other = scene;
+    other.up = Axis::z;
+    for (ObjectDescription& object : other.objects) {
+        object.position = turned(object.position);
+        object.velocity = turned(object.velocity);
+    }
+    for (ColliderDescription& collider : other.colliders) {
+        collider.position = turned(collider.position);
+        if (auto* plane = std::get_if<PlaneCollider>(&collider.shape)) plane->normal = turned(plane->normal);
+    }
+    std::vector<Overlays> all(7);
+    all[1].box_levels = 0;  // trees are divided by the axes
+    all[2].wireframe = all[2].objects = true;
+    all[3].arrow_time = 0.1f;
+    all[4].cut = CutPlane{{0.3f, 0.2f, 1.0f}, 0.1f};
+    all[5].full_strain = 0.02f;
+    all[6].color_map = ColorMap{Quantity::stress, 1e3f};
+    for (const PictureQuality quality : {PictureQuality::fast, PictureQuality::high}) {
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            PictureOptions options = small();
+            options.quality = quality;
+            options.overlays = all[k];
+            Simulator a(scene, on(Backend::cpu)), b(other, on(Backend::cpu));
+            a.advance_frame();
+            b.advance_frame();
+            const Picture one = render_picture(a, options);
+            if (auto& cut = options.overlays.cut) {
+                std::swap(cut->normal[1], cut->normal[2]);
+                cut->normal[1] = -cut->normal[1];
+            }
+            const Picture two = render_picture(b, options);
+            std::size_t different = 0;
+            for (std::size_t p = 0; p < one.pixels.size(); ++p)
+                different += std::abs(one.pixels[p] - two.pixels[p]) > 8;
+            EXPECT_LT(different, one.pixels.size() / 200) << "overlay " << k;
+        }
+    }
 }
 
 }  // namespace

@@ -55,9 +55,9 @@ protected:
         return options;
     }
 
-    fs::path write(const std::string& name) const {
+    fs::path write(const std::string& name, Axis up = Axis::y) const {
         const fs::path file = folder_.path() / name;
-        AnimationSettings settings{500.0, std::vector<glm::vec3>(3, glm::vec3(0.5f, 0.25f, 0.125f))};
+        AnimationSettings settings{500.0, std::vector<glm::vec3>(3, glm::vec3(0.5f, 0.25f, 0.125f)), up};
         const auto animation = make_animation_file(file, model_of(simulator_), settings);
         for (const HostFrame& frame : frames_) animation->write(frame);
         animation->finish();
@@ -157,6 +157,21 @@ TEST_F(AnimationFileTest, GltfHasAMorphTargetForEachFrame) {
     aiColor4D color;
     read->mMaterials[0]->Get(AI_MATKEY_COLOR_DIFFUSE, color);
     EXPECT_EQ(color, aiColor4D(0.5f, 0.25f, 0.125f, 1.0f));
+}
+
+// glTF is y-up by its standard, USD says what is up.
+TEST_F(AnimationFileTest, KnowsTheScenesUpAxis) {
+    Assimp::Importer importer;
+    const aiScene* const read = importer.ReadFile(write("balls.glb", Axis::z).string(), 0);
+    ASSERT_NE(read, nullptr) << importer.GetErrorString();
+    ASSERT_EQ(read->mRootNode->mNumChildren, 3u);
+    for (unsigned o = 0; o < 3; ++o) {
+        const aiVector3D turned =
+            read->mRootNode->mChildren[o]->mTransformation * aiVector3D(1.0f, 2.0f, 3.0f);
+        EXPECT_LT(glm::distance(glm::vec3(turned.x, turned.y, turned.z), glm::vec3(1, 3, -2)), 1e-6f);
+    }
+    EXPECT_THAT(read_file(write("balls.usda", Axis::z)), testing::HasSubstr("upAxis = \"Z\""));
+    EXPECT_THAT(read_file(write("balls.usda")), testing::HasSubstr("upAxis = \"Y\""));
 }
 
 TEST_F(AnimationFileTest, NormalsPointOutwards) {

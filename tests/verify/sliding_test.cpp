@@ -61,7 +61,7 @@ TEST_F(SlidingTest, BlocksSlideAsFastAsFrictionLeaves) {
         for (const double youngs_modulus : {1e4, 1e5, 1e6, 1e7, 1e8, 1e9})
             for (const double tangent : {1.02, 1.3, 2.0}) {
                 const Scene slope = scene(has_plane, youngs_modulus, tangent);
-                const glm::dvec3 gravity = slope.simulation.gravity;
+                const glm::dvec3 gravity = slope.gravity();
                 const double friction = -kFriction * gravity.y;
                 for (const Backend backend : {Backend::cpu, Backend::gl}) {
                     if (backend == Backend::gl && (youngs_modulus != 1e7 || tangent < 1.1))
@@ -79,7 +79,7 @@ TEST_F(SlidingTest, SmallBlocksSlideAsFast) {
     for (const double scale : {0.1, 0.05}) {
         for (const double youngs_modulus : {1e5, 1e6}) {
             const Scene slope = scene(false, youngs_modulus, 1.3, scale);
-            const glm::dvec3 gravity = slope.simulation.gravity;
+            const glm::dvec3 gravity = slope.gravity();
             Simulator block(slope, on(Backend::cpu));
             const double before = speed_after(block, 60, scale), after = speed_after(block, 60, scale);
             EXPECT_NEAR(after - before, gravity.x + kFriction * gravity.y, -0.02 * kFriction * gravity.y)

@@ -109,5 +109,22 @@ TEST(CameraController, KnowsWherePointsShow) {
     EXPECT_FALSE(c.place_of(eye));
 }
 
+// As with y up, in coordinates that are turned.
+TEST(CameraController, KeepsTheScenesUpAxisUp) {
+    CameraController y = controller(), z;
+    z.set({.eye = {1.0f, -5.0f, 2.0f}, .target = {0.0f, 0.0f, 1.0f}, .field_of_view = 40.0f}, Axis::z);
+    const auto turned = [](const glm::vec3& v) { return glm::vec3(v.x, -v.z, v.y); };
+    for (CameraController* c : {&y, &z}) {
+        c->orbit({0.2f, -0.1f});
+        c->pan({0.1f, 0.3f});
+        c->zoom(2.0f, {0.1f, -0.2f});
+    }
+    expect_near(z.camera().eye, turned(y.camera().eye), 1e-5f);
+    expect_near(z.camera().target, turned(y.camera().target), 1e-5f);
+    expect_near(z.ray({0.3f, 0.1f}).direction, turned(y.ray({0.3f, 0.1f}).direction), 1e-5f);
+    EXPECT_NEAR(z.right().z, 0.0f, 1e-6f);
+    EXPECT_GT(z.up().z, 0.5f);
+}
+
 }  // namespace
 }  // namespace gelatin::viewer

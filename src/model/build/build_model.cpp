@@ -346,15 +346,15 @@ Model pack_bodies(const std::vector<Body>& bodies, const std::vector<ColliderDes
 Model build_model(const Scene& scene) {
     validate(scene);
     std::vector<Body> bodies;
-    ObjectMesher mesher(scene.meshes);
+    ObjectMesher mesher(scene.meshes, scene.up);
     const std::vector<double> shares = shares_of_meshing(scene);
     for (std::size_t o = 0; o < scene.objects.size(); ++o) {
         report_progress(shares[o], "object '" + scene.objects[o].name + "'");
         bodies.push_back(make_body(scene, scene.objects[o], mesher));
     }
     report_progress(kShareOfMeshing, "tables");
-    Model model = pack_bodies(bodies, solid_colliders(scene), scene.simulation.gravity,
-                              make_collider_surfaces(scene, mesher));
+    Model model =
+        pack_bodies(bodies, solid_colliders(scene), scene.gravity(), make_collider_surfaces(scene, mesher));
     model.meshes = std::make_shared<const SceneMeshes>(mesher.meshes());
     if (scene.collision.self_collision_with(scene.simulation.solver) && !scene.has_contact())
         model.rest_shapes = make_rest_shapes(model);

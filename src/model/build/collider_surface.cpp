@@ -59,15 +59,25 @@ std::string name_of_collider(const ColliderDescription& collider, std::size_t in
     return collider.name.empty() ? fmt::format("collider {}", index + 1) : collider.name;
 }
 
+// As it is, where nothing has to be turned: angles are not calculated back and forth.
+ColliderDescription upright(ColliderDescription collider, Axis scene_up) {
+    const glm::dquat orientation = orientation_of(collider, scene_up);
+    if (orientation != rotation_from_degrees(collider.rotation))
+        collider.rotation = degrees_from_rotation(orientation);
+    collider.up.reset();
+    return collider;
+}
+
 std::vector<ColliderDescription> solid_colliders(const Scene& scene) {
-    std::vector<ColliderDescription> solid = scene.colliders;
-    if (scene.has_contact())
-        std::erase_if(solid, [](const auto& c) { return !std::holds_alternative<PlaneCollider>(c.shape); });
+    std::vector<ColliderDescription> solid;
+    for (const ColliderDescription& collider : scene.colliders)
+        if (!scene.has_contact() || std::holds_alternative<PlaneCollider>(collider.shape))
+            solid.push_back(upright(collider, scene.up));
     return solid;
 }
 
 std::vector<ColliderSurface> make_collider_surfaces(const Scene& scene) {
-    ObjectMesher mesher(scene.meshes);
+    ObjectMesher mesher(scene.meshes, scene.up);
     return make_collider_surfaces(scene, mesher);
 }
 
@@ -82,7 +92,7 @@ std::vector<ColliderSurface> make_collider_surfaces(const Scene& scene, ObjectMe
         surface.mesh = mesher.surface(*shape, surface.name);
         if (surface.mesh.faces.empty())
             throw InvalidInput({scene.file.string(), 0, surface.name + ".shape", {}, "has no faces"});
-        const glm::dquat rotation = rotation_from_degrees(collider.rotation);
+        const glm::dquat rotation = orientation_of(collider, scene.up);
         for (glm::dvec3& p : surface.mesh.positions) p = rotation * (collider.scale * p) + collider.position;
         arrange(surface.mesh);
         surfaces.push_back(std::move(surface));

@@ -17,7 +17,11 @@ struct ColliderSurface {
     ColliderDescription description;
 };
 
-/// A scene's colliders that have no surface: all of them, but with CollisionResponse::contact planes alone.
+/// A collider whose shape is upright by its rotation alone, in any scene.
+ColliderDescription upright(ColliderDescription collider, Axis scene_up);
+
+/// Upright, a scene's colliders that have no surface: all of them, but with CollisionResponse::contact planes
+/// alone.
 std::vector<ColliderDescription> solid_colliders(const Scene& scene);
 
 /// Of the scene's other colliders. Repairs go to the log, one line each.

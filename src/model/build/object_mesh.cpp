@@ -151,7 +151,7 @@ void warn_of_a_poor_fit(const FittedSprings& springs, const std::string& name) {
 
 TetMesh ObjectMesher::make(const ObjectDescription& object) {
     TetMesh mesh = local(object).made->tets;
-    const glm::dquat rotation = rotation_from_degrees(object.rotation);
+    const glm::dquat rotation = orientation_of(object, up_);
     for (glm::dvec3& p : mesh.positions) p = rotation * (object.scale * p) + object.position;
     return mesh;
 }

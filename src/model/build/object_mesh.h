@@ -28,7 +28,9 @@ struct ShapeSkin {
 class ObjectMesher {
 public:
     /// @param made for some of the shapes already; null: for none
-    explicit ObjectMesher(std::shared_ptr<const SceneMeshes> made = {}) : made_(std::move(made)) {}
+    /// @param up the scene's up axis
+    explicit ObjectMesher(std::shared_ptr<const SceneMeshes> made = {}, Axis up = Axis::y)
+        : made_(std::move(made)), up_(up) {}
 
     /// The tets of an object in the scene: its shape or file, filled by the mesher if it is a surface, then
     /// scaled, rotated and moved to its position. Repairs go to the log, one line each.
@@ -63,6 +65,7 @@ private:
     Known& local(const ObjectDescription& object);
 
     std::shared_ptr<const SceneMeshes> made_;
+    Axis up_;
     std::vector<Known> known_;  // of bodies
     std::vector<std::shared_ptr<const ShapeMesh>> surfaces_;
 };

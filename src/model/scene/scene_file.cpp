@@ -49,7 +49,7 @@ SimulationSettings read_simulation(TableReader reader) {
         settings.substeps = count;
     }
     reader.read("iterations", settings.iterations);
-    reader.read("gravity", settings.gravity);
+    if (reader.has("gravity")) reader.read("gravity", settings.gravity.emplace(0.0));
     reader.read("frames", settings.frames);
     reader.read("sleep", settings.sleep);
     reader.finish();
@@ -143,6 +143,7 @@ Scene read_scene(const std::string& text, const std::filesystem::path& file,
     TableReader reader(document, "", name);
     Scene scene;
     scene.file = file;
+    reader.read("up", scene.up, {{"y", Axis::y}, {"z", Axis::z}});
     const auto simulation = reader.table("simulation"), collision = reader.table("collision"),
                camera = reader.table("camera");
     auto materials = reader.tables("material"), objects = reader.tables("object"),

@@ -49,6 +49,13 @@ Shape read_shape(TableReader reader, const std::filesystem::path& folder) {
     return shape;
 }
 
+std::optional<Axis> read_up(TableReader& reader) {
+    if (!reader.has("up")) return {};
+    Axis up{};
+    reader.read("up", up, {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}});
+    return up;
+}
+
 MesherSettings read_mesher(TableReader reader) {
     MesherSettings mesher;
     reader.read(
@@ -109,6 +116,7 @@ std::vector<ObjectDescription> read_object(TableReader& reader, const std::vecto
     for (TableReader& part : reader.tables("part")) object.parts.push_back(read_part(part, materials));
     reader.read("position", object.position);
     reader.read("rotation", object.rotation);
+    object.up = read_up(reader);
     reader.read("scale", object.scale);
     reader.read("velocity", object.velocity);
     reader.read("spin", object.spin);
@@ -148,6 +156,7 @@ ColliderDescription read_collider(TableReader& reader, const CollisionSettings& 
     reader.read("name", collider.name);
     reader.read("position", collider.position);
     reader.read("rotation", collider.rotation);
+    collider.up = read_up(reader);
     reader.read("scale", collider.scale);
     reader.read("friction", collider.friction);
     reader.read("restitution", collider.restitution);

@@ -20,8 +20,6 @@
 namespace gelatin {
 namespace {
 
-using Axis = MeshSceneOptions::Axis;
-
 constexpr double kSize = 1.0;       // the largest extent of a mesh that is scaled [m]
 constexpr double kDrop = 0.5;       // height of the first body above the floor, in its heights
 constexpr double kClearance = 0.1;  // between two bodies of a pile, in sizes of the upper one
@@ -45,19 +43,12 @@ Axis up_axis(const std::filesystem::path& file, const MeshSceneOptions& options)
     return options.up.value_or(lower_case_ending(file) == ".stl" ? Axis::z : Axis::y);
 }
 
-// Makes `up` the y axis [degrees].
-glm::dvec3 upright(Axis up) {
-    if (up == Axis::x) return {0.0, 0.0, 90.0};
-    return up == Axis::z ? glm::dvec3(-90.0, 0.0, 0.0) : glm::dvec3(0.0);
-}
-
-Extent measure(const std::filesystem::path& file, const glm::dvec3& rotation) {
+Extent measure(const std::filesystem::path& file, const glm::dquat& rotation) {
     Notes notes;  // the mesher repeats them
     const std::vector<glm::dvec3> positions =
         is_tet_file(file) ? read_tets(file, notes).positions : read_surface(file, notes).positions;
-    const glm::dquat turn = rotation_from_degrees(rotation);
     Extent extent;
-    for (const glm::dvec3& p : positions) extent.add(turn * p);
+    for (const glm::dvec3& p : positions) extent.add(rotation * p);
     return extent;
 }
 
@@ -87,9 +78,9 @@ public:
         body.material = scene_.materials.front().name;
         body.shape = FileShape{std::filesystem::absolute(file)};
         body.mesher.nodes = options_.nodes;
-        body.rotation = upright(up_axis(file, options_));
+        if (const Axis up = up_axis(file, options_); up != scene_.up) body.up = up;
         const auto [known, is_new] = extents_.try_emplace(file);
-        if (is_new) known->second = measure(file, body.rotation);
+        if (is_new) known->second = measure(file, orientation_of(body, scene_.up));
         const Extent& extent = known->second;
         body.scale = scale_of(file, extent, is_new);
         place(body, extent);

@@ -11,7 +11,6 @@ namespace gelatin {
 
 /// How meshes are simulated that come without a scene file.
 struct MeshSceneOptions {
-    enum class Axis { x, y, z };
     std::optional<Axis> up = {};  ///< which axis of the files points up; empty: z for .stl, y for all others
     bool keep_units = false;      ///< coordinates are metres; otherwise the largest extent becomes 1 m
     std::optional<int> nodes = {};  ///< of each body, as MesherSettings::nodes; for surfaces only

@@ -147,8 +147,9 @@ Table table_of(const ObjectDescription& object, const std::filesystem::path& fol
         table.add_text("mesher", mesher.in_line());
     table.add("material", object.material)
         .add_unless(usual.scale, "scale", object.scale)
-        .add_unless(usual.rotation, "rotation", object.rotation)
-        .add_unless(usual.position, "position", object.position)
+        .add_unless(usual.rotation, "rotation", object.rotation);
+    if (object.up) table.add("up", name_of(*object.up));
+    table.add_unless(usual.position, "position", object.position)
         .add_unless(usual.velocity, "velocity", object.velocity)
         .add_unless(usual.spin, "spin", object.spin);
     Table start;
@@ -208,6 +209,7 @@ Table table_of(const ColliderDescription& collider, const std::filesystem::path&
     } else {
         table.add_text("shape", std::visit(ShapeTable{folder}, std::get<Shape>(collider.shape)).in_line());
         table.add("position", collider.position).add("rotation", collider.rotation);
+        if (collider.up) table.add("up", name_of(*collider.up));
     }
     table.add_unless(usual.scale, "scale", collider.scale);
     table.add("friction", collider.friction).add("restitution", collider.restitution);
@@ -222,6 +224,7 @@ Table table_of(const ColliderDescription& collider, const std::filesystem::path&
 
 std::string to_toml(const Scene& scene, const std::filesystem::path& folder) {
     std::string text;
+    if (scene.up != Axis::y) text = Table().add("up", name_of(scene.up)).lines();
     const auto add = [&](const char* head, const Table& table) {
         text += fmt::format("{}{}\n{}", text.empty() ? "" : "\n", head, table.lines());
     };

@@ -8,6 +8,7 @@
 
 #include "mesh/mesh_in_memory.h"
 #include "model/scene/names.h"
+#include "model/setting_names.h"
 
 namespace gelatin {
 namespace {
@@ -90,6 +91,7 @@ private:
         refuse_vector("position", collider.position, placed);
         refuse_vector("rotation", collider.rotation, placed);
         if (collider.scale != 1.0) checks_.fail(field / "scale", text_of(collider.scale), placed);
+        if (collider.up) checks_.fail(field / "up", text_of(name_of(*collider.up)), placed);
         const std::string rests = "a plane does not move: a box can";
         if (!collider.keyframes.empty()) checks_.fail(field / "keyframes", "[{...}]", rests);
         refuse_vector("surface_velocity", collider.surface_velocity, rests);

@@ -145,6 +145,8 @@ void check_materials(const ValueChecks& checks, const std::vector<Material>& mat
 
 void validate(const Scene& scene, const ReportProblem& report) {
     const ValueChecks checks(report);
+    if (scene.up == Axis::x)
+        checks.fail(FieldPath("up"), text_of(name_of(scene.up)), "must be \"y\" or \"z\"");
     check_simulation(checks, scene.simulation);
     check_collision(checks, scene.collision, scene.simulation.solver);
     if (scene.camera) check_camera(checks, *scene.camera);

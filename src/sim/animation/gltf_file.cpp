@@ -14,6 +14,7 @@
 #include "core/file_writer.h"
 #include "gelatin/error.h"
 #include "gelatin/version.h"
+#include "model/transform.h"
 
 namespace gelatin {
 namespace fs = std::filesystem;
@@ -262,12 +263,15 @@ void GltfFile::add_animation(const std::vector<int>& moving, GltfContent& conten
 void GltfFile::finish() {
     GltfContent content(file_);
     add_materials(surface_.look, content);
+    const glm::dquat turn = upright(settings_.up, Axis::y);  // glTF is y-up
     std::vector<int> nodes, moving;
     for (std::size_t o = 0; o < surface_.objects.size(); ++o) {
         const bool moves = this->moves(surface_.objects[o]);
         const std::optional<int> mesh = add_mesh(o, moves, content);
         if (!mesh) continue;
-        nodes.push_back(content.append("nodes", {{"name", surface_.objects[o].name}, {"mesh", *mesh}}));
+        Json node{{"name", surface_.objects[o].name}, {"mesh", *mesh}};
+        if (settings_.up != Axis::y) node["rotation"] = {turn.x, turn.y, turn.z, turn.w};
+        nodes.push_back(content.append("nodes", std::move(node)));
         if (moves) moving.push_back(nodes.back());
     }
     content.json["scenes"] = {{{"nodes", nodes}}};

@@ -225,8 +225,9 @@ std::string UsdFile::head() const {
     return fmt::format(
         "#usda 1.0\n(\n    defaultPrim = \"simulation\"\n    doc = \"Gelatin {}\"\n    startTimeCode = {}\n"
         "    endTimeCode = {}\n    timeCodesPerSecond = {}\n    framesPerSecond = {}\n    metersPerUnit = 1\n"
-        "    upAxis = \"Y\"\n)\n\ndef Xform \"simulation\" (\n    kind = \"component\"\n)\n{{\n",
-        version(), frames_.front(), frames_.back(), settings_.frame_rate, settings_.frame_rate);
+        "    upAxis = \"{}\"\n)\n\ndef Xform \"simulation\" (\n    kind = \"component\"\n)\n{{\n",
+        version(), frames_.front(), frames_.back(), settings_.frame_rate, settings_.frame_rate,
+        settings_.up == Axis::z ? "Z" : "Y");
 }
 
 void UsdFile::finish() {

@@ -384,5 +384,21 @@ TEST_F(SceneFile, RefusesACameraInItsTarget) {
         "scene.toml:7: camera.field_of_view = 180: must be greater than 0 and less than 180");
 }
 
+TEST_F(SceneFile, GravityPointsDown) {
+    EXPECT_EQ(load(kBall).gravity(), glm::dvec3(0.0, -9.81, 0.0));
+    EXPECT_EQ(load("up = 'z'\n" + std::string(kBall)).gravity(), glm::dvec3(0.0, 0.0, -9.81));
+    EXPECT_EQ(load(kBall, {"up=z"}).up, Axis::z);
+    EXPECT_EQ(load("up = 'z'\n" + std::string(kBall), {"simulation.gravity=[1, 2, 3]"}).gravity(),
+              glm::dvec3(1.0, 2.0, 3.0));
+}
+
+TEST_F(SceneFile, NamesTheAxesThatMayPointUp) {
+    EXPECT_THAT(error("up = 'x'\n" + std::string(kBall)), StartsWith("scene.toml:1: up = \"x\": "));
+    EXPECT_THAT(error("up = 1\n" + std::string(kBall)), StartsWith("scene.toml:1: up = 1: "));
+    EXPECT_THAT(object_error("shape = {sphere = 1}\nup = 'w'"),
+                StartsWith("scene.toml:5: object.ball.up = \"w\": "));
+    EXPECT_EQ(load(kBall, {"object.ball.up=x"}).objects[0].up, Axis::x);
+}
+
 }  // namespace
 }  // namespace gelatin::test

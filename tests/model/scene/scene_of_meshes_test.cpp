@@ -19,8 +19,6 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using Axis = MeshSceneOptions::Axis;
-
 struct Box {
     glm::dvec3 low{HUGE_VAL}, high{-HUGE_VAL};
 };
@@ -51,8 +49,7 @@ protected:
         Box box;
         for (const glm::dvec3& p :
              is_tet_file(file) ? read_tets(file, notes).positions : read_surface(file, notes).positions) {
-            const glm::dvec3 placed =
-                rotation_from_degrees(object.rotation) * (object.scale * p) + object.position;
+            const glm::dvec3 placed = orientation_of(object, Axis::y) * (object.scale * p) + object.position;
             box.low = glm::min(box.low, placed);
             box.high = glm::max(box.high, placed);
         }
@@ -105,8 +102,7 @@ TEST_F(SceneOfMeshes, StandsAsTheFileSays) {
     for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
         glm::dvec3 up(0.0);
         up[static_cast<int>(axis)] = 1.0;
-        const glm::dvec3 degrees = make({"wedge.obj"}, {axis}).objects[0].rotation;
-        expect_near(rotation_from_degrees(degrees) * up, {0.0, 1.0, 0.0});
+        expect_near(orientation_of(make({"wedge.obj"}, {axis}).objects[0], Axis::y) * up, {0.0, 1.0, 0.0});
     }
 }
 

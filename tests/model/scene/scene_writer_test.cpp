@@ -16,7 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // Everything that a scene file can say, nothing of it as usual.
-constexpr const char* kEverything = R"([simulation]
+constexpr const char* kEverything = R"(up = "z"
+
+[simulation]
 solver = "vbd"
 forces = "divide_and_merge"
 frame_rate = 50.5
@@ -63,6 +65,7 @@ mesher = { kind = "tetgen", quality = 1.8, max_volume = 0.001, time_limit = 60 }
 material = "a \"soft\" \\ one"
 scale = 1.5
 rotation = [10, 20, 30]
+up = "x"
 position = [0, 2, 0]
 velocity = [1, 0, 0]
 spin = [0, 90, 0]
@@ -131,6 +134,7 @@ restitution = 0.2
 shape = { box = [1, 2, 3], segments = [1, 1, 1] }
 position = [5, 0, 0]
 rotation = [0, 45, 0]
+up = "y"
 friction = 0.7
 restitution = 0.1
 

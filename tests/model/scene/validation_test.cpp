@@ -33,7 +33,7 @@ const Rule kSettingRules[] = {
      "simulation.substeps = -3: must be \"auto\" or from 1 to 1000000"},
     {"iterations", "[simulation]\niterations = 0", BREAKS(s.simulation.iterations = 0),
      "simulation.iterations = 0: must be from 1 to 1000"},
-    {"gravity", "[simulation]\ngravity = [0, nan, 0]", BREAKS(s.simulation.gravity.y = kNan),
+    {"gravity", "[simulation]\ngravity = [0, nan, 0]", BREAKS(s.simulation.gravity = glm::dvec3(0, kNan, 0)),
      "simulation.gravity[1] = nan: must be finite"},
     {"frames", "[simulation]\nframes = -1", BREAKS(s.simulation.frames = -1),
      "simulation.frames = -1: must be 0 or more"},
@@ -133,6 +133,8 @@ const Rule kSettingRules[] = {
     {"collider_no_scale", "[[collider]]\nshape = {sphere = 1}\nscale = 0",
      BREAKS(add_collider(s).shape = SphereShape{1}; s.colliders[0].scale = 0),
      "collider[0].scale = 0: must be greater than 0"},
+    {"plane_up", "[[collider]]\nshape = {plane = [0, 1, 0]}\nup = 'z'", BREAKS(add_collider(s).up = Axis::z),
+     "collider[0].up = \"z\": a plane has none: its shape's normal and offset place it"},
     {"plane_scale", "[[collider]]\nshape = {plane = [0, 1, 0]}\nscale = 2", BREAKS(add_collider(s).scale = 2),
      "collider[0].scale = 2: a plane has none: its shape's normal and offset place it"},
     {"plane_keyframes", "[[collider]]\nshape = {plane = [0, 1, 0]}\nkeyframes = [{time = 0}]",
@@ -236,6 +238,12 @@ TEST_F(Validation, NamesWhatIsWrongWithAPairOfMaterials) {
 
 TEST_F(Validation, TakesASoundScene) {
     EXPECT_NO_THROW(validate(scene_of_file()));
+}
+
+// The reader of a file says so itself.
+TEST_F(Validation, UpIsYOrZ) {
+    EXPECT_EQ(error_of(BREAKS(s.up = Axis::x)), "up = \"x\": must be \"y\" or \"z\"");
+    EXPECT_NO_THROW(load("up = 'z'\n" + std::string(kBall)));
 }
 
 TEST_F(Validation, NeedsObjects) {
