@@ -46,6 +46,8 @@ protected:
     /// Forces and integration, collisions with colliders included.
     virtual void advance_nodes(const Step& step) = 0;
 
+    /// Made when they are first needed.
+    CollisionStages<Real>& collision_stages();
     std::span<const float> load_factors(const Step& step) const {
         return step.load_factors.empty() ? std::span(whole_loads_) : step.load_factors;
     }
@@ -61,8 +63,6 @@ protected:
     HostStageTimer timer_;
 
 private:
-    CollisionStages<Real>& collision_stages();
-
     CollisionSettings settings_;
     CollisionPlan plan_;
     std::vector<float> whole_loads_;  // the factors of loads that all act

@@ -3,39 +3,6 @@
 #include "gl/context.h"
 
 namespace gelatin::gpu {
-namespace {
-
-// For run_collision_stages.
-struct CollisionStages {
-    const ModelBuffers& model;
-    Collision& collision;
-
-    void update_boxes(const NodeBuffers& previous, const NodeBuffers& current) const {
-        collision.update_boxes.run(model, collision.buffers, previous, current);
-    }
-    void find_object_pairs(const NodeBuffers& current) const {
-        collision.find_object_pairs.run(model, collision.buffers, current);
-    }
-    void find_face_collisions(const NodeBuffers& previous, const NodeBuffers& current) const {
-        collision.find_face_collisions.run(model, collision.buffers, previous, current);
-    }
-    void find_self_collisions(const NodeBuffers& current) const {
-        collision.self->find.run(model, collision.buffers, collision.self->buffers, current);
-    }
-    void find_proximities(const NodeBuffers& current) const {
-        collision.near->find.run(model, collision.buffers, collision.near->buffers, current);
-    }
-    void respond(double step, const NodeBuffers& previous, const NodeBuffers& current) const {
-        // An object's own contacts come first: they are computed for the positions at which they were found.
-        if (collision.self)
-            collision.self->respond.run(model, collision.buffers, collision.self->buffers, previous, current,
-                                        step);
-        collision.respond.run(model, collision.buffers, previous, current, step);
-    }
-};
-
-}  // namespace
-
 GpuSolver::GpuSolver(std::shared_ptr<const Model> model, const CollisionSettings& collision)
     : model_(std::move(model)),
       buffers_(*model_),
@@ -46,8 +13,13 @@ GpuSolver::GpuSolver(std::shared_ptr<const Model> model, const CollisionSettings
       plan_(plan_collision(*model_, collision)),
       whole_loads_(model_->loads.spans.size(), 1.0f),
       measure_(*model_, collision.self_collision.value_or(false)) {
-    if (plan_.needs_boxes()) collision_.emplace(*model_, settings_);
+    if (plan_.needs_boxes()) collision_stages();
     if (!model_->loads.empty()) sum_loads_.emplace(*model_);
+}
+
+CollisionStages GpuSolver::collision_stages() {
+    if (!collision_) collision_.emplace(*model_, settings_);
+    return {buffers_, *collision_};
 }
 
 void GpuSolver::advance(const Step& step) {
@@ -61,7 +33,7 @@ void GpuSolver::advance(const Step& step) {
         advance_nodes(step);
     }
     if (!collision_) return;
-    CollisionStages stages{buffers_, *collision_};
+    CollisionStages stages = collision_stages();
     run_collision_stages(plan_, stages, step.size, previous_, current_, timer);
 }
 
@@ -77,8 +49,7 @@ SumLoads* GpuSolver::loads_of(const Step& step) {
 }
 
 const gl::Buffer<Box>& GpuSolver::update_tree_boxes() {
-    if (!collision_) collision_.emplace(*model_, settings_);
-    CollisionStages{buffers_, *collision_}.update_boxes(previous_, current_);
+    collision_stages().update_boxes(previous_, current_);
     return collision_->buffers.face_trees.boxes;
 }
 

@@ -59,6 +59,8 @@ protected:
     /// Forces and integration, collisions with colliders included.
     virtual void advance_nodes(const Step& step) = 0;
 
+    /// Made when they are first needed.
+    CollisionStages collision_stages();
     /// Null in models without loads. @return with the step's factors
     SumLoads* loads_of(const Step& step);
 

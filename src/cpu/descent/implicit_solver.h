@@ -29,10 +29,10 @@ protected:
     void apply_kinematics(std::span<const HandleMotion> motions) override;
     void advance_nodes(const Step& step) override;
 
-private:
     using CpuSolver<Real>::model_, CpuSolver<Real>::current_, CpuSolver<Real>::previous_,
         CpuSolver<Real>::has_earlier_, CpuSolver<Real>::load_forces_;
 
+private:
     BlockDescent<Real> descent_;
     ShapeMatcher<Real> shape_matcher_;      // of bodies that have lost their shape, before they descend
     double step_ = 0.0;                     // the last one [s]

@@ -24,10 +24,10 @@ public:
 protected:
     void advance_nodes(const Step& step) override;
 
-private:
     using CpuSolver<Real>::model_, CpuSolver<Real>::current_, CpuSolver<Real>::previous_,
         CpuSolver<Real>::load_forces_, CpuSolver<Real>::pulls_;
 
+private:
     void add_pulls(const Nodes<Real>& nodes, Real step);
     void find_volume_stresses(const Nodes<Real>& nodes);
     void run_pass(const Pass<Real>& pass);
