@@ -113,17 +113,17 @@ void add_cpu_cases(const std::shared_ptr<const Model>& model, double step, std::
     const auto divided = solver_for(ForceMethod::divide_and_merge);
     std::vector<std::shared_ptr<cpu::ImplicitSolver<float>>> descents;
     for (const DescentCase& descent : kDescentCases) {
-        descents.push_back(std::make_shared<cpu::ImplicitSolver<float>>(model,
-                                                                   CollisionSettings{}, descent.settings));
+        descents.push_back(
+            std::make_shared<cpu::ImplicitSolver<float>>(model, CollisionSettings{}, descent.settings));
     }
     const double divided_bytes = write_bytes(*model) + merge_bytes(*model) + integrate_bytes(*model);
     for (const int threads : measured_thread_counts()) {
         const std::string name = describe_cpu(threads);
         const auto nothing = [] {};
-        cases.push_back({name, kFusedStage, fused_bytes(*model),
-                         [fused, step] { fused->advance({step}); }, nothing, threads});
-        cases.push_back({name, kDividedStage, divided_bytes,
-                         [divided, step] { divided->advance({step}); }, nothing, threads});
+        cases.push_back({name, kFusedStage, fused_bytes(*model), [fused, step] { fused->advance({step}); },
+                         nothing, threads});
+        cases.push_back({name, kDividedStage, divided_bytes, [divided, step] { divided->advance({step}); },
+                         nothing, threads});
         for (std::size_t k = 0; k < descents.size(); ++k) {
             const DescentCase& descent = kDescentCases[k];
             cases.push_back({name, descent.stage, descent_bytes(*model, descent.settings.iterations),
@@ -160,8 +160,8 @@ void add_gl_cases(const std::shared_ptr<const Model>& model, double step, std::v
     cases.push_back({kOpenGl, kDividedStage, write_bytes(m) + merge_bytes(m) + integrate_bytes(m),
                      [divided, step] { divided->advance({step}); }, finish});
     for (const DescentCase& descent : kDescentCases) {
-        const auto solver = std::make_shared<gpu::ImplicitSolver>(model,
-                                                             CollisionSettings{}, descent.settings);
+        const auto solver =
+            std::make_shared<gpu::ImplicitSolver>(model, CollisionSettings{}, descent.settings);
         cases.push_back({kOpenGl, descent.stage, descent_bytes(m, descent.settings.iterations),
                          [solver] { solver->advance({kFrame}); }, finish});
     }

@@ -15,7 +15,8 @@ constexpr double kSampleTime = 20.0;  // [ms]
 constexpr int kMostSteps = 200;
 constexpr SolverKind kSolver = SolverKind::semi_implicit_euler;
 
-const BenchStage kAdvanceNodes{"advance_nodes", [](StagedSolver& s, double step) { s.advance_nodes({step}); }};
+const BenchStage kAdvanceNodes{"advance_nodes",
+                               [](StagedSolver& s, double step) { s.advance_nodes({step}); }};
 const BenchStage kUpdateBoxes{"update_boxes", [](StagedSolver& s, double) { s.update_boxes(); }};
 const BenchStage kFindObjectPairs{"find_object_pairs",
                                   [](StagedSolver& s, double) { s.find_object_pairs(); }};

@@ -18,7 +18,8 @@ constexpr int kMostSteps = 50;
 
 std::unique_ptr<Solver> make_bench_solver(const std::shared_ptr<const Model>& model,
                                           const StageSystem& system, const StepSettings& settings) {
-    if (system.uses_gl) return gpu::make_solver(model, settings.solver, ForceMethod::fused, {}, settings.descent);
+    if (system.uses_gl)
+        return gpu::make_solver(model, settings.solver, ForceMethod::fused, {}, settings.descent);
     return cpu::make_solver<float>(model, settings.solver, ForceMethod::fused, {}, settings.descent);
 }
 

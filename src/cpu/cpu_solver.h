@@ -56,8 +56,8 @@ protected:
     const Pulls<Real>* acting_pulls() const { return pulls_.nodes().empty() ? nullptr : &pulls_; }
 
     std::shared_ptr<const Model> model_;
-    Nodes<Real> current_, previous_;  // swapped by each step: its end, and its start
-    bool has_earlier_ = false;        // previous_ is one step earlier: implicit solvers look back
+    Nodes<Real> current_, previous_;       // swapped by each step: its end, and its start
+    bool has_earlier_ = false;             // previous_ is one step earlier: implicit solvers look back
     std::vector<Vec4<Real>> load_forces_;  // [N], shape [nodes]; empty without loads
     Pulls<Real> pulls_;
     HostStageTimer timer_;
@@ -65,7 +65,7 @@ protected:
 private:
     CollisionSettings settings_;
     CollisionPlan plan_;
-    std::vector<float> whole_loads_;  // the factors of loads that all act
+    std::vector<float> whole_loads_;                    // the factors of loads that all act
     std::unique_ptr<CollisionStages<Real>> collision_;  // if something can collide, or boxes were requested
     Alarm alarm_ = kNoAlarm;
     std::deque<Measurement> measures_;

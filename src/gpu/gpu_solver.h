@@ -74,7 +74,7 @@ private:
     std::string device_;
     CollisionSettings settings_;
     CollisionPlan plan_;
-    std::optional<Collision> collision_;  // if something can collide, or boxes were requested
+    std::optional<Collision> collision_;               // if something can collide, or boxes were requested
     std::optional<ApplyKinematics> apply_kinematics_;  // once a held node moves
     std::optional<SumLoads> sum_loads_;                // if the model has loads
     std::vector<float> whole_loads_;                   // the factors of loads that all act

@@ -54,8 +54,8 @@ void Simulator::go_on_from(const Simulator& other) {
     const int frame = static_cast<int>(time * d.scene.simulation.frame_rate + 1e-6);
     const State state = carried_over(*from.model, from.solver->read_state(), *d.model, d.first_state());
     d.handle_clocks.go_on_with(carried_over(*from.model, from.handle_clocks.delays(), *d.model));
-    d.drags = carried_over(*from.model, from.drags, *d.model, state, d.handle_clocks.times(time),
-                           Drags(d.model));
+    d.drags =
+        carried_over(*from.model, from.drags, *d.model, state, d.handle_clocks.times(time), Drags(d.model));
     d.take_state(state,
                  {frame, time, static_cast<std::uint64_t>(frame) * static_cast<std::uint64_t>(substeps())});
 }

@@ -76,8 +76,8 @@ TEST_F(WatchTest, StopsAtTheFirstStepOnEitherBackend) {
         checkpoint.state.velocities[30].y = std::numeric_limits<float>::quiet_NaN();
         write_checkpoint(file, model, checkpoint);
 
-        cpu::ExplicitSolver<double> oracle(std::make_shared<const Model>(model), SolverKind::semi_implicit_euler,
-                                      ForceMethod::fused);
+        cpu::ExplicitSolver<double> oracle(std::make_shared<const Model>(model),
+                                           SolverKind::semi_implicit_euler, ForceMethod::fused);
         oracle.write_state(checkpoint.state);
         oracle.advance({simulator.step_size()});
         oracle.watch_nodes(1, 1e30);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "cpu/explicit/explicit_solver.h"
 #include "cpu/elasticity/neo_hookean.h"
+#include "cpu/explicit/explicit_solver.h"
 #include "model/elasticity/neo_hookean.h"
 #include "support/instruction_sets.h"
 

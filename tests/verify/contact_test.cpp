@@ -44,8 +44,7 @@ std::vector<std::unique_ptr<Solver>> solvers_for(const Model& model, bool with_g
         }
     }
     solvers.push_back(std::make_unique<cpu::ImplicitSolver<float>>(shared));
-    if (with_gl)
-        solvers.push_back(std::make_unique<gpu::ImplicitSolver>(shared));
+    if (with_gl) solvers.push_back(std::make_unique<gpu::ImplicitSolver>(shared));
     return solvers;
 }
 
@@ -107,7 +106,7 @@ TEST_F(ContactTest, NothingSinksIntoAPlane) {
     for (glm::dvec3& p : body.mesh.positions) p.y += 0.3;
     const Model model = pack_bodies({body}, {ColliderDescription{}}, {0.0, -9.81, 0.0});
     cpu::ExplicitSolver<float> solver(std::make_shared<const Model>(model), SolverKind::semi_implicit_euler,
-                                 ForceMethod::fused);
+                                      ForceMethod::fused);
     for (int s = 0; s < 2000; ++s) {
         solver.advance({5e-4});
         solver.begin_measure();

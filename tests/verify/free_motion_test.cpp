@@ -56,10 +56,10 @@ TEST(Momentum, OfAFreeObjectIsKept) {
     for (std::size_t n = 0; n < model.velocities.size(); ++n)
         model.velocities[n].z += (n % 3 == 0) ? 2.0f : -1.0f;
     for (const ForceMethod forces : {ForceMethod::fused, ForceMethod::divide_and_merge}) {
-        cpu::ExplicitSolver<double> oracle(std::make_shared<const Model>(model), SolverKind::semi_implicit_euler,
-                                      forces);
-        cpu::ExplicitSolver<float> product(std::make_shared<const Model>(model), SolverKind::semi_implicit_euler,
-                                      forces);
+        cpu::ExplicitSolver<double> oracle(std::make_shared<const Model>(model),
+                                           SolverKind::semi_implicit_euler, forces);
+        cpu::ExplicitSolver<float> product(std::make_shared<const Model>(model),
+                                           SolverKind::semi_implicit_euler, forces);
         const glm::dvec3 start = measure(oracle).momentum;
         const double size = model.objects[0].mass * 5.0;  // mass times a typical speed
         const double step = 0.5 * largest_stable_step(SolverKind::semi_implicit_euler, model);
@@ -79,7 +79,7 @@ TEST_F(MomentumOnGpuTest, OfAFreeObjectIsKept) {
     for (std::size_t n = 0; n < model.velocities.size(); ++n)
         model.velocities[n].z += (n % 3 == 0) ? 2.0f : -1.0f;
     gpu::ExplicitSolver solver(std::make_shared<const Model>(model), SolverKind::semi_implicit_euler,
-                          ForceMethod::fused);
+                               ForceMethod::fused);
     const glm::dvec3 start = measure(solver).momentum;
     const double step = 0.5 * largest_stable_step(SolverKind::semi_implicit_euler, model);
     for (int s = 0; s < 500; ++s) solver.advance({step});
@@ -92,7 +92,7 @@ TEST(Energy, OfSemiImplicitEulerIsBoundedOver10000Steps) {
     Model model = test::make_model(test::make_body(test::make_block({3, 3, 3}, {0.3, 0.3, 0.3}, 0.2)));
     for (glm::vec4& p : model.positions) p.x *= 1.05f;
     cpu::ExplicitSolver<double> solver(std::make_shared<const Model>(model), SolverKind::semi_implicit_euler,
-                                  ForceMethod::fused);
+                                       ForceMethod::fused);
     const double step = 0.5 * largest_stable_step(SolverKind::semi_implicit_euler, model);
     const auto energy = [&] {
         const ObjectMeasure sums = measure(solver);

@@ -62,9 +62,7 @@ TEST(Load, AForceAcceleratesAFreeBody) {
 class LoadOnGpuTest : public test::GlTest {};
 TEST_F(LoadOnGpuTest, AForceAcceleratesAFreeBody) {
     expect_newtons_second_law(
-        [](const auto& model, SolverKind kind) {
-            return gpu::make_solver(model, kind, ForceMethod::fused);
-        },
+        [](const auto& model, SolverKind kind) { return gpu::make_solver(model, kind, ForceMethod::fused); },
         1e-3);
 }
 

@@ -89,9 +89,8 @@ TEST(Pull, ABodyFollowsTheHandAndKeepsItsMomentum) {
 
 class PullOnGpuTest : public test::GlTest {};
 TEST_F(PullOnGpuTest, ABodyFollowsTheHandAndKeepsItsMomentum) {
-    expect_critical_damping([](const auto& model, SolverKind kind) {
-        return gpu::make_solver(model, kind, ForceMethod::fused);
-    });
+    expect_critical_damping(
+        [](const auto& model, SolverKind kind) { return gpu::make_solver(model, kind, ForceMethod::fused); });
 }
 
 // A force on each node as its mass has it moves the body as gravity would.
@@ -130,9 +129,8 @@ TEST(Pull, ForcesAccelerateUntilTheyEnd) {
 }
 
 TEST_F(PullOnGpuTest, ForcesAccelerateUntilTheyEnd) {
-    expect_fall([](const auto& model, SolverKind kind) {
-        return gpu::make_solver(model, kind, ForceMethod::fused);
-    });
+    expect_fall(
+        [](const auto& model, SolverKind kind) { return gpu::make_solver(model, kind, ForceMethod::fused); });
 }
 
 // A few nodes at one end carry the whole body, at the step of a picture: their springs are a thousand times

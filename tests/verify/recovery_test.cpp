@@ -70,10 +70,8 @@ struct Run {
 std::unique_ptr<Solver> make_solver(const std::shared_ptr<const Model>& model, Backend backend) {
     constexpr DescentSettings kDescent{20};
     if (backend == Backend::gl)
-        return std::make_unique<gpu::ImplicitSolver>(model,
-                                                CollisionSettings{}, kDescent);
-    return std::make_unique<cpu::ImplicitSolver<float>>(model,
-                                                   CollisionSettings{}, kDescent);
+        return std::make_unique<gpu::ImplicitSolver>(model, CollisionSettings{}, kDescent);
+    return std::make_unique<cpu::ImplicitSolver<float>>(model, CollisionSettings{}, kDescent);
 }
 
 double strain_after(const Run& run, const Body& body, const StartDescription& start) {

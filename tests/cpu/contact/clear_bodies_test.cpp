@@ -17,11 +17,11 @@ using test::kFrame;
 
 cpu::ImplicitSolver<float> make_solver(const std::shared_ptr<const Model>& model, bool meets_itself) {
     return cpu::ImplicitSolver<float>(model,
-            CollisionSettings{.response = CollisionResponse::contact,
-                              .self_collision = meets_itself,
-                              .friction = 0.4,
-                              .restitution = 0.0},
-            DescentSettings{.divides_steps = true});
+                                      CollisionSettings{.response = CollisionResponse::contact,
+                                                        .self_collision = meets_itself,
+                                                        .friction = 0.4,
+                                                        .restitution = 0.0},
+                                      DescentSettings{.divides_steps = true});
 }
 
 // One that hangs and swings.

@@ -386,8 +386,8 @@ void fuzz_folds(unsigned first, int count) {
         }
         const std::shared_ptr<const Model> shared = model;
         if (test::count_overlaps(*shared, std::vector<glm::vec4>(shared->positions)) > 0) continue;
-        cpu::ImplicitSolver<float> solver = make_solver<float>(shared, random.uniform(0.0, 0.8),
-                                                          random.integer(1, 12), random.integer(0, 1) == 1);
+        cpu::ImplicitSolver<float> solver = make_solver<float>(
+            shared, random.uniform(0.0, 0.8), random.integer(1, 12), random.integer(0, 1) == 1);
         const int substeps = random.integer(1, 4);
         const test::MotionEnergy energy = test::motion_energy(*shared, solver.nodes());
         ASSERT_TRUE(test::stays_apart(solver, *shared, 30 * substeps, kFrame / substeps,

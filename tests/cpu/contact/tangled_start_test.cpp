@@ -49,8 +49,8 @@ std::set<std::pair<std::uint32_t, std::uint32_t>> find_piercings(
 // anything.
 TEST(TangledStart, StaysAsItIs) {
     const auto model = make_ring();
-    cpu::ImplicitSolver<float> solver(model,
-        CollisionSettings{.response = CollisionResponse::contact, .self_collision = true});
+    cpu::ImplicitSolver<float> solver(
+        model, CollisionSettings{.response = CollisionResponse::contact, .self_collision = true});
     const auto start = find_piercings(*model, solver.nodes().positions);
     EXPECT_THAT(start, ::testing::SizeIs(::testing::Gt(2u)));
     float lowest = 1.0f;  // that its highest node ever is

@@ -9,8 +9,8 @@
 #include <numbers>
 #include <random>
 
-#include "cpu/descent/implicit_solver.h"
 #include "cpu/descent/block_descent.h"
+#include "cpu/descent/implicit_solver.h"
 #include "support/lost_shapes.h"
 #include "support/test_models.h"
 

@@ -22,8 +22,7 @@ class Sleeper {
 public:
     explicit Sleeper(std::shared_ptr<const Model> model, bool sleeps = true)
         : model_(std::move(model)),
-          solver_(model_,
-                  CollisionSettings{.response = CollisionResponse::contact, .restitution = 0.0},
+          solver_(model_, CollisionSettings{.response = CollisionResponse::contact, .restitution = 0.0},
                   DescentSettings{.divides_steps = true, .sleeps = sleeps}) {}
 
     void advance(int frames) {

@@ -21,9 +21,9 @@ constexpr double kStiff = 1e8;  // [Pa]
 
 Solver make_solver(const std::shared_ptr<const Model>& model, double restitution) {
     return Solver(model,
-            CollisionSettings{
-                .response = CollisionResponse::contact, .friction = 0.0, .restitution = restitution},
-            DescentSettings{.iterations = 20});
+                  CollisionSettings{
+                      .response = CollisionResponse::contact, .friction = 0.0, .restitution = restitution},
+                  DescentSettings{.iterations = 20});
 }
 
 struct Sums {
