@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "cpu/make_solver.h"
+
 namespace gelatin {
 namespace {
 
@@ -21,22 +23,23 @@ double largest_distance(const std::vector<glm::dvec3>& some, const std::vector<g
 }  // namespace
 
 ConvergedSteps::ConvergedSteps(std::shared_ptr<const Model> model, double step, int sweeps)
-    : step_(step), solver_(std::move(model), SolverKind::vbd, ForceMethod::fused, {}, {sweeps}) {}
+    : step_(step), solver_(std::move(model), {}, {sweeps}) {}
 
 std::vector<glm::dvec3> ConvergedSteps::end(const State& start) {
     solver_.write_state(start);
-    solver_.advance_nodes(step_);
+    solver_.advance({step_});
     return points(solver_.nodes().positions);
 }
 
 std::vector<SampledStep> sample_steps(const std::shared_ptr<const Model>& model, const StepSettings& settings,
                                       const std::vector<int>& moments, ConvergedSteps& reference) {
-    cpu::CpuSolver<float> solver(model, settings.solver, ForceMethod::fused, {}, settings.descent);
+    const auto solver =
+        cpu::make_solver<float>(model, settings.solver, ForceMethod::fused, {}, settings.descent);
     std::vector<SampledStep> steps;
     int made = 0;
     for (const int moment : moments) {
-        for (; made < moment; ++made) solver.advance_nodes(settings.step);
-        const State start = solver.read_state();
+        for (; made < moment; ++made) solver->advance({settings.step});
+        const State start = solver->read_state();
         steps.push_back({start, reference.end(start)});
     }
     return steps;
@@ -62,7 +65,7 @@ double mean_step_error(const std::shared_ptr<const Model>& model, const StepSett
     double sum = 0.0;
     for (const SampledStep& sampled : steps) {
         solver->write_state(sampled.start);
-        solver->advance_nodes(settings.step);
+        solver->advance({settings.step});
         sum += step_error(sampled, points(solver->read_state().positions));
     }
     return sum / static_cast<double>(steps.size());

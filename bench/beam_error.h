@@ -6,7 +6,7 @@
 
 #include "bench/stages.h"
 #include "bench/timed_steps.h"
-#include "cpu/cpu_solver.h"
+#include "cpu/descent/implicit_solver.h"
 #include "model/solver.h"
 
 namespace gelatin {
@@ -22,7 +22,7 @@ public:
 
 private:
     double step_;
-    cpu::CpuSolver<double> solver_;
+    cpu::ImplicitSolver<double> solver_;
 };
 
 /// A step of a run, and where it should end.

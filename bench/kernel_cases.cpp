@@ -3,9 +3,11 @@
 #include <array>
 
 #include "bench/threads.h"
-#include "cpu/cpu_solver.h"
+#include "cpu/descent/implicit_solver.h"
+#include "cpu/explicit/explicit_solver.h"
 #include "gl/program.h"
-#include "gpu/gpu_solver.h"
+#include "gpu/descent/implicit_solver.h"
+#include "gpu/explicit/explicit_solver.h"
 #include "gpu/view/update_normals.h"
 #include "model/build/build_model.h"
 #include "model/descent/descent_rows.h"
@@ -105,27 +107,27 @@ void add_plain_cases(const std::shared_ptr<const Model>& model, double step, std
 
 void add_cpu_cases(const std::shared_ptr<const Model>& model, double step, std::vector<KernelCase>& cases) {
     const auto solver_for = [&](ForceMethod forces) {
-        return std::make_shared<cpu::CpuSolver<float>>(model, SolverKind::semi_implicit_euler, forces);
+        return std::make_shared<cpu::ExplicitSolver<float>>(model, SolverKind::semi_implicit_euler, forces);
     };
     const auto fused = solver_for(ForceMethod::fused);
     const auto divided = solver_for(ForceMethod::divide_and_merge);
-    std::vector<std::shared_ptr<cpu::CpuSolver<float>>> descents;
+    std::vector<std::shared_ptr<cpu::ImplicitSolver<float>>> descents;
     for (const DescentCase& descent : kDescentCases) {
-        descents.push_back(std::make_shared<cpu::CpuSolver<float>>(model, SolverKind::vbd, ForceMethod::fused,
-                                                                   CollisionSettings{}, descent.settings));
+        descents.push_back(
+            std::make_shared<cpu::ImplicitSolver<float>>(model, CollisionSettings{}, descent.settings));
     }
     const double divided_bytes = write_bytes(*model) + merge_bytes(*model) + integrate_bytes(*model);
     for (const int threads : measured_thread_counts()) {
         const std::string name = describe_cpu(threads);
         const auto nothing = [] {};
-        cases.push_back({name, kFusedStage, fused_bytes(*model),
-                         [fused, step] { fused->advance_nodes(step); }, nothing, threads});
-        cases.push_back({name, kDividedStage, divided_bytes,
-                         [divided, step] { divided->advance_nodes(step); }, nothing, threads});
+        cases.push_back({name, kFusedStage, fused_bytes(*model), [fused, step] { fused->advance({step}); },
+                         nothing, threads});
+        cases.push_back({name, kDividedStage, divided_bytes, [divided, step] { divided->advance({step}); },
+                         nothing, threads});
         for (std::size_t k = 0; k < descents.size(); ++k) {
             const DescentCase& descent = kDescentCases[k];
             cases.push_back({name, descent.stage, descent_bytes(*model, descent.settings.iterations),
-                             [descent = descents[k]] { descent->advance_nodes(kFrame); }, nothing, threads});
+                             [descent = descents[k]] { descent->advance({kFrame}); }, nothing, threads});
         }
         cases.push_back({name, "measure", fused_bytes(*model),
                          [fused] {
@@ -139,7 +141,7 @@ void add_cpu_cases(const std::shared_ptr<const Model>& model, double step, std::
 void add_gl_cases(const std::shared_ptr<const Model>& model, double step, std::vector<KernelCase>& cases) {
     const Model& m = *model;
     const auto solver_for = [&](ForceMethod forces) {
-        return std::make_shared<gpu::GpuSolver>(model, SolverKind::semi_implicit_euler, forces);
+        return std::make_shared<gpu::ExplicitSolver>(model, SolverKind::semi_implicit_euler, forces);
     };
     const auto fused = solver_for(ForceMethod::fused);
     const auto divided = solver_for(ForceMethod::divide_and_merge);
@@ -150,18 +152,18 @@ void add_gl_cases(const std::shared_ptr<const Model>& model, double step, std::v
     const auto empty = std::make_shared<gl::Program>(gl::Program::compute("bench/nothing.comp"));
     const auto finish = [] { gl::finish(); };
     cases.push_back(
-        {kOpenGl, kFusedStage, fused_bytes(m), [fused, step] { fused->advance_nodes(step); }, finish});
+        {kOpenGl, kFusedStage, fused_bytes(m), [fused, step] { fused->advance({step}); }, finish});
     cases.push_back({kOpenGl, "write_spring_forces", write_bytes(m),
                      [kernels, fused] { kernels->write_spring_forces(fused->nodes()); }, finish});
     cases.push_back({kOpenGl, "merge_spring_forces", merge_bytes(m),
                      [kernels] { kernels->merge_spring_forces(); }, finish});
     cases.push_back({kOpenGl, kDividedStage, write_bytes(m) + merge_bytes(m) + integrate_bytes(m),
-                     [divided, step] { divided->advance_nodes(step); }, finish});
+                     [divided, step] { divided->advance({step}); }, finish});
     for (const DescentCase& descent : kDescentCases) {
-        const auto solver = std::make_shared<gpu::GpuSolver>(model, SolverKind::vbd, ForceMethod::fused,
-                                                             CollisionSettings{}, descent.settings);
+        const auto solver =
+            std::make_shared<gpu::ImplicitSolver>(model, CollisionSettings{}, descent.settings);
         cases.push_back({kOpenGl, descent.stage, descent_bytes(m, descent.settings.iterations),
-                         [solver] { solver->advance_nodes(kFrame); }, finish});
+                         [solver] { solver->advance({kFrame}); }, finish});
     }
     // One for each colour, and half of the four that come with every second sweep.
     const std::size_t dispatches = rows.batches.front().colors.size() + 2,

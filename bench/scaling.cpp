@@ -90,9 +90,10 @@ void ScalingBenchRun::measure(const ScalingCase& scaling_case) {
             if (run < entry.runs) entry.result.samples.push_back(entry.player->sample(entry.result.steps));
     }
     for (Entry& entry : entries) {
-        for (const ObjectMeasure& object : entry.player->measure())
+        const Measurement measured = entry.player->measure();
+        for (const ObjectMeasure& object : measured.objects)
             entry.result.colliding_faces += object.colliding_faces;
-        entry.result.lost_pairs = entry.player->lost_pairs();
+        entry.result.lost_pairs = measured.lost_pairs;
         bench_.results.push_back(std::move(entry.result));
     }
 }

@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "bench/threads.h"
-#include "cpu/cpu_solver.h"
-#include "gpu/gpu_solver.h"
+#include "cpu/explicit/explicit_solver.h"
+#include "gpu/explicit/explicit_solver.h"
 #include "model/explicit/stability.h"
 
 namespace gelatin {
@@ -15,19 +15,42 @@ constexpr double kStageSampleTime = 20.0;  // [ms]
 constexpr int kMostStageSteps = 200;
 constexpr SolverKind kSolver = SolverKind::semi_implicit_euler;
 
-const BenchStage kAdvanceNodes{"advance_nodes", [](Solver& s, double step) { s.advance_nodes(step); }};
-const BenchStage kUpdateBoxes{"update_boxes", [](Solver& s, double) { s.update_boxes(); }};
-const BenchStage kFindObjectPairs{"find_object_pairs", [](Solver& s, double) { s.find_object_pairs(); }};
+const BenchStage kAdvanceNodes{"advance_nodes",
+                               [](StagedSolver& s, double step) { s.advance_nodes({step}); }};
+const BenchStage kUpdateBoxes{"update_boxes", [](StagedSolver& s, double) { s.update_boxes(); }};
+const BenchStage kFindObjectPairs{"find_object_pairs",
+                                  [](StagedSolver& s, double) { s.find_object_pairs(); }};
 const BenchStage kFindFaceCollisions{"find_face_collisions",
-                                     [](Solver& s, double) { s.find_face_collisions(); }};
+                                     [](StagedSolver& s, double) { s.find_face_collisions(); }};
 const BenchStage kFindSelfCollisions{"find_self_collisions",
-                                     [](Solver& s, double) { s.find_self_collisions(); }};
-const BenchStage kRespond{"respond", [](Solver& s, double step) { s.respond(step); }};
+                                     [](StagedSolver& s, double) { s.find_self_collisions(); }};
+const BenchStage kRespond{"respond", [](StagedSolver& s, double step) { s.respond(step); }};
 
-std::unique_ptr<Solver> make_solver(const std::shared_ptr<const Model>& model,
-                                    const CollisionSettings& collision, bool uses_gl) {
-    if (uses_gl) return std::make_unique<gpu::GpuSolver>(model, kSolver, ForceMethod::fused, collision);
-    return std::make_unique<cpu::CpuSolver<float>>(model, kSolver, ForceMethod::fused, collision);
+// @tparam Explicit a backend's ExplicitSolver
+template <class Explicit>
+class StagesOf final : public StagedSolver, Explicit {
+public:
+    StagesOf(const std::shared_ptr<const Model>& model, const CollisionSettings& collision)
+        : Explicit(model, kSolver, ForceMethod::fused, collision) {}
+
+    Solver& solver() override { return *this; }
+    void advance_nodes(const Step& step) override { Explicit::advance_nodes(step); }
+    void update_boxes() override { this->collision_stages().update_boxes(this->previous_, this->current_); }
+    void find_object_pairs() override { this->collision_stages().find_object_pairs(this->current_); }
+    void find_face_collisions() override {
+        this->collision_stages().find_face_collisions(this->previous_, this->current_);
+    }
+    void find_self_collisions() override { this->collision_stages().find_self_collisions(this->current_); }
+    void respond(double step) override {
+        this->collision_stages().respond(step, this->previous_, this->current_);
+    }
+};
+
+std::unique_ptr<StagedSolver> make_solver(const std::shared_ptr<const Model>& model,
+                                          CollisionSettings collision, bool uses_gl) {
+    collision.response = CollisionResponse::restore;
+    if (uses_gl) return std::make_unique<StagesOf<gpu::ExplicitSolver>>(model, collision);
+    return std::make_unique<StagesOf<cpu::ExplicitSolver<float>>>(model, collision);
 }
 
 }  // namespace
@@ -54,9 +77,9 @@ StagePlayer::StagePlayer(const std::shared_ptr<const Model>& model, const Collis
                          const StageSystem& system, std::vector<BenchStage> stages)
     : system_(system),
       stages_(std::move(stages)),
-      solver_(make_solver(model, collision, system.uses_gl)),
+      staged_(make_solver(model, collision, system.uses_gl)),
       step_(0.5 * largest_stable_step(kSolver, *model)),
-      start_(solver_->read_state()) {}
+      start_(staged_->solver().read_state()) {}
 
 StagePlayer::Trial StagePlayer::try_out() {
     sample(1);
@@ -67,12 +90,12 @@ StagePlayer::Trial StagePlayer::try_out() {
 
 std::map<std::string, double> StagePlayer::sample(int steps) {
     const ThreadLimit limit(system_.threads);
-    solver_->write_state(start_);
-    StageTimer& timer = solver_->stage_timer();
+    staged_->solver().write_state(start_);
+    StageTimer& timer = staged_->solver().stage_timer();
     for (int s = 0; s < steps; ++s) {
         for (const BenchStage& stage : stages_) {
             timer.begin(stage.name);
-            stage.run(*solver_, step_);
+            stage.run(*staged_, step_);
             timer.end();
         }
     }
@@ -83,9 +106,9 @@ std::map<std::string, double> StagePlayer::sample(int steps) {
     return means;
 }
 
-std::vector<ObjectMeasure> StagePlayer::measure() {
-    solver_->begin_measure();
-    return solver_->end_measure();
+Measurement StagePlayer::measure() {
+    staged_->solver().begin_measure();
+    return staged_->solver().end_measure();
 }
 
 }  // namespace gelatin

@@ -9,10 +9,23 @@
 
 namespace gelatin {
 
-/// A stage of a step, by the name that Simulator::step gives it.
+/// A solver whose stages run one by one.
+class StagedSolver {
+public:
+    virtual ~StagedSolver() = default;
+    virtual Solver& solver() = 0;
+    virtual void advance_nodes(const Step& step) = 0;
+    virtual void update_boxes() = 0;
+    virtual void find_object_pairs() = 0;
+    virtual void find_face_collisions() = 0;
+    virtual void find_self_collisions() = 0;
+    virtual void respond(double step) = 0;
+};
+
+/// A stage of a step, by the name that solvers give it.
 struct BenchStage {
     const char* name;
-    void (*run)(Solver& solver, double step);
+    void (*run)(StagedSolver& solver, double step);
 };
 
 /// Without motion: refit of the boxes, and the query for faces that touch.
@@ -47,15 +60,13 @@ public:
     /// Milliseconds per step, by stage: the means over this many steps.
     std::map<std::string, double> sample(int steps);
 
-    /// For the state at the end of the last sample: the results for each object.
-    std::vector<ObjectMeasure> measure();
-    /// Pairs that did not fit into a device's buffers, as of the last measure().
-    std::uint32_t lost_pairs() const { return solver_->lost_pairs(); }
+    /// Of the state at the end of the last sample.
+    Measurement measure();
 
 private:
     StageSystem system_;
     std::vector<BenchStage> stages_;
-    std::unique_ptr<Solver> solver_;
+    std::unique_ptr<StagedSolver> staged_;
     double step_;  // [s]
     State start_;
 };

@@ -4,8 +4,8 @@
 #include <chrono>
 
 #include "bench/threads.h"
-#include "cpu/cpu_solver.h"
-#include "gpu/gpu_solver.h"
+#include "cpu/make_solver.h"
+#include "gpu/make_solver.h"
 
 namespace gelatin {
 namespace {
@@ -19,10 +19,8 @@ constexpr int kMostSteps = 50;
 std::unique_ptr<Solver> make_bench_solver(const std::shared_ptr<const Model>& model,
                                           const StageSystem& system, const StepSettings& settings) {
     if (system.uses_gl)
-        return std::make_unique<gpu::GpuSolver>(model, settings.solver, ForceMethod::fused,
-                                                CollisionSettings{}, settings.descent);
-    return std::make_unique<cpu::CpuSolver<float>>(model, settings.solver, ForceMethod::fused,
-                                                   CollisionSettings{}, settings.descent);
+        return gpu::make_solver(model, settings.solver, ForceMethod::fused, {}, settings.descent);
+    return cpu::make_solver<float>(model, settings.solver, ForceMethod::fused, {}, settings.descent);
 }
 
 TimedSteps::TimedSteps(const std::shared_ptr<const Model>& model, const State& start,
@@ -41,7 +39,7 @@ double TimedSteps::sample() {
 double TimedSteps::run(int steps) {
     const ThreadLimit limit(system_.threads);
     const auto start = std::chrono::steady_clock::now();
-    for (int s = 0; s < steps; ++s) solver_->advance_nodes(settings_.step);
+    for (int s = 0; s < steps; ++s) solver_->advance({settings_.step});
     if (system_.uses_gl) gl::finish();
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
     return elapsed.count() / steps;

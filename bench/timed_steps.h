@@ -19,7 +19,7 @@ struct StepSettings {
 std::unique_ptr<Solver> make_bench_solver(const std::shared_ptr<const Model>& model,
                                           const StageSystem& system, const StepSettings& settings);
 
-/// Steps of one model on one system, `advance_nodes` alone, timed as a whole by the host's clock.
+/// Steps of one model on one system, without a response to collisions, timed as a whole by the host's clock.
 class TimedSteps {
 public:
     /// Makes two steps from `start`, which compile shaders and fault pages in, and returns to it.

@@ -3,7 +3,6 @@
 
 #include "arrays.h"
 #include "bindings.h"
-#include "cpu/cpu_solver.h"
 #include "python_simulator.h"
 #include "sim/simulator_internals.h"
 #include "statistics.h"
@@ -14,13 +13,14 @@ namespace {
 using Numbers = nb::ndarray<nb::numpy, const float, nb::ndim<1>>;
 
 // Without the nodes of colliders' surfaces, which come last.
-Vectors vectors_of(PythonSimulator& self, std::vector<glm::vec4> cpu::Nodes<float>::*member,
+Vectors vectors_of(PythonSimulator& self, std::span<const glm::vec4> HostNodes::*member,
                    std::vector<float> HostFrame::*copied) {
     return self.use([&](const Simulator& simulator) {
         const std::size_t count = model_of(simulator).body_node_count();
-        const auto cpu_solver = std::dynamic_pointer_cast<const cpu::CpuSolver<float>>(
-            SimulatorInternals::share_solver(simulator));
-        if (cpu_solver) return view_of(std::span(cpu_solver->nodes().*member).first(count), cpu_solver);
+        if (!simulator.uses_gl()) {
+            const std::shared_ptr<const Solver> solver = SimulatorInternals::share_solver(simulator);
+            return view_of((solver->host_nodes().*member).first(count), solver);
+        }
         // OpenGL has them in memory of its own.
         std::vector<float> values = std::move(simulator.read_frame().*copied);
         values.resize(3 * count);
@@ -108,11 +108,11 @@ void bind_simulator(nb::module_& module) {
         .def_prop_ro("device", getter(&Simulator::device))
         .def("positions",
              [](PythonSimulator& self) {
-                 return vectors_of(self, &cpu::Nodes<float>::positions, &HostFrame::positions);
+                 return vectors_of(self, &HostNodes::positions, &HostFrame::positions);
              })
         .def("velocities",
              [](PythonSimulator& self) {
-                 return vectors_of(self, &cpu::Nodes<float>::velocities, &HostFrame::velocities);
+                 return vectors_of(self, &HostNodes::velocities, &HostFrame::velocities);
              })
         .def("contact_forces",
              [](PythonSimulator& self) { return forces_of(self, &HostFrame::contact_forces); })

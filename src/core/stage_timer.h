@@ -18,6 +18,11 @@ public:
     /// Ends the stage that began last.
     virtual void end() = 0;
 
+    /// Whether stages are timed, at first not.
+    void time_stages(bool times_stages) { times_stages_ = times_stages; }
+    /// Null if stages are not timed.
+    StageTimer* for_stages() { return times_stages_ ? this : nullptr; }
+
     /// Whether stages that have parts time them too.
     void time_parts(bool times_parts) { times_parts_ = times_parts; }
     /// For a stage's parts: null if they are not timed.
@@ -27,7 +32,7 @@ public:
     virtual StageTimes take() = 0;
 
 private:
-    bool times_parts_ = false;
+    bool times_stages_ = false, times_parts_ = false;
 };
 
 /// Times by the host's clock, for work that is complete when the call returns.

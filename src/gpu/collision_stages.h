@@ -59,4 +59,33 @@ struct Collision {
     }
 };
 
+/// The stages with what they run on, for run_collision_stages.
+struct CollisionStages {
+    const ModelBuffers& model;
+    Collision& collision;
+
+    void update_boxes(const NodeBuffers& previous, const NodeBuffers& current) const {
+        collision.update_boxes.run(model, collision.buffers, previous, current);
+    }
+    void find_object_pairs(const NodeBuffers& current) const {
+        collision.find_object_pairs.run(model, collision.buffers, current);
+    }
+    void find_face_collisions(const NodeBuffers& previous, const NodeBuffers& current) const {
+        collision.find_face_collisions.run(model, collision.buffers, previous, current);
+    }
+    void find_self_collisions(const NodeBuffers& current) const {
+        collision.self->find.run(model, collision.buffers, collision.self->buffers, current);
+    }
+    void find_proximities(const NodeBuffers& current) const {
+        collision.near->find.run(model, collision.buffers, collision.near->buffers, current);
+    }
+    void respond(double step, const NodeBuffers& previous, const NodeBuffers& current) const {
+        // An object's own contacts come first: they are computed for the positions at which they were found.
+        if (collision.self)
+            collision.self->respond.run(model, collision.buffers, collision.self->buffers, previous, current,
+                                        step);
+        collision.respond.run(model, collision.buffers, previous, current, step);
+    }
+};
+
 }  // namespace gelatin::gpu

@@ -70,6 +70,15 @@ struct ProximityMeasure {
     double nearest = std::numeric_limits<double>::infinity();  ///< least distance of all [m]
 };
 
+/// What measuring has found.
+struct Measurement {
+    std::vector<ObjectMeasure> objects;           ///< shape [objects]
+    std::optional<ProximityMeasure> proximities;  ///< of the last step; empty: none are sought
+    /// Pairs of objects or faces that were not tested because they did not fit into a device's buffers, since
+    /// the start.
+    std::uint32_t lost_pairs = 0;
+};
+
 /// What presses objects when a step has ended.
 struct ContactForces {
     struct Between {
@@ -90,39 +99,35 @@ struct HoldingForces {
     std::vector<glm::dvec3> nodes;      ///< [N], shape [nodes]; 0 where nothing holds a node
 };
 
-/// A backend: owns the state, in host or device memory, and advances it. The stages are called in the order
-/// of Simulator::step; none of them waits for a device.
+/// The nodes where they are in host memory in single precision, as of State, valid until the state changes.
+struct HostNodes {
+    std::span<const glm::vec4> positions, velocities;  ///< empty: they are elsewhere
+};
+
+/// What one step is made with.
+struct Step {
+    double size;  ///< [s]
+    /// Of all handles over the step, shape [Model::handles]; empty: what they hold moves on as it does.
+    std::span<const HandleMotion> motions = {};
+    /// How much of each load acts, shape [Model::loads.spans]; empty: all of all.
+    std::span<const float> load_factors = {};
+};
+
+/// A backend: owns the state, in host or device memory, and advances it. Where a function does not say so, it
+/// does not wait for a device.
 class Solver {
 public:
     virtual ~Solver() = default;
 
-    /// For scenes with pins or handles that move, before the step whose motions these are: moves what they
-    /// hold. The first one may cost what making the solver has.
-    virtual void apply_kinematics(std::span<const HandleMotion> motions) = 0;
-
-    /// For scenes with loads: how much of the next steps each of them acts, 1 until somebody says otherwise.
-    virtual void set_load_factors(std::span<const float> factors) = 0;
+    /// Makes a step, with its response to collisions. Times its stages, and their parts. The first step of
+    /// handles may cost as much as making the solver.
+    virtual void advance(const Step& step) = 0;
 
     /// What hands hold from now on. @pre as of ActedNodes
     virtual void set_pulls(std::vector<Pull> pulls) = 0;
     virtual void move_pull(std::size_t pull, const glm::dvec3& target) = 0;
     /// Forces that act on nodes from now on [N], shape [nodes], or empty.
     virtual void set_forces(std::span<const glm::vec3> forces) = 0;
-
-    /// Forces and integration over one step of `step` seconds, collisions with colliders included.
-    virtual void advance_nodes(double step) = 0;
-
-    /// The stages of collision: each object's box; for scenes of at least two objects the pairs that may
-    /// touch, and the faces that do; and the response to them, over the same step of `step` seconds.
-    virtual void update_boxes() = 0;
-    virtual void find_object_pairs() = 0;
-    virtual void find_face_collisions() = 0;
-    /// For scenes whose objects collide with themselves: the faces that touch others of their own object.
-    virtual void find_self_collisions() = 0;
-    /// For scenes with a proximity radius: finds the nodes and faces, and the pairs of edges, that are nearer
-    /// than it.
-    virtual void find_proximities() = 0;
-    virtual void respond(double step) = 0;
 
     /// Checks all nodes after the step of this number. Keeps the record of the first step after which nodes
     /// are not finite, or have more kinetic energy than `most_energy` each [J]; pinned nodes may have any
@@ -136,39 +141,28 @@ public:
     /// Starts measuring the present state. At most two measurements may be pending.
     virtual void begin_measure() = 0;
 
-    /// The oldest pending measurement, one element for each object; waits for it if necessary.
-    virtual std::vector<ObjectMeasure> end_measure() = 0;
+    /// The oldest pending measurement; waits for it if necessary.
+    virtual Measurement end_measure() = 0;
 
-    /// Pairs of objects or faces that were not tested because they did not fit into a device's buffers: since
-    /// the start, as of the last measurement that ended.
-    virtual std::uint32_t lost_pairs() const = 0;
-
-    /// What find_proximities had found last when the last measurement that ended began.
-    virtual ProximityMeasure proximities() const = 0;
-
-    /// For CollisionResponse::contact: what presses objects at present.
-    virtual ContactForces contact_forces() const { return {}; }
+    /// What presses objects at present. Empty from solvers that do not find it: without
+    /// CollisionResponse::contact.
+    virtual ContactForces contact_forces() const = 0;
 
     /// What pins and handles exert at present; zero before the first step. Empty without any, and from
     /// solvers that do not find it.
-    virtual HoldingForces holding_forces() const { return {}; }
+    virtual HoldingForces holding_forces() const = 0;
 
-    /// For CollisionResponse::contact: the handles with nodes that bodies keep from where their poses have
-    /// them, each an index in Model::handles. @param poses at present, shape [handles]
-    virtual std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) const {
-        static_cast<void>(poses);
-        return {};
-    }
+    /// The handles with nodes that bodies keep from where their poses have them, each an index in
+    /// Model::handles; none without CollisionResponse::contact. @param poses at present, shape [handles]
+    virtual std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) const = 0;
 
+    /// Waits for a device.
     virtual State read_state() const = 0;
-    /// The present positions and velocities where they are in host memory in single precision, as of State,
-    /// valid until the state changes; else empty.
-    virtual std::span<const glm::vec4> host_positions() const { return {}; }
-    virtual std::span<const glm::vec4> host_velocities() const { return {}; }
+    virtual HostNodes host_nodes() const = 0;
     /// Discards what watching has found so far.
     virtual void write_state(const State& state) = 0;
 
-    /// Times the stages on the clock of the device they run on.
+    /// Times stages by the clock of the device on which they run.
     virtual StageTimer& stage_timer() = 0;
 
     virtual std::string device() const = 0;  ///< for people: "llvmpipe (LLVM 15.0.6, 256 bits)"

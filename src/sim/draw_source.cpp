@@ -3,6 +3,8 @@
 #include <cstring>
 #include <glm/common.hpp>
 
+#include "core/stage.h"
+
 namespace gelatin {
 namespace {
 
@@ -22,7 +24,8 @@ DrawSource::DrawSource(std::shared_ptr<const Model> model) : model_(std::move(mo
     fit_box(model_->positions);
 }
 
-RenderView DrawSource::update(const gpu::GpuSolver& solver, const Overlays& overlays) {
+RenderView DrawSource::update(gpu::GpuSolver& solver, const Overlays& overlays) {
+    const Stage stage(solver.stage_timer(), "update_normals");
     const gpu::NodeBuffers& nodes = solver.nodes();
     const gl::Buffer<glm::vec4>* drawn = &nodes.positions;
     const bool of_skin = draws_skin(overlays);
@@ -48,20 +51,21 @@ RenderView DrawSource::update(const gpu::GpuSolver& solver, const Overlays& over
     return late;
 }
 
-RenderView DrawSource::update(const State& state, const Overlays& overlays) {
+RenderView DrawSource::update(const cpu::CpuSolver<float>& solver, const Overlays& overlays) {
+    const std::vector<glm::vec4>& positions = solver.nodes().positions;
     const bool of_skin = draws_skin(overlays);
     const bool needs_nodes = !of_skin || overlays.any();
     if (needs_nodes) {
-        nodes_.make(state.positions.size());
-        nodes_.buffer.upload(state.positions);
+        nodes_.make(positions.size());
+        nodes_.buffer.upload(positions);
     }
     if (of_skin) {
-        const std::vector<glm::vec4> points = carry_skin(model_->skin.points, std::span(state.positions));
+        const std::vector<glm::vec4> points = carry_skin(model_->skin.points, std::span(positions));
         points_.make(points.size());
         points_.buffer.upload(points);
         fit_box(points);
     } else {
-        fit_box(state.positions);
+        fit_box(positions);
     }
     const Positions& drawn = of_skin ? points_ : nodes_;
     normals(of_skin).run(drawn.texels);

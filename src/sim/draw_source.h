@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "cpu/cpu_solver.h"
 #include "gelatin/views.h"
 #include "gl/readback.h"
 #include "gpu/gpu_solver.h"
@@ -22,8 +23,8 @@ public:
     explicit DrawSource(std::shared_ptr<const Model> model);
 
     /// The view's overlay has the nodes, and nothing else.
-    RenderView update(const gpu::GpuSolver& solver, const Overlays& overlays);
-    RenderView update(const State& state, const Overlays& overlays);
+    RenderView update(gpu::GpuSolver& solver, const Overlays& overlays);
+    RenderView update(const cpu::CpuSolver<float>& solver, const Overlays& overlays);
 
 private:
     /// Positions of this class' own: xyz [m].

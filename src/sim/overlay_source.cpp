@@ -56,19 +56,13 @@ gl::BufferTexture texels_of(unsigned vectors, std::uint32_t node_count) {
 
 OverlayView OverlaySource::update(const Overlays& overlays, const RenderView& bodies,
                                   gpu::GpuSolver& solver) {
-    unsigned boxes = 0;
-    if (needs_boxes(overlays)) {
-        solver.update_boxes();
-        boxes = solver.collision().buffers.face_trees.boxes.id();
-    }
+    const unsigned boxes = needs_boxes(overlays) ? solver.update_tree_boxes().id() : 0;
     if (overlays.faces) {
         make_marks();
         if (!mark_faces_) mark_faces_.emplace(*model_);
-        if (solver.has_collision()) {
-            const auto& self = solver.collision().self;
-            mark_faces_->run(solver.model_buffers(), solver.collision().buffers,
-                             self ? &self->buffers : nullptr, marks_);
-        }
+        if (const gpu::Collision* const found = solver.collision())
+            mark_faces_->run(solver.model_buffers(), found->buffers,
+                             found->self ? &found->self->buffers : nullptr, marks_);
     }
     return update(overlays, bodies, boxes, solver.nodes().velocities.id(), solver);
 }
@@ -76,9 +70,8 @@ OverlayView OverlaySource::update(const Overlays& overlays, const RenderView& bo
 OverlayView OverlaySource::update(const Overlays& overlays, const RenderView& bodies,
                                   cpu::CpuSolver<float>& solver) {
     if (needs_boxes(overlays)) {
-        solver.update_boxes();
         std::vector<Box> boxes;
-        for (const cpu::AxisBox<float>& box : solver.collision().tree_boxes())
+        for (const cpu::AxisBox<float>& box : solver.update_tree_boxes())
             boxes.push_back({glm::vec4(box.min, 0.0f), glm::vec4(box.max, 0.0f)});
         if (uploaded_boxes_.empty()) uploaded_boxes_ = gl::Buffer<Box>(boxes.size());
         uploaded_boxes_.upload(boxes);
@@ -90,10 +83,9 @@ OverlayView OverlaySource::update(const Overlays& overlays, const RenderView& bo
         marks_.upload(marks);
     }
     if (needs_velocities(overlays)) {
-        const State state = solver.read_state();
-        if (uploaded_velocities_.empty())
-            uploaded_velocities_ = gl::Buffer<glm::vec4>(state.velocities.size());
-        uploaded_velocities_.upload(state.velocities);
+        const std::vector<glm::vec4>& velocities = solver.nodes().velocities;
+        if (uploaded_velocities_.empty()) uploaded_velocities_ = gl::Buffer<glm::vec4>(velocities.size());
+        uploaded_velocities_.upload(velocities);
     }
     return update(overlays, bodies, uploaded_boxes_.id(), uploaded_velocities_.id(), solver);
 }

@@ -3,16 +3,27 @@
 #include "gl/barrier.h"
 
 namespace gelatin {
+namespace {
 
-SharedSolver::SharedSolver(const std::shared_ptr<const Model>& model, ForceMethod forces,
-                           const CollisionSettings& collision, const DescentSettings& descent)
-    : GpuSolver(model, SolverKind::vbd, forces, collision, descent),
+// Proximities are sought on the device.
+CollisionSettings of_host(CollisionSettings collision) {
+    collision.proximity_radius.reset();
+    return collision;
+}
+
+}  // namespace
+
+SharedSolver::SharedSolver(const std::shared_ptr<const Model>& model, const CollisionSettings& collision,
+                           const DescentSettings& descent)
+    : GpuSolver(model, collision),
       sweeps_(*model, model_buffers(), descent),
-      host_(model, SolverKind::vbd, forces, collision, descent, &sweeps_) {}
+      host_(model, of_host(collision), descent, &sweeps_) {}
 
-void SharedSolver::advance_nodes(double step) {
+void SharedSolver::advance_nodes(const Step& step) {
     host_.advance_nodes(step);
-    take_step(host_.nodes().positions, host_.nodes().velocities);
+    std::swap(current_, previous_);
+    current_.positions.upload(host_.nodes().positions);
+    current_.velocities.upload(host_.nodes().velocities);
     // While all bodies rest, no sweep comes between what the last step and this one write.
     gl::barrier(gl::Barrier::storage);
 }

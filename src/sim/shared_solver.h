@@ -1,13 +1,12 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "cpu/cpu_solver.h"
+#include "cpu/descent/implicit_solver.h"
 #include "gpu/descent/limited_sweeps.h"
 #include "gpu/gpu_solver.h"
 
@@ -17,31 +16,36 @@ namespace gelatin {
 /// moves and the detection on the host. The device has the nodes after each step, for drawing and measuring.
 class SharedSolver : public gpu::GpuSolver {
 public:
-    SharedSolver(const std::shared_ptr<const Model>& model, ForceMethod forces,
-                 const CollisionSettings& collision, const DescentSettings& descent);
+    SharedSolver(const std::shared_ptr<const Model>& model, const CollisionSettings& collision,
+                 const DescentSettings& descent);
 
-    void apply_kinematics(std::span<const HandleMotion> motions) override { host_.apply_kinematics(motions); }
-    void set_load_factors(std::span<const float> factors) override { host_.set_load_factors(factors); }
     void set_pulls(std::vector<Pull> pulls) override { host_.set_pulls(std::move(pulls)); }
     void move_pull(std::size_t pull, const glm::dvec3& target) override { host_.move_pull(pull, target); }
     void set_forces(std::span<const glm::vec3> forces) override { host_.set_forces(forces); }
-    std::span<const glm::vec4> host_positions() const override { return host_.host_positions(); }
-    std::span<const glm::vec4> host_velocities() const override { return host_.host_velocities(); }
-    void advance_nodes(double step) override;
     ContactForces contact_forces() const override { return host_.contact_forces(); }
     HoldingForces holding_forces() const override { return host_.holding_forces(); }
     std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) const override {
         return host_.held_up(poses);
     }
     State read_state() const override { return host_.read_state(); }
+    HostNodes host_nodes() const override { return host_.host_nodes(); }
     void write_state(const State& state) override;
     /// By the host's clock: it waits for the device within a step.
     StageTimer& stage_timer() override { return host_.stage_timer(); }
     std::string device() const override { return GpuSolver::device() + " and " + host_.device(); }
 
+protected:
+    void apply_kinematics(std::span<const HandleMotion> motions) override { host_.apply_kinematics(motions); }
+    void advance_nodes(const Step& step) override;
+
 private:
+    // Its stages are called by this one's.
+    struct Host : cpu::ImplicitSolver<float> {
+        using ImplicitSolver::advance_nodes, ImplicitSolver::apply_kinematics, ImplicitSolver::ImplicitSolver;
+    };
+
     gpu::LimitedSweeps sweeps_;
-    cpu::CpuSolver<float> host_;
+    Host host_;
 };
 
 }  // namespace gelatin

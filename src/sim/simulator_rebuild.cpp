@@ -9,7 +9,7 @@
 #include "model/explicit/stability.h"
 #include "model/scene/names.h"
 #include "sim/carry_over.h"
-#include "sim/simulator_impl.h"
+#include "sim/simulation.h"
 
 namespace gelatin {
 namespace {
@@ -42,40 +42,40 @@ void take_constants(const Model& model, State& state) {
 
 }  // namespace
 
-void Simulator::Impl::carry_over_to(const Model& next, const std::vector<AddedPin>& added, State& state,
-                                    Drags& next_drags, HandleClocks& next_clocks) const {
+void Simulation::carry_over_to(const Model& next, const std::vector<AddedPin>& added, State& state,
+                               Drags& next_drags, HandleClocks& next_clocks) const {
     state = carried_over(*model, solver->read_state(), next, {next.positions, next.velocities, {}});
-    next_clocks.go_on_with(carried_over(*model, clocks->delays(), next));
-    next_drags = carried_over(*model, *drags, next, state, next_clocks.times(time()), next_drags);
+    next_clocks.go_on_with(carried_over(*model, handle_clocks.delays(), next));
+    next_drags = carried_over(*model, drags, next, state, next_clocks.times(clock.time()), next_drags);
     const std::size_t known = std::min(pins.size(), added.size());
     rest_new_pins(next, added, known, next_drags);
 }
 
 // Whatever throws does so before anything has changed.
-void Simulator::Impl::rebuild(const Scene& of, std::shared_ptr<const Model> from,
-                              std::vector<AddedPin> added) {
+void Simulation::rebuild(const Scene& of, std::shared_ptr<const Model> from, std::vector<AddedPin> added) {
     auto next = added.empty() ? from : std::make_shared<const Model>(with_pins(*from, added));
     const int next_substeps = choose_substeps(of, *next);
-    std::unique_ptr<Solver> next_solver = make_solver(of, next);
+    BackendSolver next_solver = make_solver(of, next);
     Drags next_drags(next);
     HandleClocks next_clocks(next);
     State state;
     carry_over_to(*next, added, state, next_drags, next_clocks);
     if (start_state) take_constants(*from, *start_state);
-    const Moment moment = now();
+    const Moment moment = clock.now();
 
     draw_source.reset();
     overlay_source.reset();
-    for (; !measured.empty(); measured.pop_front()) solver->end_measure();
+    discard_pending();
     scene = of;
     model = next;
     unpinned = std::move(from);
     pins = std::move(added);
-    substeps = next_substeps;
+    clock = RunClock(scene.simulation.frame_time(), next_substeps);
     solver = std::move(next_solver);
-    watch.emplace(scene, model, substeps);
+    reported_losses = 0;
+    watch.emplace(scene, model, next_substeps);
     drags = std::move(next_drags);
-    clocks = std::move(next_clocks);
+    handle_clocks = std::move(next_clocks);
     copies = {};
     solver->set_pulls(pulls);
     solver->set_forces(forces);
@@ -83,8 +83,7 @@ void Simulator::Impl::rebuild(const Scene& of, std::shared_ptr<const Model> from
 }
 
 void Simulator::pin(std::size_t object, std::span<const std::uint32_t> nodes) {
-    impl_->require_no_playback();
-    Impl& d = *impl_;
+    Simulation& d = impl_->simulation();
     const ModelObject& body = d.body(object);
     if (nodes.empty()) throw InvalidInput(fmt::format("a pin of object '{}' has no nodes", body.name));
     AddedPin pin;
@@ -115,8 +114,7 @@ void Simulator::pin(std::size_t object, std::span<const std::uint32_t> nodes) {
 }
 
 void Simulator::unpin(std::size_t object) {
-    impl_->require_no_playback();
-    Impl& d = *impl_;
+    Simulation& d = impl_->simulation();
     d.body(object);
     std::vector<AddedPin> rest = d.pins;
     const auto gone = std::erase_if(rest, [&](const AddedPin& pin) { return pin.object == object; });
@@ -126,8 +124,7 @@ void Simulator::unpin(std::size_t object) {
 }
 
 void Simulator::set_material(const Material& material) {
-    impl_->require_no_playback();
-    Impl& d = *impl_;
+    Simulation& d = impl_->simulation();
     Scene next = d.scene;
     next.meshes = d.model->meshes;
     std::vector<std::string> names;

@@ -9,15 +9,9 @@
 #include "model/model.h"
 #include "model/solver.h"
 #include "sim/energy_budget.h"
+#include "sim/run_clock.h"
 
 namespace gelatin {
-
-/// A moment of a run.
-struct Moment {
-    int frame = 0;
-    double time = 0.0;        ///< [s]
-    std::uint64_t steps = 0;  ///< since frame 0
-};
 
 /// Checks a run against what physics allows, step by step and frame by frame, and reports violations.
 class Watch {

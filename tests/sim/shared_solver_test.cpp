@@ -27,7 +27,7 @@ SharedSolver make_solver(const std::shared_ptr<const Model>& model, int iteratio
     DescentSettings descent;
     descent.iterations = iterations;
     descent.divides_steps = divides_steps;
-    return {model, ForceMethod::fused, collision, descent};
+    return {model, collision, descent};
 }
 
 std::uint32_t overlaps_of(const Model& model, const SharedSolver& solver) {
@@ -51,7 +51,7 @@ std::shared_ptr<const Model> make_stack() {
 TEST_F(SharedSolverTest, TheDeviceHasTheNodesOfTheHost) {
     const auto model = make_stack();
     SharedSolver solver = make_solver(model);
-    for (int frame = 0; frame < 3; ++frame) solver.advance_nodes(kFrame);
+    for (int frame = 0; frame < 3; ++frame) solver.advance({kFrame});
     const State state = solver.read_state();
     gl::barrier(gl::Barrier::buffer_update);
     std::vector<glm::vec4> positions(model->node_count()), velocities(model->node_count());
@@ -68,8 +68,8 @@ TEST_F(SharedSolverTest, DoesWhatTheCpuDoes) {
     SharedSolver solver = make_solver(model);
     auto reference = test::make_solver<float>(model);
     for (int frame = 0; frame < 120; ++frame) {
-        solver.advance_nodes(kFrame);
-        reference.advance_nodes(kFrame);
+        solver.advance({kFrame});
+        reference.advance({kFrame});
         ASSERT_EQ(overlaps_of(*model, solver), 0u) << frame;
     }
     const State state = solver.read_state();
@@ -98,8 +98,8 @@ TEST_F(SharedSolverTest, MovesASingleBodyAsTheCpuDoes) {
     const auto touches_floor = [&] { return !solver.contact_forces().between.empty(); };
     bool touched = false;
     for (int frame = 0; frame < 60; ++frame) {
-        solver.advance_nodes(kFrame);
-        reference.advance_nodes(kFrame);
+        solver.advance({kFrame});
+        reference.advance({kFrame});
         touched |= touches_floor();
         const State state = solver.read_state();
         for (std::uint32_t n = 0; n < model->node_count(); ++n)
@@ -115,13 +115,13 @@ TEST_F(SharedSolverTest, RepeatsBitForBitAndStartsAgain) {
     SharedSolver solver = make_solver(model), again = make_solver(model);
     const State start = solver.read_state();
     for (int frame = 0; frame < 20; ++frame) {
-        solver.advance_nodes(kFrame);
-        again.advance_nodes(kFrame);
+        solver.advance({kFrame});
+        again.advance({kFrame});
     }
     const State end = solver.read_state();
     EXPECT_EQ(again.read_state().positions, end.positions);
     again.write_state(start);
-    for (int frame = 0; frame < 20; ++frame) again.advance_nodes(kFrame);
+    for (int frame = 0; frame < 20; ++frame) again.advance({kFrame});
     EXPECT_EQ(again.read_state().positions, end.positions);
 }
 
@@ -150,7 +150,7 @@ void fuzz(unsigned first, unsigned count) {
         };
         const test::MotionEnergy energy = energy_of();
         for (int step = 0; step < 15; ++step) {
-            solver.advance_nodes(kFrame / substeps);
+            solver.advance({kFrame / substeps});
             ASSERT_EQ(overlaps_of(*model, solver), 0u) << "scene " << seed << ", step " << step;
             ASSERT_LE(energy_of().sum(), energy.sum() + 0.2 * energy.kinetic)
                 << "scene " << seed << ", step " << step;

@@ -7,10 +7,10 @@
 #include <limits>
 
 #include "core/file.h"
-#include "cpu/cpu_solver.h"
+#include "cpu/explicit/explicit_solver.h"
 #include "gelatin/error.h"
 #include "gelatin/simulator.h"
-#include "gpu/gpu_solver.h"
+#include "gpu/explicit/explicit_solver.h"
 #include "model/build/build_model.h"
 #include "model/explicit/stability.h"
 #include "sim/checkpoint.h"
@@ -40,14 +40,14 @@ TEST_F(WatchTest, NamesTheFirstStepOfAnExplosionAsTheOracleDoes) {
     const auto model = std::make_shared<const Model>(test::make_lively_model());
     const auto kind = SolverKind::semi_implicit_euler;
     const double step = 2.0 * largest_stable_step(kind, *model);
-    cpu::CpuSolver<double> oracle(model, kind, ForceMethod::fused);
-    cpu::CpuSolver<float> cpu(model, kind, ForceMethod::fused);
-    gpu::GpuSolver gpu(model, kind, ForceMethod::fused);
+    cpu::ExplicitSolver<double> oracle(model, kind, ForceMethod::fused);
+    cpu::ExplicitSolver<float> cpu(model, kind, ForceMethod::fused);
+    gpu::ExplicitSolver gpu(model, kind, ForceMethod::fused);
     constexpr double kMostEnergy = 1e9;  // [J]
     for (std::uint32_t s = 1; s <= 100; ++s) {
         for (Solver* solver :
              {static_cast<Solver*>(&oracle), static_cast<Solver*>(&cpu), static_cast<Solver*>(&gpu)}) {
-            solver->advance_nodes(step);
+            solver->advance({step});
             solver->watch_nodes(s, kMostEnergy);
         }
     }
@@ -76,10 +76,10 @@ TEST_F(WatchTest, StopsAtTheFirstStepOnEitherBackend) {
         checkpoint.state.velocities[30].y = std::numeric_limits<float>::quiet_NaN();
         write_checkpoint(file, model, checkpoint);
 
-        cpu::CpuSolver<double> oracle(std::make_shared<const Model>(model), SolverKind::semi_implicit_euler,
-                                      ForceMethod::fused);
+        cpu::ExplicitSolver<double> oracle(std::make_shared<const Model>(model),
+                                           SolverKind::semi_implicit_euler, ForceMethod::fused);
         oracle.write_state(checkpoint.state);
-        oracle.advance_nodes(simulator.step_size());
+        oracle.advance({simulator.step_size()});
         oracle.watch_nodes(1, 1e30);
 
         simulator.load_checkpoint(file);
@@ -135,11 +135,11 @@ TEST_F(WatchTest, FindsAnExplosionAtTheOraclesStepAndKeepsTheLastGoodCheckpoint)
 
         Watch watch(scene, model, simulator.substeps());
         watch.begin(start, {});
-        cpu::CpuSolver<double> oracle(model, scene.simulation.solver, ForceMethod::fused);
+        cpu::ExplicitSolver<double> oracle(model, scene.simulation.solver, ForceMethod::fused);
         oracle.write_state(start);
         std::uint32_t step = 0;
         while (oracle.alarm(true).count == 0 && step < 10'000) {
-            oracle.advance_nodes(simulator.step_size());
+            oracle.advance({simulator.step_size()});
             ++step;
             oracle.watch_nodes(step, watch.most_energy(step * simulator.step_size()));
         }

@@ -50,8 +50,7 @@ std::shared_ptr<const Model> make_blocks(const std::vector<Block>& blocks, const
 
 template <class Real>
 void advance(cpu::CpuSolver<Real>& solver, const Model& model, int number, double step) {
-    solver.apply_kinematics(handle_motions(model.handles, number * step, step));
-    solver.advance_nodes(step);
+    solver.advance({step, handle_motions(model.handles, number * step, step)});
 }
 
 template <class Real>

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "cpu/cpu_solver.h"
 #include "cpu/elasticity/neo_hookean.h"
+#include "cpu/explicit/explicit_solver.h"
 #include "model/elasticity/neo_hookean.h"
 #include "support/instruction_sets.h"
 
@@ -90,8 +90,8 @@ bool guard_is_untouched(const std::vector<glm::vec4>& values, std::size_t count)
 }
 
 cpu::Nodes<double> oracle_step(const Model& model, SolverKind solver, double step) {
-    cpu::CpuSolver<double> oracle(std::make_shared<const Model>(model), solver, ForceMethod::fused);
-    oracle.advance_nodes(step);
+    cpu::ExplicitSolver<double> oracle(std::make_shared<const Model>(model), solver, ForceMethod::fused);
+    oracle.advance({step});
     return oracle.nodes();
 }
 
@@ -152,8 +152,8 @@ double worst_simd_error(const Model& model, SolverKind solver, double step) {
     const StepBounds bounds = rounding_bounds(model, solver, step);
     double worst = 0.0;
     with_each_instruction_set([&] {
-        cpu::CpuSolver<float> simd(std::make_shared<const Model>(model), solver, ForceMethod::fused);
-        simd.advance_nodes(step);
+        cpu::ExplicitSolver<float> simd(std::make_shared<const Model>(model), solver, ForceMethod::fused);
+        simd.advance({step});
         const State state = simd.read_state();
         worst = std::max(worst, worst_error(model, bounds, expected, state.positions, state.velocities));
     });

@@ -123,11 +123,11 @@ FoundOnGpu find_proximities_on_gpu(const Model& model, const CollisionSettings& 
     gpu::Measure measure(model, settings.self_collision.value_or(false));
     measure.begin(model_buffers, nodes, &collision.buffers,
                   collision.self ? &collision.self->buffers : nullptr, &buffers);
-    measure.end();
+    const Measurement measured = measure.end();
 
     FoundOnGpu found;
-    found.measure = measure.proximities();
-    found.lost_pairs = measure.lost_pairs();
+    found.measure = measured.proximities.value();
+    found.lost_pairs = measured.lost_pairs;
     gl::barrier(gl::Barrier::buffer_update);
     found.starts.resize(buffers.starts.size());
     buffers.starts.download(found.starts);

@@ -3,8 +3,10 @@
 
 #include <cmath>
 
-#include "cpu/cpu_solver.h"
-#include "gpu/gpu_solver.h"
+#include "cpu/descent/implicit_solver.h"
+#include "cpu/explicit/explicit_solver.h"
+#include "gpu/descent/implicit_solver.h"
+#include "gpu/explicit/explicit_solver.h"
 #include "support/gl_fixture.h"
 #include "support/test_models.h"
 
@@ -35,15 +37,14 @@ std::vector<std::unique_ptr<Solver>> solvers_for(const Model& model, bool with_g
     std::vector<std::unique_ptr<Solver>> solvers;
     for (const ForceMethod forces : {ForceMethod::fused, ForceMethod::divide_and_merge}) {
         solvers.push_back(
-            std::make_unique<cpu::CpuSolver<float>>(shared, SolverKind::semi_implicit_euler, forces));
+            std::make_unique<cpu::ExplicitSolver<float>>(shared, SolverKind::semi_implicit_euler, forces));
         if (with_gl) {
             solvers.push_back(
-                std::make_unique<gpu::GpuSolver>(shared, SolverKind::semi_implicit_euler, forces));
+                std::make_unique<gpu::ExplicitSolver>(shared, SolverKind::semi_implicit_euler, forces));
         }
     }
-    solvers.push_back(std::make_unique<cpu::CpuSolver<float>>(shared, SolverKind::vbd, ForceMethod::fused));
-    if (with_gl)
-        solvers.push_back(std::make_unique<gpu::GpuSolver>(shared, SolverKind::vbd, ForceMethod::fused));
+    solvers.push_back(std::make_unique<cpu::ImplicitSolver<float>>(shared));
+    if (with_gl) solvers.push_back(std::make_unique<gpu::ImplicitSolver>(shared));
     return solvers;
 }
 
@@ -59,7 +60,7 @@ TEST_F(ContactTest, ReboundsToTheSquareOfTheRestitution) {
             double highest = 0.0;
             bool rising = false;
             for (int s = 0; s < 1200; ++s) {
-                solver->advance_nodes(kStep);
+                solver->advance({kStep});
                 const State state = solver->read_state();
                 rising = rising || state.velocities[0].y > 0.0f;
                 if (rising) highest = std::max(highest, static_cast<double>(state.positions[0].y));
@@ -77,7 +78,7 @@ TEST_F(ContactTest, SlidesAsFarAsFrictionAllows) {
     for (const double friction : {0.25, 0.5}) {
         for (const auto& solver :
              solvers_for(node_at({0, 0, 0}, {kSpeed, 0, 0}, plane(0.0, friction, 0.5)), true)) {
-            for (int s = 0; s < 1000; ++s) solver->advance_nodes(kStep);
+            for (int s = 0; s < 1000; ++s) solver->advance({kStep});
             const State state = solver->read_state();
             EXPECT_NEAR(state.positions[0].x, kSpeed * kSpeed / (2.0 * friction * 9.81), kSpeed * kStep);
             EXPECT_EQ(state.velocities[0].x, 0.0f);
@@ -92,7 +93,7 @@ TEST_F(ContactTest, SlidesOnSlopesSteeperThanFriction) {
     for (const double friction : {0.3, 0.7}) {
         const double expected = friction < sine / cosine ? 9.81 * (sine - friction * cosine) * kTime : 0.0;
         for (const auto& solver : solvers_for(node_at({0, 0, 0}, {}, plane(kSlope, friction, 0.0)), true)) {
-            for (int s = 0; s < 500; ++s) solver->advance_nodes(kStep);
+            for (int s = 0; s < 500; ++s) solver->advance({kStep});
             const glm::vec3 v(solver->read_state().velocities[0]);
             EXPECT_NEAR(glm::length(v), expected, 9.81 * 2.0 * kStep);
         }
@@ -104,15 +105,15 @@ TEST_F(ContactTest, NothingSinksIntoAPlane) {
     body.material.damping = 2e-3;
     for (glm::dvec3& p : body.mesh.positions) p.y += 0.3;
     const Model model = pack_bodies({body}, {ColliderDescription{}}, {0.0, -9.81, 0.0});
-    cpu::CpuSolver<float> solver(std::make_shared<const Model>(model), SolverKind::semi_implicit_euler,
-                                 ForceMethod::fused);
+    cpu::ExplicitSolver<float> solver(std::make_shared<const Model>(model), SolverKind::semi_implicit_euler,
+                                      ForceMethod::fused);
     for (int s = 0; s < 2000; ++s) {
-        solver.advance_nodes(5e-4);
+        solver.advance({5e-4});
         solver.begin_measure();
-        EXPECT_LT(solver.end_measure()[0].deepest_penetration, 1e-6);
+        EXPECT_LT(solver.end_measure().objects[0].deepest_penetration, 1e-6);
     }
     solver.begin_measure();
-    EXPECT_GT(solver.end_measure()[0].contacts, 8u) << "it lies on the floor by now";
+    EXPECT_GT(solver.end_measure().objects[0].contacts, 8u) << "it lies on the floor by now";
 }
 
 }  // namespace

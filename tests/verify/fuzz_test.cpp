@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "cpu/cpu_solver.h"
+#include "cpu/descent/implicit_solver.h"
 #include "model/build/start_state.h"
 #include "support/test_models.h"
 
@@ -84,9 +84,9 @@ Fuzzed make_scene(unsigned seed) {
 void expect_finite(unsigned first, unsigned end) {
     for (unsigned seed = first; seed < end; ++seed) {
         const Fuzzed scene = make_scene(seed);
-        cpu::CpuSolver<float> solver(scene.model, SolverKind::vbd, ForceMethod::fused, {}, scene.settings);
+        cpu::ImplicitSolver<float> solver(scene.model, {}, scene.settings);
         solver.write_state(scene.start);
-        for (int s = 0; s < 60; ++s) solver.advance_nodes(scene.step);
+        for (int s = 0; s < 60; ++s) solver.advance({scene.step});
         const State state = solver.read_state();
         for (std::uint32_t n = 0; n < scene.model->node_count(); ++n) {
             for (int k = 0; k < 3; ++k) {

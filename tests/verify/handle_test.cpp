@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "cpu/cpu_solver.h"
-#include "gpu/gpu_solver.h"
+#include "cpu/make_solver.h"
+#include "gpu/make_solver.h"
 #include "model/explicit/stability.h"
 #include "model/setting_names.h"
 #include "support/gl_fixture.h"
@@ -19,8 +19,7 @@ namespace {
 // Takes the place of the simulator: steps from the start on, `count` of them.
 void advance(Solver& solver, const Model& model, double step, int count, int first = 0) {
     for (int s = first; s < first + count; ++s) {
-        solver.apply_kinematics(handle_motions(model.handles, s * step, step));
-        solver.advance_nodes(step);
+        solver.advance({step, handle_motions(model.handles, s * step, step)});
     }
 }
 
@@ -62,11 +61,11 @@ TEST(Handle, CarriesItsNodesAtAnyStep) {
             const int count = static_cast<int>(std::ceil(0.2 / (fraction * most)));
             const double step = 0.2 / count;
             if (count > 20'000) continue;  // explicit Euler's
-            cpu::CpuSolver<float> solver(model, kind, ForceMethod::fused);
+            const auto solver = cpu::make_solver<float>(model, kind);
             for (int s = 0; s < count; s += 5) {
                 const int steps = std::min(5, count - s);
-                advance(solver, *model, step, steps, s);
-                EXPECT_LT(largest_lag(*model, solver.read_state().positions, (s + steps) * step), 1e-6)
+                advance(*solver, *model, step, steps, s);
+                EXPECT_LT(largest_lag(*model, solver->read_state().positions, (s + steps) * step), 1e-6)
                     << name_of(kind) << " of " << step << " s, step " << s;
             }
         }
@@ -79,10 +78,10 @@ TEST_F(HandleOnGpuTest, CarriesItsNodesAtAnyStep) {
     const auto model = std::make_shared<const Model>(carried_bar());
     for (const SolverKind kind : {SolverKind::semi_implicit_euler, SolverKind::rk4, SolverKind::vbd}) {
         const double step = std::min(0.01, 0.5 * largest_stable_step(kind, *model));
-        gpu::GpuSolver solver(model, kind, ForceMethod::fused);
+        const auto solver = gpu::make_solver(model, kind);
         for (int s = 0; s < 100; s += 10) {
-            advance(solver, *model, step, 10, s);
-            EXPECT_LT(largest_lag(*model, solver.read_state().positions, (s + 10) * step), 1e-6)
+            advance(*solver, *model, step, 10, s);
+            EXPECT_LT(largest_lag(*model, solver->read_state().positions, (s + 10) * step), 1e-6)
                 << name_of(kind);
         }
     }
@@ -115,13 +114,13 @@ TEST(Handle, ReleasedBodiesKeepTheirMomentum) {
         if (kind == SolverKind::explicit_euler) continue;  // amplifies what it is given
         const double most = std::min(0.005, 0.5 * largest_stable_step(kind, *model));
         const int count = static_cast<int>(std::ceil(0.2 / most));
-        cpu::CpuSolver<double> solver(model, kind, ForceMethod::fused);
-        advance(solver, *model, 0.2 / count, count);
-        const Motion before = motion_of(*model, solver.read_state());
-        advance(solver, *model, 0.2 / count, count, count);
-        const Motion after = motion_of(*model, solver.read_state());
+        const auto solver = cpu::make_solver<double>(model, kind);
+        advance(*solver, *model, 0.2 / count, count);
+        const Motion before = motion_of(*model, solver->read_state());
+        advance(*solver, *model, 0.2 / count, count, count);
+        const Motion after = motion_of(*model, solver->read_state());
         for (const HandleNode& held : model->handle_nodes)
-            EXPECT_EQ(solver.read_state().positions[held.node].w, held.arm.w);
+            EXPECT_EQ(solver->read_state().positions[held.node].w, held.arm.w);
         const double size = model->objects[0].mass * 0.4;  // at 0.4 m/s
         EXPECT_GT(glm::length(before.momentum), 0.5 * size);
         EXPECT_LT(glm::distance(after.momentum, before.momentum), 1e-6 * size) << name_of(kind);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "cpu/cpu_solver.h"
+#include "cpu/explicit/explicit_solver.h"
 #include "mesh/shapes.h"
 #include "mesh/tetrahedralise.h"
 #include "model/explicit/stability.h"
@@ -39,10 +39,10 @@ double answered_modulus(int edges_across, const std::optional<SpringKinds>& spri
     body.pins = {HalfSpaceRegion{{0.0, -1.0, 0.0}, -0.4999 * kLength}};
     const auto model = std::make_shared<const Model>(test::make_model(body, {0.0, -kGravity, 0.0}));
 
-    cpu::CpuSolver<float> solver(model, SolverKind::semi_implicit_euler, ForceMethod::fused);
+    cpu::ExplicitSolver<float> solver(model, SolverKind::semi_implicit_euler, ForceMethod::fused);
     const double step = 0.8 * largest_stable_step(SolverKind::semi_implicit_euler, *model);
     for (double time = 0.0; time < 1.5; time += step)
-        solver.advance_nodes(step);  // twelve periods, ten time constants
+        solver.advance({step});  // twelve periods, ten time constants
     double sag = 0.0;
     int count = 0;
     for (std::uint32_t n = 0; n < model->node_count(); ++n) {

@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "cpu/cpu_solver.h"
+#include "cpu/descent/implicit_solver.h"
 #include "mesh/tetrahedralise.h"
 #include "model/build/build_model.h"
 #include "model/build/collider_surface.h"
@@ -80,16 +80,14 @@ public:
         scene.colliders = {floor};
         model_ = std::make_shared<const Model>(
             pack_bodies({ball}, solid_colliders(scene), {0, 0, 0}, make_collider_surfaces(scene)));
-        solver_.emplace(model_, SolverKind::vbd, ForceMethod::fused,
-                        CollisionSettings{.response = CollisionResponse::contact}, DescentSettings{});
+        solver_.emplace(model_, CollisionSettings{.response = CollisionResponse::contact}, DescentSettings{});
     }
 
     // At the next depth, at rest. Depths count from where the nodes that are pressed are: a surface keeps the
     // reach of contacts away from them.
     Measured measure() {
         for (const int end = step_ + kMoving + kResting; step_ < end; ++step_) {
-            solver_->apply_kinematics(handle_motions(model_->handles, step_ * kStep, kStep));
-            solver_->advance_nodes(kStep);
+            solver_->advance({kStep, handle_motions(model_->handles, step_ * kStep, kStep)});
         }
         const ContactForces forces = solver_->contact_forces();
         glm::dvec3 force(0.0);
@@ -118,7 +116,7 @@ private:
     }
 
     std::shared_ptr<const Model> model_;
-    std::optional<cpu::CpuSolver<float>> solver_;
+    std::optional<cpu::ImplicitSolver<float>> solver_;
     int step_ = 0;
 };
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "cpu/cpu_solver.h"
+#include "cpu/descent/implicit_solver.h"
 #include "mesh/shapes.h"
 #include "mesh/tetrahedralise.h"
 #include "support/test_models.h"
@@ -47,13 +47,11 @@ class HeldRun {
 public:
     HeldRun(const Body& body, const glm::dvec3& gravity, int iterations = 10)
         : model_(std::make_shared<const Model>(test::make_model(body, gravity))),
-          solver_(model_, SolverKind::vbd, ForceMethod::fused, {},
-                  DescentSettings{.iterations = iterations}) {}
+          solver_(model_, {}, DescentSettings{.iterations = iterations}) {}
 
     void advance(int steps) {
         for (; steps > 0; --steps, ++steps_) {
-            solver_.apply_kinematics(handle_motions(model_->handles, steps_ * kStep, kStep));
-            solver_.advance_nodes(kStep);
+            solver_.advance({kStep, handle_motions(model_->handles, steps_ * kStep, kStep)});
         }
     }
     // By springs from all nodes to their places at the start, moved by `displacement`.
@@ -77,7 +75,7 @@ public:
 
 private:
     std::shared_ptr<const Model> model_;
-    cpu::CpuSolver<float> solver_;
+    cpu::ImplicitSolver<float> solver_;
     Pull pull_;
     int steps_ = 0;
 };

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "cpu/cpu_solver.h"
-#include "gpu/gpu_solver.h"
+#include "cpu/descent/implicit_solver.h"
+#include "cpu/make_solver.h"
+#include "gpu/make_solver.h"
 #include "mesh/shapes.h"
 #include "mesh/tetrahedralise.h"
 #include "model/explicit/stability.h"
@@ -36,7 +37,7 @@ void expect_newtons_second_law(const MakeSolver& make_solver, double tolerance) 
     for (const SolverKind kind : test::kSolvers) {
         const double step = std::min(0.01, 0.5 * largest_stable_step(kind, *model));
         const std::unique_ptr<Solver> solver = make_solver(model, kind);
-        for (int s = 0; s < 50; ++s) solver->advance_nodes(step);
+        for (int s = 0; s < 50; ++s) solver->advance({step});
         const glm::dvec3 expected =
             50.0 * step * (force / model->objects[0].mass + glm::dvec3(0.0, -9.81, 0.0));
         EXPECT_LT(glm::distance(mean_velocity(*model, solver->read_state()), expected),
@@ -48,12 +49,12 @@ void expect_newtons_second_law(const MakeSolver& make_solver, double tolerance) 
 TEST(Load, AForceAcceleratesAFreeBody) {
     expect_newtons_second_law(
         [](const auto& model, SolverKind kind) {
-            return std::make_unique<cpu::CpuSolver<double>>(model, kind, ForceMethod::fused);
+            return cpu::make_solver<double>(model, kind, ForceMethod::fused);
         },
         1e-6);
     expect_newtons_second_law(
         [](const auto& model, SolverKind kind) {
-            return std::make_unique<cpu::CpuSolver<float>>(model, kind, ForceMethod::divide_and_merge);
+            return cpu::make_solver<float>(model, kind, ForceMethod::divide_and_merge);
         },
         1e-3);
 }
@@ -61,9 +62,7 @@ TEST(Load, AForceAcceleratesAFreeBody) {
 class LoadOnGpuTest : public test::GlTest {};
 TEST_F(LoadOnGpuTest, AForceAcceleratesAFreeBody) {
     expect_newtons_second_law(
-        [](const auto& model, SolverKind kind) {
-            return std::make_unique<gpu::GpuSolver>(model, kind, ForceMethod::fused);
-        },
+        [](const auto& model, SolverKind kind) { return gpu::make_solver(model, kind, ForceMethod::fused); },
         1e-3);
 }
 
@@ -86,8 +85,8 @@ TEST(LoadHeavy, ABarGetsLongerByHookesLaw) {
         bar.pins = {HalfSpaceRegion{{1.0, 0.0, 0.0}, -0.4999 * kLength}};
         bar.loads = {load};
         const auto model = std::make_shared<const Model>(test::make_model(bar));
-        cpu::CpuSolver<float> solver(model, SolverKind::vbd, ForceMethod::fused, {}, {40});
-        for (int s = 0; s < 800; ++s) solver.advance_nodes(2e-3);
+        cpu::ImplicitSolver<float> solver(model, {}, {40});
+        for (int s = 0; s < 800; ++s) solver.advance({2e-3});
         double longer = 0.0, mass = 0.0, speed = 0.0;
         for (const LoadedNode& loaded : model->loads.nodes) {
             const std::uint32_t n = loaded.node;
@@ -110,10 +109,10 @@ TEST(Load, APressureCompressesABall) {
     Body ball = test::make_body(tetrahedralise(make_sphere({0.2, 5}), mesher, "ball"), rubber);
     ball.loads = {{kEverywhere, PressureLoad{pressure}}};
     const auto model = std::make_shared<const Model>(test::make_model(ball));
-    cpu::CpuSolver<float> solver(model, SolverKind::vbd, ForceMethod::fused, {}, {20});
-    for (int s = 0; s < 120; ++s) solver.advance_nodes(1.0 / 60.0);
+    cpu::ImplicitSolver<float> solver(model, {}, {20});
+    for (int s = 0; s < 120; ++s) solver.advance({1.0 / 60.0});
     solver.begin_measure();
-    const ObjectMeasure sums = solver.end_measure()[0];
+    const ObjectMeasure sums = solver.end_measure().objects[0];
     EXPECT_NEAR((1.0 - sums.volume / model->objects[0].rest_volume) / 0.02, 1.0, 0.05);
     EXPECT_LT(glm::length(sums.momentum), 1e-5 * model->objects[0].mass) << "a closed surface is not pushed";
 }

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "cpu/cpu_solver.h"
-#include "gpu/gpu_solver.h"
+#include "cpu/explicit/explicit_solver.h"
+#include "gpu/explicit/explicit_solver.h"
 #include "model/setting_names.h"
 #include "support/gl_fixture.h"
 #include "support/test_models.h"
@@ -34,9 +34,9 @@ double start_amplitude(const Model& model) {
 // Error at t = 0.5 s, five radians on, with `steps` steps.
 double error_after(SolverKind solver, int steps) {
     const auto model = std::make_shared<const Model>(oscillator());
-    cpu::CpuSolver<double> oracle(model, solver, ForceMethod::fused);
+    cpu::ExplicitSolver<double> oracle(model, solver, ForceMethod::fused);
     const double time = 0.5;
-    for (int s = 0; s < steps; ++s) oracle.advance_nodes(time / steps);
+    for (int s = 0; s < steps; ++s) oracle.advance({time / steps});
     return std::abs(stretch_of(*model, oracle.nodes().positions) -
                     start_amplitude(*model) * std::cos(kFrequency * time));
 }
@@ -66,7 +66,7 @@ double measured_period(const Model& model, Solver& solver, double step, int peri
     std::vector<double> crossings;
     double before = start_amplitude(model);
     for (int s = 1; crossings.size() <= static_cast<std::size_t>(periods); ++s) {
-        solver.advance_nodes(step);
+        solver.advance({step});
         const double now = stretch_of(model, solver.read_state().positions);
         if (before < 0.0 && now >= 0.0) crossings.push_back((s - 1 + before / (before - now)) * step);
         before = now;
@@ -79,9 +79,9 @@ double measured_period(const Model& model, Solver& solver, double step, int peri
 TEST(OscillatorTest, PeriodOnTheCpu) {
     const auto model = std::make_shared<const Model>(oscillator());
     const double step = 2e-3, exact = 2.0 * std::numbers::pi / kFrequency;
-    cpu::CpuSolver<float> rk4(model, SolverKind::rk4, ForceMethod::fused);
+    cpu::ExplicitSolver<float> rk4(model, SolverKind::rk4, ForceMethod::fused);
     EXPECT_NEAR(measured_period(*model, rk4, step, 5) / exact, 1.0, 1e-5);
-    cpu::CpuSolver<float> euler(model, SolverKind::semi_implicit_euler, ForceMethod::fused);
+    cpu::ExplicitSolver<float> euler(model, SolverKind::semi_implicit_euler, ForceMethod::fused);
     const double discrete = 2.0 * std::numbers::pi / (2.0 / step * std::asin(0.5 * kFrequency * step));
     EXPECT_NEAR(measured_period(*model, euler, step, 5) / discrete, 1.0, 1e-5);
 }
@@ -90,7 +90,7 @@ class OscillatorOnGpuTest : public test::GlTest {};
 TEST_F(OscillatorOnGpuTest, Period) {
     const auto model = std::make_shared<const Model>(oscillator());
     for (const ForceMethod forces : {ForceMethod::fused, ForceMethod::divide_and_merge}) {
-        gpu::GpuSolver solver(model, SolverKind::rk4, forces);
+        gpu::ExplicitSolver solver(model, SolverKind::rk4, forces);
         EXPECT_NEAR(measured_period(*model, solver, 5e-3, 2) / (2.0 * std::numbers::pi / kFrequency), 1.0,
                     1e-4);
     }
@@ -101,11 +101,11 @@ TEST(OscillatorTest, DampingDecaysAtItsRate) {
     test::Net net = test::make_oscillator(kStiffness, 1.0, kAmplitude);
     net.damping_time = 0.01;
     const auto model = std::make_shared<const Model>(test::make_model(net));
-    cpu::CpuSolver<double> solver(model, SolverKind::rk4, ForceMethod::fused);
+    cpu::ExplicitSolver<double> solver(model, SolverKind::rk4, ForceMethod::fused);
     const double decay = 0.5 * net.damping_time * kFrequency * kFrequency;  // [1/s]
     const double w = std::sqrt(kFrequency * kFrequency - decay * decay);
     const double time = 4.0 * std::numbers::pi / w;  // two periods
-    for (int s = 0; s < 4000; ++s) solver.advance_nodes(time / 4000);
+    for (int s = 0; s < 4000; ++s) solver.advance({time / 4000});
     EXPECT_NEAR(stretch_of(*model, solver.nodes().positions) / start_amplitude(*model),
                 std::exp(-decay * time), 1e-5);
 }

@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
-#include "cpu/cpu_solver.h"
+#include "cpu/explicit/explicit_solver.h"
 #include "mesh/shapes.h"
 #include "mesh/tetrahedralise.h"
 #include "model/explicit/stability.h"
@@ -67,10 +67,10 @@ Answer at_rest(const Model& model) {
 
 // Mean strains by Gauss, from what the boundary has moved.
 Answer after_relaxing(const Model& model, SolverKind kind) {
-    cpu::CpuSolver<float> solver(std::make_shared<const Model>(model), kind, ForceMethod::fused);
+    cpu::ExplicitSolver<float> solver(std::make_shared<const Model>(model), kind, ForceMethod::fused);
     const double step = 0.8 * largest_stable_step(kind, model);
     const int steps = static_cast<int>(0.35 / step);
-    for (int s = 0; s < steps; ++s) solver.advance_nodes(step);
+    for (int s = 0; s < steps; ++s) solver.advance({step});
     const State state = solver.read_state();
     glm::dvec3 strain(0.0);
     for (const Face& face : model.faces) {

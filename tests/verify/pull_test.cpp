@@ -5,8 +5,10 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "cpu/cpu_solver.h"
-#include "gpu/gpu_solver.h"
+#include "cpu/descent/implicit_solver.h"
+#include "cpu/explicit/explicit_solver.h"
+#include "cpu/make_solver.h"
+#include "gpu/make_solver.h"
 #include "model/explicit/stability.h"
 #include "model/setting_names.h"
 #include "support/gl_fixture.h"
@@ -61,7 +63,7 @@ void expect_critical_damping(const MakeSolver& make_solver) {
         solver->set_pulls({hold_all(*model)});
         solver->move_pull(0, way);
         const int steps = static_cast<int>(1.0 / kRate / step);
-        for (int s = 0; s < steps; ++s) solver->advance_nodes(step);
+        for (int s = 0; s < steps; ++s) solver->advance({step});
         const double phase = kRate * steps * step;
         const Center center = center_of(*model, solver->read_state());
         EXPECT_LT(glm::distance(center.position - start, way * (1.0 - (1.0 + phase) * std::exp(-phase))),
@@ -69,7 +71,7 @@ void expect_critical_damping(const MakeSolver& make_solver) {
             << name_of(kind);
 
         solver->set_pulls({});
-        for (int s = 0; s < 20; ++s) solver->advance_nodes(step);
+        for (int s = 0; s < 20; ++s) solver->advance({step});
         EXPECT_LT(glm::distance(center_of(*model, solver->read_state()).velocity, center.velocity),
                   1e-3 * glm::length(center.velocity))
             << name_of(kind);
@@ -78,18 +80,17 @@ void expect_critical_damping(const MakeSolver& make_solver) {
 
 TEST(Pull, ABodyFollowsTheHandAndKeepsItsMomentum) {
     expect_critical_damping([](const auto& model, SolverKind kind) {
-        return std::make_unique<cpu::CpuSolver<double>>(model, kind, ForceMethod::divide_and_merge);
+        return cpu::make_solver<double>(model, kind, ForceMethod::divide_and_merge);
     });
     expect_critical_damping([](const auto& model, SolverKind kind) {
-        return std::make_unique<cpu::CpuSolver<float>>(model, kind, ForceMethod::fused);
+        return cpu::make_solver<float>(model, kind, ForceMethod::fused);
     });
 }
 
 class PullOnGpuTest : public test::GlTest {};
 TEST_F(PullOnGpuTest, ABodyFollowsTheHandAndKeepsItsMomentum) {
-    expect_critical_damping([](const auto& model, SolverKind kind) {
-        return std::make_unique<gpu::GpuSolver>(model, kind, ForceMethod::fused);
-    });
+    expect_critical_damping(
+        [](const auto& model, SolverKind kind) { return gpu::make_solver(model, kind, ForceMethod::fused); });
 }
 
 // A force on each node as its mass has it moves the body as gravity would.
@@ -104,7 +105,7 @@ void expect_fall(const MakeSolver& make_solver) {
         const std::unique_ptr<Solver> solver = make_solver(model, kind);
         solver->set_forces(forces);
         const int steps = 50;
-        for (int s = 0; s < steps; ++s) solver->advance_nodes(step);
+        for (int s = 0; s < steps; ++s) solver->advance({step});
         const glm::dvec3 expected = step * steps * glm::dvec3(acceleration);
         const glm::dvec3 velocity = center_of(*model, solver->read_state()).velocity;
         // Block descent's velocities are differences of coordinates of half a metre in single precision.
@@ -112,7 +113,7 @@ void expect_fall(const MakeSolver& make_solver) {
         const double bound = 1e-3 * glm::length(expected) + rounding;
         EXPECT_LT(glm::distance(velocity, expected), bound) << name_of(kind);
         solver->set_forces({});
-        for (int s = 0; s < steps; ++s) solver->advance_nodes(step);
+        for (int s = 0; s < steps; ++s) solver->advance({step});
         EXPECT_LT(glm::distance(center_of(*model, solver->read_state()).velocity, velocity), bound)
             << name_of(kind);
     }
@@ -120,17 +121,16 @@ void expect_fall(const MakeSolver& make_solver) {
 
 TEST(Pull, ForcesAccelerateUntilTheyEnd) {
     expect_fall([](const auto& model, SolverKind kind) {
-        return std::make_unique<cpu::CpuSolver<double>>(model, kind, ForceMethod::divide_and_merge);
+        return cpu::make_solver<double>(model, kind, ForceMethod::divide_and_merge);
     });
     expect_fall([](const auto& model, SolverKind kind) {
-        return std::make_unique<cpu::CpuSolver<float>>(model, kind, ForceMethod::fused);
+        return cpu::make_solver<float>(model, kind, ForceMethod::fused);
     });
 }
 
 TEST_F(PullOnGpuTest, ForcesAccelerateUntilTheyEnd) {
-    expect_fall([](const auto& model, SolverKind kind) {
-        return std::make_unique<gpu::GpuSolver>(model, kind, ForceMethod::fused);
-    });
+    expect_fall(
+        [](const auto& model, SolverKind kind) { return gpu::make_solver(model, kind, ForceMethod::fused); });
 }
 
 // A few nodes at one end carry the whole body, at the step of a picture: their springs are a thousand times
@@ -150,9 +150,9 @@ TEST(Pull, AFewNodesCarryTheBodyInLongSteps) {
     for (Pull::Node& held : pull.nodes)
         held.stiffness = static_cast<float>(stiffness / static_cast<double>(pull.nodes.size()));
     pull.damping_time = 2.0 / kRate;
-    cpu::CpuSolver<float> solver(model, SolverKind::vbd, ForceMethod::fused, {}, {40});
+    cpu::ImplicitSolver<float> solver(model, {}, {40});
     solver.set_pulls({pull});
-    for (int s = 0; s < 240; ++s) solver.advance_nodes(1.0 / 60.0);
+    for (int s = 0; s < 240; ++s) solver.advance({1.0 / 60.0});
     const State state = solver.read_state();
     glm::dvec3 force(0.0);
     for (const Pull::Node& held : pull.nodes)
@@ -172,9 +172,9 @@ TEST(Pull, AStrongHandIsStableInExplicitSchemes) {
             pull.nodes.push_back({n, glm::vec3(model->positions[n]), 1e7f * model->masses[n]});
         pull.damping_time = 0.01;
         pull.target = {0.02, 0.0, 0.0};
-        cpu::CpuSolver<float> solver(model, kind, ForceMethod::fused);
+        cpu::ExplicitSolver<float> solver(model, kind, ForceMethod::fused);
         solver.set_pulls({pull});
-        for (int s = 0; s < 2000; ++s) solver.advance_nodes(step);
+        for (int s = 0; s < 2000; ++s) solver.advance({step});
         for (const glm::vec4& p : solver.read_state().positions) ASSERT_LT(glm::length(glm::vec3(p)), 1.0f);
     }
 }

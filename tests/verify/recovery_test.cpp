@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
-#include "cpu/cpu_solver.h"
+#include "cpu/descent/implicit_solver.h"
 #include "gelatin/simulator.h"
-#include "gpu/gpu_solver.h"
+#include "gpu/descent/implicit_solver.h"
 #include "mesh/shapes.h"
 #include "mesh/tetrahedralise.h"
 #include "model/build/start_state.h"
@@ -70,10 +70,8 @@ struct Run {
 std::unique_ptr<Solver> make_solver(const std::shared_ptr<const Model>& model, Backend backend) {
     constexpr DescentSettings kDescent{20};
     if (backend == Backend::gl)
-        return std::make_unique<gpu::GpuSolver>(model, SolverKind::vbd, ForceMethod::fused,
-                                                CollisionSettings{}, kDescent);
-    return std::make_unique<cpu::CpuSolver<float>>(model, SolverKind::vbd, ForceMethod::fused,
-                                                   CollisionSettings{}, kDescent);
+        return std::make_unique<gpu::ImplicitSolver>(model, CollisionSettings{}, kDescent);
+    return std::make_unique<cpu::ImplicitSolver<float>>(model, CollisionSettings{}, kDescent);
 }
 
 double strain_after(const Run& run, const Body& body, const StartDescription& start) {
@@ -84,7 +82,7 @@ double strain_after(const Run& run, const Body& body, const StartDescription& st
     for (ObjectDescription& object : scene.objects) object.start = start;
     const std::unique_ptr<Solver> solver = make_solver(model, run.backend);
     solver->write_state(*deformed_start(scene, *model));
-    for (int s = 0; s < run.frames; ++s) solver->advance_nodes(kFrame);
+    for (int s = 0; s < run.frames; ++s) solver->advance({kFrame});
     return worst_strain(*model, solver->read_state().positions);
 }
 

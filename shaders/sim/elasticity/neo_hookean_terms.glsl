@@ -2,7 +2,7 @@
 // sim/elasticity/node_terms.glsl, sim/descent/descent_step.glsl, and `positions`. DAMPED: some damping time is not zero.
 // VOLUME: there is a volume term; after `offsets`. CPU twin: add_neo_hookean, add_viscosity,
 // src/cpu/elasticity/neo_hookean.inl.
-#include "sim/elasticity/neo_hookean.glsl"
+#include "sim/elasticity/tet_walk.glsl"
 
 // The elastic energy as a function of the corner, and the tet's part of the volume term as in add_tet_volume.
 // @param bound its offset and modulus, times the volume at rest [J]
@@ -30,31 +30,28 @@ void add_viscosity(NeoHookeanStep tet, mat3 f, mat3 start, float damping, inout 
 // The contribution of all its tets to node `n`, which row `row` of slices has.
 void add_neo_hookean_tets(uint row, uint n, vec3 position, inout NodeTerms terms) {
     vec4 start = texelFetch(start_positions, int(n));
-    Strip strip = kNoStrip, before = kNoStrip;
+    Strip before = kNoStrip;
     vec3 damping_times = vec3(0.0);
-    uint end = texelFetch(neo_hookean_starts, int(row / kSlice) + 1).x;
-    for (uint e = texelFetch(neo_hookean_starts, int(row / kSlice)).x + row % kSlice; e < end; e += kSlice) {
-        NeoHookeanStep tet = fetch_neo_hookean_step(e);
-        if (tet.vertex == kNone) break;
-        int node = node_of(tet.vertex);
-        step_strip(tet.vertex, texelFetch(positions, node).xyz - position, strip);
+    TetWalk walk = begin_tet_walk(row);
+    while (walk_on(position, walk)) {
+        NeoHookeanStep tet = walk.tet;
 #ifdef DAMPED
-        vec4 other = texelFetch(start_positions, node);
+        vec4 other = texelFetch(start_positions, walk.node);
         step_strip(tet.vertex, other.xyz - start.xyz, before);
         step_numbers(tet.vertex, other.w, damping_times);
 #endif
         if (tet.tet == kNone) continue;
-        TetAtCorner at = tet_at_corner(tet, strip);
+        TetAtCorner at = tet_at_corner(tet, walk.strip);
 #ifdef VOLUME
         vec2 bound = vec2(texelFetch(offsets, int(tet.tet)).x, tet.modulus);
 #else
         vec2 bound = vec2(0.0);
 #endif
         add_neo_hookean(tet, at, bound, terms);
-        terms.force += opening_force(e, at.squares);
+        terms.force += opening_force(walk.step, at.squares);
 #ifdef DAMPED
         float damping_time = 0.25 * (start.w + sum_of(damping_times));
-        add_viscosity(tet, gradient_of(tet, strip), gradient_of(tet, before), damping_time / time_step, terms);
+        add_viscosity(tet, gradient_of(tet, walk.strip), gradient_of(tet, before), damping_time / time_step, terms);
 #endif
     }
 }

@@ -15,7 +15,7 @@ uniform usamplerBuffer slice_starts;
 layout(std430) readonly buffer Chunks { Chunk chunks[]; };
 layout(std430) writeonly buffer Sums { NodeSums node_sums[]; };
 #ifdef NEO_HOOKEAN
-#include "sim/elasticity/neo_hookean.glsl"
+#include "sim/elasticity/tet_walk.glsl"
 #endif
 #ifdef VOLUME
 #include "sim/elasticity/volume_term.glsl"
@@ -47,14 +47,9 @@ float half_spring_energy(uint n, vec3 position) {
 // A node has a quarter of the energy of each of its tets.
 float quarter_tet_energy(uint n, vec3 position) {
     float energy = 0.0;
-    Strip strip = kNoStrip;
-    uint end = texelFetch(neo_hookean_starts, int(n / kSlice) + 1).x;
-    for (uint e = texelFetch(neo_hookean_starts, int(n / kSlice)).x + n % kSlice; e < end; e += kSlice) {
-        NeoHookeanStep tet = fetch_neo_hookean_step(e);
-        if (tet.vertex == kNone) break;
-        step_strip(tet.vertex, texelFetch(positions, node_of(tet.vertex)).xyz - position, strip);
-        if (tet.tet != kNone) energy += 0.25 * neo_hookean_energy(tet, tet_at_corner(tet, strip));
-    }
+    TetWalk walk = begin_tet_walk(n);
+    while (walk_on(position, walk))
+        if (walk.tet.tet != kNone) energy += 0.25 * neo_hookean_energy(walk.tet, tet_at_corner(walk.tet, walk.strip));
     return energy;
 }
 #endif

@@ -11,6 +11,7 @@
 #include "cpu/contact/island_motions.h"
 #include "cpu/contact/planes.h"
 #include "model/for_each_index.h"
+#include "model/lumped_masses.h"
 
 namespace gelatin::cpu {
 namespace {
@@ -33,7 +34,7 @@ GuardedMove<Real>::GuardedMove(std::shared_ptr<const Model> model, std::vector<s
     : model_(std::move(model)),
       places_(std::move(places)),
       object_of_(objects_of_nodes(*model_)),
-      masses_(model_->objects.size()),
+      masses_(lumped_masses(*model_)),
       is_held_(model_->objects.size()),
       means_(model_->body_count()),
       ways_(model_->node_count()),
@@ -43,11 +44,7 @@ GuardedMove<Real>::GuardedMove(std::shared_ptr<const Model> model, std::vector<s
       own_(model_),
       planned_(model_->node_count()) {
     std::vector<Range> ranges;
-    for (std::size_t o = 0; o < masses_.size(); ++o) {
-        const Range& nodes = ranges.emplace_back(model_->objects[o].nodes);
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-            masses_[o] += static_cast<double>(model_->masses[n]);
-    }
+    for (const ModelObject& object : model_->objects) ranges.push_back(object.nodes);
     pieces_ = ObjectPieces(ranges);
 }
 

@@ -7,6 +7,7 @@
 
 #include "cpu/collision/colliders.h"
 #include "cpu/contact/planes.h"
+#include "cpu/descent/wave_times.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -42,22 +43,23 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
     : model_(std::move(model)),
       settings_(settings),
       sweeps_(settings.iterations),
+      wave_times_(wave_times(*model_)),
       bodies_(std::move(contacts)),
       objective_(model_, nodes_a_batch),
       contacts_(*model_),
       sweep_(model_),
       rigid_move_(model_),
       joint_move_(model_),
-      rebound_(model_),
+      rebound_(model_, wave_times_),
       tangled_(model_),
       energy_(model_),
       outlooks_(model_->objects.size()),
       device_(bodies_ ? device : nullptr) {
-    if (bodies_) landing_.emplace(model_);
+    if (bodies_) landing_.emplace(model_, wave_times_);
     if (settings_.coarse_level) coarse_.emplace(model_);
     if (coarse_ && coarse_->is_empty()) coarse_.reset();
     if (coarse_ || bodies_) secant_.emplace(model_);
-    if (settings_.divides_steps) division_.emplace(model_);
+    if (settings_.divides_steps) division_.emplace(model_, wave_times_);
     if (settings_.sleeps && bodies_) rest_watch_.emplace(model_);
 }
 
@@ -206,7 +208,7 @@ void BlockDescent<Real>::find_outlooks(Real step, bool is_part, const Nodes<Real
 
 template <class Real>
 bool BlockDescent<Real>::is_soft(std::size_t object, Real step) const {
-    return division_->wave_time(object) > kStepsAWave * static_cast<double>(step);
+    return wave_times_[object] > kStepsAWave * static_cast<double>(step);
 }
 
 // Sweeps from `first` up to `end`, with what comes between them. The bodies of a batch make theirs one after

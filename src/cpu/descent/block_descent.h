@@ -146,8 +146,9 @@ private:
 
     std::shared_ptr<const Model> model_;
     DescentSettings settings_;
-    int sweeps_;                // of this step
-    Real last_step_ = Real(0);  // length of the step before [s]; 0: as this one
+    int sweeps_;                      // of this step
+    Real last_step_ = Real(0);        // length of the step before [s]; 0: as this one
+    std::vector<double> wave_times_;  // by object [s]
     std::optional<StepDivision<Real>> division_;
     std::optional<RestWatch<Real>> rest_watch_;
     std::unique_ptr<Contacts<Real>> bodies_;

@@ -11,6 +11,7 @@
 #include "cpu/descent/rigid_inertia.h"
 #include "cpu/elasticity/elastic_energy.h"
 #include "model/for_each_index.h"
+#include "model/lumped_masses.h"
 #include "model/nearest_rotation.h"
 
 namespace gelatin::cpu {
@@ -26,15 +27,9 @@ constexpr int kMostTries = 4;
 template <class Real>
 EnergyBound<Real>::EnergyBound(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
-      masses_(model_->body_count()),
+      masses_(lumped_masses(*model_)),
       accounts_(model_->body_count()),
-      is_open_(model_->body_count()) {
-    for (std::size_t o = 0; o < masses_.size(); ++o) {
-        const Range& nodes = model_->objects[o].nodes;
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-            masses_[o] += static_cast<double>(model_->masses[n]);
-    }
-}
+      is_open_(model_->body_count()) {}
 
 template <class Real>
 void EnergyBound<Real>::restart() {
@@ -281,10 +276,7 @@ void EnergyBound<Real>::slow_down(const Group& group, double most_kinetic,
         Twist twist;
         explicit GroupMotion(const RigidSums& sums)
             : inertia(sums), twist(inertia.twist(sums.force, sums.moment)) {}
-        double energy() const {
-            return 0.5 * (glm::dot(twist.velocity, twist.velocity) / inertia.inverse_mass +
-                          glm::dot(twist.spin, inertia.inertia * twist.spin));
-        }
+        double energy() const { return inertia.energy(twist); }
         glm::dvec3 at(const glm::dvec3& x) const { return twist.at(x - inertia.center); }
     };
     const glm::dvec3 origin(positions[model_->objects[group.front()].nodes.first]);

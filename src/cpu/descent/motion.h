@@ -22,16 +22,15 @@ inline Motion along(const glm::dvec3& r, const glm::dvec3& direction) {
     return motion(direction, glm::cross(r, direction));
 }
 
-/// sum k J^T J, J (s, w) = s + w x r. A row of nodes, which has no inertia about itself, gets a little.
+/// sum k J^T J, J (s, w) = s + w x r.
 inline MotionMatrix inertia_matrix(const RigidSums& sums) {
-    constexpr double kThin = 1e-6;
-    const glm::dvec3 &d = sums.square.diagonal, &b = sums.square.beside, &a = sums.arm;
-    const double trace = d.x + d.y + d.z;
+    const SymmetricMatrix<double> about = inertia_of(sums.square);
+    const glm::dvec3 &b = about.beside, &a = sums.arm;
     MotionMatrix m = MotionMatrix::Zero();
-    m.diagonal() = motion(glm::dvec3(sums.stiffness), (1.0 + kThin) * glm::dvec3(trace) - d);
-    m(3, 4) = m(4, 3) = -b.z;
-    m(4, 5) = m(5, 4) = -b.x;
-    m(5, 3) = m(3, 5) = -b.y;
+    m.diagonal() = motion(glm::dvec3(sums.stiffness), about.diagonal);
+    m(3, 4) = m(4, 3) = b.z;
+    m(4, 5) = m(5, 4) = b.x;
+    m(5, 3) = m(3, 5) = b.y;
     m(0, 4) = m(4, 0) = a.z;
     m(0, 5) = m(5, 0) = -a.y;
     m(1, 5) = m(5, 1) = a.x;

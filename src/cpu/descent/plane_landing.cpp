@@ -8,7 +8,6 @@
 
 #include "cpu/contact/planes.h"
 #include "cpu/descent/rigid_nodes.h"
-#include "cpu/descent/wave_times.h"
 #include "model/collision/surface_parts.h"
 #include "model/contact/contact_surface.h"
 #include "model/for_each_index.h"
@@ -97,17 +96,17 @@ struct PlaneLanding<Real>::Row {
 };
 
 template <class Real>
-PlaneLanding<Real>::PlaneLanding(std::shared_ptr<const Model> model)
+PlaneLanding<Real>::PlaneLanding(std::shared_ptr<const Model> model, std::span<const double> wave_times)
     : model_(std::move(model)),
       stiffnesses_(stiffnesses_at_rest(*model_)),
-      wave_times_(wave_times(*model_)),
+      wave_times_(wave_times),
       lands_(model_->objects.size()) {}
 
 template <class Real>
 bool PlaneLanding<Real>::begin(double step, const StepObjective<Real>& objective,
                                std::span<Vec4<Real>> positions) {
     std::atomic<bool> any = false;
-    for_each_index(0, wave_times_.size(), 1, [&](std::size_t k) {
+    for_each_index(0, model_->body_count(), 1, [&](std::size_t k) {
         const auto o = static_cast<std::uint32_t>(k);
         const Range& nodes = model_->objects[o].nodes;
         const auto own = positions.subspan(nodes.first, nodes.count);

@@ -17,7 +17,8 @@ namespace gelatin::cpu {
 template <class Real>
 class PlaneLanding {
 public:
-    explicit PlaneLanding(std::shared_ptr<const Model> model);
+    /// @param wave_times of its objects [s]; must outlive this
+    PlaneLanding(std::shared_ptr<const Model> model, std::span<const double> wave_times);
 
     /// Begins a step. @param positions input: its first guess; output: outside of planes, for stiff bodies
     /// @return whether a body may land in this step: its targets lead into a plane
@@ -56,8 +57,8 @@ private:
                    const glm::dvec3& origin = glm::dvec3(0.0), const Motion& motion = Motion::Zero()) const;
 
     std::shared_ptr<const Model> model_;
-    std::vector<float> stiffnesses_;   // of nodes [N/m]
-    std::vector<double> wave_times_;   // by body [s]
+    std::vector<float> stiffnesses_;  // of nodes [N/m]
+    std::span<const double> wave_times_;
     std::vector<std::uint8_t> lands_;  // by object: stiff bodies that nothing holds, in this step
 };
 

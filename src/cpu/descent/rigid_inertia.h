@@ -24,16 +24,20 @@ struct RigidInertia {
     /// About the centre [kg m^2], [1/(kg m^2)].
     glm::dmat3 inertia{0.0}, inverse_inertia{0.0};
 
+    RigidInertia() = default;
     /// @param sums over its nodes, with masses for stiffnesses
     explicit RigidInertia(RigidSums sums)
         : center(sums.arm / sums.stiffness), inverse_mass(1.0 / sums.stiffness) {
         sums.square.add_outer(-sums.stiffness, center);
-        const glm::dvec3 &d = sums.square.diagonal, &b = sums.square.beside;
-        const double trace = d.x + d.y + d.z;
-        constexpr double kThin = 1e-6;  // a row of nodes has no inertia about itself
-        const glm::dvec3 own = (1.0 + kThin) * glm::dvec3(trace) - d;
-        inertia = glm::dmat3(own.x, -b.z, -b.y, -b.z, own.y, -b.x, -b.y, -b.x, own.z);
-        if (trace > 0.0) inverse_inertia = glm::inverse(inertia);
+        const glm::dvec3& d = sums.square.diagonal;
+        inertia = full(inertia_of(sums.square));
+        if (d.x + d.y + d.z > 0.0) inverse_inertia = glm::inverse(inertia);
+    }
+
+    /// [J]
+    double energy(const Twist& twist) const {
+        return 0.5 * (glm::dot(twist.velocity, twist.velocity) / inverse_mass +
+                      glm::dot(twist.spin, inertia * twist.spin));
     }
 
     /// @param angular momentum about the origin

@@ -6,11 +6,6 @@
 namespace gelatin::cpu {
 namespace {
 
-glm::dmat3 full(const SymmetricMatrix<double>& m) {
-    return {m.diagonal.x, m.beside.z, m.beside.y, m.beside.z,  m.diagonal.y,
-            m.beside.x,   m.beside.y, m.beside.x, m.diagonal.z};
-}
-
 // cross(v) x = v x x
 glm::dmat3 cross(const glm::dvec3& v) {
     return {0.0, v.z, -v.y, -v.z, 0.0, v.x, v.y, -v.x, 0.0};

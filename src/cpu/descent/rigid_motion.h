@@ -36,6 +36,19 @@ struct RigidSums {
     void add(const RigidSums& other, double factor = 1.0);
 };
 
+inline glm::dmat3 full(const SymmetricMatrix<double>& m) {
+    return {m.diagonal.x, m.beside.z, m.beside.y, m.beside.z,  m.diagonal.y,
+            m.beside.x,   m.beside.y, m.beside.x, m.diagonal.z};
+}
+
+/// How much a body resists rotations: sum k (r^2 - r r^T). A row of nodes, which does not resist one about
+/// itself, gets a little. @param square sum k r r^T
+inline SymmetricMatrix<double> inertia_of(const SymmetricMatrix<double>& square) {
+    constexpr double kThin = 1e-6;
+    const double trace = square.diagonal.x + square.diagonal.y + square.diagonal.z;
+    return {(1.0 + kThin) * glm::dvec3(trace) - square.diagonal, -square.beside};
+}
+
 /// How a surface holds a node: presses it with a force along its normal, which falls by `along` as the node
 /// comes away, and holds it back with friction, which falls by `across` as the node slides back.
 struct RigidContact {

@@ -11,7 +11,6 @@
 
 #include "cpu/collision/colliders.h"
 #include "cpu/descent/rigid_motion.h"
-#include "cpu/descent/wave_times.h"
 #include "cpu/elasticity/elastic_energy.h"
 #include "model/for_each_index.h"
 
@@ -36,24 +35,18 @@ constexpr std::size_t kPressesATask = 512;
 
 template <class Real>
 struct RigidRebound<Real>::Body {
-    glm::dvec3 center{0.0};                         // [m]
-    double inverse_mass = 0.0;                      // [1/kg]
-    glm::dmat3 inertia{0.0}, inverse_inertia{0.0};  // about the centre [kg m^2], [1/(kg m^2)]
-    Twist before, after, change;                    // in this step without restitution, and by it
-    double pushes = 0.0;                            // how many points it is pushed at
+    RigidInertia inertia;
+    glm::dvec3 center{0.0};            // [m]
+    Twist before, after, change = {};  // in this step without restitution, and by it
+    double pushes = 0.0;               // how many points it is pushed at
 
     // By how much an impulse changes the velocity along it there [1/kg].
     double yielding(const glm::dvec3& arm, const glm::dvec3& direction) const {
         const glm::dvec3 lever = glm::cross(arm, direction);
-        return inverse_mass + glm::dot(lever, inverse_inertia * lever);
+        return inertia.inverse_mass + glm::dot(lever, inertia.inverse_inertia * lever);
     }
     Twist change_by(const glm::dvec3& arm, const glm::dvec3& impulse) const {
-        return {inverse_mass * impulse, inverse_inertia * glm::cross(arm, impulse)};
-    }
-    // [J]
-    double energy(const Twist& twist) const {
-        return 0.5 * (glm::dot(twist.velocity, twist.velocity) / inverse_mass +
-                      glm::dot(twist.spin, inertia * twist.spin));
+        return {inertia.inverse_mass * impulse, inertia.inverse_inertia * glm::cross(arm, impulse)};
     }
 };
 
@@ -92,10 +85,8 @@ struct RigidRebound<Real>::Push {
 };
 
 template <class Real>
-RigidRebound<Real>::RigidRebound(std::shared_ptr<const Model> model)
-    : model_(std::move(model)), wave_times_(wave_times(*model_)) {
-    wave_times_.resize(model_->objects.size());  // colliders take none
-}
+RigidRebound<Real>::RigidRebound(std::shared_ptr<const Model> model, std::span<const double> wave_times)
+    : model_(std::move(model)), wave_times_(wave_times) {}
 
 template <class Real>
 void RigidRebound<Real>::run(const Step& step, const Contacts<Real>& contacts,
@@ -261,14 +252,8 @@ typename RigidRebound<Real>::Body RigidRebound<Real>::measure(const Step& step, 
         spin += glm::cross(arm, own);
     }
     const RigidInertia inertia(before);
-    Body body;
-    body.center = origin + inertia.center;
-    body.inverse_mass = inertia.inverse_mass;
-    body.inverse_inertia = inertia.inverse_inertia;
-    body.inertia = inertia.inertia;
-    body.before = inertia.twist(before.force, before.moment);
-    body.after = inertia.twist(momentum, spin);
-    return body;
+    return {inertia, origin + inertia.center, inertia.twist(before.force, before.moment),
+            inertia.twist(momentum, spin)};
 }
 
 // Where one side does not move as a whole, as seen from there.
@@ -284,7 +269,7 @@ typename RigidRebound<Real>::Energy RigidRebound<Real>::energy_of(const Pair& pa
         if (sides[1 - side] == nullptr)
             for (const Touch& touch : touches)
                 twist.velocity -= touch.velocities[1 - side] / static_cast<double>(touches.size());
-        energy.rigid += sides[side]->energy(twist);
+        energy.rigid += sides[side]->inertia.energy(twist);
     }
     const auto add = [&](std::uint32_t object, const Body* body) {
         if (object >= model_->body_count()) return;  // a collider's surface

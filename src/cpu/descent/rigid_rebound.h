@@ -24,7 +24,8 @@ namespace gelatin::cpu {
 template <class Real>
 class RigidRebound {
 public:
-    explicit RigidRebound(std::shared_ptr<const Model> model);
+    /// @param wave_times of its objects [s]; must outlive this
+    RigidRebound(std::shared_ptr<const Model> model, std::span<const double> wave_times);
 
     /// Forgets what has met.
     void restart() { meetings_.clear(); }
@@ -105,7 +106,7 @@ private:
                  double wave_time) const;
 
     std::shared_ptr<const Model> model_;
-    std::vector<double> wave_times_;  // by object [s]
+    std::span<const double> wave_times_;
     std::map<Pair, Meeting> meetings_;
 };
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "cpu/contact/planes.h"
-#include "cpu/descent/wave_times.h"
+#include "model/lumped_masses.h"
 
 namespace gelatin::cpu {
 namespace {
@@ -25,19 +25,13 @@ constexpr double kMeetsNothing = -1.0;
 }  // namespace
 
 template <class Real>
-StepDivision<Real>::StepDivision(std::shared_ptr<const Model> model)
+StepDivision<Real>::StepDivision(std::shared_ptr<const Model> model, std::span<const double> wave_times)
     : model_(std::move(model)),
-      masses_(model_->body_count()),
-      wave_times_(wave_times(*model_)),
+      wave_times_(wave_times),
+      masses_(free_lumped_masses(*model_)),
       velocities_(model_->body_count()),
       speeds_(model_->body_count()),
-      liveliness_(model_->body_count()) {
-    for (std::size_t o = 0; o < masses_.size(); ++o) {
-        const ModelObject& object = model_->objects[o];
-        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n)
-            if (model_->positions[n].w > 0.0f) masses_[o] += static_cast<double>(model_->masses[n]);
-    }
-}
+      liveliness_(model_->body_count()) {}
 
 template <class Real>
 void StepDivision<Real>::restart() {

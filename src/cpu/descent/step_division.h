@@ -16,7 +16,8 @@ namespace gelatin::cpu {
 template <class Real>
 class StepDivision {
 public:
-    explicit StepDivision(std::shared_ptr<const Model> model);
+    /// @param wave_times of its objects [s]; must outlive this
+    StepDivision(std::shared_ptr<const Model> model, std::span<const double> wave_times);
 
     /// To be called when nodes were set from outside.
     void restart();
@@ -27,9 +28,6 @@ public:
     int parts(double step, const Nodes<Real>& nodes, std::span<const std::uint8_t> touched_colliders,
               const Contacts<Real>* contacts, int sweeps);
 
-    /// That a pressure wave takes through a body [s].
-    double wave_time(std::size_t object) const { return wave_times_[object]; }
-
 private:
     void find_velocities(std::span<const Vec4<Real>> velocities);
     void find_speeds(double step, std::span<const Vec4<Real>> positions,
@@ -38,9 +36,9 @@ private:
     double plane_speed(double step, std::span<const Vec4<Real>> positions, std::size_t object) const;
 
     std::shared_ptr<const Model> model_;
+    std::span<const double> wave_times_;
     // By object:
     std::vector<double> masses_;          // of what is not held [kg]
-    std::vector<double> wave_times_;      // a pressure wave's through it [s]
     std::vector<glm::dvec3> velocities_;  // mean [m/s]
     std::vector<double> speeds_;          // with which it meets others now, or kMeetsNothing [m/s]
     std::vector<double> liveliness_;      // the greatest of these, fading while it meets them [m/s]

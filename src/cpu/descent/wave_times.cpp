@@ -15,6 +15,7 @@ std::vector<double> wave_times(const Model& model) {
         }
         times.push_back(std::cbrt(volume) * std::sqrt(object.mass / bulk));  // bulk is of the volume [J]
     }
+    times.resize(model.objects.size());
     return times;
 }
 

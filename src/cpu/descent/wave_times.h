@@ -6,7 +6,8 @@
 
 namespace gelatin::cpu {
 
-/// The time that a pressure wave takes through each body: V^(1/3) sqrt(rho / K) [s].
+/// The time that a pressure wave takes through each object: V^(1/3) sqrt(rho / K) [s], shape [objects]; 0 for
+/// colliders.
 std::vector<double> wave_times(const Model& model);
 
 }  // namespace gelatin::cpu

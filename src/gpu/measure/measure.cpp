@@ -83,19 +83,21 @@ void Measure::count_colliding_faces(const CollisionBuffers& collision, const Sel
     colliding_program_.dispatch_groups(face_chunks_.size());
 }
 
-std::vector<ObjectMeasure> Measure::end() {
+Measurement Measure::end() {
     const auto sums = read_as<NodeSums>(readback_.take());
     const auto volumes = read_as<float>(readback_.take());
     const auto colliding = read_as<std::uint32_t>(readback_.take());
-    lost_pairs_ = colliding.back();
+    Measurement measured;
+    measured.lost_pairs = colliding.back();
     if (proximity_capacities_.front() > 0) {
         const auto found = read_as<ProximityCounts>(readback_.take()).front();
-        proximities_ = {found.node_face, found.all - found.node_face,
-                        found.all - std::min(found.all, proximity_capacities_.front()),
-                        static_cast<double>(std::bit_cast<float>(found.nearest))};
+        measured.proximities = {found.node_face, found.all - found.node_face,
+                                found.all - std::min(found.all, proximity_capacities_.front()),
+                                static_cast<double>(std::bit_cast<float>(found.nearest))};
     }
     proximity_capacities_.pop_front();
-    std::vector<ObjectMeasure> objects(object_count_);
+    std::vector<ObjectMeasure>& objects = measured.objects;
+    objects.resize(object_count_);
     for (std::size_t c = 0; c < sums.size(); ++c) {
         ObjectMeasure& object = objects[node_chunks_[c].object];
         object.momentum += glm::dvec3(sums[c].momentum_x, sums[c].momentum_y, sums[c].momentum_z);
@@ -110,7 +112,7 @@ std::vector<ObjectMeasure> Measure::end() {
         objects[face_chunks_[c].object].volume += static_cast<double>(volumes[c]);
         objects[face_chunks_[c].object].colliding_faces += colliding[c];
     }
-    return objects;
+    return measured;
 }
 
 }  // namespace gelatin::gpu

@@ -29,10 +29,7 @@ public:
                const CollisionBuffers* collision = nullptr, const SelfCollisionBuffers* self = nullptr,
                const ProximityBuffers* near = nullptr);
     /// The oldest pending measurement; waits for it if necessary.
-    std::vector<ObjectMeasure> end();
-    /// As of the last `end`.
-    std::uint32_t lost_pairs() const { return lost_pairs_; }
-    ProximityMeasure proximities() const { return proximities_; }
+    Measurement end();
 
 private:
     void count_colliding_faces(const CollisionBuffers& collision, const SelfCollisionBuffers* self);
@@ -44,8 +41,6 @@ private:
     gl::Buffer<float> volumes_;
     gl::Buffer<std::uint32_t> colliding_;
     gl::Readback readback_;
-    std::uint32_t lost_pairs_ = 0;
-    ProximityMeasure proximities_;
     std::deque<std::uint32_t> proximity_capacities_;  // of the pending measurements; 0: no proximities
     std::size_t object_count_;
 };

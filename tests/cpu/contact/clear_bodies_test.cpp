@@ -15,13 +15,13 @@ namespace {
 using test::Block;
 using test::kFrame;
 
-cpu::CpuSolver<float> make_solver(const std::shared_ptr<const Model>& model, bool meets_itself) {
-    return {model, SolverKind::vbd, ForceMethod::fused,
-            CollisionSettings{.response = CollisionResponse::contact,
-                              .self_collision = meets_itself,
-                              .friction = 0.4,
-                              .restitution = 0.0},
-            DescentSettings{.divides_steps = true}};
+cpu::ImplicitSolver<float> make_solver(const std::shared_ptr<const Model>& model, bool meets_itself) {
+    return cpu::ImplicitSolver<float>(model,
+                                      CollisionSettings{.response = CollisionResponse::contact,
+                                                        .self_collision = meets_itself,
+                                                        .friction = 0.4,
+                                                        .restitution = 0.0},
+                                      DescentSettings{.divides_steps = true});
 }
 
 // One that hangs and swings.
@@ -29,10 +29,10 @@ TEST(StepsWithoutContacts, AreThoseOfABodyThatMayPassThroughItself) {
     const auto model = test::make_blocks(
         {{.velocity = {1, 0, 0}, .youngs_modulus = 2e4, .pins = {HalfSpaceRegion{{0, -1, 0}, -0.29}}}},
         {0, -9.81, 0});
-    cpu::CpuSolver<float> solver = make_solver(model, true), without = make_solver(model, false);
+    cpu::ImplicitSolver<float> solver = make_solver(model, true), without = make_solver(model, false);
     for (int frame = 0; frame < 60; ++frame) {
-        solver.advance_nodes(kFrame);
-        without.advance_nodes(kFrame);
+        solver.advance({kFrame});
+        without.advance({kFrame});
         ASSERT_EQ(solver.nodes().positions, without.nodes().positions) << frame;
     }
     EXPECT_NE(solver.nodes().positions, model->positions);
@@ -44,10 +44,10 @@ TEST(StepsWithoutContacts, EndWhereBodiesMeet) {
         const double height = meet ? 0.0 : 1.0;
         const auto model = test::make_blocks({{.place = {0, 0, 0}, .velocity = {2, 0, 0}},
                                               {.place = {1.5, height, 0}, .velocity = {-2, 0, 0}}});
-        cpu::CpuSolver<float> solver = make_solver(model, true), without = make_solver(model, false);
+        cpu::ImplicitSolver<float> solver = make_solver(model, true), without = make_solver(model, false);
         solver.stage_timer().time_parts(true);
         for (int frame = 0; frame < 45; ++frame) {
-            solver.advance_nodes(kFrame);
+            solver.advance({kFrame});
             ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u) << frame;
         }
         const auto times = solver.stage_timer().take();
@@ -86,9 +86,9 @@ TEST(ClearBodies, ThatPassThroughThemselvesComeApart) {
                          [](const auto& a, const auto& b) { return a.x + a.y + a.z < b.x + b.y + b.z; });
     *corner += glm::vec4(0.35f, 0.35f, 0.35f, 0.0f);
     EXPECT_GT(test::count_overlaps(*model, positions, test::Overlaps::all), 0u);
-    cpu::CpuSolver<float> solver = make_solver(model, true);
+    cpu::ImplicitSolver<float> solver = make_solver(model, true);
     solver.write_state({positions, model->velocities, {}});
-    for (int frame = 0; frame < 60; ++frame) solver.advance_nodes(kFrame);
+    for (int frame = 0; frame < 60; ++frame) solver.advance({kFrame});
     EXPECT_EQ(test::count_overlaps(*model, solver.nodes().positions, test::Overlaps::all), 0u);
 }
 

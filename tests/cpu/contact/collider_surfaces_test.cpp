@@ -9,7 +9,7 @@
 
 #include "core/file.h"
 #include "cpu/contact/contacts.h"
-#include "cpu/cpu_solver.h"
+#include "cpu/descent/implicit_solver.h"
 #include "cpu/measure/measure.h"
 #include "support/contact_scenes.h"
 #include "support/overlaps.h"
@@ -46,7 +46,7 @@ TEST(ColliderSurfaces, StopBodies) {
     for (const double speed : {1.0, 10.0, 100.0}) {
         const auto model = make_blocks({{.place = {0.05, 0.32, 0.1}, .velocity = {0, -speed, 0}}}, {0, 0, 0},
                                        {collider(BoxShape{glm::dvec3(0.5)})});
-        cpu::CpuSolver<float> solver = make_solver<float>(model);
+        cpu::ImplicitSolver<float> solver = make_solver<float>(model);
         ASSERT_TRUE(test::stays_apart(solver, *model, 30)) << speed;
         EXPECT_GT(mean_velocity(*model, solver).y, 0.0) << speed;
     }
@@ -61,7 +61,7 @@ TEST(ColliderSurfaces, AreStoppedByFromBothSides) {
         const auto model =
             make_blocks({{.place = {0, side > 0 ? 0.1 : -0.4, 0}, .velocity = {0, -5 * side, 0}}}, {0, 0, 0},
                         {collider(FileShape{file})});
-        cpu::CpuSolver<float> solver = make_solver<float>(model);
+        cpu::ImplicitSolver<float> solver = make_solver<float>(model);
         ASSERT_TRUE(test::stays_apart(solver, *model, 30));
         EXPECT_GT(side * mean_height(*model, solver), 0.1);
         EXPECT_GT(side * mean_velocity(*model, solver).y, 0.0);
@@ -75,10 +75,10 @@ double acceleration_on(double friction) {
     slope.friction = friction;
     const auto model = make_blocks({{.place = {-0.15, 0.012, -0.15}, .size = {0.3, 0.2, 0.3}}},
                                    9.81 * glm::dvec3(std::sin(angle), -std::cos(angle), 0), {slope});
-    cpu::CpuSolver<float> solver = make_solver<float>(model, 2.0);  // between bodies
-    for (int frame = 0; frame < 60; ++frame) solver.advance_nodes(kFrame);
+    cpu::ImplicitSolver<float> solver = make_solver<float>(model, 2.0);  // between bodies
+    for (int frame = 0; frame < 60; ++frame) solver.advance({kFrame});
     const double before = mean_velocity(*model, solver).x;
-    for (int frame = 0; frame < 60; ++frame) solver.advance_nodes(kFrame);
+    for (int frame = 0; frame < 60; ++frame) solver.advance({kFrame});
     return mean_velocity(*model, solver).x - before;
 }
 
@@ -96,13 +96,13 @@ TEST(ColliderSurfaces, ABeltCarries) {
     belt.surface_velocity = {1, 0, 0};
     const auto model =
         make_blocks({{.place = {-0.15, 0.012, -0.15}, .size = {0.3, 0.2, 0.3}}}, {0, -9.81, 0}, {belt});
-    cpu::CpuSolver<float> solver = make_solver<float>(model);
-    for (int frame = 0; frame < 15; ++frame) solver.advance_nodes(kFrame);
+    cpu::ImplicitSolver<float> solver = make_solver<float>(model);
+    for (int frame = 0; frame < 15; ++frame) solver.advance({kFrame});
     const double before = mean_velocity(*model, solver).x;
-    for (int frame = 0; frame < 12; ++frame) solver.advance_nodes(kFrame);
+    for (int frame = 0; frame < 12; ++frame) solver.advance({kFrame});
     const double gained = 0.2 * 9.81 * 12 * kFrame;
     EXPECT_NEAR(mean_velocity(*model, solver).x - before, gained, 0.04 * gained);
-    for (int frame = 0; frame < 60; ++frame) solver.advance_nodes(kFrame);
+    for (int frame = 0; frame < 60; ++frame) solver.advance({kFrame});
     EXPECT_NEAR(mean_velocity(*model, solver).x, 1.0, 5e-3);
 }
 
@@ -123,7 +123,7 @@ TEST(ColliderSurfaces, CarryByFriction) {
     plates.push_back(floor);
     const auto model =
         make_blocks({{.place = {-0.15, 0, -0.15}, .youngs_modulus = 3e5}}, {0, -9.81, 0}, plates);
-    cpu::CpuSolver<float> solver = make_solver<float>(model);
+    cpu::ImplicitSolver<float> solver = make_solver<float>(model);
     for (int frame = 0; frame < 150; ++frame) {
         test::advance(solver, *model, frame);
         ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u) << frame;
@@ -141,7 +141,7 @@ TEST(ColliderSurfaces, APressStopsWhereABodyLeavesItNoRoom) {
     press.keyframes = {{0.0}, {0.2, {0, -0.42, 0}}, {0.5, {0, -0.42, 0}}, {0.8}};
     const auto model =
         make_blocks({{.place = {-0.15, 0, -0.15}, .youngs_modulus = 1e5}}, {0, 0, 0}, {press, bed});
-    cpu::CpuSolver<float> solver = make_solver<float>(model);
+    cpu::ImplicitSolver<float> solver = make_solver<float>(model);
     ASSERT_TRUE(test::stays_apart(solver, *model, 90));
     EXPECT_GT(cpu::measure(*model, solver.nodes())[0].volume, 0.95 * 0.027);
 }
@@ -197,7 +197,7 @@ void fuzz_colliders(unsigned first, unsigned count) {
             colliders.push_back(made);
         }
         const auto model = make_blocks(blocks, {0, -9.81, 0}, colliders);
-        cpu::CpuSolver<float> solver =
+        cpu::ImplicitSolver<float> solver =
             make_solver<float>(model, 0.4, random.integer(1, 12), random.integer(0, 1) == 0);
         // At most as if all bodies came at their fastest and went back from the fastest collider.
         double mass = 0.0;

@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "cpu/cpu_solver.h"
+#include "cpu/descent/implicit_solver.h"
 #include "cpu/measure/measure.h"
 #include "support/contact_scenes.h"
 #include "support/overlaps.h"
@@ -49,11 +49,11 @@ std::shared_ptr<const Model> make_impact(double speed, double youngs_modulus = 1
 template <class Real>
 void expect_sound_impact(double speed, double youngs_modulus) {
     const auto model = make_impact(speed, youngs_modulus);
-    cpu::CpuSolver<Real> solver = make_solver<Real>(model);
+    cpu::ImplicitSolver<Real> solver = make_solver<Real>(model);
     const Sums before = sums_of(*model, solver.nodes());
     double energy = before.energy;
     for (int frame = 0; frame < 40; ++frame) {
-        solver.advance_nodes(kFrame);
+        solver.advance({kFrame});
         ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u)
             << speed << " m/s, frame " << frame;
         const Sums now = sums_of(*model, solver.nodes());
@@ -85,11 +85,11 @@ void expect_momentum_of_many(int count, double speed, bool divides_steps, double
                           .cells = {2, 2, 2},
                           .youngs_modulus = k % 2 == 0 ? 1e5 : 1e7});
     const auto model = make_blocks(blocks);
-    cpu::CpuSolver<double> solver = make_solver<double>(model, 0.4, 10, divides_steps);
+    cpu::ImplicitSolver<double> solver = make_solver<double>(model, 0.4, 10, divides_steps);
     const Sums before = sums_of(*model, solver.nodes());
     double energy = before.energy;
     for (int frame = 0; frame < 40; ++frame) {
-        solver.advance_nodes(kFrame);
+        solver.advance({kFrame});
         ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u) << frame;
         const Sums now = sums_of(*model, solver.nodes());
         EXPECT_LT(glm::length(now.momentum - before.momentum), bound)
@@ -113,10 +113,10 @@ TEST(ContactsHeavy, KeepMomentumOfTenAtAnySpeed) {
 // In the middle of an impact: nothing is left of its contacts.
 TEST(Contacts, StartAgain) {
     const auto model = make_impact(3.0);
-    cpu::CpuSolver<float> solver = make_solver<float>(model);
+    cpu::ImplicitSolver<float> solver = make_solver<float>(model);
     const State start = solver.read_state();
     const auto advance = [&] {
-        for (int frame = 0; frame < 2; ++frame) solver.advance_nodes(kFrame);
+        for (int frame = 0; frame < 2; ++frame) solver.advance({kFrame});
         return solver.nodes().positions;
     };
     const std::vector<glm::vec4> first = advance();
@@ -131,7 +131,7 @@ TEST(Contacts, OfAllMaterials) {
         const auto model = make_blocks(
             {{.velocity = {3, 0, 0}, .poisson_ratio = 0.4, .model = kind},
              {.place = {0.34, 0.1, 0.05}, .velocity = {-3, 0, 0}, .poisson_ratio = 0.4, .model = kind}});
-        cpu::CpuSolver<float> solver = make_solver<float>(model);
+        cpu::ImplicitSolver<float> solver = make_solver<float>(model);
         const Sums before = sums_of(*model, solver.nodes());
         ASSERT_TRUE(test::stays_apart(solver, *model, 30));
         EXPECT_LT(sums_of(*model, solver.nodes()).kinetic, 0.9 * before.kinetic);
@@ -175,13 +175,13 @@ TEST(Contacts, TellTheWorkOfDisplacements) {
 std::size_t count_parts(cpu::CpuSolver<float>& solver) {
     solver.stage_timer().time_parts(true);
     solver.stage_timer().take();
-    solver.advance_nodes(kFrame);
+    solver.advance({kFrame});
     return solver.stage_timer().take().at("advance_nodes.match_shapes").size();
 }
 
 TEST(StepDivision, IsForBodiesThatMeet) {
     const auto most_parts = [](const std::shared_ptr<const Model>& model, int frames) {
-        cpu::CpuSolver<float> solver = make_solver<float>(model, 0.4, 10, true);
+        cpu::ImplicitSolver<float> solver = make_solver<float>(model, 0.4, 10, true);
         std::vector<std::size_t> parts;
         for (int frame = 0; frame < frames; ++frame) parts.push_back(count_parts(solver));
         return std::pair(*std::max_element(parts.begin(), parts.end()), parts.back());
@@ -216,8 +216,8 @@ TEST(StepDivision, IsForBodiesThatMeet) {
 TEST(ContactsHeavy, BodiesBounceInDividedSteps) {
     const auto left_after = [](int substeps, int iterations, bool divides_steps) {
         const auto model = make_impact(1.5, 2e4);
-        cpu::CpuSolver<float> solver = make_solver<float>(model, 0.4, iterations, divides_steps);
-        for (int step = 0; step < 60 * substeps; ++step) solver.advance_nodes(kFrame / substeps);
+        cpu::ImplicitSolver<float> solver = make_solver<float>(model, 0.4, iterations, divides_steps);
+        for (int step = 0; step < 60 * substeps; ++step) solver.advance({kFrame / substeps});
         // Of the bodies' middles: what they vibrate with dies down.
         double sum = 0.0;
         for (const ObjectMeasure& object : cpu::measure(*model, solver.nodes()))
@@ -234,8 +234,8 @@ TEST(ContactsHeavy, BodiesBounceInDividedSteps) {
 TEST(ContactsHeavy, GivesTheSameBitsForAnyNumberOfThreads) {
     const auto run = [](const std::shared_ptr<const Model>& model, int frames, std::size_t threads) {
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-        cpu::CpuSolver<float> solver = make_solver<float>(model, 0.4, 10, true);
-        for (int frame = 0; frame < frames; ++frame) solver.advance_nodes(kFrame);
+        cpu::ImplicitSolver<float> solver = make_solver<float>(model, 0.4, 10, true);
+        for (int frame = 0; frame < frames; ++frame) solver.advance({kFrame});
         return solver.nodes().positions;
     };
     std::vector<Block> carpet;
@@ -258,9 +258,9 @@ TEST(ContactsHeavy, AStackStandsAndRests) {
     ColliderDescription floor;
     floor.shape = PlaneCollider{};
     const auto model = make_blocks(blocks, {0, -9.81, 0}, {floor});
-    cpu::CpuSolver<float> solver = make_solver<float>(model);
+    cpu::ImplicitSolver<float> solver = make_solver<float>(model);
     for (int frame = 0; frame < 300; ++frame) {
-        solver.advance_nodes(kFrame);
+        solver.advance({kFrame});
         if (frame % 10 == 0) {
             ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u);
         }
@@ -293,16 +293,16 @@ Slide slide(double friction, double slope, double youngs_modulus = 1e6,
           .youngs_modulus = youngs_modulus,
           .friction = of_material}},
         9.81 * glm::dvec3(std::sin(angle), -std::cos(angle), 0));
-    cpu::CpuSolver<float> solver = make_solver<float>(model, friction);
+    cpu::ImplicitSolver<float> solver = make_solver<float>(model, friction);
     const auto mean = [&](const std::vector<glm::vec4>& of) {
         double sum = 0.0;
         const Range& nodes = model->objects[1].nodes;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) sum += static_cast<double>(of[n].x);
         return sum / nodes.count;
     };
-    for (int frame = 0; frame < 90; ++frame) solver.advance_nodes(kFrame);
+    for (int frame = 0; frame < 90; ++frame) solver.advance({kFrame});
     const double start = mean(solver.nodes().positions), speed = mean(solver.nodes().velocities);
-    for (int frame = 0; frame < 60; ++frame) solver.advance_nodes(kFrame);
+    for (int frame = 0; frame < 60; ++frame) solver.advance({kFrame});
     return {mean(solver.nodes().positions) - start, mean(solver.nodes().velocities) - speed};
 }
 
@@ -338,8 +338,8 @@ TEST(Contacts, ARowThatStopsDoesNotStopAtOnce) {
         blocks.push_back({.place = {k * kPitch, 0, 0}, .velocity = {-kSpeed, 0, 0}, .cells = {1, 1, 1}});
     const auto model = make_blocks(blocks);
     for (const int sweeps : {1, 10}) {
-        cpu::CpuSolver<float> solver = make_solver<float>(model, 0.4, sweeps);
-        solver.advance_nodes(kFrame);
+        cpu::ImplicitSolver<float> solver = make_solver<float>(model, 0.4, sweeps);
+        solver.advance({kFrame});
         const Range& nodes = model->objects.back().nodes;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
             EXPECT_NEAR(solver.nodes().velocities[n].x, -kSpeed, 1e-3 * kSpeed) << sweeps;
@@ -363,7 +363,7 @@ TEST(Contacts, AHandlePressesABody) {
     handle.keyframes = {{0.0}, {0.5, {0.0, -0.2, 0.0}}, {1.0}};
     bodies[2].handles = {handle};
     const auto model = std::make_shared<const Model>(pack_bodies(bodies, {}, {0.0, -9.81, 0.0}));
-    cpu::CpuSolver<float> solver = make_solver<float>(model);
+    cpu::ImplicitSolver<float> solver = make_solver<float>(model);
     const std::uint32_t ram = model->objects[2].nodes.first;
     const auto start = static_cast<double>(model->positions[ram].y);
     double least = start;
@@ -384,7 +384,7 @@ void fuzz(unsigned first, unsigned count, int most_substeps = 4, int most_iterat
         const int substeps = random.integer(1, most_substeps),
                   iterations = random.integer(1, most_iterations);
         const bool divides_steps = random.integer(0, 1) == 0;
-        cpu::CpuSolver<float> solver = make_solver<float>(model, 0.4, iterations, divides_steps);
+        cpu::ImplicitSolver<float> solver = make_solver<float>(model, 0.4, iterations, divides_steps);
         const test::MotionEnergy energy = test::motion_energy(*model, solver.nodes());
         const double most = energy.sum() + 0.2 * energy.kinetic;
         ASSERT_TRUE(test::stays_apart(solver, *model, 20 * substeps, kFrame / substeps, most))
@@ -398,8 +398,8 @@ TEST(Contacts, GoOnWhereBodiesOverlapAlready) {
     ASSERT_GT(test::count_overlaps(*model,
                                    std::vector<glm::dvec4>(model->positions.begin(), model->positions.end())),
               0u);
-    cpu::CpuSolver<double> solver = make_solver<double>(model);
-    for (int frame = 0; frame < 5; ++frame) solver.advance_nodes(kFrame);
+    cpu::ImplicitSolver<double> solver = make_solver<double>(model);
+    for (int frame = 0; frame < 5; ++frame) solver.advance({kFrame});
     for (const glm::dvec4& position : solver.nodes().positions)
         EXPECT_TRUE(std::isfinite(glm::length(position)));
 }
@@ -421,7 +421,7 @@ TEST(ContactsHeavy, ManyBodiesPassThroughNothing) {
                           .size = glm::dvec3(0.2),
                           .youngs_modulus = random.magnitude(1e4, 1e7)});
     const auto model = make_blocks(blocks);
-    cpu::CpuSolver<float> solver = make_solver<float>(model);
+    cpu::ImplicitSolver<float> solver = make_solver<float>(model);
     const test::MotionEnergy energy = test::motion_energy(*model, solver.nodes());
     EXPECT_TRUE(test::stays_apart(solver, *model, 20, kFrame, energy.sum()));
 }

@@ -330,11 +330,11 @@ TEST(OwnContact, ABarThatFoldsDoesNotPassThroughItself) {
             if (p.x < 0.7f) model->velocities[n].x = float(speed);
         }
         const std::shared_ptr<const Model> shared = model;
-        cpu::CpuSolver<float> solver = make_solver<float>(shared);
+        cpu::ImplicitSolver<float> solver = make_solver<float>(shared);
         const ObjectMeasure start = cpu::measure(*shared, solver.nodes()).front();
         double energy = start.kinetic_energy;
         for (int frame = 0; frame < 60; ++frame) {
-            solver.advance_nodes(kFrame);
+            solver.advance({kFrame});
             ASSERT_EQ(test::count_overlaps(*shared, solver.nodes().positions), 0u)
                 << speed << " m/s, frame " << frame;
             const ObjectMeasure now = cpu::measure(*shared, solver.nodes()).front();
@@ -351,8 +351,8 @@ TEST(OwnContact, GivesTheSameBitsForAnyNumberOfThreads) {
                                         static_cast<std::size_t>(threads));
         const auto model = make_blocks({{.velocity = {8, 0, 0}, .youngs_modulus = 1e4},
                                         {.place = {0.34, 0.1, 0.05}, .youngs_modulus = 1e4}});
-        cpu::CpuSolver<float> solver = make_solver<float>(model);
-        for (int frame = 0; frame < 20; ++frame) solver.advance_nodes(kFrame);
+        cpu::ImplicitSolver<float> solver = make_solver<float>(model);
+        for (int frame = 0; frame < 20; ++frame) solver.advance({kFrame});
         return solver.nodes().positions;
     };
     EXPECT_EQ(run(1), run(4));
@@ -386,8 +386,8 @@ void fuzz_folds(unsigned first, int count) {
         }
         const std::shared_ptr<const Model> shared = model;
         if (test::count_overlaps(*shared, std::vector<glm::vec4>(shared->positions)) > 0) continue;
-        cpu::CpuSolver<float> solver = make_solver<float>(shared, random.uniform(0.0, 0.8),
-                                                          random.integer(1, 12), random.integer(0, 1) == 1);
+        cpu::ImplicitSolver<float> solver = make_solver<float>(
+            shared, random.uniform(0.0, 0.8), random.integer(1, 12), random.integer(0, 1) == 1);
         const int substeps = random.integer(1, 4);
         const test::MotionEnergy energy = test::motion_energy(*shared, solver.nodes());
         ASSERT_TRUE(test::stays_apart(solver, *shared, 30 * substeps, kFrame / substeps,

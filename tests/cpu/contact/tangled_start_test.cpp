@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "cpu/cpu_solver.h"
+#include "cpu/descent/implicit_solver.h"
 #include "exact/triangle_overlap.h"
 #include "model/corners.h"
 #include "support/test_models.h"
@@ -49,14 +49,13 @@ std::set<std::pair<std::uint32_t, std::uint32_t>> find_piercings(
 // anything.
 TEST(TangledStart, StaysAsItIs) {
     const auto model = make_ring();
-    cpu::CpuSolver<float> solver(
-        model, SolverKind::vbd, ForceMethod::fused,
-        CollisionSettings{.response = CollisionResponse::contact, .self_collision = true});
+    cpu::ImplicitSolver<float> solver(
+        model, CollisionSettings{.response = CollisionResponse::contact, .self_collision = true});
     const auto start = find_piercings(*model, solver.nodes().positions);
     EXPECT_THAT(start, ::testing::SizeIs(::testing::Gt(2u)));
     float lowest = 1.0f;  // that its highest node ever is
     for (int frame = 0; frame < 60; ++frame) {
-        solver.advance_nodes(1.0 / 60.0);
+        solver.advance({1.0 / 60.0});
         const auto& positions = solver.nodes().positions;
         if (frame % 6 == 5) {
             EXPECT_EQ(find_piercings(*model, positions), start);

@@ -33,8 +33,8 @@ Between only(const ContactForces& forces, std::uint32_t object, bool is_plane, s
 }
 
 ContactForces forces_at_rest(const std::shared_ptr<const Model>& model) {
-    cpu::CpuSolver<float> solver = make_solver<float>(model, 0.8);
-    for (int frame = 0; frame < 240; ++frame) solver.advance_nodes(kFrame);
+    cpu::ImplicitSolver<float> solver = make_solver<float>(model, 0.8);
+    for (int frame = 0; frame < 240; ++frame) solver.advance({kFrame});
     return solver.contact_forces();
 }
 
@@ -80,8 +80,8 @@ TEST(ContactForces, HaveFriction) {
 // What was found belongs to the state that was there.
 TEST(ContactForces, AreNoneOfAStateThatIsNew) {
     const auto model = make_blocks({{}, {.place = {0, 0.31, 0}}}, {0, -9.81, 0}, {ColliderDescription{}});
-    cpu::CpuSolver<float> solver = make_solver<float>(model);
-    for (int frame = 0; frame < 10; ++frame) solver.advance_nodes(kFrame);
+    cpu::ImplicitSolver<float> solver = make_solver<float>(model);
+    for (int frame = 0; frame < 10; ++frame) solver.advance({kFrame});
     EXPECT_FALSE(solver.contact_forces().between.empty());
     solver.write_state({model->positions, model->velocities, {}});
     const ContactForces forces = solver.contact_forces();
@@ -92,8 +92,8 @@ TEST(ContactForces, AreNoneOfAStateThatIsNew) {
 
 TEST(ContactForces, AreNoneInTheAir) {
     const auto model = make_blocks({{}, {.place = {2, 0, 0}}}, {0, -9.81, 0});
-    cpu::CpuSolver<float> solver = make_solver<float>(model);
-    solver.advance_nodes(kFrame);
+    cpu::ImplicitSolver<float> solver = make_solver<float>(model);
+    solver.advance({kFrame});
     const ContactForces forces = solver.contact_forces();
     EXPECT_TRUE(forces.between.empty());
     for (const glm::dvec3& force : forces.normal) EXPECT_EQ(force, glm::dvec3(0));

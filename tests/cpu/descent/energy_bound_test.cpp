@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "cpu/cpu_solver.h"
+#include "cpu/descent/implicit_solver.h"
 #include "cpu/elasticity/elastic_energy.h"
 #include "cpu/measure/measure.h"
 #include "support/contact_scenes.h"
@@ -38,11 +38,11 @@ void expect_no_gain(unsigned first, unsigned count, int most_bodies, double most
     for (unsigned seed = first; seed < first + count; ++seed) {
         test::RandomMaker random(seed);
         const auto model = make_blocks(test::violent_blocks(random, most_bodies), {0, -9.81, 0});
-        cpu::CpuSolver<float> solver = test::make_solver<float>(model, 0.4, 10, true);
+        cpu::ImplicitSolver<float> solver = test::make_solver<float>(model, 0.4, 10, true);
         const Energies start = energies(*model, solver.nodes());
         double most = start.sum;
         for (int frame = 0; frame < 60; ++frame) {
-            solver.advance_nodes(kFrame);
+            solver.advance({kFrame});
             most = std::max(most, energies(*model, solver.nodes()).sum);
         }
         EXPECT_LE(most, start.sum + most_part * start.kinetic) << "scene " << seed;

@@ -19,8 +19,8 @@ constexpr double kHeldWeight = 27.0 * 9.81;  // of a block [N]
 TEST(HoldingForces, CarryWhatPressesTheHeldNodes) {
     const Region lower_half = HalfSpaceRegion{{0, 1, 0}, 0.31};  // up to its top
     const auto model = make_blocks({{.pins = {lower_half}}, {.place = {0.02, 0.32, 0.01}}}, {0, -9.81, 0});
-    cpu::CpuSolver<float> solver = make_solver<float>(model, 0.8);
-    for (int frame = 0; frame < 240; ++frame) solver.advance_nodes(kFrame);
+    cpu::ImplicitSolver<float> solver = make_solver<float>(model, 0.8);
+    for (int frame = 0; frame < 240; ++frame) solver.advance({kFrame});
     const HoldingForces forces = solver.holding_forces();
     ASSERT_EQ(forces.by_handle.size(), 1u);
     EXPECT_NEAR(forces.by_handle[0].y, 2 * kHeldWeight, 0.01 * kHeldWeight);
@@ -32,11 +32,11 @@ TEST(HoldingForces, AreThoseOfTheReference) {
         const auto model =
             make_blocks({{.pins = {HalfSpaceRegion{{0, 1, 0}, 0.15}}, .poisson_ratio = 0.4, .model = kind}},
                         {0, -9.81, 0});
-        cpu::CpuSolver<float> solver = make_solver<float>(model);
-        cpu::CpuSolver<double> reference = make_solver<double>(model);
+        cpu::ImplicitSolver<float> solver = make_solver<float>(model);
+        cpu::ImplicitSolver<double> reference = make_solver<double>(model);
         for (int frame = 0; frame < 5; ++frame) {
-            solver.advance_nodes(kFrame);
-            reference.advance_nodes(kFrame);
+            solver.advance({kFrame});
+            reference.advance({kFrame});
         }
         const HoldingForces forces = solver.holding_forces(), expected = reference.holding_forces();
         EXPECT_GT(glm::length(expected.by_handle[0]), 0.5 * kHeldWeight);
@@ -47,8 +47,8 @@ TEST(HoldingForces, AreThoseOfTheReference) {
 
 TEST(HoldingForces, AreNoneWherePinsAreNone) {
     const auto model = make_blocks({{}}, {0, -9.81, 0});
-    cpu::CpuSolver<float> solver = make_solver<float>(model);
-    solver.advance_nodes(kFrame);
+    cpu::ImplicitSolver<float> solver = make_solver<float>(model);
+    solver.advance({kFrame});
     EXPECT_TRUE(solver.holding_forces().by_handle.empty());
 }
 

@@ -9,8 +9,8 @@
 #include <numbers>
 #include <random>
 
-#include "cpu/cpu_solver.h"
 #include "cpu/descent/block_descent.h"
+#include "cpu/descent/implicit_solver.h"
 #include "support/lost_shapes.h"
 #include "support/test_models.h"
 
@@ -121,10 +121,10 @@ TEST(ShapeMatcher, LeavesHardImpacts) {
     floor.shape = PlaneCollider{{0.0, 1.0, 0.0}, -0.1};
     const auto model = std::make_shared<const Model>(pack_bodies({body}, {floor}, {0.0, -9.81, 0.0}));
     cpu::ShapeMatcher<float> matcher(model);
-    cpu::CpuSolver<float> solver(model, SolverKind::vbd, ForceMethod::fused, {}, {20});
+    cpu::ImplicitSolver<float> solver(model, {}, {20});
     double most_inverted = 0.0;
     for (int s = 0; s < 30; ++s) {
-        solver.advance_nodes(kMatchFrame);
+        solver.advance({kMatchFrame});
         const cpu::Nodes<float> before = solver.nodes();
         cpu::Nodes<float> after = before;
         matcher.run(after);

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtx/rotate_vector.hpp>
 
+#include "cpu/descent/wave_times.h"
 #include "support/contact_scenes.h"
 
 namespace gelatin {
@@ -40,7 +41,8 @@ struct Landing {
                 glm::dvec3(guess[n]), static_cast<double>(model->masses[n]) / (kLandingStep * kLandingStep));
         }
         positions = guess;
-        cpu::PlaneLanding<double> landing(model);
+        const std::vector<double> times = cpu::wave_times(*model);
+        cpu::PlaneLanding<double> landing(model, times);
         lands = landing.begin(kLandingStep, objective, positions);
         if (push == glm::dvec3(0.0)) return;
         positions = guess;

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "cpu/cpu_solver.h"
+#include "cpu/descent/implicit_solver.h"
 #include "support/contact_scenes.h"
 #include "support/test_models.h"
 
@@ -22,8 +22,7 @@ class Sleeper {
 public:
     explicit Sleeper(std::shared_ptr<const Model> model, bool sleeps = true)
         : model_(std::move(model)),
-          solver_(model_, SolverKind::vbd, ForceMethod::fused,
-                  CollisionSettings{.response = CollisionResponse::contact, .restitution = 0.0},
+          solver_(model_, CollisionSettings{.response = CollisionResponse::contact, .restitution = 0.0},
                   DescentSettings{.divides_steps = true, .sleeps = sleeps}) {}
 
     void advance(int frames) {
@@ -53,7 +52,7 @@ public:
 
 private:
     std::shared_ptr<const Model> model_;
-    cpu::CpuSolver<float> solver_;
+    cpu::ImplicitSolver<float> solver_;
     int frame_ = 0;
 };
 

@@ -15,15 +15,15 @@ namespace {
 using test::Block;
 using test::kFrame;
 using test::make_blocks;
-using Solver = cpu::CpuSolver<double>;
+using Solver = cpu::ImplicitSolver<double>;
 
 constexpr double kStiff = 1e8;  // [Pa]
 
 Solver make_solver(const std::shared_ptr<const Model>& model, double restitution) {
-    return {model, SolverKind::vbd, ForceMethod::fused,
-            CollisionSettings{
-                .response = CollisionResponse::contact, .friction = 0.0, .restitution = restitution},
-            DescentSettings{.iterations = 20}};
+    return Solver(model,
+                  CollisionSettings{
+                      .response = CollisionResponse::contact, .friction = 0.0, .restitution = restitution},
+                  DescentSettings{.iterations = 20});
 }
 
 struct Sums {
@@ -58,7 +58,7 @@ double speed_apart(const std::vector<Block>& blocks, double restitution, int fra
                    int steps_a_frame = 1) {
     const auto model = make_blocks(blocks);
     Solver solver = make_solver(model, restitution);
-    for (int step = 0; step < frames * steps_a_frame; ++step) solver.advance_nodes(kFrame / steps_a_frame);
+    for (int step = 0; step < frames * steps_a_frame; ++step) solver.advance({kFrame / steps_a_frame});
     return sums_of(*model, solver, 1).velocity().y - sums_of(*model, solver, 0).velocity().y;
 }
 
@@ -84,7 +84,7 @@ TEST(RigidRebound, AllOfManyPairsDo) {
     }
     const auto model = make_blocks(blocks);
     Solver solver = make_solver(model, 0.7);
-    for (int frame = 0; frame < 12; ++frame) solver.advance_nodes(kFrame);
+    for (int frame = 0; frame < 12; ++frame) solver.advance({kFrame});
     for (std::size_t o = 0; o < blocks.size(); o += 2) {
         const auto velocity = [&](std::size_t object) {
             return sums_of(*model, solver, object).velocity().y;
@@ -139,8 +139,8 @@ TEST(RigidRebound, KeepsMomentumAndAngularMomentum) {
     const auto angular = [&](const Solver& of) { return sums_of_all(*model, of).angular_momentum; };
     const double size = 27.0 * 6.0;  // of a momentum [kg m/s]; arms are shorter than 1 m
     while (solver.nodes().velocities == without.nodes().velocities) {
-        solver.advance_nodes(kFrame);
-        without.advance_nodes(kFrame);
+        solver.advance({kFrame});
+        without.advance({kFrame});
     }
     ASSERT_EQ(solver.nodes().positions, without.nodes().positions);
     EXPECT_GT(glm::length(sums_of(*model, solver, 0).momentum - sums_of(*model, without, 0).momentum),
@@ -156,7 +156,7 @@ TEST(RigidRebound, AddsNoEnergyToWhatWasThereBefore) {
         Solver solver = make_solver(model, restitution);
         const double before = sums_of_all(*model, solver).energy;
         for (int frame = 0; frame < 30; ++frame) {
-            solver.advance_nodes(kFrame);
+            solver.advance({kFrame});
             EXPECT_LT(sums_of_all(*model, solver).energy, 1.01 * before) << restitution;  // to kEnough
         }
     }
@@ -179,7 +179,7 @@ TEST(RigidRebound, CollidersHaveTheirOwn) {
             {{.place = {0, 0.05, 0}, .velocity = {0, -2, 0}, .youngs_modulus = kStiff}, {.place = {3, 5, 0}}},
             {}, {collider});
         Solver solver = make_solver(model, 0.1);
-        for (int frame = 0; frame < 6; ++frame) solver.advance_nodes(kFrame);
+        for (int frame = 0; frame < 6; ++frame) solver.advance({kFrame});
         EXPECT_NEAR(sums_of(*model, solver, 0).velocity().y, 1.2, 0.02);
     }
 }
@@ -200,7 +200,7 @@ TEST(RigidRebound, WhatRestsDoesNotBounce) {
         {{.place = {0, 0.012, 0}, .youngs_modulus = 1e6}, {.place = {0.02, 0.325, 0}, .youngs_modulus = 1e6}},
         {0, -9.81, 0}, {table(0.5)});
     Solver solver = make_solver(model, 0.5);
-    for (int frame = 0; frame < 240; ++frame) solver.advance_nodes(kFrame);
+    for (int frame = 0; frame < 240; ++frame) solver.advance({kFrame});
     const Sums sums = sums_of_all(*model, solver);
     EXPECT_LT(sums.energy / sums.mass, 1e-8);
 }
@@ -208,10 +208,10 @@ TEST(RigidRebound, WhatRestsDoesNotBounce) {
 TEST(RigidRebound, ForgetsWhatHasMetAtARestart) {
     const auto model = make_blocks(two_blocks(3e4));
     Solver solver = make_solver(model, 1.0), fresh = make_solver(model, 1.0);
-    for (int frame = 0; frame < 6; ++frame) solver.advance_nodes(kFrame);  // they press each other
+    for (int frame = 0; frame < 6; ++frame) solver.advance({kFrame});  // they press each other
     for (Solver* each : {&solver, &fresh}) {
         each->write_state({model->positions, model->velocities, {}});
-        for (int frame = 0; frame < 3; ++frame) each->advance_nodes(kFrame);
+        for (int frame = 0; frame < 3; ++frame) each->advance({kFrame});
     }
     EXPECT_EQ(solver.nodes().velocities, fresh.nodes().velocities);
 }

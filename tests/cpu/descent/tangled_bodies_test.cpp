@@ -155,9 +155,9 @@ TEST(Guess, OfABarThatVibratesIsNoMoreThanItHasInALongerStep) {
         for (std::uint32_t n = bar.nodes.first; n < bar.nodes.end(); ++n)
             state.velocities[n] += glm::vec4(random.point(2.0), 0.0f);
         solver.write_state(state);
-        for (int part = 0; part < 16; ++part) solver.advance_nodes(test::kFrame / 16);
+        for (int part = 0; part < 16; ++part) solver.advance({test::kFrame / 16});
         const double before = energy();
-        solver.advance_nodes(test::kFrame);
+        solver.advance({test::kFrame});
         EXPECT_LT(energy(), before) << round;
     }
 }

@@ -6,7 +6,7 @@
 #include <memory>
 #include <random>
 
-#include "cpu/cpu_solver.h"
+#include "cpu/explicit/explicit_solver.h"
 #include "model/explicit/stability.h"
 #include "model/setting_names.h"
 #include "support/implicit_euler.h"
@@ -40,7 +40,7 @@ void shake(Model& model, float size, float speed) {
     }
 }
 
-cpu::CpuSolver<double> solver_for(const Model& model, SolverKind kind, ForceMethod forces) {
+cpu::ExplicitSolver<double> solver_for(const Model& model, SolverKind kind, ForceMethod forces) {
     return {std::make_shared<const Model>(model), kind, forces};
 }
 
@@ -53,7 +53,7 @@ TEST(VolumeForces, AreTheGradientOfTheEnergy) {
             shake(model, 0.02f, 0.0f);
             for (glm::vec4& v : model.velocities) v = glm::vec4(0.0f);
             auto solver = solver_for(model, SolverKind::semi_implicit_euler, forces);
-            solver.advance_nodes(kStep);
+            solver.advance({kStep});
             const test::ImplicitEuler reference(model, 1.0);  // without inertia: the model rests
             const Eigen::VectorXd gradient = reference.gradient(reference.start());
             double scale = 0.0, worst = 0.0;
@@ -102,7 +102,7 @@ TEST_P(VolumeForcesTest, KeepMomentum) {
         };
         const auto [linear, angular] = sums();
         // What a scheme itself does to angular momentum goes with the square of the step at least.
-        for (int s = 0; s < 100; ++s) solver.advance_nodes(1e-2 * kStep);
+        for (int s = 0; s < 100; ++s) solver.advance({1e-2 * kStep});
         const auto [linear_after, angular_after] = sums();
         const double scale = model.objects[0].mass * 2.5;
         EXPECT_LT(glm::length(linear_after - linear), 1e-12 * scale);
@@ -120,13 +120,13 @@ TEST(VolumeForces, KeepEnergy) {
         auto solver = solver_for(model, SolverKind::semi_implicit_euler, ForceMethod::fused);
         const auto energy = [&] {
             solver.begin_measure();
-            const ObjectMeasure sums = solver.end_measure()[0];
+            const ObjectMeasure sums = solver.end_measure().objects[0];
             return sums.kinetic_energy + sums.elastic_energy -
                    0.5 * glm::dot(sums.momentum, sums.momentum) / model.objects[0].mass;
         };
         const double step = 0.25 * largest_stable_step(SolverKind::semi_implicit_euler, model);
         const double start = energy();
-        for (int s = 0; s < 500; ++s) solver.advance_nodes(step);
+        for (int s = 0; s < 500; ++s) solver.advance({step});
         EXPECT_NEAR(energy() / start, 1.0, 0.1) << poisson_ratio;
     }
 }

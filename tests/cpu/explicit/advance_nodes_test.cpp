@@ -6,7 +6,7 @@
 #include <cstring>
 #include <random>
 
-#include "cpu/cpu_solver.h"
+#include "cpu/explicit/explicit_solver.h"
 #include "model/setting_names.h"
 #include "support/parity.h"
 #include "support/solver_kinds.h"
@@ -32,8 +32,8 @@ TEST_P(AdvanceNodesTest, FloatWithSimdMatchesTheOracle) {
 // A node without inverse mass moves with its velocity, straight, whatever pulls and presses.
 TEST_P(AdvanceNodesTest, HeldNodesMoveWithTheirVelocity) {
     const auto model = std::make_shared<const Model>(test::make_driven_model());
-    cpu::CpuSolver<double> solver(model, GetParam(), ForceMethod::fused);
-    for (int s = 0; s < 3; ++s) solver.advance_nodes(kStep);
+    cpu::ExplicitSolver<double> solver(model, GetParam(), ForceMethod::fused);
+    for (int s = 0; s < 3; ++s) solver.advance({kStep});
     ASSERT_GT(model->handle_nodes.size(), 100u);
     for (const HandleNode& held : model->handle_nodes) {
         const glm::dvec3 start(model->positions[held.node]), velocity(model->velocities[held.node]);
@@ -46,11 +46,11 @@ TEST_P(AdvanceNodesTest, HeldNodesMoveWithTheirVelocity) {
 // In double the two ways differ by the order of summation alone.
 TEST_P(AdvanceNodesTest, DivideAndMergeIsTheSameAsFused) {
     const auto model = std::make_shared<const Model>(test::make_lively_model());
-    cpu::CpuSolver<double> fused(model, GetParam(), ForceMethod::fused);
-    cpu::CpuSolver<double> divided(model, GetParam(), ForceMethod::divide_and_merge);
+    cpu::ExplicitSolver<double> fused(model, GetParam(), ForceMethod::fused);
+    cpu::ExplicitSolver<double> divided(model, GetParam(), ForceMethod::divide_and_merge);
     for (int s = 0; s < 3; ++s) {
-        fused.advance_nodes(kStep);
-        divided.advance_nodes(kStep);
+        fused.advance({kStep});
+        divided.advance({kStep});
     }
     for (std::uint32_t n = 0; n < model->node_count(); ++n) {
         EXPECT_LT(glm::distance(fused.nodes().positions[n], divided.nodes().positions[n]), 1e-13);
@@ -62,8 +62,8 @@ TEST_P(AdvanceNodesTest, GivesTheSameBitsForAnyNumberOfThreads) {
     const auto model = std::make_shared<const Model>(test::make_lively_model());
     const auto run = [&](std::size_t threads, ForceMethod forces) {
         tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        cpu::CpuSolver<float> solver(model, GetParam(), forces);
-        for (int s = 0; s < 20; ++s) solver.advance_nodes(kStep);
+        cpu::ExplicitSolver<float> solver(model, GetParam(), forces);
+        for (int s = 0; s < 20; ++s) solver.advance({kStep});
         return solver.read_state();
     };
     for (const ForceMethod forces : {ForceMethod::fused, ForceMethod::divide_and_merge}) {
@@ -76,8 +76,8 @@ TEST_P(AdvanceNodesTest, GivesTheSameBitsForAnyNumberOfThreads) {
 
 TEST_P(AdvanceNodesTest, PinnedNodesStayWhereTheyAre) {
     const auto model = std::make_shared<const Model>(test::make_lively_model());
-    cpu::CpuSolver<float> solver(model, GetParam(), ForceMethod::fused);
-    for (int s = 0; s < 5; ++s) solver.advance_nodes(kStep);
+    cpu::ExplicitSolver<float> solver(model, GetParam(), ForceMethod::fused);
+    for (int s = 0; s < 5; ++s) solver.advance({kStep});
     int pinned = 0;
     for (std::uint32_t n = 0; n < model->node_count(); ++n) {
         if (model->positions[n].w > 0.0f) continue;

@@ -1,7 +1,7 @@
 // Explicit steps of neo-Hookean bodies, beside bodies of springs.
 #include <gtest/gtest.h>
 
-#include "cpu/cpu_solver.h"
+#include "cpu/explicit/explicit_solver.h"
 #include "cpu/explicit/gather_forces.h"
 #include "cpu/measure/measure.h"
 #include "model/explicit/stability.h"
@@ -29,11 +29,11 @@ TEST_P(NeoHookeanStepTest, FloatWithSimdMatchesTheOracle) {
 
 TEST_P(NeoHookeanStepTest, DivideAndMergeIsTheSameAsFused) {
     const auto model = std::make_shared<const Model>(test::make_lively_tets(2e-3));
-    cpu::CpuSolver<double> fused(model, GetParam(), ForceMethod::fused);
-    cpu::CpuSolver<double> divided(model, GetParam(), ForceMethod::divide_and_merge);
+    cpu::ExplicitSolver<double> fused(model, GetParam(), ForceMethod::fused);
+    cpu::ExplicitSolver<double> divided(model, GetParam(), ForceMethod::divide_and_merge);
     for (int s = 0; s < 3; ++s) {
-        fused.advance_nodes(kTetStep);
-        divided.advance_nodes(kTetStep);
+        fused.advance({kTetStep});
+        divided.advance({kTetStep});
     }
     for (std::uint32_t n = 0; n < model->node_count(); ++n) {
         EXPECT_LT(glm::distance(fused.nodes().positions[n], divided.nodes().positions[n]), 1e-13);
@@ -58,10 +58,10 @@ Model make_quivering_block(double poisson_ratio, double damping) {
 }
 
 double energy_after(const Model& model, SolverKind kind, double step, int steps) {
-    cpu::CpuSolver<double> solver(std::make_shared<const Model>(model), kind, ForceMethod::fused);
-    for (int s = 0; s < steps; ++s) solver.advance_nodes(step);
+    cpu::ExplicitSolver<double> solver(std::make_shared<const Model>(model), kind, ForceMethod::fused);
+    for (int s = 0; s < steps; ++s) solver.advance({step});
     solver.begin_measure();
-    const ObjectMeasure sums = solver.end_measure()[0];
+    const ObjectMeasure sums = solver.end_measure().objects[0];
     return sums.kinetic_energy + sums.elastic_energy;
 }
 

@@ -5,7 +5,8 @@
 #include <random>
 
 #include "cpu/collision/collision.h"
-#include "gpu/gpu_solver.h"
+#include "gpu/collision_stages.h"
+#include "gpu/measure/measure.h"
 #include "gpu/support/collision_scenarios.h"
 #include "support/crowd.h"
 #include "support/draw_vector.h"
@@ -82,6 +83,19 @@ TEST_F(CollisionOnGpuTest, ObjectsOfDifferentSizesCollideAsOnTheCpu) {
     }
 }
 
+// What is measured of a model's start.
+Measurement detect_and_measure(const Model& model) {
+    const gpu::ModelBuffers buffers(model);
+    const gpu::NodeBuffers nodes(model.positions, model.velocities);
+    gpu::Collision collision(model, {});
+    collision.update_boxes.run(buffers, collision.buffers, nodes, nodes);
+    collision.find_object_pairs.run(buffers, collision.buffers, nodes);
+    collision.find_face_collisions.run(buffers, collision.buffers, nodes, nodes);
+    gpu::Measure measure(model);
+    measure.begin(buffers, nodes, &collision.buffers);
+    return measure.end();
+}
+
 TEST_F(CollisionOnGpuTest, CountsCollidingFaces) {
     const auto model = std::make_shared<const Model>(test::make_crowd(20));
     const auto expected = test::find_collisions_on_cpu<float>(*model, {});
@@ -90,14 +104,10 @@ TEST_F(CollisionOnGpuTest, CountsCollidingFaces) {
         if (k == 0 || expected[k].face != expected[k - 1].face)
             ++counts[model->faces[expected[k].face].object];
     }
-    gpu::GpuSolver solver(model, SolverKind::semi_implicit_euler, ForceMethod::fused);
-    solver.update_boxes();
-    solver.find_object_pairs();
-    solver.find_face_collisions();
-    solver.begin_measure();
-    const std::vector<ObjectMeasure> measured = solver.end_measure();
-    for (std::size_t o = 0; o < counts.size(); ++o) EXPECT_EQ(measured[o].colliding_faces, counts[o]) << o;
-    EXPECT_EQ(solver.lost_pairs(), 0u);
+    const Measurement measured = detect_and_measure(*model);
+    for (std::size_t o = 0; o < counts.size(); ++o)
+        EXPECT_EQ(measured.objects[o].colliding_faces, counts[o]) << o;
+    EXPECT_EQ(measured.lost_pairs, 0u);
 }
 
 // Faces torn so far apart that all their boxes meet, more than there is room for: counted, not forgotten.
@@ -108,14 +118,7 @@ TEST_F(CollisionOnGpuTest, SaysHowManyPairsAreLost) {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
     for (glm::vec4& p : tangle.positions) p = glm::vec4(test::draw_vector<glm::vec3>(unit, random), p.w);
-    const auto model = std::make_shared<const Model>(tangle);
-    gpu::GpuSolver solver(model, SolverKind::semi_implicit_euler, ForceMethod::fused);
-    solver.update_boxes();
-    solver.find_object_pairs();
-    solver.find_face_collisions();
-    solver.begin_measure();
-    solver.end_measure();
-    EXPECT_GT(solver.lost_pairs(), 0u);
+    EXPECT_GT(detect_and_measure(tangle).lost_pairs, 0u);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ TEST_F(MeasureOnGpuTest, MatchesTheDoubleReference) {
     const gpu::ModelBuffers buffers(model);
     const gpu::NodeBuffers nodes(model.positions, model.velocities);
     stage.begin(buffers, nodes);
-    const std::vector<ObjectMeasure> actual = stage.end();
+    const std::vector<ObjectMeasure> actual = stage.end().objects;
     const std::vector<ObjectMeasure> expected =
         cpu::measure<double>(model, {{model.positions.begin(), model.positions.end()},
                                      {model.velocities.begin(), model.velocities.end()}});
@@ -60,8 +60,8 @@ TEST_F(MeasureOnGpuTest, AnswersInOrderWithTwoUnderWay) {
     const gpu::NodeBuffers second(model.positions, model.velocities);
     stage.begin(buffers, first);
     stage.begin(buffers, second);
-    EXPECT_NEAR(stage.end()[0].volume, 1.0, 1e-5);
-    EXPECT_NEAR(stage.end()[0].volume, 2.0, 1e-5);
+    EXPECT_NEAR(stage.end().objects[0].volume, 1.0, 1e-5);
+    EXPECT_NEAR(stage.end().objects[0].volume, 2.0, 1e-5);
 }
 
 }  // namespace

@@ -51,8 +51,8 @@ struct BeforeSweeps {
         : model(of),
           contacts(model, {.self_collision = true, .friction = kFriction}),
           objective(model, cpu::BlockDescent<double>::kNodesABatch) {
-        cpu::CpuSolver<double> solver = make_solver<double>(model, kFriction);
-        for (int frame = 0; frame < frames; ++frame) solver.advance_nodes(kFrame);
+        cpu::ImplicitSolver<double> solver = make_solver<double>(model, kFriction);
+        for (int frame = 0; frame < frames; ++frame) solver.advance({kFrame});
         const cpu::Nodes<double>& nodes = solver.nodes();
         const std::vector<glm::dvec4> start = rounded(nodes.positions);
         contacts.restart(start);

@@ -14,7 +14,7 @@ std::vector<ObjectMeasure> measure_on_gpu(const Model& model) {
     const gpu::ModelBuffers buffers(model);
     const gpu::NodeBuffers nodes(model.positions, model.velocities);
     stage.begin(buffers, nodes);
-    return stage.end();
+    return stage.end().objects;
 }
 
 double worst_energy_error(const Model& model, const std::vector<ObjectMeasure>& actual) {

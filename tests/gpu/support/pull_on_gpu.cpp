@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "cpu/cpu_solver.h"
-#include "gpu/gpu_solver.h"
+#include "cpu/make_solver.h"
+#include "gpu/make_solver.h"
 #include "support/parity.h"
 
 namespace gelatin::test {
@@ -78,21 +78,21 @@ std::vector<glm::vec3> make_forces(const Model& model) {
 
 double worst_pull_error(const Model& model, SolverKind solver, ForceMethod forces, double step) {
     const auto shared = std::make_shared<const Model>(model);
-    cpu::CpuSolver<double> reference(shared, solver, forces, {}, kSweeps);
-    gpu::GpuSolver actual(shared, solver, forces, {}, kSweeps);
+    const auto reference = cpu::make_solver<double>(shared, solver, forces, {}, kSweeps);
+    const auto actual = gpu::make_solver(shared, solver, forces, {}, kSweeps);
     const std::vector<Pull> pulls = make_pulls(model);
     Pull away = pulls[0];
     for (Pull::Node& held : away.nodes) held.node += model.node_count() - 1 - away.nodes.back().node;
-    for (Solver* each : {static_cast<Solver*>(&reference), static_cast<Solver*>(&actual)}) {
+    for (Solver* each : {static_cast<Solver*>(reference.get()), static_cast<Solver*>(actual.get())}) {
         each->set_pulls({away});
         each->set_pulls({pulls[1], pulls[0]});
         each->move_pull(0, {9.0, 9.0, 9.0});
         each->move_pull(0, pulls[1].target);
         each->set_forces(make_forces(model));
-        each->advance_nodes(step);
+        each->advance({step});
     }
-    const State state = actual.read_state();
-    return worst_error(model, bounds_for(model, pulls, solver, step), reference.nodes(), state.positions,
+    const State state = actual->read_state();
+    return worst_error(model, bounds_for(model, pulls, solver, step), reference->nodes(), state.positions,
                        state.velocities);
 }
 

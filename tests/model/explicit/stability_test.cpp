@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cpu/cpu_solver.h"
+#include "cpu/explicit/explicit_solver.h"
 #include "gelatin/error.h"
 #include "support/test_models.h"
 
@@ -76,10 +76,10 @@ TEST(LargestStableStep, MatchesTheClosedFormWithDamping) {
 constexpr SolverKind kSemiImplicit = SolverKind::semi_implicit_euler;
 
 double energy_after(const Model& model, SolverKind kind, double step, int steps) {
-    cpu::CpuSolver<double> solver(std::make_shared<const Model>(model), kind, ForceMethod::fused);
-    for (int s = 0; s < steps; ++s) solver.advance_nodes(step);
+    cpu::ExplicitSolver<double> solver(std::make_shared<const Model>(model), kind, ForceMethod::fused);
+    for (int s = 0; s < steps; ++s) solver.advance({step});
     solver.begin_measure();
-    const ObjectMeasure sums = solver.end_measure()[0];
+    const ObjectMeasure sums = solver.end_measure().objects[0];
     return sums.kinetic_energy + sums.elastic_energy;
 }
 

@@ -1,4 +1,4 @@
-// What programs read of the state between steps, and what they change of it.
+// What programs and hands change between steps.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -6,18 +6,10 @@
 #include <utility>
 
 #include "gelatin/error.h"
-#include "model/scene/names.h"
-#include "sim/check_starts.h"
-#include "sim/forces.h"
-#include "sim/move_apart.h"
-#include "sim/simulator_impl.h"
+#include "sim/simulation.h"
 
 namespace gelatin {
 namespace {
-
-IndexRange public_range(const Range& range) {
-    return {range.first, range.count};
-}
 
 void check_values(const ModelObject& body, const char* what, std::span<const glm::vec3> values) {
     const std::string name = fmt::format("{} of object '{}'", what, body.name);
@@ -42,99 +34,8 @@ void check_values(const ModelObject& body, const char* what, std::span<const glm
 
 }  // namespace
 
-const ModelObject& Simulator::Impl::body(std::size_t object) const {
-    if (object < model->body_count()) return model->objects[object];
-    throw InvalidInput(
-        fmt::format("there is no object {}: there are {}, from 0", object, model->body_count()));
-}
-
-void Simulator::Impl::start_apart() {
-    State state = first_state();
-    if (move_bodies_apart(state.positions, "at the start")) start_state = std::move(state);
-}
-
-bool Simulator::Impl::move_bodies_apart(std::vector<glm::vec4>& positions, const char* when) const {
-    std::optional<MovedApart> moved = move_apart(model, positions, when);
-    if (moved) {
-        require_apart(model, scene, moved->positions, when);  // both may be held
-        for (const std::string& line : moved->lines) log_warning(line);
-        positions = std::move(moved->positions);
-    }
-    if (scene.collision.self_collision_with(scene.simulation.solver))
-        for (const std::string& line : find_tangled(model, positions, when)) log_warning(line);
-    return moved.has_value();
-}
-
-const StateCopies& Simulator::Impl::copied_state() const {
-    if (copies.nodes_revision == revision) return copies;
-    const auto host = keep_host_state_of_solver();
-    State state = solver->read_state();
-    copies.positions = std::move(state.positions);
-    copies.velocities = std::move(state.velocities);
-    copies.nodes_revision = revision;
-    return copies;
-}
-
-std::size_t Simulator::object_index(std::string_view name) const {
-    std::vector<std::string> names;
-    for (const ModelObject& body : impl_->model->bodies()) {
-        if (body.name == name) return names.size();
-        names.push_back(body.name);
-    }
-    throw InvalidInput(fmt::format("there is no object '{}'{}; there are {}", name, suggestion(name, names),
-                                   join_names(names)));
-}
-
-ObjectInfo Simulator::object(std::size_t object) const {
-    const ModelObject& body = impl_->body(object);
-    return {body.name, public_range(body.nodes), public_range(body.faces), public_range(body.tets),
-            body.mass, body.rest_volume};
-}
-
-std::span<const glm::uvec3> Simulator::faces() const {
-    std::vector<glm::uvec3>& faces = impl_->copies.faces;
-    if (faces.empty())
-        for (const Face& face : impl_->model->faces) faces.emplace_back(face.a, face.b, face.c);
-    return faces;
-}
-
-std::span<const glm::uvec4> Simulator::tets() const {
-    return impl_->model->tets;
-}
-
-std::span<const glm::vec4> Simulator::positions() const {
-    const std::span<const glm::vec4> own = impl_->solver->host_positions();
-    return own.empty() ? std::span<const glm::vec4>(impl_->copied_state().positions) : own;
-}
-
-std::span<const glm::vec4> Simulator::velocities() const {
-    const std::span<const glm::vec4> own = impl_->solver->host_velocities();
-    return own.empty() ? std::span<const glm::vec4>(impl_->copied_state().velocities) : own;
-}
-
-std::span<const glm::vec4> Simulator::node_contact_forces() const {
-    const Impl& d = *impl_;
-    std::vector<glm::vec4>& forces = d.copies.contact_forces;
-    if (d.copies.forces_revision == d.revision) return forces;
-    forces.assign(d.model->node_count(), glm::vec4(0.0f));
-    if (d.has_contact_forces()) {
-        const ContactForces found = d.solver->contact_forces();
-        for (std::size_t n = 0; n < found.normal.size(); ++n)
-            forces[n] = glm::vec4(glm::vec3(found.normal[n] + found.friction[n]), 0.0f);
-    }
-    d.copies.forces_revision = d.revision;
-    return forces;
-}
-
-std::vector<ContactForce> Simulator::contact_forces() const {
-    const Impl& d = *impl_;
-    if (!d.has_contact_forces()) return {};
-    return gelatin::contact_forces(d.scene, *d.model, *d.solver);
-}
-
 void Simulator::set_positions(std::size_t object, std::span<const glm::vec3> positions) {
-    impl_->require_no_playback();
-    Impl& d = *impl_;
+    Simulation& d = impl_->simulation();
     const Range& nodes = d.body(object).nodes;
     check_values(d.body(object), "positions", positions);
     const auto host = d.keep_host_state_of_solver();
@@ -144,12 +45,11 @@ void Simulator::set_positions(std::size_t object, std::span<const glm::vec3> pos
         if (place.w > 0.0f) place = glm::vec4(positions[n], place.w);
     }
     if (d.scene.has_contact()) d.move_bodies_apart(state.positions, "where they were set");
-    d.take_state(state, d.now());
+    d.take_state(state, d.clock.now());
 }
 
 void Simulator::set_velocities(std::size_t object, std::span<const glm::vec3> velocities) {
-    impl_->require_no_playback();
-    Impl& d = *impl_;
+    Simulation& d = impl_->simulation();
     const Range& nodes = d.body(object).nodes;
     check_values(d.body(object), "velocities", velocities);
     const auto host = d.keep_host_state_of_solver();
@@ -162,12 +62,11 @@ void Simulator::set_velocities(std::size_t object, std::span<const glm::vec3> ve
         // Solvers take the change since the step before for what gravity has done.
         if (has_earlier) state.earlier_velocities[node] = state.velocities[node];
     }
-    d.take_state(state, d.now());
+    d.take_state(state, d.clock.now());
 }
 
 void Simulator::set_forces(std::size_t object, std::span<const glm::vec3> forces) {
-    impl_->require_no_playback();
-    Impl& d = *impl_;
+    Simulation& d = impl_->simulation();
     const Range& nodes = d.body(object).nodes;
     if (!forces.empty()) check_values(d.body(object), "forces", forces);
     std::vector<glm::vec3> all = d.forces;
@@ -182,8 +81,7 @@ void Simulator::set_forces(std::size_t object, std::span<const glm::vec3> forces
 }
 
 void Simulator::set_pulls(std::vector<Pull> pulls) {
-    impl_->require_no_playback();
-    Impl& d = *impl_;
+    Simulation& d = impl_->simulation();
     for (std::size_t p = 0; p < pulls.size(); ++p) {
         std::vector<std::uint32_t> nodes;
         for (const Pull::Node& held : pulls[p].nodes) {
@@ -207,13 +105,16 @@ void Simulator::set_pulls(std::vector<Pull> pulls) {
 }
 
 void Simulator::move_pull(std::size_t pull, const glm::dvec3& target) {
-    impl_->require_no_playback();
-    Impl& d = *impl_;
+    Simulation& d = impl_->simulation();
     if (pull >= d.pulls.size())
         throw InvalidInput(fmt::format("there is no pull {}: there are {}, from 0", pull, d.pulls.size()));
     const auto host = d.keep_host_state_of_solver();
     d.pulls[pull].target = target;
     d.solver->move_pull(pull, target);
+}
+
+void Simulator::drag(std::size_t held, const Drag& target) {
+    impl_->simulation().drags.set_target(held, target);
 }
 
 }  // namespace gelatin

@@ -1,0 +1,26 @@
+#include "cpu/make_solver.h"
+
+#include <utility>
+
+#include "cpu/descent/implicit_solver.h"
+#include "cpu/explicit/explicit_solver.h"
+
+namespace gelatin::cpu {
+
+template <class Real>
+std::unique_ptr<CpuSolver<Real>> make_solver(std::shared_ptr<const Model> model, SolverKind solver,
+                                             ForceMethod forces, const CollisionSettings& collision,
+                                             const DescentSettings& descent) {
+    if (solver == SolverKind::vbd)
+        return std::make_unique<ImplicitSolver<Real>>(std::move(model), collision, descent);
+    return std::make_unique<ExplicitSolver<Real>>(std::move(model), solver, forces, collision);
+}
+
+template std::unique_ptr<CpuSolver<float>> make_solver<float>(std::shared_ptr<const Model>, SolverKind,
+                                                              ForceMethod, const CollisionSettings&,
+                                                              const DescentSettings&);
+template std::unique_ptr<CpuSolver<double>> make_solver<double>(std::shared_ptr<const Model>, SolverKind,
+                                                                ForceMethod, const CollisionSettings&,
+                                                                const DescentSettings&);
+
+}  // namespace gelatin::cpu

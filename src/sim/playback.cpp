@@ -1,0 +1,59 @@
+#include "sim/playback.h"
+
+#include <utility>
+
+#include "gelatin/error.h"
+#include "model/build/build_model.h"
+#include "model/explicit/stability.h"
+#include "sim/backend.h"
+#include "sim/recording/recording_internals.h"
+
+namespace gelatin {
+
+Playback::Playback(std::shared_ptr<const Recording> of, std::shared_ptr<const Model> from,
+                   const SimulatorOptions& with)
+    : Impl(of->scene(), from, with, choose_substeps(of->scene(), *from)), recording(std::move(of)) {
+    options.backend = Backend::cpu;
+    context = make_context(options);
+    RecordingInternals::require_fits(*recording, *model);
+    frames_ = std::make_shared<PlaybackSolver>(model);
+    solver = BackendSolver(frames_);
+    show(0);
+}
+
+void Playback::step() {
+    if (shown + 1 < recording->frame_count()) show(shown + 1);
+}
+
+Simulation& Playback::simulation() {
+    throw InvalidInput("this simulator plays a recording: nothing in it can be changed");
+}
+
+void Playback::show(std::size_t index) {
+    const RecordedFrame& frame = RecordingInternals::frame(*recording, *model, index);
+    shown = index;
+    ++revision;
+    frames_->show(frame);
+    drags.go_on_with(frame.moment.drags, frame.moment.drag_targets);
+    handle_clocks.go_on_with(frame.moment.delays);
+    clock.go_on_from(moment_of(frame.moment));
+    watch->begin(frame.moment.state, clock.now());
+}
+
+Simulator::Simulator(std::shared_ptr<const Recording> recording, const SimulatorOptions& options)
+    : Simulator(recording, std::make_shared<const Model>(build_model(recording->scene())), options) {}
+
+Simulator::Simulator(std::shared_ptr<const Recording> recording, std::shared_ptr<const Model> model,
+                     const SimulatorOptions& options)
+    : impl_(std::make_unique<Playback>(std::move(recording), std::move(model), options)) {}
+
+const Recording* Simulator::recording() const {
+    const Playback* const playback = impl_->playback();
+    return playback != nullptr ? playback->recording.get() : nullptr;
+}
+
+void Simulator::show_recorded(std::size_t index) {
+    impl_->playback()->show(index);
+}
+
+}  // namespace gelatin

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "model/drive/with_pins.h"
+#include "sim/simulator_impl.h"
+#include "sim/standstills.h"
+
+namespace gelatin {
+
+/// A Simulator that simulates.
+struct Simulation final : SimulatorInternals::Impl {
+    std::optional<State> start_state;       // if it is not the model's
+    std::shared_ptr<const Model> unpinned;  // the model without the pins of programs
+    std::vector<AddedPin> pins;
+    std::vector<Pull> pulls;
+    std::vector<glm::vec3> forces;  // [N], shape [nodes]; empty: none
+    Standstills standstills;
+
+    /// @pre the scene is valid, and the model is what build_model makes of it
+    Simulation(const Scene& of, std::shared_ptr<const Model> from, const SimulatorOptions& with);
+    /// Another one of the same scene and model, at the start. It repeats no check and no message.
+    /// @pre `like` has no OpenGL context and no pins of programs
+    explicit Simulation(const Simulation& like);
+    Simulation& operator=(const Simulation&) = delete;
+    ~Simulation() override = default;
+
+    void step() override;
+    void reset() override;
+    int steps_a_frame() const override { return clock.substeps(); }
+    Simulation& simulation() override { return *this; }
+    Playback* playback() override { return nullptr; }
+
+    State first_state() const;
+    /// Continues from this state. Pending measurements belong to the old one.
+    void take_state(const State& state, const Moment& moment);
+    /// Bodies that never pass through each other have to be apart. @return whether any was moved
+    /// @throws InvalidInput if they cannot be moved apart
+    bool move_bodies_apart(std::vector<glm::vec4>& positions, const char* when) const;
+    /// Makes the solver's tables anew, and goes on where it is.
+    void rebuild(const Scene& of, std::shared_ptr<const Model> from, std::vector<AddedPin> added);
+
+private:
+    BackendSolver make_solver(const Scene& of, const std::shared_ptr<const Model>& from) const;
+    void begin();
+    std::vector<HandleMotion> move_held_nodes();
+    std::vector<std::uint32_t> find_held_up() const;
+    void look_for_standstills();
+    void discard_pending();
+    void carry_over_to(const Model& next, const std::vector<AddedPin>& added, State& state, Drags& next_drags,
+                       HandleClocks& next_clocks) const;
+};
+
+}  // namespace gelatin

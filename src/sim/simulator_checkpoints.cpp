@@ -1,0 +1,63 @@
+// Continuing from other moments: of a file, or of another simulation.
+#include <cmath>
+
+#include "sim/carry_over.h"
+#include "sim/checkpoint.h"
+#include "sim/recording/recording_internals.h"
+#include "sim/simulation.h"
+
+namespace gelatin {
+namespace {
+
+// @param frame of a recording; empty: its last one
+Checkpoint read_moment(const std::filesystem::path& file, std::optional<int> frame, const Model& model) {
+    if (!is_recording(file)) return read_checkpoint(file, model);
+    const Recording recording(file);
+    RecordingInternals::require_fits(recording, model);
+    const std::size_t index = frame ? recording.index_of(*frame) : recording.frame_count() - 1;
+    return RecordingInternals::frame(recording, model, index).moment;
+}
+
+// Pins of programs are no part of checkpoints: those of this simulation count, and none that held nodes when
+// the checkpoint was saved. Handles that release their nodes have done so or not, as the checkpoint has it.
+void hold_as_here(const Model& model, std::vector<glm::vec4>& positions) {
+    std::vector<std::uint8_t> may_be_free(positions.size());
+    for (const HandleNode& held : model.handle_nodes)
+        may_be_free[held.node] = std::isinf(model.handles[held.handle].release) ? 0 : 1;
+    for (std::size_t n = 0; n < positions.size(); ++n)
+        if (may_be_free[n] == 0) positions[n].w = model.positions[n].w;
+}
+
+}  // namespace
+
+void Simulator::save_checkpoint(const std::filesystem::path& file) const {
+    check();
+    const auto host = impl_->keep_host_state_of_solver();
+    write_checkpoint(file, *impl_->model, impl_->checkpoint());
+}
+
+void Simulator::load_checkpoint(const std::filesystem::path& file, std::optional<int> frame) {
+    Simulation& d = impl_->simulation();
+    Checkpoint checkpoint = read_moment(file, frame, *d.model);
+    const auto host = d.keep_host_state_of_solver();
+    hold_as_here(*d.model, checkpoint.state.positions);
+    d.drags.go_on_with(checkpoint.drags, checkpoint.drag_targets);
+    d.handle_clocks.go_on_with(checkpoint.delays);
+    d.take_state(checkpoint.state, d.moment_of(checkpoint));
+}
+
+void Simulator::go_on_from(const Simulator& other) {
+    Simulation& d = impl_->simulation();
+    const Impl& from = *other.impl_;
+    const auto host = d.keep_host_state_of_solver();
+    const double time = from.clock.time();
+    const int frame = static_cast<int>(time * d.scene.simulation.frame_rate + 1e-6);
+    const State state = carried_over(*from.model, from.solver->read_state(), *d.model, d.first_state());
+    d.handle_clocks.go_on_with(carried_over(*from.model, from.handle_clocks.delays(), *d.model));
+    d.drags =
+        carried_over(*from.model, from.drags, *d.model, state, d.handle_clocks.times(time), Drags(d.model));
+    d.take_state(state,
+                 {frame, time, static_cast<std::uint64_t>(frame) * static_cast<std::uint64_t>(substeps())});
+}
+
+}  // namespace gelatin
