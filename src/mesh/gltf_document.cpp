@@ -118,7 +118,7 @@ std::string_view GltfDocument::split_binary(std::string_view content) {
         const std::string_view chunk = content.substr(at, size);
         if (kind == "JSON" && !text) text = chunk;
         if (kind == std::string_view("BIN\0", 4) && !binary_chunk_) binary_chunk_ = chunk;
-        at += (size + 3) / 4 * 4;
+        at += size;
     }
     if (!text) fail({}, {}, "cannot be read: has no chunk of JSON");
     return *text;

@@ -72,12 +72,10 @@ private:
         scanner_.skip_line();
     }
 
+    // Some programs wrap long lines.
     void read_face(std::size_t face) {
         const std::uint64_t size = scanner_.integer({"corners of face", face}, 0, ~std::uint32_t{0});
         for (std::uint64_t corner = 0; corner < size; ++corner) {
-            if (scanner_.at_line_end()) {
-                scanner_.fail({"face", face}, {}, fmt::format("must have {} vertices on its line", size));
-            }
             if (vertex_count_ == 0) scanner_.fail("number of vertices", "0", "must be positive");
             polygons_.corners.push_back(
                 static_cast<std::uint32_t>(scanner_.integer({"face", face}, 0, vertex_count_ - 1)));

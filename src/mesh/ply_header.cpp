@@ -80,7 +80,11 @@ PlyHeader read_ply_header(TextScanner& scanner) {
             if (!has_format) scanner.fail("format", {}, "is missing");
             scanner.skip_line();
             return header;
-        } else if (keyword != "comment" && keyword != "obj_info") {
+        } else if (keyword == "comment" || keyword == "obj_info") {
+            continue;
+        } else if (header.elements.empty()) {
+            ++header.ignored_lines;  // comments without their keyword, as of Blender 2.4
+        } else {
             scanner.fail("keyword", keyword,
                          "must be format, element, property, comment, obj_info or end_header");
         }

@@ -29,6 +29,7 @@ struct PlyElement {
 struct PlyHeader {
     bool is_binary = false, is_swapped = false;
     std::vector<PlyElement> elements;
+    std::size_t ignored_lines = 0;
 };
 
 /// Reads the header of a PLY file. The scanner stands at the first byte of the data afterwards.

@@ -32,6 +32,7 @@ public:
 
     SurfacePolygons read(Notes& notes) {
         header_ = read_ply_header(scanner_);
+        ignored_.add("lines of the header that are no statements", header_.ignored_lines);
         find_vertices();
         for (const PlyElement& element : header_.elements) read_element(element);
         read_end();
@@ -90,10 +91,9 @@ private:
         if (shortest == 0 && element.count > 0) scanner_.fail("element", element.name, "has no properties");
     }
 
+    // Some programs wrap long rows of text.
     double value(const PlyType& type, std::uint64_t row) {
         if (header_.is_binary) return type.load(scanner_.bytes(type.size, {"row", row}), header_.is_swapped);
-        if (scanner_.at_line_end())
-            scanner_.fail({"row", row}, {}, "is too short, or the file is cut off here");
         return scanner_.number({"row", row});
     }
 

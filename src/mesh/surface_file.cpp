@@ -1,6 +1,6 @@
 #include "mesh/surface_file.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -94,8 +94,13 @@ SurfaceMesh read_surface(const fs::path& file, Notes& notes) {
     replace_line_ends(content);
     refuse_foreign_content(file, format->ending, content);
 
+    const std::size_t noted = notes.size();
     SurfacePolygons polygons = format->read(file, content, notes);
-    if (polygons.sizes.empty()) fail(fmt::format("has {} vertices and no faces", polygons.positions.size()));
+    if (polygons.sizes.empty()) {
+        fail(fmt::format("has {} vertices and no faces{}{}", polygons.positions.size(),
+                         notes.size() > noted ? "; " : "",
+                         fmt::join(notes.begin() + static_cast<std::ptrdiff_t>(noted), notes.end(), "; ")));
+    }
     SurfaceMesh mesh = triangulate(std::move(polygons), notes);
     if (mesh.faces.empty()) fail("has no faces of three corners or more");
     if (format->repeats_vertices) share_vertices(mesh);

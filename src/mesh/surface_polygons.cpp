@@ -51,9 +51,10 @@ public:
     }
 
 private:
-    // Each corner once, where a polygon repeats it.
+    // Each corner once, where a polygon repeats it. Triangles that do are left to repair_surface.
     void list_corners(std::size_t first, std::size_t size) {
         corners_.clear();
+        if (size == 3) return corners_.assign({first, first + 1, first + 2});
         for (std::size_t k = first; k < first + size; ++k) {
             if (corners_.empty() || from_.corners[corners_.back()] != from_.corners[k]) corners_.push_back(k);
         }
