@@ -89,7 +89,7 @@ GltfDocument::GltfDocument(const std::filesystem::path& file, std::string_view c
     const Json& asset = json_.contains("asset") ? json_.at("asset") : Json::object();
     const std::string version =
         asset.is_object() && asset.contains("version") ? asset.at("version").dump() : "";
-    if (!version.starts_with("\"2.")) fail("asset.version", version, "must be \"2.0\"");
+    if (!version.starts_with("\"2.")) fail("asset.version", version, "only glTF 2 is read");
     buffers_.resize(list("buffers").size());
 }
 
@@ -108,7 +108,7 @@ std::string_view GltfDocument::split_binary(std::string_view content) {
         return load_bytes<std::uint32_t>(content, offset, kLittleIsSwapped);
     };
     if (content.size() < kHeader) fail({}, {}, "cannot be read: the file is cut off");
-    if (number(4) != 2) fail("version", fmt::format("{}", number(4)), "cannot be read: must be 2");
+    if (number(4) != 2) fail("version", fmt::format("{}", number(4)), "only glTF 2 is read");
     std::optional<std::string_view> text;
     for (std::size_t at = kHeader; at + kChunkHeader <= content.size();) {
         const std::uint64_t size = number(at);

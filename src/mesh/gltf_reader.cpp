@@ -9,8 +9,8 @@
 
 #include "gelatin/error.h"
 #include "mesh/gltf_document.h"
+#include "mesh/gltf_materials.h"
 #include "mesh/ignored.h"
-#include "mesh/surface_material.h"
 #include "mesh/surface_readers.h"
 
 namespace gelatin {
@@ -20,8 +20,9 @@ using Json = GltfDocument::Json;
 
 // Extensions that a reader of triangles, colours and images may leave out although a file requires them.
 bool is_harmless(std::string_view extension) {
-    constexpr std::array kHarmless = {"KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual",
-                                      "KHR_xmp_json_ld",       "KHR_texture_basisu",    "EXT_texture_webp"};
+    constexpr std::array kHarmless = {"KHR_mesh_quantization", "KHR_technique_webgl", "KHR_techniques_webgl",
+                                      "KHR_texture_transform", "KHR_lights_punctual", "KHR_xmp_json_ld",
+                                      "KHR_texture_basisu",    "EXT_texture_webp"};
     return extension.starts_with("KHR_materials_") ||
            std::find(kHarmless.begin(), kHarmless.end(), extension) != kHarmless.end();
 }
@@ -29,14 +30,13 @@ bool is_harmless(std::string_view extension) {
 class GltfReader {
 public:
     GltfReader(const std::filesystem::path& file, std::string_view content, Notes& notes)
-        : document_(file, content), notes_(notes) {}
+        : document_(file, content), materials_(document_), notes_(notes) {}
 
     SurfacePolygons read() {
         refuse_extensions();
-        read_materials();
         read_scene();
         if (!has_uvs_) polygons_.corner_uvs.clear();
-        keep_used_materials();
+        materials_.finish(polygons_, notes_, ignored_);
         for (const char* list : {"animations", "skins"}) ignored_.add(list, document_.list(list).size());
         ignored_.report(notes_);
         return std::move(polygons_);
@@ -162,11 +162,8 @@ private:
         if (attributes.contains("COLOR_0")) ignored_.add("colours of vertices", count);
         const std::vector<std::size_t> vertices = read_indices(primitive, what, count);
 
-        const auto material = document_.optional_number(primitive, "material", what);
-        const std::uint32_t material_index = material && *material < polygons_.materials.size()
-                                                 ? static_cast<std::uint32_t>(*material)
-                                                 : SurfaceLook::kNone;
-        const std::vector<glm::vec2> uvs = read_uvs(attributes, material_index, count);
+        const std::uint32_t material = materials_.index_of(primitive, what);
+        const std::vector<glm::vec2> uvs = read_uvs(attributes, material, count);
         const bool is_mirrored = determinant(glm::dmat3(transform)) < 0.0;
         const std::size_t step = mode == kTriangles ? 3 : 1;
         for (std::size_t k = 0; k + 2 < vertices.size(); k += step) {
@@ -179,7 +176,7 @@ private:
                 polygons_.corner_uvs.push_back(uvs.empty() ? glm::vec2(0.0f) : uvs[vertex]);
             }
             polygons_.sizes.push_back(3);
-            polygons_.polygon_materials.push_back(material_index);
+            polygons_.polygon_materials.push_back(material);
         }
     }
 
@@ -219,9 +216,8 @@ private:
     }
 
     std::vector<glm::vec2> read_uvs(const Json& attributes, std::uint32_t material, std::size_t count) {
-        const std::size_t set = material == SurfaceLook::kNone ? 0 : uv_sets_[material];
-        const auto accessor =
-            document_.optional_number(attributes, fmt::format("TEXCOORD_{}", set).c_str(), "attributes");
+        const std::string key = fmt::format("TEXCOORD_{}", materials_.uv_set(material));
+        const auto accessor = document_.optional_number(attributes, key.c_str(), "attributes");
         if (!accessor) return {};
         const GltfArray array = document_.read_accessor(*accessor);
         if (array.components != 2 || array.count < count)
@@ -237,77 +233,13 @@ private:
         return uvs;
     }
 
-    void read_materials() {
-        for (std::size_t m = 0; m < document_.list("materials").size(); ++m) {
-            const Json& from = document_.item("materials", m);
-            SurfaceMaterial& material = polygons_.materials.emplace_back();
-            material.name = from.value("name", "");
-            uv_sets_.push_back(0);
-            images_.emplace_back();
-            const Json pbr = from.value("pbrMetallicRoughness", Json::object()),
-                       extensions = from.value("extensions", Json::object()),
-                       gloss = extensions.value("KHR_materials_pbrSpecularGlossiness", Json::object());
-            read_look(pbr, "baseColorFactor", "baseColorTexture", m);
-            read_look(gloss, "diffuseFactor", "diffuseTexture", m);
-        }
-    }
-
-    // Colours are linear.
-    void read_look(const Json& look, const char* color_key, const char* texture_key, std::size_t m) {
-        const std::string what = fmt::format("materials[{}]", m);
-        if (const auto color = document_.numbers(look, color_key, 4, what)) {
-            for (int k = 0; k < 3; ++k)
-                polygons_.materials[m].color[k] = color_component((*color)[static_cast<std::size_t>(k)]);
-        }
-        const auto texture = look.find(texture_key);
-        if (texture == look.end()) return;
-        uv_sets_[m] = document_.optional_number(*texture, "texCoord", what).value_or(0);
-        const Json& item = document_.item("textures", document_.whole_number(*texture, "index", what));
-        images_[m] = document_.optional_number(item, "source", what);
-        if (!images_[m]) ignored_.add("textures of formats that are neither PNG nor JPEG");
-        const auto extensions = texture->find("extensions");
-        if (extensions != texture->end() && extensions->contains("KHR_texture_transform"))
-            ignored_.add("transforms of textures");
-    }
-
-    void keep_used_materials() {
-        auto& materials = polygons_.materials;
-        std::vector<bool> is_used(materials.size(), false);
-        for (const std::uint32_t m : polygons_.polygon_materials) {
-            if (m != SurfaceLook::kNone) is_used[m] = true;
-        }
-        std::vector<std::uint32_t> new_index(materials.size(), SurfaceLook::kNone);
-        std::uint32_t kept = 0;
-        for (std::size_t m = 0; m < materials.size(); ++m) {
-            if (!is_used[m]) continue;
-            if (images_[m]) read_image(materials[m], *images_[m]);
-            new_index[m] = kept;
-            if (kept != m) materials[kept] = std::move(materials[m]);
-            ++kept;
-        }
-        materials.resize(kept);
-        for (std::uint32_t& m : polygons_.polygon_materials) {
-            if (m != SurfaceLook::kNone) m = new_index[m];
-        }
-        if (materials.empty()) polygons_.polygon_materials.clear();
-    }
-
-    void read_image(SurfaceMaterial& material, std::size_t index) {
-        const Json& image = document_.item("images", index);
-        const std::string uri = image.value("uri", "");
-        material.image_name = uri.empty() || uri.starts_with("data:") ? fmt::format("*{}", index) : uri;
-        load_image(
-            material, [&] { return document_.read_image(index); }, notes_);
-    }
-
     GltfDocument document_;
+    GltfMaterials materials_;
     Notes& notes_;
     Ignored ignored_;
     SurfacePolygons polygons_;
     bool has_uvs_ = false;
-    std::vector<bool> is_visited_;                    // of each node
-    std::vector<std::size_t> uv_sets_;                // of each material: which texture coordinates it uses
-    std::vector<std::optional<std::size_t>> images_;  // of each material
+    std::vector<bool> is_visited_;  // of each node
 };
 
 }  // namespace
