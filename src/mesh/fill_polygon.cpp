@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <numbers>
 
 #include "mesh/fill_contours.h"
 
@@ -53,6 +54,7 @@ public:
     }
 
     FilledPolygon fill() {
+        result_.crosses_itself = turns() != 1;
         std::uint32_t corner = 0;
         std::size_t left = points_.size(), tried = 0, stuck = 0;
         constexpr std::size_t kPatience = 100;  // outlines of nonsense would take the square of their length
@@ -79,6 +81,18 @@ private:
         constexpr double kStraight = 1e-12;  // a sine that is rounding
         const glm::dvec2 &a = points_[previous_[corner]], &b = points_[corner], &c = points_[next_[corner]];
         return turn(a, b, c) > kStraight * distance(a, b) * distance(b, c);
+    }
+
+    /// How often the outline turns round; 1 as well where it goes back on itself, which could be either way.
+    long turns() const {
+        double angle = 0.0;
+        for (std::size_t k = 0; k < points_.size(); ++k) {
+            const glm::dvec2 to = points_[k] - points_[previous_[k]], from = points_[next_[k]] - points_[k];
+            const double sine = to.x * from.y - to.y * from.x, cosine = dot(to, from);
+            if (sine == 0.0 && cosine <= 0.0) return 1;
+            angle += std::atan2(sine, cosine);
+        }
+        return std::lround(angle / (2.0 * std::numbers::pi));
     }
 
     bool is_ear(std::uint32_t corner) const {

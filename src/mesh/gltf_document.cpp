@@ -126,7 +126,7 @@ std::string_view GltfDocument::split_binary(std::string_view content) {
 
 void GltfDocument::fail(const std::string& field, const std::string& value,
                         const std::string& problem) const {
-    throw InvalidInput({file_.string(), 0, printable(field), printable(value), problem});
+    throw InvalidInput({file_.string(), 0, field, printable(value), problem});
 }
 
 const Json& GltfDocument::list(const char* name) const {

@@ -48,7 +48,8 @@ private:
         const std::string prefix = off < keyword.size() ? keyword.substr(0, off) : "";
         constexpr std::array kPrefixes = {"", "c", "n", "cn", "nc", "st", "stc", "stn", "stcn", "stnc"};
         const bool is_known = std::find(kPrefixes.begin(), kPrefixes.end(), prefix) != kPrefixes.end();
-        if (!is_known || behind.find_first_not_of("0123456789") != std::string::npos)
+        const bool is_n_dimensional = word.find("nOFF") != std::string_view::npos;  // NOFF has normals
+        if (!is_known || is_n_dimensional || behind.find_first_not_of("0123456789") != std::string::npos)
             scanner_.fail("header", word, "must be OFF, COFF, NOFF or STOFF, in text");
         if (behind.empty() && !ahead.at_line_end() && lower_case(ahead.word("word")) == "binary")
             scanner_.fail("header", "OFF BINARY", "only OFF files in text are read");
