@@ -35,7 +35,7 @@ public:
     SurfacePolygons read() {
         refuse_extensions();
         read_scene();
-        if (!has_uvs_) polygons_.corner_uvs.clear();
+        if (!polygons_.corner_uvs.empty()) polygons_.corner_uvs.resize(polygons_.corners.size());
         materials_.finish(polygons_, notes_, ignored_);
         for (const char* list : {"animations", "skins"}) ignored_.add(list, document_.list(list).size());
         ignored_.report(notes_);
@@ -164,6 +164,7 @@ private:
 
         const std::uint32_t material = materials_.index_of(primitive, what);
         const std::vector<glm::vec2> uvs = read_uvs(attributes, material, count);
+        if (!uvs.empty()) polygons_.corner_uvs.resize(polygons_.corners.size());  // of parts without
         const bool is_mirrored = determinant(glm::dmat3(transform)) < 0.0;
         const std::size_t step = mode == kTriangles ? 3 : 1;
         for (std::size_t k = 0; k + 2 < vertices.size(); k += step) {
@@ -173,7 +174,7 @@ private:
             if (is_swapped) std::swap(corners[1], corners[2]);
             for (const std::size_t vertex : corners) {
                 polygons_.corners.push_back(static_cast<std::uint32_t>(first + vertex));
-                polygons_.corner_uvs.push_back(uvs.empty() ? glm::vec2(0.0f) : uvs[vertex]);
+                if (!uvs.empty()) polygons_.corner_uvs.push_back(uvs[vertex]);
             }
             polygons_.sizes.push_back(3);
             polygons_.polygon_materials.push_back(material);
@@ -206,7 +207,9 @@ private:
             for (std::size_t v = 0; v < count; ++v) vertices.push_back(v);
             return vertices;
         }
-        for (const double index : document_.read_accessor(*indices).values) {
+        const GltfArray array = document_.read_accessor(*indices);
+        vertices.reserve(array.values.size());
+        for (const double index : array.values) {
             if (!(index >= 0.0 && index < static_cast<double>(count)))
                 document_.fail(what + ".indices", fmt::format("{}", index),
                                fmt::format("must be below {}", count));
@@ -223,7 +226,6 @@ private:
         if (array.components != 2 || array.count < count)
             document_.fail("TEXCOORD", fmt::format("{}", array.count),
                            fmt::format("must be {} of type VEC2", count));
-        has_uvs_ = true;
         std::vector<glm::vec2> uvs;
         const auto finite = [](double value) {
             return std::abs(value) <= std::numeric_limits<float>::max() ? static_cast<float>(value) : 0.0f;
@@ -238,7 +240,6 @@ private:
     Notes& notes_;
     Ignored ignored_;
     SurfacePolygons polygons_;
-    bool has_uvs_ = false;
     std::vector<bool> is_visited_;  // of each node
 };
 

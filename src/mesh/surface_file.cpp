@@ -7,7 +7,6 @@
 #include <bit>
 #include <cstdint>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "core/file.h"
@@ -27,27 +26,29 @@ namespace fs = std::filesystem;
 // Merges vertices with the same position. STL repeats each vertex for every face, glTF where texture
 // coordinates or normals differ.
 void share_vertices(SurfaceMesh& mesh) {
-    struct Hash {
-        std::size_t operator()(const glm::dvec3& p) const {
-            std::uint64_t hash = 0;
-            for (const double c : {p.x, p.y, p.z}) {
-                hash = (hash ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9e3779b97f4a7c15u;  // -0 is 0
-                hash ^= hash >> 29;
-            }
-            return hash;
+    constexpr std::uint32_t kEmpty = ~0u;
+    std::vector<std::uint32_t> table(std::bit_ceil(2 * mesh.positions.size() + 1), kEmpty);
+    // Of the vertex that is kept for this position; its own, if it is the first.
+    const auto find = [&](const glm::dvec3& p, std::uint32_t kept) {
+        std::uint64_t hash = 0;
+        for (const double c : {p.x, p.y, p.z}) {
+            hash = (hash ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9e3779b97f4a7c15u;  // -0 is 0
+            hash ^= hash >> 29;
+        }
+        for (std::size_t slot = hash;; ++slot) {
+            std::uint32_t& entry = table[slot & (table.size() - 1)];
+            if (entry == kEmpty) entry = kept;
+            if (entry == kept || mesh.positions[entry] == p) return entry;
         }
     };
-    std::unordered_map<glm::dvec3, std::uint32_t, Hash> indices;
-    indices.reserve(mesh.positions.size() / 4);
     std::vector<std::uint32_t> new_index;
     new_index.reserve(mesh.positions.size());
-    for (const glm::dvec3& p : mesh.positions) {
-        const auto kept = static_cast<std::uint32_t>(indices.size());
-        const auto [entry, is_new] = indices.try_emplace(p, kept);
-        if (is_new) mesh.positions[kept] = p;
-        new_index.push_back(entry->second);
+    std::uint32_t kept = 0;
+    for (const glm::dvec3 p : mesh.positions) {
+        new_index.push_back(find(p, kept));
+        if (new_index.back() == kept) mesh.positions[kept++] = p;
     }
-    mesh.positions.resize(indices.size());
+    mesh.positions.resize(kept);
     for (glm::uvec3& face : mesh.faces) face = {new_index[face[0]], new_index[face[1]], new_index[face[2]]};
 }
 
