@@ -99,17 +99,15 @@ FlatMesh tessellate(const std::vector<Contour>& contours) {
     return compact(result);
 }
 
-/// Approximate sine of a triangle's smallest angle: twice its area divided by the square of its longest side.
-double quality(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
+}  // namespace
+
+double triangle_quality(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     const glm::dvec2 ab = b - a, ac = c - a, bc = c - b;
     const double longest = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
     return longest > 0.0 ? (ab.x * ac.y - ab.y * ac.x) / longest : 0.0;
 }
 
-/// Flips the diagonal of two neighbouring triangles wherever that improves the worse of them, until no flip
-/// does (Lawson 1977). This also removes the triangles of zero area that the tessellator makes between
-/// collinear points.
-void improve(FlatMesh& mesh) {
+void improve_triangles(FlatMesh& mesh) {
     constexpr double kGain = 1e-9;  // less is rounding
     const auto& at = mesh.positions;
     bool changed = true;
@@ -126,8 +124,10 @@ void improve(FlatMesh& mesh) {
             const bool goes_forward =
                 (t[0] == a && t[1] == b) || (t[1] == a && t[2] == b) || (t[2] == a && t[0] == b);
             if (!goes_forward) std::swap(a, b);
-            const double before = std::min(quality(at[a], at[b], at[c]), quality(at[b], at[a], at[d]));
-            const double after = std::min(quality(at[a], at[d], at[c]), quality(at[d], at[b], at[c]));
+            const double before =
+                std::min(triangle_quality(at[a], at[b], at[c]), triangle_quality(at[b], at[a], at[d]));
+            const double after =
+                std::min(triangle_quality(at[a], at[d], at[c]), triangle_quality(at[d], at[b], at[c]));
             if (after < before + kGain) continue;
             mesh.triangles[first] = {a, d, c};
             mesh.triangles[second] = {d, b, c};
@@ -136,11 +136,9 @@ void improve(FlatMesh& mesh) {
     }
 }
 
-}  // namespace
-
 FlatMesh fill_contours(const std::vector<Contour>& contours) {
     FlatMesh mesh = tessellate(contours);
-    improve(mesh);
+    improve_triangles(mesh);
     return mesh;
 }
 

@@ -30,12 +30,21 @@ std::string printable(std::string_view value) {
     return value.size() > kLongest ? text + "..." : text;
 }
 
+std::string lower_case(std::string_view text) {
+    std::string result(text);
+    for (char& c : result) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return result;
+}
+
 std::string FieldName::text() const {
     return number == 0 ? std::string(name) : fmt::format("{} {}", name, number);
 }
 
-TextScanner::TextScanner(const std::filesystem::path& file, std::string_view text, char comment)
-    : file_(file), text_(text), comment_(comment) {
+TextScanner::TextScanner(const std::filesystem::path& file, std::string_view text, char comment,
+                         bool joins_lines)
+    : file_(file), text_(text), comment_(comment), joins_lines_(joins_lines) {
     if (text.starts_with(kByteOrderMark)) position_ = kByteOrderMark.size();
 }
 
@@ -50,10 +59,18 @@ void TextScanner::skip_blanks(bool stop_at_line_end) {
             position_ = std::min(text_.find('\n', position_), text_.size());
         } else if (is_blank(c)) {
             ++position_;
+        } else if (joins_next_line()) {
+            skip_to(text_.find('\n', position_) + 1);
         } else {
             return;
         }
     }
+}
+
+bool TextScanner::joins_next_line() const {
+    if (!joins_lines_ || text_[position_] != '\\') return false;
+    const std::size_t next = text_.find_first_not_of(" \t\r", position_ + 1);
+    return next < text_.size() && text_[next] == '\n';
 }
 
 bool TextScanner::at_end() {
@@ -67,6 +84,7 @@ bool TextScanner::at_line_end() {
 }
 
 void TextScanner::skip_line() {
+    while (joins_lines_ && !at_line_end()) word("word");
     position_ = text_.find('\n', position_);
     if (position_ == std::string_view::npos) {
         position_ = text_.size();
@@ -79,8 +97,22 @@ void TextScanner::skip_line() {
 std::string_view TextScanner::word(const FieldName& field) {
     if (at_end()) fail_cut_off(field);
     const std::size_t begin = position_;
-    while (position_ < text_.size() && !is_blank(text_[position_])) ++position_;
+    while (position_ < text_.size() && !is_blank(text_[position_]) && !joins_next_line()) {
+        if (comment_ != 0 && text_[position_] == comment_) break;
+        ++position_;
+    }
     return text_.substr(begin, position_ - begin);
+}
+
+std::string_view TextScanner::rest_of_line() {
+    if (at_line_end()) return {};
+    std::string_view rest = text_.substr(position_, text_.find('\n', position_) - position_);
+    position_ += rest.size();
+    for (std::size_t k = 1; k < rest.size(); ++k) {
+        if (rest[k] == comment_ && is_blank(rest[k - 1])) rest = rest.substr(0, k);
+    }
+    while (is_blank(rest.back())) rest.remove_suffix(1);
+    return rest;
 }
 
 std::uint64_t TextScanner::integer(const FieldName& field, std::uint64_t low, std::uint64_t high) {
@@ -119,7 +151,8 @@ double TextScanner::number(const FieldName& field) {
     const std::string_view text = word(field);
     const char* const end = text.data() + text.size();
     double value = 0.0;
-    const auto [stop, error] = std::from_chars(text.data() + (text[0] == '+' ? 1 : 0), end, value);
+    const bool has_plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+    const auto [stop, error] = std::from_chars(text.data() + (has_plus ? 1 : 0), end, value);
     // Too large or too small for a double: strtod distinguishes them.
     if (error == std::errc::result_out_of_range) return std::strtod(std::string(text).c_str(), nullptr);
     if (error != std::errc() || stop != end) fail(field, text, "must be a number");
@@ -163,6 +196,10 @@ void TextScanner::skip_to(std::size_t position) {
     line_ += static_cast<int>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(position_),
                                          text_.begin() + static_cast<std::ptrdiff_t>(position), '\n'));
     position_ = position;
+}
+
+void TextScanner::skip_over(std::string_view part) {
+    skip_to(static_cast<std::size_t>(part.data() - text_.data()) + part.size());
 }
 
 void TextScanner::skip_past(std::string_view text, const FieldName& field) {

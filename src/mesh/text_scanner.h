@@ -22,12 +22,17 @@ struct FieldName {
 /// The part of a value from a file that a message can show: binary files have long and unprintable ones.
 std::string printable(std::string_view value);
 
+/// With the letters A to Z as small ones.
+std::string lower_case(std::string_view text);
+
 /// Reads a mesh file word by word, or byte by byte between words. Every problem is an InvalidInput with file
 /// and line. Keeps references to its arguments.
 class TextScanner {
 public:
     /// @param comment the character that begins a comment, which ends with its line; 0 if the format has none
-    TextScanner(const std::filesystem::path& file, std::string_view text, char comment = '#');
+    /// @param joins_lines whether a backslash at the end of a line joins the next one to it
+    TextScanner(const std::filesystem::path& file, std::string_view text, char comment = '#',
+                bool joins_lines = false);
 
     /// Skips blanks and comments. True at the end of the file.
     bool at_end();
@@ -37,6 +42,9 @@ public:
 
     /// The next word, on any line. @throws InvalidInput at the end of the file.
     std::string_view word(const FieldName& field);
+    /// The words that are left on this line, with the blanks between them. A comment character within a word,
+    /// as in a name, begins no comment.
+    std::string_view rest_of_line();
     /// Reads the next word. @throws InvalidInput if it is another one.
     void expect(const char* expected);
     std::uint64_t integer(const FieldName& field, std::uint64_t low = 0,
@@ -54,7 +62,10 @@ public:
 
     /// The next `size` bytes as they are. From there on, line numbers are unknown.
     std::string_view bytes(std::size_t size, const FieldName& field);
+    std::size_t bytes_left() const { return text_.size() - position_; }
 
+    /// Continues after a part of the text that lies ahead, as a copy of this scanner has read it.
+    void skip_over(std::string_view part);
     /// Continues at this byte, which must not lie behind the place where it is.
     void skip_to(std::size_t position);
     /// Continues after `text`. @throws InvalidInput if it does not occur.
@@ -67,12 +78,14 @@ public:
 
 private:
     void skip_blanks(bool stop_at_line_end);
+    bool joins_next_line() const;  // a backslash is here, and nothing behind it
     template <class T>
     T parse_signed(const FieldName& field);
 
     const std::filesystem::path& file_;
     std::string_view text_;
     char comment_;
+    bool joins_lines_;
     std::size_t position_ = 0;
     int line_ = 1;  // of the word that was read last
     bool knows_line_ = true;

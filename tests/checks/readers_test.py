@@ -1,11 +1,13 @@
 """Other programs read what Gelatin exports, with the numbers of the simulation: USD's library, trimesh, meshio and VTK.
 Gelatin reads what meshio writes of cells that are no tets.
+Gelatin reads the surfaces that trimesh and meshio write, and they those that it writes.
 Needs PyPI, so it is one of the long tests. Assimp reads glTF in tests/sim/animation_file_test.cpp.
 
 The numbers are those of a checkpoint, for nodes, and of a point cache, for what is drawn; tests of C++ compare both with
 the simulation. Files of floats must have the same, bit for bit, and so must text, which has enough digits.
 """
 
+import json
 import os
 import struct
 import subprocess
@@ -286,11 +288,99 @@ class Readers(unittest.TestCase):
         self.assertEqual(names, ["velocity", "displacement", "contact_force", "contact_friction"])
 
 
+class Surfaces(unittest.TestCase):
+    """Round trips of a body with a hole, of triangles. Its numbers have few digits, so that all formats keep them."""
+
+    def setUp(self):
+        kept = tempfile.TemporaryDirectory()
+        self.addCleanup(kept.cleanup)
+        self.folder = Path(kept.name)
+        n, m = 24, 12
+        u, v = np.meshgrid(np.arange(n), np.arange(m), indexing="ij")
+        a, b = 2 * np.pi * u / n, 2 * np.pi * v / m
+        ring = 2 + 0.75 * np.cos(b)
+        points = np.stack([ring * np.cos(a), ring * np.sin(a), 0.75 * np.sin(b) + 3], axis=-1).reshape(-1, 3)
+        self.points = np.round(256 * points) / 256 + 0.0  # -0 is 0
+
+        def number(i, j):
+            return (i % n) * m + j % m
+
+        corners = number(u, v), number(u + 1, v), number(u + 1, v + 1), number(u, v + 1)
+        self.faces = np.concatenate([np.stack([corners[k] for k in t], axis=-1).reshape(-1, 3) for t in ((0, 1, 2), (0, 2, 3))])
+        p, q, r = (self.points[self.faces[:, k]] for k in range(3))
+        self.volume = np.einsum("ij,ij->", p, np.cross(q, r)) / 6
+
+    def gelatin(self, *arguments):
+        result = subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True, check=False)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout
+
+    def assert_read(self, name):
+        surface = json.loads(self.gelatin("info", name, "--json"))
+        self.assertEqual(surface["notes"], [], name)
+        self.assertEqual((surface["vertices"], surface["faces"]), (len(self.points), len(self.faces)), name)
+        self.assertTrue(surface["closed"], name)
+        self.assertAlmostEqual(surface["volume"], self.volume, delta=1e-6 * self.volume, msg=name)
+        self.gelatin("mesh", name, "-o", "back.ply")
+        back = trimesh.load(self.folder / "back.ply", process=False)
+        self.assert_same_triangles(back.vertices, back.faces)
+
+    def assert_same_triangles(self, vertices, faces):
+        """In any order, but from the same corner and of the same orientation."""
+
+        def rows(triangles):
+            flat = triangles.reshape(-1, 9)
+            return flat[np.lexsort(flat.T)]
+
+        np.testing.assert_array_equal(rows(np.asarray(vertices)[faces]), rows(self.points[self.faces]))
+
+    def test_what_trimesh_writes_is_read(self):
+        mesh = trimesh.Trimesh(self.points, self.faces, process=False)
+        for name, options in (
+            ("a.obj", {"digits": 12}),
+            ("a.stl", {}),
+            ("b.stl", {"file_type": "stl_ascii"}),
+            ("a.ply", {}),
+            ("b.ply", {"encoding": "ascii"}),
+            ("a.off", {"digits": 12}),
+            ("a.glb", {}),
+        ):
+            mesh.export(self.folder / name, **options)
+            self.assert_read(name)
+        for name, content in trimesh.exchange.gltf.export_gltf(trimesh.Scene(mesh)).items():
+            (self.folder / name).write_bytes(content)
+        self.assert_read("model.gltf")
+
+    def test_what_meshio_writes_is_read(self):
+        mesh = meshio.Mesh(self.points, [("triangle", self.faces)])
+        for name, options in (
+            ("a.obj", {}),
+            ("a.stl", {"binary": True}),
+            ("b.stl", {"binary": False}),
+            ("a.ply", {"binary": True}),
+            ("b.ply", {"binary": False}),
+            ("a.off", {}),
+        ):
+            meshio.write(self.folder / name, mesh, **options)
+            self.assert_read(name)
+
+    def test_trimesh_and_meshio_read_what_is_written(self):
+        trimesh.Trimesh(self.points, self.faces, process=False).export(self.folder / "from.ply")
+        for name in ("a.obj", "a.stl", "a.ply", "a.off"):
+            self.gelatin("mesh", "from.ply", "-o", name)
+            by_trimesh = trimesh.load(self.folder / name, process=False)
+            by_meshio = meshio.read(self.folder / name)
+            self.assert_same_triangles(by_trimesh.vertices, by_trimesh.faces)
+            self.assert_same_triangles(by_meshio.points, by_meshio.cells_dict["triangle"])
+
+
 if __name__ == "__main__":
     install()
     python = VENV / "bin/python"
     if Path(sys.prefix).resolve() != VENV.resolve():
         sys.exit(subprocess.run([python, *sys.argv], check=False).returncode)
+    import meshio
     import numpy as np
+    import trimesh
 
     unittest.main()
