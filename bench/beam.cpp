@@ -4,7 +4,7 @@
 #include <array>
 
 #include "mesh/topology.h"
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 #include "model/springs/spring_cache.h"
 
 namespace gelatin {

@@ -9,7 +9,7 @@
 #include "gpu/descent/implicit_solver.h"
 #include "gpu/explicit/explicit_solver.h"
 #include "gpu/view/update_normals.h"
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 #include "model/descent/descent_rows.h"
 
 namespace gelatin {

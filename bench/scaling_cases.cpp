@@ -9,7 +9,7 @@
 #include "bench/scene_file.h"
 #include "mesh/shapes.h"
 #include "mesh/tetrahedralise.h"
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 #include "sim/report.h"
 
 namespace gelatin {

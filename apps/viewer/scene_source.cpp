@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 
 namespace gelatin::viewer {
 

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "gelatin/recording.h"
-#include "model/build/collider_surface.h"
+#include "model/assembly/collider_surface.h"
 #include "model/model.h"
 #include "picture/surroundings.h"
 #include "render/collider_props.h"

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "model/build/collider_surface.h"
+#include "model/assembly/collider_surface.h"
 #include "model/model.h"
 #include "render/collider_props.h"
 #include "sim/simulator_internals.h"

@@ -10,7 +10,7 @@
 #include "cpu/collision/triangle_overlap.h"
 #include "cpu/collision/walk_tree.h"
 #include "gelatin/error.h"
-#include "model/build/collider_surface.h"
+#include "model/assembly/collider_surface.h"
 #include "model/collision/pack_colliders.h"
 #include "model/corners.h"
 

@@ -9,7 +9,7 @@
 #include <iterator>
 #include <span>
 
-#include "model/build/pack_skin.h"
+#include "model/assembly/pack_skin.h"
 
 namespace gelatin {
 namespace {

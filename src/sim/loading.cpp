@@ -8,7 +8,7 @@
 
 #include "core/progress.h"
 #include "gelatin/error.h"
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 #include "sim/simulator_internals.h"
 
 namespace gelatin {

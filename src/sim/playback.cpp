@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "gelatin/error.h"
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 #include "model/explicit/stability.h"
 #include "sim/backend.h"
 #include "sim/recording/recording_internals.h"

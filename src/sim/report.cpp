@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "gelatin/version.h"
-#include "model/build/collider_surface.h"
+#include "model/assembly/collider_surface.h"
 #include "model/model.h"
 #include "model/setting_names.h"
 #include "sim/simulator_internals.h"

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 #include "sim/simulation.h"
 
 namespace gelatin {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "gelatin/error.h"
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 #include "model/explicit/stability.h"
 #include "model/scene/names.h"
 #include "sim/carry_over.h"

@@ -3,7 +3,7 @@
 
 #include "apps/program_test.h"
 #include "mesh/surface_file.h"
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 #include "model/explicit/stability.h"
 #include "render/image.h"
 #include "sim/checkpoint.h"

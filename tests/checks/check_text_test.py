@@ -161,7 +161,7 @@ class CheckText(unittest.TestCase):
     def test_what_is_built_is_not_read(self):
         self.assert_passes("build/release/a.cpp", f"// {UNFINISHED}\n")
         self.assert_passes("out/a.md", f"{UNFINISHED}\n")
-        self.assert_refused("src/model/build/a.cpp", f"// {UNFINISHED}\n", "unfinished work")
+        self.assert_refused("src/model/assembly/a.cpp", f"// {UNFINISHED}\n", "unfinished work")
 
 
 if __name__ == "__main__":

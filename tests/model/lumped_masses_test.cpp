@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 #include "support/test_models.h"
 
 namespace gelatin {

@@ -16,7 +16,7 @@
 #include "mesh/surface_file.h"
 #include "mesh/tet_file.h"
 #include "mesh/texture_samples.h"
-#include "model/build/pack_skin.h"
+#include "model/assembly/pack_skin.h"
 
 namespace gelatin {
 namespace {

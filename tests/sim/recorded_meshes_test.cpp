@@ -12,7 +12,7 @@
 #include "gelatin/error.h"
 #include "gelatin/recording.h"
 #include "mesh/shapes.h"
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 #include "model/scene/override_scene.h"
 #include "sim/recording/compression.h"
 #include "sim/recording/recorded_meshes.h"

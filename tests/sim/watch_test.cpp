@@ -11,7 +11,7 @@
 #include "gelatin/error.h"
 #include "gelatin/simulator.h"
 #include "gpu/explicit/explicit_solver.h"
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 #include "model/explicit/stability.h"
 #include "sim/checkpoint.h"
 #include "sim/simulator_internals.h"

@@ -1,7 +1,7 @@
 #include "support/contact_scenes.h"
 
 #include "cpu/measure/measure.h"
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 #include "model/drive/handles.h"
 #include "support/overlaps.h"
 #include "support/test_models.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesh/tet_mesh.h"
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 #include "model/model.h"
 
 namespace gelatin::test {

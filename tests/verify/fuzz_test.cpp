@@ -5,7 +5,7 @@
 #include <random>
 
 #include "cpu/descent/implicit_solver.h"
-#include "model/build/start_state.h"
+#include "model/assembly/start_state.h"
 #include "support/test_models.h"
 
 namespace gelatin {

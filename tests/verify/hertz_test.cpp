@@ -13,8 +13,8 @@
 
 #include "cpu/descent/implicit_solver.h"
 #include "mesh/tetrahedralise.h"
-#include "model/build/build_model.h"
-#include "model/build/collider_surface.h"
+#include "model/assembly/build_model.h"
+#include "model/assembly/collider_surface.h"
 #include "support/test_models.h"
 #include "verify/support/graded_ball.h"
 

@@ -12,7 +12,7 @@
 #include "gpu/descent/implicit_solver.h"
 #include "mesh/shapes.h"
 #include "mesh/tetrahedralise.h"
-#include "model/build/start_state.h"
+#include "model/assembly/start_state.h"
 #include "support/gl_fixture.h"
 #include "support/test_models.h"
 

@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 
 namespace gelatin::viewer {
 namespace {

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "model/build/pack_skin.h"
+#include "model/assembly/pack_skin.h"
 
 namespace gelatin {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "gelatin/scene.h"
-#include "model/build/scene_meshes.h"
+#include "model/assembly/scene_meshes.h"
 
 namespace gelatin {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 #include "support/draw_vector.h"
 
 namespace gelatin {

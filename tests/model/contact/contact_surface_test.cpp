@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 #include "model/corners.h"
 #include "support/test_models.h"
 

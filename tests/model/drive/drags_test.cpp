@@ -7,7 +7,7 @@
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 #include "model/transform.h"
 #include "support/test_models.h"
 

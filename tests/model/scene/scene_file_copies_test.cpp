@@ -1,7 +1,7 @@
 #include <glm/common.hpp>
 #include <set>
 
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 #include "model/scene/scene_file_fixture.h"
 
 namespace gelatin::test {

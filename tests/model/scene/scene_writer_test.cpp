@@ -7,7 +7,7 @@
 
 #include "core/file.h"
 #include "gelatin/error.h"
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 #include "support/source_path.h"
 
 namespace gelatin {

@@ -10,7 +10,7 @@
 
 #include "core/file.h"
 #include "mesh/topology.h"
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 #include "model/springs/elastic_response.h"
 #include "model/springs/spring_cache.h"
 #include "support/test_models.h"

@@ -1,4 +1,4 @@
-#include "model/build/collider_surface.h"
+#include "model/assembly/collider_surface.h"
 
 #include <fmt/core.h>
 
@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "gelatin/error.h"
-#include "model/build/draw_surface.h"
+#include "model/assembly/draw_surface.h"
 #include "model/collision/box_tree.h"
 #include "model/spring_packing.h"
 #include "model/transform.h"

@@ -1,4 +1,4 @@
-#include "model/build/object_mesh.h"
+#include "model/assembly/object_mesh.h"
 
 #include <fmt/core.h>
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "model/build/object_mesh.h"
+#include "model/assembly/object_mesh.h"
 #include "model/model.h"
 
 namespace gelatin {

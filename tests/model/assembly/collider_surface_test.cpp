@@ -1,4 +1,4 @@
-#include "model/build/collider_surface.h"
+#include "model/assembly/collider_surface.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/file.h"
 #include "gelatin/error.h"
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 #include "support/test_models.h"
 
 namespace gelatin {

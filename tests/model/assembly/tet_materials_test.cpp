@@ -1,4 +1,4 @@
-#include "model/build/tet_materials.h"
+#include "model/assembly/tet_materials.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "model/build/model_check.h"
+#include "model/assembly/model_check.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "model/build/pack_skin.h"
+#include "model/assembly/pack_skin.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "model/build/draw_surface.h"
+#include "model/assembly/draw_surface.h"
 
 #include <algorithm>
 #include <cmath>

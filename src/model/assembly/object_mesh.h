@@ -10,7 +10,7 @@
 #include "mesh/carry_surface.h"
 #include "mesh/surface_mesh.h"
 #include "mesh/tet_mesh.h"
-#include "model/build/scene_meshes.h"
+#include "model/assembly/scene_meshes.h"
 #include "model/springs/fit_springs.h"
 
 namespace gelatin {

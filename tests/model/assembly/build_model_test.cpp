@@ -1,4 +1,4 @@
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "model/build/start_state.h"
+#include "model/assembly/start_state.h"
 
 #include <algorithm>
 #include <random>

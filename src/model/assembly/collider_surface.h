@@ -5,7 +5,7 @@
 
 #include "gelatin/scene.h"
 #include "mesh/surface_mesh.h"
-#include "model/build/object_mesh.h"
+#include "model/assembly/object_mesh.h"
 #include "model/model.h"
 
 namespace gelatin {

@@ -4,8 +4,8 @@
 
 #include "gelatin/scene.h"
 #include "mesh/tet_mesh.h"
-#include "model/build/collider_surface.h"
-#include "model/build/object_mesh.h"
+#include "model/assembly/collider_surface.h"
+#include "model/assembly/object_mesh.h"
 #include "model/model.h"
 #include "model/springs/fit_springs.h"
 

@@ -1,4 +1,4 @@
-#include "model/build/model_check.h"
+#include "model/assembly/model_check.h"
 
 #include <fmt/core.h>
 

@@ -1,10 +1,10 @@
-#include "model/build/pack_skin.h"
+#include "model/assembly/pack_skin.h"
 
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
-#include "model/build/draw_surface.h"
+#include "model/assembly/draw_surface.h"
 
 namespace gelatin {
 namespace {

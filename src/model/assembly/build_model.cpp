@@ -1,4 +1,4 @@
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 
 #include <fmt/core.h>
 
@@ -15,11 +15,11 @@
 #include "core/progress.h"
 #include "gelatin/error.h"
 #include "mesh/topology.h"
-#include "model/build/body_handles.h"
-#include "model/build/draw_surface.h"
-#include "model/build/object_mesh.h"
-#include "model/build/pack_skin.h"
-#include "model/build/tet_materials.h"
+#include "model/assembly/body_handles.h"
+#include "model/assembly/draw_surface.h"
+#include "model/assembly/object_mesh.h"
+#include "model/assembly/pack_skin.h"
+#include "model/assembly/tet_materials.h"
 #include "model/collision/box_tree.h"
 #include "model/collision/node_faces.h"
 #include "model/collision/pack_colliders.h"

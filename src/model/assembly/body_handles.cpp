@@ -1,4 +1,4 @@
-#include "model/build/body_handles.h"
+#include "model/assembly/body_handles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "model/build/build_model.h"
+#include "model/assembly/build_model.h"
 #include "model/drive/drags.h"
 #include "model/region.h"
 #include "model/transform.h"
