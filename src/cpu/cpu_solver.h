@@ -57,7 +57,7 @@ protected:
 
     std::shared_ptr<const Model> model_;
     Nodes<Real> current_, previous_;       // swapped by each step: its end, and its start
-    bool has_earlier_ = false;             // previous_ is one step earlier: implicit solvers look back
+    bool has_earlier_ = false;             // previous_ is one step earlier: implicit solvers read it
     std::vector<Vec4<Real>> load_forces_;  // [N], shape [nodes]; empty without loads
     Pulls<Real> pulls_;
     HostStageTimer timer_;

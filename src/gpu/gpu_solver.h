@@ -67,7 +67,7 @@ protected:
     std::shared_ptr<const Model> model_;
     ModelBuffers buffers_;
     NodeBuffers current_, previous_;  // swapped by each step: its end, and its start
-    bool has_earlier_ = false;        // previous_ is one step earlier: implicit solvers look back
+    bool has_earlier_ = false;        // previous_ is one step earlier: implicit solvers read it
     gl::TimestampStageTimer timer_;
 
 private:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +24,13 @@ using Notes = std::vector<Note>;
 /// A note of something that may not be what was meant, as a part of the body that is lost.
 inline Note warning(std::string line) {
     return {std::move(line), true};
+}
+
+/// "a; b; c".
+inline std::string joined(std::span<const Note> notes) {
+    std::string text;
+    for (const Note& note : notes) text += (text.empty() ? "" : "; ") + note.text;
+    return text;
 }
 
 }  // namespace gelatin

@@ -98,9 +98,9 @@ SurfaceMesh read_surface(const fs::path& file, Notes& notes) {
     const std::size_t noted = notes.size();
     SurfacePolygons polygons = format->read(file, content, notes);
     if (polygons.sizes.empty()) {
+        const std::string ignored = joined(std::span(notes).subspan(noted));
         fail(fmt::format("has {} vertices and no faces{}{}", polygons.positions.size(),
-                         notes.size() > noted ? "; " : "",
-                         fmt::join(notes.begin() + static_cast<std::ptrdiff_t>(noted), notes.end(), "; ")));
+                         ignored.empty() ? "" : "; ", ignored));
     }
     SurfaceMesh mesh = triangulate(std::move(polygons), notes);
     if (mesh.faces.empty()) fail("has no faces of three corners or more");

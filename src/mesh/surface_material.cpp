@@ -26,7 +26,7 @@ void load_image(SurfaceMaterial& material, const std::function<std::string()>& l
     } catch (const Error& error) {
         notes.push_back(fmt::format("the texture '{}' of material '{}' is left out: {}", material.image_name,
                                     material.name, error.what()));
-        for (char& c : notes.back()) {
+        for (char& c : notes.back().text) {
             if (c == '\n' || c == '\r') c = ' ';  // names in glTF files may contain anything
         }
         material.image_name.clear();

@@ -63,9 +63,8 @@ TetMesh read_tets(const fs::path& file, Notes& notes) {
                    : ending == ".vtu" ? read_vtu(file, notes)
                                       : read_tetgen(file, notes);
     if (mesh.tets.empty()) {
-        std::string problem = "has no tets";
-        for (const Note& note : notes) problem += (&note == &notes.front() ? " (" : "; ") + note.text;
-        throw InvalidInput({file.string(), 0, {}, {}, problem + (notes.empty() ? "" : ")")});
+        const std::string ignored = notes.empty() ? "" : " (" + joined(notes) + ")";
+        throw InvalidInput({file.string(), 0, {}, {}, "has no tets" + ignored});
     }
     repair_tets(mesh, file.string(), notes);
     return mesh;

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <limits>
 #include <string>
 #include <utility>
 
 #include "gelatin/error.h"
 #include "mesh/load_bytes.h"
+#include "mesh/text_scanner.h"
 
 namespace gelatin {
 namespace {
@@ -53,12 +53,6 @@ constexpr std::array<NamedType, 23> kTypes = {{
 constexpr std::array<std::string_view, 10> kAttributeNames = {
     "attribute", "material",      "material_id",   "materialids", "region",
     "regionid",  "gmsh:physical", "cellentityids", "medit:ref",   "object"};
-
-std::string lower_case(std::string_view text) {
-    std::string result(text);
-    for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return result;
-}
 
 struct VtkCellTypes {
     CellShape shape;

@@ -12,7 +12,7 @@ namespace gelatin {
 /// as it is not drawn from behind.
 class LineOfSight {
 public:
-    /// @param bodies points of them, of which some are looked at
+    /// @param bodies points of them, of which some are checked
     explicit LineOfSight(std::span<const glm::vec3> bodies);
     void add_surface(std::vector<glm::vec3> corners);  ///< three for each face
 

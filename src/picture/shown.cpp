@@ -118,9 +118,9 @@ Shown::Shown(const Simulator& simulator) : simulator_(simulator) {
         if (normal.y > kSteep) planes_.push_back({normal, static_cast<float>(plane->offset)});
     }
     for (std::size_t o = model.body_count(); o < model.objects.size(); ++o)
-        obstacles_.push_back({model.objects[o].nodes, {}, {}});
+        colliders_.push_back({model.objects[o].nodes, {}, {}});
     for (const std::vector<glm::vec3>& solid : solids(scene))
-        obstacles_.push_back({{}, bounds_of(solid), bounds_of(solid)});
+        colliders_.push_back({{}, bounds_of(solid), bounds_of(solid)});
     add();
 }
 
@@ -143,10 +143,10 @@ void Shown::add() {
     last_ = nodes_of(simulator_);
     const bool is_first = first_.empty();
     if (is_first) first_ = last_;
-    for (Obstacle& obstacle : obstacles_) {
-        if (obstacle.nodes.count == 0) continue;
-        obstacle.now = bounds_of(part(last_, obstacle.nodes));
-        obstacle.all = is_first ? obstacle.now : both(obstacle.all, obstacle.now);
+    for (FiniteCollider& collider : colliders_) {
+        if (collider.nodes.count == 0) continue;
+        collider.now = bounds_of(part(last_, collider.nodes));
+        collider.all = is_first ? collider.now : both(collider.all, collider.now);
     }
     std::vector<Bounds> bodies;
     for (const ModelObject& body : model.bodies())
@@ -188,8 +188,8 @@ std::optional<float> Shown::ground_under(const Bounds& body) const {
     };
     for (const Plane& plane : planes_)
         note((plane.offset - plane.normal.x * middle.x - plane.normal.z * middle.z) / plane.normal.y);
-    for (const Obstacle& obstacle : obstacles_) {
-        const Bounds& box = obstacle.now;
+    for (const FiniteCollider& collider : colliders_) {
+        const Bounds& box = collider.now;
         if (box.min.x > body.max.x || box.max.x < body.min.x || box.min.z > body.max.z ||
             box.max.z < body.min.z)
             continue;
@@ -208,10 +208,10 @@ Bounds Shown::with_colliders() const {
     Bounds shown = *bodies_;
     const float size = largest(bodies_->size());
     const Bounds near = inflated(*bodies_, kBeside * size);
-    for (const Obstacle& obstacle : obstacles_) {
-        if (!meet(obstacle.all, near)) continue;
-        const bool is_small = largest(obstacle.all.size()) <= kWholly * size;
-        shown = both(shown, is_small ? obstacle.all : common(obstacle.all, near));
+    for (const FiniteCollider& collider : colliders_) {
+        if (!meet(collider.all, near)) continue;
+        const bool is_small = largest(collider.all.size()) <= kWholly * size;
+        shown = both(shown, is_small ? collider.all : common(collider.all, near));
     }
     return shown;
 }

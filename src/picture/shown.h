@@ -37,7 +37,7 @@ private:
         float offset;
     };
     /// A collider that has an end.
-    struct Obstacle {
+    struct FiniteCollider {
         Range nodes;              // of a surface; none: it rests
         render::Bounds now, all;  // at present, in all frames [m]
     };
@@ -50,7 +50,7 @@ private:
     // All with y up.
     const Simulator& simulator_;
     std::vector<Plane> planes_;
-    std::vector<Obstacle> obstacles_;
+    std::vector<FiniteCollider> colliders_;
     std::vector<glm::vec3> first_, last_;   // nodes of the first and of the last frame [m]
     float size_ = 0.0f;                     // of the largest body of the first frame [m]
     std::optional<render::Bounds> home_;    // the bodies of the first frame, with what is under them

@@ -9,13 +9,13 @@
 namespace gelatin::lattice {
 namespace {
 
-struct Edge {
+struct OpenEdge {
     std::uint32_t from, to;
 };
 
 // The edges of the caps: against the direction in which faces use them more often, by their starts.
-std::vector<Edge> find_open_edges(std::span<const glm::uvec3> faces) {
-    std::vector<Edge> edges;
+std::vector<OpenEdge> find_open_edges(std::span<const glm::uvec3> faces) {
+    std::vector<OpenEdge> edges;
     const std::vector<EdgeUse> uses = sorted_edge_uses(faces);
     for_each_edge(std::span<const EdgeUse>(uses), [&](std::span<const EdgeUse> edge) {
         const EdgeUse& use = edge.front();
@@ -23,11 +23,11 @@ std::vector<Edge> find_open_edges(std::span<const glm::uvec3> faces) {
         const auto ascending =
             std::count_if(edge.begin(), edge.end(), [](const EdgeUse& u) { return u.ascending; });
         const auto excess = 2 * ascending - static_cast<std::ptrdiff_t>(edge.size());
-        const Edge cap = excess > 0 ? Edge{use.high, use.low} : Edge{use.low, use.high};
+        const OpenEdge cap = excess > 0 ? OpenEdge{use.high, use.low} : OpenEdge{use.low, use.high};
         edges.insert(edges.end(), static_cast<std::size_t>(std::abs(excess)), cap);
     });
     std::stable_sort(edges.begin(), edges.end(),
-                     [](const Edge& a, const Edge& b) { return a.from < b.from; });
+                     [](const OpenEdge& a, const OpenEdge& b) { return a.from < b.from; });
     return edges;
 }
 
@@ -45,7 +45,7 @@ void close_part(std::span<const std::uint32_t> part, std::vector<glm::uvec3>& ca
 // As many edges start at a vertex as end there, so that a path along edges not used yet ends where it began.
 // Whenever it comes to a vertex that it has been at, the loop since then is closed and taken from it.
 std::vector<glm::uvec3> find_caps(std::span<const glm::uvec3> faces) {
-    const std::vector<Edge> edges = find_open_edges(faces);
+    const std::vector<OpenEdge> edges = find_open_edges(faces);
     struct Vertex {
         std::size_t next;             // its first edge that is not used yet
         std::ptrdiff_t on_path = -1;  // where
@@ -54,7 +54,7 @@ std::vector<glm::uvec3> find_caps(std::span<const glm::uvec3> faces) {
     for (std::size_t e = edges.size(); e-- > 0;) vertices[edges[e].from].next = e;
     std::vector<glm::uvec3> caps;
     std::vector<std::uint32_t> path;
-    for (const Edge& start : edges) {
+    for (const OpenEdge& start : edges) {
         for (std::uint32_t at = start.from;;) {
             Vertex& vertex = vertices[at];
             if (vertex.on_path >= 0) {

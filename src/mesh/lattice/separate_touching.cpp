@@ -16,7 +16,7 @@
 namespace gelatin::lattice {
 namespace {
 
-using Edge = std::pair<std::uint32_t, std::uint32_t>;
+using NodePair = std::pair<std::uint32_t, std::uint32_t>;
 
 std::uint32_t corner_of(const glm::uvec4& tet, std::uint32_t node) {
     return tet[0] == node ? 0 : tet[1] == node ? 1 : tet[2] == node ? 2 : 3;
@@ -81,8 +81,8 @@ void divide_nodes(TetMesh& mesh) {
 }
 
 // Edges with more than two boundary faces.
-std::vector<Edge> find_crowded_edges(const TetMesh& mesh) {
-    std::vector<Edge> edges, crowded;
+std::vector<NodePair> find_crowded_edges(const TetMesh& mesh) {
+    std::vector<NodePair> edges, crowded;
     for (const glm::uvec3& face : boundary_faces(mesh.tets)) {
         for (int k = 0; k < 3; ++k) edges.push_back(std::minmax(face[k], face[(k + 1) % 3]));
     }
@@ -97,7 +97,7 @@ std::vector<Edge> find_crowded_edges(const TetMesh& mesh) {
 // The tets around an edge, in sets that are joined by faces with this edge.
 std::vector<std::vector<std::uint32_t>> fans_around(const TetMesh& mesh,
                                                     const std::vector<std::uint32_t>& tets,
-                                                    const Edge& edge) {
+                                                    const NodePair& edge) {
     DisjointSets joined(tets.size());
     const auto shares_face = [&](const glm::uvec4& a, const glm::uvec4& b) {
         for (int i = 0; i < 4; ++i) {
@@ -124,10 +124,10 @@ std::vector<std::vector<std::uint32_t>> fans_around(const TetMesh& mesh,
 
 // All fans of tets around crowded edges but the largest.
 bool remove_fans(TetMesh& mesh) {
-    const std::vector<Edge> crowded = find_crowded_edges(mesh);
+    const std::vector<NodePair> crowded = find_crowded_edges(mesh);
     if (crowded.empty()) return false;
-    std::map<Edge, std::vector<std::uint32_t>> around;
-    for (const Edge& edge : crowded) around[edge];
+    std::map<NodePair, std::vector<std::uint32_t>> around;
+    for (const NodePair& edge : crowded) around[edge];
     for (std::uint32_t t = 0; t < mesh.tets.size(); ++t) {
         for (int i = 0; i < 3; ++i) {
             for (int j = i + 1; j < 4; ++j) {
