@@ -1,6 +1,6 @@
 #include "mesh/surface_file.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
@@ -98,9 +98,9 @@ SurfaceMesh read_surface(const fs::path& file, Notes& notes) {
     const std::size_t noted = notes.size();
     SurfacePolygons polygons = format->read(file, content, notes);
     if (polygons.sizes.empty()) {
-        fail(fmt::format("has {} vertices and no faces{}{}", polygons.positions.size(),
-                         notes.size() > noted ? "; " : "",
-                         fmt::join(notes.begin() + static_cast<std::ptrdiff_t>(noted), notes.end(), "; ")));
+        std::string problem = fmt::format("has {} vertices and no faces", polygons.positions.size());
+        for (std::size_t k = noted; k < notes.size(); ++k) problem += "; " + notes[k];
+        fail(problem);
     }
     SurfaceMesh mesh = triangulate(std::move(polygons), notes);
     if (mesh.faces.empty()) fail("has no faces of three corners or more");
