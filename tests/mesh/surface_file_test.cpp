@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mesh/surface_file_fixture.h"
+#include "mesh/texture_samples.h"
 
 namespace gelatin {
 namespace {
@@ -273,7 +274,8 @@ TEST_F(SurfaceFileTest, TakesDamagedBytesInItsStride) {
         {"a.ply", kPly},
         {"a.stl", text_stl()},
         {"b.stl", read_file(folder_.path() / "whole.stl")},
-        {"b.ply", read_file(folder_.path() / "whole.ply")}};
+        {"b.ply", read_file(folder_.path() / "whole.ply")},
+        {"a.gltf", gltf_sample("data:image/png;base64," + kPngText)}};
     std::mt19937 random(3);
     for (const auto& [name, content] : samples) {
         for (int trial = 0; trial < 60; ++trial) {
