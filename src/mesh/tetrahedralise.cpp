@@ -199,9 +199,7 @@ using Outcome = std::variant<TetMesh, MesherFailure>;
 /// Cavities are empty, and nothing else is.
 void check_volume(const TetMesh& mesh, const SurfaceMesh& surface) {
     constexpr double kRounding = 1e-6;
-    double volume = 0.0;
-    for (const glm::uvec4& tet : mesh.tets) volume += tet_volume(mesh, tet);
-    const double expected = signed_volume(surface);
+    const double volume = total_volume(mesh), expected = signed_volume(surface);
     if (std::abs(volume - expected) <= kRounding * expected) return;
     throw InvalidInput(fmt::format("it fills {:.6g} m^3, and the surface with its cavities encloses {:.6g}",
                                    volume, expected));

@@ -124,6 +124,12 @@ double tet_volume(const TetMesh& mesh, const glm::uvec4& tet) {
     return glm::dot(glm::cross(ab, ac), ad) / 6.0;
 }
 
+double total_volume(const TetMesh& mesh) {
+    double volume = 0.0;
+    for (const glm::uvec4& tet : mesh.tets) volume += tet_volume(mesh, tet);
+    return volume;
+}
+
 std::size_t keep_tets(TetMesh& mesh, const std::vector<bool>& keep) {
     std::size_t kept = 0;
     for (std::size_t t = 0; t < keep.size(); ++t) {

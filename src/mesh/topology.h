@@ -25,6 +25,8 @@ struct Graph {
 
 /// Signed volume of a tet [m^3], positive for the winding of TetMesh.
 double tet_volume(const TetMesh& mesh, const glm::uvec4& tet);
+/// Of all tets [m^3].
+double total_volume(const TetMesh& mesh);
 
 /// Removes the tets, and their attributes, for which `keep` [tets] is false. Returns how many.
 std::size_t keep_tets(TetMesh& mesh, const std::vector<bool>& keep);

@@ -15,12 +15,6 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-double volume_of(const TetMesh& mesh) {
-    double volume = 0.0;
-    for (const glm::uvec4& tet : mesh.tets) volume += tet_volume(mesh, tet);
-    return volume;
-}
-
 class CellFileTest : public TetFileTest {
 protected:
     void expect_mixed(const std::string& name, const std::string& content) {
@@ -30,7 +24,7 @@ protected:
         EXPECT_EQ(mesh.positions, kMixedNodes);
         EXPECT_EQ(mesh.tets.size(), 11u);
         EXPECT_EQ(mesh.faces.size(), 18u);  // so no side is between two cells
-        EXPECT_DOUBLE_EQ(volume_of(mesh), kMixedVolume);
+        EXPECT_DOUBLE_EQ(total_volume(mesh), kMixedVolume);
         std::map<int, double> volumes;
         for (std::size_t t = 0; t < mesh.tets.size(); ++t)
             volumes[mesh.attributes.at(t)] += tet_volume(mesh, mesh.tets[t]);
@@ -66,7 +60,7 @@ TEST_F(CellFileTest, TakesVoxels) {
 TEST_F(CellFileTest, TakesTheCornersOfCurvedCells) {
     const auto expect_cube = [&](const std::string& name, const std::string& content) {
         SCOPED_TRACE(content);
-        EXPECT_DOUBLE_EQ(volume_of(read(name, content)), 1.0);
+        EXPECT_DOUBLE_EQ(total_volume(read(name, content)), 1.0);
         EXPECT_THAT(notes_, Contains("kept the corners only of cells with more nodes: 1"));
         EXPECT_THAT(notes_, Contains("divided into tets: hexahedra: 1"));
     };
@@ -142,7 +136,7 @@ TEST_F(CellFileTest, JoinsCellsByThePlacesOfTheirNodes) {
                                       points + "CELLS 3 22\n" + cells + "CELL_TYPES 3\n12 13 14\n");
         EXPECT_THAT(notes_, Contains("merged nodes that coincide: 8"));
         EXPECT_EQ(mesh.faces.size(), 18u);
-        EXPECT_DOUBLE_EQ(volume_of(mesh), kMixedVolume);
+        EXPECT_DOUBLE_EQ(total_volume(mesh), kMixedVolume);
     }
 }
 

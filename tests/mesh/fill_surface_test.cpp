@@ -80,19 +80,13 @@ SurfaceMesh cube_with_cavity(double size) {
     return shell;
 }
 
-double volume_of(const TetMesh& mesh) {
-    double volume = 0.0;
-    for (const glm::uvec4& tet : mesh.tets) volume += tet_volume(mesh, tet);
-    return volume;
-}
-
 TEST(FillSurface, BothMeshersLeaveCavitiesEmpty) {
     const SurfaceMesh shell = cube_with_cavity(0.5);
     Notes notes;
-    EXPECT_NEAR(volume_of(fill_surface(shell, by(MesherKind::tetgen), "shell", notes)), 0.875, 1e-9);
+    EXPECT_NEAR(total_volume(fill_surface(shell, by(MesherKind::tetgen), "shell", notes)), 0.875, 1e-9);
     MesherSettings fine = by(MesherKind::lattice);
     fine.nodes = 3000;
-    EXPECT_NEAR(volume_of(fill_surface(shell, fine, "shell", notes)), 0.875, 0.02);
+    EXPECT_NEAR(total_volume(fill_surface(shell, fine, "shell", notes)), 0.875, 0.02);
     for (const Note& note : notes) EXPECT_FALSE(note.is_warning) << note.text;
 }
 

@@ -11,7 +11,7 @@ using testing::HasSubstr;
 
 class ForeignFileTest : public SurfaceFileFixture {};
 
-const std::string kObj =
+const std::string kForeignObj =
     "# x\nvn 0 0 1\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
 std::string utf16(const std::string& text, bool is_big) {
@@ -23,8 +23,8 @@ std::string utf16(const std::string& text, bool is_big) {
 TEST_F(ForeignFileTest, SaysWhatAFileIs) {
     const std::pair<std::string, const char*> samples[] = {
         {"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n", "is a Git LFS pointer"},
-        {utf16(kObj, false), "is text in UTF-16"},
-        {utf16(kObj, true), "is text in UTF-16"},
+        {utf16(kForeignObj, false), "is text in UTF-16"},
+        {utf16(kForeignObj, true), "is text in UTF-16"},
         {std::string("\xff\xfe\0\0v\0\0\0", 8), "is text in UTF-32"},
         {"\n <!DOCTYPE html>\n<title>404</title>", "is a web page"},
         {"<html>", "is a web page"},
@@ -42,7 +42,7 @@ TEST_F(ForeignFileTest, SaysWhatAFileIs) {
 }
 
 TEST_F(ForeignFileTest, SaysWhichFormatAFileHas) {
-    make("a.obj", kObj);
+    make("a.obj", kForeignObj);
     Notes notes;
     const SurfaceMesh mesh = read_surface(folder_.path() / "a.obj", notes);
     for (const char* name : {"a.stl", "a.ply", "a.off"}) write_surface(folder_.path() / name, mesh);

@@ -16,13 +16,13 @@ using testing::IsEmpty;
 class ObjMaterialsTest : public SurfaceFileFixture {};
 
 // The second face is wound inwards, the last one has no area.
-const std::string kObj =
+const std::string kObjWithMaterials =
     "mtllib paint.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\nvt 0.5 0.25\n"
     "usemtl red\nf 1/1 3/3 2/2\nf 1/1 4/4 2/2\nusemtl picture\nf 1/1 4/4 3/3\nf 2/2 3/3 4/4\nf 2/2 2/3 4/4\n";
 const std::string kMtl = "newmtl red\nKd 1 0 0.5\nnewmtl picture\nKd 0 0 0\nmap_Kd paint.png\nnewmtl other\n";
 
 TEST_F(ObjMaterialsTest, ObjKeepsMaterialsAndCoordinatesThroughRepair) {
-    make("a.obj", kObj);
+    make("a.obj", kObjWithMaterials);
     make("paint.mtl", kMtl);
     make("paint.png", png_sample());
     const SurfaceMesh mesh = read("a.obj");
@@ -49,7 +49,7 @@ TEST_F(ObjMaterialsTest, ObjKeepsMaterialsAndCoordinatesThroughRepair) {
 }
 
 TEST_F(ObjMaterialsTest, WhatIsMissingIsLeftOut) {
-    make("a.obj", kObj);
+    make("a.obj", kObjWithMaterials);
     SurfaceMesh mesh = read("a.obj");
     EXPECT_TRUE(mesh.look.is_empty());
     EXPECT_TRUE(mesh.look.face_materials.empty());

@@ -1,4 +1,5 @@
 #include "mesh/shapes.h"
+#include "mesh/surface_repair.h"
 
 #include <gtest/gtest.h>
 
@@ -9,16 +10,6 @@
 
 namespace gelatin {
 namespace {
-
-double volume_of(const SurfaceMesh& mesh) {
-    double volume = 0.0;
-    for (const glm::uvec3& face : mesh.faces) {
-        volume +=
-            glm::dot(mesh.positions[face[0]], glm::cross(mesh.positions[face[1]], mesh.positions[face[2]])) /
-            6.0;
-    }
-    return volume;
-}
 
 // Closed, oriented, of one piece and with no handle: every directed edge has one twin, and V - E + F = 2.
 void expect_closed_ball(const SurfaceMesh& mesh) {
@@ -63,8 +54,8 @@ TEST(Sphere, IsRoundAndFacesOutwards) {
     for (const glm::dvec3& position : mesh.positions) EXPECT_NEAR(glm::length(position), 0.7, 1e-15);
     // An inscribed polyhedron with edges h misses about h^2 / (4 R^2) of the volume: under 0.4% here.
     const double ball = 4.0 / 3.0 * std::numbers::pi * 0.7 * 0.7 * 0.7;
-    EXPECT_LT(volume_of(mesh), ball);
-    EXPECT_GT(volume_of(mesh), 0.996 * ball);
+    EXPECT_LT(signed_volume(mesh), ball);
+    EXPECT_GT(signed_volume(mesh), 0.996 * ball);
     EXPECT_GT(worst_aspect(mesh), 0.5);
 }
 
@@ -74,7 +65,7 @@ TEST(Box, IsClosedOutwardAndCentred) {
         expect_closed_ball(mesh);
         const int quads = segments.x * segments.y + segments.y * segments.z + segments.z * segments.x;
         EXPECT_EQ(mesh.faces.size(), static_cast<std::size_t>(4 * quads));
-        EXPECT_NEAR(volume_of(mesh), 1.0, 1e-14);
+        EXPECT_NEAR(signed_volume(mesh), 1.0, 1e-14);
         for (const glm::dvec3& position : mesh.positions) {
             EXPECT_LE(std::abs(position.x), 0.5);
             EXPECT_LE(std::abs(position.y), 1.0);
@@ -93,7 +84,7 @@ TEST(Capsule, IsClosedOutwardAndRound) {
             const glm::dvec3 on_axis(0.0, std::clamp(position.y, -half.y, half.y), 0.0);
             EXPECT_NEAR(glm::distance(position, on_axis), shape.radius, 1e-15);
         }
-        EXPECT_GT(volume_of(mesh), 0.0);
+        EXPECT_GT(signed_volume(mesh), 0.0);
     }
 }
 
@@ -102,8 +93,8 @@ TEST(Capsule, HasEvenTrianglesAndTheVolumeOfItsRadius) {
     const SurfaceMesh mesh = make_capsule(shape);
     const double exact =
         std::numbers::pi * shape.radius * shape.radius * (shape.length + 4.0 / 3.0 * shape.radius);
-    EXPECT_LT(volume_of(mesh), exact);
-    EXPECT_GT(volume_of(mesh), 0.99 * exact);
+    EXPECT_LT(signed_volume(mesh), exact);
+    EXPECT_GT(signed_volume(mesh), 0.99 * exact);
     EXPECT_GT(worst_aspect(mesh), 0.4);
 }
 

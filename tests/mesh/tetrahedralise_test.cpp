@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
-#include <numeric>
 #include <sstream>
 
 #include "core/file.h"
@@ -88,11 +87,6 @@ std::string message_of(const SurfaceMesh& surface, const MesherSettings& setting
         return error.what();
     }
     return "no error";
-}
-
-double total_volume(const TetMesh& mesh) {
-    return std::accumulate(mesh.tets.begin(), mesh.tets.end(), 0.0,
-                           [&](double sum, const glm::uvec4& tet) { return sum + tet_volume(mesh, tet); });
 }
 
 // The tets are the right way out, fill the surface, use every node, and their boundary is what `faces` says.

@@ -10,6 +10,7 @@
 #include "core/file.h"
 #include "gelatin/error.h"
 #include "mesh/shapes.h"
+#include "mesh/surface_repair.h"
 #include "mesh/text_outline.h"
 
 namespace gelatin {
@@ -21,16 +22,6 @@ TextShape text_of(const std::string& text) {
     TextShape shape;
     shape.text = text;
     return shape;
-}
-
-double volume_of(const SurfaceMesh& mesh) {
-    double volume = 0.0;
-    for (const glm::uvec3& face : mesh.faces) {
-        volume +=
-            glm::dot(mesh.positions[face[0]], glm::cross(mesh.positions[face[1]], mesh.positions[face[2]])) /
-            6.0;
-    }
-    return volume;
 }
 
 // V - E + F; fails unless each edge has two faces of consistent winding.
@@ -75,7 +66,7 @@ TEST(TextShape, EveryLetterAndDigitIsClosedOutwardAndKeepsItsHoles) {
         SCOPED_TRACE(letter);
         const SurfaceMesh mesh = make_text(text_of({letter}));
         const long characteristic = euler_characteristic(mesh);
-        EXPECT_GT(volume_of(mesh), 0.0);
+        EXPECT_GT(signed_volume(mesh), 0.0);
         EXPECT_GT(worst_face(mesh), 1e-3);
         if (!std::isalnum(static_cast<unsigned char>(letter))) continue;
         const long pieces = with_two_pieces.find(letter) != std::string::npos ? 2 : 1;
@@ -104,12 +95,12 @@ TEST(TextShape, HasItsSizeAndDepthAroundTheOrigin) {
 }
 
 TEST(TextShape, LettersStandSideBySideAndLinesBelowEachOther) {
-    const double one = volume_of(make_text(text_of("H")));
+    const double one = signed_volume(make_text(text_of("H")));
     const SurfaceMesh word = make_text(text_of("H H"));
-    EXPECT_NEAR(volume_of(word), 2.0 * one, 1e-12);
+    EXPECT_NEAR(signed_volume(word), 2.0 * one, 1e-12);
     EXPECT_EQ(euler_characteristic(word), 4);
     const SurfaceMesh lines = make_text(text_of("H\nH"));
-    EXPECT_NEAR(volume_of(lines), 2.0 * one, 1e-12);
+    EXPECT_NEAR(signed_volume(lines), 2.0 * one, 1e-12);
     const auto is_lower = [](const glm::dvec3& a, const glm::dvec3& b) { return a.y < b.y; };
     const auto [low, high] = std::minmax_element(lines.positions.begin(), lines.positions.end(), is_lower);
     EXPECT_GT(high->y - low->y, 1.5);

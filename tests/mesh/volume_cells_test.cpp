@@ -24,12 +24,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-double volume_of(const TetMesh& mesh) {
-    double volume = 0.0;
-    for (const glm::uvec4& tet : mesh.tets) volume += tet_volume(mesh, tet);
-    return volume;
-}
-
 double least_volume(const TetMesh& mesh) {
     double least = 1e300;
     for (const glm::uvec4& tet : mesh.tets) least = std::min(least, tet_volume(mesh, tet));
@@ -88,7 +82,7 @@ TEST(VolumeCells, DividesEachShapeForAnyOrderOfIndices) {
             std::vector<glm::dvec3> points(ideal.size());
             for (std::size_t k = 0; k < ideal.size(); ++k) points[corners[k]] = ideal[k];
             const OneCell cell(each.shape, points, corners);
-            EXPECT_NEAR(volume_of(cell.mesh), base_area(each.n) / (each.is_pyramid ? 3.0 : 1.0), 1e-12);
+            EXPECT_NEAR(total_volume(cell.mesh), base_area(each.n) / (each.is_pyramid ? 3.0 : 1.0), 1e-12);
             EXPECT_GT(least_volume(cell.mesh), 0.01);
             EXPECT_EQ(cell.mesh.positions, points);  // corners are enough
             EXPECT_EQ(cell.mesh.attributes, std::vector<int>(cell.mesh.tets.size(), 5));
@@ -181,7 +175,7 @@ private:
 
 // Sides between cells that did not fit would be boundary faces inside the box.
 void expect_fills_the_box(const TetMesh& mesh) {
-    EXPECT_NEAR(volume_of(mesh), 27.0, 1e-11);
+    EXPECT_NEAR(total_volume(mesh), 27.0, 1e-11);
     double area = 0.0;
     for (const glm::uvec3& face : mesh.faces) {
         const glm::dvec3 &a = mesh.positions[face[0]], &b = mesh.positions[face[1]],
@@ -234,13 +228,13 @@ TEST(VolumeCells, TakesCellsWithCornersThatCoincide) {
     const auto expect_volume = [](const std::vector<std::uint32_t>& corners, double volume,
                                   std::size_t tets) {
         const OneCell by_index(CellShape::hexahedron, kCube, corners);
-        EXPECT_NEAR(volume_of(by_index.mesh), volume, 1e-15);
+        EXPECT_NEAR(total_volume(by_index.mesh), volume, 1e-15);
         EXPECT_EQ(by_index.mesh.tets.size(), tets);
         EXPECT_GT(least_volume(by_index.mesh), 0.0);
         std::vector<glm::dvec3> points;
         for (const std::uint32_t corner : corners) points.push_back(kCube[corner]);
         const OneCell by_place(CellShape::hexahedron, points);
-        EXPECT_NEAR(volume_of(by_place.mesh), volume, 1e-15);
+        EXPECT_NEAR(total_volume(by_place.mesh), volume, 1e-15);
         EXPECT_EQ(by_place.mesh.tets.size(), tets);
     };
     expect_volume({0, 1, 2, 2, 4, 5, 6, 6}, 0.5, 3);        // a wedge
@@ -259,7 +253,7 @@ TEST(VolumeCells, DiscardsCellsThatCollapse) {
 
 TEST(VolumeCells, FlipsInvertedCells) {
     const OneCell cell(CellShape::hexahedron, kCube, {4, 5, 6, 7, 0, 1, 2, 3});
-    EXPECT_DOUBLE_EQ(volume_of(cell.mesh), 1.0);
+    EXPECT_DOUBLE_EQ(total_volume(cell.mesh), 1.0);
     EXPECT_GT(least_volume(cell.mesh), 0.0);
     EXPECT_THAT(cell.notes, Contains("flipped inverted cells: 1"));
 }

@@ -12,7 +12,7 @@ namespace gelatin::render {
 namespace {
 
 // Where points land in the picture: x and y in [-1, 1] are inside.
-glm::vec3 project(const Camera& camera, float aspect, const glm::vec3& point) {
+glm::vec3 projected_by(const Camera& camera, float aspect, const glm::vec3& point) {
     const glm::vec4 clip = camera.projection(aspect) * camera.view() * glm::vec4(point, 1.0f);
     return glm::vec3(clip) / clip.w;
 }
@@ -28,7 +28,7 @@ std::vector<glm::vec3> corners(const Bounds& bounds) {
 
 TEST(CameraTest, TargetIsInTheMiddleOfThePicture) {
     const Camera camera{{3.0f, 2.0f, 5.0f}, {0.5f, -0.25f, 1.0f}, 40.0f};
-    const glm::vec3 at = project(camera, 1.5f, camera.target);
+    const glm::vec3 at = projected_by(camera, 1.5f, camera.target);
     EXPECT_NEAR(at.x, 0.0f, 1e-5f);
     EXPECT_NEAR(at.y, 0.0f, 1e-5f);
 }
@@ -36,13 +36,13 @@ TEST(CameraTest, TargetIsInTheMiddleOfThePicture) {
 TEST(CameraTest, FieldOfViewIsVertical) {
     const Camera camera{{0.0f, 0.0f, 10.0f}, {0.0f, 0.0f, 0.0f}, 60.0f};
     const float top = 10.0f * std::tan(std::acos(-1.0f) / 6.0f);
-    EXPECT_NEAR(project(camera, 2.0f, {0.0f, top, 0.0f}).y, 1.0f, 1e-5f);
-    EXPECT_NEAR(project(camera, 2.0f, {2.0f * top, 0.0f, 0.0f}).x, 1.0f, 1e-5f);
+    EXPECT_NEAR(projected_by(camera, 2.0f, {0.0f, top, 0.0f}).y, 1.0f, 1e-5f);
+    EXPECT_NEAR(projected_by(camera, 2.0f, {2.0f * top, 0.0f, 0.0f}).x, 1.0f, 1e-5f);
 }
 
 TEST(CameraTest, LooksStraightDownWithoutBreaking) {
     const Camera camera{{0.0f, 5.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 35.0f};
-    const glm::vec3 at = project(camera, 1.0f, {0.5f, 0.0f, 0.0f});
+    const glm::vec3 at = projected_by(camera, 1.0f, {0.5f, 0.0f, 0.0f});
     EXPECT_TRUE(std::isfinite(at.x) && std::isfinite(at.y));
     EXPECT_GT(at.x, 0.1f);
 }
@@ -55,7 +55,7 @@ TEST(CameraTest, FramesWideTallAndFlatBoundsTightly) {
             const Camera camera = frame_bounds(bounds, aspect);
             float reach = 0.0f;
             for (const glm::vec3& corner : corners(bounds)) {
-                const glm::vec3 at = project(camera, aspect, corner);
+                const glm::vec3 at = projected_by(camera, aspect, corner);
                 EXPECT_LT(std::abs(at.z), 1.0f) << "between the near and the far plane";
                 reach = std::max({reach, std::abs(at.x), std::abs(at.y)});
             }

@@ -5,14 +5,14 @@
 namespace gelatin {
 namespace {
 
-using Face = cpu::Moving<double, 3>;
+using MovingFace = cpu::Moving<double, 3>;
 
 // A face at rest that looks along +z.
-const Face kFloor{{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}};
+const MovingFace kFloor{{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}};
 
 // A face through the middle of that one, turned by `angle` about the y axis, that moves by `displacement`.
-Face make_face(double angle, glm::dvec3 displacement) {
-    Face face = kFloor;
+MovingFace make_face(double angle, glm::dvec3 displacement) {
+    MovingFace face = kFloor;
     for (int k = 0; k < 3; ++k) {
         const glm::dvec3 p = kFloor.start[k] - glm::dvec3(0.25, 0.25, 0.0);
         face.start[k] = {std::cos(angle) * p.x, p.y, -std::sin(angle) * p.x};
@@ -23,7 +23,7 @@ Face make_face(double angle, glm::dvec3 displacement) {
 
 constexpr double kTurn = 3.141592653589793;
 
-void expect(const Face& face, cpu::FaceContact ours, cpu::FaceContact theirs) {
+void expect(const MovingFace& face, cpu::FaceContact ours, cpu::FaceContact theirs) {
     const cpu::FaceContacts touches = cpu::face_contacts(face, kFloor),
                             mirror = cpu::face_contacts(kFloor, face);
     EXPECT_EQ(touches.ours, ours);
@@ -47,7 +47,7 @@ TEST(FaceContact, SidesOfWhatSlidesDoNot) {
 }
 
 TEST(FaceContact, AFaceWithoutAreaDoesNot) {
-    Face face = make_face(kTurn, {0, 0, -1});
+    MovingFace face = make_face(kTurn, {0, 0, -1});
     face.start[2] = face.start[1];
     expect(face, cpu::FaceContact::touches, cpu::FaceContact::touches);
 }

@@ -25,7 +25,7 @@ private:
     std::uniform_real_distribution<double> unit_{-1.0, 1.0};
 };
 
-M full(const cpu::SymmetricMatrix<double>& s) {
+M glm_matrix(const cpu::SymmetricMatrix<double>& s) {
     return {s.diagonal.x, s.beside.z, s.beside.y, s.beside.z,  s.diagonal.y,
             s.beside.x,   s.beside.y, s.beside.x, s.diagonal.z};
 }
@@ -40,7 +40,7 @@ Eigen::Matrix3d to_eigen(const M& m) {
 }
 
 Eigen::Matrix3d to_eigen(const cpu::SymmetricMatrix<double>& s) {
-    return to_eigen(full(s));
+    return to_eigen(glm_matrix(s));
 }
 
 // The force is minus the energy's gradient, by central differences: exact to h^2 of its third derivative.
@@ -245,7 +245,7 @@ TEST(Elements, SolvesWhatIsPositive) {
         Terms terms{random.point(1.0), {}};
         terms.hessian.add_identity(1e-3);
         for (int k = 0; k < 3; ++k) terms.hessian.add_outer(1.0, random.point(1.0));
-        EXPECT_LT(glm::distance(full(terms.hessian) * cpu::solve(terms), terms.force), 1e-9);
+        EXPECT_LT(glm::distance(glm_matrix(terms.hessian) * cpu::solve(terms), terms.force), 1e-9);
     }
 }
 

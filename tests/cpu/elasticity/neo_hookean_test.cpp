@@ -70,7 +70,7 @@ cpu::NodeTerms<double> terms_of(const NeoHookeanTet& tet, std::uint32_t corner, 
     return terms;
 }
 
-Eigen::Matrix3d full(const cpu::SymmetricMatrix<double>& s) {
+Eigen::Matrix3d full_matrix(const cpu::SymmetricMatrix<double>& s) {
     Eigen::Matrix3d m;
     m << s.diagonal.x, s.beside.z, s.beside.y, s.beside.z, s.diagonal.y, s.beside.x, s.beside.y, s.beside.x,
         s.diagonal.z;
@@ -142,7 +142,7 @@ TEST(NeoHookean, HessiansAreExactAndPositiveForAnyShape) {
     const NeoHookeanTet tet = make_tet();
     for (const Corners& x : make_shapes()) {
         for (std::uint32_t k = 0; k < 4; ++k) {
-            const Eigen::Matrix3d hessian = full(terms_of(tet, k, x).hessian);
+            const Eigen::Matrix3d hessian = full_matrix(terms_of(tet, k, x).hessian);
             for (int axis = 0; axis < 3; ++axis) {
                 const V slope = central_difference([&](const V& d) {
                     Corners moved = x;
@@ -278,7 +278,7 @@ TEST(NeoHookeanViscosity, DescendsAlongItsDissipation) {
                 return dissipation(moved);
             });
             EXPECT_LT(glm::distance(terms.force, -slope), 1e-6 * (glm::length(slope) + mu_of(tet)));
-            EXPECT_GE(least_eigenvalue(full(terms.hessian)), -1e-9 * mu_of(tet));
+            EXPECT_GE(least_eigenvalue(full_matrix(terms.hessian)), -1e-9 * mu_of(tet));
         }
     }
 }

@@ -19,12 +19,12 @@ namespace {
 
 using test::MutantsTest;
 using test::PairOf;
-using Pairs = std::vector<test::MovingPair<float>>;
+using MovingPairs = std::vector<test::MovingPair<float>>;
 
 constexpr float kImpactPoison = -7.0f, kNever = 2.0f;
 constexpr std::size_t kImpactGuard = 70;
 
-constexpr const char* kProbe = R"(
+constexpr const char* kImpactProbe = R"(
 #include "include/global_index.glsl"
 #include "sim/collision/time_of_impact.glsl"
 layout(local_size_x = 64) in;
@@ -40,8 +40,8 @@ void main() {
 }
 )";
 
-std::vector<float> times_on_gpu(const Pairs& pairs) {
-    const gl::ShaderOverride probe("probe.comp", kProbe);
+std::vector<float> times_on_gpu(const MovingPairs& pairs) {
+    const gl::ShaderOverride probe("probe.comp", kImpactProbe);
     const gl::Program program = gl::Program::compute("probe.comp");
 
     std::vector<glm::vec4> points;
@@ -65,7 +65,7 @@ std::vector<float> times_on_gpu(const Pairs& pairs) {
 // Rounding differs by driver, so that what nearly touches may be found otherwise: one verdict may differ, and
 // one time in a thousand.
 double cpu_disagreement(PairOf what) {
-    const Pairs pairs = test::random_moving_pairs<float>(what, 20'001, 40);
+    const MovingPairs pairs = test::random_moving_pairs<float>(what, 20'001, 40);
     const std::vector<float> times = times_on_gpu(pairs);
     std::size_t touching = 0, verdicts = 0, differing_times = 0;
     for (std::size_t n = 0; n < pairs.size(); ++n) {
@@ -107,7 +107,7 @@ TEST_P(TimeOfImpactParityTest, MissesNothingAndMatchesTheCpu) {
 }
 
 // Broken in these ways, the shader misses impacts or sees what is far away touch.
-constexpr test::Mutant kMutants[] = {
+constexpr test::Mutant kImpactMutants[] = {
     {"rounding_is_forgotten", "sim/collision/time_of_impact.glsl",
      "kRoundingBound = float(kImpactRounding) * kEpsilon", "kRoundingBound = 0.0"},
     {"a_corner_is_forgotten", "sim/collision/time_of_impact.glsl", "low_end = low_end.yzx;", ""},
@@ -126,7 +126,8 @@ constexpr test::Mutant kMutants[] = {
      "-to.apart, to.squared_distance);\n        s =", "to.apart, to.squared_distance);\n        s ="},
 };
 INSTANTIATE_TEST_SUITE_P(TimeOfImpact, MutantsTest,
-                         ::testing::ValuesIn(test::cases(kMutants, impact_scenarios())), test::name_of_case);
+                         ::testing::ValuesIn(test::cases(kImpactMutants, impact_scenarios())),
+                         test::name_of_case);
 
 }  // namespace
 }  // namespace gelatin

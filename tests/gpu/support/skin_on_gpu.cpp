@@ -31,7 +31,7 @@ std::vector<SkinPoint> random_points(RandomMaker& random) {
 
 double error_over_bound(const SkinPoint& point, const std::vector<glm::vec4>& nodes,
                         const glm::vec4& actual) {
-    constexpr double kEps = 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
+    constexpr double kSkinEps = 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
     const auto at = [&](std::uint32_t node) { return glm::dvec3(nodes[node]); };
     const glm::dvec3 a = at(point.a), b = at(point.b) - a, c = at(point.c) - a, d = at(point.d) - a;
     const glm::dvec4 w(point.weights);
@@ -39,7 +39,7 @@ double error_over_bound(const SkinPoint& point, const std::vector<glm::vec4>& no
     const glm::dvec3 parts = glm::abs(w.y * b) + glm::abs(w.z * c) + glm::abs(w.w * d);
     double worst = error_if(actual.w != 1.0f);
     for (int k = 0; k < 3; ++k) {
-        const double bound = 1.01 * kEps * (std::abs(expected[k]) + 8.0 * parts[k]);
+        const double bound = 1.01 * kSkinEps * (std::abs(expected[k]) + 8.0 * parts[k]);
         const double error = std::abs(static_cast<double>(actual[k]) - expected[k]);
         worst = std::max(worst, error <= bound ? error / bound : error_if(true));
     }

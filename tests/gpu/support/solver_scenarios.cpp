@@ -20,8 +20,8 @@
 namespace gelatin::test {
 namespace {
 
-constexpr double kSolverStep = 2e-4;   // [s]
-constexpr double kFrame = 1.0 / 60.0;  // [s]
+constexpr double kSolverStep = 2e-4;         // [s]
+constexpr double kSolverFrame = 1.0 / 60.0;  // [s]
 constexpr SolverKind kIntegrators[] = {SolverKind::semi_implicit_euler, SolverKind::rk4,
                                        SolverKind::explicit_euler, SolverKind::midpoint};
 constexpr ForceMethod kForceMethods[] = {ForceMethod::fused, ForceMethod::divide_and_merge};
@@ -52,9 +52,10 @@ double descent_error(const Model& model, const Descent& descent) {
 void add_descents(Scenarios& scenarios, const std::string& name, double damping, double poisson_ratio,
                   MaterialModel material) {
     for (const int iterations : {3, 1, 2, 10}) {
-        for (const double step : {kFrame, 1e-3}) {
+        for (const double step : {kSolverFrame, 1e-3}) {
             scenarios.push_back(
-                {fmt::format("{}_{}_{}_sweeps", name, step == kFrame ? "long" : "short", iterations), [=] {
+                {fmt::format("{}_{}_{}_sweeps", name, step == kSolverFrame ? "long" : "short", iterations),
+                 [=] {
                      return descent_error(make_bodies_to_descend(damping, poisson_ratio, material),
                                           {step, {iterations}});
                  }});
@@ -119,7 +120,7 @@ Scenarios kinematics_scenarios() {
     for (const double time : {0.3, 1.1, 0.0, 0.49, 0.9, 5.0}) {
         scenarios.push_back({fmt::format("at_{:.0f}_hundredths", 100.0 * time), [=] {
                                  const Model model = make_driven_model();
-                                 const auto motions = handle_motions(model.handles, time, kFrame);
+                                 const auto motions = handle_motions(model.handles, time, kSolverFrame);
                                  const NodeArrays actual = apply_kinematics_on_gpu(model, motions);
                                  if (!guards_are_untouched(model, actual)) return error_if(true);
                                  return worst_kinematics_error(model, motions, actual);
@@ -155,11 +156,11 @@ Scenarios pull_scenarios() {
                                      }});
             }
         }
-        scenarios.push_back({"vbd" + beside, [=] {
-                                 const Model model =
-                                     make_bodies_to_descend(0.01, 0.25, MaterialModel::mass_spring, driven);
-                                 return worst_pull_error(model, SolverKind::vbd, ForceMethod::fused, kFrame);
-                             }});
+        scenarios.push_back(
+            {"vbd" + beside, [=] {
+                 const Model model = make_bodies_to_descend(0.01, 0.25, MaterialModel::mass_spring, driven);
+                 return worst_pull_error(model, SolverKind::vbd, ForceMethod::fused, kSolverFrame);
+             }});
     }
     return scenarios;
 }
@@ -171,21 +172,21 @@ Scenarios descent_scenarios() {
     for (const double poisson_ratio : {0.1, 0.4}) {
         scenarios.push_back(
             {fmt::format("poisson_ratio_{:.0f}_tenths", 10.0 * poisson_ratio), [=] {
-                 return descent_error(make_bodies_to_descend(0.0, poisson_ratio), {kFrame, {5}});
+                 return descent_error(make_bodies_to_descend(0.0, poisson_ratio), {kSolverFrame, {5}});
              }});
     }
     // Earlier velocities from which some nodes have gained less than nothing, some a part of gravity, some
     // more than all.
     scenarios.push_back({"looking_back", [] {
                              const Model model = make_bodies_to_descend(0.0);
-                             Descent descent{kFrame, {1}, model.velocities};
+                             Descent descent{kSolverFrame, {1}, model.velocities};
                              for (std::uint32_t n = 0; n < model.node_count(); ++n)
                                  descent.earlier_velocities[n].y += 0.1f * static_cast<float>(n % 8) - 0.25f;
                              return descent_error(model, descent);
                          }});
     scenarios.push_back({"rotated", [] {
                              const Model model = make_bodies_to_descend(0.01);
-                             return descent_error(model, {kFrame, {3}, {}, rotated_start(model)});
+                             return descent_error(model, {kSolverFrame, {3}, {}, rotated_start(model)});
                          }});
     scenarios.push_back({"sliding", sliding_descent_error});
     for (const int iterations : {1, 5}) {
@@ -198,9 +199,9 @@ Scenarios descent_scenarios() {
 Scenarios driven_descent_scenarios() {
     Scenarios scenarios;
     for (const double poisson_ratio : {0.25, 0.4}) {
-        for (const double step : {kFrame, 1e-3}) {
+        for (const double step : {kSolverFrame, 1e-3}) {
             scenarios.push_back(
-                {fmt::format("{}_poisson_ratio_{:.0f}_hundredths", step == kFrame ? "long" : "short",
+                {fmt::format("{}_poisson_ratio_{:.0f}_hundredths", step == kSolverFrame ? "long" : "short",
                              100.0 * poisson_ratio),
                  [=] {
                      return descent_error(
@@ -236,10 +237,10 @@ Scenarios neo_hookean_descent_scenarios() {
     for (const double damping : {0.0, 0.01}) {
         const std::string name = damping > 0.0 ? "damped" : "free";
         scenarios.push_back({name + "_calm", [=] {
-                                 return descent_error(make_calm_tets(damping), {kFrame, {2}});
+                                 return descent_error(make_calm_tets(damping), {kSolverFrame, {2}});
                              }});
         scenarios.push_back({name + "_point", [=] {
-                                 return descent_error(make_fallen_in_tets(damping), {kFrame, {2}});
+                                 return descent_error(make_fallen_in_tets(damping), {kSolverFrame, {2}});
                              }});
         add_descents(scenarios, name, damping, 0.45, MaterialModel::neo_hookean);
     }

@@ -7,19 +7,13 @@
 
 #include "mesh/lattice/long_faces.h"
 #include "mesh/lattice/solid_angles.h"
+#include "mesh/lattice/triangles_of.h"
 #include "mesh/mesh_samples.h"
 #include "mesh/shapes.h"
 #include "support/draw_vector.h"
 
 namespace gelatin::lattice {
 namespace {
-
-std::vector<Triangle> triangles_of(const SurfaceMesh& surface) {
-    std::vector<Triangle> triangles;
-    for (const glm::uvec3& f : surface.faces)
-        triangles.push_back({surface.positions[f[0]], surface.positions[f[1]], surface.positions[f[2]]});
-    return triangles;
-}
 
 void expect_exact(const SurfaceMesh& surface) {
     const std::vector<Triangle> triangles = triangles_of(surface);

@@ -52,15 +52,15 @@ TEST(FillWithLatticeTest, FillsASphereWithGoodTets) {
     EXPECT_THAT(notes, IsEmpty());
     EXPECT_GT(least_dihedral_angle(mesh), kLeastAngle);
     EXPECT_NEAR(static_cast<double>(mesh.positions.size()), 5000.0, 1000.0);
-    EXPECT_NEAR(volume_of(mesh), std::numbers::pi / 6.0, 0.02 * std::numbers::pi / 6.0);
+    EXPECT_NEAR(total_volume(mesh), std::numbers::pi / 6.0, 0.02 * std::numbers::pi / 6.0);
 }
 
 // The boundary's nodes lie on the surface, so that the volume between it and the boundary is of second order.
 TEST(FillWithLatticeHeavy, VolumeErrorIsOfSecondOrderInTheCellSize) {
     const SurfaceMesh sphere = make_sphere({0.5, 80});
     const double exact = signed_volume(sphere);
-    const double coarse = exact - volume_of(fill(sphere, with_cells(0.1)).mesh);
-    const double fine = exact - volume_of(fill(sphere, with_cells(0.05)).mesh);
+    const double coarse = exact - total_volume(fill(sphere, with_cells(0.1)).mesh);
+    const double fine = exact - total_volume(fill(sphere, with_cells(0.05)).mesh);
     EXPECT_GT(fine, 0.0);
     EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.3);
 }
@@ -133,7 +133,7 @@ TEST(FillWithLatticeTest, DoesNotDependOnPlaceAndUnits) {
     for (glm::dvec3& p : small.positions) p = 1e-6 * p + glm::dvec3(3e-5);
     const TetMesh other = fill(small, with_nodes(500)).mesh;
     EXPECT_EQ(other.tets.size(), mesh.tets.size());
-    EXPECT_NEAR(volume_of(other) / volume_of(mesh), 1e-18, 1e-21);
+    EXPECT_NEAR(total_volume(other) / total_volume(mesh), 1e-18, 1e-21);
 }
 
 TEST(FillWithLatticeTest, ClosesHoles) {
@@ -141,7 +141,7 @@ TEST(FillWithLatticeTest, ClosesHoles) {
     open.faces.pop_back();  // half of a side
     const Filled filled = fill(open, with_nodes(2000));
     expect_sound(filled.mesh);
-    EXPECT_NEAR(volume_of(filled.mesh), 1.0, 0.1);
+    EXPECT_NEAR(total_volume(filled.mesh), 1.0, 0.1);
     EXPECT_GT(least_dihedral_angle(filled.mesh), kLeastAngle);
 }
 
@@ -150,7 +150,7 @@ TEST(FillWithLatticeTest, FillsTheUnionOfSurfacesThatCross) {
     append(crossing, cube({0.5, 0.0, 0.0}, 1.0));
     const Filled filled = fill(crossing, with_nodes(3000));
     expect_sound(filled.mesh);
-    EXPECT_NEAR(volume_of(filled.mesh), 1.5, 0.03);
+    EXPECT_NEAR(total_volume(filled.mesh), 1.5, 0.03);
 }
 
 TEST(FillWithLatticeTest, LeavesCavitiesEmpty) {
@@ -160,7 +160,7 @@ TEST(FillWithLatticeTest, LeavesCavitiesEmpty) {
     append(shell, cavity);
     const Filled filled = fill(shell, with_nodes(3000));
     expect_sound(filled.mesh);
-    EXPECT_NEAR(volume_of(filled.mesh), 0.875, 0.03);
+    EXPECT_NEAR(total_volume(filled.mesh), 0.875, 0.03);
 }
 
 // A body with a thin handle: an eighth as thick as the cells that the rest would have.
@@ -218,7 +218,7 @@ TEST(FillWithLatticeTest, RefusesBodiesThatAreTooThinWithASizeThatFillsThem) {
     const Filled filled =
         fill(plate, with_cells(std::stod(error.substr(error.find(advice) + advice.size()))));
     expect_sound(filled.mesh);
-    EXPECT_NEAR(volume_of(filled.mesh), 0.03, 0.003);
+    EXPECT_NEAR(total_volume(filled.mesh), 0.03, 0.003);
     EXPECT_THAT(error,
                 HasSubstr(" fills it, with " + std::to_string(filled.mesh.positions.size()) + " nodes"));
 }
@@ -234,7 +234,7 @@ TEST(FillWithLatticeTest, FillsFansOfLongThinFaces) {
     const Filled filled = fill(make_fan_disc(1000), with_nodes(1000));
     expect_sound(filled.mesh);
     EXPECT_THAT(filled.notes, IsEmpty());
-    EXPECT_NEAR(volume_of(filled.mesh), 0.05 * std::numbers::pi, 0.05 * 0.05 * std::numbers::pi);
+    EXPECT_NEAR(total_volume(filled.mesh), 0.05 * std::numbers::pi, 0.05 * 0.05 * std::numbers::pi);
 }
 
 TEST(FillWithLatticeTest, RefusesNumbersThatAreNotFinite) {

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "mesh/lattice/triangles_of.h"
 #include "mesh/mesh_samples.h"
 #include "mesh/shapes.h"
 #include "support/draw_vector.h"
@@ -15,13 +16,6 @@ namespace gelatin::lattice {
 namespace {
 
 constexpr double kError = 2e-3;  // as the header promises
-
-std::vector<Triangle> triangles_of(const SurfaceMesh& surface) {
-    std::vector<Triangle> triangles;
-    for (const glm::uvec3& f : surface.faces)
-        triangles.push_back({surface.positions[f[0]], surface.positions[f[1]], surface.positions[f[2]]});
-    return triangles;
-}
 
 std::vector<glm::dvec3> random_points(int count, double reach) {
     std::mt19937 random(7);

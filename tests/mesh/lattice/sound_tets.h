@@ -31,12 +31,6 @@ inline double least_dihedral_angle(const TetMesh& mesh) {
     return least;
 }
 
-inline double volume_of(const TetMesh& mesh) {
-    double volume = 0.0;
-    for (const glm::uvec4& tet : mesh.tets) volume += tet_volume(mesh, tet);
-    return volume;
-}
-
 /// Is each edge of the faces in two of them, once in each direction, and the faces around each node one fan?
 inline bool is_manifold(const std::vector<glm::uvec3>& faces) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;

@@ -40,9 +40,7 @@ TEST(CheckModel, HintsAtMillimetres) {
     scene.objects.resize(1);
     scene.objects[0].name = body.name;
     scene.objects[0].scale = 2.0;
-    const auto lines = [&] {
-        return check_model(pack_bodies({body}, {}, scene.simulation.gravity), scene, 1e-3);
-    };
+    const auto lines = [&] { return check_model(pack_bodies({body}, {}, scene.gravity()), scene, 1e-3); };
     EXPECT_THAT(lines(),
                 ElementsAre("object 'body': it is 120 m large, and gravity is in metres; if its shape "
                             "is in millimetres, scale = 0.002 makes it 0.12 m large"));
