@@ -12,6 +12,7 @@ from gelatin import _gelatin
 
 def scene_with_everything():
     scene = gelatin.Scene()
+    scene.up = "z"
     scene.simulation = gelatin.SimulationSettings("rk4", "divide_and_merge", 50.0, 3, 7, (1.0, 2.0, 3.0), 20, False)
     scene.collision = gelatin.CollisionSettings(
         "boxes", "continuous", "restore", True, 0.1, 0.2, 0.7, [gelatin.MaterialPair("a", "b", 0.1, 2.0, 0.5)]
@@ -56,6 +57,7 @@ def scene_with_everything():
         color=(0.1, 0.2, 0.3),
         parts=[gelatin.Part(region, "a", line=9), gelatin.Part(gelatin.TetAttribute(3), "a")],
         skin=False,
+        up="z",
         line=6,
     )
     for shape in (
@@ -68,7 +70,7 @@ def scene_with_everything():
     scene.add_collider(gelatin.Plane((1.0, 0.0, 0.0), 0.5))
     scene.colliders.append(
         gelatin.Collider(
-            gelatin.Sphere(), (1.0, 2.0, 3.0), (4.0, 5.0, 6.0), 0.7, 0.1, frames, "smooth", (1.0, 0.0, 1.0), (2.0, 0.0, 2.0), "belt", 3.0, "stops"
+            gelatin.Sphere(), (1.0, 2.0, 3.0), (4.0, 5.0, 6.0), 0.7, 0.1, frames, "smooth", (1.0, 0.0, 1.0), (2.0, 0.0, 2.0), "belt", 3.0, "stops", up="x"
         )
     )
     scene.camera = gelatin.Camera((1.0, 2.0, 3.0), (4.0, 5.0, 6.0), 40.0)

@@ -95,7 +95,7 @@ void TableReader::require(std::initializer_list<const char*> keys) {
 std::string TableReader::require_one_of(const std::vector<std::string>& keys) {
     std::vector<std::string> present;
     for (const std::string& key : keys) {
-        if (has(key)) present.push_back(key);
+        if (table_->contains(key)) present.push_back(key);
     }
     if (present.size() == 1) {
         find(present.front().c_str());

@@ -95,11 +95,12 @@ std::vector<Overlays> kinds_of_overlays() {
 // Pictures of both qualities, with one kind of overlay after the other, then with all.
 class Painter {
 public:
-    Painter() {
+    explicit Painter(Axis up) {
         const render::Surroundings around{.bounds = {{-1.0f, 0.0f, -1.0f}, {1.0f, 1.0f, 1.0f}},
                                           .floor_height = 0.0f,
                                           .props = {make_sphere({0.1, 4})},
-                                          .colors = {}};
+                                          .colors = {},
+                                          .up = up};
         for (const render::Quality quality : {render::Quality::high, render::Quality::fast}) {
             renderers_.push_back(std::make_unique<render::Renderer>(
                 render::RendererOptions{.width = 96, .height = 64, .quality = quality}));
@@ -214,6 +215,10 @@ void painted(Scene& scene) {
     scene.objects[1].mesher.nodes = 100;
 }
 
+void z_up(Scene& scene) {
+    scene.up = Axis::z;
+}
+
 void nothing(Scene&) {}
 
 void drag(Simulator& simulator) {
@@ -253,6 +258,7 @@ std::vector<ShortRun> short_runs() {
         {"drawn from the CPU", nothing, start_again, true, Backend::cpu},
         {"painted", painted, start_again, true},
         {"painted, drawn from the CPU", painted, start_again, true, Backend::cpu},
+        {"drawn with z up", z_up, start_again, true},
         {"fused", fused, pull},
         {"fused, volume term", both(fused, volume_term), start_again},
         {"fused, neo-Hookean", both(fused, neo_hookean)},
@@ -283,7 +289,7 @@ void play(const ShortRun& run) {
     Simulator simulator(scene, options);
     run.begin(simulator);
     std::unique_ptr<Painter> painter;
-    if (run.is_drawn) painter = std::make_unique<Painter>();
+    if (run.is_drawn) painter = std::make_unique<Painter>(scene.up);
     for (int frame = 0; frame < 2; ++frame) {
         simulator.advance_frame();
         simulator.begin_statistics();
