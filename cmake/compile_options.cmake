@@ -11,9 +11,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
     add_compile_options(-Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
 
-if(GELATIN_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # Types of anonymous namespaces in others of one source: GCC takes sources that are compiled together for headers.
-    add_compile_options(-Wno-subobject-linkage)
+if(GELATIN_UNITY)
+    # In sources that are compiled together: a name of one hides nothing of another. GCC takes them for headers, too.
+    add_compile_options(-Wno-shadow)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+        add_compile_options(-Wshadow=local -Wno-subobject-linkage)
+    endif()
 endif()
 
 # No contraction behind our back: the same source gives the same bits whatever the compiler may fuse.

@@ -72,10 +72,11 @@ std::vector<std::uint32_t> common_containers(std::span<const Query> queries) {
     }
     std::vector<std::uint32_t> containers;
     for (const auto& [piece, count] : votes) {
-        const bool is_anywhere_inside = std::any_of(queries.begin(), queries.end(), [&](const Query& query) {
-            const auto place = query.places.find(piece);
-            return place != query.places.end() && place->second.is_inside && !place->second.is_on;
-        });
+        const bool is_anywhere_inside =
+            std::any_of(queries.begin(), queries.end(), [&, at = piece](const Query& query) {
+                const auto place = query.places.find(at);
+                return place != query.places.end() && place->second.is_inside && !place->second.is_on;
+            });
         if (count == queries.size() && is_anywhere_inside) containers.push_back(piece);
     }
     return containers;
