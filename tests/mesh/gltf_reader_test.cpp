@@ -101,7 +101,7 @@ public:
             primitive["indices"] = indices({0, 2, 1, 3, 0, 2});  // all four
             primitive["mode"] = 5;
         }
-        Json primitives = {primitive};
+        Json primitives = Json::array({primitive});
         if (form == 2) {  // a fan of three, and the face that closes it
             primitives[0]["indices"] = indices({0, 2, 1, 3, 2});
             primitives[0]["mode"] = 6;
@@ -115,18 +115,18 @@ public:
             ++other_groups;
         }
         json_["asset"] = {{"version", "2.0"}, {"generator", "a test"}};
-        json_["meshes"] = {{{"primitives", primitives}}};
+        json_["meshes"] = Json::array({{{"primitives", primitives}}});
         // A turn about (1, 1, 1) moves the axes, a reflection of all three turns the surface inside out.
-        json_["nodes"] = {{{"children", {1}}, {"rotation", {0.5, 0.5, 0.5, 0.5}}},
+        json_["nodes"] = {{{"children", Json::array({1})}, {"rotation", {0.5, 0.5, 0.5, 0.5}}},
                           {{"mesh", 0}, {"matrix", {-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1}}},
                           {{"mesh", 0}}};
         if (dice_.one_in(2)) {
-            json_["scenes"] = {{{"nodes", {2}}}, {{"nodes", {0}}}};
+            json_["scenes"] = {{{"nodes", Json::array({2})}}, {{"nodes", Json::array({0})}}};
             json_["scene"] = 1;
         } else {
-            json_["scenes"] = {{{"nodes", {0}}}};
+            json_["scenes"] = Json::array({{{"nodes", Json::array({0})}}});
         }
-        json_["buffers"] = {{{"byteLength", buffer_.size()}}};
+        json_["buffers"] = Json::array({{{"byteLength", buffer_.size()}}});
         if (is_binary) return pack_binary(json_.dump(), buffer_);
         json_["buffers"][0]["uri"] = "data:application/octet-stream;base64," + to_base64(buffer_);
         return json_.dump(dice_.one_in(2) ? 2 : -1);
@@ -231,11 +231,13 @@ std::string changed_sample(const std::function<void(Json&)>& change) {
 TEST_F(GltfReaderTest, RefusesCompressionAndOtherVersions) {
     for (const char* extension : {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "XYZ_new"}) {
         const std::string text =
-            changed_sample([&](Json& json) { json["extensionsRequired"] = {extension}; });
+            changed_sample([&](Json& json) { json["extensionsRequired"] = Json::array({extension}); });
         EXPECT_THAT(refusal_of("a.gltf", text),
                     HasSubstr("a.gltf: extensionsRequired = " + std::string(extension) + ": is not read"));
     }
-    read("a.gltf", changed_sample([](Json& json) { json["extensionsRequired"] = {"KHR_materials_unlit"}; }));
+    read("a.gltf", changed_sample([](Json& json) {
+             json["extensionsRequired"] = Json::array({"KHR_materials_unlit"});
+         }));
     EXPECT_THAT(notes_, IsEmpty());
     EXPECT_THAT(refusal_of("a.gltf", changed_sample([](Json& json) { json["asset"]["version"] = "1.0"; })),
                 HasSubstr("asset.version = \"1.0\": only glTF 2 is read"));
@@ -270,11 +272,11 @@ TEST_F(GltfReaderTest, NamesTheItemThatIsWrong) {
 
 TEST_F(GltfReaderTest, CountsWhatItIgnores) {
     read("a.gltf", changed_sample([](Json& json) {
-             json["animations"] = {Json::object(), Json::object()};
-             json["skins"] = {Json::object()};
-             json["meshes"][0]["primitives"][0]["targets"] = {Json::object()};
+             json["animations"] = Json::array({Json::object(), Json::object()});
+             json["skins"] = Json::array({Json::object()});
+             json["meshes"][0]["primitives"][0]["targets"] = Json::array({Json::object()});
              json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = 0;
-             json["textures"] = {Json::object()};
+             json["textures"] = Json::array({Json::object()});
          }));
     EXPECT_THAT(notes_, ElementsAre("ignored morph targets: 1", "ignored colours of vertices: 4",
                                     "ignored textures of formats that are neither PNG nor JPEG: 1",
