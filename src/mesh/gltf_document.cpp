@@ -130,9 +130,9 @@ void GltfDocument::fail(const std::string& field, const std::string& value,
 }
 
 const Json& GltfDocument::list(const char* name) const {
-    static const Json kEmpty = Json::array();
+    static const Json empty = Json::array();
     const auto found = json_.find(name);
-    if (found == json_.end()) return kEmpty;
+    if (found == json_.end()) return empty;
     if (!found->is_array()) fail(name, {}, "must be an array");
     return *found;
 }

@@ -27,10 +27,10 @@ public:
 
     const Json& json() const { return json_; }
 
-    /// The array `list` of the document; empty if there is none.
+    /// The array `name` of the document; empty if there is none.
     const Json& list(const char* name) const;
-    /// The object at `index` of the array `list` of the document.
-    const Json& item(const char* list, std::size_t index) const;
+    /// The object at `index` of the array `name` of the document.
+    const Json& item(const char* name, std::size_t index) const;
 
     /// The whole number `key` of an object. `what` names the object in messages.
     std::size_t whole_number(const Json& object, const char* key, const std::string& what) const;

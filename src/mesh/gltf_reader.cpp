@@ -127,7 +127,7 @@ private:
             for (int k = 0; k < 16; ++k) transform[k / 4][k % 4] = (*matrix)[static_cast<std::size_t>(k)];
             return transform;
         }
-        const auto values = [&](const char* key, std::vector<double> otherwise) {
+        const auto values = [&](const char* key, const std::vector<double>& otherwise) {
             return document_.numbers(node, key, otherwise.size(), what).value_or(otherwise);
         };
         const auto move = values("translation", {0, 0, 0}), turn = values("rotation", {0, 0, 0, 1}),

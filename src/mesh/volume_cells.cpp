@@ -47,15 +47,15 @@ struct ShapeFacts {
 };
 
 const ShapeFacts& facts_of(CellShape shape) {
-    static const std::array<ShapeFacts, 8> kFacts = {{{"", 0, {}},
-                                                      {"", 0, {}},
-                                                      {"tets", 4, pyramid_sides(3)},
-                                                      {"pyramids", 5, pyramid_sides(4)},
-                                                      {"wedges", 6, prism_sides(3)},
-                                                      {"hexahedra", 8, prism_sides(4)},
-                                                      {"pentagonal prisms", 10, prism_sides(5)},
-                                                      {"hexagonal prisms", 12, prism_sides(6)}}};
-    return kFacts.at(static_cast<std::size_t>(shape));
+    static const std::array<ShapeFacts, 8> all_facts = {{{"", 0, {}},
+                                                         {"", 0, {}},
+                                                         {"tets", 4, pyramid_sides(3)},
+                                                         {"pyramids", 5, pyramid_sides(4)},
+                                                         {"wedges", 6, prism_sides(3)},
+                                                         {"hexahedra", 8, prism_sides(4)},
+                                                         {"pentagonal prisms", 10, prism_sides(5)},
+                                                         {"hexagonal prisms", 12, prism_sides(6)}}};
+    return all_facts.at(static_cast<std::size_t>(shape));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 namespace gelatin {
 
-Playback::Playback(std::shared_ptr<const Recording> of, std::shared_ptr<const Model> from,
+Playback::Playback(std::shared_ptr<const Recording> of, const std::shared_ptr<const Model>& from,
                    const SimulatorOptions& with)
     : Impl(of->scene(), from, with, choose_substeps(of->scene(), *from)), recording(std::move(of)) {
     options.backend = Backend::cpu;
@@ -40,12 +40,14 @@ void Playback::show(std::size_t index) {
     watch->begin(frame.moment.state, clock.now());
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): read before it is moved, in whichever order
 Simulator::Simulator(std::shared_ptr<const Recording> recording, const SimulatorOptions& options)
     : Simulator(recording, std::make_shared<const Model>(build_model(recording->scene())), options) {}
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): the model is shared
 Simulator::Simulator(std::shared_ptr<const Recording> recording, std::shared_ptr<const Model> model,
                      const SimulatorOptions& options)
-    : impl_(std::make_unique<Playback>(std::move(recording), std::move(model), options)) {}
+    : impl_(std::make_unique<Playback>(std::move(recording), model, options)) {}
 
 const Recording* Simulator::recording() const {
     const Playback* const playback = impl_->playback();

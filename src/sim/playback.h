@@ -14,7 +14,7 @@ struct Playback final : SimulatorInternals::Impl {
     std::size_t shown = 0;  // of its frames
 
     /// @throws InvalidInput if the model is not the recording's
-    Playback(std::shared_ptr<const Recording> of, std::shared_ptr<const Model> from,
+    Playback(std::shared_ptr<const Recording> of, const std::shared_ptr<const Model>& from,
              const SimulatorOptions& with);
 
     void step() override;

@@ -23,7 +23,7 @@ struct Simulation final : SimulatorInternals::Impl {
     Simulation(const Scene& of, std::shared_ptr<const Model> from, const SimulatorOptions& with);
     /// Another one of the same scene and model, at the start. It repeats no check and no message.
     /// @pre `like` has no OpenGL context and no pins of programs
-    explicit Simulation(const Simulation& like);
+    Simulation(const Simulation& like);
     Simulation& operator=(const Simulation&) = delete;
     ~Simulation() override = default;
 

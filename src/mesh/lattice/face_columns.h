@@ -45,7 +45,8 @@ private:
     glm::dvec3 turned(const glm::dvec3& p) const {
         return {p[(axis_ + 1) % 3], p[(axis_ + 2) % 3], p[axis_]};
     }
-    std::span<const Listed> faces_over(const glm::dvec3& turned) const;
+    /// @param p turned
+    std::span<const Listed> faces_over(const glm::dvec3& p) const;
 
     int axis_ = 0;
     std::vector<Triangle> faces_;  // turned
