@@ -7,7 +7,7 @@ namespace gelatin::viewer {
 namespace {
 
 constexpr double kBudget = 1.0 / 30.0;  // for the steps between two pictures [s]
-constexpr double kLongestDelay = 0.1;        // largest delay of the window that is made up for [s]
+constexpr double kLongestDelay = 0.1;   // largest delay of the window that is made up for [s]
 constexpr double kMemory = 0.5;         // interval over which the achieved speed is averaged [s]
 constexpr double kCostMemory = 0.2;     // weight of the newest cost in the mean
 
