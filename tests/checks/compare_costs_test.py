@@ -2,6 +2,7 @@
 
 import importlib.machinery
 import importlib.util
+import subprocess
 import sys
 import unittest
 from pathlib import Path
@@ -45,6 +46,14 @@ class CompareCosts(unittest.TestCase):
         for section in ("build release, g++ 12", "tests release", "build asan, clang 14", "tests asan", "clang-tidy"):
             self.assertIn(f"'{section}'", script)
             self.assertIn(section, budgets)
+
+    def test_the_build_finds_the_times_that_it_announces(self):
+        budgets = self.program.read_budgets()
+        line = next(line for line in (PROGRAM.parent / "build").read_text().splitlines() if line.startswith("minutes="))
+        for tests, section in (("", "scripts/build"), ("--tests", "scripts/build --tests")):
+            run = subprocess.run(["bash", "-uc", f"tests=({tests}); {line}; echo $minutes"], cwd=PROGRAM.parents[1],
+                                 capture_output=True, text=True, check=True)
+            self.assertEqual(int(run.stdout), int(budgets[section] / 60 + 0.5))
 
 
 if __name__ == "__main__":
