@@ -22,7 +22,7 @@ PictureQuality quality_of(const std::string& word) {
     throw InvalidInput({{}, 0, "quality", "\"" + word + "\"", "must be one of \"auto\", \"high\", \"fast\""});
 }
 
-Pixels array_of(Picture picture) {
+Pixels pixels_of(Picture picture) {
     const auto kept = std::make_shared<Picture>(std::move(picture));
     return Pixels(kept->pixels.data(),
                   {static_cast<std::size_t>(kept->height), static_cast<std::size_t>(kept->width), 3},
@@ -37,7 +37,7 @@ Pixels render(PythonSimulator& self, int width, int height, const std::string& q
     options.quality = quality_of(quality);
     options.overlays = parse_overlays(overlays);
     if (!camera.is_none()) options.camera = camera_of(camera);
-    return array_of(self.paint(options));
+    return pixels_of(self.paint(options));
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include "support/implicit_euler.h"
 #include "support/test_models.h"
 
-namespace gelatin {
+namespace gelatin::block_descent_test {
 namespace {
 
 constexpr double kFrame = 1.0 / 60.0;  // [s]
@@ -81,4 +81,4 @@ TEST(CoarseLevel, BringsLongStiffBodiesNearWithFewSweeps) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::block_descent_test

@@ -9,7 +9,7 @@
 #include "support/gl_fixture.h"
 #include "support/source_path.h"
 
-namespace gelatin {
+namespace gelatin::bullet_test {
 namespace {
 
 constexpr float kThickness = 0.005f;  // of the plate [m]
@@ -72,4 +72,4 @@ TEST_F(BulletHeavy, DiscreteDetectionLetsItThrough) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::bullet_test

@@ -11,7 +11,7 @@
 #include "support/test_models.h"
 #include "verify/support/equilibrium.h"
 
-namespace gelatin {
+namespace gelatin::cantilever_test {
 namespace {
 
 constexpr double kLength = 0.2, kWidth = 0.02;  // [m]
@@ -149,4 +149,4 @@ TEST_P(CantileverLong, BendsAndSwingsAsRecorded) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::cantilever_test

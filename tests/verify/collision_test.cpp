@@ -12,7 +12,7 @@
 #include "sim/simulator_internals.h"
 #include "support/gl_fixture.h"
 
-namespace gelatin {
+namespace gelatin::collision_test {
 namespace {
 
 constexpr double kSpeed = 3.0;  // of each ball [m/s]
@@ -144,4 +144,4 @@ TEST_F(BallsTest, AreTheSameForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::collision_test

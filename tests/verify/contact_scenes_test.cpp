@@ -15,7 +15,7 @@
 #include "support/overlaps.h"
 #include "support/source_path.h"
 
-namespace gelatin {
+namespace gelatin::contact_scenes_test {
 namespace {
 
 class ContactScene {
@@ -304,4 +304,4 @@ TEST(ContactScenesLong, APileComesToRest) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::contact_scenes_test

@@ -10,7 +10,7 @@
 #include "support/gl_fixture.h"
 #include "support/test_models.h"
 
-namespace gelatin {
+namespace gelatin::contact_test {
 namespace {
 
 Collider plane(double slope_degrees, double friction, double restitution) {
@@ -117,4 +117,4 @@ TEST_F(ContactTest, NothingSinksIntoAPlane) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::contact_test

@@ -9,7 +9,7 @@
 #include "sim/simulator_internals.h"
 #include "support/source_path.h"
 
-namespace gelatin {
+namespace gelatin::fold_test {
 namespace {
 
 constexpr int kFrames = 48;
@@ -54,4 +54,4 @@ TEST(FoldHeavy, HalvesOfABarDoNotPassThroughEachOther) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::fold_test

@@ -12,7 +12,7 @@
 #include "support/gl_fixture.h"
 #include "support/test_models.h"
 
-namespace gelatin {
+namespace gelatin::free_motion_test {
 namespace {
 
 Model thrown_block() {
@@ -112,4 +112,4 @@ TEST(Energy, OfSemiImplicitEulerIsBoundedOver10000Steps) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::free_motion_test

@@ -8,7 +8,7 @@
 #include "model/assembly/start_state.h"
 #include "support/test_models.h"
 
-namespace gelatin {
+namespace gelatin::fuzz_test {
 namespace {
 
 class Random {
@@ -105,4 +105,4 @@ TEST(FuzzLong, NothingIsEverNotFinite) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::fuzz_test

@@ -13,7 +13,7 @@
 #include "support/solver_kinds.h"
 #include "support/test_models.h"
 
-namespace gelatin {
+namespace gelatin::handle_test {
 namespace {
 
 // Takes the place of the simulator: steps from the start on, `count` of them.
@@ -159,4 +159,4 @@ TEST(Spin, GivesTheAngularMomentumOfARigidBody) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::handle_test

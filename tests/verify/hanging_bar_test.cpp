@@ -13,7 +13,7 @@
 #include "model/explicit/stability.h"
 #include "support/test_models.h"
 
-namespace gelatin {
+namespace gelatin::hanging_bar_test {
 namespace {
 
 constexpr double kLength = 1.0, kWidth = 0.25;  // [m]
@@ -91,4 +91,4 @@ TEST_P(HangingBarLong, AnswersAsRecorded) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::hanging_bar_test

@@ -18,7 +18,7 @@
 #include "support/test_models.h"
 #include "verify/support/graded_ball.h"
 
-namespace gelatin {
+namespace gelatin::hertz_test {
 namespace {
 
 constexpr double kRadius = 0.5, kGap = 0.01;                   // [m]
@@ -173,4 +173,4 @@ TEST_P(HertzLong, ForcesFollowTheDepth) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::hertz_test

@@ -10,7 +10,7 @@
 #include "mesh/tetrahedralise.h"
 #include "support/test_models.h"
 
-namespace gelatin {
+namespace gelatin::holding_force_test {
 namespace {
 
 constexpr double kGravity = 9.81;                             // [m/s^2]
@@ -193,4 +193,4 @@ TEST_P(HoldingForce, IsZeroOnceAHandleHasReleased) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::holding_force_test

@@ -15,7 +15,7 @@
 #include "support/test_models.h"
 #include "verify/support/equilibrium.h"
 
-namespace gelatin {
+namespace gelatin::lattice_bar_test {
 namespace {
 
 constexpr double kYoungsModulus = 1e6;  // [Pa]
@@ -167,4 +167,4 @@ TEST(LatticeStability, StepsBesideThoseWithTetgenAreAsRecorded) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::lattice_bar_test

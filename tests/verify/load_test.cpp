@@ -15,7 +15,7 @@
 #include "support/solver_kinds.h"
 #include "support/test_models.h"
 
-namespace gelatin {
+namespace gelatin::load_test {
 namespace {
 
 const Region kEverywhere = HalfSpaceRegion{{1.0, 0.0, 0.0}, 100.0};
@@ -118,4 +118,4 @@ TEST(Load, APressureCompressesABall) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::load_test

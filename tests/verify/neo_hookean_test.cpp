@@ -15,7 +15,7 @@
 #include "support/test_models.h"
 #include "verify/support/equilibrium.h"
 
-namespace gelatin {
+namespace gelatin::neo_hookean_test {
 namespace {
 
 constexpr double kYoungsModulus = 1e6;  // [Pa]
@@ -257,4 +257,4 @@ TEST(NeoHookeanRecoveryHeavy, SpheresRecoverFromAnyStart) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::neo_hookean_test

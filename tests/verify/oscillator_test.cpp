@@ -11,7 +11,7 @@
 #include "support/gl_fixture.h"
 #include "support/test_models.h"
 
-namespace gelatin {
+namespace gelatin::oscillator_test {
 namespace {
 
 constexpr double kStiffness = 50.0;  // [N/m], so that w = 10 rad/s
@@ -111,4 +111,4 @@ TEST(OscillatorTest, DampingDecaysAtItsRate) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::oscillator_test

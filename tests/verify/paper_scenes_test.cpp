@@ -9,7 +9,7 @@
 #include "support/gl_fixture.h"
 #include "support/source_path.h"
 
-namespace gelatin {
+namespace gelatin::paper_scenes_test {
 namespace {
 
 struct PaperScene {
@@ -69,4 +69,4 @@ TEST_F(PaperScenesLong, RunToTheirEndOnGl) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::paper_scenes_test

@@ -17,7 +17,7 @@
 #include "support/test_models.h"
 #include "verify/support/statics.h"
 
-namespace gelatin {
+namespace gelatin::poissons_ratio_test {
 namespace {
 
 constexpr double kYoungsModulus = 2e5;        // [Pa]
@@ -102,4 +102,4 @@ TEST(PoissonsRatioHeavy, IsWhatWasAskedForInExplicitSolversToo) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::poissons_ratio_test

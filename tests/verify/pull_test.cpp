@@ -15,7 +15,7 @@
 #include "support/solver_kinds.h"
 #include "support/test_models.h"
 
-namespace gelatin {
+namespace gelatin::pull_test {
 namespace {
 
 constexpr double kRate = 20.0;  // of the hand [1/s]
@@ -180,4 +180,4 @@ TEST(Pull, AStrongHandIsStableInExplicitSchemes) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::pull_test

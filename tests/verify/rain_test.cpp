@@ -9,7 +9,7 @@
 #include "gelatin/simulator.h"
 #include "support/source_path.h"
 
-namespace gelatin {
+namespace gelatin::rain_test {
 namespace {
 
 TEST(RainHeavy, DropsComeToRestWhole) {
@@ -79,4 +79,4 @@ TEST(RainHeavy, DropsOfACrowdDoNotStopEachOther) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::rain_test

@@ -16,7 +16,7 @@
 #include "support/gl_fixture.h"
 #include "support/test_models.h"
 
-namespace gelatin {
+namespace gelatin::recovery_test {
 namespace {
 
 constexpr double kFrame = 1.0 / 60.0;  // [s]
@@ -140,4 +140,4 @@ TEST_P(RecoveryLong, OfALetter) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::recovery_test

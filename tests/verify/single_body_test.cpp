@@ -6,7 +6,7 @@
 #include "gelatin/simulator.h"
 #include "support/simulator_fixture.h"
 
-namespace gelatin {
+namespace gelatin::single_body_test {
 namespace {
 
 class SingleBodyTest : public test::SimulatorFixture {
@@ -64,4 +64,4 @@ TEST_F(SingleBodyTest, FallsAsleep) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::single_body_test

@@ -7,7 +7,7 @@
 #include "gelatin/simulator.h"
 #include "support/simulator_fixture.h"
 
-namespace gelatin {
+namespace gelatin::sliding_test {
 namespace {
 
 constexpr double kGravity = 9.81, kFriction = 0.5;
@@ -89,4 +89,4 @@ TEST_F(SlidingTest, SmallBlocksSlideAsFast) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::sliding_test

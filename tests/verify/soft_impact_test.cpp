@@ -5,7 +5,7 @@
 
 #include "gelatin/simulator.h"
 
-namespace gelatin {
+namespace gelatin::soft_impact_test {
 namespace {
 
 constexpr int kFrames = 5;  // until it is half way down
@@ -86,4 +86,4 @@ TEST(SoftImpact, BallsThatMeetGoOnWithTheirDeformations) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::soft_impact_test

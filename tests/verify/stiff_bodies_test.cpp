@@ -10,7 +10,7 @@
 #include "support/random_maker.h"
 #include "support/simulator_fixture.h"
 
-namespace gelatin {
+namespace gelatin::stiff_bodies_test {
 namespace {
 
 class StiffBodiesTest : public test::SimulatorFixture {
@@ -143,4 +143,4 @@ TEST_F(StiffBodiesTest, BarsFallAndRest) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::stiff_bodies_test

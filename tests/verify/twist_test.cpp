@@ -12,7 +12,7 @@
 #include "support/gl_fixture.h"
 #include "support/source_path.h"
 
-namespace gelatin {
+namespace gelatin::twist_test {
 namespace {
 
 class TwistHeavy : public ::testing::Test {};
@@ -91,4 +91,4 @@ TEST_F(TwistLong, ComesBackOnGl) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::twist_test

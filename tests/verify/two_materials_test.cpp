@@ -12,7 +12,7 @@
 #include "support/test_models.h"
 #include "verify/support/statics.h"
 
-namespace gelatin {
+namespace gelatin::two_materials_test {
 namespace {
 
 constexpr double kSoft = 2e5;  // Young's modulus [Pa]
@@ -114,4 +114,4 @@ TEST_P(TwoMaterialsHeavy, AnswerTogetherAsTheorySays) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::two_materials_test

@@ -16,7 +16,7 @@
 #include "support/test_models.h"
 #include "verify/support/statics.h"
 
-namespace gelatin {
+namespace gelatin::youngs_modulus_test {
 namespace {
 
 constexpr double kYoungsModulus = 2e5;  // [Pa]
@@ -217,4 +217,4 @@ TEST(YoungsModulus, FittedSpringsAllowLongerStepsThanStructuralOnes) {
 }
 
 }  // namespace
-}  // namespace gelatin
+}  // namespace gelatin::youngs_modulus_test

@@ -10,6 +10,7 @@
 #include "model/elasticity/neo_hookean.h"
 #include "model/elasticity/node_tets.h"
 #include "model/explicit/explicit_scheme.h"
+#include "verify/support/coordinates.h"
 
 namespace gelatin::test {
 namespace {
@@ -17,14 +18,10 @@ namespace {
 using Triplets = std::vector<Eigen::Triplet<double>>;
 using Solver = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
 
-Eigen::Index at(std::uint32_t node) {
-    return 3 * static_cast<Eigen::Index>(node);
-}
-
 cpu::Nodes<double> nodes_at(const Model& model, const Eigen::VectorXd& displacements) {
     cpu::Nodes<double> nodes;
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
-        const Eigen::Vector3d d = displacements.segment<3>(at(n));
+        const Eigen::Vector3d d = displacements.segment<3>(first_coordinate(n));
         nodes.positions.push_back(glm::dvec4(model.positions[n]) + glm::dvec4(d.x(), d.y(), d.z(), 0.0));
         nodes.velocities.emplace_back(0.0, 0.0, 0.0, static_cast<double>(model.velocities[n].w));
     }
@@ -33,7 +30,8 @@ cpu::Nodes<double> nodes_at(const Model& model, const Eigen::VectorXd& displacem
 
 void add_block(std::uint32_t row, std::uint32_t column, const Eigen::Matrix3d& block, Triplets& triplets) {
     for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 3; ++c) triplets.emplace_back(at(row) + r, at(column) + c, block(r, c));
+        for (int c = 0; c < 3; ++c)
+            triplets.emplace_back(first_coordinate(row) + r, first_coordinate(column) + c, block(r, c));
     }
 }
 
@@ -110,23 +108,23 @@ void add_volume_term(const Model& model, cpu::Nodes<double>& nodes, Triplets& tr
 
 Equilibrium::Equilibrium(const Model& model)
     : model_(model),
-      loads_(Eigen::VectorXd::Zero(at(model.node_count()))),
+      loads_(Eigen::VectorXd::Zero(first_coordinate(model.node_count()))),
       displacements_(loads_),
       masses_(loads_),
       free_(Eigen::VectorXd::Ones(loads_.size())) {
     for (std::uint32_t n = 0; n < model.node_count(); ++n) {
-        masses_.segment<3>(at(n)).setConstant(static_cast<double>(model.masses[n]));
-        if (model.positions[n].w == 0.0f) free_.segment<3>(at(n)).setZero();
+        masses_.segment<3>(first_coordinate(n)).setConstant(static_cast<double>(model.masses[n]));
+        if (model.positions[n].w == 0.0f) free_.segment<3>(first_coordinate(n)).setZero();
     }
 }
 
 void Equilibrium::hold(std::uint32_t node, int axis, double value) {
-    displacements_[at(node) + axis] = value;
-    free_[at(node) + axis] = 0.0;
+    displacements_[first_coordinate(node) + axis] = value;
+    free_[first_coordinate(node) + axis] = 0.0;
 }
 
 void Equilibrium::pull(std::uint32_t node, const Eigen::Vector3d& force) {
-    loads_.segment<3>(at(node)) += force;
+    loads_.segment<3>(first_coordinate(node)) += force;
 }
 
 void Equilibrium::pull_by_gravity(double share) {
@@ -160,11 +158,11 @@ void Equilibrium::solve() {
 }
 
 Eigen::Vector3d Equilibrium::displacement(std::uint32_t node) const {
-    return displacements_.segment<3>(at(node));
+    return displacements_.segment<3>(first_coordinate(node));
 }
 
 Eigen::Vector3d Equilibrium::elastic_force(std::uint32_t node) const {
-    return elastic_forces(displacements_).segment<3>(at(node));
+    return elastic_forces(displacements_).segment<3>(first_coordinate(node));
 }
 
 // Inverse iteration: Rayleigh's quotient converges with the fourth power of the ratio of the two lowest
@@ -192,7 +190,7 @@ Eigen::VectorXd Equilibrium::elastic_forces(const Eigen::VectorXd& displacements
     Eigen::VectorXd forces(displacements.size());
     for (std::uint32_t n = 0; n < model_.node_count(); ++n) {
         const glm::dvec3 f = cpu::gather_forces(pass, n);
-        forces.segment<3>(at(n)) = Eigen::Vector3d(f.x, f.y, f.z);
+        forces.segment<3>(first_coordinate(n)) = Eigen::Vector3d(f.x, f.y, f.z);
     }
     return forces;
 }

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "model/elasticity/node_tets.h"
+#include "verify/support/coordinates.h"
 
 namespace gelatin::test {
 namespace {
@@ -13,15 +14,11 @@ Eigen::Vector3d rest(const Model& model, std::uint32_t node) {
     return {p.x, p.y, p.z};
 }
 
-Eigen::Index at(std::uint32_t node) {
-    return 3 * static_cast<Eigen::Index>(node);
-}
-
 }  // namespace
 
 Statics::Statics(const Model& model)
     : model_(model),
-      forces_(Eigen::VectorXd::Zero(at(model.node_count()))),
+      forces_(Eigen::VectorXd::Zero(first_coordinate(model.node_count()))),
       displacements_(forces_),
       free_(Eigen::VectorXd::Ones(forces_.size())) {
     if (model_.volume_term.is_empty()) return;
@@ -37,12 +34,12 @@ Statics::Statics(const Model& model)
 }
 
 void Statics::hold(std::uint32_t node, int axis, double value) {
-    displacements_[at(node) + axis] = value;
-    free_[at(node) + axis] = 0.0;
+    displacements_[first_coordinate(node) + axis] = value;
+    free_[first_coordinate(node) + axis] = 0.0;
 }
 
 void Statics::pull(std::uint32_t node, const Eigen::Vector3d& force) {
-    forces_.segment<3>(at(node)) += force;
+    forces_.segment<3>(first_coordinate(node)) += force;
 }
 
 void Statics::solve() {
@@ -50,12 +47,13 @@ void Statics::solve() {
     for (const Spring& s : model_.springs) {
         const Eigen::Vector3d n = (rest(model_, s.j) - rest(model_, s.i)).normalized();
         for (const std::uint32_t end : {s.i, s.j})
-            diagonal.segment<3>(at(end)) += static_cast<double>(s.stiffness) * n.cwiseAbs2();
+            diagonal.segment<3>(first_coordinate(end)) += static_cast<double>(s.stiffness) * n.cwiseAbs2();
     }
     for (std::size_t t = 0; t < volume_slopes_.size(); ++t) {
         const double stiffness = static_cast<double>(model_.volume_term.tets[t] / model_.tet_rests[t].volume);
         for (int k = 0; k < 4; ++k)
-            diagonal.segment<3>(at(model_.tets[t][k])) += stiffness * volume_slopes_[t].col(k).cwiseAbs2();
+            diagonal.segment<3>(first_coordinate(model_.tets[t][k])) +=
+                stiffness * volume_slopes_[t].col(k).cwiseAbs2();
     }
     Eigen::VectorXd residual = (forces_ - stiffness_times(displacements_)).cwiseProduct(free_);
     Eigen::VectorXd z = residual.cwiseQuotient(diagonal), search = z, image;
@@ -75,11 +73,11 @@ void Statics::solve() {
 }
 
 Eigen::Vector3d Statics::displacement(std::uint32_t node) const {
-    return displacements_.segment<3>(at(node));
+    return displacements_.segment<3>(first_coordinate(node));
 }
 
 Eigen::Vector3d Statics::elastic_force(std::uint32_t node) const {
-    return -stiffness_times(displacements_).segment<3>(at(node));
+    return -stiffness_times(displacements_).segment<3>(first_coordinate(node));
 }
 
 Eigen::Matrix3d Statics::mean_strain() const {
@@ -101,15 +99,17 @@ Eigen::VectorXd Statics::stiffness_times(const Eigen::VectorXd& u) const {
     for (const Spring& s : model_.springs) {
         const Eigen::Vector3d n = (rest(model_, s.j) - rest(model_, s.i)).normalized();
         const Eigen::Vector3d f =
-            static_cast<double>(s.stiffness) * n.dot(u.segment<3>(at(s.i)) - u.segment<3>(at(s.j))) * n;
-        result.segment<3>(at(s.i)) += f;
-        result.segment<3>(at(s.j)) -= f;
+            static_cast<double>(s.stiffness) *
+            n.dot(u.segment<3>(first_coordinate(s.i)) - u.segment<3>(first_coordinate(s.j))) * n;
+        result.segment<3>(first_coordinate(s.i)) += f;
+        result.segment<3>(first_coordinate(s.j)) -= f;
     }
     if (volume_slopes_.empty()) return result;
     std::vector<double> growth(model_.node_count(), 0.0);  // of the volume round each node [m^3]
     for (std::size_t t = 0; t < volume_slopes_.size(); ++t) {
         double sum = 0.0;
-        for (int k = 0; k < 4; ++k) sum += volume_slopes_[t].col(k).dot(u.segment<3>(at(model_.tets[t][k])));
+        for (int k = 0; k < 4; ++k)
+            sum += volume_slopes_[t].col(k).dot(u.segment<3>(first_coordinate(model_.tets[t][k])));
         for (int k = 0; k < 4; ++k) growth[model_.tets[t][k]] += 0.25 * sum;
     }
     for (std::size_t t = 0; t < volume_slopes_.size(); ++t) {
@@ -120,7 +120,7 @@ Eigen::VectorXd Statics::stiffness_times(const Eigen::VectorXd& u) const {
             stress += 0.25 * node.y * growth[n] / node.x;
         }
         for (int k = 0; k < 4; ++k)
-            result.segment<3>(at(model_.tets[t][k])) += stress * volume_slopes_[t].col(k);
+            result.segment<3>(first_coordinate(model_.tets[t][k])) += stress * volume_slopes_[t].col(k);
     }
     return result;
 }
