@@ -14,6 +14,7 @@ struct SolverChoice {
 };
 constexpr std::array kSolvers{
     SolverChoice{SolverKind::vbd, "vbd"},
+    SolverChoice{SolverKind::implicit, "implicit"},
     SolverChoice{SolverKind::semi_implicit_euler, "semi_implicit_euler"},
     SolverChoice{SolverKind::explicit_euler, "explicit_euler"},
     SolverChoice{SolverKind::midpoint, "midpoint"},
@@ -53,7 +54,7 @@ bool edit_simulation(Scene& scene) {
         changed = true;
     }
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("0: the fewest that are stable");
-    if (simulation.solver == SolverKind::vbd)
+    if (is_implicit(simulation.solver))
         changed |= ImGui::SliderInt("iterations", &simulation.iterations, 1, 100, "%d",
                                     ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     const double upwards = glm::dot(scene.gravity(), scene.up_direction());

@@ -18,8 +18,14 @@ namespace gelatin {
 
 enum class Axis { x, y, z };
 
-/// Four explicit schemes, and vertex block descent on implicit Euler's objective, stable at any step.
-enum class SolverKind { explicit_euler, semi_implicit_euler, midpoint, rk4, vbd };
+/// Four explicit schemes, and two implicit ones, stable at any step: vertex block descent on implicit Euler's
+/// objective, and `implicit`, which solves a step as one linear system, so far on the CPU alone
+/// (docs/implicit-step.md).
+enum class SolverKind { explicit_euler, semi_implicit_euler, midpoint, rk4, vbd, implicit };
+
+constexpr bool is_implicit(SolverKind solver) {
+    return solver == SolverKind::vbd || solver == SolverKind::implicit;
+}
 
 /// How spring forces reach the nodes: the paper's two kernels, or one gather fused with the integration.
 enum class ForceMethod { divide_and_merge, fused };
@@ -27,9 +33,11 @@ enum class ForceMethod { divide_and_merge, fused };
 struct SimulationSettings {
     SolverKind solver = SolverKind::vbd;
     ForceMethod forces = ForceMethod::fused;
-    double frame_rate = 60.0;           ///< frames a second of simulated time [1/s], > 0
-    std::optional<int> substeps;        ///< steps a frame, >= 1; empty: the fewest that are stable
-    int iterations = 10;                ///< of vbd, a step, >= 1
+    double frame_rate = 60.0;     ///< frames a second of simulated time [1/s], > 0
+    std::optional<int> substeps;  ///< steps a frame, >= 1; empty: the fewest that are stable
+    /// Sweeps of vbd in a step; of `implicit`, conjugate-gradient iterations for each linearisation at most.
+    /// >= 1
+    int iterations = 10;
     std::optional<glm::dvec3> gravity;  ///< [m/s^2]; empty: 9.81 downwards (Scene::gravity)
     int frames = 600;                   ///< length of a run, >= 0
     /// Leave steps out while all bodies rest; for CollisionResponse::contact.
@@ -56,7 +64,7 @@ enum class CollisionDetection {
 enum class CollisionResponse {
     restore,  ///< the paper's (2.4): nodes return to their previous positions, and their velocities respond
     contact,  ///< bodies press each other before they touch, and never pass through each other
-              ///< (docs/contact.md); for SolverKind::vbd
+              ///< (docs/contact.md); for implicit solvers
 };
 
 /// How bodies of two materials, or of one, press each other; for CollisionResponse::contact.
@@ -72,7 +80,7 @@ struct MaterialPair {
 struct CollisionSettings {
     BroadPhase broad_phase = BroadPhase::hierarchy;
     CollisionDetection detection = CollisionDetection::discrete;
-    std::optional<CollisionResponse> response = {};  ///< empty: contact with vbd, else restore
+    std::optional<CollisionResponse> response = {};  ///< empty: contact with implicit solvers, else restore
     /// Whether objects collide with themselves, too: by tests of their faces, or by contacts. Empty: where
     /// they have contacts.
     std::optional<bool> self_collision = {};
@@ -83,8 +91,8 @@ struct CollisionSettings {
     std::vector<MaterialPair> pairs = {};  ///< each pair of materials at most once
 
     CollisionResponse response_with(SolverKind solver) const {
-        const bool presses = solver == SolverKind::vbd;
-        return response.value_or(presses ? CollisionResponse::contact : CollisionResponse::restore);
+        return response.value_or(is_implicit(solver) ? CollisionResponse::contact
+                                                     : CollisionResponse::restore);
     }
     bool self_collision_with(SolverKind solver) const {
         return self_collision.value_or(response_with(solver) == CollisionResponse::contact);

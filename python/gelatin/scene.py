@@ -18,15 +18,15 @@ from .shapes import File, Plane, Shape, Vector
 
 @dataclass(slots=True)
 class SimulationSettings:
-    #: four explicit schemes, and "vbd", an implicit one that is stable at any step
-    solver: Literal["explicit_euler", "semi_implicit_euler", "midpoint", "rk4", "vbd"] = "vbd"
+    #: four explicit schemes, and two implicit ones, stable at any step: "vbd", and "implicit", on the CPU alone
+    solver: Literal["explicit_euler", "semi_implicit_euler", "midpoint", "rk4", "vbd", "implicit"] = "vbd"
     #: how spring forces reach the nodes: the paper's two kernels, or one fused with the integration
     forces: Literal["divide_and_merge", "fused"] = "fused"
     #: frames a second of simulated time [1/s], > 0
     frame_rate: float = 60.0
     #: steps a frame, >= 1; None: the fewest that are stable
     substeps: int | None = None
-    #: of vbd, a step, >= 1
+    #: sweeps of vbd in a step; of "implicit", conjugate-gradient iterations for each linearisation at most, >= 1
     iterations: int = 10
     #: [m/s^2]; None: 9.81 downwards
     gravity: Vector | None = None
@@ -58,7 +58,7 @@ class CollisionSettings:
     broad_phase: Literal["none", "boxes", "hierarchy", "depth"] = "hierarchy"
     #: whether faces are tested at the end of a step only, or during the whole step
     detection: Literal["discrete", "continuous"] = "discrete"
-    #: what happens to objects whose faces touch; None: "contact" with vbd, else "restore"
+    #: what happens to objects whose faces touch; None: "contact" with implicit solvers, else "restore"
     response: Literal["restore", "contact"] | None = None
     #: whether objects collide with themselves, too; None: where they have contacts
     self_collision: bool | None = None

@@ -13,12 +13,13 @@ struct Names;
 
 template <>
 struct Names<SolverKind> {
-    static constexpr std::array<std::pair<const char*, SolverKind>, 5> kAll{
+    static constexpr std::array<std::pair<const char*, SolverKind>, 6> kAll{
         {{"explicit_euler", SolverKind::explicit_euler},
          {"semi_implicit_euler", SolverKind::semi_implicit_euler},
          {"midpoint", SolverKind::midpoint},
          {"rk4", SolverKind::rk4},
-         {"vbd", SolverKind::vbd}}};
+         {"vbd", SolverKind::vbd},
+         {"implicit", SolverKind::implicit}}};
 };
 template <>
 struct Names<ForceMethod> {

@@ -4,6 +4,7 @@
 
 #include "cpu/descent/implicit_solver.h"
 #include "cpu/explicit/explicit_solver.h"
+#include "cpu/implicit/system_solver.h"
 
 namespace gelatin::cpu {
 
@@ -13,6 +14,8 @@ std::unique_ptr<CpuSolver<Real>> make_solver(std::shared_ptr<const Model> model,
                                              const DescentSettings& descent) {
     if (solver == SolverKind::vbd)
         return std::make_unique<ImplicitSolver<Real>>(std::move(model), collision, descent);
+    if (solver == SolverKind::implicit)
+        return std::make_unique<SystemSolver<Real>>(std::move(model), collision, descent);
     return std::make_unique<ExplicitSolver<Real>>(std::move(model), solver, forces, collision);
 }
 

@@ -14,6 +14,8 @@ const char* name_of(SolverKind solver) {
             return "rk4";
         case SolverKind::vbd:
             return "vbd";
+        case SolverKind::implicit:
+            return "implicit";
         case SolverKind::semi_implicit_euler:
             break;
     }

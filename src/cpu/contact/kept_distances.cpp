@@ -140,6 +140,17 @@ bool KeptDistances<Real>::keeps(std::uint32_t object, Real part, std::span<const
 }
 
 template <class Real>
+bool KeptDistances<Real>::keeps(std::uint32_t object, Real part, std::span<const Vec4<Real>> from,
+                                std::span<const Vec4<Real>> to) {
+    Shape& shape = shapes_[object];
+    if (shape.tets.empty()) return false;
+    const auto keeps_both = [&] { return keeps(shape, part, from) && keeps(shape, part, to); };
+    if (keeps_both()) return true;
+    shape.turn = nearest_turn(object, to);
+    return keeps_both();
+}
+
+template <class Real>
 std::vector<AxisBox<Real>> KeptDistances<Real>::find_lost(std::uint32_t object, Real part,
                                                           std::span<const Vec4<Real>> positions) {
     if (keeps(object, part, positions)) return {};

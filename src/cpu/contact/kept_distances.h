@@ -38,6 +38,10 @@ public:
     /// Whether two points of a convex body are at least `part` of the distance apart that they had at the
     /// start. Always false for bodies that are not convex. May be called for several bodies at once.
     bool keeps(std::uint32_t object, Real part, std::span<const Vec4<Real>> positions);
+    /// The same at both ends of a motion in which all nodes go straight, with one R: so it is true all the
+    /// way.
+    bool keeps(std::uint32_t object, Real part, std::span<const Vec4<Real>> from,
+               std::span<const Vec4<Real>> to);
     /// Boxes round those tets of a convex body, at the start [m], that keep less than `part`, and others
     /// beside them. Of two points whose line at the start meets none of them, keeps() would be true.
     /// @pre is_convex(object)

@@ -5,51 +5,14 @@
 #include <utility>
 
 #include "cpu/collision/colliders.h"
+#include "cpu/contact/contact_force_sums.h"
 
 namespace gelatin::cpu {
 namespace {
 
-class Sums {
-public:
-    explicit Sums(const Model& model) {
-        forces_.normal.assign(model.node_count(), glm::dvec3(0.0));
-        forces_.friction = forces_.normal;
-    }
-
-    void add_to_node(std::uint32_t node, const glm::dvec3& normal, const glm::dvec3& friction) {
-        forces_.normal[node] += normal;
-        forces_.friction[node] += friction;
-    }
-
-    glm::dvec3 at_node(std::uint32_t node) const { return forces_.normal[node] + forces_.friction[node]; }
-
-    // On `object`, from the other one or a plane.
-    void add(std::uint32_t object, std::uint32_t other, bool is_plane, const glm::dvec3& normal,
-             const glm::dvec3& friction) {
-        const bool turned = !is_plane && other < object;
-        const auto key = turned ? std::tuple(other, false, object) : std::tuple(object, is_plane, other);
-        const double sign = turned ? -1.0 : 1.0;
-        ContactForces::Between& sum = between_[key];
-        sum.normal += sign * normal;
-        sum.friction += sign * friction;
-        ++sum.points;
-    }
-
-    ContactForces take() {
-        for (auto& [key, sum] : between_) {
-            std::tie(sum.object, sum.is_plane, sum.other) = key;
-            forces_.between.push_back(sum);
-        }
-        return std::move(forces_);
-    }
-
-private:
-    ContactForces forces_;
-    std::map<std::tuple<std::uint32_t, bool, std::uint32_t>, ContactForces::Between> between_;
-};
-
 template <class Real>
-void add_presses(const Contacts<Real>& contacts, std::span<const Vec4<Real>> positions, Sums& sums) {
+void add_presses(const Contacts<Real>& contacts, std::span<const Vec4<Real>> positions,
+                 ContactForceSums& sums) {
     const ContactAims<Real>& aims = contacts.aims();
     for (const Press<Real>& press : aims.presses()) {
         const ContactPair& pair = contacts.list().pairs[press.pair];
@@ -85,7 +48,7 @@ std::uint32_t plane_of(const Model& model, const Vec3<Real>& position, const Vec
 
 template <class Real>
 void add_planes(const Model& model, const ColliderContacts<Real>& planes, std::span<const Vec3<Real>> forces,
-                std::span<const Vec4<Real>> positions, Sums& sums) {
+                std::span<const Vec4<Real>> positions, ContactForceSums& sums) {
     for (std::uint32_t o = 0; o < model.body_count(); ++o) {
         if (planes.nodes.empty() || planes.objects[o] == 0) continue;
         const Range& nodes = model.objects[o].nodes;
@@ -119,7 +82,7 @@ template <class Real>
 ContactForces find_contact_forces(const Model& model, const Contacts<Real>* contacts,
                                   const ColliderContacts<Real>& planes, std::span<const Vec3<Real>> forces,
                                   std::span<const Vec4<Real>> positions) {
-    Sums sums(model);
+    ContactForceSums sums(model);
     if (contacts != nullptr) add_presses(*contacts, positions, sums);
     add_planes(model, planes, forces, positions, sums);
     return sums.take();

@@ -129,7 +129,7 @@ std::vector<std::string> check_model(const Model& model, const Scene& scene, dou
         model, [&](const ModelObject& o) { return far_from_origin(model, o); }, lines);
     add_first(
         model, [&](const ModelObject& o) { return uneven_materials(model, o); }, lines);
-    if (scene.simulation.solver == SolverKind::vbd) {
+    if (is_implicit(scene.simulation.solver)) {
         add_first(
             model, [&](const ModelObject& o) { return lost_inertia(model, o, step_size); }, lines);
     }

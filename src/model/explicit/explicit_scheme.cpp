@@ -16,7 +16,8 @@ const ExplicitScheme& explicit_scheme(SolverKind solver) {
         case SolverKind::rk4:
             return kRungeKutta4;
         case SolverKind::semi_implicit_euler:
-        case SolverKind::vbd:  // has none
+        case SolverKind::vbd:  // have none
+        case SolverKind::implicit:
             break;
     }
     return kSemiImplicitEuler;

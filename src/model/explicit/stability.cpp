@@ -187,7 +187,7 @@ double frequency_bound(const Model& model, const ModelObject& object, Deformatio
 }
 
 double largest_stable_step(SolverKind solver, double frequency, double damping) {
-    if (frequency <= 0.0 || solver == SolverKind::vbd) return std::numeric_limits<double>::infinity();
+    if (frequency <= 0.0 || is_implicit(solver)) return std::numeric_limits<double>::infinity();
     const ExplicitScheme& scheme = explicit_scheme(solver);
     double stable = 0.0;
     double unstable = 4.0 / frequency;  // above the limit of all schemes
@@ -203,7 +203,7 @@ double largest_stable_step(SolverKind solver, double frequency, double damping) 
 }
 
 double largest_stable_step(SolverKind solver, const Model& model, Deformation deformation) {
-    if (solver == SolverKind::vbd) return std::numeric_limits<double>::infinity();
+    if (is_implicit(solver)) return std::numeric_limits<double>::infinity();
     // Of bodies with the same damping, the one with the highest frequency determines the step.
     std::map<double, double> frequencies;
     for (const ModelObject& object : model.objects) {

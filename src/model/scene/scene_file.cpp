@@ -37,7 +37,8 @@ SimulationSettings read_simulation(TableReader reader) {
                  {"semi_implicit_euler", SolverKind::semi_implicit_euler},
                  {"midpoint", SolverKind::midpoint},
                  {"rk4", SolverKind::rk4},
-                 {"vbd", SolverKind::vbd}});
+                 {"vbd", SolverKind::vbd},
+                 {"implicit", SolverKind::implicit}});
     reader.read("forces", settings.forces,
                 {{"divide_and_merge", ForceMethod::divide_and_merge}, {"fused", ForceMethod::fused}});
     reader.read("frame_rate", settings.frame_rate);

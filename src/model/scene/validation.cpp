@@ -46,14 +46,14 @@ void check_collision(const ValueChecks& checks, const CollisionSettings& setting
             "must not be given with broad_phase = \"depth\", which finds what touches, not what is near");
     }
     if (settings.response_with(solver) == CollisionResponse::contact) {
-        if (solver != SolverKind::vbd) {
+        if (!is_implicit(solver)) {
             checks.fail(field / "response", text_of(name_of(CollisionResponse::contact)),
-                        "needs solver = \"vbd\"; with other solvers it must be \"restore\"");
+                        "needs solver = \"vbd\" or \"implicit\"; with other solvers it must be \"restore\"");
         }
         if (sees_one_moment) {
             checks.fail(field / "broad_phase", text_of(name_of(settings.broad_phase)),
-                        "must be none, boxes or hierarchy with response = \"contact\", which is what vbd has "
-                        "unless response = \"restore\" is given");
+                        "must be none, boxes or hierarchy with response = \"contact\", which is what "
+                        "implicit solvers have unless response = \"restore\" is given");
         }
     }
     checks.check(field / "friction", settings.friction, kNotNegative);

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <span>
+
+#include "cpu/contact/contact_law.h"
+#include "cpu/nodes.h"
+#include "model/spring_packing.h"
+
+namespace gelatin::cpu {
+
+/// One contact in a step: two sides whose nearest points move relative to each other by
+///   s = sum_k w_k d_k,
+/// with d_k the displacements of its nodes since the step began, and weights w_k that are negative on the
+/// first side and positive on the second. A plane, as a first side, has no nodes.
+template <class Real>
+struct ContactRow {
+    static constexpr Real kLeastGap = Real(0.1f);  ///< of the reach
+
+    std::array<std::uint32_t, 4> nodes{};
+    std::array<Real, 4> weights{};
+    std::uint32_t count = 0;              ///< of nodes
+    std::uint32_t object = 0, other = 0;  ///< of the sides; kNoNode: a plane
+    Vec3<Real> normal{0};                 ///< n, from the first side to the second, unit
+    Real gap = 0;                         ///< g_0, when the step begins [m]
+    Real reach = 0;                       ///< r, at which it begins to press [m]
+    Real stiffness = 0;                   ///< k [N/m]
+    Real friction = 0;                    ///< Coulomb's coefficient
+    Vec3<Real> hold{0};     ///< lambda: friction on the second side, reversed, when the step begins [N]
+    Real limit = 0;         ///< L: friction holds at most so much [N]
+    std::uint64_t key = 0;  ///< of the same contact in the next step
+
+    Real gap_at(const Vec3<Real>& s) const { return gap + glm::dot(normal, s); }
+    /// The law of a gap (contact_law.inl), from the least one inwards linear: so a solver may pass through
+    /// [N].
+    Real force_of(Real g) const {
+        if (!(g < reach)) return Real(0);
+        const Real least = kLeastGap * reach;
+        const Real force = contact_force(std::max(g, least), reach, stiffness);
+        return g < least ? force + contact_hessian(least, reach, stiffness) * (least - g) : force;
+    }
+    Real slope_of(Real g) const {  ///< minus its derivative [N/m]
+        return g < reach ? contact_hessian(std::max(g, kLeastGap * reach), reach, stiffness) : Real(0);
+    }
+    Real pressing(const Vec3<Real>& s) const { return force_of(gap_at(s)); }
+    /// What friction would hold with if nothing slid [N].
+    Vec3<Real> stick(const Vec3<Real>& s) const {
+        return hold + stiffness * (s - glm::dot(normal, s) * normal);
+    }
+    /// Coulomb: the same, but no more than the limit.
+    Vec3<Real> held(const Vec3<Real>& s) const {
+        const Vec3<Real> q = stick(s);
+        const Real length = glm::length(q);
+        return length > limit ? limit / length * q : q;
+    }
+    /// On the second side; the first has the reverse [N].
+    Vec3<Real> force(const Vec3<Real>& s) const {
+        const Vec3<Real> along = pressing(s) * normal;
+        return limit > Real(0) ? along - held(s) : along;
+    }
+};
+
+/// A row's force to first order: constant - stiffness s.
+template <class Real>
+struct RowTangent {
+    Vec3<Real> constant{0};           ///< [N]
+    SymmetricMatrix<Real> stiffness;  ///< positive semi-definite [N/m]
+
+    Vec3<Real> force(const Vec3<Real>& s) const { return constant - stiffness * s; }
+};
+
+/// The tangent of the law at s. Along a slip friction does not change.
+template <class Real>
+RowTangent<Real> tangent(const ContactRow<Real>& row, const Vec3<Real>& s) {
+    RowTangent<Real> t;
+    const Real g = row.gap_at(s);
+    if (g < row.reach) t.stiffness.add_outer(row.slope_of(g), row.normal);
+    if (row.limit > Real(0)) {
+        const Vec3<Real> q = row.stick(s);
+        const Real length = glm::length(q);
+        const bool slides = length > row.limit;
+        const Real across = slides ? row.stiffness * row.limit / length : row.stiffness;
+        t.stiffness.add_identity(across);
+        t.stiffness.add_outer(-across, row.normal);
+        if (slides) t.stiffness.add_outer(-across / (length * length), q);
+    }
+    t.constant = row.force(s) + t.stiffness * s;
+    return t;
+}
+
+}  // namespace gelatin::cpu

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cpu/elasticity/elements.h"
+#include "cpu/implicit/elastic_arrays.h"
+#include "cpu/nodes.h"
+#include "model/elasticity/node_tets.h"
+#include "model/model.h"
+
+namespace gelatin::cpu {
+
+/// The elements of a step, linearised where it begins: springs, tets and the volume term, with their dampers.
+/// For a displacement d of the nodes, forces are f - K d, with K symmetric and positive semi-definite.
+/// All sums are gathered by node, in a fixed order.
+template <class Real>
+class ElasticSystem {
+public:
+    explicit ElasticSystem(std::shared_ptr<const Model> model);
+
+    /// @param positions, velocities shape [nodes]; of the velocities only the damping times are read
+    /// @param inverse_step [1/s]
+    void linearise(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> velocities,
+                   Real inverse_step);
+
+    /// f [N], shape [nodes]; of held nodes too.
+    const std::vector<Vec3<Real>>& forces() const { return forces_; }
+    /// The 3 x 3 blocks of K on its diagonal [N/m], shape [nodes].
+    const std::vector<SymmetricMatrix<Real>>& diagonal() const { return diagonal_; }
+
+    /// @param displacements d [m] @param product output: K d [N]; both shape [nodes]
+    void multiply(std::span<const Vec3<Real>> displacements, std::span<Vec3<Real>> product);
+
+private:
+    // What a spring to `other` adds to K of a node: stretch stretch^T + across.
+    struct HalfSpring {
+        std::uint32_t other;
+        Vec3<Real> stretch;  // sqrt(k - across) times its direction
+        Real across;         // [N/m]
+    };
+    // What a neo-Hookean tet adds to K, from the change of its deformation gradient; times its volume.
+    struct TetStiffness {
+        Mat3<Real> gradient, cofactor;
+        Real shear, pressure, stretch, volume;  // of dF, d cof F, F (F : dF), cof F (cof F : dF)
+        Real viscosity;                         // of F S(dF), with S the viscous stress
+    };
+
+    void linearise_springs(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> velocities,
+                           Real inverse_step);
+    void linearise_volumes(std::span<const Vec4<Real>> positions);
+    void linearise_neo_hookean(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> velocities,
+                               Real inverse_step);
+
+    std::shared_ptr<const Model> model_;
+    NodeTets node_tets_;  // of all tets
+    std::vector<std::uint32_t> spring_starts_;
+    std::vector<HalfSpring> half_springs_;
+    // By tet of Model::tets; empty where bodies have neither springs with a volume term nor flat tets to
+    // fear.
+    std::vector<Vec3<Real>> slopes_;   // 4 t + c: dJ/dx of corner c [1/m]
+    std::vector<Real> slope_weights_;  // of slope slope^T [J]
+    std::vector<Real> tet_pressures_;  // minus what the slopes are multiplied by in forces [J]
+    std::vector<Real> ratios_, node_pressures_, tet_values_;
+    std::vector<TetStiffness> neo_hookean_;
+    std::vector<Vec3<Real>> corner_forces_;  // 4 t + c, of neo-Hookean tets
+    std::vector<Vec3<Real>> forces_;
+    std::vector<SymmetricMatrix<Real>> diagonal_;
+};
+
+/// The same with SIMD, and with what tets add to K as matrices, one for each edge: a step multiplies often.
+template <>
+class ElasticSystem<float> {
+public:
+    explicit ElasticSystem(std::shared_ptr<const Model> model);
+
+    void linearise(std::span<const Vec4<float>> positions, std::span<const Vec4<float>> velocities,
+                   float inverse_step);
+    const std::vector<Vec3<float>>& forces() const { return forces_; }
+    const std::vector<SymmetricMatrix<float>>& diagonal() const { return diagonal_; }
+    void multiply(std::span<const Vec3<float>> displacements, std::span<Vec3<float>> product);
+
+private:
+    void find_points(std::span<const Vec4<float>> positions);
+
+    std::shared_ptr<const Model> model_;
+    ElasticArrays arrays_;
+    std::vector<Vec3<float>> forces_;
+    std::vector<SymmetricMatrix<float>> diagonal_;
+};
+
+}  // namespace gelatin::cpu

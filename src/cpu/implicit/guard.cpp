@@ -1,0 +1,328 @@
+#include "cpu/implicit/guard.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "cpu/collision/colliders.h"
+#include "cpu/contact/nearest_pairs.h"
+#include "model/for_each_index.h"
+
+namespace gelatin::cpu {
+namespace {
+
+// What is left of a gap at the end of a step is at least this part of the reach, or of the gap if that is
+// less.
+constexpr double kLeastOfReach = 0.02, kLeastOfGap = 0.9;
+// Of the rest, clipped pairs use this part.
+constexpr double kUsable = 0.95;
+// A side of a pair uses at least this part of the gap, if it yields at all.
+constexpr double kLeastShare = 0.05;
+// The shortest piece of a motion that is looked at by itself.
+constexpr double kShortestPiece = 1.0 / 16.0;
+// A node is projected on its half spaces so often before it is shortened.
+constexpr int kProjections = 12;
+
+}  // namespace
+
+template <class Real>
+Guard<Real>::Guard(std::shared_ptr<const Model> model, std::shared_ptr<const ContactSurface> surface)
+    : model_(std::move(model)),
+      surface_(std::move(surface)),
+      object_of_(objects_of_nodes(*model_)),
+      frames_(model_->objects.size()),
+      wanted_(model_->node_count()),
+      first_(model_->node_count(), kNoNode),
+      is_changed_(model_->node_count()),
+      is_frozen_(model_->node_count()) {}
+
+// Islands of objects with pairs in common. Those with an object that is held stay where they are.
+template <class Real>
+void Guard<Real>::find_frames(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
+                              std::span<const Vec4<Real>> ends) {
+    std::vector<std::uint32_t> parents(model_->objects.size());
+    std::iota(parents.begin(), parents.end(), 0u);
+    const auto root = [&](std::uint32_t o) {
+        while (parents[o] != o) o = parents[o] = parents[parents[o]];
+        return o;
+    };
+    for (const NearPair<Real>& near : pairs) {
+        const std::uint32_t a = root(near.pair.object), b = root(near.pair.other);
+        parents[std::max(a, b)] = std::min(a, b);
+    }
+    std::vector<glm::dvec3> sums(parents.size(), glm::dvec3(0.0));
+    std::vector<double> masses(parents.size(), 0.0);
+    std::vector<std::uint8_t> is_held(parents.size());
+    for (std::uint32_t o = 0; o < parents.size(); ++o) {
+        const Range& nodes = model_->objects[o].nodes;
+        const std::uint32_t island = root(o);
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            if (ends[n].w == Real(0)) {
+                is_held[island] = 1;
+                continue;
+            }
+            const auto mass = static_cast<double>(model_->masses[n]);
+            masses[island] += mass;
+            sums[island] += mass * glm::dvec3(Vec3<Real>(ends[n]) - Vec3<Real>(paths.from[n]));
+        }
+    }
+    for (std::uint32_t o = 0; o < parents.size(); ++o) {
+        const std::uint32_t island = root(o);
+        frames_[o] = is_held[island] != 0 || masses[island] == 0.0
+                         ? Vec3<Real>(0)
+                         : Vec3<Real>(sums[island] / masses[island]);
+    }
+    // No island as a whole goes into a plane.
+    for (const Collider& plane : model_->colliders) {
+        if (plane.kind != 0) continue;
+        const Vec3<Real> normal(plane.center);
+        for (Vec3<Real>& frame : frames_) frame -= std::min(glm::dot(normal, frame), Real(0)) * normal;
+    }
+}
+
+template <class Real>
+void Guard<Real>::add(std::uint32_t node, const Vec3<Real>& normal, Real room) {
+    half_spaces_.push_back({first_[node], normal, room});
+    first_[node] = static_cast<std::uint32_t>(half_spaces_.size() - 1);
+    is_changed_[node] = 1;
+}
+
+template <class Real>
+void Guard<Real>::keep_outside_planes(const Paths<Real>& paths, std::span<Vec4<Real>> ends) {
+    for (const Collider& plane : model_->colliders) {
+        if (plane.kind != 0) continue;
+        for (std::uint32_t n = 0; n < model_->body_node_count(); ++n) {
+            if (ends[n].w == Real(0)) continue;
+            const SurfaceDistance<Real> from = surface_distance(plane, Vec3<Real>(paths.from[n])),
+                                        to = surface_distance(plane, Vec3<Real>(ends[n]));
+            const auto thickness = static_cast<Real>(surface_->thicknesses[object_of_[n]]);
+            const Real least = std::min(static_cast<Real>(kLeastOfReach) * thickness,
+                                        static_cast<Real>(kLeastOfGap) * from.distance);
+            if (to.distance >= least) continue;
+            const Real frame = glm::dot(from.normal, frames_[object_of_[n]]);
+            add(n, -from.normal, (from.distance - least) + frame);
+        }
+    }
+}
+
+template <class Real>
+bool Guard<Real>::is_apart(const NearPair<Real>& near, const Paths<Real>& paths,
+                           std::span<const Vec4<Real>> ends) const {
+    const ContactPair& pair = near.pair;
+    const Real gap = near.gap - near.rounding;
+    if (!(gap > Real(0))) return false;
+    const Real least = std::min(static_cast<Real>(kLeastOfReach) * static_cast<Real>(pair.reach),
+                                static_cast<Real>(kLeastOfGap) * gap) +
+                       near.rounding;
+    if (separation<Real>(pair, near.normal, ends) >= least) return true;
+    // Piece by piece: from each place on the way goes on as far as the direction there, or that at the end,
+    // separates.
+    ContactPair local = pair;
+    local.nodes = {0, 1, 2, 3};
+    std::array<Vec4<Real>, 4> here{}, next{};
+    const auto go_to = [&](Real t, std::array<Vec4<Real>, 4>& places) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Vec4<Real>&from = paths.from[pair.nodes[k]], &to = ends[pair.nodes[k]];
+            places[k] = t == Real(1) ? to : from + t * (to - from);
+        }
+    };
+    const auto measure = [&](const std::array<Vec4<Real>, 4>& places, Vec3<Real>& normal, Real& rounding) {
+        MeasuredPairs<Real> measured;
+        measure_pairs({&local, 1}, places, measured);
+        if (!(measured.gaps[0] > Real(0))) return false;
+        normal =
+            Vec3<Real>(measured.apart[0][0], measured.apart[1][0], measured.apart[2][0]) / measured.gaps[0];
+        rounding = std::max(rounding, measured.rounding[0]);
+        return true;
+    };
+    const auto separates = [&](const Vec3<Real>& direction, Real wanted) {
+        return separation<Real>(local, direction, here) >= wanted &&
+               separation<Real>(local, direction, next) >= wanted;
+    };
+    Real t = 0, length = 1, rounding = near.rounding;
+    Vec3<Real> normal = near.normal, ahead(0);
+    go_to(Real(0), here);
+    while (t < Real(1)) {
+        const Real to = t + length;
+        go_to(to, next);
+        if (!measure(next, ahead, rounding)) return false;
+        if (separates(normal, least + rounding) || separates(ahead, least + rounding)) {
+            t = to;
+            here = next;
+            normal = ahead;
+            continue;
+        }
+        if (to == Real(1) && separation<Real>(local, ahead, next) < least + rounding)
+            return false;  // too near there
+        length *= Real(0.5);
+        if (length < static_cast<Real>(kShortestPiece)) return false;
+    }
+    return true;
+}
+
+template <class Real>
+void Guard<Real>::clip(const NearPair<Real>& near, const Paths<Real>& paths,
+                       std::span<const Real> compliances, std::span<const Vec4<Real>> ends) {
+    const ContactPair& pair = near.pair;
+    const Vec3<Real> origin(paths.from[pair.nodes[0]]), n = near.normal;
+    Real heights[4], top = 0, bottom = std::numeric_limits<Real>::infinity(), first = 0, second = 0;
+    Real approach = 0;  // of nodes that do not yield
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::uint32_t node = pair.nodes[k];
+        heights[k] = glm::dot(n, Vec3<Real>(paths.from[node]) - origin);
+        const Real w = near.weights[static_cast<int>(k)];
+        const Real along = ends[node].w == Real(0)
+                               ? glm::dot(n, Vec3<Real>(ends[node]) - Vec3<Real>(paths.from[node]))
+                               : Real(0);
+        if (pair.side_of(k) == 0) {
+            top = std::max(top, heights[k]);
+            first += w * w * compliances[node];
+            approach = std::max(approach, along);
+        } else {
+            bottom = std::min(bottom, heights[k]);
+            second += w * w * compliances[node];
+            approach = std::max(approach, -along);
+        }
+    }
+    const Real gap = (bottom - top) - near.rounding;
+    const Real least = std::min(static_cast<Real>(kLeastOfReach) * static_cast<Real>(pair.reach),
+                                static_cast<Real>(kLeastOfGap) * gap);
+    const Real usable = static_cast<Real>(kUsable) * std::max(gap - least, Real(0)) - approach;
+    Real share = Real(0.5);
+    if (first + second > Real(0)) {
+        share = first / (first + second);
+        if (first > Real(0) && second > Real(0))
+            share =
+                std::clamp(share, static_cast<Real>(kLeastShare), Real(1) - static_cast<Real>(kLeastShare));
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::uint32_t node = pair.nodes[k];
+        if (ends[node].w == Real(0)) continue;
+        const bool is_first = pair.side_of(k) == 0;
+        if (!(gap > Real(0))) {
+            is_frozen_[node] = 1;
+            is_changed_[node] = 1;
+        } else if (is_first) {
+            add(node, n, (top - heights[k]) + share * usable);
+        } else {
+            add(node, -n, (heights[k] - bottom) + (Real(1) - share) * usable);
+        }
+    }
+    ++clipped_count_;
+}
+
+template <class Real>
+void Guard<Real>::place(std::uint32_t node, const Paths<Real>& paths, std::span<Vec4<Real>> ends) {
+    Vec3<Real> d = wanted_[node];
+    const Real tiny = Real(1e-6) * glm::length(d);
+    for (int k = 0; k < kProjections; ++k) {
+        bool is_outside = false;
+        for (std::uint32_t h = first_[node]; h != kNoNode; h = half_spaces_[h].next) {
+            const HalfSpace& space = half_spaces_[h];
+            const Real over = glm::dot(space.normal, d) - space.room;
+            if (!(over > tiny)) continue;
+            d -= over * space.normal;
+            is_outside = true;
+        }
+        if (!is_outside) break;
+    }
+    Real part = 1;
+    for (std::uint32_t h = first_[node]; h != kNoNode; h = half_spaces_[h].next) {
+        const Real along = glm::dot(half_spaces_[h].normal, d);
+        if (along > half_spaces_[h].room)
+            part = std::min(part, std::max(half_spaces_[h].room, Real(0)) / along);
+    }
+    if (is_frozen_[node] != 0) part = Real(0);
+    const Vec3<Real> end = Vec3<Real>(paths.from[node]) + frames_[object_of_[node]] + part * d;
+    ends[node] = Vec4<Real>(end, ends[node].w);
+    ++shortened_count_;
+}
+
+template <class Real>
+bool Guard<Real>::run(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
+                      std::span<const Real> compliances, std::span<Vec4<Real>> ends) {
+    const std::vector<Vec4<Real>> wanted(ends.begin(), ends.end());
+    std::vector<std::uint8_t> is_blocked(model_->objects.size());
+    for (bool any_blocked = true; any_blocked;) {
+        std::copy(wanted.begin(), wanted.end(), ends.begin());
+        for (std::size_t n = 0; n < ends.size(); ++n)
+            if (is_blocked[object_of_[n]] != 0 && ends[n].w == Real(0)) ends[n] = paths.from[n];
+        move(paths, pairs, compliances, ends);
+        any_blocked = false;
+        for (std::size_t p = 0; p < pairs.size(); ++p) {
+            if (is_clipped_[p] == 0 ||
+                separation<Real>(pairs[p].pair, pairs[p].normal, ends) >= pairs[p].rounding)
+                continue;
+            for (const std::uint32_t n : pairs[p].pair.nodes) {
+                std::uint8_t& blocked = is_blocked[object_of_[n]];
+                if (ends[n].w != Real(0) || blocked != 0) continue;
+                blocked = 1;
+                any_blocked = true;
+            }
+        }
+    }
+    return keep_to(paths, ends);
+}
+
+template <class Real>
+void Guard<Real>::move(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
+                       std::span<const Real> compliances, std::span<Vec4<Real>> ends) {
+    half_spaces_.clear();
+    std::fill(first_.begin(), first_.end(), kNoNode);
+    for (auto* flags : {&is_changed_, &is_frozen_}) std::fill(flags->begin(), flags->end(), std::uint8_t(0));
+    is_clipped_.assign(pairs.size(), 0);
+    find_frames(paths, pairs, ends);
+    for_each_index(ends.size(), [&](std::size_t n) {
+        wanted_[n] = Vec3<Real>(ends[n]) - Vec3<Real>(paths.from[n]) - frames_[object_of_[n]];
+    });
+    keep_outside_planes(paths, ends);
+    // In rounds: what is clipped moves nodes, so other pairs of these are looked at again.
+    std::vector<std::uint8_t> is_near(pairs.size(), 1), fails(pairs.size());
+    for (bool is_first = true;; is_first = false) {
+        bool any = false;
+        for (std::uint32_t n = 0; n < ends.size(); ++n) {
+            if (is_changed_[n] == 0) continue;
+            place(n, paths, ends);
+            any = true;
+        }
+        if (!is_first && !any) break;
+        for_each_index(pairs.size(), [&](std::size_t p) {
+            const NearPair<Real>& near = pairs[p];
+            const bool is_due = is_first || std::any_of(near.pair.nodes.begin(), near.pair.nodes.end(),
+                                                        [&](std::uint32_t n) { return is_changed_[n] != 0; });
+            fails[p] = is_due && !is_apart(near, paths, ends) ? 1 : 0;
+        });
+        std::fill(is_changed_.begin(), is_changed_.end(), std::uint8_t(0));
+        for (std::size_t p = 0; p < pairs.size(); ++p) {
+            if (fails[p] == 0) continue;
+            if (is_clipped_[p] == 0) {
+                clip(pairs[p], paths, compliances, ends);
+                is_clipped_[p] = 1;
+            } else if (separation<Real>(pairs[p].pair, pairs[p].normal, ends) < pairs[p].rounding) {
+                // Rounding, or what is held: nodes of the pair stay where they are in the frame.
+                for (const std::uint32_t n : pairs[p].pair.nodes)
+                    if (is_frozen_[n] == 0 && ends[n].w != Real(0)) is_frozen_[n] = is_changed_[n] = 1;
+            }
+        }
+    }
+}
+
+template <class Real>
+bool Guard<Real>::keep_to(const Paths<Real>& paths, std::span<const Vec4<Real>> ends) const {
+    for (const std::uint32_t n : model_->surface_parts.nodes) {
+        const Vec3<Real> way = Vec3<Real>(paths.to[n]) - Vec3<Real>(paths.from[n]),
+                         gone = Vec3<Real>(ends[n]) - Vec3<Real>(paths.from[n]);
+        const Real squared = glm::dot(way, way);
+        const Real along =
+            squared > Real(0) ? std::clamp(glm::dot(gone, way) / squared, Real(0), Real(1)) : Real(0);
+        if (!(glm::length(gone - along * way) <= paths.slacks[object_of_[n]])) return false;
+    }
+    return true;
+}
+
+template class Guard<float>;
+template class Guard<double>;
+
+}  // namespace gelatin::cpu

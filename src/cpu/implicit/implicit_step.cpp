@@ -1,0 +1,474 @@
+#include "cpu/implicit/implicit_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "cpu/collision/colliders.h"
+#include "cpu/contact/contact_force_sums.h"
+#include "cpu/contact/feasible_region.h"
+#include "cpu/contact/nearest_pairs.h"
+#include "cpu/descent/rigid_inertia.h"
+#include "model/for_each_index.h"
+
+namespace gelatin::cpu {
+namespace {
+
+// In shorter steps contacts are no stiffer than in one of this length: else impacts give nothing back [s].
+constexpr double kStiffestStep = 1.0 / 60.0;
+// Nodes may end this far from where they are expected: this part of the thickness, and of the longest
+// displacement.
+constexpr double kSlackOfThickness = 0.5, kSlackOfMotion = 0.1;
+// Detections of a step for its guard alone, at most.
+constexpr int kMostGuards = 10;
+// Contacts this many reaches apart may come together in a step that deforms bodies.
+constexpr double kNear = 1.5;
+// A contact that is found nearer than its reach presses from there; the reach grows to all of it within this
+// time [s].
+constexpr double kEasing = 1.0 / 3.0;
+constexpr double kLeastReach = 1e-3;
+// A step is divided in which contacts would come into each other by so many reaches: by an edge of the
+// surface.
+constexpr double kDeepest = 10.0;
+// And one in which two objects go so many reaches beside each other.
+constexpr double kFastest = 80.0;
+// Parts of one body press from this part of their distance at rest on, if that is less than the reach.
+constexpr double kOfRestGap = 0.5;
+
+}  // namespace
+
+template <class Real>
+ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const CollisionSettings& collision,
+                                 bool contacts, bool own, const ImplicitSettings& settings)
+    : model_(std::move(model)),
+      surface_(std::make_shared<ContactSurface>(make_contact_surface(*model_, collision))),
+      settings_(settings),
+      contacts_(contacts),
+      object_of_(objects_of_nodes(*model_)),
+      pairs_(model_, surface_, own),
+      guard_(model_, surface_),
+      system_(model_),
+      compliances_(model_->node_count()),
+      expected_(model_->node_count()),
+      ends_(model_->node_count()),
+      angular_(model_->body_count()),
+      earlier_angular_(model_->body_count()) {
+    system_.iterations = settings_.iterations * settings_.rounds;
+    system_.rounds = settings_.rounds;
+}
+
+template <class Real>
+void ImplicitStep<Real>::restart() {
+    memory_.clear();
+    acting_.clear();
+    last_step_ = Real(0);
+}
+
+template <class Real>
+Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const Nodes<Real>& previous,
+                             Nodes<Real>& current, StageTimer* timer) {
+    StepInput<Real> input = wanted;
+    for (;; input.step *= Real(0.5)) {
+        const TimedStage part(timer, "advance_nodes.detect");
+        const bool is_shortest = input.step < Real(2) * shortest;
+        predict(input, previous);
+        if (!detect(previous, is_shortest)) continue;
+        make_rows(previous);
+        if (is_shortest || deepest() < static_cast<Real>(kDeepest)) break;
+    }
+    {
+        const TimedStage part(timer, "advance_nodes.linearise");
+        linearise(input, previous);
+    }
+    {
+        const TimedStage part(timer, "advance_nodes.solve");
+        system_.solve();
+    }
+    {
+        const TimedStage part(timer, "advance_nodes.finish");
+        finish(input.step, previous, current);
+    }
+    const TimedStage part(timer, "advance_nodes.guard");
+    guard(previous, current);
+    earlier_ = previous;
+    last_step_ = input.step;
+    return input.step;
+}
+
+// How far contacts would come into each other without forces, in reaches.
+template <class Real>
+Real ImplicitStep<Real>::deepest() const {
+    Real deepest = 0;
+    for (const ContactRow<Real>& row : system_.rows) {
+        Vec3<Real> s(0);
+        for (std::uint32_t k = 0; k < row.count; ++k) s += row.weights[k] * expected_[row.nodes[k]];
+        const Real most = row.object == kNoNode ? static_cast<Real>(surface_->thicknesses[row.other])
+                                                : static_cast<Real>(surface_->reach(row.object, row.other));
+        deepest = std::max(deepest, -row.gap_at(s) / most);
+    }
+    return deepest;
+}
+
+// y = x + h (v + h g) of implicit Euler, or with h' = 2/3 h
+//   y = (4 x - x_1) / 3 + h' ((4 v - v_1) / 3 + h' g)
+// of BDF2, with x_1, v_1 one step before. Then m / h'^2 (x' - y) is what inertia resists with.
+template <class Real>
+void ImplicitStep<Real>::predict(const StepInput<Real>& input, const Nodes<Real>& previous) {
+    const Real step = step_ = input.step;
+    uses_bdf2_ = settings_.scheme == TimeScheme::bdf2 && last_step_ == step;
+    solve_step_ = uses_bdf2_ ? Real(2) / Real(3) * step : step;
+    const Vec3<Real> gravity(model_->gravity);
+    const Real h = solve_step_, least = std::max(step, static_cast<Real>(kStiffestStep));
+    for_each_index(model_->node_count(), [&](std::size_t n) {
+        const Vec3<Real> x(previous.positions[n]), v(previous.velocities[n]);
+        const bool is_held = previous.positions[n].w == Real(0);
+        Vec3<Real> acceleration = gravity;
+        if (!input.load_forces.empty())
+            acceleration += previous.positions[n].w * Vec3<Real>(input.load_forces[n]);
+        expected_[n] = is_held ? step * v : step * v + step * step * acceleration;
+        ends_[n] = Vec4<Real>(x + expected_[n], previous.positions[n].w);
+        if (is_held) {
+            system_.inertia[n] = Real(0);
+            system_.loads[n] = Vec3<Real>(0);
+            system_.displacements[n] = expected_[n];
+            compliances_[n] = Real(0);
+            return;
+        }
+        const Real mass = Real(1) / previous.positions[n].w;
+        Vec3<Real> target = h * v + h * h * acceleration;  // y - x
+        if (uses_bdf2_) {
+            const Vec3<Real> before(earlier_.positions[n]), speed(earlier_.velocities[n]);
+            target = (x - before) / Real(3) + h * (Real(4) * v - speed) / Real(3) + h * h * acceleration;
+        }
+        system_.inertia[n] = mass / (h * h);
+        system_.displacements[n] = target;
+        compliances_[n] =
+            Real(1) / (mass / (least * least) + static_cast<Real>(surface_->stiffness[n]) / Real(3));
+    });
+}
+
+template <class Real>
+void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Real>& previous) {
+    const Real h = solve_step_;
+    system_.elastic.linearise(previous.positions, previous.velocities, Real(1) / h);
+    const double fall = static_cast<double>(input.step) * glm::length(glm::dvec3(model_->gravity));
+    double energy = 0.0;
+    for (std::uint32_t n = 0; n < model_->node_count(); ++n)
+        if (previous.positions[n].w > Real(0)) {
+            const glm::dvec3 v(previous.velocities[n]);
+            energy += 0.5 * static_cast<double>(model_->masses[n]) * (glm::dot(v, v) + fall * fall);
+        }
+    system_.enough = settings_.tolerance * energy;
+    // A hand pulls like inertia does, to a place of its own.
+    if (input.pulls != nullptr)
+        for (const std::uint32_t n : input.pulls->nodes()) {
+            if (system_.inertia[n] == Real(0)) continue;
+            const Vec3<Real> x(previous.positions[n]);
+            const Vec4<Real> both = input.pulls->with_target(
+                n, Vec4<Real>(x + system_.displacements[n], system_.inertia[n]), x, h);
+            system_.displacements[n] = Vec3<Real>(both) - x;
+            system_.inertia[n] = both.w;
+        }
+    system_.rigid.begin(previous.positions, system_.inertia);
+    system_.loads = system_.elastic.forces();
+    system_.rigid.follow_rotation(previous.positions, system_.inertia, system_.displacements, system_.loads);
+    for_each_index(model_->node_count(),
+                   [&](std::size_t n) { system_.loads[n] += system_.inertia[n] * system_.displacements[n]; });
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
+        earlier_angular_[o] = angular_[o];
+        angular_[o] = angular_momentum(o, previous.positions, previous.velocities);
+    }
+}
+
+// Where objects meet that go farther beside each other than anything that a step could find out about, it is
+// left to shorter steps.
+template <class Real>
+bool ImplicitStep<Real>::detect(const Nodes<Real>& previous, bool is_shortest) {
+    slacks_.resize(model_->objects.size());
+    for_each_index(0, slacks_.size(), 1, [&](std::size_t o) {
+        const Range& nodes = model_->objects[o].nodes;
+        Real squared = 0;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+            squared = std::max(squared, glm::dot(expected_[n], expected_[n]));
+        slacks_[o] = static_cast<Real>(kSlackOfThickness * surface_->thicknesses[o]) +
+                     static_cast<Real>(kSlackOfMotion) * std::sqrt(squared);
+    });
+    if (!contacts_) return true;
+    const Paths<Real> paths{previous.positions, ends_, slacks_};
+    pairs_.begin(paths);
+    if (!is_shortest && pairs_.fastest_approach() > static_cast<Real>(kFastest)) return false;
+    pairs_.run(paths);
+    return true;
+}
+
+template <class Real>
+void ImplicitStep<Real>::follow(const Nodes<Real>& from, Nodes<Real>& nodes) {
+    restart();
+    for_each_index(ends_.size(), [&](std::size_t n) {
+        ends_[n] = nodes.positions[n];
+        expected_[n] = Vec3<Real>(ends_[n]) - Vec3<Real>(from.positions[n]);
+        compliances_[n] = ends_[n].w > Real(0) ? Real(1) : Real(0);
+    });
+    detect(from, true);
+    guard(from, nodes);
+}
+
+// Where a solver wants nodes beyond the paths that pairs were found for, or the guard moves them there, pairs
+// of the new paths are found.
+template <class Real>
+void ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current) {
+    for (int k = 0; k < kMostGuards; ++k) {
+        const Paths<Real> paths{previous.positions, ends_, slacks_};
+        if (guard_.run(paths, pairs_.pairs(), compliances_, current.positions) &&
+            pairs_.keeps_own(paths, current.positions))
+            return;
+        ends_ = current.positions;
+        if (!contacts_) return;
+        const Paths<Real> wider{previous.positions, ends_, slacks_};
+        pairs_.begin(wider);
+        pairs_.run(wider);
+        ++guard_detections_;
+    }
+    for_each_index(ends_.size(), [&](std::size_t n) {  // nothing moves
+        if (previous.positions[n].w != Real(0)) current.positions[n] = previous.positions[n];
+    });
+}
+
+template <class Real>
+void ImplicitStep<Real>::add_row(ContactRow<Real> row, Real weight, Real first, Real second) {
+    Vec3<Real> s(0);
+    for (std::uint32_t k = 0; k < row.count; ++k) s += row.weights[k] * expected_[row.nodes[k]];
+    const Real there = row.gap_at(s);
+    if (std::min(row.gap, there) > static_cast<Real>(kNear) * row.reach &&
+        there > row.reach + Real(0.5) * std::abs(there - row.gap))
+        return;
+    row.stiffness = weight * Real(4) / (first + second);
+    const Real reach = row.reach;
+    const auto known = std::lower_bound(memory_.begin(), memory_.end(), row.key,
+                                        [](const Memory& m, std::uint64_t key) { return m.key < key; });
+    if (known != memory_.end() && known->key == row.key) {
+        row.hold = known->hold - glm::dot(known->hold, row.normal) * row.normal;
+        row.limit = known->limit;
+        row.reach = std::max(known->reach, std::min(reach, row.gap));
+        row.reach = std::min(reach, row.reach + reach * last_step_ / static_cast<Real>(kEasing));
+        Real& nearest = nearest_gaps_.try_emplace({row.object, row.other}, Real(1)).first->second;
+        nearest = std::min(nearest, row.gap / reach);
+    } else {
+        new_rows_.push_back(static_cast<std::uint32_t>(system_.rows.size()));
+        const Real nearest = std::max(there, Real(0.25) * std::min(row.gap, row.reach));
+        row.limit = row.friction * row.force_of(nearest);
+    }
+    // Of belts, whose surfaces move within themselves.
+    Vec3<Real> slip(0);
+    if (row.object != kNoNode && !model_->is_body(row.object)) slip -= surface_velocity(row.object);
+    if (!model_->is_body(row.other)) slip += surface_velocity(row.other);
+    row.hold += row.stiffness * step_ * (slip - glm::dot(slip, row.normal) * row.normal);
+    system_.rows.push_back(row);
+}
+
+template <class Real>
+void ImplicitStep<Real>::make_rows(const Nodes<Real>& previous) {
+    system_.rows.clear();
+    new_rows_.clear();
+    nearest_gaps_.clear();
+    const FeasibleRegion<Real> region(*model_, *surface_, previous.positions);
+    for (const NearPair<Real>& near : pairs_.pairs()) {
+        const ContactPair& pair = near.pair;
+        if (!(near.gap > Real(0))) continue;
+        const Real weight = region.weight(pair, near.gap * near.normal, near.weights);
+        if (!(weight > Real(0))) continue;
+        ContactRow<Real> row;
+        Real first = 0, second = 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Real w = near.weights[static_cast<int>(k)];
+            if (w == Real(0)) continue;
+            const bool is_first = pair.side_of(k) == 0;
+            row.nodes[row.count] = pair.nodes[k];
+            row.weights[row.count++] = is_first ? -w : w;
+            (is_first ? first : second) += w * w * compliances_[pair.nodes[k]];
+        }
+        if (!(first + second > Real(0))) continue;
+        const ContactSurface::Touch& touch = surface_->touch(pair.object, pair.other);
+        row.object = pair.object;
+        row.other = pair.other;
+        row.normal = near.normal;
+        row.gap = near.gap;
+        row.reach = static_cast<Real>(pair.reach);
+        // Parts of a body that are near each other at rest do not press there.
+        if (pair.is_own()) row.reach = std::min(row.reach, static_cast<Real>(kOfRestGap) * rest_gap(pair));
+        row.friction = static_cast<Real>(touch.friction);
+        row.key = pair.is_edges() ? std::uint64_t(1) << 63 | std::uint64_t(pair.first) << 31 | pair.second
+                                  : std::uint64_t(pair.first) << 31 | pair.other;
+        add_row(row, weight * static_cast<Real>(touch.stiffness), first, second);
+    }
+    for (std::uint32_t c = 0; c < model_->colliders.size(); ++c) {
+        const Collider& plane = model_->colliders[c];
+        if (plane.kind != 0) continue;
+        for (std::uint32_t n = 0; n < model_->body_node_count(); ++n) {
+            if (compliances_[n] == Real(0)) continue;
+            const SurfaceDistance<Real> to = surface_distance(plane, Vec3<Real>(previous.positions[n]));
+            ContactRow<Real> row;
+            row.nodes[0] = n;
+            row.weights[0] = Real(1);
+            row.count = 1;
+            row.object = kNoNode;
+            row.other = object_of_[n];
+            row.normal = to.normal;
+            row.gap = to.distance;
+            row.reach = static_cast<Real>(surface_->thicknesses[row.other]);
+            row.friction = static_cast<Real>(plane.friction);
+            row.key = std::uint64_t(1) << 62 | std::uint64_t(c) << 31 | n;
+            add_row(row, Real(1), Real(0), compliances_[n]);
+        }
+    }
+    // What is found nearer than all contacts that are known of two objects has not pressed so far: with all
+    // of its reach it would bring in energy.
+    for (const std::uint32_t r : new_rows_) {
+        ContactRow<Real>& row = system_.rows[r];
+        const auto nearest = nearest_gaps_.find({row.object, row.other});
+        const Real part = row.gap / row.reach / (nearest == nearest_gaps_.end() ? Real(1) : nearest->second);
+        row.reach *= std::clamp(part, static_cast<Real>(kLeastReach), Real(1));
+    }
+}
+
+template <class Real>
+Real ImplicitStep<Real>::rest_gap(const ContactPair& pair) const {
+    MeasuredPairs<float> measured;
+    measure_pairs({&pair, 1}, model_->positions, measured);
+    return static_cast<Real>(measured.gaps[0]);
+}
+
+template <class Real>
+Vec3<Real> ImplicitStep<Real>::relative(const ContactRow<Real>& row) const {
+    Vec3<Real> s(0);
+    for (std::uint32_t k = 0; k < row.count; ++k) s += row.weights[k] * system_.displacements[row.nodes[k]];
+    return s;
+}
+
+template <class Real>
+void ImplicitStep<Real>::remember() {
+    memory_.clear();
+    for (const ContactRow<Real>& row : system_.rows) {
+        const Vec3<Real> s = relative(row);
+        ContactRow<Real> now = row;
+        now.limit = row.friction * row.pressing(s);
+        memory_.push_back({row.key, now.limit > Real(0) ? now.held(s) : Vec3<Real>(0), now.limit, row.reach});
+    }
+    std::stable_sort(memory_.begin(), memory_.end(),
+                     [](const Memory& a, const Memory& b) { return a.key < b.key; });
+}
+
+template <class Real>
+glm::dvec3 ImplicitStep<Real>::angular_momentum(std::uint32_t object, std::span<const Vec4<Real>> positions,
+                                                std::span<const Vec4<Real>> velocities) const {
+    const Range& nodes = model_->objects[object].nodes;
+    const glm::dvec3 origin(positions[nodes.first]);
+    glm::dvec3 middle(0.0), momentum(0.0), angular(0.0);
+    double mass = 0.0;
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+        const auto m = static_cast<double>(model_->masses[n]);
+        const glm::dvec3 r = glm::dvec3(positions[n]) - origin, v(velocities[n]);
+        mass += m;
+        middle += m * r;
+        momentum += m * v;
+        angular += m * glm::cross(r, v);
+    }
+    return angular - glm::cross(middle, momentum) / mass;
+}
+
+// Rotations that linear systems have found become true ones. And the angular momentum of free bodies, of
+// which these schemes would lose some in each step, changes by what contacts did, about the centre of mass.
+template <class Real>
+void ImplicitStep<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current) {
+    Field& d = system_.displacements;
+    remember();
+    Field forces(d.size(), Vec3<Real>(0));  // of contacts
+    acting_.clear();
+    for (const ContactRow<Real>& row : system_.rows) {
+        const Vec3<Real> s = relative(row), force = row.force(s);
+        for (std::uint32_t k = 0; k < row.count; ++k) forces[row.nodes[k]] += row.weights[k] * force;
+        const Vec3<Real> normal = row.pressing(s) * row.normal;
+        if (force != Vec3<Real>(0)) acting_.push_back({row, normal, force - normal});
+    }
+    system_.rigid.rotate(previous.positions, system_.inertia, d);
+    for_each_index(d.size(), [&](std::size_t n) {
+        const Vec4<Real> x = previous.positions[n], v = previous.velocities[n];
+        current.positions[n] = Vec4<Real>(Vec3<Real>(x) + d[n], x.w);
+        if (x.w == Real(0)) {
+            current.velocities[n] = v;
+            return;
+        }
+        Vec3<Real> velocity = d[n] / step;
+        if (uses_bdf2_)
+            velocity = (d[n] - (Vec3<Real>(x) - Vec3<Real>(earlier_.positions[n])) / Real(3)) / solve_step_;
+        current.velocities[n] = Vec4<Real>(velocity, v.w);
+    });
+    for_each_index(0, model_->body_count(), 1, [&](std::size_t o) {
+        if (!system_.rigid.is_free(o)) return;
+        const Range& nodes = model_->objects[o].nodes;
+        const glm::dvec3 origin(current.positions[nodes.first]);
+        RigidSums sums;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+            sums.add(glm::dvec3(current.positions[n]) - origin, static_cast<double>(model_->masses[n]),
+                     glm::dvec3(forces[n]));
+        const RigidInertia inertia(sums);
+        const glm::dvec3 torque = sums.moment - glm::cross(inertia.center, sums.force);
+        const double h = static_cast<double>(solve_step_);
+        const glm::dvec3 wanted =
+            (uses_bdf2_ ? (4.0 * angular_[o] - earlier_angular_[o]) / 3.0 : angular_[o]) + h * torque;
+        const auto object = static_cast<std::uint32_t>(o);
+        const glm::dvec3 lacking = wanted - angular_momentum(object, current.positions, current.velocities);
+        const glm::dvec3 spin = inertia.inverse_inertia * lacking;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            const glm::dvec3 r = glm::dvec3(current.positions[n]) - origin - inertia.center;
+            current.velocities[n] += Vec4<Real>(Vec3<Real>(glm::cross(spin, r)), 0);
+        }
+    });
+}
+
+template <class Real>
+ContactForces ImplicitStep<Real>::contact_forces() const {
+    ContactForceSums sums(*model_);
+    for (const Acting& acting : acting_) {
+        const ContactRow<Real>& row = acting.row;
+        const glm::dvec3 normal(acting.normal), friction(acting.friction);
+        if (row.object == kNoNode) {
+            sums.add(row.other, static_cast<std::uint32_t>(row.key >> 31 & 0x7FFFFFFFu), true, normal,
+                     friction);
+        } else if (row.object != row.other) {
+            sums.add(row.other, row.object, false, normal, friction);
+        }
+        for (std::uint32_t k = 0; k < row.count; ++k) {
+            const auto weight = static_cast<double>(row.weights[k]);
+            sums.add_to_node(row.nodes[k], weight * normal, weight * friction);
+        }
+    }
+    return sums.take();
+}
+
+template <class Real>
+std::vector<glm::dvec3> ImplicitStep<Real>::forces_on_held(const StepInput<Real>& input,
+                                                           const Nodes<Real>& previous) {
+    if (last_step_ == Real(0)) return {};
+    Field product(model_->node_count());
+    system_.elastic.multiply(system_.displacements, product);
+    std::vector<glm::dvec3> forces(product.size());
+    for (std::size_t n = 0; n < forces.size(); ++n)
+        forces[n] = glm::dvec3(system_.elastic.forces()[n]) - glm::dvec3(product[n]);
+    for (const Acting& acting : acting_)
+        for (std::uint32_t k = 0; k < acting.row.count; ++k)
+            forces[acting.row.nodes[k]] +=
+                static_cast<double>(acting.row.weights[k]) * glm::dvec3(acting.normal + acting.friction);
+    if (input.pulls != nullptr)
+        for (const std::uint32_t n : input.pulls->nodes()) {
+            const Vec4<Real> x = previous.positions[n];
+            const Vec4<Real> end(Vec3<Real>(x) + system_.displacements[n], x.w);
+            forces[n] += glm::dvec3(input.pulls->force_at_end(n, end, Vec3<Real>(x), solve_step_));
+        }
+    return forces;
+}
+
+template class ImplicitStep<float>;
+template class ImplicitStep<double>;
+
+}  // namespace gelatin::cpu

@@ -1,0 +1,137 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/stage_timer.h"
+#include "cpu/drive/pulls.h"
+#include "cpu/implicit/find_pairs.h"
+#include "cpu/implicit/guard.h"
+#include "cpu/implicit/step_system.h"
+#include "cpu/nodes.h"
+#include "gelatin/scene.h"
+#include "model/contact/contact_surface.h"
+#include "model/model.h"
+#include "model/solver.h"
+
+namespace gelatin::cpu {
+
+/// How a step goes on in time.
+enum class TimeScheme {
+    implicit_euler,  ///< first order; damps
+    bdf2,            ///< second order, from the second of equal steps on
+};
+
+struct ImplicitSettings {
+    int iterations = 10;      ///< of conjugate gradients for each linearisation of contacts, at most
+    int rounds = 2;           ///< linearisations
+    double tolerance = 1e-4;  ///< of each: energy by which it may miss its least, as a part of the motion's
+    TimeScheme scheme = TimeScheme::bdf2;
+};
+
+/// What a step is made with.
+template <class Real>
+struct StepInput {
+    Real step;                                     ///< h [s]
+    std::span<const Vec4<Real>> load_forces = {};  ///< [N], shape [nodes], or empty
+    const Pulls<Real>* pulls = nullptr;            ///< null: no hand holds anything
+};
+
+/// One implicit step of all bodies with their contacts: predict, detect, linearise, solve, finish.
+template <class Real>
+class ImplicitStep {
+public:
+    /// @param contacts whether bodies meet others; planes always count @param own whether they meet
+    /// themselves
+    ImplicitStep(std::shared_ptr<const Model> model, const CollisionSettings& collision, bool contacts,
+                 bool own, const ImplicitSettings& settings);
+
+    /// Forgets earlier steps, because nodes were set from outside.
+    void restart();
+    /// @param previous of held nodes the positions are those where they are, and velocities those that take
+    /// them to where their handles have them at the end
+    /// @param shortest a step may be [s]
+    /// @return the length of the step made [s]: that of the input, or a shorter one, where bodies would meet
+    /// too deep
+    Real run(const StepInput<Real>& input, Real shortest, const Nodes<Real>& previous, Nodes<Real>& current,
+             StageTimer* timer);
+
+    /// Goes to where bodies were put between steps, as far as others let them.
+    /// @param nodes input: where they were put; output: where they are
+    void follow(const Nodes<Real>& from, Nodes<Real>& nodes);
+
+    /// What presses objects at the end of the last step.
+    ContactForces contact_forces() const;
+    /// Of elements, contacts and hands on held nodes in the last step [N], shape [nodes]; empty before it.
+    std::vector<glm::dvec3> forces_on_held(const StepInput<Real>& input, const Nodes<Real>& previous);
+    const ContactSurface& surface() const { return *surface_; }
+
+    /// Whether anything was near anything else in the last step.
+    bool any_near() const { return !system_.rows.empty() || !pairs_.pairs().empty(); }
+
+    const StepSystem<Real>& system() const { return system_; }
+    const Guard<Real>& guard() const { return guard_; }
+    int guard_detections() const { return guard_detections_; }
+
+private:
+    using Field = std::vector<Vec3<Real>>;
+    // What a contact passes on to the next step.
+    struct Memory {
+        std::uint64_t key;
+        Vec3<Real> hold;
+        Real limit, reach;
+    };
+
+    // A contact's force on its second side when a step has ended [N].
+    struct Acting {
+        ContactRow<Real> row;
+        Vec3<Real> normal, friction;
+    };
+
+    void predict(const StepInput<Real>& input, const Nodes<Real>& previous);
+    Real rest_gap(const ContactPair& pair) const;
+    Vec3<Real> relative(const ContactRow<Real>& row) const;
+    void linearise(const StepInput<Real>& input, const Nodes<Real>& previous);
+    Real deepest() const;
+    bool detect(const Nodes<Real>& previous, bool is_shortest);
+    void guard(const Nodes<Real>& previous, Nodes<Real>& current);
+    void make_rows(const Nodes<Real>& previous);
+    void add_row(ContactRow<Real> row, Real weight, Real first, Real second);
+    Vec3<Real> surface_velocity(std::uint32_t collider) const {
+        return Vec3<Real>(model_->surfaces[collider - model_->body_count()].velocity);
+    }
+    void remember();
+    void finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current);
+    glm::dvec3 angular_momentum(std::uint32_t object, std::span<const Vec4<Real>> positions,
+                                std::span<const Vec4<Real>> velocities) const;
+
+    std::shared_ptr<const Model> model_;
+    std::shared_ptr<const ContactSurface> surface_;
+    ImplicitSettings settings_;
+    bool contacts_;
+    std::vector<std::uint32_t> object_of_;
+    FindPairs<Real> pairs_;
+    Guard<Real> guard_;
+    StepSystem<Real> system_;
+    bool uses_bdf2_ = false;  // in this step
+    Real solve_step_ = 0;     // h, or 2/3 of it
+    Real step_ = 0, last_step_ = 0;
+    Nodes<Real> earlier_;            // one step before previous
+    std::vector<Real> compliances_;  // of nodes in contacts, 1 / h_i [m/N]
+    Field expected_;                 // displacements without forces [m]
+    std::vector<Vec4<Real>> ends_;
+    std::vector<Real> slacks_;  // by object [m]
+    int guard_detections_ = 0;
+    std::vector<Memory> memory_;  // by key
+    std::vector<std::uint32_t> new_rows_;
+    std::vector<Acting> acting_;
+    // Of the contacts of two objects that the last step had, the least gap, as a part of the reach.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Real> nearest_gaps_;
+    std::vector<glm::dvec3> angular_, earlier_angular_;  // momenta of bodies [kg m^2/s]
+};
+
+}  // namespace gelatin::cpu

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cpu/implicit/contact_row.h"
+#include "cpu/implicit/elastic_system.h"
+#include "cpu/implicit/rigid_level.h"
+#include "cpu/nodes.h"
+#include "model/model.h"
+
+namespace gelatin::cpu {
+
+/// What solving a step has cost.
+struct SolveCounts {
+    int products = 0;       ///< with the matrix of all nodes
+    int iterations = 0;     ///< of conjugate gradients
+    int rigid_rounds = 0;   ///< Newton's method on rigid motions
+    int line_searches = 0;  ///< that shortened a step
+};
+
+/// The displacements d of a step as the least of
+///   sum_i m_i / (2 h^2) |x_i + d_i - y_i|^2 + d^T K d / 2 - f^T d + sum of rows,
+/// with elements to second order (ElasticSystem), and contacts by their law, friction among it. Newton's
+/// method: first on rigid motions alone (RigidLevel), then on all nodes, with conjugate gradients
+/// preconditioned by both, then on rigid motions again until all bodies are in balance.
+template <class Real>
+class StepSystem {
+public:
+    explicit StepSystem(std::shared_ptr<const Model> model);
+
+    ElasticSystem<Real> elastic;
+    RigidLevel<Real> rigid;
+    std::vector<Real> inertia;      ///< m / h^2 [N/m], 0 for held nodes, shape [nodes]
+    std::vector<Vec3<Real>> loads;  ///< m / h^2 (y - x) + f [N], shape [nodes]
+    std::vector<ContactRow<Real>> rows;
+    std::vector<Vec3<Real>> displacements;  ///< d [m]; input: of held nodes, and a guess; output: of all
+    int iterations = 8;                     ///< of conjugate gradients, at most
+    int rounds = 2;                         ///< in which these are shared out
+    double enough = 0.0;                    ///< energy by which a round may miss its least [J]
+    int most_rigid_rounds = 20;
+    SolveCounts counts;
+
+    /// @pre rigid.begin was called
+    void solve();
+
+private:
+    using Field = std::vector<Vec3<Real>>;
+
+    void index_rows();
+    Vec3<Real> relative(const ContactRow<Real>& row, const Field& d) const;
+    template <class ForceOf>
+    void add_row_forces(const ForceOf& force_of, Field& sum);
+    void multiply(const Field& d, Field& product);            // without rows
+    void multiply_with_rows(const Field& d, Field& product);  // by their tangents
+    void find_base_residual();
+    void find_tangents();
+    void find_chords(const Field& expected);
+    void find_true_residual();
+    void set_limits();
+    double dot(const Field& a, const Field& b) const;
+    void add(double factor, const Field& a, Field& sum) const;
+    void prepare_preconditioner();
+    void precondition(const Field& r, Field& z);
+    void conjugate_gradients(int count);
+    double line_search();
+    void step_along();
+    void rigid_newton();
+    bool is_balanced(double tolerance) const;
+
+    std::shared_ptr<const Model> model_;
+    std::vector<std::uint32_t> row_starts_, row_entries_;  // by node: 4 row + place
+    std::vector<RowTangent<Real>> tangents_;
+    std::vector<Vec3<Real>> row_forces_;
+    std::vector<SymmetricMatrix<Real>> blocks_;
+    Field base_, residual_, direction_, product_, z_, p_, coarse_;  // base: loads - A d
+};
+
+}  // namespace gelatin::cpu

@@ -1,0 +1,119 @@
+#include "cpu/implicit/system_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "cpu/descent/holding_forces.h"
+
+namespace gelatin::cpu {
+namespace {
+
+// Into how many parts a step is divided, where bodies are near each other and where they are not; and at
+// most, where they meet fast.
+constexpr int kPartsNear = 4, kPartsFar = 2, kMostParts = 256;
+
+}  // namespace
+
+template <class Real>
+SystemSolver<Real>::SystemSolver(std::shared_ptr<const Model> model, const CollisionSettings& collision,
+                                 const DescentSettings& settings)
+    : CpuSolver<Real>(std::move(model), collision),
+      divides_steps_(settings.divides_steps),
+      step_(model_, collision, has_contacts(*model_, collision),
+            has_contacts(*model_, collision) && collision.self_collision.value_or(true),
+            {.iterations = settings.iterations}),
+      shape_matcher_(model_) {}
+
+// Velocities of held nodes are those of their handles; where they are is known better than by handles, which
+// bodies may have been in the way of.
+template <class Real>
+void SystemSolver<Real>::apply_kinematics(std::span<const HandleMotion> motions) {
+    const auto add_velocities = [&](double sign) {
+        for (std::size_t h = 0; h < held_changes_.size(); ++h)
+            held_changes_[h] += sign * glm::dvec3(current_.velocities[model_->handle_nodes[h].node]);
+    };
+    held_changes_.assign(model_->handle_nodes.size(), glm::dvec3(0.0));
+    add_velocities(-1.0);
+    CpuSolver<Real>::apply_kinematics(motions);
+    add_velocities(1.0);
+}
+
+template <class Real>
+void SystemSolver<Real>::advance_nodes(const Step& step) {
+    size_ = step.size;
+    StageTimer* const timer = this->timer_.for_parts();
+    const auto size = static_cast<Real>(step.size);
+    const int parts = !divides_steps_ ? 1 : step_.any_near() ? kPartsNear : kPartsFar;
+    // Held nodes go from where they are to where their handles have them at the end.
+    goals_.resize(current_.positions.size());
+    for (std::size_t n = 0; n < goals_.size(); ++n)
+        if (current_.positions[n].w == Real(0))
+            goals_[n] = Vec3<Real>(current_.positions[n]) + size * Vec3<Real>(current_.velocities[n]);
+    const std::vector<Vec4<Real>> velocities = current_.velocities;
+    const Real part = size / static_cast<Real>(parts), shortest = size / static_cast<Real>(kMostParts);
+    StepInput<Real> input{part, load_forces_, this->acting_pulls()};
+    for (Real left = size; left > Real(0.5) * shortest; left -= input.step) {
+        for (std::size_t n = 0; n < goals_.size(); ++n) {
+            if (current_.positions[n].w != Real(0)) continue;
+            if (left == size && !held_at_.empty()) current_.positions[n] = Vec4<Real>(held_at_[n], Real(0));
+            current_.velocities[n] =
+                Vec4<Real>((goals_[n] - Vec3<Real>(current_.positions[n])) / left, current_.velocities[n].w);
+        }
+        const std::vector<Vec4<Real>> before = current_.positions;
+        if (!shape_matcher_.run(current_).empty()) step_.follow({before, current_.velocities}, current_);
+        std::swap(current_, previous_);
+        this->sum_loads(step, previous_);
+        input.step = left > Real(0.99) * part ? part : left;  // equal ones, but for rounding
+        input.step = step_.run(input, divides_steps_ ? shortest : input.step, previous_, current_, timer);
+    }
+    if (!model_->handles.empty() && model_->is_body(model_->handles[0].object))
+        forces_on_held_ = step_.forces_on_held(input, previous_);
+    held_at_.assign(current_.positions.begin(), current_.positions.end());
+    for (std::size_t n = 0; n < goals_.size(); ++n)
+        if (current_.positions[n].w == Real(0)) current_.velocities[n] = velocities[n];
+    has_earlier_ = true;
+}
+
+template <class Real>
+HoldingForces SystemSolver<Real>::holding_forces() const {
+    const bool holds_bodies = !model_->handles.empty() && model_->is_body(model_->handles[0].object);
+    if (!holds_bodies) return {};
+    std::vector<glm::dvec3> others = forces_on_held_;
+    if (!load_forces_.empty())
+        for (std::size_t n = 0; n < others.size(); ++n) others[n] += glm::dvec3(load_forces_[n]);
+    std::vector<glm::dvec3> accelerations = held_changes_;
+    for (glm::dvec3& acceleration : accelerations) acceleration /= size_;
+    return find_holding_forces<Real>(*model_, current_.positions, others, accelerations);
+}
+
+template <class Real>
+std::vector<std::uint32_t> SystemSolver<Real>::held_up(std::span<const HandlePose> poses) const {
+    const std::vector<double>& thicknesses = step_.surface().thicknesses;
+    const double reach = *std::max_element(thicknesses.begin(), thicknesses.end());
+    std::vector<std::uint8_t> are_late(poses.size());
+    for (const HandleNode& held : model_->handle_nodes) {
+        const Vec4<Real>& position = current_.positions[held.node];
+        if (position.w != Real(0)) continue;  // it is released
+        const glm::dvec3 place = poses[held.handle].place(glm::dvec3(held.arm));
+        if (glm::distance(place, glm::dvec3(position)) > reach) are_late[held.handle] = 1;
+    }
+    std::vector<std::uint32_t> handles;
+    for (std::uint32_t h = 0; h < are_late.size(); ++h)
+        if (are_late[h] != 0) handles.push_back(h);
+    return handles;
+}
+
+template <class Real>
+void SystemSolver<Real>::write_state(const State& state) {
+    CpuSolver<Real>::write_state(state);
+    step_.restart();
+    held_at_.clear();
+    held_changes_.clear();
+    forces_on_held_.clear();
+}
+
+template class SystemSolver<float>;
+template class SystemSolver<double>;
+
+}  // namespace gelatin::cpu

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "cpu/cpu_solver.h"
+#include "cpu/descent/match_shapes.h"
+#include "cpu/implicit/implicit_step.h"
+
+namespace gelatin::cpu {
+
+/// Moves nodes by steps that are solved as one linearised system (ImplicitStep).
+template <class Real>
+class SystemSolver : public CpuSolver<Real> {
+public:
+    explicit SystemSolver(std::shared_ptr<const Model> model, const CollisionSettings& collision = {},
+                          const DescentSettings& settings = {});
+
+    ContactForces contact_forces() const override { return step_.contact_forces(); }
+    HoldingForces holding_forces() const override;
+    std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) const override;
+    void write_state(const State& state) override;
+
+protected:
+    void apply_kinematics(std::span<const HandleMotion> motions) override;
+    void advance_nodes(const Step& step) override;
+
+    using CpuSolver<Real>::model_, CpuSolver<Real>::current_, CpuSolver<Real>::previous_,
+        CpuSolver<Real>::has_earlier_, CpuSolver<Real>::load_forces_;
+
+private:
+    bool divides_steps_;
+    ImplicitStep<Real> step_;
+    ShapeMatcher<Real> shape_matcher_;  // of bodies that have lost their shape, before they move
+    double size_ = 0.0;                 // of the last step [s]
+    std::vector<Vec3<Real>>
+        goals_;  // of held nodes at the end of a step [m], by node; others' are not written
+    std::vector<Vec3<Real>> held_at_;       // where held nodes are, if bodies are in their way
+    std::vector<glm::dvec3> held_changes_;  // of handle nodes' velocities as a step began [m/s]
+    std::vector<glm::dvec3> forces_on_held_;
+};
+
+}  // namespace gelatin::cpu
