@@ -140,14 +140,42 @@ bool KeptDistances<Real>::keeps(std::uint32_t object, Real part, std::span<const
 }
 
 template <class Real>
-bool KeptDistances<Real>::keeps(std::uint32_t object, Real part, std::span<const Vec4<Real>> from,
-                                std::span<const Vec4<Real>> to) {
+std::vector<std::uint8_t> KeptDistances<Real>::find_lost_blocks(std::uint32_t object, Real part,
+                                                                std::span<const Vec4<Real>> from,
+                                                                std::span<const Vec4<Real>> to) {
     Shape& shape = shapes_[object];
-    if (shape.tets.empty()) return false;
-    const auto keeps_both = [&] { return keeps(shape, part, from) && keeps(shape, part, to); };
-    if (keeps_both()) return true;
+    const auto keep_both = [&](std::span<const TetColumns<Real>> blocks) {
+        return all_keep(blocks, shape.turn, part, from) && all_keep(blocks, shape.turn, part, to);
+    };
+    const auto all_do = [&] {
+        return all_blocks(
+            shape, [&](std::span<const TetColumns<Real>> blocks, std::size_t) { return keep_both(blocks); });
+    };
+    if (all_do()) return {};
     shape.turn = nearest_turn(object, to);
-    return keeps_both();
+    std::vector<std::uint8_t> lost(shape.tets.size());
+    all_blocks(shape, [&](std::span<const TetColumns<Real>> blocks, std::size_t first) {
+        if (!keep_both(blocks))
+            for (std::size_t k = 0; k < blocks.size(); ++k)
+                lost[first + k] = keep_both(blocks.subspan(k, 1)) ? 0 : 1;
+        return true;
+    });
+    if (std::find(lost.begin(), lost.end(), 1) == lost.end()) lost.clear();
+    return lost;
+}
+
+template <class Real>
+bool KeptDistances<Real>::others_keep(std::uint32_t object, Real part, std::span<const std::uint8_t> lost,
+                                      std::span<const Vec4<Real>> positions) const {
+    const Shape& shape = shapes_[object];
+    return all_blocks(shape, [&](std::span<const TetColumns<Real>> blocks, std::size_t first) {
+        if (all_keep(blocks, shape.turn, part, positions)) return true;
+        if (lost.empty()) return false;
+        for (std::size_t k = 0; k < blocks.size(); ++k)
+            if (lost[first + k] == 0 && !all_keep(blocks.subspan(k, 1), shape.turn, part, positions))
+                return false;
+        return true;
+    });
 }
 
 template <class Real>

@@ -38,10 +38,21 @@ public:
     /// Whether two points of a convex body are at least `part` of the distance apart that they had at the
     /// start. Always false for bodies that are not convex. May be called for several bodies at once.
     bool keeps(std::uint32_t object, Real part, std::span<const Vec4<Real>> positions);
-    /// The same at both ends of a motion in which all nodes go straight, with one R: so it is true all the
-    /// way.
-    bool keeps(std::uint32_t object, Real part, std::span<const Vec4<Real>> from,
-               std::span<const Vec4<Real>> to);
+    ///     /// Of a motion in which all nodes go straight: the blocks of eight tets that keep less than
+    ///     `part` at either end, with
+    /// one R for both. So two points whose line at the start meets none of these blocks keep their part all
+    /// the way.
+    /// @return by block, not 0 if it is lost; empty if none is @pre is_convex(object)
+    std::vector<std::uint8_t> find_lost_blocks(std::uint32_t object, Real part,
+                                               std::span<const Vec4<Real>> from,
+                                               std::span<const Vec4<Real>> to);
+    /// Whether all other blocks keep it elsewhere, too, with the same R.
+    bool others_keep(std::uint32_t object, Real part, std::span<const std::uint8_t> lost,
+                     std::span<const Vec4<Real>> positions) const;
+    /// Round a block of tets at the start [m].
+    const AxisBox<Real>& box_of_block(std::uint32_t object, std::size_t block) const {
+        return shapes_[object].boxes[block];
+    }
     /// Boxes round those tets of a convex body, at the start [m], that keep less than `part`, and others
     /// beside them. Of two points whose line at the start meets none of them, keeps() would be true.
     /// @pre is_convex(object)

@@ -28,7 +28,8 @@ FindPairs<Real>::FindPairs(std::shared_ptr<const Model> model, std::shared_ptr<c
       own_(own),
       object_of_(objects_of_nodes(*model_)),
       kept_(model_, *surface_),
-      meets_itself_(model_->objects.size()),
+      owns_(model_->objects.size()),
+      rest_boxes_(model_->face_trees.nodes.size()),
       bounding_boxes_(model_->objects.size()),
       motions_(model_->objects.size()),
       object_tree_(static_cast<std::uint32_t>(model_->objects.size())),
@@ -38,6 +39,12 @@ FindPairs<Real>::FindPairs(std::shared_ptr<const Model> model, std::shared_ptr<c
         boxes->faces.resize(model_->faces.size());
         boxes->edges.resize(model_->surface_parts.edges.size());
         boxes->trees.resize(model_->face_trees.nodes.size());
+    }
+    for (const std::uint32_t leaf : model_->face_trees.levels[0]) {
+        const TreeNode& node = model_->face_trees.nodes[leaf];
+        for (std::uint32_t f = node.first_item; f < node.first_item + node.item_count; ++f)
+            for (const std::uint32_t n : corners_of(model_->faces[f]))
+                rest_boxes_[leaf].add(Vec3<Real>(glm::vec3(model_->positions[n])));
     }
 }
 
@@ -75,17 +82,24 @@ void FindPairs<Real>::update_boxes(std::size_t object, const Vec3<Real>& frame, 
 template <class Real>
 void FindPairs<Real>::find_own(const Paths<Real>& paths) {
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        meets_itself_[o] = !kept_.keeps(o, static_cast<Real>(kKept), paths.from, paths.to) ? 1 : 0;
-        if (meets_itself_[o] == 0) continue;
+        Own& own = owns_[o];
+        own = {true, {}, {}};
+        if (kept_.is_convex(o)) {
+            own.lost = kept_.find_lost_blocks(o, static_cast<Real>(kKept), paths.from, paths.to);
+            for (std::size_t b = 0; b < own.lost.size(); ++b)
+                if (own.lost[b] != 0) own.boxes.push_back(kept_.box_of_block(o, b));
+            own.meets_itself = !own.boxes.empty();
+        }
+        if (!own.meets_itself) continue;
         update_boxes(o, motions_[o], paths, own_boxes_);
     }
 }
 
 template <class Real>
-bool FindPairs<Real>::keeps_own(const Paths<Real>& paths, std::span<const Vec4<Real>> ends) {
+bool FindPairs<Real>::keeps_own(std::span<const Vec4<Real>> ends) const {
     if (!own_) return true;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o)
-        if (meets_itself_[o] == 0 && !kept_.keeps(o, static_cast<Real>(kKept), paths.from, ends))
+        if (kept_.is_convex(o) && !kept_.others_keep(o, static_cast<Real>(kKept), owns_[o].lost, ends))
             return false;
     return true;
 }
@@ -141,7 +155,9 @@ void FindPairs<Real>::walk(std::uint32_t leaf, std::uint32_t object, const Boxes
     const BoxTree& trees = model_->face_trees;
     const std::vector<glm::uvec2>& starts = model_->surface_parts.face_starts;
     const AxisBox<Real>& box = boxes.trees[leaf];
+    const bool is_own = &boxes == &own_boxes_;
     for_leaves_near<Real>(trees, boxes.trees, trees.roots[object], box, [&](std::uint32_t other) {
+        if (is_own && is_kept(object, leaf, other)) return;
         const std::uint32_t first = trees.nodes[other].first_item,
                             end = first + trees.nodes[other].item_count;
         for (std::uint32_t f = first; f < end; ++f)
@@ -149,6 +165,16 @@ void FindPairs<Real>::walk(std::uint32_t leaf, std::uint32_t object, const Boxes
         for (std::uint32_t e = starts[first].y; e < starts[end].y; ++e)
             if (meet(box, boxes.edges[e])) found.edges.push_back({e, boxes.edges[e]});
     });
+}
+
+// Whether the lines between what two leaves have meet no lost tets at the start.
+template <class Real>
+bool FindPairs<Real>::is_kept(std::uint32_t object, std::uint32_t leaf, std::uint32_t other) const {
+    const std::vector<AxisBox<Real>>& lost = owns_[object].boxes;
+    if (lost.empty()) return false;
+    AxisBox<Real> lines = rest_boxes_[leaf];
+    lines.add(rest_boxes_[other]);
+    return std::none_of(lost.begin(), lost.end(), [&](const AxisBox<Real>& box) { return meet(box, lines); });
 }
 
 template <class Real>
@@ -161,7 +187,7 @@ void FindPairs<Real>::search(std::uint32_t leaf, const Paths<Real>& paths, Found
     const std::uint32_t object = model_->faces[faces.first_item].object;
     std::vector<std::uint32_t> others;
     object_tree_.for_objects_near(boxes_.trees[leaf], [&](std::uint32_t other) {
-        if (other == object ? own_ && meets_itself_[object] != 0
+        if (other == object ? own_ && owns_[object].meets_itself
                             : model_->is_body(object) || model_->is_body(other))
             others.push_back(other);
     });

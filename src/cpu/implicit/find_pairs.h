@@ -64,8 +64,9 @@ public:
     /// Of objects whose boxes meet, how far one goes beside the other, in reaches, at most.
     Real fastest_approach() const;
     void run(const Paths<Real>& paths);
-    /// Whether no body meets itself on the way to `ends` whose own pairs were left out, as it hardly deforms.
-    bool keeps_own(const Paths<Real>& paths, std::span<const Vec4<Real>> ends);
+    /// /// Whether no body meets itself on the way to `ends` by pairs that were left out, as it hardly
+    /// deforms there.
+    bool keeps_own(std::span<const Vec4<Real>> ends) const;
     const std::vector<NearPair<Real>>& pairs() const { return pairs_; }
 
 private:
@@ -87,6 +88,7 @@ private:
     void find_own(const Paths<Real>& paths);
     void search(std::uint32_t leaf, const Paths<Real>& paths, Found& found) const;
     void walk(std::uint32_t leaf, std::uint32_t object, const Boxes& boxes, Found& found) const;
+    bool is_kept(std::uint32_t object, std::uint32_t leaf, std::uint32_t other) const;
     void keep_near(const Paths<Real>& paths, const Found& found, std::vector<NearPair<Real>>& kept) const;
 
     std::shared_ptr<const Model> model_;
@@ -94,8 +96,17 @@ private:
     bool own_;
     std::vector<std::uint32_t> object_of_;
     KeptDistances<Real> kept_;
-    std::vector<std::uint8_t> meets_itself_;  // by object: its own pairs are listed
-    Boxes boxes_, own_boxes_;                 // own: of bodies, as these see themselves
+    // By body: whether its own pairs are listed, and those alone whose lines at the start meet one of the
+    // boxes round
+    // lost tets; all, if there are no boxes.
+    struct Own {
+        bool meets_itself = false;
+        std::vector<std::uint8_t> lost;  // blocks of tets
+        std::vector<AxisBox<Real>> boxes;
+    };
+    std::vector<Own> owns_;
+    std::vector<AxisBox<Real>> rest_boxes_;  // of the leaves' faces at the start, by node of the trees
+    Boxes boxes_, own_boxes_;                // own: of bodies, as these see themselves
     std::vector<AxisBox<Real>> bounding_boxes_;
     std::vector<Vec3<Real>> motions_;  // of objects on average [m]
     ObjectTree<Real> object_tree_;

@@ -220,7 +220,7 @@ void ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current
     for (int k = 0; k < kMostGuards; ++k) {
         const Paths<Real> paths{previous.positions, ends_, slacks_};
         if (guard_.run(paths, pairs_.pairs(), compliances_, current.positions) &&
-            pairs_.keeps_own(paths, current.positions))
+            pairs_.keeps_own(current.positions))
             return;
         ends_ = current.positions;
         if (!contacts_) return;
