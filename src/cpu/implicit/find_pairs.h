@@ -67,6 +67,7 @@ public:
     /// /// Whether no body meets itself on the way to `ends` by pairs that were left out, as it hardly
     /// deforms there.
     bool keeps_own(std::span<const Vec4<Real>> ends) const;
+    void forget() { pairs_.clear(); }
     const std::vector<NearPair<Real>>& pairs() const { return pairs_; }
 
 private:

@@ -9,6 +9,7 @@
 #include "cpu/contact/feasible_region.h"
 #include "cpu/contact/nearest_pairs.h"
 #include "cpu/descent/rigid_inertia.h"
+#include "cpu/elasticity/elastic_energy.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -21,12 +22,17 @@ constexpr double kStiffestStep = 1.0 / 60.0;
 constexpr double kSlackOfThickness = 0.5, kSlackOfMotion = 0.1;
 // Detections of a step for its guard alone, at most.
 constexpr int kMostGuards = 10;
+// // Bodies come to rest that are slower than after so long a fall [s].
+constexpr double kRestingFall = 1.0 / 120.0;
 // Contacts this many reaches apart may come together in a step that deforms bodies.
 constexpr double kNear = 1.5;
 // A contact that is found nearer than its reach presses from there; the reach grows to all of it within this
 // time [s].
 constexpr double kEasing = 1.0 / 3.0;
 constexpr double kLeastReach = 1e-3;
+// A step is made again, shorter, after which bodies have this part of their energy more than before [in J,
+// for bodies at rest]: it was too long for its linearisation.
+constexpr double kMostGain = 0.1, kRounding = 1e-9;
 // A step is divided in which contacts would come into each other by so many reaches: by an edge of the
 // surface.
 constexpr double kDeepest = 10.0;
@@ -61,6 +67,8 @@ template <class Real>
 void ImplicitStep<Real>::restart() {
     memory_.clear();
     acting_.clear();
+    system_.rows.clear();
+    pairs_.forget();
     last_step_ = Real(0);
 }
 
@@ -68,31 +76,75 @@ template <class Real>
 Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const Nodes<Real>& previous,
                              Nodes<Real>& current, StageTimer* timer) {
     StepInput<Real> input = wanted;
+    const std::vector<Memory> memory = memory_;
+    const Energy before = energy(previous);
     for (;; input.step *= Real(0.5)) {
-        const TimedStage part(timer, "advance_nodes.detect");
         const bool is_shortest = input.step < Real(2) * shortest;
-        predict(input, previous);
-        if (!detect(previous, is_shortest)) continue;
-        make_rows(previous);
-        if (is_shortest || deepest() < static_cast<Real>(kDeepest)) break;
-    }
-    {
-        const TimedStage part(timer, "advance_nodes.linearise");
-        linearise(input, previous);
-    }
-    {
-        const TimedStage part(timer, "advance_nodes.solve");
-        system_.solve();
-    }
-    {
+        {
+            const TimedStage part(timer, "advance_nodes.detect");
+            predict(input, previous);
+            if (!detect(previous, is_shortest)) continue;
+            make_rows(previous);
+            if (!is_shortest && deepest() > static_cast<Real>(kDeepest)) continue;
+        }
+        {
+            const TimedStage part(timer, "advance_nodes.linearise");
+            linearise(input, previous);
+        }
+        {
+            const TimedStage part(timer, "advance_nodes.solve");
+            system_.solve();
+        }
         const TimedStage part(timer, "advance_nodes.finish");
         finish(input.step, previous, current);
+        const Energy after = energy(current);
+        const bool is_sound = after.sum() - before.sum() <= kMostGain * before.motion + kRounding;
+        const bool is_driven =
+            moves_held_nodes(previous) || !input.load_forces.empty() || input.pulls != nullptr;
+        if (is_sound || ((is_driven || is_shortest) && std::isfinite(after.sum()))) break;
+        memory_ = memory;
+        if (!is_shortest) continue;
+        stand_still(previous, current);
+        break;
     }
     const TimedStage part(timer, "advance_nodes.guard");
     guard(previous, current);
     earlier_ = previous;
     last_step_ = input.step;
     return input.step;
+}
+
+template <class Real>
+typename ImplicitStep<Real>::Energy ImplicitStep<Real>::energy(const Nodes<Real>& nodes) const {
+    Energy energy;
+    const glm::dvec3 gravity(model_->gravity);
+    for (const ModelObject& object : model_->bodies()) {
+        energy.motion += body_energy<Real>(*model_, object, nodes.positions);
+        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
+            if (nodes.positions[n].w == Real(0)) continue;
+            const glm::dvec3 v(nodes.velocities[n]);
+            const auto mass = static_cast<double>(model_->masses[n]);
+            energy.motion += 0.5 * mass * glm::dot(v, v);
+            energy.potential -= mass * glm::dot(gravity, glm::dvec3(nodes.positions[n]));
+        }
+    }
+    return energy;
+}
+
+template <class Real>
+bool ImplicitStep<Real>::moves_held_nodes(const Nodes<Real>& previous) const {
+    for (std::uint32_t n = 0; n < model_->node_count(); ++n)
+        if (previous.positions[n].w == Real(0) && expected_[n] != Vec3<Real>(0)) return true;
+    return false;
+}
+
+// Where even the shortest step fails.
+template <class Real>
+void ImplicitStep<Real>::stand_still(const Nodes<Real>& previous, Nodes<Real>& current) const {
+    current = previous;
+    for (std::uint32_t n = 0; n < model_->node_count(); ++n)
+        if (previous.positions[n].w != Real(0))
+            current.velocities[n] = Vec4<Real>(Vec3<Real>(0), previous.velocities[n].w);
 }
 
 // How far contacts would come into each other without forces, in reaches.
@@ -115,7 +167,7 @@ Real ImplicitStep<Real>::deepest() const {
 template <class Real>
 void ImplicitStep<Real>::predict(const StepInput<Real>& input, const Nodes<Real>& previous) {
     const Real step = step_ = input.step;
-    uses_bdf2_ = settings_.scheme == TimeScheme::bdf2 && last_step_ == step;
+    uses_bdf2_ = settings_.scheme == TimeScheme::bdf2 && last_step_ == step && !comes_to_rest(previous);
     solve_step_ = uses_bdf2_ ? Real(2) / Real(3) * step : step;
     const Vec3<Real> gravity(model_->gravity);
     const Real h = solve_step_, least = std::max(step, static_cast<Real>(kStiffestStep));
@@ -145,6 +197,23 @@ void ImplicitStep<Real>::predict(const StepInput<Real>& input, const Nodes<Real>
         compliances_[n] =
             Real(1) / (mass / (least * least) + static_cast<Real>(surface_->stiffness[n]) / Real(3));
     });
+}
+
+// BDF2 hardly damps: bodies that rest would tremble on for ever.
+template <class Real>
+bool ImplicitStep<Real>::comes_to_rest(const Nodes<Real>& previous) const {
+    const double slow = kRestingFall * glm::length(glm::dvec3(model_->gravity));
+    if (system_.rows.empty() || slow == 0.0) return false;
+    for (std::size_t o = 0; o < model_->body_count(); ++o) {
+        const Range& nodes = model_->objects[o].nodes;
+        double squared = 0.0;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            const glm::dvec3 v(previous.velocities[n]);
+            squared += static_cast<double>(model_->masses[n]) * glm::dot(v, v);
+        }
+        if (squared > slow * slow * model_->objects[o].mass) return false;
+    }
+    return true;
 }
 
 template <class Real>

@@ -95,7 +95,16 @@ private:
     void predict(const StepInput<Real>& input, const Nodes<Real>& previous);
     Real rest_gap(const ContactPair& pair) const;
     Vec3<Real> relative(const ContactRow<Real>& row) const;
+    // Of all bodies [J]; motion: kinetic and elastic.
+    struct Energy {
+        double motion = 0.0, potential = 0.0;
+        double sum() const { return motion + potential; }
+    };
+    Energy energy(const Nodes<Real>& nodes) const;
+    bool moves_held_nodes(const Nodes<Real>& previous) const;
+    void stand_still(const Nodes<Real>& previous, Nodes<Real>& current) const;
     void linearise(const StepInput<Real>& input, const Nodes<Real>& previous);
+    bool comes_to_rest(const Nodes<Real>& previous) const;
     Real deepest() const;
     bool detect(const Nodes<Real>& previous, bool is_shortest);
     void guard(const Nodes<Real>& previous, Nodes<Real>& current);

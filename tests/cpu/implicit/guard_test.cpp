@@ -1,0 +1,93 @@
+#include "cpu/implicit/guard.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "support/contact_scenes.h"
+#include "support/overlaps.h"
+
+namespace gelatin {
+namespace {
+
+// Two blocks of one cell, 0.1 m of size, side by side along x with a gap of 2 mm.
+class GuardTest : public testing::Test {
+protected:
+    void SetUp() override {
+        model_ = test::make_blocks({{.cells = {1, 1, 1}, .size = glm::dvec3(0.1)},
+                                    {.place = {0.102, 0, 0}, .cells = {1, 1, 1}, .size = glm::dvec3(0.1)}});
+        surface_ = std::make_shared<ContactSurface>(make_contact_surface(*model_, {}));
+        from_.assign(model_->positions.begin(), model_->positions.end());
+        slacks_.assign(model_->objects.size(), 0.001);
+        compliances_.assign(from_.size(), 1.0);
+    }
+    // Where nodes go that are to go by these motions of the two blocks [m].
+    std::vector<glm::dvec4> guarded(const glm::dvec3& first, const glm::dvec3& second) {
+        std::vector<glm::dvec4> ends = from_;
+        for (std::size_t n = 0; n < ends.size(); ++n)
+            ends[n] += glm::dvec4(n < model_->objects[0].nodes.count ? first : second, 0.0);
+        cpu::FindPairs<double> pairs(model_, surface_, false);
+        for (int k = 0; k < 10; ++k) {  // nodes that are put beside their paths may meet others there
+            const std::vector<glm::dvec4> wanted = ends;
+            const cpu::Paths<double> paths{from_, wanted, slacks_};
+            pairs.begin(paths);
+            pairs.run(paths);
+            if (guard_().run(paths, pairs.pairs(), compliances_, ends)) return ends;
+        }
+        ADD_FAILURE() << "nodes leave their paths";
+        return ends;
+    }
+    cpu::Guard<double>& guard_() {
+        if (!made_) made_ = std::make_unique<cpu::Guard<double>>(model_, surface_);
+        return *made_;
+    }
+
+    std::shared_ptr<const Model> model_;
+    std::shared_ptr<const ContactSurface> surface_;
+    std::vector<glm::dvec4> from_;
+    std::vector<double> slacks_, compliances_;
+    std::unique_ptr<cpu::Guard<double>> made_;
+};
+
+TEST_F(GuardTest, StopsWhatWouldPassThrough) {
+    for (const double distance : {0.003, 0.05, 0.4}) {
+        const std::vector<glm::dvec4> ends = guarded({distance, 0, 0}, {0, 0, 0});
+        EXPECT_EQ(test::count_overlaps(*model_, ends), 0u);
+        EXPECT_GT(guard_().clipped_pairs(), 0u);
+    }
+}
+
+TEST_F(GuardTest, LeavesAloneWhatDoesNotMeet) {
+    for (const glm::dvec3& motion :
+         {glm::dvec3(0.0015, 0, 0), glm::dvec3(-0.2, 0, 0), glm::dvec3(0, 0.03, 0.02)}) {
+        const std::vector<glm::dvec4> ends = guarded(motion, {0, 0, 0});
+        for (std::size_t n = 0; n < model_->objects[0].nodes.count; ++n)
+            EXPECT_EQ(glm::dvec3(ends[n]), glm::dvec3(from_[n]) + motion);
+    }
+    EXPECT_EQ(guard_().clipped_pairs(), 0u);
+}
+
+// Side by side, however far: what both have in common is no approach.
+TEST_F(GuardTest, LetsIslandsGoOnTogether) {
+    const std::vector<glm::dvec4> ends = guarded({0.5, 0.1, 0}, {0.5, 0.1, 0});
+    for (std::size_t n = 0; n < ends.size(); ++n)
+        EXPECT_EQ(glm::dvec3(ends[n]), glm::dvec3(from_[n]) + glm::dvec3(0.5, 0.1, 0));
+}
+
+// The side that yields less goes farther.
+TEST_F(GuardTest, DividesGapsByCompliance) {
+    for (std::size_t n = 0; n < model_->objects[0].nodes.count; ++n) compliances_[n] = 9.0;
+    const std::vector<glm::dvec4> ends = guarded({0.05, 0, 0}, {-0.05, 0, 0});
+    double first = 0.0, second = 0.0;
+    for (std::size_t n = 0; n < ends.size(); ++n) {
+        const double gone = ends[n].x - from_[n].x;
+        (n < model_->objects[0].nodes.count ? first : second) += gone;
+    }
+    EXPECT_EQ(test::count_overlaps(*model_, ends), 0u);
+    EXPECT_GT(first, 0.0);
+    EXPECT_LT(second, 0.0);
+}
+
+}  // namespace
+}  // namespace gelatin
