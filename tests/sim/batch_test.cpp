@@ -48,13 +48,13 @@ TEST(BatchTest, WorldsInAnyStateHaveTheBitsOfSimulatorsOfTheirOwn) {
     Batch batch(scene, 3);
     for (std::size_t w = 0; w < batch.size(); ++w)
         for (std::size_t s = 0; s < 5 * w; ++s) batch[w].step();
-    batch.advance(30);
+    batch.advance(15);
     for (std::size_t w = 0; w < batch.size(); ++w) {
         SimulatorOptions options;
         options.backend = Backend::cpu;
         Simulator alone(scene, options);
         for (std::size_t s = 0; s < 5 * w; ++s) alone.step();
-        for (int f = 0; f < 30; ++f) alone.advance_frame();
+        for (int f = 0; f < 15; ++f) alone.advance_frame();
         expect_same(batch[w].read_frame(), alone.read_frame());
     }
     EXPECT_NE(batch[0].read_frame().positions, batch[1].read_frame().positions);

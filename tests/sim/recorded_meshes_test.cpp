@@ -184,6 +184,7 @@ TEST_F(RecordedMeshesTest, MeshesInMemoryAreRecorded) {
     Scene scene = this->scene();
     scene.objects[0].shape = MeshShape{std::make_shared<const Mesh>(ball)};
     scene.objects[1].shape = scene.objects[0].shape;
+    scene.objects[1].mesher = scene.objects[0].mesher;
     scene.objects[2].shape = MeshShape{
         std::make_shared<const Mesh>(Mesh{{{0, 0, 0}, {0.3, 0, 0}, {0, 0.3, 0}, {0, 0, 0.3}, {0.3, 0.3, 0.3}},
                                           {},

@@ -70,6 +70,12 @@ struct PairBounds {
             max = glm::max(max, glm::dvec3(p));
         }
     }
+    // Whether two are farther apart than that along an axis: the answer for most, and quick.
+    bool is_apart(const PairBounds& other, double distance) const {
+        for (int k = 0; k < 3; ++k)
+            if (min[k] - other.max[k] > distance || other.min[k] - max[k] > distance) return true;
+        return false;
+    }
     // A lower bound of the distance of two.
     double gap(const PairBounds& other) const {
         return glm::length(glm::max(glm::max(min - other.max, other.min - max), glm::dvec3(0.0)));
@@ -111,9 +117,16 @@ public:
         std::vector<PairBounds> face_bounds, edge_bounds;
         for (const auto& face : faces_) face_bounds.emplace_back(face);
         for (const auto& edge : edges_) edge_bounds.emplace_back(edge);
+        PairBounds whole(Corners<1>{at(0)});
+        for (const PairBounds& box : face_bounds) {
+            whole.min = glm::min(whole.min, box.min);
+            whole.max = glm::max(whole.max, box.max);
+        }
+        farthest_ = radius_ + largest_bound(whole.extent(whole));
         for (std::uint32_t q = 0; q < parts_.nodes.size(); ++q) {
             const std::uint32_t node = parts_.nodes[q];
             const Corners<1> point{at(node)};
+            const PairBounds point_bounds(point);
             start_query(q);
             for (std::uint32_t f = 0; f < faces_.size(); ++f) {
                 const Face& face = model_.faces[f];
@@ -123,7 +136,7 @@ public:
                                                 faces_[f][2] - faces_[f][0]);
                 };
                 compare(
-                    node, f, counts, PairBounds(point), face_bounds[f],
+                    node, f, counts, point_bounds, face_bounds[f],
                     [&] { return distance(point[0], faces_[f]); }, bound, &Checker::check_node_and_face);
             }
             finish_query();
@@ -159,6 +172,9 @@ private:
         for (std::uint32_t k = next_; k + 1 < end_; ++k)
             errors_.disordered += found_.proximities[k].second >= found_.proximities[k + 1].second ? 1 : 0;
     }
+    static double largest_bound(double extent) {
+        return 4.0 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * extent / least_sine<Real>();
+    }
     // What is left has not been met in ascending order.
     void finish_query() { errors_.wrong += end_ - next_; }
 
@@ -167,10 +183,9 @@ private:
                  const PairBounds& other, const Distance& distance, const Bound& bound, const Check& check) {
         ++errors_.compared;
         const bool is_found = next_ < end_ && found_.proximities[next_].second == second;
+        if (!is_found && (!counts || box.is_apart(other, farthest_))) return;
         const double extent = box.extent(other);
-        const double largest_bound =
-            4.0 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * extent / least_sine<Real>();
-        if (!is_found && (!counts || box.gap(other) > radius_ + largest_bound)) return;
+        if (!is_found && box.gap(other) > radius_ + largest_bound(extent)) return;
         const auto exact = static_cast<double>(distance());
         const double tolerance = bound(extent) + 1e-30;
         if (counts && exact < radius_ - tolerance) {
@@ -222,6 +237,7 @@ private:
     const SurfaceParts& parts_;
     const FoundProximities& found_;
     double radius_;
+    double farthest_ = 0.0;  // two whose boxes are farther apart are farther than the radius
     bool own_;
     std::vector<glm::dvec4> positions_;
     std::vector<Corners<3>> faces_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/glm.hpp>
 #include <memory>
 #include <set>
 #include <utility>
@@ -39,7 +40,11 @@ std::set<std::pair<std::uint32_t, std::uint32_t>> find_piercings(
         for (std::uint32_t f = 0; f < model.faces.size(); ++f) {
             const Face& face = model.faces[f];
             if (has_corner(face, edges[e].a) || has_corner(face, edges[e].b)) continue;
-            if (test::exactly_overlap({a, b, b}, {at(face.a), at(face.b), at(face.c)})) found.emplace(e, f);
+            const glm::dvec3 p = at(face.a), q = at(face.b), r = at(face.c);
+            if (glm::any(glm::greaterThan(glm::min(a, b), glm::max(glm::max(p, q), r))) ||
+                glm::any(glm::lessThan(glm::max(a, b), glm::min(glm::min(p, q), r))))
+                continue;  // their boxes are apart
+            if (test::exactly_overlap({a, b, b}, {p, q, r})) found.emplace(e, f);
         }
     }
     return found;
