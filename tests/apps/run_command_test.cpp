@@ -20,6 +20,7 @@ using testing::Not;
 using testing::StartsWith;
 
 class RunCommand : public ProgramTest {};
+using RunCommandHeavy = RunCommand;
 class RunCommandDraws : public DrawingProgramTest {};
 
 TEST_F(RunCommand, WritesTheStatisticsOfEveryFrame) {
@@ -215,7 +216,7 @@ TEST_F(RunCommand, TerminationIsAnInterruptToo) {
     EXPECT_THAT(result.err, HasSubstr("interrupted after frame "));
 }
 
-TEST_F(RunCommand, ASecondInterruptKills) {
+TEST_F(RunCommandHeavy, ASecondInterruptKills) {
     settings_.signal_after = "10%";
     settings_.signals = {SIGINT, SIGINT};
     settings_.signal_delay = std::chrono::milliseconds(300);

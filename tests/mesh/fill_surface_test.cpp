@@ -146,7 +146,7 @@ TEST(FillSurface, ByTheLatticeWhereTheInsideNeedsTooManyNodes) {
 }
 
 // TetGen would need minutes for a plate that is finer than this one.
-TEST(FillSurface, ByTheLatticeWhereTheSurfaceIsFarTooThinForTetGen) {
+TEST(FillSurfaceHeavy, ByTheLatticeWhereTheSurfaceIsFarTooThinForTetGen) {
     Notes notes;
     EXPECT_THROW(
         fill_surface(make_box({{94.0, 64.0, 0.25}, {1, 1, 1}}), by(MesherKind::automatic), "plate", notes),

@@ -131,7 +131,7 @@ TEST(FillPolygonTest, SaysThatOutlinesCrossAndKeepsTheirEdges) {
 }
 
 // A gear of many teeth, and an outline of nonsense: neither takes the square of its size.
-TEST(FillPolygonTest, TakesLargeOutlines) {
+TEST(FillPolygonHeavy, TakesLargeOutlines) {
     std::vector<glm::dvec3> gear, nonsense;
     std::mt19937 random(2);
     for (int k = 0; k < 20000; ++k) {

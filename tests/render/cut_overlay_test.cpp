@@ -77,9 +77,11 @@ protected:
     }
 };
 INSTANTIATE_TEST_SUITE_P(Qualities, CutOverlayTest, kQualities, name_of_quality);
+using CutOverlayHeavy = CutOverlayTest;
+INSTANTIATE_TEST_SUITE_P(Qualities, CutOverlayHeavy, kQualities, name_of_quality);
 
 // Planes that part the corners in each possible way, pixel by pixel.
-TEST_P(CutOverlayTest, ATetIsFilledWhereThePlaneIsInside) {
+TEST_P(CutOverlayHeavy, ATetIsFilledWhereThePlaneIsInside) {
     const Tet tet{glm::vec3(-0.5f, 0.2f, 0.3f), glm::vec3(0.6f, 0.3f, 0.4f), glm::vec3(0.1f, 0.4f, -0.5f),
                   glm::vec3(0.0f, 1.1f, 0.1f)};
     const glm::mat3 barycentric = to_barycentric(tet);

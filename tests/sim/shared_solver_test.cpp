@@ -16,6 +16,7 @@ using test::Block;
 using test::kFrame;
 
 class SharedSolverTest : public test::GlTest {};
+using SharedSolverHeavy = SharedSolverTest;
 using SharedSolverLong = SharedSolverTest;
 
 SharedSolver make_solver(const std::shared_ptr<const Model>& model, int iterations = 10,
@@ -63,7 +64,7 @@ TEST_F(SharedSolverTest, TheDeviceHasTheNodesOfTheHost) {
 }
 
 // Nodes differ by rounding, which impacts amplify; what the bodies do does not.
-TEST_F(SharedSolverTest, DoesWhatTheCpuDoes) {
+TEST_F(SharedSolverHeavy, DoesWhatTheCpuDoes) {
     const auto model = make_stack();
     SharedSolver solver = make_solver(model);
     auto reference = test::make_solver<float>(model);

@@ -405,7 +405,11 @@ TEST(Contacts, GoOnWhereBodiesOverlapAlready) {
 }
 
 TEST(Contacts, NothingPassesThroughAnything) {
-    fuzz(1, 12);
+    fuzz(1, 3);
+}
+
+TEST(ContactsHeavy, NothingPassesThroughAnything) {
+    fuzz(4, 9);
     fuzz(1197, 1, 16,
          60);  // a soft body that is torn to twenty times its size, and moved while its map is old
 }

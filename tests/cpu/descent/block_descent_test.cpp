@@ -264,7 +264,7 @@ TEST(BlockDescent, FrictionIsCoulombs) {
 
 // On a slope a block gains g (sin - mu cos), also where ten sweeps find forty times the force that holds it.
 // Of some meshes it then bounces a little from step to step, and has twice the friction.
-TEST(BlockDescent, BlocksSlideDownSlopes) {
+TEST(BlockDescentHeavy, BlocksSlideDownSlopes) {
     ColliderDescription floor;
     floor.shape = PlaneCollider{{0.0, 1.0, 0.0}, 0.0};
     floor.friction = 0.1;

@@ -50,7 +50,11 @@ void expect_no_gain(unsigned first, unsigned count, int most_bodies, double most
 }
 
 TEST(EnergyBound, KeepsBodiesThatMeetFromGainingAny) {
-    expect_no_gain(100, 12, 5, 1e-3);
+    expect_no_gain(100, 3, 5, 1e-3);
+}
+
+TEST(EnergyBoundHeavy, KeepsBodiesThatMeetFromGainingAny) {
+    expect_no_gain(103, 9, 5, 1e-3);
     expect_no_gain(100, 4, 10, 1e-3);
 }
 

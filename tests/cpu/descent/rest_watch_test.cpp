@@ -81,7 +81,7 @@ TEST(RestWatch, BodiesAtRestSleepAndAreHeldAsBefore) {
     EXPECT_NEAR(sum.y, 2.0 * 27.0 * 9.81, 0.01 * 2.0 * 27.0 * 9.81);
 }
 
-TEST(RestWatch, WithoutItBodiesAtRestAreSimulated) {
+TEST(RestWatchHeavy, WithoutItBodiesAtRestAreSimulated) {
     Sleeper scene(make_stack(), false);
     scene.advance(kUntilRest);
     EXPECT_LT(scene.fastest(), 1e-4f);
@@ -155,7 +155,7 @@ TEST(RestWatch, NodesSetFromOutsideWake) {
 }
 
 // A wall that has stood still comes and pushes a block, at a speed that no single step shows.
-TEST(RestWatch, CollidersThatBeginToMoveWake) {
+TEST(RestWatchHeavy, CollidersThatBeginToMoveWake) {
     ColliderDescription wall;
     wall.shape = BoxShape{.size = {0.1, 1.0, 1.0}};
     wall.position = {-0.06, 0.51, 0.15};

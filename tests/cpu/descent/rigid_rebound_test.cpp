@@ -117,7 +117,7 @@ TEST(RigidRebound, SoftBodiesBounceByThemselves) {
 
 // In short steps their surfaces bounce before the bodies do: they leave each other for single steps, in which
 // the bodies still approach.
-TEST(RigidRebound, ShortStepsSeeHowSoftBodiesBounce) {
+TEST(RigidReboundHeavy, ShortStepsSeeHowSoftBodiesBounce) {
     const std::vector<Block> blocks = two_blocks(3e4, 0.12);
     const double alone = speed_apart(blocks, 0.0, 4, 128);
     EXPECT_GT(alone, -2.0) << "they have met";
@@ -195,7 +195,7 @@ TEST(RigidRebound, CollidersThrow) {
 }
 
 // Gravity makes what rests approach in every step.
-TEST(RigidRebound, WhatRestsDoesNotBounce) {
+TEST(RigidReboundHeavy, WhatRestsDoesNotBounce) {
     const auto model = make_blocks(
         {{.place = {0, 0.012, 0}, .youngs_modulus = 1e6}, {.place = {0.02, 0.325, 0}, .youngs_modulus = 1e6}},
         {0, -9.81, 0}, {table(0.5)});

@@ -223,7 +223,7 @@ TEST(FillWithLatticeTest, RefusesBodiesThatAreTooThinWithASizeThatFillsThem) {
                 HasSubstr(" fills it, with " + std::to_string(filled.mesh.positions.size()) + " nodes"));
 }
 
-TEST(FillWithLatticeTest, AdvisesNoSizeThatWouldBeRefused) {
+TEST(FillWithLatticeHeavy, AdvisesNoSizeThatWouldBeRefused) {
     const std::string error = error_of(make_box({{94.0, 64.0, 0.25}, {1, 1, 1}}));
     EXPECT_THAT(error, HasSubstr("most of it is too thin for 5000 nodes: it needs cells of "));
     EXPECT_THAT(error, HasSubstr("make it thicker"));

@@ -51,7 +51,7 @@ TEST(SolidAnglesTest, CountSolidAngles) {
     EXPECT_NEAR(exact_winding_number(triangles_of(open), {0.5, 0.5, 0.5}), -5.0 / 6.0, 1e-14);
 }
 
-TEST(SolidAnglesTest, OfASphereAgreeWithTheExactSum) {
+TEST(SolidAnglesHeavy, OfASphereAgreeWithTheExactSum) {
     EXPECT_LT(largest_error(make_sphere({0.5, 30}), random_points(2000, 0.8)), kError);
 }
 
