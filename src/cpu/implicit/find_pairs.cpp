@@ -14,7 +14,7 @@ namespace gelatin::cpu {
 namespace {
 
 constexpr std::size_t kLeavesATask = 16;
-// // Bodies that are convex at the start and keep this part of all distances do not meet themselves. Nearer
+// Bodies that are convex at the start and keep this part of all distances do not meet themselves. Nearer
 // parts would press from half of their distance at rest on, but so far elements resist more than contacts.
 constexpr double kKept = 0.25;
 

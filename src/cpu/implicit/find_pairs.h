@@ -64,7 +64,7 @@ public:
     /// Of objects whose boxes meet, how far one goes beside the other, in reaches, at most.
     Real fastest_approach() const;
     void run(const Paths<Real>& paths);
-    /// /// Whether no body meets itself on the way to `ends` by pairs that were left out, as it hardly
+    /// Whether no self-intersection arises on the way to `ends` by pairs that were left out, as it hardly
     /// deforms there.
     bool keeps_own(std::span<const Vec4<Real>> ends) const;
     void forget() { pairs_.clear(); }

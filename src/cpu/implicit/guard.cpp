@@ -20,7 +20,7 @@ constexpr double kLeastOfReach = 0.02, kLeastOfGap = 0.9;
 constexpr double kUsable = 0.95;
 // A side of a pair uses at least this part of the gap, if it yields at all.
 constexpr double kLeastShare = 0.05;
-// The shortest piece of a motion that is looked at by itself.
+// The shortest piece of a motion that is checked by itself.
 constexpr double kShortestPiece = 1.0 / 16.0;
 // A node is projected on its half spaces so often before it is shortened.
 constexpr int kProjections = 12;
@@ -278,7 +278,7 @@ void Guard<Real>::move(const Paths<Real>& paths, std::span<const NearPair<Real>>
         wanted_[n] = Vec3<Real>(ends[n]) - Vec3<Real>(paths.from[n]) - frames_[object_of_[n]];
     });
     keep_outside_planes(paths, ends);
-    // In rounds: what is clipped moves nodes, so other pairs of these are looked at again.
+    // In rounds: what is clipped moves nodes, so other pairs of these are checked again.
     std::vector<std::uint8_t> is_near(pairs.size(), 1), fails(pairs.size());
     for (bool is_first = true;; is_first = false) {
         bool any = false;

@@ -22,7 +22,7 @@ constexpr double kStiffestStep = 1.0 / 60.0;
 constexpr double kSlackOfThickness = 0.5, kSlackOfMotion = 0.1;
 // Detections of a step for its guard alone, at most.
 constexpr int kMostGuards = 10;
-// // Bodies come to rest that are slower than after so long a fall [s].
+// Bodies come to rest that are slower than after so long a fall [s].
 constexpr double kRestingFall = 1.0 / 120.0;
 // Contacts this many reaches apart may come together in a step that deforms bodies.
 constexpr double kNear = 1.5;

@@ -52,17 +52,18 @@ const Rule kSettingRules[] = {
      "not what is near"},
     {"response", "[collision]\nresponse = 'contact'\n[simulation]\nsolver = 'rk4'",
      BREAKS(s.collision.response = CollisionResponse::contact; s.simulation.solver = SolverKind::rk4),
-     "collision.response = \"contact\": needs solver = \"vbd\"; with other solvers it must be \"restore\""},
+     "collision.response = \"contact\": needs solver = \"vbd\" or \"implicit\"; with other solvers it must "
+     "be \"restore\""},
     {"response_depth", "[collision]\nresponse = 'contact'\nbroad_phase = 'depth'",
      BREAKS(s.collision.response = CollisionResponse::contact; s.collision.broad_phase = BroadPhase::depth),
      "collision.broad_phase = \"depth\": must be none, boxes or hierarchy with response = \"contact\", which "
      "is "
-     "what vbd has unless response = \"restore\" is given"},
+     "what implicit solvers have unless response = \"restore\" is given"},
     {"response_depth_by_default", "[collision]\nbroad_phase = 'depth'",
      BREAKS(s.collision.broad_phase = BroadPhase::depth),
      "collision.broad_phase = \"depth\": must be none, boxes or hierarchy with response = \"contact\", which "
      "is "
-     "what vbd has unless response = \"restore\" is given"},
+     "what implicit solvers have unless response = \"restore\" is given"},
     {"friction", "[collision]\nfriction = -1", BREAKS(s.collision.friction = -1),
      "collision.friction = -1: must be 0 or more"},
     {"restitution", "[collision]\nrestitution = 2", BREAKS(s.collision.restitution = 2),
