@@ -57,7 +57,7 @@ public:
     /// @param shortest a step may be [s]
     /// @return the length of the step made [s]: that of the input, or a shorter one, where bodies would meet
     /// too deep
-    Real run(const StepInput<Real>& input, Real shortest, const Nodes<Real>& previous, Nodes<Real>& current,
+    Real run(const StepInput<Real>& wanted, Real shortest, const Nodes<Real>& previous, Nodes<Real>& current,
              StageTimer* timer);
 
     /// Goes to where bodies were put between steps, as far as others let them.
