@@ -1,7 +1,7 @@
 #include "cpu/implicit/elastic_arrays.h"
 
 #include <algorithm>
-#include <compare>
+#include <array>
 #include <numeric>
 #include <span>
 
@@ -35,7 +35,9 @@ struct SortedTet {
 struct TetEdge {
     std::uint32_t i, j, tet;
 
-    auto operator<=>(const TetEdge&) const = default;
+    bool operator<(const TetEdge& other) const {
+        return std::array{i, j, tet} < std::array{other.i, other.j, other.tet};
+    }
 };
 using EdgeTets = std::span<const TetEdge>;  // of one edge
 
