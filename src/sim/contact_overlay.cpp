@@ -54,7 +54,7 @@ ContactOverlay::ContactOverlay(std::shared_ptr<const Model> model)
 void ContactOverlay::read(const Solver& solver) {
     const ContactForces found = solver.contact_forces();
     if (found.normal.empty() && !std::exchange(is_reported_, true))
-        log_warning("overlays of contact forces need solver = \"vbd\" on the CPU: none is shown");
+        log_warning("overlays of contact forces need an implicit solver on the CPU: none is shown");
     forces_.assign(model_->node_count(), glm::vec4(0.0f));
     pressures_.assign(model_->node_count(), 0.0f);
     pressed_.clear();

@@ -104,7 +104,7 @@ TEST_F(RunOverlaysDrawnHeavy, ContactForcesNeedTheCpu) {
         EXPECT_GT(test::perceptual_difference(render::read_png(path("a.png")), without), 0.05) << overlay;
         const ProgramResult on_gl = draw("gl", overlay);
         EXPECT_EQ(on_gl.exit_code, 0) << on_gl.err;
-        EXPECT_NE(on_gl.err.find("overlays of contact forces need solver = \"vbd\" on the CPU"),
+        EXPECT_NE(on_gl.err.find("overlays of contact forces need an implicit solver on the CPU"),
                   std::string::npos)
             << on_gl.err;
     }

@@ -181,18 +181,10 @@ bool KeptDistances<Real>::others_keep(std::uint32_t object, Real part, std::span
 template <class Real>
 std::vector<AxisBox<Real>> KeptDistances<Real>::find_lost(std::uint32_t object, Real part,
                                                           std::span<const Vec4<Real>> positions) {
-    if (keeps(object, part, positions)) return {};
-    const Shape& shape = shapes_[object];
-    std::vector<std::uint8_t> are_lost(shape.tets.size());
-    all_blocks(shape, [&](std::span<const TetColumns<Real>> blocks, std::size_t first) {
-        if (all_keep(blocks, shape.turn, part, positions)) return true;
-        for (std::size_t k = 0; k < blocks.size(); ++k)
-            are_lost[first + k] = all_keep(blocks.subspan(k, 1), shape.turn, part, positions) ? 0 : 1;
-        return true;
-    });
     std::vector<AxisBox<Real>> lost;
-    for (std::size_t k = 0; k < are_lost.size(); ++k)
-        if (are_lost[k] != 0) lost.push_back(shape.boxes[k]);
+    const std::vector<std::uint8_t> blocks = find_lost_blocks(object, part, positions, positions);
+    for (std::size_t k = 0; k < blocks.size(); ++k)
+        if (blocks[k] != 0) lost.push_back(box_of_block(object, k));
     return lost;
 }
 

@@ -38,10 +38,9 @@ public:
     /// Whether two points of a convex body are at least `part` of the distance apart that they had at the
     /// start. Always false for bodies that are not convex. May be called for several bodies at once.
     bool keeps(std::uint32_t object, Real part, std::span<const Vec4<Real>> positions);
-    ///     /// Of a motion in which all nodes go straight: the blocks of eight tets that keep less than
-    ///     `part` at either end, with
-    /// one R for both. So two points whose line at the start meets none of these blocks keep their part all
-    /// the way.
+    /// Of a motion in which all nodes go straight: the blocks of eight tets that keep less than `part` at
+    /// either end, with one R for both. Two points whose line at the start meets none of them keep their part
+    /// all the way.
     /// @return by block, not 0 if it is lost; empty if none is @pre is_convex(object)
     std::vector<std::uint8_t> find_lost_blocks(std::uint32_t object, Real part,
                                                std::span<const Vec4<Real>> from,

@@ -63,6 +63,14 @@ struct ContactRow {
     }
 };
 
+/// s, where nodes are displaced by d. @param displacements d [m], shape [nodes]
+template <class Real>
+Vec3<Real> relative(const ContactRow<Real>& row, std::span<const Vec3<Real>> displacements) {
+    Vec3<Real> s(0);
+    for (std::uint32_t k = 0; k < row.count; ++k) s += row.weights[k] * displacements[row.nodes[k]];
+    return s;
+}
+
 /// A row's force to first order: constant - stiffness s.
 template <class Real>
 struct RowTangent {

@@ -237,7 +237,6 @@ void Guard<Real>::place(std::uint32_t node, const Paths<Real>& paths, std::span<
     if (is_frozen_[node] != 0) part = Real(0);
     const Vec3<Real> end = Vec3<Real>(paths.from[node]) + frames_[object_of_[node]] + part * d;
     ends[node] = Vec4<Real>(end, ends[node].w);
-    ++shortened_count_;
 }
 
 template <class Real>
@@ -279,7 +278,7 @@ void Guard<Real>::move(const Paths<Real>& paths, std::span<const NearPair<Real>>
     });
     keep_outside_planes(paths, ends);
     // In rounds: what is clipped moves nodes, so other pairs of these are checked again.
-    std::vector<std::uint8_t> is_near(pairs.size(), 1), fails(pairs.size());
+    std::vector<std::uint8_t> fails(pairs.size());
     for (bool is_first = true;; is_first = false) {
         bool any = false;
         for (std::uint32_t n = 0; n < ends.size(); ++n) {

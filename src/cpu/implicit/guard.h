@@ -34,7 +34,6 @@ public:
 
     /// Of all runs.
     std::size_t clipped_pairs() const { return clipped_count_; }
-    std::size_t shortened_nodes() const { return shortened_count_; }
 
 private:
     struct HalfSpace {
@@ -65,7 +64,7 @@ private:
     std::vector<HalfSpace> half_spaces_;
     std::vector<std::uint8_t> is_changed_, is_frozen_;
     std::vector<std::uint8_t> is_clipped_;  // by pair
-    std::size_t clipped_count_ = 0, shortened_count_ = 0;
+    std::size_t clipped_count_ = 0;
 };
 
 }  // namespace gelatin::cpu

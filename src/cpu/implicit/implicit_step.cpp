@@ -152,11 +152,9 @@ template <class Real>
 Real ImplicitStep<Real>::deepest() const {
     Real deepest = 0;
     for (const ContactRow<Real>& row : system_.rows) {
-        Vec3<Real> s(0);
-        for (std::uint32_t k = 0; k < row.count; ++k) s += row.weights[k] * expected_[row.nodes[k]];
         const Real most = row.object == kNoNode ? static_cast<Real>(surface_->thicknesses[row.other])
                                                 : static_cast<Real>(surface_->reach(row.object, row.other));
-        deepest = std::max(deepest, -row.gap_at(s) / most);
+        deepest = std::max(deepest, -row.gap_at(relative<Real>(row, expected_)) / most);
     }
     return deepest;
 }
@@ -167,7 +165,7 @@ Real ImplicitStep<Real>::deepest() const {
 template <class Real>
 void ImplicitStep<Real>::predict(const StepInput<Real>& input, const Nodes<Real>& previous) {
     const Real step = step_ = input.step;
-    uses_bdf2_ = settings_.scheme == TimeScheme::bdf2 && last_step_ == step && !comes_to_rest(previous);
+    uses_bdf2_ = last_step_ == step && !comes_to_rest(previous);
     solve_step_ = uses_bdf2_ ? Real(2) / Real(3) * step : step;
     const Vec3<Real> gravity(model_->gravity);
     const Real h = solve_step_, least = std::max(step, static_cast<Real>(kStiffestStep));
@@ -296,7 +294,6 @@ void ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current
         const Paths<Real> wider{previous.positions, ends_, slacks_};
         pairs_.begin(wider);
         pairs_.run(wider);
-        ++guard_detections_;
     }
     for_each_index(ends_.size(), [&](std::size_t n) {  // nothing moves
         if (previous.positions[n].w != Real(0)) current.positions[n] = previous.positions[n];
@@ -305,9 +302,7 @@ void ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current
 
 template <class Real>
 void ImplicitStep<Real>::add_row(ContactRow<Real> row, Real weight, Real first, Real second) {
-    Vec3<Real> s(0);
-    for (std::uint32_t k = 0; k < row.count; ++k) s += row.weights[k] * expected_[row.nodes[k]];
-    const Real there = row.gap_at(s);
+    const Real there = row.gap_at(relative<Real>(row, expected_));
     if (std::min(row.gap, there) > static_cast<Real>(kNear) * row.reach &&
         there > row.reach + Real(0.5) * std::abs(there - row.gap))
         return;
@@ -408,17 +403,10 @@ Real ImplicitStep<Real>::rest_gap(const ContactPair& pair) const {
 }
 
 template <class Real>
-Vec3<Real> ImplicitStep<Real>::relative(const ContactRow<Real>& row) const {
-    Vec3<Real> s(0);
-    for (std::uint32_t k = 0; k < row.count; ++k) s += row.weights[k] * system_.displacements[row.nodes[k]];
-    return s;
-}
-
-template <class Real>
 void ImplicitStep<Real>::remember() {
     memory_.clear();
     for (const ContactRow<Real>& row : system_.rows) {
-        const Vec3<Real> s = relative(row);
+        const Vec3<Real> s = relative<Real>(row, system_.displacements);
         ContactRow<Real> now = row;
         now.limit = row.friction * row.pressing(s);
         memory_.push_back({row.key, now.limit > Real(0) ? now.held(s) : Vec3<Real>(0), now.limit, row.reach});
@@ -454,7 +442,7 @@ void ImplicitStep<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Re
     Field forces(d.size(), Vec3<Real>(0));  // of contacts
     acting_.clear();
     for (const ContactRow<Real>& row : system_.rows) {
-        const Vec3<Real> s = relative(row), force = row.force(s);
+        const Vec3<Real> s = relative<Real>(row, system_.displacements), force = row.force(s);
         for (std::uint32_t k = 0; k < row.count; ++k) forces[row.nodes[k]] += row.weights[k] * force;
         const Vec3<Real> normal = row.pressing(s) * row.normal;
         if (force != Vec3<Real>(0)) acting_.push_back({row, normal, force - normal});

@@ -20,17 +20,10 @@
 
 namespace gelatin::cpu {
 
-/// How a step goes on in time.
-enum class TimeScheme {
-    implicit_euler,  ///< first order; damps
-    bdf2,            ///< second order, from the second of equal steps on
-};
-
 struct ImplicitSettings {
     int iterations = 10;      ///< of conjugate gradients for each linearisation of contacts, at most
     int rounds = 2;           ///< linearisations
     double tolerance = 1e-4;  ///< of each: energy by which it may miss its least, as a part of the motion's
-    TimeScheme scheme = TimeScheme::bdf2;
 };
 
 /// What a step is made with.
@@ -74,8 +67,6 @@ public:
     bool any_near() const { return !system_.rows.empty() || !pairs_.pairs().empty(); }
 
     const StepSystem<Real>& system() const { return system_; }
-    const Guard<Real>& guard() const { return guard_; }
-    int guard_detections() const { return guard_detections_; }
 
 private:
     using Field = std::vector<Vec3<Real>>;
@@ -94,7 +85,6 @@ private:
 
     void predict(const StepInput<Real>& input, const Nodes<Real>& previous);
     Real rest_gap(const ContactPair& pair) const;
-    Vec3<Real> relative(const ContactRow<Real>& row) const;
     // Of all bodies [J]; motion: kinetic and elastic.
     struct Energy {
         double motion = 0.0, potential = 0.0;
@@ -133,8 +123,7 @@ private:
     std::vector<Real> compliances_;  // of nodes in contacts, 1 / h_i [m/N]
     Field expected_;                 // displacements without forces [m]
     std::vector<Vec4<Real>> ends_;
-    std::vector<Real> slacks_;  // by object [m]
-    int guard_detections_ = 0;
+    std::vector<Real> slacks_;    // by object [m]
     std::vector<Memory> memory_;  // by key
     std::vector<std::uint32_t> new_rows_;
     std::vector<Acting> acting_;

@@ -38,8 +38,6 @@ public:
     std::vector<glm::dvec3> net_forces(std::span<const Vec3<Real>> residual) const;
     std::uint32_t number(std::size_t object) const { return numbers_[object]; }
     std::size_t count() const { return bodies_.size(); }
-    const glm::dvec3& center(std::size_t number) const { return bodies_[number].center; }
-    double mass_weight(std::size_t number) const { return bodies_[number].weight; }
 
     /// What a step of true rotations differs by from a linear one, d = s + w x r, to second order, for the
     /// rotation w that inertia wants: the displacements w x (w x r) / 2 are taken out, and forces rotate with

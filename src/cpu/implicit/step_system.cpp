@@ -49,13 +49,6 @@ void StepSystem<Real>::index_rows() {
     row_forces_.resize(rows.size());
 }
 
-template <class Real>
-Vec3<Real> StepSystem<Real>::relative(const ContactRow<Real>& row, const Field& d) const {
-    Vec3<Real> s(0);
-    for (std::uint32_t k = 0; k < row.count; ++k) s += row.weights[k] * d[row.nodes[k]];
-    return s;
-}
-
 // force_of(row number): on the second side.
 template <class Real>
 template <class ForceOf>
@@ -83,7 +76,8 @@ void StepSystem<Real>::multiply(const Field& d, Field& product) {
 template <class Real>
 void StepSystem<Real>::multiply_with_rows(const Field& d, Field& product) {
     multiply(d, product);
-    add_row_forces([&](std::size_t r) { return tangents_[r].stiffness * relative(rows[r], d); }, product);
+    add_row_forces([&](std::size_t r) { return tangents_[r].stiffness * relative<Real>(rows[r], d); },
+                   product);
 }
 
 template <class Real>
@@ -96,8 +90,9 @@ void StepSystem<Real>::find_base_residual() {
 
 template <class Real>
 void StepSystem<Real>::find_tangents() {
-    for_each_index(rows.size(),
-                   [&](std::size_t r) { tangents_[r] = tangent(rows[r], relative(rows[r], displacements)); });
+    for_each_index(rows.size(), [&](std::size_t r) {
+        tangents_[r] = tangent(rows[r], relative<Real>(rows[r], displacements));
+    });
 }
 
 // In place of tangents, for a first step that closes gaps: from the gap at the start to the one expected.
@@ -105,7 +100,7 @@ template <class Real>
 void StepSystem<Real>::find_chords(const Field& expected) {
     for_each_index(rows.size(), [&](std::size_t r) {
         const ContactRow<Real>& row = rows[r];
-        const Vec3<Real> s = relative(row, expected);
+        const Vec3<Real> s = relative<Real>(row, expected);
         RowTangent<Real> t;
         const Real there = row.gap_at(s);
         if (std::min(row.gap, there) < row.reach) {
@@ -137,14 +132,15 @@ void StepSystem<Real>::find_chords(const Field& expected) {
 template <class Real>
 void StepSystem<Real>::find_true_residual() {
     residual_ = base_;
-    add_row_forces([&](std::size_t r) { return rows[r].force(relative(rows[r], displacements)); }, residual_);
+    add_row_forces([&](std::size_t r) { return rows[r].force(relative<Real>(rows[r], displacements)); },
+                   residual_);
 }
 
 template <class Real>
 void StepSystem<Real>::set_limits() {
     for_each_index(rows.size(), [&](std::size_t r) {
         ContactRow<Real>& row = rows[r];
-        row.limit = row.friction * row.pressing(relative(row, displacements));
+        row.limit = row.friction * row.pressing(relative<Real>(row, displacements));
     });
 }
 
@@ -222,7 +218,7 @@ double StepSystem<Real>::line_search() {
     const double base = dot(direction_, base_), curvature = dot(direction_, product_);
     std::vector<std::pair<Vec3<Real>, Vec3<Real>>> states(rows.size());
     for_each_index(rows.size(), [&](std::size_t r) {
-        states[r] = {relative(rows[r], displacements), relative(rows[r], direction_)};
+        states[r] = {relative<Real>(rows[r], displacements), relative<Real>(rows[r], direction_)};
     });
     const auto fall = [&](double t) {  // minus the slope
         double sum = base - t * curvature;
@@ -256,7 +252,7 @@ template <class Real>
 bool StepSystem<Real>::is_balanced(double tolerance) const {
     std::vector<double> pressing(rigid.count(), 0.0);
     for (const ContactRow<Real>& row : rows) {
-        const auto force = static_cast<double>(row.pressing(relative(row, displacements)));
+        const auto force = static_cast<double>(row.pressing(relative<Real>(row, displacements)));
         for (const std::uint32_t object : {row.object, row.other})
             if (object != kNoNode && rigid.is_free(object)) pressing[rigid.number(object)] += force;
     }
@@ -310,8 +306,9 @@ void StepSystem<Real>::solve() {
         }
         prepare_preconditioner();
         residual_ = base_;
-        add_row_forces([&](std::size_t r) { return tangents_[r].force(relative(rows[r], displacements)); },
-                       residual_);
+        add_row_forces(
+            [&](std::size_t r) { return tangents_[r].force(relative<Real>(rows[r], displacements)); },
+            residual_);
         conjugate_gradients(iterations * (k + 1) / rounds - iterations * k / rounds);
         step_along();
     }

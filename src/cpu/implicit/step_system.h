@@ -50,7 +50,6 @@ private:
     using Field = std::vector<Vec3<Real>>;
 
     void index_rows();
-    Vec3<Real> relative(const ContactRow<Real>& row, const Field& d) const;
     template <class ForceOf>
     void add_row_forces(const ForceOf& force_of, Field& sum);
     void multiply(const Field& d, Field& product);            // without rows
