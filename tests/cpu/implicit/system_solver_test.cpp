@@ -108,9 +108,6 @@ TEST(SystemSolver, KeepsMomentum) {
     }
 }
 
-// Rigid rounds, rounds of contacts and the guard are there for these: with contacts that pull, or that press
-// with all of their reach where they are found, impacts of stiff blocks give back several times what they
-// had.
 TEST(SystemSolver, StiffImpactsGainNoEnergy) {
     for (const double youngs_modulus : {1e7, 1e8, 1e9})
         for (const double speed : {1.0, 10.0}) {
