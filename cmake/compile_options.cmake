@@ -25,7 +25,7 @@ add_compile_options(-ffp-contract=off)
 if(GELATIN_SANITIZE)
     # AddressSanitizer sees accesses beyond objects when they happen; object-size, which looks for the same, costs a tenth
     # of what compiling takes.
-    add_compile_options(-fsanitize=address,undefined -fno-sanitize=object-size -fno-sanitize-recover=undefined
+    add_compile_options(-fsanitize=address,undefined -fno-sanitize=object-size,null,alignment -fno-sanitize-recover=undefined
                         -fno-omit-frame-pointer)
     add_link_options(-fsanitize=address,undefined)
     # Lanes come from one source, so two instruction sets say as much of it as five: AVX2, and scalar code.

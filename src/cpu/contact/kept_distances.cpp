@@ -10,6 +10,7 @@
 
 #include "cpu/contact/moment_between.h"
 #include "cpu/scalars.h"
+#include "model/collision/box_tree.h"
 #include "model/nearest_rotation.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -72,34 +73,44 @@ bool all_keep(std::span<const TetColumns<float>> blocks, const glm::mat3& turn, 
     return HWY_DYNAMIC_DISPATCH(blocks_keep)(blocks, turn, part, positions);
 }
 
+template <class Real>
+bool tet_keeps(const TetColumns<Real>& block, std::size_t c, const glm::mat<3, 3, Real>& turn, Real part,
+               std::span<const Vec4<Real>> positions) {
+    const auto corner = [&](std::size_t k) { return Vec3<Real>(positions[block.nodes[k][c]]); };
+    const Vec3<Real> a = corner(0);
+    const glm::mat<3, 3, Real> edges(corner(1) - a, corner(2) - a, corner(3) - a);
+    glm::mat<3, 3, Real> gradient;
+    for (std::size_t j = 0; j < 3; ++j)
+        gradient[static_cast<int>(j)] =
+            edges *
+            Vec3<Real>(block.inverses[3 * j][c], block.inverses[3 * j + 1][c], block.inverses[3 * j + 2][c]);
+    const Minors<Real> of = minors(turn, gradient, part);
+    return of.first > Real(0) && of.second > Real(0) && of.third > Real(0);
+}
+
 bool all_keep(std::span<const TetColumns<double>> blocks, const glm::dmat3& turn, double part,
               std::span<const glm::dvec4> positions) {
-    for (const TetColumns<double>& block : blocks) {
-        for (std::size_t c = 0; c < TetColumns<double>::kCount; ++c) {
-            const auto corner = [&](std::size_t k) { return glm::dvec3(positions[block.nodes[k][c]]); };
-            const glm::dvec3 a = corner(0);
-            const glm::dmat3 edges(corner(1) - a, corner(2) - a, corner(3) - a);
-            glm::dmat3 gradient;
-            for (std::size_t j = 0; j < 3; ++j)
-                gradient[static_cast<int>(j)] =
-                    edges * glm::dvec3(block.inverses[3 * j][c], block.inverses[3 * j + 1][c],
-                                       block.inverses[3 * j + 2][c]);
-            const Minors<double> of = minors(turn, gradient, part);
-            if (!(of.first > 0.0 && of.second > 0.0 && of.third > 0.0)) return false;
-        }
-    }
+    for (const TetColumns<double>& block : blocks)
+        for (std::size_t c = 0; c < TetColumns<double>::kCount; ++c)
+            if (!tet_keeps(block, c, turn, part, positions)) return false;
     return true;
 }
 
-// Of a body, in the positions at the start.
+// Of a body, in the positions at the start. Tets of a block are neighbours, so the boxes round blocks are
+// small.
 template <class Real>
 std::vector<TetColumns<Real>> make_columns(const Model& model, const Range& tets) {
     constexpr std::size_t kCount = TetColumns<Real>::kCount;
+    std::vector<glm::dvec3> centers(tets.count);
+    for (std::uint32_t t = 0; t < tets.count; ++t)
+        for (int k = 0; k < 4; ++k)
+            centers[t] += 0.25 * glm::dvec3(model.positions[model.tets[tets.first + t][k]]);
+    const std::vector<std::uint32_t> order = box_tree_order(centers);
     std::vector<TetColumns<Real>> blocks((tets.count + kCount - 1) / kCount);
     for (std::size_t b = 0; b < blocks.size(); ++b) {
         for (std::size_t c = 0; c < kCount; ++c) {
             const std::size_t index = std::min<std::size_t>(b * kCount + c, tets.count - 1);
-            const glm::uvec4& tet = model.tets[tets.first + index];
+            const glm::uvec4& tet = model.tets[tets.first + order[index]];
             const auto corner = [&](int k) { return glm::dvec3(model.positions[tet[k]]); };
             const glm::dvec3 a = corner(0);
             const glm::dmat3 inverse = glm::inverse(glm::dmat3(corner(1) - a, corner(2) - a, corner(3) - a));
@@ -118,16 +129,19 @@ std::vector<TetColumns<Real>> make_columns(const Model& model, const Range& tets
 template <class Real>
 KeptDistances<Real>::KeptDistances(std::shared_ptr<const Model> model, const ContactSurface& surface)
     : model_(std::move(model)), shapes_(model_->objects.size()) {
-    for (std::size_t o = 0; o < shapes_.size(); ++o) {
-        if (surface.is_convex[o] == 0) continue;
-        Shape& shape = shapes_[o];
-        shape.tets = make_columns<Real>(*model_, model_->objects[o].tets);
-        for (const TetColumns<Real>& block : shape.tets) {
-            AxisBox<Real>& box = shape.boxes.emplace_back();
-            for (const auto& corners : block.nodes)
-                for (const std::uint32_t n : corners) box.add(Vec3<Real>(glm::vec3(model_->positions[n])));
-        }
+    for (std::size_t o = 0; o < shapes_.size(); ++o)
+        if (surface.is_convex[o] != 0) shapes_[o].tets = make_columns<Real>(*model_, model_->objects[o].tets);
+}
+
+template <class Real>
+AxisBox<Real> KeptDistances<Real>::box_of(std::uint32_t object, const LostTets& lost) const {
+    AxisBox<Real> box;
+    for (std::size_t c = 0; c < TetColumns<Real>::kCount; ++c) {
+        if ((lost.columns >> c & 1u) == 0) continue;
+        for (const auto& corners : shapes_[object].tets[lost.block].nodes)
+            box.add(Vec3<Real>(glm::vec3(model_->positions[corners[c]])));
     }
+    return box;
 }
 
 template <class Real>
@@ -140,52 +154,49 @@ bool KeptDistances<Real>::keeps(std::uint32_t object, Real part, std::span<const
 }
 
 template <class Real>
-std::vector<std::uint8_t> KeptDistances<Real>::find_lost_blocks(std::uint32_t object, Real part,
-                                                                std::span<const Vec4<Real>> from,
-                                                                std::span<const Vec4<Real>> to) {
+std::vector<LostTets> KeptDistances<Real>::find_lost_tets(std::uint32_t object, Real part,
+                                                          std::span<const Vec4<Real>> from,
+                                                          std::span<const Vec4<Real>> to) {
     Shape& shape = shapes_[object];
-    const auto keep_both = [&](std::span<const TetColumns<Real>> blocks) {
-        return all_keep(blocks, shape.turn, part, from) && all_keep(blocks, shape.turn, part, to);
-    };
-    const auto all_do = [&] {
-        return all_blocks(
-            shape, [&](std::span<const TetColumns<Real>> blocks, std::size_t) { return keep_both(blocks); });
-    };
-    if (all_do()) return {};
+    if (keeps(shape, part, from) && keeps(shape, part, to)) return {};
     shape.turn = nearest_turn(object, to);
-    std::vector<std::uint8_t> lost(shape.tets.size());
-    all_blocks(shape, [&](std::span<const TetColumns<Real>> blocks, std::size_t first) {
-        if (!keep_both(blocks))
-            for (std::size_t k = 0; k < blocks.size(); ++k)
-                lost[first + k] = keep_both(blocks.subspan(k, 1)) ? 0 : 1;
-        return true;
-    });
-    if (std::find(lost.begin(), lost.end(), 1) == lost.end()) lost.clear();
+    std::vector<LostTets> lost = find_more_lost(object, part, {}, from);
+    const std::vector<LostTets> more = find_more_lost(object, part, lost, to);
+    lost.insert(lost.end(), more.begin(), more.end());
     return lost;
 }
 
 template <class Real>
-bool KeptDistances<Real>::others_keep(std::uint32_t object, Real part, std::span<const std::uint8_t> lost,
-                                      std::span<const Vec4<Real>> positions) const {
+std::vector<LostTets> KeptDistances<Real>::find_more_lost(std::uint32_t object, Real part,
+                                                          std::span<const LostTets> known,
+                                                          std::span<const Vec4<Real>> positions) const {
     const Shape& shape = shapes_[object];
-    return all_blocks(shape, [&](std::span<const TetColumns<Real>> blocks, std::size_t first) {
+    std::vector<std::uint8_t> columns(shape.tets.size());
+    all_blocks(shape, [&](std::span<const TetColumns<Real>> blocks, std::size_t first) {
         if (all_keep(blocks, shape.turn, part, positions)) return true;
-        if (lost.empty()) return false;
-        for (std::size_t k = 0; k < blocks.size(); ++k)
-            if (lost[first + k] == 0 && !all_keep(blocks.subspan(k, 1), shape.turn, part, positions))
-                return false;
+        for (std::size_t k = 0; k < blocks.size(); ++k) {
+            if (all_keep(blocks.subspan(k, 1), shape.turn, part, positions)) continue;
+            for (std::size_t c = 0; c < TetColumns<Real>::kCount; ++c)
+                if (!tet_keeps(blocks[k], c, shape.turn, part, positions))
+                    columns[first + k] = static_cast<std::uint8_t>(columns[first + k] | 1u << c);
+        }
         return true;
     });
+    for (const LostTets& tets : known)
+        columns[tets.block] = static_cast<std::uint8_t>(columns[tets.block] & ~tets.columns);
+    std::vector<LostTets> more;
+    for (std::uint32_t b = 0; b < columns.size(); ++b)
+        if (columns[b] != 0) more.push_back({b, columns[b]});
+    return more;
 }
 
 template <class Real>
 std::vector<AxisBox<Real>> KeptDistances<Real>::find_lost(std::uint32_t object, Real part,
                                                           std::span<const Vec4<Real>> positions) {
-    std::vector<AxisBox<Real>> lost;
-    const std::vector<std::uint8_t> blocks = find_lost_blocks(object, part, positions, positions);
-    for (std::size_t k = 0; k < blocks.size(); ++k)
-        if (blocks[k] != 0) lost.push_back(box_of_block(object, k));
-    return lost;
+    std::vector<AxisBox<Real>> boxes;
+    for (const LostTets& lost : find_lost_tets(object, part, positions, positions))
+        boxes.push_back(box_of(object, lost));
+    return boxes;
 }
 
 template <class Real>

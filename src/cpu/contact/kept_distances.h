@@ -25,6 +25,12 @@ struct TetColumns {
     std::array<std::array<Real, kCount>, 9> inverses;
 };
 
+/// Some of the tets of a block.
+struct LostTets {
+    std::uint32_t block;
+    std::uint8_t columns;  ///< a bit each
+};
+
 /// Tells of bodies whose shape is convex at the start (ContactSurface::is_convex) that they do not meet
 /// themselves, without a look at any pairs. The line between two of its points X and Y is inside such a body
 /// then. So, if sym(R^T F) >= c in all tets, with the gradient F of each since the start and any rotation R,
@@ -38,20 +44,16 @@ public:
     /// Whether two points of a convex body are at least `part` of the distance apart that they had at the
     /// start. Always false for bodies that are not convex. May be called for several bodies at once.
     bool keeps(std::uint32_t object, Real part, std::span<const Vec4<Real>> positions);
-    /// Of a motion in which all nodes go straight: the blocks of eight tets that keep less than `part` at
-    /// either end, with one R for both. Two points whose line at the start meets none of them keep their part
-    /// all the way.
-    /// @return by block, not 0 if it is lost; empty if none is @pre is_convex(object)
-    std::vector<std::uint8_t> find_lost_blocks(std::uint32_t object, Real part,
-                                               std::span<const Vec4<Real>> from,
-                                               std::span<const Vec4<Real>> to);
-    /// Whether all other blocks keep it elsewhere, too, with the same R.
-    bool others_keep(std::uint32_t object, Real part, std::span<const std::uint8_t> lost,
-                     std::span<const Vec4<Real>> positions) const;
-    /// Round a block of tets at the start [m].
-    const AxisBox<Real>& box_of_block(std::uint32_t object, std::size_t block) const {
-        return shapes_[object].boxes[block];
-    }
+    /// Of a motion in which all nodes go straight: the tets that keep less than `part` at either end, with
+    /// one R for both. Two points whose line at the start meets none of them keep their part all the way.
+    /// @pre is_convex(object)
+    std::vector<LostTets> find_lost_tets(std::uint32_t object, Real part, std::span<const Vec4<Real>> from,
+                                         std::span<const Vec4<Real>> to);
+    /// Those that keep less elsewhere, with the same R, and are not known.
+    std::vector<LostTets> find_more_lost(std::uint32_t object, Real part, std::span<const LostTets> known,
+                                         std::span<const Vec4<Real>> positions) const;
+    /// Round lost tets at the start [m].
+    AxisBox<Real> box_of(std::uint32_t object, const LostTets& lost) const;
     /// Boxes round those tets of a convex body, at the start [m], that keep less than `part`, and others
     /// beside them. Of two points whose line at the start meets none of them, keeps() would be true.
     /// @pre is_convex(object)
@@ -62,7 +64,6 @@ public:
 private:
     struct Shape {
         std::vector<TetColumns<Real>> tets;  // empty if it is not convex
-        std::vector<AxisBox<Real>> boxes;    // of each eight tets at the start [m]
         glm::mat<3, 3, Real> turn{1};        // the last R
     };
     // True if visit(blocks, first) is, for all of a body's blocks of tets; ends early if not.

@@ -45,6 +45,19 @@ struct ContactRow {
     Real slope_of(Real g) const {  ///< minus its derivative [N/m]
         return g < reach ? contact_hessian(std::max(g, kLeastGap * reach), reach, stiffness) : Real(0);
     }
+    /// Of the law and of what friction holds with [J].
+    Real energy(const Vec3<Real>& s) const {
+        Real energy = 0;
+        if (const Real g = gap_at(s); g < reach) {
+            const Real least = kLeastGap * reach, beyond = std::max(least - g, Real(0));
+            energy = contact_energy(std::max(g, least), reach, stiffness) +
+                     beyond * (contact_force(least, reach, stiffness) +
+                               Real(0.5) * beyond * contact_hessian(least, reach, stiffness));
+        }
+        if (!(limit > Real(0))) return energy;
+        const Vec3<Real> q = held(s);
+        return energy + glm::dot(q, q) / (Real(2) * stiffness);
+    }
     Real pressing(const Vec3<Real>& s) const { return force_of(gap_at(s)); }
     /// What friction would hold with if nothing slid [N].
     Vec3<Real> stick(const Vec3<Real>& s) const {

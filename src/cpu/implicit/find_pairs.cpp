@@ -16,7 +16,14 @@ namespace {
 constexpr std::size_t kLeavesATask = 16;
 // Bodies that are convex at the start and keep this part of all distances do not meet themselves. Nearer
 // parts would press from half of their distance at rest on, but so far elements resist more than contacts.
-constexpr double kKept = 0.25;
+constexpr double kKept = 0.1;
+
+template <class Real>
+AxisBox<Real> swept(AxisBox<Real> box, const Vec3<Real>& motion) {
+    box.min += glm::min(motion, Vec3<Real>(0));
+    box.max += glm::max(motion, Vec3<Real>(0));
+    return box;
+}
 
 }  // namespace
 
@@ -30,28 +37,31 @@ FindPairs<Real>::FindPairs(std::shared_ptr<const Model> model, std::shared_ptr<c
       kept_(model_, *surface_),
       owns_(model_->objects.size()),
       rest_boxes_(model_->face_trees.nodes.size()),
+      is_changed_(model_->node_count()),
+      is_changed_face_(model_->faces.size()),
+      has_changed_(model_->objects.size()),
       bounding_boxes_(model_->objects.size()),
       motions_(model_->objects.size()),
       object_tree_(static_cast<std::uint32_t>(model_->objects.size())),
       found_((model_->face_trees.levels[0].size() + kLeavesATask - 1) / kLeavesATask) {
-    for (Boxes* boxes : {&boxes_, &own_boxes_}) {
-        boxes->nodes.resize(model_->node_count());
-        boxes->faces.resize(model_->faces.size());
-        boxes->edges.resize(model_->surface_parts.edges.size());
-        boxes->trees.resize(model_->face_trees.nodes.size());
-    }
-    for (const std::uint32_t leaf : model_->face_trees.levels[0]) {
-        const TreeNode& node = model_->face_trees.nodes[leaf];
-        for (std::uint32_t f = node.first_item; f < node.first_item + node.item_count; ++f)
-            for (const std::uint32_t n : corners_of(model_->faces[f]))
-                rest_boxes_[leaf].add(Vec3<Real>(glm::vec3(model_->positions[n])));
-    }
+    boxes_.nodes.resize(model_->node_count());
+    boxes_.edges.resize(model_->surface_parts.edges.size());
+    for (auto* faces : {&boxes_.faces, &boxes_.changed_faces}) faces->resize(model_->faces.size());
+    for (auto* trees : {&boxes_.trees, &boxes_.changed}) trees->resize(model_->face_trees.nodes.size());
+    std::vector<AxisBox<Real>> faces(model_->faces.size());
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        for (const std::uint32_t n : corners_of(model_->faces[f]))
+            faces[f].add(Vec3<Real>(glm::vec3(model_->positions[n])));
+    for (const std::uint32_t root : model_->face_trees.roots)
+        if (root < rest_boxes_.size()) update_tree_boxes<Real>(model_->face_trees, root, faces, rest_boxes_);
 }
 
-// Two boxes meet that are nearer than both slacks and the reach. @param frame a motion that is taken off
+// Two boxes meet that are nearer than both slacks and the reach. They are those of an object that stays where
+// it is.
 template <class Real>
-void FindPairs<Real>::update_boxes(std::size_t object, const Vec3<Real>& frame, const Paths<Real>& paths,
-                                   Boxes& boxes) const {
+void FindPairs<Real>::update_boxes(std::size_t object, const Paths<Real>& paths) {
+    const Vec3<Real>& frame = motions_[object];
+    Boxes& boxes = boxes_;
     const SurfaceParts& parts = model_->surface_parts;
     const auto margin = BoxMargin<Real>::for_distance(
         2.0 * (static_cast<double>(paths.slacks[object]) + surface_->thicknesses[object]));
@@ -76,45 +86,80 @@ void FindPairs<Real>::update_boxes(std::size_t object, const Vec3<Real>& frame, 
     for_each_index(Range{first.y, end.y - first.y}, [&](std::uint32_t e) {
         boxes.edges[e] = hull({parts.edges[e].a, parts.edges[e].b});
     });
-    update_tree_boxes<Real>(model_->face_trees, model_->face_trees.roots[object], boxes.faces, boxes.trees);
+    const std::uint32_t root = model_->face_trees.roots[object];
+    update_tree_boxes<Real>(model_->face_trees, root, boxes.faces, boxes.trees);
+    bounding_boxes_[object] = swept(boxes.trees[root], frame);
+    if (has_changed_[object] == 0) return;
+    for_each_index(faces, [&](std::uint32_t f) {
+        boxes.changed_faces[f] = is_changed_face_[f] != 0 ? boxes.faces[f] : AxisBox<Real>();
+    });
+    update_tree_boxes<Real>(model_->face_trees, root, boxes.changed_faces, boxes.changed);
+}
+
+template <class Real>
+bool FindPairs<Real>::has_changed_node(const Face& face) const {
+    return is_changed_[face.a] != 0 || is_changed_[face.b] != 0 || is_changed_[face.c] != 0;
+}
+
+template <class Real>
+bool FindPairs<Real>::has_changed_face(const TreeNode& leaf) const {
+    const auto first = is_changed_face_.begin() + leaf.first_item;
+    return std::any_of(first, first + leaf.item_count,
+                       [](std::uint8_t is_changed) { return is_changed != 0; });
+}
+
+template <class Real>
+bool FindPairs<Real>::is_new(const ContactPair& pair) const {
+    return std::any_of(pair.nodes.begin(), pair.nodes.end(),
+                       [&](std::uint32_t n) { return is_changed_[n] != 0; });
+}
+
+template <class Real>
+void FindPairs<Real>::add_lost(std::uint32_t object, std::span<const LostTets> lost) {
+    Own& own = owns_[object];
+    for (const LostTets& tets : lost) {
+        own.lost.push_back(tets);
+        own.boxes.push_back(kept_.box_of(object, tets));
+        own.all.add(own.boxes.back());
+    }
 }
 
 template <class Real>
 void FindPairs<Real>::find_own(const Paths<Real>& paths) {
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        Own& own = owns_[o];
-        own = {true, {}, {}};
-        if (kept_.is_convex(o)) {
-            own.lost = kept_.find_lost_blocks(o, static_cast<Real>(kKept), paths.from, paths.to);
-            for (std::size_t b = 0; b < own.lost.size(); ++b)
-                if (own.lost[b] != 0) own.boxes.push_back(kept_.box_of_block(o, b));
-            own.meets_itself = !own.boxes.empty();
-        }
-        if (!own.meets_itself) continue;
-        update_boxes(o, motions_[o], paths, own_boxes_);
+        owns_[o] = {};
+        if (!kept_.is_convex(o)) continue;
+        add_lost(o, kept_.find_lost_tets(o, static_cast<Real>(kKept), paths.from, paths.to));
+        owns_[o].listed = owns_[o].boxes.size();
     }
 }
 
 template <class Real>
-bool FindPairs<Real>::keeps_own(std::span<const Vec4<Real>> ends) const {
-    if (!own_) return true;
-    for (std::uint32_t o = 0; o < model_->body_count(); ++o)
-        if (kept_.is_convex(o) && !kept_.others_keep(o, static_cast<Real>(kKept), owns_[o].lost, ends))
-            return false;
-    return true;
+bool FindPairs<Real>::find_lost(std::span<const Vec4<Real>> ends) {
+    bool any = false;
+    for (std::uint32_t o = 0; own_ && o < model_->body_count(); ++o) {
+        if (!kept_.is_convex(o)) continue;
+        add_lost(o, kept_.find_more_lost(o, static_cast<Real>(kKept), owns_[o].lost, ends));
+        any = any || owns_[o].boxes.size() > owns_[o].listed;
+    }
+    return any;
+}
+
+template <class Real>
+bool FindPairs<Real>::may_meet_itself(std::uint32_t object) const {
+    return own_ && (!kept_.is_convex(object) || !owns_[object].boxes.empty());
 }
 
 template <class Real>
 void FindPairs<Real>::begin(const Paths<Real>& paths) {
     for_each_index(0, model_->objects.size(), 1, [&](std::size_t o) {
         if (model_->objects[o].faces.count == 0) return;
-        update_boxes(o, Vec3<Real>(0), paths, boxes_);
-        bounding_boxes_[o] = boxes_.trees[model_->face_trees.roots[o]];
         const Range& nodes = model_->objects[o].nodes;
         glm::dvec3 sum(0.0);
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
             sum += glm::dvec3(paths.to[n]) - glm::dvec3(paths.from[n]);
         motions_[o] = Vec3<Real>(sum / static_cast<double>(nodes.count));
+        update_boxes(o, paths);
     });
     object_tree_.update(bounding_boxes_);
 }
@@ -134,78 +179,121 @@ Real FindPairs<Real>::fastest_approach() const {
 template <class Real>
 void FindPairs<Real>::run(const Paths<Real>& paths) {
     if (own_) find_own(paths);
+    pairs_.clear();
+    search_all(paths, false);
+}
 
+template <class Real>
+void FindPairs<Real>::update(const Paths<Real>& paths, std::span<const std::uint32_t> nodes) {
+    for (const std::uint32_t n : nodes) is_changed_[n] = has_changed_[object_of_[n]] = 1;
+    for_each_index(0, has_changed_.size(), 1, [&](std::size_t o) {
+        if (has_changed_[o] == 0) return;
+        for (std::uint32_t f = model_->objects[o].faces.first; f < model_->objects[o].faces.end(); ++f)
+            is_changed_face_[f] = has_changed_node(model_->faces[f]);
+        update_boxes(o, paths);
+    });
+    object_tree_.update(bounding_boxes_);
+    std::erase_if(pairs_, [&](const NearPair<Real>& near) { return is_new(near.pair); });
+    search_all(paths, true);
+    for (const std::uint32_t n : nodes) is_changed_[n] = has_changed_[object_of_[n]] = 0;
+    for (Own& own : owns_) own.listed = own.boxes.size();
+}
+
+// @param changed whether pairs of nodes that have changed are wanted alone
+template <class Real>
+void FindPairs<Real>::search_all(const Paths<Real>& paths, bool changed) {
     const std::vector<std::uint32_t>& leaves = model_->face_trees.levels[0];
     tbb::parallel_for(std::size_t(0), found_.size(), [&](std::size_t task) {
         Found& found = found_[task];
         found.of_nodes.clear();
         found.of_edges.clear();
         const std::size_t end = std::min((task + 1) * kLeavesATask, leaves.size());
-        for (std::size_t k = task * kLeavesATask; k < end; ++k) search(leaves[k], paths, found);
+        for (std::size_t k = task * kLeavesATask; k < end; ++k) search(leaves[k], paths, changed, found);
     });
-    pairs_.clear();
     for (const Found& found : found_)
         pairs_.insert(pairs_.end(), found.of_nodes.begin(), found.of_nodes.end());
     for (const Found& found : found_)
         pairs_.insert(pairs_.end(), found.of_edges.begin(), found.of_edges.end());
 }
 
+// What a tree has near a leaf; of a body itself, where the lines between them meet lost tets.
+// @param changed whether only what has changed is wanted
 template <class Real>
-void FindPairs<Real>::walk(std::uint32_t leaf, std::uint32_t object, const Boxes& boxes, Found& found) const {
+void FindPairs<Real>::walk(std::uint32_t leaf, std::uint32_t object, const AxisBox<Real>& box, bool changed,
+                           Found& found) const {
     const BoxTree& trees = model_->face_trees;
     const std::vector<glm::uvec2>& starts = model_->surface_parts.face_starts;
-    const AxisBox<Real>& box = boxes.trees[leaf];
-    const bool is_own = &boxes == &own_boxes_;
-    for_leaves_near<Real>(trees, boxes.trees, trees.roots[object], box, [&](std::uint32_t other) {
-        if (is_own && is_kept(object, leaf, other)) return;
-        const std::uint32_t first = trees.nodes[other].first_item,
-                            end = first + trees.nodes[other].item_count;
-        for (std::uint32_t f = first; f < end; ++f)
-            if (meet(box, boxes.faces[f])) found.faces.push_back({f, boxes.faces[f]});
-        for (std::uint32_t e = starts[first].y; e < starts[end].y; ++e)
-            if (meet(box, boxes.edges[e])) found.edges.push_back({e, boxes.edges[e]});
-    });
+    const bool is_own = object == model_->faces[trees.nodes[leaf].first_item].object;
+    const std::size_t lost_count = is_own ? owns_[object].boxes.size() : 0,
+                      listed_count = is_own ? owns_[object].listed : 0;
+    const bool is_convex = is_own && kept_.is_convex(object);
+    const std::vector<AxisBox<Real>>& tree_boxes =
+        changed && lost_count == listed_count ? boxes_.changed : boxes_.trees;
+    const std::uint32_t root = trees.roots[object], end = trees.nodes[root].skip;
+    for (std::uint32_t n = root; n < end;) {
+        const TreeNode& node = trees.nodes[n];
+        if (!meet(box, tree_boxes[n]) || (is_convex && is_kept(owns_[object], lost_count, leaf, n))) {
+            n = node.skip;
+            continue;
+        }
+        const std::uint32_t other = n++;
+        if (node.item_count == 0) continue;
+        const bool is_new = lost_count > listed_count && is_kept(owns_[object], listed_count, leaf, other);
+        const std::uint32_t first = node.first_item, last = first + node.item_count;
+        for (std::uint32_t f = first; f < last; ++f)
+            if (meet(box, boxes_.faces[f])) found.faces.push_back({f, is_new, boxes_.faces[f]});
+        for (std::uint32_t e = starts[first].y; e < starts[last].y; ++e)
+            if (meet(box, boxes_.edges[e])) found.edges.push_back({e, is_new, boxes_.edges[e]});
+    }
 }
 
-// Whether the lines between what two leaves have meet no lost tets at the start.
+// Whether the lines between what two nodes of a tree have meet none of so many lost blocks at the start.
 template <class Real>
-bool FindPairs<Real>::is_kept(std::uint32_t object, std::uint32_t leaf, std::uint32_t other) const {
-    const std::vector<AxisBox<Real>>& lost = owns_[object].boxes;
-    if (lost.empty()) return false;
-    AxisBox<Real> lines = rest_boxes_[leaf];
+bool FindPairs<Real>::is_kept(const Own& own, std::size_t count, std::uint32_t node,
+                              std::uint32_t other) const {
+    AxisBox<Real> lines = rest_boxes_[node];
     lines.add(rest_boxes_[other]);
-    return std::none_of(lost.begin(), lost.end(), [&](const AxisBox<Real>& box) { return meet(box, lines); });
+    const auto first = own.boxes.begin();
+    return !meet(own.all, lines) || std::none_of(first, first + static_cast<std::ptrdiff_t>(count),
+                                                 [&](const AxisBox<Real>& box) { return meet(box, lines); });
 }
 
 template <class Real>
-void FindPairs<Real>::search(std::uint32_t leaf, const Paths<Real>& paths, Found& found) const {
+void FindPairs<Real>::search(std::uint32_t leaf, const Paths<Real>& paths, bool changed, Found& found) const {
     const SurfaceParts& parts = model_->surface_parts;
     const TreeNode& faces = model_->face_trees.nodes[leaf];
     const glm::uvec2 first = parts.face_starts[faces.first_item],
                      end = parts.face_starts[faces.first_item + faces.item_count];
     if (first == end) return;
     const std::uint32_t object = model_->faces[faces.first_item].object;
-    std::vector<std::uint32_t> others;
-    object_tree_.for_objects_near(boxes_.trees[leaf], [&](std::uint32_t other) {
-        if (other == object ? own_ && owns_[object].meets_itself
-                            : model_->is_body(object) || model_->is_body(other))
+    // Where nothing of the leaf has changed, only what has is of interest.
+    const bool others_alone = changed && !(has_changed_[object] != 0 && has_changed_face(faces));
+    std::vector<std::uint32_t>& others = found.objects;
+    others.clear();
+    object_tree_.for_objects_near(swept(boxes_.trees[leaf], motions_[object]), [&](std::uint32_t other) {
+        const bool has_new = has_changed_[other] != 0 ||
+                             (other == object && owns_[object].boxes.size() > owns_[object].listed);
+        if (others_alone && !has_new) return;
+        if (other == object ? may_meet_itself(object) : model_->is_body(object) || model_->is_body(other))
             others.push_back(other);
     });
     std::sort(others.begin(), others.end());
     for (const std::uint32_t other : others) {
-        const Boxes& boxes = other == object ? own_boxes_ : boxes_;
+        const Vec3<Real> motion = motions_[object] - motions_[other];  // beside the other
         found.faces.clear();
         found.edges.clear();
-        walk(leaf, other, boxes, found);
+        walk(leaf, other, swept(boxes_.trees[leaf], motion), others_alone, found);
         const auto reach = static_cast<float>(surface_->reach(object, other));
         found.candidates.clear();
         for (std::uint32_t place = first.x; place < end.x; ++place) {
             const std::uint32_t n = parts.nodes[place];
+            const AxisBox<Real> box = swept(boxes_.nodes[n], motion);
             for (const Near& near : found.faces) {
                 const Face& face = model_->faces[near.index];
-                if (!meet(boxes.nodes[n], near.box) || has_corner(face, n)) continue;
-                found.candidates.push_back(
-                    {{n, face.a, face.b, face.c}, {}, n, near.index, object, other, 1, reach});
+                if (!meet(box, near.box) || has_corner(face, n)) continue;
+                const ContactPair pair{
+                    {n, face.a, face.b, face.c}, {}, n, near.index, object, other, 1, reach};
+                if (!changed || near.is_new || is_new(pair)) found.candidates.push_back(pair);
             }
         }
         keep_near(paths, found, found.of_nodes);
@@ -213,12 +301,14 @@ void FindPairs<Real>::search(std::uint32_t leaf, const Paths<Real>& paths, Found
         found.candidates.clear();
         for (std::uint32_t e = first.y; e < end.y; ++e) {
             const FaceEdge& edge = parts.edges[e];
+            const AxisBox<Real> box = swept(boxes_.edges[e], motion);
             for (const Near& near : found.edges) {
                 const FaceEdge& to = parts.edges[near.index];
-                if (!meet(boxes.edges[e], near.box)) continue;
+                if (!meet(box, near.box)) continue;
                 if (other == object && (near.index <= e || share_end(edge, to))) continue;
-                found.candidates.push_back(
-                    {{edge.a, edge.b, to.a, to.b}, {}, e, near.index, object, other, 2, reach});
+                const ContactPair pair{
+                    {edge.a, edge.b, to.a, to.b}, {}, e, near.index, object, other, 2, reach};
+                if (!changed || near.is_new || is_new(pair)) found.candidates.push_back(pair);
             }
         }
         keep_near(paths, found, found.of_edges);

@@ -64,32 +64,51 @@ public:
     /// Of objects whose boxes meet, how far one goes beside the other, in reaches, at most.
     Real fastest_approach() const;
     void run(const Paths<Real>& paths);
-    /// Whether no self-intersection arises on the way to `ends` by pairs that were left out, as it hardly
-    /// deforms there.
-    bool keeps_own(std::span<const Vec4<Real>> ends) const;
+    /// Lists the pairs of these nodes anew, as their paths have changed, and those that find_lost() wants.
+    void update(const Paths<Real>& paths, std::span<const std::uint32_t> nodes);
+    /// Finds where bodies may meet themselves on the way to `ends`, though pairs were left out, as they
+    /// hardly deformed there. @return whether they do somewhere: then update() has to follow
+    bool find_lost(std::span<const Vec4<Real>> ends);
     void forget() { pairs_.clear(); }
     const std::vector<NearPair<Real>>& pairs() const { return pairs_; }
 
 private:
-    // Of all nodes, faces, edges and nodes of trees, round their motions.
+    // Of all nodes, faces, edges and nodes of trees, round their motions relative to their object.
     struct Boxes {
         std::vector<AxisBox<Real>> nodes, faces, edges, trees;
+        std::vector<AxisBox<Real>> changed_faces, changed;  // of those that have changed; of trees of these
     };
     struct Near {
         std::uint32_t index;
+        bool is_new;  // as a body lost something between
         AxisBox<Real> box;
     };
     struct Found {
-        std::vector<Near> faces, edges;  // near the current leaf
+        std::vector<std::uint32_t> objects;  // near the current leaf
+        std::vector<Near> faces, edges;
         std::vector<ContactPair> candidates;
         std::vector<NearPair<Real>> of_nodes, of_edges;
     };
-    void update_boxes(std::size_t object, const Vec3<Real>& frame, const Paths<Real>& paths,
-                      Boxes& boxes) const;
+    // Of a body that is convex at the start: only those of its own pairs are listed whose lines then meet
+    // boxes round lost blocks of tets.
+    struct Own {
+        std::vector<LostTets> lost;
+        std::vector<AxisBox<Real>> boxes;  // of each
+        AxisBox<Real> all;                 // round the boxes
+        std::size_t listed = 0;            // the first boxes, whose pairs are listed
+    };
+    void update_boxes(std::size_t object, const Paths<Real>& paths);
     void find_own(const Paths<Real>& paths);
-    void search(std::uint32_t leaf, const Paths<Real>& paths, Found& found) const;
-    void walk(std::uint32_t leaf, std::uint32_t object, const Boxes& boxes, Found& found) const;
-    bool is_kept(std::uint32_t object, std::uint32_t leaf, std::uint32_t other) const;
+    void add_lost(std::uint32_t object, std::span<const LostTets> lost);
+    bool has_changed_node(const Face& face) const;
+    bool has_changed_face(const TreeNode& leaf) const;
+    bool is_new(const ContactPair& pair) const;
+    void search_all(const Paths<Real>& paths, bool changed);
+    void search(std::uint32_t leaf, const Paths<Real>& paths, bool changed, Found& found) const;
+    void walk(std::uint32_t leaf, std::uint32_t object, const AxisBox<Real>& box, bool changed,
+              Found& found) const;
+    bool may_meet_itself(std::uint32_t object) const;
+    bool is_kept(const Own& own, std::size_t count, std::uint32_t node, std::uint32_t other) const;
     void keep_near(const Paths<Real>& paths, const Found& found, std::vector<NearPair<Real>>& kept) const;
 
     std::shared_ptr<const Model> model_;
@@ -97,17 +116,10 @@ private:
     bool own_;
     std::vector<std::uint32_t> object_of_;
     KeptDistances<Real> kept_;
-    // By body: whether its own pairs are listed, and those alone whose lines at the start meet one of the
-    // boxes round
-    // lost tets; all, if there are no boxes.
-    struct Own {
-        bool meets_itself = false;
-        std::vector<std::uint8_t> lost;  // blocks of tets
-        std::vector<AxisBox<Real>> boxes;
-    };
     std::vector<Own> owns_;
-    std::vector<AxisBox<Real>> rest_boxes_;  // of the leaves' faces at the start, by node of the trees
-    Boxes boxes_, own_boxes_;                // own: of bodies, as these see themselves
+    std::vector<AxisBox<Real>> rest_boxes_;  // of the faces at the start, by node of the trees
+    Boxes boxes_;
+    std::vector<std::uint8_t> is_changed_, is_changed_face_, has_changed_;  // nodes, faces, objects; update()
     std::vector<AxisBox<Real>> bounding_boxes_;
     std::vector<Vec3<Real>> motions_;  // of objects on average [m]
     ObjectTree<Real> object_tree_;

@@ -211,6 +211,7 @@ void Guard<Real>::clip(const NearPair<Real>& near, const Paths<Real>& paths,
         }
     }
     ++clipped_count_;
+    has_changed_ = true;
 }
 
 template <class Real>
@@ -240,16 +241,18 @@ void Guard<Real>::place(std::uint32_t node, const Paths<Real>& paths, std::span<
 }
 
 template <class Real>
-bool Guard<Real>::run(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
-                      std::span<const Real> compliances, std::span<Vec4<Real>> ends) {
+std::vector<std::uint32_t> Guard<Real>::run(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
+                                            std::span<const Real> compliances, std::span<Vec4<Real>> ends) {
     const std::vector<Vec4<Real>> wanted(ends.begin(), ends.end());
     std::vector<std::uint8_t> is_blocked(model_->objects.size());
+    has_changed_ = false;
     for (bool any_blocked = true; any_blocked;) {
         std::copy(wanted.begin(), wanted.end(), ends.begin());
         for (std::size_t n = 0; n < ends.size(); ++n)
             if (is_blocked[object_of_[n]] != 0 && ends[n].w == Real(0)) ends[n] = paths.from[n];
         move(paths, pairs, compliances, ends);
         any_blocked = false;
+        has_changed_ = has_changed_ || !half_spaces_.empty();
         for (std::size_t p = 0; p < pairs.size(); ++p) {
             if (is_clipped_[p] == 0 ||
                 separation<Real>(pairs[p].pair, pairs[p].normal, ends) >= pairs[p].rounding)
@@ -262,7 +265,10 @@ bool Guard<Real>::run(const Paths<Real>& paths, std::span<const NearPair<Real>> 
             }
         }
     }
-    return keep_to(paths, ends);
+    std::vector<std::uint32_t> strays;
+    for (const std::uint32_t n : model_->surface_parts.nodes)
+        if (!keeps_to(paths, n, ends[n])) strays.push_back(n);
+    return strays;
 }
 
 template <class Real>
@@ -309,16 +315,13 @@ void Guard<Real>::move(const Paths<Real>& paths, std::span<const NearPair<Real>>
 }
 
 template <class Real>
-bool Guard<Real>::keep_to(const Paths<Real>& paths, std::span<const Vec4<Real>> ends) const {
-    for (const std::uint32_t n : model_->surface_parts.nodes) {
-        const Vec3<Real> way = Vec3<Real>(paths.to[n]) - Vec3<Real>(paths.from[n]),
-                         gone = Vec3<Real>(ends[n]) - Vec3<Real>(paths.from[n]);
-        const Real squared = glm::dot(way, way);
-        const Real along =
-            squared > Real(0) ? std::clamp(glm::dot(gone, way) / squared, Real(0), Real(1)) : Real(0);
-        if (!(glm::length(gone - along * way) <= paths.slacks[object_of_[n]])) return false;
-    }
-    return true;
+bool Guard<Real>::keeps_to(const Paths<Real>& paths, std::uint32_t node, const Vec4<Real>& end) const {
+    const Vec3<Real> from(paths.from[node]), way = Vec3<Real>(paths.to[node]) - from,
+                                             gone = Vec3<Real>(end) - from;
+    const Real squared = glm::dot(way, way);
+    const Real along =
+        squared > Real(0) ? std::clamp(glm::dot(gone, way) / squared, Real(0), Real(1)) : Real(0);
+    return glm::length(gone - along * way) <= paths.slacks[object_of_[node]];
 }
 
 template class Guard<float>;

@@ -27,11 +27,13 @@ public:
     /// @param pairs all that may cross while nodes keep to `paths`
     /// @param compliances of nodes [m/N], by which a gap is divided; 0: the node does not yield
     /// @param ends input: where nodes are wanted; output: where they go [m]
-    /// @return whether all keep to the paths; if not, others may cross: then find pairs of these ends, and
-    /// run again
-    bool run(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
-             std::span<const Real> compliances, std::span<Vec4<Real>> ends);
+    /// @return surface nodes that do not keep to their paths: these may cross others; then find pairs of
+    /// where they end, and run again
+    std::vector<std::uint32_t> run(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
+                                   std::span<const Real> compliances, std::span<Vec4<Real>> ends);
 
+    /// Whether the last run moved any node.
+    bool has_changed() const { return has_changed_; }
     /// Of all runs.
     std::size_t clipped_pairs() const { return clipped_count_; }
 
@@ -44,7 +46,7 @@ private:
 
     void move(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
               std::span<const Real> compliances, std::span<Vec4<Real>> ends);
-    bool keep_to(const Paths<Real>& paths, std::span<const Vec4<Real>> ends) const;
+    bool keeps_to(const Paths<Real>& paths, std::uint32_t node, const Vec4<Real>& end) const;
     void find_frames(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
                      std::span<const Vec4<Real>> ends);
     void keep_outside_planes(const Paths<Real>& paths, std::span<Vec4<Real>> ends);
@@ -64,6 +66,7 @@ private:
     std::vector<HalfSpace> half_spaces_;
     std::vector<std::uint8_t> is_changed_, is_frozen_;
     std::vector<std::uint8_t> is_clipped_;  // by pair
+    bool has_changed_ = false;
     std::size_t clipped_count_ = 0;
 };
 

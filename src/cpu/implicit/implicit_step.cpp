@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "cpu/collision/colliders.h"
@@ -30,9 +31,12 @@ constexpr double kNear = 1.5;
 // time [s].
 constexpr double kEasing = 1.0 / 3.0;
 constexpr double kLeastReach = 1e-3;
-// A step is made again, shorter, after which bodies have this part of their energy more than before [in J,
-// for bodies at rest]: it was too long for its linearisation.
-constexpr double kMostGain = 0.1, kRounding = 1e-9;
+// Where steps would gain bodies this part of their energy in all, they are made again by implicit Euler's
+// scheme, which damps; where one does that gains the second part at once, it was too long for its
+// linearisation, and is made shorter.
+constexpr double kMostGained = 0.002, kMostGain = 0.1;
+// Of energies, as a part of the potential one, and for bodies at rest [J].
+constexpr double kRounding = 1e-9;
 // A step is divided in which contacts would come into each other by so many reaches: by an edge of the
 // surface.
 constexpr double kDeepest = 10.0;
@@ -59,8 +63,10 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
       ends_(model_->node_count()),
       angular_(model_->body_count()),
       earlier_angular_(model_->body_count()) {
-    system_.iterations = settings_.iterations * settings_.rounds;
-    system_.rounds = settings_.rounds;
+    system_.iterations = 2 * settings_.iterations;
+    is_driven_by_surfaces_ =
+        std::any_of(model_->surfaces.begin(), model_->surfaces.end(),
+                    [](const auto& surface) { return surface.velocity != decltype(surface.velocity)(0); });
 }
 
 template <class Real>
@@ -70,6 +76,8 @@ void ImplicitStep<Real>::restart() {
     system_.rows.clear();
     pairs_.forget();
     last_step_ = Real(0);
+    energy_.reset();
+    gained_ = 0.0;
 }
 
 template <class Real>
@@ -77,15 +85,26 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
                              Nodes<Real>& current, StageTimer* timer) {
     StepInput<Real> input = wanted;
     const std::vector<Memory> memory = memory_;
-    const Energy before = energy(previous);
-    for (;; input.step *= Real(0.5)) {
+    const Energy before = energy_ ? *energy_ : energy(previous);
+    const double rounding = kRounding * (1.0 + std::abs(before.potential));
+    const bool is_driven = is_driven_by_surfaces_ || moves_held_nodes(previous) ||
+                           !input.load_forces.empty() || input.pulls != nullptr;
+    for (bool damps = false;;) {
         const bool is_shortest = input.step < Real(2) * shortest;
+        const auto divide = [&] {
+            damps = false;
+            input.step *= Real(0.5);
+        };
+        memory_ = memory;
         {
             const TimedStage part(timer, "advance_nodes.detect");
-            predict(input, previous);
-            if (!detect(previous, is_shortest)) continue;
-            make_rows(previous);
-            if (!is_shortest && deepest() > static_cast<Real>(kDeepest)) continue;
+            predict(input, previous, damps);
+            const bool is_found = damps || detect(previous, is_shortest);
+            if (is_found) make_rows(previous);
+            if (!is_found || (!is_shortest && deepest() > static_cast<Real>(kDeepest))) {
+                divide();
+                continue;
+            }
         }
         {
             const TimedStage part(timer, "advance_nodes.linearise");
@@ -95,23 +114,44 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
             const TimedStage part(timer, "advance_nodes.solve");
             system_.solve();
         }
-        const TimedStage part(timer, "advance_nodes.finish");
-        finish(input.step, previous, current);
-        const Energy after = energy(current);
-        const bool is_sound = after.sum() - before.sum() <= kMostGain * before.motion + kRounding;
-        const bool is_driven =
-            moves_held_nodes(previous) || !input.load_forces.empty() || input.pulls != nullptr;
-        if (is_sound || ((is_driven || is_shortest) && std::isfinite(after.sum()))) break;
-        memory_ = memory;
-        if (!is_shortest) continue;
-        stand_still(previous, current);
-        break;
+        {
+            const TimedStage part(timer, "advance_nodes.finish");
+            finish(input.step, previous, current);
+            energy_ = energy(current);
+        }
+        const double of_contacts = contact_gain();
+        const auto gain = [&] { return energy_->sum() - before.sum() + of_contacts; };
+        if (uses_bdf2_ && !is_driven && !(gained_ + gain() <= kMostGained * before.motion + rounding)) {
+            damps = true;
+            continue;
+        }
+        const TimedStage part(timer, "advance_nodes.guard");
+        if (guard(previous, current)) energy_ = energy(current);
+        const double most = is_driven ? std::numeric_limits<double>::max()
+                                      : (is_shortest ? 1.0 : kMostGain) * before.motion + rounding;
+        if (gain() <= most) {
+            gained_ = is_driven ? 0.0 : std::max(gained_ + gain(), 0.0);
+            break;
+        }
+        if (is_shortest) {
+            stand_still(previous, current);
+            break;
+        }
+        divide();
     }
-    const TimedStage part(timer, "advance_nodes.guard");
-    guard(previous, current);
     earlier_ = previous;
     last_step_ = input.step;
     return input.step;
+}
+
+// What contacts and their friction hold more at the end of the step than at its start [J].
+template <class Real>
+double ImplicitStep<Real>::contact_gain() const {
+    double gain = 0.0;
+    for (const ContactRow<Real>& row : system_.rows)
+        gain += static_cast<double>(row.energy(relative<Real>(row, system_.displacements)) -
+                                    row.energy(Vec3<Real>(0)));
+    return gain;
 }
 
 template <class Real>
@@ -134,14 +174,16 @@ typename ImplicitStep<Real>::Energy ImplicitStep<Real>::energy(const Nodes<Real>
 template <class Real>
 bool ImplicitStep<Real>::moves_held_nodes(const Nodes<Real>& previous) const {
     for (std::uint32_t n = 0; n < model_->node_count(); ++n)
-        if (previous.positions[n].w == Real(0) && expected_[n] != Vec3<Real>(0)) return true;
+        if (previous.positions[n].w == Real(0) && Vec3<Real>(previous.velocities[n]) != Vec3<Real>(0))
+            return true;
     return false;
 }
 
 // Where even the shortest step fails.
 template <class Real>
-void ImplicitStep<Real>::stand_still(const Nodes<Real>& previous, Nodes<Real>& current) const {
+void ImplicitStep<Real>::stand_still(const Nodes<Real>& previous, Nodes<Real>& current) {
     current = previous;
+    energy_.reset();
     for (std::uint32_t n = 0; n < model_->node_count(); ++n)
         if (previous.positions[n].w != Real(0))
             current.velocities[n] = Vec4<Real>(Vec3<Real>(0), previous.velocities[n].w);
@@ -163,9 +205,9 @@ Real ImplicitStep<Real>::deepest() const {
 //   y = (4 x - x_1) / 3 + h' ((4 v - v_1) / 3 + h' g)
 // of BDF2, with x_1, v_1 one step before. Then m / h'^2 (x' - y) is what inertia resists with.
 template <class Real>
-void ImplicitStep<Real>::predict(const StepInput<Real>& input, const Nodes<Real>& previous) {
+void ImplicitStep<Real>::predict(const StepInput<Real>& input, const Nodes<Real>& previous, bool damps) {
     const Real step = step_ = input.step;
-    uses_bdf2_ = last_step_ == step && !comes_to_rest(previous);
+    uses_bdf2_ = !damps && last_step_ == step && !comes_to_rest(previous);
     solve_step_ = uses_bdf2_ ? Real(2) / Real(3) * step : step;
     const Vec3<Real> gravity(model_->gravity);
     const Real h = solve_step_, least = std::max(step, static_cast<Real>(kStiffestStep));
@@ -283,21 +325,22 @@ void ImplicitStep<Real>::follow(const Nodes<Real>& from, Nodes<Real>& nodes) {
 // Where a solver wants nodes beyond the paths that pairs were found for, or the guard moves them there, pairs
 // of the new paths are found.
 template <class Real>
-void ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current) {
+bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current) {
+    const Paths<Real> paths{previous.positions, ends_, slacks_};
+    bool has_changed = false;
     for (int k = 0; k < kMostGuards; ++k) {
-        const Paths<Real> paths{previous.positions, ends_, slacks_};
-        if (guard_.run(paths, pairs_.pairs(), compliances_, current.positions) &&
-            pairs_.keeps_own(current.positions))
-            return;
-        ends_ = current.positions;
-        if (!contacts_) return;
-        const Paths<Real> wider{previous.positions, ends_, slacks_};
-        pairs_.begin(wider);
-        pairs_.run(wider);
+        const std::vector<std::uint32_t> strays =
+            guard_.run(paths, pairs_.pairs(), compliances_, current.positions);
+        const bool has_lost = pairs_.find_lost(current.positions);
+        has_changed = has_changed || guard_.has_changed();
+        if (!contacts_ || (strays.empty() && !has_lost)) return has_changed;
+        for (const std::uint32_t n : strays) ends_[n] = current.positions[n];
+        pairs_.update(paths, strays);
     }
     for_each_index(ends_.size(), [&](std::size_t n) {  // nothing moves
         if (previous.positions[n].w != Real(0)) current.positions[n] = previous.positions[n];
     });
+    return true;
 }
 
 template <class Real>

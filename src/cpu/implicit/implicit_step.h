@@ -22,7 +22,6 @@ namespace gelatin::cpu {
 
 struct ImplicitSettings {
     int iterations = 10;      ///< of conjugate gradients for each linearisation of contacts, at most
-    int rounds = 2;           ///< linearisations
     double tolerance = 1e-4;  ///< of each: energy by which it may miss its least, as a part of the motion's
 };
 
@@ -83,7 +82,7 @@ private:
         Vec3<Real> normal, friction;
     };
 
-    void predict(const StepInput<Real>& input, const Nodes<Real>& previous);
+    void predict(const StepInput<Real>& input, const Nodes<Real>& previous, bool damps);
     Real rest_gap(const ContactPair& pair) const;
     // Of all bodies [J]; motion: kinetic and elastic.
     struct Energy {
@@ -92,12 +91,13 @@ private:
     };
     Energy energy(const Nodes<Real>& nodes) const;
     bool moves_held_nodes(const Nodes<Real>& previous) const;
-    void stand_still(const Nodes<Real>& previous, Nodes<Real>& current) const;
+    void stand_still(const Nodes<Real>& previous, Nodes<Real>& current);
     void linearise(const StepInput<Real>& input, const Nodes<Real>& previous);
     bool comes_to_rest(const Nodes<Real>& previous) const;
     Real deepest() const;
     bool detect(const Nodes<Real>& previous, bool is_shortest);
-    void guard(const Nodes<Real>& previous, Nodes<Real>& current);
+    bool guard(const Nodes<Real>& previous, Nodes<Real>& current);
+    double contact_gain() const;
     void make_rows(const Nodes<Real>& previous);
     void add_row(ContactRow<Real> row, Real weight, Real first, Real second);
     Vec3<Real> surface_velocity(std::uint32_t collider) const {
@@ -116,8 +116,11 @@ private:
     FindPairs<Real> pairs_;
     Guard<Real> guard_;
     StepSystem<Real> system_;
-    bool uses_bdf2_ = false;  // in this step
-    Real solve_step_ = 0;     // h, or 2/3 of it
+    bool is_driven_by_surfaces_ = false;
+    std::optional<Energy> energy_;  // at the end of the last step, if it is known
+    double gained_ = 0.0;           // since energy was least [J]
+    bool uses_bdf2_ = false;        // in this step
+    Real solve_step_ = 0;           // h, or 2/3 of it
     Real step_ = 0, last_step_ = 0;
     Nodes<Real> earlier_;            // one step before previous
     std::vector<Real> compliances_;  // of nodes in contacts, 1 / h_i [m/N]

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/SparseCholesky>
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -16,6 +17,8 @@ namespace gelatin::cpu {
 
 /// The rigid motions of all free bodies, as a subspace of the displacements of all nodes: W, with six columns
 /// a body, in which the matrix of a step is E = W^T (M / h^2 + rows) W. Elements hardly resist rigid motions.
+/// A motion of a body is its displacement [m] and its rotation [rad] about the centre of mass; its forces are
+/// force [N] and moment [N m] there.
 template <class Real>
 class RigidLevel {
 public:
@@ -24,20 +27,29 @@ public:
     /// @param positions where the step begins [m]; w: 0 where a node is held
     /// @param inertia m / h^2 [N/m]; both shape [nodes]
     void begin(std::span<const Vec4<Real>> positions, std::span<const Real> inertia);
+    /// Sets the rows, whose order does not change until it is called again.
+    void set_rows(std::span<const ContactRow<Real>> rows);
 
     bool is_free(std::size_t object) const { return numbers_[object] != kNoNode; }
     bool is_empty() const { return bodies_.empty(); }
-
-    /// Factorises E. Tangents are those of `rows`.
-    void factorise(std::span<const ContactRow<Real>> rows, std::span<const RowTangent<Real>> tangents);
-
-    /// W E^-1 W^T r. @param residual r [N] @param displacements output [m], 0 for bodies that are not free
-    void solve(std::span<const Vec3<Real>> residual, std::span<Vec3<Real>> displacements);
-
-    /// The sum of a residual over each free body [N], and what it is compared to.
-    std::vector<glm::dvec3> net_forces(std::span<const Vec3<Real>> residual) const;
     std::uint32_t number(std::size_t object) const { return numbers_[object]; }
     std::size_t count() const { return bodies_.size(); }
+
+    /// Factorises E. @param tangents of all rows
+    void factorise(std::span<const RowTangent<Real>> tangents);
+
+    /// E^-1. @param motions input: forces; output: motions; shape [free bodies]
+    void solve(std::span<Motion> motions) const;
+    /// W^T r. @param residual r [N], shape [nodes]
+    std::vector<Motion> gather(std::span<const Vec3<Real>> residual) const;
+    /// Adds W^T of the forces of all rows on their second sides [N].
+    void add_rows(std::span<const Vec3<Real>> forces, std::span<Motion> sums) const;
+    /// W^T (M / h^2) W q
+    std::vector<Motion> resistance(std::span<const Motion> motions) const;
+    /// s of a row for motions.
+    Vec3<Real> relative(std::size_t row, std::span<const Motion> motions) const;
+    /// W q. @param displacements output [m], shape [nodes]; 0 for bodies that are not free
+    void displace(std::span<const Motion> motions, std::span<Vec3<Real>> displacements) const;
 
     /// What a step of true rotations differs by from a linear one, d = s + w x r, to second order, for the
     /// rotation w that inertia wants: the displacements w x (w x r) / 2 are taken out, and forces rotate with
@@ -55,20 +67,38 @@ private:
     struct Body {
         std::uint32_t object;
         glm::dvec3 center{0.0};
-        double weight = 0.0;  // sum of m / h^2
         MotionMatrix matrix = MotionMatrix::Zero(), inverse = MotionMatrix::Zero();
     };
-    std::vector<Motion> gather(std::span<const Vec3<Real>> residual) const;
+    // Of a row's sides: their bodies' numbers, or kNoNode, and where they are touched, from the centres [m].
+    struct Touch {
+        std::array<std::uint32_t, 2> bodies{kNoNode, kNoNode};
+        std::array<glm::dvec3, 2> arms{glm::dvec3(0.0), glm::dvec3(0.0)};
+    };
+    // All rows between two bodies, or of one and what is not free; the block of E beside the diagonal is that
+    // of the larger number's rows and the smaller one's columns.
+    struct Pair {
+        std::array<std::uint32_t, 2> bodies;
+        Range entries;  // of pair_rows_
+        std::array<MotionMatrix, 3> blocks{MotionMatrix::Zero(), MotionMatrix::Zero(),
+                                           MotionMatrix::Zero()};  // of the first body, of the second, both
+    };
+    void find_pattern();
     Motion rigid_part(const Body& body, std::span<const Vec4<Real>> positions, std::span<const Real> inertia,
                       std::span<const Vec3<Real>> displacements) const;
 
     std::shared_ptr<const Model> model_;
     std::vector<std::uint32_t> numbers_;  // of objects among the free bodies, or kNoNode
+    std::vector<std::uint32_t> body_of_;  // of nodes, the same
     std::vector<Body> bodies_;
     ObjectPieces pieces_;
     std::vector<Vec4<Real>> positions_;
+    std::vector<Touch> touches_;  // by row
+    std::vector<Pair> pairs_;
+    std::vector<std::uint32_t> pair_rows_;
+    std::vector<std::uint32_t> pair_of_row_;
+    Eigen::SparseMatrix<double> matrix_;  // the lower triangle of E
+    std::vector<std::uint32_t> places_;   // of the pairs' blocks among those of their columns
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
-    bool is_coupled_ = false;
 };
 
 }  // namespace gelatin::cpu

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "model/for_each_index.h"
@@ -17,6 +18,8 @@ constexpr double kLeastGap = 0.25;
 // A step along a direction is shortened where the slope has turned by more than this part of that at its
 // start.
 constexpr double kTurned = 0.1;
+constexpr int kHalvings = 20;
+constexpr int kMostRigidRounds = 20;
 constexpr std::size_t kChunk = 1024;  // of a sum
 
 }  // namespace
@@ -31,7 +34,7 @@ StepSystem<Real>::StepSystem(std::shared_ptr<const Model> model)
       model_(std::move(model)),
       row_starts_(model_->node_count() + 1),
       blocks_(model_->node_count()) {
-    for (Field* field : {&base_, &residual_, &direction_, &product_, &z_, &p_, &coarse_})
+    for (Field* field : {&base_, &residual_, &direction_, &moved_, &product_, &with_rows_, &z_, &p_})
         field->resize(model_->node_count());
 }
 
@@ -46,7 +49,7 @@ void StepSystem<Real>::index_rows() {
     for (std::uint32_t r = 0; r < rows.size(); ++r)
         for (std::uint32_t k = 0; k < rows[r].count; ++k) row_entries_[next[rows[r].nodes[k]]++] = 4 * r + k;
     tangents_.resize(rows.size());
-    row_forces_.resize(rows.size());
+    for (auto* values : {&row_forces_, &slips_}) values->resize(rows.size());
 }
 
 // force_of(row number): on the second side.
@@ -74,13 +77,6 @@ void StepSystem<Real>::multiply(const Field& d, Field& product) {
 }
 
 template <class Real>
-void StepSystem<Real>::multiply_with_rows(const Field& d, Field& product) {
-    multiply(d, product);
-    add_row_forces([&](std::size_t r) { return tangents_[r].stiffness * relative<Real>(rows[r], d); },
-                   product);
-}
-
-template <class Real>
 void StepSystem<Real>::find_base_residual() {
     multiply(displacements, product_);
     for_each_index(base_.size(), [&](std::size_t n) {
@@ -89,18 +85,21 @@ void StepSystem<Real>::find_base_residual() {
 }
 
 template <class Real>
+void StepSystem<Real>::find_slips() {
+    for_each_index(rows.size(), [&](std::size_t r) { slips_[r] = relative<Real>(rows[r], displacements); });
+}
+
+template <class Real>
 void StepSystem<Real>::find_tangents() {
-    for_each_index(rows.size(), [&](std::size_t r) {
-        tangents_[r] = tangent(rows[r], relative<Real>(rows[r], displacements));
-    });
+    for_each_index(rows.size(), [&](std::size_t r) { tangents_[r] = tangent(rows[r], slips_[r]); });
 }
 
 // In place of tangents, for a first step that closes gaps: from the gap at the start to the one expected.
 template <class Real>
-void StepSystem<Real>::find_chords(const Field& expected) {
+void StepSystem<Real>::find_chords(std::span<const Vec3<Real>> expected) {
     for_each_index(rows.size(), [&](std::size_t r) {
         const ContactRow<Real>& row = rows[r];
-        const Vec3<Real> s = relative<Real>(row, expected);
+        const Vec3<Real>& s = expected[r];
         RowTangent<Real> t;
         const Real there = row.gap_at(s);
         if (std::min(row.gap, there) < row.reach) {
@@ -130,18 +129,9 @@ void StepSystem<Real>::find_chords(const Field& expected) {
 }
 
 template <class Real>
-void StepSystem<Real>::find_true_residual() {
-    residual_ = base_;
-    add_row_forces([&](std::size_t r) { return rows[r].force(relative<Real>(rows[r], displacements)); },
-                   residual_);
-}
-
-template <class Real>
 void StepSystem<Real>::set_limits() {
-    for_each_index(rows.size(), [&](std::size_t r) {
-        ContactRow<Real>& row = rows[r];
-        row.limit = row.friction * row.pressing(relative<Real>(row, displacements));
-    });
+    for_each_index(rows.size(),
+                   [&](std::size_t r) { rows[r].limit = rows[r].friction * rows[r].pressing(slips_[r]); });
 }
 
 // In chunks, so that it does not depend on the number of threads.
@@ -160,11 +150,6 @@ double StepSystem<Real>::dot(const Field& a, const Field& b) const {
 }
 
 template <class Real>
-void StepSystem<Real>::add(double factor, const Field& a, Field& sum) const {
-    for_each_index(a.size(), [&](std::size_t n) { sum[n] += static_cast<Real>(factor) * a[n]; });
-}
-
-template <class Real>
 void StepSystem<Real>::prepare_preconditioner() {
     for_each_index(blocks_.size(), [&](std::size_t n) {
         SymmetricMatrix<Real> block = elastic.diagonal()[n];
@@ -178,85 +163,87 @@ void StepSystem<Real>::prepare_preconditioner() {
         }
         blocks_[n] = block;
     });
-    rigid.factorise(rows, tangents_);
+    rigid.factorise(tangents_);
 }
 
+// z = M^-1 r
 template <class Real>
 void StepSystem<Real>::precondition(const Field& r, Field& z) {
-    rigid.solve(r, coarse_);
+    std::vector<Motion> motions = rigid.gather(r);
+    rigid.solve(motions);
+    rigid.displace(motions, z);
     for_each_index(r.size(), [&](std::size_t n) {
-        z[n] = inertia[n] > Real(0) ? cpu::solve(blocks_[n], r[n]) + coarse_[n] : Vec3<Real>(0);
+        if (inertia[n] > Real(0)) z[n] += cpu::solve(blocks_[n], r[n]);
     });
 }
 
-// From no direction, with the linear residual in residual_.
+// From no direction, with the linear residual in residual_. Also finds A direction_, without rows.
 template <class Real>
 void StepSystem<Real>::conjugate_gradients(int count) {
-    std::fill(direction_.begin(), direction_.end(), Vec3<Real>(0));
+    for (Field* field : {&direction_, &moved_}) std::fill(field->begin(), field->end(), Vec3<Real>(0));
     precondition(residual_, z_);
     p_ = z_;
     double rz = dot(residual_, z_);
     for (int k = 0; k < count && rz > enough; ++k) {
         ++counts.iterations;
-        multiply_with_rows(p_, product_);
-        const double curvature = dot(p_, product_);
+        multiply(p_, product_);
+        with_rows_ = product_;
+        add_row_forces([&](std::size_t r) { return tangents_[r].stiffness * relative<Real>(rows[r], p_); },
+                       with_rows_);
+        const double curvature = dot(p_, with_rows_);
         if (!(curvature > 0.0)) break;
-        const double a = rz / curvature;
-        add(a, p_, direction_);
-        add(-a, product_, residual_);
+        const auto a = static_cast<Real>(rz / curvature);
+        for_each_index(p_.size(), [&](std::size_t n) {
+            direction_[n] += a * p_[n];
+            moved_[n] += a * product_[n];
+            residual_[n] -= a * with_rows_[n];
+        });
         if (k + 1 == count) break;
         precondition(residual_, z_);
-        const double next = dot(residual_, z_), b = next / rz;
+        const double next = dot(residual_, z_);
+        const auto b = static_cast<Real>(next / rz);
         rz = next;
-        for_each_index(p_.size(), [&](std::size_t n) { p_[n] = z_[n] + static_cast<Real>(b) * p_[n]; });
+        for_each_index(p_.size(), [&](std::size_t n) { p_[n] = z_[n] + b * p_[n]; });
     }
 }
 
-// How far along direction_ the objective falls; product_ is A direction_.
+// How far along a direction the objective falls, by at most all of it. @param changes of s @param base what
+// pulls along it without rows, and by how much less it does so at its end
 template <class Real>
-double StepSystem<Real>::line_search() {
-    const double base = dot(direction_, base_), curvature = dot(direction_, product_);
-    std::vector<std::pair<Vec3<Real>, Vec3<Real>>> states(rows.size());
-    for_each_index(rows.size(), [&](std::size_t r) {
-        states[r] = {relative<Real>(rows[r], displacements), relative<Real>(rows[r], direction_)};
-    });
+double StepSystem<Real>::line_search(std::span<const Vec3<Real>> changes, double base, double curvature) {
+    std::vector<double> sums((rows.size() + kChunk - 1) / kChunk);
     const auto fall = [&](double t) {  // minus the slope
-        double sum = base - t * curvature;
-        for (std::size_t r = 0; r < rows.size(); ++r) {
-            const auto& [s, ds] = states[r];
-            sum += static_cast<double>(glm::dot(ds, rows[r].force(s + static_cast<Real>(t) * ds)));
-        }
-        return sum;
+        for_each_index(0, sums.size(), 1, [&](std::size_t c) {
+            double sum = 0.0;
+            for (std::size_t r = c * kChunk; r < std::min(rows.size(), (c + 1) * kChunk); ++r) {
+                const Vec3<Real> force = rows[r].force(slips_[r] + static_cast<Real>(t) * changes[r]);
+                sum += static_cast<double>(glm::dot(changes[r], force));
+            }
+            sums[c] = sum;
+        });
+        return std::accumulate(sums.begin(), sums.end(), base - t * curvature);
     };
     const double first = fall(0.0);
     if (!(first > 0.0)) return 0.0;
     if (fall(1.0) >= -kTurned * first) return 1.0;
     ++counts.line_searches;
     double low = 0.0, high = 1.0;
-    for (int k = 0; k < 20; ++k) {
+    for (int k = 0; k < kHalvings; ++k) {
         const double middle = 0.5 * (low + high);
         (fall(middle) > 0.0 ? low : high) = middle;
     }
     return 0.5 * (low + high);
 }
 
+// Whether what is left of all forces on each body is no more than a part of what presses it.
 template <class Real>
-void StepSystem<Real>::step_along() {
-    multiply(direction_, product_);
-    const double part = line_search();
-    add(part, direction_, displacements);
-    add(-part, product_, base_);
-}
-
-template <class Real>
-bool StepSystem<Real>::is_balanced(double tolerance) const {
+bool StepSystem<Real>::is_balanced(double tolerance, std::span<const Motion> forces) const {
     std::vector<double> pressing(rigid.count(), 0.0);
-    for (const ContactRow<Real>& row : rows) {
-        const auto force = static_cast<double>(row.pressing(relative<Real>(row, displacements)));
-        for (const std::uint32_t object : {row.object, row.other})
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        const auto force = static_cast<double>(rows[r].pressing(slips_[r]));
+        for (const std::uint32_t object : {rows[r].object, rows[r].other})
             if (object != kNoNode && rigid.is_free(object)) pressing[rigid.number(object)] += force;
     }
-    const std::vector<glm::dvec3> net = rigid.net_forces(residual_);
     const double gravity = glm::length(glm::dvec3(model_->gravity));
     for (std::size_t o = 0; o < model_->body_count(); ++o) {
         if (!rigid.is_free(o)) continue;
@@ -265,52 +252,90 @@ bool StepSystem<Real>::is_balanced(double tolerance) const {
         const double weight = gravity * model_->objects[o].mass;
         const double scale =
             weight > 0.0 ? std::min(pressing[b], 2.0 * weight) + 0.05 * pressing[b] : pressing[b];
-        if (glm::length(net[b]) > tolerance * scale) return false;
+        if (forces[b].template head<3>().norm() > tolerance * scale) return false;
     }
     return true;
 }
 
-// The limits of friction stay as they are until bodies are nearly in balance (Tresca's friction), since what
-// presses before that has little to do with what will.
+// Newton's method on rigid motions alone, in which only their forces and rows are looked at. The limits of
+// friction stay as they are until bodies are nearly in balance (Tresca's friction), since what presses before
+// that has little to do with what will.
 template <class Real>
 void StepSystem<Real>::rigid_newton() {
     if (rigid.is_empty()) return;
-    for (int k = 0; k < most_rigid_rounds; ++k) {
-        find_true_residual();
-        if (is_balanced(kNearBalance)) {
+    std::vector<Motion> base = rigid.gather(base_), moved(rigid.count(), Motion::Zero());
+    std::vector<Vec3<Real>> changes(rows.size());
+    const auto forces = [&] {
+        for_each_index(rows.size(), [&](std::size_t r) { row_forces_[r] = rows[r].force(slips_[r]); });
+        std::vector<Motion> sums = base;
+        rigid.add_rows(row_forces_, sums);
+        return sums;
+    };
+    for (int k = 0; k < kMostRigidRounds; ++k) {
+        std::vector<Motion> step = forces();
+        if (is_balanced(kNearBalance, step)) {
             set_limits();
-            find_true_residual();
-            if (k > 0 && is_balanced(kBalance)) break;
+            step = forces();
+            if (k > 0 && is_balanced(kBalance, step)) break;
         }
-        find_tangents();
         ++counts.rigid_rounds;
-        rigid.factorise(rows, tangents_);
-        rigid.solve(residual_, direction_);
-        step_along();
-        if (rows.empty()) break;
+        find_tangents();
+        rigid.factorise(tangents_);
+        rigid.solve(step);
+        for_each_index(rows.size(), [&](std::size_t r) { changes[r] = rigid.relative(r, step); });
+        const std::vector<Motion> resistance = rigid.resistance(step);
+        double pull = 0.0, curvature = 0.0;
+        for (std::size_t b = 0; b < step.size(); ++b) {
+            pull += step[b].dot(base[b]);
+            curvature += step[b].dot(resistance[b]);
+        }
+        const double part = line_search(changes, pull, curvature);
+        for (std::size_t b = 0; b < step.size(); ++b) {
+            moved[b] += part * step[b];
+            base[b] -= part * resistance[b];
+        }
+        for_each_index(rows.size(),
+                       [&](std::size_t r) { slips_[r] += static_cast<Real>(part) * changes[r]; });
     }
+    rigid.displace(moved, direction_);
+    for_each_index(direction_.size(), [&](std::size_t n) { displacements[n] += direction_[n]; });
+}
+
+// A Newton step on all nodes, from the tangents that are set.
+template <class Real>
+void StepSystem<Real>::newton_step(int iterations) {
+    prepare_preconditioner();
+    residual_ = base_;
+    add_row_forces([&](std::size_t r) { return tangents_[r].force(slips_[r]); }, residual_);
+    conjugate_gradients(iterations);
+    std::vector<Vec3<Real>> changes(rows.size());
+    for_each_index(rows.size(), [&](std::size_t r) { changes[r] = relative<Real>(rows[r], direction_); });
+    const double part =
+        rows.empty() ? 1.0 : line_search(changes, dot(direction_, base_), dot(direction_, moved_));
+    for_each_index(direction_.size(), [&](std::size_t n) {
+        displacements[n] += static_cast<Real>(part) * direction_[n];
+        base_[n] -= static_cast<Real>(part) * moved_[n];
+    });
+    find_slips();
 }
 
 template <class Real>
 void StepSystem<Real>::solve() {
     counts = {};
     index_rows();
-    const Field expected = displacements;
+    rigid.set_rows(rows);
+    find_slips();
+    const std::vector<Vec3<Real>> expected = slips_;
     find_base_residual();
-    rigid_newton();
-    for (int k = 0; k < rounds; ++k) {
-        if (k == 0) {
-            find_chords(expected);
-        } else {
-            find_tangents();
-        }
-        prepare_preconditioner();
-        residual_ = base_;
-        add_row_forces(
-            [&](std::size_t r) { return tangents_[r].force(relative<Real>(rows[r], displacements)); },
-            residual_);
-        conjugate_gradients(iterations * (k + 1) / rounds - iterations * k / rounds);
-        step_along();
+    if (!rows.empty()) {
+        rigid_newton();
+        find_base_residual();
+    }
+    find_chords(expected);
+    newton_step(rows.empty() ? iterations : iterations / 2);
+    if (!rows.empty()) {
+        find_tangents();
+        newton_step(iterations - iterations / 2);
     }
     rigid_newton();
 }

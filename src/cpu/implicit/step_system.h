@@ -37,10 +37,8 @@ public:
     std::vector<Vec3<Real>> loads;  ///< m / h^2 (y - x) + f [N], shape [nodes]
     std::vector<ContactRow<Real>> rows;
     std::vector<Vec3<Real>> displacements;  ///< d [m]; input: of held nodes, and a guess; output: of all
-    int iterations = 8;                     ///< of conjugate gradients, at most
-    int rounds = 2;                         ///< in which these are shared out
-    double enough = 0.0;                    ///< energy by which a round may miss its least [J]
-    int most_rigid_rounds = 20;
+    int iterations = 20;                    ///< of conjugate gradients, at most, of both steps together
+    double enough = 0.0;                    ///< energy by which each may miss its least [J]
     SolveCounts counts;
 
     /// @pre rigid.begin was called
@@ -52,29 +50,28 @@ private:
     void index_rows();
     template <class ForceOf>
     void add_row_forces(const ForceOf& force_of, Field& sum);
-    void multiply(const Field& d, Field& product);            // without rows
-    void multiply_with_rows(const Field& d, Field& product);  // by their tangents
+    void multiply(const Field& d, Field& product);  // without rows
     void find_base_residual();
+    void find_slips();
     void find_tangents();
-    void find_chords(const Field& expected);
-    void find_true_residual();
+    void find_chords(std::span<const Vec3<Real>> expected);
     void set_limits();
     double dot(const Field& a, const Field& b) const;
-    void add(double factor, const Field& a, Field& sum) const;
     void prepare_preconditioner();
     void precondition(const Field& r, Field& z);
     void conjugate_gradients(int count);
-    double line_search();
-    void step_along();
+    double line_search(std::span<const Vec3<Real>> changes, double base, double curvature);
+    bool is_balanced(double tolerance, std::span<const Motion> forces) const;
     void rigid_newton();
-    bool is_balanced(double tolerance) const;
+    void newton_step(int iterations);
 
     std::shared_ptr<const Model> model_;
     std::vector<std::uint32_t> row_starts_, row_entries_;  // by node: 4 row + place
     std::vector<RowTangent<Real>> tangents_;
-    std::vector<Vec3<Real>> row_forces_;
+    std::vector<Vec3<Real>> row_forces_, slips_;  // slips: s of rows, by displacements
     std::vector<SymmetricMatrix<Real>> blocks_;
-    Field base_, residual_, direction_, product_, z_, p_, coarse_;  // base: loads - A d
+    Field base_, residual_, direction_, product_, z_, p_;  // base: loads - A d
+    Field moved_, with_rows_;                              // A direction_, without rows; A p_, with them
 };
 
 }  // namespace gelatin::cpu

@@ -33,7 +33,7 @@ protected:
             const cpu::Paths<double> paths{from_, wanted, slacks_};
             pairs.begin(paths);
             pairs.run(paths);
-            if (guard_().run(paths, pairs.pairs(), compliances_, ends)) return ends;
+            if (guard_().run(paths, pairs.pairs(), compliances_, ends).empty()) return ends;
         }
         ADD_FAILURE() << "nodes leave their paths";
         return ends;
