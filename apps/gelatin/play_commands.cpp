@@ -16,6 +16,7 @@
 #include "interrupt.h"
 #include "recorder.h"
 #include "run_options.h"
+#include "whole_number.h"
 
 namespace gelatin {
 namespace {
@@ -29,10 +30,8 @@ struct PlayOptions {
 
 void add_choice_of_frames(CLI::App& command, PlayOptions& options) {
     command.add_option("RECORDING", options.recording, "What gelatin run --record has written")->required();
-    command.add_option("--from", options.from, "First frame")
-        ->type_name("FRAME")
-        ->check(CLI::NonNegativeNumber);
-    command.add_option("--to", options.to, "Last frame")->type_name("FRAME")->check(CLI::NonNegativeNumber);
+    command.add_option("--from", options.from, "First frame")->type_name("FRAME")->check(at_least(0));
+    command.add_option("--to", options.to, "Last frame")->type_name("FRAME")->check(at_least(0));
     command.add_flag("--quiet", options.outputs.quiet, "No progress, no summary and no notes");
 }
 
@@ -113,7 +112,7 @@ void add_export_command(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--every", options->outputs.every, "Export every K-th frame")
         ->type_name("K")
-        ->check(CLI::PositiveNumber);
+        ->check(at_least(1));
     command->callback([options, out] {
         const std::vector<std::string>& endings = animation_endings();
         const bool is_file = std::find(endings.begin(), endings.end(), out->extension()) != endings.end();

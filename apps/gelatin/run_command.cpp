@@ -5,7 +5,12 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <map>
 #include <memory>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "commands.h"
 #include "common/output_file.h"
@@ -199,18 +204,43 @@ std::filesystem::path start_of(const RunOptions& options) {
     return options.input.files.front();
 }
 
-// The file would be replaced, and lost if the run does not come to its end.
-void refuse_to_replace(const RunOptions& options) {
+// What the scene is read from.
+std::vector<std::filesystem::path> source_files(const RunOptions& options, const Scene& scene) {
+    std::vector<std::filesystem::path> files = options.input.files;
+    const auto add = [&](const Shape& shape) {
+        if (const auto* mesh = std::get_if<FileShape>(&shape)) files.push_back(mesh->file);
+    };
+    for (const ObjectDescription& object : scene.objects) add(object.shape);
+    for (const ColliderDescription& collider : scene.colliders)
+        if (const auto* shape = std::get_if<Shape>(&collider.shape)) add(*shape);
+    return files;
+}
+
+// A file that is read would be lost, and of two outputs one. A checkpoint may go where it came from.
+void refuse_to_replace(const RunOptions& options, const Scene& scene) {
+    using Output = std::pair<const char*, std::filesystem::path>;
+    const std::vector<Output> outputs{{"--stats", options.stats},   {"--image", options.image},
+                                      {"--video", options.video},   {"--animation", options.animation},
+                                      {"--record", options.record}, {"--checkpoint", options.checkpoint}};
+    const std::vector<std::filesystem::path> sources = source_files(options, scene);
     std::error_code error;  // nothing is there yet
-    std::vector<std::filesystem::path> sources = options.input.files;
-    sources.push_back(options.resume);
-    for (const std::filesystem::path& source : sources)
-        if (std::filesystem::equivalent(options.record, source, error))
-            throw InvalidInput({options.record.string(),
-                                0,
-                                {},
-                                {},
-                                "is what the run is made from; --record would replace it"});
+    const auto refuse = [](const std::filesystem::path& file, const std::string& problem) {
+        throw InvalidInput({file.string(), 0, {}, {}, problem});
+    };
+    std::map<std::filesystem::path, const char*> options_of;
+    for (const auto& [option, file] : outputs) {
+        const bool is_no_file =
+            std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error);
+        if (file.empty() || file == "-" || is_no_file) continue;
+        for (const std::filesystem::path& source : sources)
+            if (std::filesystem::equivalent(file, source, error))
+                refuse(file, fmt::format("is what the run is made from; {} would replace it", option));
+        if (file != options.checkpoint && std::filesystem::equivalent(file, options.resume, error))
+            refuse(file, fmt::format("is what the run is made from; {} would replace it", option));
+        const auto [other, is_new] = options_of.try_emplace(
+            std::filesystem::weakly_canonical(std::filesystem::absolute(file), error), option);
+        if (!is_new) refuse(file, fmt::format("{} and {} would write the same file", other->second, option));
+    }
 }
 
 void run(RunOptions options) {
@@ -218,7 +248,7 @@ void run(RunOptions options) {
     if (options.quiet) set_up_log(LogLevel::warnings);
     Scene scene = load_input(options.input);
     if (options.frames) scene.simulation.frames = *options.frames;
-    refuse_to_replace(options);
+    refuse_to_replace(options, scene);
     check_outputs(options);
     std::optional<tbb::global_control> thread_limit;
     if (options.threads) {

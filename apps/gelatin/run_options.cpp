@@ -1,4 +1,5 @@
 #include "run_options.h"
+#include "whole_number.h"
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
@@ -67,7 +68,7 @@ void add_output_options(CLI::App& command, RunOptions& options) {
         ->group(kOutputs);
     command.add_option("--every", options.every, "Film, export and record every K-th frame")
         ->type_name("K")
-        ->check(CLI::PositiveNumber)
+        ->check(at_least(1))
         ->group(kOutputs);
 }
 
@@ -75,7 +76,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
     add_input_options(command, options.input)->required();
     command
         .add_option("--frames", options.frames, "Run to this frame instead of the scene's simulation.frames")
-        ->check(CLI::NonNegativeNumber);
+        ->check(at_least(0));
 
     const char* computing = "Computing";
     command
@@ -85,11 +86,11 @@ void add_run_options(CLI::App& command, RunOptions& options) {
         ->group(computing);
     command
         .add_option("--device", options.device, "Index of the EGL device to use (gelatin info lists them)")
-        ->check(CLI::NonNegativeNumber)
+        ->check(at_least(0))
         ->group(computing);
     command.add_option("--threads", options.threads, "Largest number of threads of the CPU backend")
         ->type_name("N")
-        ->check(CLI::PositiveNumber)
+        ->check(at_least(1))
         ->group(computing);
     command
         .add_flag("--gl-debug", options.gl_debug, "Show the OpenGL driver's messages and missing barriers")
@@ -114,7 +115,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
             ->group(checkpoints);
     command.add_option("--checkpoint-every", options.checkpoint_every, "Also save it every N frames")
         ->type_name("N")
-        ->check(CLI::PositiveNumber)
+        ->check(at_least(1))
         ->needs(checkpoint)
         ->group(checkpoints);
     command.add_option("--resume", options.resume, "Continue from this checkpoint or recording")
@@ -123,7 +124,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
     command
         .add_option("--resume-frame", options.resume_frame,
                     "Of the recording, by default its last one; without --resume, of the recording FILE")
-        ->check(CLI::NonNegativeNumber)
+        ->check(at_least(0))
         ->group(checkpoints);
 }
 

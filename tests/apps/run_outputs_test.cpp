@@ -119,5 +119,27 @@ TEST_F(RunOutputsDraws, AFilmReplacesWhatItsLinkLeadsTo) {
     EXPECT_TRUE(fs::is_regular_file(path("film.mp4")));
 }
 
+// A slip of the hand must not cost a scene, a mesh or another output.
+TEST_F(RunOutputs, DoNotReplaceWhatIsReadOrEachOther) {
+    write("ball.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    write("ball.toml", "[[material]]\nname = 'm'\n[[object]]\nname = 'o'\nshape = { file = 'ball.obj' }\n");
+    const auto refusal = [&](const std::vector<std::string>& arguments) {
+        const ProgramResult result = run(arguments);
+        EXPECT_NE(result.exit_code, 0);
+        return result.err;
+    };
+    EXPECT_THAT(refusal({"run", "cube.toml", "--stats", "cube.toml"}),
+                HasSubstr("cube.toml: is what the run is made from; --stats would replace it"));
+    EXPECT_THAT(refusal({"run", "ball.toml", "--checkpoint", "ball.obj"}),
+                HasSubstr("ball.obj: is what the run is made from; --checkpoint would replace it"));
+    EXPECT_THAT(refusal({"run", "cube.toml", "--stats", "./a.ck", "--checkpoint", "a.ck"}),
+                HasSubstr("a.ck: --stats and --checkpoint would write the same file"));
+    EXPECT_EQ(run({"run", "cube.toml", "--backend", "cpu", "--checkpoint", "a.ck"}).exit_code, 0);
+    EXPECT_EQ(run({"run", "cube.toml", "--backend", "cpu", "--frames", "21", "--resume", "a.ck",
+                   "--checkpoint", "a.ck"})
+                  .exit_code,
+              0);
+}
+
 }  // namespace
 }  // namespace gelatin::test

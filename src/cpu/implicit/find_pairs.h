@@ -44,7 +44,7 @@ Real separation(const ContactPair& pair, const Vec3<Real>& direction, std::span<
     return bottom - top;
 }
 
-/// Where the nodes of a step may go: each stays within `slack` of the straight path to where it is expected.
+/// Where the nodes of a step may go: each goes straight to within `slack` of where it is expected.
 template <class Real>
 struct Paths {
     std::span<const Vec4<Real>> from, to;  ///< xyz [m], shape [nodes]

@@ -267,7 +267,8 @@ std::vector<std::uint32_t> Guard<Real>::run(const Paths<Real>& paths, std::span<
     }
     std::vector<std::uint32_t> strays;
     for (const std::uint32_t n : model_->surface_parts.nodes)
-        if (!keeps_to(paths, n, ends[n])) strays.push_back(n);
+        if (!(glm::distance(Vec3<Real>(ends[n]), Vec3<Real>(paths.to[n])) <= paths.slacks[object_of_[n]]))
+            strays.push_back(n);
     return strays;
 }
 
@@ -312,16 +313,6 @@ void Guard<Real>::move(const Paths<Real>& paths, std::span<const NearPair<Real>>
             }
         }
     }
-}
-
-template <class Real>
-bool Guard<Real>::keeps_to(const Paths<Real>& paths, std::uint32_t node, const Vec4<Real>& end) const {
-    const Vec3<Real> from(paths.from[node]), way = Vec3<Real>(paths.to[node]) - from,
-                                             gone = Vec3<Real>(end) - from;
-    const Real squared = glm::dot(way, way);
-    const Real along =
-        squared > Real(0) ? std::clamp(glm::dot(gone, way) / squared, Real(0), Real(1)) : Real(0);
-    return glm::length(gone - along * way) <= paths.slacks[object_of_[node]];
 }
 
 template class Guard<float>;

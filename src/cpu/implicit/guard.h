@@ -46,7 +46,6 @@ private:
 
     void move(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
               std::span<const Real> compliances, std::span<Vec4<Real>> ends);
-    bool keeps_to(const Paths<Real>& paths, std::uint32_t node, const Vec4<Real>& end) const;
     void find_frames(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
                      std::span<const Vec4<Real>> ends);
     void keep_outside_planes(const Paths<Real>& paths, std::span<Vec4<Real>> ends);

@@ -23,6 +23,8 @@ constexpr double kStiffestStep = 1.0 / 60.0;
 constexpr double kSlackOfThickness = 0.5, kSlackOfMotion = 0.1;
 // Detections of a step for its guard alone, at most.
 constexpr int kMostGuards = 10;
+// BDF2 is stable for steps up to 2.4 times as long as the last one.
+constexpr double kLongest = 2.2;
 // Bodies come to rest that are slower than after so long a fall [s].
 constexpr double kRestingFall = 1.0 / 120.0;
 // Contacts this many reaches apart may come together in a step that deforms bodies.
@@ -116,12 +118,12 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
         }
         {
             const TimedStage part(timer, "advance_nodes.finish");
-            finish(input.step, previous, current);
+            finish(previous, current);
             energy_ = energy(current);
         }
         const double of_contacts = contact_gain();
         const auto gain = [&] { return energy_->sum() - before.sum() + of_contacts; };
-        if (uses_bdf2_ && !is_driven && !(gained_ + gain() <= kMostGained * before.motion + rounding)) {
+        if (past_ > Real(0) && !is_driven && !(gained_ + gain() <= kMostGained * before.motion + rounding)) {
             damps = true;
             continue;
         }
@@ -201,14 +203,18 @@ Real ImplicitStep<Real>::deepest() const {
     return deepest;
 }
 
-// y = x + h (v + h g) of implicit Euler, or with h' = 2/3 h
-//   y = (4 x - x_1) / 3 + h' ((4 v - v_1) / 3 + h' g)
-// of BDF2, with x_1, v_1 one step before. Then m / h'^2 (x' - y) is what inertia resists with.
+// BDF2 for steps of any length: with x_1, v_1 one step before, whose length was h_1, and w = h / h_1,
+//   y = x + c (x - x_1) + h' (v + c (v - v_1) + h' g),  c = w^2 / (1 + 2 w),  h' = h (1 + w) / (1 + 2 w).
+// Implicit Euler's scheme is that of w = 0. Then m / h'^2 (x' - y) is what inertia resists with.
 template <class Real>
 void ImplicitStep<Real>::predict(const StepInput<Real>& input, const Nodes<Real>& previous, bool damps) {
     const Real step = step_ = input.step;
-    uses_bdf2_ = !damps && last_step_ == step && !comes_to_rest(previous);
-    solve_step_ = uses_bdf2_ ? Real(2) / Real(3) * step : step;
+    Real ratio = 0;
+    if (!damps && last_step_ > Real(0) && step < static_cast<Real>(kLongest) * last_step_ &&
+        !comes_to_rest(previous))
+        ratio = step / last_step_;
+    past_ = ratio * ratio / (Real(1) + Real(2) * ratio);
+    solve_step_ = step * (Real(1) + ratio) / (Real(1) + Real(2) * ratio);
     const Vec3<Real> gravity(model_->gravity);
     const Real h = solve_step_, least = std::max(step, static_cast<Real>(kStiffestStep));
     for_each_index(model_->node_count(), [&](std::size_t n) {
@@ -228,10 +234,9 @@ void ImplicitStep<Real>::predict(const StepInput<Real>& input, const Nodes<Real>
         }
         const Real mass = Real(1) / previous.positions[n].w;
         Vec3<Real> target = h * v + h * h * acceleration;  // y - x
-        if (uses_bdf2_) {
-            const Vec3<Real> before(earlier_.positions[n]), speed(earlier_.velocities[n]);
-            target = (x - before) / Real(3) + h * (Real(4) * v - speed) / Real(3) + h * h * acceleration;
-        }
+        if (past_ > Real(0))
+            target += past_ *
+                      (x - Vec3<Real>(earlier_.positions[n]) + h * (v - Vec3<Real>(earlier_.velocities[n])));
         system_.inertia[n] = mass / (h * h);
         system_.displacements[n] = target;
         compliances_[n] =
@@ -479,7 +484,7 @@ glm::dvec3 ImplicitStep<Real>::angular_momentum(std::uint32_t object, std::span<
 // Rotations that linear systems have found become true ones. And the angular momentum of free bodies, of
 // which these schemes would lose some in each step, changes by what contacts did, about the centre of mass.
 template <class Real>
-void ImplicitStep<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current) {
+void ImplicitStep<Real>::finish(const Nodes<Real>& previous, Nodes<Real>& current) {
     Field& d = system_.displacements;
     remember();
     Field forces(d.size(), Vec3<Real>(0));  // of contacts
@@ -498,9 +503,9 @@ void ImplicitStep<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Re
             current.velocities[n] = v;
             return;
         }
-        Vec3<Real> velocity = d[n] / step;
-        if (uses_bdf2_)
-            velocity = (d[n] - (Vec3<Real>(x) - Vec3<Real>(earlier_.positions[n])) / Real(3)) / solve_step_;
+        Vec3<Real> velocity = d[n] / solve_step_;
+        if (past_ > Real(0))
+            velocity -= past_ / solve_step_ * (Vec3<Real>(x) - Vec3<Real>(earlier_.positions[n]));
         current.velocities[n] = Vec4<Real>(velocity, v.w);
     });
     for_each_index(0, model_->body_count(), 1, [&](std::size_t o) {
@@ -513,9 +518,8 @@ void ImplicitStep<Real>::finish(Real step, const Nodes<Real>& previous, Nodes<Re
                      glm::dvec3(forces[n]));
         const RigidInertia inertia(sums);
         const glm::dvec3 torque = sums.moment - glm::cross(inertia.center, sums.force);
-        const double h = static_cast<double>(solve_step_);
-        const glm::dvec3 wanted =
-            (uses_bdf2_ ? (4.0 * angular_[o] - earlier_angular_[o]) / 3.0 : angular_[o]) + h * torque;
+        const auto h = static_cast<double>(solve_step_), past = static_cast<double>(past_);
+        const glm::dvec3 wanted = angular_[o] + past * (angular_[o] - earlier_angular_[o]) + h * torque;
         const auto object = static_cast<std::uint32_t>(o);
         const glm::dvec3 lacking = wanted - angular_momentum(object, current.positions, current.velocities);
         const glm::dvec3 spin = inertia.inverse_inertia * lacking;

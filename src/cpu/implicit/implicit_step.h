@@ -104,7 +104,7 @@ private:
         return Vec3<Real>(model_->surfaces[collider - model_->body_count()].velocity);
     }
     void remember();
-    void finish(Real step, const Nodes<Real>& previous, Nodes<Real>& current);
+    void finish(const Nodes<Real>& previous, Nodes<Real>& current);
     glm::dvec3 angular_momentum(std::uint32_t object, std::span<const Vec4<Real>> positions,
                                 std::span<const Vec4<Real>> velocities) const;
 
@@ -119,8 +119,8 @@ private:
     bool is_driven_by_surfaces_ = false;
     std::optional<Energy> energy_;  // at the end of the last step, if it is known
     double gained_ = 0.0;           // since energy was least [J]
-    bool uses_bdf2_ = false;        // in this step
-    Real solve_step_ = 0;           // h, or 2/3 of it
+    Real past_ = 0;                 // c, how much the step before counts in this one
+    Real solve_step_ = 0;           // h'
     Real step_ = 0, last_step_ = 0;
     Nodes<Real> earlier_;            // one step before previous
     std::vector<Real> compliances_;  // of nodes in contacts, 1 / h_i [m/N]

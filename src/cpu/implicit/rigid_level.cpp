@@ -48,7 +48,8 @@ RigidLevel<Real>::RigidLevel(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
       numbers_(model_->objects.size(), kNoNode),
       body_of_(model_->node_count(), kNoNode),
-      pieces_(node_ranges(*model_)) {
+      pieces_(node_ranges(*model_)),
+      arms_(model_->node_count()) {
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         const Range& nodes = model_->objects[o].nodes;
         const auto* first = model_->positions.data() + nodes.first;
@@ -61,7 +62,6 @@ RigidLevel<Real>::RigidLevel(std::shared_ptr<const Model> model)
 
 template <class Real>
 void RigidLevel<Real>::begin(std::span<const Vec4<Real>> positions, std::span<const Real> inertia) {
-    positions_.assign(positions.begin(), positions.end());
     for_each_index(0, bodies_.size(), 1, [&](std::size_t b) {
         Body& body = bodies_[b];
         const Range& nodes = model_->objects[body.object].nodes;
@@ -75,6 +75,8 @@ void RigidLevel<Real>::begin(std::span<const Vec4<Real>> positions, std::span<co
         sums.arm = glm::dvec3(0.0);
         body.matrix = inertia_matrix(sums);
         body.inverse = body.matrix.inverse();
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+            arms_[n] = Vec3<Real>(glm::dvec3(positions[n]) - body.center);
     });
 }
 
@@ -88,11 +90,10 @@ void RigidLevel<Real>::set_rows(std::span<const ContactRow<Real>> rows) {
             const std::uint32_t object = side == 0 ? row.object : row.other;
             if (object == kNoNode || numbers_[object] == kNoNode) continue;
             touch.bodies[side] = numbers_[object];
-            const glm::dvec3& center = bodies_[numbers_[object]].center;
             for (std::uint32_t k = 0; k < row.count; ++k)
                 if ((side == 0) == (row.weights[k] < Real(0)))
-                    touch.arms[side] += std::abs(static_cast<double>(row.weights[k])) *
-                                        (glm::dvec3(positions_[row.nodes[k]]) - center);
+                    touch.arms[side] +=
+                        std::abs(static_cast<double>(row.weights[k])) * glm::dvec3(arms_[row.nodes[k]]);
         }
         touches_[r] = touch;
     });
@@ -216,12 +217,10 @@ std::vector<Motion> RigidLevel<Real>::gather(std::span<const Vec3<Real>> residua
         std::span<Motion>(by_object),
         [&](const ObjectPieces::Piece& piece) -> Motion {
             if (numbers_[piece.object] == kNoNode) return Motion::Zero();
-            const glm::dvec3& center = bodies_[numbers_[piece.object]].center;
             glm::dvec3 force(0.0), moment(0.0);
             for (std::uint32_t n = piece.range.first; n < piece.range.end(); ++n) {
-                const glm::dvec3 f(residual[n]);
-                force += f;
-                moment += glm::cross(glm::dvec3(positions_[n]) - center, f);
+                force += glm::dvec3(residual[n]);
+                moment += glm::dvec3(glm::cross(arms_[n], residual[n]));
             }
             return motion(force, moment);
         },
@@ -284,20 +283,6 @@ void RigidLevel<Real>::solve(std::span<Motion> motions) const {
     const Eigen::VectorXd found = factors_.solve(right);
     for (std::size_t b = 0; b < motions.size(); ++b)
         motions[b] = found.segment<6>(static_cast<Eigen::Index>(6 * b));
-}
-
-template <class Real>
-void RigidLevel<Real>::displace(std::span<const Motion> motions, std::span<Vec3<Real>> displacements) const {
-    for_each_index(displacements.size(), [&](std::size_t n) {
-        const std::uint32_t b = body_of_[n];
-        if (b == kNoNode) {
-            displacements[n] = Vec3<Real>(0);
-            return;
-        }
-        const Motion& m = motions[b];
-        const glm::dvec3 s(m(0), m(1), m(2)), w(m(3), m(4), m(5));
-        displacements[n] = Vec3<Real>(s + glm::cross(w, glm::dvec3(positions_[n]) - bodies_[b].center));
-    });
 }
 
 template <class Real>

@@ -4,12 +4,14 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cpu/descent/motion.h"
 #include "cpu/implicit/contact_row.h"
 #include "cpu/nodes.h"
 #include "cpu/object_pieces.h"
+#include "model/for_each_index.h"
 #include "model/model.h"
 #include "model/spring_packing.h"
 
@@ -48,8 +50,17 @@ public:
     std::vector<Motion> resistance(std::span<const Motion> motions) const;
     /// s of a row for motions.
     Vec3<Real> relative(std::size_t row, std::span<const Motion> motions) const;
-    /// W q. @param displacements output [m], shape [nodes]; 0 for bodies that are not free
-    void displace(std::span<const Motion> motions, std::span<Vec3<Real>> displacements) const;
+    /// W q: use(node, displacement [m]) for all nodes, on several threads; 0 for bodies that are not free.
+    template <class Use>
+    void for_displacements(std::span<const Motion> motions, const Use& use) const {
+        std::vector<std::pair<Vec3<Real>, Vec3<Real>>> parts;
+        for (const Motion& m : motions)
+            parts.push_back({Vec3<Real>(m(0), m(1), m(2)), Vec3<Real>(m(3), m(4), m(5))});
+        for_each_index(arms_.size(), [&](std::size_t n) {
+            const std::uint32_t b = body_of_[n];
+            use(n, b == kNoNode ? Vec3<Real>(0) : parts[b].first + glm::cross(parts[b].second, arms_[n]));
+        });
+    }
 
     /// What a step of true rotations differs by from a linear one, d = s + w x r, to second order, for the
     /// rotation w that inertia wants: the displacements w x (w x r) / 2 are taken out, and forces rotate with
@@ -91,8 +102,8 @@ private:
     std::vector<std::uint32_t> body_of_;  // of nodes, the same
     std::vector<Body> bodies_;
     ObjectPieces pieces_;
-    std::vector<Vec4<Real>> positions_;
-    std::vector<Touch> touches_;  // by row
+    std::vector<Vec3<Real>> arms_;  // of nodes, from their bodies' centres [m]
+    std::vector<Touch> touches_;    // by row
     std::vector<Pair> pairs_;
     std::vector<std::uint32_t> pair_rows_;
     std::vector<std::uint32_t> pair_of_row_;

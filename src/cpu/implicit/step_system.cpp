@@ -22,6 +22,13 @@ constexpr int kHalvings = 20;
 constexpr int kMostRigidRounds = 20;
 constexpr std::size_t kChunk = 1024;  // of a sum
 
+template <class Real>
+SymmetricMatrix<Real> inverse_of(const SymmetricMatrix<Real>& m) {
+    const Vec3<Real> x = solve(m, Vec3<Real>(1, 0, 0)), y = solve(m, Vec3<Real>(0, 1, 0)),
+                     z = solve(m, Vec3<Real>(0, 0, 1));
+    return {{x.x, y.y, z.z}, {y.z, x.z, x.y}};
+}
+
 }  // namespace
 
 template <class Real>
@@ -33,7 +40,7 @@ StepSystem<Real>::StepSystem(std::shared_ptr<const Model> model)
       displacements(model->node_count()),
       model_(std::move(model)),
       row_starts_(model_->node_count() + 1),
-      blocks_(model_->node_count()) {
+      inverse_blocks_(model_->node_count()) {
     for (Field* field : {&base_, &residual_, &direction_, &moved_, &product_, &with_rows_, &z_, &p_})
         field->resize(model_->node_count());
 }
@@ -151,7 +158,8 @@ double StepSystem<Real>::dot(const Field& a, const Field& b) const {
 
 template <class Real>
 void StepSystem<Real>::prepare_preconditioner() {
-    for_each_index(blocks_.size(), [&](std::size_t n) {
+    for_each_index(inverse_blocks_.size(), [&](std::size_t n) {
+        if (inertia[n] == Real(0)) return;
         SymmetricMatrix<Real> block = elastic.diagonal()[n];
         block.add_identity(inertia[n]);
         for (std::uint32_t e = row_starts_[n]; e < row_starts_[n + 1]; ++e) {
@@ -161,7 +169,7 @@ void StepSystem<Real>::prepare_preconditioner() {
             block.diagonal += weight * weight * stiffness.diagonal;
             block.beside += weight * weight * stiffness.beside;
         }
-        blocks_[n] = block;
+        inverse_blocks_[n] = inverse_of(block);
     });
     rigid.factorise(tangents_);
 }
@@ -171,9 +179,8 @@ template <class Real>
 void StepSystem<Real>::precondition(const Field& r, Field& z) {
     std::vector<Motion> motions = rigid.gather(r);
     rigid.solve(motions);
-    rigid.displace(motions, z);
-    for_each_index(r.size(), [&](std::size_t n) {
-        if (inertia[n] > Real(0)) z[n] += cpu::solve(blocks_[n], r[n]);
+    rigid.for_displacements(motions, [&](std::size_t n, const Vec3<Real>& rigid_part) {
+        z[n] = inertia[n] > Real(0) ? inverse_blocks_[n] * r[n] + rigid_part : Vec3<Real>(0);
     });
 }
 
@@ -297,8 +304,7 @@ void StepSystem<Real>::rigid_newton() {
         for_each_index(rows.size(),
                        [&](std::size_t r) { slips_[r] += static_cast<Real>(part) * changes[r]; });
     }
-    rigid.displace(moved, direction_);
-    for_each_index(direction_.size(), [&](std::size_t n) { displacements[n] += direction_[n]; });
+    rigid.for_displacements(moved, [&](std::size_t n, const Vec3<Real>& d) { displacements[n] += d; });
 }
 
 // A Newton step on all nodes, from the tangents that are set.

@@ -68,8 +68,8 @@ private:
     std::shared_ptr<const Model> model_;
     std::vector<std::uint32_t> row_starts_, row_entries_;  // by node: 4 row + place
     std::vector<RowTangent<Real>> tangents_;
-    std::vector<Vec3<Real>> row_forces_, slips_;  // slips: s of rows, by displacements
-    std::vector<SymmetricMatrix<Real>> blocks_;
+    std::vector<Vec3<Real>> row_forces_, slips_;           // slips: s of rows, by displacements
+    std::vector<SymmetricMatrix<Real>> inverse_blocks_;    // of nodes
     Field base_, residual_, direction_, product_, z_, p_;  // base: loads - A d
     Field moved_, with_rows_;                              // A direction_, without rows; A p_, with them
 };

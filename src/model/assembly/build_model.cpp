@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <filesystem>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
 #include <numeric>
 #include <span>
 #include <utility>
+#include <variant>
 
 #include "core/progress.h"
 #include "gelatin/error.h"
@@ -273,10 +275,25 @@ const Material& find_material(const Scene& scene, const std::string& name) {
     return *found;
 }
 
+// Readers of meshes do not know which object wants a file that is not there.
+TetMesh make_mesh(const Scene& scene, const ObjectDescription& object, ObjectMesher& mesher) {
+    try {
+        return mesher.make(object);
+    } catch (const InvalidInput& error) {
+        const auto* shape = std::get_if<FileShape>(&object.shape);
+        const bool is_missing = shape != nullptr && error.problem().file == shape->file.string() &&
+                                !std::filesystem::exists(shape->file);
+        if (!is_missing) throw;
+        throw InvalidInput({scene.file.string(), object.line,
+                            fmt::format("object.{}.shape.file", object.name), shape->file.string(),
+                            error.problem().problem});
+    }
+}
+
 Body make_body(const Scene& scene, const ObjectDescription& object, ObjectMesher& mesher) {
     Body body;
     body.name = object.name;
-    body.mesh = mesher.make(object);
+    body.mesh = make_mesh(scene, object, mesher);
     body.material = find_material(scene, object.material);
     for (const PartDescription& part : object.parts)
         body.part_materials.push_back(find_material(scene, part.material));

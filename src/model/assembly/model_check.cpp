@@ -86,7 +86,7 @@ std::optional<std::string> uneven_masses(const Model& model) {
 // Mesh files name no unit, and those of CAD are usually in millimetres.
 std::optional<std::string> seems_to_be_in_millimetres(const Model& model, const ModelObject& object,
                                                       const Scene& scene) {
-    constexpr double kLarge = 100.0, kMillimetre = 1e-3;  // [m]
+    constexpr double kLarge = 20.0, kMillimetre = 1e-3;  // [m]
     constexpr double kEarth = 9.81, kAbout = 0.05;        // [m/s^2]
     if (std::abs(glm::length(scene.gravity()) - kEarth) > kAbout) return {};
     glm::dvec3 low(model.positions[object.nodes.first]), high = low;
