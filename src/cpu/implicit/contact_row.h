@@ -26,6 +26,7 @@ struct ContactRow {
     std::uint32_t object = 0, other = 0;  ///< of the sides; kNoNode: a plane
     Vec3<Real> normal{0};                 ///< n, from the first side to the second, unit
     Real gap = 0;                         ///< g_0, when the step begins [m]
+    Real ease = 0;                        ///< of which what a plane has not yet pushed out [m]
     Real reach = 0;                       ///< r, at which it begins to press [m]
     Real stiffness = 0;                   ///< k [N/m]
     Real friction = 0;                    ///< Coulomb's coefficient

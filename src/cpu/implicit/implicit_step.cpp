@@ -11,6 +11,7 @@
 #include "cpu/contact/nearest_pairs.h"
 #include "cpu/descent/rigid_inertia.h"
 #include "cpu/elasticity/elastic_energy.h"
+#include "cpu/implicit/union_find.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -25,14 +26,16 @@ constexpr double kSlackOfThickness = 0.5, kSlackOfMotion = 0.1;
 constexpr int kMostGuards = 10;
 // BDF2 is stable for steps up to 2.4 times as long as the last one.
 constexpr double kLongest = 2.2;
-// Bodies come to rest that are slower than after so long a fall [s].
-constexpr double kRestingFall = 1.0 / 120.0;
+// Bodies come to rest that vibrate, and go to and fro, more slowly than after so long a fall [s].
+constexpr double kRestingFall = 1.0 / 60.0;
 // Contacts this many reaches apart may come together in a step that deforms bodies.
 constexpr double kNear = 1.5;
 // A contact that is found nearer than its reach presses from there; the reach grows to all of it within this
 // time [s].
 constexpr double kEasing = 1.0 / 3.0;
 constexpr double kLeastReach = 1e-3;
+// What lies in a plane at first is pushed out as fast as it is deep, over this time [s].
+constexpr double kPushing = 0.1;
 // Where steps would gain bodies this part of their energy in all, they are made again by implicit Euler's
 // scheme, which damps; where one does that gains the second part at once, it was too long for its
 // linearisation, and is made shorter.
@@ -60,6 +63,8 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
       pairs_(model_, surface_, own),
       guard_(model_, surface_),
       system_(model_),
+      schemes_(model_->objects.size()),
+      is_calm_(model_->body_count()),
       compliances_(model_->node_count()),
       expected_(model_->node_count()),
       ends_(model_->node_count()),
@@ -79,7 +84,8 @@ void ImplicitStep<Real>::restart() {
     pairs_.forget();
     last_step_ = Real(0);
     energy_.reset();
-    gained_ = 0.0;
+    gained_ = in_contacts_ = 0.0;
+    std::fill(is_calm_.begin(), is_calm_.end(), std::uint8_t(0));
 }
 
 template <class Real>
@@ -100,7 +106,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
         memory_ = memory;
         {
             const TimedStage part(timer, "advance_nodes.detect");
-            predict(input, previous, damps);
+            predict(input, previous);
             const bool is_found = damps || detect(previous, is_shortest);
             if (is_found) make_rows(previous);
             if (!is_found || (!is_shortest && deepest() > static_cast<Real>(kDeepest))) {
@@ -110,6 +116,8 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
         }
         {
             const TimedStage part(timer, "advance_nodes.linearise");
+            choose_schemes(damps);
+            find_targets(input, previous);
             linearise(input, previous);
         }
         {
@@ -119,11 +127,16 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
         {
             const TimedStage part(timer, "advance_nodes.finish");
             finish(previous, current);
+            find_calm(current);
             energy_ = energy(current);
         }
-        const double of_contacts = contact_gain();
-        const auto gain = [&] { return energy_->sum() - before.sum() + of_contacts; };
-        if (past_ > Real(0) && !is_driven && !(gained_ + gain() <= kMostGained * before.motion + rounding)) {
+        // Contacts that are new hold some from the start, which nobody had before.
+        const double at_start = contact_energy(false), at_end = contact_energy(true);
+        const auto gain = [&](double in_contacts) {
+            return energy_->sum() - before.sum() + at_end - in_contacts;
+        };
+        const double most_gained = kMostGained * before.motion + rounding;
+        if (!damps && !is_driven && !(gained_ + gain(in_contacts_) <= most_gained)) {
             damps = true;
             continue;
         }
@@ -131,8 +144,9 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
         if (guard(previous, current)) energy_ = energy(current);
         const double most = is_driven ? std::numeric_limits<double>::max()
                                       : (is_shortest ? 1.0 : kMostGain) * before.motion + rounding;
-        if (gain() <= most) {
-            gained_ = is_driven ? 0.0 : std::max(gained_ + gain(), 0.0);
+        if (gain(at_start) <= most) {
+            gained_ = is_driven ? 0.0 : std::max(gained_ + gain(in_contacts_), 0.0);
+            in_contacts_ = at_end;
             break;
         }
         if (is_shortest) {
@@ -146,14 +160,14 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
     return input.step;
 }
 
-// What contacts and their friction hold more at the end of the step than at its start [J].
+// What contacts and their friction hold when a step begins or ends [J].
 template <class Real>
-double ImplicitStep<Real>::contact_gain() const {
-    double gain = 0.0;
+double ImplicitStep<Real>::contact_energy(bool at_end) const {
+    double sum = 0.0;
     for (const ContactRow<Real>& row : system_.rows)
-        gain += static_cast<double>(row.energy(relative<Real>(row, system_.displacements)) -
-                                    row.energy(Vec3<Real>(0)));
-    return gain;
+        sum += static_cast<double>(
+            row.energy(at_end ? relative<Real>(row, system_.displacements) : Vec3<Real>(0)));
+    return sum;
 }
 
 template <class Real>
@@ -203,68 +217,110 @@ Real ImplicitStep<Real>::deepest() const {
     return deepest;
 }
 
+// Where nodes are expected, without forces but gravity and loads; and what is asked about them.
+template <class Real>
+void ImplicitStep<Real>::predict(const StepInput<Real>& input, const Nodes<Real>& previous) {
+    const Real step = step_ = input.step, least = std::max(step, static_cast<Real>(kStiffestStep));
+    for_each_index(model_->node_count(), [&](std::size_t n) {
+        const Vec3<Real> x(previous.positions[n]), v(previous.velocities[n]);
+        const bool is_held = previous.positions[n].w == Real(0);
+        expected_[n] = step * v;
+        if (!is_held) expected_[n] += step * step * acceleration(input, previous, n);
+        ends_[n] = Vec4<Real>(x + expected_[n], previous.positions[n].w);
+        compliances_[n] = is_held ? Real(0)
+                                  : Real(1) / (Real(1) / (previous.positions[n].w * least * least) +
+                                               static_cast<Real>(surface_->stiffness[n]) / Real(3));
+    });
+}
+
+template <class Real>
+Vec3<Real> ImplicitStep<Real>::acceleration(const StepInput<Real>& input, const Nodes<Real>& previous,
+                                            std::size_t n) const {
+    const Vec3<Real> gravity(model_->gravity);
+    return input.load_forces.empty() ? gravity
+                                     : gravity + previous.positions[n].w * Vec3<Real>(input.load_forces[n]);
+}
+
+// BDF2 hardly damps, so bodies that rest would tremble on for ever: those of islands that are calm go on by
+// implicit Euler's scheme.
+template <class Real>
+void ImplicitStep<Real>::choose_schemes(bool damps) {
+    UnionFind islands(model_->objects.size());
+    for (const ContactRow<Real>& row : system_.rows)
+        if (row.object != kNoNode && model_->is_body(row.object) && model_->is_body(row.other))
+            islands.join(row.object, row.other);
+    std::vector<std::uint8_t> moves(model_->objects.size());
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o)
+        if (is_calm_[o] == 0) moves[islands.find(o)] = 1;
+    const bool has_past = !damps && last_step_ > Real(0) && step_ < static_cast<Real>(kLongest) * last_step_;
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
+        const Real ratio = has_past && moves[islands.find(o)] != 0 ? step_ / last_step_ : Real(0);
+        schemes_[o] = {ratio * ratio / (Real(1) + Real(2) * ratio),
+                       step_ * (Real(1) + ratio) / (Real(1) + Real(2) * ratio)};
+    }
+}
+
 // BDF2 for steps of any length: with x_1, v_1 one step before, whose length was h_1, and w = h / h_1,
 //   y = x + c (x - x_1) + h' (v + c (v - v_1) + h' g),  c = w^2 / (1 + 2 w),  h' = h (1 + w) / (1 + 2 w).
 // Implicit Euler's scheme is that of w = 0. Then m / h'^2 (x' - y) is what inertia resists with.
 template <class Real>
-void ImplicitStep<Real>::predict(const StepInput<Real>& input, const Nodes<Real>& previous, bool damps) {
-    const Real step = step_ = input.step;
-    Real ratio = 0;
-    if (!damps && last_step_ > Real(0) && step < static_cast<Real>(kLongest) * last_step_ &&
-        !comes_to_rest(previous))
-        ratio = step / last_step_;
-    past_ = ratio * ratio / (Real(1) + Real(2) * ratio);
-    solve_step_ = step * (Real(1) + ratio) / (Real(1) + Real(2) * ratio);
-    const Vec3<Real> gravity(model_->gravity);
-    const Real h = solve_step_, least = std::max(step, static_cast<Real>(kStiffestStep));
+void ImplicitStep<Real>::find_targets(const StepInput<Real>& input, const Nodes<Real>& previous) {
     for_each_index(model_->node_count(), [&](std::size_t n) {
-        const Vec3<Real> x(previous.positions[n]), v(previous.velocities[n]);
-        const bool is_held = previous.positions[n].w == Real(0);
-        Vec3<Real> acceleration = gravity;
-        if (!input.load_forces.empty())
-            acceleration += previous.positions[n].w * Vec3<Real>(input.load_forces[n]);
-        expected_[n] = is_held ? step * v : step * v + step * step * acceleration;
-        ends_[n] = Vec4<Real>(x + expected_[n], previous.positions[n].w);
-        if (is_held) {
+        if (previous.positions[n].w == Real(0)) {
             system_.inertia[n] = Real(0);
             system_.loads[n] = Vec3<Real>(0);
             system_.displacements[n] = expected_[n];
-            compliances_[n] = Real(0);
             return;
         }
-        const Real mass = Real(1) / previous.positions[n].w;
-        Vec3<Real> target = h * v + h * h * acceleration;  // y - x
-        if (past_ > Real(0))
-            target += past_ *
-                      (x - Vec3<Real>(earlier_.positions[n]) + h * (v - Vec3<Real>(earlier_.velocities[n])));
-        system_.inertia[n] = mass / (h * h);
+        const auto& [past, h] = schemes_[object_of_[n]];
+        const Vec3<Real> x(previous.positions[n]), v(previous.velocities[n]);
+        Vec3<Real> target = h * v + h * h * acceleration(input, previous, n);  // y - x
+        if (past > Real(0))
+            target +=
+                past * (x - Vec3<Real>(earlier_.positions[n]) + h * (v - Vec3<Real>(earlier_.velocities[n])));
+        system_.inertia[n] = Real(1) / (previous.positions[n].w * h * h);
         system_.displacements[n] = target;
-        compliances_[n] =
-            Real(1) / (mass / (least * least) + static_cast<Real>(surface_->stiffness[n]) / Real(3));
     });
 }
 
-// BDF2 hardly damps: bodies that rest would tremble on for ever.
+// Which bodies hardly vibrate, and touch others but hardly go towards or away from them.
 template <class Real>
-bool ImplicitStep<Real>::comes_to_rest(const Nodes<Real>& previous) const {
+void ImplicitStep<Real>::find_calm(const Nodes<Real>& current) {
     const double slow = kRestingFall * glm::length(glm::dvec3(model_->gravity));
-    if (system_.rows.empty() || slow == 0.0) return false;
-    for (std::size_t o = 0; o < model_->body_count(); ++o) {
-        const Range& nodes = model_->objects[o].nodes;
-        double squared = 0.0;
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
-            const glm::dvec3 v(previous.velocities[n]);
-            squared += static_cast<double>(model_->masses[n]) * glm::dot(v, v);
+    std::vector<Motion> motions(system_.rigid.count(), Motion::Zero());
+    std::vector<double> vibrations(model_->body_count(), 0.0), pressing(model_->body_count(), 0.0),
+        approach(model_->body_count(), 0.0);
+    for_each_index(0, model_->body_count(), 1, [&](std::size_t o) {
+        const ModelObject& object = model_->objects[o];
+        const bool is_free = system_.rigid.is_free(o);
+        if (is_free) motions[system_.rigid.number(o)] = system_.rigid.velocity(o, current.velocities);
+        double squares = 0.0, mass = 0.0;
+        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
+            const auto m = static_cast<double>(model_->masses[n]);
+            Vec3<Real> v(current.velocities[n]);
+            if (is_free) v -= system_.rigid.at(n, motions);
+            squares += m * static_cast<double>(glm::dot(v, v));
+            mass += m;
         }
-        if (squared > slow * slow * model_->objects[o].mass) return false;
+        vibrations[o] = std::sqrt(squares / mass);
+    });
+    for (std::size_t r = 0; r < system_.rows.size(); ++r) {
+        const ContactRow<Real>& row = system_.rows[r];
+        const auto force = static_cast<double>(row.pressing(relative<Real>(row, system_.displacements)));
+        const auto speed = static_cast<double>(glm::dot(row.normal, system_.rigid.relative(r, motions)));
+        for (const std::uint32_t object : {row.object, row.other}) {
+            if (object == kNoNode || !model_->is_body(object)) continue;
+            pressing[object] += force;
+            approach[object] += force * std::abs(speed);
+        }
     }
-    return true;
+    for (std::size_t o = 0; o < is_calm_.size(); ++o)
+        is_calm_[o] = pressing[o] > 0.0 && vibrations[o] < slow && approach[o] < slow * pressing[o] ? 1 : 0;
 }
 
 template <class Real>
 void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Real>& previous) {
-    const Real h = solve_step_;
-    system_.elastic.linearise(previous.positions, previous.velocities, Real(1) / h);
+    system_.elastic.linearise(previous.positions, previous.velocities, Real(1) / input.step);
     const double fall = static_cast<double>(input.step) * glm::length(glm::dvec3(model_->gravity));
     double energy = 0.0;
     for (std::uint32_t n = 0; n < model_->node_count(); ++n)
@@ -279,7 +335,7 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
             if (system_.inertia[n] == Real(0)) continue;
             const Vec3<Real> x(previous.positions[n]);
             const Vec4<Real> both = input.pulls->with_target(
-                n, Vec4<Real>(x + system_.displacements[n], system_.inertia[n]), x, h);
+                n, Vec4<Real>(x + system_.displacements[n], system_.inertia[n]), x, input.step);
             system_.displacements[n] = Vec3<Real>(both) - x;
             system_.inertia[n] = both.w;
         }
@@ -350,21 +406,25 @@ bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current
 
 template <class Real>
 void ImplicitStep<Real>::add_row(ContactRow<Real> row, Real weight, Real first, Real second) {
+    const auto known = std::lower_bound(memory_.begin(), memory_.end(), row.key,
+                                        [](const Memory& m, std::uint64_t key) { return m.key < key; });
+    const bool is_known = known != memory_.end() && known->key == row.key;
+    if (is_known) row.ease = known->ease * std::max(Real(0), Real(1) - step_ / static_cast<Real>(kPushing));
+    if (!is_known && row.gap <= Real(0)) row.ease = static_cast<Real>(kLeastReach) * row.reach - row.gap;
+    row.gap += row.ease;
     const Real there = row.gap_at(relative<Real>(row, expected_));
     if (std::min(row.gap, there) > static_cast<Real>(kNear) * row.reach &&
         there > row.reach + Real(0.5) * std::abs(there - row.gap))
         return;
     row.stiffness = weight * Real(4) / (first + second);
     const Real reach = row.reach;
-    const auto known = std::lower_bound(memory_.begin(), memory_.end(), row.key,
-                                        [](const Memory& m, std::uint64_t key) { return m.key < key; });
-    if (known != memory_.end() && known->key == row.key) {
+    if (is_known) {
         row.hold = known->hold - glm::dot(known->hold, row.normal) * row.normal;
         row.limit = known->limit;
         row.reach = std::max(known->reach, std::min(reach, row.gap));
-        row.reach = std::min(reach, row.reach + reach * last_step_ / static_cast<Real>(kEasing));
         Real& nearest = nearest_gaps_.try_emplace({row.object, row.other}, Real(1)).first->second;
-        nearest = std::min(nearest, row.gap / reach);
+        nearest = std::min(nearest, row.gap / row.reach);
+        row.reach = std::min(reach, row.reach + reach * last_step_ / static_cast<Real>(kEasing));
     } else {
         new_rows_.push_back(static_cast<std::uint32_t>(system_.rows.size()));
         const Real nearest = std::max(there, Real(0.25) * std::min(row.gap, row.reach));
@@ -457,7 +517,8 @@ void ImplicitStep<Real>::remember() {
         const Vec3<Real> s = relative<Real>(row, system_.displacements);
         ContactRow<Real> now = row;
         now.limit = row.friction * row.pressing(s);
-        memory_.push_back({row.key, now.limit > Real(0) ? now.held(s) : Vec3<Real>(0), now.limit, row.reach});
+        memory_.push_back(
+            {row.key, now.limit > Real(0) ? now.held(s) : Vec3<Real>(0), now.limit, row.reach, row.ease});
     }
     std::stable_sort(memory_.begin(), memory_.end(),
                      [](const Memory& a, const Memory& b) { return a.key < b.key; });
@@ -503,9 +564,9 @@ void ImplicitStep<Real>::finish(const Nodes<Real>& previous, Nodes<Real>& curren
             current.velocities[n] = v;
             return;
         }
-        Vec3<Real> velocity = d[n] / solve_step_;
-        if (past_ > Real(0))
-            velocity -= past_ / solve_step_ * (Vec3<Real>(x) - Vec3<Real>(earlier_.positions[n]));
+        const auto& [past, h] = schemes_[object_of_[n]];
+        Vec3<Real> velocity = d[n] / h;
+        if (past > Real(0)) velocity -= past / h * (Vec3<Real>(x) - Vec3<Real>(earlier_.positions[n]));
         current.velocities[n] = Vec4<Real>(velocity, v.w);
     });
     for_each_index(0, model_->body_count(), 1, [&](std::size_t o) {
@@ -518,7 +579,7 @@ void ImplicitStep<Real>::finish(const Nodes<Real>& previous, Nodes<Real>& curren
                      glm::dvec3(forces[n]));
         const RigidInertia inertia(sums);
         const glm::dvec3 torque = sums.moment - glm::cross(inertia.center, sums.force);
-        const auto h = static_cast<double>(solve_step_), past = static_cast<double>(past_);
+        const auto h = static_cast<double>(schemes_[o].step), past = static_cast<double>(schemes_[o].past);
         const glm::dvec3 wanted = angular_[o] + past * (angular_[o] - earlier_angular_[o]) + h * torque;
         const auto object = static_cast<std::uint32_t>(o);
         const glm::dvec3 lacking = wanted - angular_momentum(object, current.positions, current.velocities);
@@ -567,7 +628,7 @@ std::vector<glm::dvec3> ImplicitStep<Real>::forces_on_held(const StepInput<Real>
         for (const std::uint32_t n : input.pulls->nodes()) {
             const Vec4<Real> x = previous.positions[n];
             const Vec4<Real> end(Vec3<Real>(x) + system_.displacements[n], x.w);
-            forces[n] += glm::dvec3(input.pulls->force_at_end(n, end, Vec3<Real>(x), solve_step_));
+            forces[n] += glm::dvec3(input.pulls->force_at_end(n, end, Vec3<Real>(x), step_));
         }
     return forces;
 }

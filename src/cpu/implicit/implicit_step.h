@@ -69,11 +69,15 @@ public:
 
 private:
     using Field = std::vector<Vec3<Real>>;
+    // How much the step before counts, c, and h' (find_targets).
+    struct Scheme {
+        Real past = 0, step = 0;
+    };
     // What a contact passes on to the next step.
     struct Memory {
         std::uint64_t key;
         Vec3<Real> hold;
-        Real limit, reach;
+        Real limit, reach, ease;
     };
 
     // A contact's force on its second side when a step has ended [N].
@@ -82,7 +86,11 @@ private:
         Vec3<Real> normal, friction;
     };
 
-    void predict(const StepInput<Real>& input, const Nodes<Real>& previous, bool damps);
+    void predict(const StepInput<Real>& input, const Nodes<Real>& previous);
+    Vec3<Real> acceleration(const StepInput<Real>& input, const Nodes<Real>& previous, std::size_t n) const;
+    void choose_schemes(bool damps);
+    void find_targets(const StepInput<Real>& input, const Nodes<Real>& previous);
+    void find_calm(const Nodes<Real>& current);
     Real rest_gap(const ContactPair& pair) const;
     // Of all bodies [J]; motion: kinetic and elastic.
     struct Energy {
@@ -93,11 +101,10 @@ private:
     bool moves_held_nodes(const Nodes<Real>& previous) const;
     void stand_still(const Nodes<Real>& previous, Nodes<Real>& current);
     void linearise(const StepInput<Real>& input, const Nodes<Real>& previous);
-    bool comes_to_rest(const Nodes<Real>& previous) const;
     Real deepest() const;
     bool detect(const Nodes<Real>& previous, bool is_shortest);
     bool guard(const Nodes<Real>& previous, Nodes<Real>& current);
-    double contact_gain() const;
+    double contact_energy(bool at_end) const;
     void make_rows(const Nodes<Real>& previous);
     void add_row(ContactRow<Real> row, Real weight, Real first, Real second);
     Vec3<Real> surface_velocity(std::uint32_t collider) const {
@@ -117,10 +124,11 @@ private:
     Guard<Real> guard_;
     StepSystem<Real> system_;
     bool is_driven_by_surfaces_ = false;
-    std::optional<Energy> energy_;  // at the end of the last step, if it is known
-    double gained_ = 0.0;           // since energy was least [J]
-    Real past_ = 0;                 // c, how much the step before counts in this one
-    Real solve_step_ = 0;           // h'
+    std::optional<Energy> energy_;       // at the end of the last step, if it is known
+    double in_contacts_ = 0.0;           // then [J]
+    double gained_ = 0.0;                // since energy was least [J]
+    std::vector<Scheme> schemes_;        // by object
+    std::vector<std::uint8_t> is_calm_;  // bodies, at the end of the last step
     Real step_ = 0, last_step_ = 0;
     Nodes<Real> earlier_;            // one step before previous
     std::vector<Real> compliances_;  // of nodes in contacts, 1 / h_i [m/N]

@@ -49,28 +49,30 @@ RigidLevel<Real>::RigidLevel(std::shared_ptr<const Model> model)
       numbers_(model_->objects.size(), kNoNode),
       body_of_(model_->node_count(), kNoNode),
       pieces_(node_ranges(*model_)),
-      arms_(model_->node_count()) {
-    for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        const Range& nodes = model_->objects[o].nodes;
-        const auto* first = model_->positions.data() + nodes.first;
-        if (std::any_of(first, first + nodes.count, [](const glm::vec4& p) { return p.w == 0.0f; })) continue;
-        numbers_[o] = static_cast<std::uint32_t>(bodies_.size());
-        std::fill_n(body_of_.begin() + nodes.first, nodes.count, numbers_[o]);
-        bodies_.push_back({o});
-    }
-}
+      arms_(model_->node_count()) {}
 
 template <class Real>
 void RigidLevel<Real>::begin(std::span<const Vec4<Real>> positions, std::span<const Real> inertia) {
-    for_each_index(0, bodies_.size(), 1, [&](std::size_t b) {
-        Body& body = bodies_[b];
-        const Range& nodes = model_->objects[body.object].nodes;
+    bodies_.clear();
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
+        const Range& nodes = model_->objects[o].nodes;
+        const auto first = inertia.begin() + nodes.first;
+        const bool is_free = std::all_of(first, first + nodes.count, [](Real i) { return i > Real(0); });
+        numbers_[o] = is_free ? static_cast<std::uint32_t>(bodies_.size()) : kNoNode;
+        if (is_free) bodies_.push_back({o});
+    }
+    for_each_index(0, model_->body_count(), 1, [&](std::size_t o) {
+        const Range& nodes = model_->objects[o].nodes;
+        std::fill_n(body_of_.begin() + nodes.first, nodes.count, numbers_[o]);
+        if (numbers_[o] == kNoNode) return;
+        Body& body = bodies_[numbers_[o]];
         const glm::dvec3 origin(positions[nodes.first]);
         RigidSums sums;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
             sums.add(glm::dvec3(positions[n]) - origin, static_cast<double>(inertia[n]), glm::dvec3(0.0));
         const glm::dvec3 middle = sums.arm / sums.stiffness;
         body.center = origin + middle;
+        body.weight = sums.stiffness / model_->objects[o].mass;
         sums.square.add_outer(-sums.stiffness, middle);
         sums.arm = glm::dvec3(0.0);
         body.matrix = inertia_matrix(sums);
@@ -78,6 +80,19 @@ void RigidLevel<Real>::begin(std::span<const Vec4<Real>> positions, std::span<co
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
             arms_[n] = Vec3<Real>(glm::dvec3(positions[n]) - body.center);
     });
+}
+
+template <class Real>
+Motion RigidLevel<Real>::velocity(std::size_t object, std::span<const Vec4<Real>> velocities) const {
+    const Range& nodes = model_->objects[object].nodes;
+    glm::dvec3 momentum(0.0), angular(0.0);
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+        const glm::dvec3 p = static_cast<double>(model_->masses[n]) * glm::dvec3(velocities[n]);
+        momentum += p;
+        angular += glm::cross(glm::dvec3(arms_[n]), p);
+    }
+    const Body& body = bodies_[numbers_[object]];
+    return body.weight * (body.inverse * motion(momentum, angular));
 }
 
 template <class Real>

@@ -50,6 +50,14 @@ public:
     std::vector<Motion> resistance(std::span<const Motion> motions) const;
     /// s of a row for motions.
     Vec3<Real> relative(std::size_t row, std::span<const Motion> motions) const;
+    /// The rigid part of the velocities of a free body's nodes, by momentum and angular momentum [m/s],
+    /// [rad/s].
+    Motion velocity(std::size_t object, std::span<const Vec4<Real>> velocities) const;
+    /// A motion where a node of a free body is.
+    Vec3<Real> at(std::size_t node, std::span<const Motion> motions) const {
+        const Motion& m = motions[body_of_[node]];
+        return Vec3<Real>(m(0), m(1), m(2)) + glm::cross(Vec3<Real>(m(3), m(4), m(5)), arms_[node]);
+    }
     /// W q: use(node, displacement [m]) for all nodes, on several threads; 0 for bodies that are not free.
     template <class Use>
     void for_displacements(std::span<const Motion> motions, const Use& use) const {
@@ -78,6 +86,7 @@ private:
     struct Body {
         std::uint32_t object;
         glm::dvec3 center{0.0};
+        double weight = 0.0;  // m / h^2 of a mass of 1 kg [1/s^2]
         MotionMatrix matrix = MotionMatrix::Zero(), inverse = MotionMatrix::Zero();
     };
     // Of a row's sides: their bodies' numbers, or kNoNode, and where they are touched, from the centres [m].

@@ -157,9 +157,10 @@ double StepSystem<Real>::dot(const Field& a, const Field& b) const {
 }
 
 template <class Real>
-void StepSystem<Real>::prepare_preconditioner() {
+void StepSystem<Real>::prepare_preconditioner(bool only_rows) {
     for_each_index(inverse_blocks_.size(), [&](std::size_t n) {
-        if (inertia[n] == Real(0)) return;
+        const bool has_rows = row_starts_[n] < row_starts_[n + 1];
+        if (inertia[n] == Real(0) || (only_rows && !has_rows)) return;
         SymmetricMatrix<Real> block = elastic.diagonal()[n];
         block.add_identity(inertia[n]);
         for (std::uint32_t e = row_starts_[n]; e < row_starts_[n + 1]; ++e) {
@@ -307,10 +308,10 @@ void StepSystem<Real>::rigid_newton() {
     rigid.for_displacements(moved, [&](std::size_t n, const Vec3<Real>& d) { displacements[n] += d; });
 }
 
-// A Newton step on all nodes, from the tangents that are set.
+// A Newton step on all nodes, from the tangents that are set. @param is_first of this system
 template <class Real>
-void StepSystem<Real>::newton_step(int iterations) {
-    prepare_preconditioner();
+void StepSystem<Real>::newton_step(int iterations, bool is_first) {
+    prepare_preconditioner(!is_first);
     residual_ = base_;
     add_row_forces([&](std::size_t r) { return tangents_[r].force(slips_[r]); }, residual_);
     conjugate_gradients(iterations);
@@ -332,16 +333,17 @@ void StepSystem<Real>::solve() {
     rigid.set_rows(rows);
     find_slips();
     const std::vector<Vec3<Real>> expected = slips_;
-    find_base_residual();
-    if (!rows.empty()) {
+    if (!rows.empty()) {  // elements hardly resist rigid motions
+        for_each_index(base_.size(),
+                       [&](std::size_t n) { base_[n] = loads[n] - inertia[n] * displacements[n]; });
         rigid_newton();
-        find_base_residual();
     }
+    find_base_residual();
     find_chords(expected);
-    newton_step(rows.empty() ? iterations : iterations / 2);
+    newton_step(rows.empty() ? iterations : iterations / 2, true);
     if (!rows.empty()) {
         find_tangents();
-        newton_step(iterations - iterations / 2);
+        newton_step(iterations - iterations / 2, false);
     }
     rigid_newton();
 }

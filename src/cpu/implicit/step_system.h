@@ -57,13 +57,13 @@ private:
     void find_chords(std::span<const Vec3<Real>> expected);
     void set_limits();
     double dot(const Field& a, const Field& b) const;
-    void prepare_preconditioner();
+    void prepare_preconditioner(bool only_rows);
     void precondition(const Field& r, Field& z);
     void conjugate_gradients(int count);
     double line_search(std::span<const Vec3<Real>> changes, double base, double curvature);
     bool is_balanced(double tolerance, std::span<const Motion> forces) const;
     void rigid_newton();
-    void newton_step(int iterations);
+    void newton_step(int iterations, bool is_first);
 
     std::shared_ptr<const Model> model_;
     std::vector<std::uint32_t> row_starts_, row_entries_;  // by node: 4 row + place

@@ -89,5 +89,15 @@ TEST_F(GuardTest, DividesGapsByCompliance) {
     EXPECT_LT(second, 0.0);
 }
 
+// Pairs are left out that keep apart because both sides go on: so a node that stops on its way is not where
+// it was expected, though it never left its straight path.
+TEST_F(GuardTest, TellsWhichNodesEndElsewhere) {
+    std::vector<glm::dvec4> expected = from_, ends = from_;
+    for (std::size_t n = 0; n < ends.size(); ++n) expected[n].x += 0.05;
+    for (std::size_t n = 0; n < ends.size(); ++n) ends[n].x += n == 3 ? 0.02 : n == 4 ? 0.0495 : 0.05;
+    const cpu::Paths<double> paths{from_, expected, slacks_};
+    EXPECT_EQ(guard_().run(paths, {}, compliances_, ends), std::vector<std::uint32_t>{3});
+}
+
 }  // namespace
 }  // namespace gelatin

@@ -1,0 +1,116 @@
+#include "cpu/implicit/find_pairs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <random>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include "cpu/contact/nearest_pairs.h"
+#include "support/contact_scenes.h"
+
+namespace gelatin {
+namespace {
+
+using Key = std::tuple<bool, std::uint32_t, std::uint32_t>;
+
+Key key_of(const cpu::ContactPair& pair) {
+    return {pair.is_edges(), pair.first, pair.second};
+}
+
+// Two blocks beside each other that fly together, and a third in their way.
+class FindPairsTest : public testing::Test {
+protected:
+    FindPairsTest()
+        : model_(
+              test::make_blocks({{.cells = {2, 2, 2}, .size = glm::dvec3(0.1)},
+                                 {.place = {0.104, 0.01, 0.02}, .cells = {2, 2, 2}, .size = glm::dvec3(0.1)},
+                                 {.place = {0.05, 0.12, 0}, .cells = {2, 2, 2}, .size = glm::dvec3(0.1)}})),
+          surface_(std::make_shared<ContactSurface>(make_contact_surface(*model_, {}))),
+          from_(model_->positions.begin(), model_->positions.end()),
+          to_(from_),
+          slacks_(model_->objects.size(), 0.001) {
+        for (std::size_t n = 0; n < to_.size(); ++n)
+            to_[n] +=
+                glm::dvec4(n < model_->objects[2].nodes.first ? glm::dvec3(0, 0.05, 0) : glm::dvec3(0), 0.0);
+    }
+
+    // Of all pairs of different bodies, those that come nearer than their reach, as often as they are looked
+    // at.
+    std::set<Key> near_on_the_way(const std::vector<glm::dvec4>& ends) const {
+        cpu::FindPairs<double> all(model_, surface_, false);
+        const std::vector<double> wide(model_->objects.size(), 1.0);
+        const cpu::Paths<double> paths{from_, ends, wide};
+        all.begin(paths);
+        all.run(paths);
+        std::set<Key> near;
+        constexpr int kPlaces = 20;
+        for (int k = 0; k <= kPlaces; ++k) {
+            std::vector<glm::dvec4> there = from_;
+            for (std::size_t n = 0; n < there.size(); ++n)
+                there[n] += k / double(kPlaces) * (ends[n] - from_[n]);
+            for (const cpu::NearPair<double>& pair : all.pairs()) {
+                cpu::MeasuredPairs<double> measured;
+                cpu::measure_pairs({&pair.pair, 1}, there, measured);
+                if (measured.gaps[0] < static_cast<double>(pair.pair.reach)) near.insert(key_of(pair.pair));
+            }
+        }
+        return near;
+    }
+    static std::set<Key> listed(const cpu::FindPairs<double>& found) {
+        std::set<Key> keys;
+        for (const cpu::NearPair<double>& near : found.pairs()) {
+            EXPECT_TRUE(keys.insert(key_of(near.pair)).second) << "twice";
+        }
+        return keys;
+    }
+    static bool includes(const std::set<Key>& all, const std::set<Key>& some) {
+        return std::includes(all.begin(), all.end(), some.begin(), some.end());
+    }
+
+    std::shared_ptr<const Model> model_;
+    std::shared_ptr<const ContactSurface> surface_;
+    std::vector<glm::dvec4> from_, to_;
+    std::vector<double> slacks_;
+};
+
+TEST_F(FindPairsTest, ListsAllThatComeNear) {
+    cpu::FindPairs<double> pairs(model_, surface_, false);
+    const cpu::Paths<double> paths{from_, to_, slacks_};
+    pairs.begin(paths);
+    pairs.run(paths);
+    const std::set<Key> near = near_on_the_way(to_);
+    EXPECT_GT(near.size(), 20u);
+    EXPECT_TRUE(includes(listed(pairs), near));
+}
+
+// As many nodes end elsewhere as a test asks for, up to 3 cm from where they were expected.
+TEST_F(FindPairsTest, ListsPairsOfNodesAnewThatEndElsewhere) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> offset(-0.03, 0.03);
+    cpu::FindPairs<double> pairs(model_, surface_, false);
+    bool any_new = false;
+    for (int round = 0; round < 10; ++round) {
+        std::vector<glm::dvec4> ends = to_;
+        const cpu::Paths<double> paths{from_, ends, slacks_};
+        pairs.begin(paths);
+        pairs.run(paths);
+        const std::set<Key> before = listed(pairs);
+        std::vector<std::uint32_t> strays;
+        for (std::uint32_t n = static_cast<std::uint32_t>(round) % 7; n < ends.size(); n += 7) {
+            ends[n] += glm::dvec4(offset(random), offset(random), offset(random), 0.0);
+            strays.push_back(n);
+        }
+        pairs.update(paths, strays);
+        const std::set<Key> near = near_on_the_way(ends);
+        any_new = any_new || !includes(before, near);
+        EXPECT_TRUE(includes(listed(pairs), near)) << "round " << round;
+    }
+    EXPECT_TRUE(any_new);
+}
+
+}  // namespace
+}  // namespace gelatin
