@@ -7,9 +7,17 @@
 #include <vector>
 
 #include "model/for_each_index.h"
+#include "model/model.h"
 #include "model/range.h"
 
 namespace gelatin::cpu {
+
+/// The nodes of each object.
+inline std::vector<Range> node_ranges(const Model& model) {
+    std::vector<Range> ranges;
+    for (const ModelObject& object : model.objects) ranges.push_back(object.nodes);
+    return ranges;
+}
 
 /// What objects consist of, such as their nodes, in pieces that threads share. Large objects have several.
 class ObjectPieces {

@@ -113,11 +113,7 @@ public:
     const ContactAims<Real>& aims() const { return aims_; }
     /// Of a body's surface [m], and the least of all bodies'.
     double thickness(std::size_t object) const { return surface_->thicknesses[object]; }
-    double least_thickness() const {
-        return *std::min_element(
-            surface_->thicknesses.begin(),
-            surface_->thicknesses.begin() + static_cast<std::ptrdiff_t>(model_->body_count()));
-    }
+    std::span<const double> thicknesses() const { return surface_->thicknesses; }
     /// What contacts held when the last step ended: of each pair of bodies half for each, of a
     /// body with itself or a collider all [J].
     double energy(std::size_t object) const { return energies_[object]; }

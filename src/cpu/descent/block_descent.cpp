@@ -60,14 +60,17 @@ BlockDescent<Real>::BlockDescent(std::shared_ptr<const Model> model, const Desce
     if (coarse_ && coarse_->is_empty()) coarse_.reset();
     if (coarse_ || bodies_) secant_.emplace(model_);
     if (settings_.divides_steps) division_.emplace(model_, wave_times_);
-    if (settings_.sleeps && bodies_) rest_watch_.emplace(model_);
+    if (settings_.sleeps && bodies_) rest_watch_.emplace(model_, bodies_->thicknesses());
 }
 
 template <class Real>
 bool BlockDescent<Real>::rests(double step, std::span<const float> load_factors, bool is_pulled,
                                Nodes<Real>& nodes) {
-    if (!rest_watch_ || !rest_watch_->rests(step, nodes.positions, load_factors, is_pulled, *bodies_))
-        return false;
+    if (!rest_watch_) return false;
+    std::vector<Vec3<Real>> held_at;
+    for (const HandleNode& held : model_->handle_nodes)
+        held_at.push_back(bodies_->came_from(held.node, Real(0)));
+    if (!rest_watch_->rests(step, nodes.positions, load_factors, is_pulled, held_at)) return false;
     for_each_node(*model_, [&](std::uint32_t n) {
         Vec4<Real>&position = nodes.positions[n], &velocity = nodes.velocities[n];
         if (position.w == Real(0)) position = Vec4<Real>(bodies_->came_from(n, Real(0)), Real(0));

@@ -17,18 +17,19 @@ constexpr double kPlace = 0.01;
 }  // namespace
 
 template <class Real>
-RestWatch<Real>::RestWatch(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
+RestWatch<Real>::RestWatch(std::shared_ptr<const Model> model, std::span<const double> thicknesses)
+    : model_(std::move(model)), thicknesses_(thicknesses.begin(), thicknesses.end()) {}
 
 template <class Real>
 bool RestWatch<Real>::rests(double step, std::span<const Vec4<Real>> positions,
                             std::span<const float> load_factors, bool is_pulled,
-                            const Contacts<Real>& contacts) {
+                            std::span<const Vec3<Real>> held_at) {
     const bool is_new = places_.empty();
     const bool is_driven = is_new || is_pulled ||
                            load_factors_ != std::vector<float>(load_factors.begin(), load_factors.end()) ||
-                           moves_handle(positions, contacts);
+                           moves_handle(positions, held_at);
     if (!is_driven && time_ >= kRestTime) return true;
-    if (is_driven || time_ == 0.0 || leaves_place(positions, contacts)) {
+    if (is_driven || time_ == 0.0 || leaves_place(positions)) {
         time_ = 0.0;
         places_.assign(positions.begin(), positions.end());
         load_factors_.assign(load_factors.begin(), load_factors.end());
@@ -40,23 +41,25 @@ bool RestWatch<Real>::rests(double step, std::span<const Vec4<Real>> positions,
 // Ahead of where the last step left what it holds, or lets go of it.
 template <class Real>
 bool RestWatch<Real>::moves_handle(std::span<const Vec4<Real>> positions,
-                                   const Contacts<Real>& contacts) const {
-    const Real most = static_cast<Real>(kPlace * contacts.least_thickness());
-    return std::any_of(model_->handle_nodes.begin(), model_->handle_nodes.end(), [&](const HandleNode& held) {
-        const Vec4<Real>& position = positions[held.node];
-        if (position.w != places_[held.node].w) return true;
-        const Vec3<Real> way = Vec3<Real>(position) - contacts.came_from(held.node, Real(0));
-        return position.w == Real(0) && glm::dot(way, way) > most * most;
-    });
+                                   std::span<const Vec3<Real>> held_at) const {
+    const auto most = static_cast<Real>(
+        kPlace * *std::min_element(thicknesses_.begin(),
+                                   thicknesses_.begin() + static_cast<std::ptrdiff_t>(model_->body_count())));
+    for (std::size_t h = 0; h < held_at.size(); ++h) {
+        const std::uint32_t n = model_->handle_nodes[h].node;
+        if (positions[n].w != places_[n].w) return true;
+        const Vec3<Real> moved = Vec3<Real>(positions[n]) - held_at[h];
+        if (positions[n].w == Real(0) && glm::dot(moved, moved) > most * most) return true;
+    }
+    return false;
 }
 
 template <class Real>
-bool RestWatch<Real>::leaves_place(std::span<const Vec4<Real>> positions,
-                                   const Contacts<Real>& contacts) const {
+bool RestWatch<Real>::leaves_place(std::span<const Vec4<Real>> positions) const {
     std::atomic<bool> leaves = false;
     for_each_index(0, model_->body_count(), 1, [&](std::size_t o) {
         const Range& nodes = model_->objects[o].nodes;
-        const Real most = static_cast<Real>(kPlace * contacts.thickness(o));
+        const Real most = static_cast<Real>(kPlace * thicknesses_[o]);
         for (std::uint32_t n = nodes.first; n < nodes.end() && !leaves; ++n) {
             const Vec3<Real> way = Vec3<Real>(positions[n]) - Vec3<Real>(places_[n]);
             if (glm::dot(way, way) > most * most) leaves = true;

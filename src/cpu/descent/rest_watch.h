@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "cpu/contact/contacts.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
 
@@ -14,7 +13,8 @@ namespace gelatin::cpu {
 template <class Real>
 class RestWatch {
 public:
-    explicit RestWatch(std::shared_ptr<const Model> model);
+    /// @param thicknesses of objects [m]
+    RestWatch(std::shared_ptr<const Model> model, std::span<const double> thicknesses);
 
     /// To be called when nodes were set from outside.
     void restart() { places_.clear(); }
@@ -22,14 +22,16 @@ public:
     /// Whether no node has moved for a while, and nothing is about to move one.
     /// @param step that comes next [s] @param positions where it starts, with held nodes in their new places
     /// @param load_factors of the model's loads @param is_pulled whether a hand holds a body
+    /// @param held_at where the last step left the held nodes [m], shape [Model::handle_nodes]
     bool rests(double step, std::span<const Vec4<Real>> positions, std::span<const float> load_factors,
-               bool is_pulled, const Contacts<Real>& contacts);
+               bool is_pulled, std::span<const Vec3<Real>> held_at);
 
 private:
-    bool moves_handle(std::span<const Vec4<Real>> positions, const Contacts<Real>& contacts) const;
-    bool leaves_place(std::span<const Vec4<Real>> positions, const Contacts<Real>& contacts) const;
+    bool moves_handle(std::span<const Vec4<Real>> positions, std::span<const Vec3<Real>> held_at) const;
+    bool leaves_place(std::span<const Vec4<Real>> positions) const;
 
     std::shared_ptr<const Model> model_;
+    std::vector<double> thicknesses_;
     std::vector<Vec4<Real>> places_;  // that nodes have kept to; empty at the start
     double time_ = 0.0;               // for which they have [s]
     std::vector<float> load_factors_;

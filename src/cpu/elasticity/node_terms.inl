@@ -56,20 +56,44 @@ Real inverse_pivot(Real pivot, Real diagonal) {
     return select(sound > Real(0), Real(1) / sound, Real(0));
 }
 
-/// matrix^-1 v by the square-root-free Cholesky decomposition; zero along directions without stiffness. Lost
-/// pivots may make the result too short, never too long.
+/// matrix = L D L^T, the square-root-free Cholesky decomposition; zero along directions without stiffness.
+/// Lost pivots may make what is solved by it too short, never too long.
+template <class Real>
+struct Factors {
+    Real i0, i1, i2;     ///< D^-1
+    Real l10, l20, l21;  ///< L
+
+    explicit Factors(const SymmetricMatrix<Real>& matrix) {
+        const Vec3<Real>&d = matrix.diagonal, &b = matrix.beside;
+        i0 = inverse_pivot(d.x, d.x);
+        l10 = b.z * i0;
+        l20 = b.y * i0;
+        i1 = inverse_pivot(multiply_add(-l10, b.z, d.y), d.y);
+        const Real rest = multiply_add(-l20, b.z, b.x);
+        l21 = rest * i1;
+        i2 = inverse_pivot(multiply_add(-l21, rest, multiply_add(-l20, b.y, d.z)), d.z);
+    }
+};
+
+/// matrix^-1 v
 template <class Real>
 Vec3<Real> solve(const SymmetricMatrix<Real>& matrix, const Vec3<Real>& v) {
-    const Vec3<Real>&d = matrix.diagonal, &b = matrix.beside;
-    const Real i0 = inverse_pivot(d.x, d.x);
-    const Real l10 = b.z * i0, l20 = b.y * i0;
-    const Real i1 = inverse_pivot(multiply_add(-l10, b.z, d.y), d.y);
-    const Real rest = multiply_add(-l20, b.z, b.x), l21 = rest * i1;
-    const Real i2 = inverse_pivot(multiply_add(-l21, rest, multiply_add(-l20, b.y, d.z)), d.z);
-    const Real y1 = multiply_add(-l10, v.x, v.y);
-    const Real y2 = multiply_add(-l21, y1, multiply_add(-l20, v.x, v.z));
-    const Real z = y2 * i2, y = multiply_add(-l21, z, y1 * i1);
-    return Vec3<Real>(multiply_add(-l20, z, multiply_add(-l10, y, v.x * i0)), y, z);
+    const Factors<Real> f(matrix);
+    const Real y1 = multiply_add(-f.l10, v.x, v.y);
+    const Real y2 = multiply_add(-f.l21, y1, multiply_add(-f.l20, v.x, v.z));
+    const Real z = y2 * f.i2, y = multiply_add(-f.l21, z, y1 * f.i1);
+    return Vec3<Real>(multiply_add(-f.l20, z, multiply_add(-f.l10, y, v.x * f.i0)), y, z);
+}
+
+/// matrix^-1
+template <class Real>
+SymmetricMatrix<Real> inverse_of(const SymmetricMatrix<Real>& matrix) {
+    const Factors<Real> f(matrix);
+    const Real corner = multiply_add(f.l10, f.l21, -f.l20);  // of L^-1
+    const Real scaled = corner * f.i2, beside = f.l21 * f.i2;
+    return {Vec3<Real>(multiply_add(corner, scaled, multiply_add(f.l10 * f.l10, f.i1, f.i0)),
+                       multiply_add(f.l21, beside, f.i1), f.i2),
+            Vec3<Real>(-beside, scaled, -multiply_add(corner, beside, f.l10 * f.i1))};
 }
 
 /// A node's Newton step [m].

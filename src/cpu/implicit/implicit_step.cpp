@@ -28,6 +28,9 @@ constexpr int kMostGuards = 10;
 constexpr double kLongest = 2.2;
 // Bodies come to rest that vibrate, and go to and fro, more slowly than after so long a fall [s].
 constexpr double kRestingFall = 1.0 / 60.0;
+// Conjugate gradients are as exact as if all moved by this part of what gravity adds in a step, and had this
+// part of their share of the island's energy.
+constexpr double kAtRest = 0.01, kInIsland = 0.1;
 // Contacts this many reaches apart may come together in a step that deforms bodies.
 constexpr double kNear = 1.5;
 // A contact that is found nearer than its reach presses from there; the reach grows to all of it within this
@@ -65,6 +68,7 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
       system_(model_),
       schemes_(model_->objects.size()),
       is_calm_(model_->body_count()),
+      islands_(model_->objects.size()),
       compliances_(model_->node_count()),
       expected_(model_->node_count()),
       ends_(model_->node_count()),
@@ -250,11 +254,13 @@ void ImplicitStep<Real>::choose_schemes(bool damps) {
         if (row.object != kNoNode && model_->is_body(row.object) && model_->is_body(row.other))
             islands.join(row.object, row.other);
     std::vector<std::uint8_t> moves(model_->objects.size());
-    for (std::uint32_t o = 0; o < model_->body_count(); ++o)
-        if (is_calm_[o] == 0) moves[islands.find(o)] = 1;
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
+        islands_[o] = islands.find(o);
+        if (is_calm_[o] == 0) moves[islands_[o]] = 1;
+    }
     const bool has_past = !damps && last_step_ > Real(0) && step_ < static_cast<Real>(kLongest) * last_step_;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        const Real ratio = has_past && moves[islands.find(o)] != 0 ? step_ / last_step_ : Real(0);
+        const Real ratio = has_past && moves[islands_[o]] != 0 ? step_ / last_step_ : Real(0);
         schemes_[o] = {ratio * ratio / (Real(1) + Real(2) * ratio),
                        step_ * (Real(1) + ratio) / (Real(1) + Real(2) * ratio)};
     }
@@ -321,14 +327,21 @@ void ImplicitStep<Real>::find_calm(const Nodes<Real>& current) {
 template <class Real>
 void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Real>& previous) {
     system_.elastic.linearise(previous.positions, previous.velocities, Real(1) / input.step);
-    const double fall = static_cast<double>(input.step) * glm::length(glm::dvec3(model_->gravity));
-    double energy = 0.0;
-    for (std::uint32_t n = 0; n < model_->node_count(); ++n)
-        if (previous.positions[n].w > Real(0)) {
+    const double fall = kAtRest * static_cast<double>(input.step) * glm::length(glm::dvec3(model_->gravity));
+    std::vector<double> energies(model_->objects.size(), 0.0), of_islands = energies, masses = energies;
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
+        const ModelObject& object = model_->objects[o];
+        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
             const glm::dvec3 v(previous.velocities[n]);
-            energy += 0.5 * static_cast<double>(model_->masses[n]) * (glm::dot(v, v) + fall * fall);
+            energies[o] += 0.5 * static_cast<double>(model_->masses[n]) * (glm::dot(v, v) + fall * fall);
         }
-    system_.enough = settings_.tolerance * energy;
+        of_islands[islands_[o]] += energies[o];
+        masses[islands_[o]] += object.mass;
+    }
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
+        const double share = model_->objects[o].mass / masses[islands_[o]];
+        system_.enough[o] = settings_.tolerance * (energies[o] + kInIsland * share * of_islands[islands_[o]]);
+    }
     // A hand pulls like inertia does, to a place of its own.
     if (input.pulls != nullptr)
         for (const std::uint32_t n : input.pulls->nodes()) {

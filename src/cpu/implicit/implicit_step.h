@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -65,6 +66,12 @@ public:
     /// Whether anything was near anything else in the last step.
     bool any_near() const { return !system_.rows.empty() || !pairs_.pairs().empty(); }
 
+    /// Whether all bodies hardly moved towards or away from what they touch, nor vibrated.
+    bool is_calm() const {
+        return std::all_of(is_calm_.begin(), is_calm_.end(),
+                           [](std::uint8_t is_calm) { return is_calm != 0; });
+    }
+
     const StepSystem<Real>& system() const { return system_; }
 
 private:
@@ -124,11 +131,12 @@ private:
     Guard<Real> guard_;
     StepSystem<Real> system_;
     bool is_driven_by_surfaces_ = false;
-    std::optional<Energy> energy_;       // at the end of the last step, if it is known
-    double in_contacts_ = 0.0;           // then [J]
-    double gained_ = 0.0;                // since energy was least [J]
-    std::vector<Scheme> schemes_;        // by object
-    std::vector<std::uint8_t> is_calm_;  // bodies, at the end of the last step
+    std::optional<Energy> energy_;        // at the end of the last step, if it is known
+    double in_contacts_ = 0.0;            // then [J]
+    double gained_ = 0.0;                 // since energy was least [J]
+    std::vector<Scheme> schemes_;         // by object
+    std::vector<std::uint8_t> is_calm_;   // bodies, at the end of the last step
+    std::vector<std::uint32_t> islands_;  // of bodies: numbers of the first ones
     Real step_ = 0, last_step_ = 0;
     Nodes<Real> earlier_;            // one step before previous
     std::vector<Real> compliances_;  // of nodes in contacts, 1 / h_i [m/N]

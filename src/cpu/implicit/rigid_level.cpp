@@ -13,12 +13,6 @@
 namespace gelatin::cpu {
 namespace {
 
-std::vector<Range> node_ranges(const Model& model) {
-    std::vector<Range> ranges;
-    for (const ModelObject& object : model.objects) ranges.push_back(object.nodes);
-    return ranges;
-}
-
 // (s, w) -> s + w x r, as a matrix of three rows.
 Eigen::Matrix<double, 3, 6> motion_at(const glm::dvec3& r) {
     Eigen::Matrix<double, 3, 6> j;

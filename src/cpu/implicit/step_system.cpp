@@ -22,13 +22,6 @@ constexpr int kHalvings = 20;
 constexpr int kMostRigidRounds = 20;
 constexpr std::size_t kChunk = 1024;  // of a sum
 
-template <class Real>
-SymmetricMatrix<Real> inverse_of(const SymmetricMatrix<Real>& m) {
-    const Vec3<Real> x = solve(m, Vec3<Real>(1, 0, 0)), y = solve(m, Vec3<Real>(0, 1, 0)),
-                     z = solve(m, Vec3<Real>(0, 0, 1));
-    return {{x.x, y.y, z.z}, {y.z, x.z, x.y}};
-}
-
 }  // namespace
 
 template <class Real>
@@ -38,7 +31,9 @@ StepSystem<Real>::StepSystem(std::shared_ptr<const Model> model)
       inertia(model->node_count()),
       loads(model->node_count()),
       displacements(model->node_count()),
+      enough(model->objects.size(), 0.0),
       model_(std::move(model)),
+      pieces_(node_ranges(*model_)),
       row_starts_(model_->node_count() + 1),
       inverse_blocks_(model_->node_count()) {
     for (Field* field : {&base_, &residual_, &direction_, &moved_, &product_, &with_rows_, &z_, &p_})
@@ -185,14 +180,33 @@ void StepSystem<Real>::precondition(const Field& r, Field& z) {
     });
 }
 
+// residual_ . z_. @param is_enough output: whether no body may lack more of its least energy than it should
+template <class Real>
+double StepSystem<Real>::find_lack(bool& is_enough) const {
+    std::vector<double> lacks(model_->objects.size(), 0.0);
+    pieces_.gather(
+        std::span<double>(lacks),
+        [&](const ObjectPieces::Piece& piece) {
+            double sum = 0.0;
+            for (std::uint32_t n = piece.range.first; n < piece.range.end(); ++n)
+                sum += static_cast<double>(glm::dot(residual_[n], z_[n]));
+            return sum;
+        },
+        [](double& sum, double more) { sum += more; });
+    is_enough = true;
+    for (std::size_t o = 0; o < model_->body_count(); ++o) is_enough = is_enough && lacks[o] <= enough[o];
+    return std::accumulate(lacks.begin(), lacks.end(), 0.0);
+}
+
 // From no direction, with the linear residual in residual_. Also finds A direction_, without rows.
 template <class Real>
 void StepSystem<Real>::conjugate_gradients(int count) {
     for (Field* field : {&direction_, &moved_}) std::fill(field->begin(), field->end(), Vec3<Real>(0));
     precondition(residual_, z_);
     p_ = z_;
-    double rz = dot(residual_, z_);
-    for (int k = 0; k < count && rz > enough; ++k) {
+    bool is_enough = false;
+    double rz = find_lack(is_enough);
+    for (int k = 0; k < count && !is_enough; ++k) {
         ++counts.iterations;
         multiply(p_, product_);
         with_rows_ = product_;
@@ -208,7 +222,7 @@ void StepSystem<Real>::conjugate_gradients(int count) {
         });
         if (k + 1 == count) break;
         precondition(residual_, z_);
-        const double next = dot(residual_, z_);
+        const double next = find_lack(is_enough);
         const auto b = static_cast<Real>(next / rz);
         rz = next;
         for_each_index(p_.size(), [&](std::size_t n) { p_[n] = z_[n] + b * p_[n]; });

@@ -38,7 +38,7 @@ public:
     std::vector<ContactRow<Real>> rows;
     std::vector<Vec3<Real>> displacements;  ///< d [m]; input: of held nodes, and a guess; output: of all
     int iterations = 20;                    ///< of conjugate gradients, at most, of both steps together
-    double enough = 0.0;                    ///< energy by which each may miss its least [J]
+    std::vector<double> enough;             ///< energy by which each may miss its least, by object [J]
     SolveCounts counts;
 
     /// @pre rigid.begin was called
@@ -59,6 +59,7 @@ private:
     double dot(const Field& a, const Field& b) const;
     void prepare_preconditioner(bool only_rows);
     void precondition(const Field& r, Field& z);
+    double find_lack(bool& is_enough) const;
     void conjugate_gradients(int count);
     double line_search(std::span<const Vec3<Real>> changes, double base, double curvature);
     bool is_balanced(double tolerance, std::span<const Motion> forces) const;
@@ -66,6 +67,7 @@ private:
     void newton_step(int iterations, bool is_first);
 
     std::shared_ptr<const Model> model_;
+    ObjectPieces pieces_;                                  // of nodes
     std::vector<std::uint32_t> row_starts_, row_entries_;  // by node: 4 row + place
     std::vector<RowTangent<Real>> tangents_;
     std::vector<Vec3<Real>> row_forces_, slips_;           // slips: s of rows, by displacements

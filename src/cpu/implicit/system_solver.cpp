@@ -9,8 +9,8 @@
 namespace gelatin::cpu {
 namespace {
 
-// Into how many parts a step is divided, where bodies are near each other and where they are not; and at
-// most, where they meet fast.
+// Into how many parts a step is divided, where bodies near each other move and where not; and at most, where
+// they meet fast.
 constexpr int kPartsNear = 4, kPartsFar = 2, kMostParts = 256;
 
 }  // namespace
@@ -23,7 +23,10 @@ SystemSolver<Real>::SystemSolver(std::shared_ptr<const Model> model, const Colli
       step_(model_, collision, has_contacts(*model_, collision),
             has_contacts(*model_, collision) && collision.self_collision.value_or(true),
             {.iterations = settings.iterations}),
-      shape_matcher_(model_) {}
+      shape_matcher_(model_) {
+    if (settings.sleeps && has_contacts(*model_, collision))
+        rest_watch_.emplace(model_, step_.surface().thicknesses);
+}
 
 // Velocities of held nodes are those of their handles; where they are is known better than by handles, which
 // bodies may have been in the way of.
@@ -39,17 +42,38 @@ void SystemSolver<Real>::apply_kinematics(std::span<const HandleMotion> motions)
     add_velocities(1.0);
 }
 
+// Where all bodies rest, they and what is held stay where they are.
+template <class Real>
+bool SystemSolver<Real>::rests(const Step& step) {
+    if (!rest_watch_) return false;
+    std::vector<Vec4<Real>> asked = current_.positions;
+    std::vector<Vec3<Real>> held_at;
+    for (const HandleNode& held : model_->handle_nodes) {
+        if (asked[held.node].w == Real(0)) asked[held.node] = Vec4<Real>(goals_[held.node], Real(0));
+        held_at.push_back(held_at_.empty() ? Vec3<Real>(current_.positions[held.node]) : held_at_[held.node]);
+    }
+    const bool is_pulled = this->acting_pulls() != nullptr;
+    if (!rest_watch_->rests(step.size, asked, step.load_factors, is_pulled, held_at)) return false;
+    for (std::size_t n = 0; n < goals_.size(); ++n) {
+        Vec4<Real>&position = current_.positions[n], &velocity = current_.velocities[n];
+        if (position.w == Real(0) && !held_at_.empty()) position = Vec4<Real>(held_at_[n], Real(0));
+        velocity = Vec4<Real>(Vec3<Real>(0), velocity.w);
+    }
+    return true;
+}
+
 template <class Real>
 void SystemSolver<Real>::advance_nodes(const Step& step) {
     size_ = step.size;
     StageTimer* const timer = this->timer_.for_parts();
     const auto size = static_cast<Real>(step.size);
-    const int parts = !divides_steps_ ? 1 : step_.any_near() ? kPartsNear : kPartsFar;
+    const int parts = !divides_steps_ ? 1 : step_.any_near() && !step_.is_calm() ? kPartsNear : kPartsFar;
     // Held nodes go from where they are to where their handles have them at the end.
     goals_.resize(current_.positions.size());
     for (std::size_t n = 0; n < goals_.size(); ++n)
         if (current_.positions[n].w == Real(0))
             goals_[n] = Vec3<Real>(current_.positions[n]) + size * Vec3<Real>(current_.velocities[n]);
+    if (rests(step)) return;
     const std::vector<Vec4<Real>> velocities = current_.velocities;
     const Real part = size / static_cast<Real>(parts), shortest = size / static_cast<Real>(kMostParts);
     StepInput<Real> input{part, load_forces_, this->acting_pulls()};
@@ -108,6 +132,7 @@ template <class Real>
 void SystemSolver<Real>::write_state(const State& state) {
     CpuSolver<Real>::write_state(state);
     step_.restart();
+    if (rest_watch_) rest_watch_->restart();
     held_at_.clear();
     held_changes_.clear();
     forces_on_held_.clear();

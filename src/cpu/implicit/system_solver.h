@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "cpu/cpu_solver.h"
 #include "cpu/descent/match_shapes.h"
+#include "cpu/descent/rest_watch.h"
 #include "cpu/implicit/implicit_step.h"
 
 namespace gelatin::cpu {
@@ -29,10 +31,13 @@ protected:
         CpuSolver<Real>::has_earlier_, CpuSolver<Real>::load_forces_;
 
 private:
+    bool rests(const Step& step);
+
     bool divides_steps_;
     ImplicitStep<Real> step_;
     ShapeMatcher<Real> shape_matcher_;  // of bodies that have lost their shape, before they move
-    double size_ = 0.0;                 // of the last step [s]
+    std::optional<RestWatch<Real>> rest_watch_;
+    double size_ = 0.0;  // of the last step [s]
     std::vector<Vec3<Real>>
         goals_;  // of held nodes at the end of a step [m], by node; others' are not written
     std::vector<Vec3<Real>> held_at_;       // where held nodes are, if bodies are in their way

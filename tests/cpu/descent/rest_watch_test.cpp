@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "cpu/descent/implicit_solver.h"
+#include "cpu/make_solver.h"
 #include "support/contact_scenes.h"
 #include "support/test_models.h"
 
@@ -20,20 +20,22 @@ using test::kFrame;
 // Of soft bodies above a plane, which sleep unless they are told not to.
 class Sleeper {
 public:
-    explicit Sleeper(std::shared_ptr<const Model> model, bool sleeps = true)
+    Sleeper(SolverKind kind, std::shared_ptr<const Model> model, bool sleeps = true)
         : model_(std::move(model)),
-          solver_(model_, CollisionSettings{.response = CollisionResponse::contact, .restitution = 0.0},
-                  DescentSettings{.divides_steps = true, .sleeps = sleeps}) {}
+          solver_(cpu::make_solver<float>(
+              model_, kind, ForceMethod::fused,
+              CollisionSettings{.response = CollisionResponse::contact, .restitution = 0.0},
+              DescentSettings{.divides_steps = true, .sleeps = sleeps})) {}
 
     void advance(int frames) {
-        for (int k = 0; k < frames; ++k) test::advance(solver_, *model_, frame_++);
+        for (int k = 0; k < frames; ++k) test::advance(*solver_, *model_, frame_++);
     }
-    cpu::CpuSolver<float>& solver() { return solver_; }
+    cpu::CpuSolver<float>& solver() { return *solver_; }
     const Model& model() const { return *model_; }
-    const std::vector<cpu::Vec4<float>>& positions() const { return solver_.nodes().positions; }
+    const std::vector<cpu::Vec4<float>>& positions() const { return solver_->nodes().positions; }
     float fastest() const {
         float most = 0.0f;
-        for (const auto& velocity : solver_.nodes().velocities)
+        for (const auto& velocity : solver_->nodes().velocities)
             most = std::max(most, glm::length(glm::vec3(velocity)));
         return most;
     }
@@ -52,7 +54,7 @@ public:
 
 private:
     std::shared_ptr<const Model> model_;
-    cpu::ImplicitSolver<float> solver_;
+    std::unique_ptr<cpu::CpuSolver<float>> solver_;
     int frame_ = 0;
 };
 
@@ -71,8 +73,13 @@ std::shared_ptr<const Model> make_stack() {
 
 constexpr int kUntilRest = 900;  // frames
 
-TEST(RestWatch, BodiesAtRestSleepAndAreHeldAsBefore) {
-    Sleeper scene(make_stack());
+class RestWatch : public testing::TestWithParam<SolverKind> {};
+class RestWatchHeavy : public RestWatch {};
+INSTANTIATE_TEST_SUITE_P(Solvers, RestWatch, testing::Values(SolverKind::vbd, SolverKind::implicit));
+INSTANTIATE_TEST_SUITE_P(Solvers, RestWatchHeavy, testing::Values(SolverKind::vbd, SolverKind::implicit));
+
+TEST_P(RestWatch, BodiesAtRestSleepAndAreHeldAsBefore) {
+    Sleeper scene(GetParam(), make_stack());
     scene.advance(kUntilRest);
     ASSERT_TRUE(scene.is_asleep());
     const ContactForces forces = scene.solver().contact_forces();
@@ -81,19 +88,19 @@ TEST(RestWatch, BodiesAtRestSleepAndAreHeldAsBefore) {
     EXPECT_NEAR(sum.y, 2.0 * 27.0 * 9.81, 0.01 * 2.0 * 27.0 * 9.81);
 }
 
-TEST(RestWatchHeavy, WithoutItBodiesAtRestAreSimulated) {
-    Sleeper scene(make_stack(), false);
+TEST_P(RestWatchHeavy, WithoutItBodiesAtRestAreSimulated) {
+    Sleeper scene(GetParam(), make_stack(), false);
     scene.advance(kUntilRest);
     EXPECT_LT(scene.fastest(), 1e-4f);
     EXPECT_FALSE(scene.is_asleep());
 }
 
 // The feet of jittered blocks, which are stiffer one way than another, are held in all directions.
-TEST(RestWatch, BlocksDoNotCreep) {
+TEST_P(RestWatch, BlocksDoNotCreep) {
     const auto model =
         test::make_blocks({{.place = {0, 0.002, 0}}, {.place = {1, 0.002, 0}}}, kGravity, {floor()});
-    Sleeper scene(model, false);
-    scene.advance(300);
+    Sleeper scene(GetParam(), model, false);
+    scene.advance(600);
     const std::vector<cpu::Vec4<float>> before = scene.positions();
     scene.advance(30);
     float most = 0.0f;
@@ -103,28 +110,28 @@ TEST(RestWatch, BlocksDoNotCreep) {
 }
 
 // The upper block comes from far: the lower one rests long before.
-TEST(RestWatch, NoneSleepsWhileOneMoves) {
+TEST_P(RestWatch, NoneSleepsWhileOneMoves) {
     const auto model =
         test::make_blocks({{.place = {0, 0.002, 0}}, {.place = {5, 30, 0}}}, kGravity, {floor()});
-    Sleeper scene(model);
+    Sleeper scene(GetParam(), model);
     scene.advance(120);
     EXPECT_NEAR(scene.center(1).y, 30.15 - 0.5 * 9.81 * 4.0, 0.4);
     EXPECT_FALSE(scene.is_asleep());
 }
 
-TEST(RestWatch, SlowMotionIsNoRest) {
+TEST_P(RestWatch, SlowMotionIsNoRest) {
     const auto model =
         test::make_blocks({{.velocity = {1e-3, 0, 0}}, {.place = {2, 0, 0}, .velocity = {1e-3, 0, 0}}});
-    Sleeper scene(model);
+    Sleeper scene(GetParam(), model);
     const double start = scene.center(0).x;
     scene.advance(180);
     EXPECT_NEAR(scene.center(0).x, start + 3e-3, 5e-6);
 }
 
-TEST(RestWatch, AHandWakes) {
+TEST_P(RestWatch, AHandWakes) {
     const auto model =
         test::make_blocks({{.place = {0, 0.002, 0}}, {.place = {1, 0.002, 0}}}, kGravity, {floor()});
-    Sleeper scene(model);
+    Sleeper scene(GetParam(), model);
     scene.advance(kUntilRest);
     ASSERT_TRUE(scene.is_asleep());
     const glm::dvec3 center = scene.center(0);
@@ -142,8 +149,8 @@ TEST(RestWatch, AHandWakes) {
     EXPECT_NEAR(scene.center(0).y, center.y, 1e-3);
 }
 
-TEST(RestWatch, NodesSetFromOutsideWake) {
-    Sleeper scene(make_stack());
+TEST_P(RestWatch, NodesSetFromOutsideWake) {
+    Sleeper scene(GetParam(), make_stack());
     scene.advance(kUntilRest);
     ASSERT_TRUE(scene.is_asleep());
     State state = scene.solver().read_state();
@@ -155,20 +162,20 @@ TEST(RestWatch, NodesSetFromOutsideWake) {
 }
 
 // A wall that has stood still comes and pushes a block, at a speed that no single step shows.
-TEST(RestWatchHeavy, CollidersThatBeginToMoveWake) {
+TEST_P(RestWatchHeavy, CollidersThatBeginToMoveWake) {
     ColliderDescription wall;
     wall.shape = BoxShape{.size = {0.1, 1.0, 1.0}};
     wall.position = {-0.06, 0.51, 0.15};
     wall.keyframes = {{.time = 0.0}, {.time = 16.0}, {.time = 46.0, .move = {0.03, 0, 0}}};
     const auto model =
         test::make_blocks({{.place = {0, 0.002, 0}, .friction = 0.1}}, kGravity, {floor(), wall});
-    Sleeper scene(model);
+    Sleeper scene(GetParam(), model);
     scene.advance(kUntilRest);
     ASSERT_TRUE(scene.is_asleep());
     const double before = scene.center(0).x;
     scene.advance(2760 - kUntilRest - 1);
     EXPECT_GT(scene.center(0).x, before + 0.01);
-    Sleeper awake(model, false);
+    Sleeper awake(GetParam(), model, false);
     awake.advance(2760);
     EXPECT_NEAR(scene.center(0).x, awake.center(0).x, 5e-4);
 }

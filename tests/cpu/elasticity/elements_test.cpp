@@ -249,6 +249,16 @@ TEST(Elements, SolvesWhatIsPositive) {
     }
 }
 
+TEST(Elements, InvertsAsItSolves) {
+    Random random;
+    for (int round = 0; round < 20; ++round) {
+        cpu::SymmetricMatrix<double> matrix;
+        for (int k = 0; k < 3; ++k) matrix.add_outer(1.0 + k, random.point(1.0));
+        const V v = random.point(1.0), expected = cpu::solve(matrix, v);
+        EXPECT_LT(glm::distance(cpu::inverse_of(matrix) * v, expected), 1e-9 * glm::length(expected));
+    }
+}
+
 TEST(Elements, MovesNothingAlongWhatHasNoStiffness) {
     EXPECT_EQ(cpu::solve(Terms{}), V(0));
     const V n(0.6, 0.0, 0.8);
