@@ -5,10 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "cpu/collision/colliders.h"
 #include "cpu/contact/contact_force_sums.h"
-#include "cpu/contact/feasible_region.h"
-#include "cpu/contact/nearest_pairs.h"
 #include "cpu/descent/rigid_inertia.h"
 #include "cpu/elasticity/elastic_energy.h"
 #include "cpu/implicit/union_find.h"
@@ -31,14 +28,6 @@ constexpr double kRestingFall = 1.0 / 60.0;
 // Conjugate gradients are as exact as if all moved by this part of what gravity adds in a step, and had this
 // part of their share of the island's energy.
 constexpr double kAtRest = 0.01, kInIsland = 0.1;
-// Contacts this many reaches apart may come together in a step that deforms bodies.
-constexpr double kNear = 1.5;
-// A contact that is found nearer than its reach presses from there; the reach grows to all of it within this
-// time [s].
-constexpr double kEasing = 1.0 / 3.0;
-constexpr double kLeastReach = 1e-3;
-// What lies in a plane at first is pushed out as fast as it is deep, over this time [s].
-constexpr double kPushing = 0.1;
 // Where steps would gain bodies this part of their energy in all, they are made again by implicit Euler's
 // scheme, which damps; where one does that gains the second part at once, it was too long for its
 // linearisation, and is made shorter.
@@ -50,8 +39,6 @@ constexpr double kRounding = 1e-9;
 constexpr double kDeepest = 10.0;
 // And one in which two objects go so many reaches beside each other.
 constexpr double kFastest = 80.0;
-// Parts of one body press from this part of their distance at rest on, if that is less than the reach.
-constexpr double kOfRestGap = 0.5;
 
 }  // namespace
 
@@ -64,6 +51,7 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
       contacts_(contacts),
       object_of_(objects_of_nodes(*model_)),
       pairs_(model_, surface_, own),
+      rows_(model_, surface_),
       guard_(model_, surface_),
       system_(model_),
       schemes_(model_->objects.size()),
@@ -82,7 +70,7 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
 
 template <class Real>
 void ImplicitStep<Real>::restart() {
-    memory_.clear();
+    rows_.forget();
     acting_.clear();
     system_.rows.clear();
     pairs_.forget();
@@ -96,7 +84,6 @@ template <class Real>
 Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const Nodes<Real>& previous,
                              Nodes<Real>& current, StageTimer* timer) {
     StepInput<Real> input = wanted;
-    const std::vector<Memory> memory = memory_;
     const Energy before = energy_ ? *energy_ : energy(previous);
     const double rounding = kRounding * (1.0 + std::abs(before.potential));
     const bool is_driven = is_driven_by_surfaces_ || moves_held_nodes(previous) ||
@@ -107,12 +94,13 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
             damps = false;
             input.step *= Real(0.5);
         };
-        memory_ = memory;
         {
             const TimedStage part(timer, "advance_nodes.detect");
             predict(input, previous);
             const bool is_found = damps || detect(previous, is_shortest);
-            if (is_found) make_rows(previous);
+            if (is_found)
+                rows_.make({previous.positions, expected_, compliances_, step_, last_step_}, pairs_.pairs(),
+                           system_.rows);
             if (!is_found || (!is_shortest && deepest() > static_cast<Real>(kDeepest))) {
                 divide();
                 continue;
@@ -159,6 +147,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
         }
         divide();
     }
+    rows_.remember();
     earlier_ = previous;
     last_step_ = input.step;
     return input.step;
@@ -418,126 +407,6 @@ bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current
 }
 
 template <class Real>
-void ImplicitStep<Real>::add_row(ContactRow<Real> row, Real weight, Real first, Real second) {
-    const auto known = std::lower_bound(memory_.begin(), memory_.end(), row.key,
-                                        [](const Memory& m, std::uint64_t key) { return m.key < key; });
-    const bool is_known = known != memory_.end() && known->key == row.key;
-    if (is_known) row.ease = known->ease * std::max(Real(0), Real(1) - step_ / static_cast<Real>(kPushing));
-    if (!is_known && row.gap <= Real(0)) row.ease = static_cast<Real>(kLeastReach) * row.reach - row.gap;
-    row.gap += row.ease;
-    const Real there = row.gap_at(relative<Real>(row, expected_));
-    if (std::min(row.gap, there) > static_cast<Real>(kNear) * row.reach &&
-        there > row.reach + Real(0.5) * std::abs(there - row.gap))
-        return;
-    row.stiffness = weight * Real(4) / (first + second);
-    const Real reach = row.reach;
-    if (is_known) {
-        row.hold = known->hold - glm::dot(known->hold, row.normal) * row.normal;
-        row.limit = known->limit;
-        row.reach = std::max(known->reach, std::min(reach, row.gap));
-        Real& nearest = nearest_gaps_.try_emplace({row.object, row.other}, Real(1)).first->second;
-        nearest = std::min(nearest, row.gap / row.reach);
-        row.reach = std::min(reach, row.reach + reach * last_step_ / static_cast<Real>(kEasing));
-    } else {
-        new_rows_.push_back(static_cast<std::uint32_t>(system_.rows.size()));
-        const Real nearest = std::max(there, Real(0.25) * std::min(row.gap, row.reach));
-        row.limit = row.friction * row.force_of(nearest);
-    }
-    // Of belts, whose surfaces move within themselves.
-    Vec3<Real> slip(0);
-    if (row.object != kNoNode && !model_->is_body(row.object)) slip -= surface_velocity(row.object);
-    if (!model_->is_body(row.other)) slip += surface_velocity(row.other);
-    row.hold += row.stiffness * step_ * (slip - glm::dot(slip, row.normal) * row.normal);
-    system_.rows.push_back(row);
-}
-
-template <class Real>
-void ImplicitStep<Real>::make_rows(const Nodes<Real>& previous) {
-    system_.rows.clear();
-    new_rows_.clear();
-    nearest_gaps_.clear();
-    const FeasibleRegion<Real> region(*model_, *surface_, previous.positions);
-    for (const NearPair<Real>& near : pairs_.pairs()) {
-        const ContactPair& pair = near.pair;
-        if (!(near.gap > Real(0))) continue;
-        const Real weight = region.weight(pair, near.gap * near.normal, near.weights);
-        if (!(weight > Real(0))) continue;
-        ContactRow<Real> row;
-        Real first = 0, second = 0;
-        for (std::size_t k = 0; k < 4; ++k) {
-            const Real w = near.weights[static_cast<int>(k)];
-            if (w == Real(0)) continue;
-            const bool is_first = pair.side_of(k) == 0;
-            row.nodes[row.count] = pair.nodes[k];
-            row.weights[row.count++] = is_first ? -w : w;
-            (is_first ? first : second) += w * w * compliances_[pair.nodes[k]];
-        }
-        if (!(first + second > Real(0))) continue;
-        const ContactSurface::Touch& touch = surface_->touch(pair.object, pair.other);
-        row.object = pair.object;
-        row.other = pair.other;
-        row.normal = near.normal;
-        row.gap = near.gap;
-        row.reach = static_cast<Real>(pair.reach);
-        // Parts of a body that are near each other at rest do not press there.
-        if (pair.is_own()) row.reach = std::min(row.reach, static_cast<Real>(kOfRestGap) * rest_gap(pair));
-        row.friction = static_cast<Real>(touch.friction);
-        row.key = pair.is_edges() ? std::uint64_t(1) << 63 | std::uint64_t(pair.first) << 31 | pair.second
-                                  : std::uint64_t(pair.first) << 31 | pair.other;
-        add_row(row, weight * static_cast<Real>(touch.stiffness), first, second);
-    }
-    for (std::uint32_t c = 0; c < model_->colliders.size(); ++c) {
-        const Collider& plane = model_->colliders[c];
-        if (plane.kind != 0) continue;
-        for (std::uint32_t n = 0; n < model_->body_node_count(); ++n) {
-            if (compliances_[n] == Real(0)) continue;
-            const SurfaceDistance<Real> to = surface_distance(plane, Vec3<Real>(previous.positions[n]));
-            ContactRow<Real> row;
-            row.nodes[0] = n;
-            row.weights[0] = Real(1);
-            row.count = 1;
-            row.object = kNoNode;
-            row.other = object_of_[n];
-            row.normal = to.normal;
-            row.gap = to.distance;
-            row.reach = static_cast<Real>(surface_->thicknesses[row.other]);
-            row.friction = static_cast<Real>(plane.friction);
-            row.key = std::uint64_t(1) << 62 | std::uint64_t(c) << 31 | n;
-            add_row(row, Real(1), Real(0), compliances_[n]);
-        }
-    }
-    // What is found nearer than all contacts that are known of two objects has not pressed so far: with all
-    // of its reach it would bring in energy.
-    for (const std::uint32_t r : new_rows_) {
-        ContactRow<Real>& row = system_.rows[r];
-        const auto nearest = nearest_gaps_.find({row.object, row.other});
-        const Real part = row.gap / row.reach / (nearest == nearest_gaps_.end() ? Real(1) : nearest->second);
-        row.reach *= std::clamp(part, static_cast<Real>(kLeastReach), Real(1));
-    }
-}
-
-template <class Real>
-Real ImplicitStep<Real>::rest_gap(const ContactPair& pair) const {
-    MeasuredPairs<float> measured;
-    measure_pairs({&pair, 1}, model_->positions, measured);
-    return static_cast<Real>(measured.gaps[0]);
-}
-
-template <class Real>
-void ImplicitStep<Real>::remember() {
-    memory_.clear();
-    for (const ContactRow<Real>& row : system_.rows) {
-        const Vec3<Real> s = relative<Real>(row, system_.displacements);
-        ContactRow<Real> now = row;
-        now.limit = row.friction * row.pressing(s);
-        memory_.push_back(
-            {row.key, now.limit > Real(0) ? now.held(s) : Vec3<Real>(0), now.limit, row.reach, row.ease});
-    }
-    std::stable_sort(memory_.begin(), memory_.end(),
-                     [](const Memory& a, const Memory& b) { return a.key < b.key; });
-}
-
-template <class Real>
 glm::dvec3 ImplicitStep<Real>::angular_momentum(std::uint32_t object, std::span<const Vec4<Real>> positions,
                                                 std::span<const Vec4<Real>> velocities) const {
     const Range& nodes = model_->objects[object].nodes;
@@ -560,7 +429,7 @@ glm::dvec3 ImplicitStep<Real>::angular_momentum(std::uint32_t object, std::span<
 template <class Real>
 void ImplicitStep<Real>::finish(const Nodes<Real>& previous, Nodes<Real>& current) {
     Field& d = system_.displacements;
-    remember();
+    rows_.note(system_.rows, d);
     Field forces(d.size(), Vec3<Real>(0));  // of contacts
     acting_.clear();
     for (const ContactRow<Real>& row : system_.rows) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,6 +9,7 @@
 
 #include "core/stage_timer.h"
 #include "cpu/drive/pulls.h"
+#include "cpu/implicit/contact_rows.h"
 #include "cpu/implicit/find_pairs.h"
 #include "cpu/implicit/guard.h"
 #include "cpu/implicit/step_system.h"
@@ -80,13 +80,6 @@ private:
     struct Scheme {
         Real past = 0, step = 0;
     };
-    // What a contact passes on to the next step.
-    struct Memory {
-        std::uint64_t key;
-        Vec3<Real> hold;
-        Real limit, reach, ease;
-    };
-
     // A contact's force on its second side when a step has ended [N].
     struct Acting {
         ContactRow<Real> row;
@@ -98,7 +91,6 @@ private:
     void choose_schemes(bool damps);
     void find_targets(const StepInput<Real>& input, const Nodes<Real>& previous);
     void find_calm(const Nodes<Real>& current);
-    Real rest_gap(const ContactPair& pair) const;
     // Of all bodies [J]; motion: kinetic and elastic.
     struct Energy {
         double motion = 0.0, potential = 0.0;
@@ -112,12 +104,6 @@ private:
     bool detect(const Nodes<Real>& previous, bool is_shortest);
     bool guard(const Nodes<Real>& previous, Nodes<Real>& current);
     double contact_energy(bool at_end) const;
-    void make_rows(const Nodes<Real>& previous);
-    void add_row(ContactRow<Real> row, Real weight, Real first, Real second);
-    Vec3<Real> surface_velocity(std::uint32_t collider) const {
-        return Vec3<Real>(model_->surfaces[collider - model_->body_count()].velocity);
-    }
-    void remember();
     void finish(const Nodes<Real>& previous, Nodes<Real>& current);
     glm::dvec3 angular_momentum(std::uint32_t object, std::span<const Vec4<Real>> positions,
                                 std::span<const Vec4<Real>> velocities) const;
@@ -128,6 +114,7 @@ private:
     bool contacts_;
     std::vector<std::uint32_t> object_of_;
     FindPairs<Real> pairs_;
+    ContactRows<Real> rows_;
     Guard<Real> guard_;
     StepSystem<Real> system_;
     bool is_driven_by_surfaces_ = false;
@@ -142,12 +129,8 @@ private:
     std::vector<Real> compliances_;  // of nodes in contacts, 1 / h_i [m/N]
     Field expected_;                 // displacements without forces [m]
     std::vector<Vec4<Real>> ends_;
-    std::vector<Real> slacks_;    // by object [m]
-    std::vector<Memory> memory_;  // by key
-    std::vector<std::uint32_t> new_rows_;
+    std::vector<Real> slacks_;  // by object [m]
     std::vector<Acting> acting_;
-    // Of the contacts of two objects that the last step had, the least gap, as a part of the reach.
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Real> nearest_gaps_;
     std::vector<glm::dvec3> angular_, earlier_angular_;  // momenta of bodies [kg m^2/s]
 };
 

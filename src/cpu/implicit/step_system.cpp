@@ -279,7 +279,7 @@ bool StepSystem<Real>::is_balanced(double tolerance, std::span<const Motion> for
     return true;
 }
 
-// Newton's method on rigid motions alone, in which only their forces and rows are looked at. The limits of
+// Newton's method on rigid motions alone, in which only their forces and rows count. The limits of
 // friction stay as they are until bodies are nearly in balance (Tresca's friction), since what presses before
 // that has little to do with what will.
 template <class Real>

@@ -87,7 +87,7 @@ std::optional<std::string> uneven_masses(const Model& model) {
 std::optional<std::string> seems_to_be_in_millimetres(const Model& model, const ModelObject& object,
                                                       const Scene& scene) {
     constexpr double kLarge = 20.0, kMillimetre = 1e-3;  // [m]
-    constexpr double kEarth = 9.81, kAbout = 0.05;        // [m/s^2]
+    constexpr double kEarth = 9.81, kAbout = 0.05;       // [m/s^2]
     if (std::abs(glm::length(scene.gravity()) - kEarth) > kAbout) return {};
     glm::dvec3 low(model.positions[object.nodes.first]), high = low;
     for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {

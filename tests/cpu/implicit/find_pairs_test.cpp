@@ -38,8 +38,7 @@ protected:
                 glm::dvec4(n < model_->objects[2].nodes.first ? glm::dvec3(0, 0.05, 0) : glm::dvec3(0), 0.0);
     }
 
-    // Of all pairs of different bodies, those that come nearer than their reach, as often as they are looked
-    // at.
+    // Of all pairs of different bodies, those that come nearer than their reach at some of 21 times.
     std::set<Key> near_on_the_way(const std::vector<glm::dvec4>& ends) const {
         cpu::FindPairs<double> all(model_, surface_, false);
         const std::vector<double> wide(model_->objects.size(), 1.0);

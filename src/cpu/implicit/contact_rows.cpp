@@ -1,0 +1,162 @@
+#include "cpu/implicit/contact_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "cpu/collision/colliders.h"
+#include "cpu/contact/feasible_region.h"
+#include "cpu/contact/nearest_pairs.h"
+
+namespace gelatin::cpu {
+namespace {
+
+// Contacts this many reaches apart may come together in a step that deforms bodies.
+constexpr double kNear = 1.5;
+// A contact that is found nearer than its reach presses from there; the reach grows to all of it within this
+// time [s].
+constexpr double kEasing = 1.0 / 3.0;
+constexpr double kLeastReach = 1e-3;
+// What lies in a plane at first is pushed out as fast as it is deep, over this time [s].
+constexpr double kPushing = 0.1;
+// Parts of one body press from this part of their distance at rest on, if that is less than the reach.
+constexpr double kOfRestGap = 0.5;
+
+}  // namespace
+
+template <class Real>
+ContactRows<Real>::ContactRows(std::shared_ptr<const Model> model,
+                               std::shared_ptr<const ContactSurface> surface)
+    : model_(std::move(model)), surface_(std::move(surface)), object_of_(objects_of_nodes(*model_)) {}
+
+template <class Real>
+void ContactRows<Real>::add(const Start& start, ContactRow<Real> row, Real weight, Real first, Real second,
+                            std::vector<ContactRow<Real>>& rows) {
+    const auto known = std::lower_bound(memory_.begin(), memory_.end(), row.key,
+                                        [](const Memory& m, std::uint64_t key) { return m.key < key; });
+    const bool is_known = known != memory_.end() && known->key == row.key;
+    if (is_known)
+        row.ease = known->ease * std::max(Real(0), Real(1) - start.step / static_cast<Real>(kPushing));
+    if (!is_known && row.gap <= Real(0)) row.ease = static_cast<Real>(kLeastReach) * row.reach - row.gap;
+    row.gap += row.ease;
+    const Real there = row.gap_at(relative<Real>(row, start.expected));
+    if (std::min(row.gap, there) > static_cast<Real>(kNear) * row.reach &&
+        there > row.reach + Real(0.5) * std::abs(there - row.gap))
+        return;
+    row.stiffness = weight * Real(4) / (first + second);
+    const Real reach = row.reach;
+    if (is_known) {
+        row.hold = known->hold - glm::dot(known->hold, row.normal) * row.normal;
+        row.limit = known->limit;
+        row.reach = std::max(known->reach, std::min(reach, row.gap));
+        Real& nearest = nearest_gaps_.try_emplace({row.object, row.other}, Real(1)).first->second;
+        nearest = std::min(nearest, row.gap / row.reach);
+        row.reach = std::min(reach, row.reach + reach * start.last_step / static_cast<Real>(kEasing));
+    } else {
+        new_rows_.push_back(static_cast<std::uint32_t>(rows.size()));
+        const Real nearest = std::max(there, Real(0.25) * std::min(row.gap, row.reach));
+        row.limit = row.friction * row.force_of(nearest);
+    }
+    // Of belts, whose surfaces move within themselves.
+    const auto surface_velocity = [&](std::uint32_t collider) {
+        return Vec3<Real>(model_->surfaces[collider - model_->body_count()].velocity);
+    };
+    Vec3<Real> slip(0);
+    if (row.object != kNoNode && !model_->is_body(row.object)) slip -= surface_velocity(row.object);
+    if (!model_->is_body(row.other)) slip += surface_velocity(row.other);
+    row.hold += row.stiffness * start.step * (slip - glm::dot(slip, row.normal) * row.normal);
+    rows.push_back(row);
+}
+
+template <class Real>
+void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>> pairs,
+                             std::vector<ContactRow<Real>>& rows) {
+    rows.clear();
+    new_rows_.clear();
+    nearest_gaps_.clear();
+    const FeasibleRegion<Real> region(*model_, *surface_, start.positions);
+    for (const NearPair<Real>& near : pairs) {
+        const ContactPair& pair = near.pair;
+        if (!(near.gap > Real(0))) continue;
+        const Real weight = region.weight(pair, near.gap * near.normal, near.weights);
+        if (!(weight > Real(0))) continue;
+        ContactRow<Real> row;
+        Real first = 0, second = 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Real w = near.weights[static_cast<int>(k)];
+            if (w == Real(0)) continue;
+            const bool is_first = pair.side_of(k) == 0;
+            row.nodes[row.count] = pair.nodes[k];
+            row.weights[row.count++] = is_first ? -w : w;
+            (is_first ? first : second) += w * w * start.compliances[pair.nodes[k]];
+        }
+        if (!(first + second > Real(0))) continue;
+        const ContactSurface::Touch& touch = surface_->touch(pair.object, pair.other);
+        row.object = pair.object;
+        row.other = pair.other;
+        row.normal = near.normal;
+        row.gap = near.gap;
+        row.reach = static_cast<Real>(pair.reach);
+        // Parts of a body that are near each other at rest do not press there.
+        if (pair.is_own()) row.reach = std::min(row.reach, static_cast<Real>(kOfRestGap) * rest_gap(pair));
+        row.friction = static_cast<Real>(touch.friction);
+        row.key = pair.is_edges() ? std::uint64_t(1) << 63 | std::uint64_t(pair.first) << 31 | pair.second
+                                  : std::uint64_t(pair.first) << 31 | pair.other;
+        add(start, row, weight * static_cast<Real>(touch.stiffness), first, second, rows);
+    }
+    for (std::uint32_t c = 0; c < model_->colliders.size(); ++c) {
+        const Collider& plane = model_->colliders[c];
+        if (plane.kind != 0) continue;
+        for (std::uint32_t n = 0; n < model_->body_node_count(); ++n) {
+            if (start.compliances[n] == Real(0)) continue;
+            const SurfaceDistance<Real> to = surface_distance(plane, Vec3<Real>(start.positions[n]));
+            ContactRow<Real> row;
+            row.nodes[0] = n;
+            row.weights[0] = Real(1);
+            row.count = 1;
+            row.object = kNoNode;
+            row.other = object_of_[n];
+            row.normal = to.normal;
+            row.gap = to.distance;
+            row.reach = static_cast<Real>(surface_->thicknesses[row.other]);
+            row.friction = static_cast<Real>(plane.friction);
+            row.key = std::uint64_t(1) << 62 | std::uint64_t(c) << 31 | n;
+            add(start, row, Real(1), Real(0), start.compliances[n], rows);
+        }
+    }
+    // What is found nearer than all contacts that are known of two objects has not pressed so far: with all
+    // of its reach it would bring in energy.
+    for (const std::uint32_t r : new_rows_) {
+        ContactRow<Real>& row = rows[r];
+        const auto nearest = nearest_gaps_.find({row.object, row.other});
+        const Real part = row.gap / row.reach / (nearest == nearest_gaps_.end() ? Real(1) : nearest->second);
+        row.reach *= std::clamp(part, static_cast<Real>(kLeastReach), Real(1));
+    }
+}
+
+template <class Real>
+Real ContactRows<Real>::rest_gap(const ContactPair& pair) const {
+    MeasuredPairs<float> measured;
+    measure_pairs({&pair, 1}, model_->positions, measured);
+    return static_cast<Real>(measured.gaps[0]);
+}
+
+template <class Real>
+void ContactRows<Real>::note(std::span<const ContactRow<Real>> rows,
+                             std::span<const Vec3<Real>> displacements) {
+    noted_.clear();
+    for (const ContactRow<Real>& row : rows) {
+        const Vec3<Real> s = relative<Real>(row, displacements);
+        ContactRow<Real> now = row;
+        now.limit = row.friction * row.pressing(s);
+        noted_.push_back(
+            {row.key, now.limit > Real(0) ? now.held(s) : Vec3<Real>(0), now.limit, row.reach, row.ease});
+    }
+    std::stable_sort(noted_.begin(), noted_.end(),
+                     [](const Memory& a, const Memory& b) { return a.key < b.key; });
+}
+
+template class ContactRows<float>;
+template class ContactRows<double>;
+
+}  // namespace gelatin::cpu
