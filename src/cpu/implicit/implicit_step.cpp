@@ -34,9 +34,9 @@ constexpr double kAtRest = 0.01, kInIsland = 0.1;
 constexpr double kMostGained = 0.002, kMostGain = 0.1;
 // Of energies, as a part of the potential one, and for bodies at rest [J].
 constexpr double kRounding = 1e-9;
-// A step is divided in which contacts would come into each other by so many reaches: by an edge of the
+// A step is divided in which contacts would come into each other by so many reaches: by two edges of the
 // surface.
-constexpr double kDeepest = 10.0;
+constexpr double kDeepest = 20.0;
 // And one in which two objects go so many reaches beside each other.
 constexpr double kFastest = 80.0;
 
