@@ -143,22 +143,24 @@ void RigidLevel<Real>::find_pattern() {
         if (is_coupling(pair))
             columns[std::min(pair.bodies[0], pair.bodies[1])].push_back(
                 std::max(pair.bodies[0], pair.bodies[1]));
-    Eigen::VectorXi sizes(static_cast<Eigen::Index>(6 * columns.size()));
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-        std::sort(columns[c].begin(), columns[c].end());
-        columns[c].erase(std::unique(columns[c].begin(), columns[c].end()), columns[c].end());
-        sizes.segment<6>(static_cast<Eigen::Index>(6 * c))
-            .setConstant(static_cast<int>(6 * columns[c].size()));
+    const auto size = static_cast<Eigen::Index>(6 * columns.size());
+    std::size_t blocks = 0;
+    for (std::vector<std::uint32_t>& column : columns) {
+        std::sort(column.begin(), column.end());
+        column.erase(std::unique(column.begin(), column.end()), column.end());
+        blocks += column.size();
     }
-    matrix_.resize(sizes.size(), sizes.size());
-    matrix_.reserve(sizes);
-    for (std::size_t c = 0; c < columns.size(); ++c)
-        for (int j = 0; j < 6; ++j)
-            for (const std::uint32_t row : columns[c])
-                for (int i = 0; i < 6; ++i)
-                    matrix_.insert(static_cast<Eigen::Index>(6 * row) + i,
-                                   static_cast<Eigen::Index>(6 * c) + j) = 0.0;
-    matrix_.makeCompressed();
+    matrix_.resize(size, size);
+    matrix_.resizeNonZeros(static_cast<Eigen::Index>(36 * blocks));
+    int *end = matrix_.outerIndexPtr(), *row = matrix_.innerIndexPtr();
+    *end = 0;
+    for (const std::vector<std::uint32_t>& column : columns)
+        for (int j = 0; j < 6; ++j, ++end) {
+            for (const std::uint32_t block : column)
+                for (int i = 0; i < 6; ++i) *row++ = 6 * static_cast<int>(block) + i;
+            end[1] = end[0] + 6 * static_cast<int>(column.size());
+        }
+    std::fill(matrix_.valuePtr(), matrix_.valuePtr() + matrix_.nonZeros(), 0.0);
     factors_.analyzePattern(matrix_);
     places_.resize(pairs_.size());
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
