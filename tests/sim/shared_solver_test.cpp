@@ -147,9 +147,9 @@ void fuzz(unsigned first, unsigned count) {
         SharedSolver solver = make_solver(model, iterations, divides_steps);
         const auto energy_of = [&] {
             const State state = solver.read_state();
-            return test::motion_energy<float>(*model, {state.positions, state.velocities});
+            return test::sum_bodies<float>(*model, {state.positions, state.velocities});
         };
-        const test::MotionEnergy energy = energy_of();
+        const test::BodySums energy = energy_of();
         for (int step = 0; step < 15; ++step) {
             solver.advance({kFrame / substeps});
             ASSERT_EQ(overlaps_of(*model, solver), 0u) << "scene " << seed << ", step " << step;

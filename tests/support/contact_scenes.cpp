@@ -54,13 +54,15 @@ void advance(cpu::CpuSolver<Real>& solver, const Model& model, int number, doubl
 }
 
 template <class Real>
-MotionEnergy motion_energy(const Model& model, const cpu::Nodes<Real>& nodes) {
-    MotionEnergy energy;
+BodySums sum_bodies(const Model& model, const cpu::Nodes<Real>& nodes) {
+    BodySums sums;
     for (const ObjectMeasure& object : cpu::measure(model, nodes)) {
-        energy.kinetic += object.kinetic_energy;
-        energy.potential += object.potential_energy;
+        sums.kinetic += object.kinetic_energy;
+        sums.potential += object.potential_energy;
+        sums.elastic += object.elastic_energy;
+        sums.momentum += object.momentum;
     }
-    return energy;
+    return sums;
 }
 
 template <class Real>
@@ -70,7 +72,7 @@ testing::AssertionResult stays_apart(cpu::CpuSolver<Real>& solver, const Model& 
         advance(solver, model, number, step);
         const std::size_t overlaps = count_overlaps(model, solver.nodes().positions);
         if (overlaps > 0) return testing::AssertionFailure() << overlaps << " overlaps after step " << number;
-        const double energy = motion_energy(model, solver.nodes()).sum();
+        const double energy = sum_bodies(model, solver.nodes()).sum();
         if (!(energy <= most_energy))
             return testing::AssertionFailure()
                    << energy << " J after step " << number << ", at most " << most_energy;
@@ -80,8 +82,8 @@ testing::AssertionResult stays_apart(cpu::CpuSolver<Real>& solver, const Model& 
 
 template void advance<float>(cpu::CpuSolver<float>&, const Model&, int, double);
 template void advance<double>(cpu::CpuSolver<double>&, const Model&, int, double);
-template MotionEnergy motion_energy<float>(const Model&, const cpu::Nodes<float>&);
-template MotionEnergy motion_energy<double>(const Model&, const cpu::Nodes<double>&);
+template BodySums sum_bodies<float>(const Model&, const cpu::Nodes<float>&);
+template BodySums sum_bodies<double>(const Model&, const cpu::Nodes<double>&);
 template testing::AssertionResult stays_apart<float>(cpu::CpuSolver<float>&, const Model&, int, double,
                                                      double);
 template testing::AssertionResult stays_apart<double>(cpu::CpuSolver<double>&, const Model&, int, double,

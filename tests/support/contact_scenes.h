@@ -53,13 +53,14 @@ cpu::ImplicitSolver<Real> make_solver(const std::shared_ptr<const Model>& model,
 template <class Real>
 void advance(cpu::CpuSolver<Real>& solver, const Model& model, int number, double step = kFrame);
 
-/// Of all bodies [J].
-struct MotionEnergy {
-    double kinetic = 0.0, potential = 0.0;
+/// Of all bodies.
+struct BodySums {
+    glm::dvec3 momentum{0.0};                              ///< [kg m/s]
+    double kinetic = 0.0, potential = 0.0, elastic = 0.0;  ///< [J]
     double sum() const { return kinetic + potential; }
 };
 template <class Real>
-MotionEnergy motion_energy(const Model& model, const cpu::Nodes<Real>& nodes);
+BodySums sum_bodies(const Model& model, const cpu::Nodes<Real>& nodes);
 
 /// Makes steps from the start, until faces overlap after one, or bodies have more kinetic and potential
 /// energy than `most_energy` [J]. @return whether they never do

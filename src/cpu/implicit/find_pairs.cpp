@@ -52,8 +52,9 @@ FindPairs<Real>::FindPairs(std::shared_ptr<const Model> model, std::shared_ptr<c
     for (std::size_t f = 0; f < faces.size(); ++f)
         for (const std::uint32_t n : corners_of(model_->faces[f]))
             faces[f].add(Vec3<Real>(glm::vec3(model_->positions[n])));
-    for (const std::uint32_t root : model_->face_trees.roots)
-        if (root < rest_boxes_.size()) update_tree_boxes<Real>(model_->face_trees, root, faces, rest_boxes_);
+    for (std::size_t o = 0; o < model_->objects.size(); ++o)
+        if (model_->objects[o].faces.count > 0)
+            update_tree_boxes<Real>(model_->face_trees, model_->face_trees.roots[o], faces, rest_boxes_);
 }
 
 // Two boxes meet that are nearer than both slacks and the reach. They are those of an object that stays where
@@ -61,7 +62,6 @@ FindPairs<Real>::FindPairs(std::shared_ptr<const Model> model, std::shared_ptr<c
 template <class Real>
 void FindPairs<Real>::update_boxes(std::size_t object, const Paths<Real>& paths) {
     const Vec3<Real>& frame = motions_[object];
-    Boxes& boxes = boxes_;
     const SurfaceParts& parts = model_->surface_parts;
     const auto margin = BoxMargin<Real>::for_distance(
         2.0 * (static_cast<double>(paths.slacks[object]) + surface_->thicknesses[object]));
@@ -72,28 +72,28 @@ void FindPairs<Real>::update_boxes(std::size_t object, const Paths<Real>& paths)
         AxisBox<Real> box;
         box.add(Vec3<Real>(paths.from[n]), margin);
         box.add(Vec3<Real>(paths.to[n]) - frame, margin);
-        boxes.nodes[n] = box;
+        boxes_.nodes[n] = box;
     });
     const auto hull = [&](std::initializer_list<std::uint32_t> nodes) {
         AxisBox<Real> box;
-        for (const std::uint32_t n : nodes) box.add(boxes.nodes[n]);
+        for (const std::uint32_t n : nodes) box.add(boxes_.nodes[n]);
         return box;
     };
     for_each_index(faces, [&](std::uint32_t f) {
         const Face& face = model_->faces[f];
-        boxes.faces[f] = hull({face.a, face.b, face.c});
+        boxes_.faces[f] = hull({face.a, face.b, face.c});
     });
     for_each_index(Range{first.y, end.y - first.y}, [&](std::uint32_t e) {
-        boxes.edges[e] = hull({parts.edges[e].a, parts.edges[e].b});
+        boxes_.edges[e] = hull({parts.edges[e].a, parts.edges[e].b});
     });
     const std::uint32_t root = model_->face_trees.roots[object];
-    update_tree_boxes<Real>(model_->face_trees, root, boxes.faces, boxes.trees);
-    bounding_boxes_[object] = swept(boxes.trees[root], frame);
+    update_tree_boxes<Real>(model_->face_trees, root, boxes_.faces, boxes_.trees);
+    bounding_boxes_[object] = swept(boxes_.trees[root], frame);
     if (has_changed_[object] == 0) return;
     for_each_index(faces, [&](std::uint32_t f) {
-        boxes.changed_faces[f] = is_changed_face_[f] != 0 ? boxes.faces[f] : AxisBox<Real>();
+        boxes_.changed_faces[f] = is_changed_face_[f] != 0 ? boxes_.faces[f] : AxisBox<Real>();
     });
-    update_tree_boxes<Real>(model_->face_trees, root, boxes.changed_faces, boxes.changed);
+    update_tree_boxes<Real>(model_->face_trees, root, boxes_.changed_faces, boxes_.changed);
 }
 
 template <class Real>
@@ -109,7 +109,7 @@ bool FindPairs<Real>::has_changed_face(const TreeNode& leaf) const {
 }
 
 template <class Real>
-bool FindPairs<Real>::is_new(const ContactPair& pair) const {
+bool FindPairs<Real>::has_changed_node(const ContactPair& pair) const {
     return std::any_of(pair.nodes.begin(), pair.nodes.end(),
                        [&](std::uint32_t n) { return is_changed_[n] != 0; });
 }
@@ -193,7 +193,7 @@ void FindPairs<Real>::update(const Paths<Real>& paths, std::span<const std::uint
         update_boxes(o, paths);
     });
     object_tree_.update(bounding_boxes_);
-    std::erase_if(pairs_, [&](const NearPair<Real>& near) { return is_new(near.pair); });
+    std::erase_if(pairs_, [&](const NearPair<Real>& near) { return has_changed_node(near.pair); });
     search_all(paths, true);
     for (const std::uint32_t n : nodes) is_changed_[n] = has_changed_[object_of_[n]] = 0;
     for (Own& own : owns_) own.listed = own.boxes.size();
@@ -247,7 +247,8 @@ void FindPairs<Real>::walk(std::uint32_t leaf, std::uint32_t object, const AxisB
     }
 }
 
-// Whether the lines between what two nodes of a tree have meet none of so many lost blocks at the start.
+// Whether the lines between what two nodes of a tree have meet none of the first `count` boxes round lost
+// tets at the start.
 template <class Real>
 bool FindPairs<Real>::is_kept(const Own& own, std::size_t count, std::uint32_t node,
                               std::uint32_t other) const {
@@ -293,7 +294,7 @@ void FindPairs<Real>::search(std::uint32_t leaf, const Paths<Real>& paths, bool 
                 if (!meet(box, near.box) || has_corner(face, n)) continue;
                 const ContactPair pair{
                     {n, face.a, face.b, face.c}, {}, n, near.index, object, other, 1, reach};
-                if (!changed || near.is_new || is_new(pair)) found.candidates.push_back(pair);
+                if (!changed || near.is_new || has_changed_node(pair)) found.candidates.push_back(pair);
             }
         }
         keep_near(paths, found, found.of_nodes);
@@ -308,7 +309,7 @@ void FindPairs<Real>::search(std::uint32_t leaf, const Paths<Real>& paths, bool 
                 if (other == object && (near.index <= e || share_end(edge, to))) continue;
                 const ContactPair pair{
                     {edge.a, edge.b, to.a, to.b}, {}, e, near.index, object, other, 2, reach};
-                if (!changed || near.is_new || is_new(pair)) found.candidates.push_back(pair);
+                if (!changed || near.is_new || has_changed_node(pair)) found.candidates.push_back(pair);
             }
         }
         keep_near(paths, found, found.of_edges);

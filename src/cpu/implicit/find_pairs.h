@@ -90,7 +90,7 @@ private:
         std::vector<NearPair<Real>> of_nodes, of_edges;
     };
     // Of a body that is convex at the start: only those of its own pairs are listed whose lines then meet
-    // boxes round lost blocks of tets.
+    // boxes round lost tets.
     struct Own {
         std::vector<LostTets> lost;
         std::vector<AxisBox<Real>> boxes;  // of each
@@ -102,7 +102,7 @@ private:
     void add_lost(std::uint32_t object, std::span<const LostTets> lost);
     bool has_changed_node(const Face& face) const;
     bool has_changed_face(const TreeNode& leaf) const;
-    bool is_new(const ContactPair& pair) const;
+    bool has_changed_node(const ContactPair& pair) const;
     void search_all(const Paths<Real>& paths, bool changed);
     void search(std::uint32_t leaf, const Paths<Real>& paths, bool changed, Found& found) const;
     void walk(std::uint32_t leaf, std::uint32_t object, const AxisBox<Real>& box, bool changed,

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "core/disjoint_sets.h"
 #include "cpu/collision/colliders.h"
 #include "cpu/contact/nearest_pairs.h"
-#include "cpu/implicit/union_find.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -42,14 +42,14 @@ Guard<Real>::Guard(std::shared_ptr<const Model> model, std::shared_ptr<const Con
 template <class Real>
 void Guard<Real>::find_frames(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
                               std::span<const Vec4<Real>> ends) {
-    UnionFind islands(model_->objects.size());
-    for (const NearPair<Real>& near : pairs) islands.join(near.pair.object, near.pair.other);
+    DisjointSets islands(model_->objects.size());
+    for (const NearPair<Real>& near : pairs) islands.unite(near.pair.object, near.pair.other);
     std::vector<glm::dvec3> sums(frames_.size(), glm::dvec3(0.0));
     std::vector<double> masses(frames_.size(), 0.0);
     std::vector<std::uint8_t> is_held(frames_.size());
     for (std::uint32_t o = 0; o < frames_.size(); ++o) {
         const Range& nodes = model_->objects[o].nodes;
-        const std::uint32_t island = islands.find(o);
+        const std::uint32_t island = islands.least(o);
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
             if (ends[n].w == Real(0)) {
                 is_held[island] = 1;
@@ -61,7 +61,7 @@ void Guard<Real>::find_frames(const Paths<Real>& paths, std::span<const NearPair
         }
     }
     for (std::uint32_t o = 0; o < frames_.size(); ++o) {
-        const std::uint32_t island = islands.find(o);
+        const std::uint32_t island = islands.least(o);
         frames_[o] = is_held[island] != 0 || masses[island] == 0.0
                          ? Vec3<Real>(0)
                          : Vec3<Real>(sums[island] / masses[island]);
@@ -90,9 +90,8 @@ void Guard<Real>::keep_outside_planes(const Paths<Real>& paths, std::span<Vec4<R
             const SurfaceDistance<Real> from = surface_distance(plane, Vec3<Real>(paths.from[n])),
                                         to = surface_distance(plane, Vec3<Real>(ends[n]));
             const auto thickness = static_cast<Real>(surface_->thicknesses[object_of_[n]]);
-            const Real least =
-                std::min(static_cast<Real>(kLeastOfReach) * thickness,
-                         std::min(static_cast<Real>(kLeastOfGap) * from.distance, from.distance));
+            const Real least = std::min({static_cast<Real>(kLeastOfReach) * thickness,
+                                         static_cast<Real>(kLeastOfGap) * from.distance, from.distance});
             if (to.distance >= least) continue;
             const Real frame = glm::dot(from.normal, frames_[object_of_[n]]);
             add(n, -from.normal, (from.distance - least) + frame);

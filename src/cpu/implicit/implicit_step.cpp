@@ -5,10 +5,10 @@
 #include <limits>
 #include <utility>
 
+#include "core/disjoint_sets.h"
 #include "cpu/contact/contact_force_sums.h"
 #include "cpu/descent/rigid_inertia.h"
 #include "cpu/elasticity/elastic_energy.h"
-#include "cpu/implicit/union_find.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -88,7 +88,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
     const double rounding = kRounding * (1.0 + std::abs(before.potential));
     const bool is_driven = is_driven_by_surfaces_ || moves_held_nodes(previous) ||
                            !input.load_forces.empty() || input.pulls != nullptr;
-    for (bool damps = false;;) {
+    for (bool damps = false, has_past = false;;) {
         const bool is_shortest = input.step < Real(2) * shortest;
         const auto divide = [&] {
             damps = false;
@@ -108,7 +108,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
         }
         {
             const TimedStage part(timer, "advance_nodes.linearise");
-            choose_schemes(damps);
+            has_past = choose_schemes(damps);
             find_targets(input, previous);
             linearise(input, previous);
         }
@@ -128,7 +128,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
             return energy_->sum() - before.sum() + at_end - in_contacts;
         };
         const double most_gained = kMostGained * before.motion + rounding;
-        if (!damps && !is_driven && !(gained_ + gain(in_contacts_) <= most_gained)) {
+        if (has_past && !is_driven && !(gained_ + gain(in_contacts_) <= most_gained)) {
             damps = true;
             continue;
         }
@@ -139,6 +139,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
         if (gain(at_start) <= most) {
             gained_ = is_driven ? 0.0 : std::max(gained_ + gain(in_contacts_), 0.0);
             in_contacts_ = at_end;
+            rows_.remember();
             break;
         }
         if (is_shortest) {
@@ -147,7 +148,6 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
         }
         divide();
     }
-    rows_.remember();
     earlier_ = previous;
     last_step_ = input.step;
     return input.step;
@@ -193,6 +193,7 @@ template <class Real>
 void ImplicitStep<Real>::stand_still(const Nodes<Real>& previous, Nodes<Real>& current) {
     current = previous;
     energy_.reset();
+    acting_.clear();
     for (std::uint32_t n = 0; n < model_->node_count(); ++n)
         if (previous.positions[n].w != Real(0))
             current.velocities[n] = Vec4<Real>(Vec3<Real>(0), previous.velocities[n].w);
@@ -235,16 +236,16 @@ Vec3<Real> ImplicitStep<Real>::acceleration(const StepInput<Real>& input, const 
 }
 
 // BDF2 hardly damps, so bodies that rest would tremble on for ever: those of islands that are calm go on by
-// implicit Euler's scheme.
+// implicit Euler's scheme. @return whether any body goes on by BDF2
 template <class Real>
-void ImplicitStep<Real>::choose_schemes(bool damps) {
-    UnionFind islands(model_->objects.size());
+bool ImplicitStep<Real>::choose_schemes(bool damps) {
+    DisjointSets islands(model_->objects.size());
     for (const ContactRow<Real>& row : system_.rows)
         if (row.object != kNoNode && model_->is_body(row.object) && model_->is_body(row.other))
-            islands.join(row.object, row.other);
+            islands.unite(row.object, row.other);
     std::vector<std::uint8_t> moves(model_->objects.size());
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        islands_[o] = islands.find(o);
+        islands_[o] = islands.least(o);
         if (is_calm_[o] == 0) moves[islands_[o]] = 1;
     }
     const bool has_past = !damps && last_step_ > Real(0) && step_ < static_cast<Real>(kLongest) * last_step_;
@@ -253,6 +254,8 @@ void ImplicitStep<Real>::choose_schemes(bool damps) {
         schemes_[o] = {ratio * ratio / (Real(1) + Real(2) * ratio),
                        step_ * (Real(1) + ratio) / (Real(1) + Real(2) * ratio)};
     }
+    return std::any_of(schemes_.begin(), schemes_.end(),
+                       [](const Scheme& scheme) { return scheme.past > Real(0); });
 }
 
 // BDF2 for steps of any length: with x_1, v_1 one step before, whose length was h_1, and w = h / h_1,

@@ -88,7 +88,7 @@ private:
 
     void predict(const StepInput<Real>& input, const Nodes<Real>& previous);
     Vec3<Real> acceleration(const StepInput<Real>& input, const Nodes<Real>& previous, std::size_t n) const;
-    void choose_schemes(bool damps);
+    bool choose_schemes(bool damps);
     void find_targets(const StepInput<Real>& input, const Nodes<Real>& previous);
     void find_calm(const Nodes<Real>& current);
     // Of all bodies [J]; motion: kinetic and elastic.

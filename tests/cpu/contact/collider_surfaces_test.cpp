@@ -202,7 +202,7 @@ void fuzz_colliders(unsigned first, unsigned count) {
         // At most as if all bodies came at their fastest and went back from the fastest collider.
         double mass = 0.0;
         for (const ModelObject& object : model->objects) mass += object.mass;
-        const double start = test::motion_energy(*model, solver.nodes()).sum();
+        const double start = test::sum_bodies(*model, solver.nodes()).sum();
         double fastest = 0.0;  // of any point of a collider [m/s]
         for (const ColliderDescription& each : colliders) fastest = std::max(fastest, greatest_speed(each));
         const double speed = std::sqrt(2.0 * start / mass);  // with what gravity adds

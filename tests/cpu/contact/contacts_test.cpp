@@ -385,7 +385,7 @@ void fuzz(unsigned first, unsigned count, int most_substeps = 4, int most_iterat
                   iterations = random.integer(1, most_iterations);
         const bool divides_steps = random.integer(0, 1) == 0;
         cpu::ImplicitSolver<float> solver = make_solver<float>(model, 0.4, iterations, divides_steps);
-        const test::MotionEnergy energy = test::motion_energy(*model, solver.nodes());
+        const test::BodySums energy = test::sum_bodies(*model, solver.nodes());
         const double most = energy.sum() + 0.2 * energy.kinetic;
         ASSERT_TRUE(test::stays_apart(solver, *model, 20 * substeps, kFrame / substeps, most))
             << "scene " << seed;
@@ -426,7 +426,7 @@ TEST(ContactsHeavy, ManyBodiesPassThroughNothing) {
                           .youngs_modulus = random.magnitude(1e4, 1e7)});
     const auto model = make_blocks(blocks);
     cpu::ImplicitSolver<float> solver = make_solver<float>(model);
-    const test::MotionEnergy energy = test::motion_energy(*model, solver.nodes());
+    const test::BodySums energy = test::sum_bodies(*model, solver.nodes());
     EXPECT_TRUE(test::stays_apart(solver, *model, 20, kFrame, energy.sum()));
 }
 

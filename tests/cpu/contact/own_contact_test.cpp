@@ -389,7 +389,7 @@ void fuzz_folds(unsigned first, int count) {
         cpu::ImplicitSolver<float> solver = make_solver<float>(
             shared, random.uniform(0.0, 0.8), random.integer(1, 12), random.integer(0, 1) == 1);
         const int substeps = random.integer(1, 4);
-        const test::MotionEnergy energy = test::motion_energy(*shared, solver.nodes());
+        const test::BodySums energy = test::sum_bodies(*shared, solver.nodes());
         ASSERT_TRUE(test::stays_apart(solver, *shared, 30 * substeps, kFrame / substeps,
                                       energy.sum() + 0.2 * energy.kinetic))
             << "scene " << seed;

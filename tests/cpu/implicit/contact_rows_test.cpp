@@ -1,0 +1,75 @@
+#include "cpu/implicit/contact_rows.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "support/contact_scenes.h"
+
+namespace gelatin {
+namespace {
+
+// A block above a plane: of the nodes at its bottom those on one side are 0.1 mm above it, and the others as
+// high as a test has them.
+class ContactRowsTest : public testing::Test {
+protected:
+    ContactRowsTest() {
+        ColliderDescription ground;
+        ground.shape = PlaneCollider{{0, 1, 0}, 0.0};
+        model_ = test::make_blocks({{}}, {0, -9.81, 0}, {ground});
+        rows_of_ = std::make_unique<cpu::ContactRows<double>>(
+            model_, std::make_shared<ContactSurface>(make_contact_surface(*model_, {})));
+        compliances_.assign(model_->node_count(), 1e-6);
+        expected_.assign(model_->node_count(), glm::dvec3(0.0));
+    }
+    std::vector<cpu::ContactRow<double>> rows(double height) {
+        std::vector<glm::dvec4> positions(model_->positions.begin(), model_->positions.end());
+        for (glm::dvec4& p : positions) p.y = p.y > 0.05 ? 0.3 : p.x < 0.15 ? 0.0001 : height;
+        std::vector<cpu::ContactRow<double>> rows;
+        rows_of_->make({positions, expected_, compliances_, kStep, kStep}, {}, rows);
+        rows_of_->note(rows, expected_);
+        rows_of_->remember();
+        return rows;
+    }
+
+    static constexpr double kStep = 1.0 / 240.0;
+    std::shared_ptr<const Model> model_;
+    std::unique_ptr<cpu::ContactRows<double>> rows_of_;
+    std::vector<double> compliances_;
+    std::vector<glm::dvec3> expected_;
+};
+
+double strongest(const std::vector<cpu::ContactRow<double>>& rows) {
+    double most = 0.0;
+    for (const auto& row : rows) most = std::max(most, row.force_of(row.gap));
+    return most;
+}
+
+// With all of their reach at once new contacts would bring in energy.
+TEST_F(ContactRowsTest, NewOnesPressNoMoreThanThoseThatAreKnown) {
+    const std::vector<cpu::ContactRow<double>> first = rows(0.2);
+    ASSERT_GT(first.size(), 3u);
+    EXPECT_EQ(strongest(first), 0.0);
+    const double before = strongest(rows(0.2));  // their reach grows
+    EXPECT_GT(before, 0.0);
+    const std::vector<cpu::ContactRow<double>> all = rows(0.0001);
+    ASSERT_GT(all.size(), first.size());
+    EXPECT_LT(strongest(all), 3.0 * before);
+}
+
+TEST_F(ContactRowsTest, LiftOutWhatLiesInAPlane) {
+    const std::vector<cpu::ContactRow<double>> first = rows(-0.05);
+    const double none = strongest(first);
+    EXPECT_LT(none, 1e-9);
+    double before = none;
+    for (int k = 0; k < 10; ++k) {
+        const double now = strongest(rows(-0.05));
+        EXPECT_GT(now, before);  // the place moves up
+        before = now;
+    }
+}
+
+}  // namespace
+}  // namespace gelatin
