@@ -23,8 +23,11 @@ constexpr double kSlackOfThickness = 0.5, kSlackOfMotion = 0.1;
 constexpr int kMostGuards = 10;
 // BDF2 is stable for steps up to 2.4 times as long as the last one.
 constexpr double kLongest = 2.2;
-// Bodies come to rest that vibrate, and go to and fro, more slowly than after so long a fall [s].
-constexpr double kRestingFall = 1.0 / 60.0;
+// Bodies come to rest that vibrate, and go to and fro, more slowly than after so long a fall [s]. Elements
+// and contacts of those that move no faster in all have at least this damping time [s].
+constexpr double kRestingFall = 1.0 / 60.0, kRestingTime = 0.1;
+// What meets more slowly than after so long a fall does not bounce [s].
+constexpr double kBouncingFall = 1.0 / 30.0;
 // Conjugate gradients are as exact as if all moved by this part of what gravity adds in a step, and had this
 // part of their share of the island's energy.
 constexpr double kAtRest = 0.01, kInIsland = 0.1;
@@ -53,9 +56,11 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
       pairs_(model_, surface_, own),
       rows_(model_, surface_),
       guard_(model_, surface_),
+      restitution_(model_, surface_),
       system_(model_),
       schemes_(model_->objects.size()),
-      is_calm_(model_->body_count()),
+      paces_(model_->body_count()),
+      is_struck_(model_->body_count()),
       islands_(model_->objects.size()),
       compliances_(model_->node_count()),
       expected_(model_->node_count()),
@@ -77,7 +82,9 @@ void ImplicitStep<Real>::restart() {
     last_step_ = Real(0);
     energy_.reset();
     gained_ = in_contacts_ = 0.0;
-    std::fill(is_calm_.begin(), is_calm_.end(), std::uint8_t(0));
+    restitution_.forget();
+    std::fill(paces_.begin(), paces_.end(), Pace::moving);
+    std::fill(is_struck_.begin(), is_struck_.end(), std::uint8_t(0));
 }
 
 template <class Real>
@@ -119,7 +126,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
         {
             const TimedStage part(timer, "advance_nodes.finish");
             finish(previous, current);
-            find_calm(current);
+            find_paces(current);
             energy_ = energy(current);
         }
         // Contacts that are new hold some from the start, which nobody had before.
@@ -140,6 +147,11 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
             gained_ = is_driven ? 0.0 : std::max(gained_ + gain(in_contacts_), 0.0);
             in_contacts_ = at_end;
             rows_.remember();
+            const double gravity = glm::length(glm::dvec3(model_->gravity));
+            if (restitution_.run({static_cast<double>(input.step), kBouncingFall * gravity, system_.rows,
+                                  system_.displacements, previous},
+                                 system_.rigid, current, is_struck_))
+                energy_.reset();
             break;
         }
         if (is_shortest) {
@@ -235,24 +247,35 @@ Vec3<Real> ImplicitStep<Real>::acceleration(const StepInput<Real>& input, const 
                                      : gravity + previous.positions[n].w * Vec3<Real>(input.load_forces[n]);
 }
 
-// BDF2 hardly damps, so bodies that rest would tremble on for ever: those of islands that are calm go on by
-// implicit Euler's scheme. @return whether any body goes on by BDF2
+// BDF2 hardly damps, so bodies that rest would tremble on for ever: islands that are calm go on by implicit
+// Euler's scheme, and those that are still with dampers, too. So do bodies that restitution has struck, for a
+// step.
+// @return whether any body goes on by BDF2
 template <class Real>
 bool ImplicitStep<Real>::choose_schemes(bool damps) {
     DisjointSets islands(model_->objects.size());
     for (const ContactRow<Real>& row : system_.rows)
         if (row.object != kNoNode && model_->is_body(row.object) && model_->is_body(row.other))
             islands.unite(row.object, row.other);
-    std::vector<std::uint8_t> moves(model_->objects.size());
+    std::vector<Pace> paces(model_->objects.size(), Pace::still);
+    std::vector<std::uint8_t> is_struck(model_->objects.size());
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        islands_[o] = islands.least(o);
-        if (is_calm_[o] == 0) moves[islands_[o]] = 1;
+        const std::uint32_t island = islands_[o] = islands.least(o);
+        paces[island] = std::min(paces[island], paces_[o]);
+        if (is_struck_[o] != 0) is_struck[island] = 1;
     }
     const bool has_past = !damps && last_step_ > Real(0) && step_ < static_cast<Real>(kLongest) * last_step_;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        const Real ratio = has_past && moves[islands_[o]] != 0 ? step_ / last_step_ : Real(0);
+        const Pace pace = paces[islands_[o]];
+        const bool goes_on = has_past && pace == Pace::moving && is_struck[islands_[o]] == 0;
+        const Real ratio = goes_on ? step_ / last_step_ : Real(0);
         schemes_[o] = {ratio * ratio / (Real(1) + Real(2) * ratio),
-                       step_ * (Real(1) + ratio) / (Real(1) + Real(2) * ratio)};
+                       step_ * (Real(1) + ratio) / (Real(1) + Real(2) * ratio),
+                       pace == Pace::still ? static_cast<Real>(kRestingTime) : Real(0)};
+    }
+    for (ContactRow<Real>& row : system_.rows) {
+        const std::uint32_t body = model_->is_body(row.other) ? row.other : row.object;
+        row.damping = schemes_[body].damping / step_ * row.slope_of(row.gap);
     }
     return std::any_of(schemes_.begin(), schemes_.end(),
                        [](const Scheme& scheme) { return scheme.past > Real(0); });
@@ -270,7 +293,7 @@ void ImplicitStep<Real>::find_targets(const StepInput<Real>& input, const Nodes<
             system_.displacements[n] = expected_[n];
             return;
         }
-        const auto& [past, h] = schemes_[object_of_[n]];
+        const auto& [past, h, damping] = schemes_[object_of_[n]];
         const Vec3<Real> x(previous.positions[n]), v(previous.velocities[n]);
         Vec3<Real> target = h * v + h * h * acceleration(input, previous, n);  // y - x
         if (past > Real(0))
@@ -281,13 +304,14 @@ void ImplicitStep<Real>::find_targets(const StepInput<Real>& input, const Nodes<
     });
 }
 
-// Which bodies hardly vibrate, and touch others but hardly go towards or away from them.
+// Which bodies hardly vibrate, and touch others but hardly go towards or away from them; and which of them
+// hardly move at all.
 template <class Real>
-void ImplicitStep<Real>::find_calm(const Nodes<Real>& current) {
+void ImplicitStep<Real>::find_paces(const Nodes<Real>& current) {
     const double slow = kRestingFall * glm::length(glm::dvec3(model_->gravity));
     std::vector<Motion> motions(system_.rigid.count(), Motion::Zero());
-    std::vector<double> vibrations(model_->body_count(), 0.0), pressing(model_->body_count(), 0.0),
-        approach(model_->body_count(), 0.0);
+    std::vector<double> vibrations(model_->body_count(), 0.0), fastest = vibrations, pressing = vibrations,
+                                                               approach = vibrations;
     for_each_index(0, model_->body_count(), 1, [&](std::size_t o) {
         const ModelObject& object = model_->objects[o];
         const bool is_free = system_.rigid.is_free(o);
@@ -296,6 +320,7 @@ void ImplicitStep<Real>::find_calm(const Nodes<Real>& current) {
         for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
             const auto m = static_cast<double>(model_->masses[n]);
             Vec3<Real> v(current.velocities[n]);
+            fastest[o] = std::max(fastest[o], static_cast<double>(glm::length(v)));
             if (is_free) v -= system_.rigid.at(n, motions);
             squares += m * static_cast<double>(glm::dot(v, v));
             mass += m;
@@ -312,13 +337,19 @@ void ImplicitStep<Real>::find_calm(const Nodes<Real>& current) {
             approach[object] += force * std::abs(speed);
         }
     }
-    for (std::size_t o = 0; o < is_calm_.size(); ++o)
-        is_calm_[o] = pressing[o] > 0.0 && vibrations[o] < slow && approach[o] < slow * pressing[o] ? 1 : 0;
+    for (std::size_t o = 0; o < paces_.size(); ++o) {
+        const bool is_calm = pressing[o] > 0.0 && vibrations[o] < slow && approach[o] < slow * pressing[o];
+        paces_[o] = !is_calm ? Pace::moving : fastest[o] < slow ? Pace::still : Pace::calm;
+    }
 }
 
 template <class Real>
 void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Real>& previous) {
-    system_.elastic.linearise(previous.positions, previous.velocities, Real(1) / input.step);
+    velocities_ = previous.velocities;
+    for_each_index(velocities_.size(), [&](std::size_t n) {
+        velocities_[n].w = std::max(velocities_[n].w, schemes_[object_of_[n]].damping);
+    });
+    system_.elastic.linearise(previous.positions, velocities_, Real(1) / input.step);
     const double fall = kAtRest * static_cast<double>(input.step) * glm::length(glm::dvec3(model_->gravity));
     std::vector<double> energies(model_->objects.size(), 0.0), of_islands = energies, masses = energies;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
@@ -449,7 +480,7 @@ void ImplicitStep<Real>::finish(const Nodes<Real>& previous, Nodes<Real>& curren
             current.velocities[n] = v;
             return;
         }
-        const auto& [past, h] = schemes_[object_of_[n]];
+        const auto& [past, h, damping] = schemes_[object_of_[n]];
         Vec3<Real> velocity = d[n] / h;
         if (past > Real(0)) velocity -= past / h * (Vec3<Real>(x) - Vec3<Real>(earlier_.positions[n]));
         current.velocities[n] = Vec4<Real>(velocity, v.w);
@@ -483,8 +514,7 @@ ContactForces ImplicitStep<Real>::contact_forces() const {
         const ContactRow<Real>& row = acting.row;
         const glm::dvec3 normal(acting.normal), friction(acting.friction);
         if (row.object == kNoNode) {
-            sums.add(row.other, static_cast<std::uint32_t>(row.key >> 31 & 0x7FFFFFFFu), true, normal,
-                     friction);
+            sums.add(row.other, row.plane(), true, normal, friction);
         } else if (row.object != row.other) {
             sums.add(row.other, row.object, false, normal, friction);
         }

@@ -12,6 +12,7 @@
 #include "cpu/implicit/contact_rows.h"
 #include "cpu/implicit/find_pairs.h"
 #include "cpu/implicit/guard.h"
+#include "cpu/implicit/restitution.h"
 #include "cpu/implicit/step_system.h"
 #include "cpu/nodes.h"
 #include "gelatin/scene.h"
@@ -67,18 +68,17 @@ public:
     bool any_near() const { return !system_.rows.empty() || !pairs_.pairs().empty(); }
 
     /// Whether all bodies hardly moved towards or away from what they touch, nor vibrated.
-    bool is_calm() const {
-        return std::all_of(is_calm_.begin(), is_calm_.end(),
-                           [](std::uint8_t is_calm) { return is_calm != 0; });
-    }
+    bool is_calm() const { return std::find(paces_.begin(), paces_.end(), Pace::moving) == paces_.end(); }
 
     const StepSystem<Real>& system() const { return system_; }
 
 private:
     using Field = std::vector<Vec3<Real>>;
-    // How much the step before counts, c, and h' (find_targets).
+    // How bodies move: calm ones only along what they touch (find_paces).
+    enum class Pace : std::uint8_t { moving, calm, still };
+    // How much the step before counts, c, and h' (find_targets); the least damping time [s].
     struct Scheme {
-        Real past = 0, step = 0;
+        Real past = 0, step = 0, damping = 0;
     };
     // A contact's force on its second side when a step has ended [N].
     struct Acting {
@@ -90,7 +90,7 @@ private:
     Vec3<Real> acceleration(const StepInput<Real>& input, const Nodes<Real>& previous, std::size_t n) const;
     bool choose_schemes(bool damps);
     void find_targets(const StepInput<Real>& input, const Nodes<Real>& previous);
-    void find_calm(const Nodes<Real>& current);
+    void find_paces(const Nodes<Real>& current);
     // Of all bodies [J]; motion: kinetic and elastic.
     struct Energy {
         double motion = 0.0, potential = 0.0;
@@ -116,20 +116,22 @@ private:
     FindPairs<Real> pairs_;
     ContactRows<Real> rows_;
     Guard<Real> guard_;
+    Restitution<Real> restitution_;
     StepSystem<Real> system_;
     bool is_driven_by_surfaces_ = false;
-    std::optional<Energy> energy_;        // at the end of the last step, if it is known
-    double in_contacts_ = 0.0;            // then [J]
-    double gained_ = 0.0;                 // since energy was least [J]
-    std::vector<Scheme> schemes_;         // by object
-    std::vector<std::uint8_t> is_calm_;   // bodies, at the end of the last step
-    std::vector<std::uint32_t> islands_;  // of bodies: numbers of the first ones
+    std::optional<Energy> energy_;         // at the end of the last step, if it is known
+    double in_contacts_ = 0.0;             // then [J]
+    double gained_ = 0.0;                  // since energy was least [J]
+    std::vector<Scheme> schemes_;          // by object
+    std::vector<Pace> paces_;              // of bodies, at the end of the last step
+    std::vector<std::uint8_t> is_struck_;  // by restitution, then
+    std::vector<std::uint32_t> islands_;   // of bodies: numbers of the first ones
     Real step_ = 0, last_step_ = 0;
-    Nodes<Real> earlier_;            // one step before previous
-    std::vector<Real> compliances_;  // of nodes in contacts, 1 / h_i [m/N]
-    Field expected_;                 // displacements without forces [m]
-    std::vector<Vec4<Real>> ends_;
-    std::vector<Real> slacks_;  // by object [m]
+    Nodes<Real> earlier_;                        // one step before previous
+    std::vector<Real> compliances_;              // of nodes in contacts, 1 / h_i [m/N]
+    Field expected_;                             // displacements without forces [m]
+    std::vector<Vec4<Real>> ends_, velocities_;  // velocities: with damping times of this step
+    std::vector<Real> slacks_;                   // by object [m]
     std::vector<Acting> acting_;
     std::vector<glm::dvec3> angular_, earlier_angular_;  // momenta of bodies [kg m^2/s]
 };
