@@ -14,7 +14,7 @@ namespace {
 const std::vector<int> kMoments{10, 25, 50};  // steps after which errors are sampled
 
 StepSettings beam_steps(int sweeps) {
-    return {SolverKind::vbd, kBeamStep, {sweeps}};
+    return {SolverKind::implicit, kBeamStep, {sweeps}};
 }
 
 void time_beams(const std::vector<BeamCase>& beams, const StageSystem& system,

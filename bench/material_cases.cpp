@@ -41,7 +41,7 @@ State MaterialCase::start() const {
 }
 
 StepSettings MaterialCase::settings(SolverKind solver) const {
-    return {solver, solver == SolverKind::vbd ? kFrame : 0.5 * largest_stable_step(solver, *model)};
+    return {solver, solver == SolverKind::implicit ? kFrame : 0.5 * largest_stable_step(solver, *model)};
 }
 
 std::vector<MaterialCase> material_cases(int frequency) {

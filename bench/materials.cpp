@@ -44,7 +44,7 @@ void bench_materials(const MaterialBenchOptions& options) {
     if (options.use_gl) context = gl::Context::headless();
     MaterialBench bench{options, describe_bench_machine(context ? &context->device() : nullptr), {}, {}};
     const std::vector<MaterialCase> cases = material_cases(options.frequency);
-    for (const SolverKind solver : {SolverKind::vbd, SolverKind::semi_implicit_euler}) {
+    for (const SolverKind solver : {SolverKind::implicit, SolverKind::semi_implicit_euler}) {
         for (const StageSystem& system : material_systems(options.use_gl))
             measure_materials(cases, solver, system, bench);
     }

@@ -13,7 +13,6 @@ struct SolverChoice {
     const char* name;
 };
 constexpr std::array kSolvers{
-    SolverChoice{SolverKind::vbd, "vbd"},
     SolverChoice{SolverKind::implicit, "implicit"},
     SolverChoice{SolverKind::semi_implicit_euler, "semi_implicit_euler"},
     SolverChoice{SolverKind::explicit_euler, "explicit_euler"},

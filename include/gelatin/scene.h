@@ -18,25 +18,25 @@ namespace gelatin {
 
 enum class Axis { x, y, z };
 
-/// Four explicit schemes, and two implicit ones, stable at any step: vertex block descent on implicit Euler's
-/// objective, and `implicit`, which solves a step as one linear system, so far on the CPU alone
-/// (docs/implicit-step.md).
-enum class SolverKind { explicit_euler, semi_implicit_euler, midpoint, rk4, vbd, implicit };
+/// Four explicit schemes, and an implicit one, stable at any step, which solves a step as one linear system
+/// (docs/implicit-step.md); with OpenGL, where bodies do not meet, by vertex block descent
+/// (docs/block-descent.md). `vbd` is its earlier name.
+enum class SolverKind { explicit_euler, semi_implicit_euler, midpoint, rk4, implicit, vbd = implicit };
 
 constexpr bool is_implicit(SolverKind solver) {
-    return solver == SolverKind::vbd || solver == SolverKind::implicit;
+    return solver == SolverKind::implicit;
 }
 
 /// How spring forces reach the nodes: the paper's two kernels, or one gather fused with the integration.
 enum class ForceMethod { divide_and_merge, fused };
 
 struct SimulationSettings {
-    SolverKind solver = SolverKind::vbd;
+    SolverKind solver = SolverKind::implicit;
     ForceMethod forces = ForceMethod::fused;
     double frame_rate = 60.0;     ///< frames a second of simulated time [1/s], > 0
     std::optional<int> substeps;  ///< steps a frame, >= 1; empty: the fewest that are stable
-    /// Sweeps of vbd in a step; of `implicit`, conjugate-gradient iterations for each linearisation at most.
-    /// >= 1
+    /// Of `implicit`, conjugate-gradient iterations for each linearisation at most; with OpenGL, sweeps in a
+    /// step. >= 1
     int iterations = 10;
     std::optional<glm::dvec3> gravity;  ///< [m/s^2]; empty: 9.81 downwards (Scene::gravity)
     int frames = 600;                   ///< length of a run, >= 0

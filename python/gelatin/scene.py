@@ -18,15 +18,15 @@ from .shapes import File, Plane, Shape, Vector
 
 @dataclass(slots=True)
 class SimulationSettings:
-    #: four explicit schemes, and two implicit ones, stable at any step: "vbd", and "implicit", on the CPU alone
-    solver: Literal["explicit_euler", "semi_implicit_euler", "midpoint", "rk4", "vbd", "implicit"] = "vbd"
+    #: four explicit schemes, and an implicit one, stable at any step, whose earlier name was "vbd"
+    solver: Literal["explicit_euler", "semi_implicit_euler", "midpoint", "rk4", "implicit", "vbd"] = "implicit"
     #: how spring forces reach the nodes: the paper's two kernels, or one fused with the integration
     forces: Literal["divide_and_merge", "fused"] = "fused"
     #: frames a second of simulated time [1/s], > 0
     frame_rate: float = 60.0
     #: steps a frame, >= 1; None: the fewest that are stable
     substeps: int | None = None
-    #: sweeps of vbd in a step; of "implicit", conjugate-gradient iterations for each linearisation at most, >= 1
+    #: of "implicit", conjugate-gradient iterations for each linearisation at most; with OpenGL, sweeps; >= 1
     iterations: int = 10
     #: [m/s^2]; None: 9.81 downwards
     gravity: Vector | None = None

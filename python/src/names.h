@@ -18,8 +18,8 @@ struct Names<SolverKind> {
          {"semi_implicit_euler", SolverKind::semi_implicit_euler},
          {"midpoint", SolverKind::midpoint},
          {"rk4", SolverKind::rk4},
-         {"vbd", SolverKind::vbd},
-         {"implicit", SolverKind::implicit}}};
+         {"implicit", SolverKind::implicit},
+         {"vbd", SolverKind::implicit}}};
 };
 template <>
 struct Names<ForceMethod> {

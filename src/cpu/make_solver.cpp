@@ -1,9 +1,7 @@
 #include "cpu/make_solver.h"
 
-#include <cstdlib>
 #include <utility>
 
-#include "cpu/descent/implicit_solver.h"
 #include "cpu/explicit/explicit_solver.h"
 #include "cpu/implicit/system_solver.h"
 
@@ -13,9 +11,7 @@ template <class Real>
 std::unique_ptr<CpuSolver<Real>> make_solver(std::shared_ptr<const Model> model, SolverKind solver,
                                              ForceMethod forces, const CollisionSettings& collision,
                                              const DescentSettings& descent) {
-    if (solver == SolverKind::vbd && !std::getenv("GELATIN_IMPLICIT"))
-        return std::make_unique<ImplicitSolver<Real>>(std::move(model), collision, descent);
-    if (solver == SolverKind::implicit || solver == SolverKind::vbd)
+    if (solver == SolverKind::implicit)
         return std::make_unique<SystemSolver<Real>>(std::move(model), collision, descent);
     return std::make_unique<ExplicitSolver<Real>>(std::move(model), solver, forces, collision);
 }

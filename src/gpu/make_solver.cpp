@@ -10,7 +10,7 @@ namespace gelatin::gpu {
 std::unique_ptr<GpuSolver> make_solver(std::shared_ptr<const Model> model, SolverKind solver,
                                        ForceMethod forces, const CollisionSettings& collision,
                                        const DescentSettings& descent) {
-    if (solver == SolverKind::vbd)
+    if (solver == SolverKind::implicit)
         return std::make_unique<ImplicitSolver>(std::move(model), collision, descent);
     return std::make_unique<ExplicitSolver>(std::move(model), solver, forces, collision);
 }

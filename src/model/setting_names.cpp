@@ -12,8 +12,6 @@ const char* name_of(SolverKind solver) {
             return "midpoint";
         case SolverKind::rk4:
             return "rk4";
-        case SolverKind::vbd:
-            return "vbd";
         case SolverKind::implicit:
             return "implicit";
         case SolverKind::semi_implicit_euler:

@@ -10,15 +10,8 @@
 namespace gelatin {
 
 SimulatorOptions with_needed_backend(SimulatorOptions options, const Scene& scene, const Model& model) {
-    if (scene.simulation.solver == SolverKind::implicit) {
-        if (options.backend == Backend::gl)
-            throw InvalidInput({scene.file.string(), 0, "simulation.solver", "\"implicit\"",
-                                "runs on the CPU alone so far; with --backend gl it must be another one"});
-        options.backend = Backend::cpu;
-        return options;
-    }
     if (has_contacts(model, scene.collision)) {
-        // Where bodies meet others, most of a step runs on the processor with any backend (docs/contact.md).
+        // Where bodies meet, steps are made on the processor with any backend (docs/contact.md).
         if (options.backend == Backend::automatic && model.objects.size() > 1) options.backend = Backend::cpu;
         return options;
     }

@@ -15,16 +15,13 @@ CollisionSettings of_host(CollisionSettings collision) {
 
 SharedSolver::SharedSolver(const std::shared_ptr<const Model>& model, const CollisionSettings& collision,
                            const DescentSettings& descent)
-    : GpuSolver(model, collision),
-      sweeps_(*model, model_buffers(), descent),
-      host_(model, of_host(collision), descent, &sweeps_) {}
+    : GpuSolver(model, collision), host_(model, of_host(collision), descent) {}
 
 void SharedSolver::advance_nodes(const Step& step) {
     host_.advance_nodes(step);
     std::swap(current_, previous_);
     current_.positions.upload(host_.nodes().positions);
     current_.velocities.upload(host_.nodes().velocities);
-    // While all bodies rest, no sweep comes between what the last step and this one write.
     gl::barrier(gl::Barrier::storage);
 }
 

@@ -6,14 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "cpu/descent/implicit_solver.h"
-#include "gpu/descent/limited_sweeps.h"
+#include "cpu/implicit/system_solver.h"
 #include "gpu/gpu_solver.h"
 
 namespace gelatin {
 
-/// Vertex block descent with contacts in OpenGL (docs/contact.md): the sweeps run on the device, all other
-/// moves and the detection on the host. The device has the nodes after each step, for drawing and measuring.
+/// Steps with contacts where the backend is OpenGL: they are made on the host. The device has the nodes after
+/// each step, for drawing and measuring.
 class SharedSolver : public gpu::GpuSolver {
 public:
     SharedSolver(const std::shared_ptr<const Model>& model, const CollisionSettings& collision,
@@ -40,11 +39,10 @@ protected:
 
 private:
     // Its stages are called by this one's.
-    struct Host : cpu::ImplicitSolver<float> {
-        using ImplicitSolver::advance_nodes, ImplicitSolver::apply_kinematics, ImplicitSolver::ImplicitSolver;
+    struct Host : cpu::SystemSolver<float> {
+        using SystemSolver::advance_nodes, SystemSolver::apply_kinematics, SystemSolver::SystemSolver;
     };
 
-    gpu::LimitedSweeps sweeps_;
     Host host_;
 };
 

@@ -50,7 +50,7 @@ TEST_F(BenchMaterials, ComparesMaterialsOnEverySystem) {
     EXPECT_EQ(materials, (std::set<std::string>{"springs, nu 0.25", "springs, nu 0.3", "springs, nu 0.45",
                                                 "neo-Hookean, nu 0.25", "neo-Hookean, nu 0.3",
                                                 "neo-Hookean, nu 0.25, damped"}));
-    EXPECT_EQ(values(rows, "solver"), (std::set<std::string>{"vbd", "semi_implicit_euler"}));
+    EXPECT_EQ(values(rows, "solver"), (std::set<std::string>{"implicit", "semi_implicit_euler"}));
     EXPECT_EQ(systems.count("CPU, 1 thread"), 1u);
     EXPECT_EQ(systems.count("OpenGL"), 1u);
     ASSERT_EQ(rows.size(), materials.size() * systems.size() * 2);
@@ -65,7 +65,7 @@ TEST_F(BenchMaterials, ComparesMaterialsOnEverySystem) {
         EXPECT_GT(*std::min_element(samples.begin(), samples.end()), 0.0);
         EXPECT_DOUBLE_EQ(row["ms"]["median"], median(samples));
         EXPECT_DOUBLE_EQ(row["ratio"], median_ratio(row, first));
-        if (row["solver"] == "vbd") {
+        if (row["solver"] == "implicit") {
             EXPECT_DOUBLE_EQ(row["step"], 1.0 / 60.0);
         } else {
             EXPECT_LT(row["step"].get<double>(), 1.0 / 60.0);

@@ -91,7 +91,7 @@ class SceneKeys(unittest.TestCase):
         self.assertEqual((material["density"].default, material["density"].allowed), ("1000.0", "greater than 0"))
         self.assertTrue(material["name"].required)
         self.assertEqual(material["springs"].choices, ["structural", "shear", "flex"])
-        self.assertEqual(tables["simulation"]["solver"].default, '"vbd"')
+        self.assertEqual(tables["simulation"]["solver"].default, '"implicit"')
         self.assertEqual(tables["object.copies"]["turn"].allowed, "from 0 to 180")
         self.assertEqual(tables["object.shape"]["segments"].allowed, "from 1 to 1000")
         self.assertEqual(tables["object.part"]["region"].alternatives, ["region", "attribute"])

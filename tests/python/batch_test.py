@@ -50,7 +50,7 @@ def test_sixty_four_worlds_of_a_ball_that_is_thrown():
     assert sim["ball"].contact_force[1] > 0
 
 
-@pytest.mark.parametrize("solver", ["semi_implicit_euler", "vbd"])
+@pytest.mark.parametrize("solver", ["semi_implicit_euler", "implicit"])
 def test_worlds_that_begin_alike_stay_alike(solver):
     scene = falling_ball(0.7)
     scene.simulation.solver = solver

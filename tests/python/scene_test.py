@@ -122,7 +122,7 @@ def test_defaults_are_those_of_c():
 
 def test_words_are_those_of_scene_files(tmp_path):
     file = tmp_path / "words.toml"
-    for solver in ("explicit_euler", "semi_implicit_euler", "midpoint", "rk4", "vbd"):
+    for solver in ("explicit_euler", "semi_implicit_euler", "midpoint", "rk4", "implicit"):
         scene = gelatin.load("scenes/bounce.toml", {"simulation.solver": solver})
         assert scene.simulation.solver == solver
     for key, word in (

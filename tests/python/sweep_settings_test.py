@@ -171,7 +171,7 @@ def test_a_digest_tells_scenes_apart(tmp_path):
     [
         ("1e4,1e5", [1e4, 1e5]),
         ("3", [3]),
-        ("rk4,vbd", ["rk4", "vbd"]),
+        ("rk4,implicit", ["rk4", "implicit"]),
         ('"a, b",true', ["a, b", True]),
         ("[0, 1, 0],[0,2.5,0]", [[0, 1, 0], [0, 2.5, 0]]),
         ("1e4..1e6", gelatin.Between(1e4, 1e6)),

@@ -41,7 +41,7 @@ protected:
 
     static Scene scene() {
         Scene scene = test::falling_balls();
-        scene.simulation.solver = SolverKind::vbd;
+        scene.simulation.solver = SolverKind::implicit;
         scene.objects[0].name = "1st ball, \"red\"";
         ColliderDescription box;
         box.shape = BoxShape{.size = {2, 0.2, 2}};

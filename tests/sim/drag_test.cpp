@@ -18,7 +18,7 @@ namespace gelatin {
 namespace {
 
 // A bar along x from the origin, pinned at its left, and at its right a handle that lifts it by 10 cm.
-Scene held_bar(SolverKind solver = SolverKind::vbd, bool has_handle = false) {
+Scene held_bar(SolverKind solver = SolverKind::implicit, bool has_handle = false) {
     Scene scene;
     scene.simulation.solver = solver;
     scene.simulation.frame_rate = 100.0;
@@ -63,7 +63,7 @@ glm::dvec3 dragged(const HeldNodes& nodes, const Drag& drag, const glm::dvec3& p
 TEST_F(DragTest, ABodyFollowsItsPin) {
     for (const SolverKind solver : test::kSolvers) {
         for (const Backend backend : {Backend::cpu, Backend::gl}) {
-            if (backend == Backend::gl && solver != SolverKind::vbd) continue;
+            if (backend == Backend::gl && solver != SolverKind::implicit) continue;
             Simulator simulator(held_bar(solver), on(backend));
             ASSERT_EQ(simulator.held_nodes().size(), 1u);
             const HeldNodes before = simulator.held_nodes()[0];
@@ -91,7 +91,7 @@ TEST_F(DragTest, ABodyFollowsItsPin) {
 }
 
 TEST_F(DragTest, BackendsAgree) {
-    for (const SolverKind solver : {SolverKind::vbd, SolverKind::semi_implicit_euler}) {
+    for (const SolverKind solver : {SolverKind::implicit, SolverKind::semi_implicit_euler}) {
         const Scene scene = held_bar(solver, true);
         Simulator gl(scene, on(Backend::gl)), cpu(scene, on(Backend::cpu));
         for (Simulator* simulator : {&gl, &cpu}) {
@@ -111,7 +111,7 @@ TEST_F(DragTest, BackendsAgree) {
 // Keyframes go on; the drag is on top of them, at any time.
 TEST_F(DragTest, AHandleIsDraggedAwayFromItsKeyframes) {
     for (const Backend backend : {Backend::cpu, Backend::gl}) {
-        Simulator simulator(held_bar(SolverKind::vbd, true), on(backend));
+        Simulator simulator(held_bar(SolverKind::implicit, true), on(backend));
         EXPECT_FALSE(simulator.held_nodes()[0].is_pin);
         EXPECT_TRUE(simulator.held_nodes()[1].is_pin);
         const Drag aside{{0.0, 0.0, 0.2}, kDrag.turn};
@@ -136,7 +136,7 @@ TEST_F(DragTest, AHandleIsDraggedAwayFromItsKeyframes) {
 
 // However far it is dragged at once, no spring is ever twice as long or as short as it was.
 TEST_F(DragTest, DoesNotTearTheBody) {
-    for (const SolverKind solver : {SolverKind::vbd, SolverKind::semi_implicit_euler}) {
+    for (const SolverKind solver : {SolverKind::implicit, SolverKind::semi_implicit_euler}) {
         Simulator simulator(held_bar(solver), on(Backend::cpu));
         simulator.drag(0, {{30.0, -20.0, 10.0}, kDrag.turn});
         double longest = 0.0;
@@ -177,7 +177,7 @@ TEST_F(DragTest, WhatNobodyDragsCostsNothing) {
 
 TEST_F(DragTest, ResetPutsItBack) {
     for (const Backend backend : {Backend::cpu, Backend::gl}) {
-        Simulator simulator(held_bar(SolverKind::vbd, true), on(backend));
+        Simulator simulator(held_bar(SolverKind::implicit, true), on(backend));
         const HostFrame start = simulator.read_frame();
         const auto run = [&] {
             simulator.drag(1, kDrag);
@@ -198,12 +198,12 @@ TEST_F(DragTest, CheckpointsKnowOfIt) {
     const TemporaryFolder folder;
     const std::filesystem::path file = folder.path() / "dragged.ckpt";
     for (const Backend backend : {Backend::cpu, Backend::gl}) {
-        Simulator whole(held_bar(SolverKind::vbd, true), on(backend));
+        Simulator whole(held_bar(SolverKind::implicit, true), on(backend));
         whole.drag(0, {{0.1, 0.0, 0.0}});
         whole.drag(1, kDrag);
         advance(whole, 5);
         whole.save_checkpoint(file);
-        Simulator again(held_bar(SolverKind::vbd, true), on(backend));
+        Simulator again(held_bar(SolverKind::implicit, true), on(backend));
         again.load_checkpoint(file);
         EXPECT_EQ(again.held_nodes()[1].drag, whole.held_nodes()[1].drag);
         EXPECT_NE(again.held_nodes()[1].drag, kDrag);
@@ -220,7 +220,7 @@ TEST_F(DragTest, CheckpointsKnowOfIt) {
 // Before an edited scene takes over, the drag is under way; after, it goes on from where it was.
 TEST_F(DragTest, GoesOnInAnEditedScene) {
     for (const Backend backend : {Backend::cpu, Backend::gl}) {
-        Scene scene = held_bar(SolverKind::vbd, true);
+        Scene scene = held_bar(SolverKind::implicit, true);
         Simulator before(scene, on(backend));
         before.drag(0, {{0.0, 0.0, 0.1}});
         before.drag(1, kDrag);

@@ -483,7 +483,7 @@ protected:
 };
 
 TEST_F(HostApplicationTest, DoesNotNoticeBlockDescent) {
-    expect_that_neither_notices(scene_of(SolverKind::vbd, BroadPhase::hierarchy), Backend::gl);
+    expect_that_neither_notices(scene_of(SolverKind::implicit, BroadPhase::hierarchy), Backend::gl);
 }
 
 TEST_F(HostApplicationTest, DoesNotNoticeCullingByDepth) {
@@ -491,11 +491,11 @@ TEST_F(HostApplicationTest, DoesNotNoticeCullingByDepth) {
 }
 
 TEST_F(HostApplicationTest, DoesNotNoticeDrawingWhatTheCpuSimulates) {
-    expect_that_neither_notices(scene_of(SolverKind::vbd, BroadPhase::hierarchy), Backend::cpu);
+    expect_that_neither_notices(scene_of(SolverKind::implicit, BroadPhase::hierarchy), Backend::cpu);
 }
 
 TEST_F(HostApplicationTest, MayBindBuffersThatGelatinDeletesLater) {
-    const Scene scene = scene_of(SolverKind::vbd, BroadPhase::hierarchy);
+    const Scene scene = scene_of(SolverKind::implicit, BroadPhase::hierarchy);
     Simulator simulator(scene, on(Backend::gl));
     const RenderView view = simulator.render_view();
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, view.node_positions);

@@ -73,7 +73,7 @@ protected:
 
     Scene scene() const {
         Scene scene = test::falling_balls();
-        scene.simulation.solver = SolverKind::vbd;
+        scene.simulation.solver = SolverKind::implicit;
         scene.simulation.frame_rate = 60.0;
         scene.objects[0].shape = FileShape{meshes() / "ball.obj"};
         scene.objects[0].mesher.nodes = 60;

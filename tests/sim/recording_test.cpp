@@ -74,7 +74,7 @@ protected:
 
 Scene balls_that_meet() {
     Scene scene = test::falling_balls();
-    scene.simulation.solver = SolverKind::vbd;
+    scene.simulation.solver = SolverKind::implicit;
     scene.simulation.frame_rate = 60.0;
     scene.objects[0].velocity = {1.5, 0, 0};
     return scene;
@@ -111,7 +111,7 @@ TEST_F(RecordingTest, FramesCanBeShownInAnyOrder) {
 }
 
 TEST_F(RecordingTest, MeasuresAsInTheRun) {
-    const Scene scene = test::driven_balls(SolverKind::vbd);
+    const Scene scene = test::driven_balls(SolverKind::implicit);
     Simulator run(scene, on_cpu());
     RecordingWriter writer(file(), run);
     for (int k = 0; k < 40; ++k) run.advance_frame();
@@ -135,7 +135,7 @@ TEST_F(RecordingTest, MeasuresAsInTheRun) {
 
 // Without contact a checkpoint is all that a run needs to go on as if nothing had happened.
 TEST_F(RecordingTest, RunsContinueFromAnyFrame) {
-    Scene scene = test::driven_balls(SolverKind::vbd);
+    Scene scene = test::driven_balls(SolverKind::implicit);
     scene.collision.response = CollisionResponse::restore;
     const std::vector<HostFrame> frames = record(scene, 50);
     for (const int frame : {0, 17, 32, 40}) {

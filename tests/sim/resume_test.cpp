@@ -37,7 +37,7 @@ TEST_F(ResumeTest, GoesOnFromACheckpointBitForBit) {
 // In the middle of a handle's motion, and of a load's time, and after the release.
 TEST_F(ResumeTest, HandlesAndLoadsGoOnFromACheckpointBitForBit) {
     const TemporaryFolder folder;
-    for (const SolverKind solver : {SolverKind::semi_implicit_euler, SolverKind::vbd}) {
+    for (const SolverKind solver : {SolverKind::semi_implicit_euler, SolverKind::implicit}) {
         for (const Backend backend : {Backend::cpu, Backend::gl}) {
             const Scene scene = driven_balls(solver);
             Simulator whole(scene, on(backend));
@@ -64,7 +64,7 @@ TEST_F(ResumeTest, HandlesAndLoadsGoOnFromACheckpointBitForBit) {
 // A checkpoint from within a frame, which knows the frames that are done, goes on with the same times.
 TEST_F(ResumeTest, ResetGoesBackToTheVeryStart) {
     for (const Backend backend : {Backend::cpu, Backend::gl}) {
-        for (const SolverKind solver : {SolverKind::semi_implicit_euler, SolverKind::vbd}) {
+        for (const SolverKind solver : {SolverKind::semi_implicit_euler, SolverKind::implicit}) {
             Simulator simulator(driven_balls(solver), on(backend));
             const auto run = [&] {
                 for (int f = 0; f < 12; ++f) simulator.advance_frame();
@@ -91,7 +91,7 @@ TEST_F(ResumeTest, GoesOnFromAnotherSimulation) {
         const HostFrame there = before.read_frame();
 
         scene.materials[0].density *= 2.0;
-        scene.simulation.solver = SolverKind::vbd;
+        scene.simulation.solver = SolverKind::implicit;
         ObjectDescription third = scene.objects[0];
         third.name = "third";
         third.position = {0.0, 2.0, 0.0};
@@ -121,7 +121,7 @@ TEST_F(ResumeTest, GoesOnFromAnotherSimulation) {
 
 TEST_F(ResumeTest, GoesOnFromWithinAFrame) {
     const TemporaryFolder folder;
-    Scene scene = driven_balls(SolverKind::vbd);
+    Scene scene = driven_balls(SolverKind::implicit);
     scene.simulation.substeps = 3;
     Simulator whole(scene, on(Backend::cpu)), again(scene, on(Backend::cpu));
     for (int s = 0; s < 7; ++s) whole.step();

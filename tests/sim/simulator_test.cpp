@@ -99,7 +99,7 @@ TEST_F(SimulatorTest, RefusesARadiusByDepth) {
 }
 
 TEST_F(SimulatorTest, BackendsAgreeOnHandlesAndLoads) {
-    for (const SolverKind solver : {SolverKind::semi_implicit_euler, SolverKind::vbd}) {
+    for (const SolverKind solver : {SolverKind::semi_implicit_euler, SolverKind::implicit}) {
         const Scene scene = driven_balls(solver);
         SimulatorOptions options = on(Backend::gl);
         options.time_stages = true;

@@ -85,7 +85,7 @@ TEST_F(StatisticsTest, MeasuresWhatIsNearWithinOneObject) {
 
 // In the order of held_nodes(), each frame's own; by node in frames and VTU files.
 TEST_F(StatisticsTest, HasForcesOfPinsAndHandles) {
-    Scene scene = test::driven_balls(SolverKind::vbd);
+    Scene scene = test::driven_balls(SolverKind::implicit);
     scene.simulation.substeps = 1;
     Simulator simulator(scene, on(Backend::cpu));
     for (int f = 0; f < 3; ++f) {
@@ -123,7 +123,7 @@ TEST_F(StatisticsTest, TimesThePartsOfAnImplicitStep) {
                                             "advance_nodes.update_tets"};
     for (const Backend backend : {Backend::cpu, Backend::gl}) {
         Scene scene = falling_balls();
-        scene.simulation.solver = SolverKind::vbd;
+        scene.simulation.solver = SolverKind::implicit;
         scene.simulation.substeps = 1;
         scene.simulation.iterations = 4;
         scene.collision.response = CollisionResponse::restore;  // both backends make the same parts

@@ -76,7 +76,7 @@ class HandleOnGpuTest : public test::GlTest {};
 
 TEST_F(HandleOnGpuTest, CarriesItsNodesAtAnyStep) {
     const auto model = std::make_shared<const Model>(carried_bar());
-    for (const SolverKind kind : {SolverKind::semi_implicit_euler, SolverKind::rk4, SolverKind::vbd}) {
+    for (const SolverKind kind : {SolverKind::semi_implicit_euler, SolverKind::rk4, SolverKind::implicit}) {
         const double step = std::min(0.01, 0.5 * largest_stable_step(kind, *model));
         const auto solver = gpu::make_solver(model, kind);
         for (int s = 0; s < 100; s += 10) {
@@ -125,7 +125,7 @@ TEST(Handle, ReleasedBodiesKeepTheirMomentum) {
         EXPECT_GT(glm::length(before.momentum), 0.5 * size);
         EXPECT_LT(glm::distance(after.momentum, before.momentum), 1e-6 * size) << name_of(kind);
         // Implicit Euler damps turning, by some per cent over such steps.
-        const double share = kind == SolverKind::vbd ? 0.1 : 0.005;
+        const double share = kind == SolverKind::implicit ? 0.1 : 0.005;
         EXPECT_LT(glm::distance(after.angular_momentum, before.angular_momentum), share * size)
             << name_of(kind);
     }

@@ -311,7 +311,7 @@ TEST_F(WindowHeavy, SavesTheSceneAsItIs) {
     const Scene scene = load_scene(path("scene-1.toml"));
     ASSERT_EQ(scene.objects.size(), 3u);
     EXPECT_EQ(scene.objects[2].name, "large 2");
-    EXPECT_EQ(scene.simulation.solver, SolverKind::vbd);
+    EXPECT_EQ(scene.simulation.solver, SolverKind::implicit);
     EXPECT_NEAR(scene.camera->eye.z, 6.0, 1e-4);
 }
 

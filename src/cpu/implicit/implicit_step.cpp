@@ -58,6 +58,7 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
       guard_(model_, surface_),
       restitution_(model_, surface_),
       system_(model_),
+      energies_(model_->body_count()),
       schemes_(model_->objects.size()),
       paces_(model_->body_count()),
       is_struck_(model_->body_count()),
@@ -91,7 +92,9 @@ template <class Real>
 Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const Nodes<Real>& previous,
                              Nodes<Real>& current, StageTimer* timer) {
     StepInput<Real> input = wanted;
-    const Energy before = energy_ ? *energy_ : energy(previous);
+    if (!energy_) energy_ = energy(previous);
+    const Energy before = *energy_;
+    energies_before_ = energies_;
     const double rounding = kRounding * (1.0 + std::abs(before.potential));
     const bool is_driven = is_driven_by_surfaces_ || moves_held_nodes(previous) ||
                            !input.load_forces.empty() || input.pulls != nullptr;
@@ -149,7 +152,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
             rows_.remember();
             const double gravity = glm::length(glm::dvec3(model_->gravity));
             if (restitution_.run({static_cast<double>(input.step), kBouncingFall * gravity, system_.rows,
-                                  system_.displacements, previous},
+                                  system_.displacements, previous, energies_before_, energies_},
                                  system_.rigid, current, is_struck_))
                 energy_.reset();
             break;
@@ -176,10 +179,12 @@ double ImplicitStep<Real>::contact_energy(bool at_end) const {
 }
 
 template <class Real>
-typename ImplicitStep<Real>::Energy ImplicitStep<Real>::energy(const Nodes<Real>& nodes) const {
+typename ImplicitStep<Real>::Energy ImplicitStep<Real>::energy(const Nodes<Real>& nodes) {
     Energy energy;
     const glm::dvec3 gravity(model_->gravity);
-    for (const ModelObject& object : model_->bodies()) {
+    for (std::size_t o = 0; o < model_->body_count(); ++o) {
+        const ModelObject& object = model_->objects[o];
+        const double before = energy.sum();
         energy.motion += body_energy<Real>(*model_, object, nodes.positions);
         for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
             if (nodes.positions[n].w == Real(0)) continue;
@@ -188,6 +193,7 @@ typename ImplicitStep<Real>::Energy ImplicitStep<Real>::energy(const Nodes<Real>
             energy.motion += 0.5 * mass * glm::dot(v, v);
             energy.potential -= mass * glm::dot(gravity, glm::dvec3(nodes.positions[n]));
         }
+        energies_[o] = energy.sum() - before;
     }
     return energy;
 }

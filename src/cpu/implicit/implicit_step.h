@@ -96,7 +96,7 @@ private:
         double motion = 0.0, potential = 0.0;
         double sum() const { return motion + potential; }
     };
-    Energy energy(const Nodes<Real>& nodes) const;
+    Energy energy(const Nodes<Real>& nodes);
     bool moves_held_nodes(const Nodes<Real>& previous) const;
     void stand_still(const Nodes<Real>& previous, Nodes<Real>& current);
     void linearise(const StepInput<Real>& input, const Nodes<Real>& previous);
@@ -119,13 +119,14 @@ private:
     Restitution<Real> restitution_;
     StepSystem<Real> system_;
     bool is_driven_by_surfaces_ = false;
-    std::optional<Energy> energy_;         // at the end of the last step, if it is known
-    double in_contacts_ = 0.0;             // then [J]
-    double gained_ = 0.0;                  // since energy was least [J]
-    std::vector<Scheme> schemes_;          // by object
-    std::vector<Pace> paces_;              // of bodies, at the end of the last step
-    std::vector<std::uint8_t> is_struck_;  // by restitution, then
-    std::vector<std::uint32_t> islands_;   // of bodies: numbers of the first ones
+    std::optional<Energy> energy_;                    // at the end of the last step, if it is known
+    std::vector<double> energies_, energies_before_;  // of bodies, now and when the step began [J]
+    double in_contacts_ = 0.0;                        // then [J]
+    double gained_ = 0.0;                             // since energy was least [J]
+    std::vector<Scheme> schemes_;                     // by object
+    std::vector<Pace> paces_;                         // of bodies, at the end of the last step
+    std::vector<std::uint8_t> is_struck_;             // by restitution, then
+    std::vector<std::uint32_t> islands_;              // of bodies: numbers of the first ones
     Real step_ = 0, last_step_ = 0;
     Nodes<Real> earlier_;                        // one step before previous
     std::vector<Real> compliances_;              // of nodes in contacts, 1 / h_i [m/N]

@@ -16,8 +16,7 @@ const ExplicitScheme& explicit_scheme(SolverKind solver) {
         case SolverKind::rk4:
             return kRungeKutta4;
         case SolverKind::semi_implicit_euler:
-        case SolverKind::vbd:  // have none
-        case SolverKind::implicit:
+        case SolverKind::implicit:  // has none
             break;
     }
     return kSemiImplicitEuler;

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "core/file.h"
+#include "core/log.h"
 #include "gelatin/scene.h"
 #include "model/scene/named_meshes.h"
 #include "model/scene/override_scene.h"
@@ -37,8 +38,11 @@ SimulationSettings read_simulation(TableReader reader) {
                  {"semi_implicit_euler", SolverKind::semi_implicit_euler},
                  {"midpoint", SolverKind::midpoint},
                  {"rk4", SolverKind::rk4},
-                 {"vbd", SolverKind::vbd},
-                 {"implicit", SolverKind::implicit}});
+                 {"implicit", SolverKind::implicit},
+                 {"vbd", SolverKind::implicit}});
+    if (const toml::node* solver = reader.find("solver"); solver && solver->value_or(std::string()) == "vbd")
+        log_note(fmt::format("{}:{}: simulation.solver = \"vbd\": this is \"implicit\" now",
+                             *solver->source().path, solver->source().begin.line));
     reader.read("forces", settings.forces,
                 {{"divide_and_merge", ForceMethod::divide_and_merge}, {"fused", ForceMethod::fused}});
     reader.read("frame_rate", settings.frame_rate);

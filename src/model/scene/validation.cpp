@@ -48,7 +48,7 @@ void check_collision(const ValueChecks& checks, const CollisionSettings& setting
     if (settings.response_with(solver) == CollisionResponse::contact) {
         if (!is_implicit(solver)) {
             checks.fail(field / "response", text_of(name_of(CollisionResponse::contact)),
-                        "needs solver = \"vbd\" or \"implicit\"; with other solvers it must be \"restore\"");
+                        "needs solver = \"implicit\"; with other solvers it must be \"restore\"");
         }
         if (sees_one_moment) {
             checks.fail(field / "broad_phase", text_of(name_of(settings.broad_phase)),

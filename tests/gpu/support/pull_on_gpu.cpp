@@ -20,7 +20,7 @@ double largest(const std::vector<glm::vec4>& values) {
 }
 
 StepBounds bounds_for(const Model& model, const std::vector<Pull>& pulls, SolverKind solver, double step) {
-    const bool descends = solver == SolverKind::vbd;
+    const bool descends = solver == SolverKind::implicit;
     const SolverKind alike = descends ? SolverKind::semi_implicit_euler : solver;
     StepBounds bounds = rounding_bounds(model, alike, step);
     const double v = largest(model.velocities);

@@ -159,7 +159,7 @@ Scenarios pull_scenarios() {
         scenarios.push_back(
             {"vbd" + beside, [=] {
                  const Model model = make_bodies_to_descend(0.01, 0.25, MaterialModel::mass_spring, driven);
-                 return worst_pull_error(model, SolverKind::vbd, ForceMethod::fused, kSolverFrame);
+                 return worst_pull_error(model, SolverKind::implicit, ForceMethod::fused, kSolverFrame);
              }});
     }
     return scenarios;

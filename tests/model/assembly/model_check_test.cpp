@@ -30,7 +30,7 @@ std::vector<std::string> check(const std::vector<Body>& bodies) {
 
 TEST(CheckModel, HasNothingToSayAboutUsualScenes) {
     EXPECT_THAT(check({cube(), cube({5, 1000, 0})}), IsEmpty());
-    EXPECT_THAT(check({cube()}, SolverKind::vbd, 1.0 / 60.0), IsEmpty());
+    EXPECT_THAT(check({cube()}, SolverKind::implicit, 1.0 / 60.0), IsEmpty());
 }
 
 TEST(CheckModel, HintsAtMillimetres) {
@@ -86,8 +86,8 @@ TEST(CheckModel, TellsOfMassesThatDifferTooMuch) {
 TEST(CheckModel, TellsWhereDescentLosesInertia) {
     Body body = cube();
     body.material.youngs_modulus = 1e14;
-    EXPECT_THAT(check({body}, SolverKind::vbd, 1.0 / 60.0), ElementsAre(HasSubstr("loses the inertia")));
-    EXPECT_THAT(check({body}, SolverKind::vbd, 1e-4), IsEmpty());
+    EXPECT_THAT(check({body}, SolverKind::implicit, 1.0 / 60.0), ElementsAre(HasSubstr("loses the inertia")));
+    EXPECT_THAT(check({body}, SolverKind::implicit, 1e-4), IsEmpty());
 }
 
 }  // namespace

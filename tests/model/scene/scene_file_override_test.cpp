@@ -29,7 +29,7 @@ TEST_F(SceneFileOverride, ALaterOverrideWins) {
 TEST_F(SceneFileOverride, ErrorsInOverridesNameThem) {
     EXPECT_EQ(error(kBall, {"simulation.solver=rk5"}),
               "--set simulation.solver=rk5: simulation.solver = \"rk5\": must be explicit_euler, "
-              "semi_implicit_euler, midpoint, rk4, vbd or implicit (did you mean \"rk4\"?)");
+              "semi_implicit_euler, midpoint, rk4, implicit or vbd (did you mean \"rk4\"?)");
     EXPECT_EQ(error(kBall, {"material.jelly.density=-1"}),
               "--set material.jelly.density=-1: material.jelly.density = -1: must be greater than 0");
     EXPECT_EQ(

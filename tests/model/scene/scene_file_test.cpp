@@ -327,7 +327,7 @@ TEST_F(SceneFile, RefusesUnknownChoices) {
     EXPECT_EQ(error(std::string(kBall) + "[simulation]\nsolver = 'rk5'"),
               "scene.toml:5: simulation.solver = \"rk5\": must be explicit_euler, "
               "semi_implicit_euler, midpoint, "
-              "rk4, vbd or implicit (did you mean \"rk4\"?)");
+              "rk4, implicit or vbd (did you mean \"rk4\"?)");
     EXPECT_EQ(error(std::string(kBall) + "[simulation]\nforces = 'quick'"),
               "scene.toml:5: simulation.forces = \"quick\": must be divide_and_merge or fused");
     EXPECT_EQ(

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr const char* kEverything = R"(up = "z"
 
 [simulation]
-solver = "vbd"
+solver = "implicit"
 forces = "divide_and_merge"
 frame_rate = 50.5
 substeps = 3
