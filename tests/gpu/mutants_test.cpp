@@ -7,10 +7,8 @@
 #include <algorithm>
 
 #include "gpu/support/collision_scenarios.h"
-#include "gpu/support/contact_scenarios.h"
 #include "gpu/support/solver_scenarios.h"
 #include "mutants/collision_mutants.h"
-#include "mutants/contact_mutants.h"
 #include "mutants/solver_mutants.h"
 
 namespace gelatin::test {
@@ -33,7 +31,6 @@ INSTANTIATE_MUTANTS(Drive, kDriveMutants,
                             step_scenarios()}));
 INSTANTIATE_MUTANTS(Pulls, kPullMutants, pull_scenarios());
 INSTANTIATE_MUTANTS(Descent, kDescentMutants, descent_scenarios());
-INSTANTIATE_MUTANTS(LimitedSweeps, kLimitedSweepMutants, limited_sweep_scenarios());
 INSTANTIATE_MUTANTS(Matching, kMatchingMutants, matching_scenarios());
 INSTANTIATE_MUTANTS(NeoHookean, kNeoHookeanMutants,
                     joined({neo_hookean_energy_scenarios(), neo_hookean_step_scenarios(),

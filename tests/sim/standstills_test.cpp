@@ -48,7 +48,7 @@ struct Press {
 
 TEST(Standstills, AreToldOnceWithWhatIsInTheWay) {
     Press press(0.5);
-    cpu::ImplicitSolver<float> solver = test::make_solver<float>(press.model);
+    cpu::SystemSolver<float> solver = test::make_solver<float>(press.model);
     Standstills standstills;
     const std::vector<std::string> lines = press.run(solver, standstills);
     ASSERT_EQ(lines.size(), 1u);
@@ -63,7 +63,7 @@ TEST(Standstills, AreToldOnceWithWhatIsInTheWay) {
 
 TEST(Standstills, AreNoneWhereThereIsRoom) {
     Press press(0.05);
-    cpu::ImplicitSolver<float> solver = test::make_solver<float>(press.model);
+    cpu::SystemSolver<float> solver = test::make_solver<float>(press.model);
     Standstills standstills;
     EXPECT_THAT(press.run(solver, standstills), IsEmpty());
 }
@@ -71,7 +71,7 @@ TEST(Standstills, AreNoneWhereThereIsRoom) {
 // That it stops is reported when it does, that it has moved on when nothing has blocked it for a while.
 TEST(Standstills, OfWhatStopsAreToldWithTheirEnds) {
     const Press press(0.5, WhenBlocked::stops);
-    cpu::ImplicitSolver<float> solver = test::make_solver<float>(press.model);
+    cpu::SystemSolver<float> solver = test::make_solver<float>(press.model);
     test::advance(solver, *press.model, 0);
     Standstills standstills;
     const auto look = [&](bool is_held_up, double time) {
@@ -101,7 +101,7 @@ TEST(Standstills, NameHandles) {
     model.handles.resize(2);
     for (Handle& handle : model.handles) handle.stops = true;
     model.handles[1].index = 1;
-    const cpu::ImplicitSolver<float> solver = test::make_solver<float>(Press(0.5).model);
+    const cpu::SystemSolver<float> solver = test::make_solver<float>(Press(0.5).model);
     const std::vector<std::uint32_t> second{1};
     Standstills standstills;
     EXPECT_THAT(standstills.look(model, solver, second, std::vector<double>{0.0, 0.0}, 1.0),

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "cpu/descent/implicit_solver.h"
+#include "cpu/implicit/system_solver.h"
 #include "gelatin/scene.h"
 #include "model/model.h"
 #include "support/random_maker.h"
@@ -38,9 +38,9 @@ std::shared_ptr<const Model> make_blocks(const std::vector<Block>& blocks,
 
 /// With contact between bodies, and of bodies with themselves, without restitution.
 template <class Real>
-cpu::ImplicitSolver<Real> make_solver(const std::shared_ptr<const Model>& model, double friction = 0.4,
-                                      int iterations = 10, bool divides_steps = false) {
-    return cpu::ImplicitSolver<Real>(
+cpu::SystemSolver<Real> make_solver(const std::shared_ptr<const Model>& model, double friction = 0.4,
+                                      int iterations = 10, bool divides_steps = true) {
+    return cpu::SystemSolver<Real>(
         model,
         CollisionSettings{.response = CollisionResponse::contact,
                           .self_collision = true,

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "cpu/descent/implicit_solver.h"
+#include "cpu/implicit/system_solver.h"
 #include "model/assembly/start_state.h"
 #include "support/test_models.h"
 
@@ -84,7 +84,7 @@ Fuzzed make_scene(unsigned seed) {
 void expect_finite(unsigned first, unsigned end) {
     for (unsigned seed = first; seed < end; ++seed) {
         const Fuzzed scene = make_scene(seed);
-        cpu::ImplicitSolver<float> solver(scene.model, {}, scene.settings);
+        cpu::SystemSolver<float> solver(scene.model, {}, scene.settings);
         solver.write_state(scene.start);
         for (int s = 0; s < 60; ++s) solver.advance({scene.step});
         const State state = solver.read_state();

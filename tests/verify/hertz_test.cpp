@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "cpu/descent/implicit_solver.h"
+#include "cpu/implicit/system_solver.h"
 #include "mesh/tetrahedralise.h"
 #include "model/assembly/build_model.h"
 #include "model/assembly/collider_surface.h"
@@ -116,7 +116,7 @@ private:
     }
 
     std::shared_ptr<const Model> model_;
-    std::optional<cpu::ImplicitSolver<float>> solver_;
+    std::optional<cpu::SystemSolver<float>> solver_;
     int step_ = 0;
 };
 

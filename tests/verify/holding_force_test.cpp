@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "cpu/descent/implicit_solver.h"
+#include "cpu/implicit/system_solver.h"
 #include "mesh/shapes.h"
 #include "mesh/tetrahedralise.h"
 #include "support/test_models.h"
@@ -75,7 +75,7 @@ public:
 
 private:
     std::shared_ptr<const Model> model_;
-    cpu::ImplicitSolver<float> solver_;
+    cpu::SystemSolver<float> solver_;
     Pull pull_;
     int steps_ = 0;
 };

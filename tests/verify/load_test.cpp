@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "cpu/descent/implicit_solver.h"
+#include "cpu/implicit/system_solver.h"
 #include "cpu/make_solver.h"
 #include "gpu/make_solver.h"
 #include "mesh/shapes.h"
@@ -85,7 +85,7 @@ TEST(LoadHeavy, ABarGetsLongerByHookesLaw) {
         bar.pins = {HalfSpaceRegion{{1.0, 0.0, 0.0}, -0.4999 * kLength}};
         bar.loads = {load};
         const auto model = std::make_shared<const Model>(test::make_model(bar));
-        cpu::ImplicitSolver<float> solver(model, {}, {40});
+        cpu::SystemSolver<float> solver(model, {}, {40});
         for (int s = 0; s < 800; ++s) solver.advance({2e-3});
         double longer = 0.0, mass = 0.0, speed = 0.0;
         for (const LoadedNode& loaded : model->loads.nodes) {
@@ -109,7 +109,7 @@ TEST(Load, APressureCompressesABall) {
     Body ball = test::make_body(tetrahedralise(make_sphere({0.2, 5}), mesher, "ball"), rubber);
     ball.loads = {{kEverywhere, PressureLoad{pressure}}};
     const auto model = std::make_shared<const Model>(test::make_model(ball));
-    cpu::ImplicitSolver<float> solver(model, {}, {20});
+    cpu::SystemSolver<float> solver(model, {}, {20});
     for (int s = 0; s < 120; ++s) solver.advance({1.0 / 60.0});
     solver.begin_measure();
     const ObjectMeasure sums = solver.end_measure().objects[0];

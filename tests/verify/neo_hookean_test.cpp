@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "cpu/descent/implicit_solver.h"
+#include "cpu/implicit/system_solver.h"
 #include "mesh/shapes.h"
 #include "mesh/tetrahedralise.h"
 #include "mesh/topology.h"
@@ -236,7 +236,7 @@ TEST(NeoHookeanRecoveryHeavy, SpheresRecoverFromAnyStart) {
                     if (start == plane) p.y = 0.0f;
                     if (start == point) p = glm::vec4(0.0f, 0.0f, 0.0f, p.w);
                 }
-                cpu::ImplicitSolver<float> solver(rest, {}, {20});
+                cpu::SystemSolver<float> solver(rest, {}, {20});
                 solver.write_state(state);
                 const int steps = modulus < 1e4 ? 1200 : 300;
                 for (int s = 0; s < steps; ++s) solver.advance({1.0 / 60.0});

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "cpu/descent/implicit_solver.h"
+#include "cpu/implicit/system_solver.h"
 #include "cpu/explicit/explicit_solver.h"
 #include "cpu/make_solver.h"
 #include "gpu/make_solver.h"
@@ -150,7 +150,7 @@ TEST(Pull, AFewNodesCarryTheBodyInLongSteps) {
     for (Pull::Node& held : pull.nodes)
         held.stiffness = static_cast<float>(stiffness / static_cast<double>(pull.nodes.size()));
     pull.damping_time = 2.0 / kRate;
-    cpu::ImplicitSolver<float> solver(model, {}, {40});
+    cpu::SystemSolver<float> solver(model, {}, {40});
     solver.set_pulls({pull});
     for (int s = 0; s < 240; ++s) solver.advance({1.0 / 60.0});
     const State state = solver.read_state();

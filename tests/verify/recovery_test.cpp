@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
-#include "cpu/descent/implicit_solver.h"
+#include "cpu/implicit/system_solver.h"
 #include "gelatin/simulator.h"
 #include "gpu/descent/implicit_solver.h"
 #include "mesh/shapes.h"
@@ -71,7 +71,7 @@ std::unique_ptr<Solver> make_solver(const std::shared_ptr<const Model>& model, B
     constexpr DescentSettings kDescent{20};
     if (backend == Backend::gl)
         return std::make_unique<gpu::ImplicitSolver>(model, CollisionSettings{}, kDescent);
-    return std::make_unique<cpu::ImplicitSolver<float>>(model, CollisionSettings{}, kDescent);
+    return std::make_unique<cpu::SystemSolver<float>>(model, CollisionSettings{}, kDescent);
 }
 
 double strain_after(const Run& run, const Body& body, const StartDescription& start) {

@@ -1,19 +1,14 @@
 // Vertex block descent (Chen et al. 2024): each node of one colour makes a Newton step on its own part of the objective.
 // One invocation a row; rows are nodes by colour, in slices of 64 as advance_nodes has them. Neighbours have other
 // colours, so that what is gathered is not written here.
-// With FORCES nodes stay, and the force on each is written, contacts included: rows of all colours at once.
-// With CONTACT contacts add their terms, and end each node's step.
-// CPU twin: gelatin::cpu::NodeSweep. Parity: tests/gpu/descent/block_descent_test.cpp,
-// tests/gpu/descent/limited_sweeps_test.cpp.
+// With FORCES nodes stay, and the force on each is written: rows of all colours at once.
+// CPU twin: gelatin::cpu::NodeSweep. Parity: tests/gpu/descent/block_descent_test.cpp.
 #include "include/global_index.glsl"
 #include "sim/collision/colliders.glsl"
 #include "sim/descent/descent_step.glsl"
 #include "sim/elasticity/node_terms.glsl"
 #include "sim/elasticity/strip.glsl"
 #include "layouts/descent.glsl"
-#ifdef CONTACT
-#include "sim/contact/node_contacts.glsl"
-#endif
 layout(local_size_x = 64) in;
 
 uniform samplerBuffer positions;      // xyz [m], inverse mass [1/kg]
@@ -210,11 +205,6 @@ void main() {
 #ifdef NEO_HOOKEAN
     add_neo_hookean_tets(row, n, position.xyz, terms);
 #endif
-#ifdef CONTACT
-    NodeLimits limits = kNoLimits;
-    if (entry.w != 0xFFFFFFFFu) limits = node_limits[entry.w];
-    add_contacts(limits, position.xyz, terms);
-#endif
 #ifdef FORCES
     vec3 force = terms.force;
 #if COLLIDER_KINDS != 0
@@ -235,9 +225,6 @@ void main() {
     // A body that has touched nothing in this step has no contacts to clear.
     if (is_inside || object_contacts[entry.y] != 0u) contacts[n] = contact;
     if (contact.force.w != 0.0) object_contacts[entry.y] = 1u;
-#endif
-#ifdef CONTACT
-    moved = limited(limits, position.xyz, moved, terms);  // last: what a collider does to a node ends at another body
 #endif
     out_positions[n] = vec4(moved, position.w);
 #endif

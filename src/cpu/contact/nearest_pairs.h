@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "cpu/contact/contact_list.h"
+#include "cpu/contact/contact_pair.h"
 #include "cpu/nodes.h"
 
 namespace gelatin::cpu {

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "cpu/contact/contacts.h"
 #include "cpu/descent/coarse_correction.h"
 #include "cpu/descent/collider_contacts.h"
 #include "cpu/descent/secant_step.h"
@@ -26,10 +25,8 @@ public:
     /// To be called before others of a step of `step` seconds.
     void begin(Real step, std::span<const Vec4<Real>> positions) { coarse_.begin(step, positions); }
 
-    /// @param bodies whose contacts limit displacements; null: none
-    void run(const StepObjective<Real>& objective, const Contacts<Real>* bodies,
-             const ColliderContacts<Real>& contacts, SecantStep<Real>& secant,
-             std::vector<Vec4<Real>>& positions);
+    void run(const StepObjective<Real>& objective, const ColliderContacts<Real>& contacts,
+             SecantStep<Real>& secant, std::vector<Vec4<Real>>& positions);
 
 private:
     std::shared_ptr<const Model> model_;

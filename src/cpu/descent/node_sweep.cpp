@@ -12,8 +12,7 @@ NodeSweep<Real>::NodeSweep(std::shared_ptr<const Model> model) : model_(std::mov
 
 template <class Real>
 void NodeSweep<Real>::run(std::size_t batch, const StepObjective<Real>& objective,
-                          const Contacts<Real>* bodies, ColliderContacts<Real>& contacts,
-                          std::vector<Vec4<Real>>& positions) const {
+                          ColliderContacts<Real>& contacts, std::vector<Vec4<Real>>& positions) const {
     const DescentRows& rows = objective.rows();
     const DescentBatch& own = rows.batches[batch];
     const bool any_flat = objective.any_flat_tets(batch);
@@ -35,23 +34,8 @@ void NodeSweep<Real>::run(std::size_t batch, const StepObjective<Real>& objectiv
         typename StepObjective<Real>::Terms terms;
         stop_group(group, objective.descend(group, any_flat, positions, terms), terms);
     };
-    const auto move_limited_group = [&](std::size_t group) {
-        std::array<Vec3<Real>, kGroup> before;
-        for (std::uint32_t r = 0; r < kGroup; ++r) {
-            const std::uint32_t node = rows.nodes[group * kGroup + r];
-            if (node != kNoNode) before[r] = Vec3<Real>(positions[node]);
-        }
-        typename StepObjective<Real>::Terms terms;
-        stop_group(group, objective.descend(group, any_flat, positions, terms), terms);
-        limit(group, objective, *bodies, before, terms, positions);
-    };
-    for (const Range& color : own.colors) {
-        if (bodies != nullptr) {
-            for_each_index(color.first / kGroup, color.end() / kGroup, kGroupsATask, move_limited_group);
-        } else {
-            for_each_index(color.first / kGroup, color.end() / kGroup, kGroupsATask, move_group);
-        }
-    }
+    for (const Range& color : own.colors)
+        for_each_index(color.first / kGroup, color.end() / kGroup, kGroupsATask, move_group);
 }
 
 template <class Real>
@@ -66,21 +50,6 @@ void NodeSweep<Real>::stop_at_colliders(std::uint32_t node, const StepObjective<
     }
     position = Vec4<Real>(moved, position.w);
     if (contact.along > Real(0) || contacts.nodes[node].along > Real(0)) contacts.nodes[node] = contact;
-}
-
-// Contacts come last: what a collider does to a node ends at another body.
-template <class Real>
-void NodeSweep<Real>::limit(std::size_t group, const StepObjective<Real>& objective,
-                            const Contacts<Real>& bodies, const std::array<Vec3<Real>, kGroup>& before,
-                            const typename StepObjective<Real>::Terms& terms,
-                            std::vector<Vec4<Real>>& positions) const {
-    for (std::uint32_t r = 0; r < kGroup; ++r) {
-        const std::uint32_t node = objective.rows().nodes[group * kGroup + r];
-        if (node == kNoNode || objective.step.targets[node].w == Real(0)) continue;
-        Vec4<Real>& position = positions[node];
-        position =
-            Vec4<Real>(bodies.limited(node, before[r], Vec3<Real>(position), terms.row(r)), position.w);
-    }
 }
 
 template class NodeSweep<float>;

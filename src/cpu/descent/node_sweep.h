@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -19,19 +18,14 @@ public:
     explicit NodeSweep(std::shared_ptr<const Model> model);
 
     /// Moves the nodes of a batch of the objective's rows.
-    /// @param bodies whose contacts limit what nodes do; null: none
     /// @param contacts output: what colliders did to them
-    void run(std::size_t batch, const StepObjective<Real>& objective, const Contacts<Real>* bodies,
-             ColliderContacts<Real>& contacts, std::vector<Vec4<Real>>& positions) const;
+    void run(std::size_t batch, const StepObjective<Real>& objective, ColliderContacts<Real>& contacts,
+             std::vector<Vec4<Real>>& positions) const;
 
 private:
     void stop_at_colliders(std::uint32_t node, const StepObjective<Real>& objective,
                            const SymmetricMatrix<Real>& hessian, ColliderContacts<Real>& contacts,
                            Vec4<Real>& position) const;
-
-    void limit(std::size_t group, const StepObjective<Real>& objective, const Contacts<Real>& bodies,
-               const std::array<Vec3<Real>, kGroup>& before, const typename StepObjective<Real>::Terms& terms,
-               std::vector<Vec4<Real>>& positions) const;
 
     std::shared_ptr<const Model> model_;
 };

@@ -7,13 +7,6 @@
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
-namespace {
-
-bool is_wanted(std::span<const std::uint8_t> wanted, std::size_t node) {
-    return wanted.empty() || wanted[node] != 0;
-}
-
-}  // namespace
 
 template <class Real>
 SecantStep<Real>::SecantStep(std::shared_ptr<const Model> model)
@@ -24,26 +17,23 @@ SecantStep<Real>::SecantStep(std::shared_ptr<const Model> model)
 template <class Real>
 const std::vector<Vec3<Real>>& SecantStep<Real>::find_forces(const StepObjective<Real>& objective,
                                                              const ColliderContacts<Real>& colliders,
-                                                             const Contacts<Real>* contacts,
-                                                             const std::vector<Vec4<Real>>& positions,
-                                                             std::span<const std::uint8_t> wanted) {
-    objective.find_forces(positions, contacts, forces_, wanted);
+                                                             const std::vector<Vec4<Real>>& positions) {
+    objective.find_forces(positions, forces_);
     for_each_index(positions.size(), [&](std::size_t n) {
-        if (is_wanted(wanted, n) && colliders.has_contact(n)) forces_[n] += colliders.nodes[n].force;
+        if (colliders.has_contact(n)) forces_[n] += colliders.nodes[n].force;
     });
     return forces_;
 }
 
 template <class Real>
 void SecantStep<Real>::look_ahead(const StepObjective<Real>& objective,
-                                  const ColliderContacts<Real>& colliders, const Contacts<Real>* contacts,
-                                  const std::vector<Vec4<Real>>& positions,
-                                  std::span<const std::uint8_t> wanted) {
+                                  const ColliderContacts<Real>& colliders,
+                                  const std::vector<Vec4<Real>>& positions) {
     for_each_index(positions.size(),
                    [&](std::size_t n) { ahead_[n] = positions[n] + Vec4<Real>(displacements[n], Real(0)); });
-    objective.find_forces(ahead_, contacts, forces_ahead_, wanted);
+    objective.find_forces(ahead_, forces_ahead_);
     for_each_index(positions.size(), [&](std::size_t n) {
-        if (!is_wanted(wanted, n) || !colliders.has_contact(n)) return;
+        if (!colliders.has_contact(n)) return;
         const ColliderContact<Real>& contact = colliders.nodes[n];
         const Real along = glm::dot(contact.normal, displacements[n]);
         forces_ahead_[n] += contact.force - contact.across * displacements[n] -

@@ -12,6 +12,11 @@
 
 namespace gelatin::cpu {
 
+/// Of forces along displacements, before and after these [J].
+struct Work {
+    double here = 0.0, ahead = 0.0;
+};
+
 /// Moves objects along displacements of their nodes, each by the part of them at which the work of the
 /// forces along them is zero: by the secant through its values before and after them. For an objective that
 /// is quadratic there it is least so.
@@ -23,17 +28,13 @@ public:
     /// The displacements to be tried [m], shape [nodes].
     std::vector<Vec3<Real>> displacements;
 
-    /// The force by each node before them [N]. @param contacts null: those between bodies are left out
-    /// @param wanted by node: 0 where none is, as nothing is made of its displacement; empty: all are
+    /// The force by each node before them [N].
     const std::vector<Vec3<Real>>& find_forces(const StepObjective<Real>& objective,
                                                const ColliderContacts<Real>& colliders,
-                                               const Contacts<Real>* contacts,
-                                               const std::vector<Vec4<Real>>& positions,
-                                               std::span<const std::uint8_t> wanted = {});
-    /// Finds the forces after them. @pre find_forces was called, for the same nodes
+                                               const std::vector<Vec4<Real>>& positions);
+    /// Finds the forces after them. @pre find_forces was called
     void look_ahead(const StepObjective<Real>& objective, const ColliderContacts<Real>& colliders,
-                    const Contacts<Real>* contacts, const std::vector<Vec4<Real>>& positions,
-                    std::span<const std::uint8_t> wanted = {});
+                    const std::vector<Vec4<Real>>& positions);
     /// The work of the forces by an object's displacements. @pre forces were wanted of all its nodes that are
     /// displaced
     Work work(std::size_t object) const;

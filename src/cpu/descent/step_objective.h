@@ -7,7 +7,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "cpu/contact/contacts.h"
 #include "cpu/descent/flat_tets.h"
 #include "cpu/descent/lane_elements.h"
 #include "cpu/descent/plain_elements.h"
@@ -18,8 +17,8 @@
 
 namespace gelatin::cpu {
 
-/// What a step of vertex block descent minimises (cpu/descent/block_descent.h): the sum of inertia, springs,
-/// tets and contacts, as each node sees it. Moves (NodeSweep, RigidMove, CoarseStep) lower it. Colliders are
+/// What a step of vertex block descent minimises (cpu/descent/block_descent.h): the sum of inertia, springs
+/// and tets, as each node sees it. Moves (NodeSweep, RigidMove, CoarseStep) lower it. Colliders are
 /// no part of it, but limits of moves.
 template <class Real>
 class StepObjective {
@@ -33,8 +32,7 @@ public:
 
     /// The step; begin() is to be called when its starts and targets are known.
     StepState<Real> step;
-    /// @param seconds h @param contacts of this step; null: none; must outlive it
-    void begin(Real seconds, const Contacts<Real>* contacts = nullptr);
+    void begin(Real seconds);  ///< h
 
     /// Rows of nodes by batch and colour.
     const DescentRows& rows() const { return rows_; }
@@ -58,34 +56,12 @@ public:
                           Terms& terms) const;
 
     /// Minus the slope by each node that is not held [N].
-    /// @param contacts those of the step, or null to leave them out
-    /// @param wanted by node: 0 where nothing has to be written; empty: of all
-    void find_forces(const std::vector<Vec4<Real>>& positions, const Contacts<Real>* contacts,
-                     std::vector<Vec3<Real>>& forces, std::span<const std::uint8_t> wanted = {}) const;
-
-    /// The same for nodes of a batch, without contacts.
-    void find_forces(std::size_t batch, const std::vector<Vec4<Real>>& positions,
-                     std::vector<Vec3<Real>>& forces, std::span<const std::uint8_t> wanted) const;
-
-    /// The forces of all elements but contacts on each held node [N].
-    void find_held_forces(const std::vector<Vec4<Real>>& positions, std::vector<Vec3<Real>>& forces) const;
+    void find_forces(const std::vector<Vec4<Real>>& positions, std::vector<Vec3<Real>>& forces) const;
 
 private:
-    bool is_held(std::size_t row) const {
-        return rows_.nodes[row] != kNoNode && step.targets[rows_.nodes[row]].w == Real(0);
-    }
-    void find_forces(const Range& groups, bool any_flat, const std::vector<Vec4<Real>>& positions,
-                     const Contacts<Real>* contacts, std::vector<Vec3<Real>>& forces,
-                     std::span<const std::uint8_t> wanted) const;
-    // Of which the forces count.
-    Terms gather_forces(std::size_t group, bool any_flat, const Contacts<Real>* contacts,
-                        const std::vector<Vec4<Real>>& positions) const;
-    // Those of flat tets and contacts, which few nodes have.
-    void add_rare_terms(std::size_t group, bool any_flat, const Contacts<Real>* contacts,
-                        const std::vector<Vec4<Real>>& positions, Terms& terms) const;
+    void add_flat_tets(std::size_t group, const std::vector<Vec4<Real>>& positions, Terms& terms) const;
 
     DescentRows rows_;
-    const Contacts<Real>* contacts_ = nullptr;
     FlatTets<Real> flat_tets_;
     Elements elements_;
 };

@@ -292,8 +292,7 @@ void FindPairs<Real>::search(std::uint32_t leaf, const Paths<Real>& paths, bool 
             for (const Near& near : found.faces) {
                 const Face& face = model_->faces[near.index];
                 if (!meet(box, near.box) || has_corner(face, n)) continue;
-                const ContactPair pair{
-                    {n, face.a, face.b, face.c}, {}, n, near.index, object, other, 1, reach};
+                const ContactPair pair{{n, face.a, face.b, face.c}, n, near.index, object, other, 1, reach};
                 if (!changed || near.is_new || has_changed_node(pair)) found.candidates.push_back(pair);
             }
         }
@@ -307,8 +306,7 @@ void FindPairs<Real>::search(std::uint32_t leaf, const Paths<Real>& paths, bool 
                 const FaceEdge& to = parts.edges[near.index];
                 if (!meet(box, near.box)) continue;
                 if (other == object && (near.index <= e || share_end(edge, to))) continue;
-                const ContactPair pair{
-                    {edge.a, edge.b, to.a, to.b}, {}, e, near.index, object, other, 2, reach};
+                const ContactPair pair{{edge.a, edge.b, to.a, to.b}, e, near.index, object, other, 2, reach};
                 if (!changed || near.is_new || has_changed_node(pair)) found.candidates.push_back(pair);
             }
         }

@@ -9,7 +9,7 @@
 
 #include "cpu/collision/axis_box.h"
 #include "cpu/collision/object_tree.h"
-#include "cpu/contact/contact_list.h"
+#include "cpu/contact/contact_pair.h"
 #include "cpu/contact/kept_distances.h"
 #include "cpu/nodes.h"
 #include "model/contact/contact_surface.h"

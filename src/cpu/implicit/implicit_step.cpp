@@ -89,6 +89,12 @@ void ImplicitStep<Real>::restart() {
 }
 
 template <class Real>
+void ImplicitStep<Real>::go_on(std::span<const Vec4<Real>> earlier_velocities, Real step) {
+    earlier_velocities_.assign(earlier_velocities.begin(), earlier_velocities.end());
+    last_step_ = step;
+}
+
+template <class Real>
 Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const Nodes<Real>& previous,
                              Nodes<Real>& current, StageTimer* timer) {
     StepInput<Real> input = wanted;
@@ -163,7 +169,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
         }
         divide();
     }
-    earlier_ = previous;
+    earlier_velocities_ = previous.velocities;
     last_step_ = input.step;
     return input.step;
 }
@@ -287,9 +293,17 @@ bool ImplicitStep<Real>::choose_schemes(bool damps) {
                        [](const Scheme& scheme) { return scheme.past > Real(0); });
 }
 
-// BDF2 for steps of any length: with x_1, v_1 one step before, whose length was h_1, and w = h / h_1,
-//   y = x + c (x - x_1) + h' (v + c (v - v_1) + h' g),  c = w^2 / (1 + 2 w),  h' = h (1 + w) / (1 + 2 w).
-// Implicit Euler's scheme is that of w = 0. Then m / h'^2 (x' - y) is what inertia resists with.
+// s, as below.
+template <class Real>
+Vec3<Real> ImplicitStep<Real>::went(const Nodes<Real>& previous, std::size_t n) const {
+    return Real(0.5) * last_step_ * (Vec3<Real>(previous.velocities[n]) + Vec3<Real>(earlier_velocities_[n]));
+}
+
+// BDF2 for steps of any length: with v_1 one step before, whose length was h_1, and w = h / h_1,
+//   y = x + c s + h' (v + c (v - v_1) + h' g),  c = w^2 / (1 + 2 w),  h' = h (1 + w) / (1 + 2 w).
+// Implicit Euler's scheme is that of w = 0. Then m / h'^2 (x' - y) is what inertia resists with. For s = x -
+// x_1 stands h_1 (v + v_1) / 2, which needs no positions of earlier steps, and of a node that was stopped
+// none.
 template <class Real>
 void ImplicitStep<Real>::find_targets(const StepInput<Real>& input, const Nodes<Real>& previous) {
     for_each_index(model_->node_count(), [&](std::size_t n) {
@@ -300,11 +314,10 @@ void ImplicitStep<Real>::find_targets(const StepInput<Real>& input, const Nodes<
             return;
         }
         const auto& [past, h, damping] = schemes_[object_of_[n]];
-        const Vec3<Real> x(previous.positions[n]), v(previous.velocities[n]);
+        const Vec3<Real> v(previous.velocities[n]);
         Vec3<Real> target = h * v + h * h * acceleration(input, previous, n);  // y - x
         if (past > Real(0))
-            target +=
-                past * (x - Vec3<Real>(earlier_.positions[n]) + h * (v - Vec3<Real>(earlier_.velocities[n])));
+            target += past * (went(previous, n) + h * (v - Vec3<Real>(earlier_velocities_[n])));
         system_.inertia[n] = Real(1) / (previous.positions[n].w * h * h);
         system_.displacements[n] = target;
     });
@@ -488,7 +501,7 @@ void ImplicitStep<Real>::finish(const Nodes<Real>& previous, Nodes<Real>& curren
         }
         const auto& [past, h, damping] = schemes_[object_of_[n]];
         Vec3<Real> velocity = d[n] / h;
-        if (past > Real(0)) velocity -= past / h * (Vec3<Real>(x) - Vec3<Real>(earlier_.positions[n]));
+        if (past > Real(0)) velocity -= past / h * went(previous, n);
         current.velocities[n] = Vec4<Real>(velocity, v.w);
     });
     for_each_index(0, model_->body_count(), 1, [&](std::size_t o) {

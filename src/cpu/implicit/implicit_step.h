@@ -46,6 +46,8 @@ public:
 
     /// Forgets earlier steps, because nodes were set from outside.
     void restart();
+    /// After it: what the last step began with, and its length [s].
+    void go_on(std::span<const Vec4<Real>> earlier_velocities, Real step);
     /// @param previous of held nodes the positions are those where they are, and velocities those that take
     /// them to where their handles have them at the end
     /// @param shortest a step may be [s]
@@ -89,6 +91,7 @@ private:
     void predict(const StepInput<Real>& input, const Nodes<Real>& previous);
     Vec3<Real> acceleration(const StepInput<Real>& input, const Nodes<Real>& previous, std::size_t n) const;
     bool choose_schemes(bool damps);
+    Vec3<Real> went(const Nodes<Real>& previous, std::size_t n) const;
     void find_targets(const StepInput<Real>& input, const Nodes<Real>& previous);
     void find_paces(const Nodes<Real>& current);
     // Of all bodies [J]; motion: kinetic and elastic.
@@ -128,11 +131,11 @@ private:
     std::vector<std::uint8_t> is_struck_;             // by restitution, then
     std::vector<std::uint32_t> islands_;              // of bodies: numbers of the first ones
     Real step_ = 0, last_step_ = 0;
-    Nodes<Real> earlier_;                        // one step before previous
-    std::vector<Real> compliances_;              // of nodes in contacts, 1 / h_i [m/N]
-    Field expected_;                             // displacements without forces [m]
-    std::vector<Vec4<Real>> ends_, velocities_;  // velocities: with damping times of this step
-    std::vector<Real> slacks_;                   // by object [m]
+    std::vector<Vec4<Real>> earlier_velocities_;  // v_1
+    std::vector<Real> compliances_;               // of nodes in contacts, 1 / h_i [m/N]
+    Field expected_;                              // displacements without forces [m]
+    std::vector<Vec4<Real>> ends_, velocities_;   // velocities: with damping times of this step
+    std::vector<Real> slacks_;                    // by object [m]
     std::vector<Acting> acting_;
     std::vector<glm::dvec3> angular_, earlier_angular_;  // momenta of bodies [kg m^2/s]
 };

@@ -8,8 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "core/file.h"
-#include "cpu/contact/contacts.h"
-#include "cpu/descent/implicit_solver.h"
+#include "cpu/implicit/system_solver.h"
 #include "cpu/measure/measure.h"
 #include "support/contact_scenes.h"
 #include "support/overlaps.h"
@@ -46,7 +45,7 @@ TEST(ColliderSurfaces, StopBodies) {
     for (const double speed : {1.0, 10.0, 100.0}) {
         const auto model = make_blocks({{.place = {0.05, 0.32, 0.1}, .velocity = {0, -speed, 0}}}, {0, 0, 0},
                                        {collider(BoxShape{glm::dvec3(0.5)})});
-        cpu::ImplicitSolver<float> solver = make_solver<float>(model);
+        cpu::SystemSolver<float> solver = make_solver<float>(model);
         ASSERT_TRUE(test::stays_apart(solver, *model, 30)) << speed;
         EXPECT_GT(mean_velocity(*model, solver).y, 0.0) << speed;
     }
@@ -61,7 +60,7 @@ TEST(ColliderSurfaces, AreStoppedByFromBothSides) {
         const auto model =
             make_blocks({{.place = {0, side > 0 ? 0.1 : -0.4, 0}, .velocity = {0, -5 * side, 0}}}, {0, 0, 0},
                         {collider(FileShape{file})});
-        cpu::ImplicitSolver<float> solver = make_solver<float>(model);
+        cpu::SystemSolver<float> solver = make_solver<float>(model);
         ASSERT_TRUE(test::stays_apart(solver, *model, 30));
         EXPECT_GT(side * mean_height(*model, solver), 0.1);
         EXPECT_GT(side * mean_velocity(*model, solver).y, 0.0);
@@ -75,7 +74,7 @@ double acceleration_on(double friction) {
     slope.friction = friction;
     const auto model = make_blocks({{.place = {-0.15, 0.012, -0.15}, .size = {0.3, 0.2, 0.3}}},
                                    9.81 * glm::dvec3(std::sin(angle), -std::cos(angle), 0), {slope});
-    cpu::ImplicitSolver<float> solver = make_solver<float>(model, 2.0);  // between bodies
+    cpu::SystemSolver<float> solver = make_solver<float>(model, 2.0);  // between bodies
     for (int frame = 0; frame < 60; ++frame) solver.advance({kFrame});
     const double before = mean_velocity(*model, solver).x;
     for (int frame = 0; frame < 60; ++frame) solver.advance({kFrame});
@@ -96,7 +95,7 @@ TEST(ColliderSurfaces, ABeltCarries) {
     belt.surface_velocity = {1, 0, 0};
     const auto model =
         make_blocks({{.place = {-0.15, 0.012, -0.15}, .size = {0.3, 0.2, 0.3}}}, {0, -9.81, 0}, {belt});
-    cpu::ImplicitSolver<float> solver = make_solver<float>(model);
+    cpu::SystemSolver<float> solver = make_solver<float>(model);
     for (int frame = 0; frame < 15; ++frame) solver.advance({kFrame});
     const double before = mean_velocity(*model, solver).x;
     for (int frame = 0; frame < 12; ++frame) solver.advance({kFrame});
@@ -123,7 +122,7 @@ TEST(ColliderSurfaces, CarryByFriction) {
     plates.push_back(floor);
     const auto model =
         make_blocks({{.place = {-0.15, 0, -0.15}, .youngs_modulus = 3e5}}, {0, -9.81, 0}, plates);
-    cpu::ImplicitSolver<float> solver = make_solver<float>(model);
+    cpu::SystemSolver<float> solver = make_solver<float>(model);
     for (int frame = 0; frame < 150; ++frame) {
         test::advance(solver, *model, frame);
         ASSERT_EQ(test::count_overlaps(*model, solver.nodes().positions), 0u) << frame;
@@ -141,26 +140,9 @@ TEST(ColliderSurfaces, APressStopsWhereABodyLeavesItNoRoom) {
     press.keyframes = {{0.0}, {0.2, {0, -0.42, 0}}, {0.5, {0, -0.42, 0}}, {0.8}};
     const auto model =
         make_blocks({{.place = {-0.15, 0, -0.15}, .youngs_modulus = 1e5}}, {0, 0, 0}, {press, bed});
-    cpu::ImplicitSolver<float> solver = make_solver<float>(model);
+    cpu::SystemSolver<float> solver = make_solver<float>(model);
     ASSERT_TRUE(test::stays_apart(solver, *model, 90));
     EXPECT_GT(cpu::measure(*model, solver.nodes())[0].volume, 0.95 * 0.027);
-}
-
-// Bodies that a large surface surrounds are of islands of their own, as long as they are far from its faces.
-TEST(ColliderSurfaces, AreNearWhereTheirFacesAre) {
-    const auto model = make_blocks({{.place = {-2, 0, 0}}, {.place = {2, 0, 0}}, {.place = {4.6, 0, 0}}},
-                                   {0, 0, 0}, {collider(BoxShape{glm::dvec3(10)})});
-    cpu::DetectContacts<float> detection(
-        model, std::make_shared<const ContactSurface>(make_contact_surface(*model, {.friction = 0.4})));
-    cpu::ContactList<float> list;
-    detection.run(model->positions, {.longest = 0.01}, list);
-    EXPECT_NE(list.islands[0], list.islands[1]);
-    for (const std::size_t body : {0, 1}) {
-        EXPECT_EQ(list.is_fixed[list.islands[body]], 0);
-        EXPECT_NE(list.is_alone[list.islands[body]], 0);
-    }
-    EXPECT_NE(list.is_fixed[list.islands[2]], 0);
-    EXPECT_EQ(list.is_alone[list.islands[2]], 0);
 }
 
 // Of any point of a shape that is within 0.8 m round its centre [m/s].
@@ -197,7 +179,7 @@ void fuzz_colliders(unsigned first, unsigned count) {
             colliders.push_back(made);
         }
         const auto model = make_blocks(blocks, {0, -9.81, 0}, colliders);
-        cpu::ImplicitSolver<float> solver =
+        cpu::SystemSolver<float> solver =
             make_solver<float>(model, 0.4, random.integer(1, 12), random.integer(0, 1) == 0);
         // At most as if all bodies came at their fastest and went back from the fastest collider.
         double mass = 0.0;

@@ -1,11 +1,9 @@
-#include "cpu/contact/contacts.h"
-
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 #include <glm/geometric.hpp>
 
-#include "cpu/descent/implicit_solver.h"
+#include "cpu/implicit/system_solver.h"
 #include "cpu/measure/measure.h"
 #include "support/contact_scenes.h"
 #include "support/overlaps.h"
@@ -49,7 +47,7 @@ std::shared_ptr<const Model> make_impact(double speed, double youngs_modulus = 1
 template <class Real>
 void expect_sound_impact(double speed, double youngs_modulus) {
     const auto model = make_impact(speed, youngs_modulus);
-    cpu::ImplicitSolver<Real> solver = make_solver<Real>(model);
+    cpu::SystemSolver<Real> solver = make_solver<Real>(model);
     const Sums before = sums_of(*model, solver.nodes());
     double energy = before.energy;
     for (int frame = 0; frame < 40; ++frame) {
@@ -85,7 +83,7 @@ void expect_momentum_of_many(int count, double speed, bool divides_steps, double
                           .cells = {2, 2, 2},
                           .youngs_modulus = k % 2 == 0 ? 1e5 : 1e7});
     const auto model = make_blocks(blocks);
-    cpu::ImplicitSolver<double> solver = make_solver<double>(model, 0.4, 10, divides_steps);
+    cpu::SystemSolver<double> solver = make_solver<double>(model, 0.4, 10, divides_steps);
     const Sums before = sums_of(*model, solver.nodes());
     double energy = before.energy;
     for (int frame = 0; frame < 40; ++frame) {
@@ -113,7 +111,7 @@ TEST(ContactsHeavy, KeepMomentumOfTenAtAnySpeed) {
 // In the middle of an impact: nothing is left of its contacts.
 TEST(Contacts, StartAgain) {
     const auto model = make_impact(3.0);
-    cpu::ImplicitSolver<float> solver = make_solver<float>(model);
+    cpu::SystemSolver<float> solver = make_solver<float>(model);
     const State start = solver.read_state();
     const auto advance = [&] {
         for (int frame = 0; frame < 2; ++frame) solver.advance({kFrame});
@@ -131,92 +129,17 @@ TEST(Contacts, OfAllMaterials) {
         const auto model = make_blocks(
             {{.velocity = {3, 0, 0}, .poisson_ratio = 0.4, .model = kind},
              {.place = {0.34, 0.1, 0.05}, .velocity = {-3, 0, 0}, .poisson_ratio = 0.4, .model = kind}});
-        cpu::ImplicitSolver<float> solver = make_solver<float>(model);
+        cpu::SystemSolver<float> solver = make_solver<float>(model);
         const Sums before = sums_of(*model, solver.nodes());
         ASSERT_TRUE(test::stays_apart(solver, *model, 30));
         EXPECT_LT(sums_of(*model, solver.nodes()).kinetic, 0.9 * before.kinetic);
     }
 }
 
-// What contacts do along displacements is minus the slope of their energy, with both sides under way.
-TEST(Contacts, TellTheWorkOfDisplacements) {
-    const auto model = make_blocks({{}, {.place = {0.305, 0.1, 0.05}}});
-    cpu::Contacts<double> contacts(model, {.friction = 0.4});
-    std::vector<glm::dvec4> positions(model->positions.begin(), model->positions.end()), targets = positions;
-    for (glm::dvec4& target : targets) target.w = 3600.0 / target.w;
-    auto starts = positions;
-    for (glm::dvec4& start : starts) start.w = 0.0;
-    contacts.begin(kFrame, targets, starts, positions, nullptr);
-    contacts.renew(positions, nullptr);
-    test::RandomMaker random(1);
-    std::vector<glm::dvec3> displacements(positions.size());
-    for (glm::dvec3& d : displacements) d = random.point(1e-3);
-    const auto energy = [&](double part) {
-        auto moved = positions;
-        for (std::size_t n = 0; n < moved.size(); ++n) moved[n] += glm::dvec4(part * displacements[n], 0.0);
-        double sum = 0.0;
-        for (const auto& press : contacts.aims().presses())
-            sum += cpu::contact_energy(contacts.aims().gap(contacts.list().pairs[press.pair], press, moved),
-                                       press.reach, press.stiffness);
-        return sum;
-    };
-    ASSERT_GT(energy(0.0), 0.0);
-    cpu::Work sum;
-    for (const cpu::Work& work : contacts.works(positions, displacements)) {
-        sum.here += work.here;
-        sum.ahead += work.ahead;
-    }
-    constexpr double kStep = 1e-5;
-    EXPECT_NEAR(sum.here, (energy(-kStep) - energy(kStep)) / (2 * kStep), 1e-6 * std::abs(sum.here));
-    EXPECT_NEAR(sum.ahead, (energy(1 - kStep) - energy(1 + kStep)) / (2 * kStep), 1e-6 * std::abs(sum.ahead));
-}
-
-// Parts of the next step: as often as shapes are matched.
-std::size_t count_parts(cpu::CpuSolver<float>& solver) {
-    solver.stage_timer().time_parts(true);
-    solver.stage_timer().take();
-    solver.advance({kFrame});
-    return solver.stage_timer().take().at("advance_nodes.match_shapes").size();
-}
-
-TEST(StepDivision, IsForBodiesThatMeet) {
-    const auto most_parts = [](const std::shared_ptr<const Model>& model, int frames) {
-        cpu::ImplicitSolver<float> solver = make_solver<float>(model, 0.4, 10, true);
-        std::vector<std::size_t> parts;
-        for (int frame = 0; frame < frames; ++frame) parts.push_back(count_parts(solver));
-        return std::pair(*std::max_element(parts.begin(), parts.end()), parts.back());
-    };
-    const auto most_of_impact = [&](double speed, double youngs_modulus) {
-        return most_parts(make_impact(speed, youngs_modulus), 10).first;
-    };
-    EXPECT_GT(most_of_impact(3.0, 2e5), 10u);
-    const std::size_t slow = most_of_impact(0.5, 2e5);
-    EXPECT_GT(slow, 1u);
-    EXPECT_LT(slow, 8u);
-    EXPECT_EQ(most_of_impact(0.05, 2e5), 1u);
-    EXPECT_LT(most_of_impact(3.0, 1e3), 8u);   // so soft that impacts take long
-    EXPECT_EQ(most_of_impact(3.0, 1e10), 1u);  // so stiff that no part is short enough
-    // Two that are near and fly past each other; one that flies past, far away; and a lone one that falls on
-    // a floor, and comes to rest.
-    const std::vector<Block> beside{{.velocity = {3, 0, 0}}, {.place = {-0.5, 0.5, 0}}};
-    EXPECT_EQ(most_parts(make_blocks(beside), 10).first, 1u);
-    EXPECT_EQ(most_parts(make_blocks({{.velocity = {9, 0, 0}}, {.place = {0, 9, 0}}}), 10).first, 1u);
-    ColliderDescription floor;
-    floor.shape = PlaneCollider{};
-    const auto ball = make_blocks({{.place = {0, 0.5, 0}, .youngs_modulus = 2e4}}, {0, -9.81, 0}, {floor});
-    const auto [most, last] = most_parts(ball, 300);
-    EXPECT_GT(most, 8u);
-    EXPECT_EQ(last, 1u);
-    // What slides on a plane meets nothing by that.
-    const auto block = make_blocks({{.place = {0, 1e-3, 0}, .velocity = {3, 0, 0}, .youngs_modulus = 1e7}},
-                                   {0, -9.81, 0}, {floor});
-    EXPECT_LT(most_parts(block, 30).first, 3u);
-}
-
 TEST(ContactsHeavy, BodiesBounceInDividedSteps) {
     const auto left_after = [](int substeps, int iterations, bool divides_steps) {
         const auto model = make_impact(1.5, 2e4);
-        cpu::ImplicitSolver<float> solver = make_solver<float>(model, 0.4, iterations, divides_steps);
+        cpu::SystemSolver<float> solver = make_solver<float>(model, 0.4, iterations, divides_steps);
         for (int step = 0; step < 60 * substeps; ++step) solver.advance({kFrame / substeps});
         // Of the bodies' middles: what they vibrate with dies down.
         double sum = 0.0;
@@ -234,7 +157,7 @@ TEST(ContactsHeavy, BodiesBounceInDividedSteps) {
 TEST(ContactsHeavy, GivesTheSameBitsForAnyNumberOfThreads) {
     const auto run = [](const std::shared_ptr<const Model>& model, int frames, std::size_t threads) {
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-        cpu::ImplicitSolver<float> solver = make_solver<float>(model, 0.4, 10, true);
+        cpu::SystemSolver<float> solver = make_solver<float>(model, 0.4, 10, true);
         for (int frame = 0; frame < frames; ++frame) solver.advance({kFrame});
         return solver.nodes().positions;
     };
@@ -258,7 +181,7 @@ TEST(ContactsHeavy, AStackStandsAndRests) {
     ColliderDescription floor;
     floor.shape = PlaneCollider{};
     const auto model = make_blocks(blocks, {0, -9.81, 0}, {floor});
-    cpu::ImplicitSolver<float> solver = make_solver<float>(model);
+    cpu::SystemSolver<float> solver = make_solver<float>(model);
     for (int frame = 0; frame < 300; ++frame) {
         solver.advance({kFrame});
         if (frame % 10 == 0) {
@@ -293,7 +216,7 @@ Slide slide(double friction, double slope, double youngs_modulus = 1e6,
           .youngs_modulus = youngs_modulus,
           .friction = of_material}},
         9.81 * glm::dvec3(std::sin(angle), -std::cos(angle), 0));
-    cpu::ImplicitSolver<float> solver = make_solver<float>(model, friction);
+    cpu::SystemSolver<float> solver = make_solver<float>(model, friction);
     const auto mean = [&](const std::vector<glm::vec4>& of) {
         double sum = 0.0;
         const Range& nodes = model->objects[1].nodes;
@@ -338,7 +261,7 @@ TEST(Contacts, ARowThatStopsDoesNotStopAtOnce) {
         blocks.push_back({.place = {k * kPitch, 0, 0}, .velocity = {-kSpeed, 0, 0}, .cells = {1, 1, 1}});
     const auto model = make_blocks(blocks);
     for (const int sweeps : {1, 10}) {
-        cpu::ImplicitSolver<float> solver = make_solver<float>(model, 0.4, sweeps);
+        cpu::SystemSolver<float> solver = make_solver<float>(model, 0.4, sweeps);
         solver.advance({kFrame});
         const Range& nodes = model->objects.back().nodes;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
@@ -363,7 +286,7 @@ TEST(Contacts, AHandlePressesABody) {
     handle.keyframes = {{0.0}, {0.5, {0.0, -0.2, 0.0}}, {1.0}};
     bodies[2].handles = {handle};
     const auto model = std::make_shared<const Model>(pack_bodies(bodies, {}, {0.0, -9.81, 0.0}));
-    cpu::ImplicitSolver<float> solver = make_solver<float>(model);
+    cpu::SystemSolver<float> solver = make_solver<float>(model);
     const std::uint32_t ram = model->objects[2].nodes.first;
     const auto start = static_cast<double>(model->positions[ram].y);
     double least = start;
@@ -384,7 +307,7 @@ void fuzz(unsigned first, unsigned count, int most_substeps = 4, int most_iterat
         const int substeps = random.integer(1, most_substeps),
                   iterations = random.integer(1, most_iterations);
         const bool divides_steps = random.integer(0, 1) == 0;
-        cpu::ImplicitSolver<float> solver = make_solver<float>(model, 0.4, iterations, divides_steps);
+        cpu::SystemSolver<float> solver = make_solver<float>(model, 0.4, iterations, divides_steps);
         const test::BodySums energy = test::sum_bodies(*model, solver.nodes());
         const double most = energy.sum() + 0.2 * energy.kinetic;
         ASSERT_TRUE(test::stays_apart(solver, *model, 20 * substeps, kFrame / substeps, most))
@@ -398,7 +321,7 @@ TEST(Contacts, GoOnWhereBodiesOverlapAlready) {
     ASSERT_GT(test::count_overlaps(*model,
                                    std::vector<glm::dvec4>(model->positions.begin(), model->positions.end())),
               0u);
-    cpu::ImplicitSolver<double> solver = make_solver<double>(model);
+    cpu::SystemSolver<double> solver = make_solver<double>(model);
     for (int frame = 0; frame < 5; ++frame) solver.advance({kFrame});
     for (const glm::dvec4& position : solver.nodes().positions)
         EXPECT_TRUE(std::isfinite(glm::length(position)));
@@ -425,7 +348,7 @@ TEST(ContactsHeavy, ManyBodiesPassThroughNothing) {
                           .size = glm::dvec3(0.2),
                           .youngs_modulus = random.magnitude(1e4, 1e7)});
     const auto model = make_blocks(blocks);
-    cpu::ImplicitSolver<float> solver = make_solver<float>(model);
+    cpu::SystemSolver<float> solver = make_solver<float>(model);
     const test::BodySums energy = test::sum_bodies(*model, solver.nodes());
     EXPECT_TRUE(test::stays_apart(solver, *model, 20, kFrame, energy.sum()));
 }

@@ -35,13 +35,13 @@ public:
     };
     Pressure of_node_and_face(std::uint32_t node, std::uint32_t f) const {
         const Face& face = model_.faces[f];
-        return pressure({{node, face.a, face.b, face.c}, {}, node, f, 0, face.object, 1, 0.1f});
+        return pressure({{node, face.a, face.b, face.c}, node, f, 0, face.object, 1, 0.1f});
     }
     // Of the edges between two nodes each.
     Pressure of_edges(const glm::uvec2& first, const glm::uvec2& second) const {
         const std::uint32_t e = edge(first), f = edge(second);
         const FaceEdge &a = model_.surface_parts.edges[e], &b = model_.surface_parts.edges[f];
-        return pressure({{a.a, a.b, b.a, b.b}, {}, e, f, a.object, b.object, 2, 0.1f});
+        return pressure({{a.a, a.b, b.a, b.b}, e, f, a.object, b.object, 2, 0.1f});
     }
 
 private:

@@ -31,7 +31,7 @@ struct Pairs {
             for (glm::dvec3& node : nodes) node += glm::dvec3(3.0, -2.0, 1.0);
             const std::uint32_t first = 4 * p;
             pairs.push_back(
-                {{first, first + 1, first + 2, first + 3}, {}, 0, 0, 0, 1, are_edges ? 2u : 1u, 0.1f});
+                {{first, first + 1, first + 2, first + 3}, 0, 0, 0, 1, are_edges ? 2u : 1u, 0.1f});
             for (const glm::dvec3& node : nodes) positions.emplace_back(cpu::Vec3<Real>(node), Real(1));
         }
     }

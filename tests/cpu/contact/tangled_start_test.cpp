@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "cpu/descent/implicit_solver.h"
+#include "cpu/implicit/system_solver.h"
 #include "exact/triangle_overlap.h"
 #include "model/corners.h"
 #include "support/test_models.h"
@@ -54,7 +54,7 @@ std::set<std::pair<std::uint32_t, std::uint32_t>> find_piercings(
 // anything.
 TEST(TangledStart, StaysAsItIs) {
     const auto model = make_ring();
-    cpu::ImplicitSolver<float> solver(
+    cpu::SystemSolver<float> solver(
         model, CollisionSettings{.response = CollisionResponse::contact, .self_collision = true});
     const auto start = find_piercings(*model, solver.nodes().positions);
     EXPECT_THAT(start, ::testing::SizeIs(::testing::Gt(2u)));

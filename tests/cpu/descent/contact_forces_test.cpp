@@ -1,4 +1,4 @@
-#include "cpu/descent/contact_forces.h"
+#include "cpu/implicit/system_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ Between only(const ContactForces& forces, std::uint32_t object, bool is_plane, s
 }
 
 ContactForces forces_at_rest(const std::shared_ptr<const Model>& model) {
-    cpu::ImplicitSolver<float> solver = make_solver<float>(model, 0.8);
+    cpu::SystemSolver<float> solver = make_solver<float>(model, 0.8);
     for (int frame = 0; frame < 240; ++frame) solver.advance({kFrame});
     return solver.contact_forces();
 }
@@ -80,7 +80,7 @@ TEST(ContactForces, HaveFriction) {
 // What was found belongs to the state that was there.
 TEST(ContactForces, AreNoneOfAStateThatIsNew) {
     const auto model = make_blocks({{}, {.place = {0, 0.31, 0}}}, {0, -9.81, 0}, {ColliderDescription{}});
-    cpu::ImplicitSolver<float> solver = make_solver<float>(model);
+    cpu::SystemSolver<float> solver = make_solver<float>(model);
     for (int frame = 0; frame < 10; ++frame) solver.advance({kFrame});
     EXPECT_FALSE(solver.contact_forces().between.empty());
     solver.write_state({model->positions, model->velocities, {}});
@@ -92,7 +92,7 @@ TEST(ContactForces, AreNoneOfAStateThatIsNew) {
 
 TEST(ContactForces, AreNoneInTheAir) {
     const auto model = make_blocks({{}, {.place = {2, 0, 0}}}, {0, -9.81, 0});
-    cpu::ImplicitSolver<float> solver = make_solver<float>(model);
+    cpu::SystemSolver<float> solver = make_solver<float>(model);
     solver.advance({kFrame});
     const ContactForces forces = solver.contact_forces();
     EXPECT_TRUE(forces.between.empty());

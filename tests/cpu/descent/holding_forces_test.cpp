@@ -19,7 +19,7 @@ constexpr double kHeldWeight = 27.0 * 9.81;  // of a block [N]
 TEST(HoldingForces, CarryWhatPressesTheHeldNodes) {
     const Region lower_half = HalfSpaceRegion{{0, 1, 0}, 0.31};  // up to its top
     const auto model = make_blocks({{.pins = {lower_half}}, {.place = {0.02, 0.32, 0.01}}}, {0, -9.81, 0});
-    cpu::ImplicitSolver<float> solver = make_solver<float>(model, 0.8);
+    cpu::SystemSolver<float> solver = make_solver<float>(model, 0.8);
     for (int frame = 0; frame < 240; ++frame) solver.advance({kFrame});
     const HoldingForces forces = solver.holding_forces();
     ASSERT_EQ(forces.by_handle.size(), 1u);
@@ -32,8 +32,8 @@ TEST(HoldingForces, AreThoseOfTheReference) {
         const auto model =
             make_blocks({{.pins = {HalfSpaceRegion{{0, 1, 0}, 0.15}}, .poisson_ratio = 0.4, .model = kind}},
                         {0, -9.81, 0});
-        cpu::ImplicitSolver<float> solver = make_solver<float>(model);
-        cpu::ImplicitSolver<double> reference = make_solver<double>(model);
+        cpu::SystemSolver<float> solver = make_solver<float>(model);
+        cpu::SystemSolver<double> reference = make_solver<double>(model);
         for (int frame = 0; frame < 5; ++frame) {
             solver.advance({kFrame});
             reference.advance({kFrame});
@@ -47,7 +47,7 @@ TEST(HoldingForces, AreThoseOfTheReference) {
 
 TEST(HoldingForces, AreNoneWherePinsAreNone) {
     const auto model = make_blocks({{}}, {0, -9.81, 0});
-    cpu::ImplicitSolver<float> solver = make_solver<float>(model);
+    cpu::SystemSolver<float> solver = make_solver<float>(model);
     solver.advance({kFrame});
     EXPECT_TRUE(solver.holding_forces().by_handle.empty());
 }

@@ -20,10 +20,10 @@ using test::kFrame;
 // Of soft bodies above a plane, which sleep unless they are told not to.
 class Sleeper {
 public:
-    Sleeper(SolverKind kind, std::shared_ptr<const Model> model, bool sleeps = true)
+    explicit Sleeper(std::shared_ptr<const Model> model, bool sleeps = true)
         : model_(std::move(model)),
           solver_(cpu::make_solver<float>(
-              model_, kind, ForceMethod::fused,
+              model_, SolverKind::implicit, ForceMethod::fused,
               CollisionSettings{.response = CollisionResponse::contact, .restitution = 0.0},
               DescentSettings{.divides_steps = true, .sleeps = sleeps})) {}
 
@@ -58,7 +58,7 @@ private:
     int frame_ = 0;
 };
 
-const glm::dvec3 kGravity{0, -9.81, 0};
+const glm::dvec3 kFalling{0, -9.81, 0};
 
 ColliderDescription floor() {
     ColliderDescription description;
@@ -68,18 +68,13 @@ ColliderDescription floor() {
 
 // Two blocks of 27 kg, one on the other.
 std::shared_ptr<const Model> make_stack() {
-    return test::make_blocks({{.place = {0, 0.002, 0}}, {.place = {0.01, 0.33, 0.02}}}, kGravity, {floor()});
+    return test::make_blocks({{.place = {0, 0.002, 0}}, {.place = {0.01, 0.33, 0.02}}}, kFalling, {floor()});
 }
 
 constexpr int kUntilRest = 900;  // frames
 
-class RestWatch : public testing::TestWithParam<SolverKind> {};
-class RestWatchHeavy : public RestWatch {};
-INSTANTIATE_TEST_SUITE_P(Solvers, RestWatch, testing::Values(SolverKind::implicit, SolverKind::implicit));
-INSTANTIATE_TEST_SUITE_P(Solvers, RestWatchHeavy, testing::Values(SolverKind::implicit, SolverKind::implicit));
-
-TEST_P(RestWatch, BodiesAtRestSleepAndAreHeldAsBefore) {
-    Sleeper scene(GetParam(), make_stack());
+TEST(RestWatch, BodiesAtRestSleepAndAreHeldAsBefore) {
+    Sleeper scene(make_stack());
     scene.advance(kUntilRest);
     ASSERT_TRUE(scene.is_asleep());
     const ContactForces forces = scene.solver().contact_forces();
@@ -88,18 +83,18 @@ TEST_P(RestWatch, BodiesAtRestSleepAndAreHeldAsBefore) {
     EXPECT_NEAR(sum.y, 2.0 * 27.0 * 9.81, 0.01 * 2.0 * 27.0 * 9.81);
 }
 
-TEST_P(RestWatchHeavy, WithoutItBodiesAtRestAreSimulated) {
-    Sleeper scene(GetParam(), make_stack(), false);
+TEST(RestWatchHeavy, WithoutItBodiesAtRestAreSimulated) {
+    Sleeper scene(make_stack(), false);
     scene.advance(kUntilRest);
     EXPECT_LT(scene.fastest(), 1e-4f);
     EXPECT_FALSE(scene.is_asleep());
 }
 
 // The feet of jittered blocks, which are stiffer one way than another, are held in all directions.
-TEST_P(RestWatch, BlocksDoNotCreep) {
+TEST(RestWatch, BlocksDoNotCreep) {
     const auto model =
-        test::make_blocks({{.place = {0, 0.002, 0}}, {.place = {1, 0.002, 0}}}, kGravity, {floor()});
-    Sleeper scene(GetParam(), model, false);
+        test::make_blocks({{.place = {0, 0.002, 0}}, {.place = {1, 0.002, 0}}}, kFalling, {floor()});
+    Sleeper scene(model, false);
     scene.advance(600);
     const std::vector<cpu::Vec4<float>> before = scene.positions();
     scene.advance(30);
@@ -110,28 +105,28 @@ TEST_P(RestWatch, BlocksDoNotCreep) {
 }
 
 // The upper block comes from far: the lower one rests long before.
-TEST_P(RestWatch, NoneSleepsWhileOneMoves) {
+TEST(RestWatch, NoneSleepsWhileOneMoves) {
     const auto model =
-        test::make_blocks({{.place = {0, 0.002, 0}}, {.place = {5, 30, 0}}}, kGravity, {floor()});
-    Sleeper scene(GetParam(), model);
+        test::make_blocks({{.place = {0, 0.002, 0}}, {.place = {5, 30, 0}}}, kFalling, {floor()});
+    Sleeper scene(model);
     scene.advance(120);
     EXPECT_NEAR(scene.center(1).y, 30.15 - 0.5 * 9.81 * 4.0, 0.4);
     EXPECT_FALSE(scene.is_asleep());
 }
 
-TEST_P(RestWatch, SlowMotionIsNoRest) {
+TEST(RestWatch, SlowMotionIsNoRest) {
     const auto model =
         test::make_blocks({{.velocity = {1e-3, 0, 0}}, {.place = {2, 0, 0}, .velocity = {1e-3, 0, 0}}});
-    Sleeper scene(GetParam(), model);
+    Sleeper scene(model);
     const double start = scene.center(0).x;
     scene.advance(180);
     EXPECT_NEAR(scene.center(0).x, start + 3e-3, 5e-6);
 }
 
-TEST_P(RestWatch, AHandWakes) {
+TEST(RestWatch, AHandWakes) {
     const auto model =
-        test::make_blocks({{.place = {0, 0.002, 0}}, {.place = {1, 0.002, 0}}}, kGravity, {floor()});
-    Sleeper scene(GetParam(), model);
+        test::make_blocks({{.place = {0, 0.002, 0}}, {.place = {1, 0.002, 0}}}, kFalling, {floor()});
+    Sleeper scene(model);
     scene.advance(kUntilRest);
     ASSERT_TRUE(scene.is_asleep());
     const glm::dvec3 center = scene.center(0);
@@ -149,8 +144,8 @@ TEST_P(RestWatch, AHandWakes) {
     EXPECT_NEAR(scene.center(0).y, center.y, 1e-3);
 }
 
-TEST_P(RestWatch, NodesSetFromOutsideWake) {
-    Sleeper scene(GetParam(), make_stack());
+TEST(RestWatch, NodesSetFromOutsideWake) {
+    Sleeper scene(make_stack());
     scene.advance(kUntilRest);
     ASSERT_TRUE(scene.is_asleep());
     State state = scene.solver().read_state();
@@ -162,20 +157,20 @@ TEST_P(RestWatch, NodesSetFromOutsideWake) {
 }
 
 // A wall that has stood still comes and pushes a block, at a speed that no single step shows.
-TEST_P(RestWatchHeavy, CollidersThatBeginToMoveWake) {
+TEST(RestWatchHeavy, CollidersThatBeginToMoveWake) {
     ColliderDescription wall;
     wall.shape = BoxShape{.size = {0.1, 1.0, 1.0}};
     wall.position = {-0.06, 0.51, 0.15};
     wall.keyframes = {{.time = 0.0}, {.time = 16.0}, {.time = 46.0, .move = {0.03, 0, 0}}};
     const auto model =
-        test::make_blocks({{.place = {0, 0.002, 0}, .friction = 0.1}}, kGravity, {floor(), wall});
-    Sleeper scene(GetParam(), model);
+        test::make_blocks({{.place = {0, 0.002, 0}, .friction = 0.1}}, kFalling, {floor(), wall});
+    Sleeper scene(model);
     scene.advance(kUntilRest);
     ASSERT_TRUE(scene.is_asleep());
     const double before = scene.center(0).x;
     scene.advance(2760 - kUntilRest - 1);
     EXPECT_GT(scene.center(0).x, before + 0.01);
-    Sleeper awake(GetParam(), model, false);
+    Sleeper awake(model, false);
     awake.advance(2760);
     EXPECT_NEAR(scene.center(0).x, awake.center(0).x, 5e-4);
 }
