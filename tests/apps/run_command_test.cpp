@@ -209,7 +209,7 @@ TEST_F(RunCommand, AnInterruptEndsTheRunAndKeepsWhatItHas) {
 }
 
 TEST_F(RunCommand, TerminationIsAnInterruptToo) {
-    settings_.signal_after = "steps of";
+    settings_.signal_after = "per frame";
     settings_.signals = {SIGTERM};
     const ProgramResult result = run({"run", "cube.toml", "--frames", "2000000000"});
     EXPECT_EQ(result.exit_code, 1) << result.err;
