@@ -59,6 +59,7 @@ def scene_with_everything():
         skin=False,
         up="z",
         line=6,
+        pins_line=7,
     )
     for shape in (
         gelatin.Sphere(2.0, 3),
