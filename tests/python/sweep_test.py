@@ -368,6 +368,7 @@ def test_a_folder_that_workers_lack_is_one_line(tmp_path):
         ({"what": ["energy"]}, "what: 'energy': there is no such statistic; there are nodes"),
         ({"frames": -1}, "frames: -1: must be 0 or more"),
         ({"threads": 0}, "threads: 0: must be 1 or more"),
+        ({"what": "energy"}, "what: 'energy': there is no such statistic; there are nodes"),
     ],
 )
 def test_bad_input_is_one_line_and_nothing_is_started(ball, tmp_path, options, message):
