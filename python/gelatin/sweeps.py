@@ -73,7 +73,9 @@ def sweep(
     runs of another sweep; SystemError for a package or a cluster that is not there.
     """
     need("pyarrow")
-    listed = None if samples is None else [dict(sample) for sample in samples]
+    listed = None if samples is None else list(samples) if isinstance(samples, Iterable) else [samples]
+    if listed is not None and not all(isinstance(sample, Mapping) for sample in listed):
+        raise wrong_type("samples", samples, "a list of dicts")
     plans = plan_runs(vary or {}, listed, seeds)
     if scatter is None:
         scatter = SCATTER if seeds is not None and not callable(subject) and not is_drawn(vary or {}, listed) else 0.0
