@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cpu/descent/implicit_solver.h"
+#include "cpu/implicit/system_solver.h"
 #include "gelatin/scene.h"
 #include "model/model.h"
 #include "support/random_maker.h"
@@ -37,16 +38,15 @@ std::shared_ptr<const Model> make_blocks(const std::vector<Block>& blocks,
                                          const std::vector<ColliderDescription>& colliders = {});
 
 /// With contact between bodies, and of bodies with themselves, without restitution.
-template <class Real>
-cpu::ImplicitSolver<Real> make_solver(const std::shared_ptr<const Model>& model, double friction = 0.4,
-                                      int iterations = 10, bool divides_steps = false) {
-    return cpu::ImplicitSolver<Real>(
-        model,
-        CollisionSettings{.response = CollisionResponse::contact,
-                          .self_collision = true,
-                          .friction = friction,
-                          .restitution = 0.0},
-        DescentSettings{.iterations = iterations, .divides_steps = divides_steps});
+template <class Real, template <class> class Solver = cpu::ImplicitSolver>
+Solver<Real> make_solver(const std::shared_ptr<const Model>& model, double friction = 0.4,
+                         int iterations = 10, bool divides_steps = false) {
+    return Solver<Real>(model,
+                        CollisionSettings{.response = CollisionResponse::contact,
+                                          .self_collision = true,
+                                          .friction = friction,
+                                          .restitution = 0.0},
+                        DescentSettings{.iterations = iterations, .divides_steps = divides_steps});
 }
 
 /// Makes a step of `step` [s], with what handles and colliders do then. @param number of the step, from 0

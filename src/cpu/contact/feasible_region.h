@@ -28,10 +28,32 @@ public:
                                : Real(presses_face(pair, apart, weights) ? 1 : 0);
     }
 
+    /// A node presses edges and corners of faces where no edge from it leads much towards them. Those that
+    /// slide over a flat surface are ahead of its nodes before they are above them, and a step that goes on
+    /// along that line would stop them.
+    /// @return from 0 to 1
+    Real weight_of_node(std::uint32_t node, const Vec3<Real>& apart) const {
+        const NodeFaces& around = model_.node_faces;
+        const Real distance = glm::length(apart);
+        Real weight = 1;
+        for (std::uint32_t p = around.starts[node]; p < around.starts[node + 1]; ++p) {
+            const Face& face = model_.faces[around.faces[p]];
+            for (const std::uint32_t n : {face.a, face.b, face.c}) {
+                const Vec3<Real> edge = at(n) - at(node);
+                if (n != node)
+                    weight = std::min(
+                        weight, Real(2) - glm::dot(apart, edge) / (kTilted * distance * glm::length(edge)));
+            }
+        }
+        return std::max(weight, Real(0));
+    }
+
 private:
     // Edges of which a neighbour of the face beside them is in the way of the line by a cosine of this press
     // half as much as edges without.
     static constexpr Real kSoftened = Real(0.05f);
+    // Up to this cosine nodes press as much as without the edge, and from twice that on not at all.
+    static constexpr Real kTilted = Real(0.2f);
 
     Vec3<Real> at(std::uint32_t node) const { return Vec3<Real>(positions_[node]); }
 

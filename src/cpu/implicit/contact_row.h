@@ -29,11 +29,14 @@ struct ContactRow {
     Real ease = 0;                        ///< of which what a plane has not yet pushed out [m]
     Real reach = 0;                       ///< r, at which it begins to press [m]
     Real stiffness = 0;                   ///< k [N/m]
+    Real damping = 0;                     ///< c: by how much less it presses as the gap opens [N/m]
     Real friction = 0;                    ///< Coulomb's coefficient
     Vec3<Real> hold{0};     ///< lambda: friction on the second side, reversed, when the step begins [N]
     Real limit = 0;         ///< L: friction holds at most so much [N]
     std::uint64_t key = 0;  ///< of the same contact in the next step
 
+    /// Of the colliders, where the first side is a plane.
+    std::uint32_t plane() const { return static_cast<std::uint32_t>(key >> 31 & 0x7FFFFFFFu); }
     Real gap_at(const Vec3<Real>& s) const { return gap + glm::dot(normal, s); }
     /// The law of a gap (contact_law.inl), from the least one inwards linear: so a solver may pass through
     /// [N].
@@ -59,7 +62,11 @@ struct ContactRow {
         const Vec3<Real> q = held(s);
         return energy + glm::dot(q, q) / (Real(2) * stiffness);
     }
-    Real pressing(const Vec3<Real>& s) const { return force_of(gap_at(s)); }
+    /// Contacts never pull.
+    Real pressing(const Vec3<Real>& s) const {
+        const Real moved = glm::dot(normal, s);
+        return std::max(force_of(gap + moved) - damping * moved, Real(0));
+    }
     /// What friction would hold with if nothing slid [N].
     Vec3<Real> stick(const Vec3<Real>& s) const {
         return hold + stiffness * (s - glm::dot(normal, s) * normal);
@@ -98,8 +105,8 @@ struct RowTangent {
 template <class Real>
 RowTangent<Real> tangent(const ContactRow<Real>& row, const Vec3<Real>& s) {
     RowTangent<Real> t;
-    const Real g = row.gap_at(s);
-    if (g < row.reach) t.stiffness.add_outer(row.slope_of(g), row.normal);
+    if (row.pressing(s) > Real(0))
+        t.stiffness.add_outer(row.slope_of(row.gap_at(s)) + row.damping, row.normal);
     if (row.limit > Real(0)) {
         const Vec3<Real> q = row.stick(s);
         const Real length = glm::length(q);

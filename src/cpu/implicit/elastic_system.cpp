@@ -253,6 +253,8 @@ ElasticSystem<float>::ElasticSystem(std::shared_ptr<const Model> model)
 
 void ElasticSystem<float>::linearise(std::span<const Vec4<float>> positions,
                                      std::span<const Vec4<float>> velocities, float inverse_step) {
+    arrays_.is_damped =
+        std::any_of(velocities.begin(), velocities.end(), [](const auto& v) { return v.w > 0.0f; });
     const ElasticStart start{positions.data(), velocities.data(), inverse_step};
     const auto for_each_group = [](std::size_t count, const auto& visit) {
         constexpr std::size_t kGrain = 32;

@@ -23,8 +23,11 @@ constexpr double kSlackOfThickness = 0.5, kSlackOfMotion = 0.1;
 constexpr int kMostGuards = 10;
 // BDF2 is stable for steps up to 2.4 times as long as the last one.
 constexpr double kLongest = 2.2;
-// Bodies come to rest that vibrate, and go to and fro, more slowly than after so long a fall [s].
-constexpr double kRestingFall = 1.0 / 60.0;
+// Bodies come to rest that vibrate, and go to and fro, more slowly than after so long a fall [s]. Elements
+// and contacts of those that move no faster in all have at least this damping time [s].
+constexpr double kRestingFall = 1.0 / 60.0, kRestingTime = 0.1;
+// What meets more slowly than after so long a fall does not bounce [s].
+constexpr double kBouncingFall = 1.0 / 30.0;
 // Conjugate gradients are as exact as if all moved by this part of what gravity adds in a step, and had this
 // part of their share of the island's energy.
 constexpr double kAtRest = 0.01, kInIsland = 0.1;
@@ -53,19 +56,22 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
       pairs_(model_, surface_, own),
       rows_(model_, surface_),
       guard_(model_, surface_),
+      restitution_(model_, surface_),
       system_(model_),
+      energies_(model_->body_count()),
       schemes_(model_->objects.size()),
-      is_calm_(model_->body_count()),
+      paces_(model_->body_count()),
+      is_struck_(model_->body_count()),
       islands_(model_->objects.size()),
       compliances_(model_->node_count()),
       expected_(model_->node_count()),
       ends_(model_->node_count()),
-      angular_(model_->body_count()),
-      earlier_angular_(model_->body_count()) {
+      momenta_(model_->body_count()),
+      earlier_momenta_(model_->body_count()) {
     system_.iterations = 2 * settings_.iterations;
-    is_driven_by_surfaces_ =
-        std::any_of(model_->surfaces.begin(), model_->surfaces.end(),
-                    [](const auto& surface) { return surface.velocity != decltype(surface.velocity)(0); });
+    for (const ModelObject& object : model_->bodies()) mass_ += object.mass;
+    for (const auto& surface : model_->surfaces)
+        fastest_belt_ = std::max(fastest_belt_, glm::length(glm::dvec3(surface.velocity)));
 }
 
 template <class Real>
@@ -77,17 +83,38 @@ void ImplicitStep<Real>::restart() {
     last_step_ = Real(0);
     energy_.reset();
     gained_ = in_contacts_ = 0.0;
-    std::fill(is_calm_.begin(), is_calm_.end(), std::uint8_t(0));
+    restitution_.forget();
+    std::fill(paces_.begin(), paces_.end(), Pace::moving);
+    std::fill(is_struck_.begin(), is_struck_.end(), std::uint8_t(0));
+}
+
+template <class Real>
+void ImplicitStep<Real>::go_on(std::span<const Vec4<Real>> positions,
+                               std::span<const Vec4<Real>> earlier_velocities, Real step) {
+    earlier_velocities_.assign(earlier_velocities.begin(), earlier_velocities.end());
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o)
+        momenta_[o] = momenta(o, positions, earlier_velocities);
+    last_step_ = step;
 }
 
 template <class Real>
 Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const Nodes<Real>& previous,
                              Nodes<Real>& current, StageTimer* timer) {
     StepInput<Real> input = wanted;
-    const Energy before = energy_ ? *energy_ : energy(previous);
+    if (!energy_) energy_ = energy(previous);
+    const Energy before = *energy_;
+    energies_before_ = energies_;
+    earlier_momenta_ = momenta_;
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o)
+        momenta_[o] = momenta(o, previous.positions, previous.velocities);
     const double rounding = kRounding * (1.0 + std::abs(before.potential));
-    const bool is_driven = is_driven_by_surfaces_ || moves_held_nodes(previous) ||
-                           !input.load_forces.empty() || input.pulls != nullptr;
+    // What moves held nodes and belts works on bodies no more than if all went back from the fastest of them;
+    // what loads and hands do is not known.
+    const double driving = fastest_driver(previous), mass = mass_;
+    const bool has_forces = !input.load_forces.empty() || input.pulls != nullptr,
+               is_driven = has_forces || driving > 0.0;
+    const double work = has_forces ? std::numeric_limits<double>::max()
+                                   : 2.0 * mass * driving * (driving + std::sqrt(2.0 * before.motion / mass));
     for (bool damps = false, has_past = false;;) {
         const bool is_shortest = input.step < Real(2) * shortest;
         const auto divide = [&] {
@@ -118,8 +145,8 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
         }
         {
             const TimedStage part(timer, "advance_nodes.finish");
-            finish(previous, current);
-            find_calm(current);
+            finish(input, previous, current);
+            find_paces(current);
             energy_ = energy(current);
         }
         // Contacts that are new hold some from the start, which nobody had before.
@@ -134,12 +161,16 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
         }
         const TimedStage part(timer, "advance_nodes.guard");
         if (guard(previous, current)) energy_ = energy(current);
-        const double most = is_driven ? std::numeric_limits<double>::max()
-                                      : (is_shortest ? 1.0 : kMostGain) * before.motion + rounding;
+        const double most = (is_shortest ? 1.0 : kMostGain) * before.motion + rounding + work;
         if (gain(at_start) <= most) {
             gained_ = is_driven ? 0.0 : std::max(gained_ + gain(in_contacts_), 0.0);
             in_contacts_ = at_end;
             rows_.remember();
+            const double gravity = glm::length(glm::dvec3(model_->gravity));
+            if (restitution_.run({static_cast<double>(input.step), kBouncingFall * gravity, system_.rows,
+                                  system_.displacements, previous, energies_before_, energies_},
+                                 system_.rigid, current, is_struck_))
+                energy_.reset();
             break;
         }
         if (is_shortest) {
@@ -148,7 +179,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
         }
         divide();
     }
-    earlier_ = previous;
+    earlier_velocities_ = previous.velocities;
     last_step_ = input.step;
     return input.step;
 }
@@ -164,10 +195,12 @@ double ImplicitStep<Real>::contact_energy(bool at_end) const {
 }
 
 template <class Real>
-typename ImplicitStep<Real>::Energy ImplicitStep<Real>::energy(const Nodes<Real>& nodes) const {
+typename ImplicitStep<Real>::Energy ImplicitStep<Real>::energy(const Nodes<Real>& nodes) {
     Energy energy;
     const glm::dvec3 gravity(model_->gravity);
-    for (const ModelObject& object : model_->bodies()) {
+    for (std::size_t o = 0; o < model_->body_count(); ++o) {
+        const ModelObject& object = model_->objects[o];
+        const double before = energy.sum();
         energy.motion += body_energy<Real>(*model_, object, nodes.positions);
         for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
             if (nodes.positions[n].w == Real(0)) continue;
@@ -176,16 +209,19 @@ typename ImplicitStep<Real>::Energy ImplicitStep<Real>::energy(const Nodes<Real>
             energy.motion += 0.5 * mass * glm::dot(v, v);
             energy.potential -= mass * glm::dot(gravity, glm::dvec3(nodes.positions[n]));
         }
+        energies_[o] = energy.sum() - before;
     }
     return energy;
 }
 
+// Of held nodes and belts [m/s].
 template <class Real>
-bool ImplicitStep<Real>::moves_held_nodes(const Nodes<Real>& previous) const {
+double ImplicitStep<Real>::fastest_driver(const Nodes<Real>& previous) const {
+    double fastest = fastest_belt_;
     for (std::uint32_t n = 0; n < model_->node_count(); ++n)
-        if (previous.positions[n].w == Real(0) && Vec3<Real>(previous.velocities[n]) != Vec3<Real>(0))
-            return true;
-    return false;
+        if (previous.positions[n].w == Real(0))
+            fastest = std::max(fastest, glm::length(glm::dvec3(previous.velocities[n])));
+    return fastest;
 }
 
 // Where even the shortest step fails.
@@ -235,32 +271,51 @@ Vec3<Real> ImplicitStep<Real>::acceleration(const StepInput<Real>& input, const 
                                      : gravity + previous.positions[n].w * Vec3<Real>(input.load_forces[n]);
 }
 
-// BDF2 hardly damps, so bodies that rest would tremble on for ever: those of islands that are calm go on by
-// implicit Euler's scheme. @return whether any body goes on by BDF2
+// BDF2 hardly damps, so bodies that rest would tremble on for ever: islands that are calm go on by implicit
+// Euler's scheme, and those that are still with dampers, too. So do bodies that restitution has struck, for a
+// step.
+// @return whether any body goes on by BDF2
 template <class Real>
 bool ImplicitStep<Real>::choose_schemes(bool damps) {
     DisjointSets islands(model_->objects.size());
     for (const ContactRow<Real>& row : system_.rows)
         if (row.object != kNoNode && model_->is_body(row.object) && model_->is_body(row.other))
             islands.unite(row.object, row.other);
-    std::vector<std::uint8_t> moves(model_->objects.size());
+    std::vector<Pace> paces(model_->objects.size(), Pace::still);
+    std::vector<std::uint8_t> is_struck(model_->objects.size());
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        islands_[o] = islands.least(o);
-        if (is_calm_[o] == 0) moves[islands_[o]] = 1;
+        const std::uint32_t island = islands_[o] = islands.least(o);
+        paces[island] = std::min(paces[island], paces_[o]);
+        if (is_struck_[o] != 0) is_struck[island] = 1;
     }
     const bool has_past = !damps && last_step_ > Real(0) && step_ < static_cast<Real>(kLongest) * last_step_;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        const Real ratio = has_past && moves[islands_[o]] != 0 ? step_ / last_step_ : Real(0);
+        const Pace pace = paces[islands_[o]];
+        const bool goes_on = has_past && pace == Pace::moving && is_struck[islands_[o]] == 0;
+        const Real ratio = goes_on ? step_ / last_step_ : Real(0);
         schemes_[o] = {ratio * ratio / (Real(1) + Real(2) * ratio),
-                       step_ * (Real(1) + ratio) / (Real(1) + Real(2) * ratio)};
+                       step_ * (Real(1) + ratio) / (Real(1) + Real(2) * ratio),
+                       pace == Pace::still ? static_cast<Real>(kRestingTime) : Real(0)};
+    }
+    for (ContactRow<Real>& row : system_.rows) {
+        const std::uint32_t body = model_->is_body(row.other) ? row.other : row.object;
+        row.damping = schemes_[body].damping / step_ * row.slope_of(row.gap);
     }
     return std::any_of(schemes_.begin(), schemes_.end(),
                        [](const Scheme& scheme) { return scheme.past > Real(0); });
 }
 
-// BDF2 for steps of any length: with x_1, v_1 one step before, whose length was h_1, and w = h / h_1,
-//   y = x + c (x - x_1) + h' (v + c (v - v_1) + h' g),  c = w^2 / (1 + 2 w),  h' = h (1 + w) / (1 + 2 w).
-// Implicit Euler's scheme is that of w = 0. Then m / h'^2 (x' - y) is what inertia resists with.
+// s, as below.
+template <class Real>
+Vec3<Real> ImplicitStep<Real>::went(const Nodes<Real>& previous, std::size_t n) const {
+    return Real(0.5) * last_step_ * (Vec3<Real>(previous.velocities[n]) + Vec3<Real>(earlier_velocities_[n]));
+}
+
+// BDF2 for steps of any length: with v_1 one step before, whose length was h_1, and w = h / h_1,
+//   y = x + c s + h' (v + c (v - v_1) + h' g),  c = w^2 / (1 + 2 w),  h' = h (1 + w) / (1 + 2 w).
+// Implicit Euler's scheme is that of w = 0. Then m / h'^2 (x' - y) is what inertia resists with. For s = x -
+// x_1 stands h_1 (v + v_1) / 2, which needs no positions of earlier steps, and of a node that was stopped
+// none.
 template <class Real>
 void ImplicitStep<Real>::find_targets(const StepInput<Real>& input, const Nodes<Real>& previous) {
     for_each_index(model_->node_count(), [&](std::size_t n) {
@@ -270,24 +325,24 @@ void ImplicitStep<Real>::find_targets(const StepInput<Real>& input, const Nodes<
             system_.displacements[n] = expected_[n];
             return;
         }
-        const auto& [past, h] = schemes_[object_of_[n]];
-        const Vec3<Real> x(previous.positions[n]), v(previous.velocities[n]);
+        const auto& [past, h, damping] = schemes_[object_of_[n]];
+        const Vec3<Real> v(previous.velocities[n]);
         Vec3<Real> target = h * v + h * h * acceleration(input, previous, n);  // y - x
         if (past > Real(0))
-            target +=
-                past * (x - Vec3<Real>(earlier_.positions[n]) + h * (v - Vec3<Real>(earlier_.velocities[n])));
+            target += past * (went(previous, n) + h * (v - Vec3<Real>(earlier_velocities_[n])));
         system_.inertia[n] = Real(1) / (previous.positions[n].w * h * h);
         system_.displacements[n] = target;
     });
 }
 
-// Which bodies hardly vibrate, and touch others but hardly go towards or away from them.
+// Which bodies hardly vibrate, and touch others but hardly go towards or away from them; and which of them
+// hardly move at all.
 template <class Real>
-void ImplicitStep<Real>::find_calm(const Nodes<Real>& current) {
+void ImplicitStep<Real>::find_paces(const Nodes<Real>& current) {
     const double slow = kRestingFall * glm::length(glm::dvec3(model_->gravity));
     std::vector<Motion> motions(system_.rigid.count(), Motion::Zero());
-    std::vector<double> vibrations(model_->body_count(), 0.0), pressing(model_->body_count(), 0.0),
-        approach(model_->body_count(), 0.0);
+    std::vector<double> vibrations(model_->body_count(), 0.0), fastest = vibrations, pressing = vibrations,
+                                                               approach = vibrations;
     for_each_index(0, model_->body_count(), 1, [&](std::size_t o) {
         const ModelObject& object = model_->objects[o];
         const bool is_free = system_.rigid.is_free(o);
@@ -296,6 +351,7 @@ void ImplicitStep<Real>::find_calm(const Nodes<Real>& current) {
         for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
             const auto m = static_cast<double>(model_->masses[n]);
             Vec3<Real> v(current.velocities[n]);
+            fastest[o] = std::max(fastest[o], static_cast<double>(glm::length(v)));
             if (is_free) v -= system_.rigid.at(n, motions);
             squares += m * static_cast<double>(glm::dot(v, v));
             mass += m;
@@ -312,13 +368,19 @@ void ImplicitStep<Real>::find_calm(const Nodes<Real>& current) {
             approach[object] += force * std::abs(speed);
         }
     }
-    for (std::size_t o = 0; o < is_calm_.size(); ++o)
-        is_calm_[o] = pressing[o] > 0.0 && vibrations[o] < slow && approach[o] < slow * pressing[o] ? 1 : 0;
+    for (std::size_t o = 0; o < paces_.size(); ++o) {
+        const bool is_calm = pressing[o] > 0.0 && vibrations[o] < slow && approach[o] < slow * pressing[o];
+        paces_[o] = !is_calm ? Pace::moving : fastest[o] < slow ? Pace::still : Pace::calm;
+    }
 }
 
 template <class Real>
 void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Real>& previous) {
-    system_.elastic.linearise(previous.positions, previous.velocities, Real(1) / input.step);
+    velocities_ = previous.velocities;
+    for_each_index(velocities_.size(), [&](std::size_t n) {
+        velocities_[n].w = std::max(velocities_[n].w, schemes_[object_of_[n]].damping);
+    });
+    system_.elastic.linearise(previous.positions, velocities_, Real(1) / input.step);
     const double fall = kAtRest * static_cast<double>(input.step) * glm::length(glm::dvec3(model_->gravity));
     std::vector<double> energies(model_->objects.size(), 0.0), of_islands = energies, masses = energies;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
@@ -349,10 +411,6 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
     system_.rigid.follow_rotation(previous.positions, system_.inertia, system_.displacements, system_.loads);
     for_each_index(model_->node_count(),
                    [&](std::size_t n) { system_.loads[n] += system_.inertia[n] * system_.displacements[n]; });
-    for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        earlier_angular_[o] = angular_[o];
-        angular_[o] = angular_momentum(o, previous.positions, previous.velocities);
-    }
 }
 
 // Where objects meet that go farther beside each other than anything that a step could find out about, it is
@@ -410,30 +468,34 @@ bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current
 }
 
 template <class Real>
-glm::dvec3 ImplicitStep<Real>::angular_momentum(std::uint32_t object, std::span<const Vec4<Real>> positions,
-                                                std::span<const Vec4<Real>> velocities) const {
+typename ImplicitStep<Real>::Momenta ImplicitStep<Real>::momenta(
+    std::uint32_t object, std::span<const Vec4<Real>> positions,
+    std::span<const Vec4<Real>> velocities) const {
     const Range& nodes = model_->objects[object].nodes;
     const glm::dvec3 origin(positions[nodes.first]);
     glm::dvec3 middle(0.0), momentum(0.0), angular(0.0);
     double mass = 0.0;
     for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
-        const auto m = static_cast<double>(model_->masses[n]);
+        const double m = 1.0 / static_cast<double>(positions[n].w);
         const glm::dvec3 r = glm::dvec3(positions[n]) - origin, v(velocities[n]);
         mass += m;
         middle += m * r;
         momentum += m * v;
         angular += m * glm::cross(r, v);
     }
-    return angular - glm::cross(middle, momentum) / mass;
+    return {momentum, angular - glm::cross(middle, momentum) / mass};
 }
 
-// Rotations that linear systems have found become true ones. And the angular momentum of free bodies, of
-// which these schemes would lose some in each step, changes by what contacts did, about the centre of mass.
+// Rotations that linear systems have found become true ones. And momentum and angular momentum of free
+// bodies, of which these schemes and what was not solved would lose some in each step, change by what acts on
+// them.
 template <class Real>
-void ImplicitStep<Real>::finish(const Nodes<Real>& previous, Nodes<Real>& current) {
+void ImplicitStep<Real>::finish(const StepInput<Real>& input, const Nodes<Real>& previous,
+                                Nodes<Real>& current) {
     Field& d = system_.displacements;
     rows_.note(system_.rows, d);
-    Field forces(d.size(), Vec3<Real>(0));  // of contacts
+    Field forces(d.size(), Vec3<Real>(0));  // of all but elements and gravity
+    for (std::size_t n = 0; n < input.load_forces.size(); ++n) forces[n] = Vec3<Real>(input.load_forces[n]);
     acting_.clear();
     for (const ContactRow<Real>& row : system_.rows) {
         const Vec3<Real> s = relative<Real>(row, system_.displacements), force = row.force(s);
@@ -441,6 +503,12 @@ void ImplicitStep<Real>::finish(const Nodes<Real>& previous, Nodes<Real>& curren
         const Vec3<Real> normal = row.pressing(s) * row.normal;
         if (force != Vec3<Real>(0)) acting_.push_back({row, normal, force - normal});
     }
+    if (input.pulls != nullptr)
+        for (const std::uint32_t n : input.pulls->nodes()) {
+            const Vec4<Real> x = previous.positions[n];
+            forces[n] +=
+                input.pulls->force_at_end(n, Vec4<Real>(Vec3<Real>(x) + d[n], x.w), Vec3<Real>(x), step_);
+        }
     system_.rigid.rotate(previous.positions, system_.inertia, d);
     for_each_index(d.size(), [&](std::size_t n) {
         const Vec4<Real> x = previous.positions[n], v = previous.velocities[n];
@@ -449,29 +517,35 @@ void ImplicitStep<Real>::finish(const Nodes<Real>& previous, Nodes<Real>& curren
             current.velocities[n] = v;
             return;
         }
-        const auto& [past, h] = schemes_[object_of_[n]];
+        const auto& [past, h, damping] = schemes_[object_of_[n]];
         Vec3<Real> velocity = d[n] / h;
-        if (past > Real(0)) velocity -= past / h * (Vec3<Real>(x) - Vec3<Real>(earlier_.positions[n]));
+        if (past > Real(0)) velocity -= past / h * went(previous, n);
         current.velocities[n] = Vec4<Real>(velocity, v.w);
     });
     for_each_index(0, model_->body_count(), 1, [&](std::size_t o) {
         if (!system_.rigid.is_free(o)) return;
+        const auto object = static_cast<std::uint32_t>(o);
         const Range& nodes = model_->objects[o].nodes;
         const glm::dvec3 origin(current.positions[nodes.first]);
         RigidSums sums;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-            sums.add(glm::dvec3(current.positions[n]) - origin, static_cast<double>(model_->masses[n]),
-                     glm::dvec3(forces[n]));
+            sums.add(glm::dvec3(current.positions[n]) - origin,
+                     1.0 / static_cast<double>(current.positions[n].w), glm::dvec3(forces[n]));
         const RigidInertia inertia(sums);
-        const glm::dvec3 torque = sums.moment - glm::cross(inertia.center, sums.force);
         const auto h = static_cast<double>(schemes_[o].step), past = static_cast<double>(schemes_[o].past);
-        const glm::dvec3 wanted = angular_[o] + past * (angular_[o] - earlier_angular_[o]) + h * torque;
-        const auto object = static_cast<std::uint32_t>(o);
-        const glm::dvec3 lacking = wanted - angular_momentum(object, current.positions, current.velocities);
-        const glm::dvec3 spin = inertia.inverse_inertia * lacking;
+        const Momenta change{sums.force + glm::dvec3(model_->gravity) / inertia.inverse_mass,
+                             sums.moment - glm::cross(inertia.center, sums.force)};
+        const Momenta& had = momenta_[o];
+        const Momenta& earlier = earlier_momenta_[o];
+        const Momenta has = momenta(object, current.positions, current.velocities);
+        const auto lacking = [&](glm::dvec3 Momenta::*part) {
+            return had.*part + past * (had.*part - earlier.*part) + h * change.*part - has.*part;
+        };
+        const Twist missing{inertia.inverse_mass * lacking(&Momenta::linear),
+                            inertia.inverse_inertia * lacking(&Momenta::angular)};
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
             const glm::dvec3 r = glm::dvec3(current.positions[n]) - origin - inertia.center;
-            current.velocities[n] += Vec4<Real>(Vec3<Real>(glm::cross(spin, r)), 0);
+            current.velocities[n] += Vec4<Real>(Vec3<Real>(missing.at(r)), 0);
         }
     });
 }
@@ -483,8 +557,7 @@ ContactForces ImplicitStep<Real>::contact_forces() const {
         const ContactRow<Real>& row = acting.row;
         const glm::dvec3 normal(acting.normal), friction(acting.friction);
         if (row.object == kNoNode) {
-            sums.add(row.other, static_cast<std::uint32_t>(row.key >> 31 & 0x7FFFFFFFu), true, normal,
-                     friction);
+            sums.add(row.other, row.plane(), true, normal, friction);
         } else if (row.object != row.other) {
             sums.add(row.other, row.object, false, normal, friction);
         }

@@ -12,6 +12,7 @@
 #include "cpu/implicit/contact_rows.h"
 #include "cpu/implicit/find_pairs.h"
 #include "cpu/implicit/guard.h"
+#include "cpu/implicit/restitution.h"
 #include "cpu/implicit/step_system.h"
 #include "cpu/nodes.h"
 #include "gelatin/scene.h"
@@ -45,6 +46,10 @@ public:
 
     /// Forgets earlier steps, because nodes were set from outside.
     void restart();
+    /// After it: what the last step began with, and its length [s].
+    /// @param positions where the next one begins, near enough [m]
+    void go_on(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> earlier_velocities,
+               Real step);
     /// @param previous of held nodes the positions are those where they are, and velocities those that take
     /// them to where their handles have them at the end
     /// @param shortest a step may be [s]
@@ -67,18 +72,17 @@ public:
     bool any_near() const { return !system_.rows.empty() || !pairs_.pairs().empty(); }
 
     /// Whether all bodies hardly moved towards or away from what they touch, nor vibrated.
-    bool is_calm() const {
-        return std::all_of(is_calm_.begin(), is_calm_.end(),
-                           [](std::uint8_t is_calm) { return is_calm != 0; });
-    }
+    bool is_calm() const { return std::find(paces_.begin(), paces_.end(), Pace::moving) == paces_.end(); }
 
     const StepSystem<Real>& system() const { return system_; }
 
 private:
     using Field = std::vector<Vec3<Real>>;
-    // How much the step before counts, c, and h' (find_targets).
+    // How bodies move: calm ones only along what they touch (find_paces).
+    enum class Pace : std::uint8_t { moving, calm, still };
+    // How much the step before counts, c, and h' (find_targets); the least damping time [s].
     struct Scheme {
-        Real past = 0, step = 0;
+        Real past = 0, step = 0, damping = 0;
     };
     // A contact's force on its second side when a step has ended [N].
     struct Acting {
@@ -89,24 +93,29 @@ private:
     void predict(const StepInput<Real>& input, const Nodes<Real>& previous);
     Vec3<Real> acceleration(const StepInput<Real>& input, const Nodes<Real>& previous, std::size_t n) const;
     bool choose_schemes(bool damps);
+    Vec3<Real> went(const Nodes<Real>& previous, std::size_t n) const;
     void find_targets(const StepInput<Real>& input, const Nodes<Real>& previous);
-    void find_calm(const Nodes<Real>& current);
+    void find_paces(const Nodes<Real>& current);
     // Of all bodies [J]; motion: kinetic and elastic.
     struct Energy {
         double motion = 0.0, potential = 0.0;
         double sum() const { return motion + potential; }
     };
-    Energy energy(const Nodes<Real>& nodes) const;
-    bool moves_held_nodes(const Nodes<Real>& previous) const;
+    Energy energy(const Nodes<Real>& nodes);
+    double fastest_driver(const Nodes<Real>& previous) const;
     void stand_still(const Nodes<Real>& previous, Nodes<Real>& current);
     void linearise(const StepInput<Real>& input, const Nodes<Real>& previous);
     Real deepest() const;
     bool detect(const Nodes<Real>& previous, bool is_shortest);
     bool guard(const Nodes<Real>& previous, Nodes<Real>& current);
     double contact_energy(bool at_end) const;
-    void finish(const Nodes<Real>& previous, Nodes<Real>& current);
-    glm::dvec3 angular_momentum(std::uint32_t object, std::span<const Vec4<Real>> positions,
-                                std::span<const Vec4<Real>> velocities) const;
+    void finish(const StepInput<Real>& input, const Nodes<Real>& previous, Nodes<Real>& current);
+    // [kg m/s]; about the centre of mass [kg m^2/s].
+    struct Momenta {
+        glm::dvec3 linear{0.0}, angular{0.0};
+    };
+    Momenta momenta(std::uint32_t object, std::span<const Vec4<Real>> positions,
+                    std::span<const Vec4<Real>> velocities) const;
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
@@ -116,22 +125,25 @@ private:
     FindPairs<Real> pairs_;
     ContactRows<Real> rows_;
     Guard<Real> guard_;
+    Restitution<Real> restitution_;
     StepSystem<Real> system_;
-    bool is_driven_by_surfaces_ = false;
-    std::optional<Energy> energy_;        // at the end of the last step, if it is known
-    double in_contacts_ = 0.0;            // then [J]
-    double gained_ = 0.0;                 // since energy was least [J]
-    std::vector<Scheme> schemes_;         // by object
-    std::vector<std::uint8_t> is_calm_;   // bodies, at the end of the last step
-    std::vector<std::uint32_t> islands_;  // of bodies: numbers of the first ones
+    double fastest_belt_ = 0.0, mass_ = 0.0;          // [m/s]; of all bodies [kg]
+    std::optional<Energy> energy_;                    // at the end of the last step, if it is known
+    std::vector<double> energies_, energies_before_;  // of bodies, now and when the step began [J]
+    double in_contacts_ = 0.0;                        // then [J]
+    double gained_ = 0.0;                             // since energy was least [J]
+    std::vector<Scheme> schemes_;                     // by object
+    std::vector<Pace> paces_;                         // of bodies, at the end of the last step
+    std::vector<std::uint8_t> is_struck_;             // by restitution, then
+    std::vector<std::uint32_t> islands_;              // of bodies: numbers of the first ones
     Real step_ = 0, last_step_ = 0;
-    Nodes<Real> earlier_;            // one step before previous
-    std::vector<Real> compliances_;  // of nodes in contacts, 1 / h_i [m/N]
-    Field expected_;                 // displacements without forces [m]
-    std::vector<Vec4<Real>> ends_;
-    std::vector<Real> slacks_;  // by object [m]
+    std::vector<Vec4<Real>> earlier_velocities_;  // v_1
+    std::vector<Real> compliances_;               // of nodes in contacts, 1 / h_i [m/N]
+    Field expected_;                              // displacements without forces [m]
+    std::vector<Vec4<Real>> ends_, velocities_;   // velocities: with damping times of this step
+    std::vector<Real> slacks_;                    // by object [m]
     std::vector<Acting> acting_;
-    std::vector<glm::dvec3> angular_, earlier_angular_;  // momenta of bodies [kg m^2/s]
+    std::vector<Momenta> momenta_, earlier_momenta_;  // of bodies
 };
 
 }  // namespace gelatin::cpu

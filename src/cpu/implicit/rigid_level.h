@@ -36,6 +36,8 @@ public:
     bool is_empty() const { return bodies_.empty(); }
     std::uint32_t number(std::size_t object) const { return numbers_[object]; }
     std::size_t count() const { return bodies_.size(); }
+    /// Of mass, of a free body where the step begins [m].
+    const glm::dvec3& center(std::size_t object) const { return bodies_[numbers_[object]].center; }
 
     /// Factorises E. @param tangents of all rows
     void factorise(std::span<const RowTangent<Real>> tangents);

@@ -115,7 +115,7 @@ void StepSystem<Real>::find_chords(std::span<const Vec3<Real>> expected) {
                 slope = row.slope_of(from);
             }
             t.constant = (force + slope * (from - row.gap)) * row.normal;
-            t.stiffness.add_outer(slope, row.normal);
+            t.stiffness.add_outer(slope + row.damping, row.normal);
         }
         if (row.limit > Real(0)) {
             ContactRow<Real> friction = row;

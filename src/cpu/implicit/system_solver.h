@@ -34,6 +34,7 @@ private:
     bool rests(const Step& step);
 
     bool divides_steps_;
+    bool goes_on_ = false;  // with earlier velocities of a state that was written
     ImplicitStep<Real> step_;
     ShapeMatcher<Real> shape_matcher_;  // of bodies that have lost their shape, before they move
     std::optional<RestWatch<Real>> rest_watch_;

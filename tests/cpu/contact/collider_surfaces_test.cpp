@@ -173,6 +173,7 @@ double greatest_speed(const ColliderDescription& collider) {
 }
 
 // Violent scenes among boxes, balls and capsules that move and turn.
+template <template <class> class Solver>
 void fuzz_colliders(unsigned first, unsigned count) {
     for (unsigned seed = first; seed < first + count; ++seed) {
         test::RandomMaker random(seed);
@@ -197,8 +198,8 @@ void fuzz_colliders(unsigned first, unsigned count) {
             colliders.push_back(made);
         }
         const auto model = make_blocks(blocks, {0, -9.81, 0}, colliders);
-        cpu::ImplicitSolver<float> solver =
-            make_solver<float>(model, 0.4, random.integer(1, 12), random.integer(0, 1) == 0);
+        Solver<float> solver =
+            make_solver<float, Solver>(model, 0.4, random.integer(1, 12), random.integer(0, 1) == 0);
         // At most as if all bodies came at their fastest and went back from the fastest collider.
         double mass = 0.0;
         for (const ModelObject& object : model->objects) mass += object.mass;
@@ -212,16 +213,20 @@ void fuzz_colliders(unsigned first, unsigned count) {
 }
 
 TEST(ColliderSurfaces, NothingPassesThroughThem) {
-    fuzz_colliders(1, 3);
+    fuzz_colliders<cpu::ImplicitSolver>(1, 3);
+    fuzz_colliders<cpu::SystemSolver>(1, 3);
 }
 
 TEST(ColliderSurfacesHeavy, NothingPassesThroughThem) {
-    fuzz_colliders(4, 9);
-    fuzz_colliders(251, 1);  // a ball tears a soft body, which stays tangled
+    fuzz_colliders<cpu::ImplicitSolver>(4, 9);
+    fuzz_colliders<cpu::SystemSolver>(4, 9);
+    fuzz_colliders<cpu::ImplicitSolver>(251, 1);
+    fuzz_colliders<cpu::SystemSolver>(251, 1);  // a ball tears a soft body, which stays tangled
 }
 
 TEST(ColliderSurfacesLong, NothingPassesThroughThem) {
-    fuzz_colliders(100, 400);
+    fuzz_colliders<cpu::ImplicitSolver>(100, 400);
+    fuzz_colliders<cpu::SystemSolver>(100, 400);
 }
 
 }  // namespace

@@ -359,6 +359,7 @@ TEST(OwnContact, GivesTheSameBitsForAnyNumberOfThreads) {
 }
 
 // Bars thrown into waves, half of them over a floor, at speeds from 1 to 60 m/s and of 1 kPa to 10 MPa.
+template <template <class> class Solver>
 void fuzz_folds(unsigned first, int count) {
     for (unsigned seed = first; seed < first + static_cast<unsigned>(count); ++seed) {
         test::RandomMaker random(seed);
@@ -386,8 +387,8 @@ void fuzz_folds(unsigned first, int count) {
         }
         const std::shared_ptr<const Model> shared = model;
         if (test::count_overlaps(*shared, std::vector<glm::vec4>(shared->positions)) > 0) continue;
-        cpu::ImplicitSolver<float> solver = make_solver<float>(
-            shared, random.uniform(0.0, 0.8), random.integer(1, 12), random.integer(0, 1) == 1);
+        Solver<float> solver = make_solver<float, Solver>(shared, random.uniform(0.0, 0.8),
+                                                          random.integer(1, 12), random.integer(0, 1) == 1);
         const int substeps = random.integer(1, 4);
         const test::BodySums energy = test::sum_bodies(*shared, solver.nodes());
         ASSERT_TRUE(test::stays_apart(solver, *shared, 30 * substeps, kFrame / substeps,
@@ -397,15 +398,18 @@ void fuzz_folds(unsigned first, int count) {
 }
 
 TEST(OwnContact, NothingPassesThroughItself) {
-    fuzz_folds(1, 3);
+    fuzz_folds<cpu::ImplicitSolver>(1, 3);
+    fuzz_folds<cpu::SystemSolver>(1, 3);
 }
 
 TEST(OwnContactHeavy, NothingPassesThroughItself) {
-    fuzz_folds(4, 9);
+    fuzz_folds<cpu::ImplicitSolver>(4, 9);
+    fuzz_folds<cpu::SystemSolver>(4, 9);
 }
 
 TEST(OwnContactLong, NothingPassesThroughItself) {
-    fuzz_folds(100, 300);
+    fuzz_folds<cpu::ImplicitSolver>(100, 300);
+    fuzz_folds<cpu::SystemSolver>(100, 300);
 }
 
 }  // namespace
