@@ -42,18 +42,24 @@ public:
                 const Vec3<Real> edge = at(n) - at(node);
                 if (n != node)
                     weight = std::min(
-                        weight, Real(2) - glm::dot(apart, edge) / (kTilted * distance * glm::length(edge)));
+                        weight, Real(2) - glm::dot(apart, edge) / (kSoftened * distance * glm::length(edge)));
             }
         }
         return std::max(weight, Real(0));
+    }
+
+    /// How nearly the line is along the normal of the pair's face: from 0 to 1.
+    Real weight_along_normal(const ContactPair& pair, const Vec3<Real>& apart) const {
+        const Vec3<Real> a = at(pair.nodes[1]);
+        const Vec3<Real> normal = glm::cross(at(pair.nodes[2]) - a, at(pair.nodes[3]) - a);
+        const Real sine = glm::length(glm::cross(normal, apart)) / (glm::length(normal) * glm::length(apart));
+        return std::clamp(Real(2) - sine / kSoftened, Real(0), Real(1));
     }
 
 private:
     // Edges of which a neighbour of the face beside them is in the way of the line by a cosine of this press
     // half as much as edges without.
     static constexpr Real kSoftened = Real(0.05f);
-    // Up to this cosine nodes press as much as without the edge, and from twice that on not at all.
-    static constexpr Real kTilted = Real(0.2f);
 
     Vec3<Real> at(std::uint32_t node) const { return Vec3<Real>(positions_[node]); }
 

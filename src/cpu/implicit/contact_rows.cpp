@@ -82,7 +82,8 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
         const Vec3<Real> apart = near.gap * near.normal;
         Real weight = region.weight(pair, apart, near.weights);
         if (!pair.is_edges() && !(std::min({near.weights.y, near.weights.z, near.weights.w}) > Real(0)))
-            weight *= region.weight_of_node(pair.first, apart);
+            weight *=
+                std::max(region.weight_of_node(pair.first, apart), region.weight_along_normal(pair, apart));
         if (!(weight > Real(0))) continue;
         ContactRow<Real> row;
         Real first = 0, second = 0;

@@ -132,6 +132,34 @@ TEST(SystemSolver, ComesToRest) {
     EXPECT_NEAR(highest, 1.2f, 0.05f);
 }
 
+// Over edges of a mesh in all directions, at up to 5 m/s.
+TEST(SystemSolver, SlidesOverEdges) {
+    constexpr double kSlope = 0.2, kGravity = 9.81;
+    const double angle = std::atan(kSlope);
+    const Region everywhere = HalfSpaceRegion{{1.0, 0.0, 0.0}, 100.0};
+    for (const double youngs_modulus : {3e4, 1e7}) {
+        const auto model = make_blocks(
+            {{.place = {-1.0, -0.1, -0.6},
+              .cells = {100, 1, 10},
+              .size = {16.0, 0.1, 1.6},
+              .pins = {everywhere}},
+             {.place = {-0.2, 0.012, 0}, .size = {0.3, 0.2, 0.3}, .youngs_modulus = youngs_modulus}},
+            kGravity * glm::dvec3(std::sin(angle), -std::cos(angle), 0));
+        cpu::SystemSolver<float> solver = make_system_solver<float>(model, 0.0);
+        const auto speed = [&] {
+            double momentum = 0.0;
+            const Range& nodes = model->objects[1].nodes;
+            for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+                momentum += static_cast<double>(model->masses[n] * solver.nodes().velocities[n].x);
+            return momentum / model->objects[1].mass;
+        };
+        for (int frame = 0; frame < 90; ++frame) solver.advance({kFrame});
+        const double before = speed();
+        for (int frame = 0; frame < 60; ++frame) solver.advance({kFrame});
+        EXPECT_NEAR(speed() - before, kGravity * std::sin(angle), 0.02) << youngs_modulus;
+    }
+}
+
 // Dampers are for what rests: a ball that rolls goes on.
 TEST(SystemSolver, RollsOn) {
     constexpr double kSpeed = 2.0, kRadius = 0.2;
