@@ -467,6 +467,14 @@ bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current
     return true;
 }
 
+// As steps have it, in which a node is what its inverse mass says; of held nodes, which have none, too: their
+// body may be let go, and what it had then counts.
+template <class Real>
+double ImplicitStep<Real>::mass_of(std::size_t n, const Vec4<Real>& position) const {
+    return position.w > Real(0) ? 1.0 / static_cast<double>(position.w)
+                                : static_cast<double>(model_->masses[n]);
+}
+
 template <class Real>
 typename ImplicitStep<Real>::Momenta ImplicitStep<Real>::momenta(
     std::uint32_t object, std::span<const Vec4<Real>> positions,
@@ -476,7 +484,7 @@ typename ImplicitStep<Real>::Momenta ImplicitStep<Real>::momenta(
     glm::dvec3 middle(0.0), momentum(0.0), angular(0.0);
     double mass = 0.0;
     for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
-        const double m = 1.0 / static_cast<double>(positions[n].w);
+        const double m = mass_of(n, positions[n]);
         const glm::dvec3 r = glm::dvec3(positions[n]) - origin, v(velocities[n]);
         mass += m;
         middle += m * r;
@@ -529,8 +537,8 @@ void ImplicitStep<Real>::finish(const StepInput<Real>& input, const Nodes<Real>&
         const glm::dvec3 origin(current.positions[nodes.first]);
         RigidSums sums;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-            sums.add(glm::dvec3(current.positions[n]) - origin,
-                     1.0 / static_cast<double>(current.positions[n].w), glm::dvec3(forces[n]));
+            sums.add(glm::dvec3(current.positions[n]) - origin, mass_of(n, current.positions[n]),
+                     glm::dvec3(forces[n]));
         const RigidInertia inertia(sums);
         const auto h = static_cast<double>(schemes_[o].step), past = static_cast<double>(schemes_[o].past);
         const Momenta change{sums.force + glm::dvec3(model_->gravity) / inertia.inverse_mass,

@@ -114,6 +114,7 @@ private:
     struct Momenta {
         glm::dvec3 linear{0.0}, angular{0.0};
     };
+    double mass_of(std::size_t n, const Vec4<Real>& position) const;
     Momenta momenta(std::uint32_t object, std::span<const Vec4<Real>> positions,
                     std::span<const Vec4<Real>> velocities) const;
 

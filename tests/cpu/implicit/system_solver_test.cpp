@@ -113,6 +113,27 @@ TEST(SystemSolver, GoesOnFromAState) {
             1e-6f);
 }
 
+// A block flies on as its handle has taken it.
+TEST(SystemSolver, FliesOnWhenItIsReleased) {
+    Scene scene;
+    scene.simulation.gravity = {0.0, 0.0, 0.0};
+    Material& material = scene.materials.emplace_back();
+    material.youngs_modulus = 1e6;
+    ObjectDescription& block = scene.objects.emplace_back();
+    material.name = block.material = "stiff";
+    block.name = "block";
+    block.shape = BoxShape{.size = glm::dvec3(0.2), .segments = glm::ivec3(3)};
+    HandleDescription& handle = block.handles.emplace_back();
+    handle.region = HalfSpaceRegion{{0.0, -1.0, 0.0}, -0.09};  // its top
+    handle.keyframes = {{0.0}, {1.0, {0.4, 0.0, 0.0}}};
+    handle.release = 0.5;
+    const auto model = std::make_shared<const Model>(build_model(scene));
+    cpu::SystemSolver<float> solver = make_system_solver<float>(model);
+    for (int frame = 0; frame < 36; ++frame) test::advance(solver, *model, frame);
+    // It vibrates as it is let go.
+    EXPECT_NEAR(sum_bodies(*model, solver.nodes()).momentum.x / model->objects[0].mass, 0.4, 0.02);
+}
+
 // With dampers of its own: without them a tower of cubes sways for minutes.
 TEST(SystemSolver, ComesToRest) {
     std::vector<Block> blocks;
