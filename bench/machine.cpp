@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/counted.h"
 #include "cpu/explicit/advance_nodes.h"
 #include "gelatin/version.h"
 
@@ -45,7 +46,8 @@ BenchMachine describe_bench_machine(const gl::DeviceInfo* device) {
 void add_machine_rows(const BenchMachine& machine, MarkdownTable& table) {
     table.add({"gelatin", fmt::format("{} ({})", version(), commit())});
     table.add({"OpenGL", machine.opengl});
-    table.add({"CPU", fmt::format("{}, {} threads, {}", machine.cpu, machine.threads, machine.simd)});
+    table.add(
+        {"CPU", fmt::format("{}, {}, {}", machine.cpu, counted(machine.threads, "thread"), machine.simd)});
     table.add({"build", fmt::format("{}, {}: `{}`", machine.compiler, machine.build_type, machine.flags)});
 }
 

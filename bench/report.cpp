@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "bench/markdown_table.h"
+#include "core/counted.h"
 #include "core/file.h"
 
 namespace gelatin {
@@ -13,14 +14,16 @@ std::string name_of_scene(std::size_t scene) {
 }
 
 std::string describe_timing(const BenchResult& result) {
-    if (!result.sampled) return fmt::format("whole: {} frames", result.window_frames);
-    return fmt::format("sampled: {} windows of {} frames", result.window_count, result.window_frames);
+    if (!result.sampled) return "whole: " + counted(result.window_frames, "frame");
+    return fmt::format("sampled: {} of {}", counted(result.window_count, "window"),
+                       counted(result.window_frames, "frame"));
 }
 
 std::string describe_scene(const BenchSceneFacts& facts) {
     const Counts& counts = facts.counts;
-    return fmt::format("{} objects, {} nodes, {} springs, {} faces; {} frames, the first {} without contact",
-                       counts.objects, counts.nodes, counts.springs, counts.faces, facts.frames,
+    return fmt::format("{}, {}, {}, {}; {}, the first {} without contact", counted(counts.objects, "object"),
+                       counted(counts.nodes, "node"), counted(counts.springs, "spring"),
+                       counted(counts.faces, "face"), counted(facts.frames, "frame"),
                        facts.contact_free_frames);
 }
 

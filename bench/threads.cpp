@@ -1,7 +1,8 @@
 #include "bench/threads.h"
 
-#include <fmt/core.h>
 #include <tbb/info.h>
+
+#include "core/counted.h"
 
 namespace gelatin {
 
@@ -11,7 +12,7 @@ std::vector<int> measured_thread_counts() {
 }
 
 std::string describe_cpu(int threads) {
-    return fmt::format("CPU, {} thread{}", threads, threads == 1 ? "" : "s");
+    return "CPU, " + counted(threads, "thread");
 }
 
 }  // namespace gelatin

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "core/file.h"
+#include "core/file_writer.h"
 #include "gelatin/error.h"
 #include "mesh/file_ending.h"
 #include "model/scene/names.h"
@@ -28,7 +29,11 @@ void check_output_file(const std::string& option, const fs::path& file,
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
     if (!fs::is_directory(folder, ignored)) fail("there is no folder " + folder.string());
     if (fs::is_directory(file, ignored)) fail("is a folder");
-    if (::access(folder.c_str(), W_OK | X_OK) != 0) fail("cannot be written into " + folder.string());
+    try {
+        const ScratchFile attempt(folder);
+    } catch (const SystemError& error) {
+        fail(error.what());
+    }
 }
 
 void check_ending(const std::string& option, const fs::path& file, const std::vector<std::string>& endings) {

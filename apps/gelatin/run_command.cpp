@@ -109,9 +109,10 @@ void Run::advance() {
 }
 
 void Run::introduce() const {
-    std::fprintf(stderr,
-                 "gelatin: %zu nodes, %zu springs, %zu faces; %d steps of %.4g s per frame; %s on %s\n",
-                 report_.counts.nodes, report_.counts.springs, report_.counts.faces, report_.substeps,
+    std::fprintf(stderr, "gelatin: %s, %s, %s; %s of %.4g s per frame; %s on %s\n",
+                 counted(report_.counts.nodes, "node").c_str(),
+                 counted(report_.counts.springs, "spring").c_str(),
+                 counted(report_.counts.faces, "face").c_str(), counted(report_.substeps, "step").c_str(),
                  report_.step_size, report_.backend.c_str(), report_.device.c_str());
 }
 
@@ -179,9 +180,9 @@ void Run::print_summary() const {
     const Counts& counts = report_.counts;
     const std::size_t frames = report_.frame_ms.size();
     std::FILE* out = message_stream({options_.stats, options_.image, options_.video, options_.checkpoint});
-    std::fprintf(out, "%s of %s (%zu nodes, %zu springs) in %.2f s: %.1f frames/s on %s\n",
-                 counted(frames, "frame").c_str(), counted(counts.objects, "object").c_str(), counts.nodes,
-                 counts.springs, report_.seconds,
+    std::fprintf(out, "%s of %s (%s, %s) in %.2f s: %.1f frames/s on %s\n", counted(frames, "frame").c_str(),
+                 counted(counts.objects, "object").c_str(), counted(counts.nodes, "node").c_str(),
+                 counted(counts.springs, "spring").c_str(), report_.seconds,
                  report_.seconds > 0.0 ? static_cast<double>(frames) / report_.seconds : 0.0,
                  report_.device.c_str());
     const auto report = [out](const char* what, const std::filesystem::path& file) {

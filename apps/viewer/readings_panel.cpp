@@ -33,11 +33,11 @@ void draw_readings(const Session& session, const PanelState& state) {
     const Counts counts = session.simulator().counts();
     const FrameStatistics& latest = readings.latest;
     ImGui::TextDisabled("%s", session.device().c_str());
-    ImGui::Text("%s, %zu nodes, %zu springs", counted(counts.objects, "object").c_str(), counts.nodes,
-                counts.springs);
-    ImGui::Text("%zu tets, %zu faces, %zu of them touch", counts.tets, counts.faces, latest.colliding_faces);
-    const auto steps = static_cast<std::size_t>(session.simulator().substeps());
-    ImGui::Text("%s of %.3g ms per frame", counted(steps, "step").c_str(),
+    ImGui::Text("%s, %s, %s", counted(counts.objects, "object").c_str(),
+                counted(counts.nodes, "node").c_str(), counted(counts.springs, "spring").c_str());
+    ImGui::Text("%s, %s, %zu of them touch", counted(counts.tets, "tet").c_str(),
+                counted(counts.faces, "face").c_str(), latest.colliding_faces);
+    ImGui::Text("%s of %.3g ms per frame", counted(session.simulator().substeps(), "step").c_str(),
                 1e3 * session.simulator().step_size());
     draw_graph("kinetic", readings.kinetic, "J", state.scale);
     draw_graph("elastic", readings.elastic, "J", state.scale);

@@ -319,6 +319,8 @@ struct ObjectDescription {
     /// for boxes, meshes and files; y for glTF files, which have it so, and for the other shapes: capsules
     /// and texts stand upright.
     std::optional<Axis> up = {};
+
+    int pins_line = 0;  ///< of `pins`, as `line`
 };
 
 struct PlaneCollider {

@@ -10,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _gelatin
-from .progress import frames_with_bar
+from .arguments import whole_number
+from .progress import counted, frames_with_bar
 from .scene import Scene, load
 from .simulator import Array, Simulator
 
@@ -29,13 +30,14 @@ class Batch:
         if isinstance(scene, (str, os.PathLike)):
             scene = load(scene)
         self.scene = scene
+        worlds = whole_number("worlds", worlds, least=1)
         self._core = _gelatin.Batch(scene, worlds)
         self._worlds = [self._core.world(w) for w in range(worlds)]
         self._simulators = [Simulator._of(world, scene) for world in self._worlds]
         self._first = self._simulators[0]
 
     def __repr__(self) -> str:
-        return f"<gelatin.Batch: {len(self)} worlds of {len(self.masses)} nodes>"
+        return f"<gelatin.Batch: {counted(len(self), 'world')} of {counted(len(self.masses), 'node')}>"
 
     def __len__(self) -> int:
         """The number of worlds."""
@@ -55,18 +57,18 @@ class Batch:
 
         Raises Diverged, naming a world that diverged in these steps, after all others have made theirs. `diverged` has all.
         """
-        self._core.step(count)
+        self._core.step(whole_number("count", count))
 
     def advance(self, frames: int = 1) -> None:
         """Advances every world by `frames` frames. Raises as `step`."""
-        self.step(frames * self._first.substeps)
+        self._core.step(whole_number("frames", frames) * self._first.substeps)
 
     def run(self, frames: int, progress: bool = False) -> None:
         """As `advance`. progress: shows a bar, if the package tqdm is installed."""
         if not progress:
             self.advance(frames)
             return
-        for _ in frames_with_bar(frames):
+        for _ in frames_with_bar(whole_number("frames", frames)):
             self.advance(1)
 
     def reset(self, mask: npt.ArrayLike | None = None) -> None:

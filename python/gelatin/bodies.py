@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any, Union
 import numpy as np
 import numpy.typing as npt
 
+from .arguments import number, numbers, wrong_type
 from .errors import InvalidInput
 from .hands import Hand
+from .progress import counted
 from .shapes import BoxRegion, HalfSpaceRegion, Region, SphereRegion
 
 if TYPE_CHECKING:
@@ -39,7 +41,7 @@ class Body:
         self.rest_volume: float = fields["rest_volume"]
 
     def __repr__(self) -> str:
-        return f"<gelatin.Body '{self.name}': {len(self)} nodes>"
+        return f"<gelatin.Body '{self.name}': {counted(len(self), 'node')}>"
 
     def __len__(self) -> int:
         """The number of nodes."""
@@ -123,7 +125,7 @@ class Body:
 
         It acts until another one is set; 0 ends it. Its work is unknown, so that the energy is not checked meanwhile.
         """
-        vector = np.asarray(force, np.float64)
+        vector = numbers("force", force, self._shapes())
         if vector.shape == (3,):
             masses = self.masses.astype(np.float64)
             vector = vector * (masses / masses.sum())[:, None]
@@ -149,20 +151,27 @@ class Body:
             raise InvalidInput("there is no node to hold")
         if stiffness is None:
             stiffness = 9.81 * self.mass / (0.01 * self.rest_volume ** (1 / 3))
+        stiffness = number("stiffness", stiffness, may_be_zero=False)
         if damping_time is None:
             damping_time = 2.0 * float(np.sqrt(self.mass / stiffness))
-        return Hand(self._simulator, self.nodes.start + chosen, stiffness, damping_time)
+        return Hand(self._simulator, self.nodes.start + chosen, stiffness, number("damping_time", damping_time))
 
     def _vectors(self, values: npt.ArrayLike, what: str) -> npt.NDArray[np.float32]:
-        vectors = np.asarray(values, np.float32)
+        vectors = numbers(what, values, self._shapes())
         if vectors.shape not in ((3,), (len(self), 3)):
             raise InvalidInput(f"{what} must have the shape (3,) or ({len(self)}, 3), not {vectors.shape}")
-        return np.ascontiguousarray(np.broadcast_to(vectors, (len(self), 3)))
+        return np.ascontiguousarray(np.broadcast_to(vectors.astype(np.float32), (len(self), 3)))
+
+    def _shapes(self) -> str:
+        return f"numbers of the shape (3,) or ({len(self)}, 3)"
 
     def _indices(self, nodes: Nodes) -> npt.NDArray[np.int64]:
         if isinstance(nodes, (BoxRegion, SphereRegion, HalfSpaceRegion)):
             return self.nodes_in(nodes)
-        chosen = np.atleast_1d(np.asarray(nodes))
+        try:
+            chosen = np.atleast_1d(np.asarray(nodes))
+        except ValueError:  # lists of different lengths
+            chosen = np.zeros((1, 1))
         if chosen.dtype == bool and chosen.shape == (len(self),):
             return np.flatnonzero(chosen)
         if chosen.size == 0:
@@ -177,6 +186,8 @@ def _is_in(region: Region, points: npt.NDArray[np.float64]) -> npt.NDArray[np.bo
         return np.asarray(((points >= np.asarray(region.min)) & (points <= np.asarray(region.max))).all(axis=1))
     if isinstance(region, SphereRegion):
         return np.asarray(np.linalg.norm(points - np.asarray(region.center), axis=1) <= region.radius)
+    if not isinstance(region, HalfSpaceRegion):
+        raise wrong_type("region", region, "a BoxRegion, a SphereRegion or a HalfSpaceRegion")
     return np.asarray(points @ np.asarray(region.normal, np.float64) <= region.offset)
 
 

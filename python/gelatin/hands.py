@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from .arguments import vector
+
 if TYPE_CHECKING:
     from .simulator import Simulator
 
@@ -32,7 +34,11 @@ class Hand:
         self._target = places.mean(axis=0)
         self._arms = places - self._target
         simulator._hands.append(self)
-        self._set_all()
+        try:
+            self._set_all()
+        except Exception:
+            simulator._hands.remove(self)
+            raise
 
     @property
     def target(self) -> npt.NDArray[np.float64]:
@@ -41,7 +47,7 @@ class Hand:
 
     @target.setter
     def target(self, target: npt.ArrayLike) -> None:
-        self._target = np.array(target, np.float64).reshape(3)
+        self._target = vector("target", target)
         if self in self._simulator._hands:
             self._simulator._core.move_pull(self._simulator._hands.index(self), self._target.tolist())
 

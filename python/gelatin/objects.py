@@ -168,6 +168,7 @@ class Object:
     #: files; "y" for glTF files and the other shapes
     up: Literal["x", "y", "z"] | None = None
     line: int = field(default=0, repr=False)
+    pins_line: int = field(default=0, repr=False)
 
 
 @dataclass(slots=True)

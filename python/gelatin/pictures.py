@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from .arguments import check_ending, whole_number
 from .errors import InvalidInput, SystemError
 from .progress import frames_with_bar
 
@@ -25,12 +26,17 @@ class Picture(np.ndarray[Any, np.dtype[np.uint8]]):
     """8-bit sRGB, rows from the top: an array of shape (height, width, 3), uint8. Notebooks show it."""
 
     def save(self, file: str | os.PathLike[str]) -> None:
-        """Writes a PNG file."""
+        """Writes a PNG file. Raises InvalidInput for a name that does not end in .png."""
+        check_ending(file, ".png")
+        if not self._is_whole():
+            raise InvalidInput(f"a picture must have the shape (height, width, 3), not {self.shape}")
         Path(file).write_bytes(png_bytes(self))
 
     def _repr_png_(self) -> bytes | None:
-        is_whole = self.ndim == 3 and self.shape[2] == 3 and self.dtype == np.uint8
-        return png_bytes(self) if is_whole else None
+        return png_bytes(self) if self._is_whole() else None
+
+    def _is_whole(self) -> bool:
+        return self.ndim == 3 and self.shape[2] == 3 and self.dtype == np.uint8
 
 
 def png_bytes(pixels: npt.NDArray[np.uint8]) -> bytes:
@@ -67,7 +73,8 @@ class Film:
         return f"<gelatin.Film: {self.file}>"
 
     def save(self, file: str | os.PathLike[str]) -> None:
-        """Copies it."""
+        """Copies it. Raises InvalidInput for a name that does not end in .mp4."""
+        check_ending(file, ".mp4")
         Path(file).write_bytes(self.file.read_bytes())
 
     def _repr_html_(self) -> str:
@@ -92,8 +99,11 @@ def film(
     progress: shows a bar, if the package tqdm is installed.
     options: those of Simulator.render.
 
-    Raises SystemError if there is no ffmpeg or it fails; NoOpenGl, which pictures need; as Simulator.advance.
+    Raises InvalidInput for a file of another name; SystemError if there is no ffmpeg or it fails; NoOpenGl, which pictures need; as Simulator.advance.
     """
+    frames, width, height = whole_number("frames", frames), whole_number("width", width), whole_number("height", height)
+    if file is not None:
+        check_ending(file, ".mp4")
     if width % 2 or height % 2 or width < 2 or height < 2:
         raise InvalidInput(f"a film's width and height must be even and greater than 0, not {width} and {height}")
     temporary = tempfile.TemporaryDirectory(prefix="gelatin_") if file is None else None

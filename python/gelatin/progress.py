@@ -1,4 +1,4 @@
-"""Bars of progress, where the package tqdm is installed."""
+"""Bars of progress, where the package tqdm is installed, and numbers in texts."""
 
 from __future__ import annotations
 
@@ -13,3 +13,8 @@ def frames_with_bar(frames: int) -> Iterable[int]:
         return range(frames)
     bar: Iterable[int] = tqdm(range(frames), unit="frame")
     return bar
+
+
+def counted(count: int, what: str, plural: str = "") -> str:
+    """ "1 run", "2 runs"; "1 body", "2 bodies"."""
+    return f"{count} {what if count == 1 else plural or what + 's'}"

@@ -7,6 +7,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING
 
 from . import _gelatin
+from .arguments import whole_number
 
 if TYPE_CHECKING:
     from .simulator import Simulator
@@ -16,9 +17,9 @@ class Recorder:
     """Records frames of a simulator while a `with` block runs: what `Simulator.record` returns."""
 
     def __init__(self, simulator: Simulator, file: str | os.PathLike[str], every: int) -> None:
+        self._every = whole_number("every", every, least=1)
         self._simulator = simulator
         self._writer = _gelatin.record(os.fspath(file), simulator._core)
-        self._every = every
         self._written: int | None = None
         self._write()
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import Any, Literal, Union, cast
 
 from . import _gelatin
+from .arguments import texts
 from .objects import Camera, Collider, Object
 from .shapes import File, Plane, Shape, Vector
 
@@ -24,8 +25,8 @@ class SimulationSettings:
     forces: Literal["divide_and_merge", "fused"] = "fused"
     #: frames a second of simulated time [1/s], > 0
     frame_rate: float = 60.0
-    #: steps a frame, >= 1; None: the fewest that are stable
-    substeps: int | None = None
+    #: steps a frame, >= 1; None or "auto": the fewest that are stable
+    substeps: Union[int, Literal["auto"], None] = None
     #: of "implicit", conjugate-gradient iterations for each linearisation at most; with OpenGL, sweeps; >= 1
     iterations: int = 10
     #: [m/s^2]; None: 9.81 downwards
@@ -145,12 +146,17 @@ class Scene:
         name: str,
         shape: Union[Shape, str, os.PathLike[str]],
         *,
-        material: Union[str, Material],
+        material: Union[str, Material, None] = None,
         **fields: Any,
     ) -> Object:
-        """Adds an object. `shape` may be the path of a mesh; `fields` are those of `gelatin.Object`."""
+        """Adds an object. `shape` may be the path of a mesh; `fields` are those of `gelatin.Object`.
+
+        material: its name, or itself; None: the scene's only one.
+        """
         if isinstance(shape, (str, os.PathLike)):
             shape = File(shape)
+        if material is None:
+            material = self.materials[0] if len(self.materials) == 1 else ""
         if isinstance(material, Material):
             material = material.name
         added = Object(name, shape, material, **fields)
@@ -183,20 +189,18 @@ class Scene:
 
 def load(
     file: str | os.PathLike[str],
-    overrides: Union[Mapping[str, Any], Iterable[str]] = (),
+    overrides: Union[Mapping[str, Any], str, Iterable[str]] = (),
 ) -> Scene:
     """Reads and checks a scene file.
 
     overrides: values to change before the check, as {"material.jelly.youngs_modulus": 1e5} or as
-        ["material.jelly.youngs_modulus=1e5"], with the keys of docs/scene-files.md.
+        ["material.jelly.youngs_modulus=1e5"], or one such text, with the keys of docs/scene-files.md.
 
     Raises InvalidInput, naming file, line, key, value and what is allowed.
     """
     if isinstance(overrides, Mapping):
         overrides = [f"{key}={_toml(value)}" for key, value in overrides.items()]
-    elif isinstance(overrides, str):
-        raise TypeError("overrides must be a mapping or a list of str, not str")
-    return cast(Scene, _gelatin.load(os.fspath(file), list(overrides)))
+    return cast(Scene, _gelatin.load(os.fspath(file), texts("overrides", overrides)))
 
 
 def _toml(value: Any) -> str:

@@ -11,12 +11,13 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _gelatin
+from .arguments import check_function, text, texts, whole_number
 from .bodies import Body
 from .errors import InvalidInput
 from .hands import Hand
 from .objects import Camera
 from .pictures import Picture
-from .progress import frames_with_bar
+from .progress import counted, frames_with_bar
 from .recording import Recorder
 from .scene import Scene, load
 
@@ -51,7 +52,8 @@ class Simulator:
     ) -> None:
         if isinstance(scene, (str, os.PathLike)):
             scene = load(scene)
-        self._begin(_gelatin.Simulator(scene, backend, gl_device), scene)
+        device = None if gl_device is None else whole_number("gl_device", gl_device)
+        self._begin(_gelatin.Simulator(scene, text("backend", backend), device), scene)
 
     @classmethod
     def _of(cls, core: _gelatin.Simulator, scene: Scene) -> Simulator:
@@ -70,8 +72,8 @@ class Simulator:
         self._frame_callbacks: list[Callable[[Simulator], object]] = []
 
     def __repr__(self) -> str:
-        nodes = len(self.masses)
-        return f"<gelatin.Simulator: {len(self._objects)} bodies, {nodes} nodes, frame {self.frame}, {self.device}>"
+        bodies, nodes = counted(len(self._objects), "body", "bodies"), counted(len(self.masses), "node")
+        return f"<gelatin.Simulator: {bodies}, {nodes}, frame {self.frame}, {self.device}>"
 
     # Bodies
 
@@ -95,6 +97,7 @@ class Simulator:
         Raises Diverged after a step with nodes that are not finite, or faster than the scene's energy allows.
         The state is then invalid until `reset` or `load_checkpoint`.
         """
+        count = whole_number("count", count)
         if not self._step_callbacks and not self._frame_callbacks:
             self._core.step(count)
             return
@@ -107,8 +110,10 @@ class Simulator:
 
     def advance(self, frames: int = 1) -> None:
         """Makes `frames` frames. Raises as `step`."""
+        frames = whole_number("frames", frames)
         if self._step_callbacks:
-            self.step(frames * self.substeps)
+            for _ in range(frames):
+                self.step(self.substeps)
         elif not self._frame_callbacks:
             self._core.advance(frames)
         else:
@@ -126,16 +131,18 @@ class Simulator:
         if not progress:
             self.advance(frames)
             return
-        for _ in frames_with_bar(frames):
+        for _ in frames_with_bar(whole_number("frames", frames)):
             self.advance(1)
 
     def on_step(self, callback: Callback) -> Callback:
         """Has `callback(simulator)` called after every step. Works as a decorator."""
+        check_function("callback", callback)
         self._step_callbacks.append(callback)
         return callback
 
     def on_frame(self, callback: Callback) -> Callback:
         """Has `callback(simulator)` called after every frame. Works as a decorator."""
+        check_function("callback", callback)
         self._frame_callbacks.append(callback)
         return callback
 
@@ -260,21 +267,22 @@ class Simulator:
         *,
         quality: Literal["auto", "high", "fast"] = "auto",
         camera: Camera | None = None,
-        overlays: Sequence[str] = (),
+        overlays: Union[str, Sequence[str]] = (),
     ) -> Picture:
         """Draws the present state, as `gelatin run` does: shape (height, width, 3), uint8. Notebooks show it.
 
         width, height: [pixels]
         quality: "fast" is light at each vertex, about a tenth of the time on software drivers.
         camera: None: the scene's, or one that shows all of it.
-        overlays: as of `gelatin run --overlay`: ["stress", "cut:x"].
+        overlays: as of `gelatin run --overlay`: ["stress", "cut:x"], or one of them.
 
         OpenGL is needed for this alone. The first picture takes longer: it compiles shaders. Pictures of a simulator belong
         to one thread.
 
         Raises NoOpenGl if there is none; InvalidInput for a size or an overlay that is not allowed.
         """
-        return self._core.render(width, height, quality, camera, list(overlays)).view(Picture)
+        size = whole_number("width", width), whole_number("height", height)
+        return self._core.render(*size, text("quality", quality), camera, texts("overlays", overlays)).view(Picture)
 
     # Files
 
@@ -289,7 +297,7 @@ class Simulator:
 
         Raises InvalidInput for a file of another scene, or a damaged one, and for a frame that is not recorded.
         """
-        self._core.load_checkpoint(os.fspath(file), frame)
+        self._core.load_checkpoint(os.fspath(file), None if frame is None else whole_number("frame", frame))
 
     def record(self, file: str | os.PathLike[str], every: int = 1) -> Recorder:
         """Records the present frame, and in a `with` block every frame, or every so many, and the last one.
@@ -329,7 +337,7 @@ class Player(Simulator):
 
     def show(self, frame: int) -> None:
         """Goes to a recorded frame, by its number. Raises InvalidInput if it is not recorded."""
-        self._core.show_recorded(frame)
+        self._core.show_recorded(whole_number("frame", frame))
 
     def reset(self) -> None:
         """Returns to the first frame."""

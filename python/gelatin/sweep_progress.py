@@ -7,6 +7,7 @@ import time
 from collections.abc import Iterable
 from typing import Any
 
+from .progress import counted
 from .sweep_folder import Row
 
 #: How often the table is written while runs go on [s].
@@ -66,10 +67,6 @@ class Progress:
     def _print(self, text: str) -> None:
         if self.is_shown:
             print(text, file=sys.stderr, flush=True)
-
-
-def counted(count: int, what: str) -> str:
-    return f"{count} {what}" if count == 1 else f"{count} {what}s"
 
 
 def _duration(seconds: float) -> str:

@@ -198,7 +198,7 @@ def scene_with(source: Union[Scene, str], settings: Mapping[str, Any]) -> Scene:
     try:
         scene.validate()
     except TypeError as problem:
-        raise InvalidInput(f"vary: {', '.join(settings)}: {problem}") from None
+        raise InvalidInput(f"vary: {problem}") from None
     return scene
 
 
@@ -236,7 +236,7 @@ def find(scene: Scene, key: str) -> tuple[Any, str]:
 def _names(value: Any) -> dict[str, str]:
     """The keys of scene files for a dataclass, and its fields that they name."""
     renamed = FIELDS.get(type(value).__name__, {})
-    hidden = {field.partition(".")[0] for field in renamed.values()} | {"line", "name"}
+    hidden = {field.partition(".")[0] for field in renamed.values()} | {"line", "pins_line", "name"}
     own = [field.name for field in dataclasses.fields(value) if field.name not in hidden]
     if isinstance(value, Scene):
         own.remove("file")
@@ -288,7 +288,7 @@ def _add_to_digest(found: Any, value: Any) -> None:
     elif dataclasses.is_dataclass(value):
         found.update(type(value).__name__.encode())
         for field in dataclasses.fields(value):
-            if field.name not in ("line", "file"):
+            if field.name not in ("line", "pins_line", "file"):
                 _add_to_digest(found, getattr(value, field.name))
     elif isinstance(value, (list, tuple, np.ndarray)):
         found.update(b"[")

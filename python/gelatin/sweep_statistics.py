@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 
+from .arguments import texts
 from .errors import InvalidInput
 
 if TYPE_CHECKING:
@@ -38,9 +39,7 @@ UNMEASURED = {"nodes", "frames", "time", "frame_ms"}  # what is known without me
 
 def chosen_statistics(what: Union[Sequence[str], None]) -> list[str]:
     """The names of `what`, or all. Raises InvalidInput for one that there is not."""
-    if isinstance(what, str):
-        raise InvalidInput(f"what: {what!r}: must be a list of names")
-    names = list(STATISTICS if what is None else what)
+    names = list(STATISTICS) if what is None else texts("what", what)
     for name in names:
         if name not in STATISTICS:
             raise InvalidInput(f"what: {name!r}: there is no such statistic; there are {', '.join(STATISTICS)}")

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from numbers import Real
 from pathlib import Path
 from typing import Any, Literal, Union
 
+from .arguments import wrong_type
 from .errors import InvalidInput
 from .scene import Scene, load
 from .simulator import Simulator
@@ -71,11 +73,13 @@ def sweep(
     runs of another sweep; SystemError for a package or a cluster that is not there.
     """
     need("pyarrow")
-    listed = None if samples is None else [dict(sample) for sample in samples]
+    listed = None if samples is None else list(samples) if isinstance(samples, Iterable) else [samples]
+    if listed is not None and not all(isinstance(sample, Mapping) for sample in listed):
+        raise wrong_type("samples", samples, "a list of dicts")
     plans = plan_runs(vary or {}, listed, seeds)
     if scatter is None:
         scatter = SCATTER if seeds is not None and not callable(subject) and not is_drawn(vary or {}, listed) else 0.0
-    _check_numbers(frames=frames, record=record, workers=workers, scatter=scatter)
+    _check_numbers(frames=frames, record=record, workers=workers, threads=threads, scatter=scatter)
     if threads < 1:
         raise InvalidInput(f"threads: {threads}: must be 1 or more")
     path = Path(out).absolute()
@@ -147,6 +151,8 @@ def _definition(job: Job) -> dict[str, Any]:
 
 def _check_numbers(**numbers: float | None) -> None:
     for name, value in numbers.items():
+        if value is not None and not isinstance(value, Real):
+            raise wrong_type(name, value, "a number, 0 or more")
         if value is not None and value < 0:
             raise InvalidInput(f"{name}: {value}: must be 0 or more")
 

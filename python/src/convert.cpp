@@ -24,9 +24,21 @@ nb::object tuple_of(const Vector& value) {
 
 }  // namespace
 
+std::string joined(const std::string& where, const char* name) {
+    return where.empty() ? name : where + "." + name;
+}
+
+std::string place_of(nb::handle element, const std::string& where, std::size_t index) {
+    std::string name;
+    if (where.ends_with('s') && nb::try_cast(nb::getattr(element, "name", nb::none()), name) && !name.empty())
+        return where.substr(0, where.size() - 1) + "." + name;
+    return where + "[" + std::to_string(index) + "]";
+}
+
 void raise_type_error(const std::string& where, const std::string& allowed, nb::handle source) {
-    const std::string type = nb::cast<std::string>(nb::str(nb::getattr(source.type(), "__name__")));
-    throw nb::type_error((where + " must be " + allowed + ", not " + type).c_str());
+    const auto shown =
+        nb::cast<std::string>(nb::module_::import_("gelatin.arguments").attr("shown")(nb::borrow(source)));
+    throw nb::type_error((where + " = " + shown + ": must be " + allowed).c_str());
 }
 
 nb::object class_named(const char* name) {
@@ -74,6 +86,14 @@ void read(nb::handle source, const std::string& where, std::filesystem::path& va
     value = path;
 }
 
+void read(nb::handle source, const std::string& where, Automatic& value) {
+    value.number.reset();
+    std::string word;
+    if (source.is_none() || (nb::try_cast(source, word) && word == "auto")) return;
+    if (!PyIndex_Check(source.ptr())) raise_type_error(where, "\"auto\" or an integer", source);
+    read(source, where, value.number.emplace());
+}
+
 void read(nb::handle source, const std::string& where, glm::dvec3& value) {
     read_vector(source, where, "numbers", value);
 }
@@ -102,6 +122,9 @@ nb::object to_python(const glm::dvec3& value) {
 }
 nb::object to_python(const glm::ivec3& value) {
     return tuple_of(value);
+}
+nb::object to_python(const Automatic& value) {
+    return to_python(value.number);
 }
 
 }  // namespace gelatin::python

@@ -21,7 +21,7 @@ namespace gelatin::python {
 namespace nb = nanobind;
 
 /// A value of a scene from Python.
-/// @param where for messages: "Material.density"
+/// @param where for messages: "object.ball.position"; empty for the scene itself
 /// @throws nanobind's TypeError for a value of another type; InvalidInput for a word that is not allowed
 void read(nb::handle source, const std::string& where, bool& value);
 void read(nb::handle source, const std::string& where, int& value);
@@ -30,6 +30,7 @@ void read(nb::handle source, const std::string& where, std::string& value);
 void read(nb::handle source, const std::string& where, std::filesystem::path& value);
 void read(nb::handle source, const std::string& where, glm::dvec3& value);
 void read(nb::handle source, const std::string& where, glm::ivec3& value);
+void read(nb::handle source, const std::string& where, Automatic& value);
 void read(nb::handle source, const std::string& where, MeshShape& value);  // mesh_conversion.cpp
 void read(nb::handle source, const std::string& where, std::shared_ptr<const SceneMeshes>& value);
 
@@ -40,10 +41,16 @@ nb::object to_python(const std::string& value);
 nb::object to_python(const std::filesystem::path& value);
 nb::object to_python(const glm::dvec3& value);
 nb::object to_python(const glm::ivec3& value);
+nb::object to_python(const Automatic& value);
 nb::object to_python(const MeshShape& value);
 nb::object to_python(const std::shared_ptr<const SceneMeshes>& value);
 
-/// Raises "WHERE must be ALLOWED, not TYPE".
+/// "object.ball"
+std::string joined(const std::string& where, const char* name);
+/// "object.ball": an element of `objects` goes by its name if it has one, otherwise "pins[1]".
+std::string place_of(nb::handle element, const std::string& where, std::size_t index);
+
+/// Raises "WHERE = SOURCE: must be ALLOWED". A source whose text is long goes by its type.
 [[noreturn]] void raise_type_error(const std::string& where, const std::string& allowed, nb::handle source);
 
 /// A class of the package `gelatin`.
@@ -126,7 +133,7 @@ void read(nb::handle source, const std::string& where, T& value) {
     } else if constexpr (IsVector<T>::value) {
         value.clear();
         for (nb::handle element : list_of(source, where)) {
-            const std::string place = where + "[" + std::to_string(value.size()) + "]";
+            const std::string place = place_of(element, where, value.size());
             read(element, place, value.emplace_back());
         }
     } else if constexpr (IsVariant<T>::value) {
@@ -136,9 +143,10 @@ void read(nb::handle source, const std::string& where, T& value) {
     } else {
         static_assert(HasFields<T>);
         if (!is_instance(source, &value))
-            raise_type_error(where, std::string("a ") + class_names(&value), source);
+            raise_type_error(where.empty() ? "scene" : where, std::string("a ") + class_names(&value),
+                             source);
         Fields<T>::visit(value, [&](const char* name, auto& member) {
-            read(nb::getattr(source, name), std::string(Fields<T>::kClass) + "." + name, member);
+            read(nb::getattr(source, name), joined(where, name), member);
         });
     }
 }

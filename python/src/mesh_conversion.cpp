@@ -78,15 +78,16 @@ nb::object array_of(const std::vector<Vector>& vectors, int columns) {
 void read(nb::handle source, const std::string& where, MeshShape& value) {
     if (!is_instance(source, &value)) raise_type_error(where, "a Mesh", source);
     auto mesh = std::make_shared<Mesh>();
-    const Rows<double> vertices = rows_of<double>(source.attr("vertices"), "Mesh.vertices", "float64", 3);
+    const Rows<double> vertices =
+        rows_of<double>(source.attr("vertices"), joined(where, "vertices"), "float64", 3);
     for (std::size_t v = 0; v < vertices.shape(0); ++v) {
         const double* const xyz = vertices.data() + 3 * v;
         mesh->vertices.emplace_back(xyz[0], xyz[1], xyz[2]);
     }
-    mesh->triangles = indices_of<glm::uvec3>(source.attr("triangles"), "Mesh.triangles", 3);
-    mesh->tets = indices_of<glm::uvec4>(source.attr("tets"), "Mesh.tets", 4);
+    mesh->triangles = indices_of<glm::uvec3>(source.attr("triangles"), joined(where, "triangles"), 3);
+    mesh->tets = indices_of<glm::uvec4>(source.attr("tets"), joined(where, "tets"), 4);
     const Rows<std::int64_t> numbers =
-        rows_of<std::int64_t>(source.attr("attributes"), "Mesh.attributes", "int64", 1);
+        rows_of<std::int64_t>(source.attr("attributes"), joined(where, "attributes"), "int64", 1);
     for (std::size_t t = 0; t < numbers.shape(0); ++t)
         mesh->attributes.push_back(static_cast<int>(numbers.data()[t]));
     value.mesh = std::move(mesh);

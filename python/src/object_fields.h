@@ -132,7 +132,7 @@ struct Fields<ObjectDescription> {
     static constexpr const char* kClass = "Object";
     static void visit(ObjectDescription& o, auto&& field) {
         auto& [name, shape, mesher, material, position, rotation, scale, velocity, spin, start, pins, handles,
-               loads, color, line, parts, skin, up] = o;
+               loads, color, line, parts, skin, up, pins_line] = o;
         field("name", name);
         field("shape", shape);
         field("mesher", mesher);
@@ -151,6 +151,7 @@ struct Fields<ObjectDescription> {
         field("skin", skin);
         field("up", up);
         field("line", line);
+        field("pins_line", pins_line);
     }
 };
 

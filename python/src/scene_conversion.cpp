@@ -29,7 +29,7 @@ Struct read_as(nb::handle source, const char* where) {
 }  // namespace
 
 Scene scene_of(nb::handle source) {
-    return read_as<Scene>(source, "scene");
+    return read_as<Scene>(source, "");
 }
 
 Material material_of(nb::handle source) {

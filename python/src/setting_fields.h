@@ -1,9 +1,16 @@
 #pragma once
 
+#include <optional>
+
 #include "fields.h"
 #include "gelatin/scene.h"
 
 namespace gelatin::python {
+
+/// A number that "auto" leaves to Gelatin, as None does.
+struct Automatic {
+    std::optional<int>& number;
+};
 
 template <>
 struct Fields<SimulationSettings> {
@@ -13,7 +20,8 @@ struct Fields<SimulationSettings> {
         field("solver", solver);
         field("forces", forces);
         field("frame_rate", frame_rate);
-        field("substeps", substeps);
+        Automatic count{substeps};
+        field("substeps", count);
         field("iterations", iterations);
         field("gravity", gravity);
         field("frames", frames);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/counted.h"
 #include "gelatin/error.h"
 #include "mesh/surface_repair.h"
 #include "mesh/tet_repair.h"
@@ -26,8 +27,9 @@ std::optional<MeshProblem> find_bad_index(const char* array, const std::vector<C
     for (std::size_t e = 0; e < elements.size(); ++e) {
         for (int k = 0; k < Corners::length(); ++k) {
             if (elements[e][k] < vertices) continue;
-            return MeshProblem{array, e, fmt::format("{}", elements[e][k]),
-                               fmt::format("must name one of the {} vertices, from 0", vertices)};
+            return MeshProblem{
+                array, e, fmt::format("{}", elements[e][k]),
+                fmt::format("must name one of {}, from 0", counted(vertices, "vertex", "vertices"))};
         }
     }
     return {};
@@ -43,8 +45,8 @@ std::optional<MeshProblem> find_problem(const Mesh& mesh) {
         return MeshProblem{"attributes",
                            {},
                            {},
-                           fmt::format("are {}, and there are {} tets; none, or one for each tet",
-                                       mesh.attributes.size(), mesh.tets.size())};
+                           fmt::format("are {} for {}; allowed are none, or one for each tet",
+                                       mesh.attributes.size(), counted(mesh.tets.size(), "tet"))};
     }
     if (auto problem = find_far_vertex(mesh.vertices)) return problem;
     if (auto problem = find_bad_index("triangles", mesh.triangles, mesh.vertices.size())) return problem;

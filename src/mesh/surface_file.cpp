@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/counted.h"
 #include "core/file.h"
 #include "gelatin/error.h"
 #include "mesh/file_ending.h"
@@ -88,6 +89,7 @@ SurfaceMesh read_surface(const fs::path& file, Notes& notes) {
         throw InvalidInput({file.string(), 0, {}, {}, problem});
     };
     const Format* const format = find_format(file);
+    if (format == nullptr && !fs::exists(file)) fail("no such file");
     if (format == nullptr) fail("a surface file must end in .obj, .stl, .ply, .off, .gltf or .glb");
     std::string content = read_file(file);
     if (content.starts_with("\xef\xbb\xbf")) content.erase(0, 3);  // a byte order mark
@@ -99,7 +101,7 @@ SurfaceMesh read_surface(const fs::path& file, Notes& notes) {
     SurfacePolygons polygons = format->read(file, content, notes);
     if (polygons.sizes.empty()) {
         const std::string ignored = joined(std::span(notes).subspan(noted));
-        fail(fmt::format("has {} vertices and no faces{}{}", polygons.positions.size(),
+        fail(fmt::format("has {} and no faces{}{}", counted(polygons.positions.size(), "vertex", "vertices"),
                          ignored.empty() ? "" : "; ", ignored));
     }
     SurfaceMesh mesh = triangulate(std::move(polygons), notes);

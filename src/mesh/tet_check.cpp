@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "core/counted.h"
 #include "mesh/topology.h"
 
 namespace gelatin {
@@ -84,9 +85,9 @@ void note_overlaps(const TetMesh& mesh, Notes& notes) {
     if (crowded > 0) notes.push_back(fmt::format("faces of more than two tets: {}", crowded));
     if (overlapping > 0) {
         notes.push_back(
-            fmt::format("tets that overlap a neighbour, as in a tangled mesh: {} pairs (the first is tets "
-                        "{} and {})",
-                        overlapping, first[0].tet + 1, first[1].tet + 1));
+            fmt::format("tets that overlap a neighbour, as in a tangled mesh: {} (the first is tets {} "
+                        "and {})",
+                        counted(overlapping, "pair"), first[0].tet + 1, first[1].tet + 1));
     }
 }
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/content_hash.h"
+#include "core/counted.h"
 #include "core/file.h"
 #include "core/process.h"
 #include "gelatin/error.h"
@@ -167,9 +168,9 @@ MesherFailure describe_failure(const ProcessResult& result, const std::filesyste
                 time_limit};
     }
     const std::size_t crossings = count_crossings(folder, time_limit);
-    const std::string reason = crossings > 0
-                                   ? fmt::format("it crosses itself ({} pairs of faces intersect)", crossings)
-                                   : "faces that nearly touch are the usual cause";
+    const std::string reason = crossings > 0 ? fmt::format("it crosses itself ({} of intersecting faces)",
+                                                           counted(crossings, "pair"))
+                                             : "faces that nearly touch are the usual cause";
     const std::string end = result.signal != 0
                                 ? fmt::format("signal {} ({})", result.signal, ::strsignal(result.signal))
                                 : fmt::format("exit code {}", result.exit_code);

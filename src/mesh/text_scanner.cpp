@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "gelatin/error.h"
 
@@ -105,13 +106,17 @@ std::string_view TextScanner::word(const FieldName& field) {
 }
 
 std::string_view TextScanner::rest_of_line() {
-    if (at_line_end()) return {};
+    const char comment = std::exchange(comment_, '\0');
+    const bool is_empty = at_line_end();
+    comment_ = comment;
+    if (is_empty) return {};
     std::string_view rest = text_.substr(position_, text_.find('\n', position_) - position_);
     position_ += rest.size();
-    for (std::size_t k = 1; k < rest.size(); ++k) {
-        if (rest[k] == comment_ && is_blank(rest[k - 1])) rest = rest.substr(0, k);
+    const auto is_blank_at = [&](std::size_t k) { return k >= rest.size() || is_blank(rest[k]); };
+    for (std::size_t k = 0; k < rest.size(); ++k) {
+        if (rest[k] == comment_ && is_blank_at(k == 0 ? 1 : k - 1)) rest = rest.substr(0, k);
     }
-    while (is_blank(rest.back())) rest.remove_suffix(1);
+    while (!rest.empty() && is_blank(rest.back())) rest.remove_suffix(1);
     return rest;
 }
 

@@ -43,7 +43,7 @@ public:
     /// The next word, on any line. @throws InvalidInput at the end of the file.
     std::string_view word(const FieldName& field);
     /// The words that are left on this line, with the blanks between them. A comment character within a word,
-    /// as in a name, begins no comment.
+    /// as in a name, begins no comment; nor does one that the first word begins with, as in "#ff0000".
     std::string_view rest_of_line();
     /// Reads the next word. @throws InvalidInput if it is another one.
     void expect(const char* expected);

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "core/counted.h"
 #include "core/file.h"
 #include "mesh/load_bytes.h"
 #include "mesh/tet_formats.h"
@@ -147,7 +148,7 @@ private:
         for (std::size_t c = 1; c <= count; ++c) {
             const std::size_t left = size - at;
             if (left == 0 || numbers[at] < 0 || numbers[at] > static_cast<std::int64_t>(left - 1)) {
-                scanner_.fail({"cell", c}, left == 0 ? "" : fmt::format("{} points", numbers[at]),
+                scanner_.fail({"cell", c}, left == 0 ? "" : counted(numbers[at], "point"),
                               fmt::format("CELLS has only {} numbers", size));
             }
             const auto points = static_cast<std::size_t>(numbers[at]);
@@ -159,7 +160,7 @@ private:
         }
         if (at != size) {
             scanner_.fail("size of cells", fmt::format("{}", size),
-                          fmt::format("but the {} cells have {} numbers", count, at));
+                          fmt::format("but {} have {}", counted(count, "cell"), counted(at, "number")));
         }
     }
 
@@ -202,7 +203,7 @@ private:
                 tuples_ = scanner_.integer("number of data");
                 if (is_of_cells_ && tuples_ != grid_.types.size()) {
                     scanner_.fail("CELL_DATA", fmt::format("{}", tuples_),
-                                  fmt::format("but there are {} cells", grid_.types.size()));
+                                  fmt::format("must be the number of cells, {}", grid_.types.size()));
                 }
             } else if (keyword == "metadata") {
                 skip_metadata();

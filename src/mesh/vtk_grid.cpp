@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "core/counted.h"
 #include "gelatin/error.h"
 #include "mesh/load_bytes.h"
 #include "mesh/text_scanner.h"
@@ -139,7 +140,7 @@ void VtkCells::add(const VtkGrid& grid, int line) {
     const std::size_t cells = grid.types.size();
     if (grid.ends.size() != cells) {
         refuse("number of cell types", fmt::format("{}", cells),
-               fmt::format("but there are {} cells", grid.ends.size()));
+               fmt::format("must be the number of cells, {}", grid.ends.size()));
     }
     std::vector<glm::dvec3>& positions = cells_.positions;
     const auto first_point = static_cast<std::uint32_t>(positions.size());
@@ -160,7 +161,7 @@ void VtkCells::add(const VtkGrid& grid, int line) {
             continue;
         }
         if (size < needed || (size > needed && !type.is_curved)) {
-            refuse(cell(), fmt::format("{} points", size),
+            refuse(cell(), counted(size, "point"),
                    fmt::format("{} must have {}, curved ones more", plural_of(type.shape), needed));
         }
         corners.clear();

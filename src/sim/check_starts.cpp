@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "core/counted.h"
 #include "cpu/collision/colliders.h"
 #include "cpu/collision/collision.h"
 #include "cpu/collision/triangle_overlap.h"
@@ -139,8 +140,8 @@ std::vector<std::string> find_tangled(const std::shared_ptr<const Model>& model,
     const std::vector<std::size_t> at_rest = counts(model->positions);
     for (std::uint32_t o = 0; o < model->body_count(); ++o) {
         if (overlaps[o] == 0) continue;
-        lines.push_back(fmt::format("object '{}' passes through itself {}, in {} pairs of faces: {}",
-                                    model->objects[o].name, when, overlaps[o],
+        lines.push_back(fmt::format("object '{}' passes through itself {}, in {} of faces: {}",
+                                    model->objects[o].name, when, counted(overlaps[o], "pair"),
                                     at_rest[o] > 0 ? "it stays as it is there"
                                                    : "nothing keeps it from that until it has come apart"));
     }

@@ -1,12 +1,12 @@
 #include "sim/export.h"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <system_error>
 #include <utility>
 
 #include "core/file.h"
+#include "core/file_writer.h"
 #include "gelatin/error.h"
 
 namespace gelatin {
@@ -48,8 +48,10 @@ void prepare_export_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) throw InvalidInput({folder.string(), 0, {}, {}, "cannot be made: " + error.message()});
-    if (::access(folder.c_str(), W_OK | X_OK) != 0) {
-        throw InvalidInput({folder.string(), 0, {}, {}, "cannot be written into"});
+    try {
+        const ScratchFile attempt(folder);
+    } catch (const SystemError& problem) {
+        throw InvalidInput(problem.what());
     }
 }
 

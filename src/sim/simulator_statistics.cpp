@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/counted.h"
 #include "core/log.h"
 #include "core/stage.h"
 #include "gelatin/error.h"
@@ -13,9 +14,9 @@ namespace gelatin {
 
 void Simulator::Impl::warn_of_losses(const Measurement& measured) {
     if (measured.lost_pairs != reported_losses) {
-        log_warning(fmt::format(
-            "{} pairs of objects or faces were not tested for collision: too many for the GPU's buffers",
-            measured.lost_pairs - reported_losses));
+        log_warning(
+            fmt::format("{} of objects or faces not tested for collision: too many for the GPU's buffers",
+                        counted(measured.lost_pairs - reported_losses, "pair")));
         reported_losses = measured.lost_pairs;
     }
     if (measured.proximities && measured.proximities->lost > 0 && !lost_proximities) {

@@ -128,7 +128,11 @@ TEST_F(InfoCommand, DrawsHistogramsOfTets) {
 }
 
 TEST_F(InfoCommand, RefusesWhatItCannotRead) {
-    expect_error({"info", "missing.obj"}, 2, "missing.obj: no such file");
+    for (const char* name : {"missing.obj", "missing.vtk", "missing.txt", "missing"})
+        expect_error({"info", name}, 2, std::string(name) + ": no such file");
+    write("cube", "no ending");
+    expect_error({"info", "cube"}, 2,
+                 "cube: a surface file must end in .obj, .stl, .ply, .off, .gltf or .glb");
     expect_error({"info", "missing.toml"}, 2, "missing.toml: no such file");
 }
 

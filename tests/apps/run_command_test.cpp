@@ -135,6 +135,22 @@ TEST_F(RunCommand, RefusesOutputsThatCannotBeWritten) {
     const ProgramResult result = run({"run", "cube.toml", "--export", "taken"});
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_THAT(result.err, StartsWith("gelatin: error: taken: cannot be made: "));
+    // A folder that root may write into, too, but that takes no files.
+    const auto expect_folder_error = [&](const std::string& option, const std::string& file,
+                                         const std::string& start) {
+        const ProgramResult refused = run({"run", "cube.toml", option, file});
+        EXPECT_EQ(refused.exit_code, 2) << file;
+        EXPECT_THAT(refused.err, StartsWith("gelatin: error: " + start + "/proc: cannot be written: "));
+        EXPECT_THAT(refused.err, Not(HasSubstr("Success")));
+    };
+    for (const auto& [option, file] : {std::pair("--stats", "/proc/s"),
+                                       {"--checkpoint", "/proc/s"},
+                                       {"--image", "/proc/s.png"},
+                                       {"--video", "/proc/s.mp4"},
+                                       {"--animation", "/proc/s.pc2"},
+                                       {"--record", "/proc/s.gel"}})
+        expect_folder_error(option, file, std::string(option) + " = " + file + ": ");
+    expect_folder_error("--export", "/proc", "");
 }
 
 TEST_F(RunCommand, RefusesUnknownChoices) {
@@ -209,7 +225,7 @@ TEST_F(RunCommand, AnInterruptEndsTheRunAndKeepsWhatItHas) {
 }
 
 TEST_F(RunCommand, TerminationIsAnInterruptToo) {
-    settings_.signal_after = "steps of";
+    settings_.signal_after = "per frame";
     settings_.signals = {SIGTERM};
     const ProgramResult result = run({"run", "cube.toml", "--frames", "2000000000"});
     EXPECT_EQ(result.exit_code, 1) << result.err;

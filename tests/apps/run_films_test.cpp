@@ -85,7 +85,7 @@ TEST_F(RunCommandFilms, ShowsTheBodyInEachPicture) {
 }
 
 TEST_F(RunCommandFilms, AnInterruptFinishesTheFilm) {
-    settings_.signal_after = "steps of";
+    settings_.signal_after = "per frame";
     settings_.signals = {SIGINT};
     const ProgramResult result =
         run({"run", "cube.toml", "--video", "film.mp4", "--size", "160x90", "--frames", "1000000"});

@@ -44,13 +44,13 @@ TEST(MeshInMemory, NamesWhatIsWrong) {
     EXPECT_EQ(problem_of(mesh), "vertices[2] = [0, inf, 0]: must be finite");
     mesh = make_tet();
     mesh.tets.push_back({0, 1, 2, 4});
-    EXPECT_EQ(problem_of(mesh), "tets[1] = 4: must name one of the 4 vertices, from 0");
+    EXPECT_EQ(problem_of(mesh), "tets[1] = 4: must name one of 4 vertices, from 0");
     mesh = make_box_mesh();
     mesh.triangles[3].z = 4000000000u;
-    EXPECT_EQ(problem_of(mesh), "triangles[3] = 4000000000: must name one of the 8 vertices, from 0");
+    EXPECT_EQ(problem_of(mesh), "triangles[3] = 4000000000: must name one of 8 vertices, from 0");
     mesh = make_tet();
     mesh.attributes = {1, 2};
-    EXPECT_EQ(problem_of(mesh), "attributes = : are 2, and there are 1 tets; none, or one for each tet");
+    EXPECT_EQ(problem_of(mesh), "attributes = : are 2 for 1 tet; allowed are none, or one for each tet");
 }
 
 TEST(MeshInMemory, TetsAreRepairedAsThoseOfFiles) {

@@ -97,6 +97,23 @@ TEST_F(ObjMaterialsTest, ReadsMtlAsOtherProgramsWriteIt) {
     EXPECT_EQ(mesh.look.materials[1].color, glm::vec3(1.0f));
 }
 
+// A comment begins where a line or white space ends, and not with the first word of a name.
+TEST_F(ObjMaterialsTest, NamesMayContainHashes) {
+    make("#1 b# c.mtl",
+         "newmtl bore# red\nKd 1 0 0\nnewmtl #0000ff # blue\nKd 0 0 1\nnewmtl #00ff00\nKd 0 1 0\n");
+    make(
+        "a.obj",
+        "mtllib #1 b# c.mtl # the only one\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl bore# red # of \\ it\n"
+        "f 1 3 2\nusemtl #0000ff\nf 1 2 4\nusemtl #00ff00\nf 1 4 3\nusemtl # none\nf 2 3 4\n");
+    const SurfaceMesh mesh = read("a.obj");
+    EXPECT_THAT(notes_, ElementsAre("no material file defines '', which faces have: 1"));
+    ASSERT_EQ(mesh.look.materials.size(), 3u);
+    EXPECT_THAT(mesh.look.face_materials, ElementsAre(0u, 1u, 2u, SurfaceLook::kNone));
+    EXPECT_EQ(mesh.look.materials[0].color, glm::vec3(1, 0, 0));
+    EXPECT_EQ(mesh.look.materials[1].color, glm::vec3(0, 0, 1));
+    EXPECT_EQ(mesh.look.materials[2].color, glm::vec3(0, 1, 0));
+}
+
 TEST_F(ObjMaterialsTest, LeavesOutTheRestOfADamagedFile) {
     make("paint.mtl", "newmtl red\nKd 1 0 0\nnewmtl green\nKd 0 x 0\nnewmtl blue\nKd 0 0 1\n");
     make("a.obj",

@@ -41,7 +41,7 @@ TEST_F(TetFileTest, TellsOfTetsThatOverlap) {
     read("a.mesh", replaced(kMedit, "0.1 0.2 -0.3333333333333333", "0.1 0.2 0.6"));
     EXPECT_THAT(notes_,
                 ElementsAre("flipped inverted tets: 1",
-                            "tets that overlap a neighbour, as in a tangled mesh: 1 pairs (the first is "
+                            "tets that overlap a neighbour, as in a tangled mesh: 1 pair (the first is "
                             "tets 1 and 2)"));
 }
 

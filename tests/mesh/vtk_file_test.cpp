@@ -152,7 +152,7 @@ TEST_F(VtkFileTest, RefusesIndicesOutOfRange) {
     EXPECT_THAT(refusal_of("a.vtk", replaced(kVtkText, "4 0 2 1 4", "5 0 2 1 4")),
                 HasSubstr("cell 3 = 5 points: CELLS has only 14 numbers"));
     EXPECT_THAT(refusal_of("a.vtk", replaced(kVtkText, "4 0 2 1 4", "3 0 2 1 4")),
-                HasSubstr("size of cells = 14: but the 3 cells have 13 numbers"));
+                HasSubstr("size of cells = 14: but 3 cells have 13 numbers"));
 }
 
 TEST_F(VtkFileTest, RefusesCountsThatMakeNoSense) {
@@ -168,7 +168,7 @@ TEST_F(VtkFileTest, RefusesCountsThatMakeNoSense) {
         EXPECT_THAT(refusal_of("a.vtk", replaced(vtk_binary(true), "CELLS 4 11", "CELLS 4 " + text)),
                     HasSubstr("a.vtk: "));
         EXPECT_THAT(refusal_of("a.vtk", replaced(kVtkText, "CELL_DATA 3", "CELL_DATA " + text)),
-                    HasSubstr("CELL_DATA = " + text + ": but there are 3 cells"));
+                    HasSubstr("CELL_DATA = " + text + ": must be the number of cells, 3"));
         EXPECT_THAT(refusal_of("a.vtu", replaced(vtu(), "NumberOfPoints=\"5", "NumberOfPoints=\"" + text)),
                     HasSubstr("a.vtu:"));
         EXPECT_THAT(refusal_of("a.vtu", replaced(vtu(), "NumberOfCells=\"3", "NumberOfCells=\"" + text)),

@@ -151,8 +151,27 @@ def test_wrong_values_are_named(sim):
         ball.set_positions(np.zeros((3, 3)))
     with pytest.raises(gelatin.InvalidInput):
         ball.set_velocity((np.nan, 0, 0))
-    before = sim.velocities.copy()
-    assert same_bits(sim.velocities, before)
+    for wrong, message in (
+        (lambda: ball.set_velocity("fast"), "velocity = 'fast': must be numbers of the shape (3,) or "),
+        (lambda: ball.set_force([(0, 1), (0,)]), "force = [(0, 1), (0,)]: must be numbers of the shape (3,) or "),
+        (lambda: ball.pin([[1], [1, 2]]), "nodes must be a region, indices below "),
+        (lambda: ball.nodes_in(3), "region = 3: must be a BoxRegion, a SphereRegion or a HalfSpaceRegion"),
+        (lambda: ball.hold([1], stiffness="soft"), "stiffness = 'soft': must be a finite number above 0"),
+        (lambda: ball.hold([1], stiffness=0), "stiffness = 0.0: must be a finite number above 0"),
+        (lambda: ball.hold([1], damping_time=-1), "damping_time = -1.0: must be a finite number, 0 or more"),
+        (lambda: setattr(hand, "target", (0, 1)), "target = (0, 1): must be three finite numbers"),
+        (lambda: setattr(hand, "target", "up"), "target = 'up': must be three finite numbers"),
+        (lambda: setattr(hand, "target", (0, np.nan, 0)), "target = (0, nan, 0): must be three finite numbers"),
+    ):
+        hand = ball.hold([0, 1])
+        target = hand.target
+        with pytest.raises((TypeError, gelatin.InvalidInput)) as caught:
+            wrong()
+        assert str(caught.value).startswith(message)
+        assert (hand.target == target).all()
+        hand.release()  # what was refused holds nothing
+        assert not sim._hands
+    assert not sim.velocities.any()
 
 
 def test_meshes_in_memory():
@@ -175,11 +194,11 @@ def test_meshes_in_memory():
 @pytest.mark.parametrize(
     "mesh, error, message",
     [
-        (gelatin.Mesh([[0, 0]], [[0, 0, 0]]), gelatin.InvalidInput, r"Mesh.vertices.*\(n, 3\)"),
-        (gelatin.Mesh([[0, 0, 0]], [[0, 0]]), gelatin.InvalidInput, r"Mesh.triangles.*\(n, 3\)"),
-        (gelatin.Mesh([[0, 0, 0]], [[0, 0, -1]]), gelatin.InvalidInput, "Mesh.triangles.*-1.*index"),
-        (gelatin.Mesh([[0, 0, 0]], [[0.5, 0, 1]]), TypeError, "Mesh.triangles must be an array of integers"),
-        (gelatin.Mesh([["a", "b", "c"]], [[0, 0, 0]]), TypeError, "Mesh.vertices must be an array of numbers"),
+        (gelatin.Mesh([[0, 0]], [[0, 0, 0]]), gelatin.InvalidInput, r"shape.vertices.*\(n, 3\)"),
+        (gelatin.Mesh([[0, 0, 0]], [[0, 0]]), gelatin.InvalidInput, r"shape.triangles.*\(n, 3\)"),
+        (gelatin.Mesh([[0, 0, 0]], [[0, 0, -1]]), gelatin.InvalidInput, "shape.triangles.*-1.*index"),
+        (gelatin.Mesh([[0, 0, 0]], [[0.5, 0, 1]]), TypeError, "object.mesh.shape.triangles = .*: must be an array of integers"),
+        (gelatin.Mesh([["a", "b", "c"]], [[0, 0, 0]]), TypeError, "object.mesh.shape.vertices = .*: must be an array of numbers"),
         (gelatin.Mesh([[0, 0, 0]], [[0, 1, 2]]), gelatin.InvalidInput, "."),
         (gelatin.Mesh([[0, 0, np.nan]], [[0, 0, 0]]), gelatin.InvalidInput, "."),
         (gelatin.Mesh([]), gelatin.InvalidInput, "."),

@@ -43,6 +43,11 @@ def test_a_picture_shows_the_body_where_it_is(needs_gl, sim, tmp_path):
     assert rows(later) > rows(picture) + 3
     later.save(tmp_path / "picture.png")
     assert np.array_equal(pixels_of_png((tmp_path / "picture.png").read_bytes()), later)
+    with pytest.raises(gelatin.InvalidInput, match="picture.jpg: must end in .png"):
+        later.save(tmp_path / "picture.jpg")
+    with pytest.raises(gelatin.InvalidInput, match="film.avi: must end in .mp4"):
+        gelatin.Film(tmp_path / "film.mp4", 64, 36, None).save(tmp_path / "film.avi")
+    assert not (tmp_path / "picture.jpg").exists()
     assert later._repr_png_() is not None and later[0]._repr_png_() is None
 
 
@@ -51,6 +56,7 @@ def test_cameras_overlays_and_sizes(needs_gl, sim):
     near = sim.render(120, 80, camera=gelatin.Camera((0, 2, 2), (0, 2, 0)))
     far = sim.render(120, 80, camera=gelatin.Camera((0, 2, 9), (0, 2, 0)))
     colored = sim.render(120, 80, overlays=["speed"])
+    assert np.array_equal(sim.render(120, 80, overlays="speed"), colored)
     assert len({picture.tobytes() for picture in (usual, near, far, colored)}) == 4
     assert np.array_equal(sim.render(120, 80), usual)
     assert sim.render(60, 40, quality="high").shape == (40, 60, 3)

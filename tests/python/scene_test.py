@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import gelatin
+from conftest import falling_ball
 from gelatin import _gelatin
 
 
@@ -59,6 +60,7 @@ def scene_with_everything():
         skin=False,
         up="z",
         line=6,
+        pins_line=7,
     )
     for shape in (
         gelatin.Sphere(2.0, 3),
@@ -158,8 +160,9 @@ def test_overrides():
     by_list = gelatin.load("scenes/bounce.toml", ["simulation.frames=7", "simulation.gravity=[0,-1,0]"])
     assert by_dict == by_list
     assert by_dict.simulation.frames == 7 and by_dict.simulation.gravity == (0, -1, 0)
-    with pytest.raises(TypeError):
-        gelatin.load("scenes/bounce.toml", "simulation.frames=7")
+    assert gelatin.load("scenes/bounce.toml", "simulation.frames=7").simulation.frames == 7
+    with pytest.raises(TypeError, match="overrides = 7: must be a list of str"):
+        gelatin.load("scenes/bounce.toml", 7)
 
 
 def test_vectors_may_be_arrays():
@@ -174,32 +177,44 @@ def test_vectors_may_be_arrays():
 @pytest.mark.parametrize(
     "change, message",
     [
-        (lambda s: setattr(s.materials[0], "density", "heavy"), "Material.density must be a number, not str"),
-        (lambda s: setattr(s.simulation, "frames", 2.5), "SimulationSettings.frames must be an integer, not float"),
-        (lambda s: setattr(s.objects[0], "position", (1, 2)), "Object.position must be three numbers, not tuple"),
-        (lambda s: setattr(s.objects[0], "position", "abc"), "Object.position must be three numbers, not str"),
-        (lambda s: setattr(s.objects[0], "position", (1, 2, "x")), r"Object.position\[2\] must be a number, not str"),
-        (lambda s: setattr(s.objects[0], "shape", gelatin.Plane()), "Object.shape must be one of Sphere, Box.* not Plane"),
-        (lambda s: setattr(s.objects[0], "pins", gelatin.Plane()), "Object.pins must be a list, not Plane"),
-        (lambda s: s.objects[0].pins.append(3), r"Object.pins\[3\] must be one of BoxRegion.* not int"),
-        (lambda s: setattr(s.objects[0], "skin", "no"), "Object.skin must be True or False, not str"),
-        (lambda s: setattr(s, "camera", 3), "Scene.camera must be a Camera, not int"),
-        (lambda s: setattr(s.objects[0], "name", 3), "Object.name must be a str, not int"),
+        (lambda s: setattr(s.materials[0], "density", "heavy"), "material.a.density = 'heavy': must be a number"),
+        (lambda s: setattr(s.simulation, "frames", 2.5), "simulation.frames = 2.5: must be an integer"),
+        (lambda s: setattr(s.simulation, "substeps", 2.5), 'simulation.substeps = 2.5: must be "auto" or an integer'),
+        (lambda s: setattr(s.simulation, "substeps", "many"), "simulation.substeps = 'many': must be \"auto\" or an integer"),
+        (lambda s: setattr(s.objects[0], "position", (1, 2)), "object.o.position = (1, 2): must be three numbers"),
+        (lambda s: setattr(s.objects[0], "position", "abc"), "object.o.position = 'abc': must be three numbers"),
+        (lambda s: setattr(s.objects[0], "position", (1, 2, "x")), "object.o.position[2] = 'x': must be a number"),
+        (lambda s: setattr(s.objects[0], "position", np.zeros((9, 9))), "object.o.position = ndarray: must be three numbers"),
+        (lambda s: setattr(s.objects[0], "shape", 3), "object.o.shape = 3: must be one of Sphere, Box, Capsule, Text, File, Mesh"),
+        (lambda s: setattr(s.objects[1].shape, "radius", None), "object.o.shape.radius = None: must be a number"),
+        (lambda s: setattr(s.objects[0], "pins", "top"), "object.o.pins = 'top': must be a list"),
+        (lambda s: s.objects[0].pins.append(3), "object.o.pins[3] = 3: must be one of BoxRegion, SphereRegion, HalfSpaceRegion"),
+        (lambda s: setattr(s.objects[0], "skin", "no"), "object.o.skin = 'no': must be True or False"),
+        (lambda s: setattr(s.colliders[0], "position", ()), "colliders[0].position = (): must be three numbers"),
+        (lambda s: setattr(s.colliders[1], "position", ()), "collider.belt.position = (): must be three numbers"),
+        (lambda s: setattr(s, "camera", 3), "camera = 3: must be a Camera"),
+        (lambda s: setattr(s.objects[0], "name", 3), "objects[0].name = 3: must be a str"),
     ],
 )
 def test_wrong_types_are_named(change, message):
     scene = scene_with_everything()
     change(scene)
-    with pytest.raises(TypeError, match=message):
+    with pytest.raises(TypeError) as caught:
         _gelatin.same(scene)
+    assert str(caught.value) == message
 
 
 def test_unknown_words_are_named():
     scene = scene_with_everything()
     scene.simulation.solver = "vdb"
-    with pytest.raises(gelatin.InvalidInput, match='SimulationSettings.solver.*"vdb".*"midpoint"') as caught:
+    with pytest.raises(gelatin.InvalidInput, match='simulation.solver.*"vdb".*"midpoint"') as caught:
         _gelatin.same(scene)
-    assert caught.value.field == "SimulationSettings.solver"
+    assert caught.value.field == "simulation.solver"
+
+
+def test_substeps_may_be_automatic_by_name(scene):
+    scene.simulation.substeps = "auto"
+    assert gelatin.Simulator(scene, backend="cpu").substeps == gelatin.Simulator(falling_ball(), backend="cpu").substeps
 
 
 def test_misspelled_fields_are_refused():
@@ -227,5 +242,10 @@ def test_add_takes_paths_and_materials():
     scene.collision.friction = 0.9
     assert scene.add("crate", "scenes/meshes/crate.obj", material=jelly).shape == gelatin.File("scenes/meshes/crate.obj")
     assert scene.objects[0].material == "jelly"
+    assert scene.add("ball", gelatin.Sphere()).material == "jelly"
     assert scene.add_collider().friction == 0.9
     assert scene.add_collider(friction=0.1).friction == 0.1
+    scene.add_material("rubber")
+    scene.add("other", gelatin.Sphere())
+    with pytest.raises(gelatin.InvalidInput, match='object.other: needs "material": one of jelly or rubber'):
+        scene.validate()

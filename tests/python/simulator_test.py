@@ -220,13 +220,50 @@ def test_divergence_is_an_exception_with_its_place():
     assert sim.frame == 2
 
 
-def test_wrong_calls(sim, scene):
-    with pytest.raises(gelatin.InvalidInput, match="0 or more"):
-        sim.step(-1)
+@pytest.mark.parametrize(
+    "call, message",
+    [
+        (lambda sim: sim.step("a"), "count = 'a': must be an integer, 0 or more"),
+        (lambda sim: sim.step(-1), "count = -1: must be 0 or more"),
+        (lambda sim: sim.advance(1.0), "frames = 1.0: must be an integer, 0 or more"),
+        (lambda sim: sim.advance(2**62), f"frames = {2**62}: must be at most 2147483647"),
+        (lambda sim: sim.run(1.5), "frames = 1.5: must be an integer, 0 or more"),
+        (lambda sim: sim.run(1.5, progress=True), "frames = 1.5: must be an integer, 0 or more"),
+        (lambda sim: sim.on_frame(3), "callback = 3: must be a function"),
+        (lambda sim: sim.on_step(None), "callback = None: must be a function"),
+        (lambda sim: sim.render("wide", 36), "width = 'wide': must be an integer, 0 or more"),
+        (lambda sim: sim.render(64, 36, quality=3), "quality = 3: must be a str"),
+        (lambda sim: sim.render(64, 36, overlays=3), "overlays = 3: must be a list of str"),
+        (lambda sim: sim.record("run.gel", every=0), "every = 0: must be 1 or more"),
+        (lambda sim: sim.load_checkpoint("run.gel", "last"), "frame = 'last': must be an integer, 0 or more"),
+        (lambda sim: sim.set_material("jelly", density="a"), "material.density = 'a': must be a number"),
+        (lambda sim: gelatin.Simulator(sim.scene, backend=3), "backend = 3: must be a str"),
+        (lambda sim: gelatin.Simulator(sim.scene, gl_device="a"), "gl_device = 'a': must be an integer, 0 or more"),
+        (lambda sim: gelatin.Simulator(3), "scene = 3: must be a Scene"),
+        (lambda sim: gelatin.Batch(sim.scene, "two"), "worlds = 'two': must be an integer, 1 or more"),
+        (lambda sim: gelatin.Batch(sim.scene, 1).step(0.5), "count = 0.5: must be an integer, 0 or more"),
+        (lambda sim: gelatin.Batch(sim.scene, 1).run(0.5), "frames = 0.5: must be an integer, 0 or more"),
+        (lambda sim: gelatin.film(sim, 1.5), "frames = 1.5: must be an integer, 0 or more"),
+        (lambda sim: gelatin.film(sim, 1, "film.avi"), "file = film.avi: must end in .mp4"),
+    ],
+)
+def test_wrong_arguments_are_one_line(sim, call, message):
+    with pytest.raises((TypeError, gelatin.InvalidInput)) as caught:
+        call(sim)
+    assert str(caught.value) == message
+    assert sim.frame == 0
+
+
+def test_singular_forms():
+    sim = gelatin.Simulator(falling_ball(), backend="cpu")
+    assert f"{sim!r}".startswith("<gelatin.Simulator: 1 body, ")
+    assert f"{gelatin.Batch(falling_ball(), 1)!r}".startswith("<gelatin.Batch: 1 world of ")
+    assert "2 bodies" in f"{gelatin.Simulator(two_balls(), backend='cpu')!r}"
+
+
+def test_wrong_calls(scene):
     with pytest.raises(gelatin.InvalidInput, match='"cuda".*"auto", "gl" or "cpu"'):
         gelatin.Simulator(scene, backend="cuda")
-    with pytest.raises(TypeError, match="must be a Scene, not int"):
-        gelatin.Simulator(3)
     scene.objects[0].scale = -2
     with pytest.raises(gelatin.InvalidInput, match="object.ball.scale.*greater than 0") as caught:
         gelatin.Simulator(scene)

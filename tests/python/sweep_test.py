@@ -368,10 +368,13 @@ def test_a_folder_that_workers_lack_is_one_line(tmp_path):
         ({"what": ["energy"]}, "what: 'energy': there is no such statistic; there are nodes"),
         ({"frames": -1}, "frames: -1: must be 0 or more"),
         ({"threads": 0}, "threads: 0: must be 1 or more"),
+        ({"threads": "all"}, "threads = 'all': must be a number, 0 or more"),
+        ({"samples": "ab"}, "samples = 'ab': must be a list of dicts"),
+        ({"what": "energy"}, "what: 'energy': there is no such statistic; there are nodes"),
     ],
 )
 def test_bad_input_is_one_line_and_nothing_is_started(ball, tmp_path, options, message):
-    with pytest.raises(gelatin.InvalidInput, match=message) as caught:
+    with pytest.raises((gelatin.InvalidInput, TypeError), match=message) as caught:
         gelatin.sweep(ball, out=tmp_path / "out", **options)
     assert "\n" not in str(caught.value)
     assert not (tmp_path / "out").exists()

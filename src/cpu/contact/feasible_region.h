@@ -24,8 +24,36 @@ public:
     /// @param apart from the first side's nearest point to the second's [m] @param weights of the nodes
     /// @return from 0 to 1: how much of the pair's stiffness it has
     Real weight(const ContactPair& pair, const Vec3<Real>& apart, const Vec4<Real>& weights) const {
-        if (pair.is_edges()) return weight_of_edges(pair, apart, weights);
-        return presses_face(pair, apart, weights) ? weight_of_node(pair.first, apart) : Real(0);
+        return pair.is_edges() ? weight_of_edges(pair, apart, weights)
+                               : Real(presses_face(pair, apart, weights) ? 1 : 0);
+    }
+
+    /// A node presses edges and corners of faces where no edge from it leads much towards them. Those that
+    /// slide over a flat surface are ahead of its nodes before they are above them, and a step that goes on
+    /// along that line would stop them.
+    /// @return from 0 to 1
+    Real weight_of_node(std::uint32_t node, const Vec3<Real>& apart) const {
+        const NodeFaces& around = model_.node_faces;
+        const Real distance = glm::length(apart);
+        Real weight = 1;
+        for (std::uint32_t p = around.starts[node]; p < around.starts[node + 1]; ++p) {
+            const Face& face = model_.faces[around.faces[p]];
+            for (const std::uint32_t n : {face.a, face.b, face.c}) {
+                const Vec3<Real> edge = at(n) - at(node);
+                if (n != node)
+                    weight = std::min(
+                        weight, Real(2) - glm::dot(apart, edge) / (kSoftened * distance * glm::length(edge)));
+            }
+        }
+        return std::max(weight, Real(0));
+    }
+
+    /// How nearly the line is along the normal of the pair's face: from 0 to 1.
+    Real weight_along_normal(const ContactPair& pair, const Vec3<Real>& apart) const {
+        const Vec3<Real> a = at(pair.nodes[1]);
+        const Vec3<Real> normal = glm::cross(at(pair.nodes[2]) - a, at(pair.nodes[3]) - a);
+        const Real sine = glm::length(glm::cross(normal, apart)) / (glm::length(normal) * glm::length(apart));
+        return std::clamp(Real(2) - sine / kSoftened, Real(0), Real(1));
     }
 
 private:
@@ -53,24 +81,6 @@ private:
                 if (!(size > Real(0))) return Real(0);
                 const Real cosine = glm::dot(side == 0 ? apart : -apart, inwards) / size;
                 weight = std::min(weight, Real(0.5f) - cosine / (2 * kSoftened));
-            }
-        }
-        return std::max(weight, Real(0));
-    }
-
-    // A node presses where no edge from it leads towards what it presses: on a flat surface straight away
-    // from it. What slides over it meets it from ahead, where steps would go on along that line.
-    Real weight_of_node(std::uint32_t node, const Vec3<Real>& apart) const {
-        const NodeFaces& around = model_.node_faces;
-        const Real distance = glm::length(apart);
-        Real weight = 1;
-        for (std::uint32_t p = around.starts[node]; p < around.starts[node + 1]; ++p) {
-            const Face& face = model_.faces[around.faces[p]];
-            for (const std::uint32_t n : {face.a, face.b, face.c}) {
-                const Vec3<Real> edge = at(n) - at(node);
-                if (n != node)
-                    weight = std::min(
-                        weight, Real(2) - glm::dot(apart, edge) / (kSoftened * distance * glm::length(edge)));
             }
         }
         return std::max(weight, Real(0));

@@ -1,6 +1,7 @@
 #include "cpu/implicit/contact_rows.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -78,7 +79,11 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
     for (const NearPair<Real>& near : pairs) {
         const ContactPair& pair = near.pair;
         if (!(near.gap > Real(0))) continue;
-        const Real weight = region.weight(pair, near.gap * near.normal, near.weights);
+        const Vec3<Real> apart = near.gap * near.normal;
+        Real weight = region.weight(pair, apart, near.weights);
+        if (!pair.is_edges() && !(std::min({near.weights.y, near.weights.z, near.weights.w}) > Real(0)))
+            weight *=
+                std::max(region.weight_of_node(pair.first, apart), region.weight_along_normal(pair, apart));
         if (!(weight > Real(0))) continue;
         ContactRow<Real> row;
         Real first = 0, second = 0;
@@ -91,6 +96,12 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
             (is_first ? first : second) += w * w * start.compliances[pair.nodes[k]];
         }
         if (!(first + second > Real(0))) continue;
+        // Of each side 1 in all: what contacts exert on both cancels but for rounding.
+        std::array<Real, 2> sums{};
+        for (std::uint32_t k = 0; k < row.count; ++k)
+            sums[row.weights[k] < Real(0) ? 0 : 1] += row.weights[k];
+        for (std::uint32_t k = 0; k < row.count; ++k)
+            row.weights[k] /= std::abs(sums[row.weights[k] < Real(0) ? 0 : 1]);
         const ContactSurface::Touch& touch = surface_->touch(pair.object, pair.other);
         row.object = pair.object;
         row.other = pair.other;

@@ -66,12 +66,12 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
       compliances_(model_->node_count()),
       expected_(model_->node_count()),
       ends_(model_->node_count()),
-      angular_(model_->body_count()),
-      earlier_angular_(model_->body_count()) {
+      momenta_(model_->body_count()),
+      earlier_momenta_(model_->body_count()) {
     system_.iterations = 2 * settings_.iterations;
-    is_driven_by_surfaces_ =
-        std::any_of(model_->surfaces.begin(), model_->surfaces.end(),
-                    [](const auto& surface) { return surface.velocity != decltype(surface.velocity)(0); });
+    for (const ModelObject& object : model_->bodies()) mass_ += object.mass;
+    for (const auto& surface : model_->surfaces)
+        fastest_belt_ = std::max(fastest_belt_, glm::length(glm::dvec3(surface.velocity)));
 }
 
 template <class Real>
@@ -89,8 +89,11 @@ void ImplicitStep<Real>::restart() {
 }
 
 template <class Real>
-void ImplicitStep<Real>::go_on(std::span<const Vec4<Real>> earlier_velocities, Real step) {
+void ImplicitStep<Real>::go_on(std::span<const Vec4<Real>> positions,
+                               std::span<const Vec4<Real>> earlier_velocities, Real step) {
     earlier_velocities_.assign(earlier_velocities.begin(), earlier_velocities.end());
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o)
+        momenta_[o] = momenta(o, positions, earlier_velocities);
     last_step_ = step;
 }
 
@@ -101,9 +104,17 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
     if (!energy_) energy_ = energy(previous);
     const Energy before = *energy_;
     energies_before_ = energies_;
+    earlier_momenta_ = momenta_;
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o)
+        momenta_[o] = momenta(o, previous.positions, previous.velocities);
     const double rounding = kRounding * (1.0 + std::abs(before.potential));
-    const bool is_driven = is_driven_by_surfaces_ || moves_held_nodes(previous) ||
-                           !input.load_forces.empty() || input.pulls != nullptr;
+    // What moves held nodes and belts works on bodies no more than if all went back from the fastest of them;
+    // what loads and hands do is not known.
+    const double driving = fastest_driver(previous), mass = mass_;
+    const bool has_forces = !input.load_forces.empty() || input.pulls != nullptr,
+               is_driven = has_forces || driving > 0.0;
+    const double work = has_forces ? std::numeric_limits<double>::max()
+                                   : 2.0 * mass * driving * (driving + std::sqrt(2.0 * before.motion / mass));
     for (bool damps = false, has_past = false;;) {
         const bool is_shortest = input.step < Real(2) * shortest;
         const auto divide = [&] {
@@ -134,7 +145,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
         }
         {
             const TimedStage part(timer, "advance_nodes.finish");
-            finish(previous, current);
+            finish(input, previous, current);
             find_paces(current);
             energy_ = energy(current);
         }
@@ -150,8 +161,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
         }
         const TimedStage part(timer, "advance_nodes.guard");
         if (guard(previous, current)) energy_ = energy(current);
-        const double most = is_driven ? std::numeric_limits<double>::max()
-                                      : (is_shortest ? 1.0 : kMostGain) * before.motion + rounding;
+        const double most = (is_shortest ? 1.0 : kMostGain) * before.motion + rounding + work;
         if (gain(at_start) <= most) {
             gained_ = is_driven ? 0.0 : std::max(gained_ + gain(in_contacts_), 0.0);
             in_contacts_ = at_end;
@@ -204,12 +214,14 @@ typename ImplicitStep<Real>::Energy ImplicitStep<Real>::energy(const Nodes<Real>
     return energy;
 }
 
+// Of held nodes and belts [m/s].
 template <class Real>
-bool ImplicitStep<Real>::moves_held_nodes(const Nodes<Real>& previous) const {
+double ImplicitStep<Real>::fastest_driver(const Nodes<Real>& previous) const {
+    double fastest = fastest_belt_;
     for (std::uint32_t n = 0; n < model_->node_count(); ++n)
-        if (previous.positions[n].w == Real(0) && Vec3<Real>(previous.velocities[n]) != Vec3<Real>(0))
-            return true;
-    return false;
+        if (previous.positions[n].w == Real(0))
+            fastest = std::max(fastest, glm::length(glm::dvec3(previous.velocities[n])));
+    return fastest;
 }
 
 // Where even the shortest step fails.
@@ -399,10 +411,6 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
     system_.rigid.follow_rotation(previous.positions, system_.inertia, system_.displacements, system_.loads);
     for_each_index(model_->node_count(),
                    [&](std::size_t n) { system_.loads[n] += system_.inertia[n] * system_.displacements[n]; });
-    for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        earlier_angular_[o] = angular_[o];
-        angular_[o] = angular_momentum(o, previous.positions, previous.velocities);
-    }
 }
 
 // Where objects meet that go farther beside each other than anything that a step could find out about, it is
@@ -459,31 +467,43 @@ bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current
     return true;
 }
 
+// As steps have it, in which a node is what its inverse mass says; of held nodes, which have none, too: their
+// body may be let go, and what it had then counts.
 template <class Real>
-glm::dvec3 ImplicitStep<Real>::angular_momentum(std::uint32_t object, std::span<const Vec4<Real>> positions,
-                                                std::span<const Vec4<Real>> velocities) const {
+double ImplicitStep<Real>::mass_of(std::size_t n, const Vec4<Real>& position) const {
+    return position.w > Real(0) ? 1.0 / static_cast<double>(position.w)
+                                : static_cast<double>(model_->masses[n]);
+}
+
+template <class Real>
+typename ImplicitStep<Real>::Momenta ImplicitStep<Real>::momenta(
+    std::uint32_t object, std::span<const Vec4<Real>> positions,
+    std::span<const Vec4<Real>> velocities) const {
     const Range& nodes = model_->objects[object].nodes;
     const glm::dvec3 origin(positions[nodes.first]);
     glm::dvec3 middle(0.0), momentum(0.0), angular(0.0);
     double mass = 0.0;
     for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
-        const auto m = static_cast<double>(model_->masses[n]);
+        const double m = mass_of(n, positions[n]);
         const glm::dvec3 r = glm::dvec3(positions[n]) - origin, v(velocities[n]);
         mass += m;
         middle += m * r;
         momentum += m * v;
         angular += m * glm::cross(r, v);
     }
-    return angular - glm::cross(middle, momentum) / mass;
+    return {momentum, angular - glm::cross(middle, momentum) / mass};
 }
 
-// Rotations that linear systems have found become true ones. And the angular momentum of free bodies, of
-// which these schemes would lose some in each step, changes by what contacts did, about the centre of mass.
+// Rotations that linear systems have found become true ones. And momentum and angular momentum of free
+// bodies, of which these schemes and what was not solved would lose some in each step, change by what acts on
+// them.
 template <class Real>
-void ImplicitStep<Real>::finish(const Nodes<Real>& previous, Nodes<Real>& current) {
+void ImplicitStep<Real>::finish(const StepInput<Real>& input, const Nodes<Real>& previous,
+                                Nodes<Real>& current) {
     Field& d = system_.displacements;
     rows_.note(system_.rows, d);
-    Field forces(d.size(), Vec3<Real>(0));  // of contacts
+    Field forces(d.size(), Vec3<Real>(0));  // of all but elements and gravity
+    for (std::size_t n = 0; n < input.load_forces.size(); ++n) forces[n] = Vec3<Real>(input.load_forces[n]);
     acting_.clear();
     for (const ContactRow<Real>& row : system_.rows) {
         const Vec3<Real> s = relative<Real>(row, system_.displacements), force = row.force(s);
@@ -491,6 +511,12 @@ void ImplicitStep<Real>::finish(const Nodes<Real>& previous, Nodes<Real>& curren
         const Vec3<Real> normal = row.pressing(s) * row.normal;
         if (force != Vec3<Real>(0)) acting_.push_back({row, normal, force - normal});
     }
+    if (input.pulls != nullptr)
+        for (const std::uint32_t n : input.pulls->nodes()) {
+            const Vec4<Real> x = previous.positions[n];
+            forces[n] +=
+                input.pulls->force_at_end(n, Vec4<Real>(Vec3<Real>(x) + d[n], x.w), Vec3<Real>(x), step_);
+        }
     system_.rigid.rotate(previous.positions, system_.inertia, d);
     for_each_index(d.size(), [&](std::size_t n) {
         const Vec4<Real> x = previous.positions[n], v = previous.velocities[n];
@@ -506,22 +532,28 @@ void ImplicitStep<Real>::finish(const Nodes<Real>& previous, Nodes<Real>& curren
     });
     for_each_index(0, model_->body_count(), 1, [&](std::size_t o) {
         if (!system_.rigid.is_free(o)) return;
+        const auto object = static_cast<std::uint32_t>(o);
         const Range& nodes = model_->objects[o].nodes;
         const glm::dvec3 origin(current.positions[nodes.first]);
         RigidSums sums;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-            sums.add(glm::dvec3(current.positions[n]) - origin, static_cast<double>(model_->masses[n]),
+            sums.add(glm::dvec3(current.positions[n]) - origin, mass_of(n, current.positions[n]),
                      glm::dvec3(forces[n]));
         const RigidInertia inertia(sums);
-        const glm::dvec3 torque = sums.moment - glm::cross(inertia.center, sums.force);
         const auto h = static_cast<double>(schemes_[o].step), past = static_cast<double>(schemes_[o].past);
-        const glm::dvec3 wanted = angular_[o] + past * (angular_[o] - earlier_angular_[o]) + h * torque;
-        const auto object = static_cast<std::uint32_t>(o);
-        const glm::dvec3 lacking = wanted - angular_momentum(object, current.positions, current.velocities);
-        const glm::dvec3 spin = inertia.inverse_inertia * lacking;
+        const Momenta change{sums.force + glm::dvec3(model_->gravity) / inertia.inverse_mass,
+                             sums.moment - glm::cross(inertia.center, sums.force)};
+        const Momenta& had = momenta_[o];
+        const Momenta& earlier = earlier_momenta_[o];
+        const Momenta has = momenta(object, current.positions, current.velocities);
+        const auto lacking = [&](glm::dvec3 Momenta::*part) {
+            return had.*part + past * (had.*part - earlier.*part) + h * change.*part - has.*part;
+        };
+        const Twist missing{inertia.inverse_mass * lacking(&Momenta::linear),
+                            inertia.inverse_inertia * lacking(&Momenta::angular)};
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
             const glm::dvec3 r = glm::dvec3(current.positions[n]) - origin - inertia.center;
-            current.velocities[n] += Vec4<Real>(Vec3<Real>(glm::cross(spin, r)), 0);
+            current.velocities[n] += Vec4<Real>(Vec3<Real>(missing.at(r)), 0);
         }
     });
 }

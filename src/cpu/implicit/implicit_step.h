@@ -47,7 +47,9 @@ public:
     /// Forgets earlier steps, because nodes were set from outside.
     void restart();
     /// After it: what the last step began with, and its length [s].
-    void go_on(std::span<const Vec4<Real>> earlier_velocities, Real step);
+    /// @param positions where the next one begins, near enough [m]
+    void go_on(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> earlier_velocities,
+               Real step);
     /// @param previous of held nodes the positions are those where they are, and velocities those that take
     /// them to where their handles have them at the end
     /// @param shortest a step may be [s]
@@ -100,16 +102,21 @@ private:
         double sum() const { return motion + potential; }
     };
     Energy energy(const Nodes<Real>& nodes);
-    bool moves_held_nodes(const Nodes<Real>& previous) const;
+    double fastest_driver(const Nodes<Real>& previous) const;
     void stand_still(const Nodes<Real>& previous, Nodes<Real>& current);
     void linearise(const StepInput<Real>& input, const Nodes<Real>& previous);
     Real deepest() const;
     bool detect(const Nodes<Real>& previous, bool is_shortest);
     bool guard(const Nodes<Real>& previous, Nodes<Real>& current);
     double contact_energy(bool at_end) const;
-    void finish(const Nodes<Real>& previous, Nodes<Real>& current);
-    glm::dvec3 angular_momentum(std::uint32_t object, std::span<const Vec4<Real>> positions,
-                                std::span<const Vec4<Real>> velocities) const;
+    void finish(const StepInput<Real>& input, const Nodes<Real>& previous, Nodes<Real>& current);
+    // [kg m/s]; about the centre of mass [kg m^2/s].
+    struct Momenta {
+        glm::dvec3 linear{0.0}, angular{0.0};
+    };
+    double mass_of(std::size_t n, const Vec4<Real>& position) const;
+    Momenta momenta(std::uint32_t object, std::span<const Vec4<Real>> positions,
+                    std::span<const Vec4<Real>> velocities) const;
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
@@ -121,7 +128,7 @@ private:
     Guard<Real> guard_;
     Restitution<Real> restitution_;
     StepSystem<Real> system_;
-    bool is_driven_by_surfaces_ = false;
+    double fastest_belt_ = 0.0, mass_ = 0.0;          // [m/s]; of all bodies [kg]
     std::optional<Energy> energy_;                    // at the end of the last step, if it is known
     std::vector<double> energies_, energies_before_;  // of bodies, now and when the step began [J]
     double in_contacts_ = 0.0;                        // then [J]
@@ -137,7 +144,7 @@ private:
     std::vector<Vec4<Real>> ends_, velocities_;   // velocities: with damping times of this step
     std::vector<Real> slacks_;                    // by object [m]
     std::vector<Acting> acting_;
-    std::vector<glm::dvec3> angular_, earlier_angular_;  // momenta of bodies [kg m^2/s]
+    std::vector<Momenta> momenta_, earlier_momenta_;  // of bodies
 };
 
 }  // namespace gelatin::cpu

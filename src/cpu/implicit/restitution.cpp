@@ -76,8 +76,9 @@ void Restitution<Real>::note(const Step& step, const RigidLevel<Real>& rigid, co
 template <class Real>
 bool Restitution<Real>::run(const Step& step, const RigidLevel<Real>& rigid, Nodes<Real>& current,
                             std::span<std::uint8_t> is_struck) {
-    note(step, rigid, current);
     std::fill(is_struck.begin(), is_struck.end(), std::uint8_t(0));
+    if (step.rows.empty() && meetings_.empty()) return false;
+    note(step, rigid, current);
     bool strikes = false;
     for (auto at = meetings_.begin(); at != meetings_.end();) {
         Meeting& meeting = at->second;

@@ -77,7 +77,7 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
     const std::vector<Vec4<Real>> velocities = current_.velocities;
     const Real part = size / static_cast<Real>(parts), shortest = size / static_cast<Real>(kMostParts);
     StepInput<Real> input{part, load_forces_, this->acting_pulls()};
-    if (std::exchange(goes_on_, false)) step_.go_on(previous_.velocities, part);
+    if (std::exchange(goes_on_, false)) step_.go_on(current_.positions, previous_.velocities, part);
     for (Real left = size; left > Real(0.5) * shortest; left -= input.step) {
         for (std::size_t n = 0; n < goals_.size(); ++n) {
             if (current_.positions[n].w != Real(0)) continue;
@@ -90,7 +90,7 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
         std::swap(current_, previous_);
         this->sum_loads(step, previous_);
         input.step = left > Real(0.99) * part ? part : left;  // equal ones, but for rounding
-        input.step = step_.run(input, divides_steps_ ? shortest : input.step, previous_, current_, timer);
+        input.step = step_.run(input, shortest, previous_, current_, timer);
     }
     if (!model_->handles.empty() && model_->is_body(model_->handles[0].object))
         forces_on_held_ = step_.forces_on_held(input, previous_);

@@ -30,7 +30,7 @@ public:
         const bool hold_none = std::all_of(holders_.begin(), holders_.end(),
                                            [](const Holder& holder) { return holder.name.empty(); });
         if (!object_.pins.empty() && hold_none)
-            fail(object_.line, "pins", fmt::format("hold no node of the object {}", kWorld));
+            fail(object_.pins_line, "pins", fmt::format("hold no node of the object {}", kWorld));
     }
 
     void check_handles() {

@@ -121,6 +121,7 @@ std::vector<ObjectDescription> read_object(TableReader& reader, const std::vecto
     reader.read("velocity", object.velocity);
     reader.read("spin", object.spin);
     if (const auto start = reader.table("start")) object.start = read_start(*start);
+    object.pins_line = reader.line_of("pins");
     for (TableReader& pin : reader.tables("pins")) object.pins.push_back(read_region(pin));
     for (TableReader& handle : reader.tables("handle")) object.handles.push_back(read_handle(handle));
     for (TableReader& load : reader.tables("load")) object.loads.push_back(read_load(load));

@@ -60,6 +60,11 @@ int TableReader::line() const {
     return static_cast<int>(table_->source().begin.line);
 }
 
+int TableReader::line_of(const char* key) {
+    const toml::node* node = find(key);
+    return node != nullptr ? problem_at(*node, *file_, {}, {}).line : 0;
+}
+
 std::string TableReader::field(std::string_view key) const {
     if (path_.empty() || key.empty()) return path_ + std::string(key);
     return path_ + "." + std::string(key);
@@ -238,7 +243,8 @@ std::optional<TableReader> TableReader::table(const char* key) {
     const toml::node* node = find(key);
     if (node == nullptr) return std::nullopt;
     if (!node->is_table()) {
-        fail(key, node->is_array_of_tables() ? fmt::format("must be one table: write [{}]", key)
+        const std::string form = path_.empty() ? fmt::format("[{}]", key) : fmt::format("{} = {{...}}", key);
+        fail(key, node->is_array_of_tables() ? "must be one table: write " + form
                                              : fmt::format("must be a table, is {}", kind_of(*node)));
     }
     return TableReader(*node->as_table(), field(key), *file_);
@@ -248,7 +254,11 @@ std::vector<TableReader> TableReader::tables(const char* key) {
     std::vector<TableReader> readers;
     const toml::node* node = find(key);
     if (node == nullptr) return readers;
-    if (node->is_table()) fail(key, fmt::format("must be a list of tables: write [[{}]]", key));
+    if (node->is_table()) {
+        const std::string form =
+            path_.empty() ? fmt::format("[[{}]]", key) : fmt::format("{} = [{{...}}]", key);
+        fail(key, "must be a list of tables: write " + form);
+    }
     const toml::array* array = node->as_array();
     if (array == nullptr) fail(key, fmt::format("must be a list of tables, is {}", kind_of(*node)));
     for (std::size_t i = 0; i < array->size(); ++i) {

@@ -41,6 +41,8 @@ public:
     /// The key is one of the known ones from then on.
     bool has(const char* key) { return find(key) != nullptr; }
     int line() const;
+    /// Of the value at `key`; 0: there is none, or it is not from the file.
+    int line_of(const char* key);
 
     /// For messages: names the table by what is inside it ("object.ball" instead of "object[0]").
     void set_path(std::string path) { path_ = std::move(path); }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/file_writer.h"
 #include "gelatin/error.h"
 #include "gelatin/version.h"
 
@@ -60,6 +61,7 @@ bool take(std::istream& stream, Header& header) {
 
 RecordingOutput::RecordingOutput(std::filesystem::path file, const RecordingHead& head)
     : file_(std::move(file)), stream_(file_, std::ios::binary | std::ios::trunc) {
+    if (!stream_) fail_to_write(file_, errno);
     const std::string text = nlohmann::json{
         {"gelatin", {{"version", version()}, {"commit", commit()}}},
         {"scene", head.scene.text},
@@ -88,8 +90,7 @@ void RecordingOutput::write(const std::string& bytes) {
     errno = 0;
     stream_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     stream_.flush();
-    if (!stream_)
-        throw SystemError(fmt::format("{}: cannot be written: {}", file_.string(), std::strerror(errno)));
+    if (!stream_) fail_to_write(file_, errno);
 }
 
 RecordingInput::RecordingInput(std::filesystem::path file)

@@ -37,6 +37,10 @@ public:
         const Face& face = model_.faces[f];
         return pressure({{node, face.a, face.b, face.c}, node, f, 0, face.object, 1, 0.1f});
     }
+    double weight_of_node(std::uint32_t node, const glm::dvec3& apart) const {
+        return cpu::FeasibleRegion<double>(model_, surface_, positions_).weight_of_node(node, apart);
+    }
+    glm::dvec3 at(std::uint32_t node) const { return glm::dvec3(positions_[node]); }
     // Of the edges between two nodes each.
     Pressure of_edges(const glm::uvec2& first, const glm::uvec2& second) const {
         const std::uint32_t e = edge(first), f = edge(second);
@@ -130,6 +134,26 @@ TEST(FeasibleRegion, OneFaceOfASheetPressesANode) {
     test::RandomMaker random(1);
     for (int k = 0; k < 300; ++k)
         expect_one_face_presses(surfaces, glm::dvec3(1.5, 1.5, 0) + glm::dvec3(2, 2, 0.7) * random.point());
+}
+
+// Straight away from the inside of a sheet, hardly towards another node of it; in all directions in which a
+// corner is the farthest node.
+TEST(FeasibleRegion, NodesPressAwayFromTheirSurface) {
+    const Surfaces sheet({make_sheet(3)});
+    const std::uint32_t inside = 5;  // at (1, 1, 0)
+    for (const double up : {1.0, -1.0}) {
+        EXPECT_EQ(sheet.weight_of_node(inside, {0.0, 0.0, 0.3 * up}), 1.0);
+        EXPECT_EQ(sheet.weight_of_node(inside, {0.01, 0.0, 0.3 * up}), 1.0);
+        EXPECT_NEAR(sheet.weight_of_node(inside, {0.025, 0.0, 0.3 * up}), 0.34, 0.1);
+        EXPECT_EQ(sheet.weight_of_node(inside, {0.1, 0.0, 0.3 * up}), 0.0);
+    }
+    const Surfaces cube({make_box({glm::dvec3(2), glm::ivec3(1)})});
+    for (std::uint32_t n = 0; n < 8; ++n) {
+        const glm::dvec3 corner = cube.at(n);
+        EXPECT_EQ(cube.weight_of_node(n, corner), 1.0);
+        EXPECT_EQ(cube.weight_of_node(n, {corner.x, 0.0, 0.0}), 1.0);
+        EXPECT_EQ(cube.weight_of_node(n, {-corner.x, corner.y, corner.z}), 0.0);
+    }
 }
 
 // Beyond the faces, the edges and the corners of a cube.

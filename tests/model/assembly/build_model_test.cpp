@@ -163,7 +163,7 @@ TEST(BuildModel, SaysWhichObjectsPinsHoldNothing) {
     object.name = "cube";
     object.material = "jelly";
     object.shape = BoxShape{};
-    object.line = 12;
+    object.pins_line = 12;
     object.pins = {SphereRegion{{9, 9, 9}, 0.1}};
     scene.objects.push_back(object);
     try {

@@ -39,7 +39,8 @@ const Region kNowhere = SphereRegion{{9.0, 9.0, 9.0}, 0.1}, kLeft = HalfSpaceReg
 ObjectDescription make_object() {
     ObjectDescription object;
     object.name = "cube";
-    object.line = 3;
+    object.line = 2;
+    object.pins_line = 3;
     return object;
 }
 

@@ -106,6 +106,7 @@ restitution = 0
     EXPECT_EQ(ball.velocity, glm::dvec3(1.0, 0.0, 0.0));
     EXPECT_EQ(ball.color, glm::dvec3(0.1, 0.2, 0.3));
     EXPECT_EQ(ball.line, 32);
+    EXPECT_EQ(ball.pins_line, 41);
     ASSERT_EQ(ball.pins.size(), 3u);
     EXPECT_EQ(std::get<BoxRegion>(ball.pins[0]).min, glm::dvec3(-1.0));
     EXPECT_EQ(std::get<BoxRegion>(ball.pins[0]).max, glm::dvec3(0.0, 1.0, 1.0));
@@ -220,6 +221,10 @@ TEST_F(SceneFile, RefusesAnUnknownSection) {
 TEST_F(SceneFile, RefusesASectionOfTheWrongKind) {
     EXPECT_EQ(error("[material]\nname = 'jelly'"),
               "scene.toml:1: material: must be a list of tables: write [[material]]");
+    EXPECT_EQ(object_error("shape = { sphere = 1 }\npins = { sphere = [0, 0, 0], radius = 1 }"),
+              "scene.toml:5: object.ball.pins: must be a list of tables: write pins = [{...}]");
+    EXPECT_EQ(object_error("shape = [{ sphere = 1 }]"),
+              "scene.toml:4: object.ball.shape = [{...}]: must be one table: write shape = {...}");
     EXPECT_EQ(error("[[simulation]]\nframes = 1"),
               "scene.toml:1: simulation = [{...}]: must be one table: write [simulation]");
     EXPECT_EQ(error("simulation = 3"), "scene.toml:1: simulation = 3: must be a table, is a whole number");

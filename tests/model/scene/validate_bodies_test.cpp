@@ -223,7 +223,7 @@ TEST(MeshShape, IsCheckedWhereItStands) {
     const auto far = std::make_shared<Mesh>(*tet);
     far->tets[0].w = 9;
     EXPECT_EQ(error_of([&](Scene& s) { s.objects[0].shape = MeshShape{far}; }),
-              "object.ball.shape.mesh.tets[0] = 9: must name one of the 4 vertices, from 0");
+              "object.ball.shape.mesh.tets[0] = 9: must name one of 4 vertices, from 0");
     const auto empty = std::make_shared<Mesh>();
     EXPECT_EQ(error_of([&](Scene& s) { s.objects[0].shape = MeshShape{empty}; }),
               "object.ball.shape.mesh: has neither triangles nor tets");
