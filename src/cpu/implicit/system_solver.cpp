@@ -85,9 +85,9 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
             current_.velocities[n] =
                 Vec4<Real>((goals_[n] - Vec3<Real>(current_.positions[n])) / left, current_.velocities[n].w);
         }
-        const std::vector<Vec4<Real>> before = current_.positions;
-        if (!shape_matcher_.run(current_).empty()) step_.follow({before, current_.velocities}, current_);
-        std::swap(current_, previous_);
+        previous_ = current_;
+        if (shape_matcher_.run(current_).empty() || step_.follow(previous_, current_))
+            std::swap(current_, previous_);
         this->sum_loads(step, previous_);
         input.step = left > Real(0.99) * part ? part : left;  // equal ones, but for rounding
         input.step = step_.run(input, shortest, previous_, current_, timer);

@@ -19,6 +19,8 @@ public:
                           const DescentSettings& settings = {});
 
     ContactForces contact_forces() const override { return step_.contact_forces(); }
+    /// What contacts and their friction hold [J].
+    double contact_energy() const { return step_.contact_energy(); }
     HoldingForces holding_forces() const override;
     std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) const override;
     void write_state(const State& state) override;

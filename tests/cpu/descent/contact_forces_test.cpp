@@ -40,7 +40,8 @@ ContactForces forces_at_rest(const std::shared_ptr<const Model>& model) {
 
 // Two blocks on each other: the lower one carries both.
 TEST(ContactForces, AreTheWeightOfWhatRests) {
-    const std::vector<test::Block> blocks{{.place = {0, 0.01, 0}}, {.place = {0.02, 0.33, 0.01}}};
+    const std::vector<test::Block> blocks{{.place = {0, 0.01, 0}, .youngs_modulus = 1e6},
+                                          {.place = {0.02, 0.33, 0.01}, .youngs_modulus = 1e6}};
     for (const bool is_plane : {true, false}) {
         const auto model = make_blocks(blocks, {0, -9.81, 0}, {is_plane ? ColliderDescription{} : table()});
         const ContactForces forces = forces_at_rest(model);

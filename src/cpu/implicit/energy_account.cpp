@@ -1,0 +1,216 @@
+#include "cpu/implicit/energy_account.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <utility>
+
+#include "cpu/elasticity/elastic_energy.h"
+#include "cpu/implicit/rigid_part.h"
+#include "model/for_each_index.h"
+
+namespace gelatin::cpu {
+namespace {
+
+// Of energies, as a part of the potential one, and for bodies at rest [J].
+constexpr double kRounding = 1e-9;
+// What is owed up to this part of an island's energy is not taken: energies have rounding, and BDF2's go to and
+// fro.
+constexpr double kSlack = 0.002;
+
+}  // namespace
+
+template <class Real>
+EnergyAccount<Real>::EnergyAccount(std::shared_ptr<const Model> model)
+    : model_(std::move(model)), before_(model_->body_count(), 0.0) {
+    after_ = motions_ = motions_before_ = rounding_ = contacts_before_ = contacts_at_start_ =
+        contacts_at_end_ = work_ = debts_ = before_;
+}
+
+template <class Real>
+void EnergyAccount<Real>::forget() {
+    is_known_ = false;
+    std::fill(contacts_at_end_.begin(), contacts_at_end_.end(), 0.0);
+    std::fill(debts_.begin(), debts_.end(), 0.0);
+}
+
+template <class Real>
+void EnergyAccount<Real>::begin(const Nodes<Real>& previous) {
+    if (!is_known_) find_energies(previous);
+    before_ = after_;
+    motions_before_ = motions_;
+    contacts_before_ = contacts_at_end_;
+}
+
+template <class Real>
+void EnergyAccount<Real>::follow(const Nodes<Real>& nodes) {
+    find_energies(nodes);
+    for (std::size_t o = 0; o < debts_.size(); ++o)
+        debts_[o] = std::max(debts_[o] + after_[o] - before_[o], 0.0);
+}
+
+template <class Real>
+double EnergyAccount<Real>::in_contacts() const {
+    return std::accumulate(contacts_at_end_.begin(), contacts_at_end_.end(), 0.0);
+}
+
+template <class Real>
+void EnergyAccount<Real>::find_energies(const Nodes<Real>& nodes) {
+    const glm::dvec3 gravity(model_->gravity);
+    for_each_index(0, after_.size(), 1, [&](std::size_t o) {
+        const ModelObject& object = model_->objects[o];
+        double motion = body_energy<Real>(*model_, object, nodes.positions), potential = 0.0;
+        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
+            if (nodes.positions[n].w == Real(0)) continue;
+            const glm::dvec3 v(nodes.velocities[n]);
+            const auto mass = static_cast<double>(model_->masses[n]);
+            motion += 0.5 * mass * glm::dot(v, v);
+            potential -= mass * glm::dot(gravity, glm::dvec3(nodes.positions[n]));
+        }
+        motions_[o] = motion;
+        after_[o] = motion + potential;
+        rounding_[o] = kRounding * (1.0 + std::abs(potential));
+    });
+    is_known_ = true;
+}
+
+// Each of two bodies has half.
+template <class Real>
+void EnergyAccount<Real>::find_contacts(const Step& step) {
+    std::fill(contacts_at_start_.begin(), contacts_at_start_.end(), 0.0);
+    std::fill(contacts_at_end_.begin(), contacts_at_end_.end(), 0.0);
+    for (const ContactRow<Real>& row : step.rows) {
+        const auto start = static_cast<double>(row.energy(Vec3<Real>(0))),
+                   end = static_cast<double>(row.energy(relative<Real>(row, step.displacements)));
+        const bool is_first = row.object != kNoNode && model_->is_body(row.object),
+                   is_second = model_->is_body(row.other);
+        const double share = is_first && is_second ? 0.5 : 1.0;
+        for (const auto& [counts, body] : {std::pair(is_first, row.object), std::pair(is_second, row.other)}) {
+            if (!counts) continue;
+            contacts_at_start_[body] += share * start;
+            contacts_at_end_[body] += share * end;
+        }
+    }
+}
+
+// By held nodes and belts on what a contact presses [J].
+template <class Real>
+double EnergyAccount<Real>::work_on_rows(const Step& step, const ContactRow<Real>& row) const {
+    Vec3<Real> moved(0);  // as much as s by what is held
+    for (std::uint32_t k = 0; k < row.count; ++k)
+        if (step.previous.positions[row.nodes[k]].w == Real(0))
+            moved += row.weights[k] * step.displacements[row.nodes[k]];
+    const auto belt = [&](std::uint32_t object) {
+        return step.length * Vec3<Real>(model_->surfaces[object - model_->body_count()].velocity);
+    };
+    if (row.object != kNoNode && !model_->is_body(row.object)) moved -= belt(row.object);
+    if (!model_->is_body(row.other)) moved += belt(row.other);
+    if (moved == Vec3<Real>(0)) return 0.0;
+    return -static_cast<double>(glm::dot(row.force(relative<Real>(row, step.displacements)), moved));
+}
+
+template <class Real>
+void EnergyAccount<Real>::find_work(const Step& step) {
+    std::fill(work_.begin(), work_.end(), 0.0);
+    for (const ContactRow<Real>& row : step.rows)
+        work_[model_->is_body(row.other) ? row.other : row.object] += work_on_rows(step, row);
+    const auto dot = [](const Vec3<Real>& a, const Vec3<Real>& b) {
+        return glm::dot(glm::dvec3(a), glm::dvec3(b));
+    };
+    for (std::size_t o = 0; o < work_.size(); ++o) {
+        const Range& nodes = model_->objects[o].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            const Vec3<Real>& d = step.displacements[n];
+            if (!step.loads.empty()) work_[o] += dot(Vec3<Real>(step.loads[n]), d);
+            if (!step.on_held.empty() && step.previous.positions[n].w == Real(0))
+                work_[o] -= dot(step.on_held[n], d);
+        }
+    }
+    if (step.pulls == nullptr) return;
+    for (const std::uint32_t n : step.pulls->nodes()) {
+        const auto body = std::upper_bound(model_->objects.begin(), model_->objects.end(), n,
+                                           [](std::uint32_t node, const ModelObject& object) {
+                                               return node < object.nodes.first;
+                                           }) -
+                          model_->objects.begin() - 1;
+        const Vec4<Real> x = step.previous.positions[n];
+        const Vec3<Real>& d = step.displacements[n];
+        const auto force = [&](const Vec4<Real>& at) {
+            return step.pulls->force_at_end(n, at, Vec3<Real>(x), step.length);
+        };
+        work_[body] += std::max({dot(force(x), d), dot(force(Vec4<Real>(Vec3<Real>(x) + d, x.w)), d), 0.0});
+    }
+}
+
+template <class Real>
+bool EnergyAccount<Real>::measure(const Step& step, double most) {
+    find_energies(step.current);
+    find_contacts(step);
+    find_work(step);
+    std::vector<double> beyond(after_.size(), 0.0);
+    for (std::size_t o = 0; o < after_.size(); ++o)
+        beyond[step.islands[o]] += after_[o] + contacts_at_end_[o] - before_[o] - contacts_at_start_[o] -
+                                   work_[o] - most * motions_before_[o] - rounding_[o];
+    return std::none_of(beyond.begin(), beyond.end(), [](double sum) { return !(sum <= 0.0); });
+}
+
+template <class Real>
+bool EnergyAccount<Real>::can_settle(const Step& step) {
+    const std::size_t bodies = after_.size();
+    std::vector<double> slacks(bodies, 0.0);
+    owed_.assign(bodies, 0.0);
+    vibrations_.assign(bodies, 0.0);
+    for (std::size_t o = 0; o < bodies; ++o) {
+        const std::uint32_t island = step.islands[o];
+        owed_[island] +=
+            debts_[o] + after_[o] + contacts_at_end_[o] - before_[o] - contacts_before_[o] - work_[o];
+        slacks[island] += kSlack * motions_before_[o] + rounding_[o];
+    }
+    dues_.assign(bodies, 0.0);
+    for (std::size_t i = 0; i < bodies; ++i) dues_[i] = std::max(owed_[i] - slacks[i], 0.0);
+    of_bodies_.assign(bodies, 0.0);
+    parts_.resize(step.current.positions.size());
+    for_each_index(0, bodies, 1, [&](std::size_t o) {
+        if (dues_[step.islands[o]] == 0.0) return;
+        const Range& nodes = model_->objects[o].nodes;
+        const RigidPart<Real> rigid(nodes, step.current);
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            const Vec4<Real> x = step.current.positions[n];
+            if (x.w == Real(0)) continue;
+            parts_[n] = Vec3<Real>(step.current.velocities[n]) - Vec3<Real>(rigid.at(x));
+            of_bodies_[o] += 0.5 * static_cast<double>(model_->masses[n] * glm::dot(parts_[n], parts_[n]));
+        }
+    });
+    for (std::size_t o = 0; o < bodies; ++o) vibrations_[step.islands[o]] += of_bodies_[o];
+    for (std::size_t i = 0; i < bodies; ++i)
+        if (dues_[i] > vibrations_[i]) return false;
+    return true;
+}
+
+template <class Real>
+void EnergyAccount<Real>::settle(const Step& step, Nodes<Real>& current) {
+    std::vector<double> masses(after_.size(), 0.0);
+    for (std::size_t o = 0; o < after_.size(); ++o) masses[step.islands[o]] += model_->objects[o].mass;
+    for_each_index(0, after_.size(), 1, [&](std::size_t o) {
+        const std::uint32_t island = step.islands[o];
+        double left = std::max(owed_[island], 0.0);
+        if (dues_[island] > 0.0 && vibrations_[island] > 0.0) {
+            const double part = std::min(dues_[island] / vibrations_[island], 1.0);
+            const auto factor = static_cast<Real>(1.0 - std::sqrt(1.0 - part));
+            const Range& nodes = model_->objects[o].nodes;
+            for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+                if (current.positions[n].w != Real(0))
+                    current.velocities[n] -= Vec4<Real>(factor * parts_[n], 0);
+            after_[o] -= part * of_bodies_[o];
+            motions_[o] -= part * of_bodies_[o];
+            left -= part * vibrations_[island];
+        }
+        debts_[o] = model_->objects[o].mass / masses[island] * left;
+    });
+}
+
+template class EnergyAccount<float>;
+template class EnergyAccount<double>;
+
+}  // namespace gelatin::cpu
