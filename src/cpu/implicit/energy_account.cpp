@@ -25,7 +25,7 @@ template <class Real>
 EnergyAccount<Real>::EnergyAccount(std::shared_ptr<const Model> model)
     : model_(std::move(model)), before_(model_->body_count(), 0.0) {
     after_ = motions_ = motions_before_ = rounding_ = contacts_before_ = contacts_at_start_ =
-        contacts_at_end_ = work_ = debts_ = before_;
+        contacts_at_end_ = work_ = debts_ = dues_ = before_;
 }
 
 template <class Real>
@@ -144,35 +144,38 @@ void EnergyAccount<Real>::find_work(const Step& step) {
 }
 
 template <class Real>
-bool EnergyAccount<Real>::measure(const Step& step, double most) {
+double EnergyAccount<Real>::measure(const Step& step) {
     find_energies(step.current);
     find_contacts(step);
     find_work(step);
-    std::vector<double> beyond(after_.size(), 0.0);
-    for (std::size_t o = 0; o < after_.size(); ++o)
-        beyond[step.islands[o]] += after_[o] + contacts_at_end_[o] - before_[o] - contacts_at_start_[o] -
-                                   work_[o] - most * motions_before_[o] - rounding_[o];
-    return std::none_of(beyond.begin(), beyond.end(), [](double sum) { return !(sum <= 0.0); });
+    const std::size_t bodies = after_.size();
+    std::vector<double> gained(bodies, 0.0), motions = gained, slacks = gained;
+    owed_ = vibrations_ = of_bodies_ = gained;
+    for (std::size_t o = 0; o < bodies; ++o) {
+        const std::uint32_t island = step.islands[o];
+        const double gain = after_[o] + contacts_at_end_[o] - before_[o] - work_[o];
+        owed_[island] += debts_[o] + gain - contacts_before_[o];
+        gained[island] += gain - contacts_at_start_[o];
+        motions[island] += motions_before_[o];
+        slacks[island] += kSlack * motions_before_[o] + rounding_[o];
+    }
+    for (std::size_t i = 0; i < bodies; ++i) {
+        dues_[i] = std::max(owed_[i] - slacks[i], 0.0);
+        gained[i] = std::max(gained[i] - slacks[i], 0.0);
+    }
+    find_vibrations(step, [&](std::uint32_t island) { return dues_[island] > 0.0 || gained[island] > 0.0; });
+    double most = 0.0;
+    for (std::size_t i = 0; i < bodies; ++i)
+        if (!(gained[i] <= vibrations_[i])) most = std::max(most, (gained[i] - vibrations_[i]) / motions[i]);
+    return most;
 }
 
 template <class Real>
-bool EnergyAccount<Real>::can_settle(const Step& step) {
-    const std::size_t bodies = after_.size();
-    std::vector<double> slacks(bodies, 0.0);
-    owed_.assign(bodies, 0.0);
-    vibrations_.assign(bodies, 0.0);
-    for (std::size_t o = 0; o < bodies; ++o) {
-        const std::uint32_t island = step.islands[o];
-        owed_[island] +=
-            debts_[o] + after_[o] + contacts_at_end_[o] - before_[o] - contacts_before_[o] - work_[o];
-        slacks[island] += kSlack * motions_before_[o] + rounding_[o];
-    }
-    dues_.assign(bodies, 0.0);
-    for (std::size_t i = 0; i < bodies; ++i) dues_[i] = std::max(owed_[i] - slacks[i], 0.0);
-    of_bodies_.assign(bodies, 0.0);
+template <class Counts>
+void EnergyAccount<Real>::find_vibrations(const Step& step, const Counts& counts) {
     parts_.resize(step.current.positions.size());
-    for_each_index(0, bodies, 1, [&](std::size_t o) {
-        if (dues_[step.islands[o]] == 0.0) return;
+    for_each_index(0, of_bodies_.size(), 1, [&](std::size_t o) {
+        if (!counts(step.islands[o])) return;
         const Range& nodes = model_->objects[o].nodes;
         const RigidPart<Real> rigid(nodes, step.current);
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
@@ -182,10 +185,7 @@ bool EnergyAccount<Real>::can_settle(const Step& step) {
             of_bodies_[o] += 0.5 * static_cast<double>(model_->masses[n] * glm::dot(parts_[n], parts_[n]));
         }
     });
-    for (std::size_t o = 0; o < bodies; ++o) vibrations_[step.islands[o]] += of_bodies_[o];
-    for (std::size_t i = 0; i < bodies; ++i)
-        if (dues_[i] > vibrations_[i]) return false;
-    return true;
+    for (std::size_t o = 0; o < of_bodies_.size(); ++o) vibrations_[step.islands[o]] += of_bodies_[o];
 }
 
 template <class Real>

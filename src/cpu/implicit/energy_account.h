@@ -34,11 +34,10 @@ public:
 
     void begin(const Nodes<Real>& previous);
     /// Measures a step.
-    /// @return whether no island gains more than the part `most` of its energy beyond what drives it
-    bool measure(const Step& step, double most);
-    /// Then: finds what is owed by now. @return whether bodies vibrate with as much
-    bool can_settle(const Step& step);
-    /// Then: takes it, as far as they do. @param current nodes of the step
+    /// @return what an island has gained beyond what drives it and what it vibrates with, as a part of its
+    /// energy; of all islands the most; 0 where none has
+    double measure(const Step& step);
+    /// Then: takes what is owed, as far as bodies vibrate. @param current nodes of the step
     void settle(const Step& step, Nodes<Real>& current);
     /// Nodes were set from outside.
     void forget();
@@ -58,6 +57,8 @@ private:
     void find_energies(const Nodes<Real>& nodes);
     void find_contacts(const Step& step);
     void find_work(const Step& step);
+    template <class Counts>
+    void find_vibrations(const Step& step, const Counts& counts);
 
     std::shared_ptr<const Model> model_;
     bool is_known_ = false;

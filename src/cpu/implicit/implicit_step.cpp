@@ -144,25 +144,27 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
         const typename EnergyAccount<Real>::Step made{
             step_,    input.load_forces, input.pulls, on_held, system_.rows, system_.displacements,
             islands_, previous,          current};
-        if (energy_.measure(made, is_shortest ? 1.0 : kMostGain)) {
-            if (!energy_.can_settle(made) && has_past) {
-                damps = true;
-                continue;
-            }
-            energy_.settle(made, current);
-            rows_.remember();
-            const double gravity = glm::length(glm::dvec3(model_->gravity));
-            if (restitution_.run({static_cast<double>(input.step), kBouncingFall * gravity, system_.rows,
-                                  system_.displacements, previous, energy_.before(), energy_.after()},
-                                 system_.rigid, current, is_struck_))
-                energy_.change();
-            break;
+        const double gained = energy_.measure(made);
+        if (has_past && gained > 0.0) {
+            damps = true;
+            continue;
         }
-        if (is_shortest) {
+        if (!is_shortest && gained > kMostGain) {
+            divide();
+            continue;
+        }
+        if (is_shortest && gained > 1.0) {
             stand_still(previous, current);
             break;
         }
-        divide();
+        energy_.settle(made, current);
+        rows_.remember();
+        const double gravity = glm::length(glm::dvec3(model_->gravity));
+        if (restitution_.run({static_cast<double>(input.step), kBouncingFall * gravity, system_.rows,
+                              system_.displacements, previous, energy_.before(), energy_.after()},
+                             system_.rigid, current, is_struck_))
+            energy_.change();
+        break;
     }
     earlier_velocities_ = previous.velocities;
     last_step_ = input.step;
