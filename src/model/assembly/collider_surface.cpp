@@ -140,9 +140,9 @@ void append_surface(const ColliderSurface& surface, Model& model) {
     if (moves) append_motion(surface, object.nodes, model);
     object.handle_nodes.count = size(model.handle_nodes) - object.handle_nodes.first;
     const std::uint32_t first = object.nodes.first;
-    const bool is_room = surrounds_a_body(mesh, model);
+    const bool is_reversed = surrounds_a_body(mesh, model);
     for (const glm::uvec3& f : mesh.faces) {
-        const glm::uvec3 nodes = first + (is_room ? glm::uvec3(f.x, f.z, f.y) : f);
+        const glm::uvec3 nodes = first + (is_reversed ? glm::uvec3(f.x, f.z, f.y) : f);
         model.faces.push_back({nodes.x, nodes.y, nodes.z, size(model.objects)});
     }
     append_box_tree(object.faces, model.face_trees);
