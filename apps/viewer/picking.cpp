@@ -15,11 +15,11 @@ glm::vec3 position_of(std::span<const float> positions, std::uint32_t node) {
     return {p[0], p[1], p[2]};
 }
 
-// The distance along the ray to a triangle (Moeller and Trumbore 1997).
+// The distance along the ray to the front of a triangle (Moeller and Trumbore 1997).
 std::optional<float> distance_to(const Ray& ray, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     const glm::vec3 ab = b - a, ac = c - a, across = glm::cross(ray.direction, ac);
     const float determinant = glm::dot(ab, across);
-    if (determinant == 0.0f) return {};
+    if (!(determinant > 0.0f)) return {};
     const glm::vec3 from_a = ray.origin - a, normal = glm::cross(from_a, ab);
     const float u = glm::dot(from_a, across) / determinant, v = glm::dot(ray.direction, normal) / determinant;
     const float distance = glm::dot(ac, normal) / determinant;

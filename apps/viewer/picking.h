@@ -27,7 +27,7 @@ struct Pick {
     float distance = 0.0f;     ///< along the ray [m]
 };
 
-/// Tests every face, from both sides, except those parallel to the ray.
+/// Tests every face from its front: from behind none is drawn.
 /// @param positions x, y, z of what the faces are between [m]
 std::optional<Pick> pick(const Ray& ray, std::span<const float> positions, std::span<const Face> faces);
 

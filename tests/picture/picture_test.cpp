@@ -97,6 +97,49 @@ TEST_F(PictureTest, NeedsAContextAndASize) {
     EXPECT_THROW(render_picture(seeing, options), InvalidInput);
 }
 
+// Beside that of the same scene without the room, seen from the same place: its floor and its far walls are
+// drawn, its near walls hide nothing, and its lid keeps no light from it.
+TEST_F(PictureTest, ShowsARoomAroundBodies) {
+    for (const Axis up : {Axis::y, Axis::z}) {
+        Scene scene = test::falling_balls();
+        scene.up = up;
+        scene.collision.response = CollisionResponse::contact;
+        scene.simulation.solver = SolverKind::vbd;
+        Scene empty = scene;
+        ColliderDescription room;
+        room.shape = Shape{BoxShape{glm::dvec3(4.0)}};
+        room.position = scene.objects.front().position;
+        scene.colliders = {room};
+        empty.colliders.clear();
+        Simulator within(scene, on(Backend::cpu)), alone(empty, on(Backend::cpu));
+        PictureOptions options = small();
+        const render::Camera camera = Shown(within).camera(1.5f);
+        options.camera = CameraDescription{glm::dvec3(camera.eye), glm::dvec3(camera.target),
+                                           static_cast<double>(camera.field_of_view)};
+        for (const PictureQuality quality : {PictureQuality::fast, PictureQuality::high}) {
+            options.quality = quality;
+            const Picture one = render_picture(within, options), two = render_picture(alone, options);
+            std::size_t bodies = 0, seen = 0, walls = 0, dark = 0;
+            for (std::size_t p = 0; p < one.pixels.size(); p += 3) {
+                const auto is_body = [&](const Picture& picture) {
+                    const auto [low, high] =
+                        std::minmax({picture.pixels[p], picture.pixels[p + 1], picture.pixels[p + 2]});
+                    return high - low > 80;
+                };
+                bodies += is_body(two);
+                seen += is_body(one) && is_body(two);
+                if (is_body(one) || std::abs(one.pixels[p] - two.pixels[p]) <= 8) continue;
+                ++walls;
+                dark += one.pixels[p] < 70;
+            }
+            EXPECT_GT(bodies, 50u);
+            EXPECT_GT(seen, bodies * 9 / 10);
+            EXPECT_GT(walls, one.pixels.size() / 3 / 4);
+            EXPECT_LT(dark, walls / 10);
+        }
+    }
+}
+
 // The same scene with z up, every overlay in it.
 TEST_F(PictureTest, ShowsASceneAlikeWhicheverAxisPointsUp) {
     Scene scene = test::falling_balls();

@@ -199,6 +199,16 @@ TEST(ShownTest, LooksPastWallsAndIntoRooms) {
     EXPECT_TRUE(bodies_in(inside, within).is_in_picture());
 }
 
+TEST(ShownTest, LooksIntoAClosedBoxFromOutside) {
+    const Simulator simulator =
+        simulate(ball("[0.05, 0.11, 0]") + collider("box = [0.4, 0.4, 0.4]", "position = [0, 0.2, 0]"));
+    const render::Camera camera = Shown(simulator).camera(kAspect);
+    EXPECT_TRUE(bodies_in(simulator, camera).is_in_picture());
+    for (const float x : {-0.2f, 0.2f})
+        for (const float y : {0.0f, 0.4f})
+            for (const float z : {-0.2f, 0.2f}) EXPECT_TRUE(shows(simulator, camera, {x, y, z}));
+}
+
 TEST(ShownTest, HasTheScenesOwnCamera) {
     const Simulator simulator =
         simulate(ball("[0, 1, 0]") + "[camera]\neye = [1, 2, 3]\ntarget = [4, 5, 6]\n");

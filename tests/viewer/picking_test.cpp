@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include "mesh/shapes.h"
+#include "model/assembly/build_model.h"
+#include "model/assembly/collider_surface.h"
 #include "support/test_models.h"
 
 namespace gelatin::viewer {
@@ -44,6 +46,26 @@ TEST(Picking, FindsTheNearestFace) {
     const auto behind = pick({{0.3f, 0.4f, -5.0f}, {0.0f, 0.0f, 1.0f}}, positions, model.faces);
     ASSERT_TRUE(behind);
     EXPECT_EQ(behind->object, 1u);
+}
+
+// Its near wall is not drawn.
+TEST(Picking, ReachesIntoARoom) {
+    ColliderDescription room;
+    room.shape = Shape{BoxShape{glm::dvec3(3)}};
+    room.position = glm::dvec3(0.5);
+    Scene scene;
+    scene.collision.response = CollisionResponse::contact;
+    scene.colliders = {room};
+    const Model model = pack_bodies({test::make_body(test::make_block({4, 4, 4}, {1.0, 1.0, 1.0}))}, {},
+                                    glm::dvec3(0.0), make_collider_surfaces(scene));
+    const std::vector<float> positions = positions_of(model);
+    const auto found = pick({{0.3f, 0.4f, 5.0f}, {0.0f, 0.0f, -1.0f}}, positions, model.faces);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->object, 0u);
+    const auto beside = pick({{1.3f, 0.4f, 5.0f}, {0.0f, 0.0f, -1.0f}}, positions, model.faces);
+    ASSERT_TRUE(beside);
+    EXPECT_FALSE(model.is_body(beside->object));
+    EXPECT_NEAR(beside->point.z, -1.0f, 1e-5f) << "the far wall";
 }
 
 TEST(Picking, MissesWhatIsBesideAndBehind) {

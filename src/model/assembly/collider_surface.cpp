@@ -8,6 +8,8 @@
 #include <variant>
 
 #include "gelatin/error.h"
+#include "mesh/lattice/face_tree.h"
+#include "mesh/lattice/solid_angles.h"
 #include "model/assembly/draw_surface.h"
 #include "model/collision/box_tree.h"
 #include "model/spring_packing.h"
@@ -15,6 +17,9 @@
 
 namespace gelatin {
 namespace {
+
+constexpr std::uint32_t kMostSamples = 16;  // nodes of a body
+constexpr std::uint32_t kFacesInLeaf = 64;  // for a few look-ups, a tree that is built fast
 
 // Faces in the order of the tree over them, and nodes in the order of the faces.
 void arrange(SurfaceMesh& mesh) {
@@ -32,6 +37,21 @@ void arrange(SurfaceMesh& mesh) {
         }
     }
     mesh.positions = std::move(positions);
+}
+
+// Whether a body starts within it: sees the backs of its faces in more than half of all directions, as in a
+// box, closed or without a lid.
+bool surrounds_a_body(const SurfaceMesh& mesh, const Model& model) {
+    const lattice::FaceTree tree(mesh, kFacesInLeaf);
+    const lattice::SolidAngles winding_number(tree);
+    const auto is_within = [&](const ModelObject& body) {
+        const std::uint32_t stride = body.nodes.count / kMostSamples + 1;
+        double backs = 0.0, samples = 0.0;
+        for (std::uint32_t n = body.nodes.first; n < body.nodes.end(); n += stride, samples += 1.0)
+            backs += winding_number(glm::dvec3(model.positions[n]));
+        return backs > 0.5 * samples;
+    };
+    return std::any_of(model.bodies().begin(), model.bodies().end(), is_within);
 }
 
 void append_motion(const ColliderSurface& surface, const Range& nodes, Model& model) {
@@ -120,8 +140,11 @@ void append_surface(const ColliderSurface& surface, Model& model) {
     if (moves) append_motion(surface, object.nodes, model);
     object.handle_nodes.count = size(model.handle_nodes) - object.handle_nodes.first;
     const std::uint32_t first = object.nodes.first;
-    for (const glm::uvec3& f : mesh.faces)
-        model.faces.push_back({f.x + first, f.y + first, f.z + first, size(model.objects)});
+    const bool is_reversed = surrounds_a_body(mesh, model);
+    for (const glm::uvec3& f : mesh.faces) {
+        const glm::uvec3 nodes = first + (is_reversed ? glm::uvec3(f.x, f.z, f.y) : f);
+        model.faces.push_back({nodes.x, nodes.y, nodes.z, size(model.objects)});
+    }
     append_box_tree(object.faces, model.face_trees);
     append_draw_surface(model.positions, model.faces, object.faces, kCreaseAngle, model.surface);
     model.surfaces.push_back({surface.description.friction, surface.description.restitution,

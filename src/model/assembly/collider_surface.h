@@ -29,7 +29,8 @@ std::vector<ColliderDescription> solid_colliders(const Scene& scene);
 std::vector<ColliderSurface> make_collider_surfaces(const Scene& scene, ObjectMesher& mesher);
 std::vector<ColliderSurface> make_collider_surfaces(const Scene& scene);
 
-/// Appends a surface: nodes that are held, by a handle if it moves. @pre all bodies are there
+/// Appends a surface: nodes that are held, by a handle if it moves. Its faces turn their fronts to bodies
+/// that start within it, so that it is drawn from inside. @pre all bodies are there
 void append_surface(const ColliderSurface& surface, Model& model);
 
 /// The name of a scene's collider.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <string>
 
 #include "core/file.h"
 #include "gelatin/error.h"
@@ -65,6 +66,50 @@ TEST(ColliderSurface, IsAnObjectWithoutMassAfterTheBodies) {
         const auto at = [&](std::uint32_t n) { return glm::dvec3(model.positions[n]) - glm::dvec3(3, 0, 0); };
         EXPECT_GT(glm::dot(at(face.a), glm::cross(at(face.b), at(face.c))), 0.0);  // it faces outwards
     }
+}
+
+// Six times the volume that faces of the last object enclose about its nodes' mean [m^3]: negative if they
+// face inwards.
+double volume_of_last(const Model& model) {
+    const ModelObject& object = model.objects.back();
+    glm::dvec3 middle(0.0);
+    for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n)
+        middle += glm::dvec3(model.positions[n]) / static_cast<double>(object.nodes.count);
+    double volume = 0.0;
+    for (std::uint32_t f = object.faces.first; f < object.faces.end(); ++f) {
+        const Face& face = model.faces[f];
+        const auto at = [&](std::uint32_t n) { return glm::dvec3(model.positions[n]) - middle; };
+        volume += glm::dot(at(face.a), glm::cross(at(face.b), at(face.c)));
+    }
+    return volume;
+}
+
+// The body is a cube of a metre at the origin's positive side.
+TEST(ColliderSurface, FacesBodiesThatStartWithinIt) {
+    const TemporaryFolder folder;
+    const auto volume_of = [](const Shape& shape, const glm::dvec3& position) {
+        ColliderDescription collider;
+        collider.shape = shape;
+        collider.position = position;
+        const Model model = packed(scene_with({collider}));
+        EXPECT_EQ(model.surface.triangles.size(), model.faces.size());
+        return volume_of_last(model);
+    };
+    const std::string corners =
+        "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+        "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 4 1 5 8\n";
+    write_file(folder.path() / "bin.obj", corners);
+    write_file(folder.path() / "room.obj", corners + "f 3 4 8 7\n");
+    const Shape room{FileShape{folder.path() / "room.obj"}}, bin{FileShape{folder.path() / "bin.obj"}};
+    const glm::dvec3 around(0.5), above(0.5, -1.0, 0.5);
+    EXPECT_NEAR(volume_of(room, around), -6.0 * 8.0, 1e-9);
+    EXPECT_NEAR(volume_of(BoxShape{glm::dvec3(2)}, around), -6.0 * 8.0, 1e-9);
+    EXPECT_LT(volume_of(bin, around), 0.0);
+    EXPECT_LT(volume_of(SphereShape{2.0, 4}, around), 0.0);
+    EXPECT_GT(volume_of(BoxShape{glm::dvec3(2)}, above), 0.0) << "it stands on it, without a gap";
+    EXPECT_GT(volume_of(bin, above), 0.0);
+    EXPECT_GT(volume_of(BoxShape{glm::dvec3(0.2)}, around), 0.0) << "it is within the body";
+    EXPECT_GT(volume_of(bin, {3.0, 0.5, 0.5}), 0.0);
 }
 
 TEST(ColliderSurface, FollowsKeyframesAboutItsPosition) {
