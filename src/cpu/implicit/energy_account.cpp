@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -13,8 +14,8 @@
 namespace gelatin::cpu {
 namespace {
 
-// Of energies, as a part of the potential one, and for bodies at rest [J].
-constexpr double kRounding = 1e-9;
+// Of energies, as a part of them, and for bodies at rest [J].
+constexpr double kRounding = 1e-7, kLeast = 1e-9;
 // What is owed up to this part of an island's energy is not taken: energies have rounding, and BDF2's go to and
 // fro.
 constexpr double kSlack = 0.002;
@@ -25,7 +26,8 @@ template <class Real>
 EnergyAccount<Real>::EnergyAccount(std::shared_ptr<const Model> model)
     : model_(std::move(model)), before_(model_->body_count(), 0.0) {
     after_ = motions_ = motions_before_ = rounding_ = contacts_before_ = contacts_at_start_ =
-        contacts_at_end_ = work_ = debts_ = dues_ = before_;
+        contacts_at_end_ = work_ = debts_ = dues_ = potentials_ = before_;
+    momenta_.resize(before_.size());
 }
 
 template <class Real>
@@ -37,10 +39,18 @@ void EnergyAccount<Real>::forget() {
 
 template <class Real>
 void EnergyAccount<Real>::begin(const Nodes<Real>& previous) {
-    if (!is_known_) find_energies(previous);
+    if (!is_known_ || held_ != count_held(previous)) find_energies(previous);
     before_ = after_;
     motions_before_ = motions_;
+    momenta_before_ = momenta_;
+    potentials_before_ = potentials_;
     contacts_before_ = contacts_at_end_;
+}
+
+template <class Real>
+std::ptrdiff_t EnergyAccount<Real>::count_held(const Nodes<Real>& nodes) const {
+    return std::count_if(nodes.positions.begin(), nodes.positions.end(),
+                         [](const Vec4<Real>& x) { return x.w == Real(0); });
 }
 
 template <class Real>
@@ -61,17 +71,22 @@ void EnergyAccount<Real>::find_energies(const Nodes<Real>& nodes) {
     for_each_index(0, after_.size(), 1, [&](std::size_t o) {
         const ModelObject& object = model_->objects[o];
         double motion = body_energy<Real>(*model_, object, nodes.positions), potential = 0.0;
+        glm::dvec3 momentum(0.0);
         for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
             if (nodes.positions[n].w == Real(0)) continue;
             const glm::dvec3 v(nodes.velocities[n]);
             const auto mass = static_cast<double>(model_->masses[n]);
+            momentum += mass * v;
             motion += 0.5 * mass * glm::dot(v, v);
             potential -= mass * glm::dot(gravity, glm::dvec3(nodes.positions[n]));
         }
         motions_[o] = motion;
+        momenta_[o] = momentum;
+        potentials_[o] = potential;
         after_[o] = motion + potential;
-        rounding_[o] = kRounding * (1.0 + std::abs(potential));
+        rounding_[o] = kLeast + kRounding * (motion + std::abs(potential));
     });
+    held_ = count_held(nodes);
     is_known_ = true;
 }
 
@@ -149,15 +164,31 @@ double EnergyAccount<Real>::measure(const Step& step) {
     find_contacts(step);
     find_work(step);
     const std::size_t bodies = after_.size();
-    std::vector<double> gained(bodies, 0.0), motions = gained, slacks = gained;
+    std::vector<double> gained(bodies, 0.0), motions = gained, slacks = gained, masses = gained;
+    std::vector<glm::dvec3> momenta(bodies, glm::dvec3(0.0)), momenta_before = momenta;
+    const std::vector<std::uint8_t> is_held = find_held(step);
     owed_ = vibrations_ = of_bodies_ = gained;
     for (std::size_t o = 0; o < bodies; ++o) {
         const std::uint32_t island = step.islands[o];
-        const double gain = after_[o] + contacts_at_end_[o] - before_[o] - work_[o];
+        const double fallen = is_held[island] != 0 ? 0.0 : potentials_[o] - potentials_before_[o];
+        const double gain = after_[o] + contacts_at_end_[o] - before_[o] - work_[o] - fallen;
         owed_[island] += debts_[o] + gain - contacts_before_[o];
         gained[island] += gain - contacts_at_start_[o];
+        slacks[island] += rounding_[o];
         motions[island] += motions_before_[o];
-        slacks[island] += kSlack * motions_before_[o] + rounding_[o];
+        masses[island] += model_->objects[o].mass;
+        momenta[island] += momenta_[o];
+        momenta_before[island] += momenta_before_[o];
+    }
+    for (std::size_t i = 0; i < bodies; ++i) {
+        if (is_held[i] == 0 && masses[i] > 0.0) {
+            const auto of_whole = [&](const glm::dvec3& p) { return 0.5 * glm::dot(p, p) / masses[i]; };
+            const double gain = of_whole(momenta[i]) - of_whole(momenta_before[i]);
+            owed_[i] -= gain;
+            gained[i] -= gain;
+            motions[i] = std::max(motions[i] - of_whole(momenta_before[i]), 0.0);
+        }
+        slacks[i] += kSlack * motions[i];
     }
     for (std::size_t i = 0; i < bodies; ++i) {
         dues_[i] = std::max(owed_[i] - slacks[i], 0.0);
@@ -165,9 +196,30 @@ double EnergyAccount<Real>::measure(const Step& step) {
     }
     find_vibrations(step, [&](std::uint32_t island) { return dues_[island] > 0.0 || gained[island] > 0.0; });
     double most = 0.0;
-    for (std::size_t i = 0; i < bodies; ++i)
-        if (!(gained[i] <= vibrations_[i])) most = std::max(most, (gained[i] - vibrations_[i]) / motions[i]);
+    for (std::size_t i = 0; i < bodies; ++i) {
+        const double beyond = gained[i] - vibrations_[i];
+        if (!std::isfinite(beyond)) return std::numeric_limits<double>::infinity();
+        if (beyond > 0.0) most = std::max(most, beyond / (beyond + motions[i]));
+    }
     return most;
+}
+
+// Whether something holds or drives an island. How others move on as a whole and fall is known exactly.
+template <class Real>
+std::vector<std::uint8_t> EnergyAccount<Real>::find_held(const Step& step) const {
+    const bool has_forces = !step.loads.empty() || step.pulls != nullptr;
+    std::vector<std::uint8_t> is_held(after_.size(), has_forces ? 1 : 0);
+    for (const ContactRow<Real>& row : step.rows) {
+        const bool is_first = row.object != kNoNode && model_->is_body(row.object);
+        if (is_first != model_->is_body(row.other))
+            is_held[step.islands[is_first ? row.object : row.other]] = 1;
+    }
+    for (std::size_t o = 0; o < after_.size(); ++o) {
+        const Range& nodes = model_->objects[o].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+            if (step.previous.positions[n].w == Real(0)) is_held[step.islands[o]] = 1;
+    }
+    return is_held;
 }
 
 template <class Real>
@@ -189,11 +241,11 @@ void EnergyAccount<Real>::find_vibrations(const Step& step, const Counts& counts
 }
 
 template <class Real>
-void EnergyAccount<Real>::settle(const Step& step, Nodes<Real>& current) {
+void EnergyAccount<Real>::settle(std::span<const std::uint32_t> islands, Nodes<Real>& current) {
     std::vector<double> masses(after_.size(), 0.0);
-    for (std::size_t o = 0; o < after_.size(); ++o) masses[step.islands[o]] += model_->objects[o].mass;
+    for (std::size_t o = 0; o < after_.size(); ++o) masses[islands[o]] += model_->objects[o].mass;
     for_each_index(0, after_.size(), 1, [&](std::size_t o) {
-        const std::uint32_t island = step.islands[o];
+        const std::uint32_t island = islands[o];
         double left = std::max(owed_[island], 0.0);
         if (dues_[island] > 0.0 && vibrations_[island] > 0.0) {
             const double part = std::min(dues_[island] / vibrations_[island], 1.0);

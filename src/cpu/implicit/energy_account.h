@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -35,10 +36,10 @@ public:
     void begin(const Nodes<Real>& previous);
     /// Measures a step.
     /// @return what an island has gained beyond what drives it and what it vibrates with, as a part of its
-    /// energy; of all islands the most; 0 where none has
+    /// energy then; of all islands the most; 0 where none has, infinity where energies are not finite
     double measure(const Step& step);
-    /// Then: takes what is owed, as far as bodies vibrate. @param current nodes of the step
-    void settle(const Step& step, Nodes<Real>& current);
+    /// Then: takes what is owed, as far as bodies vibrate. @param islands, current of the step
+    void settle(std::span<const std::uint32_t> islands, Nodes<Real>& current);
     /// Nodes were set from outside.
     void forget();
     /// Nodes were moved since the beginning: what bodies gained by it is owed.
@@ -55,14 +56,19 @@ public:
 private:
     double work_on_rows(const Step& step, const ContactRow<Real>& row) const;
     void find_energies(const Nodes<Real>& nodes);
+    std::ptrdiff_t count_held(const Nodes<Real>& nodes) const;
     void find_contacts(const Step& step);
     void find_work(const Step& step);
+    std::vector<std::uint8_t> find_held(const Step& step) const;
     template <class Counts>
     void find_vibrations(const Step& step, const Counts& counts);
 
     std::shared_ptr<const Model> model_;
     bool is_known_ = false;
+    std::ptrdiff_t held_ = 0;  // nodes, of which energies do not count
+    std::vector<double> potentials_, potentials_before_;  // of bodies [J]
     // Of bodies [J]: kinetic, elastic and potential; kinetic and elastic; and what is too small to count.
+    std::vector<glm::dvec3> momenta_, momenta_before_;  // of bodies [kg m/s]
     std::vector<double> before_, after_, motions_, motions_before_, rounding_;
     // Of bodies' shares in contacts [J].
     std::vector<double> contacts_before_, contacts_at_start_, contacts_at_end_;

@@ -130,34 +130,34 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
             const TimedStage part(timer, "advance_nodes.solve");
             system_.solve();
         }
+        Field on_held;
+        const auto gain = [&] {
+            return energy_.measure({step_, input.load_forces, input.pulls, on_held, system_.rows,
+                                    system_.displacements, islands_, previous, current});
+        };
+        double gained = 0.0;
         {
             const TimedStage part(timer, "advance_nodes.finish");
             finish(input, previous, current);
             find_paces(current);
+            if (moves_bodies(previous)) on_held = elastic_forces();
+            gained = gain();
         }
-        {
-            const TimedStage part(timer, "advance_nodes.guard");
-            guard(previous, current);
-        }
-        const TimedStage part(timer, "advance_nodes.energy");
-        const Field on_held = moves_bodies(previous) ? elastic_forces() : Field();
-        const typename EnergyAccount<Real>::Step made{
-            step_,    input.load_forces, input.pulls, on_held, system_.rows, system_.displacements,
-            islands_, previous,          current};
-        const double gained = energy_.measure(made);
         if (has_past && gained > 0.0) {
             damps = true;
             continue;
         }
+        const TimedStage part(timer, "advance_nodes.guard");
+        if (guard(previous, current)) gained = gain();
         if (!is_shortest && gained > kMostGain) {
             divide();
             continue;
         }
-        if (is_shortest && gained > 1.0) {
+        if (!std::isfinite(gained)) {
             stand_still(previous, current);
             break;
         }
-        energy_.settle(made, current);
+        energy_.settle(islands_, current);
         rows_.remember();
         const double gravity = glm::length(glm::dvec3(model_->gravity));
         if (restitution_.run({static_cast<double>(input.step), kBouncingFall * gravity, system_.rows,
@@ -235,7 +235,7 @@ bool ImplicitStep<Real>::choose_schemes(bool damps) {
         paces[island] = std::min(paces[island], paces_[o]);
         if (is_struck_[o] != 0) is_struck[island] = 1;
     }
-    const bool has_past = !damps && last_step_ > Real(0) && step_ < static_cast<Real>(kLongest) * last_step_;
+    const bool has_past = !getenv("EU") && !damps && last_step_ > Real(0) && step_ < static_cast<Real>(kLongest) * last_step_;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         const Pace pace = paces[islands_[o]];
         const bool goes_on = has_past && pace == Pace::moving && is_struck[islands_[o]] == 0;
