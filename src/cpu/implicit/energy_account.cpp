@@ -42,7 +42,6 @@ void EnergyAccount<Real>::begin(const Nodes<Real>& previous) {
     if (!is_known_ || held_ != count_held(previous)) find_energies(previous);
     before_ = after_;
     motions_before_ = motions_;
-    momenta_before_ = momenta_;
     potentials_before_ = potentials_;
     contacts_before_ = contacts_at_end_;
 }
@@ -164,29 +163,29 @@ double EnergyAccount<Real>::measure(const Step& step) {
     find_contacts(step);
     find_work(step);
     const std::size_t bodies = after_.size();
-    std::vector<double> gained(bodies, 0.0), motions = gained, slacks = gained, masses = gained;
-    std::vector<glm::dvec3> momenta(bodies, glm::dvec3(0.0)), momenta_before = momenta;
-    const std::vector<std::uint8_t> is_held = find_held(step);
+    std::vector<double> gained(bodies, 0.0), motions = gained, slacks = gained;
+    std::vector<glm::dvec3> momenta(bodies, glm::dvec3(0.0));
     owed_ = vibrations_ = of_bodies_ = gained;
     for (std::size_t o = 0; o < bodies; ++o) {
-        const std::uint32_t island = step.islands[o];
-        const double fallen = is_held[island] != 0 ? 0.0 : potentials_[o] - potentials_before_[o];
+        const std::uint32_t island = step.islands.of_bodies[o];
+        const double fallen = step.islands.are_held[island] != 0 ? 0.0 : potentials_[o] - potentials_before_[o];
         const double gain = after_[o] + contacts_at_end_[o] - before_[o] - work_[o] - fallen;
         owed_[island] += debts_[o] + gain - contacts_before_[o];
         gained[island] += gain - contacts_at_start_[o];
         slacks[island] += rounding_[o];
         motions[island] += motions_before_[o];
-        masses[island] += model_->objects[o].mass;
         momenta[island] += momenta_[o];
-        momenta_before[island] += momenta_before_[o];
     }
+    // What nothing holds moves on as a whole, and falls, as it does.
     for (std::size_t i = 0; i < bodies; ++i) {
-        if (is_held[i] == 0 && masses[i] > 0.0) {
-            const auto of_whole = [&](const glm::dvec3& p) { return 0.5 * glm::dot(p, p) / masses[i]; };
-            const double gain = of_whole(momenta[i]) - of_whole(momenta_before[i]);
+        const double mass = step.islands.masses[i];
+        if (step.islands.are_held[i] == 0 && mass > 0.0) {
+            const glm::dvec3& v = step.islands.velocities[i];
+            const double before = 0.5 * mass * glm::dot(v, v),
+                         gain = 0.5 * glm::dot(momenta[i], momenta[i]) / mass - before;
             owed_[i] -= gain;
             gained[i] -= gain;
-            motions[i] = std::max(motions[i] - of_whole(momenta_before[i]), 0.0);
+            motions[i] = std::max(motions[i] - before, 0.0);
         }
         slacks[i] += kSlack * motions[i];
     }
@@ -204,30 +203,12 @@ double EnergyAccount<Real>::measure(const Step& step) {
     return most;
 }
 
-// Whether something holds or drives an island. How others move on as a whole and fall is known exactly.
-template <class Real>
-std::vector<std::uint8_t> EnergyAccount<Real>::find_held(const Step& step) const {
-    const bool has_forces = !step.loads.empty() || step.pulls != nullptr;
-    std::vector<std::uint8_t> is_held(after_.size(), has_forces ? 1 : 0);
-    for (const ContactRow<Real>& row : step.rows) {
-        const bool is_first = row.object != kNoNode && model_->is_body(row.object);
-        if (is_first != model_->is_body(row.other))
-            is_held[step.islands[is_first ? row.object : row.other]] = 1;
-    }
-    for (std::size_t o = 0; o < after_.size(); ++o) {
-        const Range& nodes = model_->objects[o].nodes;
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-            if (step.previous.positions[n].w == Real(0)) is_held[step.islands[o]] = 1;
-    }
-    return is_held;
-}
-
 template <class Real>
 template <class Counts>
 void EnergyAccount<Real>::find_vibrations(const Step& step, const Counts& counts) {
     parts_.resize(step.current.positions.size());
     for_each_index(0, of_bodies_.size(), 1, [&](std::size_t o) {
-        if (!counts(step.islands[o])) return;
+        if (!counts(step.islands.of_bodies[o])) return;
         const Range& nodes = model_->objects[o].nodes;
         const RigidPart<Real> rigid(nodes, step.current);
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
@@ -237,15 +218,13 @@ void EnergyAccount<Real>::find_vibrations(const Step& step, const Counts& counts
             of_bodies_[o] += 0.5 * static_cast<double>(model_->masses[n] * glm::dot(parts_[n], parts_[n]));
         }
     });
-    for (std::size_t o = 0; o < of_bodies_.size(); ++o) vibrations_[step.islands[o]] += of_bodies_[o];
+    for (std::size_t o = 0; o < of_bodies_.size(); ++o) vibrations_[step.islands.of_bodies[o]] += of_bodies_[o];
 }
 
 template <class Real>
-void EnergyAccount<Real>::settle(std::span<const std::uint32_t> islands, Nodes<Real>& current) {
-    std::vector<double> masses(after_.size(), 0.0);
-    for (std::size_t o = 0; o < after_.size(); ++o) masses[islands[o]] += model_->objects[o].mass;
+void EnergyAccount<Real>::settle(const Islands& islands, Nodes<Real>& current) {
     for_each_index(0, after_.size(), 1, [&](std::size_t o) {
-        const std::uint32_t island = islands[o];
+        const std::uint32_t island = islands.of_bodies[o];
         double left = std::max(owed_[island], 0.0);
         if (dues_[island] > 0.0 && vibrations_[island] > 0.0) {
             const double part = std::min(dues_[island] / vibrations_[island], 1.0);
@@ -258,7 +237,7 @@ void EnergyAccount<Real>::settle(std::span<const std::uint32_t> islands, Nodes<R
             motions_[o] -= part * of_bodies_[o];
             left -= part * vibrations_[island];
         }
-        debts_[o] = model_->objects[o].mass / masses[island] * left;
+        debts_[o] = model_->objects[o].mass / islands.masses[island] * left;
     });
 }
 

@@ -8,6 +8,7 @@
 
 #include "cpu/drive/pulls.h"
 #include "cpu/implicit/contact_row.h"
+#include "cpu/implicit/islands.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
 
@@ -29,7 +30,7 @@ public:
         std::span<const Vec3<Real>> on_held;     ///< by elements, where handles move nodes [N]; or empty
         std::span<const ContactRow<Real>> rows;
         std::span<const Vec3<Real>> displacements;  ///< [m], shape [nodes]
-        std::span<const std::uint32_t> islands;     ///< of bodies: numbers of the first ones
+        const Islands& islands;
         const Nodes<Real>&previous, &current;
     };
 
@@ -39,7 +40,7 @@ public:
     /// energy then; of all islands the most; 0 where none has, infinity where energies are not finite
     double measure(const Step& step);
     /// Then: takes what is owed, as far as bodies vibrate. @param islands, current of the step
-    void settle(std::span<const std::uint32_t> islands, Nodes<Real>& current);
+    void settle(const Islands& islands, Nodes<Real>& current);
     /// Nodes were set from outside.
     void forget();
     /// Nodes were moved since the beginning: what bodies gained by it is owed.
@@ -59,7 +60,6 @@ private:
     std::ptrdiff_t count_held(const Nodes<Real>& nodes) const;
     void find_contacts(const Step& step);
     void find_work(const Step& step);
-    std::vector<std::uint8_t> find_held(const Step& step) const;
     template <class Counts>
     void find_vibrations(const Step& step, const Counts& counts);
 
@@ -68,7 +68,7 @@ private:
     std::ptrdiff_t held_ = 0;  // nodes, of which energies do not count
     std::vector<double> potentials_, potentials_before_;  // of bodies [J]
     // Of bodies [J]: kinetic, elastic and potential; kinetic and elastic; and what is too small to count.
-    std::vector<glm::dvec3> momenta_, momenta_before_;  // of bodies [kg m/s]
+    std::vector<glm::dvec3> momenta_;  // of bodies [kg m/s]
     std::vector<double> before_, after_, motions_, motions_before_, rounding_;
     // Of bodies' shares in contacts [J].
     std::vector<double> contacts_before_, contacts_at_start_, contacts_at_end_;

@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "core/disjoint_sets.h"
 #include "cpu/contact/contact_force_sums.h"
 #include "cpu/descent/rigid_inertia.h"
 #include "model/for_each_index.h"
@@ -58,7 +57,6 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
       schemes_(model_->objects.size()),
       paces_(model_->body_count()),
       is_struck_(model_->body_count()),
-      islands_(model_->objects.size()),
       compliances_(model_->node_count()),
       expected_(model_->node_count()),
       ends_(model_->node_count()),
@@ -122,6 +120,8 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
         }
         {
             const TimedStage part(timer, "advance_nodes.linearise");
+            islands_.find<Real>(*model_, system_.rows, previous,
+                                !input.load_forces.empty() || input.pulls != nullptr);
             has_past = choose_schemes(damps);
             find_targets(input, previous);
             linearise(input, previous);
@@ -224,21 +224,18 @@ Vec3<Real> ImplicitStep<Real>::acceleration(const StepInput<Real>& input, const 
 // @return whether any body goes on by BDF2
 template <class Real>
 bool ImplicitStep<Real>::choose_schemes(bool damps) {
-    DisjointSets islands(model_->objects.size());
-    for (const ContactRow<Real>& row : system_.rows)
-        if (row.object != kNoNode && model_->is_body(row.object) && model_->is_body(row.other))
-            islands.unite(row.object, row.other);
-    std::vector<Pace> paces(model_->objects.size(), Pace::still);
-    std::vector<std::uint8_t> is_struck(model_->objects.size());
+    std::vector<Pace> paces(model_->body_count(), Pace::still);
+    std::vector<std::uint8_t> is_struck(model_->body_count());
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        const std::uint32_t island = islands_[o] = islands.least(o);
+        const std::uint32_t island = islands_.of_bodies[o];
         paces[island] = std::min(paces[island], paces_[o]);
         if (is_struck_[o] != 0) is_struck[island] = 1;
     }
-    const bool has_past = !getenv("EU") && !damps && last_step_ > Real(0) && step_ < static_cast<Real>(kLongest) * last_step_;
+    const bool has_past = !damps && last_step_ > Real(0) && step_ < static_cast<Real>(kLongest) * last_step_;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        const Pace pace = paces[islands_[o]];
-        const bool goes_on = has_past && pace == Pace::moving && is_struck[islands_[o]] == 0;
+        const std::uint32_t island = islands_.of_bodies[o];
+        const Pace pace = paces[island];
+        const bool goes_on = has_past && pace == Pace::moving && is_struck[island] == 0;
         const Real ratio = goes_on ? step_ / last_step_ : Real(0);
         schemes_[o] = {ratio * ratio / (Real(1) + Real(2) * ratio),
                        step_ * (Real(1) + ratio) / (Real(1) + Real(2) * ratio),
@@ -329,19 +326,20 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
     });
     system_.elastic.linearise(previous.positions, velocities_, Real(1) / input.step);
     const double fall = kAtRest * static_cast<double>(input.step) * glm::length(glm::dvec3(model_->gravity));
-    std::vector<double> energies(model_->objects.size(), 0.0), of_islands = energies, masses = energies;
+    std::vector<double> energies(model_->body_count(), 0.0), of_islands = energies;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         const ModelObject& object = model_->objects[o];
+        const std::uint32_t island = islands_.of_bodies[o];
         for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
-            const glm::dvec3 v(previous.velocities[n]);
+            const glm::dvec3 v = glm::dvec3(previous.velocities[n]) - islands_.velocities[island];
             energies[o] += 0.5 * static_cast<double>(model_->masses[n]) * (glm::dot(v, v) + fall * fall);
         }
-        of_islands[islands_[o]] += energies[o];
-        masses[islands_[o]] += object.mass;
+        of_islands[island] += energies[o];
     }
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        const double share = model_->objects[o].mass / masses[islands_[o]];
-        system_.enough[o] = settings_.tolerance * (energies[o] + kInIsland * share * of_islands[islands_[o]]);
+        const std::uint32_t island = islands_.of_bodies[o];
+        const double share = model_->objects[o].mass / islands_.masses[island];
+        system_.enough[o] = settings_.tolerance * (energies[o] + kInIsland * share * of_islands[island]);
     }
     // A hand pulls like inertia does, to a place of its own.
     if (input.pulls != nullptr)

@@ -12,6 +12,7 @@
 #include "cpu/implicit/energy_account.h"
 #include "cpu/implicit/find_pairs.h"
 #include "cpu/implicit/guard.h"
+#include "cpu/implicit/islands.h"
 #include "cpu/implicit/restitution.h"
 #include "cpu/implicit/step_system.h"
 #include "cpu/nodes.h"
@@ -130,7 +131,7 @@ private:
     std::vector<Scheme> schemes_;                     // by object
     std::vector<Pace> paces_;                         // of bodies, at the end of the last step
     std::vector<std::uint8_t> is_struck_;             // by restitution, then
-    std::vector<std::uint32_t> islands_;              // of bodies: numbers of the first ones
+    Islands islands_;
     Real step_ = 0, last_step_ = 0;
     std::vector<Vec4<Real>> earlier_velocities_;  // v_1
     std::vector<Real> compliances_;               // of nodes in contacts, 1 / h_i [m/N]
