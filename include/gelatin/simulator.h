@@ -81,7 +81,7 @@ struct ContactForce {
 };
 
 /// What a pin or a handle exerts on its object to hold its nodes where they are, when the last step ended:
-/// the mass of these nodes times their acceleration, less all other forces on them. For SolverKind::vbd on
+/// the mass of these nodes times their acceleration, less all other forces on them. For SolverKind::implicit on
 /// the CPU.
 struct HoldingForce {
     std::size_t object = 0;  ///< index in Scene::objects
@@ -117,7 +117,7 @@ struct HostFrame {
     /// For CollisionResponse::contact, else empty: x, y, z of the force of contacts on each node [N], shape
     /// [nodes][3]; and the part of it that is friction.
     std::vector<float> contact_forces, contact_friction;
-    /// For scenes with pins or handles and SolverKind::vbd on the CPU, else empty: x, y, z of the force that
+    /// For scenes with pins or handles and SolverKind::implicit on the CPU, else empty: x, y, z of the force that
     /// holds each node [N], shape [nodes][3]; 0 for those that nothing holds.
     std::vector<float> holding_forces;
 };

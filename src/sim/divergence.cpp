@@ -67,7 +67,7 @@ std::string step_too_long(const Model& model, const Scene& scene, double step_si
         "the step of {:.3g} s is stable for the bodies' shapes at rest (up to {:.3g} s), but not for bodies "
         "that are strongly compressed or stretched; simulation.substeps = {:.0f} (steps of {:.3g} s) is "
         "stable "
-        "for any shape, and so is solver = \"vbd\"",
+        "for any shape, and so is solver = \"implicit\"",
         step_size, largest_stable_step(settings.solver, model), std::ceil(settings.frame_time() / stable),
         stable);
 }

@@ -84,12 +84,14 @@ void ImplicitStep<Real>::forget() {
 }
 
 template <class Real>
-void ImplicitStep<Real>::go_on(std::span<const Vec4<Real>> positions,
-                               std::span<const Vec4<Real>> earlier_velocities, Real step) {
+void ImplicitStep<Real>::go_on(const Nodes<Real>& nodes, std::span<const Vec4<Real>> earlier_velocities,
+                               Real step) {
     earlier_velocities_.assign(earlier_velocities.begin(), earlier_velocities.end());
-    for (std::uint32_t o = 0; o < model_->body_count(); ++o)
-        momenta_[o] = momenta(o, positions, earlier_velocities);
     last_step_ = step;
+    std::vector<Vec4<Real>> earlier = nodes.positions;
+    for (std::size_t n = 0; n < earlier.size(); ++n) earlier[n] -= Vec4<Real>(went(nodes, n), 0);
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o)
+        momenta_[o] = momenta(o, earlier, earlier_velocities);
 }
 
 template <class Real>
@@ -361,7 +363,7 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
 // Where objects meet that go farther beside each other than anything that a step could find out about, it is
 // left to shorter steps.
 template <class Real>
-bool ImplicitStep<Real>::detect(const Nodes<Real>& previous, bool is_shortest) {
+bool ImplicitStep<Real>::detect(const Nodes<Real>& previous, bool is_shortest, bool own) {
     slacks_.resize(model_->objects.size());
     for_each_index(0, slacks_.size(), 1, [&](std::size_t o) {
         const Range& nodes = model_->objects[o].nodes;
@@ -373,7 +375,7 @@ bool ImplicitStep<Real>::detect(const Nodes<Real>& previous, bool is_shortest) {
     });
     if (!contacts_) return true;
     const Paths<Real> paths{previous.positions, ends_, slacks_};
-    pairs_.begin(paths);
+    pairs_.begin(paths, own);
     if (!is_shortest && pairs_.fastest_approach() > static_cast<Real>(kFastest)) return false;
     pairs_.run(paths);
     return true;
@@ -386,7 +388,7 @@ bool ImplicitStep<Real>::follow(const Nodes<Real>& from, Nodes<Real>& nodes) {
         expected_[n] = Vec3<Real>(ends_[n]) - Vec3<Real>(from.positions[n]);
         compliances_[n] = ends_[n].w > Real(0) ? Real(1) : Real(0);
     });
-    detect(from, true);
+    detect(from, true, false);
     if (guard(from, nodes)) return false;
     energy_.begin(from);
     energy_.follow(nodes);

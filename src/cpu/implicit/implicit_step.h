@@ -47,10 +47,8 @@ public:
 
     /// Forgets earlier steps, because nodes were set from outside.
     void restart();
-    /// After it: what the last step began with, and its length [s].
-    /// @param positions where the next one begins, near enough [m]
-    void go_on(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> earlier_velocities,
-               Real step);
+    /// After it. @param nodes where the next step begins @param earlier_velocities and step of the last one
+    void go_on(const Nodes<Real>& nodes, std::span<const Vec4<Real>> earlier_velocities, Real step);
     /// @param previous of held nodes the positions are those where they are, and velocities those that take
     /// them to where their handles have them at the end
     /// @param shortest a step may be [s]
@@ -59,7 +57,7 @@ public:
     Real run(const StepInput<Real>& wanted, Real shortest, const Nodes<Real>& previous, Nodes<Real>& current,
              StageTimer* timer);
 
-    /// Goes on from where bodies were put between steps, if nothing is in between.
+    /// Goes on from where bodies were put between steps, if nothing is in between but they themselves.
     /// @param nodes where they were put @return whether nothing was; else they have to go back
     bool follow(const Nodes<Real>& from, Nodes<Real>& nodes);
 
@@ -104,7 +102,7 @@ private:
     void stand_still(const Nodes<Real>& previous, Nodes<Real>& current);
     void linearise(const StepInput<Real>& input, const Nodes<Real>& previous);
     Real deepest() const;
-    bool detect(const Nodes<Real>& previous, bool is_shortest);
+    bool detect(const Nodes<Real>& previous, bool is_shortest, bool own = true);
     bool guard(const Nodes<Real>& previous, Nodes<Real>& current);
     Field elastic_forces();
     bool moves_bodies(const Nodes<Real>& previous) const;

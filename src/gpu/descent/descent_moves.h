@@ -16,7 +16,7 @@
 namespace gelatin::gpu {
 
 /// The moves of a step of block descent that lower its objective in turn, from a first guess on: sweeps over
-/// nodes (descend.comp), RigidMove and CoarseStep. CPU twin: cpu::BlockDescent::make_moves.
+/// nodes (descend.comp), RigidMove and CoarseStep. CPU twin: cpu::BlockDescent::make_sweeps.
 class DescentMoves {
 public:
     DescentMoves(const Model& model, bool has_coarse_level);

@@ -10,6 +10,7 @@
 #include "model/assembly/build_model.h"
 #include "support/contact_scenes.h"
 #include "support/overlaps.h"
+#include "support/test_models.h"
 #include "support/random_maker.h"
 
 namespace gelatin {
@@ -266,6 +267,28 @@ TEST(SystemSolver, SpinsOnForLong) {
     const BodySums after = sum_bodies(*model, solver.nodes());
     EXPECT_GT(after.kinetic + after.elastic, 0.6 * before);
     EXPECT_LT(after.kinetic + after.elastic, 1.002 * before);
+}
+
+// Solids that are no surfaces with faces, as where bodies do not meet.
+TEST(SystemSolver, RestsOnSolids) {
+    const std::pair<Shape, double> solids[] = {
+        {BoxShape{glm::dvec3(2.0)}, -1.0}, {SphereShape{3.0}, -3.0}, {CapsuleShape{3.0, 1.0}, -3.5}};
+    for (const auto& [shape, height] : solids) {  // their tops are at 0
+        ColliderDescription solid;
+        solid.shape = shape;
+        solid.position = {0, height, 0};
+        solid.friction = 0.5;
+        Body block = test::make_body(test::make_block({3, 3, 3}, {0.3, 0.3, 0.3}));
+        block.material.youngs_modulus = 1e6;
+        for (glm::dvec3& p : block.mesh.positions) p += glm::dvec3(-0.15, 0.05, -0.15);
+        const auto model = std::make_shared<const Model>(pack_bodies({block}, {solid}, {0, -9.81, 0}));
+        cpu::SystemSolver<float> solver(model, {.response = CollisionResponse::restore},
+                                        {.divides_steps = true});
+        for (int frame = 0; frame < 180; ++frame) solver.advance({kFrame});
+        for (const glm::vec4& position : solver.nodes().positions) ASSERT_GT(position.y, -0.02f) << height;
+        const test::BodySums sums = sum_bodies(*model, solver.nodes());
+        EXPECT_LT(sums.kinetic, 1e-4) << height;
+    }
 }
 
 // On a slope that is 0.98 and 1.02 times as steep as friction holds: in gravity that is turned as the slope
