@@ -28,7 +28,7 @@ constexpr double kRestingFall = 1.0 / 60.0, kRestingTime = 0.1;
 constexpr double kBouncingFall = 1.0 / 30.0;
 // Conjugate gradients are as exact as if all moved by this part of what gravity adds in a step, and had this
 // part of their share of the island's energy.
-constexpr double kAtRest = 0.01, kInIsland = 0.1;
+constexpr double kAtRest = 0.002, kInIsland = 0.1;
 // A step that gains an island of bodies this part of its energy was too long for its linearisation, and is made
 // shorter.
 constexpr double kMostGain = 0.1;
@@ -57,6 +57,7 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
       schemes_(model_->objects.size()),
       paces_(model_->body_count()),
       is_struck_(model_->body_count()),
+      held_counts_(model_->body_count()),
       compliances_(model_->node_count()),
       expected_(model_->node_count()),
       ends_(model_->node_count()),
@@ -102,6 +103,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
     earlier_momenta_ = momenta_;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o)
         momenta_[o] = momenta(o, previous.positions, previous.velocities);
+    find_released(previous);
     for (bool damps = false, has_past = false;;) {
         const bool is_shortest = input.step < Real(2) * shortest;
         const auto divide = [&] {
@@ -171,6 +173,18 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
     earlier_velocities_ = previous.velocities;
     last_step_ = input.step;
     return input.step;
+}
+
+// What was let go or taken hold of since the last step does not go on with what moved it then.
+template <class Real>
+void ImplicitStep<Real>::find_released(const Nodes<Real>& previous) {
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
+        const Range& nodes = model_->objects[o].nodes;
+        std::uint32_t count = 0;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) count += previous.positions[n].w == Real(0);
+        if (count != held_counts_[o]) is_struck_[o] = 1;
+        held_counts_[o] = count;
+    }
 }
 
 // Where even the shortest step fails.
@@ -356,8 +370,12 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
     system_.rigid.begin(previous.positions, system_.inertia);
     system_.loads = system_.elastic.forces();
     system_.rigid.follow_rotation(previous.positions, system_.inertia, system_.displacements, system_.loads);
-    for_each_index(model_->node_count(),
-                   [&](std::size_t n) { system_.loads[n] += system_.inertia[n] * system_.displacements[n]; });
+    // Where what is free is wanted is also what its solve starts from. What is held goes on as it goes.
+    for_each_index(model_->node_count(), [&](std::size_t n) {
+        system_.loads[n] += system_.inertia[n] * system_.displacements[n];
+        if (system_.inertia[n] > Real(0) && !system_.rigid.is_free(object_of_[n]))
+            system_.displacements[n] = input.step * Vec3<Real>(previous.velocities[n]);
+    });
 }
 
 // Where objects meet that go farther beside each other than anything that a step could find out about, it is

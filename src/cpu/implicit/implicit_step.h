@@ -99,6 +99,7 @@ private:
     Vec3<Real> went(const Nodes<Real>& previous, std::size_t n) const;
     void find_targets(const StepInput<Real>& input, const Nodes<Real>& previous);
     void find_paces(const Nodes<Real>& current);
+    void find_released(const Nodes<Real>& previous);
     void stand_still(const Nodes<Real>& previous, Nodes<Real>& current);
     void linearise(const StepInput<Real>& input, const Nodes<Real>& previous);
     Real deepest() const;
@@ -128,7 +129,8 @@ private:
     StepSystem<Real> system_;
     std::vector<Scheme> schemes_;                     // by object
     std::vector<Pace> paces_;                         // of bodies, at the end of the last step
-    std::vector<std::uint8_t> is_struck_;             // by restitution, then
+    std::vector<std::uint8_t> is_struck_;             // whose velocities do not go on from those before
+    std::vector<std::uint32_t> held_counts_;          // of bodies' nodes, when the last step began
     Islands islands_;
     Real step_ = 0, last_step_ = 0;
     std::vector<Vec4<Real>> earlier_velocities_;  // v_1

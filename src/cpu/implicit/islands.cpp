@@ -20,18 +20,31 @@ void Islands::find(const Model& model, std::span<const ContactRow<Real>> rows, c
             are_held[of_bodies[is_body(row.other) ? row.other : row.object]] = 1;
     masses.assign(bodies, 0.0);
     velocities.assign(bodies, glm::dvec3(0.0));
+    std::vector<double> held(bodies, 0.0);  // masses
+    std::vector<glm::dvec3> carried(bodies, glm::dvec3(0.0));
     for (std::size_t o = 0; o < bodies; ++o) {
         const std::uint32_t island = of_bodies[o];
         const Range& range = model.objects[o].nodes;
         for (std::uint32_t n = range.first; n < range.end(); ++n) {
-            if (nodes.positions[n].w == Real(0)) are_held[island] = 1;
             const auto mass = static_cast<double>(model.masses[n]);
+            const glm::dvec3 momentum = mass * glm::dvec3(nodes.velocities[n]);
             masses[island] += mass;
-            velocities[island] += mass * glm::dvec3(nodes.velocities[n]);
+            velocities[island] += momentum;
+            if (nodes.positions[n].w != Real(0)) continue;
+            held[island] += mass;
+            carried[island] += momentum;
         }
     }
-    for (std::size_t i = 0; i < bodies; ++i)
-        velocities[i] = are_held[i] != 0 || masses[i] == 0.0 ? glm::dvec3(0.0) : velocities[i] / masses[i];
+    for (std::size_t i = 0; i < bodies; ++i) {
+        if (are_held[i] != 0 || masses[i] == 0.0) {
+            velocities[i] = glm::dvec3(0.0);
+        } else if (held[i] > 0.0) {
+            are_held[i] = 1;
+            velocities[i] = carried[i] / held[i];
+        } else {
+            velocities[i] /= masses[i];
+        }
+    }
 }
 
 template void Islands::find(const Model&, std::span<const ContactRow<float>>, const Nodes<float>&, bool);
