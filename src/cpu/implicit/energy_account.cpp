@@ -16,8 +16,8 @@ namespace {
 
 // Of energies, as a part of them, and for bodies at rest [J].
 constexpr double kRounding = 1e-7, kLeast = 1e-9;
-// What is owed up to this part of an island's energy is not taken: energies have rounding, and BDF2's go to and
-// fro.
+// What is owed up to this part of an island's energy is not taken: energies have rounding, and BDF2's go to
+// and fro.
 constexpr double kSlack = 0.002;
 
 }  // namespace
@@ -100,7 +100,8 @@ void EnergyAccount<Real>::find_contacts(const Step& step) {
         const bool is_first = row.object != kNoNode && model_->is_body(row.object),
                    is_second = model_->is_body(row.other);
         const double share = is_first && is_second ? 0.5 : 1.0;
-        for (const auto& [counts, body] : {std::pair(is_first, row.object), std::pair(is_second, row.other)}) {
+        for (const auto& [counts, body] :
+             {std::pair(is_first, row.object), std::pair(is_second, row.other)}) {
             if (!counts) continue;
             contacts_at_start_[body] += share * start;
             contacts_at_end_[body] += share * end;
@@ -168,7 +169,8 @@ double EnergyAccount<Real>::measure(const Step& step) {
     owed_ = vibrations_ = of_bodies_ = gained;
     for (std::size_t o = 0; o < bodies; ++o) {
         const std::uint32_t island = step.islands.of_bodies[o];
-        const double fallen = step.islands.are_held[island] != 0 ? 0.0 : potentials_[o] - potentials_before_[o];
+        const double fallen =
+            step.islands.are_held[island] != 0 ? 0.0 : potentials_[o] - potentials_before_[o];
         const double gain = after_[o] + contacts_at_end_[o] - before_[o] - work_[o] - fallen;
         owed_[island] += debts_[o] + gain - contacts_before_[o];
         gained[island] += gain - contacts_at_start_[o];
@@ -218,7 +220,8 @@ void EnergyAccount<Real>::find_vibrations(const Step& step, const Counts& counts
             of_bodies_[o] += 0.5 * static_cast<double>(model_->masses[n] * glm::dot(parts_[n], parts_[n]));
         }
     });
-    for (std::size_t o = 0; o < of_bodies_.size(); ++o) vibrations_[step.islands.of_bodies[o]] += of_bodies_[o];
+    for (std::size_t o = 0; o < of_bodies_.size(); ++o)
+        vibrations_[step.islands.of_bodies[o]] += of_bodies_[o];
 }
 
 template <class Real>

@@ -24,10 +24,10 @@ public:
 
     /// A step that was made.
     struct Step {
-        Real length;                             ///< [s]
-        std::span<const Vec4<Real>> loads;       ///< [N], shape [nodes], or empty
-        const Pulls<Real>* pulls;                ///< null: no hand holds anything
-        std::span<const Vec3<Real>> on_held;     ///< by elements, where handles move nodes [N]; or empty
+        Real length;                          ///< [s]
+        std::span<const Vec4<Real>> loads;    ///< [N], shape [nodes], or empty
+        const Pulls<Real>* pulls;             ///< null: no hand holds anything
+        std::span<const Vec3<Real>> on_held;  ///< by elements, where handles move nodes [N]; or empty
         std::span<const ContactRow<Real>> rows;
         std::span<const Vec3<Real>> displacements;  ///< [m], shape [nodes]
         const Islands& islands;
@@ -65,7 +65,7 @@ private:
 
     std::shared_ptr<const Model> model_;
     bool is_known_ = false;
-    std::ptrdiff_t held_ = 0;  // nodes, of which energies do not count
+    std::ptrdiff_t held_ = 0;                             // nodes, of which energies do not count
     std::vector<double> potentials_, potentials_before_;  // of bodies [J]
     // Of bodies [J]: kinetic, elastic and potential; kinetic and elastic; and what is too small to count.
     std::vector<glm::dvec3> momenta_;  // of bodies [kg m/s]

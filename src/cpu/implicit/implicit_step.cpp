@@ -29,8 +29,8 @@ constexpr double kBouncingFall = 1.0 / 30.0;
 // Conjugate gradients are as exact as if all moved by this part of what gravity adds in a step, and had this
 // part of their share of the island's energy.
 constexpr double kAtRest = 0.002, kInIsland = 0.1;
-// A step that gains an island of bodies this part of its energy was too long for its linearisation, and is made
-// shorter.
+// A step that gains an island of bodies this part of its energy was too long for its linearisation, and is
+// made shorter.
 constexpr double kMostGain = 0.1;
 // A step is divided in which contacts would come into each other by so many reaches: by two edges of the
 // surface.

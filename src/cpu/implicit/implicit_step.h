@@ -127,10 +127,10 @@ private:
     Restitution<Real> restitution_;
     EnergyAccount<Real> energy_;
     StepSystem<Real> system_;
-    std::vector<Scheme> schemes_;                     // by object
-    std::vector<Pace> paces_;                         // of bodies, at the end of the last step
-    std::vector<std::uint8_t> is_struck_;             // whose velocities do not go on from those before
-    std::vector<std::uint32_t> held_counts_;          // of bodies' nodes, when the last step began
+    std::vector<Scheme> schemes_;             // by object
+    std::vector<Pace> paces_;                 // of bodies, at the end of the last step
+    std::vector<std::uint8_t> is_struck_;     // whose velocities do not go on from those before
+    std::vector<std::uint32_t> held_counts_;  // of bodies' nodes, when the last step began
     Islands islands_;
     Real step_ = 0, last_step_ = 0;
     std::vector<Vec4<Real>> earlier_velocities_;  // v_1

@@ -16,8 +16,8 @@ struct Islands {
     // By island:
     std::vector<std::uint8_t> are_held;  ///< whether anything holds, carries or drives it
     std::vector<double> masses;          ///< [kg]
-    /// How what nothing holds moves on as a whole, and what handles carry, if nothing else holds it: this is no
-    /// motion of its bodies beside each other. 0 of others [m/s].
+    /// How what nothing holds moves on as a whole, and what handles carry, if nothing else holds it: this is
+    /// no motion of its bodies beside each other. 0 of others [m/s].
     std::vector<glm::dvec3> velocities;
 
     /// @param has_forces whether loads or hands act

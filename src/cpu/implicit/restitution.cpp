@@ -146,8 +146,9 @@ void Restitution<Real>::strike(const Impact& impact, double speed, Nodes<Real>& 
                                std::span<std::uint8_t> is_struck) const {
     for (const Side& side : impact.sides) {
         const glm::dvec3 impulse = side.sign * speed / impact.mobility * impact.normal;
-        const Twist change{side.body.inertia.inverse_mass * impulse,
-                           side.body.inertia.inverse_inertia * glm::cross(impact.point - side.body.center, impulse)};
+        const Twist change{
+            side.body.inertia.inverse_mass * impulse,
+            side.body.inertia.inverse_inertia * glm::cross(impact.point - side.body.center, impulse)};
         const Range& nodes = model_->objects[side.object].nodes;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
             current.velocities[n] +=
