@@ -22,7 +22,7 @@ GLOSSARY = {
 REFUSED = """
 the actors meet|an obstacle|each tick|a BVH of faces|it is mended|capped at 1|the way of a node|ways of bodies|part of its way|along their ways|
 bodies share a way|the slow way|a body is told|a line tells|it is not looked at|another look|what the node has of velocity|what of it is inside|
-its rooms|what is held up|bodies hold up a press|a divided step|courses of bodies|looking back|clear of itself|a body that meets itself|its liveliness|what is owed
+its rooms|what is held up|bodies hold up a press|a divided step|courses of bodies|looking back|clear of itself|a body that meets itself|its liveliness
 """.replace("\n", "").split("|")
 ALLOWED = """It goes half way, both ways, and on its way in the same way, by way of a table. Give way. Look at it. The camera looks at the ball. The look of a
 surface. There is room. Of course. Hold the key. A clear sky. What has moved. Two bodies meet. The attic, the ticket. It held up to 3 J.

@@ -116,11 +116,10 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
         add(start, row, weight * static_cast<Real>(touch.stiffness), first, second, rows);
     }
     for (std::uint32_t c = 0; c < model_->colliders.size(); ++c) {
-        const Collider& plane = model_->colliders[c];
-        if (plane.kind != 0) continue;
+        const Collider& collider = model_->colliders[c];
         for (std::uint32_t n = 0; n < model_->body_node_count(); ++n) {
             if (start.compliances[n] == Real(0)) continue;
-            const SurfaceDistance<Real> to = surface_distance(plane, Vec3<Real>(start.positions[n]));
+            const SurfaceDistance<Real> to = surface_distance(collider, Vec3<Real>(start.positions[n]));
             ContactRow<Real> row;
             row.nodes[0] = n;
             row.weights[0] = Real(1);
@@ -130,7 +129,7 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
             row.normal = to.normal;
             row.gap = to.distance;
             row.reach = static_cast<Real>(surface_->thicknesses[row.other]);
-            row.friction = static_cast<Real>(plane.friction);
+            row.friction = static_cast<Real>(collider.friction);
             row.key = std::uint64_t(1) << 62 | std::uint64_t(c) << 31 | n;
             add(start, row, Real(1), Real(0), start.compliances[n], rows);
         }

@@ -137,7 +137,7 @@ void FindPairs<Real>::find_own(const Paths<Real>& paths) {
 template <class Real>
 bool FindPairs<Real>::find_lost(std::span<const Vec4<Real>> ends) {
     bool any = false;
-    for (std::uint32_t o = 0; own_ && o < model_->body_count(); ++o) {
+    for (std::uint32_t o = 0; finds_own_ && o < model_->body_count(); ++o) {
         if (!kept_.is_convex(o)) continue;
         add_lost(o, kept_.find_more_lost(o, static_cast<Real>(kKept), owns_[o].lost, ends));
         any = any || owns_[o].boxes.size() > owns_[o].listed;
@@ -147,11 +147,12 @@ bool FindPairs<Real>::find_lost(std::span<const Vec4<Real>> ends) {
 
 template <class Real>
 bool FindPairs<Real>::may_meet_itself(std::uint32_t object) const {
-    return own_ && (!kept_.is_convex(object) || !owns_[object].boxes.empty());
+    return finds_own_ && (!kept_.is_convex(object) || !owns_[object].boxes.empty());
 }
 
 template <class Real>
-void FindPairs<Real>::begin(const Paths<Real>& paths) {
+void FindPairs<Real>::begin(const Paths<Real>& paths, bool own) {
+    finds_own_ = own_ && own;
     for_each_index(0, model_->objects.size(), 1, [&](std::size_t o) {
         if (model_->objects[o].faces.count == 0) return;
         const Range& nodes = model_->objects[o].nodes;
@@ -178,7 +179,7 @@ Real FindPairs<Real>::fastest_approach() const {
 
 template <class Real>
 void FindPairs<Real>::run(const Paths<Real>& paths) {
-    if (own_) find_own(paths);
+    if (finds_own_) find_own(paths);
     pairs_.clear();
     search_all(paths, false);
 }

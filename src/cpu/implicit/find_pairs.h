@@ -59,8 +59,8 @@ public:
     /// @param own whether bodies meet themselves
     FindPairs(std::shared_ptr<const Model> model, std::shared_ptr<const ContactSurface> surface, bool own);
 
-    /// Finds boxes; run() has to follow.
-    void begin(const Paths<Real>& paths);
+    /// Finds boxes; run() has to follow. @param own whether bodies meet themselves, if they do at all
+    void begin(const Paths<Real>& paths, bool own = true);
     /// Of objects whose boxes meet, how far one goes beside the other, in reaches, at most.
     Real fastest_approach() const;
     void run(const Paths<Real>& paths);
@@ -113,7 +113,7 @@ private:
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
-    bool own_;
+    bool own_, finds_own_;
     std::vector<std::uint32_t> object_of_;
     KeptDistances<Real> kept_;
     std::vector<Own> owns_;

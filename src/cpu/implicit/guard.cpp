@@ -82,13 +82,12 @@ void Guard<Real>::add(std::uint32_t node, const Vec3<Real>& normal, Real room) {
 }
 
 template <class Real>
-void Guard<Real>::keep_outside_planes(const Paths<Real>& paths, std::span<Vec4<Real>> ends) {
-    for (const Collider& plane : model_->colliders) {
-        if (plane.kind != 0) continue;
+void Guard<Real>::keep_outside_colliders(const Paths<Real>& paths, std::span<Vec4<Real>> ends) {
+    for (const Collider& collider : model_->colliders) {
         for (std::uint32_t n = 0; n < model_->body_node_count(); ++n) {
             if (ends[n].w == Real(0)) continue;
-            const SurfaceDistance<Real> from = surface_distance(plane, Vec3<Real>(paths.from[n])),
-                                        to = surface_distance(plane, Vec3<Real>(ends[n]));
+            const SurfaceDistance<Real> from = surface_distance(collider, Vec3<Real>(paths.from[n])),
+                                        to = surface_distance(collider, Vec3<Real>(ends[n]));
             const auto thickness = static_cast<Real>(surface_->thicknesses[object_of_[n]]);
             const Real least = std::min({static_cast<Real>(kLeastOfReach) * thickness,
                                          static_cast<Real>(kLeastOfGap) * from.distance, from.distance});
@@ -275,7 +274,7 @@ void Guard<Real>::move(const Paths<Real>& paths, std::span<const NearPair<Real>>
     for_each_index(ends.size(), [&](std::size_t n) {
         wanted_[n] = Vec3<Real>(ends[n]) - Vec3<Real>(paths.from[n]) - frames_[object_of_[n]];
     });
-    keep_outside_planes(paths, ends);
+    keep_outside_colliders(paths, ends);
     // In rounds: what is clipped moves nodes, so other pairs of these are checked again.
     std::vector<std::uint8_t> fails(pairs.size());
     for (bool is_first = true;; is_first = false) {

@@ -48,7 +48,7 @@ private:
               std::span<const Real> compliances, std::span<Vec4<Real>> ends);
     void find_frames(const Paths<Real>& paths, std::span<const NearPair<Real>> pairs,
                      std::span<const Vec4<Real>> ends);
-    void keep_outside_planes(const Paths<Real>& paths, std::span<Vec4<Real>> ends);
+    void keep_outside_colliders(const Paths<Real>& paths, std::span<Vec4<Real>> ends);
     bool is_apart(const NearPair<Real>& near, const Paths<Real>& paths,
                   std::span<const Vec4<Real>> ends) const;
     void clip(const NearPair<Real>& near, const Paths<Real>& paths, std::span<const Real> compliances,

@@ -5,10 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "core/disjoint_sets.h"
 #include "cpu/contact/contact_force_sums.h"
 #include "cpu/descent/rigid_inertia.h"
-#include "cpu/elasticity/elastic_energy.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -30,13 +28,10 @@ constexpr double kRestingFall = 1.0 / 60.0, kRestingTime = 0.1;
 constexpr double kBouncingFall = 1.0 / 30.0;
 // Conjugate gradients are as exact as if all moved by this part of what gravity adds in a step, and had this
 // part of their share of the island's energy.
-constexpr double kAtRest = 0.01, kInIsland = 0.1;
-// Where steps would gain bodies this part of their energy in all, they are made again by implicit Euler's
-// scheme, which damps; where one does that gains the second part at once, it was too long for its
-// linearisation, and is made shorter.
-constexpr double kMostGained = 0.002, kMostGain = 0.1;
-// Of energies, as a part of the potential one, and for bodies at rest [J].
-constexpr double kRounding = 1e-9;
+constexpr double kAtRest = 0.002, kInIsland = 0.1;
+// A step that gains an island of bodies this part of its energy was too long for its linearisation, and is
+// made shorter.
+constexpr double kMostGain = 0.1;
 // A step is divided in which contacts would come into each other by so many reaches: by two edges of the
 // surface.
 constexpr double kDeepest = 20.0;
@@ -57,64 +52,58 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
       rows_(model_, surface_),
       guard_(model_, surface_),
       restitution_(model_, surface_),
+      energy_(model_),
       system_(model_),
-      energies_(model_->body_count()),
       schemes_(model_->objects.size()),
       paces_(model_->body_count()),
       is_struck_(model_->body_count()),
-      islands_(model_->objects.size()),
+      held_counts_(model_->body_count()),
       compliances_(model_->node_count()),
       expected_(model_->node_count()),
       ends_(model_->node_count()),
       momenta_(model_->body_count()),
       earlier_momenta_(model_->body_count()) {
     system_.iterations = 2 * settings_.iterations;
-    for (const ModelObject& object : model_->bodies()) mass_ += object.mass;
-    for (const auto& surface : model_->surfaces)
-        fastest_belt_ = std::max(fastest_belt_, glm::length(glm::dvec3(surface.velocity)));
 }
 
 template <class Real>
 void ImplicitStep<Real>::restart() {
+    energy_.forget();
+    forget();
+}
+
+template <class Real>
+void ImplicitStep<Real>::forget() {
     rows_.forget();
     acting_.clear();
     system_.rows.clear();
     pairs_.forget();
     last_step_ = Real(0);
-    energy_.reset();
-    gained_ = in_contacts_ = 0.0;
     restitution_.forget();
     std::fill(paces_.begin(), paces_.end(), Pace::moving);
     std::fill(is_struck_.begin(), is_struck_.end(), std::uint8_t(0));
 }
 
 template <class Real>
-void ImplicitStep<Real>::go_on(std::span<const Vec4<Real>> positions,
-                               std::span<const Vec4<Real>> earlier_velocities, Real step) {
+void ImplicitStep<Real>::go_on(const Nodes<Real>& nodes, std::span<const Vec4<Real>> earlier_velocities,
+                               Real step) {
     earlier_velocities_.assign(earlier_velocities.begin(), earlier_velocities.end());
-    for (std::uint32_t o = 0; o < model_->body_count(); ++o)
-        momenta_[o] = momenta(o, positions, earlier_velocities);
     last_step_ = step;
+    std::vector<Vec4<Real>> earlier = nodes.positions;
+    for (std::size_t n = 0; n < earlier.size(); ++n) earlier[n] -= Vec4<Real>(went(nodes, n), 0);
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o)
+        momenta_[o] = momenta(o, earlier, earlier_velocities);
 }
 
 template <class Real>
 Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const Nodes<Real>& previous,
                              Nodes<Real>& current, StageTimer* timer) {
     StepInput<Real> input = wanted;
-    if (!energy_) energy_ = energy(previous);
-    const Energy before = *energy_;
-    energies_before_ = energies_;
+    energy_.begin(previous);
     earlier_momenta_ = momenta_;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o)
         momenta_[o] = momenta(o, previous.positions, previous.velocities);
-    const double rounding = kRounding * (1.0 + std::abs(before.potential));
-    // What moves held nodes and belts works on bodies no more than if all went back from the fastest of them;
-    // what loads and hands do is not known.
-    const double driving = fastest_driver(previous), mass = mass_;
-    const bool has_forces = !input.load_forces.empty() || input.pulls != nullptr,
-               is_driven = has_forces || driving > 0.0;
-    const double work = has_forces ? std::numeric_limits<double>::max()
-                                   : 2.0 * mass * driving * (driving + std::sqrt(2.0 * before.motion / mass));
+    find_released(previous);
     for (bool damps = false, has_past = false;;) {
         const bool is_shortest = input.step < Real(2) * shortest;
         const auto divide = [&] {
@@ -135,6 +124,8 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
         }
         {
             const TimedStage part(timer, "advance_nodes.linearise");
+            islands_.find<Real>(*model_, system_.rows, previous,
+                                !input.load_forces.empty() || input.pulls != nullptr);
             has_past = choose_schemes(damps);
             find_targets(input, previous);
             linearise(input, previous);
@@ -143,92 +134,64 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
             const TimedStage part(timer, "advance_nodes.solve");
             system_.solve();
         }
+        Field on_held;
+        const auto gain = [&] {
+            return energy_.measure({step_, input.load_forces, input.pulls, on_held, system_.rows,
+                                    system_.displacements, islands_, previous, current});
+        };
+        double gained = 0.0;
         {
             const TimedStage part(timer, "advance_nodes.finish");
             finish(input, previous, current);
             find_paces(current);
-            energy_ = energy(current);
+            if (moves_bodies(previous)) on_held = elastic_forces();
+            gained = gain();
         }
-        // Contacts that are new hold some from the start, which nobody had before.
-        const double at_start = contact_energy(false), at_end = contact_energy(true);
-        const auto gain = [&](double in_contacts) {
-            return energy_->sum() - before.sum() + at_end - in_contacts;
-        };
-        const double most_gained = kMostGained * before.motion + rounding;
-        if (has_past && !is_driven && !(gained_ + gain(in_contacts_) <= most_gained)) {
+        if (has_past && gained > 0.0) {
             damps = true;
             continue;
         }
         const TimedStage part(timer, "advance_nodes.guard");
-        if (guard(previous, current)) energy_ = energy(current);
-        const double most = (is_shortest ? 1.0 : kMostGain) * before.motion + rounding + work;
-        if (gain(at_start) <= most) {
-            gained_ = is_driven ? 0.0 : std::max(gained_ + gain(in_contacts_), 0.0);
-            in_contacts_ = at_end;
-            rows_.remember();
-            const double gravity = glm::length(glm::dvec3(model_->gravity));
-            if (restitution_.run({static_cast<double>(input.step), kBouncingFall * gravity, system_.rows,
-                                  system_.displacements, previous, energies_before_, energies_},
-                                 system_.rigid, current, is_struck_))
-                energy_.reset();
-            break;
+        if (guard(previous, current)) gained = gain();
+        if (!is_shortest && gained > kMostGain) {
+            divide();
+            continue;
         }
-        if (is_shortest) {
+        if (!std::isfinite(gained)) {
             stand_still(previous, current);
             break;
         }
-        divide();
+        energy_.settle(islands_, current);
+        rows_.remember();
+        const double gravity = glm::length(glm::dvec3(model_->gravity));
+        if (restitution_.run({static_cast<double>(input.step), kBouncingFall * gravity, system_.rows,
+                              system_.displacements, previous, energy_.before(), energy_.after()},
+                             system_.rigid, current, is_struck_))
+            energy_.change();
+        break;
     }
     earlier_velocities_ = previous.velocities;
     last_step_ = input.step;
     return input.step;
 }
 
-// What contacts and their friction hold when a step begins or ends [J].
+// What was let go or taken hold of since the last step does not go on with what moved it then.
 template <class Real>
-double ImplicitStep<Real>::contact_energy(bool at_end) const {
-    double sum = 0.0;
-    for (const ContactRow<Real>& row : system_.rows)
-        sum += static_cast<double>(
-            row.energy(at_end ? relative<Real>(row, system_.displacements) : Vec3<Real>(0)));
-    return sum;
-}
-
-template <class Real>
-typename ImplicitStep<Real>::Energy ImplicitStep<Real>::energy(const Nodes<Real>& nodes) {
-    Energy energy;
-    const glm::dvec3 gravity(model_->gravity);
-    for (std::size_t o = 0; o < model_->body_count(); ++o) {
-        const ModelObject& object = model_->objects[o];
-        const double before = energy.sum();
-        energy.motion += body_energy<Real>(*model_, object, nodes.positions);
-        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
-            if (nodes.positions[n].w == Real(0)) continue;
-            const glm::dvec3 v(nodes.velocities[n]);
-            const auto mass = static_cast<double>(model_->masses[n]);
-            energy.motion += 0.5 * mass * glm::dot(v, v);
-            energy.potential -= mass * glm::dot(gravity, glm::dvec3(nodes.positions[n]));
-        }
-        energies_[o] = energy.sum() - before;
+void ImplicitStep<Real>::find_released(const Nodes<Real>& previous) {
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
+        const Range& nodes = model_->objects[o].nodes;
+        std::uint32_t count = 0;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) count += previous.positions[n].w == Real(0);
+        if (count != held_counts_[o]) is_struck_[o] = 1;
+        held_counts_[o] = count;
     }
-    return energy;
-}
-
-// Of held nodes and belts [m/s].
-template <class Real>
-double ImplicitStep<Real>::fastest_driver(const Nodes<Real>& previous) const {
-    double fastest = fastest_belt_;
-    for (std::uint32_t n = 0; n < model_->node_count(); ++n)
-        if (previous.positions[n].w == Real(0))
-            fastest = std::max(fastest, glm::length(glm::dvec3(previous.velocities[n])));
-    return fastest;
 }
 
 // Where even the shortest step fails.
 template <class Real>
 void ImplicitStep<Real>::stand_still(const Nodes<Real>& previous, Nodes<Real>& current) {
     current = previous;
-    energy_.reset();
+    energy_.forget();
     acting_.clear();
     for (std::uint32_t n = 0; n < model_->node_count(); ++n)
         if (previous.positions[n].w != Real(0))
@@ -277,21 +240,18 @@ Vec3<Real> ImplicitStep<Real>::acceleration(const StepInput<Real>& input, const 
 // @return whether any body goes on by BDF2
 template <class Real>
 bool ImplicitStep<Real>::choose_schemes(bool damps) {
-    DisjointSets islands(model_->objects.size());
-    for (const ContactRow<Real>& row : system_.rows)
-        if (row.object != kNoNode && model_->is_body(row.object) && model_->is_body(row.other))
-            islands.unite(row.object, row.other);
-    std::vector<Pace> paces(model_->objects.size(), Pace::still);
-    std::vector<std::uint8_t> is_struck(model_->objects.size());
+    std::vector<Pace> paces(model_->body_count(), Pace::still);
+    std::vector<std::uint8_t> is_struck(model_->body_count());
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        const std::uint32_t island = islands_[o] = islands.least(o);
+        const std::uint32_t island = islands_.of_bodies[o];
         paces[island] = std::min(paces[island], paces_[o]);
         if (is_struck_[o] != 0) is_struck[island] = 1;
     }
     const bool has_past = !damps && last_step_ > Real(0) && step_ < static_cast<Real>(kLongest) * last_step_;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        const Pace pace = paces[islands_[o]];
-        const bool goes_on = has_past && pace == Pace::moving && is_struck[islands_[o]] == 0;
+        const std::uint32_t island = islands_.of_bodies[o];
+        const Pace pace = paces[island];
+        const bool goes_on = has_past && pace == Pace::moving && is_struck[island] == 0;
         const Real ratio = goes_on ? step_ / last_step_ : Real(0);
         schemes_[o] = {ratio * ratio / (Real(1) + Real(2) * ratio),
                        step_ * (Real(1) + ratio) / (Real(1) + Real(2) * ratio),
@@ -382,19 +342,20 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
     });
     system_.elastic.linearise(previous.positions, velocities_, Real(1) / input.step);
     const double fall = kAtRest * static_cast<double>(input.step) * glm::length(glm::dvec3(model_->gravity));
-    std::vector<double> energies(model_->objects.size(), 0.0), of_islands = energies, masses = energies;
+    std::vector<double> energies(model_->body_count(), 0.0), of_islands = energies;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         const ModelObject& object = model_->objects[o];
+        const std::uint32_t island = islands_.of_bodies[o];
         for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
-            const glm::dvec3 v(previous.velocities[n]);
+            const glm::dvec3 v = glm::dvec3(previous.velocities[n]) - islands_.velocities[island];
             energies[o] += 0.5 * static_cast<double>(model_->masses[n]) * (glm::dot(v, v) + fall * fall);
         }
-        of_islands[islands_[o]] += energies[o];
-        masses[islands_[o]] += object.mass;
+        of_islands[island] += energies[o];
     }
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        const double share = model_->objects[o].mass / masses[islands_[o]];
-        system_.enough[o] = settings_.tolerance * (energies[o] + kInIsland * share * of_islands[islands_[o]]);
+        const std::uint32_t island = islands_.of_bodies[o];
+        const double share = model_->objects[o].mass / islands_.masses[island];
+        system_.enough[o] = settings_.tolerance * (energies[o] + kInIsland * share * of_islands[island]);
     }
     // A hand pulls like inertia does, to a place of its own.
     if (input.pulls != nullptr)
@@ -409,14 +370,18 @@ void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Rea
     system_.rigid.begin(previous.positions, system_.inertia);
     system_.loads = system_.elastic.forces();
     system_.rigid.follow_rotation(previous.positions, system_.inertia, system_.displacements, system_.loads);
-    for_each_index(model_->node_count(),
-                   [&](std::size_t n) { system_.loads[n] += system_.inertia[n] * system_.displacements[n]; });
+    // Where what is free is wanted is also what its solve starts from. What is held goes on as it goes.
+    for_each_index(model_->node_count(), [&](std::size_t n) {
+        system_.loads[n] += system_.inertia[n] * system_.displacements[n];
+        if (system_.inertia[n] > Real(0) && !system_.rigid.is_free(object_of_[n]))
+            system_.displacements[n] = input.step * Vec3<Real>(previous.velocities[n]);
+    });
 }
 
 // Where objects meet that go farther beside each other than anything that a step could find out about, it is
 // left to shorter steps.
 template <class Real>
-bool ImplicitStep<Real>::detect(const Nodes<Real>& previous, bool is_shortest) {
+bool ImplicitStep<Real>::detect(const Nodes<Real>& previous, bool is_shortest, bool own) {
     slacks_.resize(model_->objects.size());
     for_each_index(0, slacks_.size(), 1, [&](std::size_t o) {
         const Range& nodes = model_->objects[o].nodes;
@@ -428,22 +393,25 @@ bool ImplicitStep<Real>::detect(const Nodes<Real>& previous, bool is_shortest) {
     });
     if (!contacts_) return true;
     const Paths<Real> paths{previous.positions, ends_, slacks_};
-    pairs_.begin(paths);
+    pairs_.begin(paths, own);
     if (!is_shortest && pairs_.fastest_approach() > static_cast<Real>(kFastest)) return false;
     pairs_.run(paths);
     return true;
 }
 
 template <class Real>
-void ImplicitStep<Real>::follow(const Nodes<Real>& from, Nodes<Real>& nodes) {
-    restart();
+bool ImplicitStep<Real>::follow(const Nodes<Real>& from, Nodes<Real>& nodes) {
     for_each_index(ends_.size(), [&](std::size_t n) {
         ends_[n] = nodes.positions[n];
         expected_[n] = Vec3<Real>(ends_[n]) - Vec3<Real>(from.positions[n]);
         compliances_[n] = ends_[n].w > Real(0) ? Real(1) : Real(0);
     });
-    detect(from, true);
-    guard(from, nodes);
+    detect(from, true, false);
+    if (guard(from, nodes)) return false;
+    energy_.begin(from);
+    energy_.follow(nodes);
+    forget();
+    return true;
 }
 
 // Where a solver wants nodes beyond the paths that pairs were found for, or the guard moves them there, pairs
@@ -577,15 +545,30 @@ ContactForces ImplicitStep<Real>::contact_forces() const {
     return sums.take();
 }
 
+// Of elements when the step has ended [N].
+template <class Real>
+typename ImplicitStep<Real>::Field ImplicitStep<Real>::elastic_forces() {
+    Field product(model_->node_count());
+    system_.elastic.multiply(system_.displacements, product);
+    for (std::size_t n = 0; n < product.size(); ++n) product[n] = system_.elastic.forces()[n] - product[n];
+    return product;
+}
+
+// Whether handles move nodes of bodies.
+template <class Real>
+bool ImplicitStep<Real>::moves_bodies(const Nodes<Real>& previous) const {
+    return std::any_of(model_->handle_nodes.begin(), model_->handle_nodes.end(), [&](const HandleNode& held) {
+        return held.node < model_->body_node_count() && previous.positions[held.node].w == Real(0) &&
+               Vec3<Real>(previous.velocities[held.node]) != Vec3<Real>(0);
+    });
+}
+
 template <class Real>
 std::vector<glm::dvec3> ImplicitStep<Real>::forces_on_held(const StepInput<Real>& input,
                                                            const Nodes<Real>& previous) {
     if (last_step_ == Real(0)) return {};
-    Field product(model_->node_count());
-    system_.elastic.multiply(system_.displacements, product);
-    std::vector<glm::dvec3> forces(product.size());
-    for (std::size_t n = 0; n < forces.size(); ++n)
-        forces[n] = glm::dvec3(system_.elastic.forces()[n]) - glm::dvec3(product[n]);
+    const Field elastic = elastic_forces();
+    std::vector<glm::dvec3> forces(elastic.begin(), elastic.end());
     for (const Acting& acting : acting_)
         for (std::uint32_t k = 0; k < acting.row.count; ++k)
             forces[acting.row.nodes[k]] +=

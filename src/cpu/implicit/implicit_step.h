@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/stage_timer.h"
 #include "cpu/drive/pulls.h"
 #include "cpu/implicit/contact_rows.h"
+#include "cpu/implicit/energy_account.h"
 #include "cpu/implicit/find_pairs.h"
 #include "cpu/implicit/guard.h"
+#include "cpu/implicit/islands.h"
 #include "cpu/implicit/restitution.h"
 #include "cpu/implicit/step_system.h"
 #include "cpu/nodes.h"
@@ -46,10 +47,8 @@ public:
 
     /// Forgets earlier steps, because nodes were set from outside.
     void restart();
-    /// After it: what the last step began with, and its length [s].
-    /// @param positions where the next one begins, near enough [m]
-    void go_on(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> earlier_velocities,
-               Real step);
+    /// After it. @param nodes where the next step begins @param earlier_velocities and step of the last one
+    void go_on(const Nodes<Real>& nodes, std::span<const Vec4<Real>> earlier_velocities, Real step);
     /// @param previous of held nodes the positions are those where they are, and velocities those that take
     /// them to where their handles have them at the end
     /// @param shortest a step may be [s]
@@ -58,15 +57,18 @@ public:
     Real run(const StepInput<Real>& wanted, Real shortest, const Nodes<Real>& previous, Nodes<Real>& current,
              StageTimer* timer);
 
-    /// Goes to where bodies were put between steps, as far as others let them.
-    /// @param nodes input: where they were put; output: where they are
-    void follow(const Nodes<Real>& from, Nodes<Real>& nodes);
+    /// Goes on from where bodies were put between steps, if nothing is in between but they themselves.
+    /// @param nodes where they were put @return whether nothing was; else they have to go back
+    bool follow(const Nodes<Real>& from, Nodes<Real>& nodes);
 
     /// What presses objects at the end of the last step.
     ContactForces contact_forces() const;
     /// Of elements, contacts and hands on held nodes in the last step [N], shape [nodes]; empty before it.
     std::vector<glm::dvec3> forces_on_held(const StepInput<Real>& input, const Nodes<Real>& previous);
     const ContactSurface& surface() const { return *surface_; }
+
+    /// When the last step has ended [J].
+    double contact_energy() const { return energy_.in_contacts(); }
 
     /// Whether anything was near anything else in the last step.
     bool any_near() const { return !system_.rows.empty() || !pairs_.pairs().empty(); }
@@ -90,25 +92,21 @@ private:
         Vec3<Real> normal, friction;
     };
 
+    void forget();
     void predict(const StepInput<Real>& input, const Nodes<Real>& previous);
     Vec3<Real> acceleration(const StepInput<Real>& input, const Nodes<Real>& previous, std::size_t n) const;
     bool choose_schemes(bool damps);
     Vec3<Real> went(const Nodes<Real>& previous, std::size_t n) const;
     void find_targets(const StepInput<Real>& input, const Nodes<Real>& previous);
     void find_paces(const Nodes<Real>& current);
-    // Of all bodies [J]; motion: kinetic and elastic.
-    struct Energy {
-        double motion = 0.0, potential = 0.0;
-        double sum() const { return motion + potential; }
-    };
-    Energy energy(const Nodes<Real>& nodes);
-    double fastest_driver(const Nodes<Real>& previous) const;
+    void find_released(const Nodes<Real>& previous);
     void stand_still(const Nodes<Real>& previous, Nodes<Real>& current);
     void linearise(const StepInput<Real>& input, const Nodes<Real>& previous);
     Real deepest() const;
-    bool detect(const Nodes<Real>& previous, bool is_shortest);
+    bool detect(const Nodes<Real>& previous, bool is_shortest, bool own = true);
     bool guard(const Nodes<Real>& previous, Nodes<Real>& current);
-    double contact_energy(bool at_end) const;
+    Field elastic_forces();
+    bool moves_bodies(const Nodes<Real>& previous) const;
     void finish(const StepInput<Real>& input, const Nodes<Real>& previous, Nodes<Real>& current);
     // [kg m/s]; about the centre of mass [kg m^2/s].
     struct Momenta {
@@ -127,16 +125,13 @@ private:
     ContactRows<Real> rows_;
     Guard<Real> guard_;
     Restitution<Real> restitution_;
+    EnergyAccount<Real> energy_;
     StepSystem<Real> system_;
-    double fastest_belt_ = 0.0, mass_ = 0.0;          // [m/s]; of all bodies [kg]
-    std::optional<Energy> energy_;                    // at the end of the last step, if it is known
-    std::vector<double> energies_, energies_before_;  // of bodies, now and when the step began [J]
-    double in_contacts_ = 0.0;                        // then [J]
-    double gained_ = 0.0;                             // since energy was least [J]
-    std::vector<Scheme> schemes_;                     // by object
-    std::vector<Pace> paces_;                         // of bodies, at the end of the last step
-    std::vector<std::uint8_t> is_struck_;             // by restitution, then
-    std::vector<std::uint32_t> islands_;              // of bodies: numbers of the first ones
+    std::vector<Scheme> schemes_;             // by object
+    std::vector<Pace> paces_;                 // of bodies, at the end of the last step
+    std::vector<std::uint8_t> is_struck_;     // whose velocities do not go on from those before
+    std::vector<std::uint32_t> held_counts_;  // of bodies' nodes, when the last step began
+    Islands islands_;
     Real step_ = 0, last_step_ = 0;
     std::vector<Vec4<Real>> earlier_velocities_;  // v_1
     std::vector<Real> compliances_;               // of nodes in contacts, 1 / h_i [m/N]

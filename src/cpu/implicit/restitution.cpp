@@ -127,25 +127,16 @@ typename Restitution<Real>::Impact Restitution<Real>::find_impact(const Pair& pa
     impact.normal = glm::normalize(meeting.impulse);
     for (const std::size_t object : {pair.first, pair.second}) {
         if (object >= model_->body_count() || !rigid.is_free(object)) continue;
-        const Range& nodes = model_->objects[object].nodes;
-        const glm::dvec3 origin(current.positions[nodes.first]);
-        RigidSums sums;  // with momenta for forces
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
-            const auto mass = static_cast<double>(model_->masses[n]);
-            sums.add(glm::dvec3(current.positions[n]) - origin, mass,
-                     mass * glm::dvec3(current.velocities[n]));
-        }
-        const RigidInertia inertia(sums);
-        impact.sides.push_back({object, object == pair.second ? 1.0 : -1.0, origin + inertia.center, inertia,
-                                inertia.twist(sums.force, sums.moment)});
+        impact.sides.push_back({object, object == pair.second ? 1.0 : -1.0,
+                                RigidPart<Real>(model_->objects[object].nodes, current)});
     }
-    impact.point = impact.sides.back().center + meeting.arm / meeting.size;
+    impact.point = impact.sides.back().body.center + meeting.arm / meeting.size;
     impact.apart = glm::dot(impact.normal, meeting.held) / meeting.size;
     for (const Side& side : impact.sides) {
-        const glm::dvec3 arm = impact.point - side.center, turning = glm::cross(arm, impact.normal);
+        const glm::dvec3 arm = impact.point - side.body.center, turning = glm::cross(arm, impact.normal);
         impact.mobility +=
-            side.inertia.inverse_mass + glm::dot(turning, side.inertia.inverse_inertia * turning);
-        impact.apart += side.sign * glm::dot(impact.normal, side.twist.at(arm));
+            side.body.inertia.inverse_mass + glm::dot(turning, side.body.inertia.inverse_inertia * turning);
+        impact.apart += side.sign * glm::dot(impact.normal, side.body.twist.at(arm));
     }
     return impact;
 }
@@ -155,12 +146,13 @@ void Restitution<Real>::strike(const Impact& impact, double speed, Nodes<Real>& 
                                std::span<std::uint8_t> is_struck) const {
     for (const Side& side : impact.sides) {
         const glm::dvec3 impulse = side.sign * speed / impact.mobility * impact.normal;
-        const Twist change{side.inertia.inverse_mass * impulse,
-                           side.inertia.inverse_inertia * glm::cross(impact.point - side.center, impulse)};
+        const Twist change{
+            side.body.inertia.inverse_mass * impulse,
+            side.body.inertia.inverse_inertia * glm::cross(impact.point - side.body.center, impulse)};
         const Range& nodes = model_->objects[side.object].nodes;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
             current.velocities[n] +=
-                Vec4<Real>(Vec3<Real>(change.at(glm::dvec3(current.positions[n]) - side.center)), 0);
+                Vec4<Real>(Vec3<Real>(change.at(glm::dvec3(current.positions[n]) - side.body.center)), 0);
         is_struck[side.object] = 1;
     }
 }

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "cpu/descent/rigid_inertia.h"
 #include "cpu/implicit/contact_row.h"
 #include "cpu/implicit/rigid_level.h"
+#include "cpu/implicit/rigid_part.h"
 #include "cpu/nodes.h"
 #include "model/contact/contact_surface.h"
 #include "model/model.h"
@@ -60,9 +60,7 @@ private:
     struct Side {
         std::size_t object;
         double sign;
-        glm::dvec3 center;  // [m]
-        RigidInertia inertia;
-        Twist twist;
+        RigidPart<Real> body;
     };
     // Of a meeting that may be over: bodies that are free, and where and how fast they leave each other.
     struct Impact {

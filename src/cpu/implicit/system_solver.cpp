@@ -77,23 +77,27 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
     const std::vector<Vec4<Real>> velocities = current_.velocities;
     const Real part = size / static_cast<Real>(parts), shortest = size / static_cast<Real>(kMostParts);
     StepInput<Real> input{part, load_forces_, this->acting_pulls()};
-    if (std::exchange(goes_on_, false)) step_.go_on(current_.positions, previous_.velocities, part);
+    if (std::exchange(goes_on_, false)) step_.go_on(current_, previous_.velocities, part);
+    to_ = current_;
     for (Real left = size; left > Real(0.5) * shortest; left -= input.step) {
         for (std::size_t n = 0; n < goals_.size(); ++n) {
-            if (current_.positions[n].w != Real(0)) continue;
-            if (left == size && !held_at_.empty()) current_.positions[n] = Vec4<Real>(held_at_[n], Real(0));
-            current_.velocities[n] =
-                Vec4<Real>((goals_[n] - Vec3<Real>(current_.positions[n])) / left, current_.velocities[n].w);
+            if (to_.positions[n].w != Real(0)) continue;
+            if (left == size && !held_at_.empty()) to_.positions[n] = Vec4<Real>(held_at_[n], Real(0));
+            to_.velocities[n] =
+                Vec4<Real>((goals_[n] - Vec3<Real>(to_.positions[n])) / left, to_.velocities[n].w);
         }
-        const std::vector<Vec4<Real>> before = current_.positions;
-        if (!shape_matcher_.run(current_).empty()) step_.follow({before, current_.velocities}, current_);
-        std::swap(current_, previous_);
-        this->sum_loads(step, previous_);
+        from_ = to_;
+        if (!shape_matcher_.run(to_).empty() && step_.follow(from_, to_)) from_ = to_;
+        this->sum_loads(step, from_);
         input.step = left > Real(0.99) * part ? part : left;  // equal ones, but for rounding
-        input.step = step_.run(input, shortest, previous_, current_, timer);
+        input.step = step_.run(input, shortest, from_, to_, timer);
     }
     if (!model_->handles.empty() && model_->is_body(model_->handles[0].object))
-        forces_on_held_ = step_.forces_on_held(input, previous_);
+        forces_on_held_ = step_.forces_on_held(input, from_);
+    // Whoever reads nodes keeps those of the step's start; the next step goes on from its last part.
+    std::swap(current_, previous_);
+    current_ = to_;
+    previous_.velocities = from_.velocities;
     held_at_.assign(current_.positions.begin(), current_.positions.end());
     for (std::size_t n = 0; n < goals_.size(); ++n)
         if (current_.positions[n].w == Real(0)) current_.velocities[n] = velocities[n];

@@ -19,6 +19,8 @@ public:
                           const DescentSettings& settings = {});
 
     ContactForces contact_forces() const override { return step_.contact_forces(); }
+    /// What contacts and their friction hold [J].
+    double contact_energy() const { return step_.contact_energy(); }
     HoldingForces holding_forces() const override;
     std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) const override;
     void write_state(const State& state) override;
@@ -38,7 +40,8 @@ private:
     ImplicitStep<Real> step_;
     ShapeMatcher<Real> shape_matcher_;  // of bodies that have lost their shape, before they move
     std::optional<RestWatch<Real>> rest_watch_;
-    double size_ = 0.0;  // of the last step [s]
+    Nodes<Real> from_, to_;  // of a part of a step
+    double size_ = 0.0;      // of the last step [s]
     std::vector<Vec3<Real>>
         goals_;  // of held nodes at the end of a step [m], by node; others' are not written
     std::vector<Vec3<Real>> held_at_;       // where held nodes are, if bodies are in their way

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "support/contact_scenes.h"
 #include "support/overlaps.h"
 #include "support/random_maker.h"
+#include "support/test_models.h"
 
 namespace gelatin {
 namespace {
@@ -132,6 +134,89 @@ TEST(SystemSolver, FliesOnWhenItIsReleased) {
     for (int frame = 0; frame < 36; ++frame) test::advance(solver, *model, frame);
     // It vibrates as it is let go.
     EXPECT_NEAR(sum_bodies(*model, solver.nodes()).momentum.x / model->objects[0].mass, 0.4, 0.02);
+}
+
+// However the handle moved it last.
+TEST(SystemSolver, KeepsItsMomentumWhenItIsReleased) {
+    Body bar = test::make_body(test::make_block({8, 2, 2}, {0.4, 0.1, 0.1}));
+    HandleDescription handle;
+    handle.region = HalfSpaceRegion{{1.0, 0.0, 0.0}, 0.01};
+    handle.keyframes = {{0.0}, {1.0, {0.4, 0.2, 0.0}, {0.0, 0.0, 90.0}}};
+    handle.release = 0.2;
+    bar.handles = {handle};
+    const auto model = std::make_shared<const Model>(test::make_model(bar));
+    cpu::SystemSolver<double> solver(model);
+    int step = 0;
+    const auto advance = [&] {
+        for (int end = step + 40; step < end; ++step) test::advance(solver, *model, step, 0.005);
+        glm::dvec3 momentum(0.0);  // of held nodes, too
+        for (std::size_t n = 0; n < model->node_count(); ++n)
+            momentum += static_cast<double>(model->masses[n]) * glm::dvec3(solver.nodes().velocities[n]);
+        return momentum;
+    };
+    const glm::dvec3 before = advance();
+    EXPECT_GT(glm::length(before), 0.2 * model->objects[0].mass);
+    EXPECT_LT(glm::length(advance() - before), 1e-6 * glm::length(before));
+}
+
+// A pin holds the weight of a bar, and a handle that lifts one gives it its acceleration, also at 25 m/s.
+TEST(SystemSolver, WhatHoldsABarExertsItsWeight) {
+    constexpr double kGravity = 9.81, kStep = 1.0 / 60.0;
+    for (const double acceleration : {0.0, 3.0}) {
+        Body bar = test::make_body(test::make_block({12, 3, 3}, {0.5, 0.125, 0.125}));
+        bar.material.youngs_modulus = 5e4;
+        bar.material.damping = 5e-2;
+        HandleDescription handle;
+        handle.region = HalfSpaceRegion{{1, 0, 0}, 1e-6};
+        for (int k = 0; k <= 500; ++k) {
+            const double time = k * kStep;
+            handle.keyframes.push_back({time, {0.0, 0.5 * acceleration * time * time, 0.0}});
+        }
+        bar.handles = {handle};
+        const auto model = std::make_shared<const Model>(test::make_model(bar, {0, -kGravity, 0}));
+        cpu::SystemSolver<float> solver(model);
+        for (int step = 0; step < (acceleration == 0.0 ? 1500 : 500); ++step)
+            test::advance(solver, *model, step, kStep);
+        const double weight = model->objects[0].mass * (kGravity + acceleration);
+        EXPECT_LT(glm::distance(solver.holding_forces().by_handle[0], {0, weight, 0}),
+                  (acceleration == 0.0 ? 2e-4 : 8e-3) * weight)
+            << acceleration;
+    }
+}
+
+// What falls fast vibrates as what does not.
+TEST(SystemSolver, VibrationsDoNotDependOnHowFastABodyFlies) {
+    const auto after = [](double speed) {
+        const auto model = make_blocks({{.velocity = {0, -speed, 0}, .youngs_modulus = 1e4}});
+        auto stretched = std::make_shared<Model>(*model);
+        for (std::size_t n = 0; n < stretched->node_count(); ++n)
+            stretched->velocities[n].x = 3.0f * (stretched->positions[n].x - 0.15f);
+        cpu::SystemSolver<double> solver(stretched);
+        std::vector<double> elastic;
+        for (int frame = 0; frame < 20; ++frame) {
+            solver.advance({kFrame});
+            elastic.push_back(sum_bodies(*stretched, solver.nodes()).elastic);
+        }
+        return elastic;
+    };
+    const std::vector<double> slow = after(0.0), fast = after(80.0);
+    const double most = *std::max_element(slow.begin(), slow.end());
+    EXPECT_GT(most, 0.1);
+    for (std::size_t f = 0; f < slow.size(); ++f) EXPECT_NEAR(fast[f], slow[f], 0.02 * most) << f;
+}
+
+// Views of the nodes at a step's start stay as they are while it is made, in however many parts.
+TEST(SystemSolver, KeepsTheNodesOfTheStart) {
+    const auto model = make_blocks({{.velocity = {1, 0, 0}}});
+    cpu::SystemSolver<float> solver = make_system_solver<float>(model);
+    for (int frame = 0; frame < 3; ++frame) {
+        const std::vector<glm::vec4>& start = solver.nodes().positions;
+        const glm::vec4* const address = start.data();
+        const std::vector<glm::vec4> kept = start;
+        solver.advance({kFrame});
+        EXPECT_NE(solver.nodes().positions.data(), address);
+        EXPECT_TRUE(std::equal(kept.begin(), kept.end(), address));
+    }
 }
 
 // With dampers of its own: without them a tower of cubes sways for minutes.
@@ -266,6 +351,28 @@ TEST(SystemSolver, SpinsOnForLong) {
     const BodySums after = sum_bodies(*model, solver.nodes());
     EXPECT_GT(after.kinetic + after.elastic, 0.6 * before);
     EXPECT_LT(after.kinetic + after.elastic, 1.002 * before);
+}
+
+// Solids that are no surfaces with faces, as where bodies do not meet.
+TEST(SystemSolver, RestsOnSolids) {
+    const std::pair<Shape, double> solids[] = {
+        {BoxShape{glm::dvec3(2.0)}, -1.0}, {SphereShape{3.0}, -3.0}, {CapsuleShape{3.0, 1.0}, -3.5}};
+    for (const auto& [shape, height] : solids) {  // their tops are at 0
+        ColliderDescription solid;
+        solid.shape = shape;
+        solid.position = {0, height, 0};
+        solid.friction = 0.5;
+        Body block = test::make_body(test::make_block({3, 3, 3}, {0.3, 0.3, 0.3}));
+        block.material.youngs_modulus = 1e6;
+        for (glm::dvec3& p : block.mesh.positions) p += glm::dvec3(-0.15, 0.05, -0.15);
+        const auto model = std::make_shared<const Model>(pack_bodies({block}, {solid}, {0, -9.81, 0}));
+        cpu::SystemSolver<float> solver(model, {.response = CollisionResponse::restore},
+                                        {.divides_steps = true});
+        for (int frame = 0; frame < 180; ++frame) solver.advance({kFrame});
+        for (const glm::vec4& position : solver.nodes().positions) ASSERT_GT(position.y, -0.02f) << height;
+        const test::BodySums sums = sum_bodies(*model, solver.nodes());
+        EXPECT_LT(sums.kinetic, 1e-4) << height;
+    }
 }
 
 // On a slope that is 0.98 and 1.02 times as steep as friction holds: in gravity that is turned as the slope

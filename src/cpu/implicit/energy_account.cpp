@@ -1,0 +1,250 @@
+#include "cpu/implicit/energy_account.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "cpu/elasticity/elastic_energy.h"
+#include "cpu/implicit/rigid_part.h"
+#include "model/for_each_index.h"
+
+namespace gelatin::cpu {
+namespace {
+
+// Of energies, as a part of them, and for bodies at rest [J].
+constexpr double kRounding = 1e-7, kLeast = 1e-9;
+// What is owed up to this part of an island's energy is not taken: energies have rounding, and BDF2's go to
+// and fro.
+constexpr double kSlack = 0.002;
+
+}  // namespace
+
+template <class Real>
+EnergyAccount<Real>::EnergyAccount(std::shared_ptr<const Model> model)
+    : model_(std::move(model)), before_(model_->body_count(), 0.0) {
+    after_ = motions_ = motions_before_ = rounding_ = contacts_before_ = contacts_at_start_ =
+        contacts_at_end_ = work_ = debts_ = dues_ = potentials_ = before_;
+    momenta_.resize(before_.size());
+}
+
+template <class Real>
+void EnergyAccount<Real>::forget() {
+    is_known_ = false;
+    std::fill(contacts_at_end_.begin(), contacts_at_end_.end(), 0.0);
+    std::fill(debts_.begin(), debts_.end(), 0.0);
+}
+
+template <class Real>
+void EnergyAccount<Real>::begin(const Nodes<Real>& previous) {
+    if (!is_known_ || held_ != count_held(previous)) find_energies(previous);
+    before_ = after_;
+    motions_before_ = motions_;
+    potentials_before_ = potentials_;
+    contacts_before_ = contacts_at_end_;
+}
+
+template <class Real>
+std::ptrdiff_t EnergyAccount<Real>::count_held(const Nodes<Real>& nodes) const {
+    return std::count_if(nodes.positions.begin(), nodes.positions.end(),
+                         [](const Vec4<Real>& x) { return x.w == Real(0); });
+}
+
+template <class Real>
+void EnergyAccount<Real>::follow(const Nodes<Real>& nodes) {
+    find_energies(nodes);
+    for (std::size_t o = 0; o < debts_.size(); ++o)
+        debts_[o] = std::max(debts_[o] + after_[o] - before_[o], 0.0);
+}
+
+template <class Real>
+double EnergyAccount<Real>::in_contacts() const {
+    return std::accumulate(contacts_at_end_.begin(), contacts_at_end_.end(), 0.0);
+}
+
+template <class Real>
+void EnergyAccount<Real>::find_energies(const Nodes<Real>& nodes) {
+    const glm::dvec3 gravity(model_->gravity);
+    for_each_index(0, after_.size(), 1, [&](std::size_t o) {
+        const ModelObject& object = model_->objects[o];
+        double motion = body_energy<Real>(*model_, object, nodes.positions), potential = 0.0;
+        glm::dvec3 momentum(0.0);
+        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
+            if (nodes.positions[n].w == Real(0)) continue;
+            const glm::dvec3 v(nodes.velocities[n]);
+            const auto mass = static_cast<double>(model_->masses[n]);
+            momentum += mass * v;
+            motion += 0.5 * mass * glm::dot(v, v);
+            potential -= mass * glm::dot(gravity, glm::dvec3(nodes.positions[n]));
+        }
+        motions_[o] = motion;
+        momenta_[o] = momentum;
+        potentials_[o] = potential;
+        after_[o] = motion + potential;
+        rounding_[o] = kLeast + kRounding * (motion + std::abs(potential));
+    });
+    held_ = count_held(nodes);
+    is_known_ = true;
+}
+
+// Each of two bodies has half.
+template <class Real>
+void EnergyAccount<Real>::find_contacts(const Step& step) {
+    std::fill(contacts_at_start_.begin(), contacts_at_start_.end(), 0.0);
+    std::fill(contacts_at_end_.begin(), contacts_at_end_.end(), 0.0);
+    for (const ContactRow<Real>& row : step.rows) {
+        const auto start = static_cast<double>(row.energy(Vec3<Real>(0))),
+                   end = static_cast<double>(row.energy(relative<Real>(row, step.displacements)));
+        const bool is_first = row.object != kNoNode && model_->is_body(row.object),
+                   is_second = model_->is_body(row.other);
+        const double share = is_first && is_second ? 0.5 : 1.0;
+        for (const auto& [counts, body] :
+             {std::pair(is_first, row.object), std::pair(is_second, row.other)}) {
+            if (!counts) continue;
+            contacts_at_start_[body] += share * start;
+            contacts_at_end_[body] += share * end;
+        }
+    }
+}
+
+// By held nodes and belts on what a contact presses [J].
+template <class Real>
+double EnergyAccount<Real>::work_on_rows(const Step& step, const ContactRow<Real>& row) const {
+    Vec3<Real> moved(0);  // as much as s by what is held
+    for (std::uint32_t k = 0; k < row.count; ++k)
+        if (step.previous.positions[row.nodes[k]].w == Real(0))
+            moved += row.weights[k] * step.displacements[row.nodes[k]];
+    const auto belt = [&](std::uint32_t object) {
+        return step.length * Vec3<Real>(model_->surfaces[object - model_->body_count()].velocity);
+    };
+    if (row.object != kNoNode && !model_->is_body(row.object)) moved -= belt(row.object);
+    if (!model_->is_body(row.other)) moved += belt(row.other);
+    if (moved == Vec3<Real>(0)) return 0.0;
+    return -static_cast<double>(glm::dot(row.force(relative<Real>(row, step.displacements)), moved));
+}
+
+template <class Real>
+void EnergyAccount<Real>::find_work(const Step& step) {
+    std::fill(work_.begin(), work_.end(), 0.0);
+    for (const ContactRow<Real>& row : step.rows)
+        work_[model_->is_body(row.other) ? row.other : row.object] += work_on_rows(step, row);
+    const auto dot = [](const Vec3<Real>& a, const Vec3<Real>& b) {
+        return glm::dot(glm::dvec3(a), glm::dvec3(b));
+    };
+    for (std::size_t o = 0; o < work_.size(); ++o) {
+        const Range& nodes = model_->objects[o].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            const Vec3<Real>& d = step.displacements[n];
+            if (!step.loads.empty()) work_[o] += dot(Vec3<Real>(step.loads[n]), d);
+            if (!step.on_held.empty() && step.previous.positions[n].w == Real(0))
+                work_[o] -= dot(step.on_held[n], d);
+        }
+    }
+    if (step.pulls == nullptr) return;
+    for (const std::uint32_t n : step.pulls->nodes()) {
+        const auto body = std::upper_bound(model_->objects.begin(), model_->objects.end(), n,
+                                           [](std::uint32_t node, const ModelObject& object) {
+                                               return node < object.nodes.first;
+                                           }) -
+                          model_->objects.begin() - 1;
+        const Vec4<Real> x = step.previous.positions[n];
+        const Vec3<Real>& d = step.displacements[n];
+        const auto force = [&](const Vec4<Real>& at) {
+            return step.pulls->force_at_end(n, at, Vec3<Real>(x), step.length);
+        };
+        work_[body] += std::max({dot(force(x), d), dot(force(Vec4<Real>(Vec3<Real>(x) + d, x.w)), d), 0.0});
+    }
+}
+
+template <class Real>
+double EnergyAccount<Real>::measure(const Step& step) {
+    find_energies(step.current);
+    find_contacts(step);
+    find_work(step);
+    const std::size_t bodies = after_.size();
+    std::vector<double> gained(bodies, 0.0), motions = gained, slacks = gained;
+    std::vector<glm::dvec3> momenta(bodies, glm::dvec3(0.0));
+    owed_ = vibrations_ = of_bodies_ = gained;
+    for (std::size_t o = 0; o < bodies; ++o) {
+        const std::uint32_t island = step.islands.of_bodies[o];
+        const double fallen =
+            step.islands.are_held[island] != 0 ? 0.0 : potentials_[o] - potentials_before_[o];
+        const double gain = after_[o] + contacts_at_end_[o] - before_[o] - work_[o] - fallen;
+        owed_[island] += debts_[o] + gain - contacts_before_[o];
+        gained[island] += gain - contacts_at_start_[o];
+        slacks[island] += rounding_[o];
+        motions[island] += motions_before_[o];
+        momenta[island] += momenta_[o];
+    }
+    // What nothing holds moves on as a whole, and falls, as it does.
+    for (std::size_t i = 0; i < bodies; ++i) {
+        const double mass = step.islands.masses[i];
+        if (step.islands.are_held[i] == 0 && mass > 0.0) {
+            const glm::dvec3& v = step.islands.velocities[i];
+            const double before = 0.5 * mass * glm::dot(v, v),
+                         gain = 0.5 * glm::dot(momenta[i], momenta[i]) / mass - before;
+            owed_[i] -= gain;
+            gained[i] -= gain;
+            motions[i] = std::max(motions[i] - before, 0.0);
+        }
+        slacks[i] += kSlack * motions[i];
+    }
+    for (std::size_t i = 0; i < bodies; ++i) {
+        dues_[i] = std::max(owed_[i] - slacks[i], 0.0);
+        gained[i] = std::max(gained[i] - slacks[i], 0.0);
+    }
+    find_vibrations(step, [&](std::uint32_t island) { return dues_[island] > 0.0 || gained[island] > 0.0; });
+    double most = 0.0;
+    for (std::size_t i = 0; i < bodies; ++i) {
+        const double beyond = gained[i] - vibrations_[i];
+        if (!std::isfinite(beyond)) return std::numeric_limits<double>::infinity();
+        if (beyond > 0.0) most = std::max(most, beyond / (beyond + motions[i]));
+    }
+    return most;
+}
+
+template <class Real>
+template <class Counts>
+void EnergyAccount<Real>::find_vibrations(const Step& step, const Counts& counts) {
+    parts_.resize(step.current.positions.size());
+    for_each_index(0, of_bodies_.size(), 1, [&](std::size_t o) {
+        if (!counts(step.islands.of_bodies[o])) return;
+        const Range& nodes = model_->objects[o].nodes;
+        const RigidPart<Real> rigid(nodes, step.current);
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+            const Vec4<Real> x = step.current.positions[n];
+            if (x.w == Real(0)) continue;
+            parts_[n] = Vec3<Real>(step.current.velocities[n]) - Vec3<Real>(rigid.at(x));
+            of_bodies_[o] += 0.5 * static_cast<double>(model_->masses[n] * glm::dot(parts_[n], parts_[n]));
+        }
+    });
+    for (std::size_t o = 0; o < of_bodies_.size(); ++o)
+        vibrations_[step.islands.of_bodies[o]] += of_bodies_[o];
+}
+
+template <class Real>
+void EnergyAccount<Real>::settle(const Islands& islands, Nodes<Real>& current) {
+    for_each_index(0, after_.size(), 1, [&](std::size_t o) {
+        const std::uint32_t island = islands.of_bodies[o];
+        double left = std::max(owed_[island], 0.0);
+        if (dues_[island] > 0.0 && vibrations_[island] > 0.0) {
+            const double part = std::min(dues_[island] / vibrations_[island], 1.0);
+            const auto factor = static_cast<Real>(1.0 - std::sqrt(1.0 - part));
+            const Range& nodes = model_->objects[o].nodes;
+            for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+                if (current.positions[n].w != Real(0))
+                    current.velocities[n] -= Vec4<Real>(factor * parts_[n], 0);
+            after_[o] -= part * of_bodies_[o];
+            motions_[o] -= part * of_bodies_[o];
+            left -= part * vibrations_[island];
+        }
+        debts_[o] = model_->objects[o].mass / islands.masses[island] * left;
+    });
+}
+
+template class EnergyAccount<float>;
+template class EnergyAccount<double>;
+
+}  // namespace gelatin::cpu
