@@ -113,7 +113,7 @@ private:
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
-    bool own_, finds_own_;
+    bool own_, finds_own_ = false;
     std::vector<std::uint32_t> object_of_;
     KeptDistances<Real> kept_;
     std::vector<Own> owns_;
