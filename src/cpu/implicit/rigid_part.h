@@ -9,7 +9,8 @@
 
 namespace gelatin::cpu {
 
-/// How a body moves as a rigid one, by its momentum and angular momentum; one of which nodes are held does not.
+/// How a body moves as a rigid one, by its momentum and angular momentum; one of which nodes are held does
+/// not.
 template <class Real>
 struct RigidPart {
     glm::dvec3 center{0.0};  ///< of mass [m]

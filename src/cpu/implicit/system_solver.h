@@ -40,8 +40,8 @@ private:
     ImplicitStep<Real> step_;
     ShapeMatcher<Real> shape_matcher_;  // of bodies that have lost their shape, before they move
     std::optional<RestWatch<Real>> rest_watch_;
-    Nodes<Real> from_, to_;             // of a part of a step
-    double size_ = 0.0;                 // of the last step [s]
+    Nodes<Real> from_, to_;  // of a part of a step
+    double size_ = 0.0;      // of the last step [s]
     std::vector<Vec3<Real>>
         goals_;  // of held nodes at the end of a step [m], by node; others' are not written
     std::vector<Vec3<Real>> held_at_;       // where held nodes are, if bodies are in their way

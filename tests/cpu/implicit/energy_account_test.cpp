@@ -53,7 +53,8 @@ protected:
     double measure(const Nodes& previous, const Nodes& current) {
         islands_.find<double>(*model_, rows_, previous, !loads_.empty());
         account_->begin(previous);
-        return account_->measure({0.01, loads_, nullptr, {}, rows_, displacements_, islands_, previous, current});
+        return account_->measure(
+            {0.01, loads_, nullptr, {}, rows_, displacements_, islands_, previous, current});
     }
     test::BodySums sums(const Nodes& nodes) const { return test::sum_bodies<double>(*model_, nodes); }
     double energy(const Nodes& nodes) const { return sums(nodes).kinetic; }
@@ -77,13 +78,12 @@ TEST_F(EnergyAccountTest, WhatABodyGainsItsVibrationsLose) {
     EXPECT_LT(glm::length(sums(now).momentum - sums(end).momentum), 1e-12);
     glm::dvec3 turned(0.0);
     for (std::size_t n = 0; n < now.positions.size(); ++n)
-        turned += glm::cross(glm::dvec3(now.positions[n]),
-                             glm::dvec3(now.velocities[n] - end.velocities[n])) /
-                  now.positions[n].w;
+        turned +=
+            glm::cross(glm::dvec3(now.positions[n]), glm::dvec3(now.velocities[n] - end.velocities[n])) /
+            now.positions[n].w;
     EXPECT_LT(glm::length(turned), 1e-6);
     const Range& other = model_->objects[1].nodes;
-    for (std::uint32_t n = other.first; n < other.end(); ++n)
-        EXPECT_EQ(now.velocities[n], end.velocities[n]);
+    for (std::uint32_t n = other.first; n < other.end(); ++n) EXPECT_EQ(now.velocities[n], end.velocities[n]);
 }
 
 TEST_F(EnergyAccountTest, WhatCannotBeTakenIsOwed) {
