@@ -166,14 +166,22 @@ void FindPairs<Real>::begin(const Paths<Real>& paths, bool own) {
 }
 
 template <class Real>
-Real FindPairs<Real>::fastest_approach() const {
+Real FindPairs<Real>::fastest_approach(const Paths<Real>& paths) const {
     Real fastest = 0;
-    for (std::uint32_t o = 0; o < model_->body_count(); ++o)
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         object_tree_.for_objects_near(bounding_boxes_[o], [&](std::uint32_t other) {
             if (other != o)
                 fastest = std::max(fastest, glm::length(motions_[other] - motions_[o]) /
                                                 static_cast<Real>(surface_->reach(o, other)));
         });
+        if (!finds_own_) continue;
+        const Range& nodes = model_->objects[o].nodes;
+        Real farthest = 0;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+            farthest = std::max(
+                farthest, glm::length(Vec3<Real>(paths.to[n]) - Vec3<Real>(paths.from[n]) - motions_[o]));
+        fastest = std::max(fastest, farthest / static_cast<Real>(surface_->reach(o, o)));
+    }
     return fastest;
 }
 

@@ -61,8 +61,9 @@ public:
 
     /// Finds boxes; run() has to follow. @param own whether bodies meet themselves, if they do at all
     void begin(const Paths<Real>& paths, bool own = true);
-    /// Of objects whose boxes meet, how far one goes beside the other, in reaches, at most.
-    Real fastest_approach() const;
+    /// Of objects whose boxes meet, how far one goes beside the other, and of bodies that meet themselves, a
+    /// node beside the mean of all; in reaches, at most.
+    Real fastest_approach(const Paths<Real>& paths) const;
     void run(const Paths<Real>& paths);
     /// Lists the pairs of these nodes anew, as their paths have changed, and those that find_lost() wants.
     void update(const Paths<Real>& paths, std::span<const std::uint32_t> nodes);

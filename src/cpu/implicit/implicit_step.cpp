@@ -394,7 +394,7 @@ bool ImplicitStep<Real>::detect(const Nodes<Real>& previous, bool is_shortest, b
     if (!contacts_) return true;
     const Paths<Real> paths{previous.positions, ends_, slacks_};
     pairs_.begin(paths, own);
-    if (!is_shortest && pairs_.fastest_approach() > static_cast<Real>(kFastest)) return false;
+    if (!is_shortest && pairs_.fastest_approach(paths) > static_cast<Real>(kFastest)) return false;
     pairs_.run(paths);
     return true;
 }

@@ -111,5 +111,22 @@ TEST_F(FindPairsTest, ListsPairsOfNodesAnewThatEndElsewhere) {
     EXPECT_TRUE(any_new);
 }
 
+// In reaches: of two that fly together past the third, beside it; of one that meets itself, what its nodes go
+// beside each other.
+TEST_F(FindPairsTest, KnowsHowFarBodiesGoBesideEachOther) {
+    const auto fastest = [&](bool own) {
+        cpu::FindPairs<double> found(model_, surface_, own);
+        const cpu::Paths<double> paths{from_, to_, slacks_};
+        found.begin(paths);
+        return found.fastest_approach(paths);
+    };
+    EXPECT_NEAR(fastest(false), 0.05 / surface_->reach(0, 2), 1e-9);
+    EXPECT_NEAR(fastest(true), 0.05 / surface_->reach(0, 2), 1e-9);
+    const std::uint32_t last = model_->objects[2].nodes.end() - 1;
+    to_[last].x += 2.0;
+    EXPECT_LT(fastest(false), 0.2 / surface_->reach(0, 2));
+    EXPECT_GT(fastest(true), 1.9 / surface_->reach(2, 2));
+}
+
 }  // namespace
 }  // namespace gelatin
