@@ -24,7 +24,7 @@ constexpr double kSlack = 0.002;
 
 template <class Real>
 EnergyAccount<Real>::EnergyAccount(std::shared_ptr<const Model> model)
-    : model_(std::move(model)), before_(model_->body_count(), 0.0) {
+    : model_(std::move(model)), object_of_(objects_of_nodes(*model_)), before_(model_->body_count(), 0.0) {
     after_ = motions_ = motions_before_ = rounding_ = contacts_before_ = contacts_at_start_ =
         contacts_at_end_ = work_ = debts_ = dues_ = potentials_ = before_;
     momenta_.resize(before_.size());
@@ -39,17 +39,11 @@ void EnergyAccount<Real>::forget() {
 
 template <class Real>
 void EnergyAccount<Real>::begin(const Nodes<Real>& previous) {
-    if (!is_known_ || held_ != count_held(previous)) find_energies(previous);
+    if (!is_known_) find_energies(previous);
     before_ = after_;
     motions_before_ = motions_;
     potentials_before_ = potentials_;
     contacts_before_ = contacts_at_end_;
-}
-
-template <class Real>
-std::ptrdiff_t EnergyAccount<Real>::count_held(const Nodes<Real>& nodes) const {
-    return std::count_if(nodes.positions.begin(), nodes.positions.end(),
-                         [](const Vec4<Real>& x) { return x.w == Real(0); });
 }
 
 template <class Real>
@@ -85,7 +79,6 @@ void EnergyAccount<Real>::find_energies(const Nodes<Real>& nodes) {
         after_[o] = motion + potential;
         rounding_[o] = kLeast + kRounding * (motion + std::abs(potential));
     });
-    held_ = count_held(nodes);
     is_known_ = true;
 }
 
@@ -133,7 +126,8 @@ void EnergyAccount<Real>::find_work(const Step& step) {
     const auto dot = [](const Vec3<Real>& a, const Vec3<Real>& b) {
         return glm::dot(glm::dvec3(a), glm::dvec3(b));
     };
-    for (std::size_t o = 0; o < work_.size(); ++o) {
+    const bool acts_on_nodes = !step.loads.empty() || !step.on_held.empty();
+    for (std::size_t o = 0; acts_on_nodes && o < work_.size(); ++o) {
         const Range& nodes = model_->objects[o].nodes;
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
             const Vec3<Real>& d = step.displacements[n];
@@ -144,17 +138,13 @@ void EnergyAccount<Real>::find_work(const Step& step) {
     }
     if (step.pulls == nullptr) return;
     for (const std::uint32_t n : step.pulls->nodes()) {
-        const auto body = std::upper_bound(model_->objects.begin(), model_->objects.end(), n,
-                                           [](std::uint32_t node, const ModelObject& object) {
-                                               return node < object.nodes.first;
-                                           }) -
-                          model_->objects.begin() - 1;
         const Vec4<Real> x = step.previous.positions[n];
         const Vec3<Real>& d = step.displacements[n];
         const auto force = [&](const Vec4<Real>& at) {
             return step.pulls->force_at_end(n, at, Vec3<Real>(x), step.length);
         };
-        work_[body] += std::max({dot(force(x), d), dot(force(Vec4<Real>(Vec3<Real>(x) + d, x.w)), d), 0.0});
+        work_[object_of_[n]] +=
+            std::max({dot(force(x), d), dot(force(Vec4<Real>(Vec3<Real>(x) + d, x.w)), d), 0.0});
     }
 }
 

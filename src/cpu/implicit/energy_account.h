@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -45,7 +44,7 @@ public:
     void forget();
     /// Nodes were moved since the beginning: what bodies gained by it is owed.
     void follow(const Nodes<Real>& nodes);
-    /// Velocities were set from outside: what is owed stays.
+    /// Velocities, or which nodes are held, were set from outside: what is owed stays.
     void change() { is_known_ = false; }
 
     /// Of bodies, without contacts, at the beginning and at the end [J].
@@ -57,18 +56,17 @@ public:
 private:
     double work_on_rows(const Step& step, const ContactRow<Real>& row) const;
     void find_energies(const Nodes<Real>& nodes);
-    std::ptrdiff_t count_held(const Nodes<Real>& nodes) const;
     void find_contacts(const Step& step);
     void find_work(const Step& step);
     template <class Counts>
     void find_vibrations(const Step& step, const Counts& counts);
 
     std::shared_ptr<const Model> model_;
+    std::vector<std::uint32_t> object_of_;  // by node
     bool is_known_ = false;
-    std::ptrdiff_t held_ = 0;                             // nodes, of which energies do not count
     std::vector<double> potentials_, potentials_before_;  // of bodies [J]
+    std::vector<glm::dvec3> momenta_;                     // of bodies [kg m/s]
     // Of bodies [J]: kinetic, elastic and potential; kinetic and elastic; and what is too small to count.
-    std::vector<glm::dvec3> momenta_;  // of bodies [kg m/s]
     std::vector<double> before_, after_, motions_, motions_before_, rounding_;
     // Of bodies' shares in contacts [J].
     std::vector<double> contacts_before_, contacts_at_start_, contacts_at_end_;

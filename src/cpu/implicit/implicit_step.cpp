@@ -89,6 +89,7 @@ void ImplicitStep<Real>::go_on(const Nodes<Real>& nodes, std::span<const Vec4<Re
                                Real step) {
     earlier_velocities_.assign(earlier_velocities.begin(), earlier_velocities.end());
     last_step_ = step;
+    held_counts_ = count_held(nodes);
     std::vector<Vec4<Real>> earlier = nodes.positions;
     for (std::size_t n = 0; n < earlier.size(); ++n) earlier[n] -= Vec4<Real>(went(nodes, n), 0);
     for (std::uint32_t o = 0; o < model_->body_count(); ++o)
@@ -99,11 +100,11 @@ template <class Real>
 Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const Nodes<Real>& previous,
                              Nodes<Real>& current, StageTimer* timer) {
     StepInput<Real> input = wanted;
+    find_released(previous);
     energy_.begin(previous);
     earlier_momenta_ = momenta_;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o)
         momenta_[o] = momenta(o, previous.positions, previous.velocities);
-    find_released(previous);
     for (bool damps = false, has_past = false;;) {
         const bool is_shortest = input.step < Real(2) * shortest;
         const auto divide = [&] {
@@ -178,13 +179,20 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
 // What was let go or taken hold of since the last step does not go on with what moved it then.
 template <class Real>
 void ImplicitStep<Real>::find_released(const Nodes<Real>& previous) {
-    for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
-        const Range& nodes = model_->objects[o].nodes;
-        std::uint32_t count = 0;
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) count += previous.positions[n].w == Real(0);
-        if (count != held_counts_[o]) is_struck_[o] = 1;
-        held_counts_[o] = count;
-    }
+    const std::vector<std::uint32_t> counts = count_held(previous);
+    for (std::size_t o = 0; o < counts.size(); ++o)
+        if (counts[o] != held_counts_[o]) is_struck_[o] = 1;
+    if (counts != held_counts_) energy_.change();
+    held_counts_ = counts;
+}
+
+// Of bodies.
+template <class Real>
+std::vector<std::uint32_t> ImplicitStep<Real>::count_held(const Nodes<Real>& nodes) const {
+    std::vector<std::uint32_t> counts(model_->body_count());
+    for (std::uint32_t n = 0; n < model_->body_node_count(); ++n)
+        if (nodes.positions[n].w == Real(0)) ++counts[object_of_[n]];
+    return counts;
 }
 
 // Where even the shortest step fails.

@@ -100,6 +100,7 @@ private:
     void find_targets(const StepInput<Real>& input, const Nodes<Real>& previous);
     void find_paces(const Nodes<Real>& current);
     void find_released(const Nodes<Real>& previous);
+    std::vector<std::uint32_t> count_held(const Nodes<Real>& nodes) const;
     void stand_still(const Nodes<Real>& previous, Nodes<Real>& current);
     void linearise(const StepInput<Real>& input, const Nodes<Real>& previous);
     Real deepest() const;

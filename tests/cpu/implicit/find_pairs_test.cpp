@@ -111,7 +111,7 @@ TEST_F(FindPairsTest, ListsPairsOfNodesAnewThatEndElsewhere) {
     EXPECT_TRUE(any_new);
 }
 
-// In reaches: of two that fly together past the third, beside it; of one that meets itself, what its nodes go
+// In reaches: of two that fly together past the third, beside it; with self-contact, what nodes of one go
 // beside each other.
 TEST_F(FindPairsTest, KnowsHowFarBodiesGoBesideEachOther) {
     const auto fastest = [&](bool own) {

@@ -99,20 +99,26 @@ TEST(SystemSolver, KeepsMomentum) {
 // A state has all that the next step needs, but for rounding: with implicit Euler's scheme a block that
 // vibrates would be elsewhere.
 TEST(SystemSolver, GoesOnFromAState) {
-    auto moving = std::make_shared<Model>(*make_blocks({{.velocity = {1, 2, 0}}}));
-    for (std::uint32_t n = 0; n < moving->node_count(); ++n)
-        moving->velocities[n].x += 3.0f * moving->positions[n].y * moving->positions[n].y;
-    const std::shared_ptr<const Model> model = moving;
-    cpu::SystemSolver<float> solver = make_system_solver<float>(model),
-                             other = make_system_solver<float>(model);
-    for (int frame = 0; frame < 3; ++frame) solver.advance({kFrame});
-    other.write_state(solver.read_state());
-    for (cpu::SystemSolver<float>* each : {&solver, &other})
-        for (int frame = 0; frame < 3; ++frame) each->advance({kFrame});
-    for (std::size_t n = 0; n < model->node_count(); ++n)
-        EXPECT_LT(
-            glm::distance(glm::vec3(solver.nodes().positions[n]), glm::vec3(other.nodes().positions[n])),
-            1e-6f);
+    for (const bool is_pinned : {false, true}) {
+        Block block{.velocity = {1, 2, 0}};
+        if (is_pinned) block.pins = {HalfSpaceRegion{{1, 0, 0}, 0.05}};
+        auto moving = std::make_shared<Model>(*make_blocks({block}));
+        for (std::uint32_t n = 0; n < moving->node_count(); ++n)
+            if (moving->positions[n].w != 0.0f)
+                moving->velocities[n].x += 3.0f * moving->positions[n].y * moving->positions[n].y;
+        const std::shared_ptr<const Model> model = moving;
+        cpu::SystemSolver<float> solver = make_system_solver<float>(model),
+                                 other = make_system_solver<float>(model);
+        for (int frame = 0; frame < 3; ++frame) solver.advance({kFrame});
+        other.write_state(solver.read_state());
+        for (cpu::SystemSolver<float>* each : {&solver, &other})
+            for (int frame = 0; frame < 3; ++frame) each->advance({kFrame});
+        for (std::size_t n = 0; n < model->node_count(); ++n)
+            EXPECT_LT(
+                glm::distance(glm::vec3(solver.nodes().positions[n]), glm::vec3(other.nodes().positions[n])),
+                1e-6f)
+                << is_pinned;
+    }
 }
 
 // A block flies on as its handle has taken it.
