@@ -21,6 +21,8 @@ struct State {
     /// The velocities one step before, from which solvers guess those of the next step; empty before the
     /// first step.
     std::vector<glm::vec4> earlier_velocities;
+    /// What the solver knows besides, for itself alone (Solver::memory). Empty: nothing.
+    std::string memory{};
 };
 
 /// Of vertex block descent.
@@ -158,8 +160,10 @@ public:
 
     /// Waits for a device.
     virtual State read_state() const = 0;
+    /// What State::memory needs for the next step to be the same to the last bit; read_state() leaves it out.
+    virtual std::string memory() { return {}; }
     virtual HostNodes host_nodes() const = 0;
-    /// Discards what watching has found so far.
+    /// Discards what watching has found so far. A memory of a solver of another kind counts as none.
     virtual void write_state(const State& state) = 0;
 
     /// Times stages by the clock of the device on which they run.

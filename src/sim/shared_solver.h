@@ -27,6 +27,7 @@ public:
         return host_.held_up(poses);
     }
     State read_state() const override { return host_.read_state(); }
+    std::string memory() override { return host_.memory(); }
     HostNodes host_nodes() const override { return host_.host_nodes(); }
     void write_state(const State& state) override;
     /// By the host's clock: it waits for the device within a step.

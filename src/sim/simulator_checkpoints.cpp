@@ -33,7 +33,9 @@ void hold_as_here(const Model& model, std::vector<glm::vec4>& positions) {
 void Simulator::save_checkpoint(const std::filesystem::path& file) const {
     check();
     const auto host = impl_->keep_host_state_of_solver();
-    write_checkpoint(file, *impl_->model, impl_->checkpoint());
+    Checkpoint checkpoint = impl_->checkpoint();
+    checkpoint.state.memory = impl_->solver->memory();
+    write_checkpoint(file, *impl_->model, checkpoint);
 }
 
 void Simulator::load_checkpoint(const std::filesystem::path& file, std::optional<int> frame) {

@@ -21,6 +21,14 @@ RestWatch<Real>::RestWatch(std::shared_ptr<const Model> model, std::span<const d
     : model_(std::move(model)), thicknesses_(thicknesses.begin(), thicknesses.end()) {}
 
 template <class Real>
+void RestWatch<Real>::archive(Archive& archive) {
+    archive.list(places_);
+    archive.value(time_);
+    archive.list(load_factors_);
+    if (!places_.empty() && places_.size() != model_->node_count()) archive.fail();
+}
+
+template <class Real>
 bool RestWatch<Real>::rests(double step, std::span<const Vec4<Real>> positions,
                             std::span<const float> load_factors, bool is_pulled,
                             std::span<const Vec3<Real>> held_at) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/archive.h"
 #include "cpu/nodes.h"
 #include "model/model.h"
 
@@ -18,6 +19,7 @@ public:
 
     /// To be called when nodes were set from outside.
     void restart() { places_.clear(); }
+    void archive(Archive& archive);
 
     /// Whether no node has moved for a while, and nothing is about to move one.
     /// @param step that comes next [s] @param positions where it starts, with held nodes in their new places

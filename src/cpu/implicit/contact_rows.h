@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/archive.h"
 #include "cpu/implicit/contact_row.h"
 #include "cpu/implicit/find_pairs.h"
 #include "cpu/nodes.h"
@@ -36,6 +37,7 @@ public:
     void note(std::span<const ContactRow<Real>> rows, std::span<const Vec3<Real>> displacements);
     void remember() { std::swap(memory_, noted_); }
     void forget() { memory_.clear(); }
+    void archive(Archive& archive) { archive.list(memory_); }
 
 private:
     // What a contact passes on to the next step.

@@ -38,6 +38,12 @@ void EnergyAccount<Real>::forget() {
 }
 
 template <class Real>
+void EnergyAccount<Real>::archive(Archive& archive) {
+    archive.array(contacts_at_end_);
+    archive.array(debts_);
+}
+
+template <class Real>
 void EnergyAccount<Real>::begin(const Nodes<Real>& previous) {
     if (!is_known_) find_energies(previous);
     before_ = after_;
@@ -60,26 +66,29 @@ double EnergyAccount<Real>::in_contacts() const {
 
 template <class Real>
 void EnergyAccount<Real>::find_energies(const Nodes<Real>& nodes) {
-    const glm::dvec3 gravity(model_->gravity);
-    for_each_index(0, after_.size(), 1, [&](std::size_t o) {
-        const ModelObject& object = model_->objects[o];
-        double motion = body_energy<Real>(*model_, object, nodes.positions), potential = 0.0;
-        glm::dvec3 momentum(0.0);
-        for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
-            if (nodes.positions[n].w == Real(0)) continue;
-            const glm::dvec3 v(nodes.velocities[n]);
-            const auto mass = static_cast<double>(model_->masses[n]);
-            momentum += mass * v;
-            motion += 0.5 * mass * glm::dot(v, v);
-            potential -= mass * glm::dot(gravity, glm::dvec3(nodes.positions[n]));
-        }
-        motions_[o] = motion;
-        momenta_[o] = momentum;
-        potentials_[o] = potential;
-        after_[o] = motion + potential;
-        rounding_[o] = kLeast + kRounding * (motion + std::abs(potential));
-    });
+    for_each_index(0, after_.size(), 1, [&](std::size_t o) { find_energy(o, nodes); });
     is_known_ = true;
+}
+
+template <class Real>
+void EnergyAccount<Real>::find_energy(std::size_t body, const Nodes<Real>& nodes) {
+    const glm::dvec3 gravity(model_->gravity);
+    const ModelObject& object = model_->objects[body];
+    double motion = body_energy<Real>(*model_, object, nodes.positions), potential = 0.0;
+    glm::dvec3 momentum(0.0);
+    for (std::uint32_t n = object.nodes.first; n < object.nodes.end(); ++n) {
+        if (nodes.positions[n].w == Real(0)) continue;
+        const glm::dvec3 v(nodes.velocities[n]);
+        const auto mass = static_cast<double>(model_->masses[n]);
+        momentum += mass * v;
+        motion += 0.5 * mass * glm::dot(v, v);
+        potential -= mass * glm::dot(gravity, glm::dvec3(nodes.positions[n]));
+    }
+    motions_[body] = motion;
+    momenta_[body] = momentum;
+    potentials_[body] = potential;
+    after_[body] = motion + potential;
+    rounding_[body] = kLeast + kRounding * (motion + std::abs(potential));
 }
 
 // Each of two bodies has half.
@@ -226,8 +235,7 @@ void EnergyAccount<Real>::settle(const Islands& islands, Nodes<Real>& current) {
             for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
                 if (current.positions[n].w != Real(0))
                     current.velocities[n] -= Vec4<Real>(factor * parts_[n], 0);
-            after_[o] -= part * of_bodies_[o];
-            motions_[o] -= part * of_bodies_[o];
+            find_energy(o, current);
             left -= part * vibrations_[island];
         }
         debts_[o] = model_->objects[o].mass / islands.masses[island] * left;

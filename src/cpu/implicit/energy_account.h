@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/archive.h"
 #include "cpu/drive/pulls.h"
 #include "cpu/implicit/contact_row.h"
 #include "cpu/implicit/islands.h"
@@ -42,6 +43,7 @@ public:
     void settle(const Islands& islands, Nodes<Real>& current);
     /// Nodes were set from outside.
     void forget();
+    void archive(Archive& archive);
     /// Nodes were moved since the beginning: what bodies gained by it is owed.
     void follow(const Nodes<Real>& nodes);
     /// Velocities, or which nodes are held, were set from outside: what is owed stays.
@@ -56,6 +58,7 @@ public:
 private:
     double work_on_rows(const Step& step, const ContactRow<Real>& row) const;
     void find_energies(const Nodes<Real>& nodes);
+    void find_energy(std::size_t body, const Nodes<Real>& nodes);
     void find_contacts(const Step& step);
     void find_work(const Step& step);
     template <class Counts>

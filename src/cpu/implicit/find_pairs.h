@@ -70,7 +70,6 @@ public:
     /// Finds where bodies may meet themselves on the way to `ends`, though pairs were left out, as they
     /// hardly deformed there. @return whether they do somewhere: then update() has to follow
     bool find_lost(std::span<const Vec4<Real>> ends);
-    void forget() { pairs_.clear(); }
     const std::vector<NearPair<Real>>& pairs() const { return pairs_; }
 
 private:

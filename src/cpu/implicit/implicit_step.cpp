@@ -76,12 +76,26 @@ template <class Real>
 void ImplicitStep<Real>::forget() {
     rows_.forget();
     acting_.clear();
-    system_.rows.clear();
-    pairs_.forget();
+    is_any_near_ = false;
     last_step_ = Real(0);
     restitution_.forget();
     std::fill(paces_.begin(), paces_.end(), Pace::moving);
     std::fill(is_struck_.begin(), is_struck_.end(), std::uint8_t(0));
+}
+
+template <class Real>
+void ImplicitStep<Real>::archive(Archive& archive) {
+    archive.value(last_step_);
+    archive.value(is_any_near_);
+    archive.list(earlier_velocities_);
+    archive.array(momenta_);
+    archive.array(paces_);
+    archive.array(is_struck_);
+    archive.array(held_counts_);
+    rows_.archive(archive);
+    restitution_.archive(archive);
+    energy_.archive(archive);
+    if (last_step_ > Real(0) && earlier_velocities_.size() != model_->node_count()) archive.fail();
 }
 
 template <class Real>
@@ -173,6 +187,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
     }
     earlier_velocities_ = previous.velocities;
     last_step_ = input.step;
+    is_any_near_ = !system_.rows.empty() || !pairs_.pairs().empty();
     return input.step;
 }
 

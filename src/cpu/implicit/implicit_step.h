@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/archive.h"
 #include "core/stage_timer.h"
 #include "cpu/drive/pulls.h"
 #include "cpu/implicit/contact_rows.h"
@@ -48,6 +49,7 @@ public:
     /// Forgets earlier steps, because nodes were set from outside.
     void restart();
     /// After it. @param nodes where the next step begins @param earlier_velocities and step of the last one
+    void archive(Archive& archive);
     void go_on(const Nodes<Real>& nodes, std::span<const Vec4<Real>> earlier_velocities, Real step);
     /// @param previous of held nodes the positions are those where they are, and velocities those that take
     /// them to where their handles have them at the end
@@ -71,7 +73,7 @@ public:
     double contact_energy() const { return energy_.in_contacts(); }
 
     /// Whether anything was near anything else in the last step.
-    bool any_near() const { return !system_.rows.empty() || !pairs_.pairs().empty(); }
+    bool any_near() const { return is_any_near_; }
 
     /// Whether all bodies hardly moved towards or away from what they touch, nor vibrated.
     bool is_calm() const { return std::find(paces_.begin(), paces_.end(), Pace::moving) == paces_.end(); }
@@ -133,6 +135,7 @@ private:
     std::vector<std::uint8_t> is_struck_;     // whose velocities do not go on from those before
     std::vector<std::uint32_t> held_counts_;  // of bodies' nodes, when the last step began
     Islands islands_;
+    bool is_any_near_ = false;
     Real step_ = 0, last_step_ = 0;
     std::vector<Vec4<Real>> earlier_velocities_;  // v_1
     std::vector<Real> compliances_;               // of nodes in contacts, 1 / h_i [m/N]

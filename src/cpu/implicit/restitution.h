@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/archive.h"
 #include "cpu/implicit/contact_row.h"
 #include "cpu/implicit/rigid_level.h"
 #include "cpu/implicit/rigid_part.h"
@@ -40,6 +41,7 @@ public:
     bool run(const Step& step, const RigidLevel<Real>& rigid, Nodes<Real>& current,
              std::span<std::uint8_t> is_struck);
     void forget() { meetings_.clear(); }
+    void archive(Archive& archive) { archive.map(meetings_); }
 
 private:
     // In a step, times the force: how fast they leave each other before and after it.

@@ -1,6 +1,7 @@
 #include "cpu/implicit/system_solver.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -136,12 +137,47 @@ std::vector<std::uint32_t> SystemSolver<Real>::held_up(std::span<const HandlePos
 template <class Real>
 void SystemSolver<Real>::write_state(const State& state) {
     CpuSolver<Real>::write_state(state);
+    forget();
+    goes_on_ = has_earlier_ && !restore(state.memory);
+}
+
+template <class Real>
+bool SystemSolver<Real>::restore(std::string_view memory) {
+    Archive archive = Archive::that_reads(memory);
+    this->archive(archive);
+    if (!archive.is_complete()) forget();
+    return archive.is_complete();
+}
+
+template <class Real>
+void SystemSolver<Real>::forget() {
     step_.restart();
-    goes_on_ = has_earlier_;
     if (rest_watch_) rest_watch_->restart();
     held_at_.clear();
     held_changes_.clear();
     forces_on_held_.clear();
+}
+
+template <class Real>
+std::string SystemSolver<Real>::memory() {
+    std::string bytes;
+    Archive archive = Archive::that_writes(bytes);
+    this->archive(archive);
+    return bytes;
+}
+
+// Numbers of colliders, which are in it, mean the same only where there are as many.
+template <class Real>
+void SystemSolver<Real>::archive(Archive& archive) {
+    const std::array<std::size_t, 4> kind{sizeof(Real), model_->objects.size(), model_->colliders.size(),
+                                          rest_watch_ ? 1u : 0u};
+    std::array<std::size_t, 4> written = kind;
+    archive.value(written);
+    if (written != kind) return archive.fail();
+    step_.archive(archive);
+    if (rest_watch_) rest_watch_->archive(archive);
+    archive.list(held_at_);
+    if (!held_at_.empty() && held_at_.size() != model_->node_count()) archive.fail();
 }
 
 template class SystemSolver<float>;

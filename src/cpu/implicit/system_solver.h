@@ -2,6 +2,8 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "cpu/cpu_solver.h"
@@ -23,6 +25,7 @@ public:
     double contact_energy() const { return step_.contact_energy(); }
     HoldingForces holding_forces() const override;
     std::vector<std::uint32_t> held_up(std::span<const HandlePose> poses) const override;
+    std::string memory() override;
     void write_state(const State& state) override;
 
 protected:
@@ -34,6 +37,9 @@ protected:
 
 private:
     bool rests(const Step& step);
+    void archive(Archive& archive);
+    void forget();
+    bool restore(std::string_view memory);
 
     bool divides_steps_;
     bool goes_on_ = false;  // with earlier velocities of a state that was written
