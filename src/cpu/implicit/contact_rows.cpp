@@ -86,22 +86,27 @@ void ContactRows<Real>::make(const Start& start, std::span<const NearPair<Real>>
                 std::max(region.weight_of_node(pair.first, apart), region.weight_along_normal(pair, apart));
         if (!(weight > Real(0))) continue;
         ContactRow<Real> row;
-        Real first = 0, second = 0;
+        // By side: of weights, and of those of free nodes; and how much these yield.
+        std::array<Real, 2> sums{}, free{}, yields{};
         for (std::size_t k = 0; k < 4; ++k) {
-            const Real w = near.weights[static_cast<int>(k)];
+            const Real w = near.weights[static_cast<int>(k)], yield = start.compliances[pair.nodes[k]];
             if (w == Real(0)) continue;
-            const bool is_first = pair.side_of(k) == 0;
+            const std::size_t side = pair.side_of(k) == 0 ? 0 : 1;
             row.nodes[row.count] = pair.nodes[k];
-            row.weights[row.count++] = is_first ? -w : w;
-            (is_first ? first : second) += w * w * start.compliances[pair.nodes[k]];
+            row.weights[row.count++] = side == 0 ? -w : w;
+            sums[side] += w;
+            if (yield > Real(0)) free[side] += w;
+            yields[side] += w * w * yield;
         }
+        // Where held nodes bear most of a side, it is no stiffer than its free ones: these cannot bring apart
+        // what the others press together.
+        for (const std::size_t side : {0, 1})
+            if (free[side] > Real(0)) yields[side] /= free[side] * free[side];
+        const auto [first, second] = yields;
         if (!(first + second > Real(0))) continue;
         // Of each side 1 in all: what contacts exert on both cancels but for rounding.
-        std::array<Real, 2> sums{};
         for (std::uint32_t k = 0; k < row.count; ++k)
-            sums[row.weights[k] < Real(0) ? 0 : 1] += row.weights[k];
-        for (std::uint32_t k = 0; k < row.count; ++k)
-            row.weights[k] /= std::abs(sums[row.weights[k] < Real(0) ? 0 : 1]);
+            row.weights[k] /= sums[row.weights[k] < Real(0) ? 0 : 1];
         const ContactSurface::Touch& touch = surface_->touch(pair.object, pair.other);
         row.object = pair.object;
         row.other = pair.other;

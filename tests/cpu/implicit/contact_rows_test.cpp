@@ -71,5 +71,38 @@ TEST_F(ContactRowsTest, LiftOutWhatLiesInAPlane) {
     }
 }
 
+// Else what hardly counts in a face whose other corners are held would be pressed away with all that these
+// press together.
+TEST(ContactRows, HeldNodesMakeNoneStiffer) {
+    const auto model = test::make_blocks({test::Block{}, test::Block{.place = {0.03, 0.305, 0.02}}});
+    const auto surface = std::make_shared<ContactSurface>(make_contact_surface(*model, {}));
+    const std::vector<glm::dvec4> positions(model->positions.begin(), model->positions.end());
+    const std::vector<glm::dvec3> expected(positions.size(), glm::dvec3(0.0));
+    const std::vector<double> slacks(model->objects.size(), 1e-3);
+    cpu::FindPairs<double> pairs(model, surface, false);
+    pairs.begin({positions, positions, slacks});
+    pairs.run({positions, positions, slacks});
+    const auto stiffest = [&](const std::vector<double>& compliances) {
+        std::vector<cpu::ContactRow<double>> rows;
+        cpu::ContactRows<double>(model, surface)
+            .make({positions, expected, compliances, 1.0 / 240.0, 1.0 / 240.0}, pairs.pairs(), rows);
+        double most = 0.0;
+        for (const auto& row : rows) most = std::max(most, row.stiffness);
+        return most;
+    };
+    std::vector<double> compliances(positions.size(), 1e-6);
+    const double all_free = stiffest(compliances);
+    std::size_t touching = 0;
+    for (std::uint32_t free = model->objects[0].nodes.first; free < model->objects[0].nodes.end(); ++free) {
+        std::fill(compliances.begin(), compliances.end(), 0.0);
+        compliances[free] = 1e-6;
+        const double most = stiffest(compliances);
+        EXPECT_LE(most, 4.001e6) << free;
+        if (most > 0.0) ++touching;
+    }
+    EXPECT_GT(all_free, 1e6);
+    EXPECT_GT(touching, 3u);
+}
+
 }  // namespace
 }  // namespace gelatin
