@@ -5,5 +5,6 @@ const float kCollapsed = 0.03;        // of I, the sum of squares of F: below it
 const float kLeastSound = -0.5;       // volumes over those at rest that a first guess may leave
 const float kMostSound = 4.0;
 const float kLeastExplained = 0.75;   // share of a body's extent that an affine map explains, if it has its shape
+const float kThinnest = 0.001;        // of an affine map: s1^2 s2^2 + ... over (s1^2 + ...)^2, of its singular values
 const float kAcross = 0.25;           // |n . n'|, below which two faces are nearly perpendicular
 const float kWeightOfOthers = 1e-3;   // in a contact's normal, of faces that do not enter

@@ -46,7 +46,9 @@ void main() {
     mat3 moment = mat3(sums.column_x.xyz, sums.column_y.xyz, sums.column_z.xyz);
     vec3 center = vec3(sums.column_x.w, sums.column_y.w, sums.column_z.w) / mass;
     float square = sums.momentum.w - mass * dot(center, center);
-    if (trace(moment * inverse_ * transpose(moment)) > kLeastExplained * square) return;
+    mat3 affine = moment * inverse_, squares = transpose(affine) * affine;
+    float sum = trace(squares), products = 0.5 * (sum * sum - trace(squares * squares));
+    if (products > kThinnest * sum * sum && trace(affine * transpose(moment)) > kLeastExplained * square) return;
 
     // Moments of inertia in units of the object's own: determinants have three of them.
     float unit = trace(inverse_);

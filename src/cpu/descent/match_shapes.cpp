@@ -85,7 +85,10 @@ bool ShapeMatcher<Real>::match(std::uint32_t object, Nodes<Real>& nodes) const {
                              glm::dvec3(rest.inverse_z));
     center /= mass;
     square -= mass * glm::dot(center, center);
-    if (trace(moment * inverse * glm::transpose(moment)) > kLeastExplained * square) return false;
+    const glm::dmat3 affine = moment * inverse, squares = glm::transpose(affine) * affine;
+    const double sum = trace(squares), products = 0.5 * (sum * sum - trace(squares * squares));
+    if (products > kThinnest * sum * sum && trace(affine * glm::transpose(moment)) > kLeastExplained * square)
+        return false;
 
     const glm::dmat3 rotation = nearest_rotation(moment), square_at_rest = glm::inverse(inverse);
     const glm::dmat3 inertia = trace(square_at_rest) * glm::dmat3(1.0) - square_at_rest;

@@ -15,6 +15,9 @@ constexpr double kMostInverted = 0.25;
 /// ... and the affine map of its shape at rest that comes nearest to its nodes explains less than this of how
 /// they are spread: flat, squashed and twisted bodies keep to one, nodes at random do not.
 using thresholds::kLeastExplained;
+/// Or where it is less than this thin. Then nothing but a line or a point is left: parts of what unfolds from
+/// it would stay inverted.
+using thresholds::kThinnest;
 /// The objects' shapes at rest, to be matched with where their nodes are (docs/block-descent.md, "Lost
 /// shapes").
 struct MatchShapes {
