@@ -271,7 +271,7 @@ public:
     /// `need_gl`).
     RenderView render_view(const Overlays& overlays = {});
 
-    /// Saves the exact state, without memory of contacts, to continue later. The file is written completely
+    /// Saves the exact state, to continue later with the same numbers. The file is written completely
     /// or not at all. @throws SystemError; Diverged as check(): a diverged state is never saved.
     void save_checkpoint(const std::filesystem::path& file) const;
     /// Continues from a checkpoint, or from a frame of a recording.

@@ -287,11 +287,11 @@ class Simulator:
     # Files
 
     def save_checkpoint(self, file: str | os.PathLike[str]) -> None:
-        """Saves the exact state, but nothing of contacts. The file is written completely or not at all. Raises SystemError."""
+        """Saves the exact state, to continue with the same numbers. The file is written completely or not at all. Raises SystemError."""
         self._core.save_checkpoint(os.fspath(file))
 
     def load_checkpoint(self, file: str | os.PathLike[str], frame: int | None = None) -> None:
-        """Continues from a saved state, without contact bit for bit, or from a frame of a recording.
+        """Continues from a saved state, bit for bit, or from a frame of a recording.
 
         frame: its number in the recording; None: the last one.
 

@@ -67,6 +67,7 @@ TEST_F(PlayCommands, ARunContinuesFromAFrame) {
 TEST_F(PlayCommands, ARecordingIsAllThatIsNeeded) {
     write("wedge.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
     write("wedge.toml",
+          "[simulation]\nsolver = 'semi_implicit_euler'\n"  // goes on with the same numbers from any frame
           "[[material]]\nname = 'jelly'\n[[object]]\nname = 'wedge'\nshape = { file = 'wedge.obj' }\n"
           "mesher = { nodes = 50 }\nposition = [0, 1, 0]\n[[collider]]\nshape = { plane = [0, 1, 0] }\n");
     const ProgramResult recorded =

@@ -61,6 +61,69 @@ TEST_F(ResumeTest, HandlesAndLoadsGoOnFromACheckpointBitForBit) {
     }
 }
 
+// What contacts hold, owe and have met with goes on, and so does sleep: blocks that bounce, lie on each
+// other, slide, and are carried.
+TEST_F(ResumeTest, ContactsGoOnFromACheckpointBitForBit) {
+    Scene scene;
+    scene.collision.restitution = 0.5;
+    Material& material = scene.materials.emplace_back();
+    material.name = "jelly";
+    material.damping = 0.01;
+    for (int i = 0; i < 4; ++i) {
+        ObjectDescription& block = scene.objects.emplace_back();
+        block.name = "block" + std::to_string(i);
+        block.material = "jelly";
+        block.shape = BoxShape{.size = glm::dvec3(0.2), .segments = glm::ivec3(2)};
+        block.position = {i < 3 ? 0.01 * i : 0.6, i < 3 ? 0.12 + 0.25 * i : 0.11, 0.0};
+        if (i == 3) block.velocity = {1.0, 0.0, 0.3};
+    }
+    HandleDescription& hold = scene.objects[2].handles.emplace_back();
+    hold.region = HalfSpaceRegion{{0.0, -1.0, 0.0}, -0.7};
+    hold.keyframes = {{0.0}, {0.3, {0.0, -0.12, 0.0}}};
+    hold.release = 0.5;
+    scene.colliders.emplace_back();
+    const TemporaryFolder folder;
+    constexpr int kFrames = 300;
+    for (const Backend backend : {Backend::cpu, Backend::gl}) {
+        Simulator whole(scene, on(backend));
+        std::vector<Simulator> others;
+        for (int f = 0; f < kFrames; ++f) {
+            for (const int start : {5, 12, 19, 26, 40, 280}) {
+                if (f != start) continue;
+                whole.save_checkpoint(folder.path() / "a.ckpt");
+                others.emplace_back(scene, on(backend)).load_checkpoint(folder.path() / "a.ckpt");
+            }
+            whole.advance_frame();
+            for (Simulator& other : others) other.advance_frame();
+        }
+        for (const Simulator& other : others) {
+            EXPECT_EQ(other.read_frame().positions, whole.read_frame().positions);
+            EXPECT_EQ(other.read_frame().velocities, whole.read_frame().velocities);
+        }
+    }
+}
+
+// Without it, or with that of a scene with other colliders, the state is what counts.
+TEST_F(ResumeTest, CheckpointsGoOnInScenesWithOtherColliders) {
+    const TemporaryFolder folder;
+    Scene scene = falling_balls();
+    scene.simulation.solver = SolverKind::implicit;
+    scene.collision.response = CollisionResponse::contact;
+    Simulator whole(scene, on(Backend::cpu));
+    for (int f = 0; f < 20; ++f) whole.advance_frame();
+    whole.save_checkpoint(folder.path() / "a.ckpt");
+    ColliderDescription& wall = scene.colliders.emplace_back();
+    wall.name = "wall";
+    wall.shape = PlaneCollider{{1.0, 0.0, 0.0}, -50.0};
+    scene.materials[0].youngs_modulus *= 2.0;
+    Simulator other(scene, on(Backend::cpu));
+    other.load_checkpoint(folder.path() / "a.ckpt");
+    EXPECT_EQ(other.read_frame().positions, whole.read_frame().positions);
+    other.advance_frame();
+    whole.advance_frame();
+    EXPECT_LT(test::largest_difference(other.read_frame(), whole.read_frame()), 0.01);
+}
+
 // A checkpoint from within a frame, which knows the frames that are done, goes on with the same times.
 TEST_F(ResumeTest, ResetGoesBackToTheVeryStart) {
     for (const Backend backend : {Backend::cpu, Backend::gl}) {

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "support/contact_scenes.h"
 #include "support/gl_fixture.h"
 #include "support/overlaps.h"
@@ -43,10 +42,9 @@ ColliderDescription floor() {
 }
 
 std::shared_ptr<const Model> make_stack() {
-    return test::make_blocks(
-        {{.place = {0, 0.001, 0}, .youngs_modulus = 1e6},
-         {.place = {0.02, 0.32, 0.01}, .velocity = {0, -1, 0}, .youngs_modulus = 1e6}},
-        {0, -9.81, 0}, {floor()});
+    return test::make_blocks({{.place = {0, 0.001, 0}, .youngs_modulus = 1e6},
+                              {.place = {0.02, 0.32, 0.01}, .velocity = {0, -1, 0}, .youngs_modulus = 1e6}},
+                             {0, -9.81, 0}, {floor()});
 }
 
 // What is drawn and measured is what the host has made.
