@@ -84,6 +84,45 @@ TEST_F(StatisticsTest, MeasuresWhatIsNearWithinOneObject) {
     }
 }
 
+// A ball on the floor, one on that, and one on a box.
+Scene balls_on_colliders(CollisionResponse response) {
+    Scene scene = falling_balls();
+    scene.simulation.solver = SolverKind::implicit;
+    scene.simulation.frame_rate = 60.0;
+    scene.collision.response = response;
+    scene.objects.push_back(scene.objects[1]);
+    scene.objects[2].name = "ball 2";
+    scene.objects[0].position = {0, 0.31, 0};
+    scene.objects[1].position = {0, 0.92, 0};
+    scene.objects[2].position = {2, 0.51, 0};
+    ColliderDescription box;
+    box.shape = BoxShape{{1, 0.2, 1}};
+    box.position = {2, 0.1, 0};
+    scene.colliders.push_back(box);
+    return scene;
+}
+
+// Not where bodies press each other.
+TEST_F(StatisticsTest, CountsContactsWithColliders) {
+    for (const Backend backend : {Backend::cpu, Backend::gl}) {
+        for (const auto response : {CollisionResponse::contact, CollisionResponse::restore}) {
+            Simulator simulator(balls_on_colliders(response), on(backend));
+            simulator.begin_statistics();
+            EXPECT_EQ(simulator.take_statistics().contacts, 0u) << "they fall by a centimetre first";
+            for (int f = 0; f < 60; ++f) simulator.advance_frame();
+            simulator.begin_statistics();
+            const FrameStatistics now = simulator.take_statistics();
+            EXPECT_GT(now.contacts, 0u) << simulator.backend();
+            if (response != CollisionResponse::contact) continue;
+            EXPECT_EQ(now.contact_forces.size(), 3u);
+            std::size_t points = 0;
+            for (const ContactForce& force : now.contact_forces)
+                if (force.collider) points += force.points;
+            EXPECT_EQ(now.contacts, points);
+        }
+    }
+}
+
 // In the order of held_nodes(), each frame's own; by node in frames and VTU files.
 TEST_F(StatisticsTest, HasForcesOfPinsAndHandles) {
     Scene scene = test::driven_balls(SolverKind::implicit);
