@@ -23,18 +23,18 @@ struct State {
     std::vector<glm::vec4> earlier_velocities;
 };
 
-/// Of vertex block descent.
+/// Of SolverKind::implicit: of the implicit step, and of block descent where a device makes the steps.
 struct DescentSettings {
-    int iterations = 10;       ///< sweeps over all nodes in a step, >= 1
-    bool coarse_level = true;  ///< model/descent/coarse_basis.h; off to compare
-    /// Whether steps in which bodies meet are divided into parts, among which sweeps are shared out; on the
-    /// CPU alone.
+    /// Of conjugate gradients for each linear system, at most, or of sweeps over all nodes in a step; >= 1.
+    int iterations = 10;
+    bool coarse_level = true;  ///< of block descent: model/descent/coarse_basis.h; off to compare
+    /// Of the implicit step: whether it is divided into parts, more where bodies are near each other.
     bool divides_steps = false;
-    /// Whether steps are left out while all bodies rest; with contacts alone.
+    /// Of the implicit step: whether steps are left out while all bodies rest; with contacts alone.
     bool sleeps = false;
 };
 
-/// Whether vertex block descent has contacts between bodies, with colliders, or of bodies with themselves.
+/// Whether implicit steps have contacts between bodies, with colliders, or of bodies with themselves.
 /// @param collision with a response, as Simulator chooses it; without one there are none
 inline bool has_contacts(const Model& model, const CollisionSettings& collision) {
     return collision.response == CollisionResponse::contact &&
