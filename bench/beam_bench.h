@@ -8,10 +8,10 @@
 
 namespace gelatin {
 
-/// Steps of SOFA's beam with a number of sweeps on one system.
+/// Steps of SOFA's beam by SolverKind::implicit with a number of iterations on one system.
 struct BeamTime {
     std::string body, system;
-    int sweeps;
+    int iterations;
     std::vector<double> samples;  ///< [ms a step]
     double error;                 ///< mean_step_error
 
@@ -21,8 +21,8 @@ struct BeamTime {
 /// How well errors are known, and how large they could be.
 struct BeamReference {
     std::string body;
-    int sweeps;
-    double change;      ///< of the sampled steps by twice as many sweeps, relative as errors are; the largest
+    int parts;          ///< of a step of the exact motion
+    double change;      ///< of the last of the sampled steps by twice as many parts, relative as errors are
     double free_error;  ///< mean error of the same steps without elastic forces
 };
 
@@ -31,7 +31,8 @@ struct BeamBench {
     std::vector<BeamReference> references;
 };
 
-/// Times the beam of both materials, each number of sweeps in turn on each system, and finds their errors.
+/// Times the beam of both materials, each number of iterations in turn on each system, and finds their
+/// errors.
 BeamBench measure_beam(const MaterialBenchOptions& options);
 
 }  // namespace gelatin

@@ -1,9 +1,11 @@
 #include "bench/beam_error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "cpu/make_solver.h"
+#include "model/explicit/stability.h"
 
 namespace gelatin {
 namespace {
@@ -22,17 +24,23 @@ double largest_distance(const std::vector<glm::dvec3>& some, const std::vector<g
 
 }  // namespace
 
-ConvergedSteps::ConvergedSteps(std::shared_ptr<const Model> model, double step, int sweeps)
-    : step_(step), solver_(std::move(model), {}, {sweeps}) {}
+int parts_of_step(const Model& model, double step) {
+    constexpr int kLeast = 10;
+    return std::max(kLeast,
+                    static_cast<int>(std::ceil(step / (0.8 * largest_stable_step(SolverKind::rk4, model)))));
+}
 
-std::vector<glm::dvec3> ConvergedSteps::end(const State& start) {
+ExactMotion::ExactMotion(std::shared_ptr<const Model> model, double step, int parts)
+    : step_(step), parts_(parts), solver_(std::move(model), SolverKind::rk4, ForceMethod::fused) {}
+
+std::vector<glm::dvec3> ExactMotion::end(const State& start) {
     solver_.write_state(start);
-    solver_.advance({step_});
+    for (int p = 0; p < parts_; ++p) solver_.advance({step_ / parts_});
     return points(solver_.nodes().positions);
 }
 
 std::vector<SampledStep> sample_steps(const std::shared_ptr<const Model>& model, const StepSettings& settings,
-                                      const std::vector<int>& moments, ConvergedSteps& reference) {
+                                      const std::vector<int>& moments, ExactMotion& exact) {
     const auto solver =
         cpu::make_solver<float>(model, settings.solver, ForceMethod::fused, {}, settings.descent);
     std::vector<SampledStep> steps;
@@ -40,7 +48,7 @@ std::vector<SampledStep> sample_steps(const std::shared_ptr<const Model>& model,
     for (const int moment : moments) {
         for (; made < moment; ++made) solver->advance({settings.step});
         const State start = solver->read_state();
-        steps.push_back({start, reference.end(start)});
+        steps.push_back({start, exact.end(start)});
     }
     return steps;
 }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kRadius = 0.5;  // [m]
 constexpr float kCompression = 0.95f;
-constexpr double kFrame = 1.0 / 60.0;  // [s], the step of vertex block descent
+constexpr double kFrame = 1.0 / 60.0;  // [s], an implicit step
 constexpr double kDamping = 1e-3;      // [s]
 
 struct MaterialKind {

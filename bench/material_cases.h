@@ -18,7 +18,7 @@ struct MaterialCase {
 
     /// The balls compressed to 0.95 along y, so that no force is zero.
     State start() const;
-    /// Of this solver: a sixtieth of a second for vertex block descent, else half the largest stable one.
+    /// Of this solver: a sixtieth of a second for the implicit one, else half the largest stable one.
     StepSettings settings(SolverKind solver) const;
 };
 

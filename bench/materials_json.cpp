@@ -20,7 +20,7 @@ Json time_json(const MaterialTime& time) {
 }
 
 Json beam_json(const BeamTime& time) {
-    return {{"body", time.body},           {"system", time.system}, {"sweeps", time.sweeps},
+    return {{"body", time.body},           {"system", time.system}, {"iterations", time.iterations},
             {"ms", ms_json(time.samples)}, {"rate", time.rate()},   {"error", time.error}};
 }
 
@@ -28,8 +28,7 @@ Json settings_json(const MaterialBenchOptions& options) {
     return {{"runs", options.runs},
             {"frequency", options.frequency},
             {"beam_nodes", options.beam_nodes},
-            {"sweeps", options.sweeps},
-            {"reference_sweeps", options.reference_sweeps}};
+            {"iterations", options.iterations}};
 }
 
 }  // namespace
@@ -41,7 +40,7 @@ std::string material_json(const MaterialBench& bench) {
     for (const BeamTime& time : bench.beam.times) beam.push_back(beam_json(time));
     for (const BeamReference& r : bench.beam.references)
         references.push_back(
-            {{"body", r.body}, {"sweeps", r.sweeps}, {"change", r.change}, {"free_error", r.free_error}});
+            {{"body", r.body}, {"parts", r.parts}, {"change", r.change}, {"free_error", r.free_error}});
     for (const PublishedRate& rate : published_beam_rates())
         published.push_back({{"body", rate.body}, {"device", rate.device}, {"rate", rate.rate}});
     const Json document = {{"gelatin", {{"version", version()}, {"commit", commit()}}},

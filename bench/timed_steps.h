@@ -9,7 +9,7 @@
 
 namespace gelatin {
 
-/// What a step is: its solver, its size [s], and for vertex block descent its sweeps.
+/// What a step is: its solver, its size [s], and for the implicit one its iterations.
 struct StepSettings {
     SolverKind solver;
     double step;

@@ -112,14 +112,9 @@ void add_materials(CLI::App& bench) {
         ->expected(3)
         ->type_name("NxNxN")
         ->check(CLI::Range(2, 1000));
-    materials->add_option("--sweeps", options->sweeps, "Of the beam's steps")
+    materials->add_option("--iterations", options->iterations, "Of the beam's steps")
         ->delimiter(',')
         ->check(CLI::Range(1, 100'000))
-        ->capture_default_str();
-    materials
-        ->add_option("--reference-sweeps", options->reference_sweeps,
-                     "Of the converged steps, from which the beam's errors are measured")
-        ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();
     materials->add_flag("!--no-gl", options->use_gl, "Without OpenGL");
     materials->callback([options] { bench_materials(*options); });

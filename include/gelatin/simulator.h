@@ -81,8 +81,8 @@ struct ContactForce {
 };
 
 /// What a pin or a handle exerts on its object to hold its nodes where they are, when the last step ended:
-/// the mass of these nodes times their acceleration, less all other forces on them. For SolverKind::implicit on
-/// the CPU.
+/// the mass of these nodes times their acceleration, less all other forces on them. For SolverKind::implicit
+/// on the CPU.
 struct HoldingForce {
     std::size_t object = 0;  ///< index in Scene::objects
     bool is_pin = false;     ///< otherwise a handle
@@ -100,7 +100,7 @@ struct FrameStatistics {
     double potential_energy = 0.0;                   ///< [J], zero at the origin
     double momentum[3] = {};                         ///< [kg m/s], of the nodes that are not pinned
     std::size_t colliding_faces = 0;                 ///< faces that touch a face of another object
-    std::size_t contacts = 0;                        ///< nodes on a collider
+    std::size_t contacts = 0;                        ///< where colliders press bodies, or nodes on them
     double deepest_penetration = 0.0;                ///< of a node into a collider [m]
     std::vector<double> volume_ratio;                ///< volume divided by rest volume, by object
     std::optional<ProximityStatistics> proximities;  ///< of the last step; empty without a proximity radius
@@ -117,8 +117,8 @@ struct HostFrame {
     /// For CollisionResponse::contact, else empty: x, y, z of the force of contacts on each node [N], shape
     /// [nodes][3]; and the part of it that is friction.
     std::vector<float> contact_forces, contact_friction;
-    /// For scenes with pins or handles and SolverKind::implicit on the CPU, else empty: x, y, z of the force that
-    /// holds each node [N], shape [nodes][3]; 0 for those that nothing holds.
+    /// For scenes with pins or handles and SolverKind::implicit on the CPU, else empty: x, y, z of the force
+    /// that holds each node [N], shape [nodes][3]; 0 for those that nothing holds.
     std::vector<float> holding_forces;
 };
 

@@ -25,25 +25,25 @@ struct State {
     std::string memory{};
 };
 
-/// Of vertex block descent.
+/// Of SolverKind::implicit: of the implicit step, and of block descent where a device makes the steps.
 struct DescentSettings {
-    int iterations = 10;       ///< sweeps over all nodes in a step, >= 1
-    bool coarse_level = true;  ///< model/descent/coarse_basis.h; off to compare
-    /// Whether steps in which bodies meet are divided into parts, among which sweeps are shared out; on the
-    /// CPU alone.
+    /// Of conjugate gradients for each linear system, at most, or of sweeps over all nodes in a step; >= 1.
+    int iterations = 10;
+    bool coarse_level = true;  ///< of block descent: model/descent/coarse_basis.h; off to compare
+    /// Of the implicit step: whether it is divided into parts, more where bodies are near each other.
     bool divides_steps = false;
-    /// Whether steps are left out while all bodies rest; with contacts alone.
+    /// Of the implicit step: whether steps are left out while all bodies rest; with contacts alone.
     bool sleeps = false;
 };
 
-/// Whether vertex block descent has contacts between bodies, with colliders, or of bodies with themselves.
+/// Whether implicit steps have contacts between bodies, with colliders, or of bodies with themselves.
 /// @param collision with a response, as Simulator chooses it; without one there are none
 inline bool has_contacts(const Model& model, const CollisionSettings& collision) {
     return collision.response == CollisionResponse::contact &&
            (model.objects.size() > 1 || collision.self_collision.value_or(true));
 }
 
-/// A node nearer to a collider than this [m] counts as a contact.
+/// A node nearer to a collider than this [m] touches it, where no forces of contacts are found.
 constexpr double kContactDistance = 1e-5;
 
 /// Below this speed [m/s], which gravity adds in two steps, nodes that collide do not bounce.
@@ -57,7 +57,7 @@ struct ObjectMeasure {
     double potential_energy = 0.0;      ///< [J], zero at the origin, of the nodes that are not pinned
     double volume = 0.0;                ///< [m^3]
     double deepest_penetration = 0.0;   ///< of a node into a collider [m]
-    std::uint32_t contacts = 0;         ///< nodes that touch a collider
+    std::uint32_t contacts = 0;         ///< nodes within kContactDistance of a collider
     std::uint32_t colliding_faces = 0;  ///< that touch another object, or another part of their own
 };
 
@@ -146,8 +146,8 @@ public:
     /// The oldest pending measurement; waits for it if necessary.
     virtual Measurement end_measure() = 0;
 
-    /// What presses objects at present. Empty from solvers that do not find it: without
-    /// CollisionResponse::contact.
+    /// What presses objects at present. Without arrays from solvers that do not find it: all but the implicit
+    /// step.
     virtual ContactForces contact_forces() const = 0;
 
     /// What pins and handles exert at present; zero before the first step. Empty without any, and from

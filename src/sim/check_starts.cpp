@@ -125,25 +125,16 @@ void require_apart(const std::shared_ptr<const Model>& model, const Scene& scene
 std::vector<std::string> find_tangled(const std::shared_ptr<const Model>& model,
                                       std::span<const glm::vec4> positions, std::string_view when) {
     std::vector<std::string> lines;
+    const std::vector<glm::dvec4> exact(positions.begin(), positions.end());
     cpu::Collision<double> collision(model);
-    const auto counts = [&](std::span<const glm::vec4> at) {
-        const std::vector<glm::dvec4> exact(at.begin(), at.end());
-        collision.update_boxes(exact);
-        std::vector<std::size_t> overlaps;
-        for (std::uint32_t o = 0; o < model->body_count(); ++o)
-            overlaps.push_back(count_own_overlaps(*model, o, collision, exact));
-        return overlaps;
-    };
-    const std::vector<std::size_t> overlaps = counts(positions);
-    if (std::all_of(overlaps.begin(), overlaps.end(), [](std::size_t count) { return count == 0; }))
-        return {};
-    const std::vector<std::size_t> at_rest = counts(model->positions);
+    collision.update_boxes(exact);
     for (std::uint32_t o = 0; o < model->body_count(); ++o) {
-        if (overlaps[o] == 0) continue;
-        lines.push_back(fmt::format("object '{}' passes through itself {}, in {} of faces: {}",
-                                    model->objects[o].name, when, counted(overlaps[o], "pair"),
-                                    at_rest[o] > 0 ? "it stays as it is there"
-                                                   : "nothing keeps it from that until it has come apart"));
+        const std::size_t overlaps = count_own_overlaps(*model, o, collision, exact);
+        if (overlaps == 0) continue;
+        lines.push_back(
+            fmt::format("object '{}' passes through itself {}, in {} of faces: it stays as it is there, and "
+                        "may be held back",
+                        model->objects[o].name, when, counted(overlaps, "pair")));
     }
     return lines;
 }

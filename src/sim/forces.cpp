@@ -5,14 +5,14 @@
 namespace gelatin {
 
 // Planes, and surfaces, are in the order of the scene.
-std::vector<ContactForce> contact_forces(const Scene& scene, const Model& model, const Solver& solver) {
+std::vector<ContactForce> contact_forces(const Scene& scene, const Model& model, const ContactForces& found) {
     std::vector<std::size_t> planes, surfaces;
     for (std::size_t c = 0; c < scene.colliders.size(); ++c) {
         const bool is_plane = std::holds_alternative<PlaneCollider>(scene.colliders[c].shape);
         (is_plane ? planes : surfaces).push_back(c);
     }
     std::vector<ContactForce> forces;
-    for (const ContactForces::Between& between : solver.contact_forces().between) {
+    for (const ContactForces::Between& between : found.between) {
         ContactForce force;
         force.object = between.object;
         if (between.is_plane) {
@@ -30,6 +30,13 @@ std::vector<ContactForce> contact_forces(const Scene& scene, const Model& model,
         forces.push_back(force);
     }
     return forces;
+}
+
+std::size_t count_collider_contacts(const Model& model, const ContactForces& found) {
+    std::size_t count = 0;
+    for (const ContactForces::Between& between : found.between)
+        if (between.is_plane || !model.is_body(between.other)) count += between.points;
+    return count;
 }
 
 std::vector<HoldingForce> holding_forces(const Model& model, const Solver& solver) {

@@ -9,8 +9,12 @@
 
 namespace gelatin {
 
-/// What presses objects in a solver's present state, with colliders as the scene numbers them.
-std::vector<ContactForce> contact_forces(const Scene& scene, const Model& model, const Solver& solver);
+/// What presses objects, with colliders as the scene numbers them.
+/// @param found by a solver with CollisionResponse::contact
+std::vector<ContactForce> contact_forces(const Scene& scene, const Model& model, const ContactForces& found);
+
+/// At how many places colliders press bodies. @param found by a solver that finds it
+std::size_t count_collider_contacts(const Model& model, const ContactForces& found);
 
 /// Of a solver's present state, in the order of Simulator::held_nodes; empty if the solver does not find
 /// them.

@@ -30,7 +30,7 @@ public:
     std::string memory() override { return host_.memory(); }
     HostNodes host_nodes() const override { return host_.host_nodes(); }
     void write_state(const State& state) override;
-    /// By the host's clock: it waits for the device within a step.
+    /// By the host's clock, since it makes the steps.
     StageTimer& stage_timer() override { return host_.stage_timer(); }
     std::string device() const override { return GpuSolver::device() + " and " + host_.device(); }
 

@@ -33,6 +33,7 @@ struct StateCopies {
 /// What belongs to a measurement that the solver has begun.
 struct PendingStatistics {
     Moment moment;
+    std::optional<std::size_t> contacts;  // of colliders; empty: its solver finds no forces
     std::vector<ContactForce> contact_forces;
     std::vector<HoldingForce> holding_forces;
 };

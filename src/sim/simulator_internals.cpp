@@ -36,9 +36,7 @@ Simulator SimulatorInternals::another(const Simulator& like) {
 RecordedFrame SimulatorInternals::recorded_frame(const Simulator& simulator) {
     const Impl& d = *simulator.impl_;
     const auto host = d.keep_host_state_of_solver();
-    RecordedFrame frame{d.checkpoint(), {}, d.solver->holding_forces()};
-    if (d.has_contact_forces()) frame.contacts = d.solver->contact_forces();
-    return frame;
+    return {d.checkpoint(), d.solver->contact_forces(), d.solver->holding_forces()};
 }
 
 }  // namespace gelatin

@@ -76,7 +76,7 @@ std::span<const glm::vec4> Simulator::node_contact_forces() const {
 std::vector<ContactForce> Simulator::contact_forces() const {
     const Impl& d = *impl_;
     if (!d.has_contact_forces()) return {};
-    return gelatin::contact_forces(d.scene, *d.model, *d.solver);
+    return gelatin::contact_forces(d.scene, *d.model, d.solver->contact_forces());
 }
 
 std::vector<HeldNodes> Simulator::held_nodes() const {

@@ -38,8 +38,9 @@ void Simulator::begin_statistics() {
     }
     PendingStatistics& pending = d.pending.emplace_back();
     pending.moment = d.clock.now();
-    if (d.has_contact_forces())
-        pending.contact_forces = gelatin::contact_forces(d.scene, *d.model, *d.solver);
+    const ContactForces found = d.solver->contact_forces();
+    if (!found.normal.empty()) pending.contacts = count_collider_contacts(*d.model, found);
+    if (d.has_contact_forces()) pending.contact_forces = gelatin::contact_forces(d.scene, *d.model, found);
     pending.holding_forces = holding_forces(*d.model, *d.solver);
 }
 
@@ -76,6 +77,7 @@ FrameStatistics Simulator::take_statistics() {
         if (d.model->is_body(o))
             frame.volume_ratio.push_back(object.volume / d.model->objects[o].rest_volume);
     }
+    if (begun.contacts) frame.contacts = *begun.contacts;
     return frame;
 }
 

@@ -40,7 +40,7 @@ double median_ratio(const json& row, const json& other) {
 }
 
 TEST_F(BenchMaterials, ComparesMaterialsOnEverySystem) {
-    const ProgramResult result = bench({"--runs", "3", "--sweeps", "2", "--json", "m.json"});
+    const ProgramResult result = bench({"--runs", "3", "--iterations", "2", "--json", "m.json"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const json bench = read_json("m.json");
     EXPECT_EQ(bench["benchmark"], "materials");
@@ -75,7 +75,7 @@ TEST_F(BenchMaterials, ComparesMaterialsOnEverySystem) {
 }
 
 TEST_F(BenchMaterials, MeasuresTheErrorsOfABeam) {
-    const ProgramResult result = bench({"--runs", "3", "--sweeps", "1,40", "--json", "m.json"});
+    const ProgramResult result = bench({"--runs", "3", "--iterations", "1,40", "--json", "m.json"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const json bench = read_json("m.json");
     EXPECT_EQ(bench["settings"]["beam_nodes"], (std::vector<int>{3, 3, 8}));
@@ -84,31 +84,35 @@ TEST_F(BenchMaterials, MeasuresTheErrorsOfABeam) {
     const json& rows = bench["beam"];
     const std::set<std::string> systems = values(rows, "system");
     ASSERT_EQ(rows.size(), 2 * 2 * systems.size());
-    const auto find = [&](const std::string& body, const std::string& system, int sweeps) {
+    const auto find = [&](const std::string& body, const std::string& system, int iterations) {
         for (const json& row : rows)
-            if (row["body"] == body && row["system"] == system && row["sweeps"] == sweeps) return row;
+            if (row["body"] == body && row["system"] == system && row["iterations"] == iterations) return row;
         return json{};
     };
     for (const json& reference : bench["references"]) {
         const std::string body = reference["body"];
-        EXPECT_LT(reference["change"].get<double>(), 1e-9);
+        EXPECT_LT(reference["change"].get<double>(), 1e-3);
         const double unsolved = reference["free_error"];
         for (const std::string& system : systems) {
             const json few = find(body, system, 1), many = find(body, system, 40);
             EXPECT_DOUBLE_EQ(few["rate"].get<double>(), 1e3 / few["ms"]["median"].get<double>());
-            EXPECT_LT(few["error"].get<double>(), unsolved) << body << ", " << system;
-            EXPECT_LT(many["error"].get<double>(), 0.2 * few["error"].get<double>())
-                << body << ", " << system;
-            // All systems make the same step; coordinates up to 16 m are rounded, displacements are 1 cm.
-            EXPECT_NEAR(few["error"].get<double>(), find(body, "CPU, 1 thread", 1)["error"].get<double>(),
-                        5e-4);
+            EXPECT_LT(many["error"].get<double>(), 0.7 * unsolved) << body << ", " << system;
+            EXPECT_GT(many["error"].get<double>(), reference["change"].get<double>());
+            // However many threads make it, the step is the same.
+            if (system != "OpenGL") {
+                EXPECT_EQ(few["error"], find(body, "CPU, 1 thread", 1)["error"]);
+            }
         }
+        // Ten milliseconds are long for implicit Euler, which sweeps converge to; the CPU's scheme is of
+        // second order.
+        EXPECT_LT(find(body, "CPU, 1 thread", 40)["error"].get<double>(),
+                  0.5 * find(body, "OpenGL", 40)["error"].get<double>());
         EXPECT_THAT(result.out, HasSubstr("| " + body));
     }
 }
 
 TEST_F(BenchMaterials, WritesAReport) {
-    const ProgramResult result = bench({"--runs", "1", "--sweeps", "2", "--no-gl", "--report", "m.md"});
+    const ProgramResult result = bench({"--runs", "1", "--iterations", "2", "--no-gl", "--report", "m.md"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const std::string report = read_file(path("m.md"));
     EXPECT_THAT(report, HasSubstr(result.out));
@@ -129,8 +133,7 @@ TEST_F(BenchMaterials, RefusesWhatItCannotDo) {
     EXPECT_THAT(refused({"--report", "r.txt"}), HasSubstr("--report = r.txt: must end in .md"));
     EXPECT_THAT(refused({"--json", "nowhere/m.json"}), HasSubstr("there is no folder nowhere"));
     EXPECT_THAT(refused({"--runs", "0"}), HasSubstr("--runs"));
-    EXPECT_THAT(refused({"--sweeps", "10,0"}), HasSubstr("--sweeps"));
-    EXPECT_THAT(refused({"--reference-sweeps", "0"}), HasSubstr("--reference-sweeps"));
+    EXPECT_THAT(refused({"--iterations", "10,0"}), HasSubstr("--iterations"));
     EXPECT_THAT(refused({"--frequency", "1"}), HasSubstr("--frequency"));
     EXPECT_THAT(refused({"--beam-nodes", "3x3"}), HasSubstr("--beam-nodes"));
     EXPECT_THAT(refused({"--beam-nodes", "3x1x8"}), HasSubstr("--beam-nodes"));

@@ -38,7 +38,7 @@ void write_bar(const std::filesystem::path& folder) {
     write_file(folder / "bar.obj", obj);
 }
 
-// Stretched, and thrown round by its spin.
+// Pressed together along its length, and thrown round by its spin.
 Scene bar_scene(const std::filesystem::path& folder) {
     Scene scene;
     scene.simulation.gravity = {0, 0, 0};
@@ -52,8 +52,8 @@ Scene bar_scene(const std::filesystem::path& folder) {
     bar.mesher.nodes = 300;
     bar.material = "jelly";
     bar.position = {0, 0.6, 0};
-    bar.start.scale = {1.2, 0.8, 1.0};
-    bar.spin = {0, 0, 250};
+    bar.start.scale = {0.9, 1.1, 1.0};
+    bar.spin = {0, 0, 150};
     bar.pins = {BoxRegion{{-0.7, 0.2, -0.3}, {-0.45, 1.0, 0.3}}};
     scene.objects.push_back(bar);
     return scene;

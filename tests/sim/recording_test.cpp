@@ -126,11 +126,31 @@ TEST_F(RecordingTest, MeasuresAsInTheRun) {
     EXPECT_EQ(played.kinetic_energy, measured.kinetic_energy);
     EXPECT_EQ(played.elastic_energy, measured.elastic_energy);
     EXPECT_EQ(played.volume_ratio, measured.volume_ratio);
+    EXPECT_EQ(played.contacts, measured.contacts);
     ASSERT_EQ(played.contact_forces.size(), measured.contact_forces.size());
     ASSERT_EQ(played.holding_forces.size(), measured.holding_forces.size());
     for (std::size_t h = 0; h < measured.holding_forces.size(); ++h)
         for (int k = 0; k < 3; ++k)
             EXPECT_EQ(played.holding_forces[h].force[k], measured.holding_forces[h].force[k]);
+}
+
+// Of a ball that the implicit step presses against the floor.
+TEST_F(RecordingTest, CountsContactsAsInTheRun) {
+    for (const auto response : {CollisionResponse::contact, CollisionResponse::restore}) {
+        Scene scene = balls_that_meet();
+        scene.collision.response = response;
+        Simulator run(scene, on_cpu());
+        RecordingWriter writer(file(), run);
+        for (int k = 0; k < 12; ++k) run.advance_frame();
+        writer.write(run);
+        writer.finish();
+        run.begin_statistics();
+        const std::size_t measured = run.take_statistics().contacts;
+        EXPECT_GT(measured, 0u);
+        Simulator player(open(), on_cpu());
+        player.begin_statistics();
+        EXPECT_EQ(player.take_statistics().contacts, measured);
+    }
 }
 
 // Explicit schemes need no more than a frame has. The implicit step begins anew.

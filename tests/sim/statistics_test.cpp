@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "sim/export_formats.h"
 #include "sim/simulator_internals.h"
@@ -83,6 +84,45 @@ TEST_F(StatisticsTest, MeasuresWhatIsNearWithinOneObject) {
     }
 }
 
+// A ball on the floor, one on that, and one on a box.
+Scene balls_on_colliders(CollisionResponse response) {
+    Scene scene = falling_balls();
+    scene.simulation.solver = SolverKind::implicit;
+    scene.simulation.frame_rate = 60.0;
+    scene.collision.response = response;
+    scene.objects.push_back(scene.objects[1]);
+    scene.objects[2].name = "ball 2";
+    scene.objects[0].position = {0, 0.31, 0};
+    scene.objects[1].position = {0, 0.92, 0};
+    scene.objects[2].position = {2, 0.51, 0};
+    ColliderDescription box;
+    box.shape = BoxShape{{1, 0.2, 1}};
+    box.position = {2, 0.1, 0};
+    scene.colliders.push_back(box);
+    return scene;
+}
+
+// Not where bodies press each other.
+TEST_F(StatisticsTest, CountsContactsWithColliders) {
+    for (const Backend backend : {Backend::cpu, Backend::gl}) {
+        for (const auto response : {CollisionResponse::contact, CollisionResponse::restore}) {
+            Simulator simulator(balls_on_colliders(response), on(backend));
+            simulator.begin_statistics();
+            EXPECT_EQ(simulator.take_statistics().contacts, 0u) << "they fall by a centimetre first";
+            for (int f = 0; f < 60; ++f) simulator.advance_frame();
+            simulator.begin_statistics();
+            const FrameStatistics now = simulator.take_statistics();
+            EXPECT_GT(now.contacts, 0u) << simulator.backend();
+            if (response != CollisionResponse::contact) continue;
+            EXPECT_EQ(now.contact_forces.size(), 3u);
+            std::size_t points = 0;
+            for (const ContactForce& force : now.contact_forces)
+                if (force.collider) points += force.points;
+            EXPECT_EQ(now.contacts, points);
+        }
+    }
+}
+
 // In the order of held_nodes(), each frame's own; by node in frames and VTU files.
 TEST_F(StatisticsTest, HasForcesOfPinsAndHandles) {
     Scene scene = test::driven_balls(SolverKind::implicit);
@@ -116,39 +156,48 @@ TEST_F(StatisticsTest, HasForcesOfPinsAndHandles) {
               std::string::npos);
 }
 
-// Under the same names on both backends, and the step is the same with them as without.
+// Under the names of the pages; and the step is the same with them as without.
 TEST_F(StatisticsTest, TimesThePartsOfAnImplicitStep) {
-    const std::vector<std::string> parts = {"advance_nodes.descend", "advance_nodes.match_shapes",
-                                            "advance_nodes.move_bodies", "advance_nodes.start",
-                                            "advance_nodes.update_tets"};
+    constexpr std::size_t kSteps = 3, kSweeps = 4;
+    using Runs = std::map<std::string, std::size_t>;
+    const Runs of_one_system{{"advance_nodes.detect", kSteps},
+                             {"advance_nodes.linearise", kSteps},
+                             {"advance_nodes.solve", kSteps},
+                             {"advance_nodes.finish", kSteps},
+                             {"advance_nodes.guard", kSteps}};
+    const Runs of_descent{
+        {"advance_nodes.start", kSteps},           {"advance_nodes.match_shapes", kSteps},
+        {"advance_nodes.update_tets", 2 * kSteps}, {"advance_nodes.descend", kSteps * kSweeps},
+        {"advance_nodes.correct", kSteps},         {"advance_nodes.move_bodies", 2 * kSteps}};
     for (const Backend backend : {Backend::cpu, Backend::gl}) {
-        Scene scene = falling_balls();
-        scene.simulation.solver = SolverKind::implicit;
-        scene.simulation.substeps = 1;
-        scene.simulation.iterations = 4;
-        scene.collision.response = CollisionResponse::restore;  // both backends make the same parts
-        SimulatorOptions options = on(backend);
-        options.time_stages = true;
-        Simulator plain(scene, options);
-        options.time_parts = true;
-        Simulator timed(scene, options);
-        for (int f = 0; f < 3; ++f) {
-            plain.advance_frame();
-            timed.advance_frame();
-        }
-        EXPECT_EQ(plain.read_frame().positions, timed.read_frame().positions);
-        std::vector<std::string> found;
-        for (const auto& [stage, times] : timed.take_stage_times()) {
-            if (stage.find('.') != stage.npos && stage != "advance_nodes.correct") found.push_back(stage);
-            if (stage == "advance_nodes.descend") {
-                EXPECT_EQ(times.size(), 12u);
+        for (const CollisionResponse response : {CollisionResponse::restore, CollisionResponse::contact}) {
+            Scene scene = falling_balls();
+            scene.simulation.solver = SolverKind::implicit;
+            scene.simulation.substeps = 1;
+            scene.simulation.iterations = kSweeps;
+            scene.collision.response = response;
+            SimulatorOptions options = on(backend);
+            options.time_stages = true;
+            Simulator plain(scene, options);
+            options.time_parts = true;
+            Simulator timed(scene, options);
+            for (std::size_t f = 0; f < kSteps; ++f) {
+                plain.advance_frame();
+                timed.advance_frame();
             }
-            if (stage == "advance_nodes") {
-                EXPECT_EQ(times.size(), 3u);
+            EXPECT_EQ(plain.read_frame().positions, timed.read_frame().positions);
+            Runs parts;
+            for (const auto& [stage, times] : timed.take_stage_times()) {
+                if (stage.find('.') != stage.npos) parts[stage] = times.size();
+                if (stage == "advance_nodes") {
+                    EXPECT_EQ(times.size(), kSteps);
+                }
             }
+            const bool descends = backend == Backend::gl && response == CollisionResponse::restore;
+            EXPECT_EQ(parts, descends ? of_descent : of_one_system);
+            for (const auto& [stage, times] : plain.take_stage_times())
+                EXPECT_EQ(stage.find('.'), stage.npos);
         }
-        EXPECT_EQ(found, parts);
-        for (const auto& [stage, times] : plain.take_stage_times()) EXPECT_EQ(stage.find('.'), stage.npos);
     }
 }
 

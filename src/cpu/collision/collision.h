@@ -43,8 +43,6 @@ public:
                               std::span<const Vec4<Real>> previous = {});
 
     const std::vector<AxisBox<Real>>& bounding_boxes() const { return bounding_boxes_; }
-    /// Of the nodes of surfaces, shape [nodes].
-    const std::vector<AxisBox<Real>>& node_boxes() const { return node_boxes_; }
     const std::vector<AxisBox<Real>>& face_boxes() const { return face_boxes_; }
     /// For the nodes of Model::face_trees.
     const std::vector<AxisBox<Real>>& tree_boxes() const { return tree_boxes_; }

@@ -24,8 +24,6 @@ public:
         forces_.friction[node] += friction;
     }
 
-    glm::dvec3 at_node(std::uint32_t node) const { return forces_.normal[node] + forces_.friction[node]; }
-
     /// On `object`, from the other one or a plane.
     void add(std::uint32_t object, std::uint32_t other, bool is_plane, const glm::dvec3& normal,
              const glm::dvec3& friction) {

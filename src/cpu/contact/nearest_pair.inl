@@ -1,4 +1,4 @@
-// The nearest points of a node and a face, or of two edges, for any scalar; see contact_law.inl. Without
+// The nearest points of a node and a face, or of two edges, for any scalar. Without
 // branches. As in cpu/collision/nearest_points.h, directions come from normals and from residuals along
 // edges, so that they are accurate however short they are; results may differ by rounding from those there.
 

@@ -38,7 +38,7 @@ struct ContactRow {
     /// Of the colliders, where the first side is a plane.
     std::uint32_t plane() const { return static_cast<std::uint32_t>(key >> 31 & 0x7FFFFFFFu); }
     Real gap_at(const Vec3<Real>& s) const { return gap + glm::dot(normal, s); }
-    /// The law of a gap (contact_law.inl), from the least one inwards linear: so a solver may pass through
+    /// The law of a gap (contact_law.h), from the least one inwards linear: so a solver may pass through
     /// [N].
     Real force_of(Real g) const {
         if (!(g < reach)) return Real(0);

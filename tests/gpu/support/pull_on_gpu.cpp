@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <utility>
 
+#include "cpu/descent/implicit_solver.h"
 #include "cpu/make_solver.h"
 #include "gpu/make_solver.h"
 #include "support/parity.h"
@@ -50,6 +52,14 @@ StepBounds bounds_for(const Model& model, const std::vector<Pull>& pulls, Solver
     return bounds;
 }
 
+// What the GPU's solver is compared with.
+std::unique_ptr<cpu::CpuSolver<double>> make_reference(std::shared_ptr<const Model> model, SolverKind solver,
+                                                       ForceMethod forces) {
+    if (solver == SolverKind::implicit)
+        return std::make_unique<cpu::ImplicitSolver<double>>(std::move(model), CollisionSettings{}, kSweeps);
+    return cpu::make_solver<double>(std::move(model), solver, forces, {}, kSweeps);
+}
+
 }  // namespace
 
 std::vector<Pull> make_pulls(const Model& model) {
@@ -78,7 +88,7 @@ std::vector<glm::vec3> make_forces(const Model& model) {
 
 double worst_pull_error(const Model& model, SolverKind solver, ForceMethod forces, double step) {
     const auto shared = std::make_shared<const Model>(model);
-    const auto reference = cpu::make_solver<double>(shared, solver, forces, {}, kSweeps);
+    const auto reference = make_reference(shared, solver, forces);
     const auto actual = gpu::make_solver(shared, solver, forces, {}, kSweeps);
     const std::vector<Pull> pulls = make_pulls(model);
     Pull away = pulls[0];

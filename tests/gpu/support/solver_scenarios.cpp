@@ -157,7 +157,7 @@ Scenarios pull_scenarios() {
             }
         }
         scenarios.push_back(
-            {"vbd" + beside, [=] {
+            {"descent" + beside, [=] {
                  const Model model = make_bodies_to_descend(0.01, 0.25, MaterialModel::mass_spring, driven);
                  return worst_pull_error(model, SolverKind::implicit, ForceMethod::fused, kSolverFrame);
              }});

@@ -52,8 +52,8 @@ const Rule kSettingRules[] = {
      "not what is near"},
     {"response", "[collision]\nresponse = 'contact'\n[simulation]\nsolver = 'rk4'",
      BREAKS(s.collision.response = CollisionResponse::contact; s.simulation.solver = SolverKind::rk4),
-     "collision.response = \"contact\": needs solver = \"vbd\" or \"implicit\"; with other solvers it must "
-     "be \"restore\""},
+     "collision.response = \"contact\": needs solver = \"implicit\"; with other solvers it must be "
+     "\"restore\""},
     {"response_depth", "[collision]\nresponse = 'contact'\nbroad_phase = 'depth'",
      BREAKS(s.collision.response = CollisionResponse::contact; s.collision.broad_phase = BroadPhase::depth),
      "collision.broad_phase = \"depth\": must be none, boxes or hierarchy with response = \"contact\", which "
