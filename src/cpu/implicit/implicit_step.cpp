@@ -198,8 +198,8 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
     return input.step;
 }
 
-// Whether nodes of a body that meets itself go farther beside it than the pairs that they may meet could be
-// found for: it was hit faster than the step can tell. @param limits whether they then go less far instead
+// Whether nodes of a body with self-contact go farther beside it than pairs could be found for: it was hit
+// faster than the step can resolve. @param limits whether they then go less far instead
 template <class Real>
 bool ImplicitStep<Real>::is_torn(bool limits) {
     std::atomic<bool> is_torn = false;
