@@ -12,7 +12,8 @@ enum class Quantity {
     stretch,  ///< the largest principal stretch, 1 at rest
     stress,   ///< von Mises' stress [Pa]
     speed,    ///< [m/s]
-    /// Normal force of contacts at a node over its share of the surface [Pa]; by the implicit solver on the CPU, or contact.
+    /// Normal force of contacts at a node over its share of the surface [Pa]; by the implicit solver on the
+    /// CPU, or contact.
     pressure,
 };
 
@@ -28,7 +29,8 @@ struct CutPlane {
     std::optional<float> offset = {};
 };
 
-/// Arrows of what contacts exert on nodes, normal and friction together; by the implicit solver on the CPU, or contact.
+/// Arrows of what contacts exert on nodes, normal and friction together; by the implicit solver on the CPU,
+/// or contact.
 struct ForceArrows {
     std::optional<float> scale =
         {};  ///< length of an arrow over its force [m/N]; empty: adapts to the forces
