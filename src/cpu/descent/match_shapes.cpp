@@ -65,6 +65,9 @@ void ShapeMatcher<Real>::count_inverted_tets(const std::vector<Vec4<Real>>& posi
 template <class Real>
 bool ShapeMatcher<Real>::match(std::uint32_t object, Nodes<Real>& nodes) const {
     const Range& range = model_->objects[object].nodes;
+    const auto is_held = [](const Vec4<Real>& position) { return position.w == Real(0); };
+    const auto first = nodes.positions.begin() + range.first;
+    if (std::all_of(first, first + range.count, is_held)) return false;
     const glm::dvec3 origin(nodes.positions[range.first]);
     glm::dmat3 moment(0.0);  // m x X^T
     glm::dvec3 center(0.0), momentum(0.0), spin(0.0);

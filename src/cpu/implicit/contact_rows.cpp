@@ -158,14 +158,18 @@ Real ContactRows<Real>::rest_gap(const ContactPair& pair) const {
 
 template <class Real>
 void ContactRows<Real>::note(std::span<const ContactRow<Real>> rows,
-                             std::span<const Vec3<Real>> displacements) {
+                             std::span<const Vec3<Real>> displacements,
+                             std::span<const std::uint8_t> asleep) {
     noted_.clear();
+    for (const Memory& memory : memory_)
+        if (asleep[model_->is_body(memory.other) ? memory.other : memory.object] != 0)
+            noted_.push_back(memory);
     for (const ContactRow<Real>& row : rows) {
         const Vec3<Real> s = relative<Real>(row, displacements);
         ContactRow<Real> now = row;
         now.limit = row.friction * row.pressing(s);
-        noted_.push_back(
-            {row.key, now.limit > Real(0) ? now.held(s) : Vec3<Real>(0), now.limit, row.reach, row.ease});
+        noted_.push_back({row.key, row.object, row.other, now.limit > Real(0) ? now.held(s) : Vec3<Real>(0),
+                          now.limit, row.reach, row.ease});
     }
     std::stable_sort(noted_.begin(), noted_.end(),
                      [](const Memory& a, const Memory& b) { return a.key < b.key; });

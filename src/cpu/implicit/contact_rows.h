@@ -33,8 +33,9 @@ public:
     /// @param pairs that were found for the step @param rows output
     void make(const Start& start, std::span<const NearPair<Real>> pairs, std::vector<ContactRow<Real>>& rows);
     /// What contacts hold now, which remember() makes what they held before. @param displacements of nodes
-    /// [m]
-    void note(std::span<const ContactRow<Real>> rows, std::span<const Vec3<Real>> displacements);
+    /// [m] @param asleep bodies whose contacts, which have no rows, hold what they held
+    void note(std::span<const ContactRow<Real>> rows, std::span<const Vec3<Real>> displacements,
+              std::span<const std::uint8_t> asleep);
     void remember() { std::swap(memory_, noted_); }
     void forget() { memory_.clear(); }
     void archive(Archive& archive) { archive.list(memory_); }
@@ -43,6 +44,7 @@ private:
     // What a contact passes on to the next step.
     struct Memory {
         std::uint64_t key;
+        std::uint32_t object, other;
         Vec3<Real> hold;
         Real limit, reach, ease;
     };

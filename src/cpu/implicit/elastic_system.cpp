@@ -248,8 +248,26 @@ template class ElasticSystem<double>;
 ElasticSystem<float>::ElasticSystem(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
       arrays_(*model_),
+      left_out_nodes_(arrays_.spring_starts.size() - 1),
+      left_out_tets_(arrays_.tets.size()),
       forces_(model_->node_count()),
       diagonal_(model_->node_count()) {}
+
+void ElasticSystem<float>::leave_out(std::span<const std::uint8_t> asleep) {
+    const std::vector<std::uint32_t> object_of = objects_of_nodes(*model_);
+    const auto is_asleep = [&](std::uint32_t node) {
+        return node >= object_of.size() || (object_of[node] < asleep.size() && asleep[object_of[node]] != 0);
+    };
+    for (std::size_t g = 0; g < left_out_nodes_.size(); ++g) {
+        left_out_nodes_[g] = 1;
+        for (std::size_t n = kGroup * g; n < kGroup * (g + 1); ++n)
+            if (!is_asleep(static_cast<std::uint32_t>(n))) left_out_nodes_[g] = 0;
+    }
+    for (std::size_t g = 0; g < left_out_tets_.size(); ++g) {
+        const auto& nodes = arrays_.tets[g].nodes[0];
+        left_out_tets_[g] = std::all_of(std::begin(nodes), std::end(nodes), is_asleep) ? 1 : 0;
+    }
+}
 
 void ElasticSystem<float>::linearise(std::span<const Vec4<float>> positions,
                                      std::span<const Vec4<float>> velocities, float inverse_step) {
@@ -261,17 +279,21 @@ void ElasticSystem<float>::linearise(std::span<const Vec4<float>> positions,
         for_each_index(0, count, kGrain, visit);
     };
     if (arrays_.has_volume_term) {
-        for_each_group(arrays_.tets.size(), [&](std::size_t g) { find_tet_volumes(start, g, arrays_); });
+        for_each_group(arrays_.tets.size(), [&](std::size_t g) {
+            if (left_out_tets_[g] == 0) find_tet_volumes(start, g, arrays_);
+        });
         find_points(positions);
     }
-    for_each_group(arrays_.tets.size(), [&](std::size_t g) { linearise_tets(start, g, arrays_); });
+    for_each_group(arrays_.tets.size(), [&](std::size_t g) {
+        if (left_out_tets_[g] == 0) linearise_tets(start, g, arrays_);
+    });
     arrays_.has_matrices =
         !model_->neo_hookean_tets.empty() ||
         std::any_of(arrays_.resists.begin(), arrays_.resists.end(), [](auto r) { return r != 0; });
     if (arrays_.has_matrices)
         for_each_group(arrays_.edges.size(), [&](std::size_t g) { sum_edges(g, arrays_); });
     for_each_group(arrays_.spring_starts.size() - 1, [&](std::size_t g) {
-        linearise_nodes(start, g, arrays_, forces_.data(), diagonal_.data());
+        if (left_out_nodes_[g] == 0) linearise_nodes(start, g, arrays_, forces_.data(), diagonal_.data());
     });
 }
 
@@ -292,8 +314,9 @@ void ElasticSystem<float>::multiply(std::span<const Vec3<float>> displacements,
     for_each_index(displacements.size(),
                    [&](std::size_t n) { arrays_.displacements[n] = glm::vec4(displacements[n], 0.0f); });
     constexpr std::size_t kGrain = 32;
-    for_each_index(0, arrays_.spring_starts.size() - 1, kGrain,
-                   [&](std::size_t g) { multiply_nodes(g, arrays_, product.data()); });
+    for_each_index(0, arrays_.spring_starts.size() - 1, kGrain, [&](std::size_t g) {
+        if (left_out_nodes_[g] == 0) multiply_nodes(g, arrays_, product.data());
+    });
 }
 
 }  // namespace gelatin::cpu

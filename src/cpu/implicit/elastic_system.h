@@ -26,6 +26,9 @@ public:
     void linearise(std::span<const Vec4<Real>> positions, std::span<const Vec4<Real>> velocities,
                    Real inverse_step);
 
+    /// @param asleep bodies whose nodes are all held: what is found of them may stay as it was
+    void leave_out(std::span<const std::uint8_t> /*asleep*/) {}
+
     /// f [N], shape [nodes]; of held nodes too.
     const std::vector<Vec3<Real>>& forces() const { return forces_; }
     /// The 3 x 3 blocks of K on its diagonal [N/m], shape [nodes].
@@ -78,6 +81,7 @@ public:
 
     void linearise(std::span<const Vec4<float>> positions, std::span<const Vec4<float>> velocities,
                    float inverse_step);
+    void leave_out(std::span<const std::uint8_t> asleep);
     const std::vector<Vec3<float>>& forces() const { return forces_; }
     const std::vector<SymmetricMatrix<float>>& diagonal() const { return diagonal_; }
     void multiply(std::span<const Vec3<float>> displacements, std::span<Vec3<float>> product);
@@ -87,6 +91,7 @@ private:
 
     std::shared_ptr<const Model> model_;
     ElasticArrays arrays_;
+    std::vector<std::uint8_t> left_out_nodes_, left_out_tets_;  // groups
     std::vector<Vec3<float>> forces_;
     std::vector<SymmetricMatrix<float>> diagonal_;
 };

@@ -65,8 +65,10 @@ double EnergyAccount<Real>::in_contacts() const {
 }
 
 template <class Real>
-void EnergyAccount<Real>::find_energies(const Nodes<Real>& nodes) {
-    for_each_index(0, after_.size(), 1, [&](std::size_t o) { find_energy(o, nodes); });
+void EnergyAccount<Real>::find_energies(const Nodes<Real>& nodes, std::span<const std::uint8_t> asleep) {
+    for_each_index(0, after_.size(), 1, [&](std::size_t o) {
+        if (asleep.empty() || asleep[o] == 0) find_energy(o, nodes);
+    });
     is_known_ = true;
 }
 
@@ -95,7 +97,8 @@ void EnergyAccount<Real>::find_energy(std::size_t body, const Nodes<Real>& nodes
 template <class Real>
 void EnergyAccount<Real>::find_contacts(const Step& step) {
     std::fill(contacts_at_start_.begin(), contacts_at_start_.end(), 0.0);
-    std::fill(contacts_at_end_.begin(), contacts_at_end_.end(), 0.0);
+    for (std::size_t o = 0; o < contacts_at_end_.size(); ++o)
+        if (step.asleep[o] == 0) contacts_at_end_[o] = 0.0;
     for (const ContactRow<Real>& row : step.rows) {
         const auto start = static_cast<double>(row.energy(Vec3<Real>(0))),
                    end = static_cast<double>(row.energy(relative<Real>(row, step.displacements)));
@@ -159,7 +162,7 @@ void EnergyAccount<Real>::find_work(const Step& step) {
 
 template <class Real>
 double EnergyAccount<Real>::measure(const Step& step) {
-    find_energies(step.current);
+    find_energies(step.current, step.asleep);
     find_contacts(step);
     find_work(step);
     const std::size_t bodies = after_.size();

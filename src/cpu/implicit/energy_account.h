@@ -31,6 +31,7 @@ public:
         std::span<const ContactRow<Real>> rows;
         std::span<const Vec3<Real>> displacements;  ///< [m], shape [nodes]
         const Islands& islands;
+        std::span<const std::uint8_t> asleep;  ///< bodies of which nothing changes, shape [bodies]
         const Nodes<Real>&previous, &current;
     };
 
@@ -57,7 +58,7 @@ public:
 
 private:
     double work_on_rows(const Step& step, const ContactRow<Real>& row) const;
-    void find_energies(const Nodes<Real>& nodes);
+    void find_energies(const Nodes<Real>& nodes, std::span<const std::uint8_t> asleep = {});
     void find_energy(std::size_t body, const Nodes<Real>& nodes);
     void find_contacts(const Step& step);
     void find_work(const Step& step);

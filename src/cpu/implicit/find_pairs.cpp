@@ -37,6 +37,7 @@ FindPairs<Real>::FindPairs(std::shared_ptr<const Model> model, std::shared_ptr<c
       kept_(model_, *surface_),
       owns_(model_->objects.size()),
       rest_boxes_(model_->face_trees.nodes.size()),
+      is_still_(model_->objects.size()),
       is_changed_(model_->node_count()),
       is_changed_face_(model_->faces.size()),
       has_changed_(model_->objects.size()),
@@ -128,7 +129,7 @@ template <class Real>
 void FindPairs<Real>::find_own(const Paths<Real>& paths) {
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         owns_[o] = {};
-        if (!kept_.is_convex(o)) continue;
+        if (!kept_.is_convex(o) || is_still_[o] != 0) continue;
         add_lost(o, kept_.find_lost_tets(o, static_cast<Real>(kKept), paths.from, paths.to));
         owns_[o].listed = owns_[o].boxes.size();
     }
@@ -138,7 +139,7 @@ template <class Real>
 bool FindPairs<Real>::find_lost(std::span<const Vec4<Real>> ends) {
     bool any = false;
     for (std::uint32_t o = 0; finds_own_ && o < model_->body_count(); ++o) {
-        if (!kept_.is_convex(o)) continue;
+        if (!kept_.is_convex(o) || is_still_[o] != 0) continue;
         add_lost(o, kept_.find_more_lost(o, static_cast<Real>(kKept), owns_[o].lost, ends));
         any = any || owns_[o].boxes.size() > owns_[o].listed;
     }
@@ -151,11 +152,15 @@ bool FindPairs<Real>::may_meet_itself(std::uint32_t object) const {
 }
 
 template <class Real>
-void FindPairs<Real>::begin(const Paths<Real>& paths, bool own) {
+void FindPairs<Real>::begin(const Paths<Real>& paths, bool own, std::span<const std::uint8_t> asleep) {
     finds_own_ = own_ && own;
     for_each_index(0, model_->objects.size(), 1, [&](std::size_t o) {
         if (model_->objects[o].faces.count == 0) return;
         const Range& nodes = model_->objects[o].nodes;
+        const bool is_still = (o < asleep.size() ? asleep[o] != 0 : !model_->is_body(o)) &&
+                              std::equal(paths.to.begin() + nodes.first, paths.to.begin() + nodes.end(),
+                                         paths.from.begin() + nodes.first);
+        if (std::exchange(is_still_[o], is_still ? 1 : 0) != 0 && is_still) return;  // its boxes are there
         glm::dvec3 sum(0.0);
         for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
             sum += glm::dvec3(paths.to[n]) - glm::dvec3(paths.from[n]);
@@ -283,7 +288,7 @@ void FindPairs<Real>::search(std::uint32_t leaf, const Paths<Real>& paths, bool 
     object_tree_.for_objects_near(swept(boxes_.trees[leaf], motions_[object]), [&](std::uint32_t other) {
         const bool has_new = has_changed_[other] != 0 ||
                              (other == object && owns_[object].boxes.size() > owns_[object].listed);
-        if (others_alone && !has_new) return;
+        if ((others_alone && !has_new) || (is_still_[object] != 0 && is_still_[other] != 0)) return;
         if (other == object ? may_meet_itself(object) : model_->is_body(object) || model_->is_body(other))
             others.push_back(other);
     });

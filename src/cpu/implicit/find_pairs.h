@@ -60,7 +60,10 @@ public:
     FindPairs(std::shared_ptr<const Model> model, std::shared_ptr<const ContactSurface> surface, bool own);
 
     /// Finds boxes; run() has to follow. @param own whether bodies meet themselves, if they do at all
-    void begin(const Paths<Real>& paths, bool own = true);
+    /// @param asleep bodies, whose pairs are listed only with what moves, shape [bodies], or empty
+    void begin(const Paths<Real>& paths, bool own = true, std::span<const std::uint8_t> asleep = {});
+    /// Nodes were set from outside.
+    void forget() { std::fill(is_still_.begin(), is_still_.end(), std::uint8_t(0)); }
     /// Of objects whose boxes meet, how far one goes beside the other, and of bodies that meet themselves, a
     /// node beside the mean of all; in reaches, at most.
     Real fastest_approach(const Paths<Real>& paths) const;
@@ -119,6 +122,7 @@ private:
     std::vector<Own> owns_;
     std::vector<AxisBox<Real>> rest_boxes_;  // of the faces at the start, by node of the trees
     Boxes boxes_;
+    std::vector<std::uint8_t> is_still_;  // objects that rest, or colliders that stay where they are
     std::vector<std::uint8_t> is_changed_, is_changed_face_, has_changed_;  // nodes, faces, objects; update()
     std::vector<AxisBox<Real>> bounding_boxes_;
     std::vector<Vec3<Real>> motions_;  // of objects on average [m]

@@ -59,6 +59,7 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
       system_(model_),
       schemes_(model_->objects.size()),
       paces_(model_->body_count()),
+      asleep_(model_->body_count()),
       is_struck_(model_->body_count()),
       held_counts_(model_->body_count()),
       compliances_(model_->node_count()),
@@ -79,6 +80,7 @@ template <class Real>
 void ImplicitStep<Real>::forget() {
     rows_.forget();
     acting_.clear();
+    pairs_.forget();
     is_any_near_ = false;
     last_step_ = Real(0);
     restitution_.forget();
@@ -114,14 +116,11 @@ void ImplicitStep<Real>::go_on(const Nodes<Real>& nodes, std::span<const Vec4<Re
 }
 
 template <class Real>
-Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const Nodes<Real>& previous,
+Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes<Real>& previous,
                              Nodes<Real>& current, StageTimer* timer) {
     StepInput<Real> input = wanted;
-    find_released(previous);
-    energy_.begin(previous);
     earlier_momenta_ = momenta_;
-    for (std::uint32_t o = 0; o < model_->body_count(); ++o)
-        momenta_[o] = momenta(o, previous.positions, previous.velocities);
+    begin(input, previous);
     for (bool damps = false, has_past = false;;) {
         const bool is_shortest = input.step < Real(2) * shortest;
         const auto divide = [&] {
@@ -135,6 +134,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
             if (is_found)
                 rows_.make({previous.positions, expected_, compliances_, step_, last_step_}, pairs_.pairs(),
                            system_.rows);
+            if (wake_near(input, previous)) continue;
             if (!is_found || (!is_shortest && deepest() > static_cast<Real>(kDeepest))) {
                 divide();
                 continue;
@@ -159,7 +159,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
         Field on_held;
         const auto gain = [&] {
             return energy_.measure({step_, input.load_forces, input.pulls, on_held, system_.rows,
-                                    system_.displacements, islands_, previous, current});
+                                    system_.displacements, islands_, asleep_, previous, current});
         };
         double gained = 0.0;
         {
@@ -196,6 +196,39 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, const
     last_step_ = input.step;
     is_any_near_ = !system_.rows.empty() || !pairs_.pairs().empty();
     return input.step;
+}
+
+template <class Real>
+void ImplicitStep<Real>::begin(const StepInput<Real>& input, const Nodes<Real>& previous) {
+    if (input.rest_watch != nullptr &&
+        !std::equal(asleep_.begin(), asleep_.end(), input.rest_watch->asleep().begin())) {
+        asleep_.assign(input.rest_watch->asleep().begin(), input.rest_watch->asleep().end());
+        system_.elastic.leave_out(asleep_);
+    }
+    find_released(previous);
+    energy_.begin(previous);
+    for (std::uint32_t o = 0; o < model_->body_count(); ++o)
+        momenta_[o] = momenta(o, previous.positions, previous.velocities);
+}
+
+// Bodies asleep that something comes near. @return whether there are any: then the step begins anew
+template <class Real>
+bool ImplicitStep<Real>::wake_near(const StepInput<Real>& input, Nodes<Real>& previous) {
+    bool any = false;
+    for (const NearPair<Real>& near : pairs_.pairs())
+        for (const std::uint32_t o : {near.pair.object, near.pair.other})
+            if (model_->is_body(o) && input.rest_watch != nullptr && input.rest_watch->asleep()[o] != 0) {
+                input.rest_watch->wake(o, previous);
+                any = true;
+            }
+    if (any) begin(input, previous);
+    return any;
+}
+
+// Of which nothing has changed since it was made.
+template <class Real>
+bool ImplicitStep<Real>::is_asleep(const ContactRow<Real>& row) const {
+    return asleep_[model_->is_body(row.other) ? row.other : row.object] != 0;
 }
 
 // Whether nodes of a body with self-contact go farther beside it than pairs could be found for: it was hit
@@ -357,6 +390,7 @@ void ImplicitStep<Real>::find_paces(const Nodes<Real>& current) {
     std::vector<double> vibrations(model_->body_count(), 0.0), fastest = vibrations, pressing = vibrations,
                                                                approach = vibrations;
     for_each_index(0, model_->body_count(), 1, [&](std::size_t o) {
+        if (asleep_[o] != 0) return;
         const ModelObject& object = model_->objects[o];
         const bool is_free = system_.rigid.is_free(o);
         if (is_free) motions[system_.rigid.number(o)] = system_.rigid.velocity(o, current.velocities);
@@ -383,7 +417,10 @@ void ImplicitStep<Real>::find_paces(const Nodes<Real>& current) {
     }
     for (std::size_t o = 0; o < paces_.size(); ++o) {
         const bool is_calm = pressing[o] > 0.0 && vibrations[o] < slow && approach[o] < slow * pressing[o];
-        paces_[o] = !is_calm ? Pace::moving : fastest[o] < slow ? Pace::still : Pace::calm;
+        paces_[o] = asleep_[o] != 0     ? Pace::still
+                    : !is_calm          ? Pace::moving
+                    : fastest[o] < slow ? Pace::still
+                                        : Pace::calm;
     }
 }
 
@@ -446,7 +483,7 @@ bool ImplicitStep<Real>::detect(const Nodes<Real>& previous, bool is_shortest, b
     });
     if (!contacts_) return true;
     const Paths<Real> paths{previous.positions, ends_, slacks_};
-    pairs_.begin(paths, own);
+    pairs_.begin(paths, own, asleep_);
     if (!is_shortest && pairs_.fastest_approach(paths) > static_cast<Real>(kFastest)) return false;
     pairs_.run(paths);
     return true;
@@ -522,10 +559,10 @@ template <class Real>
 void ImplicitStep<Real>::finish(const StepInput<Real>& input, const Nodes<Real>& previous,
                                 Nodes<Real>& current) {
     Field& d = system_.displacements;
-    rows_.note(system_.rows, d);
+    rows_.note(system_.rows, d, asleep_);
     Field forces(d.size(), Vec3<Real>(0));  // of all but elements and gravity
     for (std::size_t n = 0; n < input.load_forces.size(); ++n) forces[n] = Vec3<Real>(input.load_forces[n]);
-    acting_.clear();
+    std::erase_if(acting_, [&](const Acting& acting) { return !is_asleep(acting.row); });
     for (const ContactRow<Real>& row : system_.rows) {
         const Vec3<Real> s = relative<Real>(row, system_.displacements), force = row.force(s);
         for (std::uint32_t k = 0; k < row.count; ++k) forces[row.nodes[k]] += row.weights[k] * force;
@@ -617,13 +654,16 @@ bool ImplicitStep<Real>::moves_bodies(const Nodes<Real>& previous) const {
 }
 
 template <class Real>
-std::vector<glm::dvec3> ImplicitStep<Real>::forces_on_held(const StepInput<Real>& input,
-                                                           const Nodes<Real>& previous) {
-    if (last_step_ == Real(0)) return {};
+void ImplicitStep<Real>::find_forces_on_held(const StepInput<Real>& input, const Nodes<Real>& previous,
+                                             std::vector<glm::dvec3>& forces) {
+    if (last_step_ == Real(0)) return forces.clear();
     const Field elastic = elastic_forces();
-    std::vector<glm::dvec3> forces(elastic.begin(), elastic.end());
+    forces.resize(elastic.size());
+    for_each_index(elastic.size(), [&](std::size_t n) {
+        if (object_of_[n] >= asleep_.size() || asleep_[object_of_[n]] == 0) forces[n] = elastic[n];
+    });
     for (const Acting& acting : acting_)
-        for (std::uint32_t k = 0; k < acting.row.count; ++k)
+        for (std::uint32_t k = 0; k < acting.row.count && !is_asleep(acting.row); ++k)
             forces[acting.row.nodes[k]] +=
                 static_cast<double>(acting.row.weights[k]) * glm::dvec3(acting.normal + acting.friction);
     if (input.pulls != nullptr)
@@ -632,7 +672,6 @@ std::vector<glm::dvec3> ImplicitStep<Real>::forces_on_held(const StepInput<Real>
             const Vec4<Real> end(Vec3<Real>(x) + system_.displacements[n], x.w);
             forces[n] += glm::dvec3(input.pulls->force_at_end(n, end, Vec3<Real>(x), step_));
         }
-    return forces;
 }
 
 template class ImplicitStep<float>;

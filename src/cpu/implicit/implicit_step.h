@@ -8,6 +8,7 @@
 
 #include "core/archive.h"
 #include "core/stage_timer.h"
+#include "cpu/descent/rest_watch.h"
 #include "cpu/drive/pulls.h"
 #include "cpu/implicit/contact_rows.h"
 #include "cpu/implicit/energy_account.h"
@@ -35,6 +36,8 @@ struct StepInput {
     Real step;                                     ///< h [s]
     std::span<const Vec4<Real>> load_forces = {};  ///< [N], shape [nodes], or empty
     const Pulls<Real>* pulls = nullptr;            ///< null: no hand holds anything
+    /// Whose sleeping bodies are held until something comes near them; null: none sleeps.
+    RestWatch<Real>* rest_watch = nullptr;
 };
 
 /// One implicit step of all bodies with their contacts: predict, detect, linearise, solve, finish.
@@ -53,10 +56,10 @@ public:
     void go_on(const Nodes<Real>& nodes, std::span<const Vec4<Real>> earlier_velocities, Real step);
     /// @param previous of held nodes the positions are those where they are, and velocities those that take
     /// them to where their handles have them at the end
-    /// @param shortest a step may be [s]
+    /// @param shortest a step may be [s] @param previous bodies that are woken are let go
     /// @return the length of the step made [s]: that of the input, or a shorter one, where bodies would meet
     /// too deep
-    Real run(const StepInput<Real>& wanted, Real shortest, const Nodes<Real>& previous, Nodes<Real>& current,
+    Real run(const StepInput<Real>& wanted, Real shortest, Nodes<Real>& previous, Nodes<Real>& current,
              StageTimer* timer);
 
     /// Goes on from where bodies were put between steps, if nothing is in between but they themselves.
@@ -65,8 +68,12 @@ public:
 
     /// What presses objects at the end of the last step.
     ContactForces contact_forces() const;
-    /// Of elements, contacts and hands on held nodes in the last step [N], shape [nodes]; empty before it.
-    std::vector<glm::dvec3> forces_on_held(const StepInput<Real>& input, const Nodes<Real>& previous);
+    /// Of elements, contacts and hands on held nodes in the last step.
+    /// @param forces output [N], shape [nodes]; empty before it. Those of bodies asleep stay.
+    void find_forces_on_held(const StepInput<Real>& input, const Nodes<Real>& previous,
+                             std::vector<glm::dvec3>& forces);
+    /// Of the last step.
+    const Islands& islands() const { return islands_; }
     const ContactSurface& surface() const { return *surface_; }
 
     /// When the last step has ended [J].
@@ -95,6 +102,9 @@ private:
     };
 
     void forget();
+    void begin(const StepInput<Real>& input, const Nodes<Real>& previous);
+    bool wake_near(const StepInput<Real>& input, Nodes<Real>& previous);
+    bool is_asleep(const ContactRow<Real>& row) const;
     void predict(const StepInput<Real>& input, const Nodes<Real>& previous);
     Vec3<Real> acceleration(const StepInput<Real>& input, const Nodes<Real>& previous, std::size_t n) const;
     bool choose_schemes(bool damps);
@@ -133,6 +143,7 @@ private:
     StepSystem<Real> system_;
     std::vector<Scheme> schemes_;             // by object
     std::vector<Pace> paces_;                 // of bodies, at the end of the last step
+    std::vector<std::uint8_t> asleep_;        // bodies
     std::vector<std::uint8_t> is_struck_;     // whose velocities do not go on from those before
     std::vector<std::uint32_t> held_counts_;  // of bodies' nodes, when the last step began
     Islands islands_;

@@ -43,7 +43,7 @@ void SystemSolver<Real>::apply_kinematics(std::span<const HandleMotion> motions)
     add_velocities(1.0);
 }
 
-// Where all bodies rest, they and what is held stay where they are.
+// Wakes bodies that are driven. Where all rest, they and what is held stay where they are.
 template <class Real>
 bool SystemSolver<Real>::rests(const Step& step) {
     if (!rest_watch_) return false;
@@ -53,8 +53,8 @@ bool SystemSolver<Real>::rests(const Step& step) {
         if (asked[held.node].w == Real(0)) asked[held.node] = Vec4<Real>(goals_[held.node], Real(0));
         held_at.push_back(held_at_.empty() ? Vec3<Real>(current_.positions[held.node]) : held_at_[held.node]);
     }
-    const bool is_pulled = this->acting_pulls() != nullptr;
-    if (!rest_watch_->rests(step.size, asked, step.load_factors, is_pulled, held_at)) return false;
+    if (!rest_watch_->begin({step.size, asked, step.load_factors, this->acting_pulls(), held_at}))
+        return false;
     for (std::size_t n = 0; n < goals_.size(); ++n) {
         Vec4<Real>&position = current_.positions[n], &velocity = current_.velocities[n];
         if (position.w == Real(0) && !held_at_.empty()) position = Vec4<Real>(held_at_[n], Real(0));
@@ -77,12 +77,13 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
     if (rests(step)) return;
     const std::vector<Vec4<Real>> velocities = current_.velocities;
     const Real part = size / static_cast<Real>(parts), shortest = size / static_cast<Real>(kMostParts);
-    StepInput<Real> input{part, load_forces_, this->acting_pulls()};
+    StepInput<Real> input{part, load_forces_, this->acting_pulls(), rest_watch_ ? &*rest_watch_ : nullptr};
     if (std::exchange(goes_on_, false)) step_.go_on(current_, previous_.velocities, part);
     to_ = current_;
+    if (rest_watch_) rest_watch_->hold(to_);
     for (Real left = size; left > Real(0.5) * shortest; left -= input.step) {
         for (std::size_t n = 0; n < goals_.size(); ++n) {
-            if (to_.positions[n].w != Real(0)) continue;
+            if (current_.positions[n].w != Real(0)) continue;
             if (left == size && !held_at_.empty()) to_.positions[n] = Vec4<Real>(held_at_[n], Real(0));
             to_.velocities[n] =
                 Vec4<Real>((goals_[n] - Vec3<Real>(to_.positions[n])) / left, to_.velocities[n].w);
@@ -94,7 +95,11 @@ void SystemSolver<Real>::advance_nodes(const Step& step) {
         input.step = step_.run(input, shortest, from_, to_, timer);
     }
     if (!model_->handles.empty() && model_->is_body(model_->handles[0].object))
-        forces_on_held_ = step_.forces_on_held(input, from_);
+        step_.find_forces_on_held(input, from_, forces_on_held_);
+    if (rest_watch_) {
+        rest_watch_->release(to_);
+        rest_watch_->end(step_.islands().of_bodies);
+    }
     // Whoever reads nodes keeps those of the step's start; the next step goes on from its last part.
     std::swap(current_, previous_);
     current_ = to_;

@@ -29,7 +29,7 @@ protected:
         for (glm::dvec4& p : positions) p.y = p.y > 0.05 ? 0.3 : p.x < 0.15 ? 0.0001 : height;
         std::vector<cpu::ContactRow<double>> rows;
         rows_of_->make({positions, expected_, compliances_, kStep, kStep}, {}, rows);
-        rows_of_->note(rows, expected_);
+        rows_of_->note(rows, expected_, std::vector<std::uint8_t>(1));
         rows_of_->remember();
         return rows;
     }

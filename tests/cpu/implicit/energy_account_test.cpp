@@ -54,7 +54,7 @@ protected:
         islands_.find<double>(*model_, rows_, previous, !loads_.empty());
         account_->begin(previous);
         return account_->measure(
-            {0.01, loads_, nullptr, {}, rows_, displacements_, islands_, previous, current});
+            {0.01, loads_, nullptr, {}, rows_, displacements_, islands_, asleep_, previous, current});
     }
     test::BodySums sums(const Nodes& nodes) const { return test::sum_bodies<double>(*model_, nodes); }
     double energy(const Nodes& nodes) const { return sums(nodes).kinetic; }
@@ -65,6 +65,7 @@ protected:
     std::vector<glm::dvec3> displacements_;
     std::vector<cpu::ContactRow<double>> rows_;
     cpu::Islands islands_;
+    std::vector<std::uint8_t> asleep_ = std::vector<std::uint8_t>(8);  // none
 };
 
 // Within 0.2% of what was there. Of the other body nothing is taken.
