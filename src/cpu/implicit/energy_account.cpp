@@ -170,6 +170,7 @@ double EnergyAccount<Real>::measure(const Step& step) {
     std::vector<glm::dvec3> momenta(bodies, glm::dvec3(0.0));
     owed_ = vibrations_ = of_bodies_ = gained;
     for (std::size_t o = 0; o < bodies; ++o) {
+        if (step.asleep[o] != 0) continue;
         const std::uint32_t island = step.islands.of_bodies[o];
         const double fallen =
             step.islands.are_held[island] != 0 ? 0.0 : potentials_[o] - potentials_before_[o];
