@@ -33,6 +33,13 @@ public:
     cpu::CpuSolver<float>& solver() { return *solver_; }
     const Model& model() const { return *model_; }
     const std::vector<cpu::Vec4<float>>& positions() const { return solver_->nodes().positions; }
+    float fastest_of(std::size_t object) const {
+        float most = 0.0f;
+        const Range& nodes = model_->objects[object].nodes;
+        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
+            most = std::max(most, glm::length(glm::vec3(solver_->nodes().velocities[n])));
+        return most;
+    }
     float fastest() const {
         float most = 0.0f;
         for (const auto& velocity : solver_->nodes().velocities)
@@ -104,14 +111,43 @@ TEST(RestWatch, BlocksDoNotCreep) {
     EXPECT_LT(most, 2e-6f);
 }
 
-// The upper block comes from far: the lower one rests long before.
-TEST(RestWatch, NoneSleepsWhileOneMoves) {
-    const auto model =
-        test::make_blocks({{.place = {0, 0.002, 0}}, {.place = {5, 30, 0}}}, kFalling, {floor()});
+// The upper blocks come from far: the lower ones rest long before. One falls beside them, and one on one of
+// them.
+TEST(RestWatch, BodiesSleepByIsland) {
+    const auto model = test::make_blocks({{.place = {0, 0.002, 0}, .youngs_modulus = 1e6},
+                                          {.place = {3, 0.002, 0}, .youngs_modulus = 1e6},
+                                          {.place = {5, 12, 0}, .youngs_modulus = 1e6},
+                                          {.place = {0.01, 15, 0}, .youngs_modulus = 1e6}},
+                                         kFalling, {floor()});
     Sleeper scene(model);
-    scene.advance(120);
-    EXPECT_NEAR(scene.center(1).y, 30.15 - 0.5 * 9.81 * 4.0, 0.4);
-    EXPECT_FALSE(scene.is_asleep());
+    constexpr int kAsleep = 90, kLanded = 150, kHit = 120;  // frames; sqrt(2 15 / g) = 105 frames
+    scene.advance(kAsleep);
+    const ContactForces forces = scene.solver().contact_forces();
+    ASSERT_EQ(forces.between.size(), 2u) << "of what sleeps they stay";
+    for (const auto& force : forces.between) EXPECT_NEAR(force.normal.y, 27.0 * 9.81, 0.01 * 27.0 * 9.81);
+    EXPECT_EQ(scene.fastest_of(0), 0.0f);
+    EXPECT_EQ(scene.fastest_of(1), 0.0f);
+    EXPECT_GT(scene.fastest_of(2), 10.0f);
+    const std::vector<cpu::Vec4<float>> before = scene.positions();
+    scene.advance(kHit - kAsleep);
+    EXPECT_GT(scene.fastest_of(0), 0.01f) << "it was hit";
+    scene.advance(kLanded - kHit);
+    const Range& nodes = model->objects[1].nodes;
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) EXPECT_EQ(scene.positions()[n], before[n]);
+    for (std::size_t n = 0; n < before.size(); ++n) EXPECT_EQ(scene.positions()[n].w, before[n].w);
+}
+
+// As if it had been awake: it is let go before anything presses it.
+TEST(RestWatch, WhatWakesTakesPartInTheImpact) {
+    const auto model = test::make_blocks({{}, {.place = {1.5, 0.05, 0.02}, .velocity = {-1.0, 0, 0}}});
+    Sleeper scene(model);
+    const auto momentum = [&] { return test::sum_bodies(*model, scene.solver().nodes()).momentum; };
+    const glm::dvec3 start = momentum();
+    scene.advance(60);
+    EXPECT_EQ(scene.fastest_of(0), 0.0f);
+    scene.advance(60);
+    EXPECT_GT(glm::distance(scene.center(0), Sleeper(model).center(0)), 0.05);
+    EXPECT_LT(glm::length(momentum() - start), 1e-5 * glm::length(start));
 }
 
 TEST(RestWatch, SlowMotionIsNoRest) {
