@@ -35,6 +35,37 @@ public:
                 pieces_.push_back({o, {first, std::min(kMost, ranges[o].end() - first)}});
     }
 
+    /// All but those of some objects. @param left_out by object
+    ObjectPieces without(std::span<const std::uint8_t> left_out) const {
+        ObjectPieces some;
+        for (const Piece& piece : pieces_)
+            if (left_out[piece.object] == 0) some.pieces_.push_back(piece);
+        return some;
+    }
+
+    /// Calls visit(n) for all that objects consist of.
+    template <class Visit>
+    void for_each(const Visit& visit) const {
+        for_each_index(0, pieces_.size(), 1, [&](std::size_t p) {
+            for (std::uint32_t n = pieces_[p].range.first; n < pieces_[p].range.end(); ++n) visit(n);
+        });
+    }
+
+    /// Of a value of each, by object; they do not depend on the number of threads.
+    template <class ValueOf>
+    std::vector<double> sums(const ValueOf& value_of) const {
+        std::vector<double> by_object(pieces_.empty() ? 0 : pieces_.back().object + 1);
+        gather(
+            std::span<double>(by_object),
+            [&](const Piece& piece) {
+                double sum = 0.0;
+                for (std::uint32_t n = piece.range.first; n < piece.range.end(); ++n) sum += value_of(n);
+                return sum;
+            },
+            [](double& sum, double more) { sum += more; });
+        return by_object;
+    }
+
     /// Joins what the pieces of each object have. Threads write once a piece: values of objects lie beside
     /// each other, and threads that write these again and again take the memory from each other.
     /// @param by_object input: values to join with; output: with those of all pieces, in their order

@@ -203,7 +203,7 @@ void ImplicitStep<Real>::begin(const StepInput<Real>& input, const Nodes<Real>& 
     if (input.rest_watch != nullptr &&
         !std::equal(asleep_.begin(), asleep_.end(), input.rest_watch->asleep().begin())) {
         asleep_.assign(input.rest_watch->asleep().begin(), input.rest_watch->asleep().end());
-        system_.elastic.leave_out(asleep_);
+        system_.leave_out(asleep_);
     }
     find_released(previous);
     energy_.begin(previous);

@@ -62,11 +62,11 @@ public:
     }
     /// W q: use(node, displacement [m]) for all nodes, on several threads; 0 for bodies that are not free.
     template <class Use>
-    void for_displacements(std::span<const Motion> motions, const Use& use) const {
+    void for_displacements(const ObjectPieces& nodes, std::span<const Motion> motions, const Use& use) const {
         std::vector<std::pair<Vec3<Real>, Vec3<Real>>> parts;
         for (const Motion& m : motions)
             parts.push_back({Vec3<Real>(m(0), m(1), m(2)), Vec3<Real>(m(3), m(4), m(5))});
-        for_each_index(arms_.size(), [&](std::size_t n) {
+        nodes.for_each([&](std::uint32_t n) {
             const std::uint32_t b = body_of_[n];
             use(n, b == kNoNode ? Vec3<Real>(0) : parts[b].first + glm::cross(parts[b].second, arms_[n]));
         });

@@ -38,6 +38,17 @@ StepSystem<Real>::StepSystem(std::shared_ptr<const Model> model)
       inverse_blocks_(model_->node_count()) {
     for (Field* field : {&base_, &residual_, &direction_, &moved_, &product_, &with_rows_, &z_, &p_})
         field->resize(model_->node_count());
+    leave_out(std::vector<std::uint8_t>(model_->body_count()));
+}
+
+template <class Real>
+void StepSystem<Real>::leave_out(std::span<const std::uint8_t> asleep) {
+    elastic.leave_out(asleep);
+    std::vector<std::uint8_t> left_out(model_->objects.size(), 1);  // colliders, too
+    std::copy(asleep.begin(), asleep.end(), left_out.begin());
+    awake_ = pieces_.without(left_out);
+    for (Field* field : {&base_, &residual_, &direction_, &moved_, &product_, &with_rows_, &z_, &p_})
+        std::fill(field->begin(), field->end(), Vec3<Real>(0));
 }
 
 template <class Real>
@@ -60,7 +71,7 @@ template <class ForceOf>
 void StepSystem<Real>::add_row_forces(const ForceOf& force_of, Field& sum) {
     if (rows.empty()) return;
     for_each_index(rows.size(), [&](std::size_t r) { row_forces_[r] = force_of(r); });
-    for_each_index(sum.size(), [&](std::size_t n) {
+    awake_.for_each([&](std::uint32_t n) {
         if (inertia[n] == Real(0)) return;
         for (std::uint32_t e = row_starts_[n]; e < row_starts_[n + 1]; ++e) {
             const std::uint32_t entry = row_entries_[e];
@@ -73,7 +84,7 @@ template <class Real>
 void StepSystem<Real>::multiply(const Field& d, Field& product) {
     ++counts.products;
     elastic.multiply(d, product);
-    for_each_index(d.size(), [&](std::size_t n) {
+    awake_.for_each([&](std::uint32_t n) {
         product[n] = inertia[n] > Real(0) ? product[n] + inertia[n] * d[n] : Vec3<Real>(0);
     });
 }
@@ -81,9 +92,8 @@ void StepSystem<Real>::multiply(const Field& d, Field& product) {
 template <class Real>
 void StepSystem<Real>::find_base_residual() {
     multiply(displacements, product_);
-    for_each_index(base_.size(), [&](std::size_t n) {
-        base_[n] = inertia[n] > Real(0) ? loads[n] - product_[n] : Vec3<Real>(0);
-    });
+    awake_.for_each(
+        [&](std::uint32_t n) { base_[n] = inertia[n] > Real(0) ? loads[n] - product_[n] : Vec3<Real>(0); });
 }
 
 template <class Real>
@@ -136,24 +146,16 @@ void StepSystem<Real>::set_limits() {
                    [&](std::size_t r) { rows[r].limit = rows[r].friction * rows[r].pressing(slips_[r]); });
 }
 
-// In chunks, so that it does not depend on the number of threads.
 template <class Real>
 double StepSystem<Real>::dot(const Field& a, const Field& b) const {
-    std::vector<double> sums((a.size() + kChunk - 1) / kChunk);
-    for_each_index(0, sums.size(), 1, [&](std::size_t c) {
-        double sum = 0.0;
-        const std::size_t end = std::min(a.size(), (c + 1) * kChunk);
-        for (std::size_t n = c * kChunk; n < end; ++n) sum += static_cast<double>(glm::dot(a[n], b[n]));
-        sums[c] = sum;
-    });
-    double sum = 0.0;
-    for (const double s : sums) sum += s;
-    return sum;
+    const std::vector<double> sums =
+        awake_.sums([&](std::uint32_t n) { return static_cast<double>(glm::dot(a[n], b[n])); });
+    return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 template <class Real>
 void StepSystem<Real>::prepare_preconditioner(bool only_rows) {
-    for_each_index(inverse_blocks_.size(), [&](std::size_t n) {
+    awake_.for_each([&](std::uint32_t n) {
         const bool has_rows = row_starts_[n] < row_starts_[n + 1];
         if (inertia[n] == Real(0) || (only_rows && !has_rows)) return;
         SymmetricMatrix<Real> block = elastic.diagonal()[n];
@@ -175,7 +177,7 @@ template <class Real>
 void StepSystem<Real>::precondition(const Field& r, Field& z) {
     std::vector<Motion> motions = rigid.gather(r);
     rigid.solve(motions);
-    rigid.for_displacements(motions, [&](std::size_t n, const Vec3<Real>& rigid_part) {
+    rigid.for_displacements(awake_, motions, [&](std::size_t n, const Vec3<Real>& rigid_part) {
         z[n] = inertia[n] > Real(0) ? inverse_blocks_[n] * r[n] + rigid_part : Vec3<Real>(0);
     });
 }
@@ -183,25 +185,17 @@ void StepSystem<Real>::precondition(const Field& r, Field& z) {
 // residual_ . z_. @param is_enough output: whether no body may lack more of its least energy than it should
 template <class Real>
 double StepSystem<Real>::find_lack(bool& is_enough) const {
-    std::vector<double> lacks(model_->objects.size(), 0.0);
-    pieces_.gather(
-        std::span<double>(lacks),
-        [&](const ObjectPieces::Piece& piece) {
-            double sum = 0.0;
-            for (std::uint32_t n = piece.range.first; n < piece.range.end(); ++n)
-                sum += static_cast<double>(glm::dot(residual_[n], z_[n]));
-            return sum;
-        },
-        [](double& sum, double more) { sum += more; });
+    const std::vector<double> lacks =
+        awake_.sums([&](std::uint32_t n) { return static_cast<double>(glm::dot(residual_[n], z_[n])); });
     is_enough = true;
-    for (std::size_t o = 0; o < model_->body_count(); ++o) is_enough = is_enough && lacks[o] <= enough[o];
+    for (std::size_t o = 0; o < lacks.size(); ++o) is_enough = is_enough && lacks[o] <= enough[o];
     return std::accumulate(lacks.begin(), lacks.end(), 0.0);
 }
 
 // From no direction, with the linear residual in residual_. Also finds A direction_, without rows.
 template <class Real>
 void StepSystem<Real>::conjugate_gradients(int count) {
-    for (Field* field : {&direction_, &moved_}) std::fill(field->begin(), field->end(), Vec3<Real>(0));
+    awake_.for_each([&](std::uint32_t n) { direction_[n] = moved_[n] = Vec3<Real>(0); });
     precondition(residual_, z_);
     p_ = z_;
     bool is_enough = false;
@@ -215,7 +209,7 @@ void StepSystem<Real>::conjugate_gradients(int count) {
         const double curvature = dot(p_, with_rows_);
         if (!(curvature > 0.0)) break;
         const auto a = static_cast<Real>(rz / curvature);
-        for_each_index(p_.size(), [&](std::size_t n) {
+        awake_.for_each([&](std::uint32_t n) {
             direction_[n] += a * p_[n];
             moved_[n] += a * product_[n];
             residual_[n] -= a * with_rows_[n];
@@ -225,7 +219,7 @@ void StepSystem<Real>::conjugate_gradients(int count) {
         const double next = find_lack(is_enough);
         const auto b = static_cast<Real>(next / rz);
         rz = next;
-        for_each_index(p_.size(), [&](std::size_t n) { p_[n] = z_[n] + b * p_[n]; });
+        awake_.for_each([&](std::uint32_t n) { p_[n] = z_[n] + b * p_[n]; });
     }
 }
 
@@ -319,7 +313,8 @@ void StepSystem<Real>::rigid_newton() {
         for_each_index(rows.size(),
                        [&](std::size_t r) { slips_[r] += static_cast<Real>(part) * changes[r]; });
     }
-    rigid.for_displacements(moved, [&](std::size_t n, const Vec3<Real>& d) { displacements[n] += d; });
+    rigid.for_displacements(awake_, moved,
+                            [&](std::size_t n, const Vec3<Real>& d) { displacements[n] += d; });
 }
 
 // A Newton step on all nodes, from the tangents that are set. @param is_first of this system
@@ -333,7 +328,7 @@ void StepSystem<Real>::newton_step(int iterations, bool is_first) {
     for_each_index(rows.size(), [&](std::size_t r) { changes[r] = relative<Real>(rows[r], direction_); });
     const double part =
         rows.empty() ? 1.0 : line_search(changes, dot(direction_, base_), dot(direction_, moved_));
-    for_each_index(direction_.size(), [&](std::size_t n) {
+    awake_.for_each([&](std::uint32_t n) {
         displacements[n] += static_cast<Real>(part) * direction_[n];
         base_[n] -= static_cast<Real>(part) * moved_[n];
     });
@@ -348,8 +343,7 @@ void StepSystem<Real>::solve() {
     find_slips();
     const std::vector<Vec3<Real>> expected = slips_;
     if (!rows.empty()) {  // elements hardly resist rigid motions
-        for_each_index(base_.size(),
-                       [&](std::size_t n) { base_[n] = loads[n] - inertia[n] * displacements[n]; });
+        awake_.for_each([&](std::uint32_t n) { base_[n] = loads[n] - inertia[n] * displacements[n]; });
         rigid_newton();
     }
     find_base_residual();

@@ -41,6 +41,8 @@ public:
     std::vector<double> enough;             ///< energy by which each may miss its least, by object [J]
     SolveCounts counts;
 
+    /// @param asleep bodies whose nodes are all held
+    void leave_out(std::span<const std::uint8_t> asleep);
     /// @pre rigid.begin was called
     void solve();
 
@@ -67,7 +69,7 @@ private:
     void newton_step(int iterations, bool is_first);
 
     std::shared_ptr<const Model> model_;
-    ObjectPieces pieces_;                                  // of nodes
+    ObjectPieces pieces_, awake_;                          // of bodies' nodes; of those that move
     std::vector<std::uint32_t> row_starts_, row_entries_;  // by node: 4 row + place
     std::vector<RowTangent<Real>> tangents_;
     std::vector<Vec3<Real>> row_forces_, slips_;           // slips: s of rows, by displacements

@@ -79,7 +79,9 @@ TEST_F(RigidLevelTest, DisplacesNodesAsItGathersThem) {
     for (cpu::Motion& motion : motions)
         for (int k = 0; k < 6; ++k) motion(k) = random.uniform(-0.1, 0.1);
     std::vector<glm::dvec3> displacements(inertia_.size()), residual(inertia_.size());
-    level_.for_displacements(motions, [&](std::size_t n, const glm::dvec3& d) { displacements[n] = d; });
+    const cpu::ObjectPieces nodes(cpu::node_ranges(*model_));
+    level_.for_displacements(nodes, motions,
+                             [&](std::size_t n, const glm::dvec3& d) { displacements[n] = d; });
     double work = 0.0, same = 0.0;
     for (std::size_t n = 0; n < residual.size(); ++n) {
         residual[n] = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
