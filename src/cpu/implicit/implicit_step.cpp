@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "cpu/contact/contact_force_sums.h"
-#include "cpu/descent/rigid_inertia.h"
 #include "model/for_each_index.h"
 
 namespace gelatin::cpu {
@@ -21,8 +20,6 @@ constexpr double kStiffestStep = 1.0 / 60.0;
 constexpr double kSlackOfThickness = 0.5, kSlackOfMotion = 0.1;
 // Detections of a step for its guard alone, at most.
 constexpr int kMostGuards = 10;
-// BDF2 is stable for steps up to 2.4 times as long as the last one.
-constexpr double kLongest = 2.2;
 // Bodies come to rest that vibrate, and go to and fro, more slowly than after so long a fall [s]. Elements
 // and contacts of those that move no faster in all have at least this damping time [s].
 constexpr double kRestingFall = 1.0 / 60.0, kRestingTime = 0.1;
@@ -57,16 +54,14 @@ ImplicitStep<Real>::ImplicitStep(std::shared_ptr<const Model> model, const Colli
       restitution_(model_, surface_),
       energy_(model_),
       system_(model_),
-      schemes_(model_->objects.size()),
+      scheme_(model_),
       paces_(model_->body_count()),
       asleep_(model_->body_count()),
       is_struck_(model_->body_count()),
       held_counts_(model_->body_count()),
       compliances_(model_->node_count()),
       expected_(model_->node_count()),
-      ends_(model_->node_count()),
-      momenta_(model_->body_count()),
-      earlier_momenta_(model_->body_count()) {
+      ends_(model_->node_count()) {
     system_.iterations = 2 * settings_.iterations;
 }
 
@@ -82,7 +77,7 @@ void ImplicitStep<Real>::forget() {
     acting_.clear();
     pairs_.forget();
     is_any_near_ = false;
-    last_step_ = Real(0);
+    scheme_.forget();
     restitution_.forget();
     std::fill(paces_.begin(), paces_.end(), Pace::moving);
     std::fill(is_struck_.begin(), is_struck_.end(), std::uint8_t(0));
@@ -90,36 +85,28 @@ void ImplicitStep<Real>::forget() {
 
 template <class Real>
 void ImplicitStep<Real>::archive(Archive& archive) {
-    archive.value(last_step_);
+    scheme_.archive(archive);
     archive.value(is_any_near_);
-    archive.list(earlier_velocities_);
-    archive.array(momenta_);
     archive.array(paces_);
     archive.array(is_struck_);
     archive.array(held_counts_);
     rows_.archive(archive);
     restitution_.archive(archive);
     energy_.archive(archive);
-    if (last_step_ > Real(0) && earlier_velocities_.size() != model_->node_count()) archive.fail();
 }
 
 template <class Real>
 void ImplicitStep<Real>::go_on(const Nodes<Real>& nodes, std::span<const Vec4<Real>> earlier_velocities,
                                Real step) {
-    earlier_velocities_.assign(earlier_velocities.begin(), earlier_velocities.end());
-    last_step_ = step;
+    scheme_.go_on(nodes, earlier_velocities, step);
     held_counts_ = count_held(nodes);
-    std::vector<Vec4<Real>> earlier = nodes.positions;
-    for (std::size_t n = 0; n < earlier.size(); ++n) earlier[n] -= Vec4<Real>(went(nodes, n), 0);
-    for (std::uint32_t o = 0; o < model_->body_count(); ++o)
-        momenta_[o] = momenta(o, earlier, earlier_velocities);
 }
 
 template <class Real>
 Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes<Real>& previous,
                              Nodes<Real>& current, StageTimer* timer) {
     StepInput<Real> input = wanted;
-    earlier_momenta_ = momenta_;
+    scheme_.begin(previous);
     begin(input, previous);
     for (bool damps = false, has_past = false;;) {
         const bool is_shortest = input.step < Real(2) * shortest;
@@ -132,8 +119,8 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             predict(input, previous);
             const bool is_found = damps || detect(previous, is_shortest);
             if (is_found)
-                rows_.make({previous.positions, expected_, compliances_, step_, last_step_}, pairs_.pairs(),
-                           system_.rows);
+                rows_.make({previous.positions, expected_, compliances_, step_, scheme_.last_step()},
+                           pairs_.pairs(), system_.rows);
             if (wake_near(input, previous)) continue;
             if (!is_found || (!is_shortest && deepest() > static_cast<Real>(kDeepest))) {
                 divide();
@@ -192,8 +179,7 @@ Real ImplicitStep<Real>::run(const StepInput<Real>& wanted, Real shortest, Nodes
             energy_.change();
         break;
     }
-    earlier_velocities_ = previous.velocities;
-    last_step_ = input.step;
+    scheme_.end(previous, input.step);
     is_any_near_ = !system_.rows.empty() || !pairs_.pairs().empty();
     return input.step;
 }
@@ -207,8 +193,6 @@ void ImplicitStep<Real>::begin(const StepInput<Real>& input, const Nodes<Real>& 
     }
     find_released(previous);
     energy_.begin(previous);
-    for (std::uint32_t o = 0; o < model_->body_count(); ++o)
-        momenta_[o] = momenta(o, previous.positions, previous.velocities);
 }
 
 // Bodies asleep that something comes near. @return whether there are any: then the step begins anew
@@ -333,35 +317,22 @@ bool ImplicitStep<Real>::choose_schemes(bool damps) {
         paces[island] = std::min(paces[island], paces_[o]);
         if (is_struck_[o] != 0) is_struck[island] = 1;
     }
-    const bool has_past = !damps && last_step_ > Real(0) && step_ < static_cast<Real>(kLongest) * last_step_;
+    const bool has_past = !damps && scheme_.can_go_on(step_);
+    bool any_goes_on = false;
     for (std::uint32_t o = 0; o < model_->body_count(); ++o) {
         const std::uint32_t island = islands_.of_bodies[o];
         const Pace pace = paces[island];
         const bool goes_on = has_past && pace == Pace::moving && is_struck[island] == 0;
-        const Real ratio = goes_on ? step_ / last_step_ : Real(0);
-        schemes_[o] = {ratio * ratio / (Real(1) + Real(2) * ratio),
-                       step_ * (Real(1) + ratio) / (Real(1) + Real(2) * ratio),
-                       pace == Pace::still ? static_cast<Real>(kRestingTime) : Real(0)};
+        scheme_.set(o, step_, goes_on, pace == Pace::still ? static_cast<Real>(kRestingTime) : Real(0));
+        any_goes_on = any_goes_on || goes_on;
     }
     for (ContactRow<Real>& row : system_.rows) {
         const std::uint32_t body = model_->is_body(row.other) ? row.other : row.object;
-        row.damping = schemes_[body].damping / step_ * row.slope_of(row.gap);
+        row.damping = scheme_.of(body).damping / step_ * row.slope_of(row.gap);
     }
-    return std::any_of(schemes_.begin(), schemes_.end(),
-                       [](const Scheme& scheme) { return scheme.past > Real(0); });
+    return any_goes_on;
 }
 
-// s, as below.
-template <class Real>
-Vec3<Real> ImplicitStep<Real>::went(const Nodes<Real>& previous, std::size_t n) const {
-    return Real(0.5) * last_step_ * (Vec3<Real>(previous.velocities[n]) + Vec3<Real>(earlier_velocities_[n]));
-}
-
-// BDF2 for steps of any length: with v_1 one step before, whose length was h_1, and w = h / h_1,
-//   y = x + c s + h' (v + c (v - v_1) + h' g),  c = w^2 / (1 + 2 w),  h' = h (1 + w) / (1 + 2 w).
-// Implicit Euler's scheme is that of w = 0. Then m / h'^2 (x' - y) is what inertia resists with. For s = x -
-// x_1 stands h_1 (v + v_1) / 2, which needs no positions of earlier steps, and of a node that was stopped
-// none.
 template <class Real>
 void ImplicitStep<Real>::find_targets(const StepInput<Real>& input, const Nodes<Real>& previous) {
     for_each_index(model_->node_count(), [&](std::size_t n) {
@@ -371,13 +342,9 @@ void ImplicitStep<Real>::find_targets(const StepInput<Real>& input, const Nodes<
             system_.displacements[n] = expected_[n];
             return;
         }
-        const auto& [past, h, damping] = schemes_[object_of_[n]];
-        const Vec3<Real> v(previous.velocities[n]);
-        Vec3<Real> target = h * v + h * h * acceleration(input, previous, n);  // y - x
-        if (past > Real(0))
-            target += past * (went(previous, n) + h * (v - Vec3<Real>(earlier_velocities_[n])));
+        const Real h = scheme_.of(object_of_[n]).step;
         system_.inertia[n] = Real(1) / (previous.positions[n].w * h * h);
-        system_.displacements[n] = target;
+        system_.displacements[n] = scheme_.target(previous, n, acceleration(input, previous, n));
     });
 }
 
@@ -428,7 +395,7 @@ template <class Real>
 void ImplicitStep<Real>::linearise(const StepInput<Real>& input, const Nodes<Real>& previous) {
     velocities_ = previous.velocities;
     for_each_index(velocities_.size(), [&](std::size_t n) {
-        velocities_[n].w = std::max(velocities_[n].w, schemes_[object_of_[n]].damping);
+        velocities_[n].w = std::max(velocities_[n].w, scheme_.of(object_of_[n]).damping);
     });
     system_.elastic.linearise(previous.positions, velocities_, Real(1) / input.step);
     const double fall = kAtRest * static_cast<double>(input.step) * glm::length(glm::dvec3(model_->gravity));
@@ -525,33 +492,6 @@ bool ImplicitStep<Real>::guard(const Nodes<Real>& previous, Nodes<Real>& current
     return true;
 }
 
-// As steps have it, in which a node is what its inverse mass says; of held nodes, which have none, too: their
-// body may be let go, and what it had then counts.
-template <class Real>
-double ImplicitStep<Real>::mass_of(std::size_t n, const Vec4<Real>& position) const {
-    return position.w > Real(0) ? 1.0 / static_cast<double>(position.w)
-                                : static_cast<double>(model_->masses[n]);
-}
-
-template <class Real>
-typename ImplicitStep<Real>::Momenta ImplicitStep<Real>::momenta(
-    std::uint32_t object, std::span<const Vec4<Real>> positions,
-    std::span<const Vec4<Real>> velocities) const {
-    const Range& nodes = model_->objects[object].nodes;
-    const glm::dvec3 origin(positions[nodes.first]);
-    glm::dvec3 middle(0.0), momentum(0.0), angular(0.0);
-    double mass = 0.0;
-    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
-        const double m = mass_of(n, positions[n]);
-        const glm::dvec3 r = glm::dvec3(positions[n]) - origin, v(velocities[n]);
-        mass += m;
-        middle += m * r;
-        momentum += m * v;
-        angular += m * glm::cross(r, v);
-    }
-    return {momentum, angular - glm::cross(middle, momentum) / mass};
-}
-
 // Rotations that linear systems have found become true ones. And momentum and angular momentum of free
 // bodies, of which these schemes and what was not solved would lose some in each step, change by what acts on
 // them.
@@ -583,37 +523,9 @@ void ImplicitStep<Real>::finish(const StepInput<Real>& input, const Nodes<Real>&
             current.velocities[n] = v;
             return;
         }
-        const auto& [past, h, damping] = schemes_[object_of_[n]];
-        Vec3<Real> velocity = d[n] / h;
-        if (past > Real(0)) velocity -= past / h * went(previous, n);
-        current.velocities[n] = Vec4<Real>(velocity, v.w);
+        current.velocities[n] = Vec4<Real>(scheme_.velocity(previous, n, d[n]), v.w);
     });
-    for_each_index(0, model_->body_count(), 1, [&](std::size_t o) {
-        if (!system_.rigid.is_free(o)) return;
-        const auto object = static_cast<std::uint32_t>(o);
-        const Range& nodes = model_->objects[o].nodes;
-        const glm::dvec3 origin(current.positions[nodes.first]);
-        RigidSums sums;
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n)
-            sums.add(glm::dvec3(current.positions[n]) - origin, mass_of(n, current.positions[n]),
-                     glm::dvec3(forces[n]));
-        const RigidInertia inertia(sums);
-        const auto h = static_cast<double>(schemes_[o].step), past = static_cast<double>(schemes_[o].past);
-        const Momenta change{sums.force + glm::dvec3(model_->gravity) / inertia.inverse_mass,
-                             sums.moment - glm::cross(inertia.center, sums.force)};
-        const Momenta& had = momenta_[o];
-        const Momenta& earlier = earlier_momenta_[o];
-        const Momenta has = momenta(object, current.positions, current.velocities);
-        const auto lacking = [&](glm::dvec3 Momenta::*part) {
-            return had.*part + past * (had.*part - earlier.*part) + h * change.*part - has.*part;
-        };
-        const Twist missing{inertia.inverse_mass * lacking(&Momenta::linear),
-                            inertia.inverse_inertia * lacking(&Momenta::angular)};
-        for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
-            const glm::dvec3 r = glm::dvec3(current.positions[n]) - origin - inertia.center;
-            current.velocities[n] += Vec4<Real>(Vec3<Real>(missing.at(r)), 0);
-        }
-    });
+    scheme_.keep_momenta(system_.rigid, forces, current);
 }
 
 template <class Real>
@@ -656,7 +568,7 @@ bool ImplicitStep<Real>::moves_bodies(const Nodes<Real>& previous) const {
 template <class Real>
 void ImplicitStep<Real>::find_forces_on_held(const StepInput<Real>& input, const Nodes<Real>& previous,
                                              std::vector<glm::dvec3>& forces) {
-    if (last_step_ == Real(0)) return forces.clear();
+    if (scheme_.last_step() == Real(0)) return forces.clear();
     const Field elastic = elastic_forces();
     forces.resize(elastic.size());
     for_each_index(elastic.size(), [&](std::size_t n) {

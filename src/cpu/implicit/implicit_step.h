@@ -17,6 +17,7 @@
 #include "cpu/implicit/islands.h"
 #include "cpu/implicit/restitution.h"
 #include "cpu/implicit/step_system.h"
+#include "cpu/implicit/time_scheme.h"
 #include "cpu/nodes.h"
 #include "gelatin/scene.h"
 #include "model/contact/contact_surface.h"
@@ -91,10 +92,6 @@ private:
     using Field = std::vector<Vec3<Real>>;
     // How bodies move: calm ones only along what they touch (find_paces).
     enum class Pace : std::uint8_t { moving, calm, still };
-    // How much the step before counts, c, and h' (find_targets); the least damping time [s].
-    struct Scheme {
-        Real past = 0, step = 0, damping = 0;
-    };
     // A contact's force on its second side when a step has ended [N].
     struct Acting {
         ContactRow<Real> row;
@@ -108,7 +105,6 @@ private:
     void predict(const StepInput<Real>& input, const Nodes<Real>& previous);
     Vec3<Real> acceleration(const StepInput<Real>& input, const Nodes<Real>& previous, std::size_t n) const;
     bool choose_schemes(bool damps);
-    Vec3<Real> went(const Nodes<Real>& previous, std::size_t n) const;
     void find_targets(const StepInput<Real>& input, const Nodes<Real>& previous);
     void find_paces(const Nodes<Real>& current);
     void find_released(const Nodes<Real>& previous);
@@ -122,13 +118,6 @@ private:
     Field elastic_forces();
     bool moves_bodies(const Nodes<Real>& previous) const;
     void finish(const StepInput<Real>& input, const Nodes<Real>& previous, Nodes<Real>& current);
-    // [kg m/s]; about the centre of mass [kg m^2/s].
-    struct Momenta {
-        glm::dvec3 linear{0.0}, angular{0.0};
-    };
-    double mass_of(std::size_t n, const Vec4<Real>& position) const;
-    Momenta momenta(std::uint32_t object, std::span<const Vec4<Real>> positions,
-                    std::span<const Vec4<Real>> velocities) const;
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const ContactSurface> surface_;
@@ -141,21 +130,19 @@ private:
     Restitution<Real> restitution_;
     EnergyAccount<Real> energy_;
     StepSystem<Real> system_;
-    std::vector<Scheme> schemes_;             // by object
+    TimeScheme<Real> scheme_;
     std::vector<Pace> paces_;                 // of bodies, at the end of the last step
     std::vector<std::uint8_t> asleep_;        // bodies
     std::vector<std::uint8_t> is_struck_;     // whose velocities do not go on from those before
     std::vector<std::uint32_t> held_counts_;  // of bodies' nodes, when the last step began
     Islands islands_;
     bool is_any_near_ = false;
-    Real step_ = 0, last_step_ = 0;
-    std::vector<Vec4<Real>> earlier_velocities_;  // v_1
-    std::vector<Real> compliances_;               // of nodes in contacts, 1 / h_i [m/N]
-    Field expected_;                              // displacements without forces [m]
-    std::vector<Vec4<Real>> ends_, velocities_;   // velocities: with damping times of this step
-    std::vector<Real> slacks_;                    // by object [m]
+    Real step_ = 0;
+    std::vector<Real> compliances_;              // of nodes in contacts, 1 / h_i [m/N]
+    Field expected_;                             // displacements without forces [m]
+    std::vector<Vec4<Real>> ends_, velocities_;  // velocities: with damping times of this step
+    std::vector<Real> slacks_;                   // by object [m]
     std::vector<Acting> acting_;
-    std::vector<Momenta> momenta_, earlier_momenta_;  // of bodies
 };
 
 }  // namespace gelatin::cpu
