@@ -16,6 +16,9 @@ namespace {
 // What is left of a gap at the end of a step is at least this part of the reach, or of the gap if that is
 // less.
 constexpr double kLeastOfReach = 0.02, kLeastOfGap = 0.9;
+// But no less than so many times what rounding makes of it: what comes nearer, step by step, or by rounding
+// of what a frame adds, is moved apart again.
+constexpr double kLeastOfRounding = 8.0;
 // Of the rest, clipped pairs use this part.
 constexpr double kUsable = 0.95;
 // A side of a pair uses at least this part of the gap, if it yields at all.
@@ -24,6 +27,14 @@ constexpr double kLeastShare = 0.05;
 constexpr double kShortestPiece = 1.0 / 16.0;
 // A node is projected on its half spaces so often before it is shortened.
 constexpr int kProjections = 12;
+
+// What has to be left of a gap, both less rounding [m].
+template <class Real>
+Real least_gap(const NearPair<Real>& near, Real gap) {
+    return std::min(
+        static_cast<Real>(kLeastOfReach) * static_cast<Real>(near.pair.reach),
+        std::max(static_cast<Real>(kLeastOfGap) * gap, static_cast<Real>(kLeastOfRounding) * near.rounding));
+}
 
 }  // namespace
 
@@ -104,9 +115,7 @@ bool Guard<Real>::is_apart(const NearPair<Real>& near, const Paths<Real>& paths,
     const ContactPair& pair = near.pair;
     const Real gap = near.gap - near.rounding;
     if (!(gap > Real(0))) return false;
-    const Real least = std::min(static_cast<Real>(kLeastOfReach) * static_cast<Real>(pair.reach),
-                                static_cast<Real>(kLeastOfGap) * gap) +
-                       near.rounding;
+    const Real least = least_gap(near, gap) + near.rounding;
     if (separation<Real>(pair, near.normal, ends) >= least) return true;
     // Piece by piece: from each place on the way goes on as far as the direction there, or that at the end,
     // separates.
@@ -178,9 +187,8 @@ void Guard<Real>::clip(const NearPair<Real>& near, const Paths<Real>& paths,
         }
     }
     const Real gap = (bottom - top) - near.rounding;
-    const Real least = std::min(static_cast<Real>(kLeastOfReach) * static_cast<Real>(pair.reach),
-                                static_cast<Real>(kLeastOfGap) * gap);
-    const Real usable = static_cast<Real>(kUsable) * std::max(gap - least, Real(0)) - approach;
+    const Real room = gap - least_gap(near, gap);
+    const Real usable = (room > Real(0) ? static_cast<Real>(kUsable) : Real(1)) * room - approach;
     Real share = Real(0.5);
     if (first + second > Real(0)) {
         share = first / (first + second);
