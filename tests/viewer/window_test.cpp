@@ -259,7 +259,7 @@ TEST_F(WindowHeavy, StiffnessChangesUnderWay) {
     draw_until([&] { return session().time() > before + 0.5; });
     draw_until([&] { return !session().is_computing(); });
     EXPECT_EQ(session().simulator().counts().nodes, counts.nodes);
-    EXPECT_NEAR(center_of(session(), 0).y, 0.5, 0.02) << "a stiff cube does not sag";
+    EXPECT_GT(center_of(session(), 0).y, 0.48) << "a stiff cube does not sag, but may bounce";
 }
 
 TEST_F(WindowHeavy, ABodyIsThrownIn) {
