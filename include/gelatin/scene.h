@@ -40,7 +40,7 @@ struct SimulationSettings {
     int iterations = 10;
     std::optional<glm::dvec3> gravity;  ///< [m/s^2]; empty: 9.81 downwards (Scene::gravity)
     int frames = 600;                   ///< length of a run, >= 0
-    /// Leave steps out while all bodies rest; for CollisionResponse::contact.
+    /// Leave bodies out while they rest; for CollisionResponse::contact.
     bool sleep = true;
 
     double frame_time() const { return 1.0 / frame_rate; }  ///< [s]

@@ -32,7 +32,7 @@ struct DescentSettings {
     bool coarse_level = true;  ///< of block descent: model/descent/coarse_basis.h; off to compare
     /// Of the implicit step: whether it is divided into parts, more where bodies are near each other.
     bool divides_steps = false;
-    /// Of the implicit step: whether steps are left out while all bodies rest; with contacts alone.
+    /// Of the implicit step: whether bodies are left out while they rest; with contacts alone.
     bool sleeps = false;
 };
 

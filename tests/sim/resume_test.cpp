@@ -99,6 +99,8 @@ TEST_F(ResumeTest, ContactsGoOnFromACheckpointBitForBit) {
         for (const Simulator& other : others) {
             EXPECT_EQ(other.read_frame().positions, whole.read_frame().positions);
             EXPECT_EQ(other.read_frame().velocities, whole.read_frame().velocities);
+            EXPECT_GT(whole.contact_forces().size(), 0u);
+            EXPECT_EQ(other.contact_forces().size(), whole.contact_forces().size()) << "of what sleeps, too";
         }
     }
 }

@@ -93,6 +93,7 @@ void ImplicitStep<Real>::archive(Archive& archive) {
     rows_.archive(archive);
     restitution_.archive(archive);
     energy_.archive(archive);
+    archive.list(acting_);  // bodies asleep make no step that would find them again
 }
 
 template <class Real>

@@ -143,7 +143,7 @@ template <class Real>
 void SystemSolver<Real>::write_state(const State& state) {
     CpuSolver<Real>::write_state(state);
     forget();
-    goes_on_ = has_earlier_ && !restore(state.memory);
+    goes_on_ = !restore(state.memory) && has_earlier_;
 }
 
 template <class Real>
@@ -182,7 +182,13 @@ void SystemSolver<Real>::archive(Archive& archive) {
     step_.archive(archive);
     if (rest_watch_) rest_watch_->archive(archive);
     archive.list(held_at_);
-    if (!held_at_.empty() && held_at_.size() != model_->node_count()) archive.fail();
+    archive.list(forces_on_held_);
+    archive.list(held_changes_);
+    archive.value(size_);
+    const auto fits = [](std::size_t size, std::size_t wanted) { return size == 0 || size == wanted; };
+    if (!fits(held_at_.size(), model_->node_count()) || !fits(forces_on_held_.size(), model_->node_count()) ||
+        !fits(held_changes_.size(), model_->handle_nodes.size()))
+        archive.fail();
 }
 
 template class SystemSolver<float>;
